@@ -1,4 +1,4 @@
-# What `cmake --install` and `cpack -G DEB` put where: programs, catalogue, pages, manuals, completions, licence.
+# Destinations of all files of `cmake --install` and `cpack -G DEB`: programs, catalogue, pages, manuals, completions, licence.
 set(programs dresslife dresslife-sim dresslife-strain dresslife-fatigue dresslife-import)
 
 # Programs find the catalogue from their own folder, as bin/../share/dresslife/config (pipeline/base/installation.h).
@@ -8,7 +8,7 @@ if(NOT CMAKE_INSTALL_FULL_DATADIR STREQUAL "${above_programs}/share")
                       "look for their catalogue in ${above_programs}/share; leave CMAKE_INSTALL_BINDIR and CMAKE_INSTALL_DATADIR as they are")
 endif()
 
-# A build folder is laid out like an installation. The link is relative, so both can be moved with the sources.
+# A build folder has the layout of an installation. The link is relative, so build folder and sources can be moved together.
 set(shared ${CMAKE_BINARY_DIR}/share)
 file(MAKE_DIRECTORY ${shared}/dresslife)
 file(REAL_PATH ${shared}/dresslife link_folder)
@@ -16,12 +16,12 @@ file(REAL_PATH ${PROJECT_SOURCE_DIR}/config catalogue)
 file(RELATIVE_PATH to_catalogue ${link_folder} ${catalogue})
 file(CREATE_LINK ${to_catalogue} ${shared}/dresslife/config SYMBOLIC)
 
-# The commit is looked up in every build, and a file of its own: no program is linked again for it.
+# Every build writes the commit to a separate file, so no program is linked again because of it.
 add_custom_target(dresslife_commit ALL COMMAND ${PROJECT_SOURCE_DIR}/scripts/commit ${shared}/dresslife/commit
                   COMMENT "Looking up the commit" VERBATIM)
 add_dependencies(dresslife dresslife_commit)
 
-# Man pages and completions, which every program prints from its own options.
+# Man pages and completions, which every program generates from its own options.
 set(manuals)
 foreach(program ${programs})
   set(ask --manual)
@@ -41,7 +41,7 @@ foreach(program ${programs})
   list(APPEND manuals ${man}.gz ${bash} ${zsh})
   install(FILES ${man}.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
   install(FILES ${bash} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
-  # Debian's zsh looks for what its packages bring in a folder of its own.
+  # Debian's zsh searches a separate folder for completions of packages.
   install(CODE "
     set(folder site-functions)
     if(CMAKE_INSTALL_PREFIX MATCHES [[/usr$]])
@@ -55,9 +55,9 @@ install(TARGETS ${programs} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY config/ DESTINATION ${CMAKE_INSTALL_DATADIR}/dresslife/config)
 install(FILES ${shared}/dresslife/commit DESTINATION ${CMAKE_INSTALL_DATADIR}/dresslife OPTIONAL)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)  # Debian's name for it
-# HDF5 is within the programs, and its licence must be shipped with them.
+# HDF5 is linked into the programs, so its licence must be shipped with them.
 install(FILES /usr/share/doc/libhdf5-dev/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright.hdf5 OPTIONAL)
-# The pages keep their places among each other, so that their links lead on.
+# The pages keep their relative positions, so their links work.
 file(GLOB pages CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} *.md)
 file(GLOB_RECURSE inner_pages CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
      sim/*.md strain/*.md fatigue/*.md pipeline/*.md config/*.md config/*.png pipeline/*.png)

@@ -1,5 +1,5 @@
-// Catch2 in either of its versions: Debian 12 has version 2, one header; Debian 13 has version 3, a library. Tests
-// include this header, and use what both versions have under the names of version 2.
+// Includes Catch2 in version 2 (Debian 12, one header) or version 3 (Debian 13, a library). Tests include this header and
+// use only features that both versions have, under the names of version 2.
 #pragma once
 
 #if __has_include(<catch2/catch_test_macros.hpp>)

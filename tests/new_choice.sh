@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# new_choice.sh COMPILER FLAGS...: adds one value to each enumeration that a user chooses from, in a copy of its
-# header, and expects the compiler to name every source that would have to say what the new value means. A value without a
-# word cannot be chosen (pipeline/base/words.h).
+# new_choice.sh COMPILER FLAGS...: adds one value to each enumeration from which a user chooses, in a copy of its header. The
+# compiler must then report every source that must define the meaning of the new value. A value without a word cannot be chosen
+# (pipeline/base/words.h).
 set -euo pipefail
 cd "$(dirname "$0")/.."
 compile=("$@")
@@ -9,7 +9,7 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 failed=0
 
-# forgets HEADER ENUMERATION FILES...: with one more value in ENUMERATION, each of FILES holds a switch that does not
+# forgets HEADER ENUMERATION FILES...: with one more value in ENUMERATION, each of FILES must contain a switch that does not
 # compile.
 forgets() {
   local header=$1 enumeration=$2 file found

@@ -1,5 +1,5 @@
-// What nearly every test includes, compiled once for all of them (CMakeLists.txt). Tests include what they use all the
-// same: builds through a compiler cache go without this one.
+// Precompiled header: the headers that nearly every test includes (CMakeLists.txt). Tests nevertheless include what they
+// use, because builds through a compiler cache do not use this header.
 #pragma once
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
-// The thesis' bending test (3.4.1, figures 13 to 15), from the job file to the wire: what a cable between two
-// blocks must show when the upper one comes down.
+// The thesis' bending test (3.4.1, figures 13 to 15), from the job file to the wire: the behaviour of a cable between two
+// blocks while the upper block moves down.
 #include <Eigen/Core>
 #include <cmath>
 #include <numbers>
@@ -18,10 +18,10 @@ constexpr double youngs_modulus = 117e9;  // copper [Pa]
 constexpr double conductor_lay = -25 * std::numbers::pi / 180, wire_lay = 5 * std::numbers::pi / 180;
 constexpr double wire_radius = 0.075e-3;
 
-/// What the stages give for the bending job with some settings.
+/// Results of the stages for the bending job with some settings.
 struct Bending {
   int worst_from_tool = 0;
-  std::vector<double> curvature, strain;  // of the worst site over time, once the cable has bowed out
+  std::vector<double> curvature, strain;  // of the worst site over time, after the cable has bowed out
   double direction = 0;                   // of the curvature vector at the end [rad]
   std::vector<double> helix;              // of the worst site: R, lay, phase per level
 };
@@ -53,7 +53,7 @@ Bending bend(const std::string& settings) {
   const auto bending = strain.read<double>("/deformation/curvature");
   for (std::size_t k = 0; k < history.size(); ++k) {
     const double k1 = bending[2 * (k * segments + segment)], k2 = bending[2 * (k * segments + segment) + 1];
-    if (std::hypot(k1, k2) < 0.15) continue;  // the thesis' "pops out": before that, compression
+    if (std::hypot(k1, k2) < 0.15) continue;  // the thesis' "pops out": before it the cable is compressed
     result.curvature.push_back(std::hypot(k1, k2));
     result.strain.push_back(history[k]);
     result.direction = std::atan2(k2, k1);
@@ -65,7 +65,7 @@ struct Line {
   double slope, share_explained;
 };
 
-/// Least squares with an intercept (the compression under which the cable bows out stays).
+/// Fits by least squares with an intercept (the compression at which the cable bows out remains).
 Line fit(const std::vector<double>& x, const std::vector<double>& y) {
   const Eigen::Map<const Eigen::ArrayXd> a(x.data(), x.size()), b(y.data(), y.size());
   const Eigen::ArrayXd da = a - a.mean(), db = b - b.mean();
@@ -73,8 +73,8 @@ Line fit(const std::vector<double>& x, const std::vector<double>& y) {
   return {slope, 1 - (db - slope * da).square().sum() / db.square().sum()};
 }
 
-/// Strain of a wire's axis per unit curvature by the thesis' (14) to (20) at the phases of a site, and its
-/// own bend and twist strain per unit curvature by (21) to (23).
+/// Strain of a wire's axis per unit curvature by the thesis' (14) to (20) at the phases of a site, and the strains of its own
+/// bend and twist per unit curvature by (21) to (23).
 struct WireShares {
   double stretch, bend, twist;
 };
@@ -102,8 +102,7 @@ TEST_CASE("bending test with the thesis' model") {
   const Line line = fit(bending.curvature, bending.strain);
   CHECK(line.share_explained > 0.999);
 
-  // The largest stretch per curvature over all conductors and wires of the outermost layer, scanned over both
-  // phases.
+  // The largest stretch per curvature over all conductors and wires of the outermost layer, over both phases.
   WireShares worst{0, 0, 0};
   for (int i = 0; i < 720; ++i)
     for (int j = 0; j < 720; ++j) {
@@ -111,30 +110,29 @@ TEST_CASE("bending test with the thesis' model") {
           shares_of(2.825e-3, i * std::numbers::pi / 360, 0.75e-3, j * std::numbers::pi / 360);
       if (shares.stretch > worst.stretch) worst = shares;
     }
-  // Seven conductors leave up to half of 360/7 degrees between the worst phase and the nearest conductor: the
-  // slope lies between cos(26 degrees) = 0.9 of the radius of the construction and that radius.
+  // With seven conductors the nearest one is up to half of 360/7 degrees from the worst phase: the slope is between
+  // cos(26 degrees) = 0.9 of the construction's radius and this radius.
   const double effective_radius = std::abs(line.slope);
   CHECK(effective_radius <= worst.stretch * 1.001);
   CHECK(effective_radius >= worst.stretch * std::cos(std::numbers::pi / 7));
   CHECK(youngs_modulus * effective_radius * 0.25 ==
         Approx(youngs_modulus * worst.stretch * 0.25).epsilon(0.1));
 
-  // Figure 14: the wire's stretch is far above its own bend and twist.
+  // Figure 14: the wire's stretch is much larger than its own bend and twist.
   CHECK(worst.stretch > 20 * worst.bend);
   CHECK(worst.stretch > 100 * worst.twist);
 }
 
 TEST_CASE("bending test with our model") {
   const Bending stick = bend("--set strain.slip=stick");
-  // A column between clamps bends by cos(2 pi s/L): at its clamps as much as in its middle.
+  // A column between clamps bends by cos(2 pi s/L): the curvature at its clamps is as large as in its middle.
   CHECK((stick.worst_from_tool == middle_from_tool || stick.worst_from_tool == 1 ||
          stick.worst_from_tool == 2 * middle_from_tool - 1));
   const Line glued = fit(stick.curvature, stick.strain);
   CHECK(glued.share_explained > 0.999);
 
-  // Slipping freely, what is left is the bend of the wire itself: the strain falls by more than the ratio of
-  // the conductor's helix radius to the wire's own radius would need, 2.8 mm to 0.075 mm, allowing for the
-  // change of lay.
+  // If all parts slip freely, only the bend of the wire itself remains: the strain falls by more than the ratio of the
+  // conductor's helix radius to the wire's own radius, 2.8 mm to 0.075 mm, with an allowance for the change of lay.
   const Bending free = bend("--set strain.slip=free");
   const Line slipping = fit(free.curvature, free.strain);
   CHECK(slipping.share_explained > 0.999);

@@ -15,7 +15,7 @@ namespace {
 
 const std::string base_job = std::string(DRESSLIFE_SOURCE_DIR) + "/config/jobs/irb6640_spot_welding.yaml";
 
-/// Parts from a conveyor into a fixture, gently. dwell: [s]
+/// A gentle program that moves parts from a conveyor into a fixture. dwell: [s]
 std::string handling(double dwell) {
   const std::string stop = "  - {dwell_s: " + std::to_string(dwell) + "}\n";
   return R"(name: handling
@@ -32,7 +32,7 @@ steps:
          "  - {joints_deg: [-35, 10, 0, 0, 30, 0]}\n";
 }
 
-/// The gun rolls over as fast as the robot can.
+/// A program that rolls the gun over as fast as the robot can. dwell: [s]
 std::string rolling(double dwell) {
   const std::string stop = "  - {dwell_s: " + std::to_string(dwell) + "}\n";
   return R"(name: rolling
@@ -53,7 +53,7 @@ struct Lives {
   std::vector<double> samples;    ///< log10 h
 };
 
-/// name: of the samples, the same under all inputs. known: parameters that have their own values in all samples.
+/// name: of the samples, equal for all inputs. known: parameters that have their own values in all samples.
 Lives lives_of(const fs::path& life, const std::string& name, const std::vector<Uncertain>& known = {}) {
   const FileReader file(life, life_format());
   FailureModes modes = modes_from_text(file.text_attribute("life_response"));
@@ -104,14 +104,14 @@ TEST_CASE("an order changes with inputs within their uncertainty only if its cer
     return std::max(share, 1 - share);
   };
   const UncertainParameter& swing = uncertain_parameters()[index_of(Uncertain::motion)];
-  CHECK(certainty(lives["shipped"]) > separated_share);  // else nothing is tested below
+  CHECK(certainty(lives["shipped"]) > separated_share);  // otherwise the checks below prove nothing
   for (const auto& [one, of_one] : lives)
     for (const auto& [other, of_other] : lives) {
       CAPTURE(one, other, of_one[0].p10, of_one[1].p10, of_other[0].p10, of_other[1].p10);
       if ((of_one[0].p10 > of_one[1].p10) != (of_other[0].p10 > of_other[1].p10))
         CHECK(std::max(certainty(of_one), certainty(of_other)) < separated_share);
-      // Friction has no effect on glued cables. What is left is how the hose swings: two deviations of its prior. (When
-      // changes of life were put together as decades, these bounds differed by factors of 80 and 40.)
+      // Friction has no effect on glued cables. The remaining difference is the swing of the hose: two deviations of its prior.
+      // (If changes of life were combined as decades, these bounds would differ by factors of 80 and 40.)
       for (std::size_t k = 0; k < programs.size(); ++k)
         CHECK(std::abs(std::log(of_one[k].glued_p10 / of_other[k].glued_p10)) < 2 * swing.deviation());
     }
@@ -131,7 +131,7 @@ TEST_CASE("the certainty of an order contains that the hose is half or twice as 
                (factor.empty() ? "" : ", uncertainty.hose_stiffness: 1, simulation.stiffness_factor: " + factor) + "}\n";
   Scratch scratch;
   must_run(scratch, "dresslife", "run '" + scratch.write("stiffness.yaml", study).string() + "'");
-  /// Share of samples in which side_panel lives longer.
+  /// Returns the share of samples in which side_panel lives longer.
   const auto share = [&](const std::string& factor, const std::vector<Uncertain>& known = {}) {
     const auto of = [&](const std::string& job) {
       return lives_of(scratch / ("runs/stiffness/" + job + factor + "/life.h5"), job, known).samples;
@@ -140,7 +140,7 @@ TEST_CASE("the certainty of an order contains that the hose is half or twice as 
   };
   const double stated = share(""), known = share("", {Uncertain::hose_stiffness}), softer = share("0.5"), stiffer = share("2");
   CAPTURE(stated, known, softer, stiffer);
-  CHECK(known > separated_share);  // else nothing is tested
-  CHECK(stiffer < 0.5);            // the order exchanges
-  CHECK(stated < separated_share);  // it is still larger than over full simulations (sim/measurements.md)
+  CHECK(known > separated_share);  // otherwise nothing is tested
+  CHECK(stiffer < 0.5);            // the order is reversed
+  CHECK(stated < separated_share);  // still larger than over full simulations (sim/measurements.md)
 }

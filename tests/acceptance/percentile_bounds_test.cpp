@@ -1,6 +1,6 @@
 // The bounds of every percentile of life in random jobs: glued <= as it is <= free, over the same samples.
-// DRESSLIFE_JOBS=200 and DRESSLIFE_SEED=2 run more of them, and others.
-// Of 200 jobs of seed 1 none of the 1,200 bounds lay on the wrong side by more than 1 %.
+// DRESSLIFE_JOBS=200 and DRESSLIFE_SEED=2 run more jobs and other jobs.
+// In 200 jobs of seed 1 none of the 1,200 bounds was on the wrong side by more than 1 %.
 #include <fmt/format.h>
 
 #include "tests/catch.h"
@@ -20,9 +20,9 @@ int number_in(const char* variable, int otherwise) {
   return given ? std::atoi(given) : otherwise;
 }
 
-constexpr double allowed = 0.01;  // of a life, for which a bound may lie on the wrong side
+constexpr double allowed = 0.01;  // of a life, by which a bound may be on the wrong side
 
-/// Cells of ranking.csv by column, a row each; none of the cells read here is quoted.
+/// Returns the cells of ranking.csv by column, one map per row. Precondition: no cell read here is quoted.
 std::vector<std::map<std::string, std::string>> ranking(const fs::path& file) {
   const auto cells_of = [](const std::string& line) {
     std::vector<std::string> cells{""};
@@ -51,7 +51,7 @@ std::vector<std::map<std::string, std::string>> ranking(const fs::path& file) {
   return rows;
 }
 
-/// Two loose cables in a hose, each of four conductors of twelve wires.
+/// Two loose cables in a hose, each with four conductors of twelve wires.
 const std::string hose_job = R"(motion: {deformation: calm.csv}
 dresspack:
   name: hose
@@ -83,7 +83,7 @@ simulation: {segments: 12}
 strain: {gate: 1.0e-5}
 )";
 
-/// Swings of the hose: bends to either side, at a rate of their own along it, and twists.
+/// Returns swings of the hose: bends to either side with a phase that varies along it, and twists.
 std::string swings(double curvature, double twist, double phase) {
   std::string text = "t_s,position_m,kappa_1_1_per_m,kappa_2_1_per_m,twist_rad_per_m,elongation\n";
   constexpr int samples = 25, places = 5;

@@ -1,5 +1,5 @@
-// Prescribed deformations and test rigs from the job to the wire: what is given must be found again, and what
-// has a closed form must come out of the whole chain.
+// Prescribed deformations and test rigs from the job to the wire: the files contain the given deformation, and the chain
+// reproduces closed forms.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -36,7 +36,7 @@ Found found_in(const Scratch& scratch) {
           strain.read<double>("/deformation/elongation")};
 }
 
-/// One layer of wires around the axis of a dresspack that is nothing else.
+/// Returns a job whose dresspack is one layer of wires around its axis.
 std::string wire_job(const std::string& motion, double helix_radius_mm, double lay_deg, double radius_mm) {
   return "motion: " + motion + "\nrouting: {free_length_m: 0.6}\n" + R"(dresspack:
   name: wires
@@ -63,7 +63,7 @@ TEST_CASE("prescribed deformation: what is uniform along the dresspack is found 
   const Found found = found_in(scratch);
   const double k1[] = {0, 12, -3, 0}, k2[] = {0, -7, 20, 0}, twist[] = {0, pi, -2 * pi, 0},
                e[] = {0, .004, -.01, 0};
-  // Of positions kept to 5e-13 m, over links of 20 mm; and of the file, which is in single precision.
+  // From positions kept to 5e-13 m over links of 20 mm, and from the file's single precision.
   constexpr double rounding = 1e-10, of_the_file = 0x1p-24;
   const auto is = [](double value, double exact) {
     return std::abs(value - exact) < rounding + of_the_file * std::abs(exact);
@@ -100,7 +100,7 @@ TEST_CASE("prescribed deformation: what changes along it is found again as of a 
     }
     return worst;
   };
-  // Links are means over their length: l^2/24 of the second derivative, 5 (2 pi / 0.6)^2 (l)^2 / 24 at most.
+  // Values of links are means over their length: l^2/24 of the second derivative, at most 5 (2 pi / 0.6)^2 (l)^2 / 24.
   const double coarse = error(30), fine = error(60);
   CHECK(coarse < 1.2 * 5 * std::pow(2 * pi / 0.6 * 0.02, 2) / 24);
   CHECK(coarse / fine > 3.5);  // second order
@@ -120,8 +120,8 @@ TEST_CASE("torsion rig: a glued wire's strain is the closed one") {
     return std::cos(lay) * std::hypot(std::tan(lay) + 2e-3 * twist, 1) - 1;
   };
   constexpr double single =
-      3e-6;  // of the largest strain, which the stage works out in single precision (W26)
-  constexpr double kept = 5e-8;  // in the file, as turning points
+      3e-6;  // of the largest strain, which the stage computes in single precision (W26)
+  constexpr double kept = 5e-8;  // resolution of turning points in the file
   CHECK(std::abs(history[1] - closed(pi)) < single * closed(pi) + kept);
   CHECK(std::abs(history[2] - closed(-pi)) < single * std::abs(closed(-pi)) + kept);
 }
@@ -150,11 +150,11 @@ TEST_CASE("rigs: a wire on the axis feels the bend, and a strain below the usual
   scratch.write("pulled.yaml", "motion: {rig: {kind: axial, elongation_percent: 0.02}}\n" + wire);
   const double bent = life_of(scratch, "bent.yaml"), pulled = life_of(scratch, "pulled.yaml");
   CHECK(std::isfinite(pulled));
-  // +-0.07/300.07 against +-2e-4 of strain, both below half of the usual gate; lives go with the power 1/b.
+  // +-0.07/300.07 against +-2e-4 of strain, both below half of the usual gate. Lives follow the power 1/b.
   const pipeline::FileReader life(scratch / "life.h5", pipeline::life_format());
   const double exponent = std::log(pulled / bent) / std::log(0.07 / 300.07 / 2e-4);
   CHECK(exponent > 8);
-  CHECK(exponent < 9.5);  // -1/b = 8.9 for b = -0.112, little plastic strain is left
+  CHECK(exponent < 9.5);  // -1/b = 8.9 for b = -0.112; the plastic strain is small
 }
 
 TEST_CASE("rigs: every shipped rig runs, and its curvature is not more than its radius says") {
@@ -171,10 +171,10 @@ TEST_CASE("rigs: every shipped rig runs, and its curvature is not more than its 
     double largest = 0;
     for (std::size_t k = 0; k + 1 < found.curvature.size(); k += 2)
       largest = std::max(largest, std::hypot(found.curvature[k], found.curvature[k + 1]));
-    // The cubic of (W2) across ramps of four segments: 3 % beyond what was given at most.
+    // The cubic of (W2) across ramps of four segments exceeds the given value by at most 3 %.
     CHECK(largest <= 1.03 * most + 1e-9);
-    // Cables in torsion bow in one wave, most at the clamps (D3). The centre of the first segment is half a segment away, and
-    // a segment has the mean of the wave.
+    // Cables in torsion bow in one wave, which is largest at the clamps (D3). The centre of the first segment is half a segment
+    // from the clamp, and a segment has the mean of the wave.
     const double turn = 2 * pi / static_cast<double>(motion.rows("/segment/length"));
     const double wave = entry.path().stem() == "torsion" ? turn * turn / 8 + turn * turn / 24 : 0;
     CHECK(largest >= (0.999 - wave) * most - 1e-9);
@@ -189,13 +189,13 @@ TEST_CASE("rolling flex: its worst wire lives as long as one bent and straighten
   scratch.write("plain.yaml",
                 "motion: {deformation: d.csv}\nrouting: {free_length_m: 1}\nstrain: {gate: 1e-6}\n" + cable);
   const double rig = life_of(scratch, "rig.yaml"), plain = life_of(scratch, "plain.yaml");
-  // 1 % more curvature at the bend's edges, and damage with its seventh to ninth power at these strains.
+  // 1 % more curvature at the bend's edges; damage follows its seventh to ninth power at these strains.
   CHECK(rig == Approx(plain).epsilon(0.15));
 }
 
 TEST_CASE("rolling flex: strains even out over the cable of the test, not over the part that is evaluated") {
-  // The evaluated part of 95 mm has four turns of 23.8 mm; the cable from clamp to clamp, 0.53 m, has 22. Lays to either side
-  // differ by 2.5 % in lay angle, thus by 0.1 % in strain.
+  // The evaluated part of 95 mm contains four turns of 23.8 mm; the cable from clamp to clamp, 0.53 m, contains 22. Lays on
+  // either side differ by 2.5 % in lay angle, which is 0.1 % in strain.
   const auto life = [](double lay_mm) {
     Scratch scratch;
     scratch.write("job.yaml",
@@ -205,5 +205,5 @@ TEST_CASE("rolling flex: strains even out over the cable of the test, not over t
                       std::to_string(lay_mm) + "}}}\nuncertainty: {enabled: false}\n");
     return life_of(scratch, "job.yaml");
   };
-  CHECK(life(24.1) / life(23.5) == Approx(1).epsilon(0.1));  // the tenth power of the strain, and as much from phases
+  CHECK(life(24.1) / life(23.5) == Approx(1).epsilon(0.1));  // the tenth power of the strain, and an equal part from phases
 }

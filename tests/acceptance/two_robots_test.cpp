@@ -1,5 +1,4 @@
-// The two welding robots, from the study files to the ranking: what the 2018 thesis found and what must hold
-// of it.
+// The two welding robots, from the study files to the ranking: the findings of the 2018 thesis, and conditions on the results.
 #include <cmath>
 #include <map>
 #include <regex>
@@ -17,7 +16,7 @@ struct Row {
   int segment = 0;
 };
 
-/// ranking.csv by job. None of its cells before the step text holds a comma.
+/// Returns ranking.csv by job. Precondition: no cell before the step text contains a comma.
 std::map<std::string, Row> ranking(const fs::path& file) {
   std::istringstream lines(content(file));
   std::map<std::string, Row> rows;
@@ -32,7 +31,7 @@ std::map<std::string, Row> ranking(const fs::path& file) {
   return rows;
 }
 
-/// Runs a study of config/studies, or one written in the test. printed: gets its table with single spaces.
+/// Runs a study of config/studies, or one written in the test. printed: receives its table with single spaces.
 std::map<std::string, Row> run_study(const Scratch& scratch, const std::string& file, const std::string& name,
                                      const std::string& sets = "", std::string* printed = nullptr) {
   const Outcome outcome = run(scratch, "dresslife", "run '" + file + "'" + sets);
@@ -49,7 +48,7 @@ double hours_of(const fs::path& life, const std::string& attribute) {
       .number_attribute(attribute);
 }
 
-/// Lines of the README's table of this study, with single spaces, first its header.
+/// Returns the lines of the README's table of this study, with single spaces, beginning with its header.
 std::vector<std::string> table_of_readme() {
   std::istringstream lines(content(DRESSLIFE_SOURCE_DIR "/README.md"));
   std::vector<std::string> table;
@@ -71,25 +70,25 @@ TEST_CASE("two robots, shipped study: the table of the README, and the hard prog
   auto rows = run_study(scratch, config + "studies/two_robots.yaml", "two_robots", "", &printed);
   REQUIRE(rows.size() == 4);
   const std::vector<std::string> table = table_of_readme();
-  REQUIRE(table.size() > rows.size());  // also the note of those with a *
+  REQUIRE(table.size() > rows.size());  // plus the note on rows with a *
   for (const std::string& line : table) {
     INFO(line << "\n" << printed);
     CHECK(printed.find(line + "\n") != std::string::npos);
   }
   for (const char* other : {"spot_robot_1", "spot_robot_2", "easy"})
     CHECK(rows["hard"].repeats < rows[other].repeats);
-  // The thesis' place near the head is that of cables glued to the hose (below). Where cables lie loose the
-  // hose's own bending decides, which the arch over the forearm has in its middle.
+  // The thesis' place near the head is that of cables glued to the hose (below). For loose cables the hose's own bending decides,
+  // and it is largest in the middle of the arch over the forearm.
 
   const Outcome again = run(scratch, "dresslife", "run '" + config + "studies/two_robots.yaml'");
   CHECK(again.err.find("nothing to do") != std::string::npos);
 
-  // Its bounds are what the same cables live with their inside stuck and free. They are judged by some wires
-  // of each layer and segment; those whose cycles do most must be among them, whether their tension counts or
-  // has relaxed.
-  constexpr double told = 0.02;  // what strain/README.md says of bounds; measured 0.006 at most
+  // The bounds are the lives of the same cables with stuck and with free parts inside. They are computed from some wires of each
+  // layer and segment. The wires with the most damaging cycles must be among them, with their full mean stress or with a
+  // relaxed one.
+  constexpr double told = 0.02;  // stated in strain/README.md for bounds; measured at most 0.006
   for (const std::string inside : {"stick", "free"}) {
-    // The starts of its cables come to one rest. Others have several, and another one is the median for another inside.
+    // All starts of this job's cables come to one rest. Other jobs have several, and slip inside changes which is the median.
     const fs::path job = scratch / "runs/two_robots/hard";
     const std::string strain = inside + "_strain.h5", life = inside + "_life.h5";
     must_run(scratch, "dresslife-strain",
@@ -106,7 +105,7 @@ TEST_CASE(
     "two robots with the thesis' settings: hours, robot 1 worse, aluminium worse than copper in the same "
     "place") {
   Scratch scratch;
-  // Lives at the jobs' own values, which need no other values of uncertain parameters.
+  // Lives at the jobs' own values. Other values of uncertain parameters are not needed.
   auto rows = run_study(scratch, config + "studies/two_robots_thesis.yaml", "two_robots_thesis",
                         " --set uncertainty.enabled=false");
   const Row copper_1 = rows["thesis-spot_robot_1-copper"], copper_2 = rows["thesis-spot_robot_2-copper"];
@@ -137,7 +136,7 @@ jobs:
 )");
   auto rows = run_study(scratch, study.string(), "convergence");
   const double shipped = rows["shipped"].repeats;
-  // The worst place lies at the tool clamp, where the bend decays within a few segments.
+  // The worst place is at the tool clamp, where the bend decays within a few segments.
   CHECK(std::abs(rows["twice_the_segments"].repeats / shipped - 1) < most_change);
   CHECK(std::abs(rows["half_the_step"].repeats / shipped - 1) < most_change);
 }

@@ -1,11 +1,11 @@
-// The processor seconds of a benchmark.
+// Processor time of a benchmark.
 #pragma once
 
 #include <algorithm>
 #include <ctime>
 #include <functional>
 
-/// Processor seconds of `work`, the least of five runs.
+/// Returns the smallest processor time of five runs of `work` [s].
 inline double best_seconds(const std::function<void()>& work) {
   double best = 1e300;
   for (int repeat = 0; repeat < 5; ++repeat) {

@@ -1,8 +1,8 @@
-// Counting, cyclic stress, SWT and Miner of stored reversals on one core, against plain three-point counting
-// of the same.
+// Counting, cyclic stress, SWT and Miner's sum of stored reversals on one core, against plain three-point counting of the same
+// reversals.
 //
-// fatigue_mreversals_per_s: DamageCounter. fatigue_reference_mreversals_per_s: a stack and two comparisons
-// per reversal, ranges summed, nothing else; what counting alone costs.
+// fatigue_mreversals_per_s: DamageCounter. fatigue_reference_mreversals_per_s: the cost of counting alone, with a stack, two
+// comparisons per reversal and a sum of ranges.
 #include <cmath>
 #include <cstdio>
 #include <random>
@@ -17,7 +17,7 @@ using namespace dresslife;
 
 constexpr int wires = 20000, samples = 400;
 
-/// Reversals of random walks, about 200 each, with strains as in a signal cable.
+/// Returns reversals of random walks, about 200 each, with strains as in a signal cable.
 std::vector<std::vector<float>> histories() {
   std::mt19937 random(1);
   std::normal_distribution<double> step(0, 0.0015);

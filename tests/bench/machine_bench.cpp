@@ -1,7 +1,7 @@
-// What one core of this machine can do at most: the fixed reference that the other figures are read against.
+// The peak performance of one core of this machine: the reference for the other figures.
 //
-// fma_gflops: fused multiply-adds on f32 registers, two operations each, in as many independent chains as it
-// takes to hide the latency. Compiled for the machine at hand by the target_clones below.
+// fma_gflops: fused multiply-adds on f32 registers, two operations each, in so many independent chains that their latency is
+// hidden. target_clones below compiles it for this machine.
 #include <algorithm>
 #include <array>
 #include <chrono>

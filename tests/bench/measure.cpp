@@ -1,4 +1,4 @@
-// measure COMMAND ARGUMENT...: runs it and prints its processor seconds, wall seconds and peak memory in MB.
+// measure COMMAND ARGUMENT...: runs the command and prints its processor seconds, wall seconds and peak memory in MB.
 // Exit status: the command's.
 #include <sys/resource.h>
 #include <sys/wait.h>

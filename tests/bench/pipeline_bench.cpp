@@ -1,18 +1,17 @@
-// What the study runner costs itself: ten thousand jobs whose stages compute nothing but do all that a stage
-// does around it (job, receipt, checksums, files synced), so that all time is ours, Ninja's and the operating
-// system's.
+// Cost of the study runner itself: ten thousand jobs whose stages compute nothing but do all other work of a stage (job, receipt,
+// checksums, synced files). All time is spent by the runner, Ninja and the operating system.
 //
-// graph_10k_s: to read the study, expand it and write settings, build graph and memory, the first time.
-// overhead_ms_per_job: wall time per job of running it, three stages as processes, two at a time.
-// noop_10k_s: to find that nothing is left to do: all files and results are unchanged.
-// regraph_10k_s: the same when a comment in the study has changed: it is expanded again.
-// gather_10k_s: to rank all jobs from their receipts and life files.
-// study_10k_mb: the runner's largest memory in all this.
+// graph_10k_s: first reading and expansion of the study, and writing of settings, build graph and memory.
+// overhead_ms_per_job: wall time per job of a run, three stages as processes, two at a time.
+// noop_10k_s: check that all files and results are unchanged and no work remains.
+// regraph_10k_s: the same check after a change of a comment in the study, which expands it again.
+// gather_10k_s: ranking of all jobs from their receipts and life files.
+// study_10k_mb: the runner's peak memory over all of these.
 //
-// ..._processor_...: of the same the processor time, which other work on the machine changes little: the
-// runner's own, and of running that of all stages and Ninja.
+// ..._processor_...: processor time of the same work, which depends little on other work of the machine: the runner's own, and
+// in a run also that of all stages and Ninja.
 //
-// bench_pipeline SIDE: of SIDE x SIDE jobs instead, with figures scaled to ten thousand.
+// bench_pipeline SIDE: uses SIDE x SIDE jobs, with figures scaled to ten thousand.
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -33,7 +32,7 @@ namespace {
 using namespace dresslife::pipeline;
 namespace fs = std::filesystem;
 
-/// A folder that lives as long as this.
+/// A temporary folder with the lifetime of this object.
 struct Folder {
   fs::path path = fs::temp_directory_path() / fmt::format("dresslife-bench-{}", ::getpid());
   Folder() { fs::create_directories(path / "programs"); }
@@ -51,7 +50,7 @@ double seconds(const Action& action) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-/// Of whose resources: RUSAGE_SELF, or of its children that have ended RUSAGE_CHILDREN.
+/// Returns the processor time of this process (RUSAGE_SELF) or of its ended children (RUSAGE_CHILDREN) [s].
 double processor_seconds_of(int who) {
   struct rusage used {};
   ::getrusage(who, &used);
@@ -72,7 +71,7 @@ std::string values(int side, double first, double step) {
   return "[" + text + "]";
 }
 
-/// Stages that compute nothing: all plumbing of the real ones.
+/// Writes stages that compute nothing but do all file handling of the real ones.
 void write_stages(const Folder& folder) {
   for (const char* stage : {"sim", "strain", "fatigue"})
     fs::copy_file(DRESSLIFE_FAKE_STAGE, folder.path / "programs" / (std::string("dresslife-") + stage));

@@ -1,9 +1,8 @@
-// What the chain costs on one core: the driven cable of tests/sim/rod/rod_driven_cable.h, no contact,
-// processor time.
+// Processor time of the chain on one core: the driven cable of tests/sim/rod/rod_driven_cable.h, without contact.
 //
 // sim_cpu_s_per_s_n40: processor seconds per simulated second at n = 40, 5 ms.
-// sim_cost_ratio_n240_n30: processor time per segment and step at n = 240 over that at n = 30.
-// sim_rms_curvature_error_n40, _n20: of that run and one of 20 segments against beam elements.
+// sim_cost_ratio_n240_n30: processor time per segment and step at n = 240 / that at n = 30.
+// sim_rms_curvature_error_n40, _n20: errors of this run, and of a run with 20 segments, against beam elements.
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
@@ -15,7 +14,7 @@ namespace {
 using namespace dresslife::sim;
 using test::DrivenCable;
 
-/// Processor time of one run over the time of comparison, per step [s]; the best of a few, as others disturb.
+/// Returns the processor time per step of a run over the compared time [s]: the smallest of a few, because other work disturbs.
 double seconds_per_step(int segments) {
   constexpr double h = 0.005;
   constexpr int steps = 4800, repeats = 7;

@@ -1,18 +1,16 @@
-// Strain, counting and damage of every wire on one core, against plain three-point counting of stored
-// histories.
+// Strain, counting and damage of every wire on one core, against plain three-point counting of stored histories.
 //
-// The job: the thesis' dresspack, 6440 wires, in some segments over 2500 samples that swing as a robot's do,
-// all free; one wire-sample is one wire at one sample. Two motions: `wire_...` is busy, 4.6 % of its
-// wire-samples are turning points above the gate, as many as in the hardest of the shipped jobs;
-// `wire_calm_...` has 0.4 %, as the two robots have.
+// The job: the thesis' dresspack, 6440 wires, in some segments over 2500 samples with swings like those of a robot, all parts
+// free. One wire-sample is one wire at one sample. Two motions: `wire_...` is busy: 4.6 % of its wire-samples are turning points
+// above the gate, as many as in the most demanding shipped job. `wire_calm_...` has 0.4 %, as many as the two robots.
 //   wire_gsamples_per_s            Evaluation (strain, turning points, bounds, probes) and DamageCounter.
 //   wire_strain_gsamples_per_s     Evaluation alone.
-//   wire_scan_gsamples_per_s       Of that, strains and turning points in memory: no bounds, no probes, no
-//                                  sites' tables.
-//   wire_reference_gsamples_per_s  Every sample of stored histories through a turning-point test, a stack and
-//                                  two comparisons, ranges summed: no strain, no damage. The fastest public
+//   wire_scan_gsamples_per_s       Its part that finds strains and turning points in memory: no bounds, no probes,
+//                                  no tables of sites.
+//   wire_reference_gsamples_per_s  Every sample of stored histories through a turning-point test, a stack, two
+//                                  comparisons and a sum of ranges: no strain, no damage. The fastest public
 //                                  counters do this.
-// The instruction set is the widest, or what DRESSLIFE_KERNELS names.
+// The instruction set is the widest one, or the one named by DRESSLIFE_KERNELS.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -29,7 +27,7 @@ using namespace dresslife;
 
 constexpr std::size_t segments = 6, samples = 2500;
 
-/// Moves of about two seconds between poses, a swing of the dresspack after each. size: of the moves.
+/// Returns moves of about two seconds between poses, each followed by a swing of the dresspack. size: of the moves.
 strain::DeformationHistory moving(double size) {
   strain::DeformationHistory history(segments, samples);
   for (std::size_t i = 0; i < segments; ++i)
@@ -44,7 +42,7 @@ strain::DeformationHistory moving(double size) {
   return history;
 }
 
-/// Every sample through a turning-point test, then three-point counting.
+/// Counts ranges: a turning-point test of every sample, then three-point counting.
 float three_point_ranges(const std::vector<float>& history) {
   static std::vector<float> open;
   open.clear();
@@ -85,7 +83,7 @@ class Bench {
  public:
   explicit Bench(double size) : history_(moving(size)) { settings_.slip = {pipeline::Slip::free}; }
 
-  /// Everything, or all but damage.
+  /// Computes strain and damage; without `damage` only strain.
   void evaluate(bool damage) {
     strain::Evaluation evaluation(construction_, settings_, lengths_, samples);
     sites_ = static_cast<double>(evaluation.sites());
@@ -108,7 +106,7 @@ class Bench {
     for (std::size_t i = 0; i < segments; ++i) evaluation.evaluate(i, history_, i, sink);
   }
 
-  /// Strains and turning points alone.
+  /// Computes strains and turning points only.
   void scan() {
     strain::BundleScan scan(construction_, {1, static_cast<float>(settings_.gate), false, false});
     const auto plan = strain::plan_slip(construction_, settings_.slip, 0.3 * segments);
@@ -162,7 +160,7 @@ class Bench {
   double sites_ = 0, points_ = 0;
 };
 
-/// Seconds per sample of the reference, over histories like a wire's.
+/// Returns the seconds per sample of the reference, over histories like those of wires.
 double reference(const strain::DeformationHistory& history) {
   std::vector<std::vector<float>> stored(2000, std::vector<float>(samples));
   for (std::size_t k = 0; k < stored.size(); ++k)

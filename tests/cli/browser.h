@@ -1,4 +1,4 @@
-// Pages in headless Chromium, where it is installed.
+// Opens pages in headless Chromium if Chromium is installed.
 #pragma once
 
 #include <fmt/format.h>
@@ -9,8 +9,8 @@
 
 namespace dresslife::tests {
 
-/// What a script (see browser.js) returned in a page, the console's complaints and the requests; empty
-/// without a browser, which is said.
+/// Opens `page` in a browser and runs `script` (see browser.js). Returns JSON: the script's result, the console's errors and
+/// the requests. Without a browser: returns "" and prints a warning.
 inline std::string in_browser(const Scratch& scratch, const std::string& page, const std::string& script) {
   if (run_shell(scratch, "command -v chromium && command -v node").status != 0) {
     WARN("chromium or node is not installed: the page is not tried in a browser");

@@ -1,9 +1,9 @@
-// Opens a page in headless Chromium over its pipe (no package but Node.js itself), runs a script in it and prints what that
-// returns as JSON, with every error that the console saw and every request that left the page:
+// Opens a page in headless Chromium over its pipe (requires only Node.js), runs a script in it and prints the script's result
+// as JSON, with every error of the console and every request that left the page:
 //
 //   node browser.js CHROMIUM PAGE.html[#link] SCRIPT [--size WIDTHxHEIGHT] [--shot FILE.png] [--pdf FILE.pdf] [--dark]
 //
-// SCRIPT is the body of an async function; press(x, y) clicks at a place [px], key(name) presses a key, and sleep(ms)
+// SCRIPT is the body of an async function; press(x, y) clicks at a position [px], key(name) presses a key, and sleep(ms)
 // waits.
 const {spawn} = require('child_process'), fs = require('fs'), os = require('os'), path = require('path');
 const [chromium, page, script, ...rest] = process.argv.slice(2);
@@ -17,7 +17,7 @@ const browser = spawn(
       '--disable-dev-shm-usage', '--no-first-run', '--disable-background-networking', '--remote-debugging-pipe',
       `--user-data-dir=${profile}`, `--window-size=${width},${height}`, 'about:blank'
     ],
-    {stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe'], detached: true});  // a group of processes of its own
+    {stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe'], detached: true});  // its own process group
 const end = () => process.kill(-browser.pid, 'SIGKILL');
 
 const waiting = new Map(), problems = [], requests = [];
@@ -94,7 +94,7 @@ main()
     .finally(() => {
       clearTimeout(watchdog);
       browser.on('exit', () => {
-        try {  // a process of the group that is still ending may write into the profile for a moment
+        try {  // an ending process of the group may still write into the profile
           fs.rmSync(profile, {recursive: true, force: true, maxRetries: 20, retryDelay: 100});
         } catch (problem) {
           console.error(`${profile} could not be removed: ${problem.message}`);

@@ -1,4 +1,4 @@
-// scripts/build in a copy of a checkout. The project is a small stand-in, the script is ours.
+// scripts/build in a copy of a checkout: this project's script with a small substitute project.
 
 #include "tests/cli/process.h"
 
@@ -8,7 +8,7 @@ using namespace dresslife::tests;
 
 namespace {
 
-/// A checkout whose build copies the file `source` of its own folder to build/result.
+/// Writes a checkout whose build copies the file `source` of its own folder to build/result.
 void write_checkout(const Scratch& scratch, const std::string& name) {
   scratch.write(name + "/CMakeLists.txt",
                 "cmake_minimum_required(VERSION 3.25)\nproject(sample LANGUAGES NONE)\n"
@@ -19,7 +19,7 @@ void write_checkout(const Scratch& scratch, const std::string& name) {
   scratch.write(name + "/source", "of " + name);
   fs::create_directories(scratch / (name + "/scripts"));
   fs::copy(DRESSLIFE_SOURCE_DIR "/scripts/build", scratch / (name + "/scripts/build"));
-  scratch.write(name + "/scripts/bootstrap", "#!/bin/sh\n");  // the machine has what the tests run with
+  scratch.write(name + "/scripts/bootstrap", "#!/bin/sh\n");  // nothing to install
   fs::permissions(scratch / (name + "/scripts/bootstrap"), fs::perms::owner_all);
 }
 

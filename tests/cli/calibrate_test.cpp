@@ -1,4 +1,4 @@
-// `dresslife calibrate`, and jobs that name what it wrote, as a user runs them.
+// `dresslife calibrate`, and jobs that use its calibration, run as a user runs them.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -30,7 +30,7 @@ std::string row(const std::string& name, const std::string& more, const std::str
          more;
 }
 
-/// The number after `key: ` in the entry of a parameter.
+/// Returns the number after `key: ` in the entry of a parameter.
 double learned(const std::string& calibration, const std::string& parameter, const std::string& key) {
   const std::size_t entry = calibration.find("name: " + parameter + "\n");
   REQUIRE(entry != std::string::npos);
@@ -55,7 +55,7 @@ TEST_CASE("calibrate: wires that lived longer than predicted lengthen what a job
   Scratch scratch;
   scratch.write("job.yaml", wire_job);
   const double before = life_hours(scratch, "");
-  const double cycles = before * 3600 / 2;  // 30 a minute
+  const double cycles = before * 3600 / 2;  // 30 per minute
   scratch.write("o.yaml",
                 "observations:\n" +
                     row("long", "    cycles: " + std::to_string(10 * cycles) +
@@ -70,16 +70,15 @@ TEST_CASE("calibrate: wires that lived longer than predicted lengthen what a job
   CHECK(learned(file, "model", "value") > 1.05);
   CHECK(file.find("name: slack") == std::string::npos);
   CHECK(unmarked_content(scratch / "runs/calibrate_o/calibration.svg").starts_with("<svg "));
-  // Most of the tenfold: 0.37 decades of strength and 0.3 of the model's factor against 0.2 of scatter.
+  // Most of the factor of ten: 0.37 decades of strength and 0.3 of the model's factor against 0.2 of scatter.
   const double after = life_hours(scratch, "--set calibration=runs/calibrate_o/calibration.yaml");
   CHECK(after > 4 * before);
   CHECK(after < 13 * before);
-  // Friction that was learned with slipping parts says nothing of parts that stick.
+  // Friction that was learned with slipping parts is not valid for parts that stick.
   const Outcome other_slip = run(scratch, "dresslife", "check job.yaml --set calibration=runs/calibrate_o/calibration.yaml --set strain.slip=stick");
   CHECK(other_slip.status == 1);
   CHECK(other_slip.err.find("was learned with strain.slip: friction (this job has stick); set strain.slip as") != std::string::npos);
-  // A second time nothing is left to do, and the same is said; by other rows it is learned again, and the job
-  // runs again.
+  // The second call has nothing to compute and prints the same text. With other rows it learns again, and the job runs again.
   const Outcome again = run(scratch, "dresslife", "calibrate o.yaml");
   CHECK(again.out == outcome.out);
   CHECK(again.err.find(" ran\n") == std::string::npos);
@@ -102,7 +101,7 @@ TEST_CASE("calibrate: run-outs that were predicted teach hardly anything, and no
     must_run(scratch, "dresslife", "calibrate o.yaml --quiet");
     const double after = life_hours(scratch, "--set calibration=runs/calibrate_o/calibration.yaml");
     constexpr double by_lot =
-        0.95;  // medians of draws are good to some hundredths of a deviation, which is a factor of 3
+        0.95;  // medians of samples have an error of some hundredths of a deviation, which is a factor of 3
     CHECK(after > by_lot * least);
     if (times < 1e-3) CHECK(after < before / by_lot);
     least = after;
@@ -112,7 +111,7 @@ TEST_CASE("calibrate: run-outs that were predicted teach hardly anything, and no
 
 TEST_CASE(
     "calibrate: a bending test with 5 % of noise tells the friction, at 1.6 times the shipped pressures") {
-  // Thirty weights on a first bend and the way back.
+  // Thirty weights in a first bend and on the way back.
   Scratch scratch;
   const std::string cable =
       "dresspack: {cable: {from: spot_welding, part: signal cable}}\nstrain: {slip: [free, friction, friction]";
@@ -148,8 +147,7 @@ TEST_CASE(
   CHECK(learned(file, "friction_inside", "value_p90") > 1.6);
   CHECK(file.find("name: strength") == std::string::npos);
 
-  // A decay test of such a cable shows it, too, but less: its loss depends less on
-  // friction.
+  // A decay test of this cable gives the same information, but less of it: its loss depends less on friction.
   const double decrement = std::exp(log_decrement_by_slip(curvature, moment, 1)) + 0.03;
   scratch.write(
       "o.yaml",
@@ -166,7 +164,7 @@ TEST_CASE(
 }
 
 TEST_CASE("calibrate: the prior predicts the hours that a run predicts") {
-  // Friction and slack act together here: they are no sum of two effects.
+  // Friction and slack interact here: their effects do not add.
   const Scratch scratch;
   const std::string job =
       "{motion: {rig: {kind: torsion, length_m: 1, twist_deg_per_m: 180}}, dresspack: spot_welding, strain: {cable_elements_per_segment: 2}}";
@@ -192,7 +190,7 @@ TEST_CASE("calibrate: the prior predicts the hours that a run predicts") {
     FAIL(name);
     return 0.0;
   };
-  // Three standard errors of a decile of 2,000 draws, each 0.04 of a deviation of the logarithm; and two printed digits.
+  // Three standard errors of a decile of 2,000 samples, each 0.04 of a deviation of the logarithm; plus rounding to two digits.
   const double deviation = std::log(cell("life_hours_p90") / cell("life_hours_p10")) / 2.56;
   const double within = 3 * 0.04 * deviation + 0.05;
   CHECK(std::abs(std::log(early / cell("life_hours_p10"))) < within);
@@ -206,7 +204,7 @@ TEST_CASE("calibrate: a maintenance system's table in one command teaches the jo
   job.insert(job.size() - 1, ", fatigue: {operating_hours_per_week: 0.1}");
   scratch.write("job.yaml", job);
   const double before = life_hours(scratch, "");
-  // Ten of them lived about ten times as long as predicted, and two are in use.
+  // Ten dresspacks lived about ten times as long as predicted, and two are in use.
   const auto day = [](double hours) {  // from 2000-01-03 on
     return day_text(*day_from("2000-01-03") + std::chrono::days(std::llround(7 * hours / 0.1)));
   };
@@ -228,7 +226,7 @@ TEST_CASE("calibrate: a maintenance system's table in one command teaches the jo
   // The prior of ln life has a deviation of ln 6 to ln 10, the mean of ten lives one of some tenths.
   CHECK(after > 6 * before);
   CHECK(after < 13 * before);
-  // Eight that live thirty times as long as predicted, and records of their last hours: what is learned contradicts them.
+  // Eight dresspacks live thirty times as long as predicted. Records of their last hours contradict what was learned.
   std::string alive = "robot,installed,replaced\n";
   for (int k = 0; k < 8; ++k) alive += fmt::format("R{},2000-01-03,\n", k);
   scratch.write("alive.csv", alive);

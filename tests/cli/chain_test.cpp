@@ -1,4 +1,4 @@
-// The stages as a user runs them: one after the other from the command line, twice, and through a study.
+// The stages as a user runs them: one after the other on the command line, twice, and in a study.
 #include <algorithm>
 #include <cstdlib>
 
@@ -115,8 +115,8 @@ TEST_CASE("a hose with a profile and critical planes from a job file to the life
   }
   CHECK(planes.number_attribute("damage_per_repeat") == worst);
 
-  // The plane across the axis is among those judged: no wire lives longer than by its strain alone, but for
-  // what the gate keeps from that.
+  // The plane across the axis is among the evaluated planes: no wire lives longer than by its strain alone, apart from the effect
+  // of the gate.
   REQUIRE(strain(scratch, "--quiet --set strain.equivalent=axial --set strain.gate=0", "axial.h5").status ==
           0);
   must_run(scratch, "dresslife-fatigue", "axial.h5 -o axial_life.h5 --quiet");
@@ -124,7 +124,7 @@ TEST_CASE("a hose with a profile and critical planes from a job file to the life
       pipeline::FileReader(scratch / "axial_life.h5", pipeline::life_format()).read<double>("/damage");
   REQUIRE(axial.size() == damage.size());
   constexpr double single =
-      1e-4;  // strains in single precision by two routes, times the slope of the life curve
+      1e-4;  // strains in single precision by two algorithms, times the slope of the life curve
   for (std::size_t k = 0; k < site.size(); ++k) CHECK(judged[k] >= axial[site[k]] * (1 - single));
 
   const Outcome wrong = strain(scratch, "--set strain.equivalent=planes");

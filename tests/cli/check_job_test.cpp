@@ -1,4 +1,4 @@
-// dresslife check: what a run would warn of or refuse, without the run.
+// dresslife check: warnings and refusals of a run, without the run.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ TEST_CASE("check: a job without faults, one whose slip is a bound, one that is t
   CHECK(misspelt.status == 1);
   CHECK(misspelt.err.find("did you mean 'free_length_m'?") != std::string::npos);
   const auto entries = std::distance(fs::directory_iterator(scratch.folder()), fs::directory_iterator{});
-  CHECK(entries == 4);  // job, poses, .out, .err: a check leaves nothing
+  CHECK(entries == 4);  // job, poses, .out, .err: a check leaves no files
 }
 
 TEST_CASE("check: a rig that bends a cable tighter than allowed is warned of without a run") {
@@ -50,14 +50,14 @@ TEST_CASE("check: a rig that bends a cable tighter than allowed is warned of wit
 TEST_CASE("check: what it warns of in the shipped jobs, a run warns of, too") {
   const Scratch scratch;
   const fs::path config = fs::path(DRESSLIFE_SOURCE_DIR) / "config";
-  // Coarse and quick. 32 segments still bend as tightly as the hose at rest.
+  // Coarse and fast. With 32 segments the hose still bends as sharply as at rest.
   const std::vector<std::string> coarse{"simulation.segments=32",      "simulation.time_step_ms=10",
                                         "simulation.sample_rate_Hz=5", "strain.surface_fibres=0",
                                         "uncertainty.enabled=false",   "strain.cable_elements_per_segment=1"};
   std::vector<std::pair<std::string, std::string>> jobs;
   for (const auto& entry : fs::directory_iterator(config / "jobs"))
     if (entry.path().extension() == ".yaml") jobs.emplace_back(entry.path().stem().string(), "");
-  for (const char* slip : {"stick", "free"}) {  // bounds are asked for: a note, which no run repeats as a warning
+  for (const char* slip : {"stick", "free"}) {  // only bounds are computed: a note, which no run repeats as a warning
     const JobCheck bound = check_of(config / "jobs/bending_cable.yaml", {fmt::format("strain.slip={}", slip)});
     CHECK(std::any_of(bound.notes.begin(), bound.notes.end(), [](const std::string& note) { return note.find("is a bound") != note.npos; }));
     CHECK(std::none_of(bound.warnings.begin(), bound.warnings.end(), [](const Warning& w) { return w.kind == WarningKind::strain; }));
@@ -68,12 +68,12 @@ TEST_CASE("check: what it warns of in the shipped jobs, a run warns of, too") {
     CAPTURE(job, motion);
     std::vector<std::string> sets = coarse;
     if (!motion.empty()) sets.push_back("motion=" + motion);
-    const fs::path file = config / "jobs" / (job + ".yaml");  // a name alone may be that of a study
+    const fs::path file = config / "jobs" / (job + ".yaml");  // a name alone could be that of a study
     std::string line = "run '" + file.string() + "' --quiet -o " + job + motion;
     for (const std::string& set : sets) line += " --set " + set;
     const JobCheck check = check_of(file, sets);
     CHECK(check.refusal.empty());
-    if (check.warnings.empty()) continue;  // nothing to be found again
+    if (check.warnings.empty()) continue;  // no warning that a run would have to repeat
     must_run(scratch, "dresslife", line);
     const FileReader life(scratch / (job + motion + "/" + job + "/" + job + "/life.h5"), life_format(),
                           FileReader::Scope::attributes);

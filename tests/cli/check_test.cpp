@@ -1,4 +1,4 @@
-// scripts/check guards the arrows between the rooms: a copy of the tree in which one is broken is refused.
+// scripts/check guards the arrows between the rooms: it refuses a copy of the tree in which one arrow is broken.
 
 #include "tests/cli/process.h"
 
@@ -10,7 +10,7 @@ namespace {
 
 const fs::path source = DRESSLIFE_SOURCE_DIR;
 
-/// Folders with code, and the pages, of the tree as it is.
+/// Copies the folders with code and the pages of the current tree.
 void copy_tree(const Scratch& scratch) {
   for (const char* folder : {"sim", "strain", "fatigue", "pipeline", "config", "scripts", "tests", ".ci"})
     fs::copy(source / folder, scratch / folder, fs::copy_options::recursive);

@@ -16,19 +16,19 @@ TEST_CASE("draw lists a dresspack's layers, what they add up to and what overlap
   INFO(drawn.err);
   // 10 cables of 7 conductors of 92 wires of 0.15 mm.
   CHECK(drawn.out.find("6440 wires of 113.8 mm2") != std::string::npos);
-  // Ten times the 0.0019, 0.226 and 4.14 N m2 that an independent calculation found for one cable.
+  // Ten times the 0.0019, 0.226 and 4.14 N m2 of an independent calculation for one cable.
   CHECK(drawn.out.find(
             "0.0187 when all slide, 2.26 when parts of level 2 are solid, 41.4 when parts of level 1") !=
         std::string::npos);
   CHECK(drawn.err.find("the 7 parts 'conductor' are 2.254 mm apart") != std::string::npos);
 
-  // Each layer is drawn once and shown as often as it has parts; overlapping ones in the colour of a warning.
+  // The picture defines each layer once and uses it for each of its parts. Overlapping layers have the colour of a warning.
   const std::string picture = unmarked_content(scratch / "hose.svg");
   CHECK(picture.rfind("<svg", 0) == 0);
   CHECK(count_of(picture, "<use ") == 10 + 7 + 31 + 25 + 18 + 12 + 6);
   CHECK(count_of(picture, "class=\"over\"") == 1);
 
-  const Outcome built = run(scratch, "dresslife", "draw spot_welding -o hose.svg");  // the default one can be built
+  const Outcome built = run(scratch, "dresslife", "draw spot_welding -o hose.svg");  // the shipped default can be built
   CHECK(built.status == 0);
   CHECK(built.err.empty());
   CHECK(count_of(content(scratch / "hose.svg"), "class=\"over\"") == 0);

@@ -11,7 +11,7 @@ using namespace dresslife::tests;
 
 namespace {
 
-/// A spindle about x that turns to and fro.
+/// A robot with one axis along x that turns to and fro.
 const std::string robot = R"(robot:
   name: spindle
   source: made for the tests
@@ -42,7 +42,7 @@ const std::string thick = hose(40,
 const std::string thin = hose(
     20, "{name: core, count: 4, radius_mm: 0.1, helix_radius_mm: 4, lay_angle_deg: 20, material: copper}");
 
-/// Along the spindle, or so far beside it.
+/// Returns a routing along the axis, at the lateral distance `beside`.
 std::string routing(double length, double beside) {
   const std::string y = std::to_string(beside);
   return "{free_length_m: " + std::to_string(length) + ", base_clamp: {link: bench, position_m: [0, " + y +
@@ -52,7 +52,7 @@ std::string routing(double length, double beside) {
 
 std::string job_of(const std::string& dresspacks) { return robot + dresspacks + settings; }
 
-/// Damage of the worst wire of each dresspack of a job.
+/// Returns the damage of the worst wire of each dresspack of a job.
 std::vector<double> damage_of(const Scratch& scratch, const std::string& job) {
   for (const auto& [program, files] :
        {std::pair<std::string, std::string>{"sim", ".yaml -o " + job + ".motion.h5"},
@@ -78,8 +78,7 @@ TEST_CASE("two dresspacks far apart live as long as each alone") {
              second = damage_of(scratch, "second");
   REQUIRE(both.size() == 2);
   REQUIRE(first.size() == 1);
-  // Repeats end when they begin alike within 1 um of what is bent by centimetres; damage goes with its 2nd to
-  // 8th power.
+  // Repeats end when their begins agree to 1 um, of bends of centimetres. Damage grows with the 2nd to 8th power of this.
   const double alike = 1e-3;
   CHECK(both[0] == Approx(first[0]).epsilon(alike));
   CHECK(both[1] == Approx(second[0]).epsilon(alike));
@@ -118,7 +117,7 @@ TEST_CASE("the relative life of a rated cable is the same beside another dresspa
   };
   const double alone = per_hour("alone");
   CHECK(alone > 0);
-  CHECK(per_hour("both") == Approx(alone).epsilon(1e-3));  // as the damages above
+  CHECK(per_hour("both") == Approx(alone).epsilon(1e-3));  // tolerance of the damages above
 }
 
 TEST_CASE("a study of two dresspacks ranks by the worse and tells which it is") {
@@ -138,7 +137,7 @@ TEST_CASE("a study of two dresspacks ranks by the worse and tells which it is") 
   CHECK(worst == (damage[0] > damage[1] ? "hose" : "cable"));
   CHECK(ranking.find("," + worst + ",") != std::string::npos);
   CHECK(outcome.out.find(worst + "/") != std::string::npos);  // the path of the wire that breaks first
-  // Both in the picture of each job, one segment marked: two strokes a segment.
+  // The picture of each job shows both dresspacks, with one segment marked. Each segment has two strokes.
   const std::string report = content(scratch / "runs/study/report.html");
   std::size_t strokes = 0;
   for (std::size_t at = report.find("<line class=\"hose"); at != std::string::npos;

@@ -1,4 +1,4 @@
-// Duties through the whole chain: the life of a duty beside that of its programs.
+// Duties through the whole chain: the life of a duty against the lives of its programs.
 #include "tests/catch.h"
 #include "tests/cli/process.h"
 
@@ -6,7 +6,7 @@ using namespace dresslife::tests;
 
 namespace {
 
-/// A cell of the first row of a table of ours with this text in its first or second column.
+/// Returns a cell of the first row that has this text in its first or second column.
 std::string cell(const std::string& csv, const std::string& row, const std::string& column) {
   std::istringstream lines(csv);
   std::string title, line;
@@ -41,7 +41,7 @@ void write_study(const Scratch& scratch) {
 
 TEST_CASE("programs of a duty that start in different poses ask for the pose in which the hose is mounted") {
   const Scratch scratch;
-  // Before the simulation, which refuses this length.
+  // The check comes before the simulation, which would refuse this length.
   const auto warned = [&](const std::string& angle, const std::string& pose) {
     const std::string home = "{joints_deg: [0, -10, 10, 0, 25, 0]}", away = "{joints_deg: [5, -10, 10, 0, 25, 0]}";
     scratch.write("job.yaml", "robot: abb_irb6640_185_280\ndresspack: handling\nrouting:\n"
@@ -124,7 +124,7 @@ duties:
 
 TEST_CASE("programs in their order: a program after itself adds nothing, one after another adds cycles across the change") {
   const Scratch scratch;
-  // The hose bends to one side in each program, and between them from one side to the other.
+  // In each program the hose bends to one side. Between the programs it moves from one side to the other.
   const auto motion = [](const std::string& to, const std::string& at) {
     return "{speed_percent: 20, steps: [{joints_deg: [" + to + "]}, {joints_deg: [" + at + "]}, {dwell_s: 1}, {joints_deg: [" + to + "]}]}";
   };
@@ -157,13 +157,13 @@ fatigue: {robot_life_hours: 1.0e+7}
   constexpr double by_rows = 0.02;  // a spline through rows at 25 Hz changes the swing of the hose
   CHECK(damage("after itself") == Approx(apart).epsilon(by_rows));
   CHECK(damage("in turns") > 2 * apart);
-  // A tenth of the changes. The worst place may differ, so that damage is between the line and its ends.
+  // A tenth of the changes. Another place may be the worst, so the damage is between the line and its ends.
   CHECK(damage("batches") > apart);
   CHECK(damage("batches") <= apart + 0.1 * (damage("in turns") - apart) * (1 + by_rows));
   CHECK(outcome.out.find("Changes between the programs make the damage of wires") != std::string::npos);
-  CHECK(run(scratch, "dresslife", "run study.yaml --quiet").status == 0);  // rounds are no jobs of the study
+  CHECK(run(scratch, "dresslife", "run study.yaml --quiet").status == 0);  // rounds are not jobs of the study
   CHECK(content(scratch / "runs/study/ranking.csv").find("left+right") == std::string::npos);
-  // Without the joint angles of the programs an order is refused.
+  // An order is refused if the joint angles of the programs are unknown.
   write_study(scratch);
   scratch.write("duties.yaml", "study: study.yaml\nduties:\n  - name: d\n    order: [{job: one}, {job: other}]\n    programs: [{job: one, percent_of_time: 5}, "
                                "{job: other, percent_of_time: 5}]\n");
@@ -206,7 +206,7 @@ TEST_CASE("a plan names what to replace in a window, writes a table and a calend
   CHECK(cell(table, "old one", "replace_in") == "2026-12-21");
   CHECK(number(cell(table, "new one", "fails_before_first_window")) > 0);
   CHECK(content(scratch / "runs/study/plan_fleet.ics").find("DTSTART;VALUE=DATE:20261221") != std::string::npos);
-  // With costs a test has a value, and another fleet has a plan beside it.
+  // With costs, a test has a value, and a plan of another fleet is compared.
   scratch.write("fleet.csv", "name,duty,installed,planned_cost,unplanned_cost\nnew one,d,,10,90\nold one,d,2026-11-22,10,90\n");
   scratch.write("other.csv", "name,duty,installed,planned_cost,unplanned_cost\nnew one,d,,10,90\nold one,d,2026-11-22,10,90\nmore,d,,10,90\n");
   const Outcome beside = must_run(scratch, "dresslife", plan + "2026-12-21 --what-if other.csv");
@@ -227,7 +227,7 @@ TEST_CASE("a plan names what to replace in a window, writes a table and a calend
   scratch.write("other.csv", "name,duty,installed\nmore,d,\n");
   CHECK(run(scratch, "dresslife", plan + "2026-12-21 --what-if other.csv").err.find("other.csv:1:1: error: has no costs, but fleet.csv has some") !=
         std::string::npos);
-  // Twenty that have lived for 32 weeks leave 6 of 500 samples, and 50 of 4,000; for three years none.
+  // Twenty dresspacks that have lived for 32 weeks leave 6 of 500 samples, and 50 of 4,000. For three years none remains.
   const auto survivors = [&](const std::string& since) {
     std::string twenty = "name,duty,installed\n";
     for (int k = 0; k < 20; ++k) twenty += "r" + std::to_string(k) + ",d," + since + "\n";

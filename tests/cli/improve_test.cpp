@@ -1,4 +1,4 @@
-// dresslife improve: jobs that live longer, and a search that is killed.
+// dresslife improve: jobs with longer lives, and a search that is killed.
 #include <map>
 #include <regex>
 
@@ -12,7 +12,7 @@ using dresslife::pipeline::life_format;
 
 namespace {
 
-/// The small job, its cables held so lightly that nothing tears, of which the length is free.
+/// Writes the small job with cables held so loosely that nothing breaks. Its length is free.
 void write_small_study(const Scratch& scratch) {
   write_small_job(scratch);
   scratch.write("better.yaml", R"(base: job.yaml
@@ -32,7 +32,7 @@ std::size_t lines_of(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
-/// When each stage of a search's jobs was last noted as made.
+/// Returns the time of the last receipt of each stage of a search's jobs.
 std::map<fs::path, fs::file_time_type> notes_of(const fs::path& folder) {
   std::map<fs::path, fs::file_time_type> notes;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
@@ -40,7 +40,7 @@ std::map<fs::path, fs::file_time_type> notes_of(const fs::path& folder) {
   return notes;
 }
 
-/// Names of files "life.h5" and the like in the folders of a search's jobs whose names begin so.
+/// Returns the names of result files (life.h5 and the like) in the search's job folders whose names begin with `jobs`.
 std::vector<std::string> results_of(const fs::path& folder, const std::string& jobs) {
   std::vector<std::string> names;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
@@ -60,12 +60,11 @@ TEST_CASE("improve finds a job that lives longer, and says by what") {
   CHECK(told.out.find("    --set 'routing.free_length_m=0.9") != std::string::npos);
   CHECK_THAT(told.out, Catch::Contains("\nThe wires live ") || Catch::Contains("\nIn both the wires outlive the robot ("));
   const std::string table = content(scratch / "runs/better_improve/improve.csv");
-  CHECK(lines_of(table) == 11);  // and its header
+  CHECK(lines_of(table) == 11);  // including its header
   CHECK(table.find("\n0,1,") != std::string::npos);
   CHECK(fs::exists(scratch / "runs/better_improve/report.html"));
   CHECK(fs::exists(scratch / "runs/better_improve/before/life.h5"));
-  // Its page has both side by side, and what the length forgives (this job's clamps are moved by a
-  // recording).
+  // Its page compares both, and states the effect of mounting errors in the length (a recording moves this job's clamps).
   CHECK(told.out.find("With a clamp or length off by 10 mm, a clamp tilted by 5.7 deg or an end turned by 10 deg the wires live at least ") !=
         std::string::npos);
   const std::string page = content(scratch / "runs/better_improve/improve.html");
@@ -73,12 +72,12 @@ TEST_CASE("improve finds a job that lives longer, and says by what") {
   CHECK(page.find("<td><code>routing.free_length_m</code></td><td>0.9</td><td>0.9") != std::string::npos);
   CHECK(page.find("<tr><td>length, + 10 mm</td><td class=\"number\">× ") != std::string::npos);
 
-  // Of a trial only its receipts stay, of the best few all files.
+  // Trials keep only their receipts; the best few keep all files.
   CHECK(results_of(scratch / "runs/better_improve", "trial_").empty());
   CHECK(results_of(scratch / "runs/better_improve", "off_").empty());
   CHECK(results_of(scratch / "runs/better_improve", "before").size() == 3);
 
-  // The same again runs nothing; the study itself ignores the section free.
+  // The same search again runs nothing. The study itself ignores the section `free`.
   const auto notes = notes_of(scratch / "runs/better_improve");
   const Outcome again = run(scratch, "dresslife", "improve better.yaml --trials 10 --quiet");
   CHECK(again.out == told.out);
@@ -90,7 +89,7 @@ TEST_CASE("improve finds a job that lives longer, and says by what") {
   CHECK(content(scratch / "chance/better_improve/improve.csv") != table);
 }
 
-/// A short motion of a wound cable, whose end is turned by 55 deg; the turn is free.
+/// Writes a short motion of a wound cable, whose end is turned by 55 deg. This angle is free.
 void write_turned_study(const Scratch& scratch) {
   scratch.write("short.yaml", R"(name: short
 source: made for the tests
@@ -131,7 +130,7 @@ TEST_CASE("improve states the worst life within the tolerance of a turned end, a
   REQUIRE(std::regex_search(told.out, stated, std::regex("With an end turned by 10 deg the wires live at least ([0-9.]+) times as long")));
   REQUIRE(std::regex_search(told.out, turn, std::regex("--set 'routing.pre_twist_deg=([-0-9.]+)'")));
   const double best = std::stod(turn[1]);
-  std::string reliefs;  // of the winner, as its neighbours have them
+  std::string reliefs;  // of the winner, for its neighbours
   const std::regex relief("    (--set '[^']*bend_relief=[^']*')");
   for (std::sregex_iterator found(told.out.begin(), told.out.end(), relief), end; found != end; ++found) reliefs += " " + (*found)[1].str();
   const auto life = [&](double degrees) {
@@ -140,7 +139,7 @@ TEST_CASE("improve states the worst life within the tolerance of a turned end, a
     return FileReader(scratch / ("at " + at) / "turn/turn/life.h5", life_format()).number_attribute("life_hours_p10");
   };
   const double worst = std::min({life(best), life(best - 10), life(best + 10)}) / life(best);
-  CHECK(std::stod(stated[1]) == Approx(worst).epsilon(0.05));  // two figures
+  CHECK(std::stod(stated[1]) == Approx(worst).epsilon(0.05));  // two digits
 }
 
 TEST_CASE("a search that is killed ends where it would have ended") {
@@ -148,7 +147,7 @@ TEST_CASE("a search that is killed ends where it would have ended") {
   write_small_study(scratch);
   const std::string line = "improve better.yaml --trials 10 --quiet -j 2 -o ";
   must_run(scratch, "dresslife", line + "whole");
-  // Killed once the sixth trial is there, then begun again.
+  // Killed after the sixth trial, then restarted.
   const Outcome killed =
       run_shell(scratch, "'" DRESSLIFE_BIN_DIR "/dresslife' " + line +
                              "killed & pid=$!\n"
@@ -183,13 +182,13 @@ TEST_CASE("improve writes the best as drawn before it is verified, and a killed 
   REQUIRE(killed.out.ends_with("137\n"));
   const std::string early = content(scratch / "job_improved.yaml");
   CHECK_THAT(early, Catch::Contains("# Not yet verified within the mounting tolerance. The command replaces this file at its end.\n"));
-  CHECK_THAT(must_run(scratch, "dresslife", "show job_improved.yaml").out, Catch::Contains("pre_twist_deg: "));  // a whole job
+  CHECK_THAT(must_run(scratch, "dresslife", "show job_improved.yaml").out, Catch::Contains("pre_twist_deg: "));  // a complete job
   const auto notes = notes_of(scratch / "runs/job_improve");
   const Outcome ended = must_run(scratch, "dresslife", line);
   CHECK_THAT(ended.out, Catch::Contains("\nShort job: job_improved.yaml\n"));
   const std::string last = content(scratch / "job_improved.yaml");
   CHECK_THAT(last, !Catch::Contains("Not yet verified") && Catch::Contains("pre_twist_deg: "));
-  // The trials that were done are not run again.
+  // Finished trials are not run again.
   const auto after = notes_of(scratch / "runs/job_improve");
   CHECK_FALSE(notes.empty());
   for (const auto& [stage, time] : notes)
@@ -221,7 +220,7 @@ TEST_CASE("improve and route keep the results of jobs of one name in two folders
     scratch.write(std::string(folder) + "/job.yaml", "robot: abb_irb6640_185_280\ndresspack: sensor_cable\nmotion: easy\n");
   for (const std::string command : {"improve", "route"}) {
     const std::string few = command == "route" ? " --tried 1 --off 0" : "";
-    run(scratch, "dresslife", command + " a/job.yaml --quiet --rehearsals 1" + few);  // whatever it finds
+    run(scratch, "dresslife", command + " a/job.yaml --quiet --rehearsals 1" + few);  // the result does not matter
     const Outcome refused = run(scratch, "dresslife", command + " b/job.yaml --quiet --rehearsals 1" + few);
     CHECK(refused.status == 1);
     CHECK_THAT(refused.err, Catch::Contains("runs/job_" + command +
@@ -235,7 +234,7 @@ TEST_CASE("improve tells the front of two aims, of which the jobs as they are ma
   write_small_study(scratch);
   const Outcome told =
       must_run(scratch, "dresslife",
-               "improve better.yaml --trials 4 --rehearsals 0 --second hose_length --off 0 --quiet");  // the fifth is 1 mm shorter, and no worse
+               "improve better.yaml --trials 4 --rehearsals 0 --second hose_length --off 0 --quiet");  // the fifth: 1 mm shorter, not worse
   INFO(told.out << told.err);
   CHECK(told.out.find("\nLongest lives for their hose_length:\n") != std::string::npos);
   CHECK(told.out.find("\n    as it is  ") != std::string::npos);
@@ -253,7 +252,7 @@ TEST_CASE("improve keeps trials whole where the study says so") {
 TEST_CASE("improve takes a job, and names of shipped ones") {
   Scratch scratch;
   write_small_job(scratch);
-  // One that is moved by a recording has only its length to change.
+  // In a job that is moved by a recording only the length can change.
   const Outcome job = run(scratch, "dresslife", "improve job.yaml --trials 2 --rehearsals 0 --off 0 --quiet");
   INFO(job.out << job.err);
   CHECK(content(scratch / "runs/job_improve/improve.csv").find(",routing.free_length_m\n") !=
@@ -276,7 +275,7 @@ TEST_CASE("improve refuses what it cannot search") {
   scratch.write("bad.yaml", "base: job.yaml\nfree: {routing.free_length_m: 1 .. 2}\nlimits: {force_N: 4}\n");
   CHECK(run(scratch, "dresslife", "improve bad.yaml")
             .err.find("bad.yaml:3:10: error: unknown key 'limits.force_N'") == 0);
-  // Nothing keeps a limit: the exit status says so. By far: no trial is worth its time.
+  // No trial keeps the limit, and the exit status states this. If it is exceeded by far, no trial is run.
   const auto improved = [&](const std::string& radius) {
     return run(scratch, "dresslife",
                "improve better.yaml --trials 3 --rehearsals 20 --quiet --set dresspack.least_bend_radius_mm=" + radius);
@@ -362,13 +361,13 @@ simulation: {segments: 20, sample_rate_Hz: 25}
   const fs::path patch = scratch / "runs/job_reprogram/as_it_is_01.patch";
   REQUIRE(fs::exists(patch));
   CHECK(content(patch).find("\n--- a/short.mod\n+++ b/short.mod\n@@ ") != std::string::npos);
-  // The patch fits the program, and what it makes is a program again.
+  // The patch fits the program, and the result is a program again.
   REQUIRE(run_shell(scratch, "patch -s -o changed.mod short.mod runs/job_reprogram/as_it_is_01.patch").status == 0);
   const Outcome read = run(scratch, "dresslife-import", "changed.mod -o changed.yaml");
   INFO(read.out << read.err);
   CHECK(read.status == 0);
 
-  // The ways come from dresslife-import, which says what it lacks.
+  // dresslife-import provides the ways, and reports missing inputs.
   const std::string life = " --ways runs/job_reprogram/as_it_is/life.h5";
   CHECK(run(scratch, "dresslife-import", "job.yaml" + life).err ==
         "--ways: error: has no file to write to; name one with -o ways.h5\n");

@@ -1,4 +1,4 @@
-// An installation works wherever it is put: nothing in it points back at the sources or the build.
+// An installation works at any place: no file in it refers to the sources or the build.
 
 #include "tests/cli/process.h"
 
@@ -8,7 +8,7 @@ using namespace dresslife::tests;
 
 namespace {
 
-/// A shell's command in the scratch folder, without a catalogue of the tests' surroundings.
+/// Runs a shell command in the scratch folder, without environment variables that name a catalogue.
 Outcome shell(const Scratch& scratch, const std::string& command) {
   const fs::path out = scratch / ".out", err = scratch / ".err";
   scratch.write(".command",
@@ -19,7 +19,7 @@ Outcome shell(const Scratch& scratch, const std::string& command) {
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(out), content(err)};
 }
 
-/// Installed under `first`, then moved to `place`: a path that was known when it was installed is gone.
+/// Installs under `first`, then moves the installation to `place`, so that a path stored at installation is invalid.
 void install(const Scratch& scratch, const std::string& place) {
   const Outcome installed =
       shell(scratch,
@@ -73,7 +73,7 @@ TEST_CASE(
   install(scratch, "a place");
   write_small_job(scratch);
   scratch.write("study.yaml", "base: job.yaml\n");
-  // Copper is named by the job and lies only in the catalogue; changed there, it shows which one was read.
+  // The job names copper, which exists only in the catalogue. A change of it reveals which catalogue was read.
   const std::string copper = "a place/share/dresslife/config/materials/copper.yaml",
                     shipped = "youngs_modulus_GPa: 117";
   std::string text = content(scratch / copper);
@@ -139,7 +139,7 @@ TEST_CASE("programs without their catalogue say what is missing, unless the job 
 
 TEST_CASE("bash completes commands, options and their words") {
   Scratch scratch;
-  // As readline does it: the words typed so far, the last of them to be completed.
+  // As readline does: the words typed so far; the last one is to be completed.
   const auto completed = [&](const std::string& program, const std::string& words) {
     const std::string function = program == "dresslife" ? "_dresslife" : "_dresslife_sim";
     scratch.write("try.sh", "source '" DRESSLIFE_BIN_DIR "/../share/bash-completion/completions/" + program +

@@ -1,4 +1,4 @@
-// What --json prints is JSON that Python reads, with the numbers of the other outputs.
+// The output of --json is JSON that Python reads, with the numbers of the other outputs.
 #include <sstream>
 
 #include "tests/catch.h"
@@ -31,7 +31,7 @@ assert json.load(open("states.json")) == [{"job": row["job"], "state": "done"} f
       scratch, "set -e; " + program + " run study.yaml --json --quiet -n >dry.json; " + program +
                    " run study.yaml --json --quiet >ranking.json; " + program + " run study.yaml --json --quiet -n >nothing.json; " + program +
                    " show job.yaml --json >job.json; " + program + " status study.yaml --json >states.json; python3 compare.py");
-  // Without progress; of the cable's force, which spoils the result, a program that reads JSON must learn, too.
+  // No progress. Warnings remain, because they concern the validity of the result.
   std::istringstream lines(outcome.err);
   for (std::string line; std::getline(lines, line);) CHECK(line.find(": warning: ") != std::string::npos);
   CHECK(outcome.status == 0);

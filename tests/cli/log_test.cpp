@@ -13,7 +13,7 @@ using namespace dresslife::tests;
 
 namespace {
 
-/// Three cycles of 8 s that turn axes 5 and 6, with stands, on the robot of irb6640_spot_welding.
+/// Returns a log of three cycles of 8 s that turn axes 5 and 6, with rests, on the robot of irb6640_spot_welding.
 std::string log_text() {
   std::string text =
       "Zeit;Achse_1 [deg];Achse_2 [deg];Achse_3 [deg];Achse_4 [deg];Achse_5 [deg];Achse_6 [deg]\n";
@@ -42,7 +42,7 @@ TEST_CASE("log: the life of a log of one cycle is that of the cycle") {
   write_log(scratch);
   const Outcome read = must_run(scratch, "dresslife", "import log.csv --log " + job + " -o shift.yaml");
   INFO(read.err);
-  // The estimate comes before the log is read, the table of the axes behind it.
+  // The estimate comes before the log is read, the table of the axes after it.
   CHECK_THAT(read.err, Catch::StartsWith("log.csv: ") && Catch::Contains("about 300 rows in 29.9 s") &&
                            Catch::Contains("MB"));
   CHECK_THAT(read.out, Catch::Contains("joint_5  Achse_5 [deg]       25.0 .. 35.0     -120 .. 120"));
@@ -67,7 +67,7 @@ TEST_CASE("log: cycles with product changes, a stop and jogging have the damage 
   std::uniform_real_distribution<double> any(-1, 1);
   std::string text = "t,J1_deg,J2_deg,J3_deg,J4_deg,J5_deg,J6_deg\n";
   int row = 0;
-  /// Axes 4 to 6 go so far [deg] and back.
+  /// Moves axes 4 to 6 to these angles [deg] and back.
   const auto swing = [&](double seconds, const std::array<double, 3>& to) {
     for (int k = 0, rows = static_cast<int>(10 * seconds); k < rows; ++k, ++row) {
       const double wave = (1 - std::cos(2 * std::numbers::pi * k / rows)) / 2;
@@ -85,7 +85,7 @@ TEST_CASE("log: cycles with product changes, a stop and jogging have the damage 
   };
   const std::array<double, 3> first{20, -10, 60}, second{-15, 5, 40};
   product(5, first), swing(12, {}), product(4, second);
-  swing(6, {7, 0, 0}), swing(2, {}), swing(5, {0, 0, -6});  // by hand
+  swing(6, {7, 0, 0}), swing(2, {}), swing(5, {0, 0, -6});  // moved by hand
   product(4, first);
   scratch.write("log.csv", text);
   scratch.write("hose.yaml", edited(thin_hose, "    count: 2\n", "    count: 2\n    position: held\n"));
@@ -116,7 +116,7 @@ uncertainty: {friction_inside: 1, friction_hose: 1, slack: 1, play: 1, grip: 1, 
   CHECK(content(scratch / "all.yaml").find("cycle_") == std::string::npos);
   CHECK_THAT(content(scratch / "shift.yaml"), Catch::Contains("cycle_2") && Catch::Contains("recording_of: cycle_1"));
   REQUIRE(std::isfinite(all));
-  CHECK(all / shift == Approx(1).margin(0.05));  // damage as duty over that as one motion
+  CHECK(all / shift == Approx(1).margin(0.05));  // damage as a duty / damage as one motion
 }
 
 TEST_CASE("log: files of the user stay, and what is no log is refused") {
@@ -131,7 +131,7 @@ TEST_CASE("log: files of the user stay, and what is no log is refused") {
   CHECK_FALSE(fs::exists(scratch / "shift.yaml"));
   fs::remove(scratch / "shift/cycle_1.csv");
   must_run(scratch, "dresslife", line);
-  CHECK(run(scratch, "dresslife", line).status == 0);  // its own files may be written again
+  CHECK(run(scratch, "dresslife", line).status == 0);  // unchanged files of the program may be overwritten
   scratch.write("shift.yaml", content(scratch / "shift.yaml") + "# edited\n");
   CHECK(run(scratch, "dresslife", line).status == 1);
   const auto words = [&](const std::string& arguments) {

@@ -1,4 +1,4 @@
-// The generated pages are what the code says.
+// The generated pages agree with the code.
 #include <sstream>
 
 #include "tests/catch.h"
@@ -32,7 +32,7 @@ TEST_CASE("manual prints one key, by its path, the end of its path or its name")
   };
   CHECK(paths("motion") == "motion ");
   CHECK(paths("job.fatigue.scatter_log10") == "fatigue.scatter_log10 ");
-  CHECK(paths("dresspack.components.2.count") == "dresspack.components[].count ");  // as --set names it
+  CHECK(paths("dresspack.components.2.count") == "dresspack.components[].count ");  // the form of --set
   CHECK(paths("base_clamp.link") == "routing.base_clamp.link ");
   CHECK(paths("routing.tool_clamp.link").find("routing.base_clamp.link ") != std::string::npos);  // the same keys
   const Outcome text = run(scratch, "dresslife", "manual free_length_m");

@@ -1,5 +1,5 @@
-// What a user can do wrong at the command line: one line with place, reason and remedy, exit status 1,
-// nothing left behind. (Every message of the job reader is checked in tests/pipeline.)
+// User errors at the command line: one line with place, reason and remedy, exit status 1, and no file left behind. (The tests
+// of pipeline check every message of the job reader.)
 #include <algorithm>
 
 #include "tests/catch.h"
@@ -125,7 +125,7 @@ TEST_CASE("import writes what a program asks to one file, reads it back filled i
   CHECK(asked.err.find("answers.yaml: holds these 3 questions") != std::string::npos);
   CHECK_FALSE(fs::exists(scratch / "cell.yaml"));
   const std::string file = content(scratch / "answers.yaml");
-  // One that stays empty ends the import; the file stays as it is, and so does its user's work in it.
+  // An empty answer ends the import. The file does not change, so the user's edits in it are kept.
   const std::string half = edited(file, "{name: 'ready', value: ''}", "{name: 'ready', value: 'TRUE'}");
   scratch.write("answers.yaml", half);
   CHECK(run(scratch, "dresslife-import", call).status == 1);

@@ -1,4 +1,4 @@
-// dresslife new: a first job of one's own, which check takes or which says what is to be filled in.
+// dresslife new: a user's first job, which `check` accepts or which lists the entries to fill in.
 #include <algorithm>
 
 #include "tests/catch.h"
@@ -15,7 +15,7 @@ Outcome make(const Scratch& scratch, const std::string& options) {
   return run(scratch, "dresslife", "new " + options);
 }
 
-/// Three targets. Of a program of three minutes, `new` tries every pose.
+/// Writes a program of three targets. For a program of three minutes `new` would try every pose.
 void write_short_program(const Scratch& scratch) {
   scratch.write("mine.yaml",
                 "name: mine\nsource: a test\nspeed_percent: 50\nsteps:\n  - {joints_deg: [0, 0, 0, 0, 30, 0]}\n"
@@ -99,7 +99,7 @@ TEST_CASE("new: clamps of which none runs are left to be filled in, without a pl
   scratch.write("hose.yaml",
                 "name: hose\nsource: a guess\ndiameter_mm: 190\nmass_kg_per_m: 40\nbending_stiffness_Nm2: 400\n"
                 "torsional_stiffness_Nm2: 400\naxial_stiffness_N: 1e5\ndamping_time_ms: 20\ndamping_source: a guess\n");
-  // An arm of bare cylinders with the lengths of a KR 16: a hose of 190 mm finds no way past its wrist.
+  // An arm of bare cylinders with the lengths of a KR 16: a hose of 190 mm cannot pass its wrist.
   struct Axis {
     const char *name, *place, *axis;
     double limit, speed;
@@ -141,7 +141,7 @@ TEST_CASE("new: what is missing is to be filled in, and check asks for it") {
   REQUIRE(urdf.status == 0);
   CHECK(has(content(scratch / "arm.yaml"), "# FILL IN beside urdf: accelerations_deg_per_s2: [4 numbers]"));
   CHECK(has(run(scratch, "dresslife", "check arm.yaml").err, "arm.urdf has no accelerations"));
-  // The proposal beside it runs.
+  // The proposal in the comment runs.
   std::string job = content(scratch / "arm.yaml");
   const std::size_t proposal = job.find("# robot: {urdf: arm.urdf, accelerations_deg_per_s2: ["), bare = job.find("\nrobot: {urdf: arm.urdf}\n");
   REQUIRE(proposal < bare);

@@ -1,4 +1,4 @@
-// The page of a job: written with its results, and in a browser, where one is installed.
+// The page of a job: written with its results, and opened in a browser if one is installed.
 
 #include "pipeline/base/readable.h"
 #include "pipeline/files/files.h"
@@ -89,13 +89,13 @@ TEST_CASE(
   CHECK(nothing.err ==
         "runs/job: error: holds no life.h5; name the folder of a job that is done: runs/STUDY/JOB\n");
 
-  // Without three.js a run goes on as before.
+  // Without three.js a run succeeds as well.
   REQUIRE(
       run_shell(scratch, "DRESSLIFE_THREE=/nowhere '" DRESSLIFE_BIN_DIR "/dresslife' run job.yaml").status ==
       0);
   CHECK(content(page).size() < 500'000);
 
-  // A page of a last result says so, and what changed; back at its settings it is as before.
+  // The page of an outdated result is marked with what changed. With the original settings the mark is removed.
   const auto mark = [&](const std::string& length) {
     const std::string job = content(scratch / "job.yaml"), key = "free_length_m: ";
     const std::size_t value = job.find(key) + key.size(), end = job.find('\n', value);
@@ -114,7 +114,7 @@ TEST_CASE(
   CHECK(mark("0.9") == "");
   CHECK(content(page) == unmarked);
 
-  // Files that are not of one motion make no page.
+  // Files of different motions make no page.
   must_run(scratch, "dresslife-sim", "job.yaml --set simulation.segments=10 -o other.h5");
   fs::copy_file(scratch / "other.h5", scratch / "runs/job/job/motion.h5",
                 fs::copy_options::overwrite_existing);
@@ -131,7 +131,7 @@ TEST_CASE("the page in a browser: no complaints, a picture, play and clicks, the
   if (seen.empty()) return;
   INFO(seen);
   CHECK(seen.find("\"problems\":[]") != std::string::npos);
-  // One request, the page itself.
+  // One request, for the page itself.
   CHECK(seen.find("\"requests\":[\"file://" + (scratch / "runs/job/job/page.html").string() + "\"]") !=
         std::string::npos);
   std::istringstream words(result_of(seen));
@@ -162,7 +162,7 @@ TEST_CASE("the page in a browser: no complaints, a picture, play and clicks, the
   std::replace(component.begin(), component.end(), ' ', '_');
   CHECK(worst == component);
   CHECK(of_worst == life.number_attribute("damage_per_repeat"));
-  CHECK(sampled == "true");  // no history is made up of its turning points
+  CHECK(sampled == "true");  // no history is reconstructed from its turning points
 }
 
 TEST_CASE("pages tell the numbers of the files: hours, shares of damage, draws") {
@@ -183,13 +183,13 @@ TEST_CASE("pages tell the numbers of the files: hours, shares of damage, draws")
     const FileReader life(scratch / "runs/lengths" / job / "life.h5", dresslife::pipeline::life_format());
     const std::string page = content(scratch / "runs/lengths" / job / "page.html");
     const double hours = life.number_attribute("life_hours_p10");
-    // Its parts stick to each other: cables pull with forces that none bears.
+    // The parts stick to each other: cables have forces that exceed their strength.
     holds(page, fmt::format("<p><b>Do not plan with {}: ", dresslife::pipeline::hours_text(hours)));
     holds(page, fmt::format("Half have failed after {}, ", printed_hours(life.number_attribute("life_hours_p50"))));
     holds(page, fmt::format("The median of the worst wire is {} h.", printed(life.number_attribute("life_hours"))));
     holds(report, fmt::format("data-value=\"{}\"><b>!{}</b>", dresslife::pipeline::shortest_text(hours),
                               printed(hours)));
-    // Shares of what clamps and layers have of the damage.
+    // Shares of the damage near clamps and in layers.
     const auto clamps = life.read<double>("/clamp/damage"), layers = life.read<double>("/layer/damage");
     const auto names = life.read<std::string>("/clamp/name");
     for (std::size_t k = 0; k < clamps.size(); ++k)
@@ -198,7 +198,7 @@ TEST_CASE("pages tell the numbers of the files: hours, shares of damage, draws")
     for (const double damage : layers)
       if (damage > 0) holds(page, fmt::format("<td class=\"number\">{}</td>", printed(damage)));
   }
-  // The best job's share of samples, as the table has it.
+  // The best job's share of samples, according to the table.
   const std::size_t header = table.find("outlives_next"), line = table.find('\n') + 1;
   REQUIRE(header != std::string::npos);
   const auto column = std::count(table.begin(), table.begin() + static_cast<std::ptrdiff_t>(header), ',');

@@ -1,5 +1,5 @@
-// The pages of the project: every YAML example is read by the real reader, every command runs, and the README's
-// first job has the README's numbers.
+// The pages of the project: the real reader reads every YAML example, every command runs, and the README's first job has the
+// README's numbers.
 
 #include "tests/catch.h"
 #include <map>
@@ -20,7 +20,7 @@ namespace {
 
 const fs::path source = DRESSLIFE_SOURCE_DIR;
 
-/// Every page but the change log, whose commands are those of their time.
+/// Returns every page except the change log, whose commands are those of older versions.
 std::vector<fs::path> pages() {
   std::vector<fs::path> found{source / "README.md", source / "CONTRIBUTING.md"};
   for (const char* folder : {"config", "sim", "strain", "fatigue", "pipeline"})
@@ -30,13 +30,13 @@ std::vector<fs::path> pages() {
   return found;
 }
 
-/// Coarse and quick: what a command does stays the same.
+/// Coarse and fast; the commands behave alike otherwise.
 const std::string quick =
     " --quiet --set simulation.segments=10 --set simulation.time_step_ms=10 --set simulation.sample_rate_Hz=5 "
     "--set strain.surface_fibres=0 --set strain.cable_elements_per_segment=1";
 
-/// Of a page's command, what the test runs instead: the user's own files are shipped ones, and what takes long is
-/// made quick. `not run`: it builds, or takes hours; then its program must be there.
+/// Commands of pages and the commands that the test runs instead: shipped files instead of the user's own, and fast settings.
+/// `not run`: the command builds or takes hours; then its program must exist.
 const std::map<std::string, std::string> instead{
     {"scripts/run config/studies/two_robots.yaml", "dresslife run two_robots" + quick},
     {"dresslife draw CABLE.yaml -o cable.svg", "dresslife draw control_cable -o cable.svg"},
@@ -71,9 +71,9 @@ const std::map<std::string, std::string> instead{
      "dresslife-sim CONFIG/jobs/irb6640_spot_welding.yaml -o motion.h5" + quick},
     {"dresslife-strain motion.h5 -o strain.h5", "dresslife-strain motion.h5 -o strain.h5"},
     {"dresslife-fatigue strain.h5 -o life.h5",
-     "not run"},  // its page comes before the one that makes strain.h5
+     "not run"},  // its page comes before the page that makes strain.h5
     {"dresslife validate config/observations/published.yaml", "dresslife validate two_published.yaml"},
-    {"dresslife validate config/observations/ratings.yaml", "not run"},  // as the file before
+    {"dresslife validate config/observations/ratings.yaml", "not run"},  // like the file before
     {"dresslife validate config/observations/laws.yaml", "dresslife validate CONFIG/observations/laws.yaml"},
     {"dresslife rate control_cable --set calibration=config/observations/typical_cables.yaml",
      "dresslife rate control_cable --set calibration=CONFIG/observations/typical_cables.yaml"},
@@ -107,7 +107,7 @@ const std::map<std::string, std::string> instead{
     {"dresslife-sim --preview", "not run"},
 };
 
-/// "build/bin/dresslife run x   # words" and "$ dresslife run x" are "dresslife run x"; empty: no command of ours.
+/// Returns "dresslife run x" for "build/bin/dresslife run x   # words" and "$ dresslife run x"; empty: another command.
 std::string command_of(std::string line) {
   line = std::regex_replace(line, std::regex("^\\s*(\\$ )?(build/bin/)?"), "");
   line = std::regex_replace(line, std::regex("\\s+#.*$|\\s+$"), "");
@@ -116,12 +116,12 @@ std::string command_of(std::string line) {
 }
 
 struct Piece {
-  bool yaml = false;  ///< else a command
+  bool yaml = false;  ///< false: a command
   std::string text;
   int line = 0;
 };
 
-/// Commands and YAML examples of a page, in their order: indented or fenced lines, and `words like this`.
+/// Returns the commands and YAML examples of a page in their order: indented or fenced lines, and `words like this`.
 std::vector<Piece> pieces_of(const fs::path& page) {
   std::istringstream lines(content(page));
   std::vector<Piece> pieces;
@@ -149,7 +149,7 @@ std::vector<Piece> pieces_of(const fs::path& page) {
   return pieces;
 }
 
-/// A job, a study, duties, or keys of a job: those go into a small job.
+/// Reads a job, a study, duties, or keys of a job, which are added to a small job.
 void read_example(const std::string& text, const fs::path& file) {
   std::ofstream(file) << text;
   pipeline::Node document = pipeline::read_yaml(file);
@@ -174,7 +174,7 @@ void read_example(const std::string& text, const fs::path& file) {
   CHECK_NOTHROW(pipeline::job_from(document));
 }
 
-/// The first two observations of those published.
+/// Writes the first two of the published observations.
 void write_two_published(const Scratch& scratch) {
   const std::string all = content(source / "config/observations/published.yaml");
   std::size_t end = 0;
@@ -182,7 +182,7 @@ void write_two_published(const Scratch& scratch) {
   scratch.write("two_published.yaml", all.substr(0, end + 1));
 }
 
-/// The programs that config/own_programs.md takes for the user's own.
+/// Writes the programs that config/own_programs.md uses as the user's own.
 void write_own_programs(const Scratch& scratch) {
   const auto module = [](const std::string& name, const std::string& there) {
     const std::string home = "[[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]]", rest = ", v1000, fine, tool0;\n";
@@ -193,13 +193,13 @@ void write_own_programs(const Scratch& scratch) {
   scratch.write("roof.mod", module("roof", "-30,0,10,0,60,-90"));
 }
 
-/// Examples that begin with "# NAME.yaml" are files of the commands behind them.
+/// Writes an example that begins with "# NAME.yaml" as a file for the commands after it.
 void write_named_example(const Scratch& scratch, const std::string& text) {
   std::smatch found;
   if (std::regex_search(text, found, std::regex("^# ([a-z_]+\\.yaml)\n"))) scratch.write(found[1], text);
 }
 
-/// Checks that the program of a command that is not run is there, with this command of its own.
+/// Checks that the program of a command that is not run exists and has this command.
 void check_program(const std::string& command) {
   std::istringstream words(command);
   std::string program, name;
@@ -217,7 +217,7 @@ void check_program(const std::string& command) {
   CHECK(run(scratch, program, called.substr(program.size()) + " --help").status == 0);
 }
 
-/// Runs a command of a page, or what stands for it.
+/// Runs a command of a page, or its substitute.
 void try_command(const Scratch& scratch, const std::string& command) {
   const auto known = instead.find(command);
   const bool bare = command.find(' ') == command.rfind(' ') && command.find_first_of(".=/ ", command.find(' ') + 1) ==
@@ -232,7 +232,7 @@ void try_command(const Scratch& scratch, const std::string& command) {
   INFO(line);
   INFO(outcome.out);
   INFO(outcome.err);
-  // A quick routing may pass a limit, of which `improve` says with 1 that nothing feasible was found.
+  // A routing with fast settings may exceed a limit. Then `improve` ends with 1 and reports that no feasible job was found.
   CHECK((outcome.status == 0 || (outcome.status == 1 && command.find("improve") != std::string::npos &&
                                  outcome.out.find("No feasible job was found") != std::string::npos)));
 }
@@ -241,7 +241,7 @@ void try_command(const Scratch& scratch, const std::string& command) {
 
 TEST_CASE("every YAML example of every page is read, and every command runs") {
   std::set<std::string> done;
-  Scratch scratch;  // one for all pages: commands use files of those before them
+  Scratch scratch;  // one for all pages: commands use files of the commands before them
   write_two_published(scratch);
   write_own_programs(scratch);
   for (const fs::path& page : pages()) {
@@ -255,7 +255,7 @@ TEST_CASE("every YAML example of every page is read, and every command runs") {
       }
     }
   }
-  CHECK(done.size() > 30);  // that pages are found at all
+  CHECK(done.size() > 30);  // proves that pages are found
 }
 
 TEST_CASE("the README's first job, copied as it stands, has the numbers of the README's table") {
@@ -269,7 +269,7 @@ TEST_CASE("the README's first job, copied as it stands, has the numbers of the R
   const Outcome outcome = must_run(scratch, "dresslife", "run spot_robot_1.yaml");
   INFO(outcome.err);
 
-  // The line of the table, without the rank that it has among others, and the job's own words.
+  // The line of the table without its rank, and the job's name.
   const auto line_of = [](const std::string& text) {
     std::smatch found;
     const bool there = std::regex_search(text, found, std::regex("\\n *[0-9]+  spot_robot_1 +(\\*?(over )?[0-9][^\\n]*)"));

@@ -1,4 +1,4 @@
-// dresslife export: what ParaView reads of a job, moment by moment, is what its files hold.
+// dresslife export: the data that ParaView reads of a job at every time agree with the job's files.
 #include <Eigen/Geometry>
 #include <map>
 #include <sstream>
@@ -12,9 +12,9 @@ using namespace dresslife::tests;
 
 namespace {
 
-constexpr double text_rounding = 5.1e-5;  // [m]: places stand in the text to a tenth of a millimetre
+constexpr double text_rounding = 5.1e-5;  // [m]: positions in the text have a tenth of a millimetre
 
-/// Two dresspacks between a bench and a spindle that turns; the spindle has a capsule and a box.
+/// Writes a job with two dresspacks between a bench and a turning spindle, which has a capsule and a box.
 void write_spindle_job(const Scratch& scratch) {
   const std::string hose = R"({name: hose, source: made for the tests, diameter_mm: 40, mass_kg_per_m: 1.5,
     bending_stiffness_Nm2: 2, torsional_stiffness_Nm2: 2, axial_stiffness_N: 1e5, damping_time_ms: 40,
@@ -64,7 +64,7 @@ for moment in reader.TimestepValues:
             print(repr(moment), name, what.replace(' ', '_'), *(repr(float(x)) for x in vtk_to_numpy(array).flat))
 )";
 
-/// Numbers that ParaView has read: by grid and name, one row a moment.
+/// Numbers that ParaView has read, by grid and name, one row per time.
 struct Read {
   std::vector<double> times;
   std::map<std::string, std::vector<std::vector<double>>> rows;
@@ -89,7 +89,7 @@ Read read_by_paraview(const Scratch& scratch) {
   return read;
 }
 
-/// Of rows of `width` numbers, every `stride`-th from `first`.
+/// Returns the numbers `first`, `first` + `stride`, ... of a row of `width` numbers.
 std::vector<double> part(const std::vector<double>& all, std::size_t row, std::size_t width,
                          std::size_t first = 0, std::size_t stride = 1) {
   std::vector<double> taken;
@@ -136,7 +136,7 @@ TEST_CASE("ParaView reads every moment of a job: places, fields and links as its
     REQUIRE(places.size() == 3 * segments);
     for (std::size_t i = 0; i < places.size(); ++i)
       REQUIRE(std::abs(places[i] - position[3 * segments * k + i]) < text_rounding);
-    // Two ends of the capsule, then the box around its lower face.
+    // Two ends of the capsule, then the box beginning with its lower face.
     REQUIRE(links.size() == 3 * (2 + 8));
     const double* p = &pose[7 * (2 * k + 1)];
     const Eigen::Quaterniond turned(p[3], p[4], p[5], p[6]);

@@ -1,4 +1,4 @@
-// dresslife plot and show: what came out of a job, as figures and in words.
+// dresslife plot and show: a job's results as figures and in words.
 
 #include "tests/cli/process.h"
 
@@ -25,17 +25,17 @@ TEST_CASE("plot draws each figure of a job into a file that needs no page") {
     CHECK(drawn.status == 0);
     const std::string picture = unmarked_content(scratch / (what + ".svg"));
     CHECK(picture.rfind("<svg xmlns=\"http://www.w3.org/2000/svg\" width=", 0) == 0);
-    CHECK(picture.find("var(") == std::string::npos);  // programs other than browsers know no variables
+    CHECK(picture.find("var(") == std::string::npos);  // only browsers support variables
     CHECK(picture.find(draws) != std::string::npos);
   }
-  // No history is made up of its turning points where strain.h5 is there.
+  // If strain.h5 exists, no history is reconstructed from its turning points.
   CHECK(content(scratch / "strain.svg").find("straight between") == std::string::npos);
   CHECK(content(scratch / "strain.svg").find(">cable ") != std::string::npos);
   fs::rename(scratch / "runs/job/job/strain.h5", scratch / "away.h5");
   must_run(scratch, "dresslife", "plot " + job + " --what strain -o gone.svg");
   CHECK(content(scratch / "gone.svg").find(", straight between its turning points") != std::string::npos);
   fs::rename(scratch / "away.h5", scratch / "runs/job/job/strain.h5");
-  // Any of a job's files stands for the folder it lies in.
+  // Any file of a job represents its folder.
   CHECK(
       run(scratch, "dresslife", "plot " + job + "/strain.h5 --what deformation --time 0.5 -o d.svg").status ==
       0);
@@ -61,7 +61,7 @@ TEST_CASE("plot draws the moment over curvature of a hose and its cable") {
   must_run(scratch, "dresslife", "run job.yaml --quiet --set strain.slip=friction --set dresspack=thin");
   must_run(scratch, "dresslife", plot);
   // E I without friction: the polymer, and six wires of copper, each about its own axis on a lay of 15 degrees (within 1 % of
-  // the sum); held: they have E A R^2/2 besides.
+  // the sum). Held wires have E A R^2/2 in addition.
   const std::string bending = unmarked_content(scratch / "bending.svg"), words = "cable: E I ";
   REQUIRE(bending.find(words) != std::string::npos);
   const double pi = std::acos(-1.0), polymer = dresslife::pipeline::jacketed_modulus * pi / 4 * std::pow(2e-3, 4),
@@ -110,7 +110,7 @@ TEST_CASE("export names every moment for ParaView, and writes over no file but i
   const Outcome foreign = run(scratch, "dresslife", "export runs/job/job --paraview mine.xdmf");
   CHECK(foreign.err.find("mine.xdmf: error: is there already and was not written by dresslife") == 0);
   CHECK(content(scratch / "mine.xdmf") == "keep: me\n");
-  CHECK(run(scratch, "dresslife", "export runs/job/job --paraview job.xdmf").status == 0);  // its own, again
+  CHECK(run(scratch, "dresslife", "export runs/job/job --paraview job.xdmf").status == 0);  // its own file is replaced
 }
 
 TEST_CASE("the page for Python users runs as it stands") {

@@ -1,4 +1,4 @@
-// dresslife preview: a job before its run, also one that the simulation refuses.
+// dresslife preview: a job before its run, also a job that the simulation refuses.
 
 #include "pipeline/files/files.h"
 #include "tests/catch.h"
@@ -14,21 +14,21 @@ TEST_CASE("preview tells how far the clamps are apart and which lengths suit") {
   write_small_job(scratch);
   const Outcome told = must_run(scratch, "dresslife", "preview job.yaml");
   INFO(told.err);
-  // The clamps begin 0.8 m apart and come as near as hypot(0.7, 0.05).
+  // The distance of the clamps is 0.8 m at the start and falls to hypot(0.7, 0.05).
   CHECK(
       told.out.find(
           "Dresspack is 0.900 m long. Over the program its clamps are 0.702 .. 0.800 m apart: this length fits. Lengths of 0.82 .. 1.20 m "
           "fit the program: 2 % to a third longer than the largest distance.") != std::string::npos);
-  // The warnings of a check come first.
+  // The warnings of `check` come first.
   const std::string checked = run(scratch, "dresslife", "check job.yaml").out;
   CHECK(checked.find("strain.slip is stick") != std::string::npos);
   CHECK(told.out.find(checked.substr(0, checked.find("Dresspack is"))) == 0);
   CHECK(told.out.find("Preview: job_preview.html\n") != std::string::npos);
   const std::string page = content(scratch / "job_preview.html");
   CHECK(page.find("The simulation takes this job.") != std::string::npos);
-  CHECK(page.find("http") == page.find("http://"));  // three.js's own, if at all
+  CHECK(page.find("http") == page.find("http://"));  // only three.js's own, if any
 
-  // As often as one likes, and over nothing else.
+  // A repeated preview replaces its own page, but no other file.
   CHECK(run(scratch, "dresslife", "preview job.yaml").status == 0);
   const Outcome over = run(scratch, "dresslife", "preview job.yaml -o job.yaml");
   CHECK(over.status == 1);
@@ -37,7 +37,7 @@ TEST_CASE("preview tells how far the clamps are apart and which lengths suit") {
   const Outcome wrong = run(scratch, "dresslife", "preview job.yaml --set routing.free_length_m=-1");
   CHECK(wrong.status == 1);
   CHECK(wrong.err.find("routing.free_length_m is -1") != std::string::npos);
-  // What passes between the programs goes to a folder that is theirs alone, and nothing stays there.
+  // Files between the programs are in a temporary folder of their own, which is removed.
   fs::create_directory(scratch / "passing");
   CHECK(run_shell(scratch, "TMPDIR=passing '" DRESSLIFE_BIN_DIR "/dresslife' preview job.yaml").status == 0);
   CHECK(fs::is_empty(scratch / "passing"));
@@ -56,7 +56,7 @@ TEST_CASE("preview opens a job that is refused where it is refused") {
   CHECK(told.out.find("The simulation refuses the job: ") != std::string::npos);
   CHECK(told.out.find("dresspack is 50.0 mm too short at 0.000 s") != std::string::npos);
   CHECK(told.out.find("apart: too short. Lengths of ") != std::string::npos);
-  CHECK(told.out.find("With the robot") == std::string::npos);  // a length that is refused keeps nothing
+  CHECK(told.out.find("With the robot") == std::string::npos);  // the page of a refused length contains no results
   const std::string seen = in_browser(scratch, "short.html", R"(
     return [await evaluate('document.body.dataset.time'), await evaluate('dresslife.viewer() !== null'),
             await evaluate('document.getElementById("refusal").textContent.includes("too short")')].join(' ');)");
@@ -88,14 +88,14 @@ routing:
         [...document.querySelectorAll('.label.mark')].map(label => label.textContent).join(); })()`);)");
   if (seen.empty()) return;
   INFO(seen);
-  CHECK(std::stod(result_of(seen)) == Approx(place).margin(1.9 / 30));  // a segment
+  CHECK(std::stod(result_of(seen)) == Approx(place).margin(1.9 / 30));  // one segment
   CHECK(seen.find(" here\"") != std::string::npos);
 }
 
 TEST_CASE("a click on a link shows a clamp there, and a clamp that is dragged tells its length and clearance") {
   Scratch scratch;
   must_run(scratch, "dresslife", "preview irb6640_spot_welding");
-  // The first clamp as it is; a click in the middle of link_2's shapes; a drag from the clamp to there.
+  // The first clamp as it is; a click in the middle of link_2's shapes; a drag from the clamp to this place.
   const std::string seen = in_browser(scratch, "irb6640_spot_welding_preview.html", R"(
     const yaml = () => evaluate('document.getElementById("clamp-yaml").textContent');
     const words = () => evaluate('document.getElementById("clamp-words").textContent');
@@ -149,7 +149,7 @@ TEST_CASE("a run shows the jobs that the simulation refuses, until they are mend
   const auto written = fs::last_write_time(page);
   run(scratch, "dresslife", "run study.yaml");
   CHECK(fs::last_write_time(page) == written);
-  // Mended, it has no such page any more.
+  // After the correction this page is removed.
   scratch.write("study.yaml", "base: job.yaml\njobs:\n  free_length_m=0.75: {routing.free_length_m: 0.95}\n");
   CHECK(run(scratch, "dresslife", "run study.yaml").status == 0);
   CHECK_FALSE(fs::exists(page));
@@ -160,7 +160,7 @@ TEST_CASE("a run shows the jobs that the simulation refuses, until they are mend
 TEST_CASE("the preview's file: curves of the right length from clamp to clamp") {
   Scratch scratch;
   write_small_job(scratch);
-  double missing[2]{};  // of the length, at worst, by the chords of 24 and 96 segments
+  double missing[2]{};  // share of the length that the chords of 24 and 96 segments miss, at worst
   for (const int fine : {0, 1}) {
     const int segments = fine ? 96 : 24;
     must_run(scratch, "dresslife-sim",
@@ -187,7 +187,7 @@ TEST_CASE("the preview's file: curves of the right length from clamp to clamp") 
       missing[fine] = std::max(missing[fine], 0.9 - along);
     }
   }
-  // Chords of length l miss curvature^2 l^3 / 24 each, in all as l^2: a sixteenth with a quarter of it.
+  // Chords of length l miss curvature^2 l^3 / 24 each, in total as l^2: a sixteenth for a quarter of l.
   CHECK(missing[0] < 0.01);
   CHECK(missing[0] / missing[1] == Approx(16).epsilon(0.25));
 }

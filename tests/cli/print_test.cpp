@@ -1,4 +1,4 @@
-// Pages on paper and on a phone: nothing is cut, torn or squeezed.
+// Pages on paper and on a phone: no content is cut, torn or compressed.
 
 #include "pipeline/report/duty_page.h"
 #include "pipeline/report/improvement_page.h"
@@ -13,7 +13,7 @@ using dresslife::pipeline::ImprovementStory;
 
 namespace {
 
-// A4 within Chromium's margins of 0.4 inches, at 96 px an inch.
+// A4 within Chromium's margins of 0.4 inches, at 96 px per inch.
 constexpr const char* on_paper = R"(
   await evaluate(`window.dispatchEvent(new Event('beforeprint'))`);
   await send('Emulation.setEmulatedMedia', {media: 'print', features: [{name: 'prefers-color-scheme', value: 'dark'}]});
@@ -25,7 +25,7 @@ constexpr const char* on_a_phone = R"(
   await send('Emulation.setDeviceMetricsOverride', {width: 390, height: 844, deviceScaleFactor: 1, mobile: false});
 )";
 
-// Words on what is wrong in the page as it is laid out now; '' for nothing.
+// Describes the faults of the page's current layout; '' for none.
 constexpr const char* faults = R"(
   const faults = () => evaluate(`(() => {
     const words = [], root = document.documentElement, paper = matchMedia('print').matches;

@@ -1,4 +1,4 @@
-// Runs our programs as a user's shell does and keeps what they say.
+// Runs the project's programs as a user's shell does and captures their output.
 #pragma once
 
 #include <sys/wait.h>
@@ -29,34 +29,33 @@ using pipeline::Scratch;
 
 inline std::string content(const fs::path& file) { return pipeline::bytes_of(file); }
 
-/// Runs a line of shell in the scratch folder.
+/// Runs a line of shell in the scratch folder. Returns its exit status and its output.
 Outcome run_shell(const Scratch& scratch, const std::string& line);
 
-/// Runs `program arguments` from our build in the scratch folder. Arguments are shell words.
+/// Runs `program arguments` from this build in the scratch folder. Arguments are shell words.
 Outcome run(const Scratch& scratch, const std::string& program, const std::string& arguments);
 
-/// The same for a program that must succeed: any other exit status ends the test with the program's output.
+/// Runs `program arguments` as run() does and requires exit status 0. Otherwise the test fails and prints the output.
 Outcome must_run(const Scratch& scratch, const std::string& program, const std::string& arguments);
 
-/// How often a test repeats what it draws by lot: `times`, or more in the long form of the faults
-/// (scripts/faults).
+/// Number of repetitions of a random test: `times`, multiplied by DRESSLIFE_FAULTS if it is set (scripts/faults).
 inline int rounds(int times) {
   const char* const factor = std::getenv("DRESSLIFE_FAULTS");
   return times * (factor ? std::max(1, std::atoi(factor)) : 1);
 }
 
-/// A file's text after the line of its mark.
+/// Returns a file's text after its first line, the mark of ownership.
 inline std::string unmarked_content(const fs::path& file) {
   return std::string(pipeline::without_mark(content(file)));
 }
 
-/// A quick job without a robot: a short cable between two clamps, one of which swings to and fro for a second.
+/// Writes job.yaml: a fast job without a robot. A short cable hangs between two clamps, one of which swings for one second.
 void write_small_job(const Scratch& scratch);
 
-/// The dresspack of the small job as a file, hose.yaml.
+/// Writes the dresspack of the small job to hose.yaml. Precondition: write_small_job() has written job.yaml.
 void write_small_hose(const Scratch& scratch);
 
-/// A dresspack: a thin hose that bends easily, and wires enough to have a life.
+/// A dresspack of a thin, flexible hose with enough wires for a life.
 inline constexpr const char* thin_hose = R"(name: thin hose
 source: made for the tests
 diameter_mm: 12

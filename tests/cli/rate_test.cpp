@@ -1,4 +1,4 @@
-// `dresslife rate` and `dresslife validate`, as a user runs them.
+// `dresslife rate` and `dresslife validate`, run as a user runs them.
 #include <sstream>
 
 #include "tests/catch.h"
@@ -26,7 +26,7 @@ ratings:
   - {rig: {kind: torsion, twist_deg_per_m: 270}, cycles: 1e+6, source: data sheet}
 )";
 
-/// Cells of a row of a Markdown table.
+/// Returns the cells of a row of a Markdown table.
 std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells;
   std::istringstream parts(line);
@@ -39,7 +39,7 @@ std::string row_of(const std::string& table, const std::string& name) {
   return at == std::string::npos ? "" : table.substr(at, table.find('\n', at) - at);
 }
 
-/// All numbers of a cell.
+/// Returns all numbers of a cell.
 std::vector<double> numbers_in(std::string cell) {
   std::erase(cell, ',');
   std::vector<double> numbers;
@@ -74,7 +74,7 @@ TEST_CASE("rate: a cable's lives in every shipped rig stand beside its maker's r
   CHECK(csv.find(",torsion: twist_deg_per_m 270,done,") != std::string::npos);
   CHECK(csv.find(",1000000,data sheet\n") != std::string::npos);
   CHECK(outcome.out.find("1,000,000 (") != std::string::npos);
-  // The rating's own rig asks for half as much more twist than the shipped one: it must cost life.
+  // The rating's own rig has half as much more twist than the shipped one: the life must be shorter.
   const auto life = [&](const std::string& job) {
     const std::size_t at = csv.find("\nlead," + job + ",") + 1;
     const std::string line = csv.substr(at, csv.find('\n', at) - at);
@@ -93,7 +93,7 @@ TEST_CASE("rate: a cable's lives in every shipped rig stand beside its maker's r
         std::string::npos);
 }
 
-/// The numbers behind ",done," of each row: cycles_p10, cycles_p50, cycles_p90, worst_wire_cycles, cycles_all_stick,
+/// Returns the numbers after ",done," of each row: cycles_p10, cycles_p50, cycles_p90, worst_wire_cycles, cycles_all_stick,
 /// cycles_all_free, ..
 std::vector<std::vector<double>> lives_in(const std::string& csv) {
   std::vector<std::vector<double>> rows;
@@ -114,7 +114,7 @@ TEST_CASE("rate: the median lies between the same number with a glued and with a
   const auto rows = lives_in(content(scratch / "runs/rate_control_cable/rate.csv"));
   CHECK(rows.size() >= 7);
   for (const std::vector<double>& row : rows) {
-    // Friction may spread strain over wires better than free sliding by 1 %, and lives go with the tenth power at most.
+    // Friction may distribute strain over wires better than free sliding by 1 %. Lives follow at most the tenth power.
     CHECK(row.at(1) >= row.at(4) * 0.9);
     CHECK(row.at(1) <= row.at(5) * 1.1);
     CHECK(row.at(4) <= row.at(5));
@@ -189,7 +189,7 @@ TEST_CASE("validate: run-outs and breaks are judged, and a model without a failu
 }
 
 TEST_CASE("validate: the shipped table is what the code says") {
-  // Rows of each kind, quick ones: a wire that broke, a wire in tension, a clip and a cable in torsion.
+  // A fast row of each kind: a wire that broke, a wire in tension, a clip and a cable in torsion.
   const std::string page = content(source + "/config/observations/README.md");
   const std::string all = content(source + "/config/observations/published.yaml") + "\n" +
                           content(source + "/config/observations/ratings.yaml");
@@ -211,9 +211,8 @@ TEST_CASE("validate: the shipped table is what the code says") {
     REQUIRE(shipped.size() > 7);
     CHECK(shipped[3] == now[3]);
     CHECK(shipped[7] == now[7]);
-    // Instruction sets round strains differently in the seventh digit, and lives go with their tenth power;
-    // two figures are printed: 10 %. What the constants, the kinematics or friction say moves lives by much
-    // more.
+    // Instruction sets round strains differently in the seventh digit, and lives follow the tenth power. Two digits are printed:
+    // 10 %. A change of the constants, the kinematics or the friction changes lives much more.
     const auto before = numbers_in(shipped[4]), after = numbers_in(now[4]);
     REQUIRE(before.size() == after.size());
     for (std::size_t i = 0; i < before.size(); ++i) CHECK(after[i] == Approx(before[i]).epsilon(0.1));

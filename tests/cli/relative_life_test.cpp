@@ -1,4 +1,4 @@
-// What one hour of a program does beside the test in which its cable is rated, as a user runs it.
+// The wear of one hour of a program relative to the test in which its cable is rated, run as a user runs it.
 #include <algorithm>
 #include <sstream>
 
@@ -17,13 +17,13 @@ std::string core(int count) {
          "helix_radius_mm: 0.3, lay_angle_deg: 8, material: copper}]}";
 }
 
-/// Of twist in either direction [deg/m].
+/// Returns a rating with twist in either direction [deg/m].
 std::string rating(int twist, const std::string& cycles) {
   return "{rig: {kind: torsion, twist_deg_per_m: " + std::to_string(twist) + "}, cycles: " + cycles +
          ", source: data sheet}";
 }
 
-/// A cable that is twisted, and what is promised of it.
+/// Returns a job with a cable in torsion, and its ratings.
 std::string twisted(int twist, const std::string& ratings) {
   return "motion: {rig: {kind: torsion, twist_deg_per_m: " + std::to_string(twist) +
          "}}\ndresspack: {cable: {name: lead, source: test, radius_mm: 3, components: [" + core(3) +
@@ -46,7 +46,7 @@ Relative relative_of(const std::string& csv) {
   }
   const auto column = std::find(titles.begin(), titles.end(), "rated_cycles_per_hour");
   REQUIRE(titles.end() - column > 2);
-  const auto at = static_cast<std::size_t>(column - titles.begin());  // no cell before it holds a comma here
+  const auto at = static_cast<std::size_t>(column - titles.begin());  // no cell before it contains a comma here
   REQUIRE(cells.size() > at + 2);
   const Relative relative{cells[at], cells[at + 1], cells[at + 2]};
   return relative;
@@ -75,12 +75,11 @@ TEST_CASE(
     const Relative own =
         run_one(scratch, settings.empty() ? "own" : "other", twisted(180, rating(180, "1e+6")) + settings);
     CHECK(own.cable == "lead");
-    // The gate of a rig is 1e-6 at most; these turning points are much larger, so that no gate here moves
-    // anything.
+    // The gate of a rig is at most 1e-6. These turning points are much larger, so the gate has no effect.
     CHECK(std::stod(own.per_hour) == Approx(cycles_per_hour).epsilon(1e-12));
     CHECK(std::stod(own.hours) == Approx(1e6 / cycles_per_hour).epsilon(1e-12));
   }
-  // Nothing is computed twice, and what only reports says the same.
+  // Nothing is computed twice, and commands that only report print the same.
   CHECK(run(scratch, "dresslife", "run own.yaml").err.find("own: nothing to do") != std::string::npos);
   const std::string before = content(scratch / "runs/own/ranking.csv");
   CHECK(run(scratch, "dresslife", "report own.yaml").out.find("1,800 rated cycles of lead") !=

@@ -10,7 +10,7 @@ using dresslife::pipeline::screening_format;
 
 namespace {
 
-/// Receipts of stages below a folder: nothing was run where there are none.
+/// Returns the number of receipts of stages below a folder; 0: no stage has run.
 std::size_t results_in(const fs::path& folder) {
   if (!fs::exists(folder)) return 0;
   return static_cast<std::size_t>(
@@ -34,16 +34,16 @@ TEST_CASE("route writes a job that runs, from a robot and a hose") {
   CHECK(told.out.find("Job: found.yaml\nPreview: found_preview.html\n") != std::string::npos);
   CHECK(content(scratch / "found_preview.html").find("The simulation takes this job.") != std::string::npos);
   const std::string job = content(scratch / "found.yaml");
-  CHECK(job.find("dresspack: ./hose.yaml\n") != std::string::npos);  // a reference stays one
+  CHECK(job.find("dresspack: ./hose.yaml\n") != std::string::npos);  // a reference is kept
   std::size_t runs = 0;
   for (const auto& entry : fs::directory_iterator(scratch / "runs/abb_irb2600_12_165_route"))
     runs += fs::exists(entry.path() / "life.h5");
-  CHECK(runs == 1);  // the winner's
+  CHECK(runs == 1);  // only the winner's
   const Outcome ran = run(scratch, "dresslife-sim", "found.yaml -o motion.h5 --quiet");
   INFO(ran.err);
   CHECK(ran.status == 0);
 
-  // The same again is the same job; another's file is left alone.
+  // The same command gives the same job again. A file of another origin is not changed.
   CHECK(run(scratch, "dresslife", line).status == 0);
   CHECK(content(scratch / "found.yaml") == job);
   const Outcome over = run(scratch, "dresslife", "route abb_irb2600_12_165 --job hose.yaml");
@@ -63,7 +63,7 @@ TEST_CASE("route finds clamps for a shipped hose that keep all limits in the who
   CHECK(told.status == 0);
   CHECK(told.out.find("one of the same make at 50 % of its size, 30 mm wide") != std::string::npos);
   CHECK(told.out.find("It keeps all limits in a run") != std::string::npos);
-  // The bracket's limit stays with the job, and its preview judges by it.
+  // The job keeps the bracket's limit, and its preview checks it.
   CHECK_THAT(content(scratch / "abb_irb4600_60_205_routed.yaml"),
              Catch::Contains("longest_bracket_mm: 145\n"));
   CHECK_THAT(content(scratch / "abb_irb4600_60_205_routed_preview.html"),
@@ -116,7 +116,7 @@ simulation: {segments: 12}
   scratch.write("job.yaml", job);
   refused(run(scratch, "dresslife", "improve job.yaml --trials 2 --rehearsals 0 --off 0 --quiet"));
 
-  // The slack itself is free: the search may cure it, and the fault is a warning.
+  // If the slack itself is free, the search may correct it, so the fault is only a warning.
   const Outcome freed = run(scratch, "dresslife",
                             "improve job.yaml --trials 2 --rehearsals 0 --off 0 --quiet --free "
                             "'dresspack.components.1.slack_percent=0.1 .. 6'");
@@ -125,7 +125,7 @@ simulation: {segments: 12}
   CHECK_THAT(freed.err, !Catch::Contains("no routing can keep the limits"));
   CHECK(results_in(scratch / "runs/job_improve") > 0);
 
-  // The remedy's slack is accepted, as is a cable that cannot slide, and one with less excess length.
+  // Accepted are the remedy's slack, a cable that cannot slide, and a cable with less excess length.
   for (const char* cure : {"./hose.yaml --set dresspack.components.1.slack_percent=5.8",
                            "./hose.yaml --set strain.slip=stick", "./sound.yaml"}) {
     const Outcome cured =
@@ -185,7 +185,7 @@ TEST_CASE("screen grades every change of a job, and says which is no job") {
   CHECK(refusals[0].empty());
   CHECK(refusals[2].find("routing.free_length_m is -1") != std::string::npos);
 
-  // In a run the first sags, as geometry does not know; the others never run.
+  // In a run the first candidate sags, which the geometry does not include. The others never run.
   const auto beyond = [&] {
     return FileReader(scratch / "screening.h5", screening_format()).read<double>("/candidate/beyond");
   };
@@ -200,9 +200,9 @@ TEST_CASE("screen grades every change of a job, and says which is no job") {
   const auto row = static_cast<std::ptrdiff_t>(told_in_pieces.length("bend"));
   REQUIRE(bends.size() == 3 * static_cast<std::size_t>(row));
   CHECK(*std::max_element(bends.begin(), bends.begin() + row) ==
-        Approx(in_a_run[bend]).margin(0.02));  // the run checks between samples, too
+        Approx(in_a_run[bend]).margin(0.02));  // the run also checks between samples
   CHECK(std::all_of(bends.begin() + row, bends.end(),
-                    [](double g) { return g == 0; }));  // of what does not run
+                    [](double g) { return g == 0; }));  // of candidates that do not run
   CHECK(std::vector(in_a_run.begin() + limits, in_a_run.end()) ==
         std::vector(by_geometry.begin() + limits, by_geometry.end()));
   const auto refused =

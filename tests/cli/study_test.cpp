@@ -1,4 +1,4 @@
-// Studies: what runs, what does not run again, what a failed job does to the others.
+// Studies: which stages run, which do not run again, and the effect of a failed job on the others.
 
 #include "tests/catch.h"
 #include "tests/cli/process.h"
@@ -42,7 +42,7 @@ TEST_CASE("a study runs every job, and again only what changed") {
             .rfind("job,life_repeats,life_hours,worst_segment_from_tool,worst_component,damage_per_repeat",
                    0) == 0);
   CHECK(first.out.find("runs/study/report.html") != std::string::npos);
-  // The picture of the worst moment: every segment once, in two halves, one of them marked.
+  // The picture of the worst time shows every segment once, in two halves, with one segment marked.
   const std::string report = content(scratch / "runs/study/report.html");
   const auto count = [&](const std::string& words) {
     int found = 0;
@@ -57,7 +57,7 @@ TEST_CASE("a study runs every job, and again only what changed") {
   CHECK(run_study("-n").out == "0 of 2 jobs to make; nothing was run\n");
   const std::string ranking = content(scratch / "runs/study/ranking.csv");
 
-  // Settings of the last stage: only that stage.
+  // Changed settings of the last stage run only this stage.
   const std::string job = content(scratch / "job.yaml");
   scratch.write("job.yaml", job + "fatigue: {stress: elastic}\n");
   const Outcome dry = run_study("--dry-run");
@@ -66,10 +66,10 @@ TEST_CASE("a study runs every job, and again only what changed") {
   CHECK(dry.out.find("2 of 2 jobs to make; nothing was run\n") != std::string::npos);
   CHECK(stages_ran(run_study()) == "2");
   CHECK(content(scratch / "runs/study/ranking.csv") != ranking);
-  // Settings of the middle stage: that and the last.
+  // Changed settings of the middle stage run this and the last stage.
   scratch.write("job.yaml", edited(job, "slip: stick", "slip: free"));
   CHECK(stages_ran(run_study()) == "4");
-  // The poses beside the job: everything. Words alone: nothing.
+  // Changed poses beside the job run all stages. A changed remark runs none.
   scratch.write("job.yaml", "# a remark\n" + job);
   CHECK(stages_ran(run_study()) == "4");
   CHECK(content(scratch / "runs/study/ranking.csv") == ranking);
@@ -157,7 +157,7 @@ TEST_CASE("a stale job keeps its last result, and status says which key, file or
   must_run(scratch, "dresslife", "run study.yaml");
   const std::string job = content(scratch / "job.yaml"), poses = content(scratch / "poses.csv");
   const std::string ranking = content(scratch / "runs/study/ranking.csv");
-  const auto lives_of = [](const std::string& csv) {  // per row: job and lives, best first
+  const auto lives_of = [](const std::string& csv) {  // per row: job and lives, longest first
     std::vector<std::string> rows;
     std::istringstream lines(csv);
     for (std::string line; std::getline(lines, line);)
@@ -187,14 +187,14 @@ TEST_CASE("a stale job keeps its last result, and status says which key, file or
   CHECK(lives_of(report()) == lives_of(ranking));
   scratch.write("poses.csv", poses);
 
-  // A run that fails with the settings of now takes nothing of the last result.
+  // A run that fails with the current settings does not change the last result.
   scratch.write("job.yaml", edited(job, "free_length_m: ", "free_length_m: 0.1 # "));
   CHECK(run(scratch, "dresslife", "run study.yaml").status == 1);
   const std::string failed = content(scratch / "runs/study/ranking.csv");
   CHECK(lives_of(failed) == lives_of(ranking));
   CHECK(failed.find("with the present settings it failed: ") != std::string::npos);
   CHECK(failed.find("; since this result routing.free_length_m 0.9 -> 0.1") != std::string::npos);
-  // Nor does a job that cannot be read.
+  // A job that cannot be read does not change it either.
   scratch.write("job.yaml", job + "fatige: {}\n");
   CHECK(lives_of(report()) == lives_of(ranking));
 
@@ -283,7 +283,7 @@ TEST_CASE("two files of one name do not replace each other's results") {
     CHECK(content(scratch / "runs/job/job/life.h5") == of_a);
   }
   must_run(scratch, "dresslife", "run b/job.yaml -o other");
-  // An edited file, a copy of all in another place, and a moved file keep their folder.
+  // An edited file, a copy of all files at another place, and a moved file keep their folder.
   scratch.write("a/job.yaml", "# a remark\n" + content(scratch / "a/job.yaml"));
   CHECK(stages_ran(run(scratch, "dresslife", "run a/job.yaml")) == "0");
   CHECK(run_shell(scratch, "mkdir copy && cp -rp a runs copy && cd copy && '" DRESSLIFE_BIN_DIR "/dresslife' status a/job.yaml")
@@ -291,7 +291,7 @@ TEST_CASE("two files of one name do not replace each other's results") {
   fs::rename(scratch / "a", scratch / "moved");
   CHECK(run(scratch, "dresslife", "status moved/job.yaml").status == 0);
   CHECK(run(scratch, "dresslife", "run moved/job.yaml").status == 0);
-  // What the user asks for.
+  // The user forces it.
   CHECK(run(scratch, "dresslife", "run b/job.yaml --force").status == 0);
   CHECK(content(scratch / "runs/job/job/life.h5") != of_a);
   CHECK(run(scratch, "dresslife", "status moved/job.yaml").status == 1);

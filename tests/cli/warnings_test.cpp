@@ -1,4 +1,4 @@
-// Every warning of a stage, from jobs that provoke it to where people look.
+// Every warning of a stage, from jobs that provoke it to all outputs that show it.
 
 #include <regex>
 #include <set>
@@ -14,7 +14,7 @@ using Catch::Contains;
 
 namespace {
 
-/// Six wires too many in a layer of a material whose constants contradict each other.
+/// Six wires too many in a layer, of a material whose constants contradict each other.
 const std::string dresspack = R"(dresspack:
   name: test hose
   source: made for the tests
@@ -66,7 +66,7 @@ std::vector<Warning> warnings_in(const fs::path& life) {
       FileReader(life, life_format(), FileReader::Scope::attributes).text_attribute("warnings"));
 }
 
-/// Lines of a job that the remedies of warnings propose: "strain.friction_factor: 2.5".
+/// Returns the lines of a job that the remedies of warnings propose: "strain.friction_factor: 2.5".
 std::set<std::string> lines_in(const std::string& warnings) {
   static const std::regex line(R"(([a-z][a-zA-Z_0-9]*(\.[a-zA-Z_0-9]+)+: )(\[[^\]]*\]|[^ ,;()]+))");
   std::set<std::string> lines;
@@ -90,7 +90,7 @@ TEST_CASE("a remedy is a line that the job takes: of a shipped dresspack, of one
   for (std::size_t at = 0; (at = nested.find('\n', at)) != std::string::npos; at += 5) nested.replace(at, 1, "\n    ");
   const std::string several =
       job.substr(0, begin) + "dresspacks:\n  - name: main hose\n    dresspack: handling\n    " + nested + "\n" + job.substr(end);
-  const auto tight = [](const std::string& pack) {  // no room for so much
+  const auto tight = [](const std::string& pack) {  // no room for this slack
     return fmt::format("{0}.components.2.slack_percent: 2\n{0}.components.2.play_mm: 0.5\n", pack);
   };
   std::size_t pasted = 0;
@@ -101,7 +101,7 @@ TEST_CASE("a remedy is a line that the job takes: of a shipped dresspack, of one
     REQUIRE(before.status == 0);
     CHECK(before.err.find(pack + ".components.2: 'control cable' is compressed with ") != std::string::npos);
     const std::set<std::string> lines = lines_in(before.err);
-    CHECK(lines.contains(pack + ".components.2.slack_percent: 0.14"));  // as of the warning whose place is that part
+    CHECK(lines.contains(pack + ".components.2.slack_percent: 0.14"));  // from the warning whose place is this part
     for (const std::string& remedy : lines) {
       const std::string key = remedy.substr(0, remedy.find(':') + 1);
       std::string changed = content(scratch / "job.yaml");
@@ -188,7 +188,7 @@ TEST_CASE("a log keeps the warnings of a stage whose result was there already, a
   CHECK(warnings_in(folder / "life.h5") == before);
   const std::string log = content(folder / "log");
   for (const Warning& warning : before) CHECK_THAT(log, Contains(warning.line() + "\n"));
-  fs::remove(folder / "strain.h5");  // its stage makes the same again, the last one has nothing to do
+  fs::remove(folder / "strain.h5");  // its stage computes an identical file, so the last stage has nothing to do
   must_run(scratch, "dresslife", "run cable.yaml --set fatigue.operating_hours_per_week=40");
   CHECK(content(folder / "log") == log);
 }

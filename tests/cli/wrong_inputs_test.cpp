@@ -1,5 +1,5 @@
-// What a user may plausibly write wrong, and what the programs answer: the file and the line, the problem, and a remedy.
-// Exit status 1 (2 for a wrong command line), nothing on standard output, no file left behind.
+// Plausible mistakes in inputs, and the programs' answers: the file and the line, the problem, and a remedy. Exit status 1 (2
+// for a wrong command line), no standard output, no file left behind.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -70,9 +70,9 @@ const std::string fleet = "name,routing.free_length_m\nR1,2.03\nR2,2.05\n";
 
 struct Wrong {
   std::string in;              ///< file that is changed
-  std::string from, to;        ///< in it; from empty: the file becomes `to`
+  std::string from, to;        ///< replaced text and its replacement; from empty: the file becomes `to`
   std::string place;           ///< begin of the answer
-  std::string problem, remedy; ///< in the answer
+  std::string problem, remedy; ///< parts of the answer
   std::string command = "dresslife-sim job.yaml --preview -o out.h5";
   int status = 1;
 };
@@ -147,7 +147,7 @@ const Wrong wrong[] = {
     {"study.yaml", "vary:", "very:", "study.yaml:2:1: error: ", "unknown key 'very'", "did you mean 'vary'?", run_study},
     {"study.yaml", "[2.0, 2.1]", "2.0 .. 2.1", "study.yaml:3:26: error: ", "vary.routing.free_length_m must be a list of values", "write [A, B, ...]", run_study},
     {"study.yaml", "[2.0, 2.1]", "[2.0, 2.0]", "study.yaml:1:1: error: ", "two jobs are named 'free_length_m=2.0'", "give each combination another name", run_study},
-    // A file given where another belongs
+    // A file of another kind
     {"", "", "", "study.yaml:1:1: error: ", "is a study (it has the key 'base'), no job", "give it to dresslife run", "dresslife check study.yaml"},
     {"", "", "", "study.yaml:1:1: error: ", "is a study (it has the key 'base'), no job", "give it to dresslife run", "dresslife-sim study.yaml -o out.h5"},
     {"", "", "", "hose.yaml:1:1: error: ", "is a dresspack (it has the key 'components'), no job", "after 'dresspack:'", "dresslife preview hose.yaml"},
@@ -223,7 +223,7 @@ const Wrong wrong[] = {
     {"nod.src", "LIN_REL {Z -120} C_DIS", "CIRC {X 900,Y -350,Z 550,A 0,B 180,C 0}, {X 900,Y -350,Z 500,A 0,B 180,C 0}", "nod.src:10:1: error: ", "lie on a line", "correct the point on the way", "dresslife check krl.yaml"},
     {"nod.src", "PTP {X 900,Y -350,Z 600,A 0,B 180,C 0,S 2,T 2}\n", "", "nod.src:9:9: error: ", "gives some coordinates only", "name the program in a job, whose robot of six axes gives them", "dresslife-import nod.src -o out.h5"},
     {"hose.yaml", "inner_diameter_mm: 42", "hose_corrugation: {pitch_mm: 4.5, height_mm: 4, wall_mm: 7}", "hose.yaml:4:19: error: ", "wall_mm of hose_corrugation is 7 (must be at most 1.125 mm", "measure the profile", draw},
-    // What a search may change
+    // Keys that a search may change
     {"", "", "", "job.yaml: error: ", "no value of what is free makes a job: --set routing.lenght=2.05: error: unknown key 'routing.lenght'", "correct `free`, or --free", free_as("routing.lenght=2 .. 2.1")},
     {"", "", "", "job.yaml: error: ", "no value of what is free makes a job: --set routing.free_length_m=2050: error: ", "correct `free`, or --free", free_as("routing.free_length_m=2000 .. 2100")},
     {"", "", "", "job.yaml: error: ", "no value of what is free makes a job: ", "items count from 1 to 1", free_as("dresspack.components.9.slack_percent=0.1 .. 2")},
@@ -284,7 +284,7 @@ TEST_CASE("wrong inputs: a relative move behind axis angles is none, its place f
   const Outcome relative = run(scratch, "dresslife", "check krl.yaml");
   CAPTURE(relative.out, relative.err);
   CHECK(relative.status == 0);
-  // The same way to the pose that the robot has at these axis angles.
+  // The same motion to the pose of the robot at these axis angles.
   scratch.write("nod.src", edited(krl, "PTP {X 900,Y -350,Z 600,A 0,B 180,C 0,S 2,T 2}\nLIN_REL {Z -120} C_DIS\n", "PTP $POS_ACT\nLIN_REL {Z -120} C_DIS\n"));
   CHECK(run(scratch, "dresslife", "check krl.yaml").out == relative.out);
   scratch.write("nod.src", edited(krl, "VEL_PTP,60", "VEL_PTP"));
@@ -309,7 +309,7 @@ TEST_CASE("45 and more plausible wrong inputs: each answer names file, line, pro
     CHECK((outcome.out.empty() || one.command == run_study));  // a study prints its table
     CHECK_THAT(outcome.err, Catch::StartsWith(one.place));
     CHECK_THAT(outcome.err, Contains(one.problem) && Contains(one.remedy) && Contains(": error: ") && Contains("; "));
-    // Nothing is cut off. "add 'KEY: ...'" and "[A, B, ...]" stand for values.
+    // The message is complete. "add 'KEY: ...'" and "[A, B, ...]" contain placeholders.
     CHECK((outcome.err.find("...") == std::string::npos || outcome.err.find("...'") != std::string::npos ||
            outcome.err.find("...]") != std::string::npos));
     CHECK_FALSE(fs::exists(scratch / "out.h5"));
@@ -318,7 +318,7 @@ TEST_CASE("45 and more plausible wrong inputs: each answer names file, line, pro
 
 namespace {
 
-/// Accepted, as there may be such a thing, and warned of with place, value, limit and remedy.
+/// An input that is accepted, because it may be correct, but warned of with place, value, limit and remedy.
 struct Doubtful {
   std::string in, from, to;
   std::string place, problem, remedy;
@@ -547,7 +547,7 @@ TEST_CASE("waits of a program that take more than half of its cycle are named wi
     return run(scratch, "dresslife", "check module.yaml").out;
   };
   CHECK_THAT(answer_to("60"), Contains("note: The waits of the program take 60 s, 9") && Contains("the longest one is 60 s, at spot.mod:5:"));
-  // A long wait is named in a long program, too.
+  // A long wait is also named in a long program.
   const std::string loop = ";\n  FOR i FROM 1 TO 100 DO\n  MoveAbsJ [[20,0,0,0,60,90],[9E9,9E9,9E9,9E9,9E9,9E9]],v1000,fine,tool0;\n  MoveAbsJ a,v1000,fine,tool0;\n  ENDFOR\n  WaitTime 0.1";
   CHECK_THAT(answer_to("30" + loop), Contains("note: The waits of the program take 30.1 s, 1") && Contains("the longest one is 30 s"));
   CHECK_THAT(answer_to("10" + loop), !Contains("The waits of the program"));

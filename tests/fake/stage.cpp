@@ -1,9 +1,9 @@
-// A stage of a study that computes nothing: all of the plumbing of a real one, at once. It is dresslife-sim,
-// -strain or -fatigue by the name under which it is started.
+// A stage of a study that computes nothing but does all file handling of a real stage. Its name at the start selects
+// dresslife-sim, -strain or -fatigue.
 //
-// Its output holds its settings and its input's checksum. Beside the output it notes each time that it worked
-// in `calls`, and obeys files there: fail-STAGE: it fails; silent-STAGE: it ends without a word;
-// wait-STAGE: it works until that file is gone.
+// Its output contains its settings and its input's checksum. It appends a line to `calls` beside the output for each run, and
+// it reads control files there: fail-STAGE: it fails; silent-STAGE: it ends without a message; wait-STAGE: it waits until this
+// file is removed.
 #include <filesystem>
 #include <fstream>
 #include <thread>

@@ -1,5 +1,5 @@
-// The shipped materials of copper wire: that they follow from what their `source:` says, and how far they lie
-// from what was measured. Nothing is tuned to the measurements; fatigue/measurements.md shows the misses.
+// The shipped materials of copper wire: their constants follow from their `source:`, and their distance from measurements
+// is known. Nothing is fitted to the measurements; fatigue/measurements.md lists the differences.
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -30,7 +30,7 @@ Material shipped(const std::string& name) {
   return material;
 }
 
-/// Manson's universal slopes, d_eps = 3.5 s_u/E N^-0.12 + D^0.6 N^-0.6: half of it, in reversals 2N.
+/// Manson's universal slopes, d_eps = 3.5 s_u/E N^-0.12 + D^0.6 N^-0.6, as amplitude (half of it) over reversals 2N.
 struct UniversalSlopes {
   double strength, ductility;
 };
@@ -51,7 +51,7 @@ double reversed_stress(const Material& m, double amplitude) {
   return reversed_strain(m, CyclicCurve(m).strain(amplitude));
 }
 
-/// Pulsating between R times a largest stress and that stress.
+/// Returns the cycles to failure under a stress that pulsates between `ratio` times `largest` and `largest`.
 double under_largest_stress(const Material& m, double largest, double ratio) {
   const double amplitude = largest * (1 - ratio) / 2;
   return cycles(m, MeanStress::swt, {CyclicCurve(m).strain(amplitude), largest, largest - amplitude});
@@ -67,7 +67,7 @@ TEST_CASE("copper: the constants follow from their sources") {
   CHECK(halved.fatigue_strength == thesis.fatigue_strength / 2);
   CHECK(halved.fatigue_ductility == thesis.fatigue_ductility / 2);
   CHECK(halved.fatigue_strength_exponent == thesis.fatigue_strength_exponent);
-  // A strain range read as an amplitude: the life of any swing is that of half of it by the halved constants.
+  // A strain range read as an amplitude: with the halved constants any swing has the life of half of it.
   CHECK(reversed_strain(halved, 0.002) == Approx(reversed_strain(thesis, 0.004)));
 
   const std::map<std::string, UniversalSlopes> by_slopes{{"copper_annealed", universal_slopes(230e6, 0.9)},
@@ -80,7 +80,7 @@ TEST_CASE("copper: the constants follow from their sources") {
     CHECK(m.fatigue_strength_exponent == -0.12);
     CHECK(m.fatigue_ductility_exponent == -0.6);
   }
-  // What the thesis' constants would need of a copper, read as amplitudes and read as ranges.
+  // Tensile strengths of copper from which the thesis' constants would follow, read as amplitudes and read as ranges.
   CHECK(thesis.fatigue_strength / universal_slopes(1, 0.9).strength == Approx(517e6).epsilon(rounded));
   CHECK(halved.fatigue_strength / universal_slopes(1, 0.9).strength == Approx(258e6).epsilon(rounded));
   CHECK(universal_slopes(1, 0.9991).ductility == Approx(thesis.fatigue_ductility).epsilon(rounded));
@@ -91,8 +91,8 @@ TEST_CASE("copper: predicted beside measured, as fatigue/measurements.md tells i
   constexpr double as_printed = 0.006;  // three digits
   struct Told {
     const char* name;
-    double at_76_MPa, at_3_8e_4, at_5e_4;                     // reversed
-    double at_300_MPa, at_300_MPa_R_01, at_300_MPa_reversed;  // largest stress, R = 0, 0.1, -1
+    double at_76_MPa, at_3_8e_4, at_5e_4;                     // reversed loading
+    double at_300_MPa, at_300_MPa_R_01, at_300_MPa_reversed;  // by largest stress, R = 0, 0.1, -1
   };
   for (const Told& told : {Told{"copper", 4.22e9, 5.08e11, 4.42e10, 8.77e5, 1.33e6, 2.00e4},
                            Told{"copper_halved", 8.66e6, 1.11e9, 1.11e8, 5800, 1.09e4, 41.0},
@@ -110,9 +110,8 @@ TEST_CASE("copper: predicted beside measured, as fatigue/measurements.md tells i
 }
 
 TEST_CASE("copper: 0.14 mm wire bent at a clip, one bending length for three angles") {
-  // At most 5.5e4 cycles at +-5 deg, fewer at 10, more than 1e5 at 1 deg (fatigue/measurements.md). The length over
-  // which it bends is unknown: the one that gives 5.5e4 at 5 deg must respect the other two, and be a few
-  // diameters.
+  // At most 5.5e4 cycles at +-5 deg, fewer at 10, more than 1e5 at 1 deg (fatigue/measurements.md). The bending length is
+  // unknown. The length that gives 5.5e4 at 5 deg must agree with the other two and be a few diameters.
   for (const char* name : {"copper", "copper_halved", "copper_annealed", "copper_hard_drawn"}) {
     INFO(name);
     const Material m = shipped(name);

@@ -1,4 +1,4 @@
-// Which joint costs the life, on histories whose causes are known.
+// Damage attributed to joints, on histories with known causes.
 #include "fatigue/attribution.h"
 #include "pipeline/job/job.h"
 
@@ -19,10 +19,10 @@ using namespace dresslife::fatigue_tests;
 
 namespace {
 
-constexpr double same_sum = 1e-12;   // relative: the same terms in another order
+constexpr double same_sum = 1e-12;   // relative: equal terms in another order
 constexpr double ridge_pull = 1e-4;  // the ridge of 1e-6 against the least varied term of these motions
 
-/// A motion of three joints that wander apart, each to another rhythm.
+/// A motion of three joints, each with its own frequency, that drift apart.
 struct Wandering {
   std::size_t samples = 900;
   std::vector<double> position;
@@ -46,7 +46,7 @@ std::vector<DamagingCycle> cycles_of(const std::vector<double>& strain) {
   return evaluate_cycles(find_reversals(strain), copper(), {});
 }
 
-/// Known at every sample.
+/// Returns a reversal for every sample.
 std::vector<Reversal> known(const std::vector<double>& strain) {
   std::vector<Reversal> all;
   for (const double value : strain) all.push_back({value, static_cast<std::int64_t>(all.size())});
@@ -97,7 +97,7 @@ TEST_CASE("attribution: a few known samples make the same surface") {
 
 TEST_CASE("attribution: shares of the joints and of carrying add up to the damage") {
   const Wandering motion;
-  // the third joint lies outside the clamps, the last term is swinging
+  // The third joint lies outside the clamps. The last term represents swinging.
   std::vector<double> strain =
       motion.strain([](double a, double b, double c) { return 0.012 * a + 0.006 * b * b + 0.004 * c; });
   for (std::size_t t = 0; t < motion.samples; ++t) strain[t] += 0.001 * std::sin(0.37 * double(t));
@@ -121,7 +121,7 @@ TEST_CASE("attribution: shares of the joints and of carrying add up to the damag
 }
 
 TEST_CASE("attribution: a joint that moves against the others relieves") {
-  // one swing: the first joint pulls by 3, the second gives back 1
+  // One swing: the first joint contributes 3, the second -1.
   std::vector<double> position, strain;
   for (int t = 0; t <= 40; ++t) {
     const double s = std::sin(2 * std::numbers::pi * t / 40),
@@ -150,7 +150,7 @@ TEST_CASE("attribution: joints that always move together share evenly and those 
   CHECK(change[0] == Approx(0.002).epsilon(numerics));
   CHECK(change[1] == Approx(0.002).epsilon(numerics));
   CHECK(change[2] == 0);
-  // nothing moves, or nothing is strained
+  // No motion, or no strain.
   const StrainOfJoints still(std::vector<double>(12, 0.1), known({1e-3, 2e-3, 0, 1e-3}), {true, true, true});
   CHECK(still.explained() == 0);
   CHECK(still.change(0, 1) == std::vector<double>{0, 0, 0});
@@ -182,7 +182,7 @@ TEST_CASE("attribution: segments count for the nearest clamp") {
   CHECK(damage_by_clamp(damage, length, std::vector{0.0, 0.3, 0.6, 1.0}) == std::vector<double>{1, 2, 4, 8});
   CHECK(damage_by_clamp(damage, length, std::vector{0.0, 0.3}) == std::vector<double>{1, 14});
   CHECK(damage_by_clamp(damage, length, std::vector{0.0, 0.9}) ==
-        std::vector<double>{3, 12});  // 0.45: half-way
+        std::vector<double>{3, 12});  // 0.45 is half-way
   CHECK(damage_by_clamp(damage, length, std::vector{0.0, 0.01, 1.0}) == std::vector<double>{0, 7, 8});
 }
 

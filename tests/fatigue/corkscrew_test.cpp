@@ -1,4 +1,4 @@
-// Corkscrew against closed forms of rods with compression, tension, twist and a wall.
+// Corkscrew against closed forms for rods with compression, tension, twist and a wall.
 #include "fatigue/corkscrew.h"
 
 #include <cmath>
@@ -13,7 +13,7 @@ using std::numbers::pi;
 
 BoredCable cable() { return {0.03, 0.02, 5e-3, 20, 2}; }
 
-/// (F33) by many wave numbers.
+/// Returns (F33) as the minimum over many wave numbers.
 double least_torque(const BoredCable& of, double compression, double curvature) {
   const double k = std::abs(compression) * curvature / of.room;
   double least = 1e9;
@@ -38,13 +38,13 @@ TEST_CASE(
   of.length = 100;
   // P = 2 sqrt(E I P kappa / r) at P = 4 E I kappa / r
   const double kappa = 1.5, force = 4 * of.bending * kappa / of.room;
-  const double small = 1e-9 * std::sqrt(of.bending * force);  // rounding against its terms
+  const double small = 1e-9 * std::sqrt(of.bending * force);  // rounding relative to its terms
   CHECK(of.torque_to_coil(force, kappa) == Approx(0).margin(small));
   CHECK(of.torque_to_coil(0.99 * force, kappa) > small);
 }
 
 TEST_CASE("corkscrew: the closed form is the least torque of all wave numbers") {
-  const double steps = 1e-6;  // of the wave numbers that are tried, squared, and some digits
+  const double steps = 1e-6;  // step of the tried wave numbers, squared, and rounding
   for (const double compression : {-20.0, -0.5, 0.0, 0.2, 3.0})
     for (const double curvature : {0.0, 0.3, 4.0})
       CHECK(cable().torque_to_coil(compression, curvature) ==

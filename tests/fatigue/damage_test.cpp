@@ -1,4 +1,4 @@
-// Damage of whole histories: published blocks, tables against the exact evaluation, placing in time.
+// Damage of whole histories: published blocks, tables against the exact evaluation, assignment to time.
 #include "fatigue/damage.h"
 
 #include <cmath>
@@ -19,8 +19,8 @@ using pipeline::Stress;
 
 namespace {
 
-constexpr double published = 1e-9;  // relative; the vectors' own tolerance
-constexpr double same_sum = 1e-12;  // relative: the same terms, perhaps in another order
+constexpr double published = 1e-9;  // relative; the tolerance of the published values
+constexpr double same_sum = 1e-12;  // relative: equal terms, possibly in another order
 
 // dfieser/lcf-strain-life (commit a6a8d40c), tests/test_simulate.py; MPa. Numbers recomputed in 40 digits.
 pipeline::Material block_steel() {
@@ -85,7 +85,7 @@ const std::vector<Block> blocks{
 
 std::vector<Reversal> numbered(const std::vector<double>& strains) { return find_reversals(strains); }
 
-/// Reversals of a random walk as dresslife-strain stores them: single precision.
+/// Returns the reversals of a random walk in single precision, as dresslife-strain stores them.
 std::vector<Reversal> random_history(std::mt19937& random, int samples, double size, double offset = 0) {
   std::normal_distribution<double> step(0, size);
   std::vector<double> history;
@@ -135,8 +135,8 @@ TEST_CASE("published strain blocks: loops, stresses, lives and damage") {
 }
 
 TEST_CASE("stress along a history is that of its cycles where it turns, whatever lies between") {
-  constexpr int between = 7;    // samples from turn to turn
-  constexpr double left = 0.4;  // of the offset
+  constexpr int between = 7;    // samples between reversals
+  constexpr double left = 0.4;  // remaining share of the offset
   std::mt19937 random(5);
   std::uniform_real_distribution<double> strain(-0.01, 0.015);
   std::vector<double> history{strain(random)};
@@ -181,7 +181,7 @@ TEST_CASE("a constant amplitude's life is the curve's life") {
 }
 
 TEST_CASE("tables agree with the exact evaluation for every combination of settings") {
-  auto hard = material(205e9, 1500e6, -0.05, 0.4, -0.6);  // the smallest |b| that table_error promises
+  auto hard = material(205e9, 1500e6, -0.05, 0.4, -0.6);  // the smallest |b| for which table_error holds
   auto given = copper();
   given.cyclic_strength = 300e6;
   given.cyclic_hardening_exponent = 0.25;
@@ -224,7 +224,7 @@ TEST_CASE("histories counted together have each the damage they have alone on ev
   std::mt19937 random(37);
   std::vector<std::vector<float>> histories;
   for (int k = 0; k < 150; ++k) {
-    if (k % 3 > 0) {  // a neighbour: nearly the same
+    if (k % 3 > 0) {  // nearly equal to its neighbour
       histories.push_back(histories.back());
       for (float& strain : histories.back()) strain *= 1 + 1e-3f * static_cast<float>(k % 5);
     } else {
@@ -235,7 +235,7 @@ TEST_CASE("histories counted together have each the damage they have alone on ev
   histories[7] = {};
   histories[20] = {0.01f};
   histories[33] = {0.004f, 0.001f, 0.002f, 0.002f, -0.001f, -0.003f, 0.002f};  // does not alternate
-  histories[46] = {0, 3, -30, 10, 0};                                          // beyond the tables
+  histories[46] = {0, 3, -30, 10, 0};                                          // outside the tables
   histories[59] = {0.02f, 0.02f};
   histories[60] = {0, -0.01f, 0};
   std::vector<StrainList> lists;
@@ -275,7 +275,7 @@ TEST_CASE("a polymer's damage is its table's, whatever the settings of metals") 
     settings.mean_stress = mean_stress;
     settings.endurance_strain = 0.004;
     const DamageCounter counter(hose, settings);
-    // +-0.05 about any mean, and a ripple below the endurance strain
+    // +-0.05 about any mean, plus a ripple below the endurance strain
     const std::vector<float> swing{0.06f, 0.062f, 0.061f, -0.04f};
     CHECK(counter(swing, workspace) ==
           Approx(StrainLifeTable(hose.strain_life_table).damage((0.062f + 0.04f) / 2)).epsilon(same_sum));
@@ -291,7 +291,7 @@ TEST_CASE("a polymer's damage is its table's, whatever the settings of metals") 
 
 TEST_CASE("histories that do not alternate do the damage of their reversals") {
   std::mt19937 random(35);
-  std::uniform_int_distribution<int> level(-4, 4);  // few levels: plateaus, ties, runs in one direction
+  std::uniform_int_distribution<int> level(-4, 4);  // few levels give plateaus, ties and runs in one direction
   const pipeline::Fatigue settings;
   const DamageCounter counter(copper(), settings);
   DamageCounter::Workspace workspace;
@@ -358,8 +358,7 @@ TEST_CASE("damage placed in time and by step sums to the whole") {
 }
 
 TEST_CASE("damage stands where its cycle ends, in the original order of time") {
-  // From the largest strain at sample 3 the period runs 3 4 | 0 1 2 3: the small cycle 1-2 and the large one
-  // 3-0.
+  // From the largest strain at sample 3 the period is 3 4 | 0 1 2 3: the small cycle 1-2 and the large cycle 3-0.
   pipeline::Fatigue settings;
   const std::vector<Reversal> history{{-0.01, 0}, {0.005, 1}, {0.002, 2}, {0.02, 3}, {-0.009, 4}};
   const auto cycles = evaluate_cycles(history, copper(), settings);

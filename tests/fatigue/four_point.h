@@ -1,4 +1,4 @@
-// Four-point counting, an independent counting that rainflow.h is compared with.
+// Four-point cycle counting, an independent method that rainflow.h is compared with.
 #pragma once
 
 #include <algorithm>
@@ -9,12 +9,11 @@
 
 namespace dresslife::fatigue {
 
-/// Of four reversals in a row the middle pair closes when it lies within the outer pair. Gives the full cycles
-/// of half-cycle counting and leaves the residue; state does not depend on how the history is cut into pieces.
+/// Of four successive reversals the middle pair closes a cycle if it lies within the outer pair. Returns the full cycles of
+/// half-cycle counting and leaves the residue. The result does not depend on how the history is cut into pieces.
 class FourPointCounter {
  public:
-  /// Appends the cycles that this reversal closes. One that continues in the direction of the last replaces
-  /// it.
+  /// Appends the cycles that this reversal closes to `closed`. A reversal that continues the last direction replaces the last.
   void push(const Reversal& reversal, std::vector<Cycle>& closed) {
     auto& r = residue_;
     if (!r.empty() && r.back().strain == reversal.strain) return;
@@ -37,7 +36,7 @@ class FourPointCounter {
   std::vector<Reversal> residue_;
 };
 
-/// The cycles that a residue closes when it happens once more, in the order in which they close.
+/// Returns the cycles that close when a residue is repeated, in the order in which they close.
 inline std::vector<Cycle> repeat_residue(std::span<const Reversal> residue) {
   FourPointCounter counter;
   std::vector<Cycle> closed;

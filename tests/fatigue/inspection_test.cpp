@@ -47,7 +47,7 @@ TEST_CASE("inspection: only failures within the robot's life count, and what is 
   const std::vector<double> lives{2, 3, 4, never};  // 100, 1,000, 10,000 h
   const Inspected half = inspected(lives, repeat, 0.5, inspection, fatigue);
   CHECK(half.failed_share == 0.5);
-  const double first = 0.75 * 0.5, second = 1 - std::pow(0.25, 5);  // half a check, five
+  const double first = 0.75 * 0.5, second = 1 - std::pow(0.25, 5);  // half a check, five checks
   CHECK(half.found_share == Approx((first + second) / 2));
   CHECK(half.unseen_share == Approx((2 - first - second) / 4));
   CHECK(inspected(lives, repeat, 1, inspection, fatigue).found_share == 0);

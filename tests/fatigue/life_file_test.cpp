@@ -1,5 +1,4 @@
-// The stage on small strain files with known answers: what life.h5 says, that its parts agree, and what is
-// refused.
+// The stage on small strain files with known answers: the contents of life.h5, the consistency of its parts, and refused inputs.
 #include "fatigue/life_file.h"
 
 #include <unistd.h>
@@ -35,11 +34,11 @@ using pipeline::FileWriter;
 
 namespace {
 
-constexpr double same_sum = 1e-12;  // relative: the same terms in another order
+constexpr double same_sum = 1e-12;  // relative: equal terms in another order
 constexpr std::size_t samples = 101, segments = 4;
 constexpr double duration = 50;  // of the motion below [s]
 
-/// A folder of this test's own, gone afterwards.
+/// A folder of this test alone, removed at its end.
 struct Folder {
   Folder() { std::filesystem::create_directories(path); }
   ~Folder() { std::filesystem::remove_all(path); }
@@ -64,7 +63,7 @@ struct StrainFile {
     std::uint32_t site;
     std::vector<float> strain, shear;  // (sample)
   };
-  std::vector<Fibre> fibres;  // whose planes are judged
+  std::vector<Fibre> fibres;  // fibres that are evaluated on planes
   struct Rubbed {
     double position, work, time;  // [m], [J], [s]
   };
@@ -78,13 +77,13 @@ struct StrainFile {
     std::int32_t span;
     std::vector<double> place;  // base d1, d2, tool d1, d2 [m]
     std::array<double, 3>
-        strain;  // largest, at the base and at the tool clamp, at the last sample; rising evenly to there
+        strain;  // largest, at the base and at the tool clamp; at the last sample, with linear rise
   };
   std::vector<Cable> cables;        // of the job's first component
   double room = 0;              // of each cable [m]; 0: no table
-  double twist = 0;             // of all segments at the last sample, rising evenly to there [rad/m]
+  double twist = 0;             // of all segments at the last sample, with linear rise [rad/m]
   std::vector<double> hose_moment;  // (span) at the last sample, as the strains
-  double curvature = 0;        // about d1 at samples 20 and, to the other side, 60; else 0 [1/m]
+  double curvature = 0;        // about d1 at sample 20 and, in the other direction, 60; otherwise 0 [1/m]
   double curvature_d2 = 0;     // with curvature about d1, of the first segment alone, at sample 20 [1/m]
   std::vector<Rubbed> rubbed;  // by link_4, 5 mm long, in one sector of 5 degrees; empty: no table
 };
@@ -213,7 +212,7 @@ void write_strain(const std::filesystem::path& path, const StrainFile& f) {
 
 pipeline::Job test_job() {
   pipeline::Job job;
-  job.uncertainty.enabled = false;  // but where a test asks for it
+  job.uncertainty.enabled = false;  // except where a test enables it
   auto cu = copper(), al = aluminium();
   cu.name = "copper";
   al.name = "aluminium";
@@ -233,7 +232,7 @@ StrainFile example() {
   f.sites = {swing(0, "cable 1/layer 1/wire 1", 0.004f),  swing(0, "cable 1/layer 2/wire 1", 0.005f),
              swing(1, "cable 1/layer 1/wire 1", 0.006f),  swing(2, "cable 2/layer 1/wire 7", 0.01f),
              swing(2, "cable 2/layer 2/wire 12", 0.008f), swing(3, "cable 1/layer 1/wire 1", 0.0f)};
-  // The worst one has an inner cycle too: 0.01 -> 0.002 -> 0.008 -> -0.01
+  // The worst site also has an inner cycle: 0.01 -> 0.002 -> 0.008 -> -0.01
   f.sites[3].strain = {0, 0.01f, 0.002f, 0.008f, -0.01f, 0};
   f.sites[3].sample = {0, 20, 30, 40, 60, 100};
   f.stick = {swing(2, "cable 2/layer 1/wire 7", 0.02f)};
@@ -341,7 +340,7 @@ TEST_CASE("life.h5: cycles, time, steps, segments and layers add up") {
   const auto by_step = life.read<double>("/program/damage");
   CHECK(by_step == std::vector<double>{0, sum(by_step), 0});  // both cycles end during the second line
   CHECK(sum(by_step) == Approx(damage[3]).epsilon(same_sum));
-  // The inner cycle 0.002-0.008 opens at sample 30, the large one at 20 or, after the turn of the repeat, 60.
+  // The inner cycle 0.002-0.008 opens at sample 30, the large one at 20 or, because the repeat is cyclic, 60.
   const auto opened = life.read<double>("/program/damage_opened");
   CHECK(sum(opened) == Approx(damage[3]).epsilon(same_sum));
   CHECK(opened[0] == Approx(cycle_damage[0] + cycle_damage[1]).epsilon(same_sum));
@@ -375,20 +374,20 @@ TEST_CASE("life.h5: forces of the cables by span, and the span where they ask mo
     for (const std::size_t t : {std::size_t{0}, std::size_t{40}, samples - 1})
       for (std::size_t k = 0; k < 3; ++k)
         CHECK(tension[3 * t + k] == Approx(force.force(f.cables[k].strain[0] * double(t) / (samples - 1))));
-    // The first span: one cable, pulled more at the base clamp's lever or at the tool's.
+    // The first span: one cable, with the larger moment at the lever of the base clamp or of the tool clamp.
     const double first = std::max(0.02 * std::abs(force.force(-1e-4)), 0.01 * std::abs(force.force(-3e-4)));
     const double base = std::hypot(0.01 * force.force(8e-5), 0.015 * force.force(2e-4)),
                  tool = std::hypot(0.01 * force.force(-5e-5) + 0.004 * force.force(1e-4),
                                    0.003 * force.force(1e-4));
     const double second = std::max(base, tool);
     const bool in_first = first / of_first > second / 0.1;
-    CHECK(in_first == (of_first < 1));  // the case has both
+    CHECK(in_first == (of_first < 1));  // the test covers both cases
     CHECK(life.number_attribute("clamp_moment_share") == Approx(in_first ? first / of_first : second / 0.1));
     CHECK(life.read<double>("/clamp/cable_moment").back() == Approx(in_first ? first : second));
     CHECK(life.read<double>("/clamp/hose_moment")[50] == Approx((in_first ? of_first : 0.1) / 2));
     CHECK(life.number_attribute("largest_force_share") ==
           Approx(std::abs(force.force(-3e-4)) / force.strength()));
-    // Of 10 mm; only the third cable's base clamp is pulled most.
+    // Of 10 mm. The largest force acts only at the third cable's base clamp.
     CHECK(life.number_attribute("strain_relief_share") == Approx(force.force(2e-4) / 42));
     const auto warns = [&](const std::string& words) {
       return std::any_of(
@@ -419,8 +418,8 @@ TEST_CASE("life.h5: the bounds are the lives of their own sites") {
         Approx(free * duration / 3600).epsilon(DamageCounter::table_error));
 }
 
-// The worst wire's own relaxation counts, and what another layer's worst does says nothing of it: judged by
-// segment alone a free bound was 4.6 % too long.
+// A bound must use the relaxation of its own worst wire. The worst wire of another layer has a different relaxation. Selection
+// by segment alone gave a free bound that was 4.6 % too long.
 TEST_CASE("life.h5: mean stress relaxes in a bound as it does in the job") {
   const Folder folder;
   pipeline::Job job = test_job();
@@ -433,8 +432,8 @@ TEST_CASE("life.h5: mean stress relaxes in a bound as it does in the job") {
     f.sites.clear();
     for (const char* layer : {"layer 1", "layer 2"})
       for (int wire = 1; wire <= 3; ++wire) {
-        // One large loop and some within it, about a mean: what relaxes of the large one moves the others
-        // with it.
+        // One large loop with smaller loops within it, about a mean. Relaxation of the large loop shifts the mean stress of the
+        // others.
         Site& site = f.sites.emplace_back(swing(1, fmt::format("cable 1/{}/wire {}", layer, wire), 0));
         const float mean = 0.004f * (part(random) - 0.5f), large = 0.001f + 2e-4f * part(random);
         site.strain = {mean}, site.sample = {0};
@@ -475,7 +474,7 @@ TEST_CASE("life.h5: percentiles of the first wire and of the conductors") {
   CHECK(life.read<std::string>("/conductor/component") == std::vector<std::string>{"cable 1", "cable 2"});
   CHECK(life.read<std::uint32_t>("/conductor/wires") == std::vector<std::uint32_t>{2, 2});
   CHECK(life.read<std::uint32_t>("/conductor/worst_site") == std::vector<std::uint32_t>{2, 3});
-  // Four wires; each by its worst segment.
+  // Four wires, each represented by its worst segment.
   const std::vector<double> wires{damage[2], damage[1], damage[3], damage[4]};
   const double half = life_until(wires, 1, {job.fatigue.scatter_log10, job.fatigue.scatter_shared}, 0.5);
   CHECK(life.number_attribute("first_wire_life_hours_p50") ==
@@ -492,7 +491,7 @@ TEST_CASE("life.h5: percentiles of the first wire and of the conductors") {
   for (const char* end : {"p10", "p50", "p90"}) {
     CHECK(sharp.number_attribute(fmt::format("first_wire_life_hours_{}", end)) ==
           sharp.number_attribute("life_hours"));
-    // Two wires in a conductor: 10 % are one of them, and one at one place is one anywhere.
+    // Two wires in a conductor: 10 % are one wire, so a break at one place is a break anywhere.
     CHECK(sharp.number_attribute(fmt::format("life_hours_{}", end)) ==
           Approx(sharp.number_attribute("life_hours")));
   }
@@ -504,8 +503,8 @@ TEST_CASE("life.h5: percentiles of the first wire and of the conductors") {
   const Result shared = run(folder, example(), job, "shared.h5");
   const auto together = FileReader(shared.file, pipeline::life_format()).read<double>("/conductor/life");
   const auto alone = sharp.read<double>("/conductor/life");
-  CHECK(together[9] == Approx(alone[9]).epsilon(same_sum));  // the first wire breaks when it did
-  CHECK(together[9 + 6] < alone[9 + 6]);                     // the last one sooner
+  CHECK(together[9] == Approx(alone[9]).epsilon(same_sum));  // the first wire breaks at the same time
+  CHECK(together[9 + 6] < alone[9 + 6]);                     // the last one breaks sooner
   CHECK(together[9 + 6] > alone[9]);
 }
 
@@ -558,7 +557,7 @@ TEST_CASE("life.h5: no damage, no sites, and strains that no wire survives") {
   CHECK(none.rows("/damage") == 0);
   CHECK(empty.notes.summary == "no wire was evaluated");
 
-  StrainFile calm_site = example();  // nothing turns, and the first site ranks worst without a turning point
+  StrainFile calm_site = example();  // nothing reverses; the first site ranks worst, without a turning point
   for (Site& site : calm_site.sites) site.strain = {}, site.sample = {};
   calm_site.probes = {};
   const Result unmoved = run(folder, calm_site, test_job(), "unmoved.h5");
@@ -590,7 +589,7 @@ TEST_CASE("life.h5: a material whose cyclic curve contradicts its life curve is 
 TEST_CASE("life.h5: a job beyond the curvature or twist of its calibration's tests is warned of") {
   const Folder folder;
   StrainFile f = example();
-  f.curvature = 3, f.curvature_d2 = 4, f.twist = -2;  // 5/m in one segment alone
+  f.curvature = 3, f.curvature_d2 = 4, f.twist = -2;  // 5/m in one segment only
   pipeline::Job job = test_job();
   const auto doubted = [&](double curvature, double twist) {
     job.calibration.emplace();
@@ -616,7 +615,7 @@ TEST_CASE("life.h5: the damage is shared out among the joints and told by clamp"
   StrainFile f = example();
   f.probes = {3};
   for (std::size_t t = 0; t < samples; ++t) {
-    // the probe's strain is 1000 + sample: made of axes 2 and 3 alone, 3 to 1 over the whole
+    // The probe's strain is 1000 + sample. It consists only of the contributions of axes 2 and 3, 3 to 1 over the motion.
     const double s = double(t);
     f.joints.insert(f.joints.end(),
                     {std::sin(s), 0.02 * s + 0.1 * std::sin(0.3 * s), 0.1 * std::sin(0.3 * s)});
@@ -629,7 +628,7 @@ TEST_CASE("life.h5: the damage is shared out among the joints and told by clamp"
              by_line = life.read<double>("/program/joint_damage"),
              line = life.read<double>("/program/damage");
   REQUIRE(damage.size() == 4);
-  CHECK(damage[0] == 0);  // it lies below the base clamp
+  CHECK(damage[0] == 0);  // the joint lies below the base clamp
   CHECK(sum(damage) == Approx(life.number_attribute("damage_per_repeat")).epsilon(same_sum));
   REQUIRE(by_line.size() == 12);
   for (std::size_t k = 0; k < 3; ++k)
@@ -653,7 +652,7 @@ TEST_CASE("life.h5: the damage is shared out among the joints and told by clamp"
   CHECK(sum(three.read<double>("/clamp/damage")) == Approx(sum(segment)).epsilon(same_sum));
   CHECK(three.read<double>("/clamp/damage")[1] > 0);
 
-  // without joints in the file only the clamps have damage
+  // Without joints in the file only the clamps have damage.
   f.joints.clear();
   const Result bare = run(folder, f, job, "bare.h5");
   const FileReader without(bare.file, pipeline::life_format());
@@ -668,7 +667,7 @@ TEST_CASE("life.h5: critical planes of the likely worst wires stand for the equi
   job.dresspacks[0].dresspack.materials[0].poisson_ratio = 0.34;
   StrainFile f = example();
   f.sites[4].segment = 2;
-  f.sites[4].component = "cable 2/layer 1/wire 12";  // shares segment and layer with site 3
+  f.sites[4].component = "cable 2/layer 1/wire 12";  // same segment and layer as site 3
   const auto wave = [](float amplitude, double phase) {
     std::vector<float> values;
     for (std::size_t t = 0; t < samples; ++t)
@@ -677,7 +676,7 @@ TEST_CASE("life.h5: critical planes of the likely worst wires stand for the equi
     return values;
   };
   const Result plain = run(folder, f, job, "plain.h5");
-  // Site 0: sheared in proportion, 2 theta = 60 deg. Site 3: strain alone.
+  // Site 0: strain and shear in proportion, 2 theta = 60 deg. Site 3: strain only.
   const float eps = 0.004f, gamma = static_cast<float>(std::sqrt(3) * 1.34 * eps);
   f.fibres = {{0, wave(eps, 0), wave(gamma, 0)}, {3, wave(0.02f, 0), wave(0, 0)}};
   const Result result = run(folder, f, job);
@@ -687,7 +686,7 @@ TEST_CASE("life.h5: critical planes of the likely worst wires stand for the equi
     return sum_of_damage(evaluate_cycles({{{0, 0}, {amplitude, 25}, {-amplitude, 75}, {0, 100}}},
                                          job.dresspacks[0].dresspack.materials[0], job.fatigue));
   };
-  constexpr double single = 1e-5;  // histories in single precision, and 101 samples that miss no peak
+  constexpr double single = 1e-5;  // histories in single precision; 101 samples include the peaks
   CHECK(damage[0] ==
         Approx(exact(eps * ((1 - 0.34) / 2 + 1.34))).epsilon(DamageCounter::table_error + single));
   CHECK(damage[3] == Approx(exact(0.02)).epsilon(DamageCounter::table_error + single));
@@ -696,11 +695,11 @@ TEST_CASE("life.h5: critical planes of the likely worst wires stand for the equi
   CHECK(life.read<double>("/plane/angle")[0] == Approx(M_PI / 6).epsilon(rounding));
   CHECK(life.read<double>("/plane/angle")[1] == Approx(0).margin(1e-15));
   CHECK(life.read<double>("/plane/damage") == std::vector<double>{damage[0], damage[3]});
-  // A wire beside a judged one takes its ratio; wires of other segments and layers stay.
+  // A wire beside an evaluated one is multiplied by the same ratio. Wires of other segments and layers do not change.
   CHECK(damage[4] == Approx(old[4] * damage[3] / old[3]).epsilon(same_sum));
   CHECK(damage[1] == old[1]);
   CHECK(damage[2] == old[2]);
-  // The verdict, its cycles and its strain are of the plane.
+  // The result, its cycles and its strain are those of the plane.
   CHECK(life.number_attribute("worst_site") == 3);
   CHECK(life.number_attribute("worst_plane_angle") == Approx(0).margin(1e-15));
   CHECK(life.number_attribute("life_repeats") == 1 / damage[3]);
@@ -714,7 +713,7 @@ TEST_CASE("life.h5: critical planes of the likely worst wires stand for the equi
   }
   CHECK(life.read<double>("/worst/strain")[25] == Approx(0.02));
   CHECK_FALSE(before.has("/plane/site"));
-  // A judged wire that sees less than the one beside it does not hide that.
+  // An evaluated wire with smaller damage must not hide a worse wire beside it.
   const StrainFile first = f;
   f.fibres[1] = {4, wave(0.001f, 0), wave(0, 0)};
   const Result lesser = run(folder, f, job, "lesser.h5");
@@ -722,7 +721,7 @@ TEST_CASE("life.h5: critical planes of the likely worst wires stand for the equi
   CHECK(less[3] == Approx(old[3] * less[4] / old[4]).epsilon(same_sum));
   CHECK(less[3] > less[4]);
   f = first;
-  // Any number of threads, the same bytes.
+  // The file has the same bytes with any number of threads.
   const auto alone = bytes(run(folder, f, job, "one.h5").file),
              shared = bytes(run(folder, f, job, "three.h5", 3).file);
   const bool same = alone == shared;
@@ -794,11 +793,11 @@ TEST_CASE("life.h5: the hose's wall is told beside the wires and not among them"
   CHECK(life.read<double>("/hose/damage")[1] == life.read<double>("/damage")[7]);
   CHECK_THAT(
       result.notes.summary,
-      Catch::Contains("breaks") && Catch::EndsWith("the life of the hose's wall is not predicted"));  // 64 h of a law that is not credible
-  // strains are kept to 7 decimals from the least of their pack on, which other sites shift; times the life's
-  // slope
+      Catch::Contains("breaks") && Catch::EndsWith("the life of the hose's wall is not predicted"));  // 64 h from a life curve that is not credible
+  // Strains are kept to 7 decimals above the least of their pack. Other sites change this least value. The error is multiplied
+  // by the slope of the life.
   constexpr double packed = 1e-5;
-  // everything about wires is as if there were no wall, although it lives shorter
+  // Results for wires do not depend on the wall, although the wall's life is shorter.
   CHECK_FALSE(wires.has_attribute("hose_life_hours"));
   CHECK(life.number_attribute("hose_life_hours") < life.number_attribute("life_hours"));
   for (const char* name : {"life_hours", "life_hours_all_stick", "life_hours_all_free", "worst_site",
@@ -808,7 +807,7 @@ TEST_CASE("life.h5: the hose's wall is told beside the wires and not among them"
     CHECK(life.read<std::string>(dataset) == wires.read<std::string>(dataset));
   for (const char* dataset : {"/segment/worst_site", "/cycles/site"})
     CHECK(life.read<std::uint32_t>(dataset) == wires.read<std::uint32_t>(dataset));
-  // a material for all wires leaves the hose alone
+  // A material for all wires does not apply to the hose.
   job.fatigue.material = "aluminium";
   const Result other = run(folder, f, job, "other.h5");
   const FileReader changed(other.file, pipeline::life_format());
@@ -823,7 +822,7 @@ TEST_CASE("life.h5: the same input gives the same bytes") {
   const auto again = bytes(run(folder, example(), test_job(), "again.h5").file);
   const bool same = once == again;  // not compared inside CHECK, which would print both
   CHECK(same);
-  for (const std::size_t threads : {2, 3, 8}) {  // more than there are sites, too
+  for (const std::size_t threads : {2, 3, 8}) {  // also more threads than sites
     const auto shared = bytes(run(folder, example(), test_job(), "shared.h5", threads).file);
     const bool also = once == shared;
     CHECK(also);
@@ -853,7 +852,7 @@ TEST_CASE("life.h5: strain files that contradict themselves are refused, and not
   refused(f, "/reversal/sample holds 20 for a turning point of site 3 (must rise");
   f = example();
   f.sites[3].strain[2] = 0.02f;
-  CHECK_NOTHROW(run(folder, f));  // the repeated history merges what goes on
+  CHECK_NOTHROW(run(folder, f));  // the repeated history merges reversals in the same direction
   std::filesystem::remove(folder.path / "life.h5");
   pipeline::Job once = test_job();
   once.fatigue.counting = pipeline::Counting::half_cycles;
@@ -885,14 +884,14 @@ TEST_CASE("sites are visited in order with their own strains, also over many blo
       made.strain[i] = (i % 2 == 0 ? 1e-5f : -1e-5f) * static_cast<float>(1 + site % 1009);
     made.sample.assign(made.strain.size(), 0);
   }
-  f.sites[count / 2].strain.assign(SiteSet::block_reversals + 5, 0.5f);  // one that fills more than a block
+  f.sites[count / 2].strain.assign(SiteSet::block_reversals + 5, 0.5f);  // one site that fills more than a block
   f.sites[count / 2].sample.assign(SiteSet::block_reversals + 5, 0);
   write_strain(folder.path / "many.h5", f);
   const FileReader strain(folder.path / "many.h5", pipeline::strain_format());
   const SiteSet sites(strain, "");
   std::size_t visited = 0;
   bool all_equal = true;
-  constexpr float kept = 1.5e-7f;  // half of the seventh decimal, and a float's roundings of 0.5
+  constexpr float kept = 1.5e-7f;  // half of the seventh decimal, and rounding of 0.5 to float
   const auto same = [](float a, float b) { return std::abs(a - b) < kept; };
   sites.for_each_block([&](const SiteSet::Block& block, const std::function<void()>& read_ahead) {
     for (std::size_t site = block.begin; site < block.end; ++site, ++visited) {
@@ -906,7 +905,7 @@ TEST_CASE("sites are visited in order with their own strains, also over many blo
   CHECK(visited == count);
   CHECK(all_equal);
 
-  // Every site is evaluated once, by any thread.
+  // Every site is evaluated once, by whichever thread.
   const TextColumn component = read_column(strain, "/site/component");
   const SiteCounters counters(sites, component, test_job());
   const SiteDamage alone = damage_of(sites, counters, 1, [](double) {});
@@ -943,7 +942,7 @@ TEST_CASE("uncertainty: one wire strained far above its neighbours leaves a cond
   const Folder folder;
   pipeline::Job job = test_job();
   job.uncertainty.enabled = true;
-  job.fatigue.failed_wires_percent = 100;  // the other wire, too
+  job.fatigue.failed_wires_percent = 100;  // the other wire as well
   const auto ahead = [&](float of_other) {
     StrainFile f = example();
     f.sites.resize(4);
@@ -963,7 +962,7 @@ TEST_CASE("uncertainty: one wire strained far above its neighbours leaves a cond
   CHECK(far == Approx(1).margin(digits));
   CHECK(far_by_scatter > 2);
 
-  // Without uncertain parameters the bounds go by the same decade.
+  // Without uncertain parameters the bounds change by the same decade.
   job.uncertainty.enabled = false;
   StrainFile f = example();
   for (Site& site : f.sites)
@@ -1014,7 +1013,7 @@ TEST_CASE("uncertainty: the response knows lives beyond those that count as dama
     const auto response = pipeline::LifeResponse::from_text(life.text_attribute("life_response"));
     return response.worst_life[response.worst_life.size() / 2];  // at the medians
   };
-  // By the elastic line life ~ strain^(1/b). Of a strain of 1e-4 the plastic line adds 3e-6 at 2N = 1e15.
+  // By the elastic line life ~ strain^(1/b). At 2N = 1e15 the plastic line adds 3e-6 of the strain of 1e-4.
   constexpr double plastic = 1e-4;
   const double twice = std::log10(2) / -copper().fatigue_strength_exponent;
   CHECK(worst_life(0.005f) - worst_life(0.01f) == Approx(twice).margin(plastic));
@@ -1030,7 +1029,7 @@ TEST_CASE("life.h5: abrasion stands beside the wires with its place, its time an
     return pipeline::unvalidated_from(life.text_attribute("unvalidated_modes"));
   };
   const auto names_in = [](const FileReader& life) { return life.text_attribute("not_evaluated"); };
-  {  // neither a thickness nor contacts
+  {  // neither a thickness nor contacts are given
     const FileReader none(run(folder, f, job, "none.h5").file, pipeline::life_format());
     CHECK(modes_of(none).empty());
     CHECK(names_in(none) == "abrasion, jackets of the cables, corkscrew, fretting and grip at clamps, connectors");
@@ -1049,16 +1048,16 @@ TEST_CASE("life.h5: abrasion stands beside the wires with its place, its time an
   CHECK(names_in(life) == "water hose, jackets of the cables, corkscrew, fretting and grip at clamps, connectors");
   CHECK(modes[0].place == "link_4");
   CHECK(modes[0].position_from_tool == Approx(0.35));
-  CHECK(modes[0].segment_from_tool == 1);  // the last of 0.4 m
+  CHECK(modes[0].segment_from_tool == 1);  // the last segment, 0.4 m long
   CHECK(modes[0].time == 20);
   CHECK(modes[0].step == "weld");
-  // A(t, 0) d / (k N s): the patch is shorter than the footprint of one diameter
+  // A(t, 0) d / (k N s). The patch is shorter than the footprint of one diameter.
   const double area = 4.0 / 3 * 2e-3 * std::sqrt(2 * 0.025 * 2e-3), repeats = area * 0.05 / (1e-14 * 1e4);
   constexpr double six_figures = 1e-5, strata = 1e-3;  // of the text; 10,000 samples
   CHECK(modes[0].hours[1] == Approx(hours(repeats, duration)).epsilon(strata));
   const double spread = std::hypot(std::log10(5.0), 1.5 * std::log10(1.1));
   CHECK(std::log10(modes[0].hours[2] / modes[0].hours[0]) == Approx(2 * 1.28155 * spread).epsilon(strata));
-  // It shares nothing with the wires: the share in which it is first, and p10 of both, follow from two normal lives.
+  // Abrasion is independent of the wires. Its probability of being first, and p10 of both, follow from two normal lives.
   CHECK(modes[0].first_share >= 0);
   CHECK(modes[0].first_share <= 1);
   CHECK(modes[0].together_p10 <= life.number_attribute("life_hours_p10") * (1 + six_figures));
@@ -1066,7 +1065,7 @@ TEST_CASE("life.h5: abrasion stands beside the wires with its place, its time an
   CHECK_THAT(result.notes.summary, Catch::Contains("; the surface lasts "));
   CHECK(modes[0].found_share > 0);
   CHECK_THAT(modes[0].note, Catch::Contains("A visual check every 2 weeks finds "));
-  job.inspection.visible_depth_percent = 100;  // visible as it fails: nothing is found
+  job.inspection.visible_depth_percent = 100;  // visible only at failure: no check finds it
   const auto unseen = modes_of(FileReader(run(folder, f, job, "unseen.h5").file, pipeline::life_format()));
   CHECK(unseen[0].hours == modes[0].hours);
   CHECK(unseen[0].found_share == 0);
@@ -1108,11 +1107,11 @@ TEST_CASE("life.h5: a twist that every repeat leaves winds a loose cable into a 
   CHECK(std::isinf(still[0].hours[0]));
   CHECK(still[0].note == "Neither its forces nor its twist would wind it.");
   f.twist = 0.5;
-  CHECK(std::isinf(coil_of("recorded.h5").first[0].hours[0]));  // without joints what a repeat leaves is not known
+  CHECK(std::isinf(coil_of("recorded.h5").first[0].hours[0]));  // without joints the twist that a repeat leaves is unknown
   for (std::size_t t = 0; t < samples; ++t) f.joints.push_back(2 * std::numbers::pi * static_cast<double>(t) / (samples - 1));
   const auto [wound, other] = coil_of("wound.h5");
   REQUIRE(wound.size() == 1);
-  // Without a force: 4/3 E I q of torque at the tight coil. The last sample is twisted by as much as a repeat leaves.
+  // Without a force: torque 4/3 E I q at the tight coil. The twist of the last sample is the twist that a repeat leaves.
   const double bending = pipeline::CableForce(dresspack, dresspack.components[0]).bending_stiffness();
   const double torsion = pipeline::pull_and_twist(dresspack, dresspack.components[0]).relaxed() +
                          pipeline::torsion_of_polymer * pipeline::polymer_bending(dresspack.components[0]);
@@ -1126,7 +1125,7 @@ TEST_CASE("life.h5: a twist that every repeat leaves winds a loose cable into a 
   f.twist = 1.01 * tight / torsion;
   CHECK(coil_of("tight.h5").first[0].hours[1] == Approx(hours(1, duration)).epsilon(strata));
   dresspack.materials[0].tensile_strength = 230e6;
-  f.cables[0].strain = {-1e-3, 0, 0};  // a third of what tears it
+  f.cables[0].strain = {-1e-3, 0, 0};  // a third of the force that breaks it
   CHECK(coil_of("forced.h5").first.empty());
   f.cables[0].strain = {0, 0, 0};
   CHECK(coil_of("unforced.h5").first.size() == 1);
@@ -1184,7 +1183,7 @@ TEST_CASE("life.h5: a cable without described wires has the life of its rating, 
   pipeline::Component power;
   power.name = "power cable", power.radius = 0.01, power.plain = pipeline::PlainPart{pipeline::PlainKind::cable, {}, {}, {}, {}, {}};
   dresspack.components.push_back(power);
-  dresspack.components.front().ratings = {bends};  // beside its wires
+  dresspack.components.front().ratings = {bends};  // in addition to its wires
   const auto rated_modes = [&](const FileReader& life) {
     auto modes = pipeline::unvalidated_from(life.text_attribute("unvalidated_modes"));
     std::erase_if(modes, [](const auto& mode) { return mode.mode != pipeline::UnvalidatedMode::rating; });
@@ -1197,7 +1196,7 @@ TEST_CASE("life.h5: a cable without described wires has the life of its rating, 
     CHECK_THAT(none.text_attribute("not_evaluated"), Catch::StartsWith("power cable, abrasion"));
   }
   dresspack.components.back().ratings = {bends};
-  f.curvature = 5;  // 1/m to either side, half of what the rig does
+  f.curvature = 5;  // 1/m in both directions, half of the rig's
   const FileReader life(run(folder, f, job, "rated.h5").file, pipeline::life_format());
   const auto modes = rated_modes(life);
   REQUIRE(modes.size() == 1);
@@ -1205,7 +1204,7 @@ TEST_CASE("life.h5: a cable without described wires has the life of its rating, 
   CHECK(modes[0].note == "Its rating is of bending alone: twist is not evaluated.");
   CHECK_THAT(life.text_attribute("not_evaluated"), Catch::StartsWith("twist of power cable, abrasion"));
   constexpr double strata = 1e-3;  // 10,000 samples
-  const double ratio = (1 / 0.11) / 5;  // the rig bends the axis
+  const double ratio = (1 / 0.11) / 5;  // the rig's curvature refers to the axis
   CHECK(modes[0].hours[1] == Approx(hours(1e6 * std::pow(ratio, 5), duration)).epsilon(strata));
   CHECK(std::log10(modes[0].hours[2] / modes[0].hours[0]) == Approx(2 * 1.28155 * 1.5 * std::log10(ratio)).epsilon(strata));
 }
@@ -1221,7 +1220,7 @@ TEST_CASE("life.h5: a smooth tube kinks where the tightest bend passes its radiu
   dresspack.core_diameter = 0.03;
   dresspack.core_components = {tube};
   dresspack.core_components[0].name = "water hose";
-  dresspack.core_components[0].plain->bore = 0.006;  // thicker, so that the other one is nearer
+  dresspack.core_components[0].plain->bore = 0.006;  // thicker, so that the other tube is closer to its limit
   StrainFile f = example();
   const double kinks_at = pipeline::kink_radius(pipeline::Tube{0.01, 0.008}).median;
   const auto kink_of = [&](const FileReader& life) {
@@ -1230,13 +1229,13 @@ TEST_CASE("life.h5: a smooth tube kinks where the tightest bend passes its radiu
     REQUIRE(modes.size() == 1);
     return modes[0];
   };
-  {  // the axis of the tube is 10 mm nearer to the centre of the bend
+  {  // the axis of the tube is 10 mm closer to the centre of the bend
     f.curvature = 1 / (2 * kinks_at + 0.01);
     dresspack.components.push_back(tube);
     const FileReader life(run(folder, f, job, "wide.h5").file, pipeline::life_format());
     const auto wide = kink_of(life);
     CHECK(wide.place == "air hose");
-    CHECK(wide.margin == Approx(2).epsilon(1e-3));  // four figures in the text
+    CHECK(wide.margin == Approx(2).epsilon(1e-3));  // four digits in the text
     CHECK(wide.time == Approx(0.2 * duration));
     CHECK(std::isinf(wide.hours[0]));
     CHECK(wide.first_share == Approx(0.0013).margin(2e-4));  // of a factor of 2 in 3.01 deviations of 0.1, of 10,000 strata
@@ -1251,7 +1250,7 @@ TEST_CASE("life.h5: a smooth tube kinks where the tightest bend passes its radiu
   const auto limited = kink_of(FileReader(run(folder, f, job, "limited.h5").file, pipeline::life_format()));
   CHECK(limited.first_share == 1);
   CHECK_THAT(limited.note, Catch::Contains("Its maker allows"));
-  f.curvature = 50;  // tighter than the place of the tube allows
+  f.curvature = 50;  // tighter than the position of the tube allows
   CHECK(kink_of(FileReader(run(folder, f, job, "folded.h5").file, pipeline::life_format())).first_share == 1);
   f.curvature = 0;
   const auto straight = kink_of(FileReader(run(folder, f, job, "straight.h5").file, pipeline::life_format()));

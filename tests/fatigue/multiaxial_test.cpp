@@ -1,4 +1,4 @@
-// Strain with shear: closed forms of single loads, and what turning the axes must not change.
+// Strain with shear: closed forms of single loads, and invariance under rotation of the axes.
 #include "fatigue/multiaxial.h"
 
 #include <cmath>
@@ -25,7 +25,7 @@ double damage_of_history(const std::vector<double>& history, const pipeline::Mat
   return sum_of_damage(evaluate_cycles(find_reversals(history), m, {}));
 }
 
-/// Of planes equally spaced over half a turn, the worst by exact lives: the stage counts with tables.
+/// Returns the worst of `planes` planes equally spaced over half a turn, by exact lives. The stage itself uses tables.
 CriticalPlane critical_plane(const std::vector<double>& strain, const std::vector<double>& shear,
                              const pipeline::Material& m, const pipeline::Fatigue& settings, int planes = 36) {
   CriticalPlane worst;
@@ -68,7 +68,7 @@ TEST_CASE("critical plane: in phase, its normal is the principal direction") {
   const double principal =
       eps * (1 - m.poisson_ratio) / 2 + std::hypot(eps * (1 + m.poisson_ratio), gamma) / 2;
   CHECK(plane.damage == Approx(damage_of_history(swing(principal, 0.2), m)).epsilon(rounding));
-  // The mirrored shear breaks the mirrored plane.
+  // Mirrored shear has the mirrored critical plane.
   const CriticalPlane mirrored = critical_plane(swing(eps, 0.2), swing(-gamma, 0.2), m, {});
   CHECK(mirrored.theta == Approx(-pi / 6).epsilon(rounding));
   CHECK(mirrored.damage == Approx(plane.damage).epsilon(rounding));
@@ -86,9 +86,9 @@ TEST_CASE("critical plane: out of phase no plane sees both loads at once") {
 
 TEST_CASE(
     "critical plane: 90 degrees out of phase with gamma = (1 + nu) eps is no worse than the strain alone") {
-  // Mohr's circle then turns without growing (Kanazawa, Miller and Brown 1977): the radius of strain and the
-  // half shear are always (1 + nu) eps / 2, so every plane sees the same shear, and the largest normal strain
-  // is eps across the axis. In phase the same loads stretch a plane by eps ((1 - nu) + sqrt(2) (1 + nu)) / 2.
+  // Mohr's circle then rotates with constant size (Kanazawa, Miller and Brown 1977): the radius of strain and half shear is
+  // always (1 + nu) eps / 2. Every plane has the same shear, and the largest normal strain is eps, across the axis. In phase
+  // the same loads stretch a plane by eps ((1 - nu) + sqrt(2) (1 + nu)) / 2.
   auto m = copper();
   m.poisson_ratio = 0.34;
   const double eps = 0.003, gamma = (1 + m.poisson_ratio) * eps;
@@ -109,7 +109,7 @@ TEST_CASE(
   const double together = eps * ((1 - m.poisson_ratio) + std::sqrt(2) * (1 + m.poisson_ratio)) / 2;
   CHECK(grid(0) == Approx(together).epsilon(fine_planes));
   const CriticalPlane in_phase =
-      critical_plane(swing(eps, 0), swing(gamma, 0), m, {}, 16);  // 22.5 deg is among them
+      critical_plane(swing(eps, 0), swing(gamma, 0), m, {}, 16);  // 22.5 deg is one of these planes
   CHECK(in_phase.theta == Approx(pi / 8).epsilon(rounding));
   CHECK(in_phase.damage == Approx(damage_of_history(swing(together, 0), m)).epsilon(rounding));
 }

@@ -1,4 +1,4 @@
-// The planner's life: a conductor that has lost its share of wires at one place, between bounds, by drawing
+// The planner's life: the first conductor that has lost its share of wires at one place. Tested between bounds, by sampling
 // and in its limits.
 #include "fatigue/places.h"
 
@@ -16,10 +16,10 @@ using namespace dresslife::fatigue;
 
 namespace {
 
-constexpr double left_out = 1e-3;  // of a life: what the places left out and straight pieces may move it by
+constexpr double left_out = 1e-3;  // of a life: error from the neglected places and from piecewise linear curves
 constexpr double straight_pieces = 3e-3;
 
-/// Conductors of so many wires; damage(conductor, segment, wire).
+/// Conductors with this number of wires. damage(conductor, segment, wire).
 struct Pack {
   std::vector<PlacesOfConductor> places;
   std::vector<ConductorWires> bundles;
@@ -47,7 +47,7 @@ FirstPlace lives_of(const Pack& pack, double percent, Scatter scatter, int draws
   return first_place_lives(pack.places, pack.bundles, pack.segments, percent, scatter, draws);
 }
 
-/// Damage that turns from wire to wire along the dresspack, as a bent helix has it.
+/// Damage that varies from wire to wire along the dresspack, as in a bent helix.
 double turning(std::size_t conductor, std::size_t segment, std::size_t wire) {
   const double bend = 1 - 0.02 * std::fabs(double(segment) - 7) - 0.03 * double(conductor);
   return 1e-3 * std::pow(bend * (1 + 0.3 * std::cos(0.7 * double(wire) + 1.1 * double(segment))), 9);
@@ -69,12 +69,12 @@ TEST_CASE("places: one segment is the conductors' own share, in one place or any
 }
 
 TEST_CASE("places: a break in each of several segments is none of a share at one place") {
-  // Ten wires, each damaged in its own segment alone: one broken anywhere, never two at one place.
+  // Ten wires, each damaged only in its own segment: one breaks anywhere, never two at one place.
   const Pack pack = pack_of(1, 10, 10, [](auto, auto g, auto w) { return g == w ? 1e-3 : 0.0; });
   CHECK(lives_of(pack, 20, 0.2).lives[0] == infinity);
   CHECK(lives_of(pack, 20, 0.2).soonest.empty());
   CHECK(first_conductor_lives(pack.bundles, 20, 0.2)[0] < 1000);
-  // With 10 %, one wire, a break anywhere is one at a place.
+  // 10 % are one wire, so a break anywhere is a break at one place.
   for (std::size_t i = 0; i < percentiles.size(); ++i)
     CHECK(lives_of(pack, 10, {0.2, 0.5}).lives[i] ==
           Approx(first_conductor_lives(pack.bundles, 10, {0.2, 0.5})[i]).epsilon(straight_pieces));
@@ -140,10 +140,10 @@ TEST_CASE("places: told lives are on the safe side of drawn ones, and near") {
                  draws;
         };
         INFO(percent << " " << shared << " " << share << " " << told.lives[i]);
-        CHECK(sooner(told.lives[i]) < share + sampling);        // predicted no later than sampled
-        CHECK(sooner(told.lives[i] * 1.1) > share - sampling);  // and by less than a tenth sooner
+        CHECK(sooner(told.lives[i]) < share + sampling);        // the predicted life is not longer than the sampled one
+        CHECK(sooner(told.lives[i] * 1.1) > share - sampling);  // and less than a tenth shorter
       }
-      // Drawing itself, which needs no bounds: rates of 1 share nothing.
+      // Sampling needs no bounds: rates of 1 do not redistribute load.
       Pack drawn = pack;
       for (ConductorWires& bundle : drawn.bundles) bundle.rate.assign(30, 1.0);
       const FirstPlace by_draws = lives_of(drawn, percent, scatter, draws);
@@ -155,7 +155,7 @@ TEST_CASE("places: told lives are on the safe side of drawn ones, and near") {
 }
 
 TEST_CASE("places: those left out do not move the life") {
-  // Weak places among a thousand strong ones, which alone would last ten times as long.
+  // Weak places among a thousand strong ones. The strong ones alone would last ten times as long.
   const auto damage = [](std::size_t c, std::size_t g, std::size_t w) {
     return (g == 3 ? 1e-3 : g % 5 ? 1e-4 : 6e-4) * (1 + 0.1 * double(w)) / (1 + 0.05 * double(c));
   };
@@ -164,7 +164,7 @@ TEST_CASE("places: those left out do not move the life") {
   CHECK(some.judged < 400);
   CHECK(some.judged >= 20);
   CHECK(some.soonest.at(0).segment == 3);
-  // The same with all of them, one by one: 1 - product over conductors and segments, spread by the common
+  // The same probability from all places, one by one: 1 - product over conductors and segments, integrated over the common
   // factor.
   std::vector<LifeDistribution> all;
   const Scatter scatter{0.2, 0.5};
@@ -216,7 +216,7 @@ TEST_CASE("places: damage of all wires everywhere, by conductor, segment and wir
   component.values = {"a/layer 1/w 1", "a/layer 2/w 1", "b/w 1", "hose 1"};
   component.index = {0, 1, 2, 0, 1, 0, 3};
   const std::vector<std::size_t> segment{0, 0, 0, 1,
-                                         1, 1, 1};  // the wire of two fibres counts by its worse one
+                                         1, 1, 1};  // a wire with two fibres counts by its worse fibre
   const Conductors conductors = conductors_of(all, component, layers);
   const auto places =
       places_of(all, component, conductors, 2, [&](std::size_t site) { return segment[site]; });
@@ -228,8 +228,7 @@ TEST_CASE("places: damage of all wires everywhere, by conductor, segment and wir
 TEST_CASE(
     "places: by medians a conductor fails with its k-th wire in its worst segment, broken ones elsewhere do "
     "not count") {
-  // Five wires of which the second is to break: 40 % rounds to 2. Conductor 1 is never damaged in two wires
-  // at one place.
+  // Failure is the second break of five wires: 40 % is 2. In conductor 1 no place has two damaged wires.
   const Pack pack = pack_of(2, 3, 5, [](auto c, auto g, auto w) {
     if (c == 1) return w == g ? 1.0 : 0.0;
     return std::vector<std::vector<double>>{{8, 1, 1, 1, 1}, {4, 5, 0, 0, 0}, {0, 0, 2, 2, 2}}[g][w] * 1e-3;

@@ -1,4 +1,4 @@
-// Cycle counting against published histories, an independent definition, and its own invariances.
+// Cycle counting against published histories, an independent definition, and its invariances.
 #include "fatigue/rainflow.h"
 
 #include <algorithm>
@@ -19,8 +19,8 @@ using namespace dresslife::fatigue;
 
 namespace {
 
-constexpr double two_sines_rounding = 1e-9;  // their published lists; pi i in double is off by 1e-13
-constexpr double exact = 0;                  // integers and values that are only copied
+constexpr double two_sines_rounding = 1e-9;  // their published lists; pi i in double has an error of 1e-13
+constexpr double exact = 0;                  // integers, and values that are only copied
 
 using Numbers = std::vector<double>;
 using History = std::map<std::string, Numbers>;
@@ -95,7 +95,7 @@ Numbers from_to(const std::vector<Cycle>& cycles) {
   return result;
 }
 
-/// Ranges and means by range, then mean; ranges closer than the tolerance count as equal.
+/// Returns ranges and means sorted by range, then mean. Ranges closer than the tolerance are equal.
 Numbers sorted_range_mean(std::vector<std::pair<double, double>> pairs, double tolerance) {
   const auto key = [&](const std::pair<double, double>& p) {
     return std::pair{tolerance > 0 ? std::round(p.first / tolerance) : p.first, p.second};
@@ -132,9 +132,9 @@ Numbers random_walk(std::mt19937& random, int samples, int levels) {
   return series;
 }
 
-/// Rychlik's definition (1987) on the periodic history, no stack: a maximum M is paired with the higher of
-/// the two lowest values between it and the nearest crossing of its level on either side. Written for maxima
-/// without ties; the global maximum pairs with the global minimum.
+/// Rychlik's definition (1987) on the periodic history, without a stack: a maximum M is paired with the higher of the two
+/// lowest values between it and the nearest crossing of its level on either side. Precondition: no maxima are equal. The
+/// global maximum is paired with the global minimum.
 Numbers rychlik_ranges(const Numbers& period) {
   const int n = static_cast<int>(period.size());
   const auto at = [&](int i) { return period[((i % n) + n) % n]; };
@@ -259,7 +259,7 @@ TEST_CASE("cutting a history into pieces changes nothing") {
     for (std::size_t a = 0; a <= series.size(); ++a) {
       for (std::size_t b = a; b <= series.size(); ++b) {
         ReversalFinder
-            finder;  // state carried over pieces [0, a), [a, b), [b, end), each counted as it comes
+            finder;  // state continues over pieces [0, a), [a, b), [b, end), each counted at once
         FourPointCounter counter;
         std::vector<Cycle> closed;
         for (const auto& [from, to] : {std::pair{std::size_t{0}, a}, {a, b}, {b, series.size()}}) {

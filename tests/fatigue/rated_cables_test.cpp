@@ -33,7 +33,7 @@ pipeline::Component cable(std::vector<pipeline::Rating> ratings) {
   return part;
 }
 
-/// Bends about an axis at `angle` from d1, and twists.
+/// Returns a motion with bends about an axis at `angle` from d1, and with twists.
 SegmentMotion motion(const std::vector<double>& bends, const std::vector<double>& twists, double angle = 0) {
   SegmentMotion segment;
   for (const double bend : bends)
@@ -58,12 +58,12 @@ TEST_CASE("rating: a motion that is the rig's cycle lasts what the maker promise
   CHECK(repeats(cable({rating(RigKind::tick_tock, 0.1)}), motion({0, on_mandrel, 0, -on_mandrel, 0}, none)) ==
         Approx(rated));
   CHECK(repeats(cable({rating(RigKind::torsion, 3)}), motion(none, {0, 3, 0, -3, 0})) == Approx(rated));
-  // The carriage passes: a bend to either side in each stroke, straight in between.
+  // Each stroke of the carriage bends the cable to both sides, and straightens it in between.
   CHECK(repeats(cable({rating(RigKind::two_pulley, 0.1)}),
                 motion({0, -on_mandrel, on_mandrel, 0, on_mandrel, -on_mandrel, 0},
                        std::vector<double>(7, 0.0))) == Approx(rated));
   pipeline::Rating far = rating(RigKind::rolling_flex, 0.1);
-  far.rig.travel = 8;  // bent and straightened in each stroke, so that one bend uses half a cycle
+  far.rig.travel = 8;  // bent and straightened in each stroke, so that one bend is half a cycle
   CHECK(repeats(cable({far}), motion({0, 10, 0, 0, 0}, none)) == Approx(2 * rated));
 }
 
@@ -92,7 +92,7 @@ TEST_CASE("rating: nothing moves, nothing is used up") {
 
 TEST_CASE("rating: the plane of a bend hardly matters") {
   const pipeline::Component part = cable({rating(RigKind::rolling_flex, 0.1)});
-  // Half of 15 degrees from a direction that is tried: cos(7.5 deg)^5
+  // At most half of the 15 degrees between tested directions: cos(7.5 deg)^5
   const double missed = std::pow(std::cos(std::numbers::pi / 24), -pipeline::usual_damage_exponent);
   for (int k = 0; k <= 24; ++k) {
     const double life = repeats(part, motion({0, 10, 0, 0, 0}, none, std::numbers::pi * k / 24));

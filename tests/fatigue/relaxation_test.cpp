@@ -1,5 +1,4 @@
-// Mean stress that relaxes: the law, the life under it by closed forms and repeat by repeat, and what it does
-// to histories.
+// Relaxation of mean stress: the law, the life under it by closed forms and repeat by repeat, and its effect on histories.
 #include "fatigue/relaxation.h"
 
 #include <array>
@@ -22,8 +21,8 @@ using pipeline::MeanStressRelaxation;
 
 namespace {
 
-constexpr double promised = 1e-5;        // of a life, where damage is smooth (relaxation.h)
-constexpr double promised_short = 5e-4;  // of one that is shorter than a hundred repeats
+constexpr double promised = 1e-5;        // of a life with smooth damage (relaxation.h)
+constexpr double promised_short = 5e-4;  // of a life shorter than a hundred repeats
 constexpr std::array<MeanStress, 4> rules{MeanStress::none, MeanStress::swt, MeanStress::morrow,
                                           MeanStress::walker};
 
@@ -46,7 +45,7 @@ DamageOfShares each(const std::function<double(double)>& damage) {
   };
 }
 
-/// A swing with smaller ones on it, moved by a constant strain; as dresslife-strain stores it.
+/// Returns a swing that contains smaller ones, shifted by a constant strain, in the precision of dresslife-strain.
 std::vector<float> busy_swing(double amplitude, double offset) {
   std::vector<float> strains;
   for (const double x : {0.2, 1.0, 0.3, 0.7, -0.5, 0.1, -1.0, -0.2, -0.6, 0.5, -0.1})
@@ -90,9 +89,9 @@ TEST_CASE("relaxation: what never relaxes, and what does at once") {
 TEST_CASE("relaxation: mean share over a life, closed form against the sum and its limits") {
   for (const double r : {-0.01, -0.3, -1.0, -1.5}) {
     constexpr int repeats = 200000;
-    double sum = 0;  // the integral of n^r over (n - 1, n) lies between its ends
+    double sum = 0;  // the integral of n^r over (n - 1, n) lies between the values at its ends
     for (int n = 2; n <= repeats; ++n) sum += std::pow(n - 0.5, r);
-    CHECK(mean_share(repeats, r) == Approx((1 + sum) / repeats).epsilon(0.02));  // the sum's own first terms
+    CHECK(mean_share(repeats, r) == Approx((1 + sum) / repeats).epsilon(0.02));  // error of the first terms of the sum
   }
   CHECK(mean_share(1e6, 0) == 1);
   CHECK(mean_share(1e6, -1e-12) == Approx(1));
@@ -122,14 +121,14 @@ TEST_CASE("relaxation: life by a steep damage, repeat by repeat") {
       const auto damage = [&](double share) { return 1e-5 * std::pow(1 + offset * share, 4.5); };
       double sum = damage(1);
       int repeats = 1;
-      for (; sum < 1; ++repeats) {  // middles of pieces of the next one: the first repeats are curved
+      for (; sum < 1; ++repeats) {  // midpoint rule; the first repeats are curved and need more pieces
         const int pieces = repeats < 100 ? 100 : 1;
         for (int piece = 0; piece < pieces; ++piece)
           sum += damage(std::pow(repeats + (piece + 0.5) / pieces, r)) / pieces;
       }
       const double life = relaxing_life(r, each(damage));
       INFO(offset << " " << r);
-      CHECK(std::fabs(life - repeats) < 1 + promised * repeats);  // it breaks within a repeat
+      CHECK(std::fabs(life - repeats) < 1 + promised * repeats);  // the break is within a repeat
     }
   }
 }
@@ -139,14 +138,13 @@ TEST_CASE("relaxation: limits of a life") {
   CHECK(relaxing_life(-0.3, each([](double) { return 1e-7; })) == Approx(1e7).epsilon(promised));
   CHECK(relaxing_life(0, each([](double share) { return 1e-7 * share; })) == Approx(1e7));
   CHECK(relaxing_life(-0.3, each([](double share) { return 1 + share; })) == 0.5);  // in the first repeat
-  // Damage that dies away before it has broken the wire: 1e-3 (1 + 1/0.5) in all.
+  // Damage that decreases to zero before the wire breaks: the total is 1e-3 (1 + 1/0.5).
   CHECK(relaxing_life(-1.5, each([](double share) { return 1e-3 * share; })) == infinity);
-  // Compression that goes so slowly that nothing has begun after 2^50 repeats, and one that is let go at
-  // last.
+  // Compression that relaxes so slowly that damage has not begun after 2^50 repeats, and compression that relaxes in the end.
   CHECK(relaxing_life(-1e-4, each([](double share) { return share > 0.5 ? 0.0 : 1e-3; })) == infinity);
   CHECK(rough_relaxing_life(std::pow(10, -1e-4), std::pow(5.5, -1e-4),
                             [](double share) { return share > 0.5 ? 0.0 : 1e-3; }) == 1e15);
-  // None at first, by compression, and all of it later.
+  // No damage at first, because of compression; all of the damage later.
   const double late =
       relaxing_life(-0.5, each([](double share) { return share > 0.1 ? 0.0 : 1e-4 * (0.1 - share); }));
   CHECK(late > 1e5);
@@ -165,7 +163,7 @@ TEST_CASE("relaxation: the rough life of the innermost loop") {
 }
 
 TEST_CASE("relaxation: a constant strain is forgotten by a history that is old") {
-  constexpr double rounding = 1e-4;  // strains of single precision, to the power of the life's slope
+  constexpr double rounding = 1e-4;  // strains in single precision, times the slope of the life
   DamageCounter::Workspace memory;
   for (const MeanStress rule : rules) {
     const DamageCounter relaxed(soft_copper(), with(rule, MeanStressRelaxation::complete));
@@ -177,7 +175,7 @@ TEST_CASE("relaxation: a constant strain is forgotten by a history that is old")
         CHECK(relaxed(busy_swing(amplitude, offset), memory) == Approx(alone).epsilon(rounding));
       }
       if (rule == MeanStress::none) continue;
-      CHECK(kept(busy_swing(amplitude, 0.012), memory) > 1.05 * alone);  // what it forgets
+      CHECK(kept(busy_swing(amplitude, 0.012), memory) > 1.05 * alone);  // the effect of an offset that complete relaxation removes
       CHECK(kept(busy_swing(amplitude, -0.012), memory) < alone / 1.05);
     }
   }
@@ -208,7 +206,7 @@ TEST_CASE(
 
 TEST_CASE(
     "relaxation: a history that reaches its largest strain again has the stress there that it had before") {
-  // Bends of a rig are equal to the bit: two loops, alike, each with all of the offset that is left.
+  // Bends of a rig are equal to the last bit: two equal loops, each with all of the remaining offset.
   constexpr double as_tables = DamageCounter::table_error;
   const pipeline::Material m = soft_copper();
   for (const MeanStress rule : rules)
@@ -234,7 +232,7 @@ TEST_CASE(
 }
 
 TEST_CASE("relaxation: a swing off centre by hand") {
-  // From 0.010 to 0.014: at first s_max = curve(0.014), at last half the branch of the range 0.004.
+  // From 0.010 to 0.014: at first s_max = curve(0.014), after relaxation half the branch of the range 0.004.
   const auto metal = soft_copper();
   const std::vector<Reversal> swing{{0.010, 0}, {0.014, 1}};
   const CyclicCurve curve(metal);
@@ -271,7 +269,7 @@ TEST_CASE("relaxation: the settled life against one that is added up by exact cy
         return sum_of_damage(evaluate_cycles(reversals, soft_copper(), settings, std::pow(repeat, exponent)));
       };
       double sum = damage(1), repeats = 1;
-      constexpr double step = 1.02;  // middles of steps by 2 %: 1e-4
+      constexpr double step = 1.02;  // midpoint rule in steps of 2 %: error 1e-4
       while (sum < 1) {
         const double more = (step - 1) * repeats * damage(repeats * std::sqrt(step));
         repeats *= sum + more < 1 ? step : 1 + (step - 1) * (1 - sum) / more;
@@ -279,7 +277,7 @@ TEST_CASE("relaxation: the settled life against one that is added up by exact cy
       }
       INFO(int(rule) << " " << offset);
       CHECK(1 / counter.settled_damage(strains, memory) == Approx(repeats).epsilon(1e-3));
-      // What the innermost loop expects lies near.
+      // The estimate of the innermost loop is close.
       CHECK(counter(strains, memory) == Approx(1 / repeats).epsilon(0.3));
       const double unrelaxed = counter(strains, memory, 1), relaxed = counter(strains, memory, 0);
       CHECK(1 / repeats <= std::max(unrelaxed, relaxed) * (1 + promised));
@@ -301,7 +299,7 @@ TEST_CASE("relaxation: lives are continuous in the offset, the amplitude and the
     before = life;
   }
   before = life_of(soft_copper(), 2.7e-4, 3e-3);
-  for (double amplitude = 2.7e-4; amplitude < 3.2e-4; amplitude *= 1.001) {  // over the threshold
+  for (double amplitude = 2.7e-4; amplitude < 3.2e-4; amplitude *= 1.001) {  // across the threshold
     const double life = life_of(soft_copper(), amplitude, 3e-3);
     CHECK(life == Approx(before).epsilon(0.05));
     before = life;
@@ -314,7 +312,7 @@ TEST_CASE("relaxation: lives are continuous in the offset, the amplitude and the
     const double life = life_of(metal, 8e-4, 3e-3);
     INFO(exponent);
     CHECK(life == Approx(before).epsilon(0.5));
-    CHECK(life >= before * (1 - promised));  // tension that goes sooner
+    CHECK(life >= before * (1 - promised));  // tension that relaxes faster
     before = life;
   }
 }

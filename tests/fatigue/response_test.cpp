@@ -1,4 +1,4 @@
-// Places of rest of loose cables as a parameter of a life.
+// The rest of loose cables as a parameter of a life.
 #include "fatigue/response.h"
 
 #include <cmath>
@@ -18,8 +18,8 @@ namespace {
 constexpr std::size_t rest = index_of(Uncertain::rest), slack = index_of(Uncertain::slack),
                       hose = index_of(Uncertain::friction_hose);
 
-/// A job that lives 1e6, three of five starts, beside two rests of one start each. Slack and friction along the hose were
-/// varied from rest 2.
+/// A job with life 1e6 at the rest of three of five starts, and two other rests of one start each. Slack and friction along
+/// the hose are varied from rest 2.
 struct Rests {
   std::vector<VariedStrains> varied{6};
   std::vector<std::size_t> starts{3, 1, 1};
@@ -50,7 +50,7 @@ TEST_CASE("rests: lives over all starts have the quantiles of the starts, whiche
     z[rest] = mean + pipeline::normal_quantile(share);
     CHECK(of.log10_life(z, 0) == Approx(life).margin(rounding));
   }
-  const Rests worse(5, 5.5);  // the job's own rest lives longest
+  const Rests worse(5, 5.5);  // the job's own rest has the longest life
   CHECK(worse.response.knowledge.mean[rest] == Approx(-pipeline::normal_quantile(0.7)));
   pipeline::ParameterPoint z{};
   CHECK(worse.response.log10_life(z, 0) == Approx(6));
@@ -62,8 +62,8 @@ TEST_CASE("rests: a variation that went on from another rest counts by what it c
   const Rests of(5, 8);
   pipeline::ParameterPoint z{};
   z[hose] = -1.5;
-  // From rest 2, life 1e8, to the job's own, 1e6, the strain grows by f - 1. Friction along the hose makes it f or g times
-  // as large.
+  // From rest 2, life 1e8, to the job's own rest, life 1e6, the strain grows by f - 1. Friction along the hose multiplies it by
+  // f or g.
   const double f = std::pow(10, 2. / 5), g = std::pow(10, -1. / 5);
   CHECK(of.response.change(z) == Approx(2 - 5 * std::log10(f + f - 1)));
   z[hose] = 1.5;
@@ -80,7 +80,7 @@ TEST_CASE("rests: at another slack a life stays as computed, whichever rest the 
 }
 
 TEST_CASE("rests: lives beyond anything physical shorten no other life") {
-  // As a job of two_robots was: hardly damaged at two of its three rests, and 1e4 repeats if everything is glued.
+  // Like a job of two_robots: little damage at two of its three rests, and 1e4 repeats if everything is glued.
   std::vector<VariedStrains> varied(3);
   varied[0].rest = varied[2].rest = 1, varied[1].rest = 2, varied[2].inside = Inside::glued;
   LifeResponse response;
@@ -107,7 +107,7 @@ TEST_CASE("rests: they have a share in the causes when starts differ, and none w
   CHECK(share_of(Rests(5, 8).response) > 0.3);
   Rests agreeing(6, 6);
   CHECK(share_of(agreeing.response) < 1e-9);
-  LifeResponse alone = Rests(5, 8).response;  // one start or no ring: no such point
+  LifeResponse alone = Rests(5, 8).response;  // one start or no ring: no variation of rest
   alone.points.resize(1), alone.inside.resize(1), alone.worst_life.resize(1);
   CHECK(share_of(alone) == 0);
 }

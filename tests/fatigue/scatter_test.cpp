@@ -1,4 +1,4 @@
-// Scatter of life: closed forms, enumeration of every outcome, and drawing against the closed form.
+// Scatter of life: closed forms, enumeration of every outcome, and sampling against the closed form.
 #include "fatigue/scatter.h"
 
 #include <algorithm>
@@ -17,10 +17,10 @@ namespace {
 
 constexpr double rounding = 1e-12;  // relative: some hundred sums and products of doubles
 constexpr double bisected =
-    1e-8;  // relative: lives are found to 1e-10, shares grow at most 100 times as fast
+    1e-8;  // relative: lives are found to 1e-10; the slope of a share is at most 100
 constexpr double one_deviation = 0.8413447460685429;  // Phi(1)
 
-/// Bundle of wires with these median lives.
+/// Returns a bundle of wires with these median lives.
 ConductorWires wires(const std::vector<double>& lives, std::vector<double> rate = {}) {
   ConductorWires bundle;
   for (const double life : lives) bundle.damage.push_back(1 / life);
@@ -28,7 +28,7 @@ ConductorWires wires(const std::vector<double>& lives, std::vector<double> rate 
   return bundle;
 }
 
-/// P(at least count) by going through all 2^n outcomes.
+/// Returns P(at least `count` events) by enumeration of all 2^n outcomes.
 double enumerated(const std::vector<double>& p, int count) {
   double sum = 0;
   for (unsigned outcome = 0; outcome < 1u << p.size(); ++outcome) {
@@ -136,14 +136,14 @@ TEST_CASE("scatter: drawing agrees with the closed form where nothing is shared"
 }
 
 TEST_CASE("scatter: wires left with more load break sooner by as much as the rates say") {
-  // Without scatter: the second of medians 1 and 3 breaks at 1 + (3 - 1)/2, the third (7) at 2 + (7 - 3)/4.
+  // Without scatter: of medians 1 and 3 the second breaks at 1 + (3 - 1)/2, the third (7) at 2 + (7 - 3)/4.
   const SharedLives shared = shared_lives(std::vector{wires({7, 1, 3}, {1, 2, 4})}, 60, 0, 3);
   CHECK(shared.conductor[0][0][1] == 1);
   CHECK(shared.conductor[0][1][1] == 2);
   CHECK(shared.conductor[0][2][1] == 3);
   const SharedLives never = shared_lives(std::vector{wires({1, infinity}, {1, 2})}, 100, 0.1, 3);
   CHECK(never.conductor[0][2][2] == infinity);
-  // Three wires, life ~ strain^-5: the one left of three strains 3 times as much.
+  // Three wires, life ~ strain^-5: the last of three has 3 times the strain.
   const auto rates = sharing_rates(3, [](double factor) { return 1e-4 * std::pow(factor, 5); });
   CHECK(rates[0] == 1);
   CHECK(rates[1] == Approx(std::pow(1.5, 5)));
@@ -228,7 +228,7 @@ TEST_CASE("scatter: percentiles are continuous in the common share, and spread w
 TEST_CASE("scatter: dresspacks have no factor in common") {
   const Scatter scatter{0.2, 1};
   const std::vector<std::vector<double>> two{{1e-3, 1e-3}, {}, {1e-3}};
-  // The first of two independent ones: 1 - (1 - p)^2 = 1/2.
+  // The first of two independent lives: 1 - (1 - p)^2 = 1/2.
   CHECK(broken_share(first_wire_lives(two, scatter)[1], 1000, 0.2) ==
         Approx(1 - std::sqrt(0.5)).epsilon(1e-6));
   std::vector<ConductorWires> bundles{wires({1000, 2000}), wires({1000})};

@@ -1,4 +1,4 @@
-// Lives from the strain-life curves: published numbers, round trips, limits, and the thesis' own orders.
+// Lives from the strain-life curves: published numbers, round trips, limits, and the thesis' own magnitudes.
 #include "fatigue/strain_life.h"
 
 #include <cmath>
@@ -15,7 +15,7 @@ using pipeline::MeanStress;
 
 namespace {
 
-constexpr double published = 1e-9;    // relative; the vectors' own tolerance
+constexpr double published = 1e-9;    // relative; the tolerance of the published values
 constexpr double round_trip = 1e-12;  // relative; rounding of a logarithm times its slope
 
 // dfieser/lcf-strain-life (commit a6a8d40c), tests/test_life.py; MPa. Lives recomputed in 40 digits.
@@ -68,16 +68,15 @@ TEST_CASE("SWT life of a loop whose stress comes from the cyclic curve") {
 }
 
 TEST_CASE("lives measured on SAE 1137 steel lie near the curve fitted to them") {
-  // Williams, Lee and Rilly, Int. J. Fatigue 25 (2003), tables 4 and 5: plastic amplitude, reversals
-  // measured.
+  // Williams, Lee and Rilly, Int. J. Fatigue 25 (2003), tables 4 and 5: plastic amplitude, measured reversals.
   constexpr double ductility = 1.104, exponent = -0.6207;
   const double rows[][3] = {{0.006344, 4234, 4071.97306145664},
                             {0.004477, 7398, 7139.7748368305},
                             {0.002779, 14768, 15393.5124096982},
                             {0.001075, 77104, 71101.3578243085}};
-  // With a strength term 1e-12 times the measured one only the plastic line is left of (8).
+  // With a strength term of 1e-12 times the measured one, (8) reduces to its plastic line.
   const StrainLife plastic(material(208e3, 1e-9, exponent / 2, ductility, exponent), MeanStress::none);
-  constexpr double scatter_band = 1.6;  // of the tests about their fit
+  constexpr double scatter_band = 1.6;  // scatter of the tests about their fit
   for (const auto& [amplitude, measured, line] : rows) {
     const double reversals = plastic.reversals({amplitude, 0, 0});
     CHECK(reversals == Approx(line).epsilon(published));
@@ -92,7 +91,7 @@ TEST_CASE("life undoes load over the whole range of reversals, for every mean st
       const StrainLife none(m, MeanStress::none), swt(m, MeanStress::swt), morrow(m, MeanStress::morrow);
       CHECK(none.reversals({none.coffin_manson()(reversals), 0, 0}) == Approx(reversals).epsilon(round_trip));
       CHECK(swt.reversals({0.5, swt.swt()(reversals) / 0.5, 0}) == Approx(reversals).epsilon(round_trip));
-      for (const double mean : {-0.5, 0.0, 0.3, 0.9}) {  // shares of sf'; (F7) written out
+      for (const double mean : {-0.5, 0.0, 0.3, 0.9}) {  // shares of sf'; (F7) written explicitly
         const double amplitude = (1 - mean) * m.fatigue_strength / m.youngs_modulus *
                                      std::pow(reversals, m.fatigue_strength_exponent) +
                                  m.fatigue_ductility * std::pow(reversals, m.fatigue_ductility_exponent);
@@ -111,9 +110,9 @@ TEST_CASE("limits: endurance, compression, beyond either end of the curve") {
   CHECK(swt.damage({0.01, 0, -1e8}) == 0);
   CHECK(swt.damage({0.01, -1e6, -1e8}) == 0);
   CHECK(none.damage({0, 0, 0}) == 0);
-  CHECK(none.reversals({1e-6, 0, 0}) == infinity);  // beyond 1e15 reversals
+  CHECK(none.reversals({1e-6, 0, 0}) == infinity);  // more than 1e15 reversals
   CHECK(none.damage({1e-6, 0, 0}) == 0);
-  // Stretched to more than sf'/E + ef' = 2.438 the wire tears on the first reversal.
+  // Above sf'/E + ef' = 2.438 the wire breaks in the first reversal.
   CHECK(none.reversals({2.43, 0, 0}) > 1);
   CHECK(none.reversals({2.5, 0, 0}) == 1);
   CHECK(none.damage({1e6, 0, 0}) == 2);
@@ -136,7 +135,7 @@ TEST_CASE("thesis materials: aluminium dies first, and elastic stress cuts coppe
     CHECK(swt_life(copper(), amplitude, false) > 1.1 * swt_life(aluminium(), amplitude, false));
     CHECK(swt_life(copper(), amplitude, true) > 3 * swt_life(copper(), amplitude, false));
   }
-  // A stable loop about zero lies on the curve, where s = sf' (2N)^b (F5) makes (9) the same as (8).
+  // A stable loop about zero lies on the curve, where s = sf' (2N)^b (F5) makes (9) identical to (8).
   for (const double amplitude : {0.0005, 0.001, 0.01, 0.025}) {
     CHECK(swt_life(copper(), amplitude, true) ==
           Approx(StrainLife(copper(), MeanStress::none).reversals({amplitude, 0, 0})).epsilon(published));
@@ -152,11 +151,11 @@ TEST_CASE("Walker: (8) at zero mean, SWT's amplitude at gamma 1/2, no mean stres
   m.walker_exponent = 1;
   CHECK(StrainLife(m, MeanStress::walker).reversals({0.002, 300e6, 100e6}) ==
         Approx(none.reversals({0.002, 0, 0})).epsilon(round_trip));
-  // Where a wire stays elastic, (8) is sf' (2N)^b = stress amplitude, and Walker's equivalent amplitude
-  // s_max^(1-gamma) s_a^gamma must give the same life through it.
+  // While a wire stays elastic, (8) is sf' (2N)^b = stress amplitude. Walker's equivalent amplitude s_max^(1-gamma) s_a^gamma
+  // must give the same life in it.
   for (const double gamma : {0.3, 0.5, 0.8}) {
     auto elastic = copper();
-    elastic.fatigue_ductility = 1e-9;  // nothing plastic
+    elastic.fatigue_ductility = 1e-9;  // no plastic strain
     elastic.walker_exponent = gamma;
     for (const double mean : {70e6, -40e6}) {
       const double max = 150e6, amplitude = max - mean;
@@ -181,7 +180,7 @@ TEST_CASE("strain-life table: through its points, straight in logarithms, on bey
   CHECK(table.cycles(100) == 0.5);
   CHECK(table.cycles(1e-5) == infinity);
   CHECK(table.damage(0) == 0);
-  // Points of a power law give the power law back between and beyond them.
+  // Points of a power law reproduce the power law between and beyond them.
   const auto power = [](double strain) { return 2e-3 * std::pow(strain, -4.5); };
   const StrainLifeTable line({{0.08, power(0.08)}, {0.03, power(0.03)}, {0.004, power(0.004)}});
   for (const double strain : {0.1, 0.05, 0.02, 0.004, 0.003})

@@ -1,5 +1,4 @@
-// Cyclic stress: published curves and paths, and a bundle of friction sliders as an independent model of
-// memory.
+// Cyclic stress: published curves and paths, and a bundle of friction sliders as an independent model of memory.
 #include "fatigue/stress_path.h"
 
 #include <algorithm>
@@ -19,9 +18,9 @@ namespace {
 constexpr double solved = 1e-10;         // relative, of one root; the curve itself rounds at 1e-15 times 1/n'
 constexpr double published_path = 1e-8;  // relative; the strains of the example are given to 1e-9
 
-/// Local stress [Pa] of a notch with elastic concentration factor K_t under nominal stress S >= 0 [Pa] by
-/// Neuber's rule (Neuber 1961): stress x curve strain = (K_t S)^2 / E. No part of the pipeline has notches.
-/// With s the local stress, s (s/E + (s/K')^(1/n')) rises and is convex; the elastic answer K_t S is above the
+/// Returns the local stress [Pa] of a notch with elastic concentration factor K_t under nominal stress S >= 0 [Pa] by
+/// Neuber's rule (Neuber 1961): stress x curve strain = (K_t S)^2 / E. For these tests only: the pipeline has no notches.
+/// With s the local stress, s (s/E + (s/K')^(1/n')) is increasing and convex, and the elastic solution K_t S is above the
 /// root.
 double neuber_stress(const CyclicCurve& curve, double concentration, double nominal_stress) {
   const double elastic = concentration * nominal_stress;
@@ -40,9 +39,8 @@ MemoryPath path_of(const CyclicCurve& curve) {
   return MemoryPath([curve](double strain) { return curve.stress(strain); });
 }
 
-/// Masing's own model: parallel elastic-perfectly-plastic sliders whose strengths are chosen so that the
-/// bundle's virgin curve is the polygon through `curve` at equal strain steps. Memory comes from the sliders;
-/// nothing is remembered on purpose.
+/// Masing's model: parallel elastic-perfectly-plastic sliders. Their strengths make the bundle's virgin curve the polygon
+/// through `curve` at equal strain steps. The memory follows from the sliders alone.
 class Sliders {
  public:
   Sliders(const CyclicCurve& curve, double largest, int count)
@@ -139,8 +137,7 @@ TEST_CASE("FKM guideline nonlinear, example 2.7.1: all three memory rules") {
 }
 
 TEST_CASE("notch of Dowling's 7075-T6 example by Neuber's rule") {
-  // N. E. Dowling, Mechanical Behavior of Materials, table 14.1 and the notched-member history; MPa,
-  // recomputed.
+  // N. E. Dowling, Mechanical Behavior of Materials, table 14.1 and the notched-member history; MPa, recomputed.
   const CyclicCurve curve(71000, 977, 0.106);
   const auto stress = [&](double nominal) { return neuber_stress(curve, 4, nominal); };
   MemoryPath stress_path(stress), strain_path([&](double nominal) { return curve.strain(stress(nominal)); });
@@ -215,7 +212,7 @@ TEST_CASE("notch of Dowling's 7075-T6 example by Neuber's rule") {
       {0.00483201013545857, 335.484122629028}, {0.0037403035088587, 186.490348798986},
       {0.00266770047484482, 34.7997835572959}, {0.00159718384944938, -117.186856115291}};
   const std::vector<double> count{1,   11,  35,  88,
-                                  180, 300, 510, 780};  // compression: the rest does nothing either
+                                  180, 300, 510, 780};  // the last level is in compression and has no effect
   const std::vector<double> cycles{159.645925615254, 504.251997395751, 1274.33498206718, 3821.09445509244,
                                    18512.92202959,   287632.055780832, 307595727.596641};
   double damage = 0;
@@ -237,8 +234,7 @@ TEST_CASE("memory agrees with a bundle of friction sliders on random paths") {
     MemoryPath path = path_of(curve);
     Sliders bundle(curve, largest, sliders);
     for (int i = 0; i < 60; ++i) {
-      // Even multiples of the polygon's step: half ranges then end on its corners and both models agree to
-      // rounding.
+      // Even multiples of the polygon's step: half ranges end on its corners, and both models agree to rounding.
       const double strain = 2 * level(random) * (largest / sliders);
       constexpr double bundle_rounding = 1e-9;  // relative to 300 MPa: 4000 additions
       CHECK(path.go_to(strain) == Approx(bundle.go_to(strain)).margin(300e6 * bundle_rounding));

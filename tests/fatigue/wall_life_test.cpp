@@ -1,4 +1,4 @@
-// The life of a hose's wall over its strength, by a life curve of one slope.
+// The life of a hose's wall over its strength, for a life curve of one slope.
 #include "fatigue/wall_life.h"
 
 #include <cmath>
@@ -32,7 +32,7 @@ LifeResponse swinging(const pipeline::Job& job) {
   return wall_response(find_reversals(strain), job, 0);
 }
 
-/// Mean and deviation.
+/// Returns the mean and the standard deviation.
 std::pair<double, double> moments(const std::vector<double>& values) {
   const double mean = std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
   double squares = 0;
@@ -48,7 +48,7 @@ const double median = std::log10(cycles_at_1_percent) + slope * std::log10(0.01 
 TEST_CASE("wall: lives over the samples have the closed form of a curve of one slope") {
   pipeline::Job job = job_with_wall();
   const auto lives = pipeline::first_failures({swinging(job)}, "");
-  // 10,000 samples, each stratum once; the piecewise straight scatter between 10, 50 and 90 % is exact for a normal one up to 3.5
+  // 10,000 samples, each stratum once. Piecewise linear scatter between 10, 50 and 90 % is exact for a normal one, up to 3.5
   const auto [mean, deviation] = moments(lives);
   CHECK(mean == Approx(median).margin(1e-3));
   CHECK(deviation == Approx(std::hypot(per_deviation, job.fatigue.scatter_log10)).epsilon(0.01));
@@ -63,14 +63,14 @@ TEST_CASE("wall: lives over the samples have the closed form of a curve of one s
 TEST_CASE("wall: a calibration moves the hoses of its life curve, and no others") {
   pipeline::Job job = job_with_wall();
   const double before = wall_bends_at_limit(swinging(job), job, 0);
-  // straight to a radius of 0.2 m: range 2 x 0.025/0.2
+  // Between straight and a radius of 0.2 m: range 2 x 0.025/0.2
   CHECK(before == Approx(cycles_at_1_percent * std::pow(0.125 / 0.01, -slope)));
   pipeline::LearnedParameter learned;
   learned.name = pipeline::wall_strength_of(job.dresspacks[0].dresspack.materials[0]);
   learned.mean = learned.median = 1.5, learned.covariance = {0.25};
   job.calibration.emplace().parameters = {learned};
   check_calibration(*job.calibration);
-  CHECK(pipeline::knowledge_of(job).covariance(0, 0) == 1);  // nothing of wires
+  CHECK(pipeline::knowledge_of(job).covariance(0, 0) == 1);  // no information about wires
   const auto [mean, deviation] = moments(pipeline::first_failures({swinging(job)}, ""));
   CHECK(mean == Approx(median + 1.5 * per_deviation).margin(1e-3));
   CHECK(deviation == Approx(std::hypot(0.5 * per_deviation, job.fatigue.scatter_log10)).epsilon(0.01));

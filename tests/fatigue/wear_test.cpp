@@ -1,4 +1,4 @@
-// Abrasion against closed forms: a hose rubbed at constant force, worn volumes integrated over the shape.
+// Abrasion against closed forms: a hose rubbed with constant force, and worn volumes integrated over the shape.
 #include "fatigue/wear.h"
 
 #include <cmath>
@@ -25,7 +25,7 @@ pipeline::Material polymer() {
 WornLayer smooth() { return {0.03, 1e-3, 0, 0}; }
 WornLayer corrugated() { return {0.03, 0.8e-3, 1.25e-3, 5e-3}; }
 
-/// Work [J] at a place, spread over cells of `cell` [m] from `from` to `to`, in the sectors [first, first + count).
+/// Returns work [J] distributed over cells of `cell` [m] from `from` to `to`, in the sectors [first, first + count).
 std::vector<RubbedPatch> rubbed(double work, double from, double to, double cell, int first, int count,
                                 const std::string& obstacle = "link_4") {
   std::vector<RubbedPatch> patches;
@@ -54,7 +54,7 @@ TEST_CASE("wear: what a smooth hose loses is a circle's segment, and a strip mor
   for (const double depth : {1e-5, 1e-4, 1e-3}) {
     const double R = layer.radius, half = std::acos(1 - depth / R);
     const double segment = R * R * (half - std::sin(half) * std::cos(half));
-    const double parabola = 0.01;  // for the circle: depth / (5 R)
+    const double parabola = 0.01;  // error of a parabola instead of a circle: depth / (5 R)
     CHECK(layer.area(depth, 0) == Approx(segment).epsilon(parabola));
     CHECK(layer.area(depth, 0.02) - layer.area(depth, 0) == Approx(0.02 * depth));
     CHECK(layer.depth(layer.area(depth, 0.01), 0.01) == Approx(depth));
@@ -86,7 +86,7 @@ TEST_CASE("wear: a hose rubbed over an edge at constant force is worn through wh
     CHECK(one.position == Approx(0.5025));
     CHECK(one.obstacle == "link_4");
     CHECK(one.time == 10);
-    // Sliding over more than the footprint wears by the force per length.
+    // Sliding over a length greater than the footprint wears by the force per length.
     const Abrasion line = abrasion({layer, &material}, rubbed(force * way, 0.5, 0.74, 0.005, 71, 1));
     CHECK(line.repeats == Approx(4 * one.repeats));
     const Abrasion ring =
@@ -104,7 +104,7 @@ TEST_CASE("wear: the jacket of a cable drawn over an arc is worn through when k 
   dresspack.materials[0].wear.push_back({pipeline::Counterface::hose, 2 * rate, 6, "test"});
   const std::optional<WornMaterial> jacket = jacket_of(dresspack, cable);
   REQUIRE(jacket);
-  // F = T kappa per length, drawn by s over an arc of half a metre.
+  // F = T kappa per length, for a cable drawn by s over an arc of half a metre.
   constexpr double tension = 20, curvature = 2, way = 0.01, arc = 0.5;  // longer than the footprint
   const Abrasion worn = abrasion(*jacket, rubbed(tension * curvature * way * arc, 0.5, 0.5 + arc, 5e-3, 0, 1, "hose"));
   const double area = 4.0 / 3 * 1e-3 * std::sqrt(2 * 5e-3 * 1e-3);  // a circle's segment as a parabola
@@ -123,7 +123,7 @@ TEST_CASE("wear: contacts that wander around the hose wear a strip, over the zer
   const double width = layer.radius * 2 * pi / sectors;
   for (const int count : {1, 2, 6, 30})
     CHECK(repeats(count) == Approx(layer.area(layer.thickness, (count - 1) * width) * 0.06 / (rate * 10)));
-  // A little work elsewhere does not hide the place that is rubbed most.
+  // A little work elsewhere must not hide the place with the most work.
   auto patches = rubbed(10, 0.5, 0.56, 0.005, 70, 1);
   for (const RubbedPatch& patch : rubbed(0.1, 0.5, 0.56, 0.005, 20, 20)) patches.push_back(patch);
   CHECK(abrasion({layer, &material}, patches).repeats == Approx(repeats(1)));
@@ -148,7 +148,7 @@ TEST_CASE(
     "wear: the spread of a life is that of the rate and the thickness, nothing that rubs wears nothing") {
   const pipeline::Material material = polymer();
   const Abrasion one = abrasion({smooth(), &material}, rubbed(10, 0.5, 0.505, 0.005, 3, 1));
-  // A line contact's area grows with the depth's power 3/2.
+  // The area of a line contact grows with the depth to the power 3/2.
   CHECK(one.log10_spread == Approx(std::hypot(std::log10(5.0), 1.5 * thickness_spread)));
   const Abrasion none = abrasion({smooth(), &material}, {});
   CHECK(std::isinf(none.repeats));
@@ -165,7 +165,7 @@ TEST_CASE("wear: a sleeve wears before the hose, a hose without thickness or rat
   REQUIRE(worn_of(dresspack));
   CHECK(worn_of(dresspack)->layer.crest == 1.25e-3);
   CHECK(wear_rate(*worn_of(dresspack)->material, "ring 2").factor == 3);
-  CHECK(wear_rate(*worn_of(dresspack)->material, "floor").factor == 5);  // not listed: as the robot
+  CHECK(wear_rate(*worn_of(dresspack)->material, "floor").factor == 5);  // not listed: the robot's rate
   dresspack.sleeve = pipeline::Sleeve{2e-3, "polymer", {}};
   CHECK(worn_of(dresspack)->layer.crest == 0);
   CHECK(worn_of(dresspack)->layer.thickness == 2e-3);

@@ -1,4 +1,4 @@
-// What a program does whose memory ends, wherever that is: in its own code or in a library.
+// Programs that run out of memory at any allocation, in their own code or in a library.
 #include <iostream>
 #include <random>
 
@@ -8,7 +8,7 @@
 
 using namespace dresslife::tests;
 
-// The sanitizers' allocators are their own.
+// The sanitizers have their own allocators.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 
 TEST_CASE("an allocation that fails, or all from one on, ends each program with one line, and leaves no part") {
@@ -47,12 +47,12 @@ TEST_CASE("an allocation that fails, or all from one on, ends each program with 
         const Outcome outcome = fail_at(at, more);
         INFO(call.program << ' ' << call.arguments << ": allocation " << at << " of " << total << " (" << more
                           << " more): " << outcome.status << outcome.err);
-        if (outcome.status == 0) {  // of the shell, or an unused allocation
+        if (outcome.status == 0) {  // an allocation of the shell, or one whose failure has no effect
           REQUIRE(outcome.out == right.out);
           ++whole;
         } else {
           REQUIRE(outcome.status == 1);
-          // A study's warnings may stand before it.
+          // A study's warnings may come before the error.
           REQUIRE(outcome.err.ends_with(call.program +
                                         ": error: out of memory; run fewer jobs at a time, ask for fewer segments or "
                                         "samples, or allow more, then run again\n"));

@@ -1,6 +1,5 @@
-// Commands of dresslife that take a second at most, with every kind of call that fails: what it says with status 0 and
-// what it leaves then is what it says and leaves without the fault; with status 1 it says why; nothing is half made, and
-// no file of the user is lost.
+// Commands of dresslife that take at most a second, with every kind of failing call. With status 0 their output and files must
+// equal those without the fault. With status 1 they state the cause. No file is half written, and no file of the user is lost.
 #include <iostream>
 #include <random>
 
@@ -34,7 +33,7 @@ const std::vector<Command> commands{
     {"dresslife-sim", "job.yaml --screen list.yaml -o screening.h5 --quiet"},
     {"dresslife-import", "swing.mod -o swing.yaml"},
     {"dresslife-import", "asks.mod -o asks.yaml --answers answers.yaml"}};
-/// Results of a study and a user's own files beside them.
+/// Writes results of a study and files of the user beside them.
 void write_inputs(const Scratch& scratch) {
   write_small_job(scratch);
   write_small_hose(scratch);
@@ -49,10 +48,10 @@ void write_inputs(const Scratch& scratch) {
           "    IF di1=1 THEN\n      MoveAbsJ home, v100, fine, tool0;\n    ENDIF\n  ENDPROC\nENDMODULE\n");
   scratch.write("list.yaml", "- {routing.free_length_m: 0.95}\n");
   must_run(scratch, "dresslife", "run study.yaml --quiet");
-  // The same results are those of a study that keeps less.
+  // A study that keeps fewer files has the same results.
   scratch.write("lives.yaml", "base: job.yaml\njobs: {a: {}}\nkeep: lives\n");
   must_run(scratch, "dresslife", "run lives.yaml --quiet");
-  // It has linked files of the first study, which compares their bytes once.
+  // The second study has linked files of the first one, which compares their bytes once.
   must_run(scratch, "dresslife", "run study.yaml --quiet");
   scratch.write("runs/study/a/notes.txt", "mine\n");
   scratch.write("runs/lives/a/notes.txt", "mine\n");
@@ -110,7 +109,7 @@ TEST_CASE(
           REQUIRE(outcome.err.find("error: ") != std::string::npos);
           ++refused;
         }
-        // Each file is as it was, as it is to be, or one of ours that goes.
+        // Each file is unchanged, or new and complete, or a removed file of the program.
         for (const auto& [name, bytes] : before) {
           INFO(name);
           const bool as_it_was = now.contains(name) && now.at(name) == bytes;

@@ -1,4 +1,4 @@
-// Programs whose calls fail at chosen places: tests/faults/shim preloaded.
+// Runs programs whose system calls fail at chosen points. The library of tests/faults/shim is preloaded.
 #pragma once
 
 #include <algorithm>
@@ -12,25 +12,25 @@
 
 namespace dresslife::tests {
 
-/// Runs with words before the program; run() quotes the program alone.
+/// Runs a program with words of shell (variables, a wrapper) before its path. run() has no place for these words.
 inline Outcome run_with(const Scratch& scratch, const std::string& before, const std::string& program,
                         const std::string& arguments) {
   scratch.write("call.sh", before + " '" DRESSLIFE_BIN_DIR "/" + program + "' " + arguments + "\n");
   return run_shell(scratch, "sh ./call.sh");
 }
 
-/// What fails in a program; see tests/faults/shim/failing_calls.cpp.
+/// The call that fails in a program; see tests/faults/shim/failing_calls.cpp.
 struct Fault {
   std::string call;
-  int at = 0;  ///< the first that fails, from 1; 0: none
+  int at = 0;  ///< number of the first call that fails, from 1; 0: none
   std::string mode{}, path{}, more = "0";
 };
 
-/// Runs a program with such a fault. Programs that it starts are left alone. One that hangs ends with status 124.
+/// Runs a program with this fault. Programs that it starts have no faults. A program that hangs ends with status 124.
 inline Outcome run_failing(const Scratch& scratch, const Fault& fault, const std::string& program,
                            const std::string& arguments) {
   return run_with(scratch,
-                  // so that a sanitized program lets a library be preloaded
+                  // lets a program with sanitizers preload a library
                   "env ASAN_OPTIONS=verify_asan_link_order=0 FAULT_CALL=" + fault.call + " FAULT_AT=" +
                       std::to_string(fault.at) + " FAULT_MODE=" + fault.mode + " FAULT_PATH='" + fault.path +
                       "' FAULT_MORE=" + fault.more + " FAULT_PROGRAM=" + program + " FAULT_COUNT='" +
@@ -42,10 +42,10 @@ inline Outcome run_failing(const Scratch& scratch, const std::string& call, int 
   return run_failing(scratch, Fault{call, at}, program, arguments);
 }
 
-/// How many such calls the last of these programs made.
+/// Returns the number of matching calls of the program that ran last.
 inline int calls_counted(const Scratch& scratch) { return std::stoi(content(scratch / "count")); }
 
-/// At most `count` of 1 .. total, the first and the last among them.
+/// Returns at most `count` of the numbers 1 .. total, including the first and the last, the others at random.
 inline std::vector<int> some_of(int total, int count, std::mt19937& random) {
   std::vector<int> all(static_cast<std::size_t>(total));
   std::iota(all.begin(), all.end(), 1);
@@ -56,7 +56,7 @@ inline std::vector<int> some_of(int total, int count, std::mt19937& random) {
   return all;
 }
 
-/// A study's results: every file's bytes but those of the runner's own bookkeeping.
+/// Returns the bytes of all result files of a study (name -> bytes), without the runner's own bookkeeping.
 inline std::map<std::string, std::string> results(const fs::path& folder) {
   std::map<std::string, std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -68,14 +68,14 @@ inline std::map<std::string, std::string> results(const fs::path& folder) {
   return files;
 }
 
-/// Whether a folder, with those in it, holds a file that was not finished.
+/// Returns whether a folder or its subfolders contain an unfinished file (*.part).
 inline bool holds_parts(const fs::path& folder) {
   for (const auto& entry : fs::recursive_directory_iterator(folder))
     if (entry.path().extension() == ".part") return true;
   return false;
 }
 
-/// Whether words are one line that begins as an error of ours does and has a remedy.
+/// Returns whether `words` is one line with the form of this project's errors, including a remedy.
 inline bool is_one_error(const std::string& words) {
   return std::count(words.begin(), words.end(), '\n') == 1 && words.find(": error: ") != std::string::npos &&
          words.find("; ") != std::string::npos;
@@ -84,7 +84,7 @@ inline bool is_one_error(const std::string& words) {
 struct Kind {
   std::string call, mode, path;
 };
-/// A disk that is full, broken or slow to tell, in every call by which a program can notice.
+/// Faults of a disk that is full, broken or reports errors late, in every call in which a program can notice them.
 inline const std::vector<Kind> kinds{{"write", "ENOSPC", ""},
                                      {"write", "short", ""},
                                      {"sync", "EIO", ""},
@@ -107,7 +107,7 @@ inline const std::vector<Kind> kinds{{"write", "ENOSPC", ""},
 inline bool is_of_the_test(const std::string& name) {
   return name == ".out" || name == ".err" || name == "call.sh" || name == "count";
 }
-/// What a runner notes for itself: later runs repair it.
+/// Returns whether a file holds notes of the runner, which later runs repair.
 inline bool is_a_note(const std::string& name) {
   return name.find(".stage") != std::string::npos || name.ends_with(".lock") ||
          name.ends_with("build.ninja") || name.ends_with("/log");
@@ -122,7 +122,7 @@ inline std::map<std::string, std::string> files_in(const fs::path& folder) {
   return files;
 }
 
-/// As it was before, but for the dates of files that did not change.
+/// Restores all files of the scratch folder to `before`. Files that did not change keep their dates.
 inline void restore(const Scratch& scratch, const std::map<std::string, std::string>& before) {
   for (const auto& [name, bytes] : files_in(scratch.folder()))
     if (!before.contains(name)) fs::remove(scratch / name);

@@ -1,4 +1,4 @@
-// What a stage says that its job will take, against what it takes, and what becomes of jobs that do not fit.
+// The memory that a stage predicts for its job against the memory that it uses, and the refusal of jobs that do not fit.
 #include <sys/resource.h>
 
 #include <iostream>
@@ -11,7 +11,7 @@ using namespace dresslife::tests;
 
 namespace {
 
-/// The largest memory that a program held [MB], and its exit status.
+/// The peak memory of a program [MB], and its exit status.
 struct Peak {
   int status;
   double megabytes;
@@ -30,7 +30,7 @@ Peak peak_of(const Scratch& scratch, const std::string& program, const std::stri
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, static_cast<double>(used.ru_maxrss) / 1024};
 }
 
-/// Megabytes that a stage says its job takes; it is allowed none.
+/// Returns the memory that a stage predicts for its job [MB]. The stage is allowed nearly none, so it only refuses.
 double told(const Scratch& scratch, const std::string& program, const std::string& arguments) {
   const Outcome outcome = run(scratch, program, arguments + " --job-memory 1");
   INFO(program << ' ' << arguments << ": " << outcome.err);
@@ -42,7 +42,7 @@ double told(const Scratch& scratch, const std::string& program, const std::strin
   return std::stod(outcome.err.substr(at + before.size()));
 }
 
-/// A minute of swinging instead of a second.
+/// Writes poses of a minute of swinging instead of a second.
 void write_long_poses(const Scratch& scratch) {
   std::ostringstream poses;
   for (int i = 0; i <= 1200; ++i) {
@@ -55,9 +55,9 @@ void write_long_poses(const Scratch& scratch) {
 
 }  // namespace
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // which take memory of their own
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // which use memory of their own
 TEST_CASE("what a job says it takes is what it takes, within a factor") {
-  std::string rubbing;  // cables in the hose and wires in them
+  std::string rubbing;  // friction of cables in the hose and of wires in cables
   for (const std::string part : {"1", "1.components.1"})
     rubbing += "--set dresspack.components." + part +
                ".friction_coefficient=0.2 --set dresspack.components." + part +
@@ -144,7 +144,7 @@ TEST_CASE("more than can be numbered or held is refused before time is spent on 
   refused(
       "dresslife-strain", "motion.h5 --job job.yaml --set 'dresspack.components=" + strands(1000) + "'",
       "has 1.2e+10 sites, fibres of wires in segments (strain.h5 numbers at most 4294967294); choose fewer");
-  // A tenth of them can be numbered, not held.
+  // A tenth of these wires can be numbered, but not stored.
   refused("dresslife-strain",
           "motion.h5 --job job.yaml --job-memory 4000 --set 'dresspack.components=" + strands(100) + "'",
           " of it (--job-memory allows 4000 MB); choose fewer of them (dresspack.components), ");

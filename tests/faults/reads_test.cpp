@@ -1,4 +1,4 @@
-// Whatever a disk says when it is read: a result is right, or its command fails with the disk's words.
+// Failing reads of a disk: each result is correct, or its command fails with the disk's message.
 #include <iostream>
 #include <map>
 #include <random>
@@ -18,7 +18,7 @@ const std::vector<Stage> stages{{"dresslife-sim", "job.yaml", "motion.h5"},
                                 {"dresslife-strain", "motion.h5", "strain.h5"},
                                 {"dresslife-fatigue", "strain.h5", "life.h5"}};
 
-/// Of a read every way in which it can go wrong without a word; of the others the error.
+/// All silent faults of a read, and the errors of other calls.
 const std::vector<Kind> kinds_of_reads{
     {"read", "EIO", ".h5"},        {"read", "end", ".h5"},       {"read", "flip", ".h5"},
     {"read", "short", ".h5"},      {"read", "EIO", ".part"},     {"read", "end", ".part"},
@@ -85,7 +85,7 @@ TEST_CASE("each read and look that fails in a command over results is told, and 
     for (const Kind& kind : {Kind{"read", "EIO", "runs/study"}, {"read", "end", ".h5"}, {"look", "EIO", "runs/study"},
                              {"open", "EIO", "runs/study"}}) {
       const auto fail_at = [&](int at) {
-        // A page that is not there has to be made from all files.
+        // A missing page is made again, which needs all files.
         fs::remove(scratch / "runs/study/bending_stiffness_Nm2=2/page.html");
         return run_failing(scratch, Fault{kind.call, at, kind.mode, kind.path}, "dresslife", command);
       };

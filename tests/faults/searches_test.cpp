@@ -1,5 +1,5 @@
-// Commands that run stages of their own, with calls and allocations that fail: a command that ends with status 0 says and
-// leaves what it does without the fault, one that ends with status 1 says why, and the next one without a fault is right.
+// Commands that run stages themselves, with failing calls and allocations. A command with status 0 has the output and files of
+// a run without the fault. A command with status 1 states the cause. The next command without a fault is correct.
 #include <iostream>
 #include <random>
 
@@ -76,11 +76,11 @@ simulation: {segments: 12, sample_rate_Hz: 20}
   scratch.write("notes.txt", "mine\n");
 }
 
-/// The kinds of every command, and memory that ends.
+/// Returns the kinds of faults of every command, and exhausted memory.
 std::vector<std::pair<Kind, std::string>> kinds_with_memory() {
   std::vector<std::pair<Kind, std::string>> all;
   for (const Kind& kind : kinds) all.emplace_back(kind, "0");
-// The sanitizers' allocators are their own.
+// The sanitizers have their own allocators.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   for (const char* more : {"0", "all"}) all.emplace_back(Kind{"allocate", "", ""}, more);
 #endif
@@ -104,7 +104,7 @@ TEST_CASE("searches and comparisons under failing calls: each is right, or refus
       REQUIRE(right.status == 0);
       scratch.write("runs/" + command.results + "/notes.txt", "mine\n");
       const std::map<std::string, std::string> after = files_in(scratch.folder());
-      // The stages' results are there, those of the command itself are not.
+      // State with the stages' results but without those of the command itself.
       const std::map<std::string, std::string> half = [&] {
         std::map<std::string, std::string> files = after;
         std::erase_if(files, [&](const auto& file) {
@@ -126,7 +126,7 @@ TEST_CASE("searches and comparisons under failing calls: each is right, or refus
       };
       for (const auto& [kind, more] : kinds_with_memory())
         for (const auto* before : {&half, &inputs}) {
-          // From nothing each takes seconds.
+          // From no results each command takes seconds.
           if (!is_long && (before == &inputs || random() % 4 != 0)) continue;
           const auto fail_at = [&, &kind = kind, &more = more](int at) {
             restore(scratch, *before);
@@ -208,7 +208,7 @@ TEST_CASE("a file system that cannot say what a path leads to changes no patch o
   const std::string arguments = "robot.yaml --ways runs/short/a/life.h5 --lines 1 -o ways.h5 --quiet";
   must_run(scratch, "dresslife-import", arguments);
   const std::string right = content(scratch / "ways.h5");
-  // Of the program and of its folder: these name the files of the patch.
+  // In the program and its folder: these calls find the files of the patch.
   for (const std::string& path : {(scratch / "turn.mod").string(), std::string("dresslife-")})
     for (const std::string call : {"look", "list"}) {
       const auto fail_at = [&](int at) {

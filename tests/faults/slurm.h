@@ -1,5 +1,5 @@
-// A Slurm of our own: one node on loopback, its daemons children of the test and gone with it. No systemd,
-// cgroups or accounting; whatever Slurm the machine has is left alone.
+// A private Slurm of one node on loopback. Its daemons are child processes of the test and end with it. It has no systemd,
+// cgroups or accounting. A Slurm that is installed on the machine is not changed.
 #pragma once
 
 #include <fmt/format.h>
@@ -21,8 +21,8 @@
 
 namespace dresslife::tests {
 
-/// Whether it comes true within so many seconds. A busy machine takes longer than an idle one, so these are
-/// bounds for what would never come, and far above what it takes.
+/// Returns whether `comes_true` returns true within this time. The times only limit an endless wait. They are far longer
+/// than a busy machine needs.
 inline bool within(int seconds, const std::function<bool()>& comes_true) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(seconds);
   while (!comes_true()) {
@@ -32,7 +32,7 @@ inline bool within(int seconds, const std::function<bool()>& comes_true) {
   return true;
 }
 
-/// Processes below this one, and what they are called.
+/// A process below this one (child, grandchild, ...) and its name.
 struct Process {
   pid_t id;
   std::string name;
@@ -54,7 +54,7 @@ inline std::vector<Process> all_below() {
 
 class Slurm {
  public:
-  /// Starts it in the scratch folder. why_not(): empty when it runs.
+  /// Starts Slurm in the scratch folder. If it runs, why_not() is empty; otherwise why_not() is the reason.
   explicit Slurm(const Scratch& scratch) : scratch_(scratch), folder_(scratch / "slurm") {
     for (const char* program : {"munged", "slurmctld", "slurmd", "sbatch", "srun"})
       if (run_shell(scratch, std::string("PATH=$PATH:/usr/sbin command -v ") + program).status != 0)
@@ -71,12 +71,11 @@ class Slurm {
 
   const std::string& why_not() const { return why_not_; }
   static int cpus() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
-  /// A line of shell among the programs of Slurm, none of which may hang.
+  /// Runs a line of shell that can use Slurm's programs. The line must limit its own time.
   Outcome shell(const std::string& line) const {
     return run_shell(scratch_, "export SLURM_CONF='" + conf() + "'; " + line);
   }
-  /// "PENDING", "COMPLETED 0:0", ...: state and exit code of a job; of an array's job all of its tasks', each
-  /// once.
+  /// Returns state and exit code of a job: "PENDING", "COMPLETED 0:0", ... For an array job: the distinct lines of all its tasks.
   std::string state(const std::string& job) const {
     return shell(
                "timeout 20 scontrol show job " + job +
@@ -90,7 +89,7 @@ class Slurm {
   bool set_node(const std::string& word) const {
     return shell("timeout 20 scontrol update NodeName=localhost Reason=test State=" + word).status == 0;
   }
-  /// Whether nothing of any job's steps lives any more.
+  /// Returns whether no process of any job step is running.
   static bool no_steps() {
     bury();
     const std::vector<Process> all = all_below();
@@ -105,7 +104,7 @@ class Slurm {
   }
 
  private:
-  /// What has ended below us is ours to bury, or it would still be found.
+  /// Reaps ended child processes. Otherwise all_below() would still find them.
   static void bury() {
     while (::waitpid(-1, nullptr, WNOHANG) > 0) {
     }
@@ -129,8 +128,8 @@ class Slurm {
     fs::create_directories(folder_ / "state");
     fs::create_directories(folder_ / "spool");
     const std::string here = folder_.string();
-    // cred_expire: a job that was sent back waits so long, not two minutes. ReturnToService 1: a node that
-    // was taken down stays so until a command changes it.
+    // cred_expire: a requeued job waits this time instead of two minutes. ReturnToService 1: a node that was set
+    // down stays down until a command changes it.
     scratch_.write(
         "slurm/slurm.conf",
         fmt::format(
@@ -147,7 +146,7 @@ class Slurm {
             here, free_port(), free_port(), cpus()));
   }
 
-  /// As our child, which ends with us; what it says goes into its log.
+  /// Starts a daemon as a child process, which ends with this process. The daemon's output goes into `log`.
   void start(const std::string& words, const std::string& log) {
     const pid_t child = ::fork();
     if (child != 0) return;
@@ -160,7 +159,7 @@ class Slurm {
 
   void begin() {
     begun_ = true;
-    ::prctl(PR_SET_CHILD_SUBREAPER, 1);  // what the daemons leave behind becomes ours, to be ended by us
+    ::prctl(PR_SET_CHILD_SUBREAPER, 1);  // this process adopts processes that the daemons leave, so end() can kill them
     write_conf();
     run_shell(scratch_,
               "head -c 128 /dev/urandom > slurm/munge.key && chmod 600 slurm/munge.key && chmod 755 . slurm");

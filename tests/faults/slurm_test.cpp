@@ -1,4 +1,4 @@
-// Studies in a queue: a real Slurm on one node, started here.
+// Studies in a queue: a real Slurm on one node, started by the test.
 
 #include "tests/catch.h"
 #include "tests/faults/slurm.h"
@@ -19,14 +19,14 @@ void write_cluster(const Scratch& scratch, const std::string& name, int tasks, i
           tasks, most_stages));
 }
 
-/// The last number behind "job " in what a submission says.
+/// Returns the last number after "job " in the output of a submission.
 std::string job_of(const Outcome& outcome) {
   const std::size_t at = outcome.out.rfind("job ");
   if (outcome.status != 0 || at == std::string::npos) return "";
   return std::to_string(std::atol(outcome.out.c_str() + at + 4));
 }
 
-/// dresslife among stages that compute nothing, in the scratch folder.
+/// Installs dresslife with stages that compute nothing in the scratch folder.
 void install_fake_stages(const Scratch& scratch) {
   fs::create_directories(scratch / "bin");
   fs::create_directories(scratch / "share/dresslife");
@@ -47,11 +47,11 @@ TEST_CASE("Slurm: a submitted study outlives its node, passes on how stages end,
   }
   const auto logs = [&] { return content(scratch / "runs/study/submit.log") + slurm.logs(); };
 
-  // Stages that compute nothing. One waits: in it the node goes down. One fails.
+  // Stages that compute nothing. One waits, and meanwhile the node goes down. One fails.
   install_fake_stages(scratch);
   write_cluster(scratch, "cluster.yaml", std::min(2, Slurm::cpus()), 40000);
   scratch.write("job.yaml", dresslife::pipeline::sample_job);
-  // Of no motion there is no page.
+  // Without a motion there is no page.
   scratch.write("study.yaml", "base: job.yaml\nkeep: lives\nvary: {simulation.segments: [20, 21, 22]}\n");
   const fs::path study = scratch / "runs/study";
   scratch.write("runs/study/segments=21/wait-strain", "");
@@ -86,7 +86,7 @@ TEST_CASE("Slurm: a submitted study outlives its node, passes on how stages end,
   CHECK(status.out.find("strain broke") != std::string::npos);
   CHECK(content(study / "ranking.csv").find("segments=21") != std::string::npos);
 
-  // Mended, it goes on where it was; done, there is nothing to submit.
+  // After the correction the study continues. When it is done, there is nothing to submit.
   fs::remove(study / "segments=22/fail-strain");
   const std::string again = job_of(slurm.shell(submit));
   REQUIRE(!again.empty());
@@ -95,8 +95,7 @@ TEST_CASE("Slurm: a submitted study outlives its node, passes on how stages end,
   CHECK(calls("segments=22") == "sim\nstrain\nstrain\nstrain\nfatigue\n");
   CHECK(slurm.shell(submit).out.find("nothing to do") != std::string::npos);
 
-  // The real stages: more of them than an allocation may start, so that each job is a shard, an allocation of
-  // its own.
+  // The real stages. There are more of them than an allocation may start, so each job is a shard with its own allocation.
   write_small_job(scratch);
   write_cluster(scratch, "small.yaml", 1, 3);
   scratch.write("shards.yaml", "base: job.yaml\njobs: {soft: {dresspack.bending_stiffness_Nm2: 2}, usual: {}, other: {motion.clamp_poses: other.csv}}\n");
@@ -121,7 +120,7 @@ TEST_CASE("Slurm: a submitted study outlives its node, passes on how stages end,
   }
   CHECK(content(scratch / "runs/shards/ranking.csv") == content(scratch / "whole/shards/ranking.csv"));
 
-  // The plan of a fleet takes these results.
+  // The plan of a fleet uses these results.
   scratch.write("duties.yaml", "study: shards.yaml\nduties:\n  - {name: one, programs: [{job: soft, percent_of_time: 0.1}]}\n"
                                "  - {name: two, programs: [{job: usual, percent_of_time: 0.1}, {job: other, percent_of_time: 0.1}]}\n");
   scratch.write("fleet.csv", "name,duty,installed\na,one,2026-11-20\nb,two,2026-11-20\n");

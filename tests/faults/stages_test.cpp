@@ -1,4 +1,4 @@
-// What a stage leaves behind when the disk, the memory or another writer fails it: its file whole, or none.
+// Files of a stage after a failure of the disk, of memory or by another writer: the output is complete, or does not exist.
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -23,7 +23,7 @@ const std::vector<Stage> stages{{"dresslife-sim", "job.yaml", "motion.h5"},
                                 {"dresslife-strain", "motion.h5", "strain.h5"},
                                 {"dresslife-fatigue", "strain.h5", "life.h5"}};
 
-/// A small job and the files of its stages.
+/// A small job and the output files of its stages.
 class Chain {
  public:
   Chain() {
@@ -34,14 +34,14 @@ class Chain {
     }
   }
   Scratch scratch;
-  std::map<std::string, std::string> files;  ///< the bytes of each
+  std::map<std::string, std::string> files;  ///< bytes of each file
 };
 
 int entries(const fs::path& folder) {
   return static_cast<int>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
 }
 
-constexpr int ended_by_signal = 128;  // a shell's status from there on
+constexpr int ended_by_signal = 128;  // a shell's status for signals begins here
 
 }  // namespace
 
@@ -80,7 +80,7 @@ TEST_CASE("each write, sync, close, cut and rename that fails fails the stage, o
       }
       std::cout << stage.program << ": " << call << " failed at " << failed + whole << " of " << total
                 << " places: " << failed << " refused, " << whole << " whole, 0 false\n";
-      // A descriptor is closed once more after the file has its name, and by then all is on the disk.
+      // A descriptor is closed once more after the file has its name. At this time all data are on the disk.
       CHECK(whole <= (call == "close" ? 1 : 0));
     }
 }
@@ -92,7 +92,7 @@ TEST_CASE("a file that may not grow ends no stage with a signal, and leaves noth
   int tried = 0;
   for (const Stage& stage : stages) {
     const auto blocks = static_cast<int>(chain.files.at(stage.output).size() / 512);  // of ulimit -f
-    // From 1: what the stage says goes to a file, too.
+    // From 1 block on, because the stage's messages also go to a file.
     for (int size = 1; size < blocks; size += std::max(1, blocks / 6)) {
       const Outcome outcome = run_with(scratch, "ulimit -f " + std::to_string(size) + ";", stage.program,
                                        stage.command("out/" + stage.output) + " 2>&1 | cat >&2; exit 0");
@@ -140,7 +140,7 @@ TEST_CASE("no bit of a file can turn without a word") {
     int noticed = 0;
     for (int flip = 0; flip < flips; ++flip) {
       std::string bytes = chain.files.at(name);
-      // The lines at the beginning are few bytes among many; each gets its share.
+      // The first bytes are few among many, so they get an extra share of the changes.
       const std::size_t at = flip % 5 == 0 ? random() % 600 : random() % bytes.size();
       bytes[at] = static_cast<char>(bytes[at] ^ (1 << random() % 8));
       const fs::path file = scratch.write("flipped.h5", bytes);
@@ -154,7 +154,7 @@ TEST_CASE("no bit of a file can turn without a word") {
     std::cout << "; " << name << " " << noticed << " of " << flips << " noticed";
   }
   std::cout << '\n';
-  // And as a user meets it.
+  // The error in the form that a user sees.
   std::string bytes = chain.files.at("motion.h5");
   bytes[bytes.size() / 2] ^= 1;
   scratch.write("flipped.h5", bytes);
@@ -186,7 +186,7 @@ TEST_CASE("an output replaces a result and nothing else") {
           "is there already and was not written by dresslife, or was changed since; move it away, name another place "
           "with -o, or replace it with --force");
   CHECK(content(scratch / "poses.csv") == poses);
-  CHECK(run(scratch, "dresslife-sim", "job.yaml -o poses.csv --force").status == 1);  // the job reads it
+  CHECK(run(scratch, "dresslife-sim", "job.yaml -o poses.csv --force").status == 1);  // the job reads this file
   CHECK(content(scratch / "poses.csv") == poses);
   scratch.write("mine.txt", "mine");
   fs::create_symlink("mine.txt", scratch / "link.h5");
@@ -200,8 +200,8 @@ TEST_CASE("an output replaces a result and nothing else") {
   CHECK(run(scratch, "dresslife-strain", "motion.h5 -o mine.txt --force").status == 0);
   CHECK(content(scratch / "mine.txt") == chain.files.at("strain.h5"));
   CHECK(run(scratch, "dresslife-strain", "motion.h5 -o strain.h5").status ==
-        0);                       // a result goes without a word
-  scratch.write("empty.h5", "");  // as mktemp makes it
+        0);                       // a result is overwritten without a question
+  scratch.write("empty.h5", "");  // an empty file, as mktemp makes it
   CHECK(run(scratch, "dresslife-strain", "motion.h5 -o empty.h5").status == 0);
 }
 
@@ -225,7 +225,7 @@ TEST_CASE("a stage that runs out of its time or memory says so and leaves nothin
   CHECK(slow.status == 1);
   CHECK(slow.err.find("dresslife-sim: error: took longer than 1 s (--job-time)") == 0);
   CHECK(entries(scratch / "out") == 0);
-  // The sanitizers take more address space than these limits leave.
+  // The sanitizers use more address space than these limits leave.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   for (const Stage& stage : stages)
     for (const int kilobytes : {48'000, 50'000, 53'000, 57'000, 62'000, 68'000, 75'000}) {
@@ -249,7 +249,7 @@ TEST_CASE("closed and full streams are survived and told by the status") {
   CHECK(run_shell(scratch, bin + "-sim' absent.yaml -o m.h5 2>&-").status == 1);
   const Outcome closed = run_shell(scratch, bin + "-strain' motion.h5 -o s.h5 <&- >&- 2>&-");
   CHECK(closed.status == 0);
-  CHECK(content(scratch / "s.h5") == chain.files.at("strain.h5"));  // nothing that was said went into it
+  CHECK(content(scratch / "s.h5") == chain.files.at("strain.h5"));  // no message was written into it
   scratch.write("study.yaml", "base: job.yaml\n");
   must_run(scratch, "dresslife", "run study.yaml");
   for (const std::string what :
@@ -262,12 +262,12 @@ TEST_CASE("closed and full streams are survived and told by the status") {
   }
 }
 
-// The sanitizers take more address space than these limits leave.
+// The sanitizers use more address space than these limits leave.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 TEST_CASE("with too few threads a stage does the work on those that it has") {
   const Chain chain;
   const Scratch& scratch = chain.scratch;
-  // Each thread wants 8 MB of stack: with this much address space some get none.
+  // Each thread needs a stack of 8 MB: with these limits of address space some threads cannot start.
   for (const int kilobytes : {70000, 76500, 90000, 120000, 200000}) {
     const Outcome outcome =
         run_with(scratch, "ulimit -v " + std::to_string(kilobytes) + "; DRESSLIFE_THREADS=8",
@@ -283,7 +283,7 @@ TEST_CASE("with too few threads a stage does the work on those that it has") {
 }
 #endif
 
-// The sanitizers find the bounds of the stack and of memory in /proc, and without them report what is none.
+// The sanitizers find the limits of stack and memory in /proc. Without it they report errors that are none.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 TEST_CASE("programs find themselves and their catalogue where no /proc is mounted") {
   const Scratch scratch;
@@ -301,7 +301,7 @@ TEST_CASE("programs find themselves and their catalogue where no /proc is mounte
   const Outcome study = run_shell(scratch, hidden + dresslife + "run study.yaml'");
   INFO(study.err);
   CHECK(study.status == 0);
-  // What it made is up to date on systems with /proc: both ways lead to the same programs.
+  // The results are also up to date on systems with /proc: both methods find the same programs.
   CHECK(run(scratch, "dresslife", "run study.yaml").err.find("nothing to do") != std::string::npos);
 }
 #endif

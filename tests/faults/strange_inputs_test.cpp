@@ -1,4 +1,4 @@
-// Inputs that are no files, or larger than anybody reads: each is refused with a line, and nothing waits.
+// Inputs that are not regular files, or that are too large: each is refused with one line, and no program waits.
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
@@ -15,10 +15,10 @@ using namespace dresslife::tests;
 
 namespace {
 
-/// INPUT stands for the strange file.
+/// A program that reads a file. INPUT stands for the strange file.
 struct Reader {
   std::string program, arguments, ending;
-  std::string beside{};  ///< a file that names it
+  std::string beside{};  ///< a file that refers to it
 };
 const std::vector<Reader> readers{
     {"dresslife", "run INPUT", ".yaml"},
@@ -68,7 +68,7 @@ const std::vector<Reader> readers{
     {"dresslife", "status named.yaml", ".yaml", "base: INPUT\n"},
 };
 
-/// Makes them in the folder; names of all.
+/// Creates the strange files in the folder. Returns all names.
 std::vector<std::string> make_strange_files(const Scratch& scratch, const std::string& ending) {
   REQUIRE(::mkfifo((scratch / ("pipe" + ending)).c_str(), 0600) == 0);
   fs::create_symlink("/dev/zero", scratch / ("zero" + ending));
@@ -114,11 +114,11 @@ TEST_CASE("a pipe, a device, a socket and a terabyte of nothing are refused as a
         const std::string job = content(scratch / "job.yaml");
         scratch.write("named.yaml", replaced(reader.beside, name) + job.substr(job.find("dresspack:")));
       }
-      constexpr const char* longest = "timeout -s KILL 20";  // [s] of a busy machine; each takes a tenth of one
+      constexpr const char* longest = "timeout -s KILL 20";  // [s] on a busy machine; each usually takes a tenth of a second
       const Outcome outcome = run_with(scratch, longest, reader.program, arguments);
       INFO(reader.program << ' ' << arguments << ": " << outcome.status << '\n' << outcome.err);
       CHECK(outcome.status == 1);
-      // A job without clamps is refused before its program is read. A device is named as what the link leads to.
+      // A job without clamps is refused before its program is read. A device is named as the target of the link.
       const bool without_clamps = outcome.err.find("routing.base_clamp is missing") != std::string::npos;
       CHECK((without_clamps || is_one_error(outcome.err)));
       CHECK((without_clamps || outcome.err.find(name) != std::string::npos ||
@@ -147,7 +147,7 @@ TEST_CASE("a strange file in the place of a result stops nothing but what needs 
       CHECK((outcome.status == 0 || outcome.status == 1));
       CHECK((outcome.status == 0 || !outcome.err.empty()));
     }
-    if (name.ends_with(".h5"))  // it is there: what could be shown without it is not shown as whole
+    if (name.ends_with(".h5"))  // a result that exists but cannot be read must not be left out
       for (const std::string command : {"page runs/study/a", "export runs/study/a --paraview p.xdmf"}) {
         const Outcome outcome = run_with(scratch, "timeout -s KILL 20", "dresslife", command);
         INFO(name << ": " << command << ": " << outcome.status << outcome.err);
@@ -208,7 +208,7 @@ TEST_CASE("three million values and a hundred megabytes of comment are refused b
   for (int k = 0; k < 3'000'000; ++k) list += "1,";
   scratch.write("list.yaml", list + "1]\n" + job);
   for (const char* name : {"comment.yaml", "list.yaml"}) {
-    // Half a second and as much memory as the text.
+    // Half a second of time, and memory of the text's size.
     const Outcome outcome = run_with(scratch, "ulimit -t 4; ulimit -v 800000;", "dresslife",
                                      std::string("show ") + name);
     INFO(outcome.err);

@@ -1,4 +1,4 @@
-// What a study believes after its runner, its stages or its files have come to harm.
+// Studies after damage to their runner, their stages or their files: which results remain valid.
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/file.h>
@@ -26,12 +26,12 @@ const char* study_text = R"(base: job.yaml
 vary: {dresspack.bending_stiffness_Nm2: [2, 3, 4]}
 )";
 
-/// Starts a program in the scratch folder and leaves it alone.
+/// Starts a program in the scratch folder in the background. Returns its process.
 pid_t start(const Scratch& scratch, const std::string& program, const std::vector<std::string>& arguments) {
   const pid_t process = ::fork();
   if (process != 0) return process;
   ::chdir(scratch.folder().c_str());
-  ::signal(SIGINT, SIG_DFL);  // ignored where tests run in the background of a script
+  ::signal(SIGINT, SIG_DFL);  // SIGINT is ignored where tests run in the background of a script
   const int quiet = ::open("/dev/null", O_RDWR);
   for (int stream = 0; stream < 3; ++stream) ::dup2(quiet, stream);
   const std::string path = DRESSLIFE_BIN_DIR "/" + program;
@@ -42,7 +42,7 @@ pid_t start(const Scratch& scratch, const std::string& program, const std::vecto
   ::_exit(127);
 }
 
-/// Processes below `process`, the nearest first.
+/// Returns the processes below `process`, the nearest first.
 std::vector<pid_t> descendants(pid_t process) {
   std::vector<pid_t> found{process};
   for (std::size_t k = 0; k < found.size(); ++k) {
@@ -52,8 +52,8 @@ std::vector<pid_t> descendants(pid_t process) {
   return found;
 }
 
-/// Whether the process is gone within ten seconds: it dies at once, but its new parent may take its time to
-/// bury it on a busy machine.
+/// Returns whether the process disappears within ten seconds. It dies at once, but on a busy machine its new parent may reap it
+/// late.
 bool ends(pid_t process) {
   for (int k = 0; k < 1000; ++k) {
     if (::kill(process, 0) != 0 && errno == ESRCH) return true;
@@ -84,7 +84,7 @@ TEST_CASE("whatever is killed when, a resumed study has the results of an undist
     fs::remove_all(scratch / "runs");
     const pid_t runner = start(scratch, "dresslife", {"run", "study.yaml", "--quiet"});
     std::this_thread::sleep_for(takes * std::uniform_real_distribution<double>(0, 1.1)(random));
-    // The runner, Ninja or a stage; by a signal that can be heard or not.
+    // Kills the runner, Ninja or a stage, by a signal that can be caught or not.
     const std::vector<pid_t> all = descendants(runner);
     const std::size_t victim = std::min<std::size_t>(random() % 3, all.size() - 1);
     const int signal = std::array{SIGKILL, SIGTERM, SIGHUP, SIGINT}[random() % 4];
@@ -103,7 +103,7 @@ TEST_CASE("whatever is killed when, a resumed study has the results of an undist
       INFO(name);
       if (name != "report.html") REQUIRE((again.count(name) == 1 && again[name] == bytes));
     }
-    // Nothing that was begun lives on.
+    // None of the started processes is still running.
     for (std::size_t k = 1; k < all.size(); ++k) CHECK(ends(all[k]));
   }
   std::cout << "killed with seed " << seed << ":";
@@ -120,7 +120,7 @@ TEST_CASE(
   fs::copy(scratch / "runs", scratch / "last", fs::copy_options::recursive);
   const auto last = results(scratch / "last/study");
   std::string job = content(scratch / "job.yaml");
-  // It runs with new settings, or is refused: then pages of the last results are to say so.
+  // The job runs with new settings or is refused. When it is refused, pages of the last results must be marked.
   const std::string length = GENERATE("1.0", "0.3");
   const int status = length == "1.0" ? 0 : 1;
   job.replace(job.find("free_length_m: 0.9"), 18, "free_length_m: " + length);
@@ -150,7 +150,7 @@ TEST_CASE(
       REQUIRE(outcome.status == (told ? 1 : status));
       REQUIRE((told || now == good));
       ++(told ? refused : whole);
-      // Beside a new ranking a page is new, too, or says that it is old.
+      // Beside a new ranking every page is new, or marked as outdated.
       const bool ranked = now.at("ranking.csv") != last.at("ranking.csv");
       for (const auto& [name, bytes] : now) {
         INFO(name);
@@ -163,7 +163,7 @@ TEST_CASE(
       REQUIRE(resumed.status == status);
       auto after = results(scratch / "runs/study");
       if (status !=
-          0) {  // a last result's page that could not be marked is gone; the report does not link to it
+          0) {  // an outdated page that cannot be marked is removed; the report does not link to it
         for (const auto& [name, bytes] : good)
           if (fs::path(name).filename() == "page.html") after.emplace(name, bytes);
         after["report.html"] = good.at("report.html");
@@ -269,7 +269,7 @@ TEST_CASE("status and report work beside a run and where nothing may be written,
   scratch.write("study.yaml", study_text);
   REQUIRE(run_study(scratch).status == 0);
   const auto before = results(scratch / "runs/study");
-  // Settings of this command only: the files stay those of the study.
+  // Settings of this command only: the files remain those of the study.
   const Outcome changed = run(scratch, "dresslife", "report study.yaml --set fatigue.stress=elastic");
   CHECK(changed.status == 1);
   CHECK(changed.out.find("stale") != std::string::npos);
@@ -278,7 +278,7 @@ TEST_CASE("status and report work beside a run and where nothing may be written,
   CHECK(results(scratch / "runs/study") == before);
   CHECK(run(scratch, "dresslife", "status study.yaml --set fatigue.stress=elastic")
             .out.find("0 of 3 jobs done") != std::string::npos);
-  // Other settings of the study: the files keep the last results, marked.
+  // Changed settings of the study: the files keep the last results, with a mark.
   const std::string job = content(scratch / "job.yaml");
   scratch.write("job.yaml", job + "fatigue: {stress: elastic}\n");
   CHECK(run(scratch, "dresslife", "report study.yaml").status == 1);
@@ -288,7 +288,7 @@ TEST_CASE("status and report work beside a run and where nothing may be written,
   CHECK(run(scratch, "dresslife", "report study.yaml").status == 0);
   CHECK(results(scratch / "runs/study") == before);
   CHECK(run_study(scratch).err.find("nothing to do") != std::string::npos);
-  // Somebody else holds the folder.
+  // Another process holds the folder's lock.
   const int lock = ::open((scratch / "runs/study/.lock").c_str(), O_RDWR | O_CLOEXEC);
   REQUIRE(lock >= 0);
   REQUIRE(::pwrite(lock, (std::to_string(::getpid()) + "\n").c_str(), std::to_string(::getpid()).size() + 1,
@@ -345,7 +345,7 @@ TEST_CASE("what receipts tell the ranking is all that it would read from the fil
     const std::string name = std::string("bending_stiffness_Nm2=") + stiffness;
     by_files.push_back({name, scratch / ("runs/study/" + name + "/life.h5"), ""});
   }
-  const std::regex settings(",[0-9a-f]{12},");  // digests that no file contains
+  const std::regex settings(",[0-9a-f]{12},");  // digests of settings that no file contains
   const std::string told = content(scratch / "runs/study/ranking.csv");
   REQUIRE(std::regex_search(told, settings));
   CHECK(std::regex_replace(told, settings, ",,") ==
@@ -392,7 +392,7 @@ TEST_CASE("absurd values are refused where they are read, by their keys") {
   refused("simulation.gravity_m_per_s2=[0,0,-1e308]", "(its size must be 0 .. 1000 m/s2)");
   refused("'cell={capsules: [{from_m: [0,0,0], to_m: [0,0,1e300], radius_mm: 1}]}'",
           "(its size must be 0 .. 1000 m)");
-  // As long as the keys allow, and longer than anybody can hold.
+  // As long as the keys allow, and longer than memory can hold.
   scratch.write("long.csv", "0,0,0,1,1,0,0,0,0.8,0,1,1,0,0,0\n9e9,0,0,1,1,0,0,0,0.8,0,1,1,0,0,0\n");
   refused("motion.clamp_poses=long.csv", "(at most 1e+08)");
 }
@@ -434,7 +434,7 @@ TEST_CASE("a study that is moved with its files stays up to date, whatever stand
   REQUIRE(dresslife("plant", "run study.yaml").status == 0);
   for (const auto& entry : fs::recursive_directory_iterator(scratch / "plant/runs")) {
     INFO(entry.path());
-    const bool is_of_this_machine = entry.path().filename() == "study";  // file searches of this machine
+    const bool is_of_this_machine = entry.path().filename() == "study";  // a file of search results for this machine only
     if (entry.is_regular_file() && !is_of_this_machine)
       CHECK(content(entry.path()).find(scratch.folder().string()) == std::string::npos);
   }
@@ -445,7 +445,7 @@ TEST_CASE("a study that is moved with its files stays up to date, whatever stand
   CHECK(moved.err.find("nothing to do") != std::string::npos);
   CHECK(results(scratch / "moved/runs/study") == before);
   CHECK(run(scratch, "dresslife", "run moved/study.yaml -o moved/runs").err.find("nothing to do") !=
-        std::string::npos);  // from another folder
+        std::string::npos);  // called from another folder
   fs::create_directory_symlink(scratch / "moved", scratch / "link");
   CHECK(run(scratch, "dresslife", "run link/study.yaml -o link/runs").err.find("nothing to do") != std::string::npos);
   const std::string poses = content(scratch / "moved/cell/poses.csv");

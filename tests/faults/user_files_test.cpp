@@ -1,4 +1,4 @@
-// Whatever a user has put where a command writes stays as it is.
+// A user's files at the places where commands write remain unchanged.
 #include <sys/stat.h>
 
 #include <iostream>
@@ -15,7 +15,7 @@ namespace {
 
 struct Command {
   std::string program, arguments;
-  bool after_a_run = false;  ///< needs results
+  bool after_a_run = false;  ///< requires results
 };
 const std::vector<Command> commands{{"dresslife", "run study.yaml -j 2 --quiet"},
                                     {"dresslife", "run study.yaml -j 2 --quiet --set strain.gate=0.0007", true},
@@ -33,10 +33,10 @@ const std::vector<Command> commands{{"dresslife", "run study.yaml -j 2 --quiet"}
                                     {"dresslife-strain", "runs/study/a/motion.h5 -o strain.h5", true},
                                     {"dresslife-fatigue", "runs/study/a/strain.h5 -o life.h5", true},
                                     {"dresslife-import", "swing.mod -o swing.yaml"}};
-/// Those that run stages for seconds: tried in the long form.
+/// Commands that run stages for seconds: tested only in the long form.
 const std::vector<Command> long_commands{{"dresslife", "rate hose.yaml"}, {"dresslife", "validate lives.yaml"}};
 
-/// What a study needs, beside the small job.
+/// Writes the files of a study beside the small job.
 void write_inputs(const Scratch& scratch) {
   write_small_job(scratch);
   scratch.write("study.yaml", "base: job.yaml\njobs: {a: {}, b: {}}\n");
@@ -53,7 +53,7 @@ void write_inputs(const Scratch& scratch) {
                 "  PROC main()\n    MoveAbsJ home, v500, fine, tool0;\n  ENDPROC\nENDMODULE\n");
 }
 
-/// Every file, link and folder below a folder, with what it holds.
+/// Returns every file, link and folder below a folder, with its content.
 std::map<std::string, std::string> things_in(const fs::path& folder) {
   std::map<std::string, std::string> things;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -107,7 +107,7 @@ TEST_CASE("no command replaces, empties or removes what is not ours, and each na
       act(copy);
     };
     INFO(command.program << " " << command.arguments);
-    // What it writes: whatever is new or changed afterwards.
+    // Outputs of the command: all files that are new or changed afterwards.
     std::vector<std::string> outputs;
     in_a_copy([&](const Scratch& scratch) {
       const auto was = things_in(scratch.folder());
@@ -118,7 +118,7 @@ TEST_CASE("no command replaces, empties or removes what is not ours, and each na
     });
     for (const int k : some_of(static_cast<int>(outputs.size()), rounds(4), random)) {
       const std::string& name = outputs[static_cast<std::size_t>(k) - 1];
-      if (name.find(".stage/") != std::string::npos && command.after_a_run) continue;  // in a folder that is ours
+      if (name.find(".stage/") != std::string::npos && command.after_a_run) continue;  // inside a folder of the program
       for (const Thing thing : all_things) {
         if (thing != Thing::file && random() % 4 != 0 && rounds(1) == 1) continue;
         in_a_copy([&](const Scratch& scratch) {
@@ -132,7 +132,7 @@ TEST_CASE("no command replaces, empties or removes what is not ours, and each na
           if (thing == Thing::file) {
             REQUIRE(outcome.status == 1);
             const std::string named = name.substr(0, name.find(".stage/"));
-            std::string answer = outcome.err + outcome.out;  // of a study's jobs the table says why, in lines of its width
+            std::string answer = outcome.err + outcome.out;  // the table of a study's jobs states the reason in wrapped lines
             answer.erase(std::remove_if(answer.begin(), answer.end(), [](char c) { return c == ' ' || c == '\n'; }),
                          answer.end());
             REQUIRE(answer.find(fs::path(named).filename().string()) != std::string::npos);
@@ -186,7 +186,7 @@ TEST_CASE("files of the user beside results stay through every command, whatever
     run(scratch, command.program, command.arguments);
     check(command.program + " " + command.arguments);
   }
-  // Neither job is in the study any more.
+  // The study contains neither of these jobs now.
   scratch.write("study.yaml", "base: job.yaml\njobs: {d: {}}\nkeep: lives\n");
   const Outcome clean = run(scratch, "dresslife", "clean study.yaml");
   INFO(clean.out << clean.err);
@@ -205,7 +205,7 @@ TEST_CASE("force: it replaces a file of the user, and never one that the command
   const std::string hose = content(scratch / "hose.yaml");
   CHECK(run(scratch, "dresslife", "draw hose.yaml -o hose.yaml --force").status == 1);
   CHECK(content(scratch / "hose.yaml") == hose);
-  // The base of a job where the job's results go.
+  // The base of a job lies in the folder of the job's results.
   fs::create_directories(scratch / "study/a");
   fs::rename(scratch / "job.yaml", scratch / "study/a/job.yaml");
   fs::rename(scratch / "poses.csv", scratch / "study/a/poses.csv");
@@ -220,7 +220,7 @@ TEST_CASE("force: it replaces a file of the user, and never one that the command
     CHECK(content(scratch / "study/a/job.yaml") == job);
     CHECK_FALSE(fs::exists(scratch / "study/a/motion.h5"));
   }
-  // In a folder of its own the same study runs, over results of the user's too, if they say so.
+  // In its own folder the same study runs, also over results of the user if the user forces it.
   for (const std::string name : {"motion.h5", "strain.h5", "life.h5"}) {
     scratch.write("runs/study/a/" + name, "mine\n");
     const Outcome outcome = run(scratch, "dresslife", "run study.yaml");
@@ -262,6 +262,6 @@ TEST_CASE("a file of ours that a user edits is theirs, one without edits is made
     const Outcome mended = run(scratch, "dresslife", "run study.yaml");
     INFO(name << mended.err);
     CHECK(mended.status == 0);
-    CHECK((content(file) == right || name == "build.ninja"));  // which only a run that does something needs
+    CHECK((content(file) == right || name == "build.ninja"));  // which only a run with work to do needs
   }
 }

@@ -1,4 +1,4 @@
-// A small job with every kind of entry in it, for tests of reading and writing jobs.
+// A small job that contains every kind of entry, for tests that read and write jobs.
 #pragma once
 
 #include <string>

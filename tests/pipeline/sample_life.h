@@ -1,4 +1,4 @@
-// A life file like those of dresslife-fatigue, with numbers made by formula, for tests of ranking and report.
+// A life file in the form that dresslife-fatigue writes. Formulas give its numbers. For tests of ranking and report.
 #pragma once
 
 #include <algorithm>
@@ -13,27 +13,27 @@
 namespace dresslife::pipeline {
 
 struct SampleLife {
-  double repeats = 12000;  ///< of the worst wire; infinite: no damage
+  double repeats = 12000;  ///< life of the worst wire; infinite: no damage
   int segments = 50, lines = 28, samples = 4500;
   int worst_from_tool = 3;
-  bool causes = false;    ///< whether it has the damage by joint
-  double hose_hours = 0;  ///< until the hose's wall cracks; 0: it is not evaluated
-  std::string unvalidated{};  ///< unvalidated_text(); empty: as of an older file
+  bool causes = false;    ///< whether the file contains the damage by joint
+  double hose_hours = 0;  ///< until the hose's wall cracks; 0: not evaluated
+  std::string unvalidated{};  ///< unvalidated_text(); empty: file of an older version
   std::string wall_response{};  ///< empty: no wall
   double planned_hours =
-      0;  ///< until 10 % have a conductor without its share of wires at one place; 0: as of an older file
+      0;  ///< time until in 10 % of cases a conductor has lost its share of wires at one place; 0: file of an older version
   double robot_life_hours = 0;  ///< fatigue.robot_life_hours; 0: no robot moves
   std::string
-      life_response{};  ///< LifeResponse::text(); empty: nothing is uncertain. Only with planned_hours
-  bool wires = true;    ///< false: the dresspack holds none
+      life_response{};  ///< LifeResponse::text(); empty: nothing is uncertain. Used only with planned_hours
+  bool wires = true;    ///< false: the dresspack contains no wires
   std::vector<std::string>
-      dresspacks{};  ///< two: each has half of the segments, the worst lies in the second
+      dresspacks{};  ///< two names: each dresspack has half of the segments, the worst wire lies in the second
   std::string worst_component = "signal cable 3/conductor 2/layer 1/wire 17";
   std::string line_name = "weld spot";
   std::string job = "robot:\n  name: <R&D> \"two\"\n";
 };
 
-/// Writes a life file that is consistent in itself: shares add up and the worst is the worst.
+/// Writes a consistent life file: the shares add up, and the named worst wire has the largest damage.
 inline void write_sample_life(const std::filesystem::path& file, const SampleLife& sample = {}) {
   constexpr double rate = 25, free_length = 2.4;  // [Hz], [m]
   const bool damaged = sample.wires && std::isfinite(sample.repeats);
@@ -52,7 +52,7 @@ inline void write_sample_life(const std::filesystem::path& file, const SampleLif
                        : sample.line_name + " " + std::to_string(line) + ": swing the gun past the fixture");
   for (std::size_t k = 0; k < samples; ++k) {
     time[k] = static_cast<double>(k) / rate;
-    // Moves of uneven length; the program runs through its lines about three times.
+    // Moves have different lengths. The program runs through its lines about three times.
     const double progress =
         3.0 * static_cast<double>(lines * k) / static_cast<double>(samples) + 0.4 * std::sin(0.3 * time[k]);
     step[k] = static_cast<std::int32_t>(std::clamp(progress, 0.0, 3.0 * sample.lines - 1)) % sample.lines;
@@ -124,7 +124,7 @@ inline void write_sample_life(const std::filesystem::path& file, const SampleLif
   put(writer, "/program/text", text);
   put(writer, "/program/damage", line_damage);
 
-  if (sample.causes) {  // two joints and carrying: 80, -10 and 30 % of every line
+  if (sample.causes) {  // two joints and carrying: 80, -10 and 30 % of the damage of every line
     writer.set_axis("cause", 3);
     put(writer, "/joint/name", std::vector<std::string>{"joint_5", "joint_6", "carrying"});
     put(writer, "/joint/damage", std::vector<double>{0.8 * damage, -0.1 * damage, 0.3 * damage});

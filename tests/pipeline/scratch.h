@@ -1,4 +1,4 @@
-// A folder that lives as long as its test, the words of an error, and what was printed meanwhile.
+// A temporary folder for one test, the message of an error, and captured output.
 #pragma once
 
 #include <unistd.h>
@@ -45,7 +45,7 @@ std::string message_of(Call&& call) {
   return "";
 }
 
-/// What is printed to a standard stream between here and text().
+/// Captures what is written to a standard stream between the constructor and text().
 class Captured {
  public:
   explicit Captured(int stream);
@@ -61,16 +61,16 @@ class Captured {
   std::FILE* file_;
 };
 
-/// "FILE:line:column" of the first place of `needle` in `text`.
+/// Returns "FILE:line:column" of the first occurrence of `needle` in `text`.
 std::string place_of(const std::string& text, const std::string& needle, const std::string& file);
 
-/// `text` with the only place of `from` replaced by `to`.
+/// Returns `text` with `from` replaced by `to`. Precondition: `from` occurs exactly once.
 std::string edited(std::string text, const std::string& from, const std::string& to);
 
-/// `text` with every place of `from` replaced by `to`.
+/// Returns `text` with every occurrence of `from` replaced by `to`.
 std::string replaced_all(std::string text, const std::string& from, const std::string& to);
 
-/// How often `text` contains `part`.
+/// Returns the number of occurrences of `part` in `text`.
 std::size_t count_of(const std::string& text, const std::string& part);
 
 }  // namespace dresslife::pipeline

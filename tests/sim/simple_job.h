@@ -1,4 +1,4 @@
-// A job small enough to reason about: one axis along x that turns the tool clamp, the hose lying along it.
+// A job simple enough for calculation by hand: one axis along x turns the tool clamp, and the hose lies along this axis.
 #pragma once
 
 #include "pipeline/job/job.h"
@@ -18,8 +18,8 @@ inline pipeline::MotionStep dwell_for(double seconds) {
   return step;
 }
 
-/// Base clamp at x = 0, tool clamp at x = 0.9 on the turning link, both 1 m above the floor and pointing
-/// along x; 1 m of hose between them, in which it sags.
+/// Returns the job. Base clamp at x = 0, tool clamp at x = 0.9 on the turning link, both 1 m above the floor, pointing along x.
+/// 1 m of hose hangs between them and sags.
 inline pipeline::Job simple_job() {
   pipeline::Job job;
   pipeline::Joint joint;
@@ -46,7 +46,7 @@ inline pipeline::Job simple_job() {
       pipeline::Clamp{"bench", {0, 0, 1}, {1, 0, 0}, {}, {"job.yaml", 9, 3}};
   job.dresspacks[0].routing.tool_clamp =
       pipeline::Clamp{"spindle", {0.9, 0, 1}, {1, 0, 0}, {}, {"job.yaml", 10, 3}};
-  // The axis goes through both clamps, so that turning it only twists the hose.
+  // The axis passes through both clamps, so its rotation only twists the hose.
   job.robot.joints[0].origin = {0, 0, 1};
   job.dresspacks[0].routing.tool_clamp->position = {0.9, 0, 0};
   job.dresspacks[0].routing.where = {"job.yaml", 8, 3};

@@ -1,4 +1,4 @@
-// The kernels of every instruction set that this machine can run, the portable one first.
+// Returns the kernels of every instruction set that this machine supports, the portable set first.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// The thesis' bending test (its figures 13 to 15) in numbers: a single signal cable bent more and more.
+// The thesis' bending test (its figures 13 to 15) in numbers: a single signal cable under increasing bending.
 #include <cmath>
 
 #include "strain/evaluation.h"
@@ -63,15 +63,15 @@ TEST_CASE("the stress of the worst wire of a bent cable is proportional to the c
       const Line line = fit(worst_stress(kinematics, fibres));
       CAPTURE(static_cast<int>(kinematics), fibres);
       CHECK(line.determination > 0.99999);
-      // E times the effective radius: conductor, wire in it and fibre on it, each bent by its share (see
-      // evaluation_test)
+      // E times the effective radius: conductor, wire in it and fibre on it, each bent by its own share of the curvature
+      // (see evaluation_test)
       const double c = std::cos(25 * degree), w = std::cos(5 * degree), s = std::sin(25 * degree);
       const bool exact = kinematics == Kinematics::exact;
       const double conductor = c * c * 0.002825;
       const double bend = exact ? std::pow(c, 4) - s * s / 0.002825 * conductor : c * c;
       const double effective = conductor + w * w * 0.00075 * bend + fibres * 75e-6 * w * w * bend;
-      // the worst of 7 conductors and 31 wires is up to half a spacing from the outermost place: cos(180/7)
-      // of it at least
+      // The worst of 7 conductors and 31 wires lies up to half a spacing from the outermost place. Its strain is at least
+      // cos(180/7 deg) of the strain there.
       CHECK(std::abs(line.slope) <= youngs_modulus * effective * 1.01);
       CHECK(std::abs(line.slope) >= youngs_modulus * effective * std::cos(180.0 / 7 * degree));
     }

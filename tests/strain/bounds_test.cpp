@@ -1,4 +1,4 @@
-// The bounds hold the wires that live shortest, not only those with the largest range.
+// The bounds contain the wires with the shortest lives, not only the wires with the largest range.
 #include <cmath>
 #include <map>
 #include <set>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t segments = 6, samples = 1200;
 
-/// A hose held bent to one side, which swings about that; some segments are pulled as well.
+/// A hose that is bent to one side and swings about this shape. Some segments are also stretched.
 DeformationHistory moving() {
   DeformationHistory history(segments, samples);
   for (std::size_t i = 0; i < segments; ++i)
@@ -88,18 +88,18 @@ void check_agree(const Shortest& bound, const Shortest& of_all, double tolerance
 }  // namespace
 
 TEST_CASE("a bound's shortest life is that of all wires under that slip") {
-  // strains differ by the third harmonic (W13), up to 6e-5 of their range, damage by some powers of that
+  // Strains differ by the third harmonic (W13), up to 6e-5 of their range. Damage differs by a power of that.
   constexpr double waves = 2e-3;
   for (const Stress stress : {Stress::cyclic, Stress::elastic}) {
     const Lives stick = lives_of({Slip::stick}, stress), free = lives_of({Slip::free}, stress);
-    // cables slide in a bound as they do in the job
+    // In a bound, cables slide as they do in the job.
     const Lives inside = lives_of({Slip::free, Slip::stick, Slip::stick}, stress);
     check_agree(stick.stick, stick.sites, waves);
     check_agree(free.free, free.sites, waves);
     CHECK(stick.stick.component == stick.sites.component);
     CHECK(free.free.component == free.sites.component);
-    // The wires of a bound are picked by sums over their cycles that stand for damage, twelve and more of
-    // each layer and segment: where many middling cycles do it, one that was left out can be worse.
+    // The wires of a bound are selected by sums over their cycles that approximate damage, at least twelve wires of each
+    // layer and segment. Where many cycles of medium size cause the damage, a wire that was not selected can be worse.
     constexpr double picked = 0.02;
     check_agree(inside.stick, inside.sites, picked);
     check_agree(free.stick, inside.sites, picked);
@@ -110,8 +110,7 @@ TEST_CASE("a bound's shortest life is that of all wires under that slip") {
 
 namespace {
 
-/// Strain of the outward fibre of a glued wire over time: the plain recursion in double precision, sample by
-/// sample.
+/// Returns the strain of the outward fibre of a glued wire (sample), by the plain recursion in double precision.
 std::vector<double> plain_history(const Construction& construction, const Bundle& bundle, int layer,
                                   int number, const DeformationHistory& history, std::size_t segment,
                                   double arc) {
@@ -163,8 +162,8 @@ std::vector<double> damage_of_sites(const Construction& construction, const Defo
 }  // namespace
 
 TEST_CASE("the damage of a wire is that of a plain reference in double precision without a gate") {
-  // The waves' third harmonic, 6e-5 of the range, to the ninth power as damage goes, and half as much again
-  // for the default gate, single precision and the tables.
+  // The waves' third harmonic is 6e-5 of the range; damage is about its ninth power. Half of that is added for the default
+  // gate, single precision and the tables.
   constexpr double damage_tolerance = 1e-3;
   Dresspack dresspack = thesis_dresspack();
   dresspack.components[0].count = 2;
@@ -181,7 +180,7 @@ TEST_CASE("the damage of a wire is that of a plain reference in double precision
     for (const Bundle& bundle : construction.bundles())
       for (const int layer : bundle.wire_layers)
         for (int number = 1; number <= construction.layers()[layer].count; ++number, ++site) {
-          if (damage[site] < largest / 100 || site % 7 != 0) continue;  // those that count, some of them
+          if (damage[site] < largest / 100 || site % 7 != 0) continue;  // only wires with considerable damage, a sample of them
           const auto strains = plain_history(construction, bundle, layer, number, history, segment,
                                              (static_cast<double>(segment) + 0.5) * 2 / segments);
           const double plain = dresslife::fatigue::sum_of_damage(
@@ -196,13 +195,13 @@ TEST_CASE("the damage of a wire is that of a plain reference in double precision
 }
 
 TEST_CASE("the default gate changes no damage that counts by a thousandth") {
-  constexpr double unseen = 1e-3;  // of a life whose scatter from wire to wire is some tens of per cent
+  constexpr double unseen = 1e-3;  // of a life; lives scatter from wire to wire by some tens of per cent
   constexpr double hardly_any_gate = 1e-6;
   Dresspack dresspack = thesis_dresspack();
   dresspack.components[0].count = 2;
   const Construction construction(dresspack, Kinematics::exact);
   DeformationHistory history = moving();
-  for (std::size_t i = 0; i < segments; ++i)  // small movements on top, most of them below the gate
+  for (std::size_t i = 0; i < segments; ++i)  // adds small movements, most of them below the gate
     for (std::size_t t = 0; t < samples; ++t) {
       const DeformationColumns c = history.columns(i);
       const double shake = 0.8 * std::sin(0.9 * static_cast<double>(t));
@@ -217,14 +216,14 @@ TEST_CASE("the default gate changes no damage that counts by a thousandth") {
     for (std::size_t k = 0; k < all.size(); ++k)
       if (all[k] > largest / 100) worst = std::max(worst, std::abs(gated[k] / all[k] - 1));
     CAPTURE(worst);
-    CHECK(worst > 0);  // it does drop something
+    CHECK(worst > 0);  // the gate drops something
     CHECK(worst < unseen);
   }
 }
 
 namespace {
 
-/// Two large swings one way and then twelve pulls the other way, in some segments more damaging.
+/// Two large swings in one direction, then twelve pulls in the other. In some segments the pulls cause more damage.
 DeformationHistory swings_and_pulls() {
   constexpr double curvature = 2;  // 1/m
   DeformationHistory history(segments, samples);
@@ -242,7 +241,7 @@ DeformationHistory swings_and_pulls() {
 }  // namespace
 
 TEST_CASE("planes are judged for the wires that are damaged most") {
-  // Measured: 0.06. The largest range, peak and sum of cubes alone miss 0.14.
+  // Measured: 0.06. Selection by the largest range, peak and sum of cubes alone has an error of 0.14.
   constexpr double close_second = 0.07;
   const DeformationHistory history = swings_and_pulls();
   Dresspack dresspack = thesis_dresspack();

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double youngs_modulus = 117e9, poisson_ratio = 0.34;
 
-/// The thesis' cable with pressures.
+/// The thesis' cable with pressures between its parts.
 Dresspack pressed_dresspack() {
   Dresspack dresspack = thesis_dresspack();
   dresslife::pipeline::Material copper;
@@ -36,10 +36,9 @@ Dresspack pressed_dresspack() {
   return dresspack;
 }
 
-/// What a conductor at lay angle alpha feels of the cable's curvature when it slides, by W6 and W11 to first
-/// order: bending about its normal, cos (1 + sin^2) times cos(theta), and about its binormal, cos^2 (cos^2 -
-/// sin^2) times sin(theta), and torsion, -2 sin cos^3 times sin(theta). Means of their squares, per length of
-/// the cable:
+/// Mean squares of the bending and torsion of a sliding conductor at lay angle alpha, per curvature and length of the cable,
+/// to first order of W6 and W11: bending about its normal, cos (1 + sin^2) times cos(theta); about its binormal,
+/// cos^2 (cos^2 - sin^2) times sin(theta); torsion, -2 sin cos^3 times sin(theta).
 struct ConductorInCable {
   double bending, torsion;
   explicit ConductorInCable(double alpha) {
@@ -62,8 +61,8 @@ TEST_CASE("a cable's closed ends: free, wires stuck, all stuck") {
     const ConductorInCable in_cable(lay_angle * degree);
     const double section = pi * 75e-6 * 75e-6, EA = youngs_modulus * section, EI = EA * 75e-6 * 75e-6 / 4;
     const double wire_cosine = std::cos(5 * degree);
-    // The wires are stranded into a conductor that turns by its own torsion: against the cable they turn by
-    // the sum of both, here nearly none, and that is what stretches them.
+    // The wires are stranded into a conductor that turns by its own torsion. Against the cable they turn by the sum of both,
+    // which is nearly zero here. This sum determines their stretch.
     const double torsion_at_rest = sine * cosine / conductor.helix_radius;
     double free = 0, wires = 0, conductor_EA = 0;
     for (const Component& wire : conductor.components) {
@@ -77,16 +76,16 @@ TEST_CASE("a cable's closed ends: free, wires stuck, all stuck") {
     }
     const double conductors =
         7 * conductor_EA * std::pow(cosine, 3) * std::pow(conductor.helix_radius, 2) / 2;
-    // Wires are bent a little less than their conductor, by sin^2 of their own 5 degrees.
+    // The wires' curvature is smaller than the conductor's by sin^2 of their own 5 degrees.
     constexpr double wires_lay = 0.01;
     CHECK(bending.free_stiffness() == Approx(free).epsilon(wires_lay));
-    // The conductor is a bow of 1/63 m at rest: a wire on its outside is R x 63 longer, in squares 0.2 %.
+    // The undeformed conductor has the curvature 63 1/m. A wire on its outside is longer by R x 63; in squares: 0.2 %.
     constexpr double bow = 0.004;
     CHECK(bending.stuck_stiffness(1) - bending.free_stiffness() == Approx(wires).epsilon(bow));
     CHECK(bending.stuck_stiffness() - bending.stuck_stiffness(1) == Approx(conductors).epsilon(1e-5));
     if (lay_angle != 25) continue;
-    // Without any cosine of a lay angle: 644 E I = 0.0019, and 7 sum of K E A R^2/2 = 0.226; 4.14 is that and
-    // the conductors' share with its cosines. With them all:
+    // Without the cosines of lay angles: 644 E I = 0.0019, and 7 sum of K E A R^2/2 = 0.226. The sum of this and the
+    // conductors' share with its cosines is 4.14. With all cosines:
     CHECK(644 * EI == Approx(0.0019).epsilon(0.02));
     CHECK(bending.free_stiffness() == Approx(0.00180).epsilon(0.005));
     CHECK(bending.stuck_stiffness(1) == Approx(0.180).epsilon(0.005));
@@ -96,7 +95,7 @@ TEST_CASE("a cable's closed ends: free, wires stuck, all stuck") {
 }
 
 TEST_CASE("a cable of wires alone is the strand that its sliders make") {
-  // One layer, by two programs: virtual work over phases of the exact helix, and K E A cos R mean(held sin).
+  // One layer, by two methods: virtual work over phases of the exact helix, and K E A cos R mean(held sin).
   Dresspack dresspack = pressed_dresspack();
   Component& cable = dresspack.components[0];
   cable.components = {wires("layer 1", 12, 75e-6, 0.0003, 10, Hand::right)};
@@ -112,7 +111,7 @@ TEST_CASE("a cable of wires alone is the strand that its sliders make") {
       const double held = bending.moment(curvature, 1) - bending.moment(curvature, 0);
       const double of_strand = sliders.moment(curvature) - sliders.slipped_stiffness() * curvature;
       const double elastic = (bending.free_stiffness() - sliders.slipped_stiffness()) * curvature;
-      // 360 phases of a curve with kinks; their own bending differs by sin^2 of the lay angle
+      // 360 phases of a curve with kinks; the own bending of the wires differs by sin^2 of the lay angle
       CHECK(held + (jacket > 0 ? elastic : 0) ==
             Approx(of_strand).epsilon(3e-3).margin(0.1 * sliders.slipped_stiffness() * curvature));
     }
@@ -128,7 +127,7 @@ TEST_CASE("the friction level of a measured stiffness gives that stiffness back"
       cable.polymer_bending_stiffness = 0.03;
       cable.measured_at_curvature = curvature;
       cable.measured_bending_stiffness = 0.03 + bending.moment(curvature, level) / curvature;
-      CHECK(friction_level(dresspack, cable) == Approx(level).epsilon(1e-9));  // 80 halvings of 21 decades
+      CHECK(friction_level(dresspack, cable) == Approx(level).epsilon(1e-9));  // 80 halvings of a range of 21 decades
       const Construction construction(dresspack, dresslife::pipeline::Kinematics::exact);
       CHECK(construction.layers()[0].line_load == 0);
       CHECK(construction.layers()[1].line_load == Approx(100 * level));

@@ -1,5 +1,5 @@
-// Cables between two clamps: what is held against what (W10) says, loose ones without play against those, the
-// onset of tension with slack, lays from straight to steep, memory, forces and moments.
+// Cables between two clamps: held cables against (W10), loose cables without play against held ones, the onset of tension
+// with slack, lay angles from straight to steep, memory, forces and moments.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -27,14 +27,14 @@ namespace {
 constexpr double length = 2;
 constexpr std::size_t segments = 64;
 
-/// What the cables' strains ask of them, by the metals of their dresspack.
+/// Returns the forces that the cables' strains cause, with the metals of the dresspack.
 CablePulls pulls_of(const CablePaths& paths) {
   std::vector<dresslife::pipeline::PulledCable> cables;
   for (std::size_t k = 0; k < paths.cables(); ++k) cables.push_back(paths.pulled(k));
   return dresslife::pipeline::pulls_of(cables, paths.samples());
 }
 
-/// What a measured stiffness needs to be explained by.
+/// Adds friction and pressure to all parts, which a measured stiffness requires.
 void rub(std::vector<dresslife::pipeline::Component>& parts) {
   for (dresslife::pipeline::Component& part : parts) {
     part.friction = 0.3;
@@ -54,7 +54,7 @@ Dresspack thesis_hose() {
   return dresspack;
 }
 
-/// Swings from one side to the other with some twist: a hose on a wrist. turn: of its cycle.
+/// Deformation of a hose on a wrist that swings from side to side and twists. z: share of the length; turn: share of the cycle.
 Deformation swing(double z, double turn) {
   const double w = 2 * pi * turn;
   return {(0.8 + 0.4 * std::sin(w)) * std::sin(pi * z), 0.5 * std::cos(w) * std::cos(pi * z / 2),
@@ -76,7 +76,7 @@ struct Run {
       : Run(dresspack, slip, samples, pieces, [&](double z, std::size_t t) {
           return size * swing(z, static_cast<double>(t) / static_cast<double>(cycle));
         }) {}
-  /// motion(z, sample): z of the length.
+  /// motion(z, sample): z is the share of the length.
   Run(const Dresspack& dresspack, Slip slip, std::size_t samples, std::size_t pieces,
       const std::function<Deformation(double, std::size_t)>& motion)
       : construction(dresspack, Kinematics::exact),
@@ -101,8 +101,8 @@ struct Run {
     CablePaths::Keeper keeper;
     return keeper.of(paths, segment, history.columns(segment), 0, history.samples()).strain[cable][sample];
   }
-  /// Strain that pulls: a cable that kept its length would be stretched by its wires' turning with the hose,
-  /// too.
+  /// Returns the strain that causes tension. The strain also contains the part by which the wires of a cable of constant
+  /// length are stretched when they turn with the hose's twist; this part is removed.
   double pulling_strain(std::size_t cable, std::size_t segment, std::size_t sample) {
     double twist = 0;
     for (std::size_t i = 0; i < segments; ++i) twist += history.columns(i).twist[sample] / segments;
@@ -118,7 +118,7 @@ struct Run {
   }
 };
 
-/// Two cables with that much slack, play [m] and grip at both clamps [N], that rub on the hose.
+/// Changes the cables to two with friction on the hose and this slack, play [m] and grip at both clamps [N].
 void lay_in(Dresspack& dresspack, double slack, double grip, double play) {
   dresslife::pipeline::Component& cable = dresspack.components[0];
   cable.count = 2;
@@ -140,7 +140,7 @@ Dresspack held_hose() {
 TEST_CASE(
     "a part without wires takes room, stays in its ring and pulls as a tube, and no wire of it is evaluated") {
   constexpr double beside = 0.7;                    // [rad]
-  const auto widest_way = [](double tube_radius) {  // of a cable along the circle, beside that of the tube
+  const auto widest_way = [](double tube_radius) {  // of a cable along the circle, beside the tube
     Dresspack dresspack = thesis_hose();
     dresslife::pipeline::Component cable = dresspack.components[0], tube;
     cable.count = 1;
@@ -160,7 +160,7 @@ TEST_CASE(
       CHECK(run.construction.cable_of(bundle.part) == 0);  // all wires lie in the cable
     const auto tubes = dresslife::pipeline::properties_of(*tube.plain, tube.radius);
     CHECK(run.paths.pulled(1).force.force(1e-3) == Approx(1e-3 * tubes.axial));
-    CHECK(run.paths.pulled(1).force.strength() == 0);  // not known: it tears at nothing
+    CHECK(run.paths.pulled(1).force.strength() == 0);  // no strength is known: no force tears it
     double most = 0;
     const auto& offsets = run.paths.offsets();
     const double R = cable.helix_radius;
@@ -175,10 +175,10 @@ TEST_CASE(
       }
     return most;
   };
-  // The ring turns as one; in it each has half of what is free between them.
+  // The ring can rotate as a whole. In the ring each part can use half of the gap between the two.
   const auto free = [](double tube) { return 2 * 0.01845 * std::sin(beside / 2) - 0.0053 - tube; };
   const double thin = widest_way(0.003), thick = widest_way(0.005);
-  constexpr double soft = 1e-4;  // [m]: a wall gives by the press over k_w = 1e7 N/m2
+  constexpr double soft = 1e-4;  // [m]: the wall yields by press / k_w, k_w = 1e7 N/m2
   CHECK(thick <= free(0.005) + soft);
   CHECK(thin <= free(0.003) + soft);
   CHECK(thin > thick);
@@ -207,9 +207,9 @@ TEST_CASE("a held cable has the mean stretch of its place, less its slack") {
 TEST_CASE("a loose cable with next to no play has the strain of a held one") {
   Dresspack dresspack = thesis_hose();
   dresspack.components[0].laying.play = 1e-5;
-  // A tenth of the swing: pressed cables stay below 2 sqrt(E I k_w) = 2.8 kN, where they would buckle into a
-  // wall of 1e7 N/m2, and pulled ones press into it by 1.3 kN x 0.12 1/m, 16 um, of 18.45 mm as the 10 um of
-  // play.
+  // A tenth of the swing. Pressed cables then stay below 2 sqrt(E I k_w) = 2.8 kN, above which they buckle into a wall of
+  // 1e7 N/m2. Pulled cables press into it by 1.3 kN x 0.12 1/m / k_w = 16 um, of 18.45 mm, which is similar to the play of
+  // 10 um.
   constexpr double size = 0.1;
   Run loose(dresspack, Slip::free, 10, 20, size), held(held_hose(), Slip::free, 10, 20, size);
   double largest = 0;
@@ -219,7 +219,7 @@ TEST_CASE("a loose cable with next to no play has the strain of a held one") {
   for (std::size_t k = 0; k < 10; ++k)
     for (std::size_t t = 0; t < 10; ++t)
       CHECK(loose.strain(k, 3, t) == Approx(held.strain(k, 3, t)).margin(0.01 * largest));
-  double bend = 0;  // of the hose; a cable off its axis bends by R kappa = 0.2 % more or less, within its play and the wall by little
+  double bend = 0;  // of the hose; off the axis a cable's curvature differs by R kappa = 0.2 %, and little within play and wall
   for (std::size_t i = 0; i < segments; ++i)
     for (std::size_t t = 0; t < 10; ++t) {
       const Deformation of = size * swing(loose.arcs[i] / length, static_cast<double>(t) / 20);
@@ -271,22 +271,22 @@ TEST_CASE(
   };
   CAPTURE(difference(0), difference(1), std::sqrt(differs_from_mean));
   CHECK(difference(1) <
-        difference(0) / 2.5);  // of second order a quarter is left; the finest is not the end itself
+        difference(0) / 2.5);  // second order would leave a quarter; the finest mesh is not the exact limit
   CHECK(difference(1) < 0.1 * std::sqrt(differs_from_mean));
 }
 
 TEST_CASE("tension begins where slack no longer covers what turning asks less what play gives") {
-  // s* = max over time and cables of (R e . net turning - c x turning of either sign) / L, for one plane bend
-  // without twist both turnings are the same: (R - c) kappa.
+  // s* = max over time and cables of (R e . net turning - c x total turning) / L. For one plane bend without twist both
+  // turnings are equal: (R - c) kappa.
   Dresspack dresspack = thesis_hose();
   const double c = 5e-3, kappa = 0.8;
   dresspack.components[0].laying.play = c;
-  double asked = -1;  // slack for which path_gain() asks [%]
+  double asked = -1;  // required slack according to path_gain() [%]
   const auto tension = [&](double slack_percent) {
     dresspack.components[0].laying.slack = slack_percent;
     const Construction construction(dresspack, Kinematics::exact);
     DeformationHistory history(segments, 40);
-    for (std::size_t t = 0; t < 40; ++t)  // slowly, so that it is at rest all the way
+    for (std::size_t t = 0; t < 40; ++t)  // slow, so that the cable is in equilibrium at every sample
       for (std::size_t i = 0; i < segments; ++i)
         history.set(i, t, {kappa * std::min(1.0, static_cast<double>(t) / 30), 0, 0, 0});
     CablePaths paths(construction, plan_slip(construction, {Slip::free}, length), {},
@@ -302,16 +302,16 @@ TEST_CASE("tension begins where slack no longer covers what turning asks less wh
     for (const std::vector<double>& of_cable : pulls.tension) most = std::max(most, of_cable.back());
     return most;
   };
-  // cable 3 and 4 lie at 72 and 108 degrees: sin 72 of the radius is the farthest outside
+  // Cables 3 and 4 lie at 72 and 108 degrees. Their sin 72 of the radius is the largest distance on the outside.
   const double onset = 100 * (0.01845 * std::sin(72 * pi / 180) - c) * kappa;
-  CHECK(tension(onset + 0.1) < 25);   // N: bending it into place and its weight, no stretch
-  CHECK(tension(onset - 0.1) > 500);  // 0.1 % of 0.98 MN, less what the wall gives
+  CHECK(tension(onset + 0.1) < 25);   // N: bends the cable into place and carries its weight, without stretch
+  CHECK(tension(onset - 0.1) > 500);  // 0.1 % of 0.98 MN, minus what the wall yields
   CHECK(asked == Approx(onset).epsilon(1e-3));
 }
 
 TEST_CASE("a slack between the gains of a cable's path makes no force, one outside of them does") {
   Dresspack dresspack = thesis_hose();
-  dresspack.components[0].count = 1;  // in the middle, with 4 mm of room
+  dresspack.components[0].count = 1;  // in the middle, with 4 mm of play
   dresspack.components[0].helix_radius = 0;
   dresspack.components[0].laying.position = Position::loose;
   dresspack.components[0].laying.play = 4e-3;
@@ -326,9 +326,9 @@ TEST_CASE("a slack between the gains of a cable's path makes no force, one outsi
   };
   const auto [gain, force, room, cable] = with(0);
   CHECK(room == 4e-3);
-  CHECK(gain[0] > gain[1]);  // room on both sides: a window
+  CHECK(gain[0] > gain[1]);  // play on both sides: a window of slack
   const double limit = 0.2 * cable.strength();
-  // What a helix keeps beyond the gain of the path, and compression, at that force (pipeline/cable/excess.h).
+  // Additional length that a helix stores beyond the path's gain, and compression, at that force (pipeline/cable/excess.h).
   const double fits = gain[0] + dresslife::pipeline::excess_at_force(cable, limit, room);
   CHECK(std::get<1>(with(std::max(0.0, gain[1]) / 2 + gain[0] / 2)) < limit);
   CHECK(std::get<1>(with(0.8 * fits)) < limit);
@@ -354,8 +354,8 @@ TEST_CASE("strains change smoothly with the lay from straight to ten degrees") {
     ranges.push_back(widest);
   }
   const double largest = *std::max_element(ranges.begin(), ranges.end());
-  // A turn more between the clamps every 3.3 degrees takes the range from its largest to nearly nothing: over
-  // 0.05 degrees by pi x 0.05/3.3, 5 % of the largest; a jump would be of its whole size.
+  // One more turn between the clamps, every 3.3 degrees, changes the range from its largest value to nearly zero. A step of
+  // 0.05 degrees changes it by pi x 0.05/3.3, 5 % of the largest. A jump would change it by its whole value.
   for (std::size_t i = 1; i < ranges.size(); ++i) CHECK(std::abs(ranges[i] - ranges[i - 1]) < 0.05 * largest);
 }
 
@@ -380,8 +380,8 @@ TEST_CASE(
           INFO("grip " << grip << " N, play " << play << " m, slack " << slack << ", friction "
                        << (slip == Slip::friction));
           for (const double strain : strains) REQUIRE(std::isfinite(strain));
-          // Length that is let in shortens a strain by itself at most. What pulls two ways, by a grip at its
-          // either bound and friction toward its either end, has memory of both.
+          // A step of slack lets in length and shortens a strain by at most this step. With grip and friction a strain
+          // also depends on its history in both directions, which can double the change.
           CHECK(moved < 2 * step);
           before = strains;
         }
@@ -413,10 +413,10 @@ TEST_CASE(
     for (std::size_t i = 0; i < bent[k].size(); ++i) differs += std::pow(bent[k][i] - bent.back()[i], 2);
     off.push_back(std::sqrt(differs / all));
     CAPTURE(k, told[k], off[k]);
-    // The stated error is of second differences only; displaced waves add to it.
+    // The stated error covers second differences only. Displaced waves add to it.
     CHECK(off[k] < 2 * told[k]);
   }
-  // Of second order a quarter is left; the finest, which all are held against, is not the end itself.
+  // Second order would leave a quarter. The reference is the finest mesh, not the exact limit.
   CHECK(told[1] < told[0]);
   CHECK(off[1] < off[0] / 2.5);
   CHECK(off[2] < off[1] / 2.5);
@@ -432,17 +432,17 @@ TEST_CASE("a grip bounds the force of a cable, and its slip adds up over a repea
     let_in = std::max(let_in, run.paths.grip_slip(k)[0]);
     CHECK(run.paths.grip_slip(k)[1] == 0);
   }
-  CHECK(let_in > 0.005);  // of 2 m that stretch by 0.5 % and more to and fro, twice
+  CHECK(let_in > 0.005);  // 2 m of cable stretch by at least 0.5 % in both directions, twice
 }
 
 TEST_CASE("one cycle ends as one of many, whether it closes at once or little by little") {
-  // Later cycles of one long motion begin as repeats of a short one do.
+  // Later cycles of one long motion start like the repeats of a short motion.
   constexpr std::size_t cycle = 20, cycles = 12;
   constexpr double settled = 1e-6;  // strain by which a repeat may still differ from the one before
   struct Case {
     double grip, line_load;  // [N], [N/m]
   };
-  // Grips alone close in the second repeat. Between grips and friction every repeat leaves a share of what is left.
+  // With grips alone the cycle closes in the second repeat. With grips and friction every repeat reduces the gap by a factor.
   for (const Case& of : {Case{100, 0}, {2000, 10000}}) {
     CAPTURE(of.grip, of.line_load);
     Dresspack dresspack = held_hose();
@@ -462,8 +462,8 @@ TEST_CASE("one cycle ends as one of many, whether it closes at once or little by
 }
 
 TEST_CASE("a repeat that its last quarter does not lead to begins with no memory at its first sample") {
-  // Grips and strong friction: what is held depends on the first sample. Without a new beginning the first cable ends
-  // elsewhere by 2e-3 of strain, and where the motion stops too early it has not closed.
+  // Grips and strong friction: the held strain depends on the first sample. Without a new start the first cable ends at another
+  // strain (difference 2e-3). If the motion stops too early, the cycle has not closed.
   constexpr std::size_t cycle = 8, cycles = 8;
   constexpr double shapes[cycle][3] = {{-0.62, -0.51, 0.92}, {-0.76, -0.87, 0.68},  {0.64, 0.60, 0.35},    {0.37, -0.07, -0.31},
                                        {0.95, -0.48, 0.33},  {1.41, -1.44, -0.19}, {-2.30, -1.67, 1.62}, {-0.74, 1.04, 0.66}};
@@ -480,20 +480,20 @@ TEST_CASE("a repeat that its last quarter does not lead to begins with no memory
   for (std::size_t segment = 0; segment < segments; ++segment)
     for (std::size_t t = 0; t < cycle; ++t)
       apart = std::max(apart, std::abs(one.strain(0, segment, t) - many.strain(0, segment, (cycles - 1) * cycle + t)));
-  CHECK(apart < 1e-5);  // a repeat may differ from the one before by 1e-6, and some of that is left for later ones
+  CHECK(apart < 1e-5);  // successive repeats may differ by 1e-6, and the rest of such differences adds up
 }
 
 TEST_CASE("forces of held cables are told beside their moment on the hose") {
   Run run(held_hose(), Slip::free, 20, 20);
   const CablePulls pulls = pulls_of(run.paths);
-  CHECK(pulls.force_share > 1);  // copper does not bear what held cables ask of it
+  CHECK(pulls.force_share > 1);  // copper cannot carry the force that held cables cause
   double most = 0;
   for (const double moment : pulls.moment) most = std::max(most, moment);
-  CHECK(most > 100);  // [N m], of a hose that carries 25 N m2 x 1 1/m
+  CHECK(most > 100);  // [N m]; the hose itself carries 25 N m2 x 1 1/m
   CHECK(*std::max_element(run.paths.hose_moment().begin(), run.paths.hose_moment().end()) < 25);
   CHECK(dresslife::pipeline::moment_share(pulls, run.paths.hose_moment()) ==
         most / *std::max_element(run.paths.hose_moment().begin(), run.paths.hose_moment().end()));
-  // The shape is that of the run; a sleeve that bends with the hose carries its part.
+  // The shape is the one of the run. A sleeve that bends with the hose carries its part of the moment.
   CablePaths relieved(run.construction, plan_slip(run.construction, {Slip::free, Slip::free}, length),
                       {.relief_stiffness = {75, 75}}, run.lengths, run.arcs, 20);
   relieved.add({run.history});
@@ -507,7 +507,7 @@ TEST_CASE("forces of held cables are told beside their moment on the hose") {
 
 TEST_CASE(
     "a twisted cable that shortens as its wires ask for pulls at nothing, one that is held as they do") {
-  // Wires on one helix keep their length where hypot(tan(alpha) + R t, 1 + e) = 1 / cos(alpha).
+  // Wires on one helix keep their length if hypot(tan(alpha) + R t, 1 + e) = 1 / cos(alpha).
   constexpr double R = 0.003, alpha = 20 * test_dresspacks::degree, twist = 2 * pi;  // [rad/m]: 360 deg/m
   Dresspack dresspack = thesis_hose();
   dresspack.inner_diameter.reset();
@@ -529,15 +529,15 @@ TEST_CASE(
         paths.add({history});
         paths.finish();
         const double tension = pulls_of(paths).tension[0][0];
-        const double by_length = force.force(elongation);  // the force by its axis alone
+        const double by_length = force.force(elongation);  // the force computed from the axis only
         if (elongation == 0) {
-          // Of a strain x of the cable a wire has cos^2 x; what a turn a metre does besides is of second
+          // A strain x of the cable gives a wire the strain cos^2 x. Other effects of one turn per metre are of second
           // order, R t = 0.02.
           constexpr double second_order = 0.04;
           const double wire = std::cos(alpha) * std::hypot(turning, 1) - 1;
           CHECK(tension == Approx(force.force(wire / std::pow(std::cos(alpha), 2))).epsilon(second_order));
         } else {
-          // of the twist's cube, (R t)^2 of it
+          // of third order in the twist, (R t)^2 of the force by the axis
           CHECK(std::abs(tension) < 2e-3 * std::abs(by_length));
         }
       }
@@ -548,13 +548,13 @@ TEST_CASE(
 TEST_CASE("a loose cable with slack gives the length that twist takes, and pulls no more for it") {
   Dresspack dresspack = thesis_hose();
   dresspack.components[0].count = 1;
-  dresspack.components[0].helix_radius = 0;  // its path does not know of twist
+  dresspack.components[0].helix_radius = 0;  // its path does not depend on twist
   dresspack.components[0].laying.slack = 1;
   dresspack.components[0].laying.play = 8e-3;
   const Construction construction(dresspack, Kinematics::exact);
   const auto lies = [&](double twist) {
     DeformationHistory history(segments, 1);
-    for (std::size_t i = 0; i < segments; ++i) {  // bent, so that what is too long leaves its place
+    for (std::size_t i = 0; i < segments; ++i) {  // bent, so that excess length moves away from its place
       const double z = Run::centres()[i] / length;
       history.set(i, 0, {std::sin(pi * z), 0.5 * std::cos(3 * z), twist, 0});
     }
@@ -571,8 +571,7 @@ TEST_CASE("a loose cable with slack gives the length that twist takes, and pulls
     const double taken = construction.layers()[0].shortening.at(twist);
     REQUIRE(std::abs(taken) > 5e-4);
     const auto [strain, force] = lies(twist);
-    // What is left of the slack lies in waves, whose push of 200 N changes with it by a fifth: 4e-5 of
-    // strain.
+    // The rest of the slack lies in waves. Their compression of 200 N changes with it by a fifth: 4e-5 of strain.
     CHECK(strain - still == Approx(-taken).epsilon(0.05));
     CHECK(std::abs(force) < std::abs(pushed) * 1.5);
   }
@@ -582,7 +581,7 @@ TEST_CASE("forces of cables that stick to the hose are told, too") {
   const Dresspack dresspack = held_hose();
   const Construction construction(dresspack, Kinematics::exact);
   const std::vector<double> lengths(segments, length / segments);
-  constexpr double kappa = 0.3;  // [1/m] in one segment: a glued cable has its strain there and nowhere else
+  constexpr double kappa = 0.3;  // [1/m] in one segment: a glued cable has strain only there
   for (const std::size_t bent : {std::size_t{0}, segments / 2}) {
     DeformationHistory history(segments, 1);
     for (std::size_t i = 0; i < segments; ++i) history.set(i, 0, {i == bent ? kappa : 0, 0, 0, 0});
@@ -594,13 +593,13 @@ TEST_CASE("forces of cables that stick to the hose are told, too") {
     const CablePulls pulls = pulls_of(paths);
     double moment = 0;
     for (std::size_t k = 0; k < 10; ++k) {
-      const double away = 0.01845 * std::sin(2 * pi * static_cast<double>(k) / 10);  // W5: kappa times that
+      const double away = 0.01845 * std::sin(2 * pi * static_cast<double>(k) / 10);  // W5: strain = kappa times this
       CHECK(pulls.tension[k][0] == Approx(force.force(kappa * away)).margin(1e-6));
       moment += force.force(kappa * away) * away;
     }
     CHECK(pulls.force_share ==
           Approx(force.force(kappa * 0.01845 * std::sin(72 * pi / 180)) / force.strength()));
-    // at a clamp only what is bent beside it asks for a moment
+    // the moment at a clamp comes only from a bend beside it
     CHECK(pulls.moment[0] == Approx(bent == 0 ? moment : 0).margin(1e-6));
   }
 }
@@ -624,16 +623,16 @@ TEST_CASE("a free end of the hose does not pull at its cables") {
     return most;
   };
   Dresspack dresspack = held_hose();
-  // of 10 kN at most that the strains would ask for, the soft end of sliding_line keeps a millionth
+  // The strains would cause up to 10 kN. The soft end of sliding_line keeps a millionth of it.
   CHECK(largest(dresspack, Slip::free) < 1e-6 * 1e4);
-  // With friction of 0.3 under 5 N/m it gathers toward the base clamp, and by the turning of bends a little
-  // faster.
+  // With friction of 0.3 under 5 N/m the force grows toward the base clamp, and a little faster because of the turning of
+  // bends.
   dresspack.components[0].friction = 0.3;
   dresspack.components[0].radial_line_load = 5;
   const double gathered = 0.3 * 5 * length;
   CHECK(largest(dresspack, Slip::friction) > 0.5 * gathered);
   CHECK(largest(dresspack, Slip::friction) < std::exp(0.3 * 2 * pi) * gathered);
-  // A grip that is given holds them there, up to its force.
+  // A given grip holds the cables there, up to its force.
   dresspack.components[0].laying.tool_grip = 300;
   CHECK(largest(dresspack, Slip::free) == Approx(300).epsilon(1e-3));
 }
@@ -641,7 +640,7 @@ TEST_CASE("a free end of the hose does not pull at its cables") {
 TEST_CASE("with friction along it a cable's largest force counts, wherever it is") {
   Dresspack dresspack = held_hose();
   dresspack.components[0].friction = 0.3;
-  dresspack.components[0].radial_line_load = 2000;  // 0.3 x 2000 N/m x 2 m: as much as its ends feel
+  dresspack.components[0].radial_line_load = 2000;  // 0.3 x 2000 N/m x 2 m: as much as the force at its ends
   Run run(dresspack, Slip::friction, 20, 20);
   double largest = 0;
   const CableForce& force = run.construction.layers()[0].force;
@@ -655,7 +654,7 @@ TEST_CASE("with friction along it a cable's largest force counts, wherever it is
     for (const std::size_t i : {std::size_t{0}, segments - 1})
       for (std::size_t t = 0; t < 20; ++t)
         ends = std::max(ends, std::abs(force.force(run.pulling_strain(k, i, t))));
-  CHECK(ends < 0.99 * largest);  // else the two cases would not differ
+  CHECK(ends < 0.99 * largest);  // otherwise the two cases would not differ
 }
 
 TEST_CASE("the same cables come out in blocks of any size") {
@@ -710,7 +709,7 @@ TEST_CASE(
 
 namespace {
 
-/// Strain of every cable in every segment (sample, cable, segment).
+/// Returns the strain of every cable in every segment, (sample, cable, segment).
 std::vector<double> strains_of(const Run& run, std::size_t samples) {
   std::vector<double> all(samples * 10 * segments);
   CablePaths::Keeper keeper;
@@ -735,21 +734,21 @@ TEST_CASE("a closed motion of loose cables closes without friction, and with it 
   for (std::size_t k = 0; k < row; ++k)
     open = std::max(open, std::abs(smooth[4 * cycle * row + k] - smooth[3 * cycle * row + k]));
   for (const double strain : smooth) largest = std::max(largest, std::abs(strain));
-  // at rest to 1e-7 m of place, which are 5e-7 of strain; only drag differs from cycle to cycle, and it decays
-  // in the first
+  // At rest to 1e-7 m of position, which is 5e-7 of strain. Only drag differs from cycle to cycle, and its effect decays in
+  // the first cycle.
   CHECK(open < 1e-6);
   CHECK(largest > 20 * 1e-6);
 
-  // What the hose does to the cables is tension times the strain of the path, which is what cables have that
-  // cannot slide.
-  dresspack.components[0].friction = 0.3;  // the same in both, as the drag across follows it
+  // The hose's work on the cables is tension times the change of the path's strain. Cables that cannot slide have the path's
+  // strain.
+  dresspack.components[0].friction = 0.3;  // equal in both runs, because the lateral drag depends on it
   dresspack.components[0].radial_line_load = 1e10;
   const std::vector<double> path = strains_of(Run(dresspack, Slip::friction, samples, cycle), samples);
   dresspack.components[0].radial_line_load = 5;
   const Run run(dresspack, Slip::friction, samples, cycle);
   const std::vector<double> rubbed = strains_of(run, samples);
   for (std::size_t k = 0; k < 10; ++k) {
-    double work = 0;  // over E A and a segment's length
+    double work = 0;  // divided by E A and a segment's length
     for (std::size_t t = 3 * cycle; t < 4 * cycle; ++t)
       for (std::size_t i = 0; i < segments; ++i) {
         const std::size_t a = t * row + k * segments + i, b = a + row;

@@ -1,4 +1,4 @@
-// Where jackets rub, against closed forms: a cable drawn over an arc, one that moves across its hose, and refinement.
+// Rubbing of jackets against closed forms: a cable drawn over an arc, a cable that moves across its hose, and mesh refinement.
 #include "strain/cable_rubbing.h"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ Dresspack hose() {
   return dresspack;
 }
 
-/// One cable on the axis, which slips through its base clamp and not through the other.
+/// One cable on the axis that slips through its base clamp but not through its tool clamp.
 Dresspack drawn(double grip) {
   Dresspack dresspack = hose();
   dresslife::pipeline::Component& cable = dresspack.components[0];
@@ -70,7 +70,7 @@ struct Run {
       arcs.push_back((static_cast<double>(i) + 0.5) * length / static_cast<double>(segments));
     return arcs;
   }
-  /// (segment) work over length, all around a cable [N].
+  /// Returns the friction work per length, summed around the cable [N], (segment).
   std::vector<double> work_per_length(std::size_t cable) const {
     std::vector<double> of(segments);
     for (const CableRubbing::Patch& patch : paths.rubbing(cable)->patches())
@@ -82,9 +82,9 @@ struct Run {
 }  // namespace
 
 TEST_CASE("a cable that is drawn over an arc rubs with its tension, the arc's curvature and its way") {
-  // The hose stretches and shrinks by 2 a. The cable is fast at the tool clamp and slips through the base clamp with a force G.
-  // At x from the base it slides by 2 a (L - x), with the tension G e^(mu kappa x) while the hose stretches. Where it is
-  // pushed back it does not press.
+  // The hose stretches and shrinks by 2 a. The cable is fixed at the tool clamp and slips through the base clamp at a force G.
+  // At x from the base it slides by 2 a (L - x), with the tension G e^(mu kappa x) while the hose stretches. Under compression
+  // it does not press on the hose.
   constexpr double a = 0.01, curvature = 0.8, grip = 10;
   constexpr std::size_t samples = 201, segments = 64;
   const Run run(drawn(grip), segments, samples, [](double, std::size_t t) {
@@ -92,15 +92,15 @@ TEST_CASE("a cable that is drawn over an arc rubs with its tension, the arc's cu
                        a * std::sin(2 * std::numbers::pi * static_cast<double>(t) / (samples - 1))};
   });
   const std::vector<double> work = run.work_per_length(0);
-  // The elastic strain of the cable is below a thousandth of a; a segment's tension differs from that at its middle by
-  // mu kappa l / 2 = 0.4 %, and the samples in which the direction changes cost as much.
+  // The cable's elastic strain is below a thousandth of a. The tension of a segment differs from the tension at its middle by
+  // mu kappa l / 2 = 0.4 %. The samples in which the direction changes add an error of the same size.
   constexpr double discrete = 0.015;
   for (const std::size_t i : {3u, 20u, 40u, 55u}) {
     const double x = run.arcs()[i];
     CHECK(work[i] == Approx(grip * std::exp(friction * curvature * x) * curvature * 2 * a * (length - x))
                          .epsilon(discrete));
   }
-  // It touches on the inside of the bend. The axis bends toward (k2, -k1), which is d1 here.
+  // The cable touches on the inside of the bend. The axis bends toward (k2, -k1), which is d1 here.
   for (const CableRubbing::Patch& patch : run.paths.rubbing(0)->patches())
     CHECK(patch.angle < CableRubbing::width());
 }
@@ -116,7 +116,7 @@ TEST_CASE("a hose that does not move wears no jacket") {
       most = std::max(most, std::ranges::max(run.work_per_length(k)));
     return most;
   };
-  // Loose cables creep to rest under their drag. A rehearsal lasts 1.6 s.
+  // Loose cables creep into equilibrium under their drag. A rehearsal lasts 1.6 s.
   const double soon = largest(1);
   CHECK(largest(100) < 0.01 * soon);
 }
@@ -129,7 +129,7 @@ TEST_CASE("jackets rub by as much with twice the segments") {
                        0.5 * std::cos(w) * std::cos(std::numbers::pi * z / 2), 0.4 * std::sin(w),
                        1e-4 * std::cos(w)};
   };
-  // The mean over the footprint of ten diameters, of which wear is computed.
+  // The mean over a footprint of ten diameters, from which wear is computed.
   const auto largest = [&](std::size_t segments) {
     const Run run(hose(), segments, samples, motion);
     const auto wide = static_cast<std::size_t>(std::lround(0.106 * static_cast<double>(segments) / length));
@@ -143,7 +143,7 @@ TEST_CASE("jackets rub by as much with twice the segments") {
     }
     return most;
   };
-  constexpr double refined = 0.1;  // wear rates are known to a factor of 6
+  constexpr double refined = 0.1;  // wear rates are known only to a factor of 6
   const double coarse = largest(64);
   CHECK(coarse > 0.1);  // [N]
   CHECK(largest(128) == Approx(coarse).epsilon(refined));
@@ -151,7 +151,7 @@ TEST_CASE("jackets rub by as much with twice the segments") {
 
 namespace {
 
-/// On a ring of 18 mm between a core and a wall.
+/// A cable on a ring of 18 mm between a core and a wall.
 LooseCable in_ring() {
   LooseCable cable;
   cable.place = {18e-3, 0};
@@ -159,7 +159,7 @@ LooseCable in_ring() {
   return cable;
 }
 
-/// (node) all at one place, pressed alike.
+/// A state whose nodes all have the same place and the same pressure.
 CableState pressed_at(double x, double y, double press, std::size_t nodes) {
   CableState state;
   state.press.assign(nodes, press);
@@ -186,8 +186,8 @@ TEST_CASE("a cable that moves around its hose rubs with its pressure, on the sid
   for (const CableRubbing::Patch& patch : rubbing.patches()) {
     sum += patch.work;
     CHECK(patch.work ==
-          Approx(whole / segments / CableRubbing::sectors).epsilon(0.11));  // one of ten steps at a border
-    // At the wall it touches with its outer side, at the core with its inner side.
+          Approx(whole / segments / CableRubbing::sectors).epsilon(0.11));  // one of ten steps at a sector's border
+    // At the wall the cable touches with its outer side, at the core with its inner side.
     const double passed = static_cast<double>(patch.sample) * 2 * std::numbers::pi / steps +
                           (radius > 18e-3 ? 0 : std::numbers::pi);
     CHECK(std::abs(std::remainder(passed - patch.angle, 2 * std::numbers::pi)) <= CableRubbing::width());

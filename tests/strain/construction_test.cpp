@@ -18,7 +18,7 @@ namespace {
 
 constexpr double rounding = 1e-12;
 
-/// Difference of two angles, whole turns apart or not.
+/// Returns the difference of two angles, ignoring whole turns.
 double apart(double a, double b) { return std::abs(std::remainder(a - b, 2 * pi)); }
 
 }  // namespace
@@ -45,7 +45,7 @@ TEST_CASE("a phase advances with the length along the parent") {
   const double arc = 0.123;
   CHECK(apart(construction.phase(conductor.layer, 2, conductor.parent, arc),
               2 * pi / 7 + arc * std::tan(25 * degree) / 0.002825) < rounding);
-  // wires count along the conductor, which is 1/cos(25 deg) longer than the cable, and to the left
+  // Wires are counted along the conductor, which is longer than the cable by 1/cos(25 deg), in left-hand direction.
   CHECK(apart(construction.phase(bundle.wire_layers[0], 4, bundle.part, arc),
               2 * pi * 3 / 31 - arc / std::cos(25 * degree) * std::tan(5 * degree) / 0.00075) < rounding);
 }
@@ -55,7 +55,7 @@ TEST_CASE("the thesis' phase of a wire is counted against its conductor's, witho
   const Bundle& bundle = construction.bundles()[1];
   const Part& conductor = construction.parts()[bundle.part];
   const double arc = 0.05;
-  // the conductor lies in the cable, which lies in the dresspack at phase 0: pi - 0 is added there as well
+  // The conductor lies in the cable, which lies in the dresspack at phase 0. At this level pi - 0 is added as well.
   const double conductor_phase = 2 * pi / 7 + arc * std::tan(25 * degree) / 0.002825 + pi;
   CHECK(apart(construction.phase(conductor.layer, 2, conductor.parent, arc), conductor_phase) < rounding);
   CHECK(apart(construction.phase(bundle.wire_layers[0], 4, bundle.part, arc),
@@ -105,7 +105,7 @@ TEST_CASE("free components slide over their pitch, or from clamp to clamp when s
   CHECK(mixed[1].sliding == Sliding::over_pitch);
   CHECK(mixed[2].sliding == Sliding::glued);
 
-  // a pitch of 38 mm does not fit into 30 mm: the conductor slides from clamp to clamp, and its wires with it
+  // A pitch of 38 mm is longer than 30 mm: the conductor slides from clamp to clamp, and so do its wires.
   const auto brief = plan_slip(construction, {Slip::free}, 0.03);
   CHECK(brief[1].sliding == Sliding::clamp_to_clamp);
   CHECK(brief[2].sliding == Sliding::clamp_to_clamp);

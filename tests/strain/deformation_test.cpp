@@ -16,9 +16,9 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double rounding =
-    1e-9;  // poses of order one differenced over links of order 1e-2, machine epsilon 2e-16
+    1e-9;  // differences of poses of order one over links of order 1e-2; machine epsilon 2e-16
 
-/// Poses of a chain and what holds the numbers that a ChainPose points to.
+/// Poses of a chain, and the storage of the numbers to which a ChainPose points.
 struct Chain {
   std::vector<double> position, orientation, clamp_position, clamp_orientation, lengths;
 
@@ -39,10 +39,10 @@ void append(std::vector<double>& to, const Quaterniond& q) {
 
 using Rate = std::function<Vector3d(double s)>;  // rotation rate in the body frame [1/m]
 
-/// Samples at the segment centres and clamps of the curve with frame rate `rate` and stretch `stretch`,
-/// integrated in steps so small that their error is far below that of the measures.
+/// Returns the poses at segment centres and clamps of the curve with frame rate `rate` and stretch `stretch`. The integration
+/// steps are so small that their error is far below that of the measures.
 Chain chain_on_curve(double length, int segments, const Rate& rate, double stretch = 1) {
-  const int steps = 2 * 500;  // per segment; even, so that centres fall on steps
+  const int steps = 2 * 500;  // per segment; even, so that a step ends at each centre
   const double h = length / segments / steps;
   Chain chain;
   Quaterniond q = Quaterniond(Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()));
@@ -72,8 +72,8 @@ Chain chain_on_curve(double length, int segments, const Rate& rate, double stret
   return chain;
 }
 
-/// Worst difference of the measured rotation rate from the curve's at the segment centres, `ends` segments
-/// left out at either end.
+/// Returns the largest difference of the measured rotation rate from the curve's at the segment centres, without `ends`
+/// segments at either end.
 double worst_error(const Chain& chain, const Rate& rate, DeformationMeasure measure, std::size_t ends = 0) {
   double worst = 0, start = 0;
   const auto measured = chain.measure(measure);
@@ -89,7 +89,7 @@ double worst_error(const Chain& chain, const Rate& rate, DeformationMeasure meas
 
 Vector3d rate_of(const Deformation& of) { return {of.curvature1, of.curvature2, of.twist}; }
 
-/// The deformation where wires are evaluated: in the outermost segments at the ends that are known.
+/// Returns the deformation at the places where wires are evaluated: for the outermost segments, at the known ends.
 std::vector<Deformation> at_wires(const Chain& chain, DeformationMeasure measure) {
   DeformationGauge gauge(chain.lengths, measure, chain.free_end);
   std::vector<Deformation> found(chain.lengths.size());
@@ -98,8 +98,8 @@ std::vector<Deformation> at_wires(const Chain& chain, DeformationMeasure measure
   return found;
 }
 
-/// A chain of the simulator's kind, turned at the links by `rotation`: rigid segments whose ends meet, a
-/// little further out where they bend (sim/rod/theory.md, S17).
+/// Returns a chain of the simulator's kind with the rotation `rotation` at each link: rigid segments whose ends meet, in
+/// bends a little outside the curve (sim/rod/theory.md, S17).
 Chain jointed_chain(double segment_length, const std::vector<Vector3d>& rotation) {
   Chain chain;
   Quaterniond q = Quaterniond::Identity();
@@ -137,7 +137,7 @@ TEST_CASE("a circle has the curvature of its radius, about the axis it bends aro
   const Rate rate = [&](double) { return Vector3d(0.6 / radius, -0.8 / radius, 0); };
   const Chain chain = chain_on_curve(1.0, 20, rate);
   CHECK(worst_error(chain, rate, DeformationMeasure::rotation_vector) < rounding);
-  // the integration's own error in the positions; the circle through three points of a circle is that circle
+  // The tolerance is the error of the integrated positions. The circle through three points of a circle is exact.
   constexpr double integration = 1e-6;
   CHECK(worst_error(chain, rate, DeformationMeasure::thesis) < integration);
 }
@@ -165,7 +165,7 @@ TEST_CASE("on samples of a curve the rotation vector's error falls with the squa
     const double fine = worst_error(fine_chain, rate, DeformationMeasure::rotation_vector, 6);
     CAPTURE(coarse, fine);
     CHECK(std::log2(coarse / fine) > 1.9);
-    // with the ends: 0.03 times the change of at most 17 1/m2 over a segment, and the second order
+    // Tolerance with the end segments: 0.03 times the change of at most 17 1/m2 over a segment, plus second order.
     CHECK(worst_error(fine_chain, rate, DeformationMeasure::rotation_vector) < 0.04 * 17 / 40);
   }
 }
@@ -195,11 +195,11 @@ TEST_CASE("on a simulated chain the error falls with the third power, ends inclu
   const double coarse_ends = error_at_ends(40), fine_ends = error_at_ends(80);
   CAPTURE(coarse_ends, fine_ends);
   CHECK(std::log2(coarse_ends / fine_ends) > 2.8);
-  CHECK(fine_ends < 1e-3);  // a centre would differ by half of l times a slope of 12 1/m2: 0.08
+  CHECK(fine_ends < 1e-3);  // the centre's value differs by half of l times a slope of 12 1/m2: 0.08
 }
 
 TEST_CASE("at a free end the error falls with the third power too") {
-  // Toward the rates of the undeformed dresspack at the tip, s = 1, where the chain has no link to turn.
+  // The rates approach those of the undeformed dresspack at the tip, s = 1, where the chain has no link.
   const Vector3d rest(0, 0.8, 0);
   const Rate rate = [&](double s) {
     return Vector3d(rest + Vector3d(4 * (1 - s) * (1 - s), std::sin(3 * (1 - s)), 2 * (1 - s)));

@@ -1,4 +1,4 @@
-// Constructions that the tests of this folder share.
+// Constructions shared by the tests of this folder.
 #pragma once
 
 #include "pipeline/base/constants.h"
@@ -31,7 +31,7 @@ inline Component wires(const std::string& label, int count, double radius, doubl
   return component;
 }
 
-/// Of the thesis' table 2, with the strength of annealed wire.
+/// Copper of the thesis' table 2, with the strength of annealed wire.
 inline dresslife::pipeline::Material copper() {
   dresslife::pipeline::Material copper;
   copper.name = "copper";

@@ -1,4 +1,4 @@
-// Two dresspacks in one file: strain and life of each are those of a file of its own.
+// Two dresspacks in one file have the same strains and lives as in two separate files.
 #include <Eigen/Geometry>
 #include <cmath>
 
@@ -20,10 +20,10 @@ using pipeline::Scratch;
 namespace {
 
 constexpr std::size_t samples = 60;
-constexpr double packing = 1.1e-7;   // turning points are kept to 5e-8, from the least of their chunk on
+constexpr double packing = 1.1e-7;   // turning points are kept in steps of 5e-8 of strain above the least of their chunk
 constexpr double of_packing = 1e-4;  // of a damage: 5e-8 of strains of 1e-2, to the power of 8 at most
 
-/// A dresspack that bends and twists uniformly, so much of it.
+/// A dresspack that bends and twists uniformly, with the amplitude of its motion.
 struct Hose {
   std::string name;
   std::size_t segments;
@@ -113,7 +113,7 @@ std::string routing_of(const Hose& hose) {
   const std::string own = "free_length_m: 1.2";
   return text.replace(text.find(own), own.size(), fmt::format("free_length_m: {}", hose.length));
 }
-/// Of one level only, with a wall.
+/// A dresspack of one level only, with a wall.
 const std::string thin_block =
     "dresspack:\n  name: cable\n  source: made for the tests\n  diameter_mm: 20\n  mass_kg_per_m: 0.3\n"
     "  bending_stiffness_Nm2: 0.2\n  torsional_stiffness_Nm2: 0.2\n  axial_stiffness_N: 1e5\n"
@@ -127,8 +127,7 @@ std::string indented(const std::string& text) {
   return result + "\n";
 }
 
-/// The sample job with other dresspacks in the place of its own, and probes in the second segment from the
-/// tool.
+/// Returns the sample job with other dresspacks instead of its own, and probes in the second segment from the tool.
 pipeline::Job job_of(const std::string& dresspacks, const std::vector<std::string>& probes) {
   std::string list;
   for (const std::string& probe : probes) list += "{segment_from_tool: 2, component: " + probe + "}, ";
@@ -144,7 +143,7 @@ std::string item(const Hose& hose, const std::string& dresspack) {
 
 const std::string both = "dresspacks:\n" + item(thick, thick_block) + item(thin, thin_block);
 
-/// motion.h5 to strain.h5 to life.h5, named after `stem`.
+/// Evaluates motion.h5 to strain.h5 and to life.h5. All three names begin with `stem`.
 void evaluate(const Scratch& scratch, const std::string& stem, const pipeline::Job& job,
               std::size_t threads = 1, std::size_t history_bytes = strain::default_history_bytes) {
   {
@@ -167,7 +166,7 @@ double furthest(const std::vector<float>& a, const std::vector<float>& b) {
   return most;
 }
 
-/// A dataset of the first file, then that of the second.
+/// Returns a dataset of the first file followed by the same dataset of the second file.
 template <class T>
 std::vector<T> one_after_the_other(const FileReader& first, const FileReader& second,
                                    const std::string& dataset) {
@@ -207,7 +206,7 @@ TEST_CASE("two dresspacks in one file have the strains and lives of two files") 
       for (std::size_t k = 0; k < sites; ++k)
         component[k] = (k < of_first ? "main hose/" : "sensor cable/") + component[k];
       CHECK(all.read<std::string>(site + "component") == component);
-      // Two levels in the first, one in the second, whose table is filled up with zeros.
+      // The first dresspack has two levels, the second one level. Zeros fill the rest of its table.
       const auto helix = all.read<double>(site + "helix"), own = second.read<double>(site + "helix");
       REQUIRE(helix.size() == 6 * sites);
       for (std::size_t k = of_first; k < sites; ++k)
@@ -240,7 +239,7 @@ TEST_CASE("two dresspacks in one file have the strains and lives of two files") 
                                  "sensor cable, tool clamp"});
   CHECK(all.read<std::string>("/layer/component") ==
         std::vector<std::string>{"main hose/cable/wire", "sensor cable/core"});
-  // The worse of the two is reported, its segment counted from its own tool clamp.
+  // The worse dresspack is reported. Its segment is counted from its own tool clamp.
   const bool worse_first = first.number_attribute("life_hours") < second.number_attribute("life_hours");
   const FileReader& worse = worse_first ? first : second;
   const std::string name = worse_first ? "main hose" : "sensor cable";
@@ -254,7 +253,7 @@ TEST_CASE("two dresspacks in one file have the strains and lives of two files") 
                      : worse.number_attribute(attribute))
               .epsilon(of_packing));
   CHECK(all.text_attribute("worst_component") == name + "/" + worse.text_attribute("worst_component"));
-  // Only the second has a wall.
+  // Only the second dresspack has a wall.
   CHECK(all.number_attribute("hose_life_hours") ==
         Approx(second.number_attribute("hose_life_hours")).epsilon(of_packing));
   CHECK(all.text_attribute("hose_component") == "sensor cable/" + second.text_attribute("hose_component"));

@@ -77,7 +77,7 @@ ComponentState<double> dresspack_rod(const DeformationHistory& history, std::siz
   return uniform_rod<double>(c.elongation[t], c.curvature1[t], c.curvature2[t], c.twist[t], order);
 }
 
-/// One component of the nesting to a wire.
+/// One component of the path from the dresspack to a wire.
 struct Link {
   int layer, number, parent;
 };
@@ -92,7 +92,7 @@ std::vector<Link> links_to(const Construction& construction, const Bundle& bundl
   return links;
 }
 
-/// Strain of the outward fibre of a wire with everything glued, by the plain recursion.
+/// Returns the strain of a wire's outward fibre if everything is glued, by the plain recursion.
 double glued_strain(const Construction& construction, const std::vector<Link>& links, double arc,
                     const DeformationHistory& history, std::size_t segment, std::size_t t) {
   ComponentState<double> rod = dresspack_rod(history, segment, t, 5),
@@ -109,8 +109,8 @@ double glued_strain(const Construction& construction, const std::vector<Link>& l
          1;
 }
 
-/// Worst difference of all sites' turning points from `reference(site's links, segment, sample)`, over the
-/// largest range.
+/// Returns the largest difference of all sites' turning points from `reference(site's links, segment, sample)`, divided by
+/// the largest range.
 template <class Reference>
 double worst_difference(const Construction& construction, const SiteRows& rows, std::size_t segments,
                         const Reference& reference) {
@@ -135,8 +135,8 @@ double worst_difference(const Construction& construction, const SiteRows& rows, 
 
 constexpr std::size_t few_segments = 3, some_samples = 301;
 
-// The strain around a layer is kept to its second harmonic (W13). The third, as a share of the range: 6e-5 in
-// the thesis' dresspack.
+// The strain around a layer is kept up to its second harmonic (W13). The third harmonic is 6e-5 of the range in the thesis'
+// dresspack.
 constexpr double wave_tolerance = 1e-4;
 
 double centre(std::size_t segment) { return (segment + 0.5) * 2.0 / few_segments; }
@@ -174,8 +174,8 @@ TEST_CASE("the waves keep their accuracy at lay angles of 30 degrees and fat wir
       construction, results.sites, few_segments, [&](const auto& links, std::size_t segment, std::size_t t) {
         return glued_strain(construction, links, centre(segment), history, segment, t);
       });
-  // The third harmonic grows with lay angle and thickness. A life goes with about the ninth power of strain,
-  // so this much is a hundredth of it: nothing beside the scatter from wire to wire.
+  // The third harmonic grows with lay angle and thickness. A life is about the ninth power of strain, so this tolerance is
+  // about 1 % of a life, far below the scatter from wire to wire.
   constexpr double steep_tolerance = 1e-3;
   CHECK(difference < steep_tolerance);
 }
@@ -185,7 +185,7 @@ TEST_CASE("free components have the mean of their glued strain and keep their ow
   const Construction construction(thesis_dresspack(), Kinematics::exact);
   const Results results = evaluate(construction, settings_with(Slip::free), history, few_segments);
 
-  // Independent of the product's slip code: averages over segments and over 48 phases.
+  // A reference that does not use the product's slip code: averages over segments and over 48 phases.
   constexpr int phases = 48;
   const ComponentState<double> at_rest = uniform_rod<double>(0, 0, 0, 0, 5);
   auto placed = [&](const Link& link, std::size_t segment, double turn) {
@@ -208,7 +208,7 @@ TEST_CASE("free components have the mean of their glued strain and keep their ow
     return entry->second;
   };
   auto scaled = [](ComponentState<double> rod, double strain, const ComponentState<double>& rest) {
-    // same curvature and torsion per path length, stretch by the given strain
+    // same curvature and torsion per path length, with the given strain as stretch
     const Series<double> stretch = (1 + strain) * rest.stretch, factor = stretch / rod.stretch;
     return ComponentState<double>{stretch, rod.bend1 * factor, rod.bend2 * factor, rod.twist * factor};
   };
@@ -255,7 +255,7 @@ TEST_CASE("straight wires in a helical conductor take the mean of a walk along i
       construction, results.sites, few_segments, [&](const auto& links, std::size_t segment, std::size_t t) {
         double path = 0, rest_path = 0;
         for (int k = 0; k < steps;
-             ++k) {  // along one pitch of the conductor, the deformation of the segment held
+             ++k) {  // along one pitch of the conductor, with the deformation of this segment
           const double arc = centre(segment) + pitch * k / steps;
           ComponentState<double> rod = dresspack_rod(history, segment, t, 5),
                                  rest = uniform_rod<double>(0, 0, 0, 0, 5);
@@ -278,7 +278,7 @@ TEST_CASE("at a bend radius of 100 mm a glued wire sees thirty times what a slip
   cable.count = 1;
   cable.helix_radius = 0;
   dresspack.components = {cable};
-  constexpr std::size_t places = 20;  // so that some wire is outermost in a conductor that is outermost
+  constexpr std::size_t places = 20;  // so many that one wire is outermost in a conductor that is outermost
   DeformationHistory history(places, 2);
   const double curvature = 10;
   for (std::size_t i = 0; i < places; ++i) history.set(i, 1, {curvature, 0, 0, 0});
@@ -291,21 +291,19 @@ TEST_CASE("at a bend radius of 100 mm a glued wire sees thirty times what a slip
   };
   // The thesis: cos^2(25 deg) (2.825 mm + cos^2(5 deg) 0.75 mm) / 100 mm = 2.9 %.
   CHECK(largest(Slip::stick, Kinematics::thesis, 0) == Approx(0.0293).epsilon(0.01));
-  // The geometry: the conductor bends by cos^4(25 deg) of the cable's curvature where it is outermost, not
-  // cos^2.
+  // The exact geometry: the conductor bends by cos^4(25 deg) of the cable's curvature where it is outermost, not by cos^2.
   const double cosine = std::cos(25 * degree), sine = std::sin(25 * degree);
   const double conductor = cosine * cosine * 0.002825 * curvature;
   const double bend = std::pow(cosine, 4) * curvature;
   const double own_curvature =
-      sine * sine / 0.002825;  // of the undeformed conductor: its stretch turns it too
+      sine * sine / 0.002825;  // of the undeformed conductor, which its stretch rotates
   const double glued = conductor + 0.00075 * (bend - own_curvature * conductor) + 75e-6 * bend;
   constexpr double second_order = 0.03;  // of the strain: products of 3 % strains with angles of the lay
   CHECK(largest(Slip::stick, Kinematics::exact, 1) == Approx(glued).epsilon(second_order));
-  // Slipping leaves the wire's own bending, largest where the change of lay angle adds to it: cos (1 +
-  // sin^2).
+  // After slip only the wire's own bending remains. It is largest where the change of lay angle adds to it: cos (1 + sin^2).
   constexpr double mean_stretch =
-      0.05;  // of the bending: the mean over the pitch grows with the curvature's square
-  // And its fibre is shortest on the inside of the bow in which the conductor lies (W12).
+      0.05;  // of the bending: the mean over the pitch grows with the square of the curvature
+  // The wire's fibre is shortest on the inside of the conductor's own curvature (W12).
   const double shortest = 1 - (0.00075 + 75e-6) * own_curvature;
   CHECK(largest(Slip::free, Kinematics::exact, 1) ==
         Approx(75e-6 * curvature * cosine * (1 + sine * sine) / shortest).epsilon(mean_stretch));
@@ -335,7 +333,7 @@ TEST_CASE("the bounds hold the worst wires, and each segment's worst site is a p
     return largest;
   };
   constexpr std::size_t most_picked =
-      5 * (6 + 2 * 128);  // layers of wires; measures, and the most by either sum
+      5 * (6 + 2 * 128);  // 5 layers of wires; in each up to 6 wires by measures and 128 by each of two sums
   for (std::size_t segment = 0; segment < few_segments; ++segment) {
     constexpr float close = 1e-3f;  // strains of all wires are waves, without a third harmonic (W13)
     CHECK(largest_range(free.stick, segment) == Approx(largest_range(inside.sites, segment)).epsilon(close));
@@ -352,8 +350,8 @@ TEST_CASE("the bounds hold the worst wires, and each segment's worst site is a p
   for (const Results* results : {&free, &stick}) {
     CHECK(results->stick.segment.size() >= 5 * few_segments);  // five layers, one to five wires of each
     CHECK(results->free.segment.size() <= most_picked * few_segments);
-    // of each segment the wire of the largest range and the two of the largest sum over cycles and over ranges,
-    // some of them the same, and one that was named
+    // Probes of each segment: the wire with the largest range and the two with the largest sums over cycles and over ranges,
+    // which may be the same wire. One more probe was named in the settings.
     REQUIRE(results->probes.size() > few_segments);
     REQUIRE(results->probes.size() <= 5 * few_segments + 1);
     CHECK(results->sites.component[results->probes.back().site] ==
@@ -395,7 +393,7 @@ TEST_CASE("every instruction set of this machine gives the same strains") {
     strains.emplace_back(nesting.nodes.size() * 3 * 64);
     set->node_strains(pointers(nesting), history.columns(0), 0, 64, strains.back().data(), 64);
   }
-  constexpr double contraction = 1e-13;  // products fused or not, of stretches near one
+  constexpr double contraction = 1e-13;  // of stretches near one; products are fused or not
   for (const auto& of : strains)
     for (std::size_t k = 0; k < of.size(); ++k) REQUIRE(std::abs(of[k] - strains[0][k]) < contraction);
 }
@@ -412,7 +410,7 @@ TEST_CASE("an instruction set can be asked for by name") {
 
 namespace {
 
-/// The thesis' dresspack delivered bent, with its cables laid.
+/// Returns the thesis' dresspack, delivered bent, with lay angles of its cables.
 Dresspack laid_dresspack(double cable_lay_angle_deg, double rest_curvature) {
   Dresspack dresspack = thesis_dresspack();
   dresspack.rest_curvature = rest_curvature;
@@ -420,8 +418,8 @@ Dresspack laid_dresspack(double cable_lay_angle_deg, double rest_curvature) {
   return dresspack;
 }
 
-/// Largest difference of the waves of a bundle's layers, and of its nodes one by one, from the strains of
-/// their nodes in double precision, over the largest strain. start: where the part's state comes from.
+/// Returns the largest difference of the waves of a bundle's layers, and of its nodes one by one, from the strains of their
+/// nodes in double precision, divided by the largest strain. start: source of the part's state.
 enum class Start { dresspack, parent, parent_in_single };
 double error_of_waves(const Kernels& set, const Construction& construction, const std::vector<Slip>& slip,
                       int fibres, Start start) {
@@ -479,7 +477,7 @@ double error_of_waves(const Kernels& set, const Construction& construction, cons
 
 TEST_CASE("waves in single precision are the strains of their nodes on every instruction set") {
   constexpr double single = 3e-6;  // of the largest strain: some tens of roundings to 6e-8
-  // the thesis' strain at rest is taken off that of the bent shape, both as large as the largest
+  // The thesis' kinematics subtracts the strain at rest from that of the bent shape. Both are as large as the largest strain.
   constexpr double difference = 3 * single;
   const std::vector<std::vector<Slip>> slips{{Slip::stick},
                                              {Slip::free},
@@ -506,7 +504,7 @@ TEST_CASE("waves in single precision are the strains of their nodes on every ins
 
 TEST_CASE("a cable's state and its slopes in single precision are those in double precision") {
   constexpr double single = 2e-6;  // of the largest of each: some tens of roundings to 6e-8
-  constexpr int second_cable = 8;  // as a part: each comes before its seven conductors
+  constexpr int second_cable = 8;  // its part number; each cable comes before its seven conductors
   const std::size_t samples = 250, stride = padded(samples);
   const DeformationHistory history = moving(1, samples);
   const std::vector<double> clamp_strain(stride, 1e-3);
@@ -535,7 +533,7 @@ TEST_CASE("a cable's state and its slopes in single precision are those in doubl
             CAPTURE(set->machine, rest_curvature, lay_angle, slip, row, worst, largest);
             CHECK(worst <= single * largest);
             const bool none = lay_angle == 0 || (row == stretch_slope && slip == Slip::free);
-            CHECK((largest > 0 || none));  // what slides is stretched evenly, what is straight all is
+            CHECK((largest > 0 || none));  // the slope of a sliding part's stretch is 0; rows of straight parts may be 0
           }
         }
 }

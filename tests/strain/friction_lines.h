@@ -1,5 +1,5 @@
-// The oracle of friction inside cables: one wire as a line that slides against its bed. It shares no formula
-// with (W16), (W17) and (W29): only that a wire is elastic and that friction per length is limited.
+// An independent reference for friction inside cables: one wire as a line that slides against its bed. It uses no formula of
+// (W16), (W17) and (W29). It only assumes that a wire is elastic and that friction per length is limited.
 #pragma once
 
 #include <cmath>
@@ -9,12 +9,12 @@
 
 namespace friction_lines {
 
-/// A wire of equal cells whose ends do not slide. The displacement u of the nodes against the bed adds u' to the
-/// strain that the wire would have glued. At a node the force changes by at most the limit. Below the limit the
-/// node stays where it is; at the limit it slides against it.
+/// A wire of equal cells whose ends do not slide. The displacement u of the nodes against the bed adds u' to the strain of
+/// the glued wire. At a node the force changes by at most the limit. Below the limit the node sticks. At the limit it
+/// slides in the direction in which the change of force pulls it.
 class SlidingWire {
  public:
-  /// limit: of the force's change per length over E A [1/m].
+  /// limit: of the change of the force per length, divided by E A [1/m].
   SlidingWire(std::size_t cells, double cell, double limit)
       : cell_(cell),
         limit_(limit * cell),
@@ -23,7 +23,7 @@ class SlidingWire {
         strain_(cells, 0.0),
         glued_(strain_) {}
 
-  /// glued: strain of each cell. A step after which it is not found which nodes slide is taken in two.
+  /// Moves the wire to the next state. glued: strain of each cell. If the set of sliding nodes is not found, the step is halved.
   void move(const std::vector<double>& glued, int halvings = 0) {
     const SlidingWire before = *this;
     if (found(glued)) return;
@@ -37,8 +37,8 @@ class SlidingWire {
   const std::vector<double>& strain() const { return strain_; }
 
  private:
-  /// Block principal pivoting (J. J. Judice and F. M. Pires, Computers Ops Res. 21 (1994)): all nodes that do the
-  /// wrong thing change; if ten such rounds leave no fewer of them, the last one alone does, until there are.
+  /// Block principal pivoting (J. J. Judice and F. M. Pires, Computers Ops Res. 21 (1994)): all nodes in a wrong state change
+  /// their state. If ten such rounds do not reduce their number, only the last one changes until the number falls.
   bool found(const std::vector<double>& glued) {
     constexpr int most_rounds = 300, patience = 10;
     const std::vector<double> before = u_;
@@ -62,7 +62,7 @@ class SlidingWire {
     }
     return false;
   }
-  /// Equilibrium with the nodes sliding that are marked so: tridiagonal, by elimination.
+  /// Solves the equilibrium in which exactly the marked nodes slide. The matrix is tridiagonal; the method is elimination.
   void solve(const std::vector<double>& glued, const std::vector<double>& before) {
     const std::size_t n = strain_.size();
     std::vector<double> upper(n + 1, 0.0);
@@ -77,7 +77,7 @@ class SlidingWire {
     for (std::size_t i = n; i-- > 1;) u_[i] += upper[i] * u_[i + 1];
     for (std::size_t i = 0; i < n; ++i) strain_[i] = glued[i] + (u_[i + 1] - u_[i]) / cell_;
   }
-  /// Those that stick against more than the limit or slide with it, and what they do instead.
+  /// Returns the nodes that stick above the limit or slide with the friction force, with their correct state.
   std::vector<std::pair<std::size_t, int>> wrong_nodes(const std::vector<double>& before) const {
     constexpr double little = 1e-6;  // of the limit
     std::vector<std::pair<std::size_t, int>> wrong;

@@ -22,8 +22,8 @@ using namespace test_dresspacks;
 
 namespace {
 
-/// Wires of one layer of a part that lies straight or on a helix in a straight cable. All of them feel the same
-/// wave along themselves, so one that is long enough is all.
+/// Wires of one layer of a part that lies straight or on a helix in a straight cable. All wires have the same wave of strain
+/// along themselves, so one long wire represents them all.
 struct WiresInSpace {
   double radius, lay_angle;                           // of the wires; lay angles signed [m], [rad]
   double part_radius = 0, part_lay = 0;               // of the part
@@ -49,7 +49,7 @@ struct WiresInSpace {
     }
   }
 
-  /// Of the wire's strain less that of the part, which slides and keeps its mean.
+  /// Returns the glued wire's strain minus the strain of the part, which slides and keeps its mean.
   double rate(double along, const space_curve::Vector& bend) const {
     const double in_part = along * std::cos(lay_angle), in_cable = in_part * std::cos(part_lay);
     std::vector<space_curve::Level> levels;
@@ -70,7 +70,7 @@ struct WiresInSpace {
     for (std::size_t i = 0; i < strain.size(); ++i) strain[i] = bend1 * by_bend1[i] + bend2 * by_bend2[i];
     return strain;
   }
-  /// By which what `wire` holds resists bend1, of one such wire [N m].
+  /// Returns the moment about bend1 that the held strain of one wire causes [N m].
   double moment(const SlidingWire& wire) const {
     double sum = 0;
     for (std::size_t i = first; i < last; ++i) sum += wire.strain()[i] * by_bend1[i];
@@ -99,7 +99,7 @@ Dresspack strand() {
   cable.components[0].radial_line_load = line_load;
   return dresspack;
 }
-/// waves: so many that the ends, which do not slide, are out of reach of the one in the middle.
+/// waves: number of waves, so large that the ends, which do not slide, do not influence the wave in the middle.
 WiresInSpace wires_of_strand(int waves) {
   WiresInSpace wires(wire_radius, wire_lay, 0, 0, 2 * pi * wire_radius / std::sin(wire_lay * degree), 96,
                      waves);
@@ -107,9 +107,9 @@ WiresInSpace wires_of_strand(int waves) {
   return wires;
 }
 
-// Cells of 1/96 of a wave: what friction gathers is known to half a cell in 24.
+// Cells of 1/96 of a wave: the length over which friction acts is known to half a cell in 24.
 constexpr double cells = 0.015;
-// Of the cap: how much more a wire near the neutral axis may see than its slider says.
+// Share of the cap by which the strain of a wire near the neutral axis may exceed its slider's.
 constexpr double other_wires = 0.25;
 
 }  // namespace
@@ -123,14 +123,14 @@ TEST_CASE("moment of a strand: the closed form is that of wires that slide as li
   };
   SlidingWire wire = wires.wire();
   const double most = 3.0, glued = held(1e-4) / 1e-4;
-  CHECK(held(most) < 0.3 * glued * most);  // all of it slides
+  CHECK(held(most) < 0.3 * glued * most);  // all cells slide
   for (double curvature = 0.1; curvature < most * 1.001; curvature += 0.1) {
     wire.move(wires.glued(curvature, 0));
     CHECK(wire_count * wires.moment(wire) == Approx(held(curvature)).epsilon(cells));
   }
   const double top = held(most);
   for (double curvature = most; curvature > -most * 1.001; curvature -= 0.1) {
-    wire.move(wires.glued(curvature, 0));  // Masing: twice the first bend, from the tip
+    wire.move(wires.glued(curvature, 0));  // Masing: twice the curve of the first bend, from the tip
     CHECK(wire_count * wires.moment(wire) ==
           Approx(top - 2 * held((most - curvature) / 2)).margin(cells * top));
   }
@@ -147,7 +147,7 @@ TEST_CASE("a strand of known friction, measured by bending its lines, has that f
       SlidingWire wire = wires.wire();
       for (int step = 1; step <= 20; ++step) wire.move(wires.glued(curvature * step / 20, 0));
       const double stiffness = own + wire_count * wires.moment(wire) / curvature;
-      // Where nearly all sticks the stiffness says little of the friction.
+      // Where nearly all wires stick, the stiffness contains little information about the friction.
       if (stiffness > 0.9 * CableBending(dresspack, cable).stuck_stiffness()) continue;
       cable.measured_bending_stiffness = stiffness;
       cable.measured_at_curvature = curvature;
@@ -160,11 +160,11 @@ TEST_CASE(
   struct Case {
     double part_lay, lay, radius;  // [deg] of the conductor, of its wires; [m]
     double evening;                // [mm]
-    double least, most;            // of the lines' moment over the closed form's
+    double least, most;            // bounds of (moment of the lines) / (moment of the closed form)
   };
-  // The wave of the sum is not alone: a conductor at lay angle a bends by cos a (1 + sin^2 a) about its normal, by
-  // cos^2 a cos 2a about its binormal, so that the wave of the difference has 0.05, 0.12, 0.34 of the size at
-  // 10, 15, 25 degrees. Where that is the longer one (same hand) it gathers more friction than the closed form says.
+  // The strain also contains the wave of the difference of both turns: a conductor at lay angle a bends by cos a (1 + sin^2 a)
+  // about its normal and by cos^2 a cos 2a about its binormal. At 10, 15, 25 degrees the second wave has 0.05, 0.12, 0.34 of
+  // the size of the first. If it is the longer one (same hand), friction is larger than in the closed form.
   constexpr double part_radius = 0.002825;
   for (const Case& of : {Case{-15, 5, 0.00075, 252, 0.96, 1.04}, Case{-15, 5, 0.00045, 61.4, 0.96, 1.04},
                          Case{-25, 5, 0.00075, 191, 0.87, 1.04}, Case{10, 5, 0.00075, 35.4, 0.95, 1.06},
@@ -206,7 +206,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a bend that changes along the cable: the closed form where a wave is a quarter of the bend's") {
-  // e = A cos(2 pi x/L) cos(2 pi x/s), to and fro: range of the worst place over that of a slider with the cap.
+  // e = A cos(2 pi x/L) cos(2 pi x/s), to and fro. Compared: range at the worst place / range of a slider with the cap.
   constexpr double bend = 1, limit = 1e-3;
   const auto over_slider = [&](double wave, double size) {
     const double cell = std::min(wave, bend) / 32, cap = limit * std::min(wave, bend) / 4;
@@ -234,7 +234,7 @@ TEST_CASE("a bend that changes along the cable: the closed form where a wave is 
       CHECK(over_slider(wave, size) > 0.95);
       CHECK(over_slider(wave, size) < 1.2);
     }
-    for (const double wave : {0.5, 0.8, 1.3, 2.0, 8.0}) {  // what the warning says
+    for (const double wave : {0.5, 0.8, 1.3, 2.0, 8.0}) {  // the statement of the warning
       CHECK(over_slider(wave, size) > 0.95);
       CHECK(over_slider(wave, size) < 2.55);
     }
@@ -248,7 +248,7 @@ TEST_CASE(
   const double cap = wires.limit * wires.cell * 96 / 4;  // (W16)
   struct History {
     const char* name;
-    std::function<std::pair<double, double>(double)> at;  // of the repeat's share, in amplitudes
+    std::function<std::pair<double, double>(double)> at;  // curvatures at a share of the repeat, in amplitudes
   };
   std::mt19937 random(3);
   std::uniform_real_distribution<double> part(-1, 1);
@@ -272,9 +272,9 @@ TEST_CASE(
                          }});
   }
   constexpr int samples = 60;
-  double least = 1e9, largest = 0;  // of the sliders' range over the lines', both of the worst wire
+  double least = 1e9, largest = 0;  // range of the sliders / range of the lines, both of the worst wire
   for (const History& history : histories)
-    for (const double size : {0.8, 1.5, 4.0}) {  // of the glued strain's amplitude, over the cap
+    for (const double size : {0.8, 1.5, 4.0}) {  // glued strain's amplitude / cap
       CAPTURE(history.name, size);
       SlidingWire wire = wires.wire();
       const std::size_t around = wires.last - wires.first;

@@ -1,4 +1,4 @@
-// Slip with friction: its limits, its hysteresis, its energy; and shear in the equivalent strain.
+// Slip with friction: its limits, its hysteresis, its energy. Shear in the equivalent strain.
 #include "strain/friction.h"
 
 #include <algorithm>
@@ -46,7 +46,7 @@ void rub(std::vector<Component>& components, double friction, double line_load) 
   }
 }
 
-/// Two cables of the thesis' dresspack, two wire layers, all with the same friction.
+/// Returns two cables of the thesis' dresspack with two wire layers, all with the same friction.
 Dresspack rubbing(double friction, double line_load = 20) {
   Dresspack dresspack = thesis_dresspack();
   dresspack.components[0].count = 2;
@@ -66,7 +66,7 @@ struct Results {
   std::vector<Probe> probes;
 };
 
-/// All samples of `history` have been added.
+/// Returns the results. Precondition: all samples of `history` have been added.
 Results results_of(Evaluation& evaluation, const DeformationHistory& history) {
   if (evaluation.wants_again()) evaluation.add_again(history);
   Results results;
@@ -82,7 +82,7 @@ Results results_of(Evaluation& evaluation, const DeformationHistory& history) {
   return results;
 }
 
-/// The motion is added in blocks of `block` samples; 0: at once.
+/// Evaluates the motion, added in blocks of `block` samples; 0: in one block.
 Results evaluate(const Dresspack& dresspack, const Settings& settings, std::size_t block = 0) {
   const Construction construction(dresspack, settings.kinematics);
   const DeformationHistory history = moving();
@@ -107,11 +107,11 @@ Settings settings_with(std::vector<Slip> slip, Kinematics kinematics = Kinematic
   return settings;
 }
 
-/// Largest difference of the named wires' histories, over their largest strain.
+/// Returns the largest difference of the named wires' histories, divided by their largest strain.
 double difference(const Results& a, const Results& b) {
   REQUIRE(a.probes.size() >= 2);
   double worst = 0, size = 0;
-  // the two that the job names come after the worst of their segments: compare by site
+  // The two probes that the job names come after the worst wires of their segments, so probes are matched by site.
   for (const Probe& p : a.probes)
     for (const Probe& q : b.probes)
       if (p.site == q.site)
@@ -126,8 +126,8 @@ double difference(const Results& a, const Results& b) {
 constexpr double no_friction = 0, endless_friction = 1e6;
 constexpr double rounding = 1e-9;       // of strains computed from stretches near one
 constexpr double wave_rounding = 2e-6;  // of strains in single precision
-// Wires put together one by one have their fibre's length (W12) whole, waves of glued ones its product with
-// the strain up to the second harmonic: half of a second harmonic of 1e-3 times 0.005 is left out.
+// Wires evaluated one by one use their fibre's length (W12) exactly. Waves of glued wires use its product with the strain up to
+// the second harmonic. This leaves out half of a second harmonic of 1e-3 times 0.005.
 constexpr double third_of_length = 2.5e-6;
 
 }  // namespace
@@ -142,7 +142,7 @@ TEST_CASE("endless friction is stick, none is free, on every level and in both k
     CHECK(difference(glued, stick) < rounding);
     CHECK(difference(loose, free) < rounding);
     CHECK(difference(stick, free) > 0.1);
-    // all sites: the same turning points, but for those within rounding of the gate
+    // all sites have the same turning points, except points within rounding of the gate
     REQUIRE(glued.turning.size() == stick.turning.size());
     REQUIRE(loose.turning.size() == free.turning.size());
     for (const auto& [a, b] : {std::pair(&glued, &stick), std::pair(&loose, &free)}) {
@@ -203,7 +203,7 @@ TEST_CASE("what friction holds of a part is the same after any other and lies wh
     return nesting;
   };
   HeldStrains one_after_other(construction, means);
-  constexpr int conductor_rows = 2, scratch_rows = 3;  // powers, and what they come from
+  constexpr int conductor_rows = 2, scratch_rows = 3;  // powers, and the data from which they are computed
   CHECK(one_after_other.bytes(samples) == (conductor_rows + scratch_rows) * padded(samples) * sizeof(double));
   std::vector<const double*> place(construction.levels(), nullptr);
   one_after_other.begin(arcs[1], motion);
@@ -213,19 +213,19 @@ TEST_CASE("what friction holds of a part is the same after any other and lies wh
     HeldStrains fresh(construction, means);
     fresh.begin(arcs[1], motion);
     const BundleNesting a = rows_of(one_after_other, part), b = rows_of(fresh, part);
-    CHECK(a.steps[0].slide.held == nullptr);  // a cable's friction acts along it, not in a place
+    CHECK(a.steps[0].slide.held == nullptr);  // a cable's friction acts along the cable, not at a point
     for (std::size_t level = 1; level < a.steps.size(); ++level) {
       const double *one = a.steps[level].slide.held, *other = b.steps[level].slide.held;
       REQUIRE((one != nullptr && other != nullptr));
       CHECK(std::equal(one, one + samples, other));
-      if (place[level]) CHECK(one == place[level]);  // no more memory than one part's a level
+      if (place[level]) CHECK(one == place[level]);  // the memory of one part per level is enough
       place[level] = one;
     }
   }
 }
 
 TEST_CASE("friction on some levels has its limits there, whatever the other levels do") {
-  // With a word of its own per level; the levels without friction are exactly what they are without it.
+  // One word of slip per level. Levels without friction have exactly the results of a job without friction.
   using enum Slip;
   const Results reference = evaluate(rubbing(0), settings_with({free}));
   for (const std::vector<Slip>& slip : {std::vector{free, friction, friction},
@@ -242,7 +242,7 @@ TEST_CASE("friction on some levels has its limits there, whatever the other leve
     CHECK(difference(evaluate(rubbing(no_friction), settings_with(slip)),
                      evaluate(rubbing(0), settings_with(loose))) < rounding);
   }
-  // Between the limits: more friction, nearer to stuck.
+  // Between the limits: the larger the friction, the closer to stick.
   const Results stuck = evaluate(rubbing(0), settings_with({free, stick, free}));
   double last = 1e9;
   for (const double load : {0.0, 50.0, 200.0, 1000.0, 1e5, 1e7}) {
@@ -255,9 +255,9 @@ TEST_CASE("friction on some levels has its limits there, whatever the other leve
 }
 
 TEST_CASE("straight parts that slide in a straight part that rubs: its strain counts at its mean") {
-  // The approximation of the means along the dresspack. What it leaves out is of second order: the deviations
-  // of the rubbing part from its mean cancel along the dresspack, but for their product with the curvature;
-  // (R k)^2 is 0.009 at 18 mm and 5 1/m. Measured: 0.007.
+  // Tests the approximation of the means along the dresspack. Its error is of second order: the deviations of the rubbing part
+  // from its mean cancel along the dresspack, except their product with the curvature. (R k)^2 is 0.009 at 18 mm and 5 1/m.
+  // Measured: 0.007.
   using enum Slip;
   auto straight = [](double friction, double load) {
     Dresspack dresspack = rubbing(friction, load);
@@ -274,8 +274,7 @@ TEST_CASE("straight parts that slide in a straight part that rubs: its strain co
 }
 
 TEST_CASE("a wire that rubs loses energy in every repeat of the motion, end to end") {
-  // Parents glued: the wire's deviation from its mean is stick less free, what is held of it friction less
-  // free.
+  // The parents are glued. The wire's deviation from its mean is stick minus free. The held part of it is friction minus free.
   using enum Slip;
   auto axis = [](std::vector<Slip> slip) {
     Settings settings = settings_with(std::move(slip));
@@ -297,7 +296,7 @@ TEST_CASE("a wire that rubs loses energy in every repeat of the motion, end to e
           const double force = probe.strain[t] - slid.strain[t];
           const double before = probe.strain[t - 1] - slid.strain[t - 1];
           const double slip = (deviation(t) - force) - (deviation(t - 1) - before);
-          CHECK(force * slip >= -1e-18);  // friction never pushes: implicit return mapping, step by step
+          CHECK(force * slip >= -1e-18);  // friction only dissipates: implicit return mapping, step by step
           lost += force * slip;
           swing = std::max(swing, std::abs(deviation(t)));
         }
@@ -306,7 +305,7 @@ TEST_CASE("a wire that rubs loses energy in every repeat of the motion, end to e
         ++compared;
       }
   CHECK(compared >= 2);
-  CHECK(most > 0.01);  // and some of it does slide
+  CHECK(most > 0.01);  // some wires slide
 }
 
 TEST_CASE("straight wires in a helical conductor, too, stick by endless friction and slide without") {
@@ -320,7 +319,7 @@ TEST_CASE("straight wires in a helical conductor, too, stick by endless friction
                    evaluate(straight(0, 0), settings_with({Slip::stick}))) < rounding);
   CHECK(difference(evaluate(straight(no_friction, 0), friction),
                    evaluate(straight(0, 0), settings_with({Slip::free}))) < rounding);
-  // a stuck conductor with sliding wires in it: the turned ancestors are stuck as well
+  // A stuck conductor with sliding wires: the turned ancestors are stuck as well.
   Dresspack mixed = straight(no_friction, 0);
   mixed.components[0].friction = mixed.components[0].components[0].friction = endless_friction;
   mixed.components[0].radial_line_load = mixed.components[0].components[0].radial_line_load = 1e6;
@@ -339,7 +338,7 @@ TEST_CASE("sites and probes agree where friction holds some of the strain") {
     CHECK(difference(results, free) > 0.02);
     std::vector<std::size_t> begin(1, 0);
     for (const std::uint64_t count : results.turning) begin.push_back(begin.back() + count);
-    // what the waves leave out (W13), and of it what a slider at its cap turns into slip
+    // The error of the waves (W13), and the effect of this error on the slip of a slider at its cap.
     constexpr double wave_tolerance = 1e-3;
     for (const Probe& probe : results.probes) {
       const auto [low, high] = std::minmax_element(probe.strain.begin(), probe.strain.end());
@@ -357,7 +356,7 @@ TEST_CASE("the cap of a helix is Papailiou's") {
   const auto plan = plan_slip(construction, {Slip::friction}, 2.0);
   const Layer& conductor = construction.layers()[1];
   const double alpha = 25 * degree, R = 0.002825, sine = std::sin(alpha), cosine = std::cos(alpha);
-  // wires of the two layers: E A cos^3 each
+  // wires of the two layers: E A cos^3 per wire
   const double stiffness = 56 * 117e9 * pi * 75e-6 * 75e-6 * std::pow(std::cos(5 * degree), 3);
   CHECK(conductor.axial_stiffness == Approx(stiffness));
   for (const double mean : {0.0, 1e-4}) {
@@ -366,7 +365,7 @@ TEST_CASE("the cap of a helix is Papailiou's") {
     CHECK(cap_at(plan[1].cap, mean) == Approx(pi / 2 * k_slip * R * cosine * cosine));
   }
   CHECK(cap_at(plan[1].cap, -1.0) == 0);
-  // along a cable friction acts node by node (sliding_line_test): no cap
+  // along a cable friction acts node by node (sliding_line_test): the cable has no cap
   CHECK_FALSE(plan[0].friction);
 }
 
@@ -375,7 +374,7 @@ TEST_CASE("closed loops of a slider lose energy and never gain it") {
   std::uniform_real_distribution<double> part(-1, 1);
   double most_lost = 0;
   for (int loop = 0; loop < 500; ++loop) {
-    // any closed path of the deviation, under a cap that changes with it
+    // any closed path of the deviation, with a cap that changes along it
     const double cap = 0.3 * std::abs(part(random));
     std::vector<double> path(40);
     for (double& value : path) value = part(random);
@@ -386,7 +385,7 @@ TEST_CASE("closed loops of a slider lose energy and never gain it") {
     for (std::size_t k = 1; k < path.size(); ++k) {
       const double now = slider.next(path[k], cap * (1 + 0.5 * part(random)));
       work += now * (path[k] - before);
-      // what is not stored is lost, step by step: implicit return mapping only ever loses
+      // Work that is not stored is dissipated. Implicit return mapping dissipates in every step.
       const double lost = work - (now * now / 2 - stored);
       REQUIRE(lost >= -1e-12);
       before = path[k];
@@ -395,7 +394,7 @@ TEST_CASE("closed loops of a slider lose energy and never gain it") {
     CHECK(work - (slider.next(path.back(), cap) * slider.next(path.back(), cap) / 2 - stored) >= -1e-12);
   }
   CHECK(most_lost > 0.1);
-  // the triangle of amplitude a > cap: a parallelogram of area 4 cap (a - cap)
+  // A triangle wave of amplitude a > cap gives a parallelogram of area 4 cap (a - cap).
   Slider slider;
   const double cap = 0.2, amplitude = 1;
   constexpr int steps = 1000;
@@ -411,7 +410,7 @@ TEST_CASE("closed loops of a slider lose energy and never gain it") {
   move(0, amplitude, false);
   move(amplitude, -amplitude, true);
   move(-amplitude, amplitude, true);
-  constexpr double corners = 1e-3;  // trapezoids cut the corners where it begins to slide
+  constexpr double corners = 1e-3;  // trapezoids cut the corners at the begin of sliding
   CHECK(work == Approx(4 * cap * (amplitude - cap)).epsilon(corners));
 }
 
@@ -430,20 +429,20 @@ TEST_CASE("a slider's slip at the end of a repeat is found backward from its las
       for (std::size_t t = 0; t < 100; ++t) slider.next(deviation[t], cap[t]);
       const double found = settled_slip(
           100, [&](std::size_t t) { return deviation[t]; }, [&](std::size_t t) { return cap[t]; });
-      CHECK(found == slider.slip());  // the same limit of the same sample: nothing rounds the slip while it sticks
+      CHECK(found == slider.slip());  // the same limit of the same sample; slip is not rounded while the slider sticks
     }
   }
 }
 
 TEST_CASE("a motion's slip settles: the strain at its end leads on to that at its start") {
-  // the motion is closed, so a settled slider is where it was: the first sample follows from the last
+  // The motion is closed, so a settled slider returns to its state. The first sample follows from the last.
   const Results results = evaluate(rubbing(0.5, 300), settings_with({Slip::friction}));
   for (const Probe& probe : results.probes)
     CHECK(std::abs(probe.strain.front() - probe.strain.back()) < 1e-12);
 }
 
 TEST_CASE("slip that only the beginning of a motion makes is found from its end") {
-  // Wide swings, then small ones in which most wires stick: more samples than one block of the kernels.
+  // Wide swings, then small ones in which most wires stick. The samples fill more than one block of the kernels.
   constexpr std::size_t wide = 60;
   DeformationHistory history(segments, samples);
   for (std::size_t i = 0; i < segments; ++i)
@@ -459,7 +458,7 @@ TEST_CASE("slip that only the beginning of a motion makes is found from its end"
   evaluation.add({history});
   const Results results = results_of(evaluation, history);
   REQUIRE(results.probes.size() >= 2);
-  // Whole histories go through the motion twice, from its beginning and in double precision.
+  // Probes go through the motion twice, from its begin and in double precision.
   for (const Probe& probe : results.probes) {
     const auto site = static_cast<std::ptrdiff_t>(probe.site);
     std::uint64_t k =
@@ -502,7 +501,7 @@ TEST_CASE("shear of a wire's torsion: sqrt(3) of a twisted straight wire's, sign
   CHECK(turning[1] == Approx(equivalent));
   CHECK(turning[2] == Approx(-equivalent));
 
-  // With planes both parts are handed on, of the same wire; what is counted is the same.
+  // With planes, both parts of the same wire are returned. The count of cycles does not change.
   settings.equivalent = Equivalent::critical_plane;
   Evaluation planes(construction, settings, {0.5}, 3);
   planes.add({history});
@@ -558,15 +557,15 @@ TEST_CASE("the hose's wall: stretch, bending and twist of a tube, times its corr
     const double gamma = 0.5 * R * twist * (1 + stretch) / std::hypot(along, R * twist);
     const double expected =
         equivalent == Equivalent::axial ? fibre : std::sqrt(fibre * fibre + gamma * gamma / 3);
-    constexpr double third_harmonic = 1e-3;  // of the shear, where the fibre leans
+    constexpr double third_harmonic = 1e-3;  // of the shear of an inclined fibre
     CHECK(highest == Approx(expected).epsilon(third_harmonic));
   }
 }
 
 namespace {
 
-/// Largest difference of the probed wires' turning points, which come from waves in single precision, from
-/// their histories, which come wire by wire in double: over the largest strain.
+/// Returns the largest difference of the probed wires' turning points (waves in single precision) from their histories (wire
+/// by wire in double precision), divided by the largest strain.
 double off_their_probes(const Results& results) {
   double worst = 0, size = 0;
   std::vector<std::size_t> first{0};
@@ -581,7 +580,7 @@ double off_their_probes(const Results& results) {
   return worst / size;
 }
 
-// Waves leave out the third harmonic, 1e-4 of the range (evaluation_test.cpp); sliders follow it.
+// Waves leave out the third harmonic, 1e-4 of the range (evaluation_test.cpp). Sliders can enlarge it.
 constexpr double third_harmonic = 1e-3;
 
 void press_on(std::vector<Component>& components, double radial_stiffness) {
@@ -607,14 +606,14 @@ TEST_CASE("a jacket that gives nothing holds all, and one that gives holds its s
   CHECK(difference(evaluate(dresspack, rubs), evaluate(rubbing(0), stick)) < 1e-9);
   fill_gussets(dresspack.components, 1e9);
   CHECK(off_their_probes(evaluate(dresspack, rubs)) < third_harmonic);
-  // Nobody reads it where slip is something else.
+  // Other kinds of slip do not use the jacket's stiffness.
   for (const Slip slip : {Slip::stick, Slip::free})
     CHECK(evaluate(dresspack, settings_with({slip})).strain ==
           evaluate(rubbing(0), settings_with({slip})).strain);
 
   CHECK(elastic_share(0, 2000, 0.05) == 0);
-  // Of the deviation eps(x) = A sin(2 pi x/s) of a bar (E A) on a spring bed (k): E A u'' = k (u - u_parent)
-  // with u_parent' = eps gives u' = A k/(k + E A (2 pi/s)^2) sin(2 pi x/s).
+  // The deviation eps(x) = A sin(2 pi x/s) of a bar (E A) on a spring bed (k): E A u'' = k (u - u_parent) with
+  // u_parent' = eps gives u' = A k/(k + E A (2 pi/s)^2) sin(2 pi x/s).
   const double k = 3e7, EA = 2000, s = 0.05, waves = 2 * pi / s, step = 1e-5;
   const double share = elastic_share(k, EA, s);
   const auto own = [&](double x) { return -share / waves * std::cos(waves * x); };
@@ -626,12 +625,12 @@ TEST_CASE("a jacket that gives nothing holds all, and one that gives holds its s
 }
 
 TEST_CASE("only wires in a jacket: the strain between free and stuck is the jacket's share") {
-  // The axis of the wires, which slide over their pitch in one straight cable that sticks.
+  // The axis of wires that slide over their pitch in one straight cable that sticks.
   Settings settings = settings_with({Slip::stick, Slip::stick, Slip::friction});
   settings.surface_fibres = 0;
   Dresspack dresspack = rubbing(0);
   Component& wire = dresspack.components[0].components[0].components[1];
-  wire.hand = Hand::right;  // as its conductor: the sum of both turns
+  wire.hand = Hand::right;  // same hand as its conductor: the wire turns by the sum
   wire.jacket_stiffness = 4e7;
   const Results in_jacket = evaluate(dresspack, settings);
   settings.slip[2] = Slip::stick;
@@ -649,7 +648,7 @@ TEST_CASE("only wires in a jacket: the strain between free and stuck is the jack
       for (const Probe& of_free : free.probes) {
         if (probe.site != of_stuck.site || probe.site != of_free.site) continue;
         const std::size_t per_cable = 7 * (31 + 25), per_conductor = 31 + 25;
-        if (probe.site % (2 * per_cable) % per_conductor < 31) continue;  // of the other layer
+        if (probe.site % (2 * per_cable) % per_conductor < 31) continue;  // wires of the other layer
         for (std::size_t t = 0; t < samples; ++t)
           CHECK(probe.strain[t] ==
                 Approx(of_free.strain[t] + share * (of_stuck.strain[t] - of_free.strain[t])).margin(1e-12));
@@ -668,8 +667,8 @@ TEST_CASE("a helix keeps its share of strain where its bed gives") {
   CHECK(radial_share(EA, 25 * degree, 0.002825, 1e9) == Approx(0.57).epsilon(printed));
   CHECK(radial_share(EA, 25 * degree, 0.002825, HUGE_VAL) == 1);
   CHECK(radial_share(EA, 0, 0, 1e9) == 1);
-  // Equilibrium of a helix that is stretched by e and gives by u: its tension presses with T sin^2/R per
-  // length, and the strain that is left makes that tension.
+  // Equilibrium of a helix that is stretched by e and yields radially by u: its tension presses with T sin^2/R per length, and
+  // the remaining strain causes this tension.
   const double a = 25 * degree, R = 0.002825, e = 1e-3, k = 3e8;
   const double left = std::pow(std::cos(a), 2) * e * radial_share(EA, a, R, k);
   const double give = EA * left * std::pow(std::sin(a), 2) / R / k;
@@ -689,14 +688,14 @@ TEST_CASE("a bed that gives takes its share of conductors and wires in every way
     Dresspack dresspack = rubbing(0.3);
     const Results rigid = evaluate(dresspack, settings);
     press_on(dresspack.components, 1e15);
-    CHECK(difference(evaluate(dresspack, settings), rigid) < 1e-5);  // 7.5e8 / 1e15, and what slips by it
+    CHECK(difference(evaluate(dresspack, settings), rigid) < 1e-5);  // 7.5e8 / 1e15, and the slip that it causes
     press_on(dresspack.components, 3e8);
     const Results soft = evaluate(dresspack, settings);
     CHECK(off_their_probes(soft) < third_harmonic);
     settings.equivalent = Equivalent::shear_included;  // wires put together one by one
     CHECK(off_their_probes(evaluate(dresspack, settings)) < third_harmonic);
   }
-  // A pull alone: what is left of the wires' strain is the share of both helices.
+  // Tension only: the remaining strain of the wires is the product of both helices' shares.
   const auto strain_of_pulled = [](const Dresspack& dresspack, Slip slip) {
     const Construction construction(dresspack, Kinematics::exact);
     Settings settings = settings_with({slip});
@@ -714,7 +713,7 @@ TEST_CASE("a bed that gives takes its share of conductors and wires in every way
     evaluation.evaluate(0, history, 0, sink);
     return strain;
   };
-  // Where all slide: glued wires feel the conductor unbend, too.
+  // Where all wires slide: glued wires would also feel the bending of their conductor.
   Dresspack dresspack = rubbing(0.3);
   const double rigid = strain_of_pulled(dresspack, free);
   press_on(dresspack.components, 3e8);
@@ -724,8 +723,8 @@ TEST_CASE("a bed that gives takes its share of conductors and wires in every way
     const Layer& of = construction.layers()[layer];
     share *= radial_share(of.axial_stiffness, of.lay_angle, of.helix_radius, 3e8);
   }
-  // The conductor's twist changes otherwise than its stretch, by 5e-4 rad/m; R^2 x 19 rad/m of that in its
-  // wires.
+  // The conductor's twist does not change in proportion to its stretch: the difference is 5e-4 rad/m, which changes the strain of
+  // its wires by R^2 x 19 rad/m of it.
   constexpr double twisting = 2.5e-3;
   CHECK(strain_of_pulled(dresspack, free) == Approx(share * rigid).epsilon(twisting));
 }

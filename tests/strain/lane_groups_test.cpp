@@ -42,11 +42,11 @@ TEST_CASE("every wire of a layer is scanned once and images stand opposite their
 }
 
 TEST_CASE("images are kept with their wires where they fill registers") {
-  const std::vector<LaneGroup> of_31 = lane_groups(31, 16);  // 15 pairs, and wire 0 that is its own image
+  const std::vector<LaneGroup> of_31 = lane_groups(31, 16);  // 15 pairs, and wire 0, which is its own image
   REQUIRE(of_31.size() == 2);
   CHECK(of_31[0].wires.size() == 16);
   CHECK(of_31[1].mirrors);
   CHECK(of_31[1].wires.size() == 15);
-  CHECK(lane_groups(12, 16).size() == 1);  // one register holds them all
+  CHECK(lane_groups(12, 16).size() == 1);  // one register holds all wires
   CHECK(lane_groups(12, 8).size() == 2);
 }

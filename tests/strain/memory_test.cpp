@@ -9,7 +9,7 @@ TEST_CASE("memory: samples and sites beyond what strain.h5 numbers are refused w
   const auto refusal = [](double samples, double sites) {
     return pipeline::message_of([&] { strain::check_counts({"motion.h5"}, samples, sites); });
   };
-  CHECK(refusal(4294967294.0, 4294967294.0) == "");  // beyond an int
+  CHECK(refusal(4294967294.0, 4294967294.0) == "");  // larger than an int
   CHECK(refusal(2147483648.0, 2147483648.0) == "");
   CHECK(refusal(4294967295.0, 1) ==
         "motion.h5: error: holds 4.295e+09 samples (strain.h5 numbers at most 4294967294); choose a lower "

@@ -32,7 +32,7 @@ Kept filter(const std::vector<float>& history, float gate) {
   TurningList list;
   points.next(history, list);
   points.finish(list);
-  for (const std::size_t piece : {1, 7}) {  // whatever comes at once
+  for (const std::size_t piece : {1, 7}) {  // the result does not depend on the block size
     TurningPoints again(gate);
     TurningList in_pieces;
     for (std::size_t first = 0; first < history.size(); first += piece)
@@ -44,8 +44,8 @@ Kept filter(const std::vector<float>& history, float gate) {
   return kept(list);
 }
 
-/// Ranges of the full cycles and of the residue's half cycles of a sequence, by repeatedly taking out the
-/// innermost cycle: b c of four successive points a b c d with |b - c| <= |a - b| and |b - c| <= |c - d|.
+/// Returns the ranges of the full cycles and of the residue's half cycles of a sequence. Repeatedly removes the innermost
+/// cycle: b c of four successive points a b c d with |b - c| <= |a - b| and |b - c| <= |c - d|.
 std::vector<float> rainflow_ranges(std::vector<float> points) {
   std::vector<float> turning;
   for (const float p : points) {
@@ -74,7 +74,7 @@ std::vector<float> at_least(std::vector<float> ranges, float gate) {
   return ranges;
 }
 
-/// Steps of a random walk on a coarse grid: ties and plateaus happen all the time.
+/// Returns a random walk on a coarse grid, which contains many ties and plateaus.
 std::vector<float> random_history(std::mt19937& engine, std::size_t length) {
   std::uniform_int_distribution<int> step(-3, 3);
   std::vector<float> history(length);
@@ -238,9 +238,8 @@ TEST_CASE("wires ranked without turning points have the measures of their turnin
         CHECK(of.lowest == *std::min_element(history[j].begin(), history[j].end()));
         CHECK(of.highest == *std::max_element(history[j].begin(), history[j].end()));
         constexpr double rounding = 1e-4;  // some hundred sums of third powers in single precision
-        // Which way a wire goes first is guessed: where it goes the other way by less than the gate, its
-        // first turning point, which the list has, is missed, and the range that begins there begins at the
-        // first sample.
+        // The scan guesses a wire's first direction. If the wire first goes the other way by less than the gate, the scan misses
+        // the first turning point of the list. Its first range then begins at the first sample instead.
         const double next = points.size() > 2 ? std::abs(points[2] - points[1]) : 0.0f;
         const double first = std::max<double>(std::abs(points[1] - points[0]), next) + gate;
         CHECK(std::abs(of.cycle_sum - sum) <= rounding * sum + cube(largest * (first + gate)) -

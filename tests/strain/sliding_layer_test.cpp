@@ -18,15 +18,15 @@ using dresslife::pipeline::Slip;
 
 namespace {
 
-constexpr std::size_t samples = 250, stride = 256;  // not a multiple of any register
-constexpr int angles = 24;                          // harmonics beyond the twelfth are below any rounding
+constexpr std::size_t samples = 250, stride = 256;  // not a multiple of any register's lanes
+constexpr int angles = 24;                          // harmonics above the twelfth are below any rounding
 
 constexpr double single = 3e-6;    // five waves in single precision, of the largest strain
-constexpr double left_out = 1e-6;  // of it too: what the series leave out (W27)
-// A wire's bending is computed from that at rest: three roundings of its strain at rest.
+constexpr double left_out = 1e-6;  // of the largest strain: the terms that the series neglect (W27)
+// A wire's bending is computed from its bending at rest: three roundings of its strain at rest.
 constexpr double single_at_rest = 2e-7;
 
-/// Five layers of wires of one lay angle in the thesis' conductors.
+/// Returns five layers of wires with the same lay angle in the thesis' conductors.
 Dresspack dresspack_of(double lay_angle_deg, double size, double rest_curvature) {
   Dresspack dresspack = thesis_dresspack();
   dresspack.rest_curvature = rest_curvature;
@@ -38,7 +38,7 @@ Dresspack dresspack_of(double lay_angle_deg, double size, double rest_curvature)
   return dresspack;
 }
 
-/// Any states up to these, one after the other.
+/// Returns independent random states within these bounds.
 DeformationHistory anything(double curvature, double twist, double elongation) {
   std::mt19937 generator(5);
   std::uniform_real_distribution<double> any(-1, 1);
@@ -76,7 +76,7 @@ struct Wires {
     return waves;
   }
 
-  /// (layer, angle, sample) exact, in double precision.
+  /// Returns the exact strains (layer, angle, sample) in double precision.
   std::vector<double> strains(const DeformationHistory& history) const {
     BundleNesting exact = nesting;
     exact.nodes = around;
@@ -89,7 +89,7 @@ struct Wires {
   std::vector<WireNode> around;
 };
 
-/// Largest difference of a layer's waves from the harmonics of its exact strains, over what is allowed.
+/// Returns the largest difference of a layer's waves from the harmonics of its exact strains, divided by the allowed difference.
 double worst_error(const Wires& wires, const std::vector<float>& waves, const std::vector<double>& strains) {
   double worst = 0;
   for (std::size_t layer = 0; layer < wires.layers; ++layer) {
@@ -148,10 +148,10 @@ TEST_CASE("sliding layers beyond their closed forms have the waves of five nodes
   const Construction construction(thesis_dresspack(), Kinematics::exact);
   const Wires wires(construction, {Slip::free});
   CHECK_FALSE(agree(wires, anything(10, 10, 1e-3)));
-  CHECK(agree(wires, anything(10, 60, 1e-3)));  // 6 % of twist's strain
+  CHECK(agree(wires, anything(10, 60, 1e-3)));  // 6 % of the strain from twist
   CHECK(agree(wires, anything(1e4, 1, 1e-3)));  // a bend around 0.1 mm
   const Construction fat(dresspack_of(5, 12, 0), Kinematics::exact);
-  CHECK(agree(Wires(fat, {Slip::free}), anything(10, 10, 1e-3)));  // at rest already
-  // glued wires, and fibres that feel the other bending, have no closed forms
+  CHECK(agree(Wires(fat, {Slip::free}), anything(10, 10, 1e-3)));  // already at rest
+  // Glued wires, and fibres with the bending of the second axis, have no closed forms.
   CHECK(agree(Wires(construction, {Slip::stick}), anything(10, 10, 1e-3)));
 }

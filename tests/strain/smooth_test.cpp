@@ -1,5 +1,5 @@
-// Strains of wires are smooth functions of the keys of their cables: no jump between neighbouring values of
-// any key, whatever another one is at. Wires of two cables of two conductors, through the whole evaluation.
+// Strains of wires are smooth functions of the keys of their cables: no jump between neighbouring values of any key, at any
+// value of the others. Wires of two cables with two conductors each, through the whole evaluation.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -43,7 +43,7 @@ Dresspack two_cables(Position position) {
   return dresspack;
 }
 
-/// A hose on a wrist that swings from one side to the other, and twists.
+/// Returns the deformation of a hose on a wrist that swings from side to side and twists.
 DeformationHistory swinging() {
   DeformationHistory history(segments, samples);
   for (std::size_t i = 0; i < segments; ++i)
@@ -62,7 +62,7 @@ double largest_range(const Dresspack& dresspack) {
   dresslife::pipeline::Strain settings;
   settings.slip = {Slip::friction};
   settings.gate = 0;
-  settings.cable_elements = 2;  // one mesh for all: what waves ask for goes up by whole pieces
+  settings.cable_elements = 2;  // the same mesh for all jobs; the mesh for waves would change in steps of whole pieces
   Evaluation evaluation(construction, settings, std::vector<double>(segments, length / segments), samples);
   evaluation.add({history});
   if (evaluation.wants_again()) evaluation.end_first_pass(), evaluation.add_again(history);
@@ -113,7 +113,7 @@ TEST_CASE(
   for (const Position position : {Position::automatic, Position::held}) {
     Dresspack dresspack = two_cables(position);
     const double straight = largest_range(dresspack);
-    // Strains go with the turn of a place over the length, 0.002 rad here, and not with its root.
+    // Strains are proportional to the turn of a place along the length, 0.002 rad here, not to its root.
     dresspack.components[0].lay_angle = 0.001 * degree;
     CHECK(largest_range(dresspack) == Approx(straight).epsilon(0.01));
   }
@@ -121,14 +121,13 @@ TEST_CASE(
 
 TEST_CASE("strains of wires move smoothly with every key of loose and held cables, whatever another is at") {
   constexpr double step = 0.01;
-  // Strains go with no more than the cube of a key: what presses a cable into waves with the square of its
-  // play (4 E I delta / c^2), what a lay twists with that of its angle, what friction holds with a measured
-  // stiffness less that of polymer (0.05 / 0.02), and friction answers to each of them. A law that switches
-  // moves them several times.
+  // Strains grow at most with the cube of a key. The force that presses a cable into waves follows the square of its play
+  // (4 E I delta / c^2). The turn of a lay follows the square of its angle. Friction from a measured stiffness follows that
+  // stiffness minus the polymer's (0.05 / 0.02), and each of these changes friction again. A law with a switch would exceed this.
   constexpr double steepest = 3;
-  // What is too long rests in one of several ways, and which depends on little: at 8 mm of play a cable lies 3
-  // mm elsewhere at one sample between stiffnesses 0.1 % apart. That goes to and fro and does not add up, as
-  // a law that switches would.
+  // Excess length can rest in several shapes, and small differences select one of them: at 8 mm of play a cable lies 3 mm
+  // elsewhere at one sample between stiffnesses 0.1 % apart. This changes back and forth and does not add up. The effect of a
+  // law with a switch would add up.
   constexpr double other_way = 0.015;
   for (const Position position : {Position::loose, Position::held}) {
     const std::vector<Key> all = keys(position);

@@ -1,5 +1,4 @@
-// Motions with a clamp between the ends, and dresspacks delivered bent: what slides and what is free of
-// strain.
+// Motions with a clamp between the ends, and dresspacks delivered bent: which parts slide, and which shape is free of strain.
 #include <Eigen/Geometry>
 #include <cmath>
 #include <functional>
@@ -24,7 +23,7 @@ constexpr double l = 0.1;  // of a segment [m]
 using Rate =
     std::function<Eigen::Vector3d(double arc, std::size_t sample)>;  ///< of rotation along the hose [1/m]
 
-/// A hose of these segments per span whose segments lie along a curve; clamps where spans meet.
+/// Writes a hose with this number of segments per span. Its segments lie along a curve, and a clamp separates the spans.
 void write_motion(const std::filesystem::path& name, const std::vector<int>& spans, double first_arc,
                   const Rate& rate) {
   int segments = 0;
@@ -57,7 +56,7 @@ void write_motion(const std::filesystem::path& name, const std::vector<int>& spa
         const Eigen::Vector3d from = tangent();
         if (i + 1 < n) {
           advance(
-              l);  // the segments' ends meet a little further out where they bend (sim/rod/theory.md, S17)
+              l);  // the ends meet a little outside a bend (sim/rod/theory.md, S17)
           x += l / 2 * (1 + (1 - from.dot(tangent())) / 12) * (from + tangent());
         }
       }
@@ -107,7 +106,7 @@ struct Strains {
   std::vector<std::uint32_t> probe_site;
 };
 
-/// job: of a hose that is as long as that of the motion.
+/// Returns the strains of a motion. Precondition: the job's hose is as long as the motion's.
 Strains evaluate(const std::filesystem::path& motion, pipeline::Job job) {
   const std::filesystem::path out = motion.string() + ".strain";
   {
@@ -128,12 +127,12 @@ Strains evaluate(const std::filesystem::path& motion, pipeline::Job job) {
 
 TEST_CASE("wires beside a clamp have the strain at the clamp, where a hose bends most") {
   const Scratch scratch;
-  constexpr double decay = 3 * l;  // a hose under tension bends so at its clamps, sqrt(E I / T)
+  constexpr double decay = 3 * l;  // decay length of a hose's bend at its clamps under tension, sqrt(E I / T)
   const auto bend = [](double arc, std::size_t t) {
     return 2 * std::exp(-arc / decay) * std::sin(0.3 * double(t));
   };
-  // As the simulated chain bends: a link by the curvature there, over 5/12 and 13/12 of a segment at and next to a clamp.
-  // Each call is for the middle of a link's length, which at a clamp is half a segment.
+  // The simulated chain bends at links, by the curvature there over 5/12 of a segment at a clamp and 13/12 at the next link.
+  // Each call gives the middle of a link's length. At a clamp this length is half a segment.
   write_motion(scratch / "motion", {10}, 0, [&](double arc, std::size_t t) {
     const double from_end = std::min(arc, 10 * l - arc);
     const bool at_clamp = from_end < l / 2, next = !at_clamp && from_end < 1.5 * l;
@@ -160,8 +159,8 @@ TEST_CASE("wires beside a clamp have the strain at the clamp, where a hose bends
   for (std::size_t t = 0; t < samples; ++t)
     lowest = std::min(lowest, std::sin(0.3 * double(t))),
     highest = std::max(highest, std::sin(0.3 * double(t)));
-  // Two of six wires lie 18 mm from the axis of the bend. A parabola through an exponential that decays within three
-  // segments is 1.1 % too low at the clamp. The centre of the first segment bends 15 % less than its clamp.
+  // Two of six wires lie 18 mm from the axis of the bend. The parabola through an exponential that decays over three segments is
+  // 1.1 % too low at the clamp. The curvature at the centre of the first segment is 15 % lower than at its clamp.
   for (const std::size_t segment : {0, 1, 5})
     CHECK(range[segment] ==
           Approx(0.018 * 2 * std::exp(-expected[segment] / decay) * (highest - lowest)).epsilon(0.02));
@@ -169,7 +168,7 @@ TEST_CASE("wires beside a clamp have the strain at the clamp, where a hose bends
 
 TEST_CASE("straight wires slide from one clamp to the next and no further") {
   const Scratch scratch;
-  // Bent near the base only, and twisted near the tool.
+  // Bent near the base only, and twisted near the tool only.
   const Rate rate = [](double arc, std::size_t t) {
     const double wave = std::sin(0.6 * t);
     return Eigen::Vector3d(arc < 0.7 ? 2 * wave : 0.2 * wave, 0.5 * wave * arc, arc > 0.8 ? 1.5 * wave : 0);
@@ -182,12 +181,12 @@ TEST_CASE("straight wires slide from one clamp to the next and no further") {
   REQUIRE(whole.segment.size() == 14 * 6);
   REQUIRE(first.segment.size() == 6 * 6);
   CHECK(whole.segment.back() == 13);
-  // The first span is what the first alone is, to the last bit.
+  // The strains of the first span are bit-identical to those of the first span alone.
   const std::size_t points = first.strain.size();
   CHECK(std::vector<float>(whole.strain.begin(), whole.strain.begin() + static_cast<long>(points)) ==
         first.strain);
-  // The axial strain of a slipped wire is one number within a span (its own bending is 1e-4 of it): taken
-  // from the largest strain of each segment, alike within a span, different across the clamp.
+  // The axial strain of a slipped wire is constant within a span (its own bending is 1e-4 of it). Compared: the largest strain
+  // of each segment, equal within a span, different across the clamp.
   const auto largest = [](const Strains& s, std::size_t site) {
     float most = 0;
     for (std::size_t k = s.offset[site]; k < s.offset[site + 1]; ++k)
@@ -198,7 +197,7 @@ TEST_CASE("straight wires slide from one clamp to the next and no further") {
   const float own_bending = 2.5e-4f;  // 0.1 mm of radius times 2.1 1/m
   for (std::size_t i = 0; i < 6; ++i) CHECK(std::abs(largest(whole, i * 6) - near) < own_bending);
   for (std::size_t i = 6; i < 14; ++i) CHECK(std::abs(largest(whole, i * 6) - far) < own_bending);
-  // Without the clamp they share.
+  // Without the clamp all segments have the same axial strain.
   write_motion(scratch / "one.h5", {14}, 0, rate);
   const Strains one = evaluate(scratch / "one.h5", job);
   CHECK(std::abs(largest(one, 0) - largest(one, 13 * 6)) < own_bending);
@@ -213,8 +212,7 @@ TEST_CASE("probes and segments count through the spans") {
       evaluate(scratch / "motion.h5",
                job_with(straight_wires,
                         {"strain.slip=stick", "strain.probes=[{segment_from_tool: 9, component: wire 2}]"}));
-  // One probe a segment for its worst site, and the one asked for: segment 3 from the base, in the first
-  // span.
+  // One probe per segment for its worst site, and the probe of the job: segment 3 from the base, in the first span.
   REQUIRE(all.probe_site.size() >= 13);
   CHECK(std::count(all.probe_site.begin(), all.probe_site.end(), 3 * 6 + 1) >= 1);
   for (std::size_t k = 0; k + 1 < all.segment.size(); ++k) CHECK(all.segment[k] <= all.segment[k + 1]);
@@ -223,7 +221,7 @@ TEST_CASE("probes and segments count through the spans") {
 TEST_CASE("a dresspack in the shape in which it was delivered is free of strain") {
   const Scratch scratch;
   const double rest = 1.5;
-  // From the delivered shape to straight and back.
+  // The motion goes from the delivered shape to straight and back.
   const Rate rate = [&](double, std::size_t t) { return Eigen::Vector3d(0, t % 2 == 0 ? rest : 0, 0); };
   write_motion(scratch / "motion.h5", {8}, 0, rate);
   for (const std::string& parts : {straight_wires, cables})
@@ -241,7 +239,7 @@ TEST_CASE("a dresspack in the shape in which it was delivered is free of strain"
       }
       CHECK(most > 1e-4f);
     }
-  // A glued wire inside the bend, at angle 0 (toward x): rest length 1 - R kappa_0, straight 1.
+  // A glued wire on the inside of the bend, at angle 0 (toward x): rest length 1 - R kappa_0, straight length 1.
   const Strains s =
       evaluate(scratch / "motion.h5",
                job_with(straight_wires, {"strain.slip=stick", "strain.probes=[]", "strain.surface_fibres=0",

@@ -1,4 +1,4 @@
-// The stage on small motion files: what strain.h5 says, that its parts agree, and what is refused.
+// The stage on small motion files: the contents of strain.h5, the consistency of its parts, and refused inputs.
 #include "strain/strain_file.h"
 
 #include <fmt/format.h>
@@ -33,14 +33,14 @@ pipeline::Job job_with(const std::vector<std::string>& sets = {}) {
   return pipeline::job_from(pipeline::parse_yaml(pipeline::sample_job, "job.yaml"), sets);
 }
 
-/// Rotation rate of the whole dresspack at a sample [1/m].
+/// Returns the rotation rate of the whole dresspack at a sample [1/m].
 Eigen::Vector3d rate_at(std::size_t t) {
   return {2 * std::sin(0.3 * t), 1.5 * std::cos(0.2 * t), 3 * std::sin(0.1 * t)};
 }
 
 using RateAt = std::function<Eigen::Vector3d(std::size_t)>;
 
-/// A dresspack that bends and twists uniformly, in samples of motion.h5. softer: of the softer hose; null: the file has none.
+/// Writes a motion.h5 of a uniformly bent and twisted dresspack. softer: rates of the softer hose; null: the file has none.
 void write_motion(const std::filesystem::path& name, std::size_t count = samples, double step = 0.04,
                   const RateAt& rate_of = rate_at, const RateAt& softer = nullptr) {
   FileWriter file(name, pipeline::motion_format());
@@ -101,13 +101,13 @@ void write_motion(const std::filesystem::path& name, std::size_t count = samples
 }
 
 constexpr std::size_t cycle = 100;  // samples
-/// A bend that turns, and a twist to and fro.
+/// Returns the rotation rate of a bend whose plane turns, with a twist that alternates [1/m].
 Eigen::Vector3d turning(std::size_t t) {
   const double w = 2 * std::numbers::pi * static_cast<double>(t) / cycle;
   return {1.5 + 0.5 * std::sin(w), 0.8 * std::cos(w), 1.2 * std::sin(w)};
 }
 
-// strain.rest of each of four starts, the job's own first.
+// strain.rest of four starts; the first is the job's own.
 const std::vector<std::string> rests_of_starts{"strain.rest=-0.3", "strain.rest=0.3", "strain.rest=-1.2",
                                                "strain.rest=1.2"};
 
@@ -127,7 +127,7 @@ std::string evaluate(const std::filesystem::path& motion, const std::filesystem:
   return told;
 }
 
-/// The lives that follow, in a file of that name. Returns the warnings.
+/// Writes the lives of `strain` to the life file `out`. Returns the warnings.
 std::string judge(const FileReader& strain, const pipeline::Job& job, const std::filesystem::path& out) {
   FileWriter life(out, pipeline::life_format());
   const fatigue::Notes notes = fatigue::write_life(strain, job, life, 1, [](double) {});
@@ -151,7 +151,7 @@ TEST_CASE("strain.h5 holds the deformation, every site's turning points and the 
 
   const auto curvature = file.read<double>("/deformation/curvature"),
              twist = file.read<double>("/deformation/twist");
-  // of poses 1e-9; the file keeps single precision, 24 bits
+  // Poses have an error of 1e-9. The file keeps single precision, 24 bits.
   const auto equal = [](double kept, double is) {
     return std::abs(kept - is) < 1e-9 + std::ldexp(std::abs(is), -24);
   };
@@ -190,7 +190,7 @@ TEST_CASE("strain.h5 holds the deformation, every site's turning points and the 
 
   const auto probe = file.read<std::uint32_t>("/probe/site");
   const auto history = file.read<double>("/probe/strain");
-  REQUIRE(probe.size() > segments);  // one to five of each segment and one of the job's
+  REQUIRE(probe.size() > segments);  // one to five per segment and one named in the job
   constexpr double single = 1e-6;    // waves and turning points are single precision
   REQUIRE(probe.size() <= 5 * segments + 1);
   for (std::size_t p = 0; p < probe.size(); ++p)
@@ -222,7 +222,7 @@ TEST_CASE(
   const Scratch scratch;
   write_motion(scratch / "motion.h5");
   struct Forces {
-    double share = 0;  ///< of what tears a cable
+    double share = 0;  ///< of the force that breaks a cable
     std::string warnings;
     std::vector<double> tension, slip;
   };
@@ -254,7 +254,7 @@ TEST_CASE(
   const double area = 6 * 3.14159265 * 0.1e-3 * 0.1e-3 * std::cos(25 * 3.14159265 / 180);
   CHECK(held.share == Approx(largest(held.tension) / (230e6 * area)));
   CHECK(std::all_of(held.slip.begin(), held.slip.end(), is_zero));
-  // By the metal of the job that judges them: a curve with half the stresses at a plastic strain.
+  // The forces follow the metal of the job for the life: here a curve with half the stress at a plastic strain.
   const Forces softer = forces_with({"strain.slip=free"}, 0.5);
   CHECK(largest(softer.tension) < 0.9 * largest(held.tension));
   CHECK(largest(softer.tension) > 0.5 * largest(held.tension));
@@ -262,8 +262,8 @@ TEST_CASE(
       {"strain.slip=free", "dresspack.components.1.base_grip_N=1", "dresspack.components.1.tool_grip_N=1"});
   CHECK(gripped.warnings.find("% of its breaking force") == std::string::npos);
   CHECK(std::none_of(gripped.slip.begin(), gripped.slip.end(), is_zero));
-  // cables that stick to the hose need more than those that even out along it: each segment's own strain has
-  // its force
+  // Cables that stick to the hose have larger forces than cables whose strain evens out along it: each segment's own strain
+  // causes its force.
   const Forces stuck = forces_with({});
   CHECK(stuck.warnings.find("% of its breaking force") != std::string::npos);
   CHECK(stuck.share > held.share);
@@ -354,7 +354,7 @@ TEST_CASE(
       }
     }
   }
-  float nearest = HUGE_VALF;  // of two rests, over the largest range
+  float nearest = HUGE_VALF;  // distance of two rests / largest range
   for (const std::vector<float>& one : ranges[0])
     for (const std::vector<float>& other : ranges[1]) {
       float apart = 0;
@@ -363,7 +363,7 @@ TEST_CASE(
       nearest = std::min(nearest, apart / std::ranges::max(one));
     }
   INFO("slack of " << slack << " %: " << nearest);
-  CHECK(nearest < 0.03f);  // the rehearsal goes in steps of four samples, and leaves 0.4 and 1.2 %
+  CHECK(nearest < 0.03f);  // the rehearsal goes in steps of four samples; 0.4 and 1.2 % remain
 }
 
 TEST_CASE("each start of a ring of cables has a rest in the file, one cable has no starts") {
@@ -393,7 +393,7 @@ TEST_CASE("each start of a ring of cables has a rest in the file, one cable has 
     }
     for (const std::int32_t rest : varied) CHECK((rest >= 0 && rest <= last));
   }
-  {  // the job's own rest does not depend on whether others are varied
+  {  // the job's own rest does not depend on whether inputs are varied
     const FileReader on = evaluated({"uncertainty.enabled=true"});
     const auto strain = on.read<float>("/reversal/strain");
     const FileReader off = evaluated({"uncertainty.enabled=false"});
@@ -421,13 +421,13 @@ TEST_CASE("a motion without samples or a dresspack without wires is refused in w
   bare.dresspacks[0].dresspack.components.clear();
   CHECK_THAT(pipeline::message_of([&] { evaluate(scratch / "motion.h5", scratch / "strain.h5", bare); }),
              Catch::Contains("without components"));
-  CHECK(scratch.entries() == 1);  // nothing left of the output
+  CHECK(scratch.entries() == 1);  // no partial output remains
 }
 
 TEST_CASE("variations hold the strains that the same job has with the keys that they stand for") {
   const Scratch scratch;
-  // Variations of the slack of a ring go on from the first start and may rest elsewhere than a job with that slack. One cable
-  // has no other starts.
+  // Variations of the slack of a ring continue from the first start and may come to another rest than a job with that slack.
+  // One cable has no other starts.
   const bool ring = GENERATE(true, false);
   write_motion(scratch / "motion.h5");
   std::string text = pipeline::sample_job;
@@ -439,8 +439,8 @@ TEST_CASE("variations hold the strains that the same job has with the keys that 
   replace("helix_radius_mm: 18.45\n", "helix_radius_mm: 18.45\n      slack_percent: 3\n");
   if (!ring) replace("count: 3", "count: 1");
   replace("  damping_time_ms: 10\n", "  damping_time_ms: 10\n  inner_diameter_mm: 52\n");
-  // Without it a job with another slack cuts its cables into other pieces than the variation, and a ring of cables then
-  // rests at another of its many places: strains differ by up to 0.9 of their range.
+  // A fixed number of elements. Otherwise a job with another slack cuts its cables into different pieces than the variation
+  // does. A ring of cables then comes to another of its many rests: strains differ by up to 0.9 of their range.
   replace("slip: [stick, free]", "slip: [free, friction], cable_elements_per_segment: 4");
   const auto job = [&](std::vector<std::string> sets) {
     return pipeline::job_from(pipeline::parse_yaml(text, "job.yaml"), std::move(sets));
@@ -456,26 +456,26 @@ TEST_CASE("variations hold the strains that the same job has with the keys that 
   const auto strain = all.read<float>("/variation/strain");
   CHECK(FileReader(scratch / "threads.h5", pipeline::strain_format()).read<float>("/variation/strain") ==
         strain);
-  constexpr std::size_t no_room = 1;  // where cables bend waits in files, segments are read one by one
+  constexpr std::size_t no_room = 1;  // curvatures of cables are kept in files, segments are read one by one
   evaluate(scratch / "motion.h5", scratch / "no_room.h5", job({"uncertainty.enabled=true"}), no_room);
   CHECK(pipeline::bytes_of(scratch / "no_room.h5") == pipeline::bytes_of(scratch / "all.h5"));
-  CHECK(scratch.entries() == 4);                 // the motion and three results: those files have gone
+  CHECK(scratch.entries() == 4);                 // the motion and three results; the temporary files are removed
   constexpr std::size_t variations = 5 + 3 * 6;  // friction, its two bounds and slack crossed
   REQUIRE((ring ? z.size() >= variations * 5 : z.size() == variations * 5));  // and the rests of other starts
   const auto inside = all.read<std::int32_t>("/variation/inside");
-  constexpr double third_harmonic = 1e-3;  // that the waves of a layer (W13) leave out, of the strain's range
+  constexpr double third_harmonic = 1e-3;  // error of the waves of a layer (W13), share of the strain's range
   for (std::size_t v = 0; v < variations; ++v) {
     std::array<double, pipeline::uncertain_count> at{};
     std::copy_n(z.begin() + v * 5, 5, at.begin());
     std::vector<std::string> sets = pipeline::sets_at(at);
-    // Friction a thousand times as large is not glued: it lets go where compression takes the pressure, 0.37 of the
-    // range.
+    // Friction multiplied by a thousand is not glued: it slides where compression reduces the pressure to zero, by 0.37 of
+    // the range.
     if (inside[v] != 0) sets.push_back(inside[v] == 1 ? "strain.slip=[free, stick]" : "strain.slip=free");
     REQUIRE(!sets.empty());
     INFO(sets.front() << (sets.size() > 1 ? sets.back() : ""));
     sets.push_back("uncertainty.enabled=false");
     if (ring && at[index_of(pipeline::Uncertain::slack)] != 0) continue;
-    double nearest = HUGE_VAL;  // of the rests
+    double nearest = HUGE_VAL;  // smallest distance to one of the rests
     for (const std::string& rest : ring ? rests_of_starts : std::vector<std::string>{"strain.rest=0"}) {
       sets.push_back(rest);
       evaluate(scratch / "motion.h5", scratch / "one.h5", job(sets));
@@ -514,7 +514,7 @@ TEST_CASE("the variation of a softer hose holds the strains that its motion has 
     REQUIRE(text.find(from) != std::string::npos);
     text.replace(text.find(from), from.size(), to);
   };
-  replace("count: 3", "count: 1");  // a ring has several rests, of which the test would have to find the same
+  replace("count: 3", "count: 1");  // a ring has several rests, of which the test would have to find the same one
   if (loose) {
     replace("helix_radius_mm: 18.45\n", "helix_radius_mm: 18.45\n      slack_percent: 3\n");
     replace("  damping_time_ms: 10\n", "  damping_time_ms: 10\n  inner_diameter_mm: 52\n");
@@ -539,7 +539,7 @@ TEST_CASE("the variation of a softer hose holds the strains that its motion has 
              turning_points = varied.read<std::uint32_t>("/variation/row/turning");
   const auto strain = varied.read<float>("/variation/strain"), own = one.read<float>("/reversal/strain");
   const auto offset = one.read<std::uint64_t>("/reversal/offset");
-  constexpr double third_harmonic = 1e-3;  // that the waves of a layer (W13) leave out, of the strain's range
+  constexpr double third_harmonic = 1e-3;  // error of the waves of a layer (W13), share of the strain's range
   std::size_t next = 0, compared = 0;
   for (std::size_t row = 0; row < site.size(); next += turning_points[row++]) {
     if (stiffness[variation[row]] == 0) continue;

@@ -21,7 +21,7 @@ StrandBending::StrandBending(const Strand& strand) {
     stiffness += layer.count * EA * std::pow(cosine, 3);
     own_stiffness_ += layer.count * EA * layer.wire_radius * layer.wire_radius / 4 * cosine;
   }
-  double pressed_inward = 0;  // by all wires of the layers outside, per length [N/m]
+  double pressed_inward = 0;  // pressure of all wires of the layers outside, per length [N/m]
   for (auto layer = strand.layers.rbegin(); layer != strand.layers.rend(); ++layer) {
     if (layer->helix_radius == 0) continue;
     const double R = layer->helix_radius, EA = layer->youngs_modulus * area(*layer);

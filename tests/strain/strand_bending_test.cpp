@@ -38,7 +38,7 @@ Strand cardinal(double lay_length = 0.5) {
   return strand;
 }
 
-/// Largest relative difference from the published curve, from its `first` point on.
+/// Returns the largest relative difference from the published curve, from its point `first` on.
 template <class Bending>
 double largest_error(Bending bending, std::size_t first) {
   double worst = 0;
@@ -59,9 +59,9 @@ TEST_CASE("CARDINAL: slipped and stuck bending stiffness as published") {
 }
 
 TEST_CASE("CARDINAL: the published moment over curvature") {
-  // The first two points have a slope of 1570 N m2, below the published stuck 1964: no model whose wires
-  // stick rigidly meets them. From the third on: 12 % at the fourth point, where layers change from sticking
-  // to sliding.
+  // The first two points have a slope of 1570 N m2, below the published stuck stiffness of 1964: a model whose wires stick
+  // rigidly cannot reproduce them. From the third point on the largest difference is 12 %, at the fourth point, where layers
+  // change from sticking to sliding.
   constexpr double changing = 0.13, sliding = 0.035;
   CHECK(largest_error(StrandBending(cardinal()), 2) < changing);
   CHECK(largest_error(StrandBending(cardinal()), 12) < sliding);
@@ -70,22 +70,21 @@ TEST_CASE("CARDINAL: the published moment over curvature") {
 
 TEST_CASE("CARDINAL: with contacts that give, every point of the published curve") {
   using enum StrandContact::Contacts;
-  // 12 % at worst, at the fourth point; the first two, 24 and 25 % off with rigid sticking, come to 9 and 10
-  // %
+  // The largest difference is 12 %, at the fourth point. The first two points differ by 9 and 10 %; with rigid sticking by 24
+  // and 25 %.
   constexpr double everywhere = 0.12, first_points = 0.105;
   CHECK(largest_error(StrandContact(cardinal(), elastic), 0) < everywhere);
   StrandContact bending(cardinal(), elastic);
   for (int k = 0; k < 2; ++k)
     CHECK(std::abs(bending.moment(published[k].first) / published[k].second - 1) < first_points);
-  // The lay length is known as "about 0.5 m": 0.47 m brings all points within 10 % and the stuck stiffness to
-  // 1956.
+  // The lay length is published as "about 0.5 m". With 0.47 m all points are within 10 % and the stuck stiffness is 1956.
   CHECK(largest_error(StrandContact(cardinal(0.47), elastic), 0) < 0.1);
   CHECK(StrandBending(cardinal(0.47)).stuck_stiffness() == Approx(1964).epsilon(5e-3));
 }
 
 TEST_CASE("published CARDINAL points are themselves not those of a curve that only softens") {
-  // Sliders that give way one by one make a concave curve. The second point lies below the chord of its
-  // neighbours by this share of itself, so single points of the early curve are no better known than that.
+  // Sliders that yield one after another give a concave curve. The second point lies below the chord of its neighbours by this
+  // share of its value, so the uncertainty of single points at the begin of the curve is at least as large.
   const auto [x0, y0] = published[0];
   const auto [x1, y1] = published[1];
   const auto [x2, y2] = published[2];
@@ -94,9 +93,9 @@ TEST_CASE("published CARDINAL points are themselves not those of a curve that on
 }
 
 TEST_CASE("a strand on rigid contacts is that of sliders whose cap gathers from the neutral axis") {
-  // Equilibrium along every wire against a cap by angle: two derivations of one curve. They differ where a
-  // layer sticks beyond its sliding part: there the load of the layers outside counts per length of the
-  // strand in one, of the wire in the other (1 / cos of 10 degrees, 1.5 %).
+  // Equilibrium along every wire against a cap by angle: two derivations of one curve. They differ where a layer sticks beyond
+  // its sliding part. There one model counts the load of the layers outside per length of the strand, the other per length of
+  // the wire (1 / cos of 10 degrees, 1.5 %).
   constexpr double lengths = 0.01;
   StrandContact contact(cardinal(), StrandContact::Contacts::rigid);
   StrandBending sliders(cardinal());
@@ -105,7 +104,7 @@ TEST_CASE("a strand on rigid contacts is that of sliders whose cap gathers from 
 }
 
 TEST_CASE("a strand on contacts that give: stiffness before anything slides in closed form") {
-  // With everything sticking eps = A sin, u = B cos, and (W24) is one linear equation per layer.
+  // If all crossings stick, eps = A sin, u = B cos, and (W24) is one linear equation per layer.
   const Strand strand = cardinal();
   const int count = 4;
   const double nu = 0.33, curvature = 1e-4;
@@ -143,7 +142,7 @@ TEST_CASE("a strand on contacts that give: stiffness before anything slides in c
     if (i > 0) left(i, i - 1) += face[i];
     if (i + 1 < count) left(i, i + 1) += face[i + 1];
   }
-  left.row(0).setZero();  // the innermost lies on the core in lines: u = 0
+  left.row(0).setZero();  // the innermost layer has contact lines with the core: u = 0
   left(0, 0) = 1;
   right[0] = 0;
   const Eigen::VectorXd B = left.partialPivLu().solve(right);
@@ -175,8 +174,8 @@ TEST_CASE("a strand on contacts that give loses energy in every loop and slides 
     loss = lost;
     CHECK(moment == Approx(top).epsilon(1e-6));
   }
-  // Tape around the strand presses like tension does: with all of the radial load from it instead, layer by
-  // layer, the moment is the same. A jacket that holds wires elastically is refused.
+  // Tape around the strand presses like tension. If tape causes all of the radial load, layer by layer, the moment is the same.
+  // A jacket that holds wires elastically is refused.
   Strand taped = cardinal();
   double stretch = 0;
   for (const StrandLayer& layer : taped.layers)
@@ -216,7 +215,7 @@ TEST_CASE("a strand bent to and fro follows Masing's doubled curve and loses ene
     }
   CHECK(moment == Approx(top));
   CHECK(loss > 0.5 * 4 * amplitude * top * 0.5);
-  // without friction: elastic, with the slipped stiffness
+  // Without friction the strand is elastic with the slipped stiffness.
   Strand smooth = cardinal();
   smooth.friction = 0;
   StrandBending free(smooth);
@@ -225,7 +224,7 @@ TEST_CASE("a strand bent to and fro follows Masing's doubled curve and loses ene
 
 TEST_CASE("sliding everywhere: each layer holds (2/pi)^2 of its cap, the mean of (angle over pi/2) sin") {
   Strand strand = cardinal();
-  constexpr double far = 5;  // [1/m]: all slides, but for the last degrees before the outermost fibre
+  constexpr double far = 5;  // [1/m]: all wires slide except the last degrees before the outermost fibre
   StrandBending alone([&] {
     Strand same = strand;
     same.outer_layers_press = false;
@@ -245,6 +244,6 @@ TEST_CASE("sliding everywhere: each layer holds (2/pi)^2 of its cap, the mean of
   const double own = alone.slipped_stiffness() * far;
   constexpr double last_degrees = 2e-3;
   CHECK(alone.moment(far) - own == Approx(held).epsilon(last_degrees));
-  // and without the outer layers' pressure the inner ones hold less
+  // Without the pressure of the outer layers the inner layers hold less.
   CHECK(alone.moment(far) < 0.9 * StrandBending(strand).moment(far));
 }

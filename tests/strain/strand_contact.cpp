@@ -10,16 +10,15 @@
 namespace dresslife::strain {
 namespace {
 
-constexpr int nodes = 45;                // over a quarter; the node at its end, pi/2, does not move
+constexpr int nodes = 45;                // over a quarter; the last node, at pi/2, does not move
 constexpr double step = pi / 2 / nodes;  // [rad]
-constexpr double rigid = 1e4;            // times a layer's own stiffness against a wave over the section
+constexpr double rigid = 1e4;            // stiffness of a rigid contact / the layer's own against a wave over the section
 constexpr double poisson_ratio = 0.33;
-constexpr int most_rounds = 200;  // of finding out which crossings slide
+constexpr int most_rounds = 200;  // of the search for the sliding crossings
 
 double section(const StrandLayer& layer) { return pi * layer.wire_radius * layer.wire_radius; }
 
-/// K of (W24): of the crossings of two layers, per length of the strand and radian. load: radial, the same
-/// way.
+/// Returns K of (W24), of the crossings of two layers, per length of the strand and radian. load: radial, per same unit.
 double crossing_stiffness(const StrandLayer& inner, const StrandLayer& outer, double load) {
   const auto turns = [](const StrandLayer& layer) {
     return std::tan(layer.lay_angle) / (2 * pi * layer.helix_radius);
@@ -43,7 +42,7 @@ StrandContact::StrandContact(const Strand& strand, Contacts contacts) {
     stretch_stiffness += layer.count * EA * std::pow(cosine, 3);
     own_stiffness_ += layer.count * EA * layer.wire_radius * layer.wire_radius / 4 * cosine;
   }
-  double load = 0;  // radial, of the layers from here outward, per length and radian [N/m]
+  double load = 0;  // radial, of this layer and those outside, per length and radian [N/m]
   for (std::size_t k = strand.layers.size(); k-- > 1;) {
     const StrandLayer &layer = strand.layers[k], &inner = strand.layers[k - 1];
     assert(layer.helix_radius > 0 && layer.lay_angle > 0);
@@ -67,8 +66,8 @@ StrandContact::StrandContact(const Strand& strand, Contacts contacts) {
   }
 }
 
-/// Solves (W24) for the displacements (layer, node), with the crossings sliding that are marked so. Strains
-/// stand between the nodes; at phi = 0 a wire has none, at pi/2 it does not move.
+/// Solves (W24) for the displacements (layer, node), with the marked crossings sliding. Strains are defined between the nodes.
+/// At phi = 0 a wire has no strain, at pi/2 no displacement.
 std::vector<std::vector<double>> StrandContact::displacements(double curvature) const {
   const int count = static_cast<int>(layers_.size()), size = count * nodes;
   const auto at = [&](int layer, int node) { return node * count + layer; };
@@ -115,7 +114,7 @@ double StrandContact::traction(const Interface& interface, std::size_t node, dou
   return interface.stiffness * (displacement - interface.slip[node]);
 }
 
-/// Marks the crossings that slide under these displacements; whether any mark changed.
+/// Marks the crossings that slide under these displacements. Returns whether any mark changed.
 bool StrandContact::settle(const std::vector<std::vector<double>>& u) {
   constexpr double rounding = 1e-9;
   bool changed = false;
@@ -149,7 +148,7 @@ double StrandContact::moment(double curvature) {
     }
     sum += layer.moment_per_strain * mean;
   }
-  for (std::size_t j = 0; j < interfaces_.size(); ++j)  // the return mapping: slip follows
+  for (std::size_t j = 0; j < interfaces_.size(); ++j)  // return mapping: updates the slip
     for (std::size_t m = 0; m < static_cast<std::size_t>(nodes); ++m) {
       Interface& face = interfaces_[j];
       const double displacement = u[j][m] + (j > 0 ? u[j - 1][m] : 0);

@@ -1,19 +1,18 @@
-// Bending of a strand whose layers touch where their wires cross (README W24): the model of
-// tests/strain/strand_bending.h with equilibrium along each wire and contacts that give before they slide.
+// Bending of a strand whose layers touch where their wires cross (strain/theory.md, W24): the model of
+// tests/strain/strand_bending.h with equilibrium along each wire and contacts that deform before they slide.
 //
-// All wires of a layer do the same, each at its own angle phi from the neutral axis, so a layer is one
-// function of phi. Let u be how far a wire is displaced along itself against the plane section, kappa_i = 2
-// pi / lay length the angle it turns per length. Then, per length of the strand and radian,
+// All wires of a layer behave alike, each at its own angle phi from the neutral axis, so a layer is one function of phi. Let
+// u be a wire's displacement along itself against the plane section, and kappa_i = 2 pi / lay length the angle that the wire
+// turns per length. Then, per length of the strand and radian,
 //     eps = R cos^2(alpha) kappa sin(phi) + kappa_i cos(alpha) du/dphi,
 //     n E A kappa_i / (2 pi) d eps/dphi = tau_inner + tau_outer                                   (W24)
-// where tau is what the crossings of an interface carry: K (u + u') while they stick, never more than mu
-// times the radial load of all layers outside it. The displacements of the two layers add up: their hands
-// differ, so where one moves forward the other moves back. That is why a layer's outer face holds it as well
-// as its inner one. A crossing is a Hertz contact of two cylinders at the angle beta = alpha + alpha' with
-// the equivalent radius sqrt(r r') / sin(beta); its radius a follows from the load, its tangential stiffness
-// is Mindlin's 8 a G*. Against the core, which is straight, wires have contact lines: rigid.
-//
-// Left out: slip that grows inside a contact before the whole slides (Mindlin and Deresiewicz), contacts
+// where tau is the shear force that the crossings of an interface transmit: K (u + u') while they stick, at most mu times
+// the radial load of all layers outside the interface. The displacements of the two layers add up because the layers have
+// opposite hands: where one layer moves forward, the other moves back. Therefore a layer's outer face holds it as well as its
+// inner face. A crossing is a Hertz contact of two cylinders at the angle beta = alpha + alpha' with the equivalent radius
+// sqrt(r r') / sin(beta). Its contact radius a follows from the load; its tangential stiffness is Mindlin's 8 a G*. Wires
+// have contact lines with the straight core: this contact is rigid.
+// Not modelled: slip that grows inside a contact before the whole contact slides (Mindlin and Deresiewicz), contacts
 // flattened by yielding (larger, stiffer), contact between the wires of a layer.
 //
 // Source: R. D. Mindlin, J. Appl. Mech. 16 (1949); the idea for conductors: J.-P. Paradis and F. Legeron,
@@ -31,16 +30,16 @@ class StrandContact {
  public:
   enum class Contacts { elastic, rigid };
 
-  /// Layers lie in alternating hands, all but the core on helices. `outer_layers_press` does not
-  /// count. Errors: InputError for a jacket's stiffness.
+  /// Adjacent layers have opposite hands. All layers except the core are helices. `outer_layers_press` is ignored.
+  /// Errors: InputError if a layer has a jacket's stiffness.
   StrandContact(const Strand& strand, Contacts contacts);
 
-  /// The moment [N m] once the curvature [1/m], in one plane, has moved on to `curvature`.
+  /// Changes the curvature [1/m], in one plane, to `curvature`. Returns the moment [N m].
   double moment(double curvature);
 
  private:
   struct Layer {
-    double strain_per_curvature, moment_per_strain;  ///< at phi = pi/2; of the layer by its mean eps sin(phi)
+    double strain_per_curvature, moment_per_strain;  ///< at phi = pi/2; moment of the layer per mean of eps sin(phi)
     double gradient;                                 ///< kappa_i cos(alpha) [1/m]
     double force;                                    ///< n E A kappa_i / (2 pi) [N/m]
   };

@@ -1,11 +1,11 @@
 // libFuzzer's entry for the files between the stages: FUZZ_FORMAT is motion, strain or life. Not part of the
 // tests; built by scripts/fuzz.
 //
-// An input is one of two things. Bytes that begin with HDF5's signature are a file after its checksum block.
-// All others are edits of the seed file that DRESSLIFE_SEED names: values, lengths, units, types, packed
-// chunks and links changed through the HDF5 library, whose own checksums would refuse most of what turned
-// bits can do. In both cases the checksum is made right, so that it keeps nothing from the reader, and the
-// next stage works on the file: it must end, or refuse it with an InputError.
+// An input has one of two forms. Bytes that begin with HDF5's signature are a file after its checksum block. All other inputs
+// are edits of the seed file named by DRESSLIFE_SEED: values, lengths, units, types, packed chunks and links are changed
+// through the HDF5 library, because the library's own checksums would refuse most flipped bits. In both cases the checksum is
+// corrected so that the reader accepts it. Then the next stage works on the file. It must end, or refuse the file with an
+// InputError.
 #include <fcntl.h>
 #include <hdf5.h>
 #include <sys/stat.h>
@@ -50,14 +50,14 @@ const pipeline::Format& format() {
   return pipeline::life_format();
 }
 
-/// The seed with chunks as small as what they hold, and its job.
+/// The seed, with chunks not larger than their contents, and its job.
 struct Seed {
   Bytes bytes;
   std::string job;
 };
 Seed seed;
 
-/// Numbers and pieces of an input, one after the other; zeros behind its end.
+/// Reads numbers and pieces of an input in sequence; zeros after its end.
 class Choices {
  public:
   Choices(const unsigned char* data, std::size_t size) : at_(data), left_(size) {}
@@ -84,7 +84,7 @@ class Choices {
   std::size_t left_;
 };
 
-/// Numbers at which readers stumble, or those of the input.
+/// Returns a number that is critical for readers, or a number of the input.
 double number(Choices& choices) {
   constexpr double notable[] = {0,     -0.0,   1,   -1,           0.5,          1e-300,
                                 1e300, -1e300, 1e9, 4294967295.0, 2147483647.0, -2147483648.0};
@@ -119,7 +119,7 @@ void set_number_attribute(hid_t object, const char* name, double value) {
   if (made >= 0) H5Awrite(made, H5T_NATIVE_DOUBLE, &value);
 }
 
-/// Writes `count` numbers or texts from a position on, rows behind rows.
+/// Writes `count` numbers or texts from a position on, in row order.
 void change_values(hid_t dataset, Choices& choices) {
   const Closed space{H5Dget_space(dataset), H5Sclose};
   const Closed type{H5Dget_type(dataset), H5Tclose};
@@ -145,7 +145,7 @@ void change_values(hid_t dataset, Choices& choices) {
   }
 }
 
-/// A dataset of the same name with a type, rank or storage other than expected.
+/// Replaces a dataset by one of the same name with an unexpected type, rank or storage.
 void replace(hid_t file, const char* path, Choices& choices) {
   H5Ldelete(file, path, H5P_DEFAULT);
   const hid_t types[] = {H5T_IEEE_F64LE, H5T_IEEE_F32LE, H5T_STD_I32LE,
@@ -165,7 +165,7 @@ void replace(hid_t file, const char* path, Choices& choices) {
   if (made >= 0) set_text_attribute(made, "unit", format().find(path).unit);
 }
 
-/// A packed chunk, byte by byte.
+/// A packed chunk as bytes.
 struct RawChunk {
   std::string dataset;
   bool unfiltered = false;
@@ -174,7 +174,7 @@ struct RawChunk {
 
 void write_raw(hid_t file, const RawChunk& raw) {
   const Closed dataset{H5Dopen2(file, raw.dataset.c_str(), H5P_DEFAULT), H5Dclose};
-  hsize_t chunks = 0;  // the library crashes where it has not written one itself
+  hsize_t chunks = 0;  // the library crashes if it has not written a chunk itself
   if (dataset < 0 || H5Dget_num_chunks(dataset, H5S_ALL, &chunks) < 0 || chunks == 0) return;
   const Closed space{H5Dget_space(dataset), H5Sclose};
   const std::vector<hsize_t> first(static_cast<std::size_t>(std::max(H5Sget_simple_extent_ndims(space), 1)),
@@ -196,7 +196,7 @@ void edit_dataset(hid_t file, const std::string& path, Choices& choices, std::op
       return change_values(dataset, choices);
     case 3:
       if (lengths[0] > 1u << 24)
-        return;  // lengthened before: the library shortens it chunk by chunk, for minutes
+        return;  // lengthened before; the library would shorten it chunk by chunk for minutes
       lengths[0] = choices.next<std::uint32_t>() >> choices.next<unsigned char>() % 32;
       H5Dset_extent(dataset, lengths.data());
       return;
@@ -240,7 +240,7 @@ void edit_attribute(hid_t file, Choices& choices) {
   }
 }
 
-/// A file in memory, gone afterwards. (The library wants a name that leads to it: none in /proc.)
+/// A temporary file in memory, removed afterwards. (The library needs a name that leads to it, which no name in /proc does.)
 class File {
  public:
   File() : descriptor_(::mkostemp(name_.data(), O_CLOEXEC)) {}
@@ -259,7 +259,7 @@ class File {
     if (!pipeline::read_at(descriptor_, all.data(), all.size(), 0)) std::abort();
     return all;
   }
-  /// Makes the checksum that of the bytes behind it.
+  /// Sets the checksum to that of the bytes after it.
   void sign() const {
     const Bytes all = bytes();
     if (all.size() < pipeline::checksum_block_bytes) return;
@@ -291,7 +291,7 @@ void copy_attributes(hid_t from, hid_t to) {
   if (H5Aiterate2(from, H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, copy, &to) < 0) std::abort();
 }
 
-/// Copies a dataset into chunks as small as what it holds: a seed of 2 MB would be slow to change.
+/// Copies a dataset into chunks not larger than its contents: changing a seed of 2 MB would be slow.
 void copy_small(hid_t from, hid_t to, const std::string& path) {
   const Closed source{H5Dopen2(from, path.c_str(), H5P_DEFAULT), H5Dclose};
   if (source < 0) return;
@@ -327,8 +327,8 @@ void make_seed(const std::string& large_name) {
   seed.job = pipeline::FileReader(large_name, format()).text_attribute("job");
 }
 
-/// The edits that the input asks for; a raw chunk last and in a file that was opened again, as the library
-/// reads beyond one that is too short when it edits on.
+/// Applies the edits of the input. A raw chunk is edited last and after the file was opened again, because the library reads
+/// beyond the end of a short chunk if it continues to edit.
 void edit(const File& target, Choices choices) {
   const Closed access{H5Pcreate(H5P_FILE_ACCESS), H5Pclose};
   H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);
@@ -349,8 +349,7 @@ void edit(const File& target, Choices choices) {
   if (file >= 0) write_raw(file, *raw);
 }
 
-/// What the next stage does with the file, with the seed's job: what another job may ask for is not the
-/// file's matter.
+/// Processes the file as the next stage does, with the seed's job. Settings of other jobs are not part of this test.
 void use(const std::string& name) {
   if (kind == Kind::life) {
     pipeline::report_page("fuzz", pipeline::read_ranking({{"job", name, ""}}));
@@ -384,7 +383,7 @@ int refused_or_used(const File& file) {
 extern "C" int LLVMFuzzerInitialize(int*, char***) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   make_seed(std::getenv("DRESSLIFE_SEED"));
-  try {  // a seed that its own reader refuses would only test that it is refused
+  try {  // a seed that is refused would test only the refusal
     use(File(seed.bytes).name());
   } catch (const std::exception& problem) {
     std::fprintf(stderr, "%s\n", problem.what());
@@ -404,7 +403,7 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
   else
     edit(file, {data, size});
   constexpr std::size_t largest =
-      64 << 20;  // a length that the library has filled: larger ones only take memory
+      64 << 20;  // the library has filled this length; larger ones only use memory
   if (file.size() > largest) return 0;
   file.sign();
   return refused_or_used(file);

@@ -1,5 +1,5 @@
-// libFuzzer's entry for jobs: any bytes as a job's YAML. What is not refused must come back the same from its
-// own echo. Not part of the tests; built by scripts/fuzz.
+// libFuzzer's entry for jobs: any bytes as a job's YAML. A job that is accepted must be reproduced by its own echo. Not part of
+// the tests; built by scripts/fuzz.
 #include <cstdlib>
 #include <fstream>
 
@@ -21,7 +21,7 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
   } catch (const InputError&) {
     return 0;
   }
-  // Read outside the try block: an echo that is refused is our fault.
+  // Outside the try block: a refused echo is a bug.
   const Job again = job_from(parse_yaml(echo, "job.yaml"));
   if (job_text(again) != echo) std::abort();
   for (const JobPart part : {JobPart::sim, JobPart::strain, JobPart::fatigue}) part_text(again, part);

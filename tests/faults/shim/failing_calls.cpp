@@ -1,15 +1,15 @@
-// Preloaded into a program: some of its calls fail, as on a full or broken disk, on a file system that lacks
-// something, or without memory.
+// A library that is preloaded into a program: some of the program's calls fail, as on a full or broken disk, on a file system
+// without some feature, or without memory.
 //
-//   FAULT_PROGRAM  the program that is meant; programs that it starts are left alone
+//   FAULT_PROGRAM  name of the program with faults; programs that it starts have none
 //   FAULT_CALL     write, sync, close, cut, rename: of files that are being written (their names end in .part)
 //                  read, look, open, list, lock, make, remove, link: of any file whose path holds FAULT_PATH
 //                  allocate: any allocation
-//   FAULT_AT       the first call that fails, from 1; 0: none does
+//   FAULT_AT       number of the first call that fails, from 1; 0: none
 //   FAULT_MORE     how many further calls fail; "all"
 //   FAULT_MODE     an error (EIO, ENOSPC, ENOTSUP ...); of a read or write: short (half of it); of a read: end (as
 //                  at the end of the file), flip (one bit turned); without it ENOSPC of a write, EIO of others
-//   FAULT_COUNT    a file for the number of such calls, written at the end
+//   FAULT_COUNT    a file for the number of matching calls, written at the end
 #include <dirent.h>
 #include <dlfcn.h>
 #include <sys/file.h>
@@ -91,7 +91,7 @@ bool is_part(const char* path) {
   return length > 5 && std::strcmp(path + length - 5, ".part") == 0;
 }
 
-/// Sets errno where it does.
+/// Returns whether this call fails; then errno is set.
 bool fails(const char* call, const char* path) {
   if (!is_meant(call) || !path) return false;
   const bool of_parts = std::strstr("write sync close cut rename", call) != nullptr;
@@ -141,7 +141,7 @@ ssize_t write_or_fail(int descriptor, size_t size, const Write& write) {
 
 }  // namespace
 
-// A call of the C library under another name; `fail` is what it returns where it fails.
+// A call of the C library with a replacement; `fail` is the return value of a failing call.
 #define FAILING(kind, result, name, fail, file, parameters, ...)                \
   result name parameters {                                                      \
     static auto* const call = real<result parameters>(#name);                   \

@@ -1,4 +1,4 @@
-// Forward kinematics in a few lines, to hold ours against.
+// Forward kinematics in a few lines, a reference for the project's own.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -8,7 +8,7 @@
 
 namespace dresslife::pipeline {
 
-/// Pose of the last link, by its joints alone.
+/// Returns the pose of the last link, computed from the joints only.
 inline Eigen::Isometry3d pose(const Robot& robot, const std::vector<double>& joints) {
   Eigen::Isometry3d at = Eigen::Isometry3d::Identity();
   for (std::size_t k = 0; k < joints.size(); ++k) {

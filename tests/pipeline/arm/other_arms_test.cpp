@@ -26,8 +26,7 @@ TEST_CASE("other configurations of the arm: the same pose of the flange, and all
   Job job = shipped();
   Robot& robot = job.robot;
   REQUIRE(has_wrist(robot));
-  // Without limits an elbow arm with an offset shoulder has four where it reaches back, two where it does
-  // not.
+  // Without limits an elbow arm with an offset shoulder has four solutions where it can reach backward, otherwise two.
   constexpr double half_a_turn = 3.14159265;
   for (Joint& joint : robot.joints) joint.lower = -half_a_turn, joint.upper = half_a_turn;
   struct Case {
@@ -48,7 +47,7 @@ TEST_CASE("other configurations of the arm: the same pose of the flange, and all
     }
   }
   CHECK(kinds.size() == 3);
-  // Within the limits fewer remain, and none beyond.
+  // Within the limits fewer solutions remain, none beyond.
   robot = shipped().robot;
   for (const OtherArm& arm : other_arms(robot, {-0.4, 0.1, -0.9, -1, -0.5, 1.2}))
     for (std::size_t k = 0; k < 6; ++k) {
@@ -71,7 +70,7 @@ TEST_CASE("turns of wrist and arm keep the pose, a robot without such a wrist ha
       ++found;
     }
   CHECK(found >= 4);
-  robot.joints[4].origin.y() += 0.1;  // axis 5 no longer meets axis 4
+  robot.joints[4].origin.y() += 0.1;  // axis 5 does not meet axis 4
   CHECK(other_turns(robot).empty());
 }
 
@@ -108,7 +107,7 @@ TEST_CASE(
             if (four > -6.5 && six > -6.5)
               CHECK(off(four, flip == 0 ? arm.joints[4] : -arm.joints[4], six) >= chosen - 1e-6);
     }
-    // Each limit in turn excludes what lies beyond it, and nothing else.
+    // Each limit in turn excludes the solutions beyond it and no others.
     for (std::size_t axis = 0; axis < 3; ++axis) {
       Robot narrow = robot;
       narrow.joints[axis].upper = joints[axis] + 0.5;

@@ -7,7 +7,7 @@ using namespace dresslife::pipeline;
 
 namespace {
 
-/// Cells in brackets, rows by line number.
+/// Returns all cells in brackets, rows by line number.
 std::string all_of(CsvReader reader) {
   std::string text;
   for (CsvRow row = reader.next(); !row.empty(); row = reader.next()) {
@@ -72,7 +72,7 @@ TEST_CASE("CSV: what is written is read again, and no spreadsheet takes it for a
 
 TEST_CASE("CSV: a file that is read in parts has the rows of its text") {
   std::string text = "\xEF\xBB\xBF" "a,b\n";
-  for (int k = 0; k < 300'000; ++k) text += std::to_string(k) + ",\"" + std::to_string(7 * k) + "\"\n";  // several parts
+  for (int k = 0; k < 300'000; ++k) text += std::to_string(k) + ",\"" + std::to_string(7 * k) + "\"\n";  // fills several parts
   const Scratch scratch;
   CsvReader whole(text, "f.csv"), parts(PlainFile(scratch.write("f.csv", text)), ",");
   std::size_t rows = 0;
@@ -80,7 +80,7 @@ TEST_CASE("CSV: a file that is read in parts has the rows of its text") {
     REQUIRE(row.size() == other.size());
     for (std::size_t i = 0; i < row.size(); ++i) REQUIRE(row[i].text == other[i].text);
     REQUIRE(whole.line() == parts.line());
-    if (++rows == 9) CHECK(parts.share_read() < 0.5);  // one part of five is in memory
+    if (++rows == 9) CHECK(parts.share_read() < 0.5);  // one of five parts is in memory
   }
   CHECK(rows == 300'001);
   CHECK(parts.share_read() == 1);

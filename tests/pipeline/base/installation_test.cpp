@@ -8,7 +8,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// The variable holds for one test and is what it was before afterwards.
+/// Sets an environment variable for one test and restores it afterwards.
 class Variable {
  public:
   Variable(const char* name, const std::string& value) : name_(name) {

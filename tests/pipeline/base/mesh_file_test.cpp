@@ -1,4 +1,4 @@
-// Meshes of all formats and all their ways to be wrong.
+// Meshes of all formats, and all their errors.
 #include "pipeline/base/mesh_file.h"
 
 #include <cstdint>
@@ -24,13 +24,13 @@ std::string vertices(const char* word, const Triangle& triangle) {
 
 std::string binary_of(const std::vector<Triangle>& triangles) {
   std::string bytes(80, ' ');
-  bytes.replace(0, 5, "solid");  // as some programs begin binary files too
+  bytes.replace(0, 5, "solid");  // some programs begin binary files with this word too
   const auto put = [&](const auto& value) {
     bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
   };
   put(static_cast<std::uint32_t>(triangles.size()));
   for (const Triangle& triangle : triangles) {
-    for (int k = 0; k < 3; ++k) put(9.0f);  // the normal is not read
+    for (int k = 0; k < 3; ++k) put(9.0f);  // the normal is not used
     for (const Vector3& corner : triangle)
       for (int k = 0; k < 3; ++k) put(static_cast<float>(corner[k]));
     put(std::uint16_t{7});

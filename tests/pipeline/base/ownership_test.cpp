@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A text of each kind as its writer makes it.
+/// A text of each kind in its writer's form.
 const std::map<Mark, std::string> texts{
     {Mark::yaml, "name: a\n"},
     {Mark::script, "#!/bin/sh\necho\n"},
@@ -31,7 +31,7 @@ TEST_CASE("ownership: a marked text is ours, as a text and as a file") {
   }
   CHECK(without_mark(with_mark("name: a\n", Mark::yaml)) == "name: a\n");
   CHECK(without_mark("name: a\n") == "name: a\n");
-  // Drawn by a browser or read by a parser the mark is no content.
+  // The mark is not content, neither in a browser nor in a parser.
   CHECK(with_mark(texts.at(Mark::page), Mark::page).starts_with("<!DOCTYPE html>\n<!-- "));
   CHECK(with_mark(texts.at(Mark::script), Mark::script).starts_with("#!/bin/sh\n# "));
   CHECK(with_mark(texts.at(Mark::xml), Mark::xml).starts_with("<?xml version=\"1.0\" ?>\n<!-- "));
@@ -65,7 +65,7 @@ TEST_CASE("ownership: what 80628f4 wrote is ours, what looks like it is not") {
   CHECK(ours("page.html", "<!DOCTYPE html>\n<html lang=\"en\">\n<!-- dresslife page made from 0 -->"));
   CHECK(ours("report.html", "<!DOCTYPE html>\n<html lang=\"en\">\n<head><title>two: dresspack life</title>"));
   CHECK_FALSE(ours("report.html", "<!DOCTYPE html>\n<html lang=\"en\">\n<head><title>dresspacks</title>"));
-  // A job is known by the notes beside it alone.
+  // A job is recognised only by the receipts beside it.
   CHECK_FALSE(ours("arm1/job.yaml", "robot:\n  name: a\n"));
   scratch.write("arm1/.stage/sim.receipt", "recipe 0\n");
   CHECK(is_ours(scratch / "arm1/job.yaml"));

@@ -14,7 +14,7 @@ TEST_CASE("progress: the remaining time is that of the work done so far, and not
   CHECK(remaining_words(10, 0, 0.5) == "10 s left");
   CHECK(remaining_words(60, 0, 0.25) == "3 min left");
   CHECK(remaining_words(3600, 0, 0.1) == "9.0 h left");
-  CHECK(remaining_words(60, 0.5, 0.75) == "60 s left");  // half was there at the beginning
+  CHECK(remaining_words(60, 0.5, 0.75) == "60 s left");  // half was already done at the begin
   CHECK(remaining_words(1, 0, 0.5) == "");
   CHECK(remaining_words(100, 0, 0.009) == "");
   CHECK(remaining_words(100, 0, 1) == "");

@@ -1,4 +1,4 @@
-// Numbers and texts as people read them.
+// Numbers and texts in readable form.
 #include "pipeline/base/readable.h"
 
 #include <array>
@@ -15,7 +15,7 @@ TEST_CASE("readable: every double has words, the smallest and the largest too") 
   using Limits = std::numeric_limits<double>;
   CHECK(readable(Limits::denorm_min()) == "4.94e-324");
   CHECK(readable(Limits::min()) == "2.23e-308");
-  CHECK(readable(Limits::max()) == "1.80e+308");  // beyond the largest, once rounded
+  CHECK(readable(Limits::max()) == "1.80e+308");  // larger than the largest after rounding
   CHECK(readable(-Limits::max(), 1) == "-2e+308");
   CHECK(calendar_words(Limits::denorm_min()) == "less than a day");
 }

@@ -1,4 +1,4 @@
-// Which files beside a program it can reach.
+// Files beside a program that the program can reach.
 #include "pipeline/base/related_files.h"
 
 #include <algorithm>
@@ -30,16 +30,16 @@ TEST_CASE("related files: copies of the program, its comments and routines of ot
   const auto program = file("weld.src", "DEF weld()\n; after it: clean\n grip()\nEND\nDEF grip()\nPTP home\nEND\n");
   const auto copy = file("weld_old.src", "DEF weld()\n grip()\nEND\nDEF grip()\nEND\n");
   const auto in_comment = file("clean.src", "DEF clean()\nEND\n");
-  const auto local = file("cell.src", "DEF cell()\nEND\nDEF home()\nEND\n");  // a file's second routine is its own
+  const auto local = file("cell.src", "DEF cell()\nEND\nDEF home()\nEND\n");  // a file's second routine is local to it
   CHECK(related_files({program}, {copy, in_comment, local}).empty());
-  // Calls have brackets, or stand alone: a component of a place or a variable is none.
+  // Calls have brackets or stand alone. A component of a position or a variable is not a call.
   const auto moves = file("moves.src", "DEF moves()\nPTP {X 1,Y 2}\nPTP place\n  last \nEND\n");
   const auto x = file("x.src", "DEF x()\nEND\n"), place = file("place.src", "DEF place()\nEND\n"), last = file("last.src", "DEF last()\nEND\n");
   CHECK(related_files({moves}, {x, place, last}) == std::vector{last});
   CHECK(related_files({moves}, {x, place}, "Place") == std::vector{place});
   const auto module = file("list.src", "DEF list()\n place:go()\nEND\n");
   CHECK(related_files({module}, {x, place}) == std::vector{place});
-  // The first program's names are its own, those of a module may be in two files.
+  // Names of the first program are local to it. Names of a module may occur in two files.
   CHECK(related_files({in_comment, program}, {copy}) == std::vector{copy});
   const auto system = file("more.dat", "DEFDAT $more\nDECL E6POS anywhere\nENDDAT\n");
   CHECK(related_files({program}, {system}) == std::vector{system});

@@ -23,10 +23,10 @@ TEST_CASE("statistics: shares of the normal distribution are the printed ones, f
 
 TEST_CASE("statistics: the density is the slope of the share, and the quantile its inverse") {
   for (double z = -5; z < 5.1; z += 0.5) {
-    constexpr double step = 1e-5;  // its square over 6 and the rounding 1e-16 / 1e-5 are below 1e-10
+    constexpr double step = 1e-5;  // its square / 6 and the rounding 1e-16 / 1e-5 are below 1e-10
     CHECK(normal_density(z) ==
           Approx((normal_share(z + step) - normal_share(z - step)) / (2 * step)).margin(1e-10));
-    // A share near 1 is rounded to 1.1e-16, which is so much of z.
+    // A share near 1 is rounded to 1.1e-16. This is the corresponding error of z.
     CHECK(normal_quantile(normal_share(z)) == Approx(z).margin(1e-15 + 2e-16 / normal_density(z)));
   }
 }
@@ -42,7 +42,7 @@ TEST_CASE("statistics: a number at a place lies straight between its neighbours"
 }
 
 TEST_CASE("random: the bits are those of splitmix64, and normal numbers have mean 0 and deviation 1") {
-  CHECK(mixed(0) == 0xe220a8397b1dcdaf);  // its published first two numbers from the seed 0
+  CHECK(mixed(0) == 0xe220a8397b1dcdaf);  // the first two published numbers for the seed 0
   CHECK(mixed(mix_step) == 0x6e789e6aa1b965f4);
   CHECK(uniform_of(0) > 0);
   CHECK(uniform_of(~std::uint64_t{0}) < 1);

@@ -18,7 +18,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// The environment variable as a test wants it, put back afterwards.
+/// Sets the environment variable for a test and restores it afterwards.
 class Setting {
  public:
   explicit Setting(const char* value) {
@@ -110,7 +110,7 @@ TEST_CASE("threads: in order, a failure is thrown when its turn comes") {
   }
 }
 
-#ifndef __SANITIZE_ADDRESS__  // which takes more address space than a limit would leave
+#ifndef __SANITIZE_ADDRESS__  // which needs more address space than a limit would leave
 TEST_CASE("threads: where the system gives none, the caller's own does all the work") {
   const pid_t child = ::fork();
   if (child == 0) {
@@ -121,7 +121,7 @@ TEST_CASE("threads: where the system gives none, the caller's own does all the w
     ::setrlimit(RLIMIT_AS, &limit);
     std::vector<std::atomic<int>> calls(40);
     std::mutex gate;
-    gate.lock();  // no thread ends and makes room for the next
+    gate.lock();  // no thread ends, so none makes room for the next
     in_parallel(calls.size(), [&](std::size_t part) {
       if (part == 0) gate.unlock();
       gate.lock();

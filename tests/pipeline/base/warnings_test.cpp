@@ -25,7 +25,7 @@ TEST_CASE("warnings: what separates them is taken out of their words, none is cu
   for (int k = 0; k < 1000; ++k) umlauts += "\u00fc";
   const std::string text =
       warnings_text(std::vector<Warning>(5000, {WarningKind::program, umlauts, umlauts}));
-  CHECK(text.size() < 64 * 1024);  // what HDF5 holds in an attribute
+  CHECK(text.size() < 64 * 1024);  // HDF5's limit of an attribute
   const auto kept = warnings_from(text);
   REQUIRE(kept.size() > 2);
   for (std::size_t k = 0; k + 1 < kept.size(); ++k) REQUIRE(kept[k].words == umlauts);

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Text of ours.
+/// Returns a text with the mark of this project.
 std::string ours(const std::string& text) { return with_mark(text, Mark::yaml); }
 void write(WholeFile& file, const std::string& text) { file.write_at(text.data(), text.size(), 0); }
 
@@ -80,9 +80,9 @@ TEST_CASE("whole file: the user's file is not replaced, neither one that was the
     CHECK(message_of([&] { file.commit(); }) != "");
   }
   CHECK(bytes_of(scratch / "later") == "mine");
-  write_text_if_changed(scratch.write("empty", ""), ours("x"));  // as mktemp makes it
+  write_text_if_changed(scratch.write("empty", ""), ours("x"));  // an empty file, as mktemp makes it
   CHECK(bytes_of(scratch / "empty") == ours("x"));
-  // What is written is known as ours afterwards, or it is not written.
+  // A file without the mark is not written, so every written file is recognised afterwards.
   WholeFile file(scratch / "without a mark");
   write(file, "text");
   CHECK_THROWS_AS(file.commit(), std::logic_error);
@@ -104,7 +104,7 @@ TEST_CASE("whole file: a second name is the same bytes, and replaces what is our
   const fs::path file = scratch.write("a", ours("a"));
   give_second_name(file, scratch / "b");
   CHECK(fs::hard_link_count(file) == 2);
-  give_second_name(file, scratch / "b");  // which it is already
+  give_second_name(file, scratch / "b");  // it already has this name
   scratch.write("c", ours("c"));
   give_second_name(file, scratch / "c");
   CHECK(bytes_of(scratch / "c") == ours("a"));
@@ -120,7 +120,7 @@ TEST_CASE("whole file: what killed writers left goes, what is locked or named ot
     scratch.write(name, "x");
   const int held = ::open((scratch / "dresslife-12-3.part").c_str(), O_RDWR | O_CLOEXEC);
   REQUIRE(::flock(held, LOCK_EX) == 0);
-  { WholeFile file(scratch / "any"); }  // every writer in a folder tidies it up
+  { WholeFile file(scratch / "any"); }  // every writer in a folder removes leftovers
   CHECK_FALSE(fs::exists(scratch / "dresslife-12-0.part"));
   CHECK(scratch.entries() == 6);
   ::close(held);
@@ -139,7 +139,7 @@ TEST_CASE("whole file: folders, links and what is no file are not replaced") {
   CHECK(bytes_of(scratch / "target") == "kept");
   CHECK(message_of([&] { WholeFile file(scratch / "."); }).find("is a folder") != std::string::npos);
   CHECK(message_of([&] { WholeFile file("/dev/null"); }).find("is a device or a pipe") != std::string::npos);
-  // One that appears meanwhile.
+  // A link that appears before the commit.
   WholeFile file(scratch / "later");
   fs::create_symlink("target", scratch / "later");
   CHECK(message_of([&] { file.commit(); }).find("is a link") != std::string::npos);
@@ -152,7 +152,7 @@ TEST_CASE("whole file: the first failure is kept, later writes do nothing") {
   WholeFile file(scratch / "a");
   file.check();
   write(file, ours("text"));
-  file.write_at("x", 1, static_cast<std::uint64_t>(-1) / 2 + 1);  // at no place of a file
+  file.write_at("x", 1, static_cast<std::uint64_t>(-1) / 2 + 1);  // at a position that no file has
   CHECK(message_of([&] { file.check(); }).find("cannot be written (Invalid argument)") != std::string::npos);
   CHECK(message_of([&] { file.commit(); }).find("cannot be written (Invalid argument)") != std::string::npos);
   CHECK_FALSE(fs::exists(scratch / "a"));
@@ -176,7 +176,7 @@ TEST_CASE("file state: after a tick of the clock every change shows, whatever ti
 TEST_CASE("plain file: 64 GiB are read, more are refused, and no free descriptor is the machine's fault") {
   const Scratch scratch;
   const fs::path file = scratch.write("a", "one");
-  constexpr std::uintmax_t largest = std::uintmax_t{64} << 30;  // without blocks on the disk
+  constexpr std::uintmax_t largest = std::uintmax_t{64} << 30;  // a sparse file
   fs::resize_file(file, largest);
   CHECK_NOTHROW(PlainFile(file));
   fs::resize_file(file, largest + 1);
@@ -204,7 +204,7 @@ TEST_CASE("shown text: nothing in it acts on a terminal or turns the text around
               "2J \xc2\xb5") ==
         "K\xc3\xa4"
         "fig \\x9b2J \xc2\xb5");
-  // U+202E reverses what follows: "a\u202egpj.exe" looks like "aexe.jpg". All of UAX #9, and the letters beside them.
+  // U+202E reverses the text after it: "a\u202egpj.exe" is shown as "aexe.jpg". All characters of UAX #9, and their neighbours.
   CHECK(shown("a\u202egpj.exe") == "a\\u202egpj.exe");
   for (const char* control : {"\u061c", "\u200e", "\u200f", "\u202a", "\u202b", "\u202c", "\u202d", "\u202e", "\u2066",
                               "\u2067", "\u2068", "\u2069"})

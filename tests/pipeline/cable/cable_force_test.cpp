@@ -1,4 +1,4 @@
-// The force of a cable from its strain: closed forms of one wire, and the thesis' cable by hand.
+// The force of a cable from its strain: closed forms of one wire, and the thesis' cable calculated by hand.
 #include <algorithm>
 #include <cmath>
 
@@ -45,7 +45,7 @@ TEST_CASE("the thesis' cable tears at 2.4 kN, and a strain of 1.2 .. 2 % would t
   const double cosines = std::cos(25 * pi / 180) * std::cos(5 * pi / 180);
   CHECK(force.strength() == Approx(area * 230e6 * cosines));
   CHECK(force.force(1e-9) == Approx(1e-9 * area * 117e9 * std::pow(cosines, 3)));
-  // wires have cos^2 of the cable's strain, and the stress of their curve there
+  // Wires have cos^2 of the cable's strain, and the stress of their curve at that strain.
   const double hardening = 0.112 / 0.6, K = 983e6 / std::pow(2.43, hardening);
   for (const double strain : {0.012, 0.02}) {
     const double sigma = force.force(strain) / (area * cosines);
@@ -68,8 +68,8 @@ TEST_CASE(
   CHECK(CableForce(copper_only(), cable).bending_stiffness() == Approx(wires + 0.02));
   cable.measured_bending_stiffness = 0.2;
   CHECK(CableForce(copper_only(), cable).bending_stiffness() == 0.2);
-  // of the 88.2 mm2 of its section wires of 11.4 mm2 take 12.6, since they cross it at an angle: 0.112 kg/m
-  // of copper and 0.091 of polymer
+  // Wires of 11.4 mm2 use 12.6 of the section's 88.2 mm2, because they cross it at an angle: 0.112 kg/m of copper and 0.091
+  // of polymer.
   CHECK(CableForce(copper_only(), cable).mass_per_length() == Approx(0.203).margin(0.0005));
 }
 
@@ -107,7 +107,7 @@ TEST_CASE("cables pull at both clamps with the moment of their forces about the 
   CHECK(pulls.of_cable == 1);
   CHECK(pulls.at_sample == 2);
   const pipeline::CablePulls first = pulls_of(std::span(cables).first(1), 3);
-  CHECK(first.force_share == Approx(force.force(3e-3) / force.strength()));  // a compression, by its size
+  CHECK(first.force_share == Approx(force.force(3e-3) / force.strength()));  // a compression counts by its magnitude
   CHECK(first.at_sample == 1);
   const double most = *std::max_element(pulls.moment.begin(), pulls.moment.end());
   CHECK(pipeline::moment_share(pulls, std::vector<double>{0.1, 0.5, 0.2}) == Approx(most / 0.5));

@@ -1,4 +1,4 @@
-// Cables that are pulled and twisted while they are straight, against unrolled helices and curves in space.
+// Straight cables under tension and twist, against unrolled helices and curves in space.
 #include "pipeline/cable/cable_pull.h"
 
 #include <cmath>
@@ -40,7 +40,7 @@ Component holding(Component outer, std::vector<Component> inner) {
   return outer;
 }
 
-/// A helix unrolled, over its undeformed length.
+/// Returns the length of an unrolled helix, divided by its undeformed length.
 double unrolled(double R, double a, double elongation, double twist) {
   return std::hypot(std::cos(a) * (1 + elongation), std::sin(a) + std::cos(a) * R * twist);
 }
@@ -63,7 +63,7 @@ TEST_CASE("cable pull: a layer's wires strain as unrolled helices do, and each l
     }
   CHECK(pull_of_wires(dresspack, {part(12, r, R, a), part(12, r, R, a, Hand::left)}, elongation, 4) ==
         Approx(sum).epsilon(rounding));
-  // On a soft bed a helix keeps 1 / (1 + E A sin^4(a) / (R^2 k)) of its strain (W31), whatever strains it. A part on the axis has no bed.
+  // On a soft bed a helix keeps 1 / (1 + E A sin^4(a) / (R^2 k)) of any strain (W31). A part on the axis has no bed.
   Component soft = part(12, r, R, a), straight = part(1, r, 0, 0);
   soft.radial_stiffness = straight.radial_stiffness = 2e5;
   const double left = 1 / (1 + modulus * area * std::pow(std::sin(a), 4) / (R * R * 2e5));
@@ -72,11 +72,11 @@ TEST_CASE("cable pull: a layer's wires strain as unrolled helices do, and each l
     CHECK(pull_of_wires(dresspack, {soft}, elongation, twist) ==
           Approx(left * pull_of_wires(dresspack, {part(12, r, R, a)}, elongation, twist)).epsilon(1e-9));
   CHECK(pull_of_wires(dresspack, {straight}, elongation, 4) == Approx(modulus * area * elongation));
-  // E A of the cable and its force count the bed, too, to second order in the strain of 1e-6.
+  // E A of the cable and its force include the bed, to second order in the strain of 1e-6.
   const Component cable = holding(part(1, 4e-3, 0, 0), {soft, straight});
   CHECK(axial_stiffness(dresspack, cable) == Approx(modulus * area * (1 + 12 * left * std::pow(std::cos(a), 3))));
   CHECK(CableForce(dresspack, cable).force(1e-6) == Approx(pull_of_wires(dresspack, cable.components, 1e-6, 0)).epsilon(1e-5));
-  // So it shortens a cable less that is twisted about a straight wire.
+  // A soft bed reduces the shortening of a cable that is twisted about a straight wire.
   CHECK(-elongation_under(dresspack, {straight, soft}, 0, 4) < -0.9 * elongation_under(dresspack, {straight, part(12, r, R, a)}, 0, 4));
   CHECK(pull_of_wires(dresspack, {part(1, r, 0, 0)}, elongation, 4) == Approx(modulus * area * elongation));
   Component unknown = part(1, r, 0, 0);
@@ -85,7 +85,7 @@ TEST_CASE("cable pull: a layer's wires strain as unrolled helices do, and each l
 }
 
 TEST_CASE("cable pull: wires in strands in layers strain as curves in space do") {
-  // The strand's bending is left out. It strains a wire by at most r sin(a)^2 / R of the twist's and stretch's share.
+  // The strand's bending is neglected. It strains a wire by at most r sin(a)^2 / R of the strain from twist and stretch.
   const Dresspack dresspack = copper_only();
   const double r = 1e-4, R = 8e-3, a = 0.25, inner = 1.5e-4, b = 0.35, elongation = 1e-3, bent = 2e-3;
   const Component cable = holding(part(3, 3e-4, R, a, Hand::left), {part(5, r, inner, b)});
@@ -100,7 +100,7 @@ TEST_CASE("cable pull: wires in strands in layers strain as curves in space do")
     const double expected = 15 * modulus * pi * r * r * std::cos(a) * std::cos(b) * strain;
     CHECK(pull_of_wires(dresspack, {cable}, elongation, twist) == Approx(expected).epsilon(bent));
   }
-  // A strand on the axis changes nothing, and neither does a core that is all of its strand.
+  // A strand on the axis does not change the result. Neither does a core that is the whole strand.
   const double straight = pull_of_wires(dresspack, {part(5, r, inner, b)}, elongation, 5);
   CHECK(pull_of_wires(dresspack, {holding(part(1, 3e-4, 0, 0), {part(5, r, inner, b)})}, elongation, 5) ==
         Approx(straight).epsilon(rounding));

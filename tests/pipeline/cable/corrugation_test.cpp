@@ -18,7 +18,7 @@ pipeline::Dresspack hose(double pitch, double height, double wall) {
   return dresspack;
 }
 
-/// The same by brute force: a polyline through one corrugation, bent by F = 1 along the hose.
+/// Computes the factors numerically: a polyline through one corrugation, bent by F = 1 along the hose.
 struct Polyline {
   double factor, length;
 };
@@ -48,23 +48,23 @@ TEST_CASE("a corrugation's strain is that of a folded beam") {
     CHECK(factors.strain == Approx(beam.factor).epsilon(trapezium));
     CHECK(factors.shear == Approx(pitch / beam.length).epsilon(trapezium));
     CHECK(factors.radius == Approx(0.03 - height / 2));
-    CHECK(factors.strain < 1);  // that is what corrugations are for
+    CHECK(factors.strain < 1);  // the purpose of corrugations
   }
 }
 
 TEST_CASE("a corrugation's strain follows the bellows makers' formula") {
-  // S6 = 5 E t e / (3 w^2 C_d): without crests C_d = 1, and E is E / (1 - 0.3^2).
+  // S6 = 5 E t e / (3 w^2 C_d): with crests of zero radius C_d = 1, and E is E / (1 - 0.3^2).
   const double t = 1e-5, w = 10e-3, narrow = 1e-4;
   const WallFactors flat = wall_factors(hose(narrow, w + t, t));
   constexpr double plate = 1 - 0.3 * 0.3;
-  constexpr double crests = 0.03;  // r / w = 1/400, whose effect is of first order
+  constexpr double crests = 0.03;  // r / w = 1/400, with an effect of first order
   CHECK(flat.strain / (t * narrow / (w * w)) == Approx(5.0 / 3 * plate).epsilon(crests));
-  // A printed example of that formula: pitch 1 in, w 1.095 in, t 0.03 in has C_d = 1.63 from the chart.
+  // A printed example of this formula: pitch 1 in, w 1.095 in, t 0.03 in has C_d = 1.63 from the chart.
   const double inch = 0.0254;
   pipeline::Dresspack bellows = hose(inch, (1.095 + 0.03) * inch, 0.03 * inch);
   bellows.diameter = 38 * inch;
   const double chart = 5.0 / 3 * plate * 0.03 / (1.095 * 1.095 * 1.63);
-  constexpr double shell = 0.06;  // the chart's shell theory against the beam
+  constexpr double shell = 0.06;  // difference of the chart's shell theory and the beam
   CHECK(wall_factors(bellows).strain == Approx(chart).epsilon(shell));
 }
 

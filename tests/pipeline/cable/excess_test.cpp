@@ -1,5 +1,5 @@
-// The room of loose cables and the excess length that fits into it. That a pressed cable has the force of the closed
-// form is tested against the cables' own minimum of energy (tests/strain/loose/closed_forms_test.cpp).
+// The play of loose cables and the excess length that fits into it. Another test compares the force of a compressed cable with
+// the minimum of the cables' energy (tests/strain/loose/closed_forms_test.cpp).
 #include "pipeline/cable/excess.h"
 
 #include <cmath>
@@ -18,7 +18,7 @@ using Catch::Contains;
 
 namespace {
 
-/// A power cable in the middle of a ring of others, which leave it `gap` of room.
+/// Returns a power cable in the middle of a ring of other cables, which leave it `gap` of play.
 Dresspack hose(double gap, double slack_percent) {
   const std::string text = fmt::format(R"(name: hose
 source: made up
@@ -75,7 +75,7 @@ TEST_CASE("excess: force and excess are inverse to each other, and without room 
       CHECK(excess_at_force(cable, force, room) == Approx(excess).epsilon(1e-9));
       if (room == 0) CHECK(force == Approx(cable.force(excess)));
     }
-  // s = F / E A + F c^2 / (4 E I) of 0.1 % in 10 mm. E I: 3 N m2 of the polymer, and what wires and their friction add.
+  // s = F / E A + F c^2 / (4 E I) of 0.1 % in 10 mm. E I: 3 N m2 of the polymer, plus that of the wires and their friction.
   const double stiffness = cable.bending_stiffness(), axial = cable.force(1e-6) / 1e-6;
   CHECK(stiffness > 3);
   const double force = 1e-3 / (1 / axial + 1e-4 / (4 * stiffness));
@@ -94,7 +94,7 @@ TEST_CASE("excess: a cable that is too long for its room is named with its force
   CHECK_THAT(words, Contains("'power cable' is compressed with ") && Contains("% of its breaking force") &&
                         Contains("limit 20 %") && Contains("Likely cause: it has 0.5 mm of room to wind in and 1 %") &&
                         Contains("Remedy: slack_percent: "));
-  // The remedy cures it, a twentieth more does not.
+  // The remedy removes the warning. A slack larger by a twentieth does not.
   const double fits = std::stod(words.substr(words.find("slack_percent: ") + 15));
   REQUIRE(fits > 0);
   CHECK(slack_warnings(hose(0.5, fits)).empty());
@@ -111,7 +111,7 @@ TEST_CASE("excess: a cable that cannot wind around the axis of its hose is named
   std::vector<Component>& parts = mounted.dresspack.components;
   const double excess = std::hypot(1.2, 2 * pi * parts[1].helix_radius) / 1.2 - 1;  // of a helix of one turn
   CHECK(winding_slack(mounted, parts[1]) == Approx(excess).epsilon(excess));        // half of it is the next term of the series
-  CHECK(winding_slack(mounted, parts[0]) == 0);                                     // in the axis
+  CHECK(winding_slack(mounted, parts[0]) == 0);                                     // on the axis
   const auto warnings = tight_warnings("dresspacks.1.dresspack", mounted);
   REQUIRE(warnings.size() == 1);
   CHECK_THAT(warnings[0].words, Contains("'signal cable' has 0 % of slack (limit 0.11 %: ") &&
@@ -119,10 +119,10 @@ TEST_CASE("excess: a cable that cannot wind around the axis of its hose is named
   parts[1].laying.slack = 1;
   CHECK(tight_warnings("dresspack", mounted).empty());
   parts[1].laying.slack = 0;
-  parts[1].laying.play = 1e-3;  // it has its own room beside the others
+  parts[1].laying.play = 1e-3;  // it has its own play beside the others
   CHECK(tight_warnings("dresspack", mounted).empty());
   parts[1].laying.play.reset();
-  mounted.routing.clamps.emplace_back();  // which holds it between the two
+  mounted.routing.clamps.emplace_back();  // a clamp that holds it halfway
   CHECK(tight_warnings("dresspack", mounted).empty());
 }
 

@@ -17,7 +17,7 @@ struct State {
   double elongation, curvature1, curvature2, twist;
 };
 
-/// The glued component at the end of the nesting of levels, in the deformed and the undeformed construction.
+/// The glued component at the last level of a nesting, in the deformed and the undeformed construction.
 struct Nested {
   ComponentState<double> now, rest;
   double strain() const { return now.stretch.at[0] / rest.stretch.at[0] - 1; }
@@ -40,7 +40,7 @@ class Random {
     return std::uniform_real_distribution<double>(low, high)(engine_);
   }
   State state() { return {between(-0.02, 0.02), between(-7, 7), between(-7, 7), between(-10, 10)}; }
-  /// Radii and lay angles as in a dresspack, of both hands.
+  /// Returns random radii and lay angles as in a dresspack, of both hands.
   std::vector<space_curve::Level> levels(int depth) {
     std::vector<space_curve::Level> levels;
     double radius = between(0.005, 0.02);
@@ -55,9 +55,9 @@ class Random {
   std::mt19937_64 engine_{20180501};
 };
 
-// The recursion has no approximation; what remains is the rounding of strains of 1e-4 as differences of
-// stretches near one and, at three levels, the oracle's thrice nested finite differences: (20 um / 1.4 mm)^6
-// = 1e-11 of the path, hence 1e-7 of a strain of 1e-4.
+// The recursion is exact. The remaining difference is the rounding of strains of 1e-4 as differences of stretches near one and,
+// at three levels, the error of the reference's triple finite differences: (20 um / 1.4 mm)^6 = 1e-11 of the path, which is
+// 1e-7 of a strain of 1e-4.
 constexpr double strain_tolerance = 1e-7;
 constexpr double smallest_strain = 1e-4;
 constexpr double rate_tolerance = 1e-7;
@@ -75,7 +75,7 @@ void compare_with_space(int depth, int states) {
     const double strain = static_cast<double>(now.stretch_of_last() / rest.stretch_of_last() - 1);
     worst_strain = std::max(worst_strain,
                             std::abs(nested.strain() - strain) / std::max(std::abs(strain), smallest_strain));
-    if (k % 10 != 0) continue;  // the oracle's rates cost six times its strain
+    if (k % 10 != 0) continue;  // the reference's rates take six times as long as its strain
     const Eigen::Vector3d change = (now.rate_of_last() - rest.rate_of_last()).cast<double>();
     const Eigen::Vector3d ours(nested.now.bend1.at[0] - nested.rest.bend1.at[0],
                                nested.now.bend2.at[0] - nested.rest.bend2.at[0],
@@ -94,8 +94,8 @@ TEST_CASE("two levels of helices agree with curves in space") { compare_with_spa
 TEST_CASE("three levels of helices agree with curves in space") { compare_with_space(3, 1000); }
 
 TEST_CASE("a fibre on a wire's surface agrees with a curve in space") {
-  // A fibre is a straight curve beside the wire's axis. What its length has besides, that it winds around the
-  // axis as the wire twists, is the wire's shear (W19): taken off by Pythagoras. Rounding: of 1e-4 as above.
+  // A fibre is a straight curve beside the wire's axis. When the wire twists, the fibre winds around the axis, which adds
+  // length: the wire's shear (W19). It is subtracted by Pythagoras. Rounding: of 1e-4 as above.
   Random random;
   double worst = 0, worst_of_sum = 0;
   for (int k = 0; k < 300; ++k) {
@@ -126,7 +126,7 @@ TEST_CASE("a fibre on a wire's surface agrees with a curve in space") {
   }
   CAPTURE(worst, worst_of_sum);
   CHECK(worst < strain_tolerance);
-  CHECK(worst_of_sum > 0.01);  // strain and change of bending added up are another number
+  CHECK(worst_of_sum > 0.01);  // the sum of strain and change of bending is a different number
 }
 
 TEST_CASE(
@@ -139,8 +139,7 @@ TEST_CASE(
 }
 
 TEST_CASE("the thesis' equations give the numbers evaluated by hand") {
-  // eps 0.001, kappa (2, -1) 1/m, tau 3 rad/m; conductor R 2.825 mm, 25 deg, theta 0.7; wire R 0.75 mm, 5
-  // deg, theta 2
+  // eps 0.001, kappa (2, -1) 1/m, tau 3 rad/m; conductor R 2.825 mm, 25 deg, theta 0.7; wire R 0.75 mm, 5 deg, theta 2
   const State state{0.001, 2, -1, 3};
   const auto conductor = nest(state, {{0.002825L, 25 * degree, 0.7L}}, Kinematics::thesis);
   constexpr double digits = 1e-12;
@@ -157,8 +156,8 @@ TEST_CASE("the thesis' equations give the numbers evaluated by hand") {
 }
 
 TEST_CASE("in a twisted cable the worst wire strains half as much again as the thesis says") {
-  // A cable at 180 deg/m; conductors and wires of table 1. (16) leaves out the parent's twist, so the thesis'
-  // wires see their conductor's stretch only.
+  // A cable at 180 deg/m; conductors and wires of table 1. (16) neglects the parent's twist, so the thesis' wires get only their
+  // conductor's stretch.
   double exact = 0, thesis = 0;
   for (int k = 0; k < 36; ++k) {
     const std::vector<space_curve::Level> levels{{0.002825L, 25 * degree, 0},
@@ -166,7 +165,7 @@ TEST_CASE("in a twisted cable the worst wire strains half as much again as the t
     exact = std::max(exact, nest({0, 0, 0, std::numbers::pi}, levels, Kinematics::exact).strain());
     thesis = std::max(thesis, nest({0, 0, 0, std::numbers::pi}, levels, Kinematics::thesis).strain());
   }
-  CHECK(exact == Approx(0.00496).epsilon(2e-3));  // the oracle's curves give the same, above
+  CHECK(exact == Approx(0.00496).epsilon(2e-3));  // equal to the reference's curves, above
   CHECK(thesis == Approx(0.00341).epsilon(2e-3));
 }
 
@@ -183,11 +182,11 @@ TEST_CASE("the mean over the phases is the average of many phases") {
       };
       double mean = 0;
       constexpr int phases =
-          64;  // the average of a smooth periodic function over so many is exact to rounding
+          64;  // so many that the average of a smooth periodic function is exact to rounding
       for (int m = 0; m < phases; ++m)
         mean += path_rate(rod, place(2 * std::numbers::pi * m / phases)) / phases;
       constexpr double next_term =
-          3e-7;  // A (R K)^6 / 50 at the largest radius, curvature and lay angle drawn
+          3e-7;  // A (R K)^6 / 50 at the largest sampled radius, curvature and lay angle
       CHECK(std::abs(mean_path_rate(rod, place(0.3)) - mean) < next_term);
     }
   }

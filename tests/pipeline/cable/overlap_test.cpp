@@ -30,7 +30,7 @@ Dresspack dresspack_of(int count, double radius_mm, double helix_radius_mm, doub
 }  // namespace
 
 TEST_CASE("neighbouring helices are as far apart as points laid on them") {
-  // Brute force over both helices; nearest points half a step of 2e-4 rad off cost (1e-4)^2.
+  // Brute force over both helices. An error of half a step of 2e-4 rad in the nearest points changes the distance by (1e-4)^2.
   for (const double lay_angle : {5.0, 25.0, 45.0, 60.0})
     for (const int count : {2, 3, 7, 31}) {
       const double R = 2.825e-3, rise = R / std::tan(lay_angle * degree),
@@ -53,7 +53,7 @@ TEST_CASE("parts that overlap on their circle are warned of, with what would fit
              Catch::Contains("pack.yaml:7:3: warning: the 7 parts 'conductor' are 2.254 mm apart") &&
                  Catch::Contains("0.096 mm less than their diameter") &&
                  Catch::Contains("Likely cause: ") && Catch::Contains("or count: 6 or less, or helix_radius_mm: "));
-  // What it says fits does, and a tenth of a degree more does not.
+  // The angle of the remedy fits. A tenth of a degree more does not.
   const std::size_t at = warnings[0].find("lay_angle_deg: ") + 15;
   const double most = std::stod(warnings[0].substr(at));
   CHECK(neighbour_distance(2.825, most * degree, 7) >= 2.35);
@@ -63,9 +63,9 @@ TEST_CASE("parts that overlap on their circle are warned of, with what would fit
   CHECK(neighbour_distance(wider - 0.002, 25 * degree, 7) < 2.35);
   CHECK(overlap_warnings(dresspack_of(7, 1.175, 2.825, 15)).empty());
   CHECK(overlap_warnings(dresspack_of(6, 1.175, 2.825, 25)).empty());
-  // Six around one of their own size touch when straight: a lay of 5 degrees takes 0.4 %.
+  // Six around one of equal size touch when straight. A lay of 5 degrees needs 0.4 % more room.
   CHECK(overlap_warnings(dresspack_of(6, 0.075, 0.15, 5)).empty());
-  // Straight, no lay angle helps: only fewer.
+  // If they are straight, no lay angle helps, only a smaller number.
   CHECK_THAT(overlap_warnings(dresspack_of(8, 1.175, 2.825, 0)).at(0).words,
              Catch::Contains("Remedy: count: 7 or less, or helix_radius_mm: 3.071 or more"));  // 1.175 / sin(pi/8)
 }
@@ -83,7 +83,7 @@ TEST_CASE("parts of two components that would lie in each other are warned of, t
   Component ring = parts[0];
   ring.name = "ring";
   ring.count = 3;
-  ring.helix_radius = 2e-3;  // around the one in the middle, which they touch
+  ring.helix_radius = 2e-3;  // around the middle one, which they touch
   parts.push_back(ring);
   CHECK(overlap_warnings(dresspack).empty());
   parts[1].helix_radius = 1.9e-3;
@@ -91,7 +91,7 @@ TEST_CASE("parts of two components that would lie in each other are warned of, t
   CHECK_THAT(overlap_warnings(dresspack)[0].words,
              Catch::Contains("'conductor' and 'ring' come as near as 1.9 mm") &&
                  Catch::Contains("0.100 mm less than their radii together"));
-  // Three more in their gaps fit while they go on alike, straight or laid, and meet them where they do not.
+  // Three more in their gaps fit if they have the same lay, straight or not. With another lay they meet the others.
   parts.erase(parts.begin());
   parts[0].helix_radius = 2e-3;
   parts.push_back(parts[0]);
@@ -106,12 +106,12 @@ TEST_CASE("parts of two components that would lie in each other are warned of, t
   CHECK(nearest_distance(parts[0], parts[1]) == 0);
   CHECK(overlap_warnings(dresspack).size() == 1);
   parts[1].hand = Hand::right;
-  parts[1].phase = 5 * degree;  // nearly in the same place: only a mistake
+  parts[1].phase = 5 * degree;  // nearly the same place: certainly a mistake
   CHECK_THROWS_WITH(overlap_warnings(dresspack),
                     Catch::Contains("'ring' and 'between' come as near as 0.1745 mm") &&
                         Catch::Contains("nearer than half of these"));
   CHECK_THROWS(refuse_gross_overlap(dresspack));
-  parts[1].phase = std::numbers::pi / 4;  // 15 deg off: 2 R sin(22.5 deg)
+  parts[1].phase = std::numbers::pi / 4;  // 15 deg from it: 2 R sin(22.5 deg)
   CHECK(nearest_distance(parts[0], parts[1]) == Approx(4e-3 * std::sin(22.5 * degree)));
   CHECK(overlap_warnings(dresspack).size() == 1);
 }

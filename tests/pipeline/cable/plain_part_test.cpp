@@ -1,4 +1,4 @@
-// Parts without wires: a tube's closed forms, what they add to a hose, and what is refused.
+// Parts without wires: closed forms of a tube, their contribution to a hose, and refused inputs.
 #include "pipeline/job/plain_part.h"
 
 #include <cmath>
@@ -35,7 +35,7 @@ TEST_CASE("a part without wires is a tube of polymer, or as stiff as it is said 
   CHECK(by_polymer.bending == Approx(50e6 * pi / 64 * (std::pow(0.012, 4) - std::pow(0.008, 4))));
   CHECK(by_polymer.axial == Approx(50e6 * pi / 4 * (0.012 * 0.012 - 0.008 * 0.008)));
   CHECK(by_polymer.mass == Approx(pi / 4 * (1200 * (0.012 * 0.012 - 0.008 * 0.008) + 1000 * 0.008 * 0.008)));
-  tube.bending_stiffness = 2 * by_polymer.bending;  // of something twice as hard
+  tube.bending_stiffness = 2 * by_polymer.bending;  // of a material twice as stiff
   CHECK(properties_of(tube, 0.006).axial == Approx(2 * by_polymer.axial));
   CHECK(properties_of({PlainKind::hose, {}, {}, {}, {}}, 0.006).bore == Approx(0.004));  // two thirds
   const PlainProperties solid = properties_of({PlainKind::fibre, {}, {}, {}, {}}, 0.002);
@@ -64,7 +64,7 @@ TEST_CASE("parts without wires add mass and stiffness to a hose's construction, 
   CHECK(mass_of_construction(dresspack) - empty_mass == Approx(0.6));
   CHECK(lies_loose(dresspack, dresspack.components[0]));
   CHECK_FALSE(has_wires(dresspack));
-  // Elastic, both ways.
+  // Elastic in both directions.
   const CableForce force(dresspack, dresspack.components[0]);
   CHECK(force.force(-0.01) == Approx(-0.01 * one.axial));
   CHECK(force.bending_stiffness() == Approx(one.bending));

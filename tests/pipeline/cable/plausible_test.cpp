@@ -29,9 +29,9 @@ TEST_CASE("plausible: a mass between that of its wires and of its parts in a hea
   };
   limit(mass_of_construction(dresspack) + 2500 * section);
   const std::vector<Component> parts = std::exchange(dresspack.components, {});
-  limit(8960 * section);  // of unknown parts: solid copper
+  limit(8960 * section);  // solid copper as the bound for unknown parts
   dresspack.components = parts;
-  // Of ten straight wires alone, each 1 mm wide, a metre weighs 10 x 2700 x pi/4 x 1e-6 kg in aluminium.
+  // Ten straight wires of 1 mm have a mass of 10 x 2700 x pi/4 x 1e-6 kg/m in aluminium.
   Component wires;
   wires.name = "wire", wires.material = "copper", wires.count = 10, wires.radius = 0.5e-3,
   wires.helix_radius = 3e-3;
@@ -62,7 +62,7 @@ TEST_CASE("plausible: tubes whose bore or radius is half or twice what it should
     for (const Warning& warning : plausibility_warnings(dresspack)) all += warning.words + "\n";
     return all;
   };
-  // Makers' tubes of polyamide and polyurethane, and a hydraulic hose with one steel braid.
+  // Tubes of polyamide and polyurethane from makers, and a hydraulic hose with one steel braid.
   for (const auto& [outer, bore] : {std::pair{4.0, 2.0},
                                     {4.0, 2.5},
                                     {6.0, 4.0},

@@ -1,6 +1,6 @@
-// The oracle of the nested kinematics: helices in space on a bent, twisted and stretched rod, their
-// lengths and frames by finite differences of positions. It shares no formula with pipeline/cable/helix.h:
-// only the definition of a helix.
+// An independent reference for the nested kinematics: helices in space on a bent, twisted and stretched rod. Their lengths
+// and frames are finite differences of positions. It uses no formula of pipeline/cable/helix.h, only the definition of a
+// helix.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,13 +14,13 @@ using Vector = Eigen::Matrix<Real, 3, 1>;
 using Matrix = Eigen::Matrix<Real, 3, 3>;
 
 struct Level {
-  Real radius, lay_angle, phase;  // lay angle signed
+  Real radius, lay_angle, phase;  // [m], [rad] signed, [rad]
 };
 
-/// A rod of uniform state through the origin, and components nested in it.
+/// A rod of uniform strain through the origin, and the components nested in it.
 struct Curves {
   Real stretch;
-  Vector rate;  // rotation rate in the rod's own frame
+  Vector rate;  // rotation rate in the rod's own frame [1/m]
   std::vector<Level> levels;
   Real step = 2e-5L;  // of the finite differences: (step / 5 mm)^6 = 4e-15 of truncation
 
@@ -29,7 +29,7 @@ struct Curves {
     m << 0, -w[2], w[1], w[2], 0, -w[0], -w[1], w[0], 0;
     return m;
   }
-  // sin(x)/x-like factors of the rotation by rate * s and of its integral
+  // Frame and position of the rod by the closed forms of a uniform rotation rate.
   Matrix rod_frame(Real s) const {
     const Real w = rate.norm();
     const Matrix k = cross(rate);
@@ -44,7 +44,7 @@ struct Curves {
     return stretch * (s * z + (1 - std::cos(w * s)) / (w * w) * k * z +
                       (w * s - std::sin(w * s)) / (w * w * w) * k * k * z);
   }
-  /// Ideal length of the component of level `depth` (0 = the rod) per length of the rod.
+  /// Returns the ideal length of the component of level `depth` (0: the rod) per length of the rod.
   Real ideal_rate(int depth) const {
     Real rate_of_length = 1;
     for (int k = 0; k < depth; ++k) rate_of_length /= std::cos(levels[k].lay_angle);
@@ -68,7 +68,7 @@ struct Curves {
   Vector path(int depth, Real s) const {
     return derivative([&](Real at) { return position(depth, at); }, s);
   }
-  /// Columns: inward radial made orthogonal to the tangent, binormal, tangent.
+  /// Columns: inward radial direction orthogonal to the tangent, binormal, tangent.
   Matrix frame(int depth, Real s) const {
     if (depth == 0) return rod_frame(s);
     const Vector tangent = path(depth, s).normalized();
@@ -78,12 +78,12 @@ struct Curves {
     f << inward, tangent.cross(inward), tangent;
     return f;
   }
-  /// Path length of the innermost component per ideal length of its own, at s = 0.
+  /// Returns the path length of the innermost component per ideal length of this component, at s = 0.
   Real stretch_of_last() const {
     const int depth = static_cast<int>(levels.size());
     return path(depth, 0).norm() / ideal_rate(depth);
   }
-  /// Rotation rate of its frame, in its frame, per ideal length.
+  /// Returns the rotation rate of the innermost component's frame, in this frame, per ideal length, at s = 0.
   Vector rate_of_last() const {
     const int depth = static_cast<int>(levels.size());
     const Matrix turn =

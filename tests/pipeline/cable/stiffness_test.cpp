@@ -1,5 +1,4 @@
-// A hose's stiffness from its construction: closed forms of each share, the three states, and what a job
-// makes of it.
+// A hose's stiffness from its construction: closed forms of each part, the three states, and its use in a job.
 #include "pipeline/cable/stiffness.h"
 
 #include <fmt/format.h>
@@ -65,12 +64,12 @@ Job job_with(const std::vector<std::string>& sets) {
 }  // namespace
 
 TEST_CASE("stiffness: a pulled and twisted layer is that of the helix, and gives way when nothing pulls") {
-  // Strain of a wire: cos^2 e + R sin cos t; force along the cable cos, torque R sin; length 1 / cos.
+  // Strain of a wire: cos^2 e + R sin cos t. Its force acts along the cable by cos, in torque by R sin. Its length is 1 / cos.
   const double R = 2e-3, a = 20 * degree, EA = copper_modulus * pi * 1e-8;  // wires of 0.2 mm
   for (const Hand hand : {Hand::right, Hand::left}) {
     const Component cable = cable_of({wires(12, 1e-4, R, a, hand)});
     const PullAndTwist answer = pull_and_twist(of({cable}), cable);
-    // A wire of 0.1 mm bends and twists by itself, in squares (r/R)^2 / 4 of that: 6e-4.
+    // The wire's own bending and torsion, 0.1 mm radius: (r/R)^2 / 4 of that, 6e-4.
     constexpr double wire_itself = 1e-3;
     CHECK(answer.pull_by_elongation == Approx(12 * EA * std::pow(std::cos(a), 3)).epsilon(wire_itself));
     CHECK(answer.coupling ==
@@ -108,7 +107,7 @@ TEST_CASE("stiffness: straight cables in a hose bend each by itself, and all as 
   CHECK(in_state(dresspack, SlipState::friction).bending == Approx(3 + 6 * (0.01 + EI)).epsilon(first_order));
   CHECK(in_state(dresspack, SlipState::stuck).bending ==
         Approx(3 + 6 * (0.01 + EI) + 6 * EA * 0.02 * 0.02 / 2).epsilon(first_order));
-  // Without slack they pull; the core's twist by default as of a solid bar.
+  // Without slack the cables carry tension. The core's default twist stiffness is that of a solid bar.
   CHECK(in_state(dresspack, SlipState::sliding).axial == Approx(6 * EA).epsilon(first_order));
   CHECK(in_state(dresspack, SlipState::sliding).torsional ==
         Approx(0.8 * 3 + 6 * (0.01 * 2 / 3 + EI / 1.34)).epsilon(first_order));
@@ -130,24 +129,24 @@ TEST_CASE("stiffness: a smooth wall is a tube, a folded one a bellows") {
   CHECK(in_state(hose, SlipState::sliding).torsional ==
         Approx(1.65e9 / 2.8 * 2 * pi * R * R * R * t).epsilon(thick));
   hose.inner_diameter.reset();
-  // The makers' rate of a corrugation (EJMA) is 1.7 D E t^3 / (w^3 C_f), and C_f goes to 1 with the pitch;
-  // their 1.7 has 1 / (1 - 0.3^2) in it, which a beam has not.
+  // The makers' stiffness of a corrugation (EJMA) is 1.7 D E t^3 / (w^3 C_f), and C_f goes to 1 with the pitch. Their 1.7
+  // contains 1 / (1 - 0.3^2), which does not apply to a beam.
   const double w = 0.01, wall = 0.0005, pitch = 4 * wall;
   hose.hose_corrugation = Corrugation{pitch, w + wall, wall, {}};
   const double D = hose.diameter - w - wall;
   const double makers = 1.7 * (1 - 0.09) * D * 1.65e9 * std::pow(wall / w, 3) * pitch;
   constexpr double round_crests =
-      0.15;  // 1.5 of the pitch over the depth, halved by what the flanks lose to the crests
+      0.15;  // 1.5 of pitch / depth, halved by the crests' share of the flanks
   CHECK(in_state(hose, SlipState::sliding).axial == Approx(makers).epsilon(round_crests));
   const HoseStiffness folded = in_state(hose, SlipState::sliding);
   CHECK(folded.bending == Approx(folded.axial * D * D / 8).epsilon(1e-9));
-  CHECK(folded.torsional > 10 * folded.bending);  // it bends easily and does not twist
+  CHECK(folded.torsional > 10 * folded.bending);  // flexible in bending and stiff in torsion
 }
 
 TEST_CASE(
     "stiffness: the shipped hose's lies between sliding and glued, where its cables' friction puts it") {
   const Dresspack dresspack = thesis_pack();
-  const double wall_and_core = 1.42 + 5;  // W22's wall, and what the file says of its core
+  const double wall_and_core = 1.42 + 5;  // the wall by W22, and the core by the file
   CHECK(in_state(dresspack, SlipState::sliding).bending ==
         Approx(wall_and_core + 10 * (0.0018 + 0.0062)).epsilon(0.01));
   const double cable = cable_stiffness(dresspack, dresspack.components[0]);
@@ -157,7 +156,7 @@ TEST_CASE(
   CHECK(in_state(dresspack, SlipState::stuck).bending ==
         Approx(glued + wall_and_core + 10 * 0.43).epsilon(0.01));
   double before = in_state(dresspack, SlipState::stuck).bending;
-  for (const double curvature : {1e-3, 1e-2, 0.1, 1.0, 10.0}) {  // the further bent, the more has slid
+  for (const double curvature : {1e-3, 1e-2, 0.1, 1.0, 10.0}) {  // the larger the bend, the more parts have slid
     const double bending = stiffness_of_construction(dresspack, SlipState::friction, curvature).bending;
     CHECK(bending < before);
     before = bending;
@@ -182,7 +181,7 @@ TEST_CASE("stiffness: a job takes it, tells it in words, and simulates by the nu
                                            sliding.dresspacks[0].dresspack.bending_stiffness),
                                wall, profile});
   CHECK(part_text(number, JobPart::sim) == part_text(sliding, JobPart::sim));
-  CHECK(part_text(number, JobPart::sim) != part_text(taken, JobPart::sim));  // which bends with friction, too
+  CHECK(part_text(number, JobPart::sim) != part_text(taken, JobPart::sim));  // its bending includes friction
   CHECK(part_text(job_with({words, wall, profile, "dresspack.construction_state=stuck"}), JobPart::sim) !=
         part_text(taken, JobPart::sim));
   CHECK_THAT(stiffness_text(dresspack), Contains("E I 1.") &&
@@ -205,7 +204,7 @@ TEST_CASE("stiffness: friction's elements follow the construction's own moment o
     };
     REQUIRE_FALSE(elements.empty());
     REQUIRE(elements.size() <= most_bending_frictions);
-    const double most = friction(100), ends_early = 0.006;  // the last 0.5 % of all friction is left out
+    const double most = friction(100), ends_early = 0.006;  // the last 0.5 % of all friction is neglected
     double stuck = 0;
     for (const BendingFriction& element : elements) {
       CHECK(element.stiffness > 0);
@@ -213,7 +212,7 @@ TEST_CASE("stiffness: friction's elements follow the construction's own moment o
       CHECK(held(element.slides_at) == Approx(friction(element.slides_at)).margin(ends_early * most));
     }
     CHECK(stuck <= 9.001 * sliding);
-    const double chords = 0.1;  // of straight lines between four curvatures; above the elements' slope limit none is higher
+    const double chords = 0.1;  // error of straight lines between four curvatures; above the elements' slope limit none is larger
     for (double bend = 1e-3; bend < 30; bend *= 1.2) {
       CAPTURE(bend, held(bend) / most, friction(bend) / most);
       CHECK(held(bend) <= friction(bend) + 1e-9 * most);
@@ -246,7 +245,7 @@ TEST_CASE("stiffness: a hose from its construction keeps its secant, and its lin
   const double sliding = in_state(dresspack, SlipState::sliding).bending;
   CHECK(dresspack.bending_stiffness == in_state(dresspack, SlipState::friction).bending);
   CHECK(dresspack.bending_friction.size() == most_bending_frictions);
-  // Elements are below the friction's curve between their curvatures and 0.5 % at its end.
+  // Elements are below the friction's curve between their curvatures, and by 0.5 % at its end.
   CHECK(elastic_bending_stiffness(dresspack) == Approx(sliding).epsilon(0.01));
   const Job again = job_from(parse_yaml(job_text(job), "job.yaml"));
   CHECK(job_text(again) == job_text(job));
@@ -269,13 +268,13 @@ TEST_CASE("stiffness: the mass of a construction is that of wires, polymer and w
   const Component cable = cable_of({wires(10, 1e-4, 2e-3, 0.2)});
   CHECK(mass_of_part(cable) == Approx(metal + left).epsilon(1e-12));
   Dresspack pack = of({cable});
-  pack.diameter = 0.012;  // of a jacket, as far as parts leave room
+  pack.diameter = 0.012;  // a jacket that fills the room outside the parts
   CHECK(mass_of_construction(pack) == Approx(metal + left + 1200 * pi * (36e-6 - 25e-6)).epsilon(1e-12));
   pack.inner_diameter = 0.011;
   CHECK(mass_of_construction(pack) ==
         Approx(metal + left + 1200 * pi / 4 * (144e-6 - 121e-6)).epsilon(1e-12));
   Dresspack laid = pack;
-  laid.components[0].lay_angle = 0.3;  // a metre of hose holds more than a metre of a laid part
+  laid.components[0].lay_angle = 0.3;  // a metre of hose contains more than a metre of a laid part
   laid.components[0].laying.mass = 0.5;
   Dresspack straight = laid;
   straight.components[0].lay_angle = 0;
@@ -339,17 +338,17 @@ TEST_CASE("stiffness: a smooth wall that no hand bends is warned of with a profi
   const double wall = 1.65e9 * pi / 64 * (std::pow(29e-3, 4) - std::pow(23e-3, 4));
   CHECK_THAT(words, Contains("hose.yaml:1:1: warning: " + doubt) && Contains(fmt::format("E I {:.3g} N m2", wall)) &&
                         Contains(fmt::format("takes {:.3g} N m (limit 10", wall / 0.11)) && Contains("strains its surface by 13 %"));
-  // The line of the remedy, as it stands, is the profile of a hose as soft as the wall that it names.
+  // The line of the remedy, unchanged, is the profile of a hose as flexible as the wall that it names.
   const std::size_t begin = words.find("Remedy: ") + 8, end = words.find('}', begin) + 1;
   const std::string profile = words.substr(begin, end - begin) + "\n";
   CHECK(warnings(29, 23, profile + "least_bend_radius_mm: 110\n") == "");
   CHECK(warnings(29, 0, profile) == "");
-  // 11.6 N m of NW10, 13/10 mm, at ten diameters; 5.7 and 8 N m of tubes of 8/6 and 10/8 mm at makers' radii.
+  // 11.6 N m of NW10, 13/10 mm, at ten diameters; 5.7 and 8 N m of tubes of 8/6 and 10/8 mm at the makers' radii.
   CHECK_THAT(warnings(13, 10, ""), Contains("ten diameters"));
   CHECK(warnings(8, 6, "") == "");
   CHECK(warnings(8, 6, "least_bend_radius_mm: 40\n") == "");
   CHECK(warnings(10, 8, "least_bend_radius_mm: 60\n") == "");
-  // A given stiffness of a corrugated hose beside a smooth wall is no fault: the wall is.
+  // With a given stiffness of a corrugated hose the smooth wall is the fault, not the stiffness.
   CHECK_THAT(warnings(29, 23, "bending_stiffness_Nm2: 0.2\n"), Contains(doubt) && !Contains("bending_stiffness_Nm2 is 0.2"));
 }
 
@@ -359,7 +358,7 @@ TEST_CASE("stiffness: a given one that its construction cannot have is warned of
     const std::vector<Warning> warnings = stiffness_warnings(dresspack);
     return warnings.empty() ? std::string("nothing") : warnings.front().words;
   };
-  // The file's own 25 N m2 is an estimate of a few times what slides.
+  // The file's own 25 N m2 is an estimate, several times the stiffness with sliding.
   CHECK_THAT(told(), Contains("is 25 (limits 6.49 .. 13.4)") && Contains("6.72") && Contains("6.49 sliding") &&
                          Contains("from_construction"));
   dresspack.bending_stiffness = 12;
@@ -368,7 +367,7 @@ TEST_CASE("stiffness: a given one that its construction cannot have is warned of
   CHECK_THAT(told(), Contains("is 6 (limits 6.49"));
   dresspack.bending_stiffness = 5000;
   CHECK_THAT(told(), Contains("glued"));
-  dresspack.core_bending_stiffness.reset();  // what is not known may be stiff, but not beyond a solid bar
+  dresspack.core_bending_stiffness.reset();  // an unknown core may be stiff, but not stiffer than a solid bar
   CHECK_THAT(told(), Contains("is 5e+03 (limits 1.49 .. 2.21e+03)"));
   dresspack.bending_stiffness = 2000;
   CHECK(told() == "nothing");
@@ -386,11 +385,11 @@ TEST_CASE("stiffness: a hose whose wall nobody named is warned of, with what it 
   take_from_construction(dresspack);
   CHECK(stiffness_warnings(dresspack).empty());
   dresspack.hose_material.clear();
-  dresspack.core_axial_stiffness = 300;  // a filler that hardly pulls
+  dresspack.core_axial_stiffness = 300;  // a filler with little axial stiffness
   take_from_construction(dresspack);
   const std::vector<Warning> warnings = stiffness_warnings(dresspack);
   REQUIRE(warnings.size() == 1);
-  // 9.81 m/s2 of the filled hose's mass per metre over 300 N.
+  // 9.81 m/s2 of the filled hose's mass per metre / 300 N.
   CHECK_THAT(
       warnings[0].words,
       Contains(
@@ -412,8 +411,7 @@ TEST_CASE("stiffness: a given one is warned of beyond its limits, and not up to 
   const auto bending = [](const Dresspack& dresspack, SlipState state) {
     return stiffness_of_construction(dresspack, state, dresspack.construction_curvature).bending;
   };
-  // A hose without a wall may have a solid bar's of 3.3 GPa; one that is known has at most twice what friction makes of
-  // it.
+  // The limit of a hose without a wall is a solid bar of 3.3 GPa. The limit of a known wall is twice the stiffness with friction.
   const double bar = 3.3e9 * pi / 64 * std::pow(0.06, 4);
   const struct {
     Dresspack dresspack;
@@ -445,7 +443,7 @@ TEST_CASE("stiffness: a warm cell softens polymers and not copper, and 23 C chan
   const Job usual = job_with({words, wall, profile, sliding}), same = at("23"), warm = at("43"), cold = at("10");
   const auto bending = [](const Job& job) { return job.dresspacks[0].dresspack.bending_stiffness; };
   for (const JobPart part : {JobPart::sim, JobPart::strain, JobPart::fatigue}) CHECK(part_text(same, part) == part_text(usual, part));
-  // Nearly all of the sliding stiffness is of polymer: six wires of 0.2 mm in three cables bend with 3 x 6 x 1e-5 N m2 at most.
+  // Nearly all sliding stiffness is the polymer's: six wires of 0.2 mm in three cables add at most 3 x 6 x 1e-5 N m2.
   const double softer = std::exp(-0.0175 * 20), copper = 18 * copper_modulus * pi / 4 * std::pow(1e-4, 4);
   CHECK(bending(warm) < bending(usual));
   CHECK(bending(warm) == Approx(softer * bending(usual)).margin(10 * copper));
@@ -454,7 +452,7 @@ TEST_CASE("stiffness: a warm cell softens polymers and not copper, and 23 C chan
   CHECK(part_text(warm, JobPart::sim) != part_text(usual, JobPart::sim));
   CHECK(part_text(warm, JobPart::fatigue) != part_text(usual, JobPart::fatigue));
   for (const char* beyond : {"9.9", "61", "-5", "1e9", "nan"}) CHECK_THROWS_WITH(at(beyond), Contains("temperature_C"));
-  // A stiffness that is a number stays.
+  // A stiffness given as a number does not change.
   const auto given = [](const std::string& temperature) { return job_with({"cell.temperature_C=" + temperature}); };
   CHECK(bending(given("50")) == bending(given("23")));
 }

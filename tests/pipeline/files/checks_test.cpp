@@ -1,4 +1,4 @@
-// The checks of a motion in its receipt.
+// The checks of a motion, kept in its receipt.
 #include "pipeline/files/checks.h"
 
 #include <limits>
@@ -10,7 +10,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// A motion of no samples, with checks if there are any.
+/// Writes a motion without samples, with these checks.
 void write_motion(const std::filesystem::path& name, const std::vector<CheckedValue>& checks) {
   std::vector<std::string> names;
   std::vector<double> values, limits;

@@ -7,7 +7,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-// FIPS 180-4's examples.
+// Examples of FIPS 180-4.
 constexpr const char* digest_of_nothing = "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855";
 constexpr const char* digest_of_abc = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
 constexpr const char* digest_of_million_a =

@@ -11,7 +11,7 @@
 #include "tests/pipeline/scratch.h"
 
 #ifdef __SANITIZE_ADDRESS__
-// The HDF5 library forgets memory of its own when it opens a damaged file; the tests below damage hundreds.
+// The HDF5 library leaks some of its own memory when it opens a damaged file. The tests below damage hundreds.
 extern "C" const char* __lsan_default_suppressions() { return "leak:libhdf5"; }
 #endif
 
@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A format with every type, a trailing axis, an axis plus one, text and optional parts.
+/// Returns a format with every type, a trailing axis, an axis plus one, text and optional parts.
 Format sample_format() {
   Format format{"dresslife-sample", 2, "dresslife-maker", "tests", {}, {}};
   format.datasets = {
@@ -72,7 +72,7 @@ void write_sample(const fs::path& file, const Format& format, const Content& con
   writer.commit();
 }
 
-/// Error of reading everything of a file that was written with `written` as one of `expected`.
+/// Returns the error from reading all of a file that was written with the format `written` and is expected to be `expected`.
 std::string refusal(const Format& written, const Format& expected, const Content& content = {}) {
   const Scratch scratch;
   const fs::path file = scratch / "f.h5";
@@ -167,7 +167,7 @@ TEST_CASE("files: rows appended one by one, in blocks and at once are the same")
   const Scratch scratch;
   Format format{"dresslife-sample", 1, "dresslife-maker", "tests", {}, {}};
   format.datasets = {{"/a", Type::f64, {"sample", "place"}, "1", ""}, {"/b", Type::f32, {"sample"}, "1", ""}};
-  constexpr std::size_t samples = 30011, places = 3;  // some chunks and a rest
+  constexpr std::size_t samples = 30011, places = 3;  // several chunks and a rest
   std::vector<double> a(samples * places);
   std::vector<float> b(samples);
   std::mt19937 random(3);
@@ -235,7 +235,7 @@ TEST_CASE("files: packed numbers are the same through this program's reader and 
     own.read_rows("/b", 65530, 20, wider_list);
     CHECK(wider_list == std::vector<std::uint64_t>(b.begin() + 65530, b.begin() + 65550));
     if (written_packed) CHECK_THROWS_AS(own.read<std::int32_t>("/b"), std::logic_error);
-    constexpr double kept = 0.5e-7 + 2e-8;  // half of the last decimal, and a float's roundings of 0.14
+    constexpr double kept = 0.5e-7 + 2e-8;  // half of the last decimal, and rounding of 0.14 to float
     double worst = 0;
     for (std::size_t k = 0; k < samples; ++k) worst = std::max(worst, std::abs(double(whole[k]) - a[k]));
     CHECK(worst <= (written_packed ? kept : 0));
@@ -251,7 +251,7 @@ TEST_CASE(
   format.datasets[0].decimals = 11;
   format.datasets[1].decimals = 7;
   constexpr std::size_t segments = 60;
-  for (const std::size_t samples : {1, 5, 2000}) {  // of the last ones eleven chunks and a rest
+  for (const std::size_t samples : {1, 5, 2000}) {  // the last: eleven chunks and a rest
     std::vector<double> a(samples * segments * 3);
     std::vector<float> b(samples * segments);
     std::mt19937 random(4);
@@ -273,7 +273,7 @@ TEST_CASE(
     CHECK(own.read<float>("/b") == read_by_library<float>(scratch / "f.h5", "/b", H5T_NATIVE_FLOAT));
     double worst = 0;
     for (std::size_t k = 0; k < a.size(); ++k) worst = std::max(worst, std::abs(whole[k] - a[k]));
-    constexpr double kept = 0.5e-11 + 2e-15;  // half of the last decimal, and a double's roundings
+    constexpr double kept = 0.5e-11 + 2e-15;  // half of the last decimal, and rounding to double
     CHECK(worst <= kept);
     std::vector<double> row;
     for (std::size_t sample = 0; sample < samples; sample += 7) {
@@ -326,7 +326,7 @@ TEST_CASE(
     writer.copy(one, "/group/a");
     writer.copy(one, "/group/name");
     writer.append("/b", std::span<const double>(b).first(3));
-    CHECK_THROWS_AS(writer.commit(), std::logic_error);  // it counts as so many sites
+    CHECK_THROWS_AS(writer.commit(), std::logic_error);  // it has a different number of sites
   }
   Format other = format;
   other.datasets[0].unit = "1/m";
@@ -494,7 +494,7 @@ TEST_CASE("files: any bit that turns is noticed") {
     return !message_of([&] { const FileReader reader(file, format); }).empty();
   };
   for (std::size_t at = 0; at < 530; ++at)
-    CHECK(notices(at, static_cast<int>(random() % 8)));  // what promises
+    CHECK(notices(at, static_cast<int>(random() % 8)));  // the statements about the contents
   for (int trial = 0; trial < 300; ++trial)
     CHECK(notices(random() % whole.size(), static_cast<int>(random() % 8)));
 }
@@ -503,7 +503,7 @@ TEST_CASE("files: bytes changed anywhere in a file without checksum are refused 
   const Scratch scratch;
   const Format format = sample_format();
   write_sample(scratch / "whole.h5", format);
-  const std::string whole = bytes_of(scratch / "whole.h5").substr(512);  // as other programs write it
+  const std::string whole = bytes_of(scratch / "whole.h5").substr(512);  // without the checksum block, as other programs write it
   CHECK(FileReader(scratch.write("other.h5", whole), format).checksum().empty());
   CHECK(FileReader(scratch / "other.h5", format).read<double>("/time") == Content().time);
   std::mt19937 random(5);
@@ -632,7 +632,7 @@ TEST_CASE("files: the manual lists every dataset of every format") {
   for (const Format* format : {&motion_format(), &strain_format(), &life_format()})
     for (const Dataset& dataset : format->datasets) {
       INFO(dataset.path);
-      // Those of a bound are those of the file once more, in one line.
+      // The datasets of a bound repeat those of the file, in one line.
       const std::string bound = dataset.path.substr(0, dataset.path.find('/', 1));
       const std::string path = bound.starts_with("/bound_") ? dataset.path.substr(bound.size()) : dataset.path;
       if (path != dataset.path) CHECK(manual.find("`" + bound + "/") != std::string::npos);

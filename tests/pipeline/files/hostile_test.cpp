@@ -1,4 +1,4 @@
-// Files that promise what they do not hold, or point elsewhere: refused before memory is taken or another
+// Files that declare more data than they hold, or that point elsewhere. They are refused before memory is allocated or another
 // file is read.
 #include <hdf5.h>
 
@@ -22,7 +22,7 @@ const Format two_rows{"dresslife-rows",
                       {{"/group/rows", Type::f64, {"row", "2"}, "m", "rows"}},
                       {}};
 
-/// A file of the format without a checksum block, in which `change` may put another dataset.
+/// A file of the format without a checksum block. `change` may replace a dataset.
 class Made {
  public:
   Made() {
@@ -36,7 +36,7 @@ class Made {
   }
   hid_t file() const { return file_; }
   void remove(const char* path) const { REQUIRE(H5Ldelete(file_, path, H5P_DEFAULT) >= 0); }
-  /// Puts a dataset of `lengths` there, with its unit.
+  /// Writes a dataset with these lengths and its unit.
   void put(hid_t creation, std::vector<hsize_t> lengths) const {
     remove("/group/rows");
     const hid_t space = H5Screate_simple(static_cast<int>(lengths.size()), lengths.data(), nullptr);
@@ -53,7 +53,7 @@ class Made {
     H5Sclose(space);
     H5Pclose(creation);
   }
-  /// What the reader says to the file, without its name and the remedy.
+  /// Returns the reader's error, without the file's name and the remedy.
   std::string refusal() {
     H5Fclose(file_);
     const std::string message =
@@ -85,7 +85,7 @@ TEST_CASE("hostile files: the file that the others are made of is read") {
 
 TEST_CASE("hostile files: values that are promised and not there are refused before memory is taken") {
   Made made;
-  made.put(chunked({1000, 2}), {1'000'000'000, 2});  // 16 GB in a file of kilobytes
+  made.put(chunked({1000, 2}), {1'000'000'000, 2});  // 16 GB in a file of some kilobytes
   const std::string refusal = made.refusal();
   CHECK(refusal.starts_with("dataset /group/rows promises 1000000 chunks of 16000 bytes in a file of "));
   Made few;
@@ -130,7 +130,7 @@ TEST_CASE("hostile files: data that lies in other files is not followed") {
     CHECK(outside.refusal() == std::string(way) + " is a link (the data must lie in the file itself)");
     Made inside;
     inside.remove(way);
-    REQUIRE(H5Lcreate_soft(way, inside.file(), way, H5P_DEFAULT, H5P_DEFAULT) >= 0);  // to itself
+    REQUIRE(H5Lcreate_soft(way, inside.file(), way, H5P_DEFAULT, H5P_DEFAULT) >= 0);  // a link to itself
     CHECK(inside.refusal() == std::string(way) + " is a link (the data must lie in the file itself)");
   }
 }
@@ -175,7 +175,7 @@ TEST_CASE("hostile files: nothing beyond the end of a file is read as zeros") {
     });
     read += message.empty();
   }
-  CHECK(read == 1);  // the whole one
+  CHECK(read == 1);  // only the undamaged file
 }
 
 TEST_CASE("rows beyond the largest int are counted and read where they lie") {
@@ -191,7 +191,7 @@ TEST_CASE("rows beyond the largest int are counted and read where they lie") {
     writer.append("/numbers", std::span<const float>(std::vector<float>(in_a_chunk, 0.25f)));
     writer.commit();
   }
-  // Without the checksum block, with the same packed chunk again and again: 8 GB unpacked.
+  // Without the checksum block, and with one packed chunk referred to many times: 8 GB unpacked.
   const auto file = scratch.write("many.h5", bytes_of(scratch / "one.h5").substr(512));
   {
     const hid_t opened = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
@@ -213,7 +213,7 @@ TEST_CASE("rows beyond the largest int are counted and read where they lie") {
   const FileReader reader(file, format);
   REQUIRE(reader.rows("/numbers") == chunks * in_a_chunk);
   std::vector<float> some;
-  reader.read_rows("/numbers", (hsize_t{1} << 31) - 2, 4, some);  // over the border
+  reader.read_rows("/numbers", (hsize_t{1} << 31) - 2, 4, some);  // across the border
   CHECK(some == std::vector<float>(4, 0.25f));
   reader.read_rows("/numbers", reader.rows("/numbers") - 1, 1, some);
   CHECK(some == std::vector<float>(1, 0.25f));
@@ -241,7 +241,7 @@ struct Numbers {
     writer.commit();
     file = scratch.write("f.h5", bytes_of(scratch / "one.h5").substr(512));
   }
-  /// Puts these bytes into the place of the first chunk.
+  /// Replaces the first chunk by these bytes.
   void replace(const std::string& chunk, std::uint32_t filters_skipped) const {
     const hid_t opened = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
     const hid_t rows = H5Dopen2(opened, "/numbers", H5P_DEFAULT);
@@ -319,7 +319,7 @@ TEST_CASE("a deflated chunk of another size than a chunk is refused, not read be
 TEST_CASE("a plain chunk that the file's index says is short is read as the dataset says") {
   const Numbers numbers(Dataset{});
   std::string bytes = bytes_of(numbers.file);
-  // A leaf of the index: TREE, chunks (1), level 0, entries, two siblings; an entry begins with its bytes.
+  // A leaf of the index: TREE, chunks (1), level 0, entries, two siblings. An entry begins with its size in bytes.
   std::size_t found = 0;
   for (std::size_t at = bytes.find("TREE"); at != std::string::npos; at = bytes.find("TREE", at + 1)) {
     if (bytes[at + 4] != 1 || bytes[at + 5] != 0) continue;

@@ -1,4 +1,4 @@
-// What the HDF5 library itself makes of a file, through its own filters.
+// Reads a file with the HDF5 library and the library's own filters.
 #pragma once
 
 #include <hdf5.h>
@@ -11,7 +11,7 @@
 
 namespace dresslife::pipeline {
 
-/// All numbers of a dataset. type: of T in memory.
+/// Returns all numbers of a dataset. type: the HDF5 type of T in memory.
 template <class T>
 std::vector<T> read_by_library(const std::filesystem::path& file, const std::string& dataset, hid_t type) {
   const hid_t opened = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);

@@ -13,7 +13,7 @@ namespace {
 
 using Numbers = std::vector<std::uint32_t>;
 
-/// Written packed, read by this program and by the library.
+/// Writes the numbers packed, and reads them with this program and with the library.
 Numbers packed_and_read(const Numbers& numbers) {
   const Scratch scratch;
   Format format{"dresslife-sample", 1, "dresslife-maker", "tests", {}, {}};
@@ -36,7 +36,7 @@ double bits_a_number(const Numbers& numbers) {
   return 8.0 * static_cast<double>(chunk.size()) / static_cast<double>(numbers.size());
 }
 
-/// Lists like those of wires side by side: from one to the next, one number in `every` moves, goes or comes.
+/// Returns lists like those of adjacent wires: between successive lists one number in `every` changes, is added or removed.
 Numbers similar_lists(std::size_t count, std::size_t every, std::uint32_t step) {
   std::mt19937 random(5);
   Numbers list{0}, all;
@@ -86,13 +86,13 @@ TEST_CASE("list deflate: lists that differ a little come back, whatever lengths 
 
 TEST_CASE("list deflate: what departs from the list before is what costs") {
   const std::size_t count = ListDeflater::most_numbers;
-  // A departure every 80 numbers: a number of 32 bits or the two around it, then two copies (one holds 258
-  // bytes at most) of some 24 bits. The first list is whole.
+  // A change every 80 numbers: one number of 32 bits, or the two around it, then two copies (one holds at most 258 bytes) of
+  // about 24 bits. The first list is stored completely.
   CHECK(bits_a_number(similar_lists(count, 80, 13)) < (1.5 * 32 + 2 * 24) / 80 + 32.0 * 350 / count);
   Numbers wild(count);
   std::mt19937 random(3);
   for (std::uint32_t& number : wild) number = static_cast<std::uint32_t>(random());
-  CHECK(bits_a_number(wild) < 32 + 0.1);  // what does not repeat is stored as it is
+  CHECK(bits_a_number(wild) < 32 + 0.1);  // numbers that do not repeat are stored unpacked
 }
 
 TEST_CASE("list deflate: files of older versions, shuffled before, are read") {

@@ -1,4 +1,4 @@
-// Which segments and clamps of a motion file belong to which span and dresspack.
+// Assignment of segments and clamps of a motion file to spans and dresspacks.
 #include "pipeline/files/motion_layout.h"
 
 #include "tests/catch.h"
@@ -8,7 +8,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// A file of so many segments without samples; empty lists: the datasets are absent.
+/// Writes a file with these segments and without samples; empty lists: the datasets are absent.
 void write_motion(const std::filesystem::path& name, std::size_t segments, std::size_t clamps,
                   const std::vector<std::int32_t>& clamp_segment, const std::vector<std::int32_t>& dresspack,
                   const std::vector<std::string>& names) {
@@ -33,7 +33,7 @@ std::string layout(const std::filesystem::path& name) {
 TEST_CASE("motion layout: files of one dresspack and of several are told apart into spans") {
   const Scratch scratch;
   write_motion(scratch / "old.h5", 6, 3, {}, {}, {});
-  CHECK(layout(scratch / "old.h5") == "0: 0+6 0-2; ");  // which says nothing of the clamp between
+  CHECK(layout(scratch / "old.h5") == "0: 0+6 0-2; ");  // an old file has no data of the clamp between
   write_motion(scratch / "one.h5", 6, 3, {0, 4, 6}, {0, 0, 0, 0, 0, 0}, {""});
   CHECK(layout(scratch / "one.h5") == "0: 0+4 0-1; 0: 4+2 1-2; ");
   write_motion(scratch / "two.h5", 6, 5, {0, 2, 2, 5, 6}, {0, 0, 1, 1, 1, 1}, {"a", "b"});
@@ -82,7 +82,7 @@ TEST_CASE("motion layout: what contradicts itself is refused") {
   };
   const std::string rises = "/clamp/segment does not rise from 0 to the number of segments, span by span";
   const std::vector<std::int32_t> halves{0, 0, 0, 1, 1, 1};
-  refused({0, 3, 6}, halves, rises);  // the second has no base clamp
+  refused({0, 3, 6}, halves, rises);  // the second dresspack has no base clamp
   refused({0, 3, 3, 5}, halves, rises);
   refused({1, 3, 3, 6}, halves, rises);
   refused({0, 4, 4, 6}, halves, rises);

@@ -1,5 +1,5 @@
-// Digests that one program notes for many: believed of a file while its state is the one that was noted, and
-// else worked out.
+// Digests that one program notes for others. A noted digest is used while the file's state is the noted one; otherwise the
+// digest is computed.
 #include "pipeline/files/receipt.h"
 
 #include "pipeline/base/digest.h"
@@ -15,7 +15,7 @@ TEST_CASE("a noted digest is believed of a file that is as it was, and of no oth
   REQUIRE(notes.starts_with(digest + " "));
   REQUIRE(std::count(notes.begin(), notes.end(), '\n') == 1);
 
-  Digests unread;  // another digest in its place shows whether the file was read
+  Digests unread;  // a different digest reveals whether the file was read
   unread.believe("noted" + notes.substr(digest.size()));
   CHECK(unread.of(file) == "noted");
 
@@ -50,7 +50,7 @@ TEST_CASE("a receipt is read as it was written, also texts with line ends and ba
 TEST_CASE("a file's state suffices where the file exists and the receipt is younger than its last change") {
   Receipt receipt{.recipe = "r", .input = "i", .output = "o", .state = {.size = 1, .changed_ns = 5}, .written_ns = 6};
   CHECK(receipt.state_suffices());
-  receipt.written_ns = 5;  // the clock's step may hide a change
+  receipt.written_ns = 5;  // the change may be within one tick of the clock
   CHECK_FALSE(receipt.state_suffices());
   receipt.written_ns = 6, receipt.state.size = -1;  // no file
   CHECK_FALSE(receipt.state_suffices());

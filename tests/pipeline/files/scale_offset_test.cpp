@@ -24,7 +24,7 @@ std::vector<T> through(const std::vector<T>& numbers, int decimals, std::size_t*
 
 TEST_CASE("scale-offset: the bytes are those of the filter's layout") {
   std::vector<char> chunk;
-  pack_chunk(std::vector<float>{7, 12, 5, 9}, 0, chunk);  // above 5: 2 7 0 4, three bits each
+  pack_chunk(std::vector<float>{7, 12, 5, 9}, 0, chunk);  // relative to 5: 2 7 0 4, three bits each
   std::vector<char> expected(21, 0);
   expected[0] = 3;
   expected[4] = 8;
@@ -37,7 +37,7 @@ TEST_CASE("scale-offset: the bytes are those of the filter's layout") {
 
 TEST_CASE("scale-offset: whole numbers of any span come back, in as many bits as it takes") {
   std::mt19937 random(1);
-  for (int bits = 0; bits < 23; ++bits)  // a float's digits
+  for (int bits = 0; bits < 23; ++bits)  // all digits of a float
     for (const std::size_t count : {1, 31, 32, 1000}) {
       std::vector<float> numbers(count);
       for (float& number : numbers) number = 12345 + static_cast<float>(random() % (1u << bits));
@@ -55,7 +55,7 @@ TEST_CASE("scale-offset: floats are kept to half a unit of the last decimal") {
       std::vector<float> numbers(777);
       for (float& number : numbers) number = anywhere(random);
       const std::vector<float> back = through(numbers, decimals);
-      // half a step, and the roundings of the difference, the product and the sum
+      // half a step, and rounding of the difference, the product and the sum
       const double kept = 0.5 * std::pow(10.0, -decimals) + 4 * std::numeric_limits<float>::epsilon() * span;
       for (std::size_t k = 0; k < numbers.size(); ++k) REQUIRE(std::abs(back[k] - numbers[k]) <= kept);
     }
@@ -68,7 +68,7 @@ TEST_CASE("scale-offset: floats too far apart for their decimals are kept as the
 
 TEST_CASE("scale-offset: doubles come back, in as many bits as their span takes") {
   std::mt19937_64 random(3);
-  for (int bits = 0; bits <= 52; ++bits)  // a double's digits
+  for (int bits = 0; bits <= 52; ++bits)  // all digits of a double
     for (const std::size_t count : {1, 2, 8, 9, 1000}) {
       std::vector<double> numbers(count);
       for (double& number : numbers) number = static_cast<double>(random() % (std::uint64_t{1} << bits));
@@ -81,7 +81,7 @@ TEST_CASE("scale-offset: doubles come back, in as many bits as their span takes"
     std::vector<double> numbers(777);
     for (double& number : numbers) number = anywhere(random);
     const std::vector<double> back = through(numbers, 11);
-    // half a step, and the roundings of the difference, the product and the sum
+    // half a step, and rounding of the difference, the product and the sum
     const double kept = 0.5e-11 + 4 * std::numeric_limits<double>::epsilon() * span;
     for (std::size_t k = 0; k < numbers.size(); ++k) REQUIRE(std::abs(back[k] - numbers[k]) <= kept);
   }
@@ -109,7 +109,7 @@ TEST_CASE("scale-offset: a chunk that is cut off or claims impossible bits is re
     CHECK_FALSE(unpack_chunk(chunk, 0, std::span(back)));
   }
   CHECK_FALSE(unpack_chunk(std::span(chunk).first(20), 0, std::span(back)));
-  chunk.resize(1000);  // long enough for any bits
+  chunk.resize(1000);  // long enough for every number of bits
   for (const int bits : {33, -1}) {
     std::memcpy(chunk.data(), &bits, sizeof(bits));
     CHECK_FALSE(unpack_chunk(chunk, 0, std::span(back)));

@@ -1,4 +1,4 @@
-// A motion.h5 of no samples, for tests of what stands beside the motion in it.
+// A motion.h5 without samples, for tests of the other data in the file.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,7 @@
 
 namespace dresslife::pipeline {
 
-/// more: what else is to be written (file).
+/// Writes the file. more: called as more(file) to write further data.
 template <class More>
 void write_still_motion(const std::filesystem::path& name, std::size_t segments, std::size_t clamps,
                         const More& more) {

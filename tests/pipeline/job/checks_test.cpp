@@ -1,4 +1,4 @@
-// What may stand together in a job: every combination of what excludes each other.
+// Combinations of entries in a job: every combination of entries that exclude each other.
 #include <functional>
 
 #include "pipeline/base/errors.h"
@@ -114,7 +114,7 @@ TEST_CASE("checks: a step is a move, a dwell or a block, and a move has one targ
   MotionStep block;
   block.repeat = 1, block.steps = {move()};
   CHECK_FALSE(is_refused(block));
-  block.steps[0].joints.push_back(0);  // also within a block
+  block.steps[0].joints.push_back(0);  // also inside a block
   CHECK(is_refused(block));
   MotionStep pose;
   pose.position = {1, 0, 1}, pose.quaternion = {1, 0, 0, 0};
@@ -172,7 +172,7 @@ TEST_CASE("checks: clamps and rings stand in their order on links of the robot, 
   Routing of = with_places(0.5, 1.9, true);
   of.rings[1].at_length.reset();
   CHECK_FALSE(refused(of));
-  of.clamps.push_back({clamp_on("arm"), 1});  // then it is not known between which clamps a ring is
+  of.clamps.push_back({clamp_on("arm"), 1});  // then the clamps on either side of a ring are unknown
   CHECK(refused(of));
   of = with_places(0.5, 1.9, true);
   of.rings[1].radius = 0.03;
@@ -239,7 +239,7 @@ TEST_CASE("checks: only a hose has a bore or a filling, and its bore is the smal
 
 TEST_CASE("checks: a job is beyond its calibration by more than the margins only") {
   LearnedWithin within;
-  CHECK(beyond(within, {1, 100, 100}).empty());  // nothing is known of its tests
+  CHECK(beyond(within, {1, 100, 100}).empty());  // without information about its tests
   within.largest_strain_range = 0.01, within.least_strain_range = 0.002, within.largest_curvature = 8,
   within.largest_twist = 4;
   const auto count = [&](double strain, double curvature, double twist) {

@@ -26,7 +26,7 @@ Material copper() {
   return material;
 }
 
-/// (8)
+/// Returns the strain amplitude by (8).
 double amplitude(const Material& m, double reversals) {
   return m.fatigue_strength / m.youngs_modulus * std::pow(reversals, m.fatigue_strength_exponent) +
          m.fatigue_ductility * std::pow(reversals, m.fatigue_ductility_exponent);
@@ -126,7 +126,7 @@ TEST_CASE("changed material: measured points move likewise") {
   fatigue.strength_factor = 0.8, fatigue.model_factor = 2, fatigue.slope_change = 0.01;
   const auto table = changed(measured, fatigue).strain_life_table;
   CHECK(table[1].cycles == Approx(2e5));
-  CHECK(table[1].strain_amplitude == Approx(0.008).epsilon(rounding));  // 2e5 reversals: where slopes turn
+  CHECK(table[1].strain_amplitude == Approx(0.008).epsilon(rounding));  // 2e5 reversals: the slope changes there
   CHECK(table[0].strain_amplitude == Approx(0.016 * std::pow(2e3 / 2e5, 0.01)).epsilon(rounding));
 }
 

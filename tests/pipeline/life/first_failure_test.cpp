@@ -18,8 +18,7 @@ constexpr std::size_t friction = index_of(Uncertain::friction_inside), slack = i
                       strength = index_of(Uncertain::strength), scatter = index_of(Uncertain::scatter),
                       model = index_of(Uncertain::model);
 constexpr double decile = 1.2815515655446004;  // of the normal distribution
-// Of a percentile's place among 10,000 samples that are spread evenly over each cause: measured 0.004 at worst
-// over 20 names.
+// Of a percentile's rank among 10,000 samples that are stratified over each cause: at most 0.004 measured over 20 names.
 constexpr double sampling_error = 0.02;
 const double model_decades = uncertain_parameters()[model].deviation() / std::log(10.0);
 
@@ -27,7 +26,7 @@ double normal(double z) { return std::erfc(-z / std::sqrt(2.0)) / 2; }
 
 LifeResponse straight(double a, double b, double c, double median = 5) {
   LifeResponse response = straight_response(a, b, c, median);
-  response.knowledge.covariance(motion, motion) = 0;  // as where no robot moves; tested by itself
+  response.knowledge.covariance(motion, motion) = 0;  // as if no robot moved; motion has its own test
   return response;
 }
 
@@ -44,7 +43,7 @@ TEST_CASE("samples of a straight response are normal, with the sum of the varian
   const double deviation = std::sqrt(variance);
   for (const auto& [k, z] : {std::pair{0, -decile}, std::pair{1, 0.0}, std::pair{2, decile}})
     CHECK(std::log10(lives.percentiles[k]) == Approx(5 + deviation * z).margin(sampling_error * deviation));
-  constexpr double share_error = 0.03;  // 4000 samples leave 1 / sqrt(4000) of the variance to chance, twice that
+  constexpr double share_error = 0.03;  // 4000 samples have a random error of 1 / sqrt(4000) of the variance; twice that
   CHECK(lives.share[friction] == Approx(a * a / variance).margin(share_error));
   CHECK(lives.share[strength] == Approx(c * c / variance).margin(share_error));
   CHECK(lives.share[slack] == Approx(b * b / variance).margin(share_error));
@@ -65,7 +64,7 @@ TEST_CASE("the swing of a mounted hose widens lives, each job's by its own") {
   const FirstFailures lives = summary_of({swings}, "job");
   CHECK(std::log10(lives.percentiles[0]) == Approx(5 - decile * decades).margin(sampling_error * decades));
   CHECK(lives.share[motion] == Approx(1));
-  // Two jobs that differ by one deviation of their difference: Phi(1) of the samples.
+  // Two jobs whose lives differ by one deviation of their difference: the longer outlives in Phi(1) of the samples.
   LifeResponse longer = straight(0, 0, 0, 5 + decades * std::sqrt(2.0));
   longer.knowledge = swings.knowledge;
   CHECK(share_outliving(first_failures({longer}, "one"), first_failures({swings}, "other")) ==
@@ -73,7 +72,7 @@ TEST_CASE("the swing of a mounted hose widens lives, each job's by its own") {
 }
 
 TEST_CASE("shares of causes that act together are divided between them and add up to 1") {
-  // friction acts only where slack is not 0: first-order shares of either would be 0
+  // Friction has an effect only where slack is not 0: first-order shares of both would be 0.
   LifeResponse product = straight(0, 0, 0);
   for (std::size_t k = 0; k < product.points.size(); ++k)
     for (std::size_t s = 0; s < product.strength.size(); ++s)
@@ -81,13 +80,13 @@ TEST_CASE("shares of causes that act together are divided between them and add u
   product.knowledge.covariance(model, model) = 0;
   product.planned = {{5, 5, 5}};
   const FirstFailures lives = summary_of({product}, "job");
-  CHECK(lives.share[friction] == Approx(0.5).margin(0.05));  // of a product's fourth moments more is chance
+  CHECK(lives.share[friction] == Approx(0.5).margin(0.05));  // fourth moments of a product have a larger random error
   CHECK(lives.share[slack] == Approx(0.5).margin(0.05));
   CHECK(sum(lives.share) == Approx(1).margin(1e-12));
 }
 
 TEST_CASE("shares of causes that were learned together: by the conditional distribution, and they add up to 1") {
-  // log10 life = friction + strength, deviations 1, correlation r: by symmetry half each, whatever r is
+  // log10 life = friction + strength, deviations 1, correlation r: by symmetry half each, for every r
   for (const double r : {-0.5, 0.0, 0.8}) {
     LifeResponse response = straight(-1, 0, 1);
     response.planned = {{5, 5, 5}};
@@ -100,7 +99,7 @@ TEST_CASE("shares of causes that were learned together: by the conditional distr
     CHECK(sum(lives.share) == Approx(1).margin(1e-12));
     CHECK(std::log10(lives.percentiles[2] / lives.percentiles[0]) ==
           Approx(2 * decile * std::sqrt(2 + 2 * r)).epsilon(sampling_error));
-    // A cause without effect takes no part, whatever it goes together with.
+    // A cause without effect has no share, whatever it correlates with.
     LifeResponse one = straight(-1, 0, 0);
     one.planned = response.planned, one.knowledge = response.knowledge;
     const FirstFailures of_one = summary_of({one}, "job");
@@ -121,7 +120,7 @@ TEST_CASE("shares of two causes that were learned together have the closed form 
     CAPTURE(r);
     const auto is_closed_form = Approx((of_a + both - of_b) / (2 * both)).margin(0.03);
     CHECK(summary_of({response}, "job").share[friction] == is_closed_form);
-    // Beside a mode of another construction that outlives it, which has a friction of its own.
+    // Beside a mode of another construction that outlives it and has its own friction.
     LifeResponse longer = straight(-a, 0, b, 25);
     longer.planned = {{25, 25, 25}}, longer.knowledge = response.knowledge, longer.construction = "another";
     CHECK(summary_of({longer, response}, "job").share[friction] == is_closed_form);
@@ -142,9 +141,9 @@ TEST_CASE("shares of two causes that were learned together, where the response h
   response.knowledge.covariance.setZero();
   response.knowledge.covariance(friction, friction) = response.knowledge.covariance(strength, strength) = 1;
   response.knowledge.covariance(friction, strength) = response.knowledge.covariance(strength, friction) = r;
-  longer.knowledge = response.knowledge, longer.construction = "another";  // a friction of its own
+  longer.knowledge = response.knowledge, longer.construction = "another";  // has its own friction
   double mean = 0;
-  constexpr int names = 16;  // 4000 samples leave 0.02 to chance, a quarter of it in the mean
+  constexpr int names = 16;  // 4000 samples have an error of 0.02; the mean of 16 a quarter of it
   for (int k = 0; k < names; ++k) mean += summary_of({longer, response}, std::to_string(k)).share[friction] / names;
   CHECK(mean == Approx((of_a + both - of_b) / (2 * both)).margin(0.01));
 }
@@ -172,12 +171,12 @@ TEST_CASE("the error of a percentile is that of few samples where the response i
   const auto errors = [&](const LifeResponse& of) {
     return error_factors({of}, "job", samples, first_failures({of}, "job", samples));
   };
-  // Of a quantile q of s normal numbers with deviation a: a sqrt(q (1 - q) / s) over the standard normal's density.
+  // Error of a quantile q of s normal numbers with deviation a: a sqrt(q (1 - q) / s) / the standard normal's density.
   const LifePercentiles of_samples = errors(response);
   CHECK(std::log10(of_samples[1]) == Approx(a * std::sqrt(std::acos(-1.0) / 2 / samples)).epsilon(0.05));
   const double density = std::exp(-decile * decile / 2) / std::sqrt(2 * std::acos(-1.0));
   CHECK(std::log10(of_samples[0]) == Approx(a * 0.3 / density / std::sqrt(double(samples))).epsilon(0.05));
-  // One more node, whose life lies 0.2 decades below the line: without it the life there is longer by 0.2.
+  // An additional node, whose life is 0.2 decades below the line. Without this node the life there is longer by 0.2.
   const double bend = 0.2, z = 0.75;
   for (const double s : {0.0, -1.5, 1.5}) {
     response.points.push_back({});
@@ -185,7 +184,7 @@ TEST_CASE("the error of a percentile is that of few samples where the response i
     response.points.back()[friction] = z, response.points.back()[slack] = s;
     for (std::size_t k = 0; k < response.strength.size(); ++k) response.worst_life.push_back(5 + 0.3 - a * z - bend);
   }
-  // 10 % fail first at z = 1.28, between that node and the one at 1.5. The median lies at z = 0, which moves nothing.
+  // 10 % fail first at z = 1.28, between this node and the one at 1.5. The median is at z = 0, where nothing changes.
   const LifePercentiles bent = errors(response);
   const double by_node = bend * (1.5 - decile) / (1.5 - z), slope = a - bend / (1.5 - z);
   const double by_samples = slope * 0.3 / density / std::sqrt(double(samples));
@@ -194,7 +193,7 @@ TEST_CASE("the error of a percentile is that of few samples where the response i
 }
 
 TEST_CASE("the error of a percentile contains what one node of the friction along the hose decides") {
-  // Lives fall by 0.2 z above 0 and do not change below. Without the node at 1.5 they do not fall above 0. Without the node at
+  // Lives fall by 0.2 z above 0 and are constant below. Without the node at 1.5 they do not fall above 0. Without the node at
   // -1.5 they rise by 0.2 |z| below 0.
   LifeResponse response = straight(0, 0, 0);
   response.planned = {{5, 5, 5}};
@@ -210,7 +209,7 @@ TEST_CASE("the error of a percentile contains what one node of the friction alon
   constexpr std::size_t samples = 10000;
   const std::vector<double> lives = first_failures({response}, "job", samples);
   const LifePercentiles error = error_factors({response}, "job", samples, lives);
-  // 10 % of lives are shorter than that at z = 1.28, and 90 % than that at z = -1.28.
+  // 10 % of lives are shorter than the life at z = 1.28, and 90 % are shorter than that at z = -1.28.
   CHECK(std::log10(error[0]) == Approx(0.2 * decile).epsilon(0.05));
   CHECK(std::log10(error[2]) == Approx(0.2 * decile).epsilon(0.05));
 }
@@ -235,14 +234,14 @@ TEST_CASE("the first failure of two modes that share nothing is the lesser of tw
   }
   one.mode = "one", one.construction = "a", other.mode = "other", other.construction = "b";
   const FirstFailures lives = summary_of({one, other}, "job");
-  // Both normal, 5 and 5.3 +- 0.6: 64 % of one are less, and 1 - (1 - P1)(1 - P2) have failed by t.
+  // Both normal, 5 and 5.3 +- 0.6: the first fails first in 64 %, and 1 - (1 - P1)(1 - P2) have failed by t.
   CHECK(lives.first[0] == Approx(normal(0.3 / (0.6 * std::sqrt(2.0)))).margin(sampling_error));
   CHECK(lives.first[0] + lives.first[1] == Approx(1));
   const double at = std::log10(lives.percentiles[0]);
   CHECK(1 - normal(-(at - 5) / 0.6) * normal(-(at - 5.3) / 0.6) == Approx(0.1).margin(0.01));
   CHECK(sum(lives.share) == Approx(1).margin(1e-12));
 
-  other.construction = "a";  // one friction for both: the first is always one
+  other.construction = "a";  // one friction for both: the same mode is always first
   CHECK(summary_of({one, other}, "job").first == std::vector<double>{1, 0});
 }
 
@@ -256,7 +255,7 @@ TEST_CASE("bounds: the same samples with nothing and with endless friction insid
       for (const double of_strength : response.strength)
         response.worst_life.push_back((inside == Inside::glued ? 3.5 : 8.0) - 0.2 * s + 0.4 * of_strength);
     }
-  // The bound's worst wire is not among those that were followed: it lives 0.2 decades shorter.
+  // The bound's worst wire is not among the wires of the response: its life is 0.2 decades shorter.
   response.bound = {LifeResponse::endless, 3.3, 8.0};
   const FirstFailures lives = summary_of({response}, "job");
   const double deviation = std::sqrt(0.2 * 0.2 + 0.4 * 0.4 + model_decades * model_decades + std::pow(0.1 / decile, 2));
@@ -268,13 +267,13 @@ TEST_CASE("bounds: the same samples with nothing and with endless friction insid
     CHECK(lives.percentiles[i] < lives.free[i]);
   }
   response.points.resize(9), response.inside.resize(9), response.worst_life.resize(27);
-  // Where bounds are known at z = 0 alone they are the job's own lives without their friction, shifted.
+  // Bounds that are known only at z = 0 are the job's own lives without their friction, shifted.
   CHECK(std::log10(summary_of({response}, "job").glued[1]) == Approx(3.0).margin(sampling_error));
 }
 
 TEST_CASE("what was learned together stays together") {
-  // friction and strength known by their sum alone: a life that depends on the sum is known, on the difference
-  // half as well
+  // Only the sum of friction and strength is known. A life that depends on the sum is certain. In a life that depends on
+  // their difference both deviations add.
   LifeResponse sum = straight(-0.3, 0, 0.3), difference = straight(0.3, 0, 0.3);
   for (LifeResponse* response : {&sum, &difference}) {
     response->knowledge.covariance.setZero();
@@ -297,10 +296,10 @@ TEST_CASE("the order of two jobs: what they share cancels, what each has for its
     for (auto& lives : response->planned) lives[0] = lives[2] = lives[1];
   CHECK(share_outliving(first_failures({longer}, "one"), first_failures({shorter}, "other")) == 1);
   shorter.construction = longer.construction = "";
-  shorter.material = "aluminium";  // strength is sampled for each by itself
+  shorter.material = "aluminium";  // strength is sampled independently for each material
   CHECK(share_outliving(first_failures({longer}, "one"), first_failures({shorter}, "other")) ==
         Approx(normal(0.2 / (0.4 * std::sqrt(2.0)))).margin(sampling_error));
-  LifeResponse first = straight(0, 0.3, 0), second = first;  // slack is each installation's own
+  LifeResponse first = straight(0, 0.3, 0), second = first;  // slack is independent for each installation
   for (LifeResponse* response : {&first, &second}) response->planned = {{5, 5, 5}};
   CHECK(share_outliving(first_failures({first}, "one"), first_failures({second}, "other")) ==
         Approx(0.5).margin(sampling_error));
@@ -314,7 +313,7 @@ TEST_CASE("what is installed apart is sampled apart, also when it was learned to
     response->knowledge.covariance(model, model) = 0;
   }
   const std::vector<double> once = first_failures({second}, "one"), again = first_failures({second}, "other");
-  CHECK(once == again);  // strength is the same in all jobs
+  CHECK(once == again);  // strength is equal in all jobs
   CHECK(first_failures({first}, "one") != first_failures({first}, "other"));
 }
 
@@ -367,7 +366,7 @@ TEST_CASE("percentiles are straight between the middles of samples, shares of ou
   std::vector<double> lives;
   for (int k = 19; k >= 0; --k) lives.push_back(k / 10.0);
   const LifePercentiles of =
-      percentiles_of(lives);  // of 20 samples the second and third have 7.5 and 12.5 % below their middles
+      percentiles_of(lives);  // of 20 samples, 7.5 and 12.5 % are below the middles of the second and third
   CHECK(std::log10(of[0]) == Approx(0.15));
   CHECK(std::log10(of[1]) == Approx(0.95));
   CHECK(std::log10(of[2]) == Approx(1.75));
@@ -385,7 +384,7 @@ TEST_CASE("two modes of one dresspack share the part of their scatter that is gi
     for (LifeResponse* mode : {&one, &other})
       mode->knowledge.covariance.setZero(), mode->scatter_shared = shared;
     one.mode = "one", other.mode = "other";
-    // Of two normal lives with this correlation, both are above their median in this share of samples.
+    // Share of samples in which both of two normal lives with this correlation are above their median.
     const double both = 0.25 + std::asin(shared) / (2 * std::acos(-1.0));
     const std::vector<double> lives = first_failures({one, other}, "job");
     const auto above = std::count_if(lives.begin(), lives.end(), [](double life) { return life > 5; });
@@ -405,7 +404,7 @@ TEST_CASE("shares as words are whole per cents that add up to 100") {
   CHECK(share_words(share) == "friction_inside 34 %; strength 33 %; model 33 %");
   CHECK(largest_share(share) == friction);
   share = {};
-  share[slack] = share[friction] = share[strength] = share[model] = 0.25;  // equal ones in the order of the parameters
+  share[slack] = share[friction] = share[strength] = share[model] = 0.25;  // equal shares are in the order of the parameters
   CHECK(share_words(share) == "friction_inside 25 %; slack 25 %; strength 25 %; model 25 %");
   share = {};
   share[slack] = 0.01, share[uncertain_count] = 0.99;

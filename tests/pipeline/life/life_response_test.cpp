@@ -56,14 +56,14 @@ TEST_CASE("one cause changes a life as it does by itself, and the order of cause
   }
   CHECK(together(9, {}) == 9);
   CHECK(together(9, std::array{7.0, 12.0, 8.5}) == Approx(together(9, std::array{8.5, 7.0, 12.0})));
-  // Lengthening causes are factors of the strain: their decades add up. Equal shortening ones add equal strains.
+  // Lengthening causes are factors of the strain: their decades add. Equal shortening causes add equal strains.
   CHECK(together(9, std::array{10.0, 12.0}) == Approx(13));
   const double threefold = 5 * std::log10(3.0), twofold = 5 * std::log10(2.0);
   CHECK(together(9, std::array{9 - twofold, 9 - twofold}) == Approx(9 - threefold));
 }
 
 TEST_CASE("how long a life without end is decides nothing about lives that causes shorten") {
-  // 1e-5 and 10^-4.2 are the strains of 1e25 and 1e21 beside 1 at 1e0.
+  // 1e-5 and 10^-4.2 are the strains of the lives 1e25 and 1e21, relative to 1 at a life of 1e0.
   for (const double shorter : {3.0, 6.0, 9.0})
     for (const double other : {6.0, 9.0, 12.0}) {
       const double from_far = together(25, std::array{shorter, other}),
@@ -72,7 +72,7 @@ TEST_CASE("how long a life without end is decides nothing about lives that cause
       CHECK(from_far == Approx(from_near).margin(5 / std::log(10.0) * 1e-4 / strain));
       CHECK(from_far <= std::min(shorter, other));
       CHECK(from_far >=
-            std::min(shorter, other) - 5 * std::log10(2.0));  // two strains are twice the larger at most
+            std::min(shorter, other) - 5 * std::log10(2.0));  // the sum of two strains is at most twice the larger
     }
 }
 
@@ -90,7 +90,7 @@ namespace {
 
 constexpr std::size_t play = index_of(Uncertain::play), slope = index_of(Uncertain::slope);
 
-/// Random values at every point of a response whose nodes are unequal on every axis.
+/// Random values at every point of a response with unequally spaced nodes on every axis.
 struct RandomTable {
   std::mt19937 engine{7};
   std::map<std::size_t, std::vector<double>> nodes{
@@ -118,7 +118,7 @@ struct RandomTable {
     for (auto& lives : response.planned) lives = {random() - 3, random(), random() + 3};
     response.bound = {LifeResponse::undamaged, 3.7, 8};
   }
-  /// W at nodes.
+  /// Returns W at nodes.
   double worst(Inside inside, double f, double s, double p, double of_strength, double of_slope) const {
     const auto at = [](const std::vector<double>& list, double z) {
       return std::find(list.begin(), list.end(), z) - list.begin();
@@ -155,7 +155,7 @@ TEST_CASE("a response has the values of its table at every combination of nodes"
     CHECK(of.change(z) == Approx(change).margin(rounding));
     CHECK(of.change(z, Inside::glued) ==
           Approx(with_play(3.7 + worst(Inside::glued, 0, z[slack], 0) - glued_at_zero)).margin(rounding));
-    // Where nothing was computed without friction, it is the job's own, shifted.
+    // Without values for no friction, the result is the job's own, shifted.
     CHECK(of.change(z, Inside::free) ==
           Approx(with_play(8 - at_zero + worst(Inside::as_is, 0, z[slack], 0))).margin(rounding));
     const auto scatter_at = std::size_t(z[scatter] < 0 ? 0 : z[scatter] > 0 ? 2 : 1);
@@ -163,7 +163,7 @@ TEST_CASE("a response has the values of its table at every combination of nodes"
       CHECK(of.log10_life(z, tenths * 1.2815515655446004) ==
             Approx(of.planned[scatter_at][std::size_t(tenths + 1)] + change));
   }
-  // Without the combinations, friction and slack join like others.
+  // Without values for combinations, friction and slack combine like other parameters.
   RandomTable apart(false);
   for (const double f : {-1.5, 1.0})
     for (const double s : {-2.0, 1.0}) {
@@ -182,7 +182,7 @@ TEST_CASE(
     for (const auto& [parameter, values] : table.nodes) {
       ParameterPoint z = table.random_node();
       if (parameter == play)
-        z[friction] = z[slack] = 0;  // changes of several join as strains
+        z[friction] = z[slack] = 0;  // changes of several parameters combine as strains
       else
         z[play] = 0;
       const auto life = [&, &parameter = parameter](double at) {
@@ -250,7 +250,7 @@ TEST_CASE("beyond the rests of all starts a life is that of the last one") {
 TEST_CASE("a text from before there were rests, or the hose's stiffness, is read: the same lives") {
   const LifeResponse response = straight_response(0.6, 0.2, 0.4);
   constexpr std::size_t rest = index_of(Uncertain::rest), stiffness = index_of(Uncertain::hose_stiffness);
-  const std::size_t first = GENERATE(true, false) ? rest : stiffness;  // of those that the text lacks
+  const std::size_t first = GENERATE(true, false) ? rest : stiffness;  // first parameter that is missing in the text
   std::istringstream lines(response.text());
   std::string older;
   std::size_t row = 0;  // of the covariance

@@ -6,8 +6,8 @@ namespace dresslife::pipeline {
 
 TEST_CASE("scatter: wires that make up a share") {
   CHECK(wires_of_share(0, 92) == 1);
-  CHECK(wires_of_share(10, 92) == 10);  // 9 are not yet 10 %
-  CHECK(wires_of_share(10, 70) == 7);   // not 8 by rounding
+  CHECK(wires_of_share(10, 92) == 10);  // 9 are less than 10 %
+  CHECK(wires_of_share(10, 70) == 7);   // not 8 because of rounding
   CHECK(wires_of_share(100, 92) == 92);
 }
 

@@ -1,11 +1,11 @@
-// A life as a straight function of friction, slack and strength.
+// A life that depends linearly on friction, slack and strength.
 #pragma once
 
 #include "pipeline/life/life_response.h"
 
 namespace dresslife::pipeline {
 
-/// log10 life median +- 0.1 (10 and 90 %) by scatter, -a friction - b slack + c strength.
+/// Returns log10 life = median +- 0.1 (10 and 90 %, scatter) - a friction - b slack + c strength.
 inline LifeResponse straight_response(double a, double b, double c, double median = 5) {
   LifeResponse response;
   response.construction = "hose", response.material = "copper";

@@ -20,7 +20,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr std::size_t most_bytes = 5'000'000;  // of a page of three minutes
+constexpr std::size_t most_bytes = 5'000'000;  // of a page of a motion of three minutes
 
 TEST_CASE("json: texts stay inside their element, numbers read back") {
   CHECK(Json("a\"b\\c\n</script>&").text == R"("a\"b\\c\u000a\u003c/script\u003e\u0026")");
@@ -50,7 +50,7 @@ TEST_CASE("json: base64 as RFC 4648 has it") {
 TEST_CASE("json: whole steps miss by half a step") {
   const Steps steps(-1.25, 3.5);
   for (double value = -1.25; value <= 3.5; value += 0.0371)
-    // Rounding of low + step n: an ulp of 3.5.
+    // Rounding of low + step n: one ulp of 3.5.
     CHECK(std::abs(steps.value(steps.of(value)) - value) <= steps.step / 2 + 1e-15);
   CHECK(Steps(2, 2).of(2) == 0);
 }
@@ -87,7 +87,7 @@ TEST_CASE(
   }
 }
 
-/// A ball of 2 n^2 triangles, radius 1.
+/// Returns a ball of 2 n^2 triangles, radius 1.
 std::vector<Triangle> ball(int n) {
   const auto corner = [n](int i, int j) {
     const double theta = M_PI * i / n, phi = 2 * M_PI * j / n;
@@ -110,11 +110,11 @@ TEST_CASE("simple mesh: few triangles stay, many become few near the surface") {
   double area = 0;
   for (const Triangle& triangle : few) {
     area += (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).norm() / 2;
-    // The middle of corners in a cube of edge 0.128, the first of 2/1000 2^k that leaves as few: within its
-    // diagonal.
+    // A corner is replaced by the mean of corners in a cube with edge 0.128, the first of 2/1000 2^k that leaves few enough. Its
+    // error is within the cube's diagonal.
     for (const auto& corner : triangle) CHECK(std::abs(corner.norm() - 1) < 0.128 * std::sqrt(3.0));
   }
-  CHECK(area == Approx(4 * M_PI).epsilon(0.15));  // flat triangles of that size cut the ball
+  CHECK(area == Approx(4 * M_PI).epsilon(0.15));  // flat triangles of this size cut into the ball
 }
 
 TEST_CASE(
@@ -223,7 +223,7 @@ TEST_CASE("job page: one of other results than those beside it is removed, and n
   const JobFolder files{"job", scratch / ""};
   SampleLife life;
   write_sample_life(scratch / "life.h5", life);
-  remove_old_job_page(files);  // none is there
+  remove_old_job_page(files);  // without an old page
   refresh_job_page(files);
   remove_old_job_page(files);
   CHECK(std::filesystem::exists(files.page()));

@@ -9,7 +9,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// One sample of two segments of half a metre; with two checks, or as an older version wrote it.
+/// Writes one sample of two segments of half a metre; with two checks, or in the form of an older version.
 void write_motion(const std::filesystem::path& name, bool checked, bool returns = true,
                   const std::vector<double>& values = {0.25, 3.14159265358979}, double position = 0.9,
                   const std::vector<std::int32_t>& dresspacks = {}) {

@@ -1,4 +1,4 @@
-// Pictures of a plan, of a moment and of a motion: where their lines are, read back from the text.
+// Pictures of a plan, of a moment and of a motion: the positions of their lines, read back from the text.
 #include <algorithm>
 #include <cmath>
 #include <regex>
@@ -17,7 +17,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// Numbers of the path of this class.
+/// Returns the numbers of the path of this class.
 std::vector<double> path_of(const std::string& page, const std::string& style) {
   const std::string begin = "<path class=\"" + style + "\" d=\"";
   const std::size_t at = page.find(begin);
@@ -31,7 +31,7 @@ std::vector<double> path_of(const std::string& page, const std::string& style) {
   return numbers;
 }
 
-/// Two samples of a straight hose along y: three segments of 0.2 m from y = 1 m, then all of it 0.5 m farther.
+/// Writes two samples of a straight hose along y: three segments of 0.2 m from y = 1 m; then shifted by 0.5 m along y.
 void write_motion(const std::filesystem::path& name) {
   FileWriter file(name, motion_format());
   file.set_axis("segment", 3);
@@ -80,8 +80,8 @@ TEST_CASE("pictures: a plan's failures are stairs, a step per week from today to
     REQUIRE(path.size() == 2 * 2 * heights.size());
     const double week = path[2] - path[0];
     CHECK(week > 0);
-    const double unit = (path[1] - path[1 + 4]) / (heights[1] - heights[0]);  // of one failure, upwards
-    constexpr double written = 0.2;  // coordinates are written to 0.1
+    const double unit = (path[1] - path[1 + 4]) / (heights[1] - heights[0]);  // length of one failure, upward
+    constexpr double written = 0.2;  // coordinates have one decimal
     for (std::size_t k = 0; k < heights.size(); ++k)
       for (std::size_t end : {0, 1}) {
         const std::size_t at = 4 * k + 2 * end;
@@ -90,7 +90,7 @@ TEST_CASE("pictures: a plan's failures are stairs, a step per week from today to
               Approx(path[1] - unit * (heights[k] - heights[0])).margin(written * heights[k]));
       }
   }
-  // Its row: no colour, then one per ten-fold probability.
+  // The row's cells: no colour, then one colour per factor of ten of probability.
   CHECK(count_of(page, "robot 7, 2026-11-23 ..") == 0);
   for (const auto& [style, day] :
        {std::pair("p2", "2026-11-30"), std::pair("p3", "2026-12-07"), std::pair("p4", "2026-12-14")})
@@ -120,10 +120,10 @@ TEST_CASE("pictures: each program of a duty has its own name and its own bars") 
     for (std::sregex_iterator at(chart.begin(), chart.end(), box), end; at != end; ++at) found.push_back(std::stod((*at)[1]));
     return found;
   };
-  const std::vector<double> times = widths("dark"), damages = widths("bar-hot");  // the first is the legend's
+  const std::vector<double> times = widths("dark"), damages = widths("bar-hot");  // the first width is the legend's
   REQUIRE(times.size() == 3);
   REQUIRE(damages.size() == 3);
-  constexpr double printed = 0.01;  // places have a digit of a pixel
+  constexpr double printed = 0.01;  // coordinates have one decimal of a pixel
   CHECK(times[1] / times[2] == Approx(0.8 / 0.2).epsilon(printed));
   CHECK(damages[1] / damages[2] == Approx(0.25 / 0.75).epsilon(printed));
 }
@@ -144,11 +144,11 @@ TEST_CASE("pictures: of a scene's hose one segment is hot, counted from the tool
   double before = HUGE_VAL;
   for (const int from_tool : {1, 2, 3}) {
     const std::string picture = scene_picture(scratch / "motion.h5", 0, from_tool);
-    CHECK(count_of(picture, "class=\"hose-hot\"") == 2);  // half a segment each
+    CHECK(count_of(picture, "class=\"hose-hot\"") == 2);  // half a segment per sample
     CHECK(count_of(picture, "class=\"hose\"") == 4);
     std::smatch found;
     REQUIRE(std::regex_search(picture, found, hot));
-    CHECK(std::abs(std::stod(found[1])) != before);  // each at a place of its own
+    CHECK(std::abs(std::stod(found[1])) != before);  // each at a different place
     before = std::stod(found[1]);
   }
   CHECK(count_of(scene_picture(scratch / "motion.h5", 0, 0), "hose-hot") == 0);
@@ -160,7 +160,7 @@ TEST_CASE("pictures: a motion's data have each sample's own positions") {
   const std::string text = motion_data(FileReader(scratch / "motion.h5", motion_format()), nullptr,
                                        setup_from(parse_yaml(sample_job, "job.yaml")))
                                .text;
-  // x and z are 1 m, y is between the clamps: 1 .. 1.6 m, and 0.5 m farther.
+  // x and z are 1 m. y is between the clamps: 1 .. 1.6 m, then 0.5 m more.
   CHECK_THAT(text, Catch::Contains(R"("keys":2)") && Catch::Contains(R"("samples":2)"));
   CHECK_THAT(text, Catch::Contains(R"("points":{"begin":0,"size":15,"low":1,"high":2.1,)"));
   CHECK_THAT(text, Catch::Contains(R"("places":[0,0.5,1.5,2.5,3])"));

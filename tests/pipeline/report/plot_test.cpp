@@ -65,7 +65,7 @@ TEST_CASE("plot: axes made for values hold them and end at ticks") {
     const double rounding = 1e-9 * (axis.high - axis.low);
     CHECK(axis.low <= a + rounding);
     CHECK(axis.high >= b - rounding);
-    CHECK(axis.high - axis.low <= 3 * (b - a) + rounding);  // two steps more at most
+    CHECK(axis.high - axis.low <= 3 * (b - a) + rounding);  // at most two steps more
     const auto ticks = axis.ticks(6);
     CHECK(ticks.size() >= 2);
     CHECK(ticks.size() <= 9);

@@ -15,7 +15,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// A job's section without its settings: the charts of a history of any length.
+/// Upper bound of a job's section without its settings: charts of a history of any length.
 constexpr std::size_t largest_section = 150'000;
 
 JobResult job_with(const Scratch& scratch, const std::string& file, const SampleLife& life,
@@ -24,8 +24,7 @@ JobResult job_with(const Scratch& scratch, const std::string& file, const Sample
   return {name.empty() ? file : name, scratch / (file + ".h5"), ""};
 }
 
-/// Every tag is closed in the order of opening, every attribute quoted: what a browser does not have to
-/// guess.
+/// Returns the first place where a tag is not closed in the order of opening or an attribute is not quoted; "" if none.
 std::string first_fault(const std::string& page) {
   std::vector<std::string> open;
   for (std::size_t at = page.find('<'); at != std::string::npos; at = page.find('<', at + 1)) {
@@ -55,7 +54,7 @@ void check_page(const std::string& page) {
     INFO(word);
     CHECK(page.find(word) == std::string::npos);
   }
-  CHECK(count_of(page, "<script") == 1);  // our own, the last of the page
+  CHECK(count_of(page, "<script") == 1);  // the page's own, at its end
   CHECK(page.find("<script>\n\"use strict\";") != std::string::npos);
 }
 
@@ -110,7 +109,7 @@ TEST_CASE("report: a wall's life that is not credible has no number, and the leg
   CHECK(page.find("Not predicted: the only known law") != std::string::npos);
   CHECK(page.find("confirms their laws: jacket wear, hose") != std::string::npos);
   CHECK(page.find("* marks jobs in which one of them may come first: jacket wear in 1 job.") != std::string::npos);
-  // With a law that agrees with the test the number stands everywhere.
+  // If the law agrees with the test, every place shows the number.
   wall.bends_at_limit = 2e7;
   life.unvalidated = unvalidated_text({jacket, wall});
   write_sample_life(scratch / "two.h5", life);
@@ -143,13 +142,13 @@ TEST_CASE("report: of several dresspacks each has its shortest life and the wors
   CHECK(page.find(cells("sensor &lt;cable&gt;", life.repeats)) != std::string::npos);
   CHECK(page.find("segment 3 from the tool (0.12 m) of the sensor &lt;cable&gt;") != std::string::npos);
   CHECK(page.find("Damage along the sensor &lt;cable&gt;</h3>") != std::string::npos);
-  // Along the worst one only, with its own clamps and the damage of its own worst segment over time.
+  // Only along the worst dresspack, with its own clamps and the damage of its own worst segment over time.
   const LifeSummary told = read_life(scratch / "two.h5");
   CHECK(told.segment_length.size() == 25);
   CHECK(*std::max_element(told.segment_damage.begin(), told.segment_damage.end()) == 1 / life.repeats);
   CHECK(*std::max_element(told.damage_rate.begin(), told.damage_rate.end()) > 0);
   CHECK(page.find(" By the nearest clamp: base clamp 25 %; tool clamp 75 %.") != std::string::npos);
-  // The only dresspack of a job needs no table.
+  // A job's only dresspack needs no table.
   life.dresspacks.clear();
   write_sample_life(scratch / "one.h5", life);
   const std::string one = report_page("one", read_ranking({{"one", scratch / "one.h5", ""}}));
@@ -173,7 +172,7 @@ TEST_CASE("report: a page for a study stands alone and is whole") {
   CHECK(page.find("job.yaml:12:3: error: 0.213 m too short; lengthen it") != std::string::npos);
   CHECK(count_of(page, "<section") == 3);
   CHECK(count_of(page, "Strain of the worst wire over time</h3>") == 3);
-  CHECK(count_of(page, "Damage along the dresspack</h3>") == 2);  // not where there is none
+  CHECK(count_of(page, "Damage along the dresspack</h3>") == 2);  // only for jobs with damage
   CHECK(count_of(page, "Program lines that cost most</h3>") == 2);
   CHECK(page.find("prefers-color-scheme: dark") != std::string::npos);
   CHECK(page.find("Lives compared") != std::string::npos);
@@ -271,7 +270,7 @@ TEST_CASE("report: the page stays small for long motions and large studies") {
   check_page(large);
   CHECK(count_of(large, "<section") == 40);
   CHECK(large.find("charts for the 20 best and the 20 worst of them") != std::string::npos);
-  CHECK(large.find("job 100") != std::string::npos);  // still ranked
+  CHECK(large.find("job 100") != std::string::npos);  // it is still in the ranking
 }
 
 TEST_CASE("report: of thousands of rows the first hundred are laid out, the others wait in a template") {
@@ -300,7 +299,7 @@ TEST_CASE(
       rows.back().varied = {{"routing.length_m", length}, {"motion", motion}, {"fatigue.stress", "cyclic"}};
     }
   rows[1].failure = "too short";
-  rows.erase(rows.begin() + 4);  // not all combinations
+  rows.erase(rows.begin() + 4);  // not all combinations of both keys
   const std::string page = report_page("two keys", rows);
   check_page(page);
   const std::size_t begin = page.find("<table id=\"matrix\">");
@@ -310,8 +309,8 @@ TEST_CASE(
   CHECK(matrix.find("length_m=1.2") < matrix.find("length_m=10"));
   CHECK(matrix.find("<th scope=\"col\">easy</th><th scope=\"col\">hard</th>") != std::string::npos);
   CHECK(matrix.find("<a href=\"#job-1\">1,000</a>") != std::string::npos);
-  CHECK(matrix.find("#eb9146") != std::string::npos);  // the shortest
-  CHECK(matrix.find("#78b4dc") != std::string::npos);  // the longest
+  CHECK(matrix.find("#eb9146") != std::string::npos);  // the shortest life
+  CHECK(matrix.find("#78b4dc") != std::string::npos);  // the longest life
   CHECK(count_of(matrix, "class=\"failed\"") == 1);
   CHECK(count_of(matrix, "<td>-</td>") == 1);
   CHECK(count_of(matrix, "</td>") == 6);

@@ -26,7 +26,7 @@ const Component* with_parts(const std::vector<Component>& parts) {
   return nullptr;
 }
 
-/// All of a cable that is a dresspack.
+/// Returns all of a dresspack that consists of one cable.
 Component whole(const Dresspack& dresspack) {
   Component cable;
   cable.components = dresspack.components;
@@ -43,10 +43,10 @@ TEST_CASE("shipped cables have the friction and the stiffness of published ones"
     const Component cable = whole(dresspack);
     const CableBending bending(dresspack, cable, StraightParts::slide);
     const double friction = bending.moment(1, 1) - bending.free_stiffness(), d = dresspack.diameter;
-    // Seven rows of bending.csv: median 16 kPa, 10 to 90 % 7 to 52. The estimates aim at the median.
+    // Seven rows of bending.csv: median 16 kPa, 10 to 90 %: 7 to 52 kPa. The estimates are chosen for the median.
     CHECK(friction / std::pow(d, 3) > 14e3);
     CHECK(friction / std::pow(d, 3) < 20e3);
-    // 64 E I/(pi d^4) at 1 1/m, 13 to 60 MPa with the whole section of 8 charging cables and 3 leads.
+    // 64 E I/(pi d^4) at 1 1/m: 13 to 60 MPa with the whole section of 8 charging cables and 3 leads.
     const double modulus =
         64 * (jacket_bending(d / 2) + bending.moment(1, 1)) / (std::numbers::pi * std::pow(d, 4));
     CHECK(modulus > 13e6);
@@ -55,10 +55,10 @@ TEST_CASE("shipped cables have the friction and the stiffness of published ones"
 }
 
 TEST_CASE("one cable has one stiffness in every shipped file") {
-  const Dresspack hose = job_of("thesis_welding").dresspacks.front().dresspack;  // bending_cable has its lays
+  const Dresspack hose = job_of("thesis_welding").dresspacks.front().dresspack;  // bending_cable has the same lays
   const double of_hose = cable_stiffness(hose, hose.components.front());
   const Job alone = read_job(std::string(DRESSLIFE_SOURCE_DIR) + "/config/jobs/bending_cable.yaml");
-  // Two digits are written there.
+  // The file states two digits.
   CHECK(alone.dresspacks.front().dresspack.bending_stiffness == Approx(of_hose).epsilon(0.05));
   const Dresspack cable = job_of("{cable: {from: thesis_welding}}").dresspacks.front().dresspack;
   CHECK(cable_stiffness(cable, cable.components.front()) == Approx(of_hose).epsilon(1e-12));

@@ -15,7 +15,7 @@ using namespace dresslife::pipeline;
 
 namespace {
 
-/// Of strength and friction, learned from the sample job.
+/// A calibration of strength and friction, learned from the sample job.
 std::string two_learned() {
   const Job job = job_from(parse_yaml(sample_job, "test.yaml"));
   Calibration calibration;
@@ -33,7 +33,7 @@ observations:
 )" + to_yaml(tree);
 }
 
-/// The place in the file and the words.
+/// Returns the error of a calibration: place in the file and words.
 std::string refusal(const std::string& calibration) {
   const Scratch scratch;
   scratch.write("learned.yaml", calibration);
@@ -52,9 +52,9 @@ TEST_CASE("calibration: the keys of a job that names one go to its medians") {
   CHECK(job.fatigue.strength_factor == Approx(std::pow(1.3, 0.5)));
   CHECK(job.strain.factors.friction == Approx(1 / 2.2));
   CHECK(job.fatigue.model_factor == 1);
-  // What a job gives itself stands.
+  // A value given in the job has priority.
   CHECK(read_job(file, {"strain.friction_factor=3"}).strain.factors.friction == 3);
-  // It is part of what results depend on, by its content: no name of a file is left.
+  // Results depend on the calibration's content: the resolved job contains no file name.
   const Job again = job_from(parse_yaml(job_text(job), "elsewhere.yaml"));
   CHECK(job_text(again) == job_text(job));
   CHECK(again.fatigue.strength_factor == job.fatigue.strength_factor);
@@ -140,7 +140,7 @@ TEST_CASE("calibration: tells where a job goes beyond what it was learned from")
 
 namespace {
 
-/// What a job with these changes says of the calibration; "" when it takes it.
+/// Returns the calibration's message about a job with these changes; "" if it applies.
 std::string answer(const std::string& calibration, const std::vector<std::string>& sets) {
   const Scratch scratch;
   scratch.write("learned.yaml", calibration);
@@ -170,12 +170,12 @@ TEST_CASE("calibration: a job with other settings than its tests is refused, and
       answer(edited(two_learned(), "fatigue_strength_MPa ", "fatigue_strength_MPa 1"), {});
   CHECK(has(constants, "was learned with fatigue_strength_MPa 1"));
   CHECK(has(constants, " of material 'copper' (this job has fatigue_strength_MPa "));
-  // Tests under several values teach for each of them.
+  // Tests under several values of a setting are valid for each of them.
   const Scratch scratch;
   const auto file = scratch.write("job.yaml", sample_job);
   const Job one = read_job(file), other = read_job(file, {"strain.slip=free"});
   CHECK(learned_under({&one, &other, &one}).settings.size() == learned_under({&one}).settings.size() + 1);
-  // Files of before say nothing of settings.
+  // Older files contain no settings.
   std::string old = two_learned();
   old.erase(old.find("under:"));
   CHECK(has(answer(old, {}), "does not say under which settings it was learned (strain.slip and others); run dresslife "
@@ -199,7 +199,7 @@ TEST_CASE("calibration: of a construction or a material that no test had its par
   const Scratch scratch;
   scratch.write("learned.yaml", two_learned());
   const auto file = scratch.write("job.yaml", sample_job + "calibration: learned.yaml\n");
-  // Another lay: another cable. Strength is the material's and stays, with its own variance.
+  // Another lay is another cable. Strength belongs to the material and stays, with its own variance.
   const Job cable = read_job(file, {wires + "lay_angle_deg=20"});
   CHECK(cable.strain.factors.friction == 1);
   CHECK(cable.fatigue.strength_factor == Approx(std::pow(1.3, 0.5)));
@@ -238,7 +238,7 @@ TEST_CASE("calibration: a cable that was tested alone is known again in a hose")
   }
   CHECK_NOTHROW(check_learned_settings(job));
   leave_out_foreign_parameters(job);
-  // The room between cable and hose is not known from a cable alone.
+  // A test of a single cable gives no information about the play in a hose.
   CHECK(job.calibration->within.left_out == "no test has the hose spot_welding, for which play is not used");
   CHECK(job.calibration->parameters.size() == 3);
 }
@@ -261,14 +261,14 @@ TEST_CASE("ratings: a job without a calibration starts from what makers state of
   const Job job = soft_copper();
   REQUIRE(job.calibration);
   CHECK(job.calibration->typical);
-  // All ratings are lower bounds: they can only raise lives.
+  // All ratings are lower bounds: they can only increase lives.
   CHECK(job.fatigue.strength_factor > 1);
   CHECK(job.fatigue.model_factor > 1);
-  CHECK(job.strain.factors == StrainFactors{});  // friction is the single cable's: strains do not depend on ratings
+  CHECK(job.strain.factors == StrainFactors{});  // friction belongs to the single cable: strains do not depend on ratings
   const auto strength = static_cast<Eigen::Index>(index_of(Uncertain::strength));
   CHECK(knowledge_of(job).mean[strength] > 0);
   CHECK(knowledge_of(job).covariance(strength, strength) < 1);
-  // The resolved job is the same again, and does not count them twice.
+  // The resolved job reads back unchanged and does not apply the ratings twice.
   CHECK(job_text(job_from(parse_yaml(job_text(job), "elsewhere.yaml"))) == job_text(job));
   for (const char* without : {"uncertainty.ratings=none", "uncertainty.enabled=false", "fatigue.stress=elastic"}) {
     const Job plain = soft_copper({without});
@@ -288,7 +288,7 @@ TEST_CASE("ratings: what a job states itself stands") {
   const auto strength = static_cast<Eigen::Index>(index_of(Uncertain::strength));
   CHECK(deviation.fatigue.strength_factor == 1);
   CHECK(knowledge_of(deviation).covariance(strength, strength) == Approx(std::pow(std::log(1.1) / std::log(1.3), 2)));
-  // Of wires of a metal that none of the cables has only the other parameters hold.
+  // For wires of a metal that no rated cable has, only the other parameters apply.
   const Job aluminium = soft_copper({"fatigue.material=aluminium_7070_t6"});
   CHECK(!knows(aluminium, "strength"));
   CHECK(knows(aluminium, "model"));

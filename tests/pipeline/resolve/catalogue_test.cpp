@@ -12,7 +12,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// A line of the sample job taken out, so that a catalogue entry can stand in its place.
+/// Returns a block of the sample job, to be replaced by a catalogue entry.
 std::string block_of(const std::string& from, const std::string& to) {
   const std::size_t begin = sample_job.find(from);
   return sample_job.substr(begin, sample_job.find(to) - begin);
@@ -72,7 +72,7 @@ TEST_CASE("catalogue: a robot's program may stand where a motion is named") {
   const auto job = scratch.write("jobs/job.yaml", edited(sample_job, motion_block, "motion: nod.csv\n"));
   CHECK(read_job(job).motion.program == scratch / "jobs/nod.csv");
   for (const char* program : {"nod.mod", "nod.modx", "nod.prg", "nod.pgf", "nod.src", "nod.ls", "nod.JBI", "nod.script", "nod.urscript"}) {
-    scratch.write(std::string("jobs/") + program, "");  // a program is read by the simulation, not here
+    scratch.write(std::string("jobs/") + program, "");  // a program is read by the simulation
     scratch.write("jobs/job.yaml", edited(sample_job, motion_block, std::string("motion: ") + program + "\n"));
     CHECK(read_job(job).motion.program == scratch / "jobs" / program);
   }
@@ -88,7 +88,7 @@ TEST_CASE("catalogue: the shipped entries are always there") {
                {"strain.slip=free"});
   CHECK(job.dresspacks[0].dresspack.diameter == 0.06);
   CHECK(job.dresspacks[0].dresspack.components[0].components[0].components.size() == 5);
-  REQUIRE(job.dresspacks[0].dresspack.materials.size() == 3);  // the wires', the jackets' and the hose's
+  REQUIRE(job.dresspacks[0].dresspack.materials.size() == 3);  // of the wires, the jackets and the hose
   CHECK(job.dresspacks[0].dresspack.materials[0].name == "copper_halved");
 }
 
@@ -214,7 +214,7 @@ TEST_CASE("lines: a key path at the first level of a job sets one key, a whole b
                     Catch::Contains("unknown key 'simulation.segmets'; did you mean 'segments'?"));
   Node study = parse_yaml(whole, "job.yaml");
   set_value(study, "simulation.segments", parse_yaml("33", "study.yaml"), {"study.yaml"});
-  CHECK(job_from(study, {"strain.slip=free"}).simulation.segments == 33);  // a study's change goes over the job's line
+  CHECK(job_from(study, {"strain.slip=free"}).simulation.segments == 33);  // a study's change has priority over the job's line
 }
 
 TEST_CASE("set: 'from' itself can be set") {

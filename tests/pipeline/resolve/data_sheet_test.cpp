@@ -62,9 +62,8 @@ const std::string seven =
 }  // namespace
 
 TEST_CASE("cores are packed as narrowly as the standard for their bundles says") {
-  // IEC 60502-1, table A.2: width of n cores over that of one. It is meant to err to the wide side where a
-  // ring is not full, by up to 10 % (nine cores: 4, and eight around one are 3.61), and rounds up to two
-  // figures.
+  // IEC 60502-1, table A.2: width of n cores / width of one. Where a ring is not full the table is too wide on purpose, by up to
+  // 10 % (nine cores: 4, but eight around one need 3.61). It is rounded up to two digits.
   const std::map<int, double> standard{
       {2, 2},     {3, 2.16},  {4, 2.42},  {5, 2.7},   {6, 3},    {7, 3.35}, {8, 3.66}, {9, 4},    {10, 4},
       {11, 4},    {12, 4.16}, {13, 4.41}, {14, 4.41}, {15, 4.7}, {16, 4.7}, {17, 5},   {18, 5},   {19, 5},
@@ -97,7 +96,7 @@ TEST_CASE("no two parts of a bundle overlap, whatever their number and lay") {
             CHECK(std::tan(ring.lay_angle) == Approx(2 * pi * ring.radius / lay_length));
           inner = ring.radius;
         }
-        // Wires leave no hole in their middle that another would fit into.
+        // Wires leave no gap in their middle that another wire would fit into.
         if (fillers == Fillers::none && std::isinf(lay_length)) CHECK(rings.front().radius < 1);
       }
 }
@@ -113,7 +112,7 @@ TEST_CASE("a data sheet's numbers come back from the layers it stands for") {
   CHECK(outer.hand == Hand::left);
   CHECK(std::tan(outer.lay_angle) == Approx(2 * pi * outer.helix_radius / 60e-3));
   CHECK(outer.helix_radius + outer.radius == Approx(3e-3));  // 8.2 / 2 - 1.1 mm
-  // Stranding tables give 64 wires of 0.1 mm for 0.5 mm2; the metal is that of the sheet within one wire.
+  // Stranding tables give 64 wires of 0.1 mm for 0.5 mm2. The metal area agrees with the sheet to within one wire.
   CHECK(wire_area(cable) == Approx(7 * 64 * pi / 4 * 0.01e-6));
   for (const Component& wires : outer.components) {
     CHECK(wires.hand == Hand::right);
@@ -165,7 +164,7 @@ TEST_CASE("a sheet's line is what its keys are") {
   CHECK(refusal("7 x 0.5 mm2, wire 0.1 mm, outer diameter 8.2 mm, jacket thickness 1.1 mm") == "");
   CHECK_THAT(refusal("7 x 0.5 mm2, sausage, wire 0.1 mm"),
              Catch::Contains("'sausage' of a data sheet is not understood") && Catch::Contains("dresslife manual data_sheet"));
-  // A jacket's material without its thickness, and words that change nothing.
+  // A jacket's material without its thickness, and words without effect.
   const std::string by_rules = expanded("{cores: 7, cross_section_mm2: 0.5, outer_diameter_mm: 8.2, jacket_material: polyurethane}");
   for (const char* jacket : {"jacket PUR", "PUR jacket", "outer sheath PUR"})
     CHECK(expanded(std::string("7 x 0.5 mm2, OD 8.2 mm, ") + jacket) == by_rules);
@@ -182,7 +181,7 @@ TEST_CASE("a sheet's line is what its keys are") {
   CHECK_THAT(refusal("7 x 0.5 mm2, bend radius 10 x d"), Catch::Contains("give the dresspack least_bend_radius_mm in mm"));
   CHECK_THAT(refusal("7 x 0.5 mm2, weight 65 kg/km"), Catch::Contains("give mass_kg_per_m: 0.065 beside data_sheet"));
   CHECK_THAT(refusal("7 x 0.5 mm2, 5 million cycles"), Catch::Contains("as ratings beside data_sheet"));
-  // The conductor's diameter as the wire's.
+  // The conductor's diameter given as the wire's.
   CHECK_THAT(refusal("4 x 0.25 mm2, wire 0.5 mm, OD 5 mm, jacket 0.8 mm"),
              Catch::Contains("0.25 mm2 are 1 wire of 0.5 mm (flexible conductors have 7 and more)") && Catch::Contains("wire_diameter_mm: 0.1"));
   CHECK_THAT(refusal("7 x 0.5 mm2, wire 0.1 mm, wires 0.1 mm"),
@@ -190,7 +189,7 @@ TEST_CASE("a sheet's line is what its keys are") {
   CHECK_THAT(refusal("7 x 0.5 mm2, wire 0.1 mm, jacket 1 mm"),
              Catch::Contains("data_sheet has no outer_diameter_mm; give it, or conductor_class"));
   CHECK_THAT(refusal("7 x 0.5 mm2, wire 1.2.3 mm, jacket 1 mm"), Catch::Contains("sheet:1:1: error: "));
-  // All that is not understood at once.
+  // All words that are not understood are reported at once.
   CHECK_THAT(refusal("7 x 0.5, sausage, wire 0.1 mm"),
              Catch::Contains("write '7 x 0.5 mm2'") && Catch::Contains("'sausage' of a data sheet is not understood"));
 }
@@ -243,7 +242,7 @@ TEST_CASE("a conductor's class stands in for what a sheet leaves out, and the so
     int wires;
     double wire;  // [mm]
   };
-  // As makers list their strands by IEC 60228 (and VDE 0812 below 0.5 mm2).
+  // Strands in makers' lists by IEC 60228 (and VDE 0812 below 0.5 mm2).
   const Strand strands[] = {{5, 0.5, 16, 0.20},  {5, 0.75, 24, 0.20}, {5, 1, 32, 0.20},    {5, 1.5, 30, 0.25}, {5, 2.5, 50, 0.25},
                             {5, 4, 56, 0.30},    {5, 6, 84, 0.30},    {5, 10, 80, 0.40},   {5, 16, 128, 0.40}, {5, 25, 200, 0.40},
                             {6, 0.14, 18, 0.10}, {6, 0.5, 28, 0.15},  {6, 0.75, 42, 0.15}, {6, 1, 56, 0.15},   {6, 1.5, 84, 0.15},
@@ -256,13 +255,13 @@ TEST_CASE("a conductor's class stands in for what a sheet leaves out, and the so
     CHECK(wires.radius == Approx(strand.wire / 2e3));
     int count = 0;
     for (const Component& layer : cable.components[0].components) count += layer.count;
-    CHECK(count == Approx(strand.wires).epsilon(0.03).margin(1));  // makers round to what their machines strand
+    CHECK(count == Approx(strand.wires).epsilon(0.03).margin(1));  // makers round to suit their machines
   }
-  // From the inside outwards: H05VV5-F 3 x 1.5 has cores of 3.1 mm (1.7 and 2 x 0.7) and is some 8.2 .. 9.3 mm wide.
+  // From the inside outward: H05VV5-F 3 x 1.5 has cores of 3.1 mm (1.7 and 2 x 0.7) and is about 8.2 .. 9.3 mm wide.
   const Component control = cable_of("cores: 3, cross_section_mm2: 1.5, conductor_class: 5");
   CHECK(2e3 * control.components[0].radius == Approx(3.1).epsilon(0.05));
   CHECK(2e3 * control.radius == Approx(8.8).epsilon(0.07));
-  // From the outside inwards: the jacket of the shipped control cable is 1.1 mm.
+  // From the outside inward: the jacket of the shipped control cable is 1.1 mm.
   const Component known = cable_of("cores: 7, cross_section_mm2: 0.5, conductor_class: 6, outer_diameter_mm: 8.2");
   CHECK(1e3 * (known.radius - known.components[0].helix_radius - known.components[0].radius) == Approx(1.2).epsilon(0.05));
 
@@ -280,7 +279,7 @@ TEST_CASE("a conductor's class stands in for what a sheet leaves out, and the so
   CHECK_THAT(refusal_of("cores: 1, cross_section_mm2: 400, conductor_class: 6"), Catch::Contains("no conductor of class 6 so large"));
   CHECK_THAT(refusal_of("cores: 3, cross_section_mm2: 0.5, conductor_class: 6, wire_diameter_mm: 0.2, outer_diameter_mm: 8"),
              Catch::Contains("class 6 has wires of 0.16 mm at most at 0.5 mm2"));
-  // Without the class and the wire's diameter class 6 counts, and the source says so.
+  // Without class and wire diameter, class 6 is assumed, and the source states this.
   const Component assumed = cable_of("cores: 3, cross_section_mm2: 0.5, outer_diameter_mm: 8, jacket_thickness_mm: 1");
   CHECK(assumed.components[0].components[0].radius == Approx(0.15 / 2e3));
   Node pack = parse_yaml("name: p\nsource: mine\ncomponents:\n  - {name: lead, helix_radius_mm: 0, data_sheet: '12 x 0.25 mm2'}\n",
@@ -289,7 +288,7 @@ TEST_CASE("a conductor's class stands in for what a sheet leaves out, and the so
   CHECK_THAT(pack.find("source")->text, Catch::Contains("ESTIMATE by rules: lead conductor class 6, wire "));
   CHECK_THAT(pack.find("estimates")->text, Catch::StartsWith("data_sheet of lead: conductor_class 6, wire_diameter_mm 0.1, ") &&
                                                Catch::Contains("wire_lay_length_mm ") && Catch::EndsWith("material copper_halved"));
-  // A sheet that leaves nothing out has no estimates.
+  // A complete sheet contains no estimates.
   Node full = parse_yaml(
       "components:\n  - {name: lead, helix_radius_mm: 0, data_sheet: {cores: 7, cross_section_mm2: 0.5, wire_diameter_mm: 0.1, "
       "lay_length_mm: 60, wire_lay_length_mm: 15, outer_diameter_mm: 8.2, jacket_thickness_mm: 1.1, material: copper}}\n",

@@ -1,4 +1,4 @@
-// A job with a list of dresspacks: read, checked, changed and written out.
+// A job with a list of dresspacks: read, checked, changed and written.
 #include <algorithm>
 
 #include "pipeline/job/job.h"
@@ -15,7 +15,7 @@ std::string block(const std::string& from, const std::string& to) {
   return sample_job.substr(begin, sample_job.find(to) - begin);
 }
 
-/// A block of the sample job as it stands in an item of the list.
+/// Returns a block of the sample job with the indentation of an item of the list.
 std::string indented(const std::string& text) {
   std::string result;
   for (std::size_t begin = 0; begin < text.size();) {
@@ -33,13 +33,13 @@ std::string item(const std::string& name) {
   return "  - name: " + name + "\n" + indented(dresspack_block) + indented(routing_block);
 }
 
-/// The sample job with a list in the place of its dresspack.
+/// Returns the sample job with a list instead of its dresspack.
 std::string listed(const std::string& items) {
   return edited(edited(sample_job, dresspack_block, ""), routing_block, "dresspacks:\n" + items);
 }
 const std::string two = item("main hose") + item("sensor cable");
 
-/// The last place of a needle, "job.yaml:line:column".
+/// Returns the last place of a needle, "job.yaml:line:column".
 std::string place_of_last(const std::string& text, const std::string& needle) {
   const std::size_t at = text.rfind(needle);
   const std::string before = text.substr(0, at);
@@ -79,7 +79,7 @@ TEST_CASE("dresspacks: the settings read back to the same job, for every stage")
 TEST_CASE("dresspacks: two keys of the job are written as two keys, a list as a list") {
   const Job one = job_of_text(sample_job), list = job_of_text(listed(item("main hose")));
   CHECK(name_among(one, 0).empty());
-  CHECK(name_among(list, 0).empty());  // the only one needs no name among others
+  CHECK(name_among(list, 0).empty());  // a single dresspack needs no name
   CHECK(dresspack_words(list, 0) == "dresspack");
   for (const std::string& text : {job_text(one), part_text(one, JobPart::sim)}) {
     CHECK(text.find("\ndresspack:\n") != std::string::npos);
@@ -164,7 +164,7 @@ TEST_CASE("dresspacks: what they share must agree") {
       message_of([&] { job_of_text(listed(two), {soft}); })
           .find("material 'copper' is another than that of the dresspack before; give one of the two another "
                 "name") != std::string::npos);
-  // Levels of slip are those of the deepest.
+  // The number of slip levels is that of the deepest dresspack.
   CHECK(message_of([&] {
           job_of_text(listed(two), {"strain.slip=[stick, free, free]"});
         }).find("strain.slip lists 3 levels (the dresspack has 2)") != std::string::npos);

@@ -19,10 +19,10 @@ Job job_of_text(const std::string& text, const std::vector<std::string>& sets = 
   return job_from(parse_yaml(text, "job.yaml"), sets);
 }
 
-/// A change of the sample job, where its error points, and what it says from there on.
+/// A change of the sample job, the place of its error, and the error's message from this place on.
 struct Case {
   std::string from, to;
-  std::string needle;  ///< begins at the place of the error
+  std::string needle;  ///< text at the place of the error
   std::string message;
 };
 
@@ -158,7 +158,7 @@ TEST_CASE("job: what is not a number is refused with a reminder of the unit") {
   for (const char* word : {"0x10", "1_000", "1,5", "+-5", "1e", "--1", "1.2.3"}) {
     const std::string text = edited(sample_job, "gate: 1e-4", std::string("gate: '") + word + "'");
     CHECK(message_of([&] { job_of_text(text); }).find("must be a number") != std::string::npos);
-    if (std::string(word) == "1,5") continue;  // unquoted, a list's comma
+    if (std::string(word) == "1,5") continue;  // a list's comma if unquoted
     const std::string bare = edited(sample_job, "gate: 1e-4", std::string("gate: ") + word);
     INFO(word);
     CHECK(message_of([&] { job_of_text(bare); }).find("must be a number") != std::string::npos);
@@ -450,8 +450,8 @@ TEST_CASE("job: the resolved job reads back to the identical text") {
   CHECK(text.find("lower_deg: -60.1,") == std::string::npos);  // block style, one key per line
   CHECK(text.find("lower_deg: -60.1\n") != std::string::npos);
   CHECK(text.find("speed_deg_per_s: 33.3\n") != std::string::npos);
-  CHECK(text.find("operating_hours_per_week: 80\n") != std::string::npos);  // a default, filled in
-  CHECK(text.find("youngs_modulus_GPa: 117\n") != std::string::npos);       // copper, written out
+  CHECK(text.find("operating_hours_per_week: 80\n") != std::string::npos);  // a default, written explicitly
+  CHECK(text.find("youngs_modulus_GPa: 117\n") != std::string::npos);       // copper, written explicitly
 }
 
 TEST_CASE("job: the shipped entries make a job that reads back to the identical text") {
@@ -472,7 +472,7 @@ TEST_CASE("job: clamp poses make robot and clamps needless, and a given clamp wr
       text, text.substr(text.find("  base_clamp"), text.find("simulation:") - text.find("  base_clamp")), "");
   const auto file = scratch.write("job.yaml", "motion: {clamp_poses: poses/p.csv}\n" + without);
   const Job job = read_job(file);
-  CHECK(job.motion.clamp_poses == scratch / "poses/p.csv");  // beside the job, independent of the working folder
+  CHECK(job.motion.clamp_poses == scratch / "poses/p.csv");  // relative to the job, independent of the working folder
   CHECK(files_beside(job) == std::vector<std::filesystem::path>{scratch / "poses/p.csv"});
   CHECK(job.robot.joints.empty());
   CHECK(job_text(job_of_text(job_text(job))) == job_text(job));
@@ -533,7 +533,7 @@ TEST_CASE(
   }
   CHECK(parts(one, "")[0] != parts(one, "", {}, "118")[0]);
   CHECK_THAT(message_of([&] { parts(one, ", poisson_ratio: 0.51"); }), Catch::Contains("must be 0 .. 0.5"));
-  // Up to which strain a grip holds follows from the curve, given or implied: n' is b / c, here 0.2 of both.
+  // The largest strain that a grip holds follows from the curve, given or implied: n' is b / c, here 0.2 for both.
   for (const std::string at : {"base", "tool"}) {
     const std::vector<std::string> grip{"dresspack.components.1." + at + "_grip_N=10"};
     CHECK(parts(one, curve, grip)[0] == parts(other, curve, grip)[0]);
@@ -580,12 +580,12 @@ TEST_CASE("job: the manual lists every key once with unit, range, default and me
     INFO(row.map << "." << row.key << ": " << row.meaning);
     CHECK(paths.insert(row.map + "." + row.key).second);
     CHECK((row.meaning.ends_with('.') || row.meaning.ends_with(".`")));
-    // Whole sentences begin with a capital letter, but where they begin with a choice: "torsion: the length ...".
+    // Whole sentences begin with a capital letter, unless they begin with a choice: "torsion: the length ...".
     CHECK((std::isupper(static_cast<unsigned char>(row.meaning[0])) != 0 || row.meaning.find(": ") < 20));
     CHECK(std::count_if(row.fallback.begin(), row.fallback.end(), [](char c) { return std::isdigit(c) != 0; }) < 8);
     CHECK(row.map.find("calibration") == std::string::npos);
   }
-  // A struct within itself, or in a second place, refers to the first one.
+  // A struct within itself, or at a second place, refers to its first description.
   CHECK(manual.find("### motion.steps[].steps[]") == std::string::npos);
   CHECK(manual.find("### routing.tool_clamp") == std::string::npos);
   CHECK(manual.find("The clamp nearer to the tool. Its keys are those of `routing.base_clamp`.") != std::string::npos);

@@ -1,4 +1,4 @@
-// How cables are laid into a hose: what is loose by itself, and what is refused.
+// Laying of cables in a hose: which cables are loose by default, and refused inputs.
 
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"

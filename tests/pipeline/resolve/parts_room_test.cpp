@@ -1,4 +1,4 @@
-// Parts outside the bore, the dresspack or in its core: refused with millimetres, whatever is known of the bore.
+// Parts outside the bore or the dresspack, or inside its core: refused with a distance in mm, however the bore is known.
 #include "pipeline/job/parts_room.h"
 
 #include "pipeline/cable/overlap.h"
@@ -13,7 +13,7 @@ using Catch::Contains;
 
 namespace {
 
-/// One cable of 11 mm at a distance from the axis, and keys of its dresspack.
+/// Returns a dresspack with these keys and one cable of 11 mm at a distance from the axis.
 std::string pack(const std::string& keys, double helix_radius_mm, const std::string& parts = "") {
   return "name: hose\nsource: made up\ndiameter_mm: 60\nbending_stiffness_Nm2: 20\n" + keys +
          "components:\n" + parts +
@@ -38,7 +38,7 @@ TEST_CASE("parts room: a cable outside the bore is refused with how far, and the
   CHECK(refusal(pack("inner_diameter_mm: 58.5\n", 23.75)) == "");
   CHECK_THAT(refusal(pack("hose_corrugation: {pitch_mm: 5, height_mm: 4.5, wall_mm: 0.8}\n", 23.75)),
              Contains("3.75 mm outside the hose's bore") && Contains("now by hose_corrugation"));
-  // As much as a caliper reads wrong, 2 % of 11 mm, is let through.
+  // A caliper's error, 2 % of 11 mm, is accepted.
   CHECK(refusal(pack("inner_diameter_mm: 52\n", 20.71)) == "");
   CHECK_THAT(refusal(pack("inner_diameter_mm: 52\n", 20.73)), Contains("outside the hose's bore"));
 }
@@ -71,14 +71,14 @@ TEST_CASE("parts room: parts that have no room wherever they are put are refused
                           !Contains("give helix_radius_mm"));
   }
   CHECK(two("inner_diameter_mm: 28.1", "place: auto", "place: auto") == "");
-  // As they lie they have no room, otherwise they have.
+  // The parts do not fit at their given places, but they fit at other places.
   CHECK_THAT(two("inner_diameter_mm: 29", "helix_radius_mm: 0", "helix_radius_mm: 10"),
              Contains("do not fit into the bore of 29 mm as they lie") && Contains("write place: auto for both"));
   CHECK(two("inner_diameter_mm: 29", "place: auto", "place: auto") == "");
   CHECK_THAT(two("inner_diameter_mm: 30\ncore_diameter_mm: 10\ncore_bending_stiffness_Nm2: 0.1", "helix_radius_mm: 8", "helix_radius_mm: 9"),
              Contains("'lead' is 14 mm thick (between the core of 10 mm and the bore of 30 mm are 10 mm)") &&
                  Contains("inner_diameter_mm: 38 or more"));
-  // A cable that is thicker than the bore is no matter of its cores.
+  // If a cable is thicker than the bore, the message is not about its cores.
   const std::string thick = refusal("name: hose\nsource: test\ndiameter_mm: 29\nhose_material: hose_polyamide\n" + narrow +
                                     "\ncomponents:\n  - {name: lead, helix_radius_mm: 0, data_sheet: '7 x 0.5 mm2, OD 25 mm'}\n");
   CHECK_THAT(thick, Contains("the cable is 25 mm thick (the hose is 23 mm wide inside)") && !Contains("core"));
@@ -98,7 +98,7 @@ TEST_CASE("parts room: the bore of a hose is asked for, and that of cables in so
   CHECK_THAT(warnings[0].words, Contains("2 mm outside a bore of 25.5 mm radius, which is an ESTIMATE") &&
                                     Contains("Likely cause: the bore is not given") &&
                                     Contains("Remedy: give inner_diameter_mm as measured"));
-  // A cable by itself, in its jacket, is as wide as its dresspack.
+  // A single cable in its jacket is as wide as its dresspack.
   const Dresspack alone = read_dresspack(DRESSLIFE_SOURCE_DIR "/config/dresspacks/control_cable.yaml");
   CHECK_FALSE(room_of_parts(alone).estimated);
   CHECK(room_of_parts(alone).bore == alone.diameter / 2);

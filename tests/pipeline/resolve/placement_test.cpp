@@ -20,7 +20,7 @@ using Catch::Contains;
 
 namespace {
 
-/// Least room between any two parts, and between them and the bore and the core [m].
+/// Returns the smallest gap between any two parts, and between parts and bore or core [m].
 double least_room(const std::vector<double>& radii, const std::vector<PlacedPart>& places, double bore,
                   double core) {
   double least = HUGE_VAL;
@@ -62,7 +62,7 @@ TEST_CASE(
     const auto places = pack_in_bore(radii, bore, core);
     double area = core * core;
     for (const double of : radii) area += of * of;
-    // More than all of the room is no question; a quarter of it always fits.
+    // Parts with more area than the bore never fit. Parts with a quarter of it always fit.
     if (area > bore * bore) CHECK_FALSE(places);
     if (core == 0 && area < 0.2 * bore * bore) CHECK(places);
     if (!places) continue;
@@ -76,17 +76,17 @@ TEST_CASE("placement: closed forms of one, two, six and seven parts") {
   const auto one = pack_in_bore({4e-3}, 0.02, 0);
   REQUIRE(one);
   CHECK((*one)[0].helix_radius == 0);
-  // Six of the radius r touch each other on 2 r; where nothing is left, in a bore of 3 r.
+  // Six of radius r touch each other on a circle of radius 2 r, with no gap in a bore of 3 r.
   const auto six = pack_in_bore(std::vector<double>(6, 4e-3), 0.012 + 1e-12, 0);
   REQUIRE(six);
   for (const PlacedPart& part : *six) CHECK(part.helix_radius == Approx(8e-3).epsilon(1e-6));
   CHECK_FALSE(pack_in_bore(std::vector<double>(6, 4e-3), 0.0119, 0));
-  // Seven in the same bore: one goes to the middle.
+  // Seven in the same bore: one is placed in the middle.
   const auto seven = pack_in_bore(std::vector<double>(7, 4e-3), 0.012 + 1e-12, 0);
   REQUIRE(seven);
   CHECK(std::count_if(seven->begin(), seven->end(),
                       [](const PlacedPart& part) { return part.helix_radius == 0; }) == 1);
-  // Room to the wall is half of a gap to each other: bore - R - r = R (pi - 2 asin(r / R)) / 2 of two parts.
+  // The gap to the wall is half of the gap between parts: bore - R - r = R (pi - 2 asin(r / R)) / 2 for two parts.
   const auto two = pack_in_bore({3e-3, 3e-3}, 0.02, 0);
   REQUIRE(two);
   const double R = (*two)[0].helix_radius;
@@ -98,7 +98,7 @@ TEST_CASE("placement: a dresspack's parts get their places, and a job reads it")
   const auto read = [&](const std::string& text) { return read_dresspack(scratch.write("hose.yaml", text)); };
   const std::string bore = "inner_diameter_mm: 50\n";
   const Dresspack ring = read(hose_text(bore, cable("lead", 6, 5)));
-  REQUIRE(ring.components.size() == 1);  // even: still six equal parts
+  REQUIRE(ring.components.size() == 1);  // six equal parts even after placement
   CHECK(ring.components[0].count == 6);
   CHECK(ring.components[0].helix_radius > 0.015);
   CHECK(overlap_warnings(ring).empty());
@@ -109,11 +109,11 @@ TEST_CASE("placement: a dresspack's parts get their places, and a job reads it")
   CHECK(mixed.components[0].name == "lead a");
   CHECK(mixed.components[4].name == "bus b");
   CHECK(overlap_warnings(mixed).empty());
-  // A part in the middle with a place of its own stays there.
+  // A part in the middle with a given place stays there.
   const Dresspack around =
       read(hose_text(bore, cable("power", 1, 8, "helix_radius_mm: 0") + cable("lead", 6, 5)));
   CHECK(around.components[1].helix_radius >= 0.0129);
-  // Also where the other would lie in the middle itself.
+  // Also if the other part would itself be placed in the middle.
   const Dresspack beside =
       read(hose_text(bore, cable("power", 1, 8, "helix_radius_mm: 0") + cable("lead", 1, 5)));
   CHECK(beside.components[1].helix_radius >= 0.0129);
@@ -147,7 +147,7 @@ TEST_CASE("placement: what cannot be placed is refused with what would do") {
   CHECK_THAT(
       refusal(hose_text("inner_diameter_mm: 50\n", cable("lead", 3, 5, "place: auto, helix_radius_mm: 10"))),
       Contains("both place and helix_radius_mm are given"));
-  // A data sheet that is refused: nothing else is wrong.
+  // For a refused data sheet no other error is reported.
   const std::string sheet = refusal(
       hose_text("inner_diameter_mm: 50\n",
                 "  - {name: a, place: auto, data_sheet: '4 x 2.5 mm2, sausage'}\n" + cable("lead", 3, 5)));

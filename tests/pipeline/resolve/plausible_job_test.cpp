@@ -40,7 +40,7 @@ TEST_CASE("plausible steps: a place less than a millimetre beside the one before
     return words;
   };
   CHECK(doubts_of({0, 200, 400}).empty());
-  CHECK(doubts_of({0, 200, 200.01, 400}).empty());  // within what a robot repeats
+  CHECK(doubts_of({0, 200, 200.01, 400}).empty());  // within a robot's repeatability
   CHECK_THAT(doubts_of({0, 200, 200.1, 400}), Catch::Contains("lies 0.1 mm from the one before") && Catch::Contains("100 mm in the program"));
   CHECK(doubts_of({0, 0.5, 1, 1.5, 2}).empty());
 }
@@ -54,20 +54,20 @@ TEST_CASE("plausible job: a speed for moves that all have their own has no effec
   for (MotionStep& step : motion.steps) step.tool_speed = 0.5;
   REQUIRE(plausibility_of_steps(motion).size() == 1);
   CHECK(plausibility_of_steps(motion)[0].words.find("motion.override_percent: 50") != std::string::npos);
-  motion.speed_percent = 0.5;  // a share; the override has 1 % at least
+  motion.speed_percent = 0.5;  // as a share instead of per cent; the override is at least 1 %
   CHECK(plausibility_of_steps(motion)[0].words.find("motion.override_percent: 50") != std::string::npos);
 }
 
 TEST_CASE("plausible steps: angles that are all below a turn in radians and yet move") {
   CHECK(doubts({}) == 0);
   CHECK(doubts({move_to({1, 2}), move_to({1.2, 2})}) == 1);
-  CHECK(doubts({move_to({100, 2}), move_to({100.05, 2})}) == doubts({move_to({1, 2}), move_to({1.05, 2})}));  // it stands
+  CHECK(doubts({move_to({100, 2}), move_to({100.05, 2})}) == doubts({move_to({1, 2}), move_to({1.05, 2})}));  // at rest
   CHECK(doubts({move_to({1, -6.2}), move_to({3, 2})}) == 1);
   CHECK(doubts({move_to({1, -6.3}), move_to({3, 2})}) == 0);
   CHECK(doubts({move_to({1, 2}), move_to({6.3, 2})}) == 0);
   MotionStep block;
   block.repeat = 2, block.steps = {move_to({90, 0})};
-  CHECK(doubts({move_to({1, 2}), move_to({3, 2}), block}) == 0);  // also what a block holds
+  CHECK(doubts({move_to({1, 2}), move_to({3, 2}), block}) == 0);  // a block's contents count as well
 }
 
 TEST_CASE("plausible steps: speeds that are shares or in mm/s, dwells in ms, told once with their number") {
@@ -137,7 +137,7 @@ TEST_CASE("plausible jobs: angles in radians, obstacles without contact, repeats
   CHECK_THAT(plausibility_warnings(job)[0].words, Catch::Contains("routing.free_length_m: 1.8 if that was millimetres"));
   job.dresspacks[0].routing.free_length = 1.8;
   for (const auto& [twist, doubts] : {std::pair{1.57, 1}, {-0.785, 1}, {0.5, 1}, {-4.91, 0}, {2.7, 0}, {45.0, 0}, {3601.0, 1}}) {
-    job.dresspacks[0].routing.pre_twist = twist * degree;  // eighths of a turn in radians, halves of a turn, or angles that a search found
+    job.dresspacks[0].routing.pre_twist = twist * degree;  // eighths of a turn in rad, halves of a turn, or a search's angles
     CAPTURE(twist);
     CHECK(plausibility_warnings(job).size() == std::size_t(doubts));
   }
@@ -207,7 +207,7 @@ TEST_CASE("plausible jobs: a mounting pose in rounded radians, segments longer t
 
 namespace {
 
-/// Six axes of a published robot; file: where they are described, and where the accelerations are.
+/// Returns a job with six axes of a published robot. file: source of the robot; accelerations: source of the accelerations.
 Job with_axes(const std::string& file = "robot.yaml", const std::string& accelerations = "robot.yaml") {
   Job job;
   const double speeds[] = {175, 175, 175, 360, 360, 500}, rates[] = {760, 555, 1170, 5155, 5420, 7615};
@@ -245,7 +245,7 @@ TEST_CASE(
   job.robot.joints[0].lower = -job.robot.joints[0].upper;  // continuous
   CHECK(doubts_of(job) == "");
   job.robot.joints[0].upper =
-      251 * 360 * degree;  // a wrist with 251 revolutions: no robot has 1577 deg as a limit
+      251 * 360 * degree;  // a wrist with 251 revolutions, 1577 rad: no robot has a limit of 1577 deg
   CHECK(doubts_of(job) == "");
   Job radians = with_axes();
   for (Joint& joint : radians.robot.joints) joint.lower = -2.9 * degree, joint.upper = 2.9 * degree;
@@ -268,7 +268,7 @@ TEST_CASE("plausible jobs: speeds of a URDF in degrees, accelerations in radians
       slow,
       Catch::StartsWith("job.yaml:4:8: warning: a1 takes 13.2 s") &&
           Catch::Contains("accelerations_deg_per_s2: [760, 555, 1170, 5155, 5420, 7615] if that was rad/s2"));
-  CHECK(std::count(slow.begin(), slow.end(), '\n') == 1);  // one remedy for the list
+  CHECK(std::count(slow.begin(), slow.end(), '\n') == 1);  // one remedy for all axes
   job = with_axes("arm.urdf", "job.yaml");
   for (int k = 0; k < 3; ++k)
     std::swap(job.robot.joints[k].acceleration, job.robot.joints[5 - k].acceleration);
@@ -281,7 +281,7 @@ TEST_CASE("plausible jobs: speeds of a URDF in degrees, accelerations in radians
   for (Joint& joint : job.robot.joints) joint.acceleration *= 10;
   CHECK_THAT(doubts_of(job), Catch::Contains("every axis reaches its full speed within 0.0315 s (limit 0.05 s") &&
                                  Catch::Contains("accelerations_deg_per_s2: [760, 555, 1170, 5155, 5420, 7615] if there is an extra zero"));
-  for (Joint& joint : job.robot.joints) joint.acceleration = 500 * degree;  // all alike
+  for (Joint& joint : job.robot.joints) joint.acceleration = 500 * degree;  // all equal
   CHECK(doubts_of(job) == "");
 }
 
@@ -327,7 +327,7 @@ TEST_CASE("plausible jobs: a clamp in the air") {
              Catch::Contains("lies 0.759 m from all shapes of l6") && Catch::Contains("robot.links.7.boxes"));
   job.dresspacks[0].routing.longest_bracket = 0.8;
   CHECK(with("l6", {0, 0.72, -0.24}) == "");
-  job.robot.links[3].meshes.emplace_back();  // whose surface is not read here
+  job.robot.links[3].meshes.emplace_back();  // meshes are not read in this check
   CHECK(with("l3", {0, 0, 2.9}) == "");
 }
 
@@ -349,7 +349,7 @@ TEST_CASE("plausible steps: one target in radians among others, one place in met
   CHECK(words({home, move_to({0, 0, 0, 0, 0, 0})}) == "");             // the zero pose
   CHECK(words({home, move_to({0.1, -0.2, 0.3, 0, 0.1, 0.2})}) == "");  // its adjustment
   CHECK(words({home, move_to({0, -1.2, 1.2, 0, 0, 0})}) == "");        // two axes
-  CHECK(words({home, turned, turned, turned}) == "");                  // most of the program stands so
+  CHECK(words({home, turned, turned, turned}) == "");                  // most of the program has this pose
   const auto place = [](double x, double y, double z, const char* object = "table") {
     MotionStep step;
     step.position = {x / 1e3, y / 1e3, z / 1e3}, step.work_object = object;

@@ -102,7 +102,7 @@ TEST_CASE(
 }
 
 TEST_CASE("document: a stray comma at the start is refused") {
-  // The library's own loop over documents never ends on it.
+  // The library's own loop over documents does not terminate for this text.
   CHECK(refusal(",").find("is not YAML (no value begins like this); correct the line") != std::string::npos);
   CHECK(refusal("# remark\n, a: 1\n").starts_with("f.yaml:2:1: error: is not YAML"));
 }
@@ -151,7 +151,7 @@ TEST_CASE("document: random bytes are read or refused, never anything else") {
     CHECK(message.starts_with("f.yaml"));
     CHECK(message.find('\n') == std::string::npos);
   }
-  CHECK(refused > 1000);  // the trial does reach the refusals
+  CHECK(refused > 1000);  // the trials cover the refusals
 }
 
 TEST_CASE("document: a tree as text reads back to the same tree, whatever its words are") {
@@ -210,7 +210,7 @@ TEST_CASE("document: files that cannot be read say so") {
         (scratch / ".").string() + ": error: is a folder, not a file; name a file");
 }
 
-/// The library's own layout.
+/// Writes the node with the library's own layout.
 void emit_by_library(YAML::Emitter& out, const Node& node) {
   const auto put = [&](const std::string& text, bool quoted) {
     if (quoted) out << YAML::DoubleQuoted;

@@ -1,4 +1,4 @@
-// One description of a struct: what it reads, refuses, writes and tells of its keys.
+// One description of a struct: reading, refusals, writing and the manual of its keys.
 #include "pipeline/settings/fields.h"
 
 #include <map>
@@ -130,7 +130,7 @@ TEST_CASE("fields: the ends of a range are in it, and what lies beyond is refuse
            {"share_x: 1", "did you mean 'share'?\n"},
            {"unlike_anything: 1", "keys here: name, share"}})
     CHECK_THAT(refusal(keys) + "\n", Catch::Contains(words));
-  // All at once, each at its line.
+  // All errors at once, each at its line.
   CHECK_THAT(refusal("share: 2\ncount: 0\n"),
              Catch::Contains("file.yaml:2:8") && Catch::Contains("file.yaml:3:8"));
 }
@@ -144,7 +144,7 @@ TEST_CASE("fields: a wire gauge is answered with its section where a section is 
   const auto refused = [&](const std::string& keys) {
     return message_of([&] { read_fields(parse_yaml(keys, "file.yaml"), wire); });
   };
-  // AWG 36 is 0.127 mm wide by definition.
+  // AWG 36 has a diameter of 0.127 mm by definition.
   for (const char* gauge : {"AWG 36", "awg 36", "AWG36"})
     CHECK_THAT(refused(std::string("section_mm2: ") + gauge), Catch::Contains("write 0.01267 for AWG 36; give "));
   for (const char* none : {"section_mm2: AWG", "section_mm2: gauge 36", "length_mm: AWG 36"})

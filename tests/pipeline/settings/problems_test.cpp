@@ -9,7 +9,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// What is said of the sample job after changes of it, line by line, without the places.
+/// Errors of the sample job after changes, line by line; words are without the places.
 struct Said {
   std::vector<std::string> places, words;
 };
@@ -50,9 +50,9 @@ TEST_CASE("problems: all mistakes of a job are told at once, in the order of the
 }
 
 TEST_CASE("problems: what follows from a mistake is not told") {
-  // A key under a wrong name is not missing as well.
+  // A key under a wrong name is not also reported as missing.
   CHECK(said_of({{"free_length_m:", "free_length:"}}).words == Words{"unknown key 'routing.free_length'"});
-  // Nothing is judged by a robot that was not read: neither the clamps' links nor the number of angles.
+  // If the robot was not read, neither the clamps' links nor the number of angles is checked against it.
   CHECK(said_of({{"robot:\n", "robot: [no, map]\nformer:\n"}}).words ==
         Words{"robot must be a map of settings", "unknown key 'former'"});
 }

@@ -26,8 +26,8 @@ TEST_CASE("units: a value in another unit is converted into that of the key") {
   CHECK(converted_text("cross_section_awg", 20, "cross_section_mm2") == "cross_section_mm2: 0.5176");
   CHECK(converted_text("awg", 20, "cross_section_mm2") == "cross_section_mm2: 0.5176");
   CHECK(converted_text("awg", 20, "radius_mm").empty());
-  CHECK(converted_text("diameter_s", 5, "diameter_mm").empty());  // another kind
-  CHECK(converted_text("length_m", 5, "diameter_mm").empty());    // another stem
+  CHECK(converted_text("diameter_s", 5, "diameter_mm").empty());  // another kind of unit
+  CHECK(converted_text("length_m", 5, "diameter_mm").empty());    // another name before the unit
   CHECK(converted_text("segments_mm", 5, "segments").empty());
   CHECK(square_mm_of_awg(36) == Approx(0.01267).epsilon(1e-3));  // 0.127 mm by definition
   CHECK(square_mm_of_awg(0) == Approx(53.49).epsilon(1e-3));     // 8.252 mm
@@ -81,7 +81,7 @@ TEST_CASE("units: what was read in any unit is written so that it reads back exa
   }
 }
 
-/// The fewest digits of any text that reads back, by trying all.
+/// Returns the shortest text that reads back to the number, by trying all.
 std::string shortest_by_trying(double si, const Unit& unit) {
   const double near = si / unit.to_si;
   for (int digits = 1; digits <= 17; ++digits)

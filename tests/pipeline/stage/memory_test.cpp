@@ -56,11 +56,11 @@ TEST_CASE("memory: a job runs that is within the limit and what is free, and no 
     return message_of([&] { require_memory(call, need, quiet); });
   };
   CHECK(refusal(1) == "");
-  if (const std::optional<double> free = free_memory_mb())  // a hundred times that is free at no time
+  if (const std::optional<double> free = free_memory_mb())  // a hundred times the free memory is never available
     CHECK_THAT(refusal(100 * *free), Catch::StartsWith("motion.h5: error: takes about") &&
                                          Catch::Contains("are free") &&
                                          Catch::Contains("choose fewer wires"));
-  call.limits.megabytes = 1;  // a need within it would limit this program
+  call.limits.megabytes = 1;  // a smaller need would limit this test program itself
   CHECK_THAT(refusal(1.5), Catch::Contains("--job-memory allows 1 MB") && Catch::Contains("or allow more"));
 }
 

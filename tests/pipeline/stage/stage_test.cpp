@@ -145,8 +145,8 @@ TEST_CASE(
   CHECK(man.find(".SH NAME\ndresslife\\-sample \\- makes samples\n") != std::string::npos);
   CHECK(man.find("\\fB\\-\\-assume\\fR \\fILINE=then|else\\fR\nhow a branch goes\n") != std::string::npos);
   CHECK(man.find("dresslife\\-sample input.h5 \\-o output.h5\n.EE\n") != std::string::npos);
-  CHECK(zsh.find("'*--set[") != std::string::npos);            // may be given again
-  CHECK(zsh.find("'(--quiet)--quiet[") != std::string::npos);  // not again
+  CHECK(zsh.find("'*--set[") != std::string::npos);            // may be repeated
+  CHECK(zsh.find("'(--quiet)--quiet[") != std::string::npos);  // must not be repeated
   const Outcome unknown = run({"--manual", "fish"});
   CHECK(unknown.status == 2);
   CHECK(unknown.errors.find("fish not in {man,bash,zsh}") != std::string::npos);
@@ -359,7 +359,7 @@ TEST_CASE("stage: what was printed and is lost is an error with its reason, also
     REQUIRE(child >= 0);
     if (child == 0) {
       ::dup2(::open(device, O_WRONLY), STDOUT_FILENO);
-      std::setvbuf(stdout, nullptr, _IONBF, 0);  // it fails here, and there is nothing left to flush
+      std::setvbuf(stdout, nullptr, _IONBF, 0);  // the write fails at once, so no buffer remains to flush
       std::fputs("lost", stdout);
       ::_exit(finish_output(0));
     }

@@ -1,4 +1,4 @@
-// The build graph with stages that compute nothing: what runs when, what a failure does, what is believed.
+// The build graph with stages that compute nothing: which stages run, the effect of failures, which results are valid.
 #include "pipeline/study/build_graph.h"
 
 #include <csignal>
@@ -28,7 +28,7 @@ class Bench {
     fs::create_directories(places_.programs);
     for (const char* stage : {"sim", "strain", "fatigue"}) write_stage(stage);
   }
-  /// A copy of the program with `more` bytes at its end, which do not matter to it.
+  /// Writes a copy of the stage's program with `more` bytes at its end, which do not change its behaviour.
   void write_stage(const std::string& stage, const std::string& more = "") {
     const fs::path file = places_.programs / ("dresslife-" + stage);
     fs::copy_file(DRESSLIFE_FAKE_STAGE, file, fs::copy_options::overwrite_existing);
@@ -50,7 +50,7 @@ class Bench {
     }
     return made;
   }
-  /// between: after the states were read, before a stage runs.
+  /// Runs the study. between: called after the states were read and before a stage runs.
   BuildResult run(const Study& of, const std::function<void()>& between = {}) {
     Digests before;
     states_ = states_of(of, places_, before);
@@ -61,7 +61,7 @@ class Bench {
     close_run(of, places_, result, states_, before);
     return result;
   }
-  /// The same with what lies in other jobs' folders.
+  /// Runs the study with results shared from other jobs' folders.
   BuildResult run_sharing(const Study& of) {
     std::vector<JobState> states = states_of(of, places_);
     share_stages(of, places_, states);
@@ -72,7 +72,7 @@ class Bench {
     for (const JobState& state : states_of(of, places_)) said.push_back(state.words());
     return said;
   }
-  /// What the stages of a job did, one after the other.
+  /// Returns the calls of a job's stages in their order.
   std::string calls(const std::string& job) const {
     std::string text = bytes_of(places_.job(job) / "calls");
     std::replace(text.begin(), text.end(), '\n', ' ');
@@ -82,7 +82,7 @@ class Bench {
     fs::create_directories(places_.job(job));
     std::ofstream(places_.job(job) / order) << "";
   }
-  /// Another study beside the one so far.
+  /// Switches to another study's folder beside the current one.
   void go_beside(const std::string& name) { places_.folder = places_.folder.parent_path() / name; }
   const StudyPlaces& places() const { return places_; }
   const std::vector<std::string>& events() const { return events_; }
@@ -163,14 +163,14 @@ TEST_CASE("build graph: what a study does not keep goes when its job is done, an
     REQUIRE(rows.at(0).done());
     CHECK(rows[0].life_hours > 0);
 
-    // Another stress law needs strain.h5: there, or made again from the beginning.
+    // Another stress law needs strain.h5: the kept file, or one computed again from the start.
     Study other = bench.study({{"one", "fatigue.stress=elastic"}});
     other.keep = keep;
     CHECK(bench.words(other) == Words{"stale"});
     CHECK(bench.run(other).executed == (keep == Keep::histories ? 1 : 3));
     CHECK(bench.words(other) == Words{"done"});
 
-    // Who keeps all wants what is gone.
+    // With Keep::all the removed files are needed again.
     other.keep = Keep::all;
     CHECK(bench.words(other) == Words{keep == Keep::histories ? "stale" : "to do"});
     bench.run(other);
@@ -214,7 +214,7 @@ TEST_CASE("build graph: a launcher starts every stage, and its exit status is th
   close_run(study, bench.places(), result, states, {});
   CHECK(states[0].done());
   CHECK(states[1].failure.find("strain broke") !=
-        std::string::npos);  // not the launcher's word that comes first
+        std::string::npos);  // not the launcher's own message, which comes first
   CHECK(bytes_of(bench.places().job("two") / "log").find("launcher: error: exit") != std::string::npos);
   std::istringstream launched(bytes_of(bench.places().folder / "launched"));
   int lines = 0;
@@ -242,7 +242,7 @@ TEST_CASE("build graph: jobs that are alike up to a stage make it once, and each
   CHECK(bytes_of(bench.places().job("two") / "log").find("dresslife-sim") != std::string::npos);
   CHECK(bench.run(study).executed == 0);
 
-  // Each goes on by itself.
+  // Each job continues independently.
   auto changed = jobs;
   changed[0].second = "strain.gate=3e-4";
   CHECK(bench.run(bench.study(changed)).executed == 2);
@@ -346,15 +346,15 @@ TEST_CASE(
   damaged[damaged.size() / 2] = static_cast<char>(damaged[damaged.size() / 2] ^ 4);
   for (const std::string& other : {damaged, whole + "x", std::string("notes of the user's")}) {
     std::ofstream(before.job("one") / "strain.h5", std::ios::binary | std::ios::trunc) << other;
-    CHECK(bench.run_sharing(study).executed == 2);  // its motion is whole
+    CHECK(bench.run_sharing(study).executed == 2);  // its motion is undamaged
     CHECK(bytes_of(bench.places().job("one") / "strain.h5") == whole);
     CHECK(bytes_of(before.job("one") / "strain.h5") == other);
     forget();
   }
-  // A folder that no run made is no study.
+  // A folder that no run made is not shared.
   fs::remove_all(before.folder / ".stage");
   CHECK(bench.run_sharing(study).executed == 3);
-  // A file of the user's stands in the way of a result: it stays.
+  // A user's file has the name of a result: it is not overwritten.
   fs::remove_all(before.folder);
   std::ofstream(bench.places().job("one") / "motion.h5", std::ios::trunc) << "notes of the user's";
   bench.go_beside("third");
@@ -369,14 +369,14 @@ TEST_CASE("build graph: what was made apart is not mixed") {
   const auto elastic = std::pair<std::string, std::string>{"one", "fatigue.stress=elastic"};
   const auto scatter = std::pair<std::string, std::string>{"two", "fatigue.scatter_log10=0.3"};
   bench.run(bench.study({elastic}));
-  bench.run(bench.study({scatter}));  // its motion holds its own settings: other bytes
+  bench.run(bench.study({scatter}));  // its motion file holds its own settings, so its bytes differ
   fs::remove(bench.places().job("one") / "strain.h5");
   fs::remove(bench.places().job("two") / "strain.h5");
   const Study both = bench.study({elastic, scatter});
   CHECK(bench.run(both).executed >= 2);
   CHECK(bench.words(both) == Words{"done", "done"});
   fs::remove(bench.places().job("two") / "strain.h5");
-  CHECK(bench.run_sharing(both).executed == 1);  // from the motion of the one that gave the strain
+  CHECK(bench.run_sharing(both).executed == 1);  // from the motion of the job that provided the strain
   CHECK(bench.words(both) == Words{"done", "done"});
 }
 
@@ -398,7 +398,7 @@ TEST_CASE("build graph: a program with other bytes reruns its stage, one that wa
   CHECK(bench.run(study).executed == 0);
   bench.write_stage("strain", "newer");
   bench.run(study);
-  CHECK(bench.calls("one") == "sim strain fatigue strain ");  // what comes out is the same: no fatigue
+  CHECK(bench.calls("one") == "sim strain fatigue strain ");  // the result is identical, so fatigue does not run
   CHECK(bench.words(study) == Words{"done"});
 }
 
@@ -425,7 +425,7 @@ TEST_CASE("build graph: no time decides, only content") {
       if (entry.is_regular_file()) fs::last_write_time(entry, entry.last_write_time() + shift);
     CHECK(bench.words(study) == Words{"done"});
     CHECK(bench.run(study).executed == 0);
-    // Whatever the times: a change is seen.
+    // A change is noticed whatever the file times are.
     CHECK(bench.words(bench.study({{"one", "simulation.segments=24"}})) == Words{"stale"});
   }
 }
@@ -447,7 +447,7 @@ TEST_CASE("build graph: a file beside the job counts by its content") {
   const auto before = fs::last_write_time(poses);
   fs::last_write_time(poses, before + std::chrono::hours(1));
   CHECK(bench.words(study) == Words{"done"});
-  bench.scratch().write("poses.csv", "0, 2\n");  // as long, and by the clock older than all results
+  bench.scratch().write("poses.csv", "0, 2\n");  // same length, and by its date older than all results
   fs::last_write_time(poses, before - std::chrono::hours(24 * 365));
   CHECK(bench.words(study) == Words{"stale"});
   bench.run(study);
@@ -467,7 +467,7 @@ TEST_CASE("build graph: a file beside the job counts by its content") {
   CHECK_FALSE(bench.states()[0].done());
   CHECK(bench.states()[0].failure.find(
             "poses.csv: error: has changed while dresslife-sim ran; let nothing change it meanwhile, then run again") != std::string::npos);
-  // Edited before it began, and after the run had looked.
+  // Edited after the run has read the states, before the stage starts.
   bench.run(study, [&] { bench.scratch().write("poses.csv", "0, 5\n"); });
   CHECK_FALSE(bench.states()[0].done());
   CHECK(bench.states()[0].failure ==
@@ -487,7 +487,7 @@ TEST_CASE("build graph: a failed stage stops its job only, is told with its reas
   CHECK(bench.calls("good") == "sim strain fatigue ");
   CHECK(bench.words(study) == Words{"failed   job.yaml:1:1: error: strain broke; correct it", "done"});
   const Study other = bench.study({{"bad", "simulation.segments=21"}, {"good", "simulation.segments=40"}});
-  CHECK(bench.words(other) == Words{"stale", "done"});  // those settings have not failed
+  CHECK(bench.words(other) == Words{"stale", "done"});  // the other settings have not failed
   CHECK(
       bytes_of(bench.places().job("bad") / "log").find("== dresslife-strain\njob.yaml:1:1: error: strain") !=
       std::string::npos);
@@ -525,7 +525,7 @@ TEST_CASE("build graph: a place that one job leaves is taken by the next, howeve
   bench.report_stage("b", "wait-sim");
   bool others_ended = false;
   std::thread watcher([&] {
-    constexpr int steps = 3000;  // of 10 ms, in which stages that compute nothing end on any machine
+    constexpr int steps = 3000;  // of 10 ms; enough on any machine for stages that compute nothing
     for (int step = 0; step < steps && !others_ended; ++step) {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
       others_ended = bench.calls("a") + bench.calls("c") + bench.calls("d") ==
@@ -555,12 +555,12 @@ TEST_CASE("build graph: when ninja dies, what it did not reach is not done and s
     const auto begun = [&](const std::string& job) {
       return bench.calls(job).size() >= std::string("sim strain fatigue sim ").size();
     };
-    constexpr int steps = 15000;  // of 2 ms: fails then, and does not wait for ever
+    constexpr int steps = 15000;  // of 2 ms, so that the test fails instead of waiting without limit
     for (int step = 0; step < steps && begun("b") + begun("c") + begun("d") < 2; ++step)
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
     const std::string own = std::to_string(::getpid());
-    std::ifstream children("/proc/" + own + "/task/" + own + "/children");  // Ninja is the only one
+    std::ifstream children("/proc/" + own + "/task/" + own + "/children");  // Ninja is the only child
     for (pid_t child; children >> child;) ::kill(child, SIGKILL);
   });
   const BuildResult result = bench.run(changed);
@@ -571,7 +571,7 @@ TEST_CASE("build graph: when ninja dies, what it did not reach is not done and s
     CHECK_FALSE(state.done());
     reasons.insert(state.failure);
   }
-  // Two stages run at a time; the third that waits still has the receipt of its old settings.
+  // Two stages run at a time. The third job still waits with the receipt of its old settings.
   CHECK(reasons ==
         std::multiset<std::string>{"job.yaml:1:1: error: sim broke; correct it",
                                    "dresslife-sim was broken off: ninja was ended by signal 9; run again",
@@ -617,14 +617,14 @@ TEST_CASE("build graph: a damaged or foreign result is named and made again") {
     for (const std::string& other :
          {damaged, whole.substr(0, whole.size() / 2), bytes_of(file("two", name)), std::string()}) {
       std::ofstream(file("one", name), std::ios::binary | std::ios::trunc) << other;
-      fs::last_write_time(file("one", name), time);  // as if nothing had happened
+      fs::last_write_time(file("one", name), time);  // restores the date, so that only the content differs
       CHECK(bench.words(study)[0] ==
             fmt::format("damaged  {} is not what its stage wrote; run makes it again", name));
       bench.run(study);
       CHECK(bench.words(study) == Words{"done", "done"});
       CHECK(bytes_of(file("one", name)) == whole);
     }
-    // What none of our programs wrote stays, until its owner moves it away.
+    // A file that no program of this project wrote stays until its owner moves it.
     std::ofstream(file("one", name), std::ios::binary | std::ios::trunc) << "notes of the user's";
     CHECK(bench.words(study)[0] ==
           fmt::format("foreign  {} was not written by dresslife; move it away, or run with --force", name));
@@ -634,7 +634,7 @@ TEST_CASE("build graph: a damaged or foreign result is named and made again") {
     bench.run(study);
     CHECK(bytes_of(file("one", name)) == whole);
   }
-  // A copy of all is as good as the original.
+  // A copy of the whole folder is as valid as the original.
   fs::copy(bench.places().folder, bench.scratch() / "copy", fs::copy_options::recursive);
   const StudyPlaces copied{bench.scratch() / "copy", bench.places().programs};
   CHECK(states_of(study, copied)[0].done());
@@ -674,7 +674,7 @@ TEST_CASE("receipts: a state suffices once the clock has moved on, a damaged rec
     scratch.write("cut", text.substr(0, length));
     CHECK_FALSE(read_receipt(scratch / "cut"));
   }
-  // A change in the very moment after the receipt shows.
+  // A change immediately after the receipt is noticed.
   for (int k = 0; k < 50; ++k) {
     write_receipt(scratch / "receipt", {"r", "-", "o", {}}, output);
     REQUIRE(read_receipt(scratch / "receipt")->written_ns >= state_of(output).changed_ns);

@@ -51,7 +51,7 @@ TEST_CASE("changes: a search ends when a file that its jobs read changes, goes o
     return "";
   };
   const std::string correct = " during the search; let nothing change it meanwhile, then run again";
-  scratch.write("other.src", "DEF other()\nEND\n");  // which it does not call
+  scratch.write("other.src", "DEF other()\nEND\n");  // the program does not call it
   CHECK(ended().empty());
   scratch.write("grip.src", "DEF grip()\nEND\n");
   CHECK(ended() == (scratch / "grip.src").string() + ": error: came beside the program" + correct);

@@ -54,7 +54,7 @@ TEST_CASE("fleet table: rows, values and draws multiply") {
                     "sample: {jobs: 3, keys: {dresspack.bending_stiffness_Nm2: !uniform [4, 6]}}\n"));
   REQUIRE(study.jobs.size() == 12);
   CHECK(study.jobs[5].name == "a-elastic-draw_3");
-  // The same draws for all that they are compared for.
+  // Compared variants have the same samples.
   const auto stiffness = [&](std::size_t k) {
     return study.jobs[k].job->dresspacks[0].dresspack.bending_stiffness;
   };

@@ -1,4 +1,4 @@
-// What is remembered of a study, and by what it is forgotten.
+// Remembered studies, and the changes that invalidate them.
 #include "pipeline/study/known_study.h"
 
 #include <functional>
@@ -29,7 +29,7 @@ class Bench {
     scratch_.write("study.yaml", "base: job.yaml\nvary: {simulation.segments: [20, 30]}\n");
     request_ = {scratch_ / "study.yaml", {}, scratch_ / "runs", scratch_ / "programs"};
   }
-  /// As `dresslife run` does. Returns how many stages ran.
+  /// Runs the study as `dresslife run` does. Returns the number of stages that ran.
   int run() {
     StudyState standing = expanded(request_);
     write_build_graph(standing.study, standing.places, standing.states);
@@ -100,10 +100,10 @@ TEST_CASE("known study: a touched file changes nothing, a changed one all that d
     fs::last_write_time(scratch / file, fs::file_time_type::clock::now() + std::chrono::hours(24));
     CHECK(bench.standing().remembered);
   }
-  // A material: the fatigue stages of both jobs and nothing else, whatever the file's date.
+  // A changed material runs only the fatigue stages of both jobs, whatever the file's date.
   const auto before = fs::last_write_time(scratch / files[2]);
   scratch.write(files[2],
-                "from: copper\nname: own\nwalker_exponent: 0.4\n");  // no force of a cable depends on it
+                "from: copper\nname: own\nwalker_exponent: 0.4\n");  // the forces of cables do not depend on it
   fs::last_write_time(scratch / files[2], before);
   const StudyState changed = bench.standing();
   CHECK_FALSE(changed.remembered);
@@ -125,7 +125,7 @@ TEST_CASE("known study: nothing is remembered of what could expand to something 
   forgets("a comment", [](Bench& bench) {
     bench.scratch().write("study.yaml", bytes_of(bench.scratch() / "study.yaml") + "# more\n");
   });
-  forgets("an entry nearer to the job", [](Bench& bench) {  // the search did not find it there
+  forgets("an entry nearer to the job", [](Bench& bench) {  // the search did not find it there before
     bench.scratch().write("materials/own.yaml", "from: copper\nname: own\nfatigue_ductility: 0.5\n");
   });
   forgets("a stage", [](Bench& bench) {
@@ -155,7 +155,7 @@ TEST_CASE("known study: receipts tell what the life files say, bit by bit") {
   std::vector<JobState> without_results = known.states;
   for (JobState& state : without_results) state.results.clear();
   CHECK(ranking_csv(by_receipts) == ranking_csv(ranking_of(known.study, known.places, without_results)));
-  // A receipt with a turned bit is none.
+  // A receipt with a changed bit is invalid.
   const fs::path receipt = known.places.job(known.study.jobs[0].name) / ".stage/fatigue.receipt";
   const std::string bytes = bytes_of(receipt);
   for (std::size_t at = 0; at < bytes.size(); at += 7) {

@@ -146,7 +146,7 @@ TEST_CASE("ranking: a dresspack without wires has no worst place") {
   CHECK(ranking_table(rows).starts_with("No wire was evaluated.\n\n"));
 }
 
-/// RFC 4180 read back: the independent half of the round trip.
+/// Reads CSV by RFC 4180: an independent reader for the round trip.
 std::vector<std::vector<std::string>> read_csv(const std::string& text) {
   std::vector<std::vector<std::string>> table{{""}};
   bool quoted = false;
@@ -198,7 +198,7 @@ TEST_CASE("ranking: the CSV has the contract's columns first and reads back exac
 }
 
 TEST_CASE("ranking: every column is described, and no column was renamed, moved or taken away") {
-  // As other programs have read it; new columns stand last.
+  // Column order for other programs that read the table: new columns come last.
   const std::string known =
       "job,life_repeats,life_hours,worst_segment_from_tool,worst_component,damage_per_repeat,"
       "life_months,life_repeats_all_stick,life_repeats_all_free,worst_position_from_tool_m,"
@@ -303,7 +303,7 @@ TEST_CASE("ranking: the hose's wall has columns and a line of its own and does n
   CHECK_THAT(text, Catch::Contains("hose's wall†") && Catch::Contains(" 2.50 ") && Catch::Contains(" no damage "));
 }
 
-/// In a job of wires without damage on a robot that lasts 40,000 h.
+/// Returns the line of a mode in a job of undamaged wires on a robot with a life of 40,000 h.
 ModeLine line_of(const UnvalidatedMode& mode) {
   RankingRow row;
   row.robot_life_hours = 40000;
@@ -326,14 +326,14 @@ TEST_CASE("ranking: a wall's life by a law that contradicts the published test i
              Catch::StartsWith("Not predicted: the only known law gives 1,080,000 bends from straight to the limit of the bend radius, and a "
                                "published hose endured 16,000,000 without damage. Keep the maker's bend radius."));
   for (const auto& [bends, hours, shown] : {std::tuple{17e6, 0.37, "0.370"},  // the law agrees with the test
-                                            {0.0, 0.37, "0.370"},             // not known, as in older files
+                                            {0.0, 0.37, "0.370"},             // unknown, as in older files
                                             {1.08e6, 2e5, "over 40,000"}}) {
     CHECK(line(bends, hours).hours == std::array<std::string, 3>{"-", shown, "-"});
     CHECK(line(bends, hours).note.empty());
   }
   wall.bends_at_limit = 1.08e6, wall.hours = {3e5, 2e6, 8e7};
   CHECK(line_of(wall).hours[0] == "over 40,000");
-  wall.hours[0] = 4e4;  // before any robot's end in 1 of 10
+  wall.hours[0] = 4e4;  // in 1 of 10 cases before the end of any robot
   CHECK(line_of(wall).hours[0] == "-");
 }
 
@@ -369,7 +369,7 @@ TEST_CASE("ranking: abrasion has words and columns, and the first action names i
         "The wires last longer than the robot (40,000 h). Not evaluated: water hose, kinks.");
   const std::string both = ranking_table(rows, 200);
   CHECK_THAT(both, Catch::Contains("*over 40,000") && Catch::Contains("* Plan with this number, and inspect for modes that are not validated. rubs, abrasion: from 300 h."));
-  CHECK(both.find("*over 40,000") == both.rfind("*over 40,000"));  // the row that rubs, alone
+  CHECK(both.find("*over 40,000") == both.rfind("*over 40,000"));  // only the row with rubbing
   CHECK(action_words(rows[1]) ==
         "The evaluated parts last longer than the robot (40,000 h). Not evaluated: water hose, kinks.");
   const std::vector<ModeLine> lines = mode_lines(rows[0]);
@@ -421,7 +421,7 @@ TEST_CASE("ranking: jacket wear has words and columns, and the first action name
                                                       "25,000 h. The wires last longer"));
   CHECK(marks_note(listed) ==
         "* Plan with this number, and inspect for modes that are not validated. jacket wear: from 300 h, abrasion: from 25,000 h.");
-  // A job with which nobody may plan is not marked as one to plan with.
+  // A row that is not valid for planning is not marked as one.
   auto marked = read_ranking({job_with(scratch, "both", both), job_with(scratch, "bent", both)});
   marked[1].warnings = std::vector<Warning>{{WarningKind::bend_radius, "", "smallest bend radius"}};
   CHECK(plan_mark(marked[0]) == "*");
@@ -575,7 +575,7 @@ TEST_CASE("ranking: the terminal's table is aligned, within its width, and says 
   };
   REQUIRE(all.size() > 5);
   CHECK(all[1].substr(0, all[0].find("replace after [h]") + 17).ends_with("no damage"));
-  CHECK(all[2] == "   Käfig mit sehr langem Namen und noch mehr");  // whole, in a line of its own
+  CHECK(all[2] == "   Käfig mit sehr langem Namen und noch mehr");  // complete, in its own line
   CHECK(up_to(all[3], "replace after [h]").ends_with(" " + readable(rows[1].life_hours)));
   CHECK(up_to(all[4], "replace after [h]").ends_with(" " + readable(rows[2].life_hours)));
   CHECK(all[5].find("failed") != std::string::npos);
@@ -618,7 +618,7 @@ TEST_CASE(
   CHECK(cell("strong", "life_hours_p90") == "150");
   CHECK(cell("strong", "first_wire_life_hours_p10") == "15");
   CHECK(std::stod(cell("strong", "life_hours_all_stick")) == Approx(first.life_hours / 400));
-  CHECK(std::stod(cell("strong", "life_hours")) == first.life_hours);  // the worst wire's, as ever
+  CHECK(std::stod(cell("strong", "life_hours")) == first.life_hours);  // the worst wire's, also with a planned life
   CHECK(cell("strong", "failing_position_from_tool_m") == "0.75");
   CHECK(cell("old", "life_months_p10").empty());
   const std::string text = ranking_table(rows);
@@ -632,13 +632,13 @@ TEST_CASE(
   CHECK(cell("strong", "rank") == (rows[0].job == "strong" ? "1" : "2"));
 }
 
-/// Of a job whose lives all are one power of ten [repeats], known as badly as any.
 constexpr std::size_t motion = index_of(Uncertain::motion);
 
+/// Returns the response of a job whose lives are all 10^log10_life repeats, with the prior's uncertainty.
 std::string response_of(double log10_life) {
   LifeResponse response;
   response.knowledge = prior_of({});
-  response.knowledge.covariance(motion, motion) = 0;  // what every job has for itself makes no order certain
+  response.knowledge.covariance(motion, motion) = 0;  // removes the causes that are independent for every job
   response.worst_life = {log10_life};
   response.planned = {{log10_life, log10_life, log10_life}};
   return response.text();
@@ -652,7 +652,7 @@ TEST_CASE("ranking: how sure an order is, what makes a life uncertain, and what 
   auto rows = read_ranking({job_with(scratch, "shorter", shorter), job_with(scratch, "longer", longer),
                             job_with(scratch, "certain", certain)});
   REQUIRE(names(rows) == std::vector<std::string>{"longer", "shorter", "certain"});
-  CHECK(rows[0].outlives_next == 1);  // they share all that is not known here
+  CHECK(rows[0].outlives_next == 1);  // both jobs share all uncertain parameters
   CHECK_FALSE(rows[1].outlives_next);
   CHECK(rows[0].scatter_hours[1] == Approx(150));
   CHECK(rows[0].headline_hours() == 60);
@@ -678,7 +678,7 @@ TEST_CASE("ranking: jobs that cannot be separated share a rank, those that can d
   const Scratch scratch;
   SampleLife first = living(30000), second = living(20000), third = living(10000);
   first.planned_hours = 60, second.planned_hours = 50, third.planned_hours = 40;
-  // Another dresspack each: friction is sampled for each by itself, one factor of e^0.9 in life.
+  // Different dresspacks: friction is sampled independently for each, with one factor of e^0.9 in life.
   const auto uncertain = [](double log10_life, const char* construction) {
     LifeResponse response;
     response.construction = construction;
@@ -730,7 +730,7 @@ TEST_CASE("ranking: p10 orders the jobs within the robot's life, shares of the s
   const Scratch scratch;
   SampleLife early = living(20000), late = living(20000);
   early.life_response = response_of(4.5), late.life_response = response_of(4);
-  early.planned_hours = 50000, late.planned_hours = 60000;  // late: the better p10, the shorter samples
+  early.planned_hours = 50000, late.planned_hours = 60000;  // late: better p10, shorter samples
   const auto ranked = [&](double robot_life) {
     early.robot_life_hours = late.robot_life_hours = robot_life;
     return read_ranking({job_with(scratch, "early", early), job_with(scratch, "late", late)});
@@ -743,7 +743,7 @@ TEST_CASE("ranking: p10 orders the jobs within the robot's life, shares of the s
   for (const auto& rows : {within, between}) {
     CHECK(names(rows) == std::vector<std::string>{"late", "early"});
     CHECK(rows[0].outlives_next == 0);
-    CHECK(rows[1].rank == 1);  // the two statements contradict each other
+    CHECK(rows[1].rank == 1);  // both statements contradict each other
     CHECK(order_words(rows[0]) ==
           "The next job lives longer in 100 of 100 samples, but 1 of 10 of its dresspacks fails earlier.");
   }
@@ -764,7 +764,7 @@ TEST_CASE("ranking: a life that equals one of its bounds is named, another one i
   RankingRow row = read_ranking({job_with(scratch, "one", living(12000))}).front();
   CHECK_THAT(action_words(row), !Catch::Contains("bound"));
   row.life_repeats = row.life_repeats_all_free;
-  row.estimates = "";  // the job's slip is none that the ratings were compared under: the best estimate may be longer
+  row.estimates = "";  // no rating was evaluated under the job's slip: the best estimate may be longer
   CHECK_THAT(action_words(row), Catch::Contains("equals its upper bound without the ratings of cable makers, at which nothing rubs") &&
                                     Catch::Contains("If the job sets strain.slip, leave it out") &&
                                     Catch::Contains("it may be longer than this life"));
@@ -774,7 +774,7 @@ TEST_CASE("ranking: a life that equals one of its bounds is named, another one i
   CHECK_THAT(action_words(row), Catch::Contains("equals its lower bound, at which nothing slips") && !Catch::Contains("may be longer"));
   row.life_repeats_all_free = 1.11 * row.life_repeats_all_stick;
   CHECK_THAT(action_words(row), Catch::Contains("equals its lower bound"));
-  row.life_repeats_all_free = 1.09 * row.life_repeats_all_stick;  // nothing to choose
+  row.life_repeats_all_free = 1.09 * row.life_repeats_all_stick;  // no difference that matters
   CHECK_THAT(action_words(row), !Catch::Contains("bound"));
 }
 
@@ -894,7 +894,7 @@ TEST_CASE("ranking: warnings are counted, told in full, and each kind says wheth
   CHECK(cell(1, "periodic_ok") == "yes");
   CHECK(cell(2, "warnings") == "0");
   CHECK(cell(2, "twist_ok") == "yes");
-  CHECK(cell(3, "warnings").empty());  // not known
+  CHECK(cell(3, "warnings").empty());  // unknown
   CHECK(cell(3, "twist_ok").empty());
   CHECK(warning_kinds(rows[0]) == "skipped instructions x2, twist");
   CHECK(warning_kinds(rows[1]).empty());
@@ -903,7 +903,7 @@ TEST_CASE("ranking: warnings are counted, told in full, and each kind says wheth
       warning_lines(rows) ==
       "warned: warning: a.mod:3: skipped: \"SearchL\", and waits\nwarned: warning: a.mod:9: skipped: WaitSyncTask\n"
       "warned: warning: largest twist: 200 deg/m\n");
-  const std::vector<RankingRow> many(5, rows[0]);  // 15 lines: the first of each kind stands for the others
+  const std::vector<RankingRow> many(5, rows[0]);  // 15 lines: the first of each kind represents the others
   CHECK(warning_lines(many) ==
         "5 jobs, skipped instructions: warned: warning: a.mod:3: skipped: \"SearchL\", and waits\n"
         "5 jobs, twist: warned: warning: largest twist: 200 deg/m\n"

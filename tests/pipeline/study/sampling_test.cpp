@@ -45,7 +45,7 @@ TEST_CASE("sampling: a normal between bounds has the quantiles of what is left")
   CHECK(number(half, 0.5) == Approx(0.6744897501960817).epsilon(1e-12));  // three quarters of the whole
   CHECK(number(half, 1e-12) >= 0);
   const Distribution narrow = distribution("!normal {mean: 0, deviation: 1, at_least: -1e-3, at_most: 1e-3}");
-  CHECK(number(narrow, 0.75) == Approx(5e-4).epsilon(1e-3));  // flat there: phi(0) x
+  CHECK(number(narrow, 0.75) == Approx(5e-4).epsilon(1e-3));  // the density is constant there: phi(0)
 }
 
 TEST_CASE("sampling: a latin hypercube has one value in each part, keys in orders of their own") {
@@ -59,7 +59,7 @@ TEST_CASE("sampling: a latin hypercube has one value in each part, keys in order
   double together = 0;
   for (std::size_t k = 0; k < count; ++k) together += (first[k] - 0.5) * (second[k] - 0.5) * 12 / count;
   CHECK(std::abs(together) <
-        4 / std::sqrt(count));  // four standard deviations of a correlation of independent numbers
+        4 / std::sqrt(count));  // four standard deviations of the correlation of independent numbers
   CHECK(first != unit_numbers(SamplingMethod::latin_hypercube, 4, "a", count));
   CHECK(first == unit_numbers(SamplingMethod::latin_hypercube, 3, "a", count));
 }

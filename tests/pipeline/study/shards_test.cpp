@@ -8,7 +8,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// Jobs of which every third has the same simulation; the last cannot be run.
+/// Returns jobs with three different simulations in turn. The last job cannot run.
 StudyState standing_of_jobs(std::size_t count) {
   StudyState standing;
   standing.study.name = "study";
@@ -45,7 +45,7 @@ TEST_CASE("shards: together they have every job once, whatever is done, with lik
       }
       CHECK(seen.size() == jobs);
       CHECK(sum == jobs);
-      CHECK(simulations <= 3 + static_cast<std::size_t>(count) - 1);  // a cut parts at most one
+      CHECK(simulations <= 3 + static_cast<std::size_t>(count) - 1);  // a cut splits at most one
       CHECK(most == (jobs + static_cast<std::size_t>(count) - 1) / static_cast<std::size_t>(count));
     }
 }

@@ -9,7 +9,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// `done` jobs with falling lives, then `failed` ones.
+/// Returns `done` jobs with decreasing lives, then `failed` jobs.
 std::vector<RankingRow> ranking(int done, int failed) {
   std::vector<RankingRow> rows;
   for (int k = 0; k < done + failed; ++k) {
@@ -31,7 +31,7 @@ TEST_CASE("shown rows: a short ranking is shown whole") {
 TEST_CASE("shown rows: of a long ranking the best, the worst, the failed and the warned of") {
   std::vector<RankingRow> rows = ranking(1900, 100);
   for (std::size_t k = 0; k < 1900; ++k) rows[k].rank = k + 1;
-  for (std::size_t k = 500; k < 550; ++k) rows[k].largest_force_share = 3;  // of what a cable bears
+  for (std::size_t k = 500; k < 550; ++k) rows[k].largest_force_share = 3;  // times a cable's strength
   const ShownRows shown = shown_rows(rows);
   std::vector<std::size_t> wanted{0, 1, 2};
   for (std::size_t k = 0; k < 10; ++k) wanted.push_back(500 + k);
@@ -43,7 +43,7 @@ TEST_CASE("shown rows: of a long ranking the best, the worst, the failed and the
 
   const std::string table = ranking_table(rows);
   CHECK(std::count(table.begin(), table.end(), '\n') < 100);
-  CHECK(table.find("\n1900  job_1900") != std::string::npos);  // its rank among all
+  CHECK(table.find("\n1900  job_1900") != std::string::npos);  // its rank among all rows
   CHECK(table.find("job_1901") != std::string::npos);
   CHECK(table.find("job_1000") == std::string::npos);
   CHECK(table.ends_with(shown.summary));

@@ -53,7 +53,7 @@ TEST_CASE(
   REQUIRE(robot.links.size() == 6);
   CHECK(robot.links[0].name == "floor");
   CHECK(robot.links[4].name == "wrist");
-  // The stand's 0.3 m lie in the first joint's origin, and in the base's box.
+  // The stand's 0.3 m are included in the first joint's origin and in the base's box.
   CHECK((robot.joints[0].origin - Vector3d(0, 0, 0.8)).norm() < rounding);
   REQUIRE(robot.links[0].boxes.size() == 1);
   CHECK((robot.links[0].boxes[0].position - Vector3d(0, 0, 0.4)).norm() < rounding);
@@ -67,7 +67,7 @@ TEST_CASE(
   CHECK(robot.links[3].capsules[0].radius == Approx(0.05));
   CHECK((robot.flange_position - Vector3d(0, 0, -0.05)).norm() < rounding);
   for (const Link& link : robot.links)
-    CHECK(link.boxes.size() != 2);  // the finger moves on its own: left out
+    CHECK(link.boxes.size() != 2);  // the finger moves independently, so it is left out
 }
 
 TEST_CASE("urdf: limits and a joint that mimics another") {
@@ -77,7 +77,7 @@ TEST_CASE("urdf: limits and a joint that mimics another") {
   CHECK(level.follows == "j2");
   CHECK(level.ratio == -1);
   CHECK(level.offset == Approx(0.1));
-  // level = 0.1 - j2 within -3 .. 0.8 keeps j2 within -0.7 .. 3.1; its own are -1 .. 1.5.
+  // level = 0.1 - j2 within -3 .. 0.8 limits j2 to -0.7 .. 3.1; j2's own limits are -1 .. 1.5.
   CHECK(robot.joints[1].lower == Approx(-0.7));
   CHECK(robot.joints[1].upper == Approx(1.5));
   CHECK(robot.joints[4].acceleration == Approx(4));
@@ -100,7 +100,7 @@ TEST_CASE("urdf: a joint that mimics another by a factor bounds its range and it
 }
 
 TEST_CASE("urdf: a joint that follows with factor 0 keeps its place and bounds nothing") {
-  // It stays at 0.1, outside its own range: no angle of j2 changes that.
+  // level stays at 0.1, outside its own range, at every angle of j2.
   const Robot robot = robot_of(edited(changed("multiplier=\"-1\"", "multiplier=\"0\""),
                                       "lower=\"-3\" upper=\"0.8\"", "lower=\"0.5\" upper=\"0.8\""));
   CHECK(robot.joints[3].ratio == 0);
@@ -140,7 +140,7 @@ TEST_CASE("urdf: a cylinder is a capsule and an octagon inside it") {
   REQUIRE(arm.boxes.size() == 4);
   for (const Box& box : arm.boxes) {
     CHECK(box.sides.z() == Approx(1));
-    CHECK(std::hypot(box.sides.x(), box.sides.y()) == Approx(0.2));  // its corners lie on the cylinder
+    CHECK(std::hypot(box.sides.x(), box.sides.y()) == Approx(0.2));  // the box's corners lie on the cylinder
     CHECK((box.position - Vector3d(0, 0, 0.5)).norm() < rounding);
   }
   const Robot flat = robot_of(changed("length=\"1\" radius=\"0.1\"", "length=\"0.1\" radius=\"0.1\""));
@@ -234,10 +234,10 @@ TEST_CASE("urdf: what is wrong is told with its line") {
   refused("rpy=\"0 0 1.5707963267948966\"", "rpy=\"0 0 90\"", "<origin xyz=\"0.3 0 0.1\"",
           "rpy=\"0 0 90\" turns by more than 6.3 rad; write rpy=\"0 0 1.5708\" if those were degrees");
   CHECK_NOTHROW(robot_of(changed("rpy=\"0 0 1.5707963267948966\"", "rpy=\"0 0 -6.2832\"")));
-  // A joint that turns about x by a forgotten axis is a wrong robot without a sign of it.
+  // A joint with a forgotten axis turns about x: a wrong robot that nothing else reveals.
   refused("<origin xyz=\"0 0 1\"/>\n    <axis xyz=\"0 1 0\"/>", "<origin xyz=\"0 0 1\"/>", "<joint name=\"j3\"",
           "joint 'j3' has no <axis> (by the URDF standard it turns about x); write <axis xyz=\"1 0 0\"/> into it");
-  // Millimetres. A floor beside the base may be large.
+  // Millimetres instead of metres. Only a floor beside the base may be that large.
   refused(
       "<origin xyz=\"0 0 1\"/>\n    <axis", "<origin xyz=\"0 0 -1000\"/>\n    <axis", "<joint name=\"j3\"",
       "the origin of joint 'j3' has 1000 m (at most 10 in a link that moves); write origin xyz=\"0 0 -1\" if those were millimetres");
@@ -301,7 +301,7 @@ TEST_CASE("urdf: a small YAML beside it adds what a URDF lacks, by the names of 
   REQUIRE(job.robot.links[3].capsules.size() == 1);
   CHECK(job.robot.links[3].capsules[0].radius == Approx(0.09));
   CHECK(job.robot.links[2].boxes.size() == 4);
-  // Written out, it reads back to the same job without the URDF.
+  // The written job reads back to the same job without the URDF.
   CHECK(job_text(job_from(parse_yaml(job_text(job), "echo.yaml"))) == job_text(job));
   CHECK(job_text(with_links({"robot={urdf: " + (scratch / "palletizer.urdf").string() +
                              ", accelerations_deg_per_s2: [1, 1, 1, 1]}"})) != job_text(job));

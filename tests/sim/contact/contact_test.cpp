@@ -1,5 +1,4 @@
-// The hose on obstacles: it must not sink in, must hold still where friction holds it, and must obey Coulomb
-// and Newton.
+// The hose on obstacles: limited penetration, rest where friction holds it, Coulomb's and Newton's laws.
 #include "sim/contact/world.h"
 #include "tests/sim/rod/rod_problems.h"
 
@@ -8,8 +7,8 @@ using namespace dresslife::sim::test;
 
 namespace {
 
-constexpr double deepest = 1e-3;  // [m] at steps of 5 ms: less than the wall of a real hose gives
-constexpr double at_rest = 1e-8;  // [m/s] for what sticks: the contact solver stops at impulses of 1e-9 N s
+constexpr double deepest = 1e-3;  // [m] at steps of 5 ms: less than the wall of a real hose yields
+constexpr double at_rest = 1e-8;  // [m/s] of a sticking contact: the contact solver stops at impulses of 1e-9 N s
 const double smooth_time = 1;     // [s]
 
 const ClampFrames hanging{planar_frame(0, 1, 0), planar_frame(1.4, 1, 0)};
@@ -25,7 +24,7 @@ struct Run {
   Vector3 force = Vector3::Zero();             // of all contacts in the last step
 };
 
-// Steps the world to `until`, the clamps and the one link moving as given.
+// Steps the world to `until` with the given motion of the clamps and of one link.
 template <typename Clamps, typename Link>
 Run run(World& world, double until, const Clamps& clamps, const Link& link) {
   Run result;
@@ -57,7 +56,7 @@ TEST_CASE("a hose lifted and dragged by a capsule stays outside it") {
     const Frame below{{0.7, 0, lowest(start.state) - 0.13}, Quaternion::Identity()};
     World world(rod, {}, start.state, std::span(&below, 1));
     world.add(0, CapsuleShape{{0, -0.5, 0}, {0, 0.5, 0}, 0.05});
-    // Dragged, the arch snaps over the capsule, at a moment that rounding decides; then it comes to rest.
+    // The dragged arch snaps over the capsule at a time that depends on rounding. Then it comes to rest.
     const Run r = run(
         world, 6, [](double) { return hanging; },
         [&](double t) {
@@ -66,7 +65,7 @@ TEST_CASE("a hose lifted and dragged by a capsule stays outside it") {
           return frame;
         });
     CHECK(r.depth < deepest);
-    CHECK(r.force.z() > 30);  // it does lie there, with the larger part of its 49 N
+    CHECK(r.force.z() > 30);  // it rests on the capsule with the larger part of its 49 N
   }
 }
 
@@ -86,7 +85,7 @@ TEST_CASE("an arm sweeping through the hose at 2 m/s pushes it aside") {
     const Run r = run(
         world, 0.65, [](double) { return hanging; }, arm);
     CHECK(r.depth < deepest);
-    // At y = 0.3 the middle of the hose is still in front of the arm: it has been carried 0.3 m.
+    // At y = 0.3 the middle of the hose is still in front of the arm, so the arm has moved it by 0.3 m.
     CHECK(world.state().position[20].y() > 0.3);
   }
 }
@@ -97,7 +96,7 @@ TEST_CASE("a hose laid on the floor lies still and the floor carries its weight"
   WorldSettings settings;
   settings.floor = true;
   World world(rod, settings, start.state, {});
-  // Both clamps go down until the hose lies between them at its own radius.
+  // Both clamps move down until their height is the hose's radius.
   const auto clamps = [](double t) {
     ClampFrames frames = hanging;
     const double down = 0.97 * smooth(t / 3);
@@ -119,7 +118,7 @@ TEST_CASE("a hose laid on the floor lies still and the floor carries its weight"
   for (const Vector3& v : world.state().velocity) fastest = std::max(fastest, v.norm());
   const RodState& state = world.state();
   const double weight = 9.81 * 5, held = state.link_force.back().z() - state.link_force.front().z();
-  const double balance = 1e-5;  // of the weight: what still creeps is slower than at_rest
+  const double balance = 1e-5;  // of the weight; the remaining creep is slower than at_rest
   CHECK(carried + held == Approx(weight).epsilon(balance));
   CHECK(fastest < 1e-6);
   CHECK(sliding < at_rest);
@@ -143,8 +142,7 @@ TEST_CASE("a hose across a box rests on it without rocking") {
 }
 
 TEST_CASE("a hose on a slope steeper than its friction slides as a block") {
-  // Gravity is tilted instead of the floor. The base clamp moves by the block's own law, so it must carry no
-  // force.
+  // Gravity is tilted instead of the floor. The base clamp moves with the block's own acceleration, so its force is zero.
   const double angle = 0.4, friction = 0.3, g = 9.81;
   RodProperties p = hose(10);
   p.tool_end = End::free;
@@ -160,13 +158,13 @@ TEST_CASE("a hose on a slope steeper than its friction slides as a block") {
   for (int k = 1; k <= 100; ++k) {
     const double t = k * h;
     ClampFrames clamps{base, base};
-    clamps.base.position.x() += 0.5 * slide * t * (t + h);  // leapfrog's own parabola
+    clamps.base.position.x() += 0.5 * slide * t * (t + h);  // the parabola of the leapfrog scheme
     REQUIRE(world.advance(clamps).finite);
   }
   double along = 0, across = 0;
   for (const Contact& c : world.contacts()) along -= c.friction_force.x(), across += c.normal_force;
   const double weight = g * p.mass_per_length * p.length;
-  const double tolerance = 1e-3;  // the chain's stretch waves, damped within the half second
+  const double tolerance = 1e-3;  // stretch waves of the chain, damped within the half second
   CHECK(across == Approx(weight * std::cos(angle)).epsilon(tolerance));
   CHECK(along == Approx(friction * across).epsilon(tolerance));
   CHECK(std::abs(world.state().link_force[0].x()) < 1e-2 * weight);
@@ -181,7 +179,7 @@ TEST_CASE("the link that holds the clamp does not push the piece of hose at the 
     WorldSettings settings;
     settings.base_link = clamped ? 0 : no_link;
     World world(rod, settings, start.state, std::span(&at_clamp, 1));
-    // The flange: a ball about the clamp that swallows its first 20 mm.
+    // The flange: a ball about the clamp that contains the first 20 mm of the hose.
     world.add(0, CapsuleShape{{0, 0, 0}, {0, 0, 0}, 0.02});
     const StepReport report = world.advance(hanging, std::span(&at_clamp, 1));
     CHECK((report.touching == 0) == clamped);

@@ -1,4 +1,4 @@
-// Coulomb's cone is round: a block pulled across the floor in any direction slides alike and straight.
+// Coulomb's cone is round: a block slides with equal force in every direction of the floor, and straight.
 #include "sim/contact/world.h"
 #include "tests/sim/rod/rod_problems.h"
 
@@ -6,7 +6,7 @@ using namespace dresslife::sim;
 using namespace dresslife::sim::test;
 
 TEST_CASE("a hose on a slope slides alike in every direction of the slope") {
-  // Gravity is tilted toward each direction; the base clamp follows the block's own law and carries no force.
+  // Gravity is tilted toward each direction. The base clamp moves with the block's acceleration, so its force is zero.
   const double slope = 0.4, friction = 0.3, g = 9.81;
   for (const double direction : {0.0, 0.3, pi / 4, 1.2}) {
     CAPTURE(direction);
@@ -24,7 +24,7 @@ TEST_CASE("a hose on a slope slides alike in every direction of the slope") {
     for (int k = 1; k <= 100; ++k) {
       const double t = k * h;
       ClampFrames clamps{base, base};
-      clamps.base.position += 0.5 * slide * t * (t + h) * down;  // leapfrog's own parabola
+      clamps.base.position += 0.5 * slide * t * (t + h) * down;  // the parabola of the leapfrog scheme
       REQUIRE(world.advance(clamps).finite);
     }
     Vector3 rubbing = Vector3::Zero();
@@ -33,13 +33,13 @@ TEST_CASE("a hose on a slope slides alike in every direction of the slope") {
       rubbing += c.friction_force, pressing += c.normal_force;
       CHECK(c.friction_force.norm() <= friction * c.normal_force * (1 + 1e-9));
     }
-    const double tolerance = 1e-3;  // the chain's stretch waves, damped within the half second
+    const double tolerance = 1e-3;  // stretch waves of the chain, damped within the half second
     CHECK((rubbing + friction * pressing * down).norm() < tolerance * pressing);
   }
 }
 
 TEST_CASE("a hose that is lifted while it slides leaves its friction on the floor") {
-  // Along the first and the second tangent of the floor: the other friction is 0 to the bit.
+  // Along the first and the second tangent of the floor the other component of friction is exactly 0.
   for (const Vector3& along : {Vector3(1, 0, 0), Vector3(0, 1, 0)}) {
     CAPTURE(along.transpose());
     const double friction = 0.3;

@@ -1,4 +1,4 @@
-// Meshes: nearest points against brute force, and hoses that lie on them as on the shapes they stand for.
+// Meshes: nearest points against brute force, and hoses on meshes against hoses on the same shapes.
 #include "sim/contact/mesh.h"
 
 #include <random>
@@ -12,7 +12,7 @@ using namespace dresslife::sim::test;
 
 namespace {
 
-constexpr double deepest = 1e-3;  // [m] at steps of 5 ms: less than the wall of a real hose gives
+constexpr double deepest = 1e-3;  // [m] at steps of 5 ms: less than the wall of a real hose yields
 
 // The twelve triangles of a box centred on `frame`.
 std::vector<Triangle> box_triangles(const Frame& frame, const Vector3& sides) {
@@ -30,7 +30,7 @@ std::vector<Triangle> box_triangles(const Frame& frame, const Vector3& sides) {
   return triangles;
 }
 
-// A cylinder along y, of n faces whose planes are at `radius` in the mean.
+// A cylinder along y with n faces. The mean distance of the faces from the axis is `radius`.
 std::vector<Triangle> cylinder(double radius, double half, int n) {
   std::vector<Triangle> triangles;
   const double corner = radius / std::sqrt(std::cos(pi / n));
@@ -45,8 +45,7 @@ std::vector<Triangle> cylinder(double radius, double half, int n) {
   return triangles;
 }
 
-// A hose held straight out falls onto the shape that `add` gives, whose top it all but touches, and comes to
-// rest.
+// A straight hose falls onto the shape that `add` adds, from just above its top, and comes to rest.
 struct Rest {
   RodState state;
   double depth = 0, sliding = 0, carried = 0;
@@ -101,7 +100,7 @@ TEST_CASE("nearest points of an axis and a triangle are those of a search over b
         }
     crossing += found.distance == 0;
     CHECK(found.distance <= best + 1e-12);
-    // A grid point lies within a mesh of the best on the triangle, within half a mesh on the axis.
+    // The nearest grid point is within one cell of the best point on the triangle, and within half a cell on the axis.
     CHECK(found.distance >=
           best - ((t[1] - t[0]).norm() + (t[2] - t[0]).norm() + (to - from).norm() / 2) / grid);
     CHECK((found.on_axis - found.on_triangle).norm() == Approx(found.distance).margin(1e-12));
@@ -125,7 +124,7 @@ TEST_CASE("an axis above a plate of many triangles meets it straight below and n
     CHECK((at.normal - Vector3::UnitZ()).norm() < 1e-9);
     CHECK(at.distance == Approx(0.03));
   }
-  // In a groove of two plates both sides hold it.
+  // In the groove between two plates both sides carry the hose.
   std::vector<Triangle> groove = box_triangles({{0.2, 0, 0}, Quaternion::Identity()}, {0.2, 1, 1});
   for (const Triangle& t : box_triangles({{0, 0, -0.2}, Quaternion::Identity()}, {1, 1, 0.2}))
     groove.push_back(t);
@@ -169,7 +168,7 @@ TEST_CASE("a hose lies on a meshed cylinder as on the capsule") {
   });
   CHECK(meshed.depth < deepest);
   CHECK(round.carried > 10);
-  // 64 faces leave the circle by 0.05 (pi/64)^2/2 = 6e-5 m; friction holds each where it first stood still.
+  // 64 faces differ from the circle by 0.05 (pi/64)^2/2 = 6e-5 m. Friction keeps each hose where it first came to rest.
   CHECK(furthest(round.state, meshed.state) < 2e-3);
   CHECK(meshed.carried == Approx(round.carried).epsilon(5e-3));
 }

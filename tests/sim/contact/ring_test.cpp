@@ -1,4 +1,4 @@
-// Guide rings: the hose slides, turns and leans in them.
+// Guide rings: the hose slides, rotates and tilts in them.
 #include "sim/contact/world.h"
 #include "tests/sim/rod/rod_problems.h"
 
@@ -26,11 +26,11 @@ RodProperties thin_hose(int segments, double length, double damping_time = 0.01)
 
 struct Pulled {
   double ratio = 0, ripple = 0, depth = 0, slid = 0;
-  double bend = 0;  // between the pulls at both ends [rad]
+  double bend = 0;  // between the tensions at both ends [rad]
 };
 
-/// A hose under the constant pull of a sliding clamp, bent by `bend` [rad] in a ring at the origin, drawn
-/// through it by 0.5 m: the pull at its other end, mean and ripple (largest less smallest over the mean).
+/// Bends a hose by `bend` [rad] in a ring at the origin and draws it through by 0.5 m. A sliding clamp pulls one end with
+/// constant force. Returns the tension at the other end: mean, and ripple = (largest - smallest) / mean.
 Pulled draw_through(double friction, double bend, int segments, double speed, double damping_time) {
   const double h = 0.002;
   SlidingClamp unit;
@@ -38,7 +38,7 @@ Pulled draw_through(double friction, double bend, int segments, double speed, do
   RodProperties p = thin_hose(segments, 2, damping_time);
   p.slider = unit;
   const Rod rod(p);
-  // In and out at half the bend below and above the ring's axis, x; ends 1.2 m and 0.8 m away.
+  // The hose enters and leaves at half the bend below and above the ring's axis, x. Its ends are 1.2 m and 0.8 m away.
   const double half = bend / 2;
   const Vector3 in(std::cos(half), 0, std::sin(half)), out(std::cos(half), 0, -std::sin(half));
   Frame base = planar_frame(0, 0, half), tool = planar_frame(0, 0, -half);
@@ -57,7 +57,7 @@ Pulled draw_through(double friction, double bend, int segments, double speed, do
   World world(rod, settings, state);
   world.add(cell_obstacle,
             RingShape{{{0, 0, 0}, planar_frame(0, 0, 0).orientation}, clear_radius, 0, friction, 0});
-  // First it settles where the bend allows, the tool end being drawn taut; then 0.5 m at `speed`.
+  // First the tool end is pulled taut and the hose settles in the bend. Then it moves by 0.5 m at `speed`.
   Pulled result;
   double low = 1e9, high = 0, sum = 0, bends = 0;
   int count = 0;
@@ -68,7 +68,7 @@ Pulled draw_through(double friction, double bend, int segments, double speed, do
     const double t = k * h;
     Frame now = tool;
     const double u =
-        std::max(0.0, t - settling) / ramp;  // in units of the time in which the speed is reached
+        std::max(0.0, t - settling) / ramp;  // time / acceleration time
     const double drawn = u < 1 ? u * u * u * u * (2.5 - 3 * u + u * u) : u - 0.5;
     now.position += (taut * smooth(t / settling) + speed * ramp * drawn) * out;
     REQUIRE(world.advance({base, now}).finite);
@@ -83,19 +83,19 @@ Pulled draw_through(double friction, double bend, int segments, double speed, do
     const Vector3 &from = world.state().link_force.front(), &to = world.state().link_force.back();
     bends += std::acos(from.dot(to) / (from.norm() * to.norm()));
   }
-  result.ratio = sum / count / (unit_force + 20 * speed);  // over what the unit pulls with while it slides
+  result.ratio = sum / count / (unit_force + 20 * speed);  // relative to the unit's force while it slides
   result.bend = bends / count;
   result.ripple = (high - low) / (sum / count);
   result.slid = world.state().travel[0].way - way_at_begin;
   return result;
 }
 
-/// T2/T1 of an elastica of stiffness 1 N m2 bent by `bend` over one point with friction, at the surface of
-/// the hose (radius R, on the inner side of the bend). On either side T (1 - cos phi) = m^2/(2 EI), phi the
-/// angle from that side's straight part to the contact's tangent, m the moment there:
+/// T2/T1 of an elastica of stiffness 1 N m2, bent by `bend` over one point with friction at the surface of the hose (radius
+/// R, on the inner side of the bend). On either side T (1 - cos phi) = m^2/(2 EI), with phi the angle from that side's
+/// straight part to the contact's tangent and m the moment at the contact:
 ///   T1 (1 - cos a) = m1^2/2, T2 (1 - cos b) = m2^2/2, m2 = m1 - mu N R, a + b = bend,
 ///   T2 cos b - T1 cos a = mu N, N = T1 sin a + T2 sin b; together T2 - T1 = mu N (1 - R (m1 + m2)/2).
-/// With R = 0 and a = b it would be the string's (1 + mu tan(bend/2))/(1 - mu tan(bend/2)); but a < b.
+/// For R = 0 and a = b this is the string's (1 + mu tan(bend/2))/(1 - mu tan(bend/2)); but a < b.
 double elastica_ratio(double friction, double bend, double first, double radius) {
   return bisect(1, 10, 60, [&](double ratio) {
     const double second = ratio * first;
@@ -145,10 +145,10 @@ TEST_CASE("without friction a ring holds nothing back and no segment catches in 
   const Pulled coarse = draw_through(0, pi / 3, 40, 0.1, 0.01), fine = draw_through(0, pi / 3, 80, 0.1, 0.01);
   INFO("ratio " << fine.ratio << ", ripple " << coarse.ripple << " and " << fine.ripple << ", depth "
                 << fine.depth);
-  // Bending and unbending takes EI tau v times the integral of (dkappa/ds)^2: 0.4 N of 100 N here.
+  // Bending and unbending needs EI tau v times the integral of (dkappa/ds)^2: 0.4 N of 100 N here.
   const double damping_and_ripple = 7e-3;
   CHECK(fine.ratio == Approx(1).epsilon(damping_and_ripple));
-  // A chain of l = 0.5 and 0.25 bending lengths sqrt(EI/T) against a smooth hose: l^2.
+  // Error of a chain of l = 0.5 and 0.25 bending lengths sqrt(EI/T) against a smooth hose: proportional to l^2.
   CHECK(coarse.ripple < 0.025);
   CHECK(fine.ripple < 0.012);
   CHECK(fine.depth < deepest);
@@ -156,7 +156,7 @@ TEST_CASE("without friction a ring holds nothing back and no segment catches in 
 }
 
 TEST_CASE("with friction a ring takes as much pull as an elastica loses over a point") {
-  const double tolerance = 8e-3;  // damping and ripple as without friction; here there is little damping
+  const double tolerance = 8e-3;  // damping and ripple as without friction; damping is small here
   for (const auto& [bend, friction] :
        {std::pair{pi / 3, 0.2}, std::pair{pi / 3, 0.4}, std::pair{pi / 4, 0.3}}) {
     const Pulled ring = draw_through(friction, bend, 80, 0.1, 0.002);
@@ -165,9 +165,9 @@ TEST_CASE("with friction a ring takes as much pull as an elastica loses over a p
                      << string_ratio(friction, ring.bend) << ", bend " << ring.bend << ", ripple "
                      << ring.ripple);
     CHECK(ring.ratio == Approx(expected).epsilon(tolerance));
-    CHECK(ring.ripple < 0.05);  // the hose still trembles from its start
+    CHECK(ring.ripple < 0.05);  // the hose still vibrates from its start
   }
-  // Little bend: the contact's tangent halves it, and the hose is a string.
+  // For a small bend the contact's tangent halves it, and the hose behaves like a string.
   const Pulled little = draw_through(0.3, 0.3, 80, 0.1, 0.002);
   INFO("ratio " << little.ratio << ", string " << string_ratio(0.3, little.bend) << ", bend " << little.bend);
   CHECK(little.ratio == Approx(string_ratio(0.3, little.bend)).epsilon(tolerance));
@@ -190,7 +190,7 @@ TEST_CASE("twist passes a ring without friction") {
 }
 
 TEST_CASE("a ring with a width holds the hose's direction") {
-  // Drawn across a tube of 100 mm and let hang: the hose leans on opposite edges.
+  // Drawn across a tube of 100 mm and released, the hose touches opposite edges.
   RodProperties p = thin_hose(40, 1);
   p.gravity = {0, 0, -9.81};
   p.tool_end = End::free;
@@ -207,8 +207,8 @@ TEST_CASE("a ring with a width holds the hose's direction") {
     if (contact.normal_force > 1e-3)
       up.push_back(contact.normal.z()), weight += contact.normal_force * contact.normal.z();
   REQUIRE(up.size() == 2);
-  CHECK(up[0] * up[1] < 0);  // pressed down by the near edge, held up by the far one
-  // With the base clamp's pull the ring carries the hose.
+  CHECK(up[0] * up[1] < 0);  // the near edge presses it down, the far edge holds it up
+  // The base clamp pulls, so the ring carries the hose.
   CHECK(weight - world.state().link_force[0].z() == Approx(0.5 * 9.81).epsilon(0.05));
   CHECK(world.state().position[11].z() == Approx(0).margin(1e-3));
 }

@@ -1,4 +1,4 @@
-// Where a dragged hose is rubbed: normal force times way, spread over the surface that touches.
+// Places where a dragged hose is rubbed: normal force times sliding distance, distributed over the touching surface.
 #include "sim/contact/rubbing.h"
 
 #include "sim/contact/world.h"
@@ -42,7 +42,7 @@ Dragged dragged(int segments) {
 }  // namespace
 
 TEST_CASE("a hose dragged over the floor is rubbed evenly along its underside, at any number of segments") {
-  const double below = 1e-2;  // of all forces by the start's jerk
+  const double below = 1e-2;  // of all forces; the jerk of the start
   for (const int segments : {10, 20}) {
     CAPTURE(segments);
     const Dragged run = dragged(segments);
@@ -56,8 +56,8 @@ TEST_CASE("a hose dragged over the floor is rubbed evenly along its underside, a
         largest = std::max(largest, patch.work / patch.length);
     }
     CHECK(work == Approx(run.pressed * 0.2).epsilon(below));
-    // Without spreading, contacts at the segments' ends would give one cell all of a segment's work.
-    const double uneven = 0.1;  // the refinement that fatigue/wear.h promises
+    // Without distribution, contacts at the segments' ends would give one cell all of a segment's work.
+    const double uneven = 0.1;  // the refinement that fatigue/wear.h states
     CHECK(largest == Approx(work / run.length).epsilon(uneven));
   }
 }
@@ -70,7 +70,7 @@ TEST_CASE(
   const int cells = int(std::lround(length / std::max(1e-3, p.diameter / 12)));
   const double cell = length / cells;
   for (const int moved : {0, 3})                      // cells in the step
-    for (const int at : {0, 2, 17, 100, 10 * cells})  // from the base, in half cells: the last is the middle
+    for (const int at : {0, 2, 17, 100, 10 * cells})  // from the base, in half cells; the last is the middle
       for (const double degrees : {102.0, -31.0}) {
         CAPTURE(moved, at, degrees);
         const double place = at * cell / 2, angle = degrees * pi / 180;
@@ -94,8 +94,8 @@ TEST_CASE(
           most = std::max(most, patch.position + cell / 2);
         }
         CHECK(work == Approx(0.01));
-        const double middle = std::max(place, length / 2);  // not beyond the end
-        // Half cells at both ends count at their middles, which cancels.
+        const double middle = std::max(place, length / 2);  // limited by the end
+        // Half cells at both ends count at their middles; the errors cancel.
         CHECK(mean == Approx(middle));
         CHECK(least >= middle - length / 2 - cell / 2 - 1e-9);
         CHECK(most <= middle + length / 2 + cell / 2 + 1e-9);

@@ -11,7 +11,7 @@ using namespace dresslife::sim::test;
 
 namespace {
 
-constexpr double deepest = 1e-3;  // [m] at steps of 5 ms: less than the wall of a real hose gives
+constexpr double deepest = 1e-3;  // [m] at steps of 5 ms: less than the wall of a real hose yields
 
 RodProperties soft_hose(int segments) {
   RodProperties p;
@@ -46,7 +46,7 @@ TEST_CASE("nearest points of two segments are those of a search over both") {
     for (int i = 0; i <= grid; ++i)
       for (int j = 0; j <= grid; ++j) best = std::min(best, distance(double(i) / grid, double(j) / grid));
     CHECK(distance(found.a, found.b) <= best + 1e-12);
-    // A grid point lies within half a mesh of the best on each segment.
+    // The nearest grid point is within half a cell of the best point on each segment.
     CHECK(distance(found.a, found.b) >= best - ((a1 - a0).norm() + (b1 - b0).norm()) / (2 * grid));
   }
 }
@@ -98,8 +98,7 @@ TEST_CASE("a slack hose that is wound up coils onto itself and stays outside its
   const Frame tool = world.state().clamps.tool;
   double depth = 0, hardest = 0;
   int most = 0;
-  // Six turns, then, with the twist in it, the clamps approach by 0.6 m: the hose throws a loop that winds
-  // up.
+  // The tool clamp makes six turns. Then the clamps approach by 0.6 m: the twisted hose forms a loop that winds up.
   for (int k = 1; k <= 1600; ++k) {
     const double t = k * settings.time_step;
     ClampFrames clamps{base, rolled(tool, 12 * pi * smooth(t / 6))};
@@ -121,7 +120,7 @@ TEST_CASE("a slack hose that is wound up coils onto itself and stays outside its
 }
 
 TEST_CASE("what one piece of the hose gains by touching another the other loses") {
-  // A loop drawn together in weightlessness: all momentum comes through the clamps.
+  // A loop is pulled tight without gravity: all momentum comes from the clamps.
   RodProperties p = soft_hose(40);
   p.gravity.setZero();
   p.tool_end = End::clamped;
@@ -134,8 +133,8 @@ TEST_CASE("what one piece of the hose gains by touching another the other loses"
   World world(rod, settings, start.state);
   double worst = 0, hardest = 0, depth = 0;
   for (int k = 1; k <= 500; ++k) {
-    // The tool clamp passes the base clamp and pulls the loop tight round itself; three diameters away, or
-    // the clamps would crush the hose between them.
+    // The tool clamp passes the base clamp and pulls the loop tight around itself, at a distance of three diameters. Closer, the
+    // clamps would crush the hose between them.
     const double u = smooth(k * settings.time_step / 2.5);
     ClampFrames now = clamps;
     now.tool.position = {1.2 - 2.4 * u, 3 * p.diameter * smooth(4 * u), 0};
@@ -152,7 +151,7 @@ TEST_CASE("what one piece of the hose gains by touching another the other loses"
   INFO("unexplained momentum " << worst << " N s, hardest contact " << hardest << " N, deepest " << depth);
   CHECK(hardest > 0.1);
   const double rounding =
-      1e-11;  // [N s] of a step's momentum, 1e-16 of hardest contacts of kN over many links
+      1e-11;  // [N s] per step; 1e-16 of the largest contact forces, kN, over many links
   CHECK(worst < rounding);
   CHECK(depth < deepest);
 }

@@ -15,7 +15,7 @@ RodProperties pulled_hose(int segments, const SlidingClamp& slider) {
   return p;
 }
 
-/// The hose at rest from x = 0 to 1.1.
+/// Returns the hose at rest from x = 0 to 1.1.
 RodState hanging_between(const Rod& rod) {
   RodProperties fixed = rod.properties();
   fixed.slider.reset();
@@ -24,8 +24,8 @@ RodState hanging_between(const Rod& rod) {
   return start.state;
 }
 
-/// Moves the tool clamp from x = 1.1 to `to` within a second, then waits. seen: after every step. The base
-/// clamp starts at x = 0, pulled out by `way`.
+/// Moves the tool clamp from x = 1.1 to `to` within a second, then waits until `until` [s]. seen: called after every step. The
+/// base clamp starts at x = 0, pulled out by `way`.
 RodState pull(const Rod& rod, double to, double h, double until,
               const std::function<void(const RodState&, double)>& seen, double way = 0) {
   const Frame base = planar_frame(-way, 0, 0);
@@ -53,7 +53,7 @@ TEST_CASE("a retraction unit comes to rest where its spring balances the hose") 
   const Travel& travel = state.travel[0];
   CHECK(travel.way > 0.1);
   CHECK(travel.way < 0.45);
-  const double rest = 1e-3;  // [N] of what still moves after 19 s
+  const double rest = 1e-3;  // [N]; remaining motion after 19 s
   CHECK(state.link_force[0].x() == Approx(20 + 100 * travel.way).margin(rest));
   CHECK(state.clamps.base.position.x() == Approx(travel.way));
 }
@@ -66,11 +66,11 @@ TEST_CASE("a retraction unit stays between its stops and reports when they hold 
     REQUIRE(s.travel[0].way >= 0);
     REQUIRE(s.travel[0].way <= 0.1);
   };
-  const RodState out = pull(rod, 1.302, 0.005, 4, within);  // 2 mm more than hose and stroke
+  const RodState out = pull(rod, 1.302, 0.005, 4, within);  // 2 mm longer than hose and stroke
   CHECK(out.travel[0].way == 0.1);
   CHECK(out.travel[0].mode == Travel::Mode::at_end);
   CHECK(out.link_force[0].x() > 15);
-  const RodState home = pull(rod, 0.9, 0.005, 4, within);  // so slack that it pulls less than the spring
+  const RodState home = pull(rod, 0.9, 0.005, 4, within);  // so slack that the hose pulls less than the spring
   CHECK(home.travel[0].way == 0);
   CHECK(home.travel[0].mode == Travel::Mode::at_home);
   CHECK(home.link_force[0].x() < 15);
@@ -99,7 +99,7 @@ TEST_CASE("friction holds the sliding clamp up to its limit and takes energy whe
 }
 
 TEST_CASE("a mass on a hose below a sliding clamp swings up and down as on a spring") {
-  // m + M + hose on the spring alone: the hose hardly stretches.
+  // The mass m + M + hose on the spring alone: the hose hardly stretches.
   SlidingClamp slider;
   slider.mass = 2, slider.spring = 400, slider.stroke = 1;
   RodProperties p = unit_rod(10);
@@ -127,7 +127,7 @@ TEST_CASE("a mass on a hose below a sliding clamp swings up and down as on a spr
   }
   const double tolerance = 1e-3;  // (omega h)^2/24 = 1e-5; the hose stretches by 65 N/1e6 N of 1 m
   CHECK(20 * pi / (crossing.back() - crossing.front()) == Approx(omega).epsilon(tolerance));
-  CHECK(lowest == Approx(2 * rest).epsilon(1e-2));  // let go from home; the jerk into the hose costs a little
+  CHECK(lowest == Approx(2 * rest).epsilon(1e-2));  // released from home; the jerk of the hose dissipates a little
   CHECK(state.link_force[0].z() < 0);
   const double half_step = 0.5 * h * mass * 9.81 * omega * rest;
   CHECK(most < start + half_step);
@@ -137,7 +137,7 @@ TEST_CASE("a sliding clamp leaves the motion of second order in the step and fee
   SlidingClamp slider;
   slider.spring = 60, slider.stroke = 1, slider.mass = 3, slider.damping = 5;
   RodProperties p = pulled_hose(20, slider);
-  const double way = 0.2;  // out, and balanced there: nothing jerks at the start, which no order describes
+  const double way = 0.2;  // pulled out and balanced there: a jerk at the start would have no order of convergence
   p.slider->force = hanging_between(Rod(p)).link_force[0].x() - 60 * way;
   const auto ways = [&](double h) {
     std::vector<double> list;
@@ -159,7 +159,7 @@ TEST_CASE("a sliding clamp leaves the motion of second order in the step and fee
   const auto a = ways(0.005), b = ways(0.0025), c = ways(0.00125);
   CAPTURE(distance(a, b), distance(b, c));
   CHECK(observed_order(distance(a, b), distance(b, c)) > least_order);
-  // Undamped, once the tool clamp stands: no more energy than then.
+  // Without damping the energy does not grow after the tool clamp has stopped.
   p.damping_time = 0, p.slider->damping = 0;
   const Rod rod(p);
   double begin = 0, most = -1e9;
@@ -171,6 +171,6 @@ TEST_CASE("a sliding clamp leaves the motion of second order in the step and fee
         if (t > 1) most = std::max(most, energy);
       },
       way);
-  const double half_step = 0.5 * 0.002 * 60;  // positions and velocities are half a step apart: 60 W at most
+  const double half_step = 0.5 * 0.002 * 60;  // positions and velocities are half a step apart: at most 60 W
   CHECK(most < begin + half_step);
 }

@@ -1,4 +1,4 @@
-// A dresspack gripped between its ends: each span is a dresspack of its own.
+// A dresspack with a clamp between its ends: each span behaves as a dresspack of its own.
 #include "sim/contact/world.h"
 #include "tests/sim/rod/rod_problems.h"
 
@@ -39,7 +39,7 @@ TEST_CASE("the spans on either side of a clamp move as two dresspacks would") {
     one.advance({base(t), middle(t)});
     other.advance({middle(t), tool(t)});
   }
-  const double rounding = 1e-12;  // the same operations; only the world that holds the bodies differs
+  const double rounding = 1e-12;  // equal operations; only the order of the bodies in the world differs
   CHECK(furthest(whole.state(), 0, one.state()) < rounding);
   CHECK(furthest(whole.state(), 20, other.state()) < rounding);
   CHECK(both.energy(whole.state()).total() ==
@@ -51,7 +51,7 @@ TEST_CASE("the spans on either side of a clamp move as two dresspacks would") {
 }
 
 TEST_CASE("what touches beyond a clamp is pushed as by any other piece of the hose") {
-  // The second span comes back over the first: both hang between clamps side by side, 30 mm too near.
+  // The second span returns over the first: both hang side by side between clamps, 30 mm too close.
   const Rod rod({hose(10, 1), hose(10, 1)});
   RodState start = rod.straight(planar_frame(0, 0, 0));
   for (int i = 10; i < 20; ++i) {

@@ -1,4 +1,4 @@
-// Rubbing work and largest forces against the work that a dragged block does.
+// Rubbing work and largest forces of a dragged block against closed forms.
 #include "sim/contact/touch.h"
 
 #include "sim/contact/world.h"
@@ -12,7 +12,7 @@ TEST_CASE("a hose dragged over the floor rubs by weight times friction times way
   RodProperties p = hose(10, 0.5);
   p.tool_end = End::free;
   const Rod rod(p);
-  // Along x, half a diameter above the floor, so that it lies there.
+  // Along x, half a diameter above the floor, so that it rests on it.
   const Frame base{{0, 0, 0.03}, turn_between(Vector3::UnitZ(), Vector3::UnitX())};
   WorldSettings settings;
   settings.floor = true, settings.friction = 0.4;
@@ -40,9 +40,9 @@ TEST_CASE("a hose dragged over the floor rubs by weight times friction times way
     CHECK(touch.work()[4 * i] + touch.work()[4 * i + 2] + touch.work()[4 * i + 3] == 0);
   }
   const double weight = 9.81 * 1.25, power = 0.4 * weight * 0.2;
-  const double start = 1e-2;  // the jerk of the start stretches the hose and swings its forces
+  const double start = 1e-2;  // the jerk of the start stretches the hose and its forces oscillate
   CHECK(work == Approx(power * steps * h).epsilon(start));
-  const double steady = 1e-4;  // what is left of the stretching after 2 s
+  const double steady = 1e-4;  // rest of the stretching after 2 s
   CHECK(since == Approx(0.4 * pressed * 0.2).epsilon(steady));
 }
 

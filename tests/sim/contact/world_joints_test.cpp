@@ -1,9 +1,9 @@
-// An independent engine: the same chain built from ODE's own joints, solved by ODE's own step.
+// An independent solver: the same chain of ODE's own joints, solved by ODE's own step.
 //
-// Ball joints hold the segments together. A user-mode AMotor per link takes the link's rotation vector along
-// the axes of its mid-frame. ODE solves  rate+ + (ERP/h) phi + CFM torque = 0; a leapfrog of spring k and
-// damper c wants torque = -(k phi + c rate- + z (rate+ - rate-)), z = beta h k + c/2: CFM = 1/z, ERP = h k/z,
-// and (z - c) rate- as a torque of our own. Nothing of sim/rod/rod.cpp is used.
+// Ball joints hold the segments together. A user-mode AMotor per link has the link's rotation vector as its angles along the
+// axes of the link's mid-frame. ODE solves  rate+ + (ERP/h) phi + CFM torque = 0. A leapfrog of spring k and damper c needs
+// torque = -(k phi + c rate- + z (rate+ - rate-)), z = beta h k + c/2: CFM = 1/z, ERP = h k/z, and (z - c) rate- as an
+// applied torque. No code of sim/rod/rod.cpp is used.
 #include <ode/ode.h>
 
 #include "sim/rod/rotation.h"
@@ -83,7 +83,7 @@ class JointChain {
     const double stiffness[3] = {p_.bending_stiffness, p_.bending_stiffness, p_.torsional_stiffness};
     for (int k = 0; k < 3; ++k) {
       const double spring = stiffness[k] / compliance(j), damper = p_.damping_time * spring;
-      const double softness = 1 / (beta * h_ * spring + 0.5 * damper);  // inverse of the torque per rate
+      const double softness = 1 / (beta * h_ * spring + 0.5 * damper);  // inverse of torque / rate
       const int group = dParamGroup * k;
       dJointSetAMotorParam(motor, dParamLoStop + group, 0);
       dJointSetAMotorParam(motor, dParamHiStop + group, 0);
@@ -97,7 +97,7 @@ class JointChain {
     return {q[0], q[1], q[2], q[3]};
   }
   Vector3 turn(int j) const { return rotation_vector(orientation(j).conjugate() * orientation(j + 1)); }
-  // The link's rotation vector as the motor's three angles (of body 1 against body 2, hence the sign).
+  // Sets the link's rotation vector as the motor's three angles (of body 1 against body 2, hence the sign).
   void pull(int j) {
     const Vector3 phi = turn(j);
     const Matrix3 axes = (orientation(j) * rotation(0.5 * phi)).toRotationMatrix();
@@ -154,9 +154,8 @@ TEST_CASE("a chain of ODE's own joints moves in the same way") {
       size += std::pow(ours.history[sample][j], 2);
     }
   }
-  // Its segments keep their length, which makes it the plain polygon that ours corrects (S17): (kappa l)^2/24
-  // of 3e-3. Joints do not stretch, ours do by 1e-4; ODE's correction of joint errors (ERP 0.2) and h^2
-  // terms.
+  // ODE's segments keep their length, so the chain is the plain polygon that sim/rod corrects (S17): (kappa l)^2/24 of 3e-3.
+  // ODE's joints do not stretch, those of sim/rod stretch by 1e-4. The rest: ODE's correction of joint errors (ERP 0.2), h^2.
   const double tolerance = 5e-3;
   CHECK(std::sqrt(difference / size) < tolerance);
 }

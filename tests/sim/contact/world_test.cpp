@@ -1,5 +1,4 @@
-// The world: ODE moves the bodies as our own step would, and nothing but its input decides what happens in
-// it.
+// The world: ODE moves the bodies as the chain's own integrator does, and the result depends only on the input.
 #include "sim/contact/world.h"
 
 #include <array>
@@ -14,7 +13,7 @@ using namespace dresslife::sim::test;
 
 namespace {
 
-// The driven cable for one second of motion with a capsule in its way.
+// Runs the driven cable until `until` [s] with a capsule in its path.
 RodState run_with_obstacle(double until) {
   const Rod rod(DrivenCable::properties(30));
   const Frame still{{1, 0, -0.3}, Quaternion::Identity()};
@@ -55,11 +54,11 @@ TEST_CASE("ODE advances the bodies as the chain's own integrator") {
   }
   const double rounding = 1e-9;  // [m] 1000 steps of 1e-16, amplified by the stiffest mode, k h^2/m = 4e3
   CHECK(difference < rounding);
-  CHECK(difference > 0);  // they are two integrators
+  CHECK(difference > 0);  // the integrators are different
 }
 
 TEST_CASE("a world counts one unit of work for a segment and step, and more where something touches") {
-  // Limits of searches and of short runs rest on this number.
+  // The limits of searches and of short runs depend on this number.
   const Rod rod(DrivenCable::properties(30));
   const Frame still{{1, 0, -0.3}, Quaternion::Identity()};
   World world(rod, {}, rod.straight(DrivenCable::base()), std::span(&still, 1));
@@ -105,7 +104,7 @@ TEST_CASE("a world restarted from its state goes on as if it had not stopped") {
 TEST_CASE("a world that remembers how far obstacles are moves as one that looks at every step") {
   const Rod rod(DrivenCable::properties(30));
   const RodState start = rod.straight(DrivenCable::base());
-  // A box and a capsule dive at the cable from 1 m away at up to 2.5 m/s, one after the other, and go again.
+  // A box and a capsule move toward the cable from 1 m away at up to 2.5 m/s, one after the other, and back.
   const auto links_at = [](double t) {
     const auto dive = [t](double begin) { return std::max(0.0, std::sin(2.5 * (t - begin))); };
     return std::array{Frame{{0.5, 0, -1 + (t > 0.2 ? dive(0.2) : 0)}, Quaternion::Identity()},
@@ -123,7 +122,7 @@ TEST_CASE("a world that remembers how far obstacles are moves as one that looks 
   for (int k = 1; k <= 400; ++k) {
     const double t = k * 0.005;
     const auto links = links_at(t);
-    looks->set_state(looks->state());  // forgets
+    looks->set_state(looks->state());  // discards the saved distances
     const StepReport report = remembers->advance(DrivenCable::clamps(t), links);
     looks->advance(DrivenCable::clamps(t), links);
     ++(report.touching > 0 ? touching : free);
@@ -133,7 +132,7 @@ TEST_CASE("a world that remembers how far obstacles are moves as one that looks 
   CHECK(touching > 20);
   CHECK(free > 20);
   CHECK(difference <
-        1e-6);  // [m] ODE normalises quaternions that are set; a contact that is missed is worth millimetres
+        1e-6);  // [m] ODE normalises quaternions that are set; a missed contact would cause millimetres
 }
 
 TEST_CASE("a state that is not finite is reported") {

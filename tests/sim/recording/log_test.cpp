@@ -38,11 +38,11 @@ Recording read(const std::string& text, LogOptions options = {.still = bound}) {
   return read_log(scratch.write("log.csv", text), two_axes(), options);
 }
 
-/// A log in degrees: rows at a rate from time 0 on.
+/// Writes a log in degrees: rows at a rate from time 0 on.
 class Writer {
  public:
   explicit Writer(double rate, double noise = 0) : rate_(rate), noise_(noise) {}
-  /// angles: of the time since this part began [deg].
+  /// Appends a part. angles: function of the time since the start of this part [deg].
   template <class Angles>
   void part(double seconds, const Angles& angles) {
     std::uniform_real_distribution<double> any(-noise_, noise_);
@@ -64,7 +64,7 @@ class Writer {
   std::mt19937 random_{7};
 };
 
-/// From 0 to 0 in `seconds`, at rest at both ends, with a round trip of axis 2 in the first half [deg].
+/// Returns a motion from 0 to 0 in `seconds`, at rest at both ends, with a round trip of axis 2 in the first half [deg].
 auto cycle(double seconds, double size = 1) {
   return [seconds, size](double t) {
     const double u = t / seconds, wave = (1 - std::cos(2 * std::numbers::pi * u)) / 2;
@@ -81,7 +81,7 @@ TEST_CASE("log: time stamps of loggers and spreadsheets") {
     const auto first = clock.read(a), second = clock.read(b);
     return first && second ? *second - *first : NAN;
   };
-  constexpr double rounding = 1e-6;  // of seconds since 1970 in a double
+  constexpr double rounding = 1e-6;  // seconds since 1970 in a double
   CHECK(seconds_between("2027-02-28T23:59:59.5", "2027-03-01T00:00:01") == Approx(1.5).margin(rounding));
   CHECK(seconds_between("28.02.2027 23:59:59,5", "01.03.2027 00:00:01") == Approx(1.5).margin(rounding));
   CHECK(seconds_between("02/28/2027 11:59:59 PM", "03/01/2027 12:00:01 AM") == Approx(2).margin(rounding));
@@ -115,7 +115,7 @@ TEST_CASE(
   const double times[] = {0, 0.1, 0.2, 0.3, 0.4}, first[] = {0, 2.5, 5, 6, 9.5},
                second[] = {0, 0, -1.5, -2, -3};
   for (std::size_t k = 0; k < 5; ++k) {
-    CHECK(log.times[k] == Approx(times[k]).margin(1e-6));  // of seconds since 1970 in a double
+    CHECK(log.times[k] == Approx(times[k]).margin(1e-6));  // seconds since 1970 in a double
     CHECK(log.at(k)[0] == Approx(first[k] * degree).margin(1e-12));
     CHECK(log.at(k)[1] == Approx(second[k] * degree).margin(1e-12));
   }
@@ -130,7 +130,7 @@ TEST_CASE(
 
 TEST_CASE("log: a logger that was off, a wrong time and times in milliseconds are named") {
   std::string text = "time,J1_deg,J2_deg\n";
-  for (int k = 0; k < 40; ++k)  // line k + 2; off for 500 s before line 22, one time wrong in line 32
+  for (int k = 0; k < 40; ++k)  // line k + 2; a gap of 500 s before line 22, a wrong time in line 32
     text += std::to_string(k == 30 ? 100 : 0.1 * k + (k < 20 ? 0 : 500)) + "," + std::to_string(100 + k) + ",0\n";
   const Recording log = read(text);
   CHECK(log.back == 1);
@@ -145,7 +145,7 @@ TEST_CASE("log: a logger that was off, a wrong time and times in milliseconds ar
 TEST_CASE("log: columns of the measured angles among others, and what names no angles") {
   const std::string both = "timestamp,target_q_0,target_q_1,actual_q_0,actual_q_1,actual_qd_0,actual_qd_1\n";
   const Recording log = read(both + "0,9,9,0.5,-0.5,9,9\n0.1,9,9,0.6,-0.6,9,9\n");
-  CHECK(log.at(0)[0] == 0.5);  // of RTDE: rad
+  CHECK(log.at(0)[0] == 0.5);  // RTDE uses rad
   CHECK(log.at(1)[1] == -0.6);
   const Recording swapped =
       read("time,elbow,base\n0,100,-50\n1,101,-49\n", {.joints = "base,elbow", .still = bound});
@@ -172,7 +172,7 @@ TEST_CASE(
     "log: one row that no axis can reach is left out, also outside the limits and while the robot stands") {
   for (const double rate : {10., 125.})
     for (const double off : {30., 300.})
-      for (const double seconds : {0.5, 2.0, 4.9}) {  // standing, moving, standing
+      for (const double seconds : {0.5, 2.0, 4.9}) {  // at rest, moving, at rest
         const auto angle = [](double t) {
           return t < 1 || t > 4 ? 0 : 30 * (1 - std::cos(2 * std::numbers::pi * (t - 1) / 3));
         };
@@ -189,7 +189,7 @@ TEST_CASE(
         CHECK(log.impossible.jumps.empty());
         CHECK(expected.impossible.glitches.empty());
         CHECK(log.angles == expected.angles);
-        CHECK(log.columns[0].high == Approx(60 * degree).margin(0.5 * degree));  // a row may miss the peak
+        CHECK(log.columns[0].high == Approx(60 * degree).margin(0.5 * degree));  // the rows may miss the peak
       }
 }
 
@@ -204,7 +204,7 @@ TEST_CASE("log: a jump stays and is named, and stops, noise and coarse clocks ar
   const Cycles none;
   const auto words = fmt::format("{}", fmt::join(log_words(log, course, none, {}), "\n"));
   CHECK_THAT(words, Contains("stays in the motion: line 22"));
-  // From 110 deg/s to rest within a row, with times rounded to the interval, and encoder noise.
+  // From 110 deg/s to rest within one row, with times rounded to the interval, and encoder noise.
   for (const double rate : {10., 125.}) {
     text = "time,j1_deg,j2_deg\n";
     for (int k = 0; k < rate; ++k)
@@ -250,7 +250,7 @@ TEST_CASE("log: columns, times, unit and ranges are stated, and columns that fit
   CHECK_THAT(words, Contains("warning: the columns of joint_1, joint_2 may be exchanged"));
   CHECK(slow.external.empty());
   CHECK_THAT(words, !Contains("left out"));
-  std::string more = exchanged(10);  // a rail, a third axis, and what is none
+  std::string more = exchanged(10);  // a rail, a third axis, and a column that is no axis
   for (std::size_t at = 0, row = 0; (at = more.find('\n', at)) != more.npos; ++row) {
     const std::string cells = row == 0 ? ";E1 [mm];J3 [deg];Temp 1" : ";5;6;20";
     more.insert(at, cells), at += cells.size() + 1;
@@ -281,8 +281,8 @@ TEST_CASE("log: radians under names in degrees, and times in another unit, have 
   CHECK_THAT(words(radians), Contains("no angle of the log is larger than 1.6 deg (limit 6.28 or more)") &&
                                  Contains("--value unit=rad"));
   CHECK_THAT(words(radians, {.unit = "rad", .still = bound}), !Contains("warning"));
-  CHECK_THAT(words(text_of(0.04, 0.1, "time_s", 3)), !Contains("radians"));  // a robot that stands at 3 deg, with noise
-  const std::string short_times = text_of(30, 0.1, "time_ms");  // seconds under a name in ms
+  CHECK_THAT(words(text_of(0.04, 0.1, "time_s", 3)), !Contains("radians"));  // a robot at rest at 3 deg, with noise
+  const std::string short_times = text_of(30, 0.1, "time_ms");  // seconds in a column named ms
   CHECK_THAT(words(short_times),
              Contains("an axis turns") &&
                  Contains("--value rate_Hz=10 if they are 1000 times as long: a row in 0.1 s"));
@@ -303,19 +303,19 @@ TEST_CASE("log: a spline through exact samples gives back the curve") {
   writer.part(4, [](double t) { return std::pair(57 * (1 - std::cos(std::numbers::pi * t / 2)) / 2, 0.0); });
   writer.stand(1);
   const Course course(writer.recording(), two_axes(), bound);
-  // 5/384 h^4 of the largest fourth derivative, (pi/2)^4 57/2 deg/s^4; and the six digits of the log.
+  // 5/384 h^4 of the largest fourth derivative, (pi/2)^4 57/2 deg/s^4, plus the six digits of the log.
   const double error = (5. / 384 * 1e-4 * std::pow(std::numbers::pi / 2, 4) * 28.5 + 2e-6) * degree;
   for (double t = 0; t < 4; t += 0.013)
     CHECK(course.at(t)[0] ==
           Approx(57 * degree * (1 - std::cos(std::numbers::pi * t / 2)) / 2).margin(error));
   CHECK(course.log_seconds == Approx(4.9).margin(1e-9));
-  CHECK(course.stand_seconds == Approx(0.9).margin(0.11));  // one interval to the last row that moves
+  CHECK(course.stand_seconds == Approx(0.9).margin(0.11));  // error of one interval at the last moving row
   CHECK(course.too_fast.empty());
 }
 
 TEST_CASE("log: noise of half the bound neither moves the robot nor leaves the bound") {
   const double noise = 0.05;                  // [deg]
-  const double rate = GENERATE(100 / 3., 125.);  // [Hz] with two to four, and with twelve rows around each knot
+  const double rate = GENERATE(100 / 3., 125.);  // [Hz]: two to four rows around each knot, or twelve
   Writer quiet(rate), noisy(rate, noise);
   for (Writer* writer : {&quiet, &noisy}) {
     writer->stand(2);
@@ -326,13 +326,13 @@ TEST_CASE("log: noise of half the bound neither moves the robot nor leaves the b
   const Course course(log, two_axes(), bound), truth(exact, two_axes(), bound);
   CHECK(course.largest_smoothing <= bound);
   CHECK(course.largest_smoothing > 0);
-  // With two rows on either side a knot lies between rows, else on a row.
+  // With two rows on either side a knot lies between rows, otherwise on a row.
   CHECK(std::ranges::any_of(course.knots(), [&](double t) { return std::abs(std::remainder(t, 1 / rate)) > 0.3 / rate; }));
   for (std::size_t k = 0; k < log.size(); ++k)
     CHECK(
         (course.at(log.times[k]) - Eigen::Map<const Eigen::Vector2d>(log.at(k))).lpNorm<Eigen::Infinity>() <=
         1.0001 * bound);
-  // Knots 0.05 s apart that alternate by all of the noise: 12 n/h^2. Rows as knots: 9,400 deg/s2.
+  // Knots 0.05 s apart that alternate by all of the noise: 12 n/h^2. With rows as knots: 9,400 deg/s2.
   const double limit = 12 * noise * degree / (0.05 * 0.05), h = 0.01;
   double largest = 0;
   for (double t = 2.2; t < 5.8; t += 0.01)
@@ -341,8 +341,8 @@ TEST_CASE("log: noise of half the bound neither moves the robot nor leaves the b
                                         .lpNorm<Eigen::Infinity>() /
                                     (h * h));
   CHECK(largest < limit);
-  CHECK(course.at(1) == course.at(0.2));                                   // stands
-  CHECK(course.stand_seconds == Approx(truth.stand_seconds).margin(0.4));  // slow starts within the bound
+  CHECK(course.at(1) == course.at(0.2));                                   // at rest
+  CHECK(course.stand_seconds == Approx(truth.stand_seconds).margin(0.4));  // slow starts are within the bound
 }
 
 TEST_CASE("log: rows that are missing in a fine log leave a smooth course") {
@@ -365,7 +365,7 @@ TEST_CASE("log: a gap with a move is no time, and a speed beyond the limit is na
   CHECK(course.gaps == 1);
   CHECK(course.gap_seconds == Approx(598));
   CHECK(course.log_seconds == Approx(4));
-  CHECK(course.duration() < 4 + 3 * (80 * degree / 2) + 1);  // a move at half the speed at most
+  CHECK(course.duration() < 4 + 3 * (80 * degree / 2) + 1);  // a move at no less than half the speed
   REQUIRE(course.too_fast.size() == 1);                      // 125 deg/s with 115 allowed
   CHECK(course.too_fast[0].axis == "joint_1");
   CHECK(course.too_fast[0].speed > 125 * degree);
@@ -399,16 +399,16 @@ TEST_CASE("log: cycles are counted with other times and waits, and the rest is o
   CHECK(motions[0].count == 11);
   CHECK(motions[0].rows.front() == motions[0].rows.back());
   CHECK(motions[0].duration() > 7.5);
-  CHECK(motions[0].duration() < 8.5 + 3.2);  // with one wait
+  CHECK(motions[0].duration() < 8.5 + 3.2);  // including one wait
   CHECK(motions[1].is_rest);
-  CHECK(motions[1].duration() == Approx(9).margin(5));  // stands count at most 3 s
+  CHECK(motions[1].duration() == Approx(9).margin(5));  // rests count at most 3 s
   double largest = 0;
   for (const auto& row : motions[1].rows) largest = std::max(largest, -row[0]);
   CHECK(largest / degree == Approx(40).margin(0.1));
-  // The shares of the log: count per hour.
+  // The motions' shares of the log: count per hour.
   CHECK_THAT(duty_text("shift", "shift/study.yaml", course, motions),
              Contains(fmt::format("repeats_per_hour: {:.6g}", 11 * 3600 / course.log_seconds)));
-  LogMotion endless = motions[0];  // that leaves no time to stand
+  LogMotion endless = motions[0];  // leaves no time at rest
   endless.times.back() = course.log_seconds / 10;
   CHECK_THAT(duty_text("shift", "study.yaml", course, {endless}),
              Contains(fmt::format("repeats_per_hour: {:.6g}", 3600 / (endless.duration() + 0.2))));
@@ -427,8 +427,8 @@ TEST_CASE("log: two products that differ by more than the bound are two cycles")
   std::vector<std::size_t> found;
   for (const CyclePart& part : cycles.parts) found.push_back(part.cycle);
   CHECK(found == std::vector<std::size_t>{0, 0, 0, 0, 1, 1, 1, 1, 0, 0, 0, 0});
-  // The mean of eight parts of 9 s, at most two of which lack their stand of 1 s; an interval of the log at either end. A cycle begins
-  // behind its stand: a ramp would add 0.3 s.
+  // The mean of eight parts of 9 s, of which at most two lack their rest of 1 s, with an error of one interval at either end. A
+  // cycle begins after its rest: a ramp would add 0.3 s.
   const double seconds = motions_of(course, cycles, bound, 1)[0].duration();
   CHECK(seconds > 9 - 2. / 8 - 0.08);
   CHECK(seconds < 9 + 0.08);
@@ -444,7 +444,7 @@ TEST_CASE("log: recordings of a cycle stand for parts of other damage") {
   writer.stand(1);
   const Course course(writer.recording(), two_axes(), bound);
   const auto motions = motions_of(course, cycles_of(course, {degree, 0.1, 5}), bound, 3);
-  REQUIRE(motions.size() == 2);  // three parts or more for each
+  REQUIRE(motions.size() == 2);  // at least three parts for each
   CHECK(motions[0].count + motions[1].count == 8);
   CHECK(motions[1].name == "cycle_1_b");
   const auto largest = [](const LogMotion& motion) {
@@ -452,7 +452,7 @@ TEST_CASE("log: recordings of a cycle stand for parts of other damage") {
     for (const auto& row : motion.rows) angle = std::max(angle, row.lpNorm<Eigen::Infinity>());
     return angle;
   };
-  CHECK(largest(motions[1]) == Approx(1.01 * largest(motions[0])).epsilon(1e-3));  // rows lie up to 0.04 s beside the turning point
+  CHECK(largest(motions[1]) == Approx(1.01 * largest(motions[0])).epsilon(1e-3));  // rows lie up to 0.04 s from the turning point
   CHECK_THAT(duty_text("shift", "study.yaml", course, motions), Contains("{job: cycle_1_b,") && Contains(", recording_of: cycle_1}"));
 }
 

@@ -28,7 +28,7 @@ Job shipped(const std::string& job) {
 TEST_CASE("program ways: those of the shipped program read back as the program but for what they change") {
   const Job job = shipped("side_panel.yaml");
   const ReadProgram read = read_job_program(job);
-  // Sixteen spots with their dwells on lines of their own.
+  // Sixteen spots whose dwells are on separate lines.
   const std::vector<double> damage(30, 1.0);
   const std::vector<ProgramWay> ways = program_ways(job, read, damage, 30);
   REQUIRE(ways.size() > 20);
@@ -74,7 +74,7 @@ TEST_CASE(
   using Names = std::vector<std::string>;
   CHECK(slowed({0, 1, 0, 0}, 5) == Names{"m.mod:4"});
   CHECK(slowed({0, 0, 1, 0}, 5) ==
-        Names{"m.mod:4"});  // what happens while the robot stands comes from the move before
+        Names{"m.mod:4"});  // damage while the robot is at rest belongs to the move before
   CHECK(slowed({0, 0, 0, 1}, 5) == Names{"m.mod:6"});
   CHECK(slowed({0, 1, 0, 2}, 5) == Names{"m.mod:6", "m.mod:4"});
   CHECK(slowed({0, 1, 1.5, 2}, 5) == Names{"m.mod:4", "m.mod:6"});
@@ -85,7 +85,7 @@ TEST_CASE(
     if (way.what.starts_with("by a point")) {
       REQUIRE(way.changes.size() == 1);
       CHECK(way.lines ==
-            Names{"m.mod:4"});  // line 6 moves the wrist alone, and line 3 is where the robot begins
+            Names{"m.mod:4"});  // line 6 moves only the wrist, and the robot starts at line 3
       points[way.what] = way.changes[0].point;
     }
   REQUIRE(points.size() == 2);
@@ -100,7 +100,7 @@ TEST_CASE("program ways: a line that runs again and again is changed for all of 
   Job job = shipped("side_panel.yaml");
   job.motion.program = std::string(DRESSLIFE_SOURCE_DIR) + "/config/programs/pick_and_place.src";
   const ReadProgram read = read_job_program(job);
-  // As the line 'PTP pick' with the same target four times.
+  // The line 'PTP pick' occurs four times with the same target.
   std::size_t moves = 0;
   for (const MotionStep& step : read.motion.steps) moves += step.text.find("PTP pick") != std::string::npos;
   CHECK(moves == 4);
@@ -122,7 +122,7 @@ TEST_CASE("program ways: a turn leads all moves to the same poses by its angles,
     Job job = read_job(DRESSLIFE_SOURCE_DIR "/config/jobs/irb6640_spot_welding.yaml", {std::string("robot=") + robot});
     job.motion.program = std::string(DRESSLIFE_SOURCE_DIR "/config/programs/") + program;
     const ReadProgram read = read_job_program(job);
-    constexpr double digits = 1e-5 * degree;  // of angles that are written into a line
+    constexpr double digits = 1e-5 * degree;  // of angles written into a line
     const auto angles = [&](const Motion& motion) {
       Eigen::VectorXd accelerations = Eigen::VectorXd::Ones(6);
       return legs_of(motion, job.robot, accelerations).targets;

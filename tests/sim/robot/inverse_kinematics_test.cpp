@@ -12,15 +12,15 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double pose_rounding = 1e-11;  // metres and quaternion parts after a dozen turns of 3 m
-constexpr double joint_rounding = 1e-7;  // [rad]: acos near its ends halves the digits
+constexpr double pose_rounding = 1e-11;  // [m] and quaternion parts after a dozen rotations of 3 m
+constexpr double joint_rounding = 1e-7;  // [rad]: acos near its limits halves the number of digits
 
 struct Axis {
   Vector3 origin, axis;
   double lower, upper;  // [deg]
 };
 
-/// Facts of the types' data sheets, as in ROS-Industrial's support packages.
+/// Returns a robot from facts of its type's data sheet, in the form of ROS-Industrial's support packages.
 pipeline::Robot robot_of(const std::vector<Axis>& axes, const Vector3& flange_rpy) {
   pipeline::Robot robot;
   robot.name = "robot";
@@ -116,12 +116,11 @@ TEST_CASE("inverse kinematics: a configuration brings back the very angles, turn
     const VectorXd elsewhere = VectorXd::Zero(6);
     for (int round = 0; round < 300; ++round) {
       const VectorXd joints = random_joints(robot, random);
-      // KUKA's turn bits contain signs only: turns of an axis with more than one turn are distinguished no
-      // further.
+      // KUKA's turn bits contain only signs: they do not distinguish turns of an axis that can turn more than once.
       if (kind == Kind::kuka && joints.cwiseAbs().maxCoeff() > pi) continue;
-      // No controller states turns of axes 2 and 3.
+      // No controller's words contain turns of axes 2 and 3.
       if (std::abs(joints[2]) > pi) continue;
-      if (std::abs(joints[4]) < 0.05) continue;  // near the singular wrist q4 and q6 blur
+      if (std::abs(joints[4]) < 0.05) continue;  // near the singular wrist q4 and q6 are not separable
       std::string reason;
       const auto found = arm.solve(arm.flange(joints), arm.configuration(joints, kind), elsewhere, reason);
       INFO(joints.transpose() << " " << arm.configuration(joints, kind).text() << " " << reason);
@@ -146,7 +145,7 @@ TEST_CASE("inverse kinematics: the words of the controllers at poses that can be
   CHECK(abb.configuration(at({-100, 0, 0, 200, -40, -100}), ArmConfiguration::Kind::abb).text() ==
         "abb -2 2 -2 1");
   CHECK(abb.configuration(at({0, -60, -150, 0, 30, 0}), ArmConfiguration::Kind::abb).numbers[3] >=
-        4);  // leaning over backward
+        4);  // inclined over backward
   // The home position of every KUKA: arm up, forearm forward.
   CHECK(kuka.configuration(at({0, -90, 90, 0, 0, 0}), ArmConfiguration::Kind::kuka).text() == "kuka 2 2");
   CHECK(kuka.configuration(at({-10, -90, 90, 0, -10, -5}), ArmConfiguration::Kind::kuka).text() ==
@@ -156,7 +155,7 @@ TEST_CASE("inverse kinematics: the words of the controllers at poses that can be
         "fanuc NUT 0 0 0");
   CHECK(fanuc.configuration(at({0, 0, 0, 190, 90, -200}), ArmConfiguration::Kind::fanuc).text() ==
         "fanuc FUT 0 1 -1");
-  // The axes of a Motoman turn as Fanuc's do.
+  // The axes of a Motoman turn like Fanuc's.
   CHECK(fanuc.configuration(at({0, 0, 0, 0, -90, 0}), ArmConfiguration::Kind::motoman).text() ==
         "motoman 0 0 0 0 0 0");
   CHECK(fanuc.configuration(at({0, 0, 0, 185, 90, -200}), ArmConfiguration::Kind::motoman).text() ==
@@ -206,8 +205,8 @@ TEST_CASE("inverse kinematics: out of reach, out of limits and wrong geometry ar
 
 namespace {
 
-/// Universal Robots UR10: facts of its data sheet (Denavit-Hartenberg, lengths in m). Its last three axes are
-/// 115.7 mm and 92.2 mm apart.
+/// Returns the Universal Robots UR10 from facts of its data sheet (Denavit-Hartenberg, lengths in m). Its last three axes do
+/// not meet: they are 115.7 mm and 92.2 mm apart.
 pipeline::Robot ur10() {
   return robot_of({{{0, 0, .1273}, z, -360, 360},
                    {{0, .220941, 0}, y, -360, 360},
@@ -218,9 +217,9 @@ pipeline::Robot ur10() {
                   {-pi / 2, 0, 0});
 }
 
-/// The same arm with right angles written as 1.57 in its joints' frames.
+/// Returns the same arm with right angles written as `right_angle`, such as 1.57, in its joints' frames.
 pipeline::Robot rounded(pipeline::Robot robot, double right_angle) {
-  robot.joints[3].orientation = {0, right_angle, 0};  // the axes that follow are written in a turned frame
+  robot.joints[3].orientation = {0, right_angle, 0};  // the following axes are written in a turned frame
   const Quaternion turned = from_roll_pitch_yaw({0, pi / 2, 0}).conjugate();
   robot.joints[3].axis = turned * robot.joints[3].axis;
   robot.joints[4].origin = turned * robot.joints[4].origin;
@@ -254,15 +253,15 @@ TEST_CASE(
       CHECK(distance(arm.flange(found), flange) < place_rounding);
       double off = 0;
       for (int i = 0; i < 6; ++i) off = std::max(off, std::abs(std::remainder(found[i] - joints[i], 2 * pi)));
-      found_own |= off < 1e-5;  // a singular arm differs from its neighbours by the root of the rounding
+      found_own |= off < 1e-5;  // near a singularity the error is the root of the rounding
     }
     own += found_own;
     std::string reason;
-    const auto near = arm.solve(flange, {}, joints, reason);  // from where it stands it stays
+    const auto near = arm.solve(flange, {}, joints, reason);  // the solution near its own angles is the same arm
     REQUIRE(near.has_value());
     CHECK((*near - joints).cwiseAbs().maxCoeff() < 1e-5);
   }
-  CHECK(own >= rounds - 5);  // starts may miss an arm in a narrow corner (numerical_inverse.h)
+  CHECK(own >= rounds - 5);  // the search may miss an arm in a narrow region (numerical_inverse.h)
 }
 
 TEST_CASE("inverse kinematics: a UR arm from ROS has the poses of its controller, whose base is turned by 180 degrees") {
@@ -271,7 +270,7 @@ TEST_CASE("inverse kinematics: a UR arm from ROS has the poses of its controller
   robot.flange_position = {0, .0922, 0};
   robot.flange_orientation = {-pi / 2, pi, 0};
   const InverseKinematics arm(robot);
-  // Denavit-Hartenberg as the maker publishes it: turn q and shift d along z, shift a and turn along x.
+  // Denavit-Hartenberg as published by the maker: turn q and shift d along z, shift a and turn along x.
   const double d[] = {.1273, 0, 0, .163941, .1157, .0922}, a[] = {0, -.612, -.5723, 0, 0, 0},
                alpha[] = {pi / 2, 0, 0, pi / 2, -pi / 2, 0};
   std::mt19937 random(29);
@@ -295,7 +294,7 @@ TEST_CASE("inverse kinematics: the iteration finds the arms that the closed form
   std::mt19937 random(17);
   const pipeline::Robot robot = irb6640();
   const InverseKinematics closed(robot);
-  // The same arm by its axes at zero angles, without telling that they meet.
+  // The same arm by its axes at zero angles, as if the axes did not meet.
   std::array<Vector3, 6> points, axes;
   NumericalInverse::Angles lower, upper;
   Vector3 at = Vector3::Zero();
@@ -318,13 +317,13 @@ TEST_CASE("inverse kinematics: the iteration finds the arms that the closed form
       for (int i = 0; i < 6; ++i) off = std::max(off, std::abs(std::remainder(a[i] - b[i], 2 * pi)));
       return off < 1e-5;
     };
-    for (const auto& one : sought)  // none that is not there
+    for (const auto& one : sought)  // every solution found is correct
       CHECK(std::any_of(arms.begin(), arms.end(), [&](const auto& other) { return same(one, other); }));
     for (const auto& one : arms)
       found += std::any_of(sought.begin(), sought.end(), [&](const auto& other) { return same(one, other); });
     expected += static_cast<int>(arms.size());
   }
-  CHECK(found > 0.97 * expected);  // numerical_inverse.h: some corners are narrow
+  CHECK(found > 0.97 * expected);  // numerical_inverse.h: some regions are narrow
 }
 
 TEST_CASE("inverse kinematics: a path is followed on its branch, there and back") {

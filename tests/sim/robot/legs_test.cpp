@@ -14,8 +14,7 @@ namespace {
 using Eigen::VectorXd;
 using pipeline::PathKind;
 
-/// [rad/s, rad/s2] Roundings of 1e-16 in angles of up to 10 rad, divided by the shortest times, some ms, once
-/// or twice.
+/// [rad/s, rad/s2] Roundings of 1e-16 in angles of up to 10 rad, divided once or twice by the shortest times, some ms.
 constexpr double limit_margin = 1e-9;
 constexpr double rounding = 1e-12;  // of a few products of numbers near 1
 
@@ -58,7 +57,7 @@ TEST_CASE("tool path: the circle through three points") {
   CHECK((path.pose(1).position - Vector3(-1, 0, 0)).norm() < rounding);
   CHECK(rotation_vector(path.pose(0.25).orientation).z() == Approx(0.25).epsilon(rounding));
   ToolPath far({}, {{1, 0, 0}, Quaternion::Identity()}, {{0, 1, 0}, Quaternion::Identity()});
-  far.bend({0, -1, 0});  // the long way round
+  far.bend({0, -1, 0});  // the larger arc
   CHECK(far.length() == Approx(1.5 * pi).epsilon(rounding));
   ToolPath straight({}, {{1, 0, 0}, Quaternion::Identity()}, {{3, 0, 0}, Quaternion::Identity()});
   straight.bend({2, 0, 0});
@@ -67,7 +66,7 @@ TEST_CASE("tool path: the circle through three points") {
 
 TEST_CASE("tool path: the arc beside a point of its circle") {
   const Frame from{{1, 0, 0}, Quaternion::Identity()}, to{{0, 1, 0}, Quaternion::Identity()};
-  for (const Vector3& other : {Vector3(-1, 0, 0), Vector3(0, -1, 0)}) {  // behind its end, before its start
+  for (const Vector3& other : {Vector3(-1, 0, 0), Vector3(0, -1, 0)}) {  // beyond its end, before its start
     ToolPath path({}, from, to);
     path.bend_beside(other);
     CHECK(path.length() == Approx(0.5 * pi).epsilon(rounding));
@@ -75,7 +74,7 @@ TEST_CASE("tool path: the arc beside a point of its circle") {
   }
   ToolPath far({}, from, to);
   const double h = std::sqrt(0.5);
-  far.bend_beside({h, h, 0});  // between them: the other way round
+  far.bend_beside({h, h, 0});  // between them: the other arc
   CHECK(far.length() == Approx(1.5 * pi).epsilon(rounding));
 }
 
@@ -114,7 +113,7 @@ TEST_CASE("legs: circles by joint angles are those through the tool's places the
     leftmost = std::min(leftmost, here.y());
   }
   CHECK(off < 1e-4);  // points 10 mm apart on 200 mm: h^2/(8 r) = 63 um
-  CHECK(leftmost == Approx(-radius).epsilon(1e-3));  // over the top, round to the bottom: three quarters
+  CHECK(leftmost == Approx(-radius).epsilon(1e-3));  // over the top, around to the bottom: three quarters
   CHECK((kinematics.flange(run.position(run.duration())).position - centre - Vector3(0, 0, -radius)).norm() < 1e-9);
 }
 
@@ -124,12 +123,12 @@ TEST_CASE("legs: a step's own acceleration counts below those of the axes") {
   line.tool_acceleration = 0.25;
   const Vector3 from(1.2, -0.5, 1.2);
   const JointMotion slow(motion({to(PathKind::joint, from, 1, 0), line}), robot);
-  // The law is that of the axis that moves farthest, axis 1: ds = dy/r with r = (x^2 + y^2)/x, u' = a/r. With r even along
-  // the way it would be v/a + d/v = 4 s; here u^2 = 2 a int dy/r^2 from the end on, and 2 int dy/(r u) over half the way is
-  // 4.128 s. The three equal controls at both ends (M10) add 3 h.
+  // Axis 1 moves farthest and sets the time law: ds = dy/r with r = (x^2 + y^2)/x, u' = a/r. With constant r it would be
+  // v/a + d/v = 4 s. Here u^2 = 2 a int dy/r^2 from the end on, and 2 int dy/(r u) over half the path is 4.128 s. The three
+  // equal control points at both ends (M10) add 3 h.
   CHECK(slow.duration() == Approx(4.128 + 3 * 0.015).epsilon(1e-3));
   pipeline::Motion by_jerk = motion({to(PathKind::joint, from, 1, 0), line});
-  by_jerk.path_jerk = 5;  // 0.25 m/s2 build up within 0.05 s = 2 h
+  by_jerk.path_jerk = 5;  // 0.25 m/s2 is reached within 0.05 s = 2 h
   const JointMotion softer(by_jerk, robot);
   CHECK(softer.pieces()[softer.pieces().size() - 2].duration == Approx(0.025).epsilon(1e-9));
   CHECK(softer.duration() == Approx(4.128 + 3 * 0.025).epsilon(1e-3));
@@ -158,7 +157,7 @@ TEST_CASE("legs: a long line is driven at the tool's speed, on the line, within 
   const JointMotion run(motion({to(PathKind::joint, from, 1, 0), to(PathKind::linear, target, 0.4, 0)}),
                         robot);
   const InverseKinematics kinematics(robot);
-  // At rest at both ends, 1 m at 0.4 m/s: 2.5 s and the ramps; axis 1 turns fastest, at most 0.4/1.2 rad/s.
+  // From rest to rest, 1 m at 0.4 m/s: 2.5 s plus the ramps. Axis 1 turns fastest, at most 0.4/1.2 rad/s.
   CHECK(run.duration() > 2.5);
   CHECK(run.duration() < 2.5 * 1.05);
   double steady_low = 10, steady_high = 0, off = 0;
@@ -175,8 +174,8 @@ TEST_CASE("legs: a long line is driven at the tool's speed, on the line, within 
     steady_low = std::min(steady_low, speed);
     steady_high = std::max(steady_high, speed);
   }
-  // Points 10 mm apart on a path of some 1 m radius in joint space: h^2/(8 r) = 13 um, and the speed along a
-  // leg is even to h/r = 1 %.
+  // Points 10 mm apart on a path of about 1 m radius in joint space: h^2/(8 r) = 13 um. The speed along a leg is constant to
+  // h/r = 1 %.
   CHECK(off < 2e-5);
   CHECK(steady_high < 0.4 * 1.01);
   CHECK(steady_low > 0.4 * 0.99);
@@ -203,7 +202,7 @@ TEST_CASE(
   double slowest = 0;
   CHECK(closest(0, slowest) < 2e-3);
   CHECK(slowest < 0.01);
-  // The Bezier curve passes the corner at d/(2 sqrt 2) for a right angle.
+  // For a right angle the Bezier curve passes the corner at d/(2 sqrt 2).
   CHECK(closest(0.1, slowest) == Approx(0.1 / (2 * std::sqrt(2.0))).epsilon(0.02));
   CHECK(slowest > 0.1);
 }
@@ -218,7 +217,7 @@ TEST_CASE("legs: a circle keeps its radius") {
   for (double t = 0; t < run.duration(); t += 0.005)
     worst = std::max(
         worst, std::abs((kinematics.flange(run.position(t)).position - Vector3(1.2, 0, 1.35)).norm() - 0.15));
-  CHECK(worst < 1e-4);  // chords of 10 mm on a radius of 150 mm leave it by 83 um
+  CHECK(worst < 1e-4);  // chords of 10 mm on a radius of 150 mm differ from it by 83 um
   CHECK(run.duration() > pi * 0.15 / 0.3);
 }
 
@@ -248,7 +247,7 @@ TEST_CASE("legs: a line must end in the configuration that its program says") {
   good.configuration = reached.text();
   CHECK_NOTHROW(JointMotion(motion({start, good}), arm()));
   ArmConfiguration other = reached;
-  other.numbers[1] += 1;  // axis 4 a quadrant off: the controller goes on
+  other.numbers[1] += 1;  // axis 4 differs by one quadrant: the controller accepts it
   wrong.configuration = other.text();
   CHECK_NOTHROW(JointMotion(motion({start, wrong}), arm()));
   other.numbers[1] += 2;
@@ -272,12 +271,12 @@ TEST_CASE("legs: a corner between an axis move and a line stays within its zone"
     const double away = (here - corner).norm();
     nearest = std::min(nearest, away);
     if (t > 0.3 && t < run.duration() - 0.3) slowest = std::min(slowest, run.velocity(t).norm());
-    // Behind the zone the tool is on the line, to the 13 um of its chords and what the controls round there.
+    // Beyond the zone the tool is on the line, to the 13 um of its chords and the rounding of the control points.
     if (here.z() > corner.z() + 1.1 * zone)
       off_line = std::max(off_line, std::hypot(here.x() - 1.2, here.y()));
   }
   CHECK(nearest < zone);
-  CHECK(nearest > 0.1 * zone);  // it does cut the corner
+  CHECK(nearest > 0.1 * zone);  // it cuts the corner
   CHECK(off_line < 2e-4);
   CHECK(slowest > 0.05);
 }
@@ -301,7 +300,7 @@ pipeline::Robot on_track(pipeline::ExternalAxis::Carries carries) {
 }  // namespace
 
 TEST_CASE("legs: behind a corner between unequal lines the tool is on the second line within its zone") {
-  constexpr double zone = 0.05, near = 1e-3;  // [m] a line's share of a longer line would end 11 mm off
+  constexpr double zone = 0.05, near = 1e-3;  // [m]; if the zone were a share of the longer line it would end 11 mm off
   pipeline::MotionStep first = to(PathKind::joint, corner - Vector3(0, 0.1, 0), 0.25, 0);
   first.tool_speed.reset();
   const JointMotion motion_of_it(
@@ -326,7 +325,7 @@ TEST_CASE("legs: a stop zone cuts a corner by its share of the way in which the 
     if (percent) line.tool_zone.reset(), line.stop_zone = percent;
     return JointMotion(motion({first, line, to(PathKind::linear, corner + Vector3(0, 0, 0.3), 0.5, 0)}), arm()).duration();
   };
-  // What the axes can brake along the line's chord in joint space, in m/s2 of the tool.
+  // The deceleration that the axes allow along the line's chord in joint space, in m/s2 of the tool.
   const InverseKinematics kinematics(arm());
   const double half = std::sqrt(0.5);
   const Quaternion forward(half, 0, half, 0);
@@ -341,7 +340,7 @@ TEST_CASE("legs: a stop zone cuts a corner by its share of the way in which the 
   const double way = 0.5 * 0.5 / (2 * brake);
   CHECK(cornering(100, 0) == Approx(cornering({}, way)).epsilon(1e-6));
   CHECK(cornering(50, 0) == Approx(cornering({}, way / 2)).epsilon(1e-6));
-  CHECK(cornering({}, way) < 0.999 * cornering({}, way / 2));  // the zone matters for the time
+  CHECK(cornering({}, way) < 0.999 * cornering({}, way / 2));  // the zone changes the time
 }
 
 TEST_CASE("legs: a track carries the robot along while its tool keeps to the line in the cell") {
@@ -362,8 +361,8 @@ TEST_CASE("legs: a track carries the robot along while its tool keeps to the lin
     CHECK(std::abs(run.velocity(t)[6]) <= 0.5 + limit_margin);
     CHECK(std::abs(run.acceleration(t)[6]) <= 1 + limit_margin);
   }
-  CHECK(off < 2e-5);   // the third move leaves the track where it is and bends the arm: chords, as above
-  CHECK(bent < 1e-7);  // track and tool go as far as each other: the arm keeps its pose (acos near 1)
+  CHECK(off < 2e-5);   // the third move keeps the track and bends the arm: chords, as above
+  CHECK(bent < 1e-7);  // track and tool move equally: the arm keeps its pose (acos near 1)
   CHECK((kinematics.flange(run.position(run.duration())).position - Vector3(1.2, 0.6, 1.2)).norm() < 1e-9);
   CHECK(run.position(run.duration())[6] == Approx(1));
 }
@@ -377,7 +376,7 @@ TEST_CASE("legs: an axis that carries nothing takes its time and keeps to its li
   const JointMotion run(motion({start, same}), robot);
   // 1.5 m at 0.5 m/s with A = 0.75 m/s2: L/v + v/A.
   CHECK(run.duration() == Approx(1.5 / 0.5 + 0.5 / 0.75).epsilon(1e-9));
-  for (const double limit : {-1000.0, 2000.0}) {  // to the full
+  for (const double limit : {-1000.0, 2000.0}) {  // the limits themselves
     same.external_axes = {limit};
     CHECK_NOTHROW(JointMotion(motion({start, same}), robot));
   }
@@ -392,7 +391,7 @@ TEST_CASE("legs: an axis that carries nothing takes its time and keeps to its li
 TEST_CASE("legs: a joint move's speed and acceleration are the least of its axes', its tool's and its own") {
   const pipeline::Robot robot = arm(10, 100);  // the flange is 1 m from axis 1
   const VectorXd mean = VectorXd::Constant(6, 50);
-  constexpr double chords = 2e-3;  // of arcs of 0.8 rad in 24 parts
+  constexpr double chords = 2e-3;  // error of chords, arcs of 0.8 rad in 24 parts
   const auto leg = [&](const auto& change) {
     pipeline::MotionStep start, turn;
     start.joints = {0, 0, 0, 0, 0.5, 0}, turn.joints = {0.8, 0.4, 0, 0, 0.5, 0};
@@ -433,7 +432,7 @@ TEST_CASE("legs: a tool's zone between two joint moves is as large a share of ea
     turn.tool_zone = zone;
     const Legs made = legs_of(motion({start, turn, lift}), arm(), VectorXd::Constant(6, 8));
     REQUIRE(made.legs.size() == 2);
-    // The flange goes along chords of 0.6 rad at 1 m and of 0.3 rad at 1.414 m, at most half of each is blended.
+    // The flange moves along chords of 0.6 rad at 1 m and of 0.3 rad at 1.414 m. At most half of each is blended.
     const double way = 2 * std::sin(0.3), way_behind = 2 * std::sqrt(2.0) * std::sin(0.15);
     CHECK(made.legs[0].zone == Approx(0.6 * std::min(0.5, zone / way)));
     CHECK(made.legs[0].zone_behind == Approx(0.3 * std::min(0.5, zone / way_behind)));
@@ -463,11 +462,11 @@ TEST_CASE("legs: beside a line, two joint moves are joined by a parabola within 
     CHECK(leg.step == (u <= 0.5 + rounding ? 1 : 2));
     ++on_curve, before += u <= 0.5 + rounding;
   }
-  // Points at most 10 mm apart on 0.1 / 0.6 and 0.1 / 0.3 of the tool's ways.
+  // Points at most 10 mm apart on 0.1 / 0.6 and 0.1 / 0.3 of the tool's two paths.
   const double way = 2 * std::sin(0.3) / 6 + 2 * std::sqrt(2.0) * std::sin(0.15) / 3;
   CHECK(on_curve == int(std::ceil(way / 0.01)));
   CHECK(before == on_curve / 2);
-  CHECK((place - Eigen::Map<const VectorXd>(line.joints.data(), 6)).norm() < 1e-7);  // acos near its ends
+  CHECK((place - Eigen::Map<const VectorXd>(line.joints.data(), 6)).norm() < 1e-7);  // acos near its limits
 }
 
 TEST_CASE("legs: many targets out of reach are one problem with their number and first places") {

@@ -1,8 +1,7 @@
-// Cycle times worked out by hand, and the axes' motion on a line by geometry.
+// Cycle times calculated by hand, and the axes' motion on a line by geometry.
 //
-// With a_i the largest acceleration of an axis, changes of speed go with A = 0.75 a_i on the mean (motion.h:
-// M2). A move of L from rest to rest at the speed c takes L/c + c/A, or 2 sqrt(L/A) where it never gets to c
-// (L < c^2/A).
+// With a_i the largest acceleration of an axis, the mean acceleration of a change of speed is A = 0.75 a_i (motion.h: M2). A
+// move of L from rest to rest at the speed c takes L/c + c/A, or 2 sqrt(L/A) if it does not reach c (L < c^2/A).
 #include <cmath>
 #include <optional>
 #include <random>
@@ -17,9 +16,9 @@
 namespace dresslife::sim {
 namespace {
 
-constexpr double closed_form = 1e-9;  // of seconds, where the hand has the program's own formula
-/// Where the hand neglects how fast axes let a tool speed up: some hundredths of a second at each of the
-/// stops that lie a second or more apart.
+constexpr double closed_form = 1e-9;  // of seconds, where the calculation by hand uses the program's own formula
+/// Where the calculation neglects the tool's acceleration by the axes: some hundredths of a second at each stop. Stops are at
+/// least a second apart.
 constexpr double by_hand = 0.05;
 
 /// 100, 90, 90, 170, 140, 190 deg/s, 400 deg/s2 for the arm, 2000 deg/s2 for the wrist.
@@ -59,7 +58,7 @@ std::string line(double x, double y, double z, const char* speed, const char* zo
 
 TEST_CASE("cycle time: axis moves with stops and a dwell") {
   // Axis 1 by 90 deg: A = 300, c^2/A = 33 < 90: 90/100 + 100/300 s.
-  // Axes 1 and 2 back by 90 and 10 deg: axis 1 is the slower one: the same again.
+  // Axes 1 and 2 back by 90 and 10 deg: axis 1 is slower, so the time is equal.
   // Axis 2 by 10 deg: c^2/A = 27 > 10: 2 sqrt(10/300) s.
   const double ninety = 0.9 + 1.0 / 3, ten = 2 * std::sqrt(10.0 / 300);
   const JointMotion motion =
@@ -68,21 +67,21 @@ TEST_CASE("cycle time: axis moves with stops and a dwell") {
 }
 
 TEST_CASE("cycle time: a speed in mm/s on an axis move") {
-  // The wrist turns with axis 1 at 1 m from it (axis 5 at 30 deg has no arm there): v500 is 0.5 rad/s.
+  // The wrist turns with axis 1 at 1 m from it (axis 5 at 30 deg adds no distance there): v500 is 0.5 rad/s.
   // 90 deg = 1.5708 rad: 1.5708/0.5 + 0.5/(300 deg/s2 = 5.236 rad/s2) = 3.237 s.
   const JointMotion motion =
       run(axes(0, 0, 0) + "MoveAbsJ [[90,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v500,fine,tool0;\n");
   CHECK(motion.duration() ==
-        Approx(1.5708 / 0.5 + 0.5 / 5.236).epsilon(1e-3));  // the tool's way by its fastest part
+        Approx(1.5708 / 0.5 + 0.5 / 5.236).epsilon(1e-3));  // the path of the tool's fastest part
 }
 
 TEST_CASE("cycle time: a line at the tool's speed") {
-  // 800 mm at 400 mm/s, from rest to rest. Across the arm at 1.2 m, axis 1 speeds the tool up by
+  // 800 mm at 400 mm/s, from rest to rest. Across the arm at 1.2 m, axis 1 accelerates the tool by
   // 5.236 rad/s2 x 1.2 m = 6.3 m/s2: 0.8/0.4 + 0.4/6.3 = 2.064 s.
   const JointMotion across =
       run("MoveJ Offs(p0,0,-400,0),vmax,fine,tool0;\n" + line(0, 400, 0, "v400", "fine"));
   CHECK(across.duration() == Approx(2.064).epsilon(by_hand));
-  // There and back with a dwell of half a second, spot by spot: 5 x (100 mm at 200 mm/s, 0.5 s).
+  // To and fro with a dwell of half a second, spot by spot: 5 x (100 mm at 200 mm/s, 0.5 s).
   // 0.1/0.2 + 0.2/6.3 + 0.5 = 1.032 s each.
   std::string spots = "MoveJ Offs(p0,0,-250,0),vmax,fine,tool0;\n";
   for (int k = 1; k <= 5; ++k) spots += line(0, -250 + 100 * k, 0, "v200", "fine") + "WaitTime 0.5;\n";
@@ -90,8 +89,8 @@ TEST_CASE("cycle time: a line at the tool's speed") {
 }
 
 TEST_CASE("cycle time: zones save the stops and cut the corners") {
-  // A square of 400 mm in the plane x = 1.2 m at 250 mm/s. With stops: 4 x (0.4/0.25 + 0.25/A_tool), A_tool
-  // about 6 m/s2 across and 3 up and down (two axes lift): 4 x 1.6 + 2 x 0.042 + 2 x 0.083 = 6.65 s.
+  // A square of 400 mm in the plane x = 1.2 m at 250 mm/s. With stops: 4 x (0.4/0.25 + 0.25/A_tool), A_tool about 6 m/s2 in
+  // horizontal and 3 in vertical direction (two axes lift): 4 x 1.6 + 2 x 0.042 + 2 x 0.083 = 6.65 s.
   const auto square = [](const char* zone) {
     return run("MoveJ Offs(p0,0,-200,0),vmax,fine,tool0;\n" + line(0, 200, 0, "v250", zone) +
                line(0, 200, 400, "v250", zone) + line(0, -200, 400, "v250", zone) +
@@ -99,7 +98,7 @@ TEST_CASE("cycle time: zones save the stops and cut the corners") {
   };
   const double stopped = square("fine").duration();
   CHECK(stopped == Approx(6.65).epsilon(by_hand));
-  // z50: three corners, each 100 mm of line less and a curve of 50 mm x 1.6232 (the length of (M6) at a right
+  // z50: at each of three corners 100 mm less of the lines and a curve of 50 mm x 1.6232 (the length of (M6) at a right
   // angle) more; one start and one stop: (1.6 - 3 x 0.1 + 3 x 0.0812)/0.25 + 0.042/2 + 0.083/2 = 6.24 s.
   const double rounded = square("z50").duration();
   CHECK(rounded == Approx(6.24).epsilon(by_hand));
@@ -112,9 +111,9 @@ TEST_CASE("cycle time: on a long line the axes do what geometry says, and nothin
   const JointMotion motion =
       run("MoveJ Offs(p0,0,-600,0),vmax,fine,tool0;\n" + line(0, 600, 0, "v800", "fine"));
   const InverseKinematics arm_of_it(arm());
-  constexpr double margin = 0.25;           // [s] at either end: speeding up
-  constexpr double speed_tolerance = 2e-4;  // [rad/s] of 0.67: controls 12 mm apart, (h u)^2/(24 r^2)
-  constexpr double bend_tolerance = 1e-3;  // [rad/s2] of up to 0.35; (h u)^2/12 r^2 of it, and the legs' ends
+  constexpr double margin = 0.25;           // [s] of acceleration at either end
+  constexpr double speed_tolerance = 2e-4;  // [rad/s] of 0.67: control points 12 mm apart, (h u)^2/(24 r^2)
+  constexpr double bend_tolerance = 1e-3;  // [rad/s2] of up to 0.35; (h u)^2/12 r^2 of it, and the ends of the legs
   double steady = 0, unsteady = 0;
   for (double t = margin; t < motion.duration() - margin; t += 1e-3) {
     const double y = arm_of_it.flange(motion.position(t)).position.y(), r2 = x * x + y * y;
@@ -149,7 +148,7 @@ TEST_CASE("cycle time: random programs of lines and axis moves exceed no limit n
     try {
       motion.emplace(run(text));
     } catch (const pipeline::InputError&) {
-      continue;  // a wrist that would turn over on a line
+      continue;  // the wrist would turn over on a line
     }
     ++run_through;
     double over_speed = -1, over_acceleration = -1, sharpest = 0;
@@ -166,21 +165,21 @@ TEST_CASE("cycle time: random programs of lines and axis moves exceed no limit n
     }
     CHECK(over_speed < limit_margin);
     CHECK(over_acceleration < limit_margin);
-    CHECK(sharpest < 2 / 0.015 * (1 + 1e-9));  // from one limit to the other within one step of the controls
+    CHECK(sharpest < 2 / 0.015 * (1 + 1e-9));  // from one limit to the other within one step of the control points
   }
   CHECK(run_through > 10);
 }
 
 TEST_CASE("cycle time: a path speeds up once and slows down once") {
-  // Every change of the sign of an axis' acceleration is felt by the hose. On a line away from singular
-  // places axis 1 has three: speeding up, the line's own middle, slowing down.
+  // The hose responds to every change of sign of an axis' acceleration. On a line away from singular positions axis 1 has
+  // three: acceleration, the middle of the line, deceleration.
   const JointMotion motion =
       run("MoveJ Offs(p0,0,-600,0),vmax,fine,tool0;\n" + line(0, 600, 0, "v800", "fine"));
   int changes = 0;
   double before = 0;
   for (double t = 0; t < motion.duration(); t += 1e-3) {
     const double now = motion.acceleration(t)[0];
-    if (std::abs(now) < 1e-3) continue;  // [rad/s2]: standing, and rounding of the arms' angles
+    if (std::abs(now) < 1e-3) continue;  // [rad/s2]: at rest, and rounding of the joint angles
     changes += before * now < 0;
     before = now;
   }
@@ -189,7 +188,7 @@ TEST_CASE("cycle time: a path speeds up once and slows down once") {
 
 TEST_CASE("cycle time: a path is smoothed longer by its key and by the second argument of AccSet") {
   const std::string moves = "MoveJ Offs(p0,0,-300,0),vmax,fine,tool0;\n" + line(0, 300, 0, "v800", "fine");
-  const auto sharpest = [](const JointMotion& motion) {  // of any axis, over its largest acceleration [1/s]
+  const auto sharpest = [](const JointMotion& motion) {  // largest jerk of any axis / its largest acceleration [1/s]
     double most = 0;
     for (const MotionPiece& piece : motion.pieces())
       for (long i = 0; i < piece.jerk.size(); ++i)
@@ -197,9 +196,9 @@ TEST_CASE("cycle time: a path is smoothed longer by its key and by the second ar
     return most;
   };
   const JointMotion plain = run(moves), soft = run("AccSet 100,25;\n" + moves), softest = run("AccSet 100,5;\n" + moves);
-  // Four and ten times as slowly, less what the axes' limits change.
+  // Four and ten times smaller, apart from the effect of the axes' limits.
   CHECK(sharpest(soft) < sharpest(plain) / 3);
-  CHECK(sharpest(softest) < sharpest(plain) / 8);  // 10 % is the least that counts
+  CHECK(sharpest(softest) < sharpest(plain) / 8);  // 10 % is the lower limit of the setting
   CHECK(soft.duration() > plain.duration());
 }
 

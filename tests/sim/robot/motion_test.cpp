@@ -10,13 +10,11 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// [rad/s, rad/s2] Roundings of 1e-16 in angles of up to 10 rad, divided by the shortest times, some ms, once
-/// or twice.
+/// [rad/s, rad/s2] Roundings of 1e-16 in angles of up to 10 rad, divided once or twice by the shortest times, some ms.
 constexpr double limit_margin = 1e-9;
-/// Times of up to 100 s and angles of up to 10 rad, some tens of roundings.
+/// Some tens of roundings of times of up to 100 s and angles of up to 10 rad.
 constexpr double rounding = 1e-12;
-/// Share of the largest acceleration that is left for the mean one when both ramps take a quarter of the
-/// time.
+/// Mean acceleration / largest acceleration if both ramps take a quarter of the time.
 constexpr double mean_share = 0.75;
 
 pipeline::Robot robot_with(std::vector<double> speeds, std::vector<double> accelerations) {
@@ -91,7 +89,7 @@ TEST_CASE("motion: one short move is a triangle of speed") {
   double largest = 0;
   for (double t = 0; t < motion.duration(); t += 1e-4)
     largest = std::max(largest, std::abs(motion.acceleration(t)[0]));
-  CHECK(largest == Approx(4).epsilon(rounding));  // the limit is used in full
+  CHECK(largest == Approx(4).epsilon(rounding));  // the limit is used fully
 }
 
 TEST_CASE("motion: acceleration rises and falls in a quarter of each speed change") {
@@ -104,14 +102,14 @@ TEST_CASE("motion: acceleration rises and falls in a quarter of each speed chang
 }
 
 TEST_CASE("motion: a share of the jerk builds the acceleration up as much slower, up to a triangle") {
-  // As above: a change of 2 rad/s with 4 rad/s2, whose ramps last a quarter of 2/3 s.
+  // A change of 2 rad/s with 4 rad/s2, whose ramps take a quarter of 2/3 s.
   const double jerk = 4 / (0.25 * 2 / 3.0);
   for (const double share : {1.0, 0.5, 1 / 3.0, 0.2, 0.1}) {
     CAPTURE(share);
     pipeline::Motion program = motion_of({move_to({0}), move_to({9})});
     program.steps[1].jerk_percent = 100 * share;
     const JointMotion motion(program, robot_with({2}, {4}));
-    // From rest to 2 rad/s: with the full acceleration 2/4 s and one ramp more, else a triangle of that jerk.
+    // From rest to 2 rad/s: with the full acceleration 2/4 s plus one ramp, otherwise a triangle with this jerk.
     const double ramp = share > 0.33 ? 4 / (share * jerk) : std::sqrt(2 / (share * jerk));
     const double highest = share * jerk * ramp, rise = 2 / highest + ramp;
     CHECK(motion.duration() == Approx(9 / 2.0 + rise).epsilon(1e-9));
@@ -122,7 +120,7 @@ TEST_CASE("motion: a share of the jerk builds the acceleration up as much slower
 }
 
 TEST_CASE("motion: with a jerk the acceleration takes the same time to build up for every change of speed") {
-  for (const double jerk : {200.0, 20.0, 5.0}) {  // rad/s3; with 5 the acceleration of 4 rad/s2 is not reached
+  for (const double jerk : {200.0, 20.0, 5.0}) {  // rad/s3; at 5 the acceleration does not reach 4 rad/s2
     CAPTURE(jerk);
     for (const double share : {1.0, 0.5}) {
       pipeline::Motion program = motion_of({move_to({0}), move_to({9})});
@@ -138,7 +136,7 @@ TEST_CASE("motion: with a jerk the acceleration takes the same time to build up 
 }
 
 TEST_CASE("motion: a short move with a jerk reaches the speed that its way allows") {
-  // Four parts of constant jerk: a third of half the way would be too long for the acceleration of 4 rad/s2.
+  // Four parts of constant jerk: with ramps of a third of half the path the acceleration would exceed 4 rad/s2.
   pipeline::Motion program = motion_of({move_to({0}), move_to({0.1})});
   program.jerk = 20;
   const JointMotion motion(program, robot_with({2}, {4}));
@@ -189,8 +187,8 @@ TEST_CASE("motion: the ramps are the program's share of each change of speed") {
 
 TEST_CASE("motion: position is the integral of velocity, velocity that of acceleration") {
   const JointMotion motion(random_program(3, 3, 12, 0.2), robot_with({2, 1, 3}, {4, 5, 6}));
-  // Central differences of pieces whose third derivative is bounded: h^2/6 times the jerk (some 100 rad/s3
-  // for the shortest moves, more only within h of a piece's end).
+  // Central differences of pieces with bounded third derivative: h^2/6 times the jerk (some 100 rad/s3 for the shortest moves,
+  // larger only within h of a piece's end).
   constexpr double h = 1e-6, difference_error = 1e-3;
   double worst_velocity = 0, worst_acceleration = 0;
   for (double t = 0.0137; t < motion.duration(); t += 0.0231) {
@@ -219,7 +217,7 @@ TEST_CASE("motion: speed is a percentage of the axes' or that of the fastest axi
   CHECK(JointMotion(motion, robot).velocity(2)[0] == Approx(0.5).epsilon(rounding));
   motion.steps[1].speed = 1.25;
   CHECK(JointMotion(motion, robot).velocity(2)[0] == Approx(1.25).epsilon(rounding));
-  motion.steps[1].speed = 100;  // no axis beyond its limit
+  motion.steps[1].speed = 100;  // no axis exceeds its limit
   CHECK(JointMotion(motion, robot).velocity(1)[0] == Approx(2).epsilon(rounding));
 }
 
@@ -318,13 +316,13 @@ TEST_CASE("motion: a blended path stays within the zone and leaves the legs") {
     const double deviation = deviation_from_legs(motion, waypoints);
     CHECK(deviation < zone);
     CHECK(deviation > zone / 20);
-    CHECK(motion.duration() < longer);  // a larger zone saves time
+    CHECK(motion.duration() < longer);  // a larger zone reduces the time
     longer = motion.duration();
   }
 }
 
 TEST_CASE("motion: a blend takes at most half of either leg, whatever its zone") {
-  for (const double first : {1.0, 0.1}) {  // the second leg is the other of them
+  for (const double first : {1.0, 0.1}) {  // the length of the second leg is the other one
     const double second = first == 1 ? 0.1 : 1;
     const JointMotion motion(motion_of({move_to({0, 0}), move_to({first, 0}, 3), move_to({first, second})}),
                              robot_with({2, 2}, {4, 4}));
@@ -336,10 +334,10 @@ TEST_CASE("motion: a blend takes at most half of either leg, whatever its zone")
     }
     CHECK(begins >= first / 2 * (1 - rounding));
     CHECK(ends <= second / 2 * (1 + rounding));
-    // The short leg bounds the blend. A step of the search above is a few per mil of its way.
+    // The short leg limits the blend. A step of the search above is a few per mil of its path.
     CHECK((first < second ? begins - first / 2 : second / 2 - ends) < 0.01 * std::min(first, second));
   }
-  // The second axis brakes eight times as hard: more than half of its leg could be blended, and is not.
+  // The second axis decelerates eight times as hard: more than half of its leg could be blended, but half is the limit.
   const JointMotion motion(
       motion_of({move_to({0, 0}), move_to({1, 0}, 3), move_to({1, 0.1}, 0.01), move_to({2, 0.1})}),
       robot_with({2, 2}, {1, 8}));
@@ -350,8 +348,8 @@ TEST_CASE("motion: a blend takes at most half of either leg, whatever its zone")
 }
 
 TEST_CASE("motion: a right-angled blend takes the closed form's time") {
-  // Both axes change by w in tau = w/A, which takes w tau/2 = z of each leg, so w = sqrt(2 A z). The rest of
-  // each leg, L - z, goes between 0 and w by (M3).
+  // Both axes change by w in tau = w/A, which uses w tau/2 = z of each leg, so w = sqrt(2 A z). The rest of each leg, L - z,
+  // is a move between 0 and w by (M3).
   const double length = 1, speed = 100, acceleration = 4, zone = 0.1, mean = mean_share * acceleration;
   const JointMotion motion(
       motion_of({move_to({0, 0}), move_to({length, 0}, zone), move_to({length, length})}),
@@ -450,7 +448,7 @@ TEST_CASE("motion: rows of a recording are a spline at rest where two rows are e
     if (seconds > 0) step.duration = seconds;
     return step;
   };
-  // t^2 (3 - 2 t) at its times, 2 s at rest, and back in 1 s.
+  // t^2 (3 - 2 t) at the rows' times, then 2 s at rest, and back in 1 s.
   pipeline::Motion motion = motion_of({row(0, 0), row(0.104, 0.2), row(0.784, 0.5), row(1, 0.3), row(1, 2), row(0, 1)});
   motion.rows = pipeline::RecordedRows::spline;
   const JointMotion joint(motion, robot_with({0.1}, {0.1}));  // limits do not apply

@@ -1,5 +1,4 @@
-// The robots that come with dresslife: the reach in their names, their zero poses, and which arm each maker's
-// configuration words choose on each of them.
+// The shipped robots: the reach in their names, their zero poses, and the arm that each maker's configuration words select.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -29,11 +28,10 @@ pipeline::Robot shipped(const std::string& name) {
   return robot;
 }
 
-/// Makers measure reach from axis 1 to the wrist centre (axis 5), horizontally, where the joint limits let it
-/// be largest.
+/// Makers measure reach horizontally from axis 1 to the wrist centre (axis 5), at its maximum within the joint limits.
 struct Shipped {
   const char* name;
-  double reach;     ///< in the type's name [m]
+  double reach;     ///< according to the type's name [m]
   double rounding;  ///< of its last digit [m]
   ArmConfiguration::Kind words;
 };
@@ -45,8 +43,8 @@ const Shipped robots[] = {
     {"abb_irb2600_12_165", 1.65, 0.005, ArmConfiguration::Kind::abb},
     {"kuka_kr210_l150", 3.100, 0.005, ArmConfiguration::Kind::kuka},  // "3100 mm", rounded to 10 mm
     {"kuka_kr16_2", 1.611, 0.0005, ArmConfiguration::Kind::kuka},
-    {"fanuc_m20ia", 1.811, 0.001, ArmConfiguration::Kind::fanuc},     // 1811.6 mm: the digits are cut off
-    {"motoman_ms210", 2.702, 0.0005, ArmConfiguration::Kind::fanuc},  // its own words are not read yet
+    {"fanuc_m20ia", 1.811, 0.001, ArmConfiguration::Kind::fanuc},     // 1811.6 mm: the digits are truncated
+    {"motoman_ms210", 2.702, 0.0005, ArmConfiguration::Kind::fanuc},  // tested with Fanuc's words: the axes turn alike
 };
 
 double wrist_distance(const RobotKinematics& robot, VectorXd& joints, std::vector<Frame>& frames) {
@@ -55,7 +53,7 @@ double wrist_distance(const RobotKinematics& robot, VectorXd& joints, std::vecto
                     frames[5].position.y() - frames[1].position.y());
 }
 
-/// Largest over axes 2 and 3: a grid, then ever finer grids around its best point.
+/// Returns the maximum over axes 2 and 3, by a grid and then finer and finer grids around its best point.
 double reach_of(const pipeline::Robot& description) {
   const RobotKinematics robot(description);
   std::vector<Frame> frames(7);
@@ -96,7 +94,7 @@ TEST_CASE("shipped robots: the range of accelerations that dresslife new names i
   std::string words = pipeline::shipped_accelerations;
   std::erase(words, ',');
   REQUIRE(std::sscanf(words.c_str(), "%lf to %lf deg/s2", &low, &high) == 2);
-  CHECK((low <= least * 1.001 && low > 0.9 * least));  // three digits
+  CHECK((low <= least * 1.001 && low > 0.9 * least));  // rounded to three digits
   CHECK((high >= largest * 0.999 && high < 1.1 * largest));
 }
 
@@ -115,9 +113,9 @@ TEST_CASE("shipped robots: the maker's zero pose stands as in its drawings") {
     RobotKinematics(shipped(name)).link_frames({joints.data(), 6}, frames);
     return frames[5].position;
   };
-  constexpr double drawing = 1e-3;  // KR 210: its origins are measured to some tenths of a millimetre
-  // KUKA at A1 .. A6 = 0 lies stretched forward: 350 + 1250 + 1500 mm, axis 4 55 mm above the elbow there,
-  // because A3 = +90 would bring it upright with axis 4 below.
+  constexpr double drawing = 1e-3;  // KR 210: its origins were measured to some tenths of a millimetre
+  // A KUKA at A1 .. A6 = 0 is stretched forward: 350 + 1250 + 1500 mm, with axis 4 55 mm above the elbow. A3 = +90 brings the
+  // forearm upright with axis 4 below.
   CHECK((wrist("kuka_kr210_l150", {0, 0, 0, 0, 0, 0}) - Vector3(0.350 + 1.250 + 1.500, 0, 0.750 - 0.055))
             .norm() < drawing);
   CHECK((wrist("kuka_kr210_l150", {0, -90, 90, 0, 0, 0}) - Vector3(0.350 + 1.500, 0, 0.750 + 1.250 - 0.055))
@@ -126,7 +124,7 @@ TEST_CASE("shipped robots: the maker's zero pose stands as in its drawings") {
   CHECK(wrist("kuka_kr210_l150", {90, 0, 0, 0, 0, 0}).y() < -3);
   CHECK((wrist("kuka_kr16_2", {0, 0, 0, 0, 0, 0}) - Vector3(0.26 + 0.68 + 0.67, 0, 0.675 - 0.035)).norm() <
         1e-12);
-  // ABB, Fanuc and Motoman stand upright at 0, the forearm forward.
+  // ABB, Fanuc and Motoman are upright at 0, with the forearm forward.
   CHECK((wrist("abb_irb4600_60_205", {0, 0, 0, 0, 0, 0}) - Vector3(0.175 + 0.96, 0, 0.495 + 0.9 + 0.175))
             .norm() < 1e-12);
   CHECK((wrist("fanuc_m20ia", {0, 0, 0, 0, 0, 0}) - Vector3(0.15 + 0.835, 0, 0.525 + 0.79 + 0.25)).norm() <
@@ -138,8 +136,8 @@ TEST_CASE("shipped robots: the maker's zero pose stands as in its drawings") {
 TEST_CASE("shipped robots: the maker's configuration words bring back the arm with its turns") {
   std::mt19937 random(11);
   constexpr double pose_rounding = 1e-9;   // metres and radians, arms of 3 m
-  constexpr double joint_rounding = 1e-6;  // [rad]: acos near its ends halves the digits
-  constexpr double clear = 0.01;           // from where the words change, or two arms meet [rad]
+  constexpr double joint_rounding = 1e-6;  // [rad]: acos near its limits halves the number of digits
+  constexpr double clear = 0.01;           // distance from configurations where the words change or two arms coincide [rad]
   for (const Shipped& type : robots) {
     CAPTURE(type.name);
     const pipeline::Robot robot = shipped(type.name);
@@ -155,8 +153,7 @@ TEST_CASE("shipped robots: the maker's configuration words bring back the arm wi
         elsewhere[i] = angle(random);
         near_edge |= std::abs(std::remainder(joints[i], std::numbers::pi / 2)) < clear;
       }
-      // No controller's words count the turns of axis 3, which is free to turn further than once on the
-      // M-20iA.
+      // No controller's words contain the turns of axis 3, which can turn more than once on the M-20iA.
       elsewhere[2] = joints[2];
       std::string reason;
       const Frame flange = arm.flange(joints);

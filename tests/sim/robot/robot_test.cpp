@@ -9,7 +9,7 @@
 namespace dresslife::sim {
 namespace {
 
-/// Lengths of up to 3 m times some ten roundings of 1e-16.
+/// Some ten roundings of 1e-16 in lengths of up to 3 m.
 constexpr double rounding = 1e-14;
 
 pipeline::Robot two_joint_arm() {

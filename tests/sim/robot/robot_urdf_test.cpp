@@ -1,4 +1,4 @@
-// A robot written as URDF and read again stands where it stood, whatever lies on fixed joints in between.
+// A robot written as URDF and read again has the same poses, with any fixed joints in between.
 #include <Eigen/Geometry>
 #include <numbers>
 #include <random>
@@ -20,7 +20,7 @@ constexpr double rounding = 1e-9;  // the URDF below is written with 12 digits
 
 std::string numbers(const Vector3& v) { return fmt::format("{:.12g} {:.12g} {:.12g}", v.x(), v.y(), v.z()); }
 
-/// Every joint follows a fixed one with a random part of its origin.
+/// Returns the robot as URDF. Before every joint is a fixed joint with a random part of its origin.
 std::string urdf_of(const pipeline::Robot& robot, std::mt19937& random) {
   std::string text = "<robot name=\"copy\">\n<link name=\"root\"/>\n";
   std::string parent = "root";
@@ -28,7 +28,7 @@ std::string urdf_of(const pipeline::Robot& robot, std::mt19937& random) {
   for (const pipeline::Joint& joint : robot.joints) {
     const Vector3 angles{part(random), part(random), part(random)},
         shift{part(random), part(random), part(random)};
-    // F = (shift, angles) rest: what the fixed joint takes, the moved one gives back.
+    // F = (shift, angles) rest: the moved joint compensates the fixed joint.
     const Frame fixed{shift, from_roll_pitch_yaw(angles)};
     const Quaternion back = fixed.orientation.conjugate();
     const Frame whole{joint.origin, from_roll_pitch_yaw(joint.orientation)};
@@ -100,13 +100,13 @@ TEST_CASE("robot urdf: the frame of the programs is link `base`, however many fi
   request.urdf = "copy.urdf";
   request.accelerations.assign(6, 1);
   pipeline::read_fields(pipeline::robot_from_urdf(request, text), copy);
-  // 0.2 m along the stand's x, which is the root's y; half a turn in all.
+  // 0.2 m along the stand's x, which is the root's y; half a turn in total.
   CHECK((copy.program_base - Vector3(0, 0.2, 0.6)).norm() < rounding);
   CHECK((copy.program_orientation - Vector3(0, 0, std::numbers::pi)).norm() < rounding);
 }
 
 TEST_CASE("robot urdf: a joint that follows another keeps the wrist level") {
-  // A parallelogram: a joint before the hand turns back the angles of joints 2 and 3.
+  // A parallelogram: a joint before the hand compensates the angles of joints 2 and 3.
   pipeline::Robot robot;
   const auto joint = [&](const char* name, const Vector3& origin, const Vector3& axis) {
     pipeline::Joint made;

@@ -1,5 +1,5 @@
-// An arm of six axes small enough to reason about: 1 m and 1 m on a column of 1 m, whose tool points forward
-// at zero.
+// A six-axis arm that is simple enough for calculation by hand: a column of 1 m and two links of 1 m. At zero the tool points
+// forward.
 #pragma once
 
 #include <numbers>
@@ -10,7 +10,7 @@
 
 namespace dresslife::sim {
 
-/// Speeds and accelerations are the caller's.
+/// Returns the arm. The caller sets speeds and accelerations.
 inline pipeline::Robot small_arm() {
   pipeline::Robot robot;
   robot.name = "test arm";

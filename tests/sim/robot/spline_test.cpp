@@ -46,7 +46,7 @@ TEST_CASE("spline: a spline's error falls with the fourth power of the step") {
     return error;
   };
   const double order = std::log2(largest_error(40) / largest_error(80));
-  CHECK(order > 3.8);  // 4 less what the ends still differ at 40 knots
+  CHECK(order > 3.8);  // 4, reduced by the error at the ends for 40 knots
   CHECK(order < 4.5);
 }
 

@@ -6,7 +6,7 @@ using namespace dresslife::sim::test;
 
 namespace {
 
-constexpr double relief = 8;  // E I beside the hose's own 1
+constexpr double relief = 8;  // additional E I, relative to the hose's own, 1
 
 RodProperties relieved(int n, double length, bool at_tool = false) {
   RodProperties p = unit_rod(n);
@@ -26,15 +26,15 @@ TEST_CASE("bend relief: the tip of a cantilever with a step of stiffness goes do
     const double bare = std::pow(1 - length, 3) / 3, stiff = (1.0 / 3 - bare) / (1 + relief);
     return std::abs(tip / load - bare - stiff);
   };
-  // A link in which the compliance steps by d acts at its middle and not at the step: at most d l^2/8 times the change of
-  // the squared arm, 2 (1 - r).
+  // A link in which the compliance steps by d has its compliance at its middle instead of at the step: an error of at most
+  // d l^2/8 times the change of the squared arm, 2 (1 - r).
   for (const double length : {0.05, 0.21, 0.25, 0.5})
     CHECK(error(40, length) < relief / (1 + relief) * (1 - length) / 4 / (40 * 40));
-  CHECK(observed_order(error(40, 0.25), error(80, 0.25)) > least_order);  // the step in the middle of a link, each time
+  CHECK(observed_order(error(40, 0.25), error(80, 0.25)) > least_order);  // the step is always in the middle of a link
 }
 
 TEST_CASE("bend relief: the bend of a pulled hose at a slanted clamp is that of two boundary layers sqrt(EI/T)") {
-  // EI_i phi'' = T phi for the angle to the pull; phi and EI phi' are continuous at the relief's end, phi fades beyond.
+  // EI_i phi'' = T phi, with phi the angle to the tension; phi and EI phi' are continuous at the relief's end, phi decays beyond.
   constexpr double pull = 400, slant = 1e-3, length = 0.15;
   const double stiff = 1 + relief, deep = std::sqrt(stiff / pull), thin = std::sqrt(1 / pull);
   const double k1 = std::sqrt(stiff * pull), k2 = std::sqrt(pull), sh = std::sinh(length / deep), ch = std::cosh(length / deep);
@@ -43,7 +43,7 @@ TEST_CASE("bend relief: the bend of a pulled hose at a slanted clamp is that of 
     return s < length ? -(slant * std::sinh(s / deep) + c * std::cosh(s / deep)) / deep
                       : (slant * ch + c * sh) * std::exp(-(s - length) / thin) / thin;
   };
-  // Where the clamps are so far apart across the pull, no force acts across it.
+  // At this lateral distance of the clamps there is no lateral force.
   const double across = deep * (slant * sh + c * (ch - 1)) + thin * (slant * ch + c * sh);
   const double without = slant / thin;
   for (const bool at_tool : {false, true}) {
@@ -55,7 +55,7 @@ TEST_CASE("bend relief: the bend of a pulled hose at a slanted clamp is that of 
     const Equilibrium e = find_equilibrium(rod, clamps);
     REQUIRE(e.status == EquilibriumStatus::converged);
     const auto bend = [&](int from_clamp) { return curvature(rod, e.state, at_tool ? n - from_clamp : from_clamp); };
-    // Second order: (l/thin)^2/12 = 0.3 % of the curvature where it fades with `thin`; the slant turns the chord by 1e-3 of it.
+    // Second order: (l/thin)^2/12 = 0.3 % of the curvature where it decays with `thin`. The slant turns the chord by 1e-3 of it.
     const double tolerance = 4e-3 * exact(length);
     for (const int j : {0, 2, 5, 10, 14, 16, 20, 30}) {
       CAPTURE(j);

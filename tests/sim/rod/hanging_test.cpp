@@ -1,4 +1,4 @@
-// A dresspack that hangs from one clamp with a mass at its end: the set-up in which its damping is measured.
+// A dresspack that hangs from one clamp with a mass at its end: the arrangement in which its damping is measured.
 #include "tests/sim/rod/rod_problems.h"
 
 using namespace dresslife::sim;
@@ -14,7 +14,7 @@ RodProperties hanging(int segments, double tip_mass) {
   return p;
 }
 
-/// The lowest root of 1 + cos b cosh b = mu b (sin b cosh b - cos b sinh b), mu = tip mass over the rod's.
+/// Returns the lowest root of 1 + cos b cosh b = mu b (sin b cosh b - cos b sinh b), mu = tip mass / the rod's mass.
 double lowest_root(double mu) {
   return bisect(1e-3, 1.8751041, 80, [mu](double b) {
     return 1 + std::cos(b) * std::cosh(b) <
@@ -32,21 +32,21 @@ TEST_CASE("a hanging hose is stretched by its own weight and by the mass at its 
   const Frame down = planar_frame(0, 0, -pi / 2);
   const Equilibrium e = find_equilibrium(rod, rod.straight(down).clamps);
   REQUIRE(e.status == EquilibriumStatus::converged);
-  // Of its own weight: midpoints inside; the first half link errs by l^2/8, the last, of 3/2 l, by 3 l^2/8.
+  // Stretch by its own weight: midpoint rule. The first half link has an error of l^2/8, the last, of 3/2 l, of 3 l^2/8.
   const double exact = (3 + 0.5) * 9.81 / 1e4, ends = 0.5 * 9.81 / 1e4 / (20 * 20);
   CHECK(-rod.tip(e.state).z() - 1 == Approx(exact).margin(1.01 * ends));
   CHECK(rod.tensions(e.state)[0] == Approx(4 * 9.81).epsilon(1e-6));
 }
 
 TEST_CASE("a mass at the end of a cantilever bends it as the elastica") {
-  // P L^2/EI = 5 (Bisshopp and Drucker 1945); the rod itself weighs 1e-4 of the mass.
+  // P L^2/EI = 5 (Bisshopp and Drucker 1945). The rod's own weight is 1e-4 of the mass's.
   RodProperties p = hanging(40, 1);
   p.mass_per_length = 1e-4;
   p.gravity = {0, 0, -5};
   const Rod rod(p);
   const Equilibrium e = find_equilibrium(rod, rod.straight(planar_frame(0, 0, 0)).clamps);
   REQUIRE(e.status == EquilibriumStatus::converged);
-  const double n40_and_weight = 2e-4;  // 6e-5 of the chain; 0.4 of its weight counts at the tip: 4e-5 of 5
+  const double n40_and_weight = 2e-4;  // 6e-5 of the chain; 0.4 of the rod's weight acts at the tip: 4e-5 of 5
   CHECK(-rod.tip(e.state).z() == Approx(0.7137915).margin(n40_and_weight));
   CHECK(1 - rod.tip(e.state).x() == Approx(0.3876284).margin(n40_and_weight));
 }
@@ -83,7 +83,7 @@ TEST_CASE("a mass at the end of a cantilever rings and decays as Rayleigh's beam
     CHECK(20 * pi / (crossing.back() - crossing.front()) ==
           Approx(omega * std::sqrt(1 - ratio * ratio)).epsilon(frequency_tolerance));
     const double decay_tolerance =
-        0.01;  // other modes, struck by the discrete shape, ride on the first peaks
+        0.01;  // the discrete initial shape excites other modes, which change the first peaks
     CHECK(std::log(peaks[1] / peaks[20]) / (19 * pi) ==
           Approx(ratio / std::sqrt(1 - ratio * ratio)).epsilon(decay_tolerance));
   }
@@ -111,7 +111,7 @@ TEST_CASE("a heavy mass on a light limp hose swings as a pendulum and keeps its 
     before = x;
     most = std::max(most, rod.energy(state).total());
   }
-  // Small swings, larger by angle^2/16; the clamp holds the hose's first sqrt(EI/T) = 0.3 mm.
+  // Small swings; the period grows by angle^2/16. The clamp bends the hose's first sqrt(EI/T) = 0.3 mm.
   const double omega = std::sqrt(9.81) * (1 - angle * angle / 16), tolerance = 2e-3;
   CHECK(8 * pi / (crossing.back() - crossing.front()) == Approx(omega).epsilon(tolerance));
   const double half_step = 0.5 * h * 98.1 * 0.32 * angle;  // positions and velocities are half a step apart

@@ -1,4 +1,4 @@
-// Hysteretic bending: its elements against closed forms, and hoses that swing with it.
+// Hysteretic bending: its elements against closed forms, and swinging hoses.
 #include <complex>
 #include <numeric>
 #include <random>
@@ -21,7 +21,7 @@ double median(std::vector<double> values) {
 
 const std::vector<FrictionElement> four = {{3, 0.1}, {2, 0.3}, {1, 0.7}, {0.5, 1.6}};
 
-/// M(kappa) of the first bend with a spring of 1.
+/// Returns M(kappa) of the first bend, with a spring of stiffness 1.
 double first_bend(const std::vector<FrictionElement>& friction, double bend) {
   return std::accumulate(friction.begin(), friction.end(), bend, [&](double sum, const FrictionElement& f) {
     return sum + f.stiffness * std::min(bend, f.yield);
@@ -31,7 +31,7 @@ double first_bend(const std::vector<FrictionElement>& friction, double bend) {
 }  // namespace
 
 TEST_CASE("the polymer's elements have one loss factor from 1 to 30 Hz and the given stiffness at 1 Hz") {
-  const double band_tolerance = 0.02;  // the ripple of three elements and a dashpot over a decade and a half
+  const double band_tolerance = 0.02;  // the ripple of three elements and a dashpot over one and a half decades
   for (const double factor : {0.05, 0.15, 0.3, 0.6, most_loss_factor}) {
     const PolymerLoss loss = polymer_loss(factor);
     const auto stiffness = [&](double frequency) {
@@ -66,7 +66,7 @@ TEST_CASE("a bend to and fro follows the first bend doubled, in any direction") 
   for (double bend = turn; bend > -turn; bend -= 0.01)
     CHECK(moment(bend) == Approx(peak - 2 * first_bend(four, (turn - bend) / 2)).margin(1e-12));
   CHECK(moment(-turn) == Approx(-peak));
-  // A small loop inside closes and is forgotten.
+  // A small inner loop closes and has no effect afterwards.
   moment(0.4), moment(0.1), moment(0.4);
   CHECK(moment(turn) == Approx(peak));
 }
@@ -76,16 +76,16 @@ TEST_CASE("friction in two directions is held up to one circle and follows the w
   BendMemory memory;
   for (int k = 0; k <= 100; ++k) elements.advance(memory, {0.03 * k, 0});
   Eigen::Vector2d moment = Eigen::Vector2d::Zero();
-  // Across the way it has come the element turns as a dragged point: tan(psi/2) falls with exp(-way/yield).
+  // Perpendicular to its first bend the element follows like a dragged point: tan(psi/2) falls with exp(-distance/yield).
   const int parts = 4000;
   for (int k = 1; k <= parts; ++k) moment = elements.advance(memory, {3, 1.0 * k / parts});
   CHECK(moment.norm() == Approx(2 * 0.5));
-  const double first_order = 1e-3;  // of 4000 parts
+  const double first_order = 1e-3;  // first order in the step, 4000 parts
   CHECK(std::atan2(moment[0], moment[1]) == Approx(2 * std::atan(std::exp(-1 / 0.5))).epsilon(first_order));
 }
 
 TEST_CASE("elements never give more work than they were given, whatever the way") {
-  // The chain's step does the work of the mean moment over each step.
+  // In each step the chain's work is that of the mean moment over the step.
   std::mt19937 random(7);
   std::normal_distribution<double> normal;
   for (const double step : {1e-4, 5e-3, 0.1}) {
@@ -104,14 +104,14 @@ TEST_CASE("elements never give more work than they were given, whatever the way"
         moment = then, bend = point;
         CHECK(work >= -1e-14 * scale);  // rounding
       }
-      if (repeat > 0) CHECK(work > before);  // a closed cycle costs
+      if (repeat > 0) CHECK(work > before);  // a closed cycle dissipates
     }
   }
 }
 
 TEST_CASE("a cantilever with friction has the Masing loop of its closed form") {
-  // Tip force F, small bends: M = F (L - x); a section bends by kappa(M), which the elements give piecewise linearly.
-  // Statically determinate: the whole beam follows its first deflection doubled.
+  // Tip force F, small bends: M = F (L - x). A section bends by kappa(M), which is piecewise linear for these elements. The beam
+  // is statically determinate, so its unloading is the first deflection doubled.
   const double y = 0.02;
   RodProperties p = unit_rod(20);
   p.tool_end = End::free;
@@ -131,7 +131,7 @@ TEST_CASE("a cantilever with friction has the Masing loop of its closed form") {
   const Rod rod(p);
   RodSolver solver(rod);
   RodState state = rod.straight(planar_frame(0, 0, 0));
-  const double most = 0.12, h = 0.02, slowly = 200;  // [s] a quarter of a cycle: 110 periods
+  const double most = 0.12, h = 0.02, slowly = 200;  // [s] for a quarter of a cycle: 110 periods
   double force = 0;
   const auto load_to = [&](double target) {
     const int steps = static_cast<int>(slowly / h);
@@ -143,7 +143,7 @@ TEST_CASE("a cantilever with friction has the Masing loop of its closed form") {
     return rod.tip(state).z();
   };
   const double tolerance =
-      0.02 * deflection(most);  // bends of 0.12 rad, and 20 links of which each yields at once
+      0.02 * deflection(most);  // bends of 0.12 rad; each of 20 links yields at once
   for (const double part : {most / 3, most})
     CHECK(load_to(part) == Approx(deflection(part)).margin(tolerance));
   for (const double part : {most / 3, -most / 3, -most})
@@ -159,7 +159,7 @@ TEST_CASE("a hose that swings freely with hysteresis never gains energy") {
   const double h = 0.005;
   for (const auto& [factor, relief] : {std::pair{0.0, 0.0}, {0.3, 0.0}, {0.3, 20.0}}) {
     p.loss_factor = factor;
-    p.stiff_ends[0] = {0.45, relief};  // ends within a link
+    p.stiff_ends[0] = {0.45, relief};  // the relief ends within a link
     p.friction = {{20, 0.02}, {4, 0.1}, {1, 0.5}};
     const Rod rod(p);
     RodState state = rod.straight(planar_frame(0, 0, 0.3));
@@ -174,11 +174,11 @@ TEST_CASE("a hose that swings freely with hysteresis never gains energy") {
       most = std::max(most, energy);
       if (k % 200 == 0) each_second.push_back(energy);
     }
-    // Velocities are half a step behind positions: the sum swings by h/2 times the power, 5 kg that fall at 6 m/s.
+    // Velocities are half a step behind positions: the sum oscillates by h/2 times the power, 5 kg that fall at 6 m/s.
     const double half_step = 0.5 * h * 300;
     CHECK(most < start + half_step);
     CHECK(std::is_sorted(each_second.rbegin(),
-                         each_second.rend() - 3));  // nor later, while the sum swings less
+                         each_second.rend() - 3));  // nor later, when the sum oscillates less
   }
 }
 
@@ -212,8 +212,8 @@ TEST_CASE(
   const auto [coarse, fine] = distances();
   CAPTURE(coarse, fine);
   CHECK(observed_order(coarse, fine) > least_order);
-  // Friction sticks and slides, and the bend turns while it slides: no order, but less than the step's other errors (2.5e-3
-  // of the curvature at 5 ms).
+  // Friction sticks and slides, and the bend changes direction while it slides. There is no order of convergence, but the error
+  // is below the step's other errors (2.5e-3 of the curvature at 5 ms).
   p.friction = {{2, 0.1}, {1, 0.5}};
   const auto [rough, less_rough] = distances();
   CAPTURE(rough, less_rough);
@@ -223,7 +223,7 @@ TEST_CASE(
 
 namespace {
 
-/// Median damping ratio and half period at the amplitudes of the published half swings.
+/// Medians of damping ratio and half period at the amplitudes of the published half swings.
 struct Swung {
   double ratio, duration;
 };
@@ -238,7 +238,7 @@ Swung swing(const PublishedSwing& cable, double loss_factor) {
   p.tool_end = End::free;
   p.tip_mass = cable.tip_mass;
   p.loss_factor = loss_factor;
-  const double yield = 0.1;  // ESTIMATE: cables' friction slides between 0.01 and 0.5 1/m
+  const double yield = 0.1;  // ESTIMATE: the friction of cables slides between 0.01 and 0.5 1/m
   p.friction = {{cable.friction / yield, yield}};
   const Rod rod(p);
   const auto mean_bend = [&](const RodState& state) {
@@ -246,7 +246,7 @@ Swung swing(const PublishedSwing& cable, double loss_factor) {
     for (int j = 0; j < n; ++j) turn += rod.link_state(state, j).turn.y();
     return turn / cable.length;
   };
-  // Drawn aside by the tip as far as the first swing begins, slowly: its friction is held, its polymer at rest.
+  // The tip is slowly pulled aside to the start of the first swing, so friction is fully held and the polymer is relaxed.
   RodState state;
   bisect(0, 50, 30, [&](double force) {
     state = rod.straight(planar_frame(0, 0, -pi / 2));
@@ -274,7 +274,7 @@ Swung swing(const PublishedSwing& cable, double loss_factor) {
       peaks.push_back(std::abs(last)), times.push_back((k - 1) * h);
     before = last, last = bend;
   }
-  // Of whole ranges: friction leaves the cable off its middle.
+  // Amplitudes from whole ranges, because friction moves the cable's rest away from the middle.
   std::vector<double> ratios, durations;
   for (const HalfSwing& measured : cable.half_swings) {
     size_t k = 0;
@@ -294,7 +294,7 @@ Swung swing(const PublishedSwing& cable, double loss_factor) {
 }  // namespace
 
 TEST_CASE("eight published cables swing with the friction of their loops at rest and one loss factor") {
-  // The loss factor is the one number that is fitted here; air and clamp are in it.
+  // The loss factor is the only fitted number. It includes air and clamp.
   const double fitted = 0.6;
   std::vector<double> ratios, periods;
   for (const PublishedSwing& cable : published_swings) {
@@ -306,7 +306,7 @@ TEST_CASE("eight published cables swing with the friction of their loops at rest
     periods.push_back(simulated.duration / median(durations));
   }
   CAPTURE(ratios, periods);
-  const double frame = 0.06;  // of the video, of half a second
+  const double frame = 0.06;  // of one video frame / half a second
   CHECK(median(periods) == Approx(1).margin(frame));
   CHECK(median(ratios) == Approx(1).margin(0.1));
   CHECK(std::count_if(ratios.begin(), ratios.end(), [](double r) { return r > 0.7 && r < 1.3; }) >= 6);

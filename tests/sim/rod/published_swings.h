@@ -1,6 +1,6 @@
-// Swings of eight hanging charging cables, published: Tiburzio, Coleman, Feliu-Talegon, Della Santina, arXiv 2402.16114 and its
-// public data; recomputed from the curvatures of its videos. Half swings that begin at a mean curvature above 0.3 1/m: below, the
-// damping ratios scatter by as much as they are.
+// Published swings of eight hanging charging cables: Tiburzio, Coleman, Feliu-Talegon, Della Santina, arXiv 2402.16114 and its
+// public data, recomputed from the curvatures of its videos. Only half swings that begin at a mean curvature above 0.3 1/m:
+// below it the scatter of the damping ratios is as large as the ratios.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 namespace dresslife::sim::test {
 
 struct HalfSwing {
-  double curvature;  ///< mean along the cable where it begins [1/m]
-  double ratio;      ///< damping ratio by where it ends
+  double curvature;  ///< mean along the cable at the begin of the half swing [1/m]
+  double ratio;      ///< damping ratio from the curvature at the end of the half swing
   double duration;   ///< [s]
 };
 
@@ -19,8 +19,8 @@ struct PublishedSwing {
   double length;           ///< [m]
   double tip_mass;         ///< [kg]
   double mass_per_length;  ///< [kg/m]
-  double stiffness;        ///< E I by its shapes at rest [N m2]
-  double friction;         ///< half of the hysteresis of its moment at rest [N m]
+  double stiffness;        ///< E I from the cable's shapes at rest [N m2]
+  double friction;         ///< half of the hysteresis of the moment at rest [N m]
   std::vector<HalfSwing> half_swings;
 };
 

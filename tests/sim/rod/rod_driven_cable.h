@@ -1,8 +1,7 @@
-// The driven cable: both ends clamped, one end moved in space for 20 s; solved by other codes for comparison.
+// The driven cable: both ends clamped, one end moves in space for 20 s. Other codes have solved it, for comparison.
 //
-// L 2 m, 2.5 kg/m, EI = GJ = 3 N m2, EA 1e5 N, tau 0.01 s, straight along x at t = 0. Gravity and the driven
-// end start by the quintic q(u) = u^3 (10 - 15 u + 6 u^2), so everything is smooth. Curvature is compared
-// over t = 4..24 s.
+// L 2 m, 2.5 kg/m, EI = GJ = 3 N m2, EA 1e5 N, tau 0.01 s, straight along x at t = 0. Gravity and the driven end start with
+// the quintic q(u) = u^3 (10 - 15 u + 6 u^2), so all inputs are smooth. Curvature is compared over t = 4..24 s.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +14,7 @@
 namespace dresslife::sim::test {
 
 struct DrivenCable {
-  static constexpr double begin = 4, end = 24;  ///< of the comparison [s]
+  static constexpr double begin = 4, end = 24;  ///< of the compared time [s]
 
   static RodProperties properties(int segments) {
     RodProperties p;
@@ -26,7 +25,7 @@ struct DrivenCable {
     p.bending_stiffness = p.torsional_stiffness = 3;
     p.axial_stiffness = 1e5;
     p.damping_time = 0.01;
-    p.gravity.setZero();  // ramped: a load
+    p.gravity.setZero();  // applied as a load that starts smoothly
     return p;
   }
   static Frame base() {
@@ -47,13 +46,13 @@ struct DrivenCable {
   }
 };
 
-/// What the run leaves per link: bending curvature over the time of comparison [1/m].
+/// Result of a run per link: bending curvature over the compared time [1/m].
 struct CurvatureRecord {
   std::vector<double> largest, mean_square;
   std::vector<std::vector<double>> history;  ///< (sample, link), every 0.1 s
 };
 
-/// Runs a driven cable in the world to `until` [s].
+/// Runs a driven cable in the world until `until` [s]. Returns its curvatures.
 inline CurvatureRecord run_driven_cable(const RodProperties& properties, double h, double until) {
   const Rod rod(properties);
   WorldSettings settings;
@@ -87,9 +86,9 @@ inline CurvatureRecord run_driven_cable(int segments, double h, double until = D
   return run_driven_cable(DrivenCable::properties(segments), h, until);
 }
 
-/// Root mean square over links and time from 4 s on (before, the straight cable is jerked taut, which no order describes),
-/// relative to b, of the difference of two histories of curvature; every `stride`-th link of b belongs to a link of a. The end
-/// links are left out: there kappa is not at the clamp's s.
+/// Returns the root mean square, over links and time from 4 s on, of the difference of two histories of curvature, relative to
+/// b. Before 4 s the cable is pulled taut with a jerk, which has no order of convergence. Every `stride`-th link of b belongs
+/// to a link of a. The end links are left out, because their kappa is not at the clamp's s.
 inline double curvature_distance(const CurvatureRecord& a, const CurvatureRecord& b, int stride = 1) {
   double difference = 0, size = 0;
   for (size_t k = 40; k < a.history.size(); ++k)
@@ -100,8 +99,8 @@ inline double curvature_distance(const CurvatureRecord& a, const CurvatureRecord
   return std::sqrt(difference / size);
 }
 
-/// Largest and rms bending curvature [1/m] at s = 0.0125, 0.0375 .. 1.9875 m, by a solver of Euler-Bernoulli
-/// beam elements (Chrono; 80 elements, HHT at 0.5 ms).
+/// Largest and rms bending curvature [1/m] at s = 0.0125, 0.0375 .. 1.9875 m, computed with Euler-Bernoulli beam elements
+/// (Chrono; 80 elements, HHT at 0.5 ms).
 inline constexpr double beam_curvature[80][2] = {
     {7.18623, 5.18732}, {7.04455, 4.95839}, {6.84078, 4.71364}, {6.57455, 4.45729}, {6.26171, 4.19308},
     {5.90888, 3.92426}, {5.61475, 3.65362}, {5.35984, 3.38347}, {5.06652, 3.11574}, {4.73967, 2.85203},
@@ -121,8 +120,8 @@ inline constexpr double beam_curvature[80][2] = {
     {5.26467, 3.61509}, {5.6547, 3.90753},  {5.99685, 4.19585}, {6.28018, 4.47629}, {6.5777, 4.74464},
 };
 
-/// A quantity per link at s [m] along the cable: the cubic through the four links around it. (A straight line
-/// between links of 50 mm would be wrong by up to 2 % where the curvature turns round.)
+/// Returns a quantity given per link at s [m] along the cable, by the cubic through the four nearest links. (Linear
+/// interpolation between links 50 mm apart has an error of up to 2 % at maxima of the curvature.)
 inline double along_links(const std::vector<double>& of_link, double s) {
   const int n = static_cast<int>(of_link.size()) - 1;
   const double x = s * n / 2;
@@ -137,8 +136,8 @@ inline double along_links(const std::vector<double>& of_link, double s) {
   return value;
 }
 
-/// Root mean square over the beam's places of the difference in rms curvature, relative to the beam's; for
-/// the comparison of 4 to 24 s.
+/// Returns the root mean square, over the beam's places, of the difference in rms curvature, relative to the beam's. For the
+/// comparison of 4 to 24 s.
 inline double rms_curvature_error(const CurvatureRecord& record) {
   double difference2 = 0, rms2 = 0;
   for (int k = 0; k < 80; ++k) {

@@ -10,7 +10,7 @@ TEST_CASE("a cantilever under a tip force follows the elastica to second order")
                              {2, 0.4934575, 0.1606417},
                              {5, 0.7137915, 0.3876284},
                              {10, 0.8106090, 0.5549956}};
-  const double tip_error_n40 = 2e-5;  // l^3 P: 1.6e-5 at P = 10, less below
+  const double tip_error_n40 = 2e-5;  // l^3 P: 1.6e-5 at P = 10, smaller for smaller P
   for (const auto& [load, v, h] : cases) {
     CAPTURE(load);
     const auto error = [&, v = v, h = h, load = load](int n) {
@@ -25,8 +25,7 @@ TEST_CASE("a cantilever under a tip force follows the elastica to second order")
 }
 
 TEST_CASE("the tip of the elastica converges at second order in the segment length") {
-  // Against the chain itself at four times the resolution: second order leaves 1/16 of the coarse error
-  // there.
+  // Reference: the same chain with four times the resolution. By second order its error is 1/16 of the coarse one.
   const auto tip = [](int n) {
     RodProperties p = unit_rod(n);
     p.tool_end = End::free;
@@ -38,7 +37,7 @@ TEST_CASE("the tip of the elastica converges at second order in the segment leng
 }
 
 TEST_CASE("a heavy cantilever hangs as measured and computed by Romero et al.") {
-  // w L^3/EI, height over width of the hanging hose (Romero et al. 2021).
+  // w L^3/EI, height / width of the hanging hose (Romero et al. 2021).
   const double cases[][2] = {{0.1, 0.0124996}, {1, 0.1245618},  {3, 0.3646208},
                              {10, 1.0668023},  {30, 2.5472139}, {100, 5.8881046}};
   const auto ratio = [](double weight, int n) {
@@ -53,7 +52,7 @@ TEST_CASE("a heavy cantilever hangs as measured and computed by Romero et al.") 
   };
   for (const auto& [weight, expected] : cases) {
     CAPTURE(weight);
-    const double tolerance = 5e-4;  // at 32, measured; falls with the third order at least
+    const double tolerance = 5e-4;  // at 32, measured; the order of convergence is at least three
     CHECK(ratio(weight, 32) == Approx(expected).epsilon(tolerance));
     CHECK(ratio(weight, 64) == Approx(expected).epsilon(tolerance / 8));
   }
@@ -65,7 +64,7 @@ TEST_CASE("an end moment of 2 pi EI/L closes a circle with the same curvature at
   const Rod rod(p);
   RodState state = rod.straight(planar_frame(0, 0, 0));
   EquilibriumSettings newton;
-  newton.also_unstable = true;  // a torque about a fixed axis lets more than half a circle fall sideways
+  newton.also_unstable = true;  // under a torque about a fixed axis the rod falls sideways beyond half a circle
   for (int part = 1; part <= 8; ++part) {
     std::vector<Load> loads(40);
     loads.back().torque = Vector3(0, -2 * pi * part / 8, 0);
@@ -73,9 +72,9 @@ TEST_CASE("an end moment of 2 pi EI/L closes a circle with the same curvature at
     REQUIRE(e.status == EquilibriumStatus::converged);
     state = e.state;
   }
-  const double rounding = 1e-6;  // the links see the same moment, so only the search's residual is left
+  const double rounding = 1e-6;  // all links have equal moments, so only the search's residual remains
   for (int j = 0; j < 40; ++j) CHECK(curvature(rod, state, j) == Approx(2 * pi).epsilon(rounding));
-  // n chords of turned segments: the polygon closes but for the free end's missing half link, of order l^2.
+  // n chords of turned segments: the polygon closes except for the missing half link of the free end, of order l^2.
   CHECK(rod.tip(state).norm() < 2 * pi / (40.0 * 40.0));
 }
 
@@ -83,8 +82,7 @@ TEST_CASE("uniform twist between clamps, three turns of it, is equal at every li
   const int n = 40, turns = 3;
   const Rod rod(unit_rod(n));
   RodState state = rod.straight(planar_frame(0, 0, 0));
-  // A taut rod: pulled by 100 EI/L^2 it does not buckle under the torque 2 pi 7 GJ/L (limit 2 sqrt(P EI) +
-  // ...).
+  // A taut rod: under a tension of 100 EI/L^2 it does not buckle at the torque 2 pi 7 GJ/L (limit 2 sqrt(P EI) + ...).
   state.clamps.tool.position *= 1 + 400 / unit_rod(n).axial_stiffness;
   for (int k = 1; k <= 16 * turns; ++k) {
     ClampFrames clamps = state.clamps;
@@ -94,7 +92,7 @@ TEST_CASE("uniform twist between clamps, three turns of it, is equal at every li
     REQUIRE(e.negative_pivots == 0);
     state = e.state;
   }
-  const double tolerance = 1e-6;  // what the search's residual, 1e-8 of the moment, may leave in one link
+  const double tolerance = 1e-6;  // the effect of the search's residual, 1e-8 of the moment, in one link
   double largest = 0, smallest = 1e9;
   for (int j = 0; j <= n; ++j) {
     const double twist = rod.link_state(state, j).turn.z() / rod.bending_length(j);
@@ -105,10 +103,9 @@ TEST_CASE("uniform twist between clamps, three turns of it, is equal at every li
 }
 
 TEST_CASE("uniform bend between clamps is equal at every link") {
-  // The clamps stand where the chain's own circular arc (end moment alone) puts them; then the tool end is
-  // held.
+  // The clamps are at the ends of the chain's own circular arc (end moment only). Then the tool end is fixed there.
   const int n = 40;
-  const double moment = 2;  // 2 rad in all
+  const double moment = 2;  // 2 rad in total
   RodProperties p = unit_rod(n);
   const Rod rod(p);
   const auto arm = [&](int link) {  // (S17)
@@ -125,9 +122,9 @@ TEST_CASE("uniform bend between clamps is equal at every link") {
   const ClampFrames clamps{planar_frame(0, 0, 0), planar_frame(joint.x(), joint.z(), angle)};
   const Equilibrium e = find_equilibrium(rod, clamps);
   REQUIRE(e.status == EquilibriumStatus::converged);
-  const double tolerance = 1e-6;  // what the search's residual, 1e-8 of the moment, may leave in one link
+  const double tolerance = 1e-6;  // the effect of the search's residual, 1e-8 of the moment, in one link
   for (int j = 0; j <= n; ++j) CHECK(curvature(rod, e.state, j) == Approx(moment).epsilon(tolerance));
-  // The true arc's clamps differ from these, and so do the curvatures, by an eighth of (kappa l)^2/12.
+  // The clamps of the true arc differ from these, and therefore the curvatures differ by an eighth of (kappa l)^2/12.
   const ClampFrames arc{planar_frame(0, 0, 0),
                         planar_frame(std::sin(moment) / moment, (1 - std::cos(moment)) / moment, moment)};
   const Equilibrium on_arc = find_equilibrium(rod, arc);
@@ -138,13 +135,13 @@ TEST_CASE("uniform bend between clamps is equal at every link") {
 
 namespace {
 
-// The rod of n segments whose clamps stand `distance` apart, pushed together little by little.
+// The rod of n segments, compressed in small steps until its clamps have this distance.
 struct Buckled {
   double deflection, push;
 };
 Buckled buckle(int n, double distance) {
   RodProperties p = unit_rod(n);
-  p.gravity = {0, 0, -1e-5};  // says to which side; of forces of 16 pi^2 and more
+  p.gravity = {0, 0, -1e-5};  // selects the side; small against forces of at least 16 pi^2
   const Rod rod(p);
   Equilibrium e = find_equilibrium(rod, {planar_frame(0, 0, 0), planar_frame(std::max(0.9, distance), 0, 0)});
   for (double x = 0.9; x > distance - 0.02; x -= 0.02) {
@@ -158,8 +155,8 @@ Buckled buckle(int n, double distance) {
 }  // namespace
 
 TEST_CASE("a clamped rod pushed together buckles as the elastica") {
-  // Four quarter waves with k = sin(alpha/2), alpha the slope at the inflections: P L^2/EI = 16 K^2, distance
-  // of the clamps 2 E/K - 1, deflection at the middle k/K (all over L).
+  // Four quarter waves with k = sin(alpha/2), alpha the slope at the inflections: P L^2/EI = 16 K^2, distance of the clamps
+  // 2 E/K - 1, deflection at the middle k/K (all divided by L).
   for (const double alpha : {0.3, 1.0, 1.5}) {
     CAPTURE(alpha);
     const double k = std::sin(alpha / 2), K = std::comp_ellint_1(k), E = std::comp_ellint_2(k);
@@ -174,13 +171,13 @@ TEST_CASE("a clamped rod pushed together buckles as the elastica") {
 }
 
 TEST_CASE("a limp hose hangs as the catenary and pulls as one") {
-  // Length 1, span c: sinh(x)/x = 1/c with x = c/(2 b), b = horizontal pull over weight per length.
+  // Length 1, span c: sinh(x)/x = 1/c with x = c/(2 b), b = horizontal tension / weight per length.
   const double span = 0.6;
   const double x = bisect(1e-3, 10, 100, [&](double y) { return std::sinh(y) / y > 1 / span; });
   const double b = span / (2 * x), sag = b * (std::cosh(x) - 1), slope = std::atan(std::sinh(x));
   const auto solve = [&](int n) {
     RodProperties p = unit_rod(n);
-    p.bending_stiffness = p.torsional_stiffness = 1e-7;  // EI/(2 w b^3) = 1e-5 of the pull
+    p.bending_stiffness = p.torsional_stiffness = 1e-7;  // EI/(2 w b^3) = 1e-5 of the tension
     p.gravity = {0, 0, -1};
     p.axial_stiffness = 1e5;
     const Rod rod(p);

@@ -1,4 +1,4 @@
-// The chain in motion against closed forms, against itself at finer steps, and against another code.
+// The chain in motion against closed forms, against itself with smaller steps, and against another code.
 #include <complex>
 
 #include "tests/sim/rod/rod_driven_cable.h"
@@ -8,7 +8,7 @@ using namespace dresslife::sim;
 using namespace dresslife::sim::test;
 
 TEST_CASE("the driven cable agrees with beam elements in every place") {
-  // Beam elements and MuJoCo's cable, 40 of each, differ by 0.8 % rms and 1.2 % at the peak.
+  // Beam elements and MuJoCo's cable, 40 of each, differ from each other by 0.8 % rms and 1.2 % at the peak.
   const double rms_tolerance = 0.01, peak_tolerance = 0.015;
   for (const int n : {20, 40}) {
     const CurvatureRecord record = run_driven_cable(n, 0.005);
@@ -17,7 +17,7 @@ TEST_CASE("the driven cable agrees with beam elements in every place") {
       peak = std::max(peak, along_links(record.largest, 0.0125 + 0.025 * k));
       beam_peak = std::max(beam_peak, beam_curvature[k][0]);
     }
-    // What is left at 40 is the beam elements' own: 80, 160 segments and half the step change it no more.
+    // The difference at 40 is the beam elements' own: 80 or 160 segments and half the step do not reduce it.
     CHECK(rms_curvature_error(record) < rms_tolerance / (n == 20 ? 4 : 10));
     CHECK(peak == Approx(beam_peak).epsilon(peak_tolerance));
   }
@@ -44,7 +44,7 @@ namespace {
 struct Mode {
   double root;  // cosh x cos x = -1
 
-  // Deflection, slope and curvature at s in 0..1, largest deflection 2 at the tip.
+  // Deflection, slope and curvature at s in 0..1; the deflection is 2 at the tip.
   double deflection(double s) const {
     return std::cosh(root * s) - std::cos(root * s) - sigma() * (std::sinh(root * s) - std::sin(root * s));
   }
@@ -55,8 +55,8 @@ struct Mode {
   double sigma() const { return (std::cosh(root) + std::cos(root)) / (std::sinh(root) + std::sin(root)); }
 };
 
-// A cantilever of unit properties struck with the velocity of a mode. Returns times at which the tip passes
-// zero and the peaks of |tip| between them.
+// A cantilever of unit properties that starts with the velocity of a mode. Times at which the tip passes zero, and the peaks
+// of |tip| between them.
 struct Ringing {
   std::vector<double> crossing, peak;
 };
@@ -102,18 +102,18 @@ TEST_CASE("a cantilever rings at its three lowest frequencies and decays as Kelv
     const Ringing r = ring_cantilever({root}, 60, tau, h, 21);
     REQUIRE(r.crossing.size() == 21);
     const double measured = 20 * pi / (r.crossing.back() - r.crossing.front());
-    const double frequency_tolerance = 2e-3;  // (root l)^2/12 = 1.4e-3 for the third, (omega h)^2/24 = 1e-5
+    const double frequency_tolerance = 2e-3;  // (root l)^2/12 = 1.4e-3 for the third mode, (omega h)^2/24 = 1e-5
     CHECK(measured == Approx(omega * std::sqrt(1 - ratio * ratio)).epsilon(frequency_tolerance));
     // Nineteen half periods between the first whole swing and the last.
     const double decay = std::log(r.peak[1] / r.peak[20]) / (19 * pi);
     const double decay_tolerance =
-        0.02;  // other modes, struck by the discrete shape, ride on the first peaks
+        0.02;  // the discrete initial shape excites other modes, which change the first peaks
     CHECK(decay == Approx(ratio / std::sqrt(1 - ratio * ratio)).epsilon(decay_tolerance));
   }
 }
 
 TEST_CASE("a cantilever with a loss factor rings and decays as its elements say, in every wave") {
-  // A free wave exp(s t) has s^2 + omega^2 E*(s) = 0, E* of 1 at 1 Hz: by Newton from i omega.
+  // A free wave exp(s t) has s^2 + omega^2 E*(s) = 0, with E* = 1 at 1 Hz. Newton's method from i omega.
   using Complex = std::complex<double>;
   for (const double factor : {0.1, 0.3}) {
     const PolymerLoss loss = polymer_loss(factor);
@@ -138,9 +138,9 @@ TEST_CASE("a cantilever with a loss factor rings and decays as its elements say,
       const Ringing r = ring_cantilever({root}, 60, 0, h, crossings, factor);
       REQUIRE(r.crossing.size() == crossings);
       const double frequency_tolerance =
-          0.015;  // the slow elements creep: by 1 % of the first swing's height in one swing
+          0.015;  // the slow elements creep by 1 % of the first swing's height in one swing
       CHECK(2 * pi / (r.crossing[2] - r.crossing[0]) == Approx(wave.imag()).epsilon(frequency_tolerance));
-      const double decay_tolerance = 0.03;  // 0.02 as for Kelvin and Voigt; the middle moves
+      const double decay_tolerance = 0.03;  // 0.02 as for Kelvin and Voigt, plus the shift of the middle
       CHECK(std::log((r.peak[1] + r.peak[2]) / (r.peak[5] + r.peak[6])) / (4 * pi) ==
             Approx(ratio).epsilon(decay_tolerance));
     }
@@ -148,8 +148,7 @@ TEST_CASE("a cantilever with a loss factor rings and decays as its elements say,
 }
 
 TEST_CASE("an undamped whip does not gain energy in 60 s") {
-  // The base case of 2 m, let go at 17 deg above the horizontal with a push sideways; it cracks several
-  // times.
+  // The base case of 2 m, released at 17 deg above the horizontal with a lateral push. It cracks like a whip several times.
   RodProperties p = hose(30);
   p.damping_time = 0;
   p.tool_end = End::free;
@@ -168,8 +167,8 @@ TEST_CASE("an undamped whip does not gain energy in 60 s") {
       REQUIRE(advance_rod(rod, solver, state, state.clamps, h));
       most = std::max(most, rod.energy(state).total());
     }
-    // Velocities are half a step behind positions: the sum swings by h/2 times the power of the forces, and
-    // the 5 kg fall at up to 6 m/s: 300 W; less than that is not a gain.
+    // Velocities are half a step behind positions, so the sum oscillates by h/2 times the power of the forces: the 5 kg fall at
+    // up to 6 m/s, 300 W. A smaller increase is not a gain of energy.
     const double half_step = 0.5 * h * 300;
     CHECK(most < start + half_step);
     CHECK(rod.energy(state).total() < start);
@@ -177,8 +176,8 @@ TEST_CASE("an undamped whip does not gain energy in 60 s") {
 }
 
 TEST_CASE("a pinned rod under torque about its axis buckles at 2 pi EI/L") {
-  // Pinned at both ends (Greenhill 1883): the torque keeps the axis' direction. Below the limit a small bend
-  // dies out, above it grows.
+  // Pinned at both ends (Greenhill 1883): the torque keeps the axis' direction. Below the limit a small bend decays, above it
+  // grows.
   const auto growth = [](double torque) {
     RodProperties p = unit_rod(40);
     p.base_end = p.tool_end = End::pinned;
@@ -186,7 +185,7 @@ TEST_CASE("a pinned rod under torque about its axis buckles at 2 pi EI/L") {
     p.damping_time = 0.02;
     const Rod rod(p);
     RodState state = rod.straight(planar_frame(0, 0, 0));
-    // Already twisted by the torque, and bent by 1e-6.
+    // The initial state is twisted by the torque and bent by 1e-6.
     for (int i = 0; i < 40; ++i) {
       state.orientation[i] =
           rolled({{}, state.orientation[i]}, torque / p.torsional_stiffness * (i + 0.5) / 40).orientation;
@@ -208,7 +207,7 @@ TEST_CASE("a pinned rod under torque about its axis buckles at 2 pi EI/L") {
     }
     return size() / early;
   };
-  const double bracket = 0.005;  // a chain of 40 itself is (2 pi l)^2/12 = 0.2 % off
+  const double bracket = 0.005;  // the limit of a chain of 40 differs by (2 pi l)^2/12 = 0.2 %
   CHECK(growth(2 * pi * (1 - bracket)) < 1);
   CHECK(growth(2 * pi * (1 + bracket)) > 1);
 }

@@ -1,4 +1,4 @@
-// What the tests of the chain share: clamp frames in a plane, quick statics, elliptic integrals, orders.
+// Functions shared by the tests of the chain: clamp frames in a plane, fast statics, bisection, orders of convergence.
 #pragma once
 
 #include <algorithm>
@@ -14,13 +14,12 @@ namespace dresslife::sim::test {
 
 inline const double pi = std::acos(-1.0);
 
-/// A frame in the x-z plane with its tangent `angle` above the x axis: body z turned about y by 90 deg -
-/// angle.
+/// Returns a frame in the x-z plane with its tangent `angle` above the x axis: body z turned about y by 90 deg - angle.
 inline Frame planar_frame(double x, double z, double angle) {
   return {{x, 0, z}, Quaternion(Eigen::AngleAxisd(pi / 2 - angle, Vector3::UnitY()))};
 }
 
-/// solve(), v += dv, x += h v, finish() without ODE: for closed forms and for relaxation. False as solve().
+/// One step without ODE: solve(), v += dv, x += h v, finish(). For closed forms and relaxation. Returns false if solve() does.
 inline bool advance_rod(const Rod& rod, RodSolver& solver, RodState& state, const ClampFrames& end, double h,
                         std::span<const Load> loads = {}) {
   if (!solver.solve(state, end, h, loads)) return false;
@@ -35,7 +34,7 @@ inline bool advance_rod(const Rod& rod, RodSolver& solver, RodState& state, cons
   return true;
 }
 
-/// Unit stiffness, unit length, thin, all but inextensible, no gravity.
+/// Returns a thin, nearly inextensible rod of unit stiffness and unit length without gravity.
 inline RodProperties unit_rod(int segments) {
   RodProperties p;
   p.segments = segments;
@@ -49,7 +48,7 @@ inline RodProperties unit_rod(int segments) {
   return p;
 }
 
-/// A hose as robots carry them, soft: 2.5 kg/m, 60 mm thick.
+/// Returns a soft hose of the kind that robots carry: 2.5 kg/m, 60 mm thick.
 inline RodProperties hose(int segments, double length = 2) {
   RodProperties p;
   p.segments = segments;
@@ -63,7 +62,7 @@ inline RodProperties hose(int segments, double length = 2) {
   return p;
 }
 
-/// Force at the tip of a free end, moved to the last segment's centre.
+/// Returns the loads of a force at the tip of a free end, moved to the last segment's centre.
 inline std::vector<Load> tip_force(const Rod& rod, const RodState& state, const Vector3& force) {
   std::vector<Load> loads(rod.segments());
   const Vector3 arm = rod.tip(state) - state.position.back();
@@ -71,8 +70,8 @@ inline std::vector<Load> tip_force(const Rod& rod, const RodState& state, const 
   return loads;
 }
 
-/// Equilibrium of a cantilever under a dead force at its tip, brought up in ten parts. The force's torque
-/// about the segment's centre follows the segment, so the solution is repeated until it stands still.
+/// Returns the equilibrium of a cantilever under a dead force at its tip, applied in ten parts. The force's torque about the
+/// segment's centre depends on the segment's orientation, so the solution is repeated until the tip moves less than 1e-12 m.
 inline RodState tip_loaded(const Rod& rod, const Frame& base, const Vector3& force) {
   RodState state = rod.straight(base);
   EquilibriumSettings newton;
@@ -87,14 +86,14 @@ inline RodState tip_loaded(const Rod& rod, const Frame& base, const Vector3& for
   return state;
 }
 
-/// The hose's axis at a link: the chain's joints lie outside a bend by kappa l^2/12 (S17). For planar bends.
+/// Returns the point of the hose's axis at a link. In a bend the chain's joints lie outside by kappa l^2/12 (S17). Planar bends.
 inline Vector3 on_axis(const Rod& rod, const RodState& state, int link) {
   const Vector3 before = tangent(state.orientation[link - 1]), after = tangent(state.orientation[link]);
   return state.position[link - 1] + rod.segment_length() * (before / 2 + (after - before) / 12);
 }
 
-/// How far the segments of `a` from `first` on are from those of `b`: places [m], quaternions, velocities
-/// [m/s].
+/// Returns the largest difference of the segments of `a`, from `first` on, to those of `b`: positions [m], quaternions,
+/// velocities [m/s].
 inline double furthest(const RodState& a, int first, const RodState& b) {
   double most = 0;
   for (size_t i = 0; i < b.position.size(); ++i) {
@@ -105,12 +104,12 @@ inline double furthest(const RodState& a, int first, const RodState& b) {
   return most;
 }
 
-/// Bending curvature of a link [1/m].
+/// Returns the bending curvature of a link [1/m].
 inline double curvature(const Rod& rod, const RodState& state, int link) {
   return rod.link_state(state, link).turn.head<2>().norm() / rod.bending_length(link);
 }
 
-/// The value between low and high where `unstable` changes from false to true.
+/// Returns the value between low and high at which `unstable` changes from false to true.
 inline double bisect(double low, double high, int halvings, const std::function<bool(double)>& unstable) {
   for (int k = 0; k < halvings; ++k) {
     const double middle = (low + high) / 2;
@@ -119,10 +118,10 @@ inline double bisect(double low, double high, int halvings, const std::function<
   return (low + high) / 2;
 }
 
-/// Observed order from errors at a resolution and at twice it.
+/// Returns the observed order of convergence from the errors at a resolution and at twice this resolution.
 inline double observed_order(double coarse, double fine) { return std::log2(coarse / fine); }
 
-/// Where two orders are measured, the second must not fall below this: second order less the higher terms.
+/// Lower bound of an observed order: second order minus the effect of higher terms.
 inline constexpr double least_order = 1.9;
 
 }  // namespace dresslife::sim::test

@@ -21,8 +21,8 @@ TEST_CASE("log undoes exp for every turn below half a turn") {
 }
 
 TEST_CASE("the turn between two directions is the smallest, up to half a turn") {
-  const double rounding = 1e-12;  // 1e-16 over 1 + cosine, which is 8e-4 where a turn is not made in two
-  const double turned_in_two = 1.4e-6;  // [rad] short of half a turn, cosines differ from -1 by 1e-12 there
+  const double rounding = 1e-12;  // 1e-16 / (1 + cosine), which is 8e-4 where the rotation is not split in two
+  const double turned_in_two = 1.4e-6;  // [rad] below half a turn; there cosines differ from -1 by 1e-12
   const Vector3 from(0.3, -0.8, 0.5), across = from.unitOrthogonal();
   for (const double less : {std::numbers::pi, std::numbers::pi - 1e-9, 2.0, 1.0, 0.04, 1e-7, 0.0}) {
     CAPTURE(less);
@@ -58,7 +58,7 @@ TEST_CASE("a link's turn alone is that of its whole state") {
 }
 
 TEST_CASE("a link's map G gives the rate of its rotation vector") {
-  // Central differences of log(R_a^T R_b) while the second body turns: their error is of order step^2.
+  // Central differences of log(R_a^T R_b) while the second body rotates: their error is of order step^2.
   const double step = 1e-5, tolerance = 1e-9;
   const Quaternion a = rotation({0.2, 0.9, -0.4});
   for (const double size : {1e-3, 0.1, 0.29, 0.31, 1.0, 2.5}) {

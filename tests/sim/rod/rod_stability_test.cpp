@@ -1,4 +1,4 @@
-// When the chain buckles under twist, torque and its own weight, and into what.
+// Limits at which the chain buckles under twist, torque and its own weight, and the shapes after buckling.
 #include <random>
 
 #include "tests/sim/rod/rod_problems.h"
@@ -8,7 +8,7 @@ using namespace dresslife::sim::test;
 
 namespace {
 
-// For a straight state that is an equilibrium as it stands: only the signs of its pivots are wanted.
+// For a straight state that is already in equilibrium: only the signs of its pivots are needed.
 EquilibriumSettings newton() {
   EquilibriumSettings settings;
   settings.also_unstable = true;
@@ -16,7 +16,7 @@ EquilibriumSettings newton() {
   return settings;
 }
 
-// Plus a random turn of every segment, up to `size` [rad]; the same every time.
+// Adds a random rotation of every segment, up to `size` [rad]. The numbers are the same in every call.
 RodState seeded(RodState state, double size) {
   std::mt19937 random(7);
   const auto number = [&] { return size * (static_cast<double>(random()) / 4294967295.0 - 0.5); };
@@ -27,7 +27,7 @@ RodState seeded(RodState state, double size) {
   return state;
 }
 
-// A straight rod between clamps, twisted evenly by `twist` [rad].
+// Returns a straight rod between clamps with uniform twist; `twist` in total [rad].
 RodState evenly_twisted(const Rod& rod, double twist) {
   RodState state = rod.straight(planar_frame(0, 0, 0));
   double angle = 0;
@@ -57,7 +57,7 @@ TEST_CASE("a clamped rod under torque buckles at Greenhill's 8.986819 EI/L") {
   };
   const double expected = 8.986819;     // twice the first root of tan x = x
   const double tolerance_n60 = 3e-3;    // (9 l)^2/12 of a chain against a helix of 9 rad per length
-  const double tolerance_limit = 3e-4;  // the second-order part taken away
+  const double tolerance_limit = 3e-4;  // after Richardson extrapolation of the second-order error
   const double coarse = critical(60), fine = critical(120);
   CHECK(coarse == Approx(expected).epsilon(tolerance_n60));
   CHECK((4 * fine - coarse) / 3 == Approx(expected).epsilon(tolerance_limit));
@@ -84,8 +84,7 @@ TEST_CASE("a standing column buckles under its own weight at 7.8373474 EI/L^3") 
 
 namespace {
 
-// A rod of length 1 bent to a closed ring, its two clamps in one place, one turned against the other by
-// `twist`.
+// Returns a rod of length 1 bent to a closed ring. Both clamps have the same place; one is rotated against the other by `twist`.
 RodState ring(const Rod& rod, double twist) {
   RodState state = rod.straight(planar_frame(0, 0, 0));
   const int n = rod.segments();
@@ -104,9 +103,8 @@ RodState ring(const Rod& rod, double twist) {
   return state;
 }
 
-// Largest distance of the segments from the flat circle of circumference 1 that they mean. (Its plane may
-// turn about the clamps' tangent for nothing, as the rod is round; and past the limit it may fall into a flat
-// figure of eight.)
+// Returns the largest distance of the segments from the plane circle of circumference 1. (The circle's plane may turn about the
+// clamps' tangent without energy, because the rod is round. Beyond the limit the rod may fall into a flat figure of eight.)
 double out_of_round(const RodState& state) {
   Vector3 centre = Vector3::Zero(), normal = Vector3::Zero();
   for (const Vector3& x : state.position) centre += x / static_cast<double>(state.position.size());
@@ -121,8 +119,8 @@ double out_of_round(const RodState& state) {
 }  // namespace
 
 TEST_CASE("Michell's ring leaves its plane at an imposed twist of 2 pi sqrt(3) EI/GJ") {
-  // The chain of 60 is some 0.5 % off. Nearer to the limit the disturbance of 1e-3 does not distinguish the sides
-  // apart: out of round grows as the root of the distance from it.
+  // The chain of 60 has an error of about 0.5 %. Closer to the limit the disturbance of 1e-3 does not separate both sides: the
+  // deviation grows with the root of the distance from it.
   const double bracket = 0.03;
   for (const double ratio : {0.5, 0.8, 1.0, 1.25, 2.0, 3.0}) {  // EI/GJ
     CAPTURE(ratio);
@@ -131,8 +129,8 @@ TEST_CASE("Michell's ring leaves its plane at an imposed twist of 2 pi sqrt(3) E
     p.axial_stiffness = 1e5;
     const Rod rod(p);
     const double critical = 2 * pi * std::sqrt(3.0) * ratio;
-    // Every ring is disturbed; one below the limit must return to its plane, one above must not, or has
-    // passed through itself and lost turns (nothing here keeps it from that).
+    // Every ring is disturbed. Below the limit it must return to its plane. Above the limit it must not, or it has passed through
+    // itself and lost turns (there is no contact here).
     const auto deviation = [&](double twist) {
       RodState state = ring(rod, 0);
       const int parts = static_cast<int>(std::ceil(twist / 0.5));
@@ -149,7 +147,7 @@ TEST_CASE("Michell's ring leaves its plane at an imposed twist of 2 pi sqrt(3) E
       return lost_a_turn ? 1.0 : out_of_round(state);
     };
     const double flat = 1e-3,
-                 lifted = 1e-2;  // [L]; the polygon itself is (2 pi l)^2/24 / 2 pi off the circle
+                 lifted = 1e-2;  // [L]; the polygon itself differs by (2 pi l)^2/24 / 2 pi from the circle
     CHECK(deviation(critical * (1 - bracket)) < flat);
     CHECK(deviation(critical * (1 + bracket)) > lifted);
   }
@@ -157,7 +155,7 @@ TEST_CASE("Michell's ring leaves its plane at an imposed twist of 2 pi sqrt(3) E
 
 namespace {
 
-// The theory's rod does not stretch: `stretch` [m] moves the clamp after ours.
+// The theory's rod does not stretch. `stretch` [m] moves the clamp by the stretch of the chain.
 double loop_angle(double length, double slack, double stretch, double axial_stiffness, int n) {
   RodProperties p = unit_rod(n);
   p.length = length;
@@ -166,8 +164,8 @@ double loop_angle(double length, double slack, double stretch, double axial_stif
   p.axial_stiffness = axial_stiffness;
   const Rod rod(p);
   const double twist = 2 * pi * 27, torque = p.torsional_stiffness * twist / length;
-  // Pulled hard enough to stay straight, twisted, then let go little by little, bent a little in the middle
-  // as the theory says: a helix of torque/(2 EI) under an envelope.
+  // The rod is pulled so hard that it stays straight, then twisted, then released in small steps. A small initial bend in the
+  // middle follows the theory: a helix of torque/(2 EI) under an envelope.
   const double pull = torque * torque / p.bending_stiffness;
   RodState state = evenly_twisted(rod, twist);
   state.clamps.tool.position.x() *= 1 + pull / p.axial_stiffness;
@@ -181,7 +179,7 @@ double loop_angle(double length, double slack, double stretch, double axial_stif
             .normalized();
   }
   EquilibriumSettings settings;
-  settings.tolerance = 1e-7;  // 100 m hold positions to 1e-14 m, times 2 EA/l
+  settings.tolerance = 1e-7;  // 100 m resolve positions to 1e-14 m, times 2 EA/l
   settings.iterations = 20000;
   EquilibriumSettings quick = settings;
   quick.iterations = 30;
@@ -191,8 +189,7 @@ double loop_angle(double length, double slack, double stretch, double axial_stif
   for (int k = 1; k <= parts; ++k) {
     ClampFrames clamps = state.clamps;
     clamps.tool.position.x() = length + stretch - slack * k / parts;
-    // Plain Newton follows quickly; where the loop begins, or slides along almost for nothing, the careful
-    // way.
+    // Plain Newton steps are fast. Where the loop begins, or where it slides with nearly no energy, the full settings are used.
     Equilibrium next = find_equilibrium(rod, clamps, e.state, {}, quick);
     if (next.status != EquilibriumStatus::converged || next.negative_pivots > 0)
       next = find_equilibrium(rod, clamps, e.state, {}, settings);
@@ -210,9 +207,9 @@ double loop_angle(double length, double slack, double stretch, double axial_stif
 }  // namespace
 
 TEST_CASE("a long twisted rod gathers its twist into one helical loop") {
-  // van der Heijden and Thompson: EI 1.345, GJ 0.789, 27 turns; the largest angle of the tangent against the
-  // line of the clamps [rad]. It solves, for a rod much longer than the loop, with m = 2 cos(angle/2), torque
-  // = GJ (turns - 2 angle)/L, pull = torque^2/(m^2 EI):  slack = 4 sqrt(EI/pull) sin(angle/2).
+  // van der Heijden and Thompson: EI 1.345, GJ 0.789, 27 turns; largest angle between the tangent and the line of the clamps
+  // [rad]. For a rod much longer than the loop it solves, with m = 2 cos(angle/2), torque = GJ (turns - 2 angle)/L,
+  // pull = torque^2/(m^2 EI):  slack = 4 sqrt(EI/pull) sin(angle/2).
   struct Case {
     double length, slack, angle, axial_stiffness;
   };
@@ -225,7 +222,7 @@ TEST_CASE("a long twisted rod gathers its twist into one helical loop") {
     const double fine = loop_angle(c.length, c.slack, stretch, c.axial_stiffness, 400);
     const double tolerance_n200 = 0.02;  // (0.8 rad of twist per link)^2/24
     CHECK(coarse == Approx(c.angle).epsilon(tolerance_n200));
-    const double tolerance_limit = 1e-3;  // the second-order part taken away
+    const double tolerance_limit = 1e-3;  // after Richardson extrapolation of the second-order error
     CAPTURE(coarse, fine);
     CHECK((4 * fine - coarse) / 3 == Approx(c.angle).epsilon(tolerance_limit));
   }

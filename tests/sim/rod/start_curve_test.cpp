@@ -16,7 +16,7 @@ TEST_CASE("start curve: segments point along it, evenly twisted from the one cla
   const RodState& state = curve.state;
   for (int i = 0; i < n; ++i) {
     CAPTURE(i);
-    // In a plane transported frames have no twist: the second axis leaves the plane's normal by the twist alone.
+    // In a plane, transported frames have no twist: only the twist turns the second axis away from the plane's normal.
     CHECK((state.orientation[i] * Vector3::UnitX()).y() == Approx(std::sin(roll * (i + 0.5) / n)).margin(1e-9));
     if (i == 0 || i == n - 1) continue;
     const Vector3 along = (state.position[i + 1] - state.position[i - 1]).normalized();

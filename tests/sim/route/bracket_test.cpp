@@ -10,7 +10,7 @@ namespace {
 
 Frame at(double x, double y, double z) { return {{x, y, z}, Quaternion::Identity()}; }
 
-/// Two links: a lying capsule of 1 m and radius 0.1, and a cube of 0.2 m.
+/// Returns a job with two links: a horizontal capsule of 1 m and radius 0.1, and a cube of 0.2 m.
 pipeline::Job two_links() {
   pipeline::Job job = simple_job();
   job.robot.links[0].capsules = {{{0, 0, 0}, {1, 0, 0}, 0.1}};
@@ -22,14 +22,14 @@ TEST_CASE("bracket: its length is from the link's surface to that of the dresspa
   const pipeline::Job job = two_links();
   const Surfaces surfaces(job);
   const std::vector<std::vector<Frame>> poses{{at(0, 0, 0), at(5, 0, 0)}};
-  // 0.25 m above the axis: 0.15 m above the surface, less 0.02 m of hose.
+  // 0.25 m above the axis: 0.15 m above the surface, minus 0.02 m of hose.
   BracketFit fit = fit_of({0, {0.5, 0, 0.25}, 0.02}, surfaces, poses);
   CHECK(fit.length == Approx(0.13));
   CHECK(std::isinf(fit.clearance));
   CHECK(fit.beyond(0.15, 0.04) < 0);
   CHECK(fit.beyond(0.1, 0.04) == Approx(0.03 / 0.04));
   CHECK(fit_of({0, {0.5, 0, 0.12}, 0.02}, surfaces, poses).length == Approx(0).margin(1e-12));
-  CHECK(fit_of({0, {0.5, 0, 0.05}, 0.02}, surfaces, poses).length == 0);  // within its own link
+  CHECK(fit_of({0, {0.5, 0, 0.05}, 0.02}, surfaces, poses).length == 0);  // inside its own link
 }
 
 TEST_CASE("bracket: clearance is the least over the motion, and names link and moment") {

@@ -25,14 +25,14 @@ pipeline::FileReader preview_of(const pipeline::Scratch& scratch, const pipeline
 
 TEST_CASE("preview: lengths that work leave the slack that the checks ask for") {
   const WorkingLength range = working_length(0.98);
-  CHECK(range.least == Approx(1));    // 0.02 of 1 m left
-  CHECK(range.most == Approx(1.47));  // 0.49 m left, a third of it
+  CHECK(range.least == Approx(1));    // slack of 0.02 of 1 m
+  CHECK(range.most == Approx(1.47));  // slack of 0.49 m, a third of it
   CHECK(working_length(0).most == 0);
 }
 
 TEST_CASE("preview: a weightless hose between tangents of a circle rests in its arc") {
-  // Tried length k is c/0.98 (0.98 1.5)^(k/7) with the chord c; for k = 3 the arc over it has half angle a
-  // with a / sin a = that ratio.
+  // The tried length k is c/0.98 (0.98 1.5)^(k/15) with the chord c. For k = 3 the arc over the chord has the half angle a with
+  // a / sin a = this ratio.
   const double ratio = 1 / 0.98 * std::pow(0.98 * 1.5, 3.0 / 15);
   double a = 1;
   for (int i = 0; i < 50; ++i)
@@ -52,14 +52,13 @@ TEST_CASE("preview: a weightless hose between tangents of a circle rests in its 
   const auto lengths = file.read<double>("/scan/length"), radii = file.read<double>("/scan/bend_radius");
   REQUIRE(lengths.size() == 16);
   CHECK(lengths[3] == Approx(routing.free_length));
-  // Links of l = L/32 turn by l/r each; stretch and rest tolerance are below 1e-3, the ends' corrections of
-  // order (l/r)^2.
+  // Links of l = L/32 turn by l/r each. Stretch and rest tolerance are below 1e-3; the corrections of the ends are of order
+  // (l/r)^2.
   CHECK(radii[3] == Approx(0.45 / std::sin(a)).epsilon(0.01));
 }
 
 TEST_CASE("preview: the moment at which the clamps are farthest apart is among its samples") {
-  // The tool clamp lies 0.3 m off the spindle's axis: way^2 = 0.9^2 + (0.6 sin(q/2))^2, farthest where q is
-  // largest.
+  // The tool clamp is 0.3 m from the spindle's axis: distance^2 = 0.9^2 + (0.6 sin(q/2))^2, largest at the largest q.
   pipeline::Job job = simple_job();
   job.dresspacks[0].routing.base_clamp->position = {0, 0, 1.3};
   job.dresspacks[0].routing.tool_clamp->position = {0.9, 0, 0.3};

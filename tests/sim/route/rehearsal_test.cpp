@@ -1,4 +1,4 @@
-// The limits of a short run for a search, against the run itself; and routings that keep their limits in it.
+// The limits of a short run for a search, against the full run; and proposed routings that keep their limits in it.
 #include "sim/route/rehearsal.h"
 
 #include <algorithm>
@@ -39,12 +39,12 @@ TEST_CASE("a rehearsal grades what the run's checks saw") {
   };
   CHECK(std::exp(beyond(found, ScreenedLimit::bend)) * check("smallest bend radius").value ==
         Approx(10 * 0.04));
-  // 2 rad in 1 m; the hose sags, so that links take shares of it that differ a little.
+  // 2 rad in 1 m. The hose sags, so the twists of its links differ a little.
   constexpr double of_its_sag = 0.1;
   CHECK(beyond(found, ScreenedLimit::twist) == Approx(2 / std::numbers::pi - 1).margin(of_its_sag));
   CHECK(beyond(found, ScreenedLimit::too_short) == Approx(0.9 - 0.98).margin(1e-9));  // (V1), (V2)
   CHECK(beyond(found, ScreenedLimit::too_long) == Approx(2.0 / 3 - 0.9).margin(1e-9));
-  job.dresspacks.front().dresspack.mass_per_length = 15;  // a heavy one hangs like a chain
+  job.dresspacks.front().dresspack.mass_per_length = 15;  // a heavy hose hangs like a chain
   job.dresspacks.front().dresspack.most_tension = 1;
   CHECK(beyond(rehearsed(job, as_the_job, 1), ScreenedLimit::tension) > 1);
   job.dresspacks.front().routing.free_length = 0.85;
@@ -57,7 +57,7 @@ TEST_CASE("bends of a rehearsal are told by moment and stretch, and their larges
   const Rehearsal found = rehearsed(job, as_the_job, 1);
   REQUIRE(found.refusal.empty());
   REQUIRE(found.bends.size() == bend_moments * bend_stretches);
-  // The samples and the ends of links, compared one by one.
+  // The samples and the ends of links are compared one by one.
   const Simulation simulation(job);
   const Rod& rod = simulation.rod();
   std::vector<double> sharpest(found.bends.size(), 0.0);
@@ -81,7 +81,7 @@ TEST_CASE("bends of a rehearsal are told by moment and stretch, and their larges
     CHECK(std::exp(found.bends[k]) == Approx(sharpest[k] * least_radius).epsilon(1e-9));
   const double largest = *std::max_element(found.bends.begin(), found.bends.end());
   CHECK(largest <= beyond(found, ScreenedLimit::bend) + 1e-12);
-  constexpr double between_samples = 0.01;  // what bends in seconds, seen every 40 ms
+  constexpr double between_samples = 0.01;  // of motions that last seconds, sampled every 40 ms
   CHECK(largest > beyond(found, ScreenedLimit::bend) - between_samples);
 }
 

@@ -1,4 +1,4 @@
-// What geometry alone says of a routing, against closed forms; and routings that are proposed by it.
+// The limits of a routing that geometry alone gives, against closed forms; and routings that geometry proposes.
 #include "sim/route/screening.h"
 
 #include <cmath>
@@ -33,24 +33,24 @@ pipeline::Job shipped_job(const std::vector<std::string>& sets = {}) {
 }  // namespace
 
 TEST_CASE("length is screened by the straight way and the slack that checks ask for (V1), (V2)") {
-  pipeline::Job job = simple_job();  // 0.9 m apart all the time
+  pipeline::Job job = simple_job();  // a constant distance of 0.9 m
   for (const double length : {0.85, 0.95, 1.2, 1.6}) {
     routing(job).free_length = length;
     CHECK(beyond(job, ScreenedLimit::too_short) == Approx((0.9 - 0.98 * length) / length).margin(1e-12));
     CHECK(beyond(job, ScreenedLimit::too_long) == Approx((2.0 / 3 * length - 0.9) / length).margin(1e-12));
   }
-  routing(job).free_length = 0.89;  // shorter than the way
+  routing(job).free_length = 0.89;  // shorter than the distance
   CHECK(Screener(job).screen(job).rejected());
   CHECK(Screener(job).longest_ways(job).front() == Approx(0.9).epsilon(1e-12));
 }
 
 TEST_CASE("twist is counted from where the hose was clamped, whole turns too (V4)") {
   pipeline::Job job = simple_job();
-  // The hose lies in a plane through the axis, so the turn of the clamp is its own: 2 rad in 1 m.
+  // The hose lies in a plane through the axis, so its twist is the clamp's rotation: 2 rad in 1 m.
   CHECK(beyond(job, ScreenedLimit::twist) == Approx(2 / pi - 1).margin(1e-9));
   job.motion.steps = {move_to(0), move_to(4 * pi + 1), move_to(0)};
   CHECK(beyond(job, ScreenedLimit::twist) == Approx((4 * pi + 1) / pi - 1).margin(1e-9));
-  // Clamped at 9 rad it has turned by 9 at the start and by 4 pi + 1 - 9 at the end.
+  // Clamped at 9 rad, it is twisted by 9 rad at the start and by 4 pi + 1 - 9 at the end.
   routing(job).mounting_pose = {9};
   CHECK(beyond(job, ScreenedLimit::twist) == Approx(9 / pi - 1).margin(1e-9));
   routing(job).pre_twist = -2;
@@ -59,7 +59,7 @@ TEST_CASE("twist is counted from where the hose was clamped, whole turns too (V4
 
 TEST_CASE("bend radius is that of a smooth curve between the clamps (V3)") {
   pipeline::Job job = simple_job();
-  // Half a circle of 0.3 m. A cubic through its ends of the same length bends a little more somewhere.
+  // Half a circle of 0.3 m. A cubic of equal length through its ends has a slightly higher maximum of curvature.
   routing(job).tool_clamp->position = {0, 0.6, 0};
   routing(job).tool_clamp->direction = {-1, 0, 0};
   routing(job).free_length = 0.3 * pi;
@@ -74,7 +74,7 @@ TEST_CASE("a hose in a link is graded by how deep it lies there (V5)") {
   pipeline::Job job = simple_job();
   CHECK(beyond(job, ScreenedLimit::overlap) < -0.5);
   job.robot.links[0].capsules = {
-      {{0.45, 0, 0.2}, {0.45, 0, 2}, 0.1}};  // a post that the hose goes through, however it sags
+      {{0.45, 0, 0.2}, {0.45, 0, 2}, 0.1}};  // a post across the hose at any sag
   const double shallow = beyond(job, ScreenedLimit::overlap);
   job.robot.links[0].capsules[0].radius = 0.2;
   CHECK(shallow > 0);
@@ -98,7 +98,7 @@ TEST_CASE("a clamp in the air or in a neighbour has no bracket (V7)") {
     return Screener(job, true).screen(job).beyond[static_cast<std::size_t>(ScreenedLimit::bracket)];
   };
   CHECK(g({}) == g(0.15));                                 // the default
-  CHECK(std::isinf(beyond(job, ScreenedLimit::bracket)));  // not asked
+  CHECK(std::isinf(beyond(job, ScreenedLimit::bracket)));  // no bracket was required
   const double diameter = job.dresspacks.front().dresspack.diameter;
   // A post whose surface is 0.3 m from the base clamp.
   const Vector3 clamp = routing(job).base_clamp->position;
@@ -125,7 +125,7 @@ TEST_CASE(
     job.dresspacks.front().routing = propose(job, settings).front().routing;
     CHECK(Screener(job, true).screen(job).beyond[bracket] <= 0);
   }
-  job.cell.boxes = {{{0, 0, 0}, {0, 0, 0}, {20, 20, 20}}};  // everything lies in a block
+  job.cell.boxes = {{{0, 0, 0}, {0, 0, 0}, {20, 20, 20}}};  // everything is inside a block
   CHECK_THROWS_WITH(propose(job, settings),
                     Catch::Contains("no place within 60 mm of the surface of link_3 stays clear") &&
                         Catch::Contains("inside the cell at"));
@@ -178,8 +178,8 @@ TEST_CASE("every shipped robot has a home pose with its forearm level, and an ex
     kinematics.link_frames(joints, links);
     const Vector3 upper = (links[3].position - links[2].position).normalized();
     const Vector3 forearm = (links[6].position - links[3].position).normalized();
-    CHECK(upper.z() > std::cos(25 * pi / 180));              // some shoulders stand beside the upper arm
-    CHECK(std::abs(forearm.z()) < std::sin(15 * pi / 180));  // and elbows above the forearm's axis
+    CHECK(upper.z() > std::cos(25 * pi / 180));              // on some robots the shoulder is beside the upper arm
+    CHECK(std::abs(forearm.z()) < std::sin(15 * pi / 180));  // and the elbow above the forearm's axis
     CHECK(forearm.x() > 0.9);
     CHECK(path_of(job)->duration() > 5);
   }

@@ -60,7 +60,7 @@ TEST_CASE("checks: every step counts, with its time, place and value") {
   pipeline::Job job = simple_job();
   job.simulation.sample_rate = 200;  // every step is a sample
   job.simulation.most_repeats = 1;
-  job.robot.links[0].capsules = {{{0.45, -1, 0.85}, {0.45, 1, 0.85}, 0.1}};  // a bar to touch
+  job.robot.links[0].capsules = {{{0.45, -1, 0.85}, {0.45, 1, 0.85}, 0.1}};  // a bar that the hose touches
   const Simulation simulation(job);
   const Rod& rod = simulation.rod();
   double curvature = 0, when = 0, where = 0, depth = 0, tension = -1e9, twist = 0;
@@ -89,16 +89,16 @@ TEST_CASE("checks: every step counts, with its time, place and value") {
 TEST_CASE("checks: too short and too long are told with their moment") {
   pipeline::Job job = simple_job();
   job.simulation.most_repeats = 1;
-  // The tool clamp swings about an axis 50 mm beside the base clamp.
+  // The tool clamp swings about an axis at 50 mm from the base clamp.
   job.robot.joints[0].axis = {0, 0, 1};
   job.robot.joints[0].origin = {0.05, 0, 1};
   job.motion.steps = {move_to(pi / 2), move_to(-pi / 2, "sweep")};
-  job.dresspacks[0].routing.free_length = 0.96;  // furthest from the base clamp at angle 0: 0.95 m
-  job.dresspacks[0].dresspack.least_bend_radius = 0.03;  // far below what it bends to: slack alone is warned of
+  job.dresspacks[0].routing.free_length = 0.96;  // largest distance from the base clamp, at angle 0: 0.95 m
+  job.dresspacks[0].dresspack.least_bend_radius = 0.03;  // far below the radius that occurs: the only warning is about slack
   const Simulation simulation(job);
   const RunSummary summary = simulation.run({[](const Sample&) {}});
   const Check& little = find(summary.checks, "least slack: too short below");
-  CHECK(little.value == Approx(0.01).epsilon(0.01));  // a step leaves 1e-5 m
+  CHECK(little.value == Approx(0.01).epsilon(0.01));  // one step is 1e-5 m
   CHECK(little.warning);
   CHECK_FALSE(find(summary.checks, "least slack: too long above").warning);
   CHECK(find(summary.checks, "most slack").value == Approx(0.96 - std::hypot(0.05, 0.9)));

@@ -16,7 +16,7 @@ std::string row(double time, const std::string& base = unit_pose, const std::str
   return fmt::format("{}{}{}\n", time, base, tool);
 }
 
-/// Without the folder.
+/// Returns the error's message without the name of the folder.
 std::string message_of(const std::string& name, const std::string& text) {
   const pipeline::Scratch scratch;
   const std::string message = pipeline::message_of([&] { RecordedPath(scratch.write(name, text)); });
@@ -31,7 +31,7 @@ TEST_CASE("clamp path: recorded poses are met at their rows and turn smoothly be
   for (int k = 0; k <= 80; ++k) {
     const double t = 0.1 * k;
     Quaternion q(Eigen::AngleAxisd(t, Vector3::UnitZ()));
-    if (q.w() < 0) q.coeffs() = -q.coeffs();  // as many programs write it
+    if (q.w() < 0) q.coeffs() = -q.coeffs();  // the sign that many programs write
     text += fmt::format("{}, {},0,0,1,0,0,0, 1,0,{},{},{},{},{}\r\n", t, std::sin(t), std::cos(t), q.w(),
                         q.x(), q.y(), q.z());
   }
@@ -39,7 +39,7 @@ TEST_CASE("clamp path: recorded poses are met at their rows and turn smoothly be
   const RecordedPath path(scratch.write("turn.csv", text));
   CHECK(path.duration() == Approx(8));
   CHECK(path.step_texts() == std::vector<std::string>{"clamp poses of turn.csv"});
-  // Spline error of sin(t), step 0.1: 5/384 h^4 = 1.3e-6 inside, some times more in the end intervals.
+  // Spline error of sin(t) with step 0.1: 5/384 h^4 = 1.3e-6 inside, several times larger in the end intervals.
   constexpr double spline_error = 1e-5;
   Quaternion before = path.at(0).clamps.tool.orientation;
   for (double t = 0; t <= 8; t += 0.013) {
@@ -103,14 +103,14 @@ TEST_CASE("clamp path: a clamp's frame has z along the hose and x toward the lin
   expected << 0, 0, 1, 0, -1, 0, 1, 0, 0;  // columns x = link z, y, z = link x
   CHECK((clamp_frame(clamp).orientation.toRotationMatrix() - expected).norm() < rounding);
   CHECK(clamp_frame(clamp).position == clamp.position);
-  clamp.direction = {0, 0, -1};  // along the link's z: x toward the link's x
+  clamp.direction = {0, 0, -1};  // along the link's z: then x is toward the link's x
   CHECK((clamp_frame(clamp).orientation * Vector3::UnitX() - Vector3::UnitX()).norm() < rounding);
   clamp.roll = pi / 2;  // right-handed about -z
   CHECK((clamp_frame(clamp).orientation * Vector3::UnitX() + Vector3::UnitY()).norm() < rounding);
   CHECK((clamp_frame(clamp).orientation * Vector3::UnitZ() + Vector3::UnitZ()).norm() < rounding);
 }
 
-/// One joint about z at the origin; base clamp on the base, tool clamp on the turning link.
+/// A job with one joint about z at the origin, the base clamp on the base and the tool clamp on the turning link.
 pipeline::Job turning_job() {
   pipeline::Job job;
   job.robot.name = "turntable";
@@ -175,7 +175,7 @@ TEST_CASE("clamp path: external axes that the motion moves and the robot does no
   pipeline::Job job = turning_job();
   CHECK(RobotPath(job).doubts().empty());
   for (pipeline::MotionStep& step : job.motion.steps) step.external_axes = {7, 100};
-  CHECK(RobotPath(job).doubts().empty());  // they stand
+  CHECK(RobotPath(job).doubts().empty());  // the external axes are at rest
   job.motion.steps.back().external_axes = {7, 600};
   const auto named = RobotPath(job).doubts();
   REQUIRE(named.size() == 1);

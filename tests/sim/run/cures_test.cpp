@@ -1,4 +1,4 @@
-// What a warning says would cure it does: each remedy is applied, and the warning is gone.
+// The remedies that warnings name: after each is applied, its warning disappears.
 #include "sim/run/cures.h"
 
 #include <cstdio>
@@ -36,7 +36,7 @@ std::string of_length_and_bend(const pipeline::Job& job) {
   return "";
 }
 
-/// The tool clamp comes near to the base clamp and goes away.
+/// Returns a job whose tool clamp approaches the base clamp and moves away.
 pipeline::Job swinging_job(double free_length) {
   pipeline::Job job = simple_job();
   job.simulation.most_repeats = 1;
@@ -58,7 +58,7 @@ TEST_CASE("a short run of a long program ends after its share of work, with the 
   REQUIRE(run.stopped_at);
   CHECK(*run.stopped_at < 900);
   CHECK_FALSE(run.checks.empty());
-  constexpr double most = 5e6, samples = 1.02;  // the limit, and the interval in which it is passed
+  constexpr double most = 5e6, samples = 1.02;  // the limit, and the interval in which it is exceeded
   CHECK(run.work > most / 2);
   CHECK(run.work < samples * most);
 
@@ -90,7 +90,7 @@ TEST_CASE("a changed routing is checked only until a limit decides") {
     asked = 0;
     return findings_unless(job, [&](const QuickFindings&) { return ++asked == last; }, 0, 0);
   };
-  CHECK(at(1).run.work == 0);  // the slack alone
+  CHECK(at(1).run.work == 0);  // only the slack is evaluated
   const QuickFindings all = at(-1), found = quick_findings(job);
   REQUIRE(all.checks.size() == found.checks.size());
   for (std::size_t k = 0; k < all.checks.size(); ++k) {
@@ -112,13 +112,13 @@ TEST_CASE("cures: a length that is too short or too long is cured by the length 
 TEST_CASE("cures: a twist to one side is cured by a pre-twist, one to both sides by a longer hose") {
   pipeline::Job job = simple_job();
   job.simulation.most_repeats = 1;
-  job.dresspacks[0].dresspack.most_twist = 1.4;  // [rad/m]; the motion turns the hose of 1 m by 0 .. 1.8 rad, as the hose sags
+  job.dresspacks[0].dresspack.most_twist = 1.4;  // [rad/m]; the motion twists the sagging hose of 1 m by 0 .. 1.8 rad
   std::string words = words_of(job, pipeline::WarningKind::twist);
   CHECK_THAT(words, Catch::Contains("-hand), ") && Catch::Contains("m from the base clamp") && Catch::Contains("step 2 'turn'"));
   job.dresspacks[0].routing.pre_twist = value_of(words, "routing.pre_twist_deg") * degree;
   CHECK(words_of(job, pipeline::WarningKind::twist) == "");
 
-  job.dresspacks[0].dresspack.most_twist = 0.8;  // less than the 0.9 rad to either side
+  job.dresspacks[0].dresspack.most_twist = 0.8;  // less than the 0.9 rad in either direction
   words = words_of(job, pipeline::WarningKind::twist);
   job.dresspacks[0].routing.free_length = value_of(words, "routing.free_length_m");
   CHECK(job.dresspacks[0].routing.free_length > 1);
@@ -128,7 +128,7 @@ TEST_CASE("cures: a twist to one side is cured by a pre-twist, one to both sides
 TEST_CASE("cures: the checks at rest and a run find the same twist, whole turns included, and the same remedy") {
   pipeline::Job job = simple_job();
   job.simulation.most_repeats = 1;
-  job.dresspacks[0].routing.mounting_pose = {-7};  // a turn and more from the program
+  job.dresspacks[0].routing.mounting_pose = {-7};  // more than one turn from the program
   job.dresspacks[0].dresspack.most_twist = 5;      // the program twists it by 7 .. 9 rad
   const auto of_twist = [](const std::vector<pipeline::Warning>& warnings, const char* name) {
     for (const pipeline::Warning& warning : warnings)
@@ -142,7 +142,7 @@ TEST_CASE("cures: the checks at rest and a run find the same twist, whole turns 
     REQUIRE(words.find(key) != std::string::npos);
     return std::stod(words.substr(words.find(key) + key.size()));
   };
-  // In deg/m. A run's largest twist is that of one link and swings; the sag takes a few degrees.
+  // In deg/m. A run's largest twist is that of one link and oscillates; the sag reduces it by a few degrees.
   CHECK(number(rest, "at rest: ") == Approx(number(run, "largest twist: ")).epsilon(0.1));
   CHECK(number(rest, "turn it by ") == Approx(number(run, "turn it by ")).epsilon(0.05));
   CHECK(value_of(rest, "routing.pre_twist_deg") == Approx(value_of(run, "routing.pre_twist_deg")).epsilon(0.05));
@@ -155,7 +155,7 @@ TEST_CASE("cures: a bend that is there at rest is cured by a length or by direct
   job.motion.acceleration_percent = 2;  // nearly at rest
   job.robot.joints[0].acceleration = 0.5;
   job.dresspacks[0].routing.tool_clamp->direction = {0, 1, 0};
-  job.dresspacks[0].dresspack.least_bend_radius = 0.22;  // at rest it has 0.196
+  job.dresspacks[0].dresspack.least_bend_radius = 0.22;  // at rest the radius is 0.196
   const std::string words = words_of(job, pipeline::WarningKind::bend_radius);
   INFO(words);
   CHECK_THAT(words, Catch::Contains("smallest bend radius: ") && Catch::Contains("already at rest") &&
@@ -189,7 +189,7 @@ TEST_CASE("cures: a limit that a length keeps at rest and none keeps in a run is
   int both = 0;
   for (const double limit : {0.26, 0.28}) {
     pipeline::Job job = swinging_job(0.97);
-    job.robot.joints[0].speed = job.robot.joints[0].acceleration = 60;  // the hose swings out
+    job.robot.joints[0].speed = job.robot.joints[0].acceleration = 60;  // the hose swings outward
     job.dresspacks[0].dresspack.least_bend_radius = limit;
     const std::string words = words_of(job, pipeline::WarningKind::bend_radius);
     CAPTURE(limit, words);
@@ -219,7 +219,7 @@ TEST_CASE("cures: where a length keeps the limits, the length alone is named, on
     CHECK(warning.words.substr(at) == remedies);
   }
   CHECK_FALSE(remedies.empty());
-  // A limit between the radius of the best length and that with a margin: it is kept, so the length is named.
+  // With a limit between the radius of the best length and that with a margin, the best length keeps it and is named.
   job.dresspacks[0].routing.free_length = value_of(remedies, "routing.free_length_m");
   double radius = 0;
   for (const Check& check : quick_findings(job).checks)
@@ -246,7 +246,7 @@ TEST_CASE("cures: a bend beside a clamp names its bend relief, unless it has one
   job.dresspacks[0].dresspack.least_bend_radius = 0.25;
   const std::string words = words_of(job, pipeline::WarningKind::bend_radius);
   CHECK_THAT(words, Catch::Contains("dresslife improve tries: routing.base_clamp.bend_relief={length_mm: "));
-  job.dresspacks[0].routing.base_clamp->bend_relief = {0.1, 0};  // of no stiffness: the same run
+  job.dresspacks[0].routing.base_clamp->bend_relief = {0.1, 0};  // without stiffness: an identical run
   CHECK_THAT(words_of(job, pipeline::WarningKind::bend_radius), Catch::Contains("Remedy") && !Catch::Contains("bend_relief"));
 }
 
@@ -257,18 +257,18 @@ TEST_CASE("cures: a hose that is pulled tight is cured by its length, one that i
   CHECK_THAT(words, Catch::Contains("it is pulled tight"));
   CHECK(value_of(words, "routing.free_length_m") > 0.96);
   job.dresspacks[0].routing.free_length = 1.2;
-  job.dresspacks[0].dresspack.bending_stiffness = 0.02;  // it hangs: a stiffer one stands on its clamps
+  job.dresspacks[0].dresspack.bending_stiffness = 0.02;  // it hangs; a stiffer hose would carry itself on its clamps
   job.dresspacks[0].dresspack.most_tension = 1;
   CHECK_THAT(words_of(job, pipeline::WarningKind::tension), Catch::Contains("its weight and the acceleration"));
 }
 
-/// The number behind a key of a remedy; absent: the remedy has not this key.
+/// Returns the number after a key of a remedy; std::nullopt: the remedy does not contain this key.
 std::optional<double> number_behind(const std::string& words, const std::string& key) {
   const std::size_t at = words.find(key + ": ");
   return at == std::string::npos ? std::nullopt : std::optional(std::stod(words.substr(at + key.size() + 2)));
 }
 
-/// The job with the keys that the words name.
+/// Returns the job with the keys of the remedy in `words` applied.
 pipeline::Job remedied(pipeline::Job job, const std::string& words) {
   pipeline::Routing& routing = job.dresspacks[0].routing;
   const std::string remedy = words.substr(words.find("Remedy: "));
@@ -286,7 +286,7 @@ pipeline::Job remedied(pipeline::Job job, const std::string& words) {
   return job;
 }
 
-/// A drum about the axis, which turns by 160 deg: the hose beside it winds around it.
+/// Returns a job with a drum about the axis, which turns by 160 deg. The hose beside the drum winds around it.
 pipeline::Job winding_job(double free_length) {
   pipeline::Job job = simple_job();
   job.simulation.most_repeats = 1;

@@ -1,4 +1,4 @@
-// Several dresspacks on one robot: alone they move as they would alone, and they touch each other.
+// Several dresspacks on one robot: far apart each moves as it would alone, and near each other they touch.
 #include <algorithm>
 
 #include "pipeline/files/motion_layout.h"
@@ -30,7 +30,7 @@ RodProperties hose_of(int segments, double length, double diameter, double stiff
   return p;
 }
 
-/// A spindle about x, 1 m above the floor, that turns; both dresspacks lie along x.
+/// Returns a job with a spindle about x, 1 m above the floor. Both dresspacks lie along x.
 std::string job_text(const std::string& dresspacks, const std::string& more = "") {
   return "robot:\n"
          "  name: spindle\n"
@@ -55,7 +55,7 @@ std::string hose_text(int diameter, double friction) {
       diameter, friction);
 }
 
-/// Along x at a height and a place beside the axis.
+/// Returns a routing along x at height `z` and lateral position `y`.
 std::string routing_text(double length, double y, double z = 1) {
   return fmt::format(
       "{{free_length_m: {}, base_clamp: {{link: bench, position_m: [0, {}, {}], direction: [1, 0, 0]}}, "
@@ -112,7 +112,7 @@ TEST_CASE("two dresspacks far apart move as each does in a world of its own") {
     one.advance(of_a);
     other.advance(of_b);
   }
-  const double rounding = 1e-12;  // the same operations; only the world that holds the bodies differs
+  const double rounding = 1e-12;  // equal operations; only the order of the bodies in the world differs
   CHECK(furthest(whole.state(), 0, one.state()) < rounding);
   CHECK(furthest(whole.state(), 20, other.state()) < rounding);
   CHECK(both.dresspacks() == 2);
@@ -124,8 +124,8 @@ TEST_CASE("two dresspacks far apart move as each does in a world of its own") {
 }
 
 TEST_CASE("a dresspack laid across another is held by it and takes from it what it gives") {
-  // Both weightless and taut enough to be lines; the second, above, is led down until it would lie 0.2 m
-  // below.
+  // Both are without weight and so taut that they are straight. The clamps of the second, above, move down until it would lie
+  // 0.2 m below the first.
   RodProperties p = hose_of(24, 1.05, 0.04, 1), q = hose_of(30, 1.1, 0.025, 0.3);
   p.gravity.setZero(), q.gravity.setZero();
   const Rod both({p, q}, {0, 1}), first(p), second(q);
@@ -165,10 +165,10 @@ TEST_CASE("a dresspack laid across another is held by it and takes from it what 
     const StepReport report = world.advance({along.base, now.tool, {along.tool, now.base}});
     REQUIRE(report.finite);
     depth = std::max(depth, report.max_depth);
-    Vector3 given = Vector3::Zero();  // to the first, by the contacts
+    Vector3 given = Vector3::Zero();  // impulse on the first by the contacts
     for (const Contact& contact : world.contacts()) {
       REQUIRE(contact.obstacle == hose_obstacle);
-      CHECK(contact.friction == 0.1);  // the smoother of the two
+      CHECK(contact.friction == 0.1);  // the smaller of both coefficients
       CHECK((contact.segment < 24 && contact.other >= 24));
       given += contact.normal_force * contact.normal + contact.friction_force;
       hardest = std::max(hardest, contact.normal_force);
@@ -186,7 +186,7 @@ TEST_CASE("a dresspack laid across another is held by it and takes from it what 
   CHECK(difference < rounding);
   CHECK(hardest > 1);
   CHECK(depth < 1e-3);
-  // The second still lies on the first, although its ends are 0.2 m lower.
+  // The second still rests on the first, although its ends are 0.2 m lower.
   double crossing_first = 0, crossing_second = 0, near_first = 1, near_second = 1;
   for (int i = 0; i < both.segments(); ++i) {
     const Vector3& x = world.state().position[i];
@@ -216,13 +216,13 @@ TEST_CASE("dresspacks of a job far apart move as in jobs of their own") {
       span = std::max(span, (both.states[k].position[24 + i] - both.states[0].position[24 + i]).norm());
     }
   const double alike =
-      2e-4;  // [m]: settling ends when all dresspacks are slower than 0.01 mm/s, not at one place
+      2e-4;  // [m]: settling ends when all dresspacks are slower than 0.01 mm/s; their rest is not a single point
   CHECK(apart < alike);
   CHECK(span > 0.1);
   CHECK(both.simulation->description().dresspacks == std::vector<std::string>{"hose", "dress cable"});
   CHECK(both.simulation->description().dresspack[23] == 0);
   CHECK(both.simulation->description().dresspack[24] == 1);
-  // The checks of each are those of its own job.
+  // The checks of each dresspack are those of its own job.
   const auto value = [](const Run& of, const std::string& name, int dresspack) {
     for (const Check& check : of.summary.checks)
       if (check.name == name && check.dresspack == dresspack) return check.value;
@@ -230,7 +230,7 @@ TEST_CASE("dresspacks of a job far apart move as in jobs of their own") {
   };
   for (const char* name : {"smallest bend radius", "largest tension", "most slack", "largest net twist"}) {
     CAPTURE(name);
-    const double rest = 2e-2;  // of the value: what settling leaves, as above
+    const double rest = 2e-2;  // of the value: the rest of settling, as above
     CHECK(value(both, name, 0) == Approx(value(first, name, 0)).epsilon(rest));
     CHECK(value(both, name, 1) == Approx(value(second, name, 0)).epsilon(rest));
   }
@@ -238,8 +238,8 @@ TEST_CASE("dresspacks of a job far apart move as in jobs of their own") {
 }
 
 TEST_CASE("dresspacks of a job that would hang through each other are mounted side by side") {
-  // The second is clamped 30 mm beside the first, nearer than their radii, where both are in the clamps, and
-  // longer: it hangs around it.
+  // The second is clamped 30 mm beside the first, closer than the sum of their radii at the clamps, and is longer: it hangs
+  // around the first.
   const std::string beside = "dresspacks:\n" + item("hose", hose_text(40, 0.3), routing_text(1.3, 0)) +
                              item("dress cable", hose_text(20, 0.2), routing_text(1.3, 0.032, 1.0));
   const Run both = run(job_text(beside, ", most_repeats: 1"));
@@ -248,7 +248,7 @@ TEST_CASE("dresspacks of a job that would hang through each other are mounted si
     for (int i = 0; i < 24; ++i)
       for (int j = 24; j < 48; ++j) least = std::min(least, (state.position[i] - state.position[j]).norm());
   CHECK(least > 0.029);
-  // An impossible setup is reported: both in the same place.
+  // An impossible arrangement is reported: both in the same place.
   const std::string message =
       message_of(job_text("dresspacks:\n" + item("hose", hose_text(40, 0.3), routing_text(1.3, 0)) +
                           item("dress cable", hose_text(20, 0.2), routing_text(1.3, 0))));

@@ -1,4 +1,4 @@
-// The static start: from any clamps, and as an installer would clamp the hose.
+// The static start: from any clamps, and with the roll that an installer would choose.
 #include "sim/run/equilibrium.h"
 
 #include <random>
@@ -11,7 +11,7 @@ using namespace dresslife::sim::test;
 
 namespace {
 
-// Numbers in 0..1, the same on every machine.
+// Random numbers in 0..1, the same on every machine.
 class Numbers {
  public:
   double next() { return static_cast<double>(random_()) / 4294967296.0; }
@@ -74,13 +74,12 @@ TEST_CASE("any reasonable pair of clamps has a stable equilibrium that is found"
     const ClampFrames clamps{{Vector3::Zero(), numbers.orientation()},
                              {numbers.direction() * (0.1 + 1.8 * numbers.next()), numbers.orientation()}};
     const Equilibrium e = find_equilibrium(rod, clamps);
-    // The longest distances leave too little hose for a turned-away clamp: then it says so.
+    // At the largest distances the hose is too short for a clamp that points away. This must be reported.
     taut += e.status == EquilibriumStatus::too_short;
     REQUIRE(e.status != EquilibriumStatus::not_converged);
     CHECK(e.negative_pivots == 0);
     CHECK(rod.finite(e.state));
-    // Uniformly spread, the start twist is at most pi; balance may turn some of it into a coil, not add to
-    // it.
+    // With uniform twist the start twist is at most pi. Equilibrium may turn some of it into a coil, but not add to it.
     CHECK(std::abs(net_twist(rod, e.state)) < 2 * pi);
   }
   CHECK(taut < 10);
@@ -131,7 +130,7 @@ TEST_CASE("an equilibrium stands still in the world") {
     }
   }
   CHECK(fastest <
-        1e-6);  // [m/s] residual forces of 1e-8 of some 10 N on 0.1 kg over 5 ms, and what they build up
+        1e-6);  // [m/s] residual forces of 1e-8 of about 10 N on 0.1 kg over 5 ms, and their accumulation
   CHECK(moved < 1e-6);  // [m]
 }
 
@@ -145,12 +144,12 @@ TEST_CASE("a twist-free clamp carries no torsion, whatever roll it was given") {
     clamps.tool.orientation = rotation(numbers.direction() * 1.2) * clamps.base.orientation;
     const TwistFreeClamp free = twist_free_roll(rod, clamps);
     REQUIRE(free.equilibrium.status == EquilibriumStatus::converged);
-    const double no_torsion = 1e-5;  // [N m] of the 12 N m that one turn of this hose takes
+    const double no_torsion = 1e-5;  // [N m] of 12 N m for one turn of this hose
     CHECK(largest_torsion(rod, free.equilibrium.state) < no_torsion);
-    // The rolled tool frame is the given one turned about its own tangent.
+    // The rolled tool frame is the given frame turned about its own tangent.
     const Frame expected = rolled(clamps.tool, free.roll);
     CHECK(expected.orientation.angularDistance(free.equilibrium.state.clamps.tool.orientation) < 1e-9);
-    // Given another roll, the same place comes out.
+    // From another given roll the result is the same.
     const TwistFreeClamp again = twist_free_roll(rod, {clamps.base, rolled(clamps.tool, 1.0)});
     CHECK(std::abs(std::remainder(again.roll + 1.0 - free.roll, 2 * pi)) < 1e-6);
   }
@@ -208,9 +207,9 @@ TEST_CASE("a leaning arch rests on either side, and within each shape the bend r
   REQUIRE(coarse.size() >= 2);
   REQUIRE(fine.size() == coarse.size());
   REQUIRE(finest.size() == coarse.size());
-  CHECK(finest.back() > 1.1 * finest.front());  // shapes of their own
+  CHECK(finest.back() > 1.1 * finest.front());  // the shapes are different
   for (std::size_t k = 0; k < finest.size(); ++k) {
-    CHECK(coarse[k] == Approx(finest[k]).epsilon(0.01));  // the shapes themselves differ by 17 %
+    CHECK(coarse[k] == Approx(finest[k]).epsilon(0.01));  // the shapes differ by 17 %
     CHECK(fine[k] == Approx(finest[k]).epsilon(0.0025));  // second order: a fourth of that
   }
 }

@@ -45,7 +45,7 @@ TEST_CASE("motion file: what the run hands over can be read back") {
   const auto kept = file.read<double>("/segment/position");
   REQUIRE(kept.size() == positions.size());
   constexpr double half_decimal =
-      0.5e-12 + 1e-15;  // of the twelve that the file keeps, and a double's roundings of 1 m
+      0.5e-12 + 1e-15;  // of the twelve decimals in the file, and rounding of 1 m in double
   for (std::size_t k = 0; k < kept.size(); ++k) REQUIRE(std::abs(kept[k] - positions[k]) <= half_decimal);
   CHECK(file.read<double>("/segment/length") == std::vector<double>(20, 0.05));
   CHECK(file.read<double>("/clamp/orientation") == clamps);
@@ -59,7 +59,7 @@ TEST_CASE("motion file: what the run hands over can be read back") {
   CHECK(file.rows("/contact/max_depth") == times.size());
   CHECK(file.rows("/contact/force") == times.size());
   CHECK(file.rows("/contact/rubbing") == times.size());
-  CHECK(file.read<double>("/contact/work") == std::vector<double>(20 * 5));  // it hangs free
+  CHECK(file.read<double>("/contact/work") == std::vector<double>(20 * 5));  // the hose hangs free
   CHECK(file.dataset_attribute("/contact/work", "obstacles") == "bench,spindle,floor,dresspack,cell");
   CHECK(file.rows("/check/net_twist") == times.size());
   CHECK(file.rows("/check/curvature") == 21);

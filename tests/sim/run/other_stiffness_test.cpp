@@ -16,7 +16,7 @@ using pipeline::Uncertain;
 
 struct Written {
   std::vector<pipeline::Warning> warnings;
-  std::vector<double> softer, stiffer, factors;  // as /segment/position; of those that are there
+  std::vector<double> softer, stiffer, factors;  // as /segment/position; only the existing datasets are filled
 };
 
 Written written(const pipeline::Job& job) {
@@ -44,7 +44,7 @@ Written written(const pipeline::Job& job) {
   return result;
 }
 
-/// Positions of a run by itself, as dresslife-sim has them for a job with these keys.
+/// Returns the positions of a separate run, as dresslife-sim writes them for a job with this factor.
 std::vector<double> positions_with(pipeline::Job job, double factor) {
   job.simulation.stiffness_factor = factor;
   std::vector<double> positions;
@@ -64,7 +64,7 @@ double largest_difference(const std::vector<double>& one, const std::vector<doub
 
 pipeline::Job sagging() {
   pipeline::Job job = simple_job();
-  job.dresspacks[0].routing.tool_clamp->position = {0.85, 0, 0.1};  // it swings the hose, too
+  job.dresspacks[0].routing.tool_clamp->position = {0.85, 0, 0.1};  // makes the hose swing as well
   job.simulation.most_repeats = 1;
   return job;
 }
@@ -79,8 +79,8 @@ TEST_CASE("other stiffnesses: the places are those of jobs whose hose is softer 
   constexpr double kept = 1e-12;  // decimals of the file [m]
   CHECK(largest_difference(both.softer, positions_with(job, both.factors[0])) < kept);
   CHECK(largest_difference(both.stiffer, positions_with(job, both.factors[1])) < kept);
-  CHECK(largest_difference(both.softer, both.stiffer) > 1e-3);  // else nothing is tested
-  // A factor on the stiffness and the stiffness itself are one thing.
+  CHECK(largest_difference(both.softer, both.stiffer) > 1e-3);  // otherwise the test would prove nothing
+  // A factor on the stiffness is equivalent to a changed stiffness.
   pipeline::Job stiff = job;
   stiff.dresspacks[0].dresspack.bending_stiffness *= both.factors[1];
   CHECK(largest_difference(both.stiffer, positions_with(stiff, 1)) < kept);

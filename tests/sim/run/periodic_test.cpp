@@ -10,8 +10,7 @@
 namespace dresslife::sim {
 namespace {
 
-/// The state at the begin of every repeat but the one that leads in and, last, at the end; and the last
-/// repeat's samples.
+/// States at the begin of every repeat except the first one, and at the end; and the last repeat's samples.
 struct Run {
   std::vector<RodState> begin;
   RodState end;
@@ -43,7 +42,7 @@ TEST_CASE("periodic: the distance of two states is what a point of the surface m
   b.position[7] += Vector3(0.003, 0, 0.004);
   CHECK(state_distance(rod, a, b) == Approx(0.005));
   b = a;
-  b.orientation[3] = b.orientation[3] * rotation({0, 0, 0.1});  // 0.04 m thick: its surface moves 2 mm
+  b.orientation[3] = b.orientation[3] * rotation({0, 0, 0.1});  // 0.04 m thick: its surface moves by 2 mm
   CHECK(state_distance(rod, a, b) == Approx(0.002));
   b = a;
   b.velocity[0].y() = 0.02;
@@ -63,7 +62,7 @@ TEST_CASE("periodic: a motion returns when its joints do, not when its clamps lo
 }
 
 TEST_CASE("periodic: a motion is repeated until two repeats begin alike, and the last counts") {
-  pipeline::Job job = simple_job();  // it ends the moment it is back, with the hose still swaying
+  pipeline::Job job = simple_job();  // the motion ends when the tool is back, while the hose still swings
   job.simulation.periodic_tolerance = 1e-4;
   const Simulation simulation(job);
   const Run r = run(simulation);
@@ -125,14 +124,14 @@ TEST_CASE("periodic: the repeat that leads in leaves the result that exact repea
   job.simulation.most_repeats = 40;
   const Run led = run(Simulation(job));
   REQUIRE(led.summary.periodic);
-  pipeline::MotionStep block;  // forty repeats that are one motion, run but once: nothing leads in
+  pipeline::MotionStep block;  // forty repeats as one motion that runs only once, without a preceding repeat
   block.repeat = 40;
   block.steps.assign(job.motion.steps.begin() + 1, job.motion.steps.end());
   job.motion.steps = {move_to(0, "start"), block};
   job.simulation.most_repeats = 1;
   const Simulation simulation(job);
   const Run exact = run(simulation);
-  CHECK(state_distance(simulation.rod(), led.end, exact.end) < 10 * forgotten);  // a repeat forgets 9/10
+  CHECK(state_distance(simulation.rod(), led.end, exact.end) < 10 * forgotten);  // a repeat reduces a difference to 1/10
 }
 
 TEST_CASE("periodic: a motion that does not return is run once") {
@@ -146,7 +145,7 @@ TEST_CASE("periodic: a motion that does not return is run once") {
 TEST_CASE("periodic: a wrist that turns by whole turns winds the hose and unwinds it") {
   pipeline::Job job = simple_job();
   job.dresspacks[0].dresspack.bending_stiffness =
-      20;  // nearly straight, does not loop: what the wrist turns is all twist
+      20;  // nearly straight, does not loop: all of the wrist's rotation becomes twist
   job.dresspacks[0].dresspack.torsional_stiffness = 4;
   job.dresspacks[0].routing.free_length = 0.905;
   job.motion.steps = {move_to(0), move_to(2 * pi, "one turn"), move_to(-2 * pi, "and back"),
@@ -154,21 +153,20 @@ TEST_CASE("periodic: a wrist that turns by whole turns winds the hose and unwind
   const Simulation simulation(job);
   const Run r = run(simulation);
   const auto [least, most] = std::minmax_element(r.net_twist.begin(), r.net_twist.end());
-  constexpr double sagging = 0.02;  // share of a turn that goes into the shape of the slightly sagging hose
+  constexpr double sagging = 0.02;  // share of a turn that becomes bending of the slightly sagging hose
   CHECK(*most - *least == Approx(4 * pi).epsilon(sagging));
   const auto left = std::find_if(r.summary.checks.begin(), r.summary.checks.end(),
                                  [](const Check& c) { return c.name == "net twist left by a repeat"; });
   REQUIRE(left != r.summary.checks.end());
   CHECK(left->value == r.net_twist.back() - r.net_twist.front());
-  // No friction here: nothing keeps twist. Both ends of a periodic repeat agree to the tolerance's turn of
-  // the surface.
+  // There is no friction that holds twist. Both ends of a periodic repeat agree to the tolerance's rotation of the surface.
   const double tolerance = job.simulation.periodic_tolerance / (job.dresspacks[0].dresspack.diameter / 2);
   CHECK(std::abs(left->value) < tolerance);
 }
 
 TEST_CASE("periodic: the same bits alone and beside other jobs in other threads") {
   pipeline::Job first = simple_job(), second = simple_job();
-  first.robot.links[0].capsules = {{{0.45, -1, 0.85}, {0.45, 1, 0.85}, 0.1}};  // touches a bar
+  first.robot.links[0].capsules = {{{0.45, -1, 0.85}, {0.45, 1, 0.85}, 0.1}};  // the hose touches a bar
   second.simulation.segments = 31;
   const Run alone = run(Simulation(first));
   Run beside;

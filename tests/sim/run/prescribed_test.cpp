@@ -18,7 +18,7 @@ using pipeline::message_of;
 using pipeline::Scratch;
 using std::numbers::pi;
 
-/// One cable of one layer of wires, alone, in a rig or with a deformation beside the job.
+/// Returns a job with one cable of one layer of wires, in a rig or with a prescribed deformation.
 std::string cable_job(const std::string& motion, const std::string& more = "") {
   return "motion: " + motion + R"(
 dresspack:
@@ -55,7 +55,7 @@ TEST_CASE("prescribed: uniform curvature and twist lay a helix whose every link 
   }
   const Vector3 whole(3, -4, 10);
   CHECK(state.clamps.tool.orientation.angularDistance(rotation(length * whole)) < rounding);
-  // The ends of a helix: r = integral of exp(s w) e_z (1 + e); the chain errs by (w l)^4, 2e-3 here.
+  // The ends of a helix: r = integral of exp(s w) e_z (1 + e). The error of the chain is (w l)^4, 2e-3 here.
   Vector3 end = Vector3::Zero();
   const int fine = 20000;
   for (int k = 0; k < fine; ++k)
@@ -76,8 +76,8 @@ TEST_CASE("prescribed: rates that change along the dresspack are integrated as b
   Quaternion plain = Quaternion::Identity();
   const int fine = 200000;
   for (int k = 0; k < fine; ++k) plain = plain * rotation(bent.at(0, (k + 0.5) / fine).rate / fine);
-  // Fourth order: (20 1/m x 2.5 mm)^5 / 720 a step, 400 steps; the plain sum errs by (w h)^3/24 a step, 8e-9
-  // in all.
+  // Fourth order: (20 1/m x 2.5 mm)^5 / 720 per step, 400 steps. The plain sum has an error of (w h)^3/24 per step, 8e-9 in
+  // total.
   CHECK(state.clamps.tool.orientation.angularDistance(plain) < 2e-7);
 }
 
@@ -86,14 +86,14 @@ TEST_CASE("prescribed: a twisted cable of one hand that hangs without weight kee
   const double lay = -20 * pi / 180, radius = 3e-3;
   double most = 0;
   for (const auto& state : hung.states) {
-    // R^2 sigma^2 + (1 + e)^2 = 1 / cos^2(alpha): the wire is as long as at rest.
+    // R^2 sigma^2 + (1 + e)^2 = 1 / cos^2(alpha): the wire keeps its length at rest.
     const double turning = std::tan(lay) + radius * state.rate.z();
     CHECK(state.elongation ==
           Approx(std::sqrt(1 / std::pow(std::cos(lay), 2) - turning * turning) - 1).margin(1e-12));
     most = std::max(most, std::abs(state.elongation));
   }
   CHECK(most > 0.006);  // tan(20 deg) x 3 mm x 2 pi
-  // 1 kg: stretched by g m / (E A cos^3 of six wires), 117 GPa as in the material's file.
+  // 1 kg: a stretch of g m / (E A cos^3 of six wires), with 117 GPa as in the material's file.
   const auto job = job_of(cable_job("{rig: {kind: torsion, twist_deg_per_m: 360, weight_kg: 1}}"));
   const auto& dresspack = job.dresspacks.front().dresspack;
   const double stiffness =
@@ -124,19 +124,19 @@ TEST_CASE("prescribed: held ends pull at a twisted cable that would shorten, and
     }
     CHECK(pull == Approx(-load).epsilon(1e-3));  // rounding of a strain of 1e-7
     most = std::max(most, state.elongation);
-    // As long as it has become it still ends at the held grip, parallel to it. J0(2 sqrt(e)) (1 + e) = 1 - 3 e^2/4.
+    // With its new length the cable still ends parallel at the held grip. J0(2 sqrt(e)) (1 + e) = 1 - 3 e^2/4.
     const int n = 50;
     const auto tool = posed(held, sample, n, length).clamps.tool;
-    const double turn = state.rate.head<2>().norm() * length / n;  // of the chain's most bent link, whose chord misses turn^2/24
+    const double turn = state.rate.head<2>().norm() * length / n;  // of the most bent link; its chord is shorter by turn^2/24
     CHECK(tool.position.norm() == Approx(length).epsilon(std::pow(state.elongation, 2) + turn * turn / 24));
     CHECK((tool.orientation * Vector3::UnitZ()).z() > 1 - 1e-6);
   }
-  CHECK(most > 0.006);   // tan(20 deg) x 3 mm x 2 pi, as it would hanging
-  CHECK(pulled > 100);  // [N] that times E A
+  CHECK(most > 0.006);   // tan(20 deg) x 3 mm x 2 pi, as if it hung free
+  CHECK(pulled > 100);  // [N], this strain times E A
 }
 
 TEST_CASE("prescribed: rolling flex bends and straightens the share of the cable that passes the bend") {
-  const FlexShares longer = flex_shares(0.1, 8);  // bend moves 4 m, 0.314 m are bent at a time
+  const FlexShares longer = flex_shares(0.1, 8);  // the bend moves by 4 m, and a length of 0.314 m is bent at a time
   CHECK(longer.each_stroke == Approx((4 - 0.1 * pi) / (4 + 0.1 * pi)));
   CHECK(longer.each_stroke + longer.each_cycle == Approx(1));
   const FlexShares shorter = flex_shares(0.1, 0.32);
@@ -186,16 +186,16 @@ TEST_CASE("prescribed: the curvature at a clip is that of the elastica that dies
   const PrescribedDeformation bent = deformation_of(job);
   double theta = 40 * pi / 180, kappa = 0;
   for (const auto& state : bent.states) kappa = std::max(kappa, state.rate.y());
-  // E I theta'' = T sin(theta), theta' = -kappa at the clip: it must tend to 0, and not turn away from it.
+  // E I theta'' = T sin(theta), theta' = -kappa at the clip: the solution must tend to 0 and not diverge.
   const double ell = std::sqrt(bending / pull), h = ell / 1000;
   double slope = -kappa;
-  for (int k = 0; k < 6000; ++k) {  // leapfrog
+  for (int k = 0; k < 6000; ++k) {  // leapfrog scheme
     slope += h / 2 * std::sin(theta) / (ell * ell);
     theta += h * slope;
     slope += h / 2 * std::sin(theta) / (ell * ell);
   }
   CHECK(std::abs(theta) < 4 * 40 * pi / 180 * std::exp(-6));
-  // A clip's edge limits it.
+  // The edge radius of a clip limits the curvature.
   double edged = 0;
   for (const auto& state : rig(keys + ", radius_mm: 50", stiff).states)
     edged = std::max(edged, state.rate.y());

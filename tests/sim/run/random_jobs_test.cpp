@@ -1,5 +1,5 @@
-// Random but feasible jobs on the shipped robots: all end finite and calm, or stop with a message that a user
-// can act on. Six of them run with every test; two hundred with DRESSLIFE_RANDOM_JOBS=200.
+// Random but feasible jobs on the shipped robots: each ends with finite numbers and without growing energy, or stops with a
+// message that a user can act on. Six of them run with every test; DRESSLIFE_RANDOM_JOBS=200 runs two hundred.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -89,7 +89,7 @@ pipeline::Job random_job(unsigned seed) {
   return job;
 }
 
-/// How a job ended: "" or the message's kind. Checks that what ended is finite and calm.
+/// Returns "ended" or the message's kind. Checks that an ended job has finite numbers and no growing energy while at rest.
 std::string outcome(unsigned seed) {
   CAPTURE(seed);
   const pipeline::Job job = random_job(seed);
@@ -108,8 +108,8 @@ std::string outcome(unsigned seed) {
     const RunSummary summary = simulation.run({take});
     CHECK(finite);
     for (const Check& check : summary.checks) CHECK((std::isfinite(check.value) && !std::isnan(check.limit)));
-    // While the robot stands, friction and damping only take energy. Contact pushes overlaps of up to 1 mm
-    // out, with some 100 N: 0.1 J; kinetic energy of the leapfrog belongs to half a step before: within 1 %.
+    // While the robot is at rest, friction and damping only reduce the energy. Contact pushes overlaps of up to 1 mm apart with
+    // about 100 N: 0.1 J. The leapfrog's kinetic energy belongs to half a step earlier: within 1 %.
     CHECK(highest - at_rest < 0.1 + 0.01 * elastic);
     return "ended";
   } catch (const pipeline::InputError& error) {

@@ -1,5 +1,4 @@
-// Routing as a job says it: clamps, rings, retraction, delivered shape, pre-twist, a free end; each from YAML
-// to samples.
+// Routing of a job: clamps, rings, retraction, delivered shape, pre-twist, a free end; each from YAML to samples.
 #include "sim/run/routing.h"
 
 #include <algorithm>
@@ -18,8 +17,7 @@ using namespace dresslife::sim;
 
 namespace {
 
-/// A spindle about x, 1 m above the floor, that turns or, with `axis`, does something else; the clamps lie
-/// along x.
+/// Returns a job with a spindle 1 m above the floor that turns about `joint_axis`. The clamps lie along x.
 std::string job_text(const std::string& routing, const std::string& more = "",
                      const std::string& joint_axis = "[1, 0, 0]", const std::string& dresspack = "",
                      int segments = 40) {
@@ -85,7 +83,7 @@ Run run(const std::string& text, const std::filesystem::path& folder = {}) {
   return result;
 }
 
-/// Largest difference of places [m] and quaternions.
+/// Returns the largest difference of positions [m] and quaternions.
 double furthest(const RodState& a, const RodState& b) {
   double most = 0;
   for (std::size_t i = 0; i < a.position.size(); ++i)
@@ -113,13 +111,13 @@ TEST_CASE("routing: a clamp in the middle is held where the job says and parts t
   REQUIRE(rod.spans().size() == 2);
   CHECK(rod.spans()[0].segments() == 20);
   CHECK(both.simulation->description().clamp_segment == std::vector<int>{0, 20, 40});
-  // Both clamps of the second span turn with the spindle, one clamp of the first.
+  // Both clamps of the second span, and one clamp of the first span, turn with the spindle.
   for (const Row& row : both.rows) {
     REQUIRE(row.clamps.size() == 3);
     CHECK((row.clamps[1].position - Vector3(0.5, 0, 1)).norm() < 1e-12);
   }
   const double free_of_twist =
-      1e-3;  // [rad] settling ends when nothing is faster than 0.01 mm/s, not quite at rest
+      1e-3;  // [rad]: settling ends at 0.01 mm/s, not completely at rest
   CHECK(std::abs(twist_of(rod, both.rows[0].state, rod.spans()[0])) < free_of_twist);
   CHECK(std::abs(twist_of(rod, both.rows[0].state, rod.spans()[1])) < free_of_twist);
   double most = 0;
@@ -127,8 +125,8 @@ TEST_CASE("routing: a clamp in the middle is held where the job says and parts t
     most = std::max(most, std::abs(twist_of(rod, row.state, rod.spans()[0])));
     CHECK(std::abs(twist_of(rod, row.state, rod.spans()[1])) < 0.1);
   }
-  CHECK(most > 0.3);  // of 0.7 rad: the rest goes into bending to the side
-  // As a dresspack of the first span alone.
+  CHECK(most > 0.3);  // of 0.7 rad; the rest becomes bending to the side
+  // The first span as a dresspack alone.
   const Run first =
       run(job_text("  free_length_m: 0.65\n"
                    "  base_clamp: {link: bench, position_m: [0, 0, 1], direction: [1, 0, 0]}\n"
@@ -140,7 +138,7 @@ TEST_CASE("routing: a clamp in the middle is held where the job says and parts t
     for (int i = 0; i < 20; ++i)
       apart = std::max(apart, (first.rows[k].state.position[i] - both.rows[k].state.position[i]).norm());
   const double alike =
-      2e-4;  // [m]: settling ends when both spans are slower than 0.01 mm/s, not at one place
+      2e-4;  // [m]: settling ends when both spans are slower than 0.01 mm/s; their rest is not a single point
   CHECK(apart < alike);
 }
 
@@ -154,18 +152,17 @@ TEST_CASE("routing: a span that is too short or pulled tight is named") {
 
 TEST_CASE("routing: pre-twist is what it says on top of a mounting free of twist") {
   std::string straight = ends;
-  straight.replace(straight.find("1.3"), 3, "1.1");  // straight, so that no bending takes part of the turn
+  straight.replace(straight.find("1.3"), 3, "1.1");  // straight, so that bending takes no part of the rotation
   const std::string once = ", most_repeats: 1";
   const Run twisted = run(job_text(straight + "  pre_twist_deg: 400\n", once));
   const Rod& rod = twisted.simulation->rod();
-  const double sag = 0.01;  // what its weight still bends it takes up by writhe
+  const double sag = 0.01;  // its weight still bends it, which takes up twist as writhe
   CHECK(twist_of(rod, twisted.rows[0].state, rod.spans()[0]) == Approx(400 * pi / 180).epsilon(sag));
   CHECK(std::abs(twist_of(rod, run(job_text(straight, once)).rows[0].state, rod.spans()[0])) < 1e-3);
 }
 
 TEST_CASE("routing: a hose laid in the shape in which it was delivered is free of load") {
-  // An arc of curvature 1/0.8 m, upward from the base clamp, which is where its x axis points: no gravity, no
-  // force.
+  // An arc of radius 0.8 m, upward from the base clamp, toward the clamp's x axis. Without gravity there is no force.
   const double curvature = 1.25, length = 1.0, angle = curvature * length;
   const double x = std::sin(angle) / curvature, z = (1 - std::cos(angle)) / curvature;
   const auto routing = [&](const std::string& roll) {
@@ -178,12 +175,12 @@ TEST_CASE("routing: a hose laid in the shape in which it was delivered is free o
   };
   const std::string weightless = ", gravity_m_per_s2: [0, 0, 0], contact: false, most_repeats: 1";
   const Run delivered = run(job_text(routing(""), weightless, "[1, 0, 0]", ", rest_curvature_1_per_m: 1.25"));
-  // l^2 of chords against an arc: (0.025 curvature)^2/24 of the length, times EA in a hose that is not slack.
+  // Error of chords against an arc: (0.025 curvature)^2/24 of the length, times EA in a hose without slack.
   const double chords = 1e-2;  // [J] against 1.56 J of the straight hose
   CHECK(delivered.rows[0].energy.elastic < chords);
   const Run turned =
       run(job_text(routing(", roll_deg: 180"), weightless, "[1, 0, 0]", ", rest_curvature_1_per_m: 1.25"));
-  // Bent against its shape: EI (2 curvature)^2/2 per length, or it gives way to a side.
+  // Bent against its delivered shape: EI (2 curvature)^2/2 per length, unless it escapes sideways.
   CHECK(turned.rows[0].energy.elastic > 50 * delivered.rows[0].energy.elastic);
   const Run straight = run(job_text(routing(""), weightless));
   CHECK(straight.rows[0].energy.elastic == Approx(0.5 * 2 * curvature * curvature * length).epsilon(0.01));
@@ -191,8 +188,7 @@ TEST_CASE("routing: a hose laid in the shape in which it was delivered is free o
 
 TEST_CASE(
     "routing: a retraction unit lets the hose out and takes it back and says when its stroke is used up") {
-  // The spindle turns about y and carries the tool clamp along: 1.3 m away at 0, 0.1 m more than there is
-  // hose.
+  // The spindle turns about y and moves the tool clamp: at 0 the distance is 1.3 m, 0.1 m more than the hose's length.
   const auto routing = [](double stroke) {
     return fmt::format(
         "  free_length_m: 1.2\n"
@@ -225,7 +221,7 @@ TEST_CASE(
 }
 
 TEST_CASE("routing: a dresspack with a free end hangs and rings down as its damping says") {
-  // Carried down and stopped: what it does then is the decay test by which damping is measured.
+  // Moved down and stopped: the motion afterwards is the decay test by which damping is measured.
   const Run hung =
       run(job_text("  free_length_m: 0.8\n"
                    "  base_clamp: {link: spindle, position_m: [0, 0, 0], direction: [0, 0, -1]}\n"
@@ -262,7 +258,7 @@ TEST_CASE("routing: a dresspack is led by a ring that the job describes") {
   for (int i = 0; i < rod.segments(); ++i)
     force = std::max(force, last.largest_force[i * last.obstacles.size() + (ring - last.obstacles.begin())]);
   CHECK(force > 1);
-  // Slack is what is left of the way over the ring, off centre by its radius at most.
+  // Slack: the length minus the distance over the ring, which may be off-centre by its radius.
   const double way = std::hypot(0.5, 0.1) + std::hypot(0.6, 0.1) - 2 * 0.024;
   CHECK(led.check("least slack: too short below").value == Approx(1.3 - way));
 }
@@ -298,7 +294,7 @@ TEST_CASE("routing: boxes and meshes of links and of the cell are obstacles from
   for (const auto& [cell, link] : shapes) {
     CAPTURE(cell, link);
     const auto [z, pressed, obstacles, depth] = lowest(cell, link);
-    CHECK(z > free_z + 0.05);  // laid over an edge at 0.85 m
+    CHECK(z > free_z + 0.05);  // it lies over an edge at 0.85 m
     const auto at =
         std::find(obstacles.begin(), obstacles.end(), cell.empty() ? "bench" : "cell") - obstacles.begin();
     CHECK(pressed[at] > 1);
@@ -328,7 +324,7 @@ TEST_CASE("routing: what a job says of it is echoed and reads back") {
   CHECK(pipeline::job_text(pipeline::job_from(pipeline::parse_yaml(text, "echo"))) == text);
   const Rod rod = rod_of(job);
   REQUIRE(rod.spans().size() == 2);
-  CHECK(rod.spans()[0].segments() == 18);  // 40 of 1.3 m
+  CHECK(rod.spans()[0].segments() == 18);  // its share of 40 segments over 1.3 m
   CHECK(rod.spans()[0].properties.slider->force == 20);
   CHECK(rod.spans()[1].properties.tip_mass == 1.5);
   REQUIRE(routed_rings(job).size() == 1);
@@ -359,7 +355,7 @@ TEST_CASE("routing: the guided example rests on the forearm and in its ring") {
 
 namespace {
 
-/// `ends`, with a bend relief of each of its clamps and of one in between.
+/// Returns `ends` with a bend relief at each of its clamps and at one in between.
 std::string with_reliefs(const std::string& base, const std::string& between, const std::string& tool) {
   return "  free_length_m: 1.3\n"
          "  base_clamp: {link: bench, position_m: [0, 0, 1], direction: [1, 0, 0]" + base + "}\n"
@@ -410,7 +406,7 @@ TEST_CASE("routing: a bend relief lessens the bend, and changes no bit without l
   CHECK(same(bare, run(job_text(routing(relief_text("0", "2"))))));
   CHECK(same(bare, run(job_text(routing(relief_text("150", "0"))))));
   CHECK(!same(bare, stiff));
-  // Twice as stiff beside the clamps: the bends there fall, and what is left of them moves to the bare middle.
+  // Double stiffness beside the clamps: the bends there become smaller, and the rest moves to the middle without relief.
   const auto bend = [](const Run& of, int link) {
     double most = 0;
     const Rod& rod = of.simulation->rod();

@@ -1,5 +1,4 @@
-// The jobs that come with dresslife make sense: poses that a robot on the floor with a weld gun can take, and
-// a dresspack that survives them.
+// The shipped jobs are plausible: a robot on the floor with a weld gun can reach their poses, and their dresspack stays intact.
 
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
@@ -56,7 +55,7 @@ TEST_CASE("shipped programs: arm and weld gun stay above the floor") {
         for (const pipeline::Capsule& capsule : job.robot.links[link].capsules)
           for (const Vector3& end : {capsule.from, capsule.to})
             lowest = std::min(lowest, pose.links[link].point(end).z() - capsule.radius);
-      // A weld gun of usual size: tips 0.7 m before the flange, its body 0.25 m to one side.
+      // A weld gun of usual size: tips 0.7 m in front of the flange, body 0.25 m to one side.
       for (const Vector3& corner : {Vector3(0.7, 0, 0), Vector3(0.3, 0, -0.25)})
         lowest = std::min(lowest, pose.links[6].point(corner).z());
     }
@@ -97,14 +96,14 @@ TEST_CASE("shipped programs: the dresspack goes through all of them on the IRB 6
                                   simulation.rod().bending_length(link));
     }});
     INFO(program);
-    CHECK(depth < 1e-3);   // less than the hose's wall gives [m]
+    CHECK(depth < 1e-3);   // less than the hose's wall yields [m]
     const pipeline::MountedDresspack& hose = job.dresspacks.front();
     const double weight = 9.81 * hose.dresspack.mass_per_length * hose.routing.free_length;
     CHECK(tension < 10 * weight);  // [N]
-    // Cells bend such hoses to radii of 250 to 600 mm; only the torture goes below, and it must not kink
+    // Robot cells bend such hoses to radii of 250 to 600 mm. Only the program `hard` bends more, and it must not kink the hose
     // [1/m].
     CHECK(bend < (program == "hard" ? 10 : 4));
-    CHECK(bend > 0.5);  // it moves at all
+    CHECK(bend > 0.5);  // the hose does move
   }
 }
 

@@ -11,7 +11,7 @@
 namespace dresslife::sim {
 namespace {
 
-/// [m] Contact holds speeds, so the hose may sink in a little: less than the wall of a real one gives.
+/// [m] Contact corrects speeds only, so the hose may penetrate a little: less than the wall of a real hose yields.
 constexpr double deepest_overlap = 1e-3;
 
 struct Row {
@@ -33,7 +33,7 @@ std::vector<Row> run(const Simulation& simulation) {
   return rows;
 }
 
-/// Turns of all links about the tangent added up [rad].
+/// Returns the sum of all links' rotations about the tangent [rad].
 double net_twist(const Rod& rod, const RodState& state) {
   double twist = 0;
   for (int link = 0; link < rod.links(); ++link) twist += rod.link_state(state, link).turn.z();
@@ -63,7 +63,7 @@ TEST_CASE("simulate: samples lie on the grid, from 0 until the motion has ended"
   CHECK(rows.back().time < duration + 1 / 40.0);
   CHECK(simulation.description().step_texts == std::vector<std::string>{"start", "turn", "dwell 3", "back"});
   CHECK(simulation.description().link_names == std::vector<std::string>{"bench", "spindle"});
-  CHECK(rows.front().step == 1);  // the first line only says where the robot starts
+  CHECK(rows.front().step == 1);  // the first line only states the robot's start
   CHECK(rows.back().step == 3);
 }
 
@@ -88,7 +88,7 @@ TEST_CASE("simulate: a run ends where its sink has had enough work") {
   REQUIRE(early);
   CHECK(*early > 0);
   CHECK(*early < simulation.path().duration());
-  // It asks once for a sample: at most the work of one interval between two of them more.
+  // The limit is checked once per sample: at most the work of one interval between two samples is added.
   CHECK(all < whole / 2 + 2 * whole / (simulation.description().samples - 1));
 }
 
@@ -96,11 +96,10 @@ TEST_CASE("simulate: a hose in its equilibrium stays there while the robot stand
   pipeline::Job job = simple_job();
   job.motion.steps = {move_to(0), dwell_for(3)};
   const std::vector<Row> rows = run(Simulation(job));
-  // The equilibrium's residual leaves 1e-8 of the forces; settling stops at 1 mm/s, far above what it finds
-  // here.
+  // The equilibrium's residual is 1e-8 of the forces. Settling ends at 1 mm/s, far above the remaining motion.
   constexpr double still = 1e-6;
   for (const Row& row : rows) CHECK(largest_distance(row.state, rows.front().state) < still);
-  // It sags: lower in the middle than at its ends by more than a tenth of the chord.
+  // The hose sags: its middle is lower than its ends by more than a tenth of the chord.
   CHECK(rows.front().state.position[10].z() < 0.9);
   CHECK(rows.back().energy.kinetic < still * still);
 }
@@ -110,18 +109,18 @@ TEST_CASE("simulate: the weight hangs on the two clamps") {
   job.motion.steps = {move_to(0), dwell_for(0.2)};
   job.dresspacks[0].routing.base_clamp->direction = {0, 0, -1};
   job.dresspacks[0].routing.tool_clamp->direction = {0, 0,
-                                                     1};  // a hanging loop: both ends carry half the weight
+                                                     1};  // a hanging loop: each end carries half of the weight
   job.dresspacks[0].routing.free_length = 2;
   const Row last = run(Simulation(job)).back();
   const double weight = 2 * 1.5 * 9.81;
-  // At the centres of the end segments half a segment's weight is already below the clamp.
+  // At the centre of an end segment the tension is smaller than at the clamp by half of a segment's weight.
   CHECK(last.tension.front() == Approx(weight / 2 * 0.95).epsilon(0.01));
   CHECK(last.tension.back() == Approx(last.tension.front()).epsilon(1e-4));
 }
 
 TEST_CASE("simulate: the tool clamp is mounted free of twist, or as the routing says") {
   pipeline::Job job = simple_job();
-  job.dresspacks[0].dresspack.bending_stiffness = 20;  // nearly straight: there the roll is all twist
+  job.dresspacks[0].dresspack.bending_stiffness = 20;  // nearly straight, so all of the roll becomes twist
   job.dresspacks[0].routing.free_length = 0.905;
   const Simulation free(job);
   constexpr double no_twist = 1e-6;  // the equilibrium's residual
@@ -175,8 +174,7 @@ TEST_CASE("simulate: recorded clamp poses move the hose as the robot does") {
   recorded.dresspacks[0].routing.tool_clamp.reset();
   const std::vector<Row> a = run(driven), b = run(Simulation(recorded));
   REQUIRE(a.size() == b.size());
-  // Rows 10 ms apart; the motion's jerk jumps by 30 rad/s3, which a cubic spline meets to h^3/6 of it: 5e-6
-  // rad.
+  // Rows 10 ms apart. The motion's jerk jumps by 30 rad/s3; a cubic spline has an error of h^3/6 of it: 5e-6 rad.
   constexpr double spline_error = 2e-5;
   for (size_t k = 0; k < a.size(); ++k) CHECK(largest_distance(a[k].state, b[k].state) < spline_error);
   CHECK(b.front().pose.links.empty());
@@ -184,7 +182,7 @@ TEST_CASE("simulate: recorded clamp poses move the hose as the robot does") {
 
 TEST_CASE("simulate: a dresspack that is too short is refused with time, line and length") {
   pipeline::Job job = simple_job();
-  job.robot.joints[0].axis = {0, 0, 1};  // now the tool clamp swings about the base clamp's axis
+  job.robot.joints[0].axis = {0, 0, 1};  // the tool clamp swings about the base clamp's axis
   job.dresspacks[0].routing.base_clamp->position = {0.3, 0, 1};
   CHECK_THROWS_WITH(
       Simulation(job),
@@ -198,7 +196,7 @@ TEST_CASE("simulate: a dresspack that is too short is refused with time, line an
 
 TEST_CASE("simulate: a dresspack that winds itself taut stops the run") {
   pipeline::Job job = simple_job();
-  // The tool clamp goes round a post of 0.5 m diameter, 0.35 m from its axis; twice round needs 3.5 m.
+  // The tool clamp moves around a post of 0.5 m diameter, 0.35 m from its axis. Two rounds need 3.5 m.
   job.robot.joints[0].axis = {0, 0, 1};
   job.robot.joints[0].origin = {0, 0, 1};
   job.robot.links[0].capsules = {{{0, 0, 0}, {0, 0, 2}, 0.25}};
@@ -235,7 +233,7 @@ TEST_CASE("simulate: a state that is not finite stops the run") {
 TEST_CASE("simulate: a hose hangs over a robot link without sinking in") {
   pipeline::Job job = simple_job();
   job.robot.links[0].capsules = {{{0.45, -1, 0.85}, {0.45, 1, 0.85}, 0.1}};  // a bar across, below the clamps
-  // Without the bar the hose would hang more than 0.1 m below the clamps: through it.
+  // Without the bar the hose would hang more than 0.1 m below the clamps, which is below the bar.
   const std::vector<Row> rows = run(Simulation(job));
   int touching = 0;
   for (const Row& row : rows) {
@@ -244,7 +242,7 @@ TEST_CASE("simulate: a hose hangs over a robot link without sinking in") {
     for (const Vector3& centre : row.state.position)
       CHECK(std::hypot(centre.x() - 0.45, centre.z() - 0.85) > 0.1 + 0.02 - deepest_overlap);
   }
-  CHECK(touching == static_cast<int>(rows.size()) - 1);  // all but the first sample, before the first step
+  CHECK(touching == static_cast<int>(rows.size()) - 1);  // all but the first sample, which is before the first step
 }
 
 TEST_CASE("simulate: a slack hose lies on the floor") {

@@ -14,9 +14,9 @@ namespace {
 
 using test::DrivenCable;
 
-constexpr double begin = 3.5;  ///< of the driven cable's time: its ends stand still until 4 s [s]
+constexpr double begin = 3.5;  ///< in the time of the driven cable, whose ends are at rest until 4 s [s]
 
-/// The driven cable as a job: its clamps as recorded poses, hanging at rest when it begins.
+/// Returns the driven cable as a job: its clamps as recorded poses, with the hose hanging at rest at the begin.
 pipeline::Job driven_cable(const std::filesystem::path& file) {
   {
     std::ofstream csv(file);
@@ -103,7 +103,7 @@ TEST_CASE("step choice: the chosen step follows second order and fits the sample
   CHECK(first_step(1000) == Approx(0.001));
   CHECK(chosen_step(0.005, 0.01, 0.0025, 100) == Approx(0.0025));  // a quarter of the error: half the step
   CHECK(chosen_step(0.005, 0.01, 0.0024, 100) == Approx(0.01 / 5));
-  CHECK(chosen_step(0.005, 1e-9, 0.01, 25) == Approx(0.01));  // not above what was tried
+  CHECK(chosen_step(0.005, 1e-9, 0.01, 25) == Approx(0.01));  // not larger than the tested step
   CHECK(chosen_step(0.005, 1e9, 0.01, 25) == Approx(0.0002));
   CHECK(chosen_step(0.005, NAN, 0.01, 25) == Approx(0.0002));
 }
@@ -111,7 +111,7 @@ TEST_CASE("step choice: the chosen step follows second order and fits the sample
 TEST_CASE("step choice: the lively windows lie where the clamps accelerate") {
   pipeline::Job job = simple_job();
   job.motion.steps = {move_to(0), dwell_for(20), move_to(2), move_to(0), dwell_for(20)};
-  job.dresspacks[0].routing.tool_clamp->position = {0.9, 0.1, 0};  // off the axis, so that its place moves
+  job.dresspacks[0].routing.tool_clamp->position = {0.9, 0.1, 0};  // off the axis, so that it moves
   const RobotPath path(job);
   const double h = 0.005;
   const auto windows = lively_windows(path, h, static_cast<int>(path.duration() / h));

@@ -1,4 +1,4 @@
-// A loose cable against what is known in closed form.
+// Loose cables against closed forms.
 #include <cmath>
 
 #include "pipeline/base/constants.h"
@@ -24,10 +24,10 @@ double largest_offset(const CableState& state, int direction) {
 }  // namespace
 
 TEST_CASE("without play a loose cable has the strain of one that is held") {
-  // clamp to clamp, in whatever bends and twists: mean of |v| of (W5)
+  // Clamp to clamp, under any bend and twist: mean of |v| of (W5).
   LooseCable cable = signal_cable(0.012, -0.014);
   cable.play = 0;
-  cable.wall_stiffness = 1e11;  // 30 kN/m of contact press it in by 0.3 um
+  cable.wall_stiffness = 1e11;  // a contact force of 30 kN/m compresses it by 0.3 um
   const LooseSettings settings{2, 128};
   LooseCables cables({cable}, settings);
   const auto at = [](double z) {
@@ -41,7 +41,7 @@ TEST_CASE("without play a loose cable has the strain of one that is held") {
     const double y = 1 + node.elongation + node.curvature1 * -0.014 - node.curvature2 * 0.012;
     path += std::sqrt(y * y + std::pow(std::hypot(0.012, -0.014) * node.twist, 2)) / fine;
   }
-  // |a'|^2 / 2 instead of the root leaves out |a'|^2 / 2 times the bending strain, 1e-3 of 1e-2
+  // The model uses |a'|^2 / 2 instead of the root. This neglects |a'|^2 / 2 times the bending strain, 1e-3 of 1e-2.
   CHECK(cables.state(0).strain == Approx(path - 1).epsilon(0.01));
   CHECK(largest_offset(cables.state(0), 0) < 1e-6);
 }
@@ -57,7 +57,7 @@ TEST_CASE("a laid cable is at ease where it was laid, bent or not") {
       const CableState& state = cables.state(0);
       CHECK(std::abs(state.strain) < 1e-9);
       CHECK(std::max(largest_offset(state, 0), largest_offset(state, 1)) < 1e-9);
-      for (std::size_t i = 0; i <= 128; ++i)  // what the levels inside it feel
+      for (std::size_t i = 0; i <= 128; ++i)  // curvatures that the levels inside the cable get
         CHECK(std::hypot(state.curvature[2 * i], state.curvature[2 * i + 1] - rest) < 1e-6);
     }
 }
@@ -73,7 +73,7 @@ TEST_CASE("twist along the lay of a laid cable without play stretches it, twist 
     LooseCables cables({cable}, settings);
     cables.advance(hose(256, [&](double) { return HoseNode{.twist = twist}; }), step);
     const double path = std::hypot(1, radius * (cable.lay_rate + twist)) * std::cos(lay);
-    // |a'|^2 / 2 instead of the root leaves out 1/4 of |a'|^4, tan^2(lay) / 2 of the change: 1 %
+    // The model uses |a'|^2 / 2 instead of the root. This neglects 1/4 of |a'|^4, which is tan^2(lay) / 2 of the change: 1 %.
     CHECK(cables.state(0).strain == Approx(path - 1).epsilon(0.012));
   }
 }
@@ -95,24 +95,23 @@ TEST_CASE("a cable on the outside of a bend moves in by its play and pulls for t
   cable.wall_stiffness = 1e9;
   LooseCables cables({cable}, {2.035, 128});
   cables.advance(hose(128, [](double) { return HoseNode{.curvature2 = 1}; }), step);
-  // From a clamp it runs straight, as seen from the side, until it touches, sqrt(2 c / kappa) on; each of the
-  // two ends is longer by kappa^2 (2 c / kappa)^1.5 / 3. What bending rounds off there is 0.1 %.
+  // From a clamp the cable runs straight, seen from the side, until it touches after sqrt(2 c / kappa). Each of the two ends
+  // is longer by kappa^2 (2 c / kappa)^1.5 / 3. The bending stiffness rounds this off by 0.1 %.
   const double ends = 2.0 / 3 * std::pow(2 * 0.005, 1.5) / 2.035;
   CHECK(cables.state(0).strain == Approx((0.01845 - 0.005) * 1 + ends).epsilon(0.002));
 }
 
 TEST_CASE("a cable pressed together in a straight tube lies in it as a helix") {
-  // slope^2 / 2 = delta for a helix of radius c; from its energy, E I k^4 c^2 / 2 per length: 4 E I delta /
-  // c^2
+  // slope^2 / 2 = delta for a helix of radius c. Its energy E I k^4 c^2 / 2 per length gives the force 4 E I delta / c^2.
   LooseCable cable = signal_cable(0);
   cable.play = 0.004;
   cable.wall_stiffness = 1e9;
-  cable.axial_stiffness = 1e8;            // so that all of the shortening goes into the helix
+  cable.axial_stiffness = 1e8;            // so stiff that all of the shortening goes into the helix
   constexpr std::size_t elements = 1536;  // 16 in a wave: 0.7 %; the ends: 1.2 %
   LooseCables cables({cable}, {12, elements});
   constexpr double most = 0.02;
   for (int t = 1; t <= 200; ++t) {
-    // the weight turns along the tube while the cable buckles, which makes one helix instead of two
+    // The weight turns along the tube while the cable buckles. This gives one helix instead of two.
     const double weight = t < 30 ? 5 : 0;
     cables.advance(hose(elements,
                         [&](double z) {
@@ -140,14 +139,14 @@ TEST_CASE("a cable tied to an elastic wall buckles at the root of its stiffnesse
                    step);
     highest = std::max(highest, -cables.state(0).tension[0]);
   }
-  // the clamps hold the outermost waves, and the tied cable carries a little more beyond
+  // The clamps hold the outermost waves, so the tied cable carries a little more than the formula.
   CHECK(highest == Approx(2 * std::sqrt(0.2 * 1e8)).epsilon(0.05));
 }
 
 TEST_CASE("a cable lying in a straight tube goes in waves, then in coils") {
-  // Waves from 2 sqrt(E I w / c) on (Dawson and Paslay 1984). From sqrt(2) times that on a coil has less
-  // energy than waves (Chen, Lin and Cheatham 1990): a cable pressed slowly goes over later, and one let go
-  // slowly falls back earlier.
+  // Waves begin at 2 sqrt(E I w / c) (Dawson and Paslay 1984). From sqrt(2) times that force on a coil has less energy than
+  // waves (Chen, Lin and Cheatham 1990). A cable under slowly rising force changes to a coil later, and under slowly falling
+  // force it changes back earlier.
   LooseCable cable = signal_cable(0);
   cable.play = 0.005;
   cable.wall_stiffness = 1e8;
@@ -165,7 +164,7 @@ TEST_CASE("a cable lying in a straight tube goes in waves, then in coils") {
     return -cables.state(0).tension[0];
   };
   const auto highest = [&] {
-    double height = -1;  // away from the clamps, which hold it in the middle
+    double height = -1;  // away from the clamps, which hold the cable in the middle
     for (std::size_t i = elements / 8; i < 7 * elements / 8; ++i)
       height = std::max(height, cables.state(0).offset[2 * i + 1]);
     return height;
@@ -182,22 +181,22 @@ TEST_CASE("a cable lying in a straight tube goes in waves, then in coils") {
     if (highest() < 0) at_fall = force;
   }
   INFO(waves << " N: waves at " << at_waves << ", coils at " << at_coils << ", down at " << at_fall);
-  CHECK(at_waves == Approx(waves).epsilon(0.05));  // a tenth of the play shows them a little later
+  CHECK(at_waves == Approx(waves).epsilon(0.05));  // the criterion, a tenth of the play, is reached a little later
   CHECK(at_coils > std::sqrt(2) * waves);
   CHECK(at_fall < std::sqrt(2) * waves);
   CHECK(at_fall == Approx(std::sqrt(2) * waves).epsilon(0.1));  // the weight pulls its ends down first
 }
 
 TEST_CASE("a cable that is pulled bends at its clamp as a beam does, on any mesh") {
-  // In a bend without walls it lies straight and turns at the clamps by half of the bend's angle, as a beam with the tension T:
-  //     its bend at the clamp = K L / (2 l tanh(L / 2 l)), l = sqrt(E I / T).
+  // In a bend without walls the cable is straight and turns at the clamps by half of the bend's angle, as a beam with tension T:
+  //     its curvature at the clamp = K L / (2 l tanh(L / 2 l)), l = sqrt(E I / T).
   LooseCable cable = signal_cable(0);
   cable.bending_stiffness = 0.03;
   constexpr double bend = 0.1, length = 2;  // [1/m], [m]
   for (const double elongation : {1e-4, 1e-3, 3e-3})
     for (const std::size_t elements : {128, 256, 512}) {
       LooseCables cables({cable}, {length, elements});
-      for (int k = 0; k < 200; ++k)  // the drag lets it get there
+      for (int k = 0; k < 200; ++k)  // until the drag has let it come to equilibrium
         cables.advance(hose(elements, [&](double) { return HoseNode{.curvature2 = bend, .elongation = elongation}; }), 10);
       const CableState& state = cables.state(0);
       REQUIRE(state.tension.front() > 0);
@@ -205,7 +204,7 @@ TEST_CASE("a cable that is pulled bends at its clamp as a beam does, on any mesh
       const double exact = bend * length / (2 * decay * std::tanh(length / (2 * decay)));
       INFO("T " << state.tension.front() << " N, " << elements << " pieces of " << spacing / decay << " decay lengths");
       const double raw = state.curvature[1], left = state.clamped[1];
-      // What is straight between the clamps has no curvature that changes slowly, so nothing but rest is left out.
+      // A cable that is straight between the clamps has no slowly varying curvature, so only the curvature at rest is left out.
       CHECK(left == Approx(exact).epsilon(0.001));
       CHECK(state.clamped[3] == Approx(exact).epsilon(0.001));
       CHECK(raw == Approx(exact / std::sqrt(1 + std::pow(spacing / decay, 2) / 4)).epsilon(0.001));

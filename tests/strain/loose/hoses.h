@@ -1,4 +1,4 @@
-// Hoses for tests: nodes of one sample.
+// Hoses for tests: the nodes of one sample.
 #pragma once
 
 #include <functional>
@@ -8,7 +8,7 @@
 
 namespace dresslife::strain::test {
 
-/// make: of the share of the length from the base clamp.
+/// Returns elements + 1 nodes. make: node at a share of the length from the base clamp.
 inline std::vector<HoseNode> hose(std::size_t elements, const std::function<HoseNode(double)>& make) {
   std::vector<HoseNode> nodes;
   for (std::size_t i = 0; i <= elements; ++i)
@@ -16,7 +16,7 @@ inline std::vector<HoseNode> hose(std::size_t elements, const std::function<Hose
   return nodes;
 }
 
-/// The signal cable of the thesis' dresspack at a place in the hose [m].
+/// Returns the signal cable of the thesis' dresspack at this place in the hose's cross-section [m].
 inline LooseCable signal_cable(double place1, double place2 = 0) {
   LooseCable cable;
   cable.place = {place1, place2};

@@ -1,5 +1,4 @@
-// Loose cables over motions: meshes, closed loops, clamps that let go, rings, and whatever a user may ask
-// for.
+// Loose cables over motions: meshes, closed loops, clamps that slip, rings, and all kinds of input.
 #include <cmath>
 #include <memory>
 #include <random>
@@ -18,7 +17,7 @@ namespace {
 
 constexpr double step = 0.04;  // between samples [s]
 
-/// A hose on a robot's arm, `turn` of its cycle on: an arch that leans over and twists.
+/// Returns a node of a hose on a robot's arm, an arch that leans over and twists. z: share of the length; turn: of the cycle.
 HoseNode arm(double z, double turn) {
   const double w = 2 * pi * turn;
   return {(1.5 + 0.5 * std::sin(w)) * std::sin(pi * z),
@@ -84,11 +83,10 @@ TEST_CASE(
     strain.push_back(loose.state(0).strain);
     largest.push_back(most);
   }
-  // Second differences are of second order; waves at the edge of what a mesh can hold turn into others on the
-  // next one.
+  // Second differences are of second order. Waves near the resolution of a mesh change into other waves on the next mesh.
   CHECK(told[2] < told[1] / 2.5);
   CHECK(told[3] < told[2] / 2.5);
-  // The stated error bounds the effect of the mesh on the strain, over the motion's largest.
+  // The stated error bounds the effect of the mesh on the strain, divided by the largest strain of the motion.
   for (std::size_t k = 1; k < 3; ++k) {
     INFO(told[k] << " told, strain " << strain[k] << " for " << strain[3] << " of " << largest[3]);
     CHECK(std::abs(strain[k] - strain[3]) < 2 * told[k] * largest[3]);
@@ -112,7 +110,7 @@ TEST_CASE("as many pieces as waves ask for see them, whatever the slack and the 
         loose.advance(hose(elements, [&](double z) { return arm(z, t / 50.0); }), step);
       CHECK(loose.mesh_error() < warned_of);
     }
-  LooseCables ring(ring_of_ten(0.01), {length, 64});  // turns as one, in long waves
+  LooseCables ring(ring_of_ten(0.01), {length, 64});  // rotates as a whole, in long waves
   for (int t = 0; t <= 50; ++t) ring.advance(hose(64, [&](double z) { return arm(z, t / 50.0); }), step);
   CHECK(elements_of_waves(ring_of_ten(0.01), length) == 64);
   CHECK(ring.mesh_error() < warned_of);
@@ -133,7 +131,7 @@ TEST_CASE("a clamp that lets go keeps what it has let through, and takes energy"
     loose.advance(nodes, step);
     const CableState& state = loose.state(0);
     highest = std::max(highest, std::abs(state.tension[0]));
-    // the path's gain, from place and offset: what the hose does against the tension
+    // change of the path's length from place and offset: the hose's work against the tension
     double gain = 0;
     for (std::size_t i = 0; i <= 64; ++i) {
       const double a1 = 0.01845 + state.offset[2 * i], a2 = state.offset[2 * i + 1];
@@ -154,12 +152,12 @@ TEST_CASE("a clamp that lets go keeps what it has let through, and takes energy"
   }
   CHECK(highest <= 500 * (1 + 1e-9));
   CHECK(loose.state(0).tension[0] == Approx(after).margin(1e-3 * 500));  // the slip has settled
-  CHECK(work > -1e-3);  // [J] of one closed cycle: friction in the clamps takes, never gives
+  CHECK(work > -1e-3);  // [J] of one closed cycle: friction in the clamps only dissipates
 }
 
 TEST_CASE("a clamp that never has to let go changes nothing") {
-  // While slack is fed in there is less of it for a while, and clamps with a grip let some through: none of
-  // that stays.
+  // While slack is fed in, the cable is too short for some time, and clamps with a grip let some of it slip through. This slip
+  // must not remain.
   for (const double slack : {0.01, 0.02}) {
     std::vector<double> held;
     for (const double grip : {without_limit, 2000.0}) {
@@ -207,8 +205,8 @@ TEST_CASE("cables of a ring never overlap, and stay between core and wall") {
 }
 
 TEST_CASE("a ring turns out of a twist that alternates, and what strain is left is of the drag alone") {
-  // The twist cancels along the hose and is none at its clamps, so the ring has a way without any strain: as
-  // if the hose did not twist. Only what holds it sideways at a speed (W36) keeps it from there.
+  // The twist cancels along the hose and is zero at its clamps, so the ring can rotate into a state without strain, as if the
+  // hose were not twisted. Only the lateral drag (W36) delays this.
   constexpr double most = 3;  // [rad/m]
   constexpr int cycle = 100;
   const std::vector<LooseCable> cables = ring_of_ten(0);
@@ -231,7 +229,7 @@ TEST_CASE("a ring turns out of a twist that alternates, and what strain is left 
 }
 
 TEST_CASE("a ring that snaps over comes to rest within the sample") {
-  // From one bend and twist to any other at once, with 1 % of slack: the winding goes to other places.
+  // From one bend and twist to any other in one step, with 1 % of slack: the winding moves to other places.
   std::vector<LooseCable> cables = ring_of_ten(0.01);
   for (LooseCable& cable : cables) cable.bending_stiffness = 0.02;
   LooseCables loose(cables, {2.035, 64});
@@ -252,7 +250,7 @@ TEST_CASE("a ring forgets its first place, and the mesh does not decide where it
     std::vector<LooseCable> cables = ring_of_ten(0.01);
     for (LooseCable& cable : cables) cable.bending_stiffness = 0.02;
     LooseCables one(cables, {2.035, elements}), other(cables, {2.035, elements});
-    // The other one is laid into a hose that leans and twists the other way.
+    // The other ring starts in a hose that leans and twists the other way.
     const auto other_way = [&](double z) {
       const HoseNode node = arm(z, 0.4);
       return HoseNode{-node.curvature1, node.curvature2, -node.twist, node.elongation, {node.pull[1], node.pull[0]}};
@@ -274,7 +272,7 @@ TEST_CASE("a ring forgets its first place, and the mesh does not decide where it
       if (t >= 15 * cycle) apart = std::max(apart, apart_now);
     }
     CHECK(first > 0.3 * bent);
-    // They are apart by as much until one of them snaps over, in the tenth cycle. From then on an eighth is left in each.
+    // Their distance remains until one of them snaps over, in the tenth cycle. From then on each cycle leaves an eighth of it.
     CHECK(apart < 1e-3 * bent);
     CHECK(one.restless() + other.restless() == 0);
   }
@@ -291,8 +289,8 @@ TEST_CASE("a random winding takes the slack of its ring and is held at both clam
   CHECK(taken == Approx(slack));
   CHECK(turn.front() == 0);
   CHECK(turn.back() == 0);
-  const double steepest = std::sqrt(2 * slack) / radius;  // on the mean
-  CHECK(std::abs(turn[1]) / h < 0.2 * steepest);          // first order in h: none at the clamp itself
+  const double steepest = std::sqrt(2 * slack) / radius;  // mean square
+  CHECK(std::abs(turn[1]) / h < 0.2 * steepest);          // first order in h: zero at the clamp itself
   CHECK(random_winding(nodes, length, radius, slack, 6) != turn);
   CHECK(random_winding(nodes, length, radius, 0, 5) == std::vector<double>(nodes, 0.0));
 }
@@ -330,7 +328,7 @@ TEST_CASE("a start that is turned or mirrored comes to a rest that is turned or 
     }
   CHECK(moved > 0.01);
   constexpr double at_rest =
-      2e-6;  // [m]: ten times what a ring and a cable at rest leave, 1e-5 rad and 1e-7 m
+      2e-6;  // [m]: ten times the residual of a ring and a cable at rest, 1e-5 rad and 1e-7 m
   CHECK(apart_turned < at_rest);
   CHECK(apart_mirrored < at_rest);
 }
@@ -348,18 +346,18 @@ TEST_CASE("cables that go on from others lie where those lie, and with more slac
   for (int t = 50; t < 60; ++t)
     for (LooseCables* const loose : {&one, &same, &slacker}) loose->advance(nodes_at(t), step);
   CHECK(one.apart(same) == 0);
-  CHECK(one.apart(slacker) < 1e-3);  // it has the same slack so far
+  CHECK(one.apart(slacker) < 1e-3);  // both have had the same slack so far
   for (int t = 60; t < 80; ++t) {
     slacker.feed_in(std::min(1.0, 0.01 / 0.012 + (t - 59) * 0.01));
     for (LooseCables* const loose : {&one, &slacker}) loose->advance(nodes_at(t), step);
   }
   for (std::size_t k = 0; k < 10; ++k)
-    CHECK(std::abs(slacker.state(k).strain) < 1e-4);  // nothing pulls or presses
+    CHECK(std::abs(slacker.state(k).strain) < 1e-4);  // no tension and no compression
   CHECK(one.apart(slacker) > 0.01);
 }
 
 TEST_CASE("starts come to the same rests, as often, on two meshes") {
-  // A twist to and fro beside a bend that turns: several cycles of rest. Damage by (change of curvature)^8, in decades.
+  // An alternating twist and a bend that turns: several cycles of rest exist. Damage = (change of curvature)^8, in decades.
   constexpr int cycle = 100, starts = 12;
   std::vector<std::vector<double>> decades;
   for (const std::size_t elements : {64, 128}) {
@@ -392,13 +390,13 @@ TEST_CASE("starts come to the same rests, as often, on two meshes") {
   }
   INFO(mean[0] << " and " << mean[1] << ", errors " << std::sqrt(square[0]) << " and "
                << std::sqrt(square[1]));
-  // Two sampling errors of the difference, beside 2 % of curvature that a coarse mesh misses.
+  // Two sampling errors of the difference, plus 2 % of curvature, the error of the coarse mesh.
   CHECK(std::abs(mean[0] - mean[1]) < 2 * std::sqrt(square[0] + square[1]) + 8 * std::log10(1.02));
   CHECK(square[0] > 0);
 }
 
 TEST_CASE("cables meet what lies around them") {
-  // two rings around a cable on the axis; one cable alone
+  // Two rings around a cable on the axis. One ring consists of a single cable.
   std::vector<LooseCable> cables{signal_cable(0), signal_cable(0.012), signal_cable(-0.012),
                                  signal_cable(0.03)};
   for (LooseCable& cable : cables) cable.radius = 0.005;
@@ -411,7 +409,7 @@ TEST_CASE("cables meet what lies around them") {
   CHECK(cables[3].nearest == Approx(0.022));
   CHECK(cables[3].farthest == Approx(0.035));
   CHECK(cables[3].ring == no_ring);
-  // where they overlap there is no room, and the other way stays open
+  // Overlapping cables have no play, and the other direction stays free.
   std::vector<LooseCable> tight{signal_cable(0.01), signal_cable(-0.01)};
   for (LooseCable& cable : tight) cable.radius = 0.0101;
   fit_in_hose(tight, {0.02, 0.001});
@@ -422,7 +420,7 @@ TEST_CASE("cables meet what lies around them") {
 
 TEST_CASE("where a cable lies depends on none that is worked out beside it") {
   std::vector<LooseCable> cables = ring_of_ten(0.008);
-  for (std::size_t k = 0; k < cables.size(); ++k) {  // unlike each other: some rest long before others
+  for (std::size_t k = 0; k < cables.size(); ++k) {  // different cables: some come to rest long before others
     cables[k].ring = no_ring;
     cables[k].gap = without_limit;
     cables[k].play = 1e-3 * static_cast<double>(k);
@@ -435,7 +433,7 @@ TEST_CASE("where a cable lies depends on none that is worked out beside it") {
     alone.push_back(std::make_unique<LooseCables>(std::vector{cable}, settings));
   for (int t = 0; t <= 40; ++t) {
     const std::vector<HoseNode> nodes = hose(64, [&](double z) { return arm(z, t / 40.0); });
-    // the first sample ends when all of them lie still, so that those that did before go on for a little
+    // The first sample ends when all cables are at rest, so cables that were at rest earlier continue for some iterations.
     together.advance(nodes, step);
     for (std::size_t k = 0; k < cables.size(); ++k) {
       alone[k]->advance(nodes, step);
@@ -465,7 +463,7 @@ TEST_CASE("cables laid in several ways side by side lie as they would alone, to 
   std::vector<std::unique_ptr<LooseCables>> together, alone;
   std::vector<LooseCables*> all;
   for (const double slack :
-       {0.0, 0.002, 0.02}) {  // that pull, that hardly do, that lie in waves: unlike in iterations
+       {0.0, 0.002, 0.02}) {  // in tension, nearly without tension, in waves: different numbers of iterations
     together.push_back(std::make_unique<LooseCables>(ring_of_ten(slack), settings));
     alone.push_back(std::make_unique<LooseCables>(ring_of_ten(slack), settings));
     all.push_back(together.back().get());

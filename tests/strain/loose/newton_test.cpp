@@ -1,4 +1,4 @@
-// The way to rest: first guesses along round walls and whole steps.
+// The path to equilibrium: first guesses along round walls, and full Newton steps.
 #include <array>
 #include <cmath>
 
@@ -16,8 +16,8 @@ namespace {
 
 constexpr double rounding = 1e-14;  // of some products of numbers below 10
 
-/// Node 1 of three after begin(): where a cable at `at` that moves by `way` within a sample begins, in the frame `frame`.
-/// (path, before, place)
+/// Returns (path, before, place) of node 1 of three after begin(), for a cable at `at` whose displacement in the last sample
+/// is `way`, in the frame `frame`.
 std::array<Vector2d, 3> begun(const Vector2d& at, const Vector2d& way, const Vector2d& laid,
                               const Vector2d& frame, bool goes_on = true) {
   constexpr std::size_t nodes = 3;
@@ -49,20 +49,21 @@ std::array<Vector2d, 3> begun(const Vector2d& at, const Vector2d& way, const Vec
 TEST_CASE("the first guess goes on along a round wall, in the frame of the cable") {
   const Vector2d at(3, 4), unturned(1, 0), laid(2, 1);  // 5 from the axis
   const auto guess = [&](const Vector2d& before) { return begun(at, at - before, laid, unturned)[0]; };
-  // As far from the axis as it came from nearer or farther, in the direction of a straight way.
+  // The distance from the axis continues linearly. The direction is that of the straight continuation.
   for (const double distance : {4.5, 5.0, 5.3}) {
     const Vector2d before = distance * Vector2d(std::cos(0.8), std::sin(0.8)), straight = 2 * at - before;
     const Vector2d found = guess(before);
     CHECK(found.norm() == Approx(2 * 5 - distance).epsilon(rounding));
     CHECK(found.normalized().dot(straight.normalized()) == Approx(1).epsilon(rounding));
   }
-  // Past the axis the way is straight: it ends nearer to the axis than half the distance, or the distance would be negative.
+  // The guess is the straight continuation if this ends nearer to the axis than half the distance, or if the linear
+  // distance would be negative.
   CHECK((guess({4, 6.8}) - Vector2d(2, 1.2)).norm() < rounding * 5);
   CHECK((guess({-8, 7}) - Vector2d(14, 1)).norm() < rounding * 14);
-  // A cable at rest stays where it is, and so does one that begins.
+  // A cable at rest stays at its place. A cable that begins also stays.
   CHECK((guess(at) - at).norm() < rounding * 5);
   CHECK(begun(at, {1, 1}, laid, unturned, false)[0] == at);
-  // All of it turns with the frame.
+  // The whole guess turns with the frame.
   const Vector2d frame(0.8, 0.6);
   const auto plain = begun(at, {-0.4, 0.3}, laid, unturned), in_frame = begun(at, {-0.4, 0.3}, laid, frame);
   CHECK(plain[1] == at);
@@ -71,9 +72,9 @@ TEST_CASE("the first guess goes on along a round wall, in the frame of the cable
 }
 
 TEST_CASE("steps of at most a millimetre are taken whole, and longer ones stop where nodes meet a wall") {
-  // Without stiffness each node moves by itself: by m w / drag, and against the wall by m w / (drag + stiffness of the wall)
-  // beyond it. Whole steps find the wall, then the place in it, then that it rests: three. The wall is at another share of
-  // each node's way, so shorter steps need more.
+  // Without stiffness each node moves alone: by m w / drag in free space, and by m w / (drag + stiffness of the wall) inside the
+  // wall. Full steps find the wall, then the place in it, then that the node is at rest: three. The wall is at a different
+  // share of each node's displacement, so shorter steps need more iterations.
   constexpr double step = 0.04, room = 1e-4;
   const auto iterations = [&](double longest_way) {
     LooseCable cable = signal_cable(0.01);

@@ -8,11 +8,11 @@ namespace {
 
 using Eigen::Matrix3d, Eigen::Quaterniond, Eigen::Vector2d, Eigen::Vector3d;
 
-constexpr int pieces = 800;   // of the axis: its frames turn by 1e-3 rad each
-constexpr double h = 1;       // [s]; only masses over its square count
-constexpr double drag = 3e3;  // of a step's way [N/m2]: steps stay below the room between cables
+constexpr int pieces = 800;   // of the axis; its frames turn by 1e-3 rad in each
+constexpr double h = 1;       // [s]; only mass / h^2 matters
+constexpr double drag = 3e3;  // per displacement in a step [N/m2]; steps stay below the gap between cables
 constexpr double spin =
-    300;  // the same against turning, per length [N]: half the pull, which ODE's springs turn with
+    300;  // drag against rotation, per length [N]: half the tension with which ODE's springs rotate
 
 Quaterniond turned_by(const Vector3d& angle) {
   return Quaterniond(
@@ -81,7 +81,7 @@ OdeCables::~OdeCables() {
   dThreadingFreeImplementation(threading_);
 }
 
-/// Length of which a link between segments stands for: at the clamps as Gregory's end correction has it.
+/// Returns the length that a link between segments represents; at the clamps with Gregory's end correction.
 double OdeCables::spring_length(int j) const {
   return l_ * (j == 0 || j == segments_ ? 5.0 / 12 : j == 1 || j == segments_ - 1 ? 13.0 / 12 : 1.0);
 }
@@ -154,7 +154,7 @@ void OdeCables::clamp(const Chain& chain, const HoseCurve& hose) {
   }
 }
 
-/// The links' rotation vectors as the angles of their motors (of body 1 against body 2, hence the sign).
+/// Sets the links' rotation vectors as the angles of their motors (of body 1 against body 2, hence the sign).
 void OdeCables::bend(const Chain& chain) {
   for (int j = 0; j <= segments_; ++j) {
     const Vector3d phi = turn(chain, j);
@@ -166,7 +166,7 @@ void OdeCables::bend(const Chain& chain) {
   }
 }
 
-/// A soft, smooth contact at the middle of a segment; normal: out of what it touches.
+/// Adds a soft, smooth contact at the middle of a segment. normal: outward from the touched body.
 void OdeCables::push(const Chain& chain, int segment, const Vector3d& normal, double depth) {
   const Vector3d at = position(chain.bodies[segment]);
   dContact contact{};
@@ -182,11 +182,11 @@ void OdeCables::push(const Chain& chain, int segment, const Vector3d& normal, do
   dJointAttach(dJointCreateContact(world_, contacts_, &contact), chain.bodies[segment], nullptr);
 }
 
-/// Wall, core, play, and other cables. Between two cables stands a wall half way, where it stood before the
-/// step.
+/// Adds the contacts with wall, core, limits of play and other cables. Between two cables the contact is with the plane
+/// halfway between them at the start of the step.
 void OdeCables::meet(const HoseCurve& hose) {
-  // A little before they touch: a contact joint only pushes, and one not there for a step would be jumped
-  // over.
+  // Contacts are added a little before the bodies touch. A contact joint only pushes, and without it in one step a
+  // body could jump over the plane.
   constexpr double margin = 1e-4;
   for (const Chain& chain : chains_)
     for (int i = 1; i <= segments_; ++i) {

@@ -1,12 +1,11 @@
-// An independent engine for cables in a hose: chains of rigid segments in space, held together by ODE's own
-// ball joints and motors, stopped by ODE's own contact joints, solved by ODE's own step.
+// An independent model of cables in a hose: chains of rigid segments in space. ODE's own ball joints and motors hold them
+// together, ODE's own contact joints stop them, and ODE's own step solves the equations.
 //
-// Nothing is reduced to a hose's cross-section: the hose is a tube around a curve that is put together from
-// its curvature and twist, a cable is a chain whose ends are clamped in the frames of the tube's ends. Ball
-// joints are springs of E A / l, motors springs of E I / l and G J / l (of the rotation vector), walls give
-// with the same stiffness per length as in strain/loose. In place of inertia every step starts from rest:
-// with masses over h^2 as a drag, a step is one of backward Euler down the energy, and where nothing moves
-// any more is where cables rest.
+// The model is not reduced to a hose's cross-section. The hose is a tube around a curve, which is integrated from its
+// curvature and twist. A cable is a chain whose ends are clamped in the frames of the tube's ends. Ball joints are springs
+// of E A / l. Motors are springs of E I / l and G J / l (of the rotation vector). Walls yield with the same stiffness per
+// length as in strain/loose. There is no inertia: every step starts from rest. With masses / h^2 as a drag, one step is a
+// backward Euler step down the energy. Cables are at rest where no segment moves any more.
 #pragma once
 
 #include <ode/ode.h>
@@ -29,7 +28,7 @@ class HoseCurve {
     Eigen::Matrix3d axes;
   };
   Frame end(bool tool) const { return tool ? frames_.back() : frames_.front(); }
-  /// Where the plane across the axis goes through a point; near: share of the length to look from.
+  /// Returns the frame of the axis whose normal plane contains `point`. near: where the search starts, share of the length.
   Frame beside(const Eigen::Vector3d& point, double near) const;
 
  private:
@@ -37,25 +36,25 @@ class HoseCurve {
   std::vector<Frame> frames_;
 };
 
-/// Where a chain's segments are in the hose's cross-section, and how they bend.
+/// Positions of a chain's segments in the hose's cross-section, and their bending.
 struct OdeState {
   std::vector<Eigen::Vector2d> place;      ///< (segment) toward d1 and d2 [m]
   std::vector<Eigen::Vector2d> curvature;  ///< (inner link) about the hose's d1 and d2 [1/m]
-  double strain = 0;                       ///< mean of the joints' gaps over the length of their segments
+  double strain = 0;                       ///< mean over the joints of gap / length of the joint's segments
 };
 
 class OdeCables {
  public:
-  /// cables: their places, stiffnesses, contact stiffness and play (without_limit: none) count. twisting: G J
-  /// over E I. section: the wall and what fills the middle, for those without play.
+  /// cables: only their places, stiffnesses, contact stiffness and play (without_limit: none) are used. twisting: G J / (E I).
+  /// inner_radius, core_radius: the wall and the core, for cables without a limit of play [m].
   OdeCables(const std::vector<LooseCable>& cables, double length, int segments, double twisting,
             double inner_radius, double core_radius);
   ~OdeCables();
   OdeCables(const OdeCables&) = delete;
   OdeCables& operator=(const OdeCables&) = delete;
 
-  /// Takes the hose to its next shape and lets cables follow for some steps; returns the last step's largest
-  /// way [m].
+  /// Moves the hose to its next shape and lets the cables follow for `steps` steps. Returns the largest displacement in the
+  /// last step [m].
   double follow(const HoseCurve& hose, const std::function<HoseNode(double)>& nodes, int steps);
   OdeState state(std::size_t cable, const HoseCurve& hose) const;
 

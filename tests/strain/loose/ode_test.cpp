@@ -1,10 +1,9 @@
-// Loose cables against chains of ODE's own bodies and joints in a hose in space (ode_cables.h), both moved
-// slowly.
+// Loose cables against chains of ODE's own bodies and joints in a hose in space (ode_cables.h), both under slow motion.
 //
-// What may differ: chains of 32 segments are polygons of a quarter of a radian in all (place within a
-// segment's sag, l^2 kappa / 8 = 0.2 mm); the reduced model has bending and stretch to first order in the
-// distance from the axis over the bend's radius (2 %), and no torsion of the cables, which the first test
-// measures. Walls give alike in both.
+// Expected differences: chains of 32 segments are polygons, which turn by a quarter of a radian in all (error of position:
+// the sag of a segment, l^2 kappa / 8 = 0.2 mm). The reduced model has bending and stretch to first order in the distance
+// from the axis divided by the bend's radius (2 %), and no torsion of the cables, which the first test measures. Walls
+// yield equally in both.
 #include <cmath>
 
 #include "pipeline/base/constants.h"
@@ -25,7 +24,7 @@ constexpr int segments = 32, poses = 10;
 
 using Motion = std::function<HoseNode(double along, double share)>;
 
-/// At a place between the nodes.
+/// Interpolates nodal values linearly. along: share of the length.
 Eigen::Vector2d between(const std::vector<double>& nodes, double along) {
   const double at = along * elements;
   const auto low = std::min(static_cast<std::size_t>(at), elements - 1);
@@ -40,7 +39,7 @@ struct Comparison {
   double curvature = 0, largest_curvature = 0;  ///< root of the mean square difference, largest value [1/m]
 };
 
-/// Of the last pose. twisting: G J over E I of the chains.
+/// Returns the comparison at the last pose. twisting: G J / (E I) of the chains.
 std::vector<Comparison> compare(const std::vector<LooseCable>& cables, double inner_radius,
                                 double core_radius, double twisting, const Motion& motion) {
   OdeCables ode(cables, length, segments, twisting, inner_radius, core_radius);
@@ -49,7 +48,7 @@ std::vector<Comparison> compare(const std::vector<LooseCable>& cables, double in
     const auto at = [&](double z) { return motion(z, static_cast<double>(t) / poses); };
     const double moved = ode.follow(HoseCurve(length, at), at, t < poses ? 30 : 200);
     for (int k = 0; k < 20; ++k) loose.advance(hose(elements, at), 10);
-    if (t == poses) REQUIRE(moved < 1e-6);  // at rest: [m] a step
+    if (t == poses) REQUIRE(moved < 1e-6);  // [m] per step: at rest
   }
   const HoseCurve curve(length, [&](double z) { return motion(z, 1); });
   std::vector<Comparison> all;
@@ -71,12 +70,12 @@ std::vector<Comparison> compare(const std::vector<LooseCable>& cables, double in
     c.curvature = std::sqrt(c.curvature);
     INFO("cable " << k << ": strain " << c.strain << ", " << c.ode_strain << "; place " << c.place << " of "
                   << c.offset << "; curvature " << c.curvature << " of " << c.largest_curvature);
-    CHECK(c.offset > 1e-3);  // it lies elsewhere than at its place
+    CHECK(c.offset > 1e-3);  // the cable has moved away from its place
   }
   return all;
 }
 
-/// Soft enough for a short hose: what bends it next to a clamp is longer than a chain's segment.
+/// A cable flexible enough for a short hose: its bending length at a clamp is longer than a chain's segment.
 LooseCable thick_cable(double place1, double place2) {
   LooseCable cable = signal_cable(place1, place2);
   cable.axial_stiffness = 1e5;
@@ -100,14 +99,14 @@ Motion swept_bend(double stretch) {
 TEST_CASE("a cable rests where a chain of an independent engine rests") {
   LooseCable cable = thick_cable(0.012, 0.005);
   cable.play = 0.004;
-  const double stretch = GENERATE(0.0, 3e-3);  // pressed, pulled with 90 N
+  const double stretch = GENERATE(0.0, 3e-3);  // compressed; tension of 90 N
   const Comparison slack = compare({cable}, 1, 0, 0.05, swept_bend(stretch))[0];
   CHECK(slack.place < 0.1 * slack.offset);
   CHECK(slack.curvature < 0.04 * slack.largest_curvature);
   CHECK(std::abs(slack.strain - slack.ode_strain) < 2e-5);  // 2 % of the bend at 12 mm would be 3e-4
-  // Torsion of the cable itself, as stiff as that of a solid round, is what the reduced model leaves out.
-  // 0.48 N m at 1.5 1/m push a third as hard as its weight of 1.9 N/m, and move it by that share of its play;
-  // the strain hardly feels it.
+  // Torsion of the cable itself, here as stiff as a solid round bar, is neglected by the reduced model. 0.48 N m at 1.5 1/m
+  // cause a lateral force of a third of its weight of 1.9 N/m. It moves the cable by this share of its play, and its effect
+  // on the strain is small.
   const Comparison twisted = compare({cable}, 1, 0, 0.8, swept_bend(stretch))[0];
   CHECK(twisted.place < 0.72 / 1.9 * twisted.offset);
   CHECK(std::abs(twisted.strain - twisted.ode_strain) < 2e-5);
@@ -115,8 +114,8 @@ TEST_CASE("a cable rests where a chain of an independent engine rests") {
 
 TEST_CASE(
     "two cables pressed into the same corner of a hose rest where chains of an independent engine rest") {
-  // The bend's inside pulls both to the wall, and the wall's round against each other. In space they touch in
-  // the plane between them, 0.4 mm of room each; the reduced model stops each after that way along its ring.
+  // The inside of the bend pulls both cables to the wall, and the round wall pushes them against each other. In space they
+  // touch in the plane between them, 0.4 mm from each. The reduced model stops each after this distance along its ring.
   const double ring = 0.01845, inner = 0.0255, core = 0.013, room = 0.0004;
   const double angle = std::asin((0.0053 + room) / ring);
   std::vector<LooseCable> cables{thick_cable(ring * std::cos(angle), -ring * std::sin(angle)),
@@ -127,10 +126,10 @@ TEST_CASE(
     return HoseNode{.curvature2 = 0.5 * share, .elongation = share * (0.5 * ring + 1.5e-3)};
   });
   for (const Comparison& c : all) {
-    // along its ring a place turns with the angle: on the way out to the wall 1.75 mm take it sin(angle)
-    // times that
+    // Along its ring a place turns with the angle. While the cable moves 1.75 mm outward to the wall, this shifts it by
+    // sin(angle) times that.
     CHECK(c.place < 1.2 * 0.00175 * std::sin(angle));
     CHECK(c.curvature < 0.03 * c.largest_curvature);
-    CHECK(c.strain == Approx(c.ode_strain).epsilon(0.05));  // 0.16 mm less way in at 0.5 1/m: 7e-5 of 1.2e-3
+    CHECK(c.strain == Approx(c.ode_strain).epsilon(0.05));  // an error of 0.16 mm in position at 0.5 1/m: 7e-5 of 1.2e-3
   }
 }

@@ -1,4 +1,4 @@
-// Observations that a user may plausibly write wrong: each is refused, or warned of with place, value, limit, cause and remedy.
+// Plausible mistakes in observations: each is refused, or warned of with place, value, limit, cause and remedy.
 #include "pipeline/advise/calibrate/doubtful_rows.h"
 
 #include "pipeline/base/errors.h"

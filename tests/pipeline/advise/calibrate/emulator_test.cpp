@@ -44,9 +44,9 @@ TEST_CASE("emulator: straight on beyond its runs, and never back") {
   const Emulator line = of(1, 0, 2);
   CHECK(at(line, 5) == Approx(6));
   CHECK(at(line, -5) == Approx(-4));
-  const Emulator saturating = of(0, -4, 1);  // 2.5 d - 1.5 d^2, whose top lies at 0.83
+  const Emulator saturating = of(0, -4, 1);  // 2.5 d - 1.5 d^2, with its maximum at 0.83
   CHECK(at(saturating, 1) == Approx(1));
-  CHECK(at(saturating, 3) == Approx(1));         // level, not down again
+  CHECK(at(saturating, 3) == Approx(1));         // constant beyond the maximum
   CHECK(at(saturating, -2) == Approx(-9.5));     // slope 5.5 at -1
   CHECK(at(of(0, -8, 1), -2) == Approx(-19.5));  // 4.5 d - 3.5 d^2: slope 11.5 there
 }

@@ -1,4 +1,4 @@
-// Laws of kinks, wear and bending beside published tests: verdicts, mistakes in the file, and the shipped file.
+// Laws of kinks, wear and bending against published tests: verdicts, mistakes in the file, and the shipped file.
 #include "pipeline/advise/calibrate/law_tests.h"
 
 #include <cmath>
@@ -33,7 +33,7 @@ TEST_CASE("law tests: a tube's radii are judged by what they say") {
   tube.kinks_at = kink.low / 2;
   CHECK(verdict_of(of_tube(tube), kink) == "MISS: too large by 2.0");
   tube.kinks_at.reset();
-  tube.allowed_at = kink.high * 2;  // a maker's limit only bounds from above
+  tube.allowed_at = kink.high * 2;  // a maker's limit is only an upper bound of the kink's radius
   CHECK(verdict_of(of_tube(tube), kink) == "agrees");
   tube.allowed_at = kink.median * 0.9;
   CHECK(verdict_of(of_tube(tube), kink) == "open");
@@ -86,7 +86,7 @@ TEST_CASE("law tests: a bent cable, whose friction alone is uncertain") {
                          wire + (friction == "none" ? "" : ", " + strand) + "]}, curvature_1_per_m: 3, moment_mNm: " + moment + "}}\n"))
         .front();
   };
-  // One wire on the axis in polymer has E I alone.
+  // One wire on the axis in polymer has only E I.
   const auto second_moment = [](double radius) { return std::acos(-1.0) / 4 * std::pow(radius, 4); };
   const LawTest straight = test_of("none", "1");
   const double E = straight.bending->cable.materials.at(0).youngs_modulus;
@@ -95,7 +95,7 @@ TEST_CASE("law tests: a bent cable, whose friction alone is uncertain") {
   CHECK(predicted(straight).high == Approx(moment).epsilon(1e-6));
   CHECK(verdict_of(straight, {1e-3, 1e-3, 1e-3}) == "agrees");
   CHECK(verdict_of(straight, {2e-3, 2e-3, 2e-3}) == "MISS: too large by 2.0");
-  // Sliding wires hold a moment in proportion to the friction: its quantiles are those of the friction.
+  // Sliding wires hold a moment in proportion to the friction, so its quantiles are those of the friction.
   const double none = predicted(test_of("0", "1")).median;
   const LawPrediction rubs = predicted(test_of("0.003", "1"));
   CHECK((rubs.high - none) / (rubs.median - none) == Approx(std::pow(2.2, 1.28155)).epsilon(1e-3));
@@ -112,8 +112,8 @@ TEST_CASE("law tests: the shipped file, with its misses") {
     ++independent;
     if (!verdict.starts_with("MISS")) continue;
     ++misses;
-    // PTFE yields before it is oval, the widest tube is oval later than predicted, a lubricated pair wears less, and bent
-    // cables are stiffer than predicted at 5 1/m and more.
+    // Known exceptions: PTFE yields before it is oval, the widest tube becomes oval later than predicted, a lubricated pair wears
+    // less, and bent cables are stiffer than predicted at 5 1/m and more.
     const bool soft = test.bending && test.bending->curvature >= 5 && verdict.find("too small") != std::string::npos;
     CHECK((soft || test.name.starts_with("zeus_") || test.name == "smc_16x13_oval" || test.name == "pa66_on_pom_ptfe"));
   }

@@ -19,9 +19,9 @@ using namespace dresslife::pipeline;
 
 namespace {
 
-constexpr double decile = 1.2815515655446004;  // of a normal distribution, in its deviations
+constexpr double decile = 1.2815515655446004;  // of a normal distribution, in deviations
 
-/// The job of a row.
+/// Returns the job of a row.
 std::string indented_job() {
   std::string text, line;
   for (std::istringstream lines(sample_job); std::getline(lines, line);)
@@ -39,7 +39,7 @@ struct Made {
     round.emplace(tests, std::vector<std::string>{}, "round", Eigen::VectorXd::Constant(uncertain_count, centre),
                   Eigen::VectorXd::Constant(uncertain_count, 0.5));
   }
-  /// A row of the only job: half have failed after `median` hours, and the deviation of ln life is `spread`.
+  /// Returns a row of the only job: half have failed after `median` hours; the deviation of ln life is `spread`.
   RankingRow row(double median, double spread) const {
     RankingRow made;
     made.job = round->study().jobs.at(0).name;
@@ -67,7 +67,7 @@ TEST_CASE("learned: a life without a response is that of its row, with the sprea
     CHECK(life.log_median == Approx(std::log(500)));
     CHECK(life.spread == Approx(spread));
   }
-  // 36 s per repeat, two cycles each: 200 cycles per hour.
+  // 36 s per repeat with two cycles: 200 cycles per hour.
   const Made cycles("    cycles: 300\n    cycles_per_repeat: 2\n");
   const auto made = emulate(cycles.tests, *cycles.round, {cycles.row(500, 0.4)}, places);
   CHECK(made[0].life->variants[0](Eigen::VectorXd::Zero(uncertain_count)).log_median ==
@@ -77,7 +77,7 @@ TEST_CASE("learned: a life without a response is that of its row, with the sprea
 TEST_CASE("learned: the response of a row counts from the parameters that the row was computed at") {
   LifeResponse bent = straight_response(0.1, 0.2, 0.3);
   for (std::size_t k = 0; k < bent.worst_life.size(); ++k)
-    if (k % bent.strength.size() == 0) bent.worst_life[k] -= 0.5;  // steeper where the wires are weaker
+    if (k % bent.strength.size() == 0) bent.worst_life[k] -= 0.5;  // steeper for weaker wires
   std::vector<LifeAt> lives;
   for (const double centre : {0.0, 0.25, 1.0}) {
     const Made made("    hours: 300\n", centre, true);
@@ -142,21 +142,21 @@ TEST_CASE(
   CHECK(surprise_of(200, ObservedEnd::broken) == 0);
   CHECK(surprise_of(50, ObservedEnd::broken) == Approx(2 * decile));
   CHECK(surprise_of(3200, ObservedEnd::broken) == Approx(2 * decile));
-  CHECK(surprise_of(50, ObservedEnd::run_out) == 0);  // it may live as long as predicted
+  CHECK(surprise_of(50, ObservedEnd::run_out) == 0);  // a run-out agrees with any longer life
   CHECK(surprise_of(3200, ObservedEnd::run_out) == Approx(2 * decile));
   CHECK(surprise_of(50, ObservedEnd::broken_by) == Approx(2 * decile));
-  CHECK(surprise_of(3200, ObservedEnd::broken_by) == 0);  // it may have broken long before
+  CHECK(surprise_of(3200, ObservedEnd::broken_by) == 0);  // a break found late agrees with any earlier break
   test.before[2] = std::numeric_limits<double>::infinity();
   CHECK(surprise_of(50, ObservedEnd::broken) == 0);
   test.before[2] = 800;
   test.observation = {};
   test.observation.stiffness = 1;
-  CHECK(surprise(test) == 0);  // of a measured 0 there is no logarithm
+  CHECK(surprise(test) == 0);  // a measured 0 has no logarithm
 }
 
 TEST_CASE("learned: hoses that had not cracked move the strength of their wall as the closed form says") {
-  // One hose that lived until ln life = 9; ln median life = 8 + 2 z, deviation 0.5. With c = 2/0.5 and b = (8 - 9)/0.5 the
-  // likelihood is Phi(b + c z), and with q = b/sqrt(1 + c^2) the mean of z is c/sqrt(1 + c^2) phi(q)/Phi(q).
+  // One hose survived until ln life = 9; ln median life = 8 + 2 z, deviation 0.5. With c = 2/0.5 and b = (8 - 9)/0.5 the
+  // likelihood is Phi(b + c z). With q = b/sqrt(1 + c^2) the mean of z is c/sqrt(1 + c^2) phi(q)/Phi(q).
   EmulatedTest hose;
   hose.walls["wall"].service = {{9, false, 1}};
   hose.walls["wall"].variants = {[](const Eigen::VectorXd& z) { return LifeAt{8 + 2 * z[index_of(Uncertain::strength)], 0.5}; }};
@@ -191,21 +191,21 @@ TEST_CASE("learned: a life says of the hoses' walls that they lived at least as 
   CHECK_FALSE(lived.service[0].failed);
   Eigen::VectorXd stronger = Eigen::VectorXd::Zero(uncertain_count);
   stronger[index_of(Uncertain::strength)] = 1;
-  // 1e5 repeats of 36 s; a deviation is 1.5 decades. The factor of the motion is 1 in the median of its values.
+  // 1e5 repeats of 36 s; a deviation is 1.5 decades. The median factor of the motion is 1.
   double median = 0;
   for (const LifeVariant& each : lived.variants) {
     median += each(Eigen::VectorXd::Zero(uncertain_count)).log_median / double(lived.variants.size());
     CHECK(each(stronger).log_median - each(Eigen::VectorXd::Zero(uncertain_count)).log_median == Approx(1.5 * std::log(10)));
   }
   CHECK(median == Approx(std::log(1e5 * 36 / 3600)));
-  // Of a plant: one that failed by its wires, and one that was put in before the records began.
+  // Records of a plant: one failed by its wires; one was installed before the records began.
   Made plant("    hours: 300\n");
   plant.tests[0].observation.service = {{200, 0, true}, {300, 100, false}};
   plant.round.emplace(plant.tests, std::vector<std::string>{}, "round", Eigen::VectorXd::Zero(uncertain_count),
                       Eigen::VectorXd::Ones(uncertain_count));
   const auto service = walls_of(plant).at(wall.material).service;
   REQUIRE(service.size() == 3);
-  constexpr double within = 0.025;  // ages are put together within 5 %
+  constexpr double within = 0.025;  // ages are grouped within 5 %
   for (const auto& [k, hours, count] : {std::tuple{0u, 100.0, -1}, std::tuple{1u, 200.0, 1}, std::tuple{2u, 300.0, 1}}) {
     CHECK(service[k].log_age == Approx(std::log(hours)).margin(within));
     CHECK(service[k].count == count);
@@ -214,11 +214,11 @@ TEST_CASE("learned: a life says of the hoses' walls that they lived at least as 
   Made rated("    hours: 300\n    outcome: rating\n");
   CHECK(walls_of(rated).empty());
   Made below("    hours: 300\n    outcome: broken_by\n");
-  CHECK(walls_of(below).empty());  // the wires failed before, and of the hose nothing is known
+  CHECK(walls_of(below).empty());  // the wires failed first, so there is no information about the hose
 }
 
 TEST_CASE("learned: failures of a plant are as likely as Poisson's numbers, and those in use reach their ages as often as new ones") {
-  // Lives of a known median and deviation of ln: one failed, two live, one of them since before the records.
+  // Lives with known median and deviation of ln: one failed, two survive, one of them installed before the records began.
   constexpr double median = 1000, spread = 0.8;
   const std::vector<ServiceRecord> records{{800, 0, true}, {1500, 0, false}, {3000, 2000, false}};
   const auto alive = [&](double hours) { return normal_share(std::log(median / hours) / spread); };
@@ -229,6 +229,6 @@ TEST_CASE("learned: failures of a plant are as likely as Poisson's numbers, and 
   const double mean = -std::log(alive(800) * alive(1500) * alive(3000) / alive(2000));
   CHECK(chance.few == Approx(std::exp(-mean) * (1 + mean)).epsilon(1e-9));
   CHECK(chance.many == Approx(1 - std::exp(-mean)).epsilon(1e-9));
-  CHECK(chance.reach == Approx(alive(2000)).epsilon(0.06));  // ages of a bin differ by 2.5 %, S by 2.3 times as much
+  CHECK(chance.reach == Approx(alive(2000)).epsilon(0.06));  // ages in a group differ by 2.5 %, S by 2.3 times as much
   CHECK(service_chance(life, {{3000, 0, false}}, Eigen::MatrixXd::Zero(1, uncertain_count)).reach == 1);
 }

@@ -31,7 +31,7 @@ TEST_CASE("likelihood: one specimen that broke, that has not, and that had by th
 TEST_CASE("likelihood: the unshared spread of one specimen widens run-outs and upper bounds, too") {
   for (const auto& [end, sign] : {std::pair{LifeEnd::at_least, 1}, std::pair{LifeEnd::at_most, -1}}) {
     ObservedLife one = life(end, 2, 2.3, 0.4);
-    one.unshared_spread = 0.3;  // with 0.4 a spread of 0.5
+    one.unshared_spread = 0.3;  // together with 0.4 a spread of 0.5
     CHECK(value(one) == Approx(log_normal_share(sign * 0.6)));
   }
 }
@@ -42,7 +42,7 @@ TEST_CASE("likelihood: several specimens share what their spool does to them") {
   ObservedLife one_fate = apart;
   one_fate.common_share = 1;
   CHECK(value(one_fate) == Approx(log_normal_share(0.6)));
-  // Two that correlate by rho are both above their median in 1/4 + asin(rho)/(2 pi) of all cases.
+  // Two lives with correlation rho are both above their median in 1/4 + asin(rho)/(2 pi) of all cases.
   for (const double shared : {0.1, 0.5, 0.9}) {
     ObservedLife two = life(LifeEnd::at_least, 2, 2, 0.4, 2);
     two.common_share = shared;
@@ -64,7 +64,7 @@ TEST_CASE("likelihood: what is not known of a test counts each way alike") {
 }
 
 TEST_CASE("likelihood: dresspacks in service are mixtures, and those of before the records count from their age then") {
-  // Two kinds of dresspacks, alike frequent.
+  // Two kinds of dresspacks with equal frequency.
   ObservedLife service;
   service.variants = {[](const VectorXd&) { return LifeAt{1, 0.5}; }, [](const VectorXd&) { return LifeAt{3, 1}; }};
   const auto lives = [](double x) { return (normal_share((1 - x) / 0.5) + normal_share(3 - x)) / 2; };
@@ -73,12 +73,12 @@ TEST_CASE("likelihood: dresspacks in service are mixtures, and those of before t
     service.service = std::move(factors);
     return value(service);
   };
-  constexpr double table = 1e-6, rounding = 1e-12;  // shares from a table are off by 3e-8
+  constexpr double table = 1e-6, rounding = 1e-12;  // shares from a table have an error of 3e-8
   CHECK(of({{2, true}}) == Approx(std::log(density(2))).epsilon(table));
   CHECK(of({{2, false}}) == Approx(std::log(lives(2))).epsilon(table));
   CHECK(of({{2, true}, {1.5, false, -1}}) == Approx(std::log(density(2) / lives(1.5))).epsilon(table));
   CHECK(of({{2, false, 3}, {1.5, false, -3}}) == Approx(3 * std::log(lives(2) / lives(1.5))).epsilon(table));
-  // Where the shares underflow the later kind alone is left.
+  // Where the shares underflow, only the kind with later failures contributes.
   CHECK(of({{50, false}}) == Approx(log_normal_share(-47) - std::log(2)).epsilon(rounding));
   CHECK(of({{50, true}}) == Approx(-47.0 * 47 / 2 - std::log(2 * std::numbers::pi) / 2 - std::log(2)).epsilon(rounding));
 }

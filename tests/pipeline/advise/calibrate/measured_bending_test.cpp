@@ -11,7 +11,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// A bar of sliders, moved step by step: what Masing's rule must say of it.
+/// A bar of sliders, moved step by step: a reference for Masing's rule.
 class Sliders {
  public:
   double move(double curvature) {
@@ -83,8 +83,7 @@ TEST_CASE("bending: a decrement by slip is what a swing of sliders loses, steppe
     curvatures.push_back(k), moments.push_back(Sliders::first(k));
   constexpr int places = 20;
   for (const double largest : {0.3, 1.0, 3.0}) {
-    // One mode of a clamped bar, unit modal mass: the curvature of its natural form, from the bar's equation
-    // itself.
+    // One mode of a clamped bar with unit modal mass. Its curvature follows from the natural form of the bar's equation.
     std::array<Sliders, places> bar;
     std::array<double, places> form;
     const double beta = 1.875104068711961,
@@ -98,8 +97,8 @@ TEST_CASE("bending: a decrement by slip is what a swing of sliders loses, steppe
       for (int i = 0; i < places; ++i) sum += form[i] * bar[i].move(form[i] * q) / places;
       return sum;
     };
-    // Bent once to and fro by hand, so that every slider is on its closed loop, then let go: to the next turn
-    // but one.
+    // The bar is bent once to and fro by hand, so that every slider is on its closed loop. Then it is released until the
+    // second next turning point.
     force(-largest);
     double q = largest, speed = 0, pull = force(q), before = q;
     for (int turns = 0; turns < 2;) {

@@ -1,4 +1,4 @@
-// Observations: what a table may hold, the variants of what is not known, and how a prediction is judged.
+// Observations: entries of a table, variants of unknown settings, and verdicts on a prediction.
 #include "pipeline/advise/calibrate/observations.h"
 
 #include <unistd.h>
@@ -102,7 +102,7 @@ TEST_CASE("observations: lives in the observer's unit, over all variants that ra
   Observation observation;
   observation.cycles = 100, observation.cycles_per_repeat = 3;
   observation.jobs = {0, 1, 2, 3};
-  // Two repeats in an hour, three cycles in a repeat.
+  // Two repeats per hour, three cycles per repeat.
   CHECK(lives_of(observation, rows[0]) == std::array<double, 3>{240, 480, 720});
   observation.criterion = FailureCriterion::first_wire;
   CHECK(lives_of(observation, rows[0]) == std::array<double, 3>{120, 240, 360});

@@ -15,11 +15,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Draws are worth some 1,500 independent ones at least: a mean is good to 0.026, a spread to 2 %; three
-/// times that.
+/// The samples are worth at least 1,500 independent ones: the error of a mean is 0.026, of a spread 2 %. Three times that.
 constexpr double of_mean = 0.09, of_spread = 0.06;
 
-/// ln life that grows by `slope` along the axes.
+/// ln life that increases by `slope` along the axes.
 Emulator straight(double value, const VectorXd& slope) {
   const VectorXd none = VectorXd::Zero(slope.size()), same = VectorXd::Constant(slope.size(), value);
   return {none, VectorXd::Ones(slope.size()), value, same - slope, same + slope};
@@ -52,7 +51,7 @@ TEST_CASE("posterior: without data it is the prior") {
 }
 
 TEST_CASE("posterior: how far chains disagree and what draws are worth, of numbers with closed forms") {
-  // Eight halves of +-1, one after the other, half of them shifted by 1: within 8/7, between 2/7; batches of one draw.
+  // Eight halves of +-1 in sequence, half of them shifted by 1: within 8/7, between 2/7; batches of one sample.
   Posterior posterior;
   posterior.draws.resize(64, 1);
   for (Index k = 0; k < 64; ++k) posterior.draws(k, 0) = (k % 2 ? 1 : -1) + (k < 32 ? 0 : 1);
@@ -62,7 +61,7 @@ TEST_CASE("posterior: how far chains disagree and what draws are worth, of numbe
 }
 
 TEST_CASE("posterior: lives that broke, under a straight model, have a closed form") {
-  // Precision I + sum of slope slope'/s^2.
+  // Precision: I + sum of slope slope'/s^2.
   std::mt19937 random(5);
   std::normal_distribution<double> number;
   for (const int rows : {1, 2, 6}) {
@@ -92,8 +91,8 @@ TEST_CASE("posterior: lives that broke, under a straight model, have a closed fo
 }
 
 TEST_CASE("posterior: of run-outs alone the draws tell, Laplace does not") {
-  // z ~ N(0, 1), likelihood Phi((a + b z)/s): mean b/S phi(a/S)/Phi(a/S), S^2 = s^2 + b^2 (extended
-  // skew-normal); variance 1 - (b/S)^2 r (r + a/S), r = phi/Phi.
+  // z ~ N(0, 1), likelihood Phi((a + b z)/s): mean b/S phi(a/S)/Phi(a/S), S^2 = s^2 + b^2 (extended skew-normal); variance
+  // 1 - (b/S)^2 r (r + a/S), r = phi/Phi.
   const double b = 1.5, s = 0.3;
   double worst = 0;
   for (const double a : {2.0, 0.0, -2.0, -5.0}) {
@@ -111,8 +110,7 @@ TEST_CASE("posterior: of run-outs alone the draws tell, Laplace does not") {
 }
 
 TEST_CASE("posterior: run-outs never shorten a life, and longer ones lengthen it") {
-  // A likelihood that grows with the life that was tried tilts any prior to longer ones; by sums over a
-  // plane, of bent models as well.
+  // A likelihood that increases with the life moves any prior to longer lives. Reference: sums over a plane; also bent models.
   std::mt19937 random(11);
   std::uniform_real_distribution<double> number(-1, 1);
   for (int trial = 0; trial < 40; ++trial) {
@@ -123,7 +121,7 @@ TEST_CASE("posterior: run-outs never shorten a life, and longer ones lengthen it
     row.specimens = 1 + trial % 3;
     row.common_share = trial % 2 ? 0.5 : 0;
     double before = -1e9;
-    for (const double observed : {-1e6, -3.0, -1.0, 0.0, 1.0, 3.0}) {  // the first says nothing
+    for (const double observed : {-1e6, -3.0, -1.0, 0.0, 1.0, 3.0}) {  // the first contains no information
       row.log_life = observed;
       const std::vector<LogLikelihood> terms{term(row)};
       double weight = 0, sum = 0;
@@ -141,9 +139,8 @@ TEST_CASE("posterior: run-outs never shorten a life, and longer ones lengthen it
 }
 
 TEST_CASE("posterior: true parameters lie in the 80 % interval as often as they should") {
-  // Three parameters from the prior, four rows that the model makes: two that broke, two that were ended at a
-  // limit; another life, of a program, is predicted. Of 400 such trials 80 % with a deviation of 2 %; 75 ..
-  // 85 is 2.5 of them.
+  // Three parameters from the prior, four rows simulated by the model: two breaks and two run-outs. The life of another program
+  // is predicted. The interval of 80 % has a deviation of 2 % in 400 trials; the bounds of 75 .. 85 are 2.5 deviations.
   std::mt19937 random(17);
   std::normal_distribution<double> number;
   constexpr int trials = 400, axes = 3;

@@ -1,4 +1,4 @@
-// What is learned from dresspacks in service: against integrals, and in simulated plants.
+// Learning from dresspacks in service: against integrals, and in simulated plants.
 #include <cmath>
 #include <random>
 
@@ -15,12 +15,12 @@ using Eigen::VectorXd;
 constexpr double log_median = 8, shift = 0.7, own_spread = 0.5,
                  spread = 0.4;  // ln life: 8 + 0.7 z + 0.5 own + 0.4 scatter
 
-/// ln hours of a dresspack; entry: minus infinite if it was not in use when the records began.
+/// ln hours of a dresspack; entry: at the begin of the records, minus infinite if it was installed later.
 struct Lived {
   double end, entry;
   bool failed;
 };
-/// Mixture over what each dresspack has for itself.
+/// Mixture over the parameters that each dresspack has independently.
 ObservedLife in_service(const std::vector<Lived>& records) {
   ObservedLife life;
   for (const Lived& one : records) {
@@ -66,7 +66,7 @@ Grid learned_from(const std::vector<Lived>& records) {
   return posterior_on_grid([&](double z) { return log_likelihood(life, VectorXd::Constant(1, z)); });
 }
 
-/// One robot after the other until `end`: dresspacks are replaced at failure, or before it. The records begin at `begin`.
+/// Robots until `end`: dresspacks are replaced at failure, or before it. The records begin at `begin`.
 struct Plant {
   double begin, end;
   std::vector<Lived> records;
@@ -76,7 +76,7 @@ Plant simulated(double truth, double begin, double end, std::mt19937& random) {
   std::uniform_real_distribution<double> uniform;
   Plant plant{begin, end, {}};
   constexpr int robots = 8;
-  constexpr double some = 4000;  // of hours: planned replacements, in a third of the dresspacks
+  constexpr double some = 4000;  // [h]: planned replacements, for a third of the dresspacks
   for (int robot = 0; robot < robots; ++robot)
     for (double from = 0; from < end;) {
       const double life =
@@ -94,7 +94,7 @@ Plant simulated(double truth, double begin, double end, std::mt19937& random) {
 }  // namespace
 
 TEST_CASE("in service: the posterior of one shared parameter is that of an independent integral") {
-  // A lognormal life: own and scatter make one normal deviation.
+  // A lognormal life: own and scatter add to one normal deviation.
   const double deviation = std::hypot(own_spread, spread);
   const std::vector<Lived> records{{7.2, -HUGE_VAL, true},
                                    {8.1, 7.5, true},
@@ -116,7 +116,7 @@ TEST_CASE("in service: the posterior of one shared parameter is that of an indep
   const ObservedLife life = in_service(records);
   const Posterior posterior =
       posterior_of({[&](const VectorXd& z) { return log_likelihood(life, z); }}, VectorXd::Zero(1));
-  constexpr double of_mean = 0.09, of_spread = 0.06;  // of draws worth 1,500 (posterior_test.cpp)
+  constexpr double of_mean = 0.09, of_spread = 0.06;  // of samples worth 1,500 (posterior_test.cpp)
   CHECK(posterior.mean[0] == Approx(found.mean).margin(of_mean * found.deviation));
   CHECK(std::sqrt(posterior.covariance(0, 0)) == Approx(found.deviation).epsilon(of_spread));
 }
@@ -130,7 +130,7 @@ TEST_CASE(
   for (int p = 0; p < plants; ++p) {
     const double truth = number(random);
     const Plant plant =
-        simulated(truth, 6000, 9000, random);  // two mean lives before the records begin, one in them
+        simulated(truth, 6000, 9000, random);  // two mean lives before the records begin, one within them
     std::vector<Lived> ignored = plant.records;
     for (Lived& one : ignored) truncated += !std::isinf(one.entry), one.entry = -HUGE_VAL;
     records += double(ignored.size());
@@ -141,7 +141,7 @@ TEST_CASE(
     off_ignored += (learned_from(ignored).mean - truth) / plants;
   }
   CAPTURE(records / plants, truncated / plants, within / plants, off, off_ignored, std::sqrt(chance));
-  // 80 % of 300 with a deviation of 2.3 %; 2.5 of them.
+  // 80 % of 300 with a deviation of 2.3 %; bounds of 2.5 deviations.
   CHECK(within / plants > 0.742);
   CHECK(within / plants < 0.858);
   CHECK(std::abs(off) < 2.5 * std::sqrt(chance));
@@ -182,7 +182,7 @@ TEST_CASE("in service: dresspacks with values of their own live as long as the s
       const LifeAt at = life.at(VectorXd::Zero(uncertain_count), &of);
       failed += normal_share((log_age - at.log_median) / at.spread) / double(values.size());
     }
-    // 64 values in three dimensions, of which one does most: the share is known to about half of sqrt(0.25/64).
+    // 64 values in three dimensions, of which one dominates: the error of the share is about half of sqrt(0.25/64).
     CHECK(failed == Approx(share).margin(0.03));
   }
 }
@@ -203,7 +203,7 @@ TEST_CASE("in service: the damage of several programs adds up in each mode, and 
   const double alone = LifeOverParameters(one, none).log_median_at(zero);
   CHECK(alone == Approx(5 * std::log(10.0)).epsilon(rounding));
   CHECK(LifeOverParameters({{one, 12}, {one, 18}}, none).log_median_at(zero) == Approx(alone - std::log(30.0)).epsilon(rounding));
-  // Mode b under both programs, where each program alone would let another mode fail first.
+  // Mode b fails first under both programs together. Under each program alone another mode would fail first.
   const double a = 20e-5 + 200e-7, b = 20e-6 + 200 * std::pow(10, -5.2);
   REQUIRE(b > a);
   CHECK(LifeOverParameters({{one, 20}, {other, 200}}, none).log_median_at(zero) == Approx(-std::log(b)).epsilon(rounding));

@@ -1,4 +1,4 @@
-// Tables of maintenance systems: usual forms, what counts of them, and refusals at their place.
+// Tables of maintenance systems: usual forms, rows that are counted, and refusals with their place.
 #include "pipeline/advise/calibrate/service_records.h"
 
 #include <unistd.h>
@@ -26,7 +26,7 @@ struct File {
 
 const Day today = *day_from("2026-11-23");
 
-/// since: empty: none. The job has 80 h a week.
+/// Reads a table. since: empty: none. The job has 80 h per week.
 ServiceTests read(const std::string& table, const std::string& since = "", bool with_job = true) {
   const File job(
       "job.yaml",
@@ -69,7 +69,7 @@ TEST_CASE("service records: the same plant in English with commas and in German 
     CHECK(records[0].entry_hours == 0);
     CHECK(records[1].hours == Approx(99 * 70));  // until today
     CHECK_FALSE(records[1].failed);
-    CHECK(records[2].hours == Approx(156 * 80));  // of the job
+    CHECK(records[2].hours == Approx(156 * 80));  // hours per week from the job
     CHECK(records[2].entry_hours == Approx(52 * 80));
     CHECK_FALSE(records[2].failed);
     CHECK(records[3].entry_hours == Approx(52 * 40.5));
@@ -128,7 +128,7 @@ TEST_CASE("service records: what cannot be used is refused at its place, with a 
        "plant.csv:1:26: error: column 'hours in a week' may mean hours_per_week, and is not known", "name it hours_per_week"},
       {"robot,installed,replaced,hours_per_week\nA,2024-02-03,,200\n",
        "plant.csv:2:15: error: hours_per_week is '200'", "hours"}};
-  // One that failed on its first day ends where the next begins: no overlap. The same row twice is one.
+  // A dresspack that failed on its first day ends where the next begins: no overlap. A repeated row counts once.
   const std::string first_day = "A,a,2024-02-03,2024-02-03,failed\n";
   CHECK(refusal(titles + first_day + "A,a,2024-02-03,2025-01-03,failed\nA,a,2025-01-03,,\n") == "read");
   CHECK_THAT(refusal(titles + first_day + first_day), Contains("plant.csv:3:1: error: 'A, a' is in use from 2024-02-03"));
@@ -152,7 +152,7 @@ TEST_CASE("service records: reasons in German, and reasons that two readings exp
     CHECK(of(failed).tests.front().observation.service.front().failed);
   for (const char* removed : {"Präventiv", "planmäßig", "vorbeugend, vor Bruch", "Crash", "Wartung"})
     CHECK_FALSE(of(removed).tests.front().observation.service.front().failed);
-  // A cable that a crash broke; a cable that did not break; worn, and still working or not.
+  // Unclear reasons: a cable broken by a crash, a cable that did not break, worn with or without failure.
   for (const char* unclear : {"Crash, Kabel gebrochen", "collision, cable broke", "nicht defekt", "not broken", "Verschleiß", "getauscht"})
     CHECK_THAT(refusal("robot;installed;replaced;reason\nA;2024-01-01;2025-01-06;" + std::string(unclear) + "\n"),
                Contains("does not say whether the dresspack failed"));

@@ -23,14 +23,14 @@ constexpr Index axes = 3;
 
 double share(Index axis) { return share_between_cables(static_cast<std::size_t>(parameters[static_cast<std::size_t>(axis)])); }
 
-/// At the parameters of these axes, the others 0.
+/// Returns the parameters with values for these axes; the others are 0.
 VectorXd everywhere(const VectorXd& some) {
   VectorXd z = VectorXd::Zero(uncertain_count);
   for (Index i = 0; i < axes; ++i) z[parameters[static_cast<std::size_t>(i)]] = some[i];
   return z;
 }
 
-/// A cable's life that is linear in z: ln life = 8 + slope z, told to last a limit or not to.
+/// Returns the likelihood of a cable whose life is linear in z: ln life = 8 + slope z; it lasted the limit, or did not.
 LogLikelihood told(const VectorXd& slope, double spread, double limit, bool lasted, bool typical) {
   ObservedLife life;
   life.log_life = limit;
@@ -51,7 +51,7 @@ TEST_CASE("typical cables: a parameter's own and common parts make its prior tog
   Posterior posterior = posterior_of(nothing, VectorXd::Zero(axes));
   for (Index i = 0; i < axes; ++i) CHECK(posterior.laplace.covariance(i, i) == Approx(1 - share(i)).epsilon(1e-3));
   add_own_deviations(posterior, parameters);
-  // 48,000 draws, of which the chains are worth a tenth at least: a deviation is known to 1/sqrt(2 4800) = 1 %.
+  // 48,000 samples, of which the chains are worth at least a tenth: the error of a deviation is 1/sqrt(2 4800) = 1 %.
   for (Index i = 0; i < axes; ++i) CHECK(std::sqrt(posterior.covariance(i, i)) == Approx(1).epsilon(0.04));
   CHECK(share(0) > share(1));
   CHECK(share(2) == 0);
@@ -69,8 +69,8 @@ TEST_CASE("typical cables: between cables a life deviates by what differs betwee
 }
 
 TEST_CASE("typical cables: a new cable lies in the 80 % interval as often as it should") {
-  // Seven makers' cables, each with deviations of its own, of which each lasted its limit or not; an eighth is predicted.
-  // Of 400 such trials 80 % with a deviation of 2 %; 75 .. 85 is 2.5 of them.
+  // Seven makers' cables, each with its own deviations. Each lasted its limit or not. An eighth cable is predicted. The interval
+  // of 80 % has a deviation of 2 % in 400 trials; the bounds of 75 .. 85 are 2.5 deviations.
   std::mt19937 random(23);
   std::normal_distribution<double> number;
   constexpr int trials = 400, makers = 7;
@@ -115,7 +115,7 @@ TEST_CASE("typical cables: a new cable lies in the 80 % interval as often as it 
   }
   CHECK(program_within / trials > 0.75);
   CHECK(program_within / trials < 0.85);
-  CHECK(pooled_within / trials < 0.75);  // as if all makers' cables were one
+  CHECK(pooled_within / trials < 0.75);  // with the assumption that all makers' cables are one
 }
 
 TEST_CASE("typical cables: the shipped file was learned from the shipped ratings") {

@@ -1,4 +1,4 @@
-// Jobs without a routing, and dresspacks in another size.
+// Jobs without a routing, and dresspacks of another size.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -21,7 +21,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-/// The folder of a job whose simulation noted these lines of checks.
+/// Returns the folder of a job whose simulation noted these lines of checks.
 std::filesystem::path job_with(const Scratch& scratch, const std::string& checks) {
   const std::filesystem::path output = scratch.write("job/motion.h5", "what the receipt is of"),
                               folder = output.parent_path();
@@ -65,7 +65,7 @@ TEST_CASE("a robot's name is enough for a job, once a routing and a motion are f
   CHECK(draft.job.dresspacks.front().routing.tool_clamp->link == "link_6");
   const std::string motion = "{name: m, source: none, steps: [{joints_deg: [0, -90, 90, 0, 0, 0]}]}";
   const Node as_it_is = routed(draft, found_routing, motion, 1);
-  CHECK(as_it_is.find("robot")->text == "kuka_kr16_2");  // names stay names
+  CHECK(as_it_is.find("robot")->text == "kuka_kr16_2");  // names are not replaced
   CHECK(as_it_is.find("dresspack")->text == "sensor_cable");
   CHECK(job_from(as_it_is).dresspacks.front().routing.free_length == 2.1);
   const Job small = job_from(routed(draft, found_routing, motion, 0.5));
@@ -108,7 +108,7 @@ TEST_CASE("entries of a job stay references in its own folder, and in another on
   CHECK(std::count(lines.begin(), lines.end(), '\n') <= 15);  // robot 1, motion 3, dresspack 1, routing 10
   const auto found = scratch.write("found.yaml", lines);
   CHECK(job_text(read_job(found)) == job_text(job_from(routed(draft, found_routing, "", 1))));
-  // Elsewhere a name of this folder means nothing.
+  // In another folder a name relative to this folder is not valid.
   const auto other =
       scratch.write("other/found.yaml", to_yaml(routed(draft, found_routing, "", 1, scratch / "other")));
   CHECK(read_document(other).find("dresspack")->text == "./../hose.yaml");
@@ -144,7 +144,7 @@ TEST_CASE("the worst of several jobs has the least life and the most of each lim
     failed.failure = other;
     CHECK_THROWS_AS(outcome_of(failed, "nowhere"), MachineFault);
   }
-  RankingRow lost;  // done, it says, but what its simulation noted is gone
+  RankingRow lost;  // its state is done, but its simulation's notes are missing
   lost.planned_hours = {1, 2, 3};
   CHECK_THROWS_AS(outcome_of(lost, "nowhere"), MachineFault);
 }
@@ -175,7 +175,7 @@ TEST_CASE("of a screened candidate the violated limits are named, each with its 
 TEST_CASE("a check counts as passed on the far side of its limit, and as kept on the near side") {
   struct {
     const char* name;
-    double value, limit, beyond;  // its limit alone is passed by that much; 0: kept
+    double value, limit, beyond;  // only its own limit is exceeded, by `beyond`; 0: kept
   } const cases[] = {
       {check_name::bend_radius, 0.2, 0.25, std::log(1.25)},
       {check_name::bend_radius, 0.3, 0.25, 0},
@@ -202,7 +202,7 @@ TEST_CASE("a check counts as passed on the far side of its limit, and as kept on
     const Outcome outcome =
         outcome_of(done, job_with(scratch, fmt::format("{} {} {}\n", one.value, one.limit, one.name)), asked);
     CHECK(outcome.failure == "");
-    CHECK(outcome.violation() == Approx(one.beyond).margin(1e-8));  // a full stroke counts by 1e-9
+    CHECK(outcome.violation() == Approx(one.beyond).margin(1e-8));  // a full stroke counts as 1e-9
   }
 }
 
@@ -223,9 +223,9 @@ TEST_CASE(
   AskedLimits asked;
   asked.where = {"study.yaml", 7};
   CHECK(outcome_of(row, folder, asked).violation() == 0);
-  asked.rating = 1000, asked.wall = 1000;  // the first of several, of the wall the median
+  asked.rating = 1000, asked.wall = 1000;  // the first of several; of the wall the median
   CHECK(outcome_of(row, folder, asked).violation() == Approx(std::log(2.0) + std::log(1000 / 700.0)));
-  asked.rating = 500, asked.wall = 700;  // just kept
+  asked.rating = 500, asked.wall = 700;  // exactly at the limits
   CHECK(outcome_of(row, folder, asked).violation() == 0);
   row.unvalidated.push_back(mode(UnvalidatedMode::jacket, 400, 4000));
   row.unvalidated.push_back(mode(UnvalidatedMode::jacket, 7000, 8000));
@@ -260,7 +260,7 @@ TEST_CASE(
       Catch::StartsWith(
           "study.yaml:7: error: abrasion_life_h is a limit of 'abrasion', which is not evaluated") &&
           Catch::Contains("abrasion, kinks"));
-  row.failure = "too short";  // its own reason is told instead
+  row.failure = "too short";  // then the failure itself is reported
   CHECK_NOTHROW(check_evaluated(asked, row));
 }
 

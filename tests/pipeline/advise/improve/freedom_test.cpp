@@ -25,7 +25,7 @@ VectorXd place_of(std::initializer_list<double> values) {
   std::copy(values.begin(), values.end(), made.data());
   return made;
 }
-/// "KEY=[x, y, z]" without its key.
+/// Returns the vector of "KEY=[x, y, z]".
 Eigen::Vector3d vector_of(const std::string& set) {
   const Node list = parse_yaml(set.substr(set.find('=') + 1), "v");
   return {std::stod(list.items[0].text), std::stod(list.items[1].text), std::stod(list.items[2].text)};
@@ -50,7 +50,7 @@ TEST_CASE(
       std::make_shared<const Job>(read_job(DRESSLIFE_SOURCE_DIR "/config/jobs/irb6640_guided.yaml"));
   const Freedom freedom = Freedom::from(Freedom::usual(*job), {job});
   CHECK(freedom.variables() ==
-        1 + 4 * 5 + 2 + 1);  // length, two clamps, one between and a ring, their lengths, twist
+        1 + 4 * 5 + 2 + 1);  // length, two clamps, one between and a ring, the lengths up to these two, twist
   CHECK(freedom.place_of_job());
 }
 
@@ -107,10 +107,10 @@ TEST_CASE("directions stay in their cone, and the job's own lies in its middle")
   for (double u = 0; u <= 1; u += 0.1)
     for (double v = 0; v <= 1; v += 0.1)
       widest = std::min(widest, vector_of(freedom.sets_at(place_of({u, v})).front()).normalized().dot(own));
-  CHECK(std::acos(widest) * 180 / M_PI == Approx(30).margin(0.02));  // of directions with four decimals
+  CHECK(std::acos(widest) * 180 / M_PI == Approx(30).margin(0.02));  // directions have four decimals
   REQUIRE(freedom.place_of_job());
   CHECK((*freedom.place_of_job() - place_of({0.5, 0.5})).norm() < 1e-9);
-  // There and back.
+  // From the key to the place and back.
   const Freedom about = freed("routing.tool_clamp.direction: 40 deg around [0.9, 0.2, -0.1]");
   REQUIRE(about.place_of_job());
   CHECK((vector_of(about.sets_at(*about.place_of_job()).front()) - own).norm() < 2e-4);

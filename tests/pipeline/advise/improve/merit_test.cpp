@@ -38,7 +38,7 @@ TEST_CASE("outcome: slack beyond its limits counts as a share of the hose's leng
     const std::vector<std::string>& names = outcome_limit_names();
     return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
   };
-  constexpr double length = 1.5;  // [m]; 2 % and a third of it are the limits
+  constexpr double length = 1.5;  // [m]; the limits are 2 % and a third of it
   for (const double missing : {0.004, -0.004})
     CHECK(beyond(check_name::too_short, 0.02 * length - missing, 0.02 * length, place("too short")) ==
           Approx(missing / length));
@@ -47,7 +47,7 @@ TEST_CASE("outcome: slack beyond its limits counts as a share of the hose's leng
 }
 
 TEST_CASE("merit: wires that live longer than the robot gain nothing by wearing the hose through") {
-  // The lives of a search on a handling robot: as it is the hose rubs nowhere.
+  // Lives from a search on a handling robot. In the job as it is, the hose rubs nowhere.
   const Outcome as_it_is = outcome(449000, {{"abrasion", never}, {"jacket wear", 5890}});
   const Outcome rubs = outcome(1940000, {{"abrasion", 25000}, {"jacket wear", 8750}});
   const Outcome gentler = outcome(654000, {{"abrasion", never}, {"jacket wear", 9110}});
@@ -63,7 +63,7 @@ TEST_CASE("merit: wires that live longer than the robot gain nothing by wearing 
   CHECK(worse_modes(rubs, as_it_is).front().mode == "abrasion");
   CHECK(mode_words(rubs) == "jacket wear from 8,750 h, abrasion from 25,000 h");
   CHECK(mode_words(outcome(1, {{"abrasion", 50000}})).empty());
-  // A longer life of the wires alone is no clear gain, neither beyond the robot's life nor up to it.
+  // A longer life of the wires alone is not a clear gain, neither beyond the robot's life nor below it.
   CHECK_FALSE(clearly_better(merit_of(outcome(900000), as_it_is), merit_of(outcome(50000), as_it_is)));
   CHECK(clearly_better(merit_of(outcome(30000), as_it_is), merit_of(outcome(20000), as_it_is)));
   CHECK_FALSE(clearly_better(merit_of(outcome(21000), as_it_is), merit_of(outcome(20000), as_it_is)));
@@ -76,13 +76,13 @@ TEST_CASE(
     return worse_modes(outcome(hours, {{"jacket wear", jacket}, {"abrasion", abrasion}}), as_it_is).size();
   };
   CHECK(worse(1900, 1900, 60000) == 0);   // after the wires
-  CHECK(worse(5000, 1900, 60000) == 0);   // by less than a tenth
-  CHECK(worse(5000, 1800, 60000) == 1);   // by more
-  CHECK(worse(1500, 1600, 60000) == 0);   // worse, but the wires come before
+  CHECK(worse(5000, 1900, 60000) == 0);   // shorter by less than a tenth
+  CHECK(worse(5000, 1800, 60000) == 1);   // shorter by more
+  CHECK(worse(1500, 1600, 60000) == 0);   // shorter, but the wires fail first
   CHECK(worse(90000, 2000, 41000) == 0);  // after the robot
   CHECK(worse(90000, 2000, 39000) == 1);
   CHECK(worse(90000, 1000, 39000) == 2);
-  // Of a job that does not run nothing is known: each mode that comes first counts.
+  // The modes of a job that does not run are unknown: each mode that fails first counts.
   Outcome fails = as_it_is;
   fails.failure = "too short";
   CHECK(worse_modes(outcome(5000, {{"jacket wear", 4000}}), fails).size() == 1);
@@ -97,12 +97,12 @@ TEST_CASE("merit: limits, then modes, then wires, then the first mode, then the 
   fails.failure = "too short";
   const std::vector<Outcome> rising{
       fails,
-      outcome(90000, {}, 0.01),                  // passes a limit
-      outcome(80000, {{"jacket wear", 1000}}),   // a mode gets worse
-      outcome(900, {{"jacket wear", 30000}}),    // keeps all
-      outcome(1000, {{"jacket wear", 1900}}),    // longer
+      outcome(90000, {}, 0.01),                  // exceeds a limit
+      outcome(80000, {{"jacket wear", 1000}}),   // one mode gets worse
+      outcome(900, {{"jacket wear", 30000}}),    // keeps all limits
+      outcome(1000, {{"jacket wear", 1900}}),    // longer life
       outcome(50000, {{"jacket wear", 3000}}),   // outlives the robot
-      outcome(45000, {{"jacket wear", 20000}}),  // so does this one, and its jackets last longer
+      outcome(45000, {{"jacket wear", 20000}}),  // also, and its jackets last longer
       outcome(60000, {{"jacket wear", 70000}}, -0.1),
       outcome(50000, {{"jacket wear", 50000}}, -0.2),  // larger distance to the limit
       outcome(60000, {{"jacket wear", 50000}}, -0.2)};
@@ -127,7 +127,7 @@ TEST_CASE("merit: the value of a search follows the order where all limits are k
     CHECK((search_value(a, as_it_is) < search_value(b, as_it_is)) == (one < other));
   }
   CHECK(compared > 1000);
-  // Finite where nothing fails, no robot moves, or everything fails at once.
+  // Finite if nothing fails, if no robot moves, or if everything fails at once.
   Outcome endless = outcome(never);
   CHECK(std::isfinite(search_value(endless, endless)));
   endless.robot_life = never;

@@ -1,4 +1,4 @@
-// The same targets in other ways, and jobs with one thing off.
+// Other ways to the same targets, and jobs with one deviation.
 #include <Eigen/Geometry>
 #include <set>
 
@@ -45,11 +45,11 @@ TEST_CASE("other ways reach the same poses within the limits") {
         return sets;
       }());
       for (const std::string& set : way.sets) {
-        if (set.find("={repeat: 1, ") != std::string::npos) continue;  // by a point
+        if (set.find("={repeat: 1, ") != std::string::npos) continue;  // inserts a point
         const std::string path = set.substr(0, set.rfind('.', set.find('=')));
         const MotionStep &before = *step_at(job, path), &after = *step_at(changed, path);
         if (before.joints.empty()) continue;
-        constexpr double rounding = 1e-6;  // of angles with six digits
+        constexpr double rounding = 1e-6;  // angles have six digits
         CHECK(pose(job.robot, after.joints).isApprox(pose(job.robot, before.joints), 10 * rounding));
         for (std::size_t k = 0; k < 6; ++k) {
           CHECK(after.joints[k] >= job.robot.joints[k].lower);
@@ -64,7 +64,7 @@ TEST_CASE("other ways reach the same poses within the limits") {
 TEST_CASE("lines that cost most come first, with their numbers") {
   const Job job = shipped("abb_irb6640_185_280", "hard");
   std::vector<double> damage(14, 0.0);
-  damage[5] = 2;  // roll the gun over
+  damage[5] = 2;  // the line 'roll the gun over'
   damage[1] = 1;
   damage[8] = 0.5;  // the check after 'roll it over again'
   std::vector<std::string> lines;
@@ -79,7 +79,7 @@ TEST_CASE("lines that cost most come first, with their numbers") {
 TEST_CASE("a line goes by a point: arm and wrist one after the other, then the line as it was") {
   const Job job = shipped("abb_irb6640_185_280", "hard");
   std::vector<double> damage(14, 0.0);
-  damage[1] = 1;  // the block's first line, before which its last one ends
+  damage[1] = 1;  // the block's first line; the motion before it ends at the block's last line
   std::vector<OtherWay> points;
   for (const OtherWay& way : other_ways(job, damage, 1))
     if (way.what.starts_with("by a point")) points.push_back(way);
@@ -114,7 +114,7 @@ TEST_CASE("each clamp, the length and the turn of the end are off to both sides"
   CHECK(nudges[1].sets == std::vector<std::string>{"routing.free_length_m=2.045"});
   CHECK(nudges[2].sets == std::vector<std::string>{"routing.pre_twist_deg=-10"});
   CHECK(nudges[4].sets == std::vector<std::string>{"routing.base_clamp.position_m=[-0.11, 0, 0.45]"});
-  // Four directions about that of the base clamp, all tilted by atan(10 / 100), to opposite sides in pairs.
+  // Four directions around that of the base clamp, all tilted by atan(10 / 100), in opposite pairs.
   const Eigen::Vector3d own = job->dresspacks.front().routing.base_clamp->direction.normalized();
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (std::size_t k = 10; k < 14; ++k) {
@@ -124,11 +124,11 @@ TEST_CASE("each clamp, the length and the turn of the end are off to both sides"
     REQUIRE(set.starts_with("routing.base_clamp.direction=["));
     const Eigen::Vector3d tilted(std::stod(value.items[0].text), std::stod(value.items[1].text),
                                  std::stod(value.items[2].text));
-    CHECK(std::acos(tilted.dot(own)) == Approx(std::atan(0.1)).epsilon(1e-4));  // six figures are written
+    CHECK(std::acos(tilted.dot(own)) == Approx(std::atan(0.1)).epsilon(1e-4));  // six digits are written
     sum += tilted;
   }
   CHECK((sum / 4 - own * std::cos(std::atan(0.1))).norm() < 1e-5);
-  // Without one of the tolerances the others stay, without all nothing does.
+  // Without one of the tolerances the nudges of the other remain. Without both there are none.
   CHECK(nudges_of({{"one", job, ""}}, tolerance_of(10, 0)).size() == 22);
   CHECK(nudges_of({{"one", job, ""}}, tolerance_of(0, 10)).size() == 2);
   CHECK(nudges_of({{"one", job, ""}}, tolerance_of(0, 0)).empty());
@@ -141,7 +141,7 @@ TEST_CASE("each clamp, the length and the turn of the end are off to both sides"
   const auto other =
       std::make_shared<const Job>(read_job(DRESSLIFE_SOURCE_DIR "/config/jobs/irb6640_guided.yaml"));
   CHECK(nudges_of({{"one", job, ""}, {"two", other, ""}}, tolerance_of(10, 10)).empty());
-  // Length and turn, three clamps and a ring, of which the last two have a place on the hose.
+  // Length and rotation, three clamps and a ring. The last clamp and the ring have a place on the hose.
   CHECK(nudges_of({{"guided", other, ""}}, tolerance_of(10, 10)).size() == 4 + 4 * 10 + 2 * 2);
 }
 
@@ -151,7 +151,7 @@ TEST_CASE("every key of a routing that is freed by default has a mounting tolera
     for (const Entry& entry : Freedom::usual(job).entries) {
       INFO(entry.key);
       CHECK(has_mounting_tolerance(entry.key));
-      // And is off in some nudge.
+      // Some nudge changes this key.
       const std::vector<Nudge> nudges =
           nudges_of({{"one", std::make_shared<const Job>(job), ""}}, tolerance_of(10, 10));
       CHECK(std::any_of(nudges.begin(), nudges.end(),

@@ -35,7 +35,7 @@ TEST_CASE("reliefs: each bare clamp alone, then all, half as stiff and as stiff 
   CHECK(ways[5].size() == 2);
   job.dresspacks[0].routing.base_clamp->bend_relief.emplace();
   CHECK(reliefs_of(job).size() == 2);
-  // At least four segments, and at most half the piece between two clamps.
+  // At least four segments, and at most half the length between two clamps.
   CHECK_THAT(reliefs_of(clamped_job(3)).front().front(), Catch::Contains("length_mm: 240,"));
   CHECK_THAT(reliefs_of(clamped_job(0.3)).front().front(), Catch::Contains("length_mm: 150,"));
   IntermediateClamp& between = job.dresspacks[0].routing.clamps.emplace_back();

@@ -1,4 +1,4 @@
-// What a search says of its results.
+// The report of a search about its results.
 #include "pipeline/advise/improve/story.h"
 
 #include "tests/catch.h"
@@ -13,7 +13,7 @@ struct Life {
   Modes modes{};
 };
 
-/// A search of trials beside the job as it is, which is the first.
+/// A search with trials; the first trial is the job as it is.
 struct Searched {
   Improvement found;
   Finals finals;
@@ -67,7 +67,7 @@ TEST_CASE("improve: the changes of a trial are listed only if it is clearly bett
 
 TEST_CASE("improve: a life beyond the robot's is no gain, and what a gain costs stands beside it") {
   const Modes own{{"abrasion", HUGE_VAL}, {"jacket wear", 5890}};
-  // Trial 1 wears the hose through, trial 2 spares the jacket.
+  // Trial 1 wears the hose through, trial 2 reduces the wear of the jacket.
   const std::string words = searched_of({{449000, own},
                                          {1940000, {{"abrasion", 25000}, {"jacket wear", 8750}}},
                                          {654000, {{"abrasion", HUGE_VAL}, {"jacket wear", 9110}}}})
@@ -83,7 +83,7 @@ TEST_CASE("improve: a life beyond the robot's is no gain, and what a gain costs 
           Catch::Contains(
               "\nTrial 1 was not chosen: its wires live longer (1,940,000 h), but abrasion comes after 25,000 h "
               "(as it is: never).\n"));
-  // With trial 1 alone the job stays as it is.
+  // With trial 1 only, the job as it is remains.
   CHECK_THAT(searched_of({{449000, own}, {1940000, {{"abrasion", 25000}, {"jacket wear", 8750}}}}).words(),
              Catch::Contains("Keep the job as it is") && Catch::Contains("Trial 1 was not chosen") &&
                  !Catch::Contains("--set"));
@@ -121,7 +121,7 @@ TEST_CASE(
           Catch::Contains(
               "\nTrial 1 is better as drawn (3,000 h, all limits kept), but worse within that tolerance (50.0 h, all "
               "limits kept)\n"));
-  // The job as it is wins where it is better within the tolerance.
+  // The job as it is wins if it is better within the tolerance.
   judge(2, 700), judge(0, 900);
   CHECK_THAT(searched.words(tolerance_of(10, 10)),
              Catch::Contains("Keep the job as it is") && !Catch::Contains("--set"));
@@ -132,7 +132,7 @@ TEST_CASE(
           Catch::Contains(
               "The proposed job, within the mounting tolerance: 700 h, all limits kept in the worst case found\n"
               "The job as it is, within the mounting tolerance: 300 h, all limits kept in the worst case found\n"));
-  // The page says the same, also where both lives of the proposed job are shorter as drawn.
+  // The page agrees, also if both lives of the proposed job are shorter without deviation.
   searched.found.trials[2].worst.hours = searched.finals.of[2].hours = 900;
   const std::string chosen = improvement_page(searched.story());
   CHECK_THAT(chosen, Catch::Contains("<p>The wires live 0.9 times as long.") &&

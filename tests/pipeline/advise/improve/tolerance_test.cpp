@@ -1,4 +1,4 @@
-// The best routings judged within the mounting tolerance (T1).
+// The best routings compared within the mounting tolerance (T1).
 #include "pipeline/advise/improve/tolerance.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ Outcome outcome(double hours) {
   return of;
 }
 
-/// A finalist whose lives with one thing off are these; counts its runs.
+/// Returns a finalist with these lives under one deviation each. `runs` counts its runs.
 Finalist finalist(double hours, std::vector<double> lives, int& runs) {
   Finalist of{outcome(hours), std::vector<Nudge>(lives.size()), {}};
   of.run = [lives, &runs](const std::vector<std::size_t>& numbers) {
@@ -35,7 +35,7 @@ TEST_CASE("tolerance: the longest life in the worst place wins, not the longest 
                                         finalist(700, {650, 600, 690, 500, 640, 720}, blunt),
                                         finalist(450, {450, 450, 450, 450, 450, 450}, last)};
   const std::vector<WithinTolerance> judged = within_tolerance(finalists, outcome(100));
-  REQUIRE(judged.size() == 2);  // the last lives at most 450 h, less than the second within its tolerance
+  REQUIRE(judged.size() == 2);  // the last has at most 450 h, less than the second within its tolerance
   CHECK(last == 0);
   CHECK(best_within(judged) == 1);
   CHECK(judged[0].worst.hours == 60);
@@ -69,13 +69,13 @@ TEST_CASE("tolerance: of random finalists the winner is that of a whole evaluati
     REQUIRE(best.whole);
     CHECK(best.worst.hours == *std::max_element(worst.begin(), worst.end()));
     CHECK(counts.back().done < counts.back().likely);
-    CHECK(counts.back().done + 4 == static_cast<std::size_t>(runs));  // four at once
+    CHECK(counts.back().done + 4 == static_cast<std::size_t>(runs));  // four runs at once
     CHECK(counts.back().likely >= static_cast<std::size_t>(runs));
     CHECK(counts.back().most == count * nudges);
     saved += static_cast<int>(count * nudges) - runs;
     not_first += best_within(judged) > 0;
   }
-  CHECK(saved > 300 * 24);  // a third at least
+  CHECK(saved > 300 * 24);  // at least a third
   CHECK(not_first > 50);
 }
 
@@ -109,7 +109,7 @@ TEST_CASE("tolerance: one that falls behind is given up, and one that does not r
   CHECK(best_within(judged) == 0);
 }
 
-/// A search over one angle: p10 rises towards a cliff, beyond which no job runs, and has a lower plateau on the other side.
+/// A search over one angle: p10 rises toward a cliff, beyond which no job runs, and has a lower plateau on the other side.
 Outcome at_angle(double degrees) {
   if (degrees > 80) return outcome(0);
   return outcome(degrees > 40 ? 10 * degrees : 500);
@@ -130,9 +130,9 @@ TEST_CASE(
   const std::vector<WithinTolerance> judged =
       within_tolerance({at(80), at(79), at(78), at(75), at(60), at(0)}, outcome(100));
   REQUIRE(judged.size() == 5);
-  CHECK(best_within(judged) == 4);  // 600 h as drawn, 500 h within the tolerance
+  CHECK(best_within(judged) == 4);  // 600 h without deviation, 500 h within the tolerance
   CHECK(judged[4].worst.hours == 500);
-  // Brute force: no other of them has a better worst.
+  // Brute force: no other finalist has a better worst life.
   for (const double degrees : {80.0, 79.0, 78.0, 75.0, 60.0, 0.0})
     CHECK(std::min({at_angle(degrees).hours, at_angle(degrees - 10).hours, at_angle(degrees + 10).hours}) <=
           500);
@@ -170,7 +170,7 @@ TEST_CASE("tolerance: the words name the tolerance, the loss and where it occurs
           "the wires live at least 0.8 times as long (tool clamp, x + 10 mm), and 1 of 2 such jobs pass a limit or do not run "
           "(end at the tool turned, - 10 deg: too short).\n");
   CHECK(tolerance_words({}, tolerance).empty());
-  const Nudge endless{"length, - 10 mm", true, std::nan(""), "", "", 0};  // no damage, off or not
+  const Nudge endless{"length, - 10 mm", true, std::nan(""), "", "", 0};  // no damage with or without the deviation
   CHECK(tolerance_words({endless}, tolerance) == with + "all limits are kept.\n");
 }
 

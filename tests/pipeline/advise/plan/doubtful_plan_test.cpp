@@ -1,4 +1,4 @@
-// Fleets and duties that a user may plausibly write wrong: what another unit explains is warned of with a remedy.
+// Plausible mistakes in fleets and duties: a value that another unit explains is warned of with a remedy.
 #include "pipeline/advise/plan/doubtful_plan.h"
 
 #include "tests/catch.h"

@@ -33,7 +33,7 @@ std::string of_programs(const std::string& programs, const std::string& more = "
   return "study: s\nduties:\n  - name: d\n" + more + "    programs:\n" + programs;
 }
 
-/// Of a wrapped text.
+/// Returns a wrapped text in one line.
 std::string in_one_line(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   for (std::size_t at; (at = text.find("  ")) != std::string::npos;) text.erase(at, 1);
@@ -68,8 +68,8 @@ TEST_CASE("wear and used ratings of a duty's programs add up by their shares of 
   parts[0].share_of_time = 0.5, parts[1].share_of_time = 0.25;
   std::vector<DutyMode> modes = other_modes(parts, rows);
   REQUIRE(modes.size() == 4);
-  CHECK(modes[0].hours == Approx(1 / (0.5 / 1000 + 0.25 / 4000)));  // on two links: at the soonest
-  CHECK(modes[1].hours == Approx(1000));                            // each cable by itself
+  CHECK(modes[0].hours == Approx(1 / (0.5 / 1000 + 0.25 / 4000)));  // on two links: the shorter life
+  CHECK(modes[1].hours == Approx(1000));                            // each cable separately
   CHECK(modes[2].hours == Approx(600));                             // of the wall the median
   CHECK(modes[3].hours == Approx(3200));
   rows[0].unvalidated[2].bends_at_limit = 1e6;  // its law contradicts a published hose
@@ -115,7 +115,7 @@ TEST_CASE("a duty states how much the damages of a cycle's recordings differ") {
   for (const auto& [repeats, cycle] : {std::pair(2, "cycle"), {1, "cycle"}, {1, "cycle"}, {1, ""}, {0, "cycle"}})
     duty.parts.push_back({.job = "", .repeats_per_hour = double(repeats), .recording_of = cycle});
   duty.lives.share = {0.2, 0.2, 0.2, 0.4, 0};
-  // A repeat does 0.1, 0.2 and 0.2; the mean over the repeats is 0.15. Deviations -1/3, 1/3, 1/3: sqrt(3/9 / 2 / 3) = 0.236.
+  // The repeats do damage of 0.1, 0.2 and 0.2; the mean is 0.15. Deviations -1/3, 1/3, 1/3: sqrt(3/9 / 2 / 3) = 0.236.
   CHECK_THAT(in_one_line(mixture_words(duty)), Catch::Contains("The 3 recordings of cycle do 0.67 to 1.33 times its mean damage: the standard error of the mean is 24 %."));
 }
 
@@ -126,7 +126,7 @@ TEST_CASE("a duty of several programs without an order names the cycles that it 
   CHECK(mixture_words(duty).empty());
   duty.parts.resize(2);
   duty.parts[0].repeats_per_hour = 5;
-  CHECK(mixture_words(duty).empty());  // the other one never runs
+  CHECK(mixture_words(duty).empty());  // the other program never runs
   duty.parts[1].repeats_per_hour = 5;
   CHECK_THAT(in_one_line(mixture_words(duty)), Catch::StartsWith(" Cycles that begin in one program and end in another are not counted. ") &&
                                                    Catch::Contains("With `order` or `batch_size` they are. "));
@@ -159,7 +159,7 @@ TEST_CASE("a history by dates has the hours of its days, each at the week of its
   const std::vector<PastDuty> history = read_duties(scratch / "duties.yaml", today).duties[1].history;
   REQUIRE(history.size() == 3);
   CHECK(history[0].hours.value() == Approx(84));  // seven days
-  CHECK(history[1].hours.value() == Approx(24));  // one
+  CHECK(history[1].hours.value() == Approx(24));  // one day
   CHECK(history[2].hours.value() == 5);
   CHECK_THAT(refused("      - {duty: a, hours: 5, from: 2026-01-05, to: 2026-01-11}\n"), Catch::Contains("duties.yaml:8:9: error: the history has both"));
   CHECK_THAT(refused("      - {duty: a}\n"), Catch::Contains("neither hours nor dates"));
@@ -187,7 +187,7 @@ TEST_CASE("batch sizes are an order in which each program runs once in a round")
   const Duty order = order_of("      - {job: a, repeats_per_hour: 60}\n      - {job: c, repeats_per_hour: 5}\n      - {job: b, repeats_per_hour: 45}\n",
                               "    order: [{job: a, repeats: 20}, {job: b, repeats: 10}]\n");
   CHECK(round_name(batches) == round_name(order));
-  // Three rounds an hour hold all of a, each with one change to b and one back; 15 of b are in none.
+  // Three rounds per hour contain all of a, each with one change to b and one back. 15 of b are outside the rounds.
   const std::vector<double> expected{60 - 3, 5, 45 - 3, 3};
   CHECK(repeats_in_rounds(batches, {60, 5, 45}) == expected);
   CHECK(repeats_in_rounds(order, {60, 5, 45}) == expected);

@@ -1,4 +1,4 @@
-// A duty against closed forms: programs at one place and at two, equal programs, histories.
+// A duty against closed forms: programs with damage at one place and at two, equal programs, histories.
 #include "pipeline/advise/plan/mixture.h"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ LifeResponse mode_of(double median, const std::string& name = "wires of cable") 
   return response;
 }
 
-/// Two places with three wires each, a conductor fails with its second wire. damage: (place) (wire).
+/// Two places with three wires each; a conductor fails with its second wire. damage: (place, wire).
 WireDamage wires_of(const std::vector<std::vector<double>>& damage) {
   WireDamage wires;
   for (std::size_t place = 0; place < damage.size(); ++place) {
@@ -72,14 +72,14 @@ TEST_CASE("damage of programs adds up at one place, and not at two") {
   CHECK(same.same_place[0] == Approx(1).epsilon(rounding));
   CHECK(apart.same_place[0] == Approx(0.5).epsilon(rounding));
   CHECK(lives_under(same).percentiles[1] == Approx(1 / (10 / 1e5 + 10 / 1e6)).epsilon(1e-4));
-  // Neither wears the other's place.
+  // The programs damage different places.
   CHECK(lives_under(apart).percentiles[1] == Approx(1e5 / 10).epsilon(1e-4));
-  // Without the one the other lives as it does alone: what the places have in common depends on the rates.
+  // Without the second program the first has its own life: the share of the same place depends on the rates.
   const std::vector<EvaluatedProgram> both{hard, elsewhere};
   const SamePlace places(both);
   CHECK(lives_with(apart, {1, 0}, places.at({10, 0}))[1] == Approx(1e5 / 10).epsilon(1e-4));
   CHECK(lives_with(apart, {1, 3}, places.at({10, 30}))[1] == Approx(1e5 / 30).epsilon(1e-4));
-  // The second wire of three decides: equal damage of one wire of each place is not the same place's damage.
+  // The second wire of three determines the failure. Equal damage of one wire at each place is not the damage of the same place.
   const EvaluatedProgram another_wire = program("another wire", 5, {{1, 2, 3}, {0, 0, 0}});
   CHECK(damage_under({hard, another_wire}, rates, "", many).same_place[0] == Approx(1).epsilon(rounding));  // 4, 4, 4
   const EvaluatedProgram other_wires = program("other wires", 5, {{0, 2, 2}, {0, 0, 0}});
@@ -88,7 +88,7 @@ TEST_CASE("damage of programs adds up at one place, and not at two") {
 
 TEST_CASE("a program more makes no life longer, also where the samples differ from the medians") {
   const EvaluatedProgram hard = program("hard", 5, first_place), elsewhere = program("elsewhere", 5, second_place);
-  const std::vector<Rate> rates{{10, 0}, {10, 100}};  // at the medians each does half of the damage, in a sample one does most
+  const std::vector<Rate> rates{{10, 0}, {10, 100}};  // at the medians each does half of the damage, in samples one dominates
   const std::vector<EvaluatedProgram> both{hard, elsewhere};
   const SamePlace places(both);
   const DutyDamage mixed = damage_under(both, rates, "", many);
@@ -99,7 +99,7 @@ TEST_CASE("a program more makes no life longer, also where the samples differ fr
     CHECK(without[p] == Approx(alone[p]).epsilon(rounding));
     CHECK(twice[p] <= lives[p] * (1 + rounding));
   }
-  CHECK(lives[0] < 0.8 * alone[0]);  // where 'elsewhere' repeats more often it decides
+  CHECK(lives[0] < 0.8 * alone[0]);  // where 'elsewhere' repeats more often it dominates
 }
 
 TEST_CASE("the first of two modes decides in each sample, and programs may wear different modes") {
@@ -118,7 +118,7 @@ TEST_CASE("the first of two modes decides in each sample, and programs may wear 
 }
 
 TEST_CASE("the damage of each mode is that at its own places") {
-  // Both programs wear one place of the first mode. Each wears a place of its own of the second mode, which fails first.
+  // Both programs damage one place of the first mode. Each damages its own place of the second mode, which fails first.
   const auto with_places = [](const std::string& name, double one, double other) {
     WireDamage wires = wires_of({{1}, {one}, {other}});
     wires.mode = {0, 1, 1}, wires.failing = {1, 1, 1};
@@ -141,13 +141,13 @@ TEST_CASE("the remaining life is the life without the past, of the dresspacks th
   const double past = 10000;  // the median life
   const DutyLives old = lives_under(duty, {{&duty, past}});
   CHECK(old.survived == Approx(0.5).margin(1e-4));
-  // Half of the survivors fail before the life that three quarters of all reach; a tenth before that of 55 %.
+  // Half of the survivors fail before the life that three quarters of all reach; a tenth fail before that of 55 %.
   std::vector<double> lives = fresh.log10_hours;
   std::sort(lives.begin(), lives.end());
   constexpr double between_samples = 1e-3;
   CHECK(old.remaining[1] == Approx(std::pow(10, lives[3 * many / 4]) - past).epsilon(between_samples));
   CHECK(old.remaining[0] == Approx(std::pow(10, lives[55 * many / 100]) - past).epsilon(20 * between_samples));
-  // Two halves of a history are the whole.
+  // Two halves of a history are equal to the whole.
   CHECK(lives_under(duty, {{&duty, past / 2}, {&duty, past / 2}}).remaining[1] == Approx(old.remaining[1]).epsilon(rounding));
 }
 
@@ -156,7 +156,7 @@ TEST_CASE("uncertain numbers of repeats widen the lives and leave the median") {
   const DutyLives known = lives_under(damage_under({one}, {{10, 0}}, "", many));
   const DutyLives uncertain = lives_under(damage_under({one}, {{10, 50}}, "", many));
   CHECK(uncertain.percentiles[1] == Approx(known.percentiles[1]).epsilon(0.02));  // of 10,000 samples
-  // Standard deviations of ln life add up as squares: 0.1 decades at 10 % are 0.18; 50 % are sqrt(ln 1.25) = 0.47.
+  // Standard deviations of ln life add as squares: 0.1 decades at 10 % are 0.18; a spread of 50 % is sqrt(ln 1.25) = 0.47.
   const double decile = 1.2815515655446004, of_wires = 0.1 * std::log(10.0) / decile, of_repeats = std::sqrt(std::log(1.25));
   CHECK(std::log(uncertain.percentiles[1] / uncertain.percentiles[0]) ==
         Approx(decile * std::hypot(of_wires, of_repeats)).epsilon(0.02));

@@ -1,4 +1,4 @@
-// Plans against closed forms: age replacement of a Weibull life, constant failure rates, what survivors say of a plant.
+// Plans against closed forms: age replacement of a Weibull life, constant failure rates, the information in survivors of a plant.
 #include "pipeline/advise/plan/plan.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ using namespace dresslife::pipeline;
 
 namespace {
 
-constexpr double week = 70;  // [h of operation]: 10 a day
+constexpr double week = 70;  // [h of operation]: 10 per day
 const Day start = *day_from("2026-11-23");
 
 /// Quantiles of a Weibull life, one list for each world's scale [h].
@@ -51,7 +51,7 @@ std::vector<int> many(std::size_t count, int age) { return std::vector<int>(coun
 }  // namespace
 
 TEST_CASE("a plan names the dresspacks that reach the age of a mode without validation") {
-  // Ages 5, 40 and 60 weeks of 70 h: 350, 2,800 and 4,200 h. The plan ends 24 weeks from today, by its two windows.
+  // Ages 5, 40 and 60 weeks of 70 h: 350, 2,800 and 4,200 h. The plan ends 24 weeks from today, because of its two windows.
   Fleet fleet = fleet_of({5, 40, 60});
   Plan plan = plan_of(fleet, {{"d", weibull(3, {1e6})}}, windows_in({4, 14}), start, {0.2, false});
   REQUIRE((plan.end - plan.today).count() == 24 * 7);
@@ -66,11 +66,11 @@ TEST_CASE("a plan names the dresspacks that reach the age of a mode without vali
   CHECK(words(100).find("Inspect now: r0, r1, r2.") != std::string::npos);
   CHECK(words(4200 + 24 * week + 1).empty());
   CHECK(age_words(fleet, plan, {}, {}).empty());
-  // Replaced in the first window it grows no older than 4 weeks more.
+  // If it is replaced in the first window, its age increases by at most 4 weeks.
   for (RowPlan& row : plan.rows) row.window = 0;
   CHECK(words(2800 + 4 * week + 1).find("r1") == std::string::npos);
   CHECK(words(2800 + 4 * week - 1).find("replaced: r1.") != std::string::npos);
-  // Its own hours count.
+  // A dresspack's own hours per week are used.
   fleet.rows[1].hours_per_week = 10;
   plan.rows[1].window.reset();
   CHECK(words(2800 + 24 * 10 + 1).find("r1") == std::string::npos);
@@ -97,7 +97,7 @@ TEST_CASE("with frequent windows a dresspack is replaced at the best age of a We
     if (at_window < best - 2 * week) CHECK(plan.rows[k].window != std::optional<std::size_t>(0));
     if (at_window > best + 2 * week) CHECK(plan.rows[k].window == std::optional<std::size_t>(0));
   }
-  // A new dresspack that is just replaced at that age: cost per hour by the closed form, over twenty of its lives.
+  // A new dresspack that can be replaced every week: cost per hour by the closed form, over twenty of its lives.
   std::vector<int> weeks;
   for (int of = 1; of <= 20 * int(best / week); ++of) weeks.push_back(of);
   const Plan longer = plan_of(fleet_of(many(20, 0), planned, unplanned), {{"d", weibull(shape, {scale})}}, windows_in(weeks), start, {0.1, true});
@@ -122,13 +122,13 @@ TEST_CASE("by risk a dresspack is replaced where a Weibull life fails in the int
 }
 
 TEST_CASE("dresspacks that fail young or never are not replaced: a new one would be worse") {
-  // Shape 0.6: the longer one has lived, the longer it will. In each world alone, and when the world is one of two.
+  // Shape 0.6: the remaining life increases with age. Tested for each world alone, and for two worlds together.
   for (const auto& [shape, scales] : {std::pair(0.6, std::vector<double>{4000}), std::pair(1.0, std::vector<double>{500, 100000})}) {
     const auto tables = std::map<std::string, LifeTable>{{"d", weibull(shape, scales, 4000)}};
     const Plan plan = plan_of(fleet_of(many(20, 4), 1, 6), tables, windows_in({2, 10, 30, 60}), start, {0.1, true});
     for (const RowPlan& row : plan.rows) CHECK_FALSE(row.window);
     CHECK(plan.cost == Approx(plan.cost_without_windows).epsilon(1e-12));
-    if (shape == 1) continue;  // with a constant rate a new one is neither better nor worse, but for rounding
+    if (shape == 1) continue;  // with a constant rate a new one is equal except for rounding
     const Plan by_risk = plan_of(fleet_of(many(20, 4)), tables, windows_in({2, 10, 30, 60}), start, {0.01, false});
     for (const RowPlan& row : by_risk.rows) CHECK_FALSE(row.window);
   }
@@ -139,18 +139,18 @@ TEST_CASE("the failures of the weeks add up to those until the windows, and to t
   REQUIRE(plan.failures_in_week.size() == 24);
   for (const RowPlan& row : plan.rows) {
     const auto until = [&](std::size_t end) { return std::accumulate(row.fails_in_week.begin(), row.fails_in_week.begin() + std::ptrdiff_t(end), 0.0); };
-    CHECK(until(4) == Approx(row.fails_before_first).margin(2e-4));  // 20,000 draws, a life on the edge of a week
+    CHECK(until(4) == Approx(row.fails_before_first).margin(2e-4));  // 20,000 samples, a life at the border of a week
     CHECK(until(14) == Approx(1 - (1 - row.fails_before_first) * (1 - row.fails_until_next[0])).margin(4e-4));
   }
   double unplanned = 0;
   for (const YearOfPlan& year : plan.years) unplanned += year.unplanned;
-  // Both have the same failures of later dresspacks. Those of today's are expected here, and counted in 1,000 plants there: 4 deviations.
+  // Both have equal failures of later dresspacks. Those of today's are expected here, and counted in 1,000 plants there.
   CHECK(std::accumulate(plan.failures_in_week.begin(), plan.failures_in_week.end(), 0.0) == Approx(unplanned).margin(4 * std::sqrt(unplanned / 1000)));
   CHECK(plan_weeks_csv(fleet_of({5, 40, 60}), plan).starts_with("name,fails_in_week_of_2026-11-23,fails_in_week_of_2026-11-30,"));
 }
 
 TEST_CASE("a week of few sampled lives has no chance of its own: its failures are those of the law") {
-  // 500 worlds of 64 lives each, as in plans. A week has one of these lives, on average.
+  // 500 worlds of 64 lives each, as in plans. One week contains one of these lives on average.
   constexpr double shape = 2.5, scale = 60000;
   std::mt19937 random(5);
   std::uniform_real_distribution<double> uniform;
@@ -168,7 +168,7 @@ TEST_CASE("a week of few sampled lives has no chance of its own: its failures ar
     const double law = (alive(double(k)) - alive(double(k + 1))) / alive(0);
     worst = std::max(worst, std::abs(plan.rows[0].fails_in_week[k] / law - 1));
   }
-  CHECK(worst < 0.4);  // two deviations of the 32 parts of lives that overlap a week; by count it is 1, of a week without a life
+  CHECK(worst < 0.4);  // two deviations of the 32 parts of lives in a week; by count 1, for a week without a life
 }
 
 TEST_CASE("without windows a constant failure rate needs so many spare dresspacks, with the spread of a Poisson number") {
@@ -199,7 +199,7 @@ TEST_CASE("failures, spare dresspacks and costs are those of plants that are dra
   std::discrete_distribution<std::size_t> world(weights.begin(), weights.end());
   std::uniform_real_distribution<double> uniform;
   constexpr int count = 200'000;
-  std::array<double, 2> cost{}, failures{}, replaced{}, without{};  // sums, and of squares
+  std::array<double, 2> cost{}, failures{}, replaced{}, without{};  // sums of values and of their squares
   std::vector<double> first_year;
   const auto add = [](std::array<double, 2>& sums, double value) { sums[0] += value, sums[1] += value * value; };
   for (int k = 0; k < count; ++k) {
@@ -225,14 +225,14 @@ TEST_CASE("failures, spare dresspacks and costs are those of plants that are dra
   }
   double all_planned = 0, all_unplanned = 0;
   for (const YearOfPlan& of : plan.years) all_planned += of.planned, all_unplanned += of.unplanned;
-  // Four standard errors of the 1,000 plants of the plan. Its lives are 20,000 quantiles of each world, whose error is far below that.
+  // Four standard errors of the plan's 1,000 plants. Its lives are 20,000 quantiles of each world, whose error is far smaller.
   const auto check = [&](double found, const std::array<double, 2>& sums) {
     const double mean = sums[0] / count, error = std::sqrt((sums[1] / count - mean * mean) / 1000);
     CHECK(found == Approx(mean).margin(4 * error));
   };
   check(plan.cost, cost), check(all_unplanned, failures), check(all_planned, replaced), check(plan.cost_without_windows, without);
   std::sort(first_year.begin(), first_year.end());
-  // Whole numbers, of which the neighbour may come first.
+  // Whole numbers: the result may be the neighbouring number.
   CHECK(plan.years[0].low == Approx(first_year[count / 20]).margin(1));
   CHECK(plan.years[0].high == Approx(first_year[count - count / 20]).margin(1));
 }
@@ -246,13 +246,13 @@ TEST_CASE("survivors tell which world the plant is in, and the spread between pl
     const double of_bad = survive_bad / (survive_bad + survive_good);
     const auto fails = [&](double mean) { return 1 - std::exp(-10 * week / mean); };
     CHECK(plan.rows[0].fails_before_first == Approx(of_bad * fails(bad) + (1 - of_bad) * fails(good)).margin(1e-3));
-    // Worlds of a calibration in which the survivors are counted: they do not count twice.
+    // Worlds of a calibration that already includes the survivors: they are not counted twice.
     PlanRule counted{1, false};
     counted.knows_survivors = true;
     const Plan known = plan_of(fleet_of(many(count, 10)), {{"d", weibull(1, {bad, good})}}, windows_in({10}), start, counted);
     CHECK(known.rows[0].fails_before_first == Approx((fails(bad) + fails(good)) / 2).margin(1e-3));
   }
-  // New dresspacks say nothing: the number of failures is of one world or of the other, not of their mean.
+  // New dresspacks contain no information: the number of failures is that of one world or of the other, not of their mean.
   const Plan fresh = plan_of(fleet_of(many(100, 0)), {{"d", weibull(1, {bad, good})}}, windows_in({26}), start, {1, false});
   const double year = week * 365.2425 / 7;
   CHECK(fresh.years[0].low < 1.5 * 100 * year / good);
@@ -261,7 +261,7 @@ TEST_CASE("survivors tell which world the plant is in, and the spread between pl
 }
 
 TEST_CASE("survivors that the model hardly expects are named, and an age that no sample reaches is no safe one") {
-  // One world, a constant failure rate: eight live with the probability S(a)^8.
+  // One world, a constant failure rate: the probability that eight survive is S(a)^8.
   constexpr double mean = 1000, age = 10 * week;
   const Fleet eight = fleet_of(many(8, 10));
   const Plan plan = plan_of(eight, {{"d", weibull(1, {mean})}}, windows_in({10}), start, {1, false});
@@ -270,14 +270,14 @@ TEST_CASE("survivors that the model hardly expects are named, and an age that no
   CHECK(plan_words(eight, plan).find("unlikely by the model: 1 of 270 such plants") != std::string::npos);
   const Fleet one = fleet_of({1});
   CHECK(plan_words(one, plan_of(one, {{"d", weibull(1, {mean})}}, windows_in({10}), start, {1, false})).find("unlikely") == std::string::npos);
-  // A calibration that counts them already, and under which none of 64 lives so long.
+  // A calibration that already includes them, under which none of 64 survives so long.
   PlanRule counted{0.1, false};
   counted.knows_survivors = true;
   const Plan past = plan_of(fleet_of({300}), {{"d", weibull(2, {mean}, 64)}}, windows_in({10, 20}), start, counted);
   CHECK(past.reach_their_age == 0);
   CHECK(doubtful_ages(fleet_of({300}), past).size() == 1);
   CHECK(doubtful_ages(eight, plan).empty());
-  // One of 400 that is as old as one in 4,500 becomes, and as one in 150 becomes.
+  // One of 400 has an age that one in 4,500 reaches, and one that one in 150 reaches.
   const auto old_one = [&](int weeks) {
     std::vector<int> ages = many(400, 1);
     ages[7] = weeks;
@@ -289,12 +289,12 @@ TEST_CASE("survivors that the model hardly expects are named, and an age that no
   CHECK(old_one(72).empty());
   CHECK(past.rows[0].fails_before_first == 1);
   CHECK(past.rows[0].fails_in_week[0] == 1);
-  CHECK(past.failures_in_week[0] == Approx(1).margin(0.1));  // and some of the new ones
+  CHECK(past.failures_in_week[0] == Approx(1).margin(0.1));  // plus some of the new ones
 }
 
 TEST_CASE("the damage of earlier duties adds up in each draw") {
   LifeTable now{1, 2, {2000, 8000}, 40000, week}, before{1, 2, {1000, 4000}, 40000, week}, never{1, 2, {INFINITY, INFINITY}, 40000, week};
-  now.of_draw = {8000, 2000};  // the draw that lives longer now has lived shorter before
+  now.of_draw = {8000, 2000};  // the sample with the longer life now had the shorter life before
   before.of_draw = {1000, 4000};
   const std::map<std::string, LifeTable> tables{{"d", now}, {"before", before}, {"never", never}};
   Fleet fleet = fleet_of({0});
@@ -310,14 +310,14 @@ TEST_CASE("the damage of earlier duties adds up in each draw") {
 }
 
 TEST_CASE("a history counts as hours of today's duty that wear a dresspack as much") {
-  // Under the hard duty everything lives a quarter as long.
+  // Under the hard duty every life is a quarter.
   std::map<std::string, LifeTable> tables{{"d", weibull(2.5, {4000, 8000})}, {"hard", weibull(2.5, {1000, 2000})}};
   tables.at("hard").hours_per_week = 2 * week;
   DutyFile file;
   file.duties.resize(2);
   Duty &d = file.duties[0], &hard = file.duties[1];
   d.name = "d", hard.name = "hard";
-  // expected: hours of today's duty alone that as many dresspacks reach.
+  // expected: hours of today's duty alone that the same share of dresspacks reaches.
   const auto check = [&](std::vector<PastDuty> history, std::size_t warned, const std::array<double, 2>& expected) {
     d.history = std::move(history);
     Fleet fleet = fleet_of({20, 4});
@@ -335,19 +335,19 @@ TEST_CASE("a history counts as hours of today's duty that wear a dresspack as mu
   hours.hours = 100;
   days.from = day_text(start - std::chrono::days(70)), days.to = day_text(start - std::chrono::days(15));
   check({hours}, 0, {20 * week - 100 + 4 * 100, 140 - 100 + 4 * 100});
-  // 56 days, of which the second dresspack has had the last 14: of 28 in all.
+  // 56 days. The second dresspack is 28 days old and was in use for 14 of them.
   check({days}, 0, {12 * week + 4 * 8 * 2 * week, 2 * 35 + 4 * 2 * 35});
   check({hours, days}, 0, {12 * week - 100 + 4 * (100 + 8 * 2 * week), 4 * 4 * 35});
   days.from = day_text(start - std::chrono::days(140)), days.to = day_text(start - std::chrono::days(1));  // all days
   check({days}, 0, {4 * 20 * 2 * week, 4 * 4 * 35});
-  hours.hours = 200;  // more than the second one has run: all of it
+  hours.hours = 200;  // more than the second one has run: all of its hours
   check({hours}, 1, {20 * week - 200 + 4 * 200, 4 * 140});
   hours.duty = "d";
   check({hours}, 1, {20 * week, 140});
 }
 
 TEST_CASE("what if: a dresspack that gets a harder duty keeps its damage, and the plant its worlds") {
-  // Under the hard duty everything lives half as long.
+  // Under the hard duty every life is half.
   const std::map<std::string, LifeTable> tables{{"d", weibull(2.5, {4000, 8000})}, {"hard", weibull(2.5, {2000, 4000})}};
   const Fleet fleet = fleet_of({20, 20, 20});
   Fleet changed = fleet;
@@ -363,7 +363,7 @@ TEST_CASE("what if: a dresspack that gets a harder duty keeps its damage, and th
   CHECK(other.rows[0].fails_before_first == plan.rows[0].fails_before_first);
   CHECK(other.rows[1].age_hours == Approx(plan.rows[1].age_hours).epsilon(1e-9));
   CHECK(other.rows[3].age_hours == 0);
-  // The remaining life is half as long: in four weeks happens what else happens in eight.
+  // The remaining life is half: four weeks have the failures that otherwise eight have.
   const Plan later = plan_of(fleet, tables, windows_in({8, 28}), start, rule);
   CHECK(other.rows[1].fails_before_first == Approx(later.rows[1].fails_before_first).margin(4e-4));  // 20,000 draws
   CHECK(other.weights == plan.weights);
@@ -379,7 +379,7 @@ TEST_CASE("what if: a dresspack that gets a harder duty keeps its damage, and th
   CHECK(std::stod(beside[2].more.substr(2)) == Approx(std::abs(failures(other) - failures(plan))).epsilon(0.05));  // two digits
   CHECK(beside[2].more[0] == (failures(other) > failures(plan) ? '+' : '-'));
   CHECK(words.find("one more: ") != std::string::npos);
-  // The same fleet once more changes nothing.
+  // The same fleet again changes nothing.
   Fleet unchanged = fleet;
   keep_ages(unchanged, fleet, tables, start, start);
   CHECK(what_if_words("other", fleet, plan, unchanged, plan_of(unchanged, tables, windows_in({4, 14}), start, same)).find("(now): none") != std::string::npos);
@@ -394,15 +394,15 @@ TEST_CASE("what if from a later day: until then a dresspack wears as before, the
   changed.rows[1].duty = "hard";
   keep_ages(changed, fleet, tables, start, start + std::chrono::days(7 * 6));
   const Plan plan = plan_of(changed, tables, windows_in({4, 14}), start, {0.99, false});
-  // The law itself, in hours of the old duty. A week of the new one wears as eight of the old.
+  // The law in hours of the old duty. A week of the new duty counts as eight of the old.
   const auto alive = [&](double weeks) { return std::exp(-std::pow((20 + std::min(weeks, 6.0) + 8 * std::max(0.0, weeks - 6)) * week / scale, shape)); };
-  const double draws = 2e-4;  // of 20,000 lives, some on an edge
+  const double draws = 2e-4;  // of 20,000 lives, some at a border
   CHECK(plan.rows[1].fails_before_first == Approx(1 - alive(4) / alive(0)).margin(draws));
   CHECK(plan.rows[1].fails_until_next[0] == Approx(1 - alive(14) / alive(4)).margin(draws));
   CHECK(plan.rows[1].fails_before_first == Approx(plan.rows[0].fails_before_first).margin(draws));
   for (const std::size_t of : {0, 5, 6, 12})
     CHECK(plan.rows[1].fails_in_week[of] == Approx((alive(double(of)) - alive(double(of) + 1)) / alive(0)).margin(draws));
-  // Simulated plants: the failures of 24 weeks, of which the later dresspacks have but a few. 4 deviations of 1,000 plants.
+  // Simulated plants: the failures of 24 weeks, of which later dresspacks have only a few. 4 deviations of 1,000 plants.
   double unplanned = 0;
   for (const YearOfPlan& year : plan.years) unplanned += year.unplanned;
   CHECK(std::accumulate(plan.failures_in_week.begin(), plan.failures_in_week.end(), 0.0) == Approx(unplanned).margin(4 * std::sqrt(unplanned / 1000)));
@@ -412,7 +412,7 @@ TEST_CASE("what if from a later day: until then a dresspack wears as before, the
   const Plan saved = plan_of(changed, tables, windows_in({6, 14}), start, {0.99, false});
   CHECK(saved.rows[1].fails_before_first == Approx(1 - alive(6) / alive(0)).margin(draws));
   CHECK(saved.rows[1].fails_until_next[0] == 0);
-  // Dresspacks that are put in before the change, too: with failures at constant rates, 1 in 10 weeks, then 4, the plants have as many.
+  // Also dresspacks installed before the change: at constant failure rates, 1 in 10 weeks, then 4, the plants have equal numbers.
   std::map<std::string, LifeTable> constant{{"d", weibull(1, {10 * week})}, {"hard", weibull(1, {5 * week})}};
   constant.at("hard").hours_per_week = 2 * week;
   const Fleet young = fleet_of({0});
@@ -468,7 +468,7 @@ TEST_CASE("a fleet is read from a spreadsheet's table, and what is wrong in it i
   CHECK(read(costs + "0.125;9.50\n").rows[0].unplanned_cost == 9.5);
   CHECK(read(costs + "1200,5;1234.500\n").rows[0].unplanned_cost == 1234.5);
   const Fleet german =
-      read("name;duty;installed;hours_per_week\nr;day;28.02.2025 08:00;37,5\n");  // as `calibrate` reads it
+      read("name;duty;installed;hours_per_week\nr;day;28.02.2025 08:00;37,5\n");  // in the form that `calibrate` reads
   CHECK(day_text(german.rows[0].since) == "2025-02-28");
   CHECK(german.rows[0].hours_per_week == 37.5);
   CHECK(refusal("name,duty,instaled\nr,day,\n").find("did you mean 'installed'?") != std::string::npos);
@@ -479,7 +479,7 @@ TEST_CASE("a fleet is read from a spreadsheet's table, and what is wrong in it i
   CHECK(refusal("name,duty,installed,planned_cost\nr,day,,3\n").find("no column 'unplanned_cost'") != std::string::npos);
   CHECK(refusal("name,duty,installed,planned_cost,unplanned_cost\nr,day,,3,2\n").find("must be larger") != std::string::npos);
   CHECK(refusal("name,duty,installed,hours_per_week\nr,day,,200\n").find("must be 0.1 .. 168") != std::string::npos);
-  const std::string all = refusal("name,duty,installed,hours_per_week\nr,day,soon,300\n,day,,\nr,day,,\n");  // each row's, at once
+  const std::string all = refusal("name,duty,installed,hours_per_week\nr,day,soon,300\n,day,,\nr,day,,\n");  // all rows at once
   for (const char* line : {":2:7: error: 'soon' is no date", ":2:12: error: hours_per_week is '300'", ":3:1: error: name is empty", ":4:1: error: 'r' is the name of line 2, too"})
     CHECK_THAT(all, Catch::Contains(line));
   CHECK(read("Name,DUTY,Installed,Plant area,Note\nr,day,2025-02-28,hall 3,\n").unused == std::vector<std::string>{"Plant area", "Note"});
@@ -533,7 +533,7 @@ TEST_CASE("the calendar has an event for each window with work, in lines of 75 b
   const auto uid = [](const std::string& of) { return of.substr(of.find("UID:"), of.find("DTSTAMP") - of.find("UID:")); };
   Fleet other = fleet;
   other.rows.back().name = "a, b; c";
-  CHECK(uid(plan_calendar(other, plan)) == uid(calendar));  // another plan of this plant
+  CHECK(uid(plan_calendar(other, plan)) == uid(calendar));  // another plan of the same plant
   CHECK(plan_calendar(other, plan).find("a\\, b\\; c") != std::string::npos);
   other.rows.front().name = "of another plant";
   CHECK(uid(plan_calendar(other, plan)) != uid(calendar));

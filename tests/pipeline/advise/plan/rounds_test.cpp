@@ -23,8 +23,8 @@ Duty duty_of(const std::vector<std::string>& programs,
   return duty;
 }
 
-/// Ranges of the cycles of a motion that repeats: with the largest value first, each hysteresis loop of three turning points
-/// is taken out until none is left.
+/// Returns the ranges of the cycles of a periodic motion: the largest value is put first, then each hysteresis loop of three
+/// turning points is removed until none remains.
 std::vector<double> cycles_of(std::vector<double> values) {
   std::rotate(values.begin(), std::max_element(values.begin(), values.end()), values.end());
   values.push_back(values.front());
@@ -77,7 +77,7 @@ TEST_CASE("every repeat is in a round or outside of all rounds") {
   CHECK(round_name(duty) == "a+b+a");
   const std::vector<double> repeats = repeats_in_rounds(duty, {60, 8, 3});
   REQUIRE(repeats.size() == 4);
-  CHECK(repeats[3] == Approx(1.6).epsilon(rounding));  // 8 of b in fives; a would be enough for 2
+  CHECK(repeats[3] == Approx(1.6).epsilon(rounding));  // 8 of b in groups of five; a would be enough for 2
   CHECK(repeats[0] == Approx(60 - 2 * 1.6).epsilon(rounding));
   CHECK(repeats[1] == Approx(8 - 1.6).epsilon(rounding));
   CHECK(repeats[2] == 3);
@@ -126,6 +126,6 @@ TEST_CASE("between programs all axes move together, within their shares of speed
     }
   const double most = std::max({fastest[0] / 0.5, fastest[1] / 0.5, hardest[0] / 0.25, hardest[1] / 0.25});
   CHECK(most <= 1 + 1e-3);                            // differences of rounded angles
-  CHECK(most > 0.9);                                  // whole intervals make the move up to a tenth slower
-  CHECK(rows.back()[1] == Approx(0).margin(digits));  // and back to the first program
+  CHECK(most > 0.9);                                  // whole intervals make the move slower by up to a tenth
+  CHECK(rows.back()[1] == Approx(0).margin(digits));  // the motion returns to the first program
 }

@@ -1,4 +1,4 @@
-// The value of visual checks against plants in which every check is made, and against its closed forms.
+// The value of visual checks against plants in which every check is simulated, and against closed forms.
 #include "pipeline/advise/plan/value_of_checks.h"
 
 #include <cmath>
@@ -80,7 +80,7 @@ TEST_CASE("checks: what they save is what they save in plants in which each chec
         }
         const CheckValue value = plant.values({{"d", life}}).front();
         INFO(interval_weeks << " weeks, median " << median << ", age " << age);
-        // Four standard errors of the plants, and half of one of the 1,000 values of z, each of which is a step of the sums.
+        // Four standard errors of the plants, plus half of one of the 1,000 values of z, each of which is a step of the sums.
         const auto error = [&](double sum, double of_squares) { return 4 * std::sqrt((of_squares / plants - sum * sum / plants / plants) / plants); };
         CHECK(value.fails == Approx(fails / plants).margin(error(fails, fails_squares) + 1e-3));
         CHECK(value.regular == Approx(saved / plants).margin(error(saved, squares) + 1e-3 * unplanned));
@@ -90,19 +90,19 @@ TEST_CASE("checks: what they save is what they save in plants in which each chec
 }
 
 TEST_CASE("checks: one check today is worth its share of the wear that is visible now") {
-  // The plan ends long after everything has failed: the value is p (C_u - C_p) P(v T <= a | T > a).
+  // The plan ends long after all have failed: the value is p (C_u - C_p) P(v T <= a | T > a).
   constexpr double spread = 0.3, visible_from = 0.5, found = 0.75, median = 3000;
   const Plant plant({installed_for(20)}, 400);
   const double age = 20 * week, alive = 1 - normal_share(std::log10(age / median) / spread);
   const double visible = normal_share(std::log10(age / visible_from / median) / spread) - (1 - alive);
   const AbrasionLife life = life_with(median, spread, visible_from, 2, 100 * found);
   CHECK(plant.values({{"d", life}}).front().today == Approx(found * (unplanned - planned) * visible / alive).margin(2e-3 * unplanned));
-  // A new dresspack shows nothing, a check that finds nothing has no value, and neither has one where nothing rubs.
+  // No value: a new dresspack without visible damage, a check that finds nothing, and a dresspack without rubbing.
   CHECK(Plant({installed_for(0)}, 400).values({{"d", life}}).front().today == 0);
   CHECK(plant.values({{"d", life_with(median, spread, visible_from, 2, 0)}}).front().regular == 0);
   CHECK(plant.values({}).front().fails == 0);
   CHECK(plant.values({{"d", life_with(std::numeric_limits<double>::infinity(), spread, visible_from, 2, 75)}}).front().fails == 0);
-  // Without regular checks one today is worth as much.
+  // Without regular checks, one check today has the same value.
   const CheckValue once = plant.values({{"d", life_with(median, spread, visible_from, 0, 100 * found)}}).front();
   CHECK(once.regular == 0);
   CHECK(once.found == 0);
@@ -114,11 +114,11 @@ TEST_CASE("checks: an old dresspack that lives makes the abrasion of all others 
   const double alone = Plant({installed_for(10)}).values({{"d", life}}).front().fails;
   const double beside_old = Plant({installed_for(10), installed_for(40)}).values({{"d", life}}).front().fails;
   CHECK(beside_old < 0.8 * alone);
-  // Of another duty, in which it wears four times as slowly, the same age says less.
+  // A dresspack under another duty that wears four times as slowly gives less information at the same age.
   const double beside_slow =
       Plant({installed_for(10), installed_for(40, "other")}).values({{"d", life}, {"other", life_with(8000, 0.5, 0.5, 2, 75)}}).front().fails;
   CHECK(beside_slow == Approx(alone));
-  // 400 weeks of 100 h are twenty times the median: 2.6 deviations, 1 plant in 200. A spread of 0.3 makes it 1 in 140,000.
+  // 400 weeks of 100 h are twenty times the median: 2.6 deviations, 1 plant in 200. With a spread of 0.3: 1 in 140,000.
   const Plant old({installed_for(400)});
   CHECK(values_of_checks(old.fleet, old.tables, {{"d", life}}, old.plan).has_value());
   const auto none = values_of_checks(old.fleet, old.tables, {{"d", life_with(2000, 0.3, 0.5, 2, 75)}}, old.plan);

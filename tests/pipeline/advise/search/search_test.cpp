@@ -1,4 +1,4 @@
-// Searches on functions whose least values are known.
+// Searches on functions with known minima.
 #include <algorithm>
 #include <cmath>
 
@@ -34,7 +34,7 @@ VectorXd vector_of(std::initializer_list<double> values) {
   return made;
 }
 
-/// The example of NLopt's tutorial: its COBYLA takes 31 evaluations to 0.5443.
+/// The example of NLopt's tutorial: its COBYLA needs 31 evaluations to reach 0.5443.
 Problem tutorial() {
   return {"NLopt's tutorial",
           vector_of({-2, 0}),
@@ -47,7 +47,7 @@ Problem tutorial() {
 }
 
 /// g24, g08 and g04 of the Congress on Evolutionary Computation 2006 (J. Liang et al., Problem definitions for
-/// constrained real-parameter optimization, 2006), which pagmo holds as its own examples.
+/// constrained real-parameter optimization, 2006), which are also examples of pagmo.
 Problem g24() {
   return {"g24",
           vector_of({0, 0}),
@@ -92,8 +92,8 @@ Problem g04() {
           }};
 }
 
-/// Two springs of six variables: each must be neither slack nor overstretched, together they must fit, and the more
-/// they bend the sooner they break. A thousandth of the box keeps all limits.
+/// Two springs with six variables: neither may be slack or overstretched, both must fit together, and more bending gives a
+/// shorter life. A thousandth of the box keeps all limits.
 Problem springs() {
   const auto bow = [](const VectorXd& x, Eigen::Index k) {
     return x[k] + x[k + 1] * x[k + 1] - 1.2 * std::sin(2 * x[k + 2]);
@@ -149,7 +149,7 @@ SurrogateSearch surrogate(const Problem& problem, std::uint64_t seed) {
   return {problem.low.size(), settings, nothing_rejected};
 }
 
-/// What NLopt's COBYLA finds by itself in so many evaluations from a place of the box; limits are kept to 1e-6.
+/// Returns the value that NLopt's COBYLA finds alone in this number of evaluations from a start; limits are kept to 1e-6.
 double found_by_cobyla(const Problem& problem, const VectorXd& start, int evaluations) {
   const auto size = problem.low.size();
   double best = HUGE_VAL;
@@ -174,7 +174,7 @@ double found_by_cobyla(const Problem& problem, const VectorXd& start, int evalua
 }  // namespace
 
 TEST_CASE("the surrogate search ends where the best places of known problems are, COBYLA not nearer") {
-  // Of the span of its values over the box; models are smooth to so much where a limit decides.
+  // Tolerances as shares of the span of the values over the box. Where a limit decides, the models are smooth to this share.
   constexpr double share = 1e-4;
   struct Asked {
     Problem problem;
@@ -196,8 +196,8 @@ TEST_CASE("the surrogate search ends where the best places of known problems are
 }
 
 TEST_CASE("with many valleys it mostly ends in the deepest, where chance does not come near") {
-  // The next deepest is 0.066 higher. Three seeds in four end in the deepest to 1e-3 (17 and 19 of 24 were counted, of
-  // two versions that differ in rounding alone). Of eight at such odds fewer than four come in 3 % of cases.
+  // The second deepest minimum is higher by 0.066. Three seeds in four end in the deepest to 1e-3 (17 and 19 of 24 were counted,
+  // in two versions that differ only in rounding). At these odds fewer than four of eight occur in 3 % of cases.
   int deepest = 0;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     SurrogateSearch search = surrogate(g08(), seed);
@@ -213,7 +213,7 @@ TEST_CASE("with many valleys it mostly ends in the deepest, where chance does no
 }
 
 TEST_CASE("looks that do not run lead to where they do") {
-  // The tutorial's problem, of which only a part of the box can be evaluated: its best place lies at the part's edge.
+  // The tutorial's problem, of which only a part of the box can be evaluated. Its best place lies at the part's edge.
   const Problem problem = tutorial();
   SurrogateSearch search = surrogate(problem, 1);
   std::vector<Candidate> all;
@@ -255,14 +255,14 @@ TEST_CASE("where a thousandth keeps all limits, rehearsals lead there within a f
     // At most the allowed number before the first candidate, and a few per candidate.
     CHECK(search.rehearsals().size() <= 150 + 20 * 12);
     CHECK_FALSE(best_of(searched(chance, problem, 20, 4)).feasible());
-    // Without rehearsals it takes longer, but less than a thousand random candidates.
+    // Without rehearsals it needs more candidates, but less than a thousand random ones.
     SurrogateSearch alone = surrogate(problem, seed);
     CHECK(best_of(searched(alone, problem, 60, 4)).feasible());
   }
 }
 
 TEST_CASE("where a limit is the largest of many, its pieces lead to where it is kept") {
-  // A small polytope within a box of eight variables: each face is a piece of the one limit.
+  // A small polytope in a box of eight variables: each face is a piece of the one limit.
   constexpr Eigen::Index variables = 8, faces = 24;
   Eigen::MatrixXd normals(faces, variables);
   RandomSearch chance(variables, 5, nothing_rejected);
@@ -302,7 +302,7 @@ TEST_CASE("where a limit is the largest of many, its pieces lead to where it is 
               pieces = rehearsals_until_one_is_within(true, seed);
     INFO("seed " << seed << ": after " << pieces << " in pieces, " << whole << " as a whole");
     CHECK(pieces <
-          60);  // a plane over eight variables needs nine, and errs between for some batches of eight
+          60);  // a plane over eight variables needs nine points, and has errors between for some batches of eight
     CHECK(2 * pieces < whole);
   }
 }
@@ -311,7 +311,7 @@ TEST_CASE("a search is a function of its seed and of what it is told") {
   const Problem problem = g24();
   SurrogateSearch whole = surrogate(problem, 7), first = surrogate(problem, 7);
   const std::vector<Candidate> looks = searched(whole, problem, 40, 4);
-  // One that is killed after five tellings and begun again from what was noted goes on as if nothing had been.
+  // A search that is killed after five results and restarted from its notes continues as if uninterrupted.
   SurrogateSearch again = surrogate(problem, 7);
   for (std::size_t k = 0; k < looks.size(); k += 4) {
     const std::vector<VectorXd> places = again.ask(4);
@@ -339,7 +339,7 @@ TEST_CASE("a search that rehearses goes on where it was killed, too") {
 TEST_CASE(
     "of many rehearsals of which none keeps its limits the nearest are looked at, and none that the "
     "models forgot") {
-  // A narrow valley about one corner of a box of six variables, not deep enough; rehearsals are right.
+  // A narrow valley around one corner of a box of six variables, which never keeps the limit. Rehearsals are exact.
   const auto beyond = [](const VectorXd& place) {
     return 0.1 + std::abs(std::log(((place.array() - 0.2).abs().maxCoeff() + 0.05) / 0.3));
   };
@@ -349,7 +349,7 @@ TEST_CASE(
     return told;
   };
   SurrogateSettings settings;
-  settings.rehearsals = 480;  // twice as many as the models take
+  settings.rehearsals = 480;  // twice as many as the models use
   SurrogateSearch search(6, settings, nothing_rejected, rehearse);
   const std::vector<VectorXd> asked = search.ask(4);
   CHECK(search.rehearsals().size() >= 480);
@@ -357,7 +357,7 @@ TEST_CASE(
 }
 
 TEST_CASE("rehearsals that do not run, or tell nothing, do not lead astray") {
-  // Runs only where x0 > 0.5; elsewhere the limits are unknown.
+  // Runs only where x0 > 0.5. Elsewhere the limits are unknown.
   const Problem problem = g24();
   const auto runs = [](const VectorXd& place) { return place[0] > 0.5; };
   const Rehearse rehearse = [&](const std::vector<VectorXd>& places) {
@@ -405,7 +405,7 @@ TEST_CASE("a search gives up after a third of its rehearsals where none runs or 
     CHECK(count >= third);
     CHECK(count < third + together);
   }
-  CHECK(rehearsed_until_it_asks(all(true, 0.5), false) > third + together);  // missed by less: it goes on
+  CHECK(rehearsed_until_it_asks(all(true, 0.5), false) > third + together);  // the limit is missed by less, so it continues
 }
 
 TEST_CASE("places that are rejected beforehand are not asked for") {
@@ -423,7 +423,7 @@ TEST_CASE("places that are rejected beforehand are not asked for") {
 }
 
 TEST_CASE("two aims give the front between them") {
-  // Distances from (0.2, 0.5) and (0.8, 0.5): the front is the line between, where they add up to 0.6.
+  // Distances from (0.2, 0.5) and (0.8, 0.5): the front is the line between them, where their sum is 0.6.
   const auto look_at = [](const VectorXd& place) {
     const VectorXd a = vector_of({0.2, 0.5}), b = vector_of({0.8, 0.5});
     return Candidate{place, true, {(place - a).norm(), (place - b).norm()}, {-1}};
@@ -476,7 +476,7 @@ TEST_CASE("functions of the same places are modelled as each by itself, with one
       CHECK(told.deviations[k] == Approx(alone.deviation).epsilon(1e-12).margin(1e-15));
     }
   }
-  // A scale of one of them, or a copy, changes no shape.
+  // Scaling of one aim, or a copy of it, does not change the shape.
   Eigen::MatrixXd again(7, 3);
   again << 1000 * values.col(0), values.col(1), values.col(1);
   Eigen::MatrixXd once(7, 3);
@@ -508,7 +508,7 @@ TEST_CASE("a Gaussian process passes through what was seen and is sure there alo
   }
   CHECK(model.at(vector_of({0.5})).mean == Approx(std::sin(2.5)).margin(0.05));
   CHECK(model.at(vector_of({0.5})).deviation > model.at(vector_of({0.4})).deviation);
-  // Values that are all alike.
+  // Equal values at all places.
   const VectorXd same = VectorXd::Constant(6, 3.0);
   const GaussianProcess flat(points, same, GaussianProcess::likeliest_shape(points, same, shape, 50));
   CHECK(flat.at(vector_of({0.5})).mean == Approx(3));
