@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "pipeline/base/constants.h"
+#include "pipeline/base/halving.h"
 #include "pipeline/base/text.h"
 #include "pipeline/cable/overlap.h"
 #include "pipeline/resolve/cable_rules.h"
@@ -68,15 +69,14 @@ void lay(CoreRing& ring, double diameter, double lay_length, const Where& where)
            diameter * (1 - touching);
   };
   if (ring.count > 1 && !fits(ring.radius)) {
-    double low = ring.radius, high = std::tan(steepest) * lay_length / (2 * pi);
-    if (high <= low || !fits(high))
+    const double largest = std::tan(steepest) * lay_length / (2 * pi);
+    if (largest <= ring.radius || !fits(largest))
       throw InputError(where,
                        fmt::format("{} parts of {:.4g} mm do not lie beside each other on a lay of {:.4g} mm",
                                    ring.count, 1e3 * diameter, 1e3 * lay_length),
                        "give a longer lay");
-    for (int halving = 0; halving < 50; ++halving) (fits((low + high) / 2) ? high : low) = (low + high) / 2;
-    ring.radius = high;
-    ring.lay_angle = lay_angle_at(high, lay_length);
+    ring.radius = halved(ring.radius, largest, 50, [&](double radius) { return !fits(radius); }).high;
+    ring.lay_angle = lay_angle_at(ring.radius, lay_length);
   }
   if (ring.lay_angle > steepest)
     throw InputError(
