@@ -56,6 +56,10 @@ std::filesystem::path named_study(const std::string& name);
 
 StudyRequest request_of(const StudyOptions& options);
 
+/// A study as it stands, for commands that make nothing: with what has changed since its stale results. Errors: those of
+/// check_source() and standing_of().
+StudyState standing_study(const StudyRequest& request);
+
 /// The folder of a study's results. Errors: InputError when it is not there.
 std::filesystem::path folder_of_results(const StudyRequest& request, const StudyOptions& options);
 
