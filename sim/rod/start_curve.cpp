@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "pipeline/base/halving.h"
-
 namespace dresslife::sim {
 namespace {
 
@@ -35,11 +33,13 @@ double length_of(const std::vector<Vector3>& points) {
 // The largest value of a parameter in [0, most] with which the curve is not longer than `length` (bisection;
 // the length grows with the parameter but for a small dip, which does no harm).
 void stretch_to(Curve& curve, double Curve::*parameter, double most, double length, int count, int halvings) {
-  const auto fits = [&](double value) {
-    curve.*parameter = value;
-    return !(length_of(curve.points(count)) > length);
-  };
-  curve.*parameter = pipeline::halved(0, most, halvings, fits).low;
+  double low = 0, high = most;
+  for (int k = 0; k < halvings; ++k) {
+    const double middle = (low + high) / 2;
+    curve.*parameter = middle;
+    (length_of(curve.points(count)) > length ? high : low) = middle;
+  }
+  curve.*parameter = low;
 }
 
 Vector3 sag_direction(const Rod& rod, const Vector3& chord, const Vector3& base_tangent) {
