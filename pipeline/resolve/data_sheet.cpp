@@ -124,35 +124,10 @@ class Expansion {
   }
 
   /// What a rule stands in for: "wire 0.15 mm, jacket 1.21 mm"; empty: nothing.
-  std::string estimates() const {
-    std::vector<std::string> parts;
-    if (!has_class_ && sheet_.conductor_class > 0) parts.push_back(fmt::format("conductor class {}", sheet_.conductor_class));
-    const auto add = [&](const char* what, bool given, double value) {
-      if (!given) parts.push_back(fmt::format("{} {:.3g} mm", what, 1e3 * value));
-    };
-    add("wire", sheet_.wire_diameter.has_value(), wire_);
-    add("core", sheet_.core_diameter || sheet_.jacket_thickness, core_diameter_);
-    add("jacket", sheet_.jacket_thickness || (sheet_.core_diameter && sheet_.outer_diameter), jacket_);
-    add("outer diameter", sheet_.outer_diameter.has_value(), outer_);
-    return fmt::format("{}", fmt::join(parts, ", "));
-  }
+  std::string estimates() const { return ruled(false); }
 
   /// All keys that the sheet leaves out and that a life depends on, with their values: "conductor_class 6, wire_diameter_mm 0.15".
-  std::string estimated_keys() const {
-    std::vector<std::string> keys;
-    if (!has_class_ && sheet_.conductor_class > 0) keys.push_back(fmt::format("conductor_class {}", sheet_.conductor_class));
-    const auto add = [&](const char* key, bool given, double value) {
-      if (!given) keys.push_back(fmt::format("{} {:.3g}", key, 1e3 * value));
-    };
-    add("wire_diameter_mm", sheet_.wire_diameter.has_value(), wire_);
-    add("core_diameter_mm", sheet_.core_diameter || sheet_.jacket_thickness, core_diameter_);
-    add("jacket_thickness_mm", sheet_.jacket_thickness || (sheet_.core_diameter && sheet_.outer_diameter), jacket_);
-    add("outer_diameter_mm", sheet_.outer_diameter.has_value(), outer_);
-    add("lay_length_mm", sheet_.lay_length || sheet_.cores == 1, usual_lay(sheet_.cores, group_diameter(core_diameter_)));
-    add("group_lay_length_mm", sheet_.group_lay_length || !grouped(), usual_lay(sheet_.cores_per_group, core_diameter_));
-    add("wire_lay_length_mm", sheet_.wire_lay_length || wire_count() == 1, wire_lay_);
-    return fmt::format("{}", fmt::join(keys, ", "));
-  }
+  std::string estimated_keys() const { return ruled(true); }
 
   std::vector<Component> components() const {
     const std::vector<CoreRing> rings = cabled(core_diameter_);
@@ -169,6 +144,29 @@ class Expansion {
   }
 
  private:
+  /// A length that a rule gives where the sheet does not.
+  struct Ruled {
+    const char* words;  ///< for people; empty: it is none of what they compare with a catalogue
+    const char* key;
+    bool given;
+    double value;
+  };
+  std::string ruled(bool as_keys) const {
+    std::vector<std::string> parts;
+    if (!has_class_ && sheet_.conductor_class > 0)
+      parts.push_back(fmt::format("{} {}", as_keys ? "conductor_class" : "conductor class", sheet_.conductor_class));
+    for (const Ruled& of : std::vector<Ruled>{
+             {"wire", "wire_diameter_mm", sheet_.wire_diameter.has_value(), wire_},
+             {"core", "core_diameter_mm", sheet_.core_diameter || sheet_.jacket_thickness, core_diameter_},
+             {"jacket", "jacket_thickness_mm", sheet_.jacket_thickness || (sheet_.core_diameter && sheet_.outer_diameter), jacket_},
+             {"outer diameter", "outer_diameter_mm", sheet_.outer_diameter.has_value(), outer_},
+             {"", "lay_length_mm", sheet_.lay_length || sheet_.cores == 1, usual_lay(sheet_.cores, group_diameter(core_diameter_))},
+             {"", "group_lay_length_mm", sheet_.group_lay_length || !grouped(), usual_lay(sheet_.cores_per_group, core_diameter_)},
+             {"", "wire_lay_length_mm", sheet_.wire_lay_length || wire_count() == 1, wire_lay_}})
+      if (!of.given && (as_keys || *of.words))
+        parts.push_back(as_keys ? fmt::format("{} {:.3g}", of.key, 1e3 * of.value) : fmt::format("{} {:.3g} mm", of.words, 1e3 * of.value));
+    return fmt::format("{}", fmt::join(parts, ", "));
+  }
   static constexpr int most_wires = 5000;  // 400 mm2 of class 6
 
   /// Cables that move have the finest class: the one that counts where neither the class nor the wire is given.
