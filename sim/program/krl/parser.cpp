@@ -218,10 +218,9 @@ class KrlParser : StatementParser {
     if (at_.at_word("signal") || at_.at_word("import")) return signal(into);
     if (at_.at_word("interrupt")) return interrupt(s, into);
     if (at_.at_word("trigger")) return trigger(s, into);
-    for (const char* word : left_out_words)
-      if (at_.at_word(word)) return left_out(s, into);
-    for (const char* name : living_names)
-      if (at_.at_word(name)) return left_out(s, into);
+    if (at_any({std::begin(left_out_words), std::end(left_out_words)}) ||
+        at_any({std::begin(living_names), std::end(living_names)}))
+      return left_out(s, into);
     if (at_.peek().kind != Token::Kind::word)
       at_.fail(fmt::format("has {} where a statement is expected", at_.seen()), "correct the line");
     if (at_.take_word("if"))
@@ -265,8 +264,7 @@ class KrlParser : StatementParser {
 
   /// A line with one of present_words, unless it only says what happens later or what a name means.
   bool waits_for_robot() const {
-    for (const char* later : {"trigger", "interrupt", "global", "decl", "const", "signal", "ext", "extfct"})
-      if (at_.at_word(later)) return false;
+    if (at_any({"trigger", "interrupt", "global", "decl", "const", "signal", "ext", "extfct"})) return false;
     for (int ahead = 0;
          at_.peek(ahead).kind != Token::Kind::line_end && at_.peek(ahead).kind != Token::Kind::end; ++ahead)
       if (at_.peek(ahead).kind == Token::Kind::word &&
@@ -277,8 +275,7 @@ class KrlParser : StatementParser {
   }
 
   bool is_move() const {
-    return std::any_of(std::begin(moves), std::end(moves),
-                       [&](const char* word) { return at_.at_word(word); });
+    return at_any({std::begin(moves), std::end(moves)});
   }
 
   void left_out(Statement& s, std::vector<Statement>& into) {

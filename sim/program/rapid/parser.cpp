@@ -54,10 +54,8 @@ class RapidParser : StatementParser {
 
   /// A word that a lost reader finds its way by.
   bool opens_or_closes() const {
-    for (const char* word : {"endproc", "endfunc", "endtrap", "endmodule", "endif", "endfor", "endwhile",
-                             "endtest", "proc", "func", "else", "elseif", "case", "default"})
-      if (at_.at_word(word)) return true;
-    return false;
+    return at_any({"endproc", "endfunc", "endtrap", "endmodule", "endif", "endfor", "endwhile", "endtest", "proc", "func",
+                   "else", "elseif", "case", "default"});
   }
 
   void member() {
@@ -129,13 +127,11 @@ class RapidParser : StatementParser {
 
   bool at_end_of_routine() const { return at_any({"endmodule", "proc", "func", "trap"}) || at_.at_end(); }
   void skip_routine() {
-    while (!at_end_of_routine())
-      if (at_any({"endproc", "endfunc", "endtrap"})) {
-        at_.next();
-        return;
-      } else {
-        at_.next();
-      }
+    bool ended = false;
+    while (!ended && !at_end_of_routine()) {
+      ended = at_any({"endproc", "endfunc", "endtrap"});
+      at_.next();
+    }
   }
 
   void routine_lines(Routine& routine) {
