@@ -44,7 +44,7 @@ double integral_to(const Values& value, double x) {
 
 /// Where that integral reaches `target`, at most integral_to(1).
 double place_of(const Values& value, double target) {
-  return pipeline::halved(0, 1, 50, [&](double place) { return integral_to(value, place) < target; }).middle();
+  return pipeline::halved(0, 1, 50, [&](double end) { return integral_to(value, end) < target; }).middle();
 }
 
 Values damage_between(double begin, double width, double exponent, const DamageOfShares& damage) {
