@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "pipeline/base/halving.h"
 #include "pipeline/cable/believable.h"
 #include "pipeline/cable/cable_bending.h"
 #include "pipeline/cable/cable_force.h"
@@ -77,13 +78,9 @@ double BoredCable::critical_torque(double compression, double curvature) const {
 }
 
 double BoredCable::margin(double compression, double torque, double curvature) const {
-  double low = 0, high = largest_margin;
-  constexpr int halvings = 50;  // until rounding
-  for (int k = 0; k < halvings; ++k) {
-    const double middle = (low + high) / 2;
-    (middle * torque >= critical_torque(middle * compression, curvature) ? high : low) = middle;
-  }
-  return high;
+  constexpr int to_rounding = 50;
+  const auto holds = [&](double margin) { return !(margin * torque >= critical_torque(margin * compression, curvature)); };
+  return pipeline::halved(0, largest_margin, to_rounding, holds).high;
 }
 
 std::optional<Corkscrew> corkscrew(const pipeline::FileReader& strain, const pipeline::Job& job,

@@ -9,6 +9,7 @@
 
 #include "fatigue/life_distribution.h"
 #include "pipeline/base/constants.h"
+#include "pipeline/base/halving.h"
 #include "pipeline/life/planning.h"
 
 namespace dresslife::fatigue {
@@ -132,14 +133,11 @@ class Places {
 
   /// Returns the time by which the first of the evaluated places has certainly failed; more places can only make it earlier.
   double latest_of_judged(double soonest) const {
-    double low = soonest - LifeDistribution::farthest * own_,
-           high = soonest + LifeDistribution::farthest * own_;
+    const double reach = LifeDistribution::farthest * own_;
     std::vector<double> memory;
-    for (int halving = 0; own_ > 0 && halving < 16; ++halving) {
-      const double middle = (low + high) / 2;
-      (failed(middle, memory) < 1 - certain ? low : high) = middle;
-    }
-    return high;
+    return pipeline::halved(soonest - reach, soonest + reach, own_ > 0 ? 16 : 0,
+                            [&](double log_life) { return failed(log_life, memory) < 1 - certain; })
+        .high;
   }
 
   double own_, latest_ = 0, least_ = 0;

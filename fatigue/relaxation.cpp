@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "pipeline/base/constants.h"
+#include "pipeline/base/halving.h"
 
 namespace dresslife::fatigue {
 namespace {
@@ -43,12 +44,7 @@ double integral_to(const Values& value, double x) {
 
 /// Returns the x at which this integral reaches `target`. Precondition: target <= integral_to(value, 1).
 double place_of(const Values& value, double target) {
-  double low = 0, high = 1;
-  for (int halving = 0; halving < 50; ++halving) {
-    const double middle = (low + high) / 2;
-    (integral_to(value, middle) < target ? low : high) = middle;
-  }
-  return (low + high) / 2;
+  return pipeline::halved(0, 1, 50, [&](double end) { return integral_to(value, end) < target; }).middle();
 }
 
 Values damage_between(double begin, double width, double exponent, const DamageOfShares& damage) {

@@ -6,6 +6,8 @@
 #include <map>
 #include <numbers>
 
+#include "pipeline/base/halving.h"
+
 namespace dresslife::fatigue {
 namespace {
 
@@ -99,12 +101,8 @@ double WornLayer::area(double depth, double arc) const {
 }
 
 double WornLayer::depth(double area, double arc) const {
-  double low = 0, high = radius;
-  for (int k = 0; k < 60; ++k) {  // until rounding
-    const double middle = (low + high) / 2;
-    (this->area(middle, arc) < area ? low : high) = middle;
-  }
-  return high;
+  constexpr int to_rounding = 60;
+  return pipeline::halved(0, radius, to_rounding, [&](double depth) { return this->area(depth, arc) < area; }).high;
 }
 
 std::optional<WornMaterial> worn_of(const pipeline::Dresspack& dresspack) {

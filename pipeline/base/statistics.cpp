@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipeline/base/halving.h"
+
 namespace dresslife::pipeline {
 
 double normal_density(double z) { return std::exp(-z * z / 2) / std::sqrt(2 * std::numbers::pi); }
@@ -18,12 +20,8 @@ double log_normal_share(double z) {
 }
 
 double normal_quantile(double share) {
-  double low = -9, high = 9;  // Phi(-9) = 1e-19
-  for (int halving = 0; halving < 60; ++halving) {
-    const double middle = (low + high) / 2;
-    (normal_share(middle) < share ? low : high) = middle;
-  }
-  return (low + high) / 2;
+  // Phi(-9) = 1e-19
+  return halved(-9, 9, 60, [&](double z) { return normal_share(z) < share; }).middle();
 }
 
 double number_at(const std::vector<double>& sorted, double place) {

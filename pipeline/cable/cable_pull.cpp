@@ -4,6 +4,7 @@
 #include <numbers>
 #include <vector>
 
+#include "pipeline/base/halving.h"
 #include "pipeline/cable/cable_bending.h"
 #include "pipeline/cable/plain_properties.h"
 
@@ -66,12 +67,9 @@ double pull_of_wires(const Dresspack& dresspack, const std::vector<Component>& p
 
 double elongation_under(const Dresspack& dresspack, const std::vector<Component>& parts, double pull,
                         double twist) {
-  double low = -0.5, high = 0.5;  // the pull increases with the elongation
-  for (int k = 0; k < 60; ++k) {
-    const double middle = (low + high) / 2;
-    (pull_of_wires(dresspack, parts, middle, twist) < pull ? low : high) = middle;
-  }
-  return (low + high) / 2;
+  // The pull increases with the elongation.
+  const auto pulls_less = [&](double elongation) { return pull_of_wires(dresspack, parts, elongation, twist) < pull; };
+  return halved(-0.5, 0.5, 60, pulls_less).middle();
 }
 
 TwistShortening twist_shortening(const Dresspack& dresspack, const Component& cable) {

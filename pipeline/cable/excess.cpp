@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "pipeline/base/constants.h"
+#include "pipeline/base/halving.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/warning_words.h"
 #include "pipeline/cable/believable.h"
@@ -27,12 +28,8 @@ double excess_at_force(const CableForce& cable, double force, double room) {
 
 double force_of_excess(const CableForce& cable, double excess, double room) {
   if (excess <= 0) return 0;
-  double low = 0, high = cable.force(excess);  // the force without room
-  for (int halving = 0; halving < 60; ++halving) {
-    const double middle = (low + high) / 2;
-    (excess_at_force(cable, middle, room) < excess ? low : high) = middle;
-  }
-  return high;
+  const double without_room = cable.force(excess);
+  return halved(0, without_room, 60, [&](double force) { return excess_at_force(cable, force, room) < excess; }).high;
 }
 
 double room_of_excess(const CableForce& cable, double excess, double force) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "pipeline/base/constants.h"
+#include "pipeline/base/halving.h"
 #include "pipeline/base/warning_words.h"
 #include "pipeline/job/parts_room.h"
 #include "pipeline/settings/problems.h"
@@ -31,22 +32,14 @@ int largest_count(const Component& of) {
 
 /// Returns the largest lay angle that fits, by bisection between 0, which fits, and the component's angle, which does not.
 double largest_lay_angle(const Component& of) {
-  double low = 0, high = of.lay_angle;
-  for (int halving = 0; halving < 40; ++halving) {
-    const double middle = (low + high) / 2;
-    (fits(of, middle, of.count) ? low : high) = middle;
-  }
-  return low;
+  return halved(0, of.lay_angle, 40, [&](double lay_angle) { return fits(of, lay_angle, of.count); }).low;
 }
 
 /// Returns the least radius of the circle on which the parts fit at this lay angle [m].
 double least_helix_radius(const Component& of) {
-  double low = of.helix_radius, high = of.count * of.radius / std::cos(of.lay_angle);  // they fit if 2 pi R > K 2 r / cos
-  for (int halving = 0; halving < 40; ++halving) {
-    const double middle = (low + high) / 2;
-    (neighbour_distance(middle, of.lay_angle, of.count) < 2 * of.radius ? low : high) = middle;
-  }
-  return high;
+  const double enough = of.count * of.radius / std::cos(of.lay_angle);  // a circle of 2 pi R > K 2 r / cos
+  const auto overlap = [&](double radius) { return neighbour_distance(radius, of.lay_angle, of.count) < 2 * of.radius; };
+  return halved(of.helix_radius, enough, 40, overlap).high;
 }
 
 /// Returns keys with values, each of which is a remedy by itself.

@@ -10,6 +10,7 @@
 
 #include "pipeline/advise/improve/draft.h"
 #include "pipeline/advise/improve/screened.h"
+#include "pipeline/advise/improve/set_text.h"
 #include "pipeline/base/csv_rows.h"
 #include "pipeline/base/errors.h"
 #include "pipeline/base/installation.h"
@@ -219,19 +220,6 @@ Choice routing_for(const Draft& draft, const NewOptions& options) {
   return known && badness(*known) <= badness(made) ? *known : made;
 }
 
-std::string flow(const Node& node) {
-  if (node.is_scalar()) {
-    std::string text = to_yaml(node);
-    while (text.ends_with('\n')) text.pop_back();
-    return text;
-  }
-  std::string text;
-  for (const Node& item : node.items) text += (text.empty() ? "" : ", ") + flow(item);
-  for (const Entry& entry : node.entries)
-    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", entry.key, flow(entry.value));
-  return node.is_list() ? "[" + text + "]" : "{" + text + "}";
-}
-
 std::string commented(const std::string& key, const std::string& value, const std::string& words) {
   return fmt::format("{:<33} # {}\n", key + ": " + value, words);
 }
@@ -239,7 +227,7 @@ std::string commented(const std::string& key, const std::string& value, const st
 std::string text_of(const NewOptions& options, const Draft& draft, const Choice& choice,
                     const std::vector<double>& accelerations) {
   const std::string job = shown(options.job);
-  const auto entry = [&](const std::string& name) { return flow(scalar(seen_from_job(name, options.job))); };
+  const auto entry = [&](const std::string& name) { return set_text(scalar(seen_from_job(name, options.job))); };
   std::string text = fmt::format(
       "# A job, written by dresslife new. Next: dresslife check {0}, dresslife preview {0}, dresslife run {0}\n",
       job);
@@ -269,7 +257,7 @@ std::string text_of(const NewOptions& options, const Draft& draft, const Choice&
   const char* const off = choice.refused ? "# " : "";
   text += fmt::format(
       "# position_m and direction are in the frame of the link; free_length_m is the length between the clamps.\n{}routing:\n", off);
-  for (const Entry& key : choice.routing.entries) text += fmt::format("{}  {}: {}\n", off, key.key, flow(key.value));
+  for (const Entry& key : choice.routing.entries) text += fmt::format("{}  {}: {}\n", off, key.key, set_text(key.value));
   return text + commented("simulation", "{segments: 64}", "everything else has a default: config/README.md");
 }
 

@@ -17,6 +17,8 @@
 #include "pipeline/base/text.h"
 #include "pipeline/resolve/catalogue.h"
 #include "pipeline/stage/stage.h"
+#include "pipeline/study/changes.h"
+#include "pipeline/study/folder_source.h"
 
 namespace dresslife::pipeline {
 
@@ -139,6 +141,13 @@ fs::path named_study(const std::string& name) { return input(file_or_entry(name,
 
 StudyRequest request_of(const StudyOptions& options) {
   return {named_study(options.study), options.sets, options.out, program_folder()};
+}
+
+StudyState standing_study(const StudyRequest& request) {
+  check_source(request.out / study_name(request.file), request.file);
+  StudyState standing = standing_of(request);
+  report_changes(standing.study, standing.places, standing.states);
+  return standing;
 }
 
 fs::path folder_of_results(const StudyRequest& request, const StudyOptions& options) {

@@ -56,6 +56,10 @@ std::filesystem::path named_study(const std::string& name);
 
 StudyRequest request_of(const StudyOptions& options);
 
+/// Returns the state of a study for commands that compute nothing, with the changes since its stale results. Errors: those of
+/// check_source() and standing_of().
+StudyState standing_study(const StudyRequest& request);
+
 /// Returns the folder of a study's results. Errors: InputError when it does not exist.
 std::filesystem::path folder_of_results(const StudyRequest& request, const StudyOptions& options);
 

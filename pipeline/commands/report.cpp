@@ -24,10 +24,8 @@ namespace fs = std::filesystem;
 /// left them.
 int report(const StudyOptions& options) {
   const StudyRequest request = request_of(options);
-  const fs::path folder = folder_of_results(request, options);
-  check_source(folder, request.file);
-  StudyState standing = standing_of(request);
-  report_changes(standing.study, standing.places, standing.states);
+  folder_of_results(request, options);  // refuses a study without any
+  const StudyState standing = standing_study(request);
   const auto& [study, places, states, remembered, looks, digests] = standing;
   std::vector<RankingRow> rows = ranking_of(study, places, states);
   add_relative_lives(study, places, nullptr, rows);

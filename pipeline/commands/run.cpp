@@ -44,10 +44,7 @@ int run_shard(const RunOptions& options) {
 
 /// Prints the stages that a run would start, without starting them.
 int dry_run(const RunOptions& options) {
-  const StudyRequest request = request_of(options);
-  check_source(request.out / study_name(request.file), request.file);
-  StudyState standing = standing_of(request);
-  report_changes(standing.study, standing.places, standing.states);
+  const StudyState standing = standing_study(request_of(options));
   std::size_t to_make = 0, refused = 0;
   JobList jobs(options.json);
   for (std::size_t k = 0; k < standing.states.size(); ++k) {

@@ -6,18 +6,13 @@
 
 #include "pipeline/commands/as_json.h"
 #include "pipeline/commands/options.h"
-#include "pipeline/study/changes.h"
-#include "pipeline/study/folder_source.h"
 #include "pipeline/study/study_problems.h"
 
 namespace dresslife::pipeline {
 namespace {
 
 int status(const StudyOptions& options) {
-  const StudyRequest request = request_of(options);
-  check_source(request.out / study_name(request.file), request.file);
-  StudyState standing = standing_of(request);
-  report_changes(standing.study, standing.places, standing.states);
+  const StudyState standing = standing_study(request_of(options));
   std::size_t done = 0;
   JobList jobs(options.json);
   for (std::size_t k = 0; k < standing.states.size(); ++k) {

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "pipeline/base/constants.h"
+#include "pipeline/base/halving.h"
 #include "pipeline/base/text.h"
 #include "pipeline/cable/overlap.h"
 #include "pipeline/resolve/cable_rules.h"
@@ -68,15 +69,14 @@ void lay(CoreRing& ring, double diameter, double lay_length, const Where& where)
            diameter * (1 - touching);
   };
   if (ring.count > 1 && !fits(ring.radius)) {
-    double low = ring.radius, high = std::tan(steepest) * lay_length / (2 * pi);
-    if (high <= low || !fits(high))
+    const double largest = std::tan(steepest) * lay_length / (2 * pi);
+    if (largest <= ring.radius || !fits(largest))
       throw InputError(where,
                        fmt::format("{} parts of {:.4g} mm do not lie beside each other on a lay of {:.4g} mm",
                                    ring.count, 1e3 * diameter, 1e3 * lay_length),
                        "give a longer lay");
-    for (int halving = 0; halving < 50; ++halving) (fits((low + high) / 2) ? high : low) = (low + high) / 2;
-    ring.radius = high;
-    ring.lay_angle = lay_angle_at(high, lay_length);
+    ring.radius = halved(ring.radius, largest, 50, [&](double radius) { return !fits(radius); }).high;
+    ring.lay_angle = lay_angle_at(ring.radius, lay_length);
   }
   if (ring.lay_angle > steepest)
     throw InputError(
@@ -124,35 +124,10 @@ class Expansion {
   }
 
   /// Returns the lengths that come from rules: "wire 0.15 mm, jacket 1.21 mm"; empty: none.
-  std::string estimates() const {
-    std::vector<std::string> parts;
-    if (!has_class_ && sheet_.conductor_class > 0) parts.push_back(fmt::format("conductor class {}", sheet_.conductor_class));
-    const auto add = [&](const char* what, bool given, double value) {
-      if (!given) parts.push_back(fmt::format("{} {:.3g} mm", what, 1e3 * value));
-    };
-    add("wire", sheet_.wire_diameter.has_value(), wire_);
-    add("core", sheet_.core_diameter || sheet_.jacket_thickness, core_diameter_);
-    add("jacket", sheet_.jacket_thickness || (sheet_.core_diameter && sheet_.outer_diameter), jacket_);
-    add("outer diameter", sheet_.outer_diameter.has_value(), outer_);
-    return fmt::format("{}", fmt::join(parts, ", "));
-  }
+  std::string estimates() const { return ruled(false); }
 
   /// Returns all missing keys that a life depends on, with their values: "conductor_class 6, wire_diameter_mm 0.15".
-  std::string estimated_keys() const {
-    std::vector<std::string> keys;
-    if (!has_class_ && sheet_.conductor_class > 0) keys.push_back(fmt::format("conductor_class {}", sheet_.conductor_class));
-    const auto add = [&](const char* key, bool given, double value) {
-      if (!given) keys.push_back(fmt::format("{} {:.3g}", key, 1e3 * value));
-    };
-    add("wire_diameter_mm", sheet_.wire_diameter.has_value(), wire_);
-    add("core_diameter_mm", sheet_.core_diameter || sheet_.jacket_thickness, core_diameter_);
-    add("jacket_thickness_mm", sheet_.jacket_thickness || (sheet_.core_diameter && sheet_.outer_diameter), jacket_);
-    add("outer_diameter_mm", sheet_.outer_diameter.has_value(), outer_);
-    add("lay_length_mm", sheet_.lay_length || sheet_.cores == 1, usual_lay(sheet_.cores, group_diameter(core_diameter_)));
-    add("group_lay_length_mm", sheet_.group_lay_length || !grouped(), usual_lay(sheet_.cores_per_group, core_diameter_));
-    add("wire_lay_length_mm", sheet_.wire_lay_length || wire_count() == 1, wire_lay_);
-    return fmt::format("{}", fmt::join(keys, ", "));
-  }
+  std::string estimated_keys() const { return ruled(true); }
 
   std::vector<Component> components() const {
     const std::vector<CoreRing> rings = cabled(core_diameter_);
@@ -169,6 +144,29 @@ class Expansion {
   }
 
  private:
+  /// A length that the sheet may lack and that then comes from a rule.
+  struct Ruled {
+    const char* words;  ///< its name in estimates(); empty: not listed there
+    const char* key;
+    bool given;
+    double value;
+  };
+  std::string ruled(bool as_keys) const {
+    std::vector<std::string> parts;
+    if (!has_class_ && sheet_.conductor_class > 0)
+      parts.push_back(fmt::format("{} {}", as_keys ? "conductor_class" : "conductor class", sheet_.conductor_class));
+    for (const Ruled& of : std::vector<Ruled>{
+             {"wire", "wire_diameter_mm", sheet_.wire_diameter.has_value(), wire_},
+             {"core", "core_diameter_mm", sheet_.core_diameter || sheet_.jacket_thickness, core_diameter_},
+             {"jacket", "jacket_thickness_mm", sheet_.jacket_thickness || (sheet_.core_diameter && sheet_.outer_diameter), jacket_},
+             {"outer diameter", "outer_diameter_mm", sheet_.outer_diameter.has_value(), outer_},
+             {"", "lay_length_mm", sheet_.lay_length || sheet_.cores == 1, usual_lay(sheet_.cores, group_diameter(core_diameter_))},
+             {"", "group_lay_length_mm", sheet_.group_lay_length || !grouped(), usual_lay(sheet_.cores_per_group, core_diameter_)},
+             {"", "wire_lay_length_mm", sheet_.wire_lay_length || wire_count() == 1, wire_lay_}})
+      if (!of.given && (as_keys || *of.words))
+        parts.push_back(as_keys ? fmt::format("{} {:.3g}", of.key, 1e3 * of.value) : fmt::format("{} {:.3g} mm", of.words, 1e3 * of.value));
+    return fmt::format("{}", fmt::join(parts, ", "));
+  }
   static constexpr int most_wires = 5000;  // 400 mm2 of class 6
 
   /// Sets the finest class, which is usual for moving cables, if the sheet has neither class nor wire.

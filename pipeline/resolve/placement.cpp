@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "pipeline/base/constants.h"
+#include "pipeline/base/halving.h"
 #include "pipeline/base/order.h"
 #include "pipeline/settings/units.h"
 
@@ -45,20 +46,14 @@ std::optional<double> circle_of(const std::vector<double>& radii, double bore, d
   const double thickest = *std::max_element(radii.begin(), radii.end());
   const double widest = bore - thickest;
   if (widest <= 0 || asked(radii, widest) > 2 * pi * (1 + touching_of_radius)) return std::nullopt;
-  double low = 0, high = widest;  // bisection for the smallest circle
-  for (int k = 0; k < halvings; ++k) {
-    const double middle = (low + high) / 2;
-    (asked(radii, middle) > 2 * pi ? low : high) = middle;
-  }
-  const double least = std::max(high, core + thickest);
+  const double least_circle = halved(0, widest, halvings, [&](double circle) { return asked(radii, circle) > 2 * pi; }).high;
+  const double least = std::max(least_circle, core + thickest);
   if (least > widest * (1 + touching_of_radius)) return std::nullopt;
-  low = std::min(least, widest), high = widest;
-  for (int k = 0; k < halvings; ++k) {
-    const double middle = (low + high) / 2;
-    const double gap = middle * (2 * pi - asked(radii, middle)) / static_cast<double>(radii.size());
-    (widest - middle > gap / 2 ? low : high) = middle;
-  }
-  return low;
+  const auto leaves_more_outside = [&](double circle) {
+    const double gap = circle * (2 * pi - asked(radii, circle)) / static_cast<double>(radii.size());
+    return widest - circle > gap / 2;
+  };
+  return halved(std::min(least, widest), widest, halvings, leaves_more_outside).low;
 }
 
 std::vector<double> chosen(const std::vector<double>& radii, const std::vector<std::size_t>& parts) {

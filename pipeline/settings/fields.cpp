@@ -406,9 +406,7 @@ class FieldEcho final : public Fields {
  public:
   Node finish() { return std::move(levels_.front()); }
   explicit FieldEcho(const PathText& path_text) : path_text_(path_text) {
-    levels_.emplace_back();
-    levels_.back().kind = Node::Kind::map;
-    keys_.emplace_back();
+    open("", Node::Kind::map);
   }
 
   void text(Key key, std::string& value, Need, std::string_view) override {
@@ -468,47 +466,39 @@ class FieldEcho final : public Fields {
   }
 
   bool enter(Key key, Need, bool present, std::string_view, const char*) override {
-    if (!present) return false;
-    keys_.emplace_back(key);
-    levels_.emplace_back();
-    levels_.back().kind = Node::Kind::map;
-    return true;
+    if (present) open(key, Node::Kind::map);
+    return present;
   }
 
-  void leave() override {
-    Node map = std::move(levels_.back());
+  void leave() override { close(); }
+
+  std::size_t enter_list(Key key, std::size_t count, Need, std::string_view, const char*) override {
+    open(key, Node::Kind::list);
+    return count;
+  }
+
+  void enter_item(std::size_t) override { open("", Node::Kind::map); }
+  void leave_list() override { close(); }
+
+ private:
+  void put(Key key, Node value) { levels_.back()[key] = std::move(value); }
+
+  void open(Key key, Node::Kind kind) {
+    keys_.emplace_back(key);
+    levels_.emplace_back().kind = kind;
+  }
+  /// What was opened last goes into the one before, unless it is empty; an item of a list always does.
+  void close() {
+    const Node made = std::move(levels_.back());
     const std::string key = keys_.back();
     levels_.pop_back();
     keys_.pop_back();
     if (levels_.back().is_list())
-      levels_.back().items.push_back(std::move(map));
-    else if (!map.entries.empty())
-      put(key, std::move(map));
+      levels_.back().items.push_back(made);
+    else if (!made.entries.empty() || !made.items.empty())
+      put(key, made);
   }
 
-  std::size_t enter_list(Key key, std::size_t count, Need, std::string_view, const char*) override {
-    keys_.emplace_back(key);
-    levels_.emplace_back();
-    levels_.back().kind = Node::Kind::list;
-    return count;
-  }
-
-  void enter_item(std::size_t) override {
-    keys_.emplace_back();
-    levels_.emplace_back();
-    levels_.back().kind = Node::Kind::map;
-  }
-
-  void leave_list() override {
-    Node list = std::move(levels_.back());
-    const std::string key = keys_.back();
-    levels_.pop_back();
-    keys_.pop_back();
-    if (!list.items.empty()) put(key, std::move(list));
-  }
-
- private:
-  void put(Key key, Node value) { levels_.back()[key] = std::move(value); }
   const PathText& path_text_;
   std::vector<Node> levels_;       ///< open maps and lists, outermost first
   std::vector<std::string> keys_;  ///< key of each open map or list in the map around it

@@ -16,6 +16,7 @@
 #include "pipeline/base/installation.h"
 #include "pipeline/base/limits.h"
 #include "pipeline/base/threads.h"
+#include "pipeline/base/words.h"
 #include "pipeline/files/checksum.h"
 #include "pipeline/files/receipt.h"
 #include "pipeline/job/job.h"
@@ -25,16 +26,10 @@
 namespace dresslife::pipeline {
 namespace {
 
-const char* part_name(JobPart part) {
-  switch (part) {
-    case JobPart::sim:
-      return "robot, motion, dresspack, routing or simulation";
-    case JobPart::strain:
-      return "dresspack.components or strain";
-    case JobPart::fatigue:
-      return "dresspack.materials or fatigue";
-  }
-  return "";
+std::string_view part_name(JobPart part) {
+  return word_at({"robot, motion, dresspack, routing or simulation", "dresspack.components or strain",
+                  "dresspack.materials or fatigue"},
+                 part);
 }
 
 /// Options that only the command line of a stage has.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "pipeline/base/plain_file.h"
+#include "pipeline/base/words.h"
 #include "pipeline/settings/document.h"
 
 namespace dresslife::sim {
@@ -52,30 +53,15 @@ std::vector<Entry> entries_of(const std::vector<Problem>& problems) {
   return entries;
 }
 
-const char* section_of(Kind kind) {
-  switch (kind) {
-    case Kind::value:
-      return "values";
-    case Kind::branch:
-      return "assume";
-    case Kind::tool:
-      return "tools";
-    case Kind::work_object:
-      break;
-  }
-  return "work_objects";
+std::string_view section_of(Kind kind) {
+  return pipeline::word_at({"values", "assume", "tools", "work_objects"}, kind);
 }
 
 std::string line_of(const Question& question) {
-  switch (question.kind) {
-    case Kind::value:
-      return fmt::format("{{name: {}, value: {}}}", quoted(question.name), quoted(question.preset));
-    case Kind::branch:
-      return fmt::format("{{line: {}, take: {}}}", quoted(question.name), quoted(question.preset));
-    case Kind::tool:
-    case Kind::work_object:
-      break;
-  }
+  if (question.kind == Kind::value)
+    return fmt::format("{{name: {}, value: {}}}", quoted(question.name), quoted(question.preset));
+  if (question.kind == Kind::branch)
+    return fmt::format("{{line: {}, take: {}}}", quoted(question.name), quoted(question.preset));
   return fmt::format("{{name: {}, position_mm: [], quaternion: [1, 0, 0, 0]}}", quoted(question.name));
 }
 

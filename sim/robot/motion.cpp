@@ -4,6 +4,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "pipeline/base/halving.h"
+
 #include "sim/robot/legs.h"
 #include "sim/robot/path_motion.h"
 #include "sim/robot/robot.h"
@@ -45,13 +47,9 @@ double reached_speed(const Leg& leg, double length, double v0, double v1) {
   const auto way = [&](double top) {
     return (v0 + top) / 2 * change_on(leg, top - v0).duration + (top + v1) / 2 * change_on(leg, top - v1).duration;
   };
-  double low = std::max(v0, v1), high = std::max(leg.cruise, low);
+  const double low = std::max(v0, v1), high = std::max(leg.cruise, low);
   if (way(high) <= length) return high;
-  for (int i = 0; i < 50; ++i) {  // relative error 2^-50
-    const double middle = (low + high) / 2;
-    (way(middle) <= length ? low : high) = middle;
-  }
-  return low;
+  return pipeline::halved(low, high, 50, [&](double top) { return way(top) <= length; }).low;  // 2^-50 of the speed
 }
 
 /// The transition from leg k to leg k + 1.

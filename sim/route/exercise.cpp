@@ -1,6 +1,7 @@
 #include "sim/route/exercise.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -74,27 +75,31 @@ pipeline::Motion exercise(const pipeline::Robot& robot) {
   motion.source = "made by dresslife: no program, only what a wrist usually does";
   motion.speed_percent = 50;
   motion.acceleration_percent = 50;
-  const auto add = [&](const char* text, double of_body, double fourth, double fifth, double sixth) {
-    const double shares[] = {fourth, fifth, sixth};
+  struct Posture {
+    const char* text;
+    double of_body;  ///< share of the ways of axes 1 to 3
+    std::array<double, 3> of_hand;
+  };
+  constexpr Posture postures[] = {{"home", 0, {0, 0, 0}},
+                                  {"hand down", 0, {0, 1, 0}},
+                                  {"hand down, flange to the left", 0, {0, 1, -1}},
+                                  {"hand down, flange to the right", 0, {0, 1, 1}},
+                                  {"hand up", 0, {0, -0.75, 0}},
+                                  {"forearm to the left", 1, {1, 0.75, -0.5}},
+                                  {"forearm to the right", -1, {-1, 0.75, 0.5}},
+                                  {"hand to the left", 0.5, {1, 1, 0}},
+                                  {"hand to the right", -0.5, {-1, 1, 0}},
+                                  {"home", 0, {0, 0, 0}}};
+  for (const Posture& posture : postures) {
     pipeline::MotionStep step;
-    step.text = text;
+    step.text = posture.text;
     for (std::size_t k = 0; k < count; ++k) {
-      const double way =
-          k < wrist ? of_body * body[std::min<std::size_t>(k, 2)] : shares[k - wrist] * hand[k - wrist];
+      const double way = k < wrist ? posture.of_body * body[std::min<std::size_t>(k, 2)]
+                                   : posture.of_hand[k - wrist] * hand[k - wrist];
       step.joints.push_back(within(axes[k], home[k] + way));
     }
     motion.steps.push_back(std::move(step));
-  };
-  add("home", 0, 0, 0, 0);
-  add("hand down", 0, 0, 1, 0);
-  add("hand down, flange to the left", 0, 0, 1, -1);
-  add("hand down, flange to the right", 0, 0, 1, 1);
-  add("hand up", 0, 0, -0.75, 0);
-  add("forearm to the left", 1, 1, 0.75, -0.5);
-  add("forearm to the right", -1, -1, 0.75, 0.5);
-  add("hand to the left", 0.5, 1, 1, 0);
-  add("hand to the right", -0.5, -1, 1, 0);
-  add("home", 0, 0, 0, 0);
+  }
   return motion;
 }
 

@@ -178,15 +178,9 @@ std::string text_of(const fs::path& file) {
   return source.size() > ImportLimits::file_bytes ? "" : decoded_text(source.text());
 }
 
-/// What a listing says about others, without running it.
-struct Outline {
-  std::string name;
-  std::set<std::string> words;  ///< first words of statements and what CALL and RUN name, in lower case
-  bool moves = false;
-};
-
-Outline outline_of(const fs::path& file, const std::map<std::string, std::string>& macros) {
-  Outline made;
+/// What a listing calls, without running it: what CALL and RUN name, and macros.
+Calls calls_of_listing(const fs::path& file, const std::map<std::string, std::string>& macros) {
+  Calls made;
   const SourceFile source(file.string(), text_of(file));
   if (source.text().find("/PROG") == std::string::npos) return made;  // a log
   Program ignored;
@@ -203,12 +197,12 @@ Outline outline_of(const fs::path& file, const std::map<std::string, std::string
       for (std::size_t found = text.find(call); found != std::string::npos;
            found = text.find(call, found + 1)) {
         FanucCursor named(std::string_view(text).substr(found + call.size()));
-        made.words.insert(std::string(named.name()));
+        made.names.insert(std::string(named.name()));
       }
     const std::size_t arguments = std::min(text.find('('), text.size());
     if (const auto macro = macros.find(std::string(trimmed(std::string_view(text).substr(0, arguments))));
         macro != macros.end())
-      made.words.insert(macro->second);
+      made.names.insert(macro->second);
   }
   return made;
 }
@@ -231,9 +225,9 @@ std::vector<fs::path> fanuc_files_beside(const fs::path& listing) {
   std::set<std::string> known{lower_case(listing.stem().string())};
   std::vector<fs::path> open{listing};
   while (!open.empty()) {
-    const Outline outline = outline_of(open.back(), variables.macros);
+    const Calls outline = calls_of_listing(open.back(), variables.macros);
     open.pop_back();
-    for (const std::string& word : outline.words)
+    for (const std::string& word : outline.names)
       if (const auto found = beside.find(word); found != beside.end() && known.insert(word).second) {
         made.push_back(found->second);
         open.push_back(found->second);
@@ -252,29 +246,17 @@ FanucFolder fanuc_folder(const fs::path& folder) {
     made.variables.push_back(file);
     read_fanuc_variables(SourceFile(file.string(), text_of(file)), variables);
   }
-  std::map<std::string, Outline> outlines;
+  CallGraph graph;
   for (const fs::path& file : listings)
-    if (Outline outline = outline_of(file, variables.macros); !outline.name.empty()) {
+    if (Calls calls = calls_of_listing(file, variables.macros); !calls.name.empty()) {
       made.listings.push_back(file);
-      outlines[outline.name] = std::move(outline);
+      graph[calls.name] = std::move(calls);
     }
-  const auto moves = [&](const std::string& start) {
-    std::set<std::string> seen{start};
-    std::vector<std::string> open{start};
-    while (!open.empty()) {
-      const Outline& outline = outlines.at(open.back());
-      open.pop_back();
-      if (outline.moves) return true;
-      for (const std::string& word : outline.words)
-        if (outlines.contains(word) && seen.insert(word).second) open.push_back(word);
-    }
-    return false;
-  };
-  for (const auto& [name, outline] : outlines) {
-    const bool called = std::any_of(outlines.begin(), outlines.end(), [&name = name](const auto& other) {
-      return other.first != name && other.second.words.contains(name);
+  for (const auto& [name, calls] : graph) {
+    const bool called = std::any_of(graph.begin(), graph.end(), [&name = name](const auto& other) {
+      return other.first != name && other.second.names.contains(name);
     });
-    if (!called && moves(name)) made.mains.push_back(name);
+    if (!called && moves(name, graph)) made.mains.push_back(name);
   }
   return made;
 }

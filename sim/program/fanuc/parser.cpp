@@ -365,10 +365,12 @@ bool FanucCursor::take(std::string_view word) {
   return true;
 }
 
-bool FanucCursor::take_sign(char sign) {
+bool FanucCursor::take_sign(char sign) { return take_signs({&sign, 1}); }
+
+bool FanucCursor::take_signs(std::string_view signs) {
   skip_blanks();
-  if (at_ >= text_.size() || text_[at_] != sign) return false;
-  ++at_;
+  if (!rest().starts_with(signs)) return false;
+  at_ += signs.size();
   return true;
 }
 

@@ -63,6 +63,7 @@ class FanucCursor {
   bool at_end();
   bool take(std::string_view word);  ///< ignoring case and blanks before it; not within a longer word
   bool take_sign(char sign);
+  bool take_signs(std::string_view signs);  ///< "<>"
   void skip_to(char sign);         ///< behind the next one, or to the end
   std::optional<double> number();  ///< with sign
   std::string word();              ///< letters, digits, _ and $; lower case

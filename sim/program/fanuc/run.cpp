@@ -73,13 +73,14 @@ void FanucRun::missing(const std::string& name, const std::string& what, const s
                        std::vector<Question> questions, bool decision) {
   if (questions.empty() && exploration_.guessing()) return;
   for (const Question& question : questions) exploration_.meet_question(question.name);
-  Problem problem{.where = where(), .what = what, .remedy = remedy};
-  problem.about = name;
-  problem.decision = decision;
-  problem.routine = program_name();
-  problem.questions = std::move(questions);
-  problem.certain = !exploration_.guessing();
-  problems_.add_use(std::move(problem));
+  problems_.add_use({.where = where(),
+                     .what = what,
+                     .remedy = remedy,
+                     .about = name,
+                     .decision = decision,
+                     .routine = program_name(),
+                     .questions = std::move(questions),
+                     .certain = !exploration_.guessing()});
 }
 
 namespace {

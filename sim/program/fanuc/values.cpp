@@ -346,7 +346,7 @@ FanucNumber FanucValues::operand(FanucCursor& at, int depth) {
 FanucNumber FanucValues::value(FanucCursor& at, int depth) {
   if (depth > ImportLimits::nesting) return {};
   if (at.take_sign('(')) {
-    const FanucNumber inner = logical(at, depth + 1);
+    const FanucNumber inner = level(at, 1, depth + 1);
     at.take_sign(')');
     return inner;
   }
@@ -366,87 +366,68 @@ FanucNumber FanucValues::value(FanucCursor& at, int depth) {
   return operand(at, depth);
 }
 
-FanucNumber FanucValues::term(FanucCursor& at, int depth) {
+namespace {
+
+struct FanucOperator {
+  std::string_view written;
+  int level;
+};
+constexpr int conjunctions = 2, comparisons = 3, sums = 4, products = 5;
+constexpr FanucOperator fanuc_operators[] = {
+    {"OR", 1},          {"AND", conjunctions}, {"<>", comparisons}, {"<=", comparisons}, {">=", comparisons},
+    {"<", comparisons}, {">", comparisons},    {"=", comparisons},  {"+", sums},         {"-", sums},
+    {"*", products},    {"/", products},       {"DIV", products},   {"MOD", products}};
+
+/// The operator at the cursor, which is taken, of a level from `lowest` to `highest`; null: there is none.
+const FanucOperator* next_operator(FanucCursor& at, int lowest, int highest) {
+  for (const FanucOperator& op : fanuc_operators) {
+    if (op.level < lowest || op.level > highest) continue;
+    if (op.written[0] >= 'A' ? at.take(op.written) : at.take_signs(op.written)) return &op;
+  }
+  return nullptr;
+}
+
+/// Of AND and OR one side can be enough.
+FanucNumber combined(std::string_view op, FanucNumber a, FanucNumber b) {
+  if (const bool either = op == "OR"; either || op == "AND") {
+    for (const FanucNumber& side : {a, b})
+      if (side && (*side != 0) == either) return FanucNumber(either);
+    return a && b ? FanucNumber(!either) : FanucNumber{};
+  }
+  if (!a || !b) return {};
+  const double x = *a, y = *b;
+  const double result = op == "+"     ? x + y
+                        : op == "-"   ? x - y
+                        : op == "*"   ? x * y
+                        : op == "/"   ? x / y
+                        : op == "DIV" ? std::trunc(x / y)
+                        : op == "MOD" ? std::fmod(x, y)
+                        : x < y       ? op[0] == '<'  // <, <=, <>
+                        : x > y       ? op.back() == '>' || op == ">="
+                                      : op.back() == '=';
+  return std::isfinite(result) ? FanucNumber(result) : FanucNumber{};
+}
+
+}  // namespace
+
+/// By precedence climbing. A comparison is none of the sides of another one.
+FanucNumber FanucValues::level(FanucCursor& at, int lowest, int depth) {
+  if (depth > ImportLimits::nesting) return {};
+  ++charged_;
   FanucNumber left = value(at, depth);
-  while (true) {
+  int highest = products;
+  while (const FanucOperator* op = next_operator(at, lowest, highest)) {
     ++charged_;
-    char op = 0;
-    if (at.take_sign('*'))
-      op = '*';
-    else if (at.take_sign('/'))
-      op = '/';
-    else if (at.take("DIV"))
-      op = 'd';
-    else if (at.take("MOD"))
-      op = 'm';
-    else
-      return left;
-    const FanucNumber right = value(at, depth);
-    if (!left || !right) {
-      left.reset();
-      continue;
-    }
-    double result = NAN;
-    if (op == '*') result = *left * *right;
-    if (op == '/') result = *left / *right;
-    if (op == 'd') result = std::trunc(*left / *right);
-    if (op == 'm') result = std::fmod(*left, *right);
-    left = std::isfinite(result) ? FanucNumber(result) : FanucNumber{};
+    left = combined(op->written, left, level(at, op->level + 1, depth));
+    if (op->level <= comparisons) highest = conjunctions;
   }
+  return left;
 }
 
-FanucNumber FanucValues::expression(FanucCursor& at, int depth) {
-  if (depth > ImportLimits::nesting) return {};
-  FanucNumber left = term(at, depth);
-  while (true) {
-    ++charged_;
-    const bool plus = at.take_sign('+');
-    if (!plus && !at.take_sign('-')) return left;
-    const FanucNumber right = term(at, depth);
-    left = left && right ? FanucNumber(plus ? *left + *right : *left - *right) : FanucNumber{};
-  }
-}
-
-/// left < right and the like; without a comparison the left side itself.
-FanucNumber FanucValues::relation(FanucCursor& at, int depth) {
-  const FanucNumber left = expression(at, depth);
-  const bool less = at.take_sign('<'), greater = at.take_sign('>'), equal = at.take_sign('=');
-  if (!less && !greater && !equal) return left;
-  const FanucNumber right = expression(at, depth);
-  if (!left || !right) return {};
-  return (less && *left < *right) || (greater && *left > *right) || (equal && *left == *right);
-}
-
-FanucNumber FanucValues::conjunction(FanucCursor& at, int depth) {
-  FanucNumber result = relation(at, depth);
-  while (at.take("AND")) {
-    ++charged_;
-    const FanucNumber right = relation(at, depth);
-    if ((result && *result == 0) || (right && *right == 0))
-      result = 0;
-    else
-      result = result && right ? FanucNumber(1) : FanucNumber{};
-  }
-  return result;
-}
-
-/// A number, or the truth of a condition as 1 or 0.
-FanucNumber FanucValues::logical(FanucCursor& at, int depth) {
-  if (depth > ImportLimits::nesting) return {};
-  FanucNumber result = conjunction(at, depth);
-  while (at.take("OR")) {
-    ++charged_;
-    const FanucNumber right = conjunction(at, depth);
-    if ((result && *result != 0) || (right && *right != 0))
-      result = 1;
-    else
-      result = result && right ? FanucNumber(0) : FanucNumber{};
-  }
-  return result;
-}
+FanucNumber FanucValues::expression(FanucCursor& at, int depth) { return level(at, sums, depth); }
 
 std::optional<bool> FanucValues::condition(FanucCursor& at) {
-  const FanucNumber result = logical(at, 0);
+  const FanucNumber result = level(at, 1, 0);
   return result ? std::optional(*result != 0) : std::nullopt;
 }
 

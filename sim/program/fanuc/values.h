@@ -93,14 +93,11 @@ class FanucValues {
   long charged() const { return charged_; }
 
  private:
-  FanucNumber term(FanucCursor& at, int depth);
   FanucNumber function(const std::string& word, FanucNumber of) const;
   FanucNumber operand(FanucCursor& at, int depth);
   FanucNumber unknown(const std::string& name);
   FanucNumber register_value(int number);
-  FanucNumber logical(FanucCursor& at, int depth);
-  FanucNumber conjunction(FanucCursor& at, int depth);
-  FanucNumber relation(FanucCursor& at, int depth);
+  FanucNumber level(FanucCursor& at, int lowest, int depth);
   void take(const std::string& name, const std::string& text, Problems& problems);
 
   std::map<int, double> registers_;

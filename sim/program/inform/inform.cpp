@@ -64,8 +64,6 @@ class Inform final : public Dialect {
          const Routine& start)
       : code_(code), tools_(tools), frames_(frames), robot_(start.robot) {}
 
-  void attach(Interpreter& run) { run_ = &run; }
-
   std::optional<Value> constant(const std::string& name) override {
     if (name == "on" || name == "off") return number_value(name == "on");
     if (std::optional<Value> value = run_->given(name)) return value;
@@ -709,7 +707,6 @@ class Inform final : public Dialect {
   const std::vector<NamedFrame>& tools_;
   const std::vector<NamedFrame>& frames_;
   const std::string robot_;
-  Interpreter* run_ = nullptr;
   std::map<std::string, double> default_speed_;
   std::optional<std::pair<Expression, std::string>> shift_;  // of SFTON, and its coordinate system
   Value shift_value_;
@@ -803,9 +800,7 @@ void run_inform(const Code& code, const ImportOptions& options, const std::vecto
   explore(
       [&](Exploration& exploration, Program& made, Problems& found) {
         Inform inform(code, tools, work_objects, *start);
-        Interpreter interpreter(code, inform, options, made, found, exploration);
-        inform.attach(interpreter);
-        interpreter.run(*start);
+        Interpreter(code, inform, options, made, found, exploration).run(*start);
         if (found.empty()) bend_arcs(inform.arc_points(), made, found);
       },
       program, problems);

@@ -96,17 +96,10 @@ int Interpreter::ask(const Place& place, const std::string& what, const Value& u
   std::vector<Question> questions = questions_for(unknown, form);
   if (questions.empty() || (questions.size() > 1 && ways == 2) || !by_value)
     questions = {{Question::Kind::branch, line, ways == 2 ? "then or else" : form.empty() ? answers : form}};
-  for (const Question& question : questions) exploration_.meet_question(question.name);
-  Problem problem{.where = where(place),
-                  .what = what + because(unknown),
-                  .remedy = fmt::format("choose with --assume {}={} (motion.assume in a job){}", line, answers,
-                                        values.empty() ? "" : fmt::format(", or give {} (motion.values)", values))};
-  problem.about = about;
-  problem.decision = true;
-  problem.routine = routine_at(place);
-  problem.questions = std::move(questions);
-  problem.certain = !exploration_.guessing();
-  problems_.add_use(std::move(problem));
+  miss(about, place, what + because(unknown),
+       fmt::format("choose with --assume {}={} (motion.assume in a job){}", line, answers,
+                   values.empty() ? "" : fmt::format(", or give {} (motion.values)", values)),
+       std::move(questions), true);
   return guess(place, ways);
 }
 

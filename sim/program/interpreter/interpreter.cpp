@@ -33,7 +33,9 @@ Interpreter::Interpreter(const Code& code, Dialect& dialect, const ImportOptions
       options_(options),
       program_(program),
       problems_(problems),
-      exploration_(exploration) {}
+      exploration_(exploration) {
+  dialect_.attach(*this);
+}
 
 void Interpreter::run(const Routine& routine) {
   try {
@@ -105,18 +107,20 @@ void Interpreter::complain(const Place& place, const std::string& what, const st
 }
 
 void Interpreter::miss(const std::string& name, const Place& place, const std::string& what,
-                       const std::string& remedy, std::vector<Question> questions) {
+                       const std::string& remedy, std::vector<Question> questions, bool decision) {
   if (questions.empty() && exploration_.guessing()) {
     ++dropped_;
     return;
   }
   for (const Question& question : questions) exploration_.meet_question(question.name);
-  Problem problem{.where = where(place), .what = what, .remedy = remedy};
-  problem.about = name;
-  problem.routine = routine_at(place);
-  problem.questions = std::move(questions);
-  problem.certain = !exploration_.guessing();
-  problems_.add_use(std::move(problem));
+  problems_.add_use({.where = where(place),
+                     .what = what,
+                     .remedy = remedy,
+                     .about = name,
+                     .decision = decision,
+                     .routine = routine_at(place),
+                     .questions = std::move(questions),
+                     .certain = !exploration_.guessing()});
 }
 
 void Interpreter::ask_for(const Value& unknown, const Place& place, const std::string& what,

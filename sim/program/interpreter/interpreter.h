@@ -81,6 +81,8 @@ class Interpreter;
 class Dialect {
  public:
   virtual ~Dialect() = default;
+  /// Called by the run that uses it, before anything else.
+  void attach(Interpreter& run) { run_ = &run; }
   /// Value of a name that the program does not declare.
   virtual std::optional<Value> constant(const std::string& name) = 0;
   /// Value of a function of the language; absent: there is no such function.
@@ -94,21 +96,11 @@ class Dialect {
   /// Whether an unknown instruction is known to be input, output or logic.
   virtual bool harmless(const std::string& instruction) const = 0;
   /// The move that an unknown instruction probably is, with a typing error, as the language writes it; empty: none.
-  virtual std::string move_meant(const Statement& statement) const {
-    static_cast<void>(statement);
-    return "";
-  }
+  virtual std::string move_meant(const Statement&) const { return ""; }
   /// Whether an instruction that is left out, or a function that is not read, may write to this argument.
-  virtual bool writes(const std::string& instruction, int position, const Expression& argument) const {
-    static_cast<void>(position);
-    static_cast<void>(argument);
-    return !harmless(instruction);
-  }
+  virtual bool writes(const std::string& instruction, int /*position*/, const Expression& /*argument*/) const { return !harmless(instruction); }
   /// Whether the controller runs this routine again when it has ended.
-  virtual bool begins_again(const Routine& routine) const {
-    static_cast<void>(routine);
-    return false;
-  }
+  virtual bool begins_again(const Routine&) const { return false; }
   virtual const RecordType* type_of(const std::string& name) const = 0;
   /// How a value of a type is written: "a number"; empty: as it is in the program.
   virtual std::string form_of(const std::string& type) const = 0;
@@ -118,10 +110,7 @@ class Dialect {
   /// written, which is asked for then. Absent: two files that differ are a mistake.
   virtual std::optional<std::string> form_of_copies(const std::string&) const { return {}; }
   /// The number that a text of one letter stands for; absent: none in this language.
-  virtual std::optional<double> letter(const Value& text) const {
-    static_cast<void>(text);
-    return {};
-  }
+  virtual std::optional<double> letter(const Value&) const { return {}; }
   /// An instruction that an undecided branch may have run.
   virtual void may_have_run(const Statement&, const Cause&, Interpreter&) {}
   /// Value of a declared variable without one.
@@ -131,16 +120,12 @@ class Dialect {
   /// Of a list, as programs write it.
   virtual int first_index() const { return 1; }
   /// Whether a name that a module uses and no file read declares belongs to all modules, not to it alone.
-  virtual bool shares(const std::string& name, int module) const {
-    static_cast<void>(name);
-    static_cast<void>(module);
-    return true;
-  }
+  virtual bool shares(const std::string& /*name*/, int /*module*/) const { return true; }
   /// Whether a name that a module does not share means something else in each module that uses it.
-  virtual bool is_of_module(const std::string& name) const {
-    static_cast<void>(name);
-    return false;
-  }
+  virtual bool is_of_module(const std::string&) const { return false; }
+
+ protected:
+  Interpreter* run_ = nullptr;
 };
 
 class Interpreter {
@@ -192,9 +177,9 @@ class Interpreter {
   void emit(Instruction instruction, const Statement& statement);
   void note(const Place& place, const std::string& what, bool may_move = false);
   void complain(const Place& place, const std::string& what, const std::string& remedy);
-  /// A missing value is reported once for all of its uses.
+  /// A missing value is reported once for all of its uses. decision: it is which way a statement goes.
   void miss(const std::string& name, const Place& place, const std::string& what, const std::string& remedy,
-            std::vector<Question> questions = {});
+            std::vector<Question> questions = {}, bool decision = false);
   /// Asks for all that makes a value unknown. `remedy` goes before "--value ..."; `form`: how the value itself
   /// is written.
   void ask_for(const Value& unknown, const Place& place, const std::string& what, const std::string& remedy,

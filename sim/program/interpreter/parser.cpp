@@ -250,17 +250,11 @@ Expression Cursor::reference() {
         e = Expression(std::move(outer.items[0]));
         continue;
       }
-    } else if (at_sign("(") && grammar_ == Grammar::urscript && e.kind == Form::field) {  // object.method(...)
+    } else if (const bool method = grammar_ == Grammar::urscript && e.kind == Form::field;  // object.method(...)
+               at_sign("(") && (method || e.kind == Form::name)) {
       next();
       outer.kind = Form::call;
-      outer.text = fmt::format("{}.{}", e.items[0].text, e.text);
-      outer.place = e.place;
-      outer.items = arguments(")");
-      need_sign(")");
-    } else if (at_sign("(") && e.kind == Form::name) {
-      next();
-      outer.kind = Form::call;
-      outer.text = e.text;
+      outer.text = method ? fmt::format("{}.{}", e.items[0].text, e.text) : e.text;
       outer.place = e.place;
       outer.items = arguments(")");
       need_sign(")");
@@ -324,6 +318,17 @@ bool StatementParser::at_any(const std::vector<const char*>& words) const {
 void StatementParser::fail_at_end(std::string_view end) const {
   const std::string word = upper_case(end);
   at_.fail(fmt::format("has {} before {}", at_.seen(), word), fmt::format("close the block with {}", word));
+}
+
+Statement StatementParser::statement_here() const {
+  Statement s = statement_at(at_.place(), Statement::Kind::instruction);
+  s.text = std::string(at_.peek().text);
+  return s;
+}
+
+void StatementParser::condition(Statement& s) {
+  s.kind = Statement::Kind::branch;
+  s.branches.push_back({{at_.expression()}, {}, s.place});
 }
 
 Statement StatementParser::labelled(Statement::Kind kind) {

@@ -68,6 +68,15 @@ class StatementParser {
 
   bool at_any(const std::vector<const char*>& words) const;
 
+  // Of languages in which a line's end ends a statement.
+  void skip_line_ends() {
+    while (at_.peek().kind == Token::Kind::line_end) at_.next();
+  }
+  void skip_line() {
+    while (!at_.at_end() && at_.peek().kind != Token::Kind::line_end) at_.next();
+  }
+  bool line_done() const { return at_.at_end() || at_.peek().kind == Token::Kind::line_end; }
+
   /// False: there was a syntax error, which is now a problem; the cursor stands where it was found.
   template <class Read>
   bool attempt(const Read& read) {
@@ -114,6 +123,25 @@ class StatementParser {
       }
       branch.body = body();
       s.branches.push_back(std::move(branch));
+    }
+  }
+
+  /// An instruction that begins here, with its first word as it is written.
+  Statement statement_here() const;
+  /// IF: the condition of its first branch.
+  void condition(Statement& s);
+  /// The body of an IF's first branch, and the other branches up to the word `end`: behind `also`, with a condition, or behind
+  /// ELSE. body: reads the statements of one; it is given whether that is the one behind ELSE.
+  template <class Body>
+  void arms(Statement& s, const char* end, const char* also, const Body& body) {
+    s.branches[0].body = body(false);
+    while (!at_.take_word(end)) {
+      Branch next{{}, {}, at_.place()};
+      const bool otherwise = !*also || at_.at_word("else");
+      at_.need_word(otherwise ? "else" : also);
+      if (!otherwise) next.conditions.push_back(at_.expression());
+      next.body = body(otherwise);
+      s.branches.push_back(std::move(next));
     }
   }
 

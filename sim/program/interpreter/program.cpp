@@ -13,26 +13,16 @@ namespace {
 
 constexpr std::size_t listed_problems = 50;
 constexpr std::size_t most_questions = 300;  // of one round
+constexpr std::array<std::string_view, 6> configuration_words{"", "abb", "kuka", "fanuc", "motoman", "near"};  // by their kinds
 
 }  // namespace
 
 std::string ArmConfiguration::text() const {
-  switch (kind) {
-    case Kind::any:
-      return "";
-    case Kind::abb:
-      return fmt::format("abb {}", fmt::join(numbers, " "));
-    case Kind::kuka:
-      return fmt::format("kuka {}", fmt::join(numbers, " "));
-    case Kind::motoman:
-      return fmt::format("motoman {}", fmt::join(numbers, " "));
-    case Kind::near:
-      return fmt::format("near {}", fmt::join(numbers, " "));
-    case Kind::fanuc:
-      break;
-  }
-  return fmt::format("fanuc {}{}{} {} {} {}", numbers[0] ? 'F' : 'N', numbers[1] ? 'U' : 'D',
-                     numbers[2] ? 'T' : 'B', numbers[3], numbers[4], numbers[5]);
+  if (kind == Kind::any) return "";
+  const std::string_view maker = configuration_words[static_cast<std::size_t>(kind)];
+  if (kind != Kind::fanuc) return fmt::format("{} {}", maker, fmt::join(numbers, " "));
+  return fmt::format("{} {}{}{} {} {} {}", maker, numbers[0] ? 'F' : 'N', numbers[1] ? 'U' : 'D', numbers[2] ? 'T' : 'B',
+                     numbers[3], numbers[4], numbers[5]);
 }
 
 std::optional<ArmConfiguration> arm_configuration(const std::string& text) {
@@ -40,8 +30,10 @@ std::optional<ArmConfiguration> arm_configuration(const std::string& text) {
   std::string kind, word;
   ArmConfiguration read;
   if (!(words >> kind)) return read;
+  const auto known = std::find(configuration_words.begin() + 1, configuration_words.end(), kind);
+  if (known == configuration_words.end()) return {};
+  read.kind = static_cast<ArmConfiguration::Kind>(known - configuration_words.begin());
   if (kind == "fanuc") {
-    read.kind = ArmConfiguration::Kind::fanuc;
     if (!(words >> word) || word.size() != 3) return {};
     constexpr std::array letters{"NF", "DU", "BT"};
     for (int i = 0; i < 3; ++i) {
@@ -55,14 +47,8 @@ std::optional<ArmConfiguration> arm_configuration(const std::string& text) {
     if (!number) return {};
     read.numbers.push_back(*number);
   }
-  const std::size_t count = read.numbers.size();
-  if (kind == "abb") read.kind = ArmConfiguration::Kind::abb;
-  if (kind == "kuka") read.kind = ArmConfiguration::Kind::kuka;
-  if (kind == "motoman") read.kind = ArmConfiguration::Kind::motoman;
-  if (kind == "near") read.kind = ArmConfiguration::Kind::near;
-  const bool six = kind == "fanuc" || kind == "motoman" || kind == "near";
-  const bool whole = (kind == "abb" && count == 4) || (kind == "kuka" && count == 2) || (six && count == 6);
-  return whole ? std::optional(read) : std::nullopt;
+  const std::size_t wanted = kind == "abb" ? 4 : kind == "kuka" ? 2 : 6;
+  return read.numbers.size() == wanted ? std::optional(read) : std::nullopt;
 }
 
 void Problems::add(const pipeline::Where& where, const std::string& what, const std::string& remedy,

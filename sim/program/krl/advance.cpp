@@ -8,9 +8,8 @@
 namespace dresslife::sim {
 
 Statement stop_of_advance(const Place& place) {
-  Statement stop;
-  stop.name = stop.text = advance_stop;
-  stop.place = place;
+  Statement stop = statement_at(place, Statement::Kind::instruction, advance_stop);
+  stop.text = advance_stop;
   return stop;
 }
 

@@ -28,15 +28,6 @@ constexpr const char* writing_names[] = {"cread",  "sread",    "copen",     "sop
                                          "swrite", "cwrite",   "cclose",    "strcopy",
                                          "stradd", "strclear", "msgdialog", "exists_krldlg"};
 
-Expression part_of(Expression whole, Expression::Kind kind, const Place& place) {
-  Expression part;
-  part.kind = kind;
-  part.place = place;
-  part.depth = 2;
-  part.items.push_back(std::move(whole));
-  return part;
-}
-
 /// Fields by which inline forms use an FDAT.
 constexpr const char* fdat_fields[] = {".tool_no", ".base_no", ".ipo_frame"};
 
@@ -54,18 +45,11 @@ Value at_most(const Value& value, const std::optional<double>& most) {
 namespace krl {
 
 Expression field_at(const std::string& name, const std::string& field, const Place& place) {
-  Expression e = part_of(name_at(name, place), Expression::Kind::field, place);
-  e.text = field;
-  return e;
+  return expression_at(place, Expression::Kind::field, field, {name_at(name, place)});
 }
 
 Expression element_at(const std::string& name, int index, const Place& place) {
-  Expression e = part_of(name_at(name, place), Expression::Kind::element, place), number;
-  number.kind = Expression::Kind::number;
-  number.number = index;
-  number.place = place;
-  e.items.push_back(number);
-  return e;
+  return expression_at(place, Expression::Kind::element, "", {name_at(name, place), number_at(place, index)});
 }
 
 }  // namespace krl
@@ -357,9 +341,7 @@ void Krl::use_base(const Value& number, const Place& place, Interpreter& run) {
   run.assign(name_at("$act_base", place), number);
   if (!number.is_number() || number.number < 1) return;
   const auto machine = [&](const char* field, Expression whole) {
-    Expression part = part_of(std::move(whole), Expression::Kind::field, place);
-    part.text = field;
-    return run.evaluate(part);
+    return run.evaluate(expression_at(place, Expression::Kind::field, field, {std::move(whole)}));
   };
   if (!run.variable("machine_frame_dat") || !run.variable("machine_def")) return;
   const Value unit =

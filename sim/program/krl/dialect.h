@@ -18,9 +18,6 @@ class Krl final : public Dialect {
   /// tools, work_objects: those that the program's files do not hold. Both and the code must outlive this.
   Krl(const Code& code, const std::vector<NamedFrame>& tools, const std::vector<NamedFrame>& work_objects);
 
-  /// To be called before the program runs: system variables are read from it.
-  void attach(Interpreter& run) { run_ = &run; }
-
   std::optional<Value> constant(const std::string& name) override;
   std::optional<Value> function(const Expression& call, Interpreter& run) override;
   bool instruction(const Statement& statement, Interpreter& run) override;
@@ -131,7 +128,6 @@ class Krl final : public Dialect {
   const Code& code_;
   const std::vector<NamedFrame>& tools_;
   const std::vector<NamedFrame>& work_objects_;
-  Interpreter* run_ = nullptr;
   mutable std::map<std::string, Value> prototypes_;
   std::set<std::size_t> spline_points_;
 

@@ -835,9 +835,7 @@ void run_krl(const Code& code, const ImportOptions& options, const std::vector<N
   explore(
       [&](Exploration& exploration, Program& made, Problems& found) {
         Krl krl(code, tools, work_objects);
-        Interpreter interpreter(code, krl, options, made, found, exploration);
-        krl.attach(interpreter);
-        interpreter.run(*routine);
+        Interpreter(code, krl, options, made, found, exploration).run(*routine);
         bend_splines(krl.spline_points(), made);
         leave_out_unused_axes(made);
       },

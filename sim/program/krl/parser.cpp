@@ -89,13 +89,6 @@ class KrlParser : StatementParser {
            });
   }
 
-  void skip_line_ends() {
-    while (at_.peek().kind == Token::Kind::line_end) at_.next();
-  }
-  void skip_line() {
-    while (!at_.at_end() && at_.peek().kind != Token::Kind::line_end) at_.next();
-  }
-  bool line_done() const { return at_.at_end() || at_.peek().kind == Token::Kind::line_end; }
   void need_line_end() {
     if (!line_done())
       at_.fail(fmt::format("has {} behind the end of the statement", at_.seen()), "correct the line");
@@ -206,9 +199,7 @@ class KrlParser : StatementParser {
   }
 
   void statement(std::vector<Statement>& into) {
-    Statement s;
-    s.place = at_.place();
-    s.text = std::string(at_.peek().text);
+    Statement s = statement_here();
     global_ = constant_ = false;
     s.continued = continued_ > 0 && s.place.line <= continued_ + 1;  // it counts for the next line alone
     const bool waits = !s.continued && waits_for_robot();
@@ -227,10 +218,9 @@ class KrlParser : StatementParser {
     if (at_.at_word("signal") || at_.at_word("import")) return signal(into);
     if (at_.at_word("interrupt")) return interrupt(s, into);
     if (at_.at_word("trigger")) return trigger(s, into);
-    for (const char* word : left_out_words)
-      if (at_.at_word(word)) return left_out(s, into);
-    for (const char* name : living_names)
-      if (at_.at_word(name)) return left_out(s, into);
+    if (at_any({std::begin(left_out_words), std::end(left_out_words)}) ||
+        at_any({std::begin(living_names), std::end(living_names)}))
+      return left_out(s, into);
     if (at_.peek().kind != Token::Kind::word)
       at_.fail(fmt::format("has {} where a statement is expected", at_.seen()), "correct the line");
     if (at_.take_word("if"))
@@ -274,8 +264,7 @@ class KrlParser : StatementParser {
 
   /// A line with one of present_words, unless it only says what happens later or what a name means.
   bool waits_for_robot() const {
-    for (const char* later : {"trigger", "interrupt", "global", "decl", "const", "signal", "ext", "extfct"})
-      if (at_.at_word(later)) return false;
+    if (at_any({"trigger", "interrupt", "global", "decl", "const", "signal", "ext", "extfct"})) return false;
     for (int ahead = 0;
          at_.peek(ahead).kind != Token::Kind::line_end && at_.peek(ahead).kind != Token::Kind::end; ++ahead)
       if (at_.peek(ahead).kind == Token::Kind::word &&
@@ -286,8 +275,7 @@ class KrlParser : StatementParser {
   }
 
   bool is_move() const {
-    return std::any_of(std::begin(moves), std::end(moves),
-                       [&](const char* word) { return at_.at_word(word); });
+    return at_any({std::begin(moves), std::end(moves)});
   }
 
   void left_out(Statement& s, std::vector<Statement>& into) {
@@ -356,36 +344,26 @@ class KrlParser : StatementParser {
   void what_happens(Statement& s) {
     while (!line_done() && !at_.at_word("do")) at_.next();
     at_.need_word("do");
-    Statement inner;
-    inner.place = at_.place();
+    Statement inner = statement_at(at_.place(), Kind::instruction);
     assignment_or_call(inner);
-    s.branches.emplace_back();
-    s.branches[0].body.push_back(std::move(inner));
+    s.branches.push_back({{}, {std::move(inner)}, {}});
   }
 
   /// SIGNAL name $IN[1] TO $IN[8], IMPORT type name IS file: a variable that others write.
   void signal(std::vector<Statement>& into) {
-    Statement s;
-    s.kind = Kind::declare;
-    s.text = at_.word("a type");
-    if (s.text == "import") at_.word("a type");
-    s.place = at_.place();
-    s.name = at_.word("a name");
-    s.arguments.emplace_back();
+    const std::string kind = at_.word("a type");
+    if (kind == "import") at_.word("a type");
+    const Place place = at_.place();
+    into.push_back(declaration_at(place, at_.word("a name"), kind));
     skip_line();
-    into.push_back(std::move(s));
   }
 
   void declaration(std::vector<Statement>& into) {
     const std::string type = at_.word("a type");
     do {
-      Statement s;
-      s.kind = Kind::declare;
+      const Place place = at_.place();
+      Statement s = declaration_at(place, at_.word("a name"), type);
       s.constant = constant_;
-      s.text = type;
-      s.place = at_.place();
-      s.name = at_.word("a name");
-      s.arguments.emplace_back();
       if (at_.take_sign("[")) {
         while (!at_.take_sign("]")) {
           if (at_.take_sign(",")) continue;
@@ -399,21 +377,11 @@ class KrlParser : StatementParser {
   }
 
   void if_statement(Statement& s) {
-    s.kind = Kind::branch;
-    Branch branch;
-    branch.place = s.place;
-    branch.conditions.push_back(at_.expression());
+    condition(s);
     at_.need_word("then");
-    branch.body = body({"endif", "else"});
-    s.branches.push_back(std::move(branch));
-    if (at_.at_word("else")) {
-      Branch otherwise;
-      otherwise.place = at_.place();
-      at_.next();
-      otherwise.body = body({"endif"});
-      s.branches.push_back(std::move(otherwise));
-    }
-    at_.need_word("endif");
+    arms(s, "endif", "", [&](bool otherwise) {
+      return otherwise ? body({"endif"}) : body({"endif", "else"});
+    });
   }
 
   void for_statement(Statement& s) {
@@ -424,10 +392,7 @@ class KrlParser : StatementParser {
     s.arguments.push_back(at_.expression(4));
     at_.need_word("to");
     s.arguments.push_back(at_.expression(4));
-    Expression step;  // KRL counts up by default
-    step.kind = Expression::Kind::number;
-    step.number = 1;
-    s.arguments.push_back(at_.take_word("step") ? at_.expression(4) : step);
+    s.arguments.push_back(at_.take_word("step") ? at_.expression(4) : number_at({}, 1));  // KRL counts up by default
     s.branches.emplace_back();
     s.branches[0].body = body({"endfor"});
     at_.need_word("endfor");
@@ -481,13 +446,10 @@ class KrlParser : StatementParser {
   /// WITH $VEL.CP = 0.5, $APO.CDIS = 10: assignments before the move.
   void with(std::vector<Statement>& into) {
     do {
-      Statement s;
-      s.kind = Kind::assign;
-      s.place = at_.place();
+      Statement& s = into.emplace_back(statement_at(at_.place(), Kind::assign));
       s.arguments.push_back(at_.reference());
       at_.need_sign("=");
       s.arguments.push_back(at_.expression());
-      into.push_back(std::move(s));
     } while (at_.take_sign(","));
   }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include "sim/program/interpreter/parser.h"
 #include "sim/program/rapid/rapid.h"
@@ -53,10 +54,8 @@ class RapidParser : StatementParser {
 
   /// A word that a lost reader finds its way by.
   bool opens_or_closes() const {
-    for (const char* word : {"endproc", "endfunc", "endtrap", "endmodule", "endif", "endfor", "endwhile",
-                             "endtest", "proc", "func", "else", "elseif", "case", "default"})
-      if (at_.at_word(word)) return true;
-    return false;
+    return at_any({"endproc", "endfunc", "endtrap", "endmodule", "endif", "endfor", "endwhile", "endtest", "proc", "func",
+                   "else", "elseif", "case", "default"});
   }
 
   void member() {
@@ -128,13 +127,11 @@ class RapidParser : StatementParser {
 
   bool at_end_of_routine() const { return at_any({"endmodule", "proc", "func", "trap"}) || at_.at_end(); }
   void skip_routine() {
-    while (!at_end_of_routine())
-      if (at_any({"endproc", "endfunc", "endtrap"})) {
-        at_.next();
-        return;
-      } else {
-        at_.next();
-      }
+    bool ended = false;
+    while (!ended && !at_end_of_routine()) {
+      ended = at_any({"endproc", "endfunc", "endtrap"});
+      at_.next();
+    }
   }
 
   void routine_lines(Routine& routine) {
@@ -198,9 +195,7 @@ class RapidParser : StatementParser {
       at_.next();
       return;
     }
-    Statement s;
-    s.place = at_.place();
-    s.text = std::string(at_.peek().text);
+    Statement s = statement_here();
     if (at_.at_word("const") || at_.at_word("var") || at_.at_word("pers")) {
       into.push_back(declaration());
       return;
@@ -232,11 +227,10 @@ class RapidParser : StatementParser {
 
   /// <SMT>: an empty placeholder of the editor. The controller stops when it gets there.
   void placeholder(std::vector<Statement>& into) {
-    Statement s;
-    s.place = at_.place();
+    Statement s = statement_at(at_.place(), Kind::instruction, unwritten_statement);
+    s.text = s.name;
     for (int k = 0; k < 3; ++k) at_.next();
     at_.take_sign(";");
-    s.name = s.text = unwritten_statement;
     into.push_back(s);
     s.kind = Kind::finish;
     into.push_back(std::move(s));
@@ -248,21 +242,13 @@ class RapidParser : StatementParser {
   }
 
   void if_statement(Statement& s) {
-    s.kind = Kind::branch;
-    s.branches.push_back({{at_.expression()}, {}, s.place});
+    condition(s);
     if (!at_.take_word("then")) return statement(s.branches[0].body);  // the compact IF
-    s.branches[0].body = body({"endif", "else", "elseif"});
-    while (!at_.take_word("endif")) {
-      Branch& next = s.branches.emplace_back();
-      next.place = at_.place();
-      if (at_.take_word("elseif")) {
-        next.conditions.push_back(at_.expression());
-        at_.need_word("then");
-      } else {
-        at_.need_word("else");
-      }
-      next.body = body({"endif", "else", "elseif"});
-    }
+    bool begun = true;  // THEN behind the first condition is taken
+    arms(s, "endif", "elseif", [&](bool otherwise) {
+      if (!std::exchange(begun, false) && !otherwise) at_.need_word("then");
+      return body({"endif", "else", "elseif"});
+    });
   }
 
   void loop_body(Statement& s, const char* end) {
@@ -316,12 +302,9 @@ class RapidParser : StatementParser {
     s.name = "connect";
     while (!at_.at_end() && !at_.at_sign(";") && !at_.at_word("with")) at_.next();
     if (at_.take_word("with")) {
-      Statement call;
-      call.place = at_.place();
-      call.text = std::string(at_.peek().text);
+      Statement call = statement_here();
       call.name = at_.word("a trap");
-      s.branches.emplace_back();
-      s.branches[0].body.push_back(std::move(call));
+      s.branches.push_back({{}, {std::move(call)}, {}});
     }
     while (!at_.at_end() && !at_.at_sign(";")) at_.next();
     at_.need_sign(";");

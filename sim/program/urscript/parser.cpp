@@ -64,14 +64,6 @@ class ScriptParser : StatementParser {
   }
 
  private:
-  void skip_line_ends() {
-    while (at_.peek().kind == Token::Kind::line_end) at_.next();
-  }
-  void skip_line() {
-    while (!at_.at_end() && at_.peek().kind != Token::Kind::line_end) at_.next();
-  }
-  bool line_done() const { return at_.at_end() || at_.peek().kind == Token::Kind::line_end; }
-
   template <class Read>
   void guarded(const Read& read) {
     const std::size_t before = at_.mark();
@@ -93,9 +85,7 @@ class ScriptParser : StatementParser {
   void statement(std::vector<Statement>& into) {
     if (at_.at_sign("$") || at_.peek().text.starts_with("$"))
       return skip_line();  // $ 3 "Waypoint_1" of PolyScope
-    Statement s;
-    s.place = at_.place();
-    s.text = std::string(at_.peek().text);
+    Statement s = statement_here();
     if (at_.at_word("def") || at_.at_word("thread") || at_.at_word("sec")) return routine();
     if (at_.take_word("if")) {
       if_statement(s);
@@ -223,20 +213,11 @@ class ScriptParser : StatementParser {
   }
 
   void if_statement(Statement& s) {
-    s.kind = Kind::branch;
-    while (true) {
-      Branch branch;
-      branch.place = s.branches.empty() ? s.place : at_.place();
-      const bool otherwise = !s.branches.empty() && at_.take_word("else");
-      if (!otherwise) {
-        if (!s.branches.empty()) at_.need_word("elif");
-        branch.conditions.push_back(at_.expression());
-      }
+    condition(s);
+    arms(s, "end", "elif", [&](bool) {
       at_.take_sign(":");
-      branch.body = body({"end", "elif", "else"});
-      s.branches.push_back(std::move(branch));
-      if (at_.take_word("end")) return;
-    }
+      return body({"end", "elif", "else"});
+    });
   }
 
   void while_statement(Statement& s) {

@@ -49,8 +49,6 @@ class Script final : public Dialect {
       if (same_word(tool.name, "tcp")) tcp_ = tool;
   }
 
-  void attach(Interpreter& run) { run_ = &run; }
-
   std::optional<Value> constant(const std::string& name) override {
     if (name == "pi" || name == "math.pi") return number_value(std::numbers::pi);
     if (std::optional<Value> value = run_->given(name)) return value;
@@ -448,7 +446,6 @@ class Script final : public Dialect {
   }
 
   const Code& code_;
-  Interpreter* run_ = nullptr;
   std::optional<NamedFrame> tcp_;
   std::optional<Value> standing_, axes_;  // where the last move led: a pose, or joint angles
 };
@@ -537,9 +534,7 @@ void run_urscript(const Code& code, const ImportOptions& options, const std::vec
   explore(
       [&](Exploration& exploration, Program& made, Problems& found) {
         Script script(code, tools);
-        Interpreter interpreter(code, script, options, made, found, exploration);
-        script.attach(interpreter);
-        interpreter.run(*routine);
+        Interpreter(code, script, options, made, found, exploration).run(*routine);
       },
       program, problems);
 }
