@@ -11,7 +11,7 @@
 // without length. A cylinder becomes a capsule of the same length, with four boxes that cross in its axis for
 // its ends: an octagon inside it, within 8 % of the radius.
 //
-// A continuous joint gets +-100 turns. Accelerations and the pose in the world are not in a URDF.
+// A joint without <axis> turns about (or slides along) x, the default of the specification. A continuous joint gets +-100 turns. Accelerations and the pose in the world are not in a URDF.
 // Source: http://wiki.ros.org/urdf/XML; read by urdfdom, which only urdf.cpp includes.
 #pragma once
 

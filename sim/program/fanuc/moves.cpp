@@ -566,7 +566,9 @@ void FanucRun::move(FanucCursor& at, Instruction::Kind kind) {
     FanucPosition there;
     there.frame = there.tool = -1;
     if (target) there = *target;
-    if (!target || target->form == FanucPosition::Form::pose) frames_of(there);
+    // A listing gives the frames of a P[n] beside its numbers: without them there is one question, not three.
+    const bool listed = FanucCursor(statement().text.substr(begin)).take("P");
+    if (target ? target->form == FanucPosition::Form::pose : !listed) frames_of(there);
     return;
   }
   via_options.remote = options.remote;
