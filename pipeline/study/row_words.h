@@ -43,7 +43,11 @@ std::string uncapped_words(const RankingRow& row);
 /// narrow the range from .. to about ..". Empty: nothing is uncertain.
 std::string uncertainty_words(const RankingRow& row);
 
-/// "Fails first: wires of signal cable, in 100 % of the samples. The worst wire is .., 0.12 m from the tool. Its most
+/// "signal cable 3/conductor 2, 0.12 m from the tool": the conductor that is likeliest to fail first. The worst wire need not be in
+/// it. Empty: none can fail.
+std::string failing_place_words(const RankingRow& row);
+
+/// "Fails first: wires of signal cable, in 100 % of the samples, likeliest (its place). The worst wire is .., 0.12 m from the tool. Its most
 /// damaging cycle ends at 144.3 s, during .."
 std::string failure_words(const RankingRow& row);
 
