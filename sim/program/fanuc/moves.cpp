@@ -426,9 +426,11 @@ bool FanucRun::read_option(FanucCursor& at, Instruction& move, Options& options)
   };
   if (at.take("FINE"))
     move.zone = {};
-  else if (at.take("CNT"))
-    set(needed(at, "goes over into the next move by CNT"), 0, 100, move.zone.percent, 1);
-  else if (at.take("CD") || at.take("CR"))
+  else if (at.take("CNT")) {
+    const FanucNumber share = needed(at, "goes over into the next move by CNT");
+    if (share && *share > 100) note(fmt::format("CNT{:g}: {}", *share, above_all_speed), true);
+    set(share, 0, 100, move.zone.percent, 1);
+  } else if (at.take("CD") || at.take("CR"))
     set(needed(at, "goes over into the next move by a distance"), 0, 1e6, move.zone.distance, millimetre);
   else if (at.take("ACC"))
     set(needed(at, "accelerates by ACC"), 1, 150, move.acceleration_percent, 1);

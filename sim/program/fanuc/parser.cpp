@@ -183,7 +183,7 @@ class ListingParser {
     const std::string_view window = std::string_view(source_.text()).substr(begin_, longest);
     const std::size_t open = window.find('{'), close = std::min(window.find('}'), window.size());
     if (!number || open == std::string_view::npos || open > close) {
-      complain("is no position P[n]{...}", "list the program again, or write P[n]{ with its number at the begin of the position");
+      complain("is no position", "list the program again, or write P[n]{ with its number at the begin of the position");
       while (line_.find('}') == std::string_view::npos && !next_begins_position()) next_line();  // the rest of it is no further problem
       return;
     }
@@ -267,6 +267,8 @@ class ListingParser {
       const auto number = at_.number();
       if (const std::string_view rest = at_.rest(); number && rest.size() > 1 && rest[0] == ',' && digit(rest[1]))
         return fmt::format("has a decimal comma in {}", upper_case(name));
+      for (const char* unit : {"rad", "m", "cm", "inch"})  // a controller lists mm and deg
+        if (FanucCursor(at_).take(unit)) return fmt::format("has {} in {}", upper_case(name), unit);
       if (name == "uf" || name == "ut") {
         if (group_ == 1)
           (name == "uf" ? read_.frame : read_.tool) =

@@ -174,5 +174,5 @@ TEST_CASE("fanuc: a position without its head is one problem, at its line") {
   const Reading r = Reader{Language::fanuc}({{"cell.ls", listing}});
   REQUIRE(r.problems.size() == 1);
   CHECK(r.problem() ==
-        "cell.ls:6:1: error: is no position P[n]{...}; list the program again, or write P[n]{ with its number at the begin of the position");
+        "cell.ls:6:1: error: is no position; list the program again, or write P[n]{ with its number at the begin of the position");
 }
