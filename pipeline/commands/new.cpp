@@ -252,8 +252,10 @@ std::string text_of(const NewOptions& options, const Draft& draft, const Choice&
               ? fmt::format("# FILL IN clamps, or let dresslife route {} search. No routing that was tried runs. The last one:\n# {}\n",
                             job, shown(choice.faults.front()))
               : fmt::format("# Clamps: {}.\n", choice.source);
-  if (!choice.refused && !choice.faults.empty())
-    text += fmt::format("# No routing that was tried keeps all limits: dresslife check {} names them.\n", job);
+  if (!choice.refused && !choice.faults.empty()) {
+    text += fmt::format("# No routing that was tried keeps all limits. dresslife route {0} searches longer. dresslife check {0}:\n", job);
+    for (const std::string& fault : choice.faults) text += fmt::format("# {}\n", shown(fault));
+  }
   const char* const off = choice.refused ? "# " : "";
   text += fmt::format(
       "# position_m and direction are in the frame of the link; free_length_m is the length between the clamps.\n{}routing:\n", off);
@@ -298,11 +300,11 @@ int make(NewOptions options) {
   if (choice.refused)
     print(shown(fmt::format("Fill in its clamps, or let dresslife route {} search: no routing that was tried runs. {}\n", options.job,
                             choice.faults.front())));
-  else if (!choice.faults.empty())
-    print(shown(
-        fmt::format("No routing of those that were tried keeps all limits: dresslife check {0} warns {1}. dresslife route {0} "
-                    "searches longer.\n", options.job,
-                    choice.faults.size() == 1 ? "once" : fmt::format("{} times", choice.faults.size()))));
+  else if (!choice.faults.empty()) {
+    for (const std::string& fault : choice.faults) print(shown(fault + "\n"));
+    print(shown(fmt::format("No routing of those that were tried keeps all limits. Use a remedy above, or dresslife route {0}, which "
+                            "searches longer.\n", options.job)));
+  }
   return 0;
 }
 

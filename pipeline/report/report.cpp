@@ -114,14 +114,15 @@ std::vector<std::string> ranking_rows(const std::vector<RankingRow>& rows, const
           (row.waits() ? "" : escaped(row.failure)) + page_link(row, "preview.html", "See where")));
       continue;
     }
-    const std::string where = !row.damaged()
-                                  ? "no wire is damaged"
-                                  : fmt::format("<span class=\"soft\">worst wire:</span> {}<br>{}", escaped(row.worst_component), place_words(row));
+    const std::string worst =
+        fmt::format("<span class=\"soft\">worst wire:</span> {}<br>{}", escaped(row.worst_component), place_words(row));
+    const std::string failing = escaped(failing_place_words(row));  // the worst wire may be in another cable
+    const std::string where = !row.damaged() ? "no wire is damaged" : failing.empty() ? worst : failing;
     const std::string moved =
         !row.damaged()
             ? ""
-            : fmt::format("{}<br><span class=\"soft\">at {:.1f} s of {:.0f} s</span>",
-                          escaped(row.worst_step), row.worst_time, row.repeat_seconds) +
+            : fmt::format("{}{}<br><span class=\"soft\">at {:.1f} s of {:.0f} s</span>",
+                          failing.empty() ? "" : worst + "<br>", escaped(row.worst_step), row.worst_time, row.repeat_seconds) +
                   (row.worst_joint.empty()
                        ? ""
                        : fmt::format("<br><span class=\"soft\">{}</span>", escaped(joint_words(row))));
@@ -207,7 +208,7 @@ std::string ranking_section(const std::vector<RankingRow>& rows, const std::vect
       "<th>rank</th><th>job</th><th class=\"number\">replace after [h]</th>"
       "<th class=\"number\">replace if glued .. free inside [h]</th><th class=\"number\">first wire by scatter "
       "alone, 10 .. 90 % [h]</th><th class=\"number\">calendar</th>"
-      "<th>fails first</th><th>what moved then</th><th>warnings</th>";
+      "<th>fails first</th><th>what moved at the worst wire</th><th>warnings</th>";
   return fmt::format(
       "{}{}{}"
       "<p class=\"soft\">Replace after: in so many hours of motion 1 of 10 such dresspacks has failed (p10), over everything "
@@ -265,10 +266,7 @@ std::string facts(const RankingRow& row) {
                    "90 %{}",
                    printed(lives[0]), calendar_words(row.planned_months), printed_hours(lives[1]),
                    printed_hours(lives[2]),
-                   row.failing_conductor.empty()
-                       ? ""
-                       : fmt::format("; likeliest {}, {:.2f} m from the tool", escaped(row.failing_conductor),
-                                     row.failing_position_from_tool)));
+                   row.failing_conductor.empty() ? "" : "; likeliest " + escaped(failing_place_words(row))));
   }
   fact(row.planned() ? "worst wire" : "life",
        std::isinf(row.life_hours)
@@ -285,7 +283,8 @@ std::string facts(const RankingRow& row) {
   if (!row.life_shares.empty()) fact("its causes", escaped(row.life_shares));
   if (const std::string words = order_words(row); !words.empty()) fact("beside the next job", escaped(words));
   if (!row.failing_mode.empty())
-    fact("fails first", fmt::format("{}, in {:.0f} % of the samples", escaped(row.failing_mode), 100 * row.failing_mode_share));
+    fact("fails first", fmt::format("{}, in {:.0f} % of the samples{}{}", escaped(row.failing_mode), 100 * row.failing_mode_share,
+                                    row.failing_conductor.empty() ? "" : ", likeliest ", escaped(failing_place_words(row))));
   if (row.relative) fact("relative life", escaped(relative_words(*row.relative)));
   const auto bounds = [&](const char* name, double glued, double free) {
     fact(name, fmt::format("{} if everything inside the cables were glued, {} if it slipped without friction",

@@ -255,14 +255,19 @@ std::string uncertainty_words(const RankingRow& row) {
   return joined_words({cause_words(row), test_words(row), error_words(row)});
 }
 
+std::string failing_place_words(const RankingRow& row) {
+  return row.failing_conductor.empty() ? "" : fmt::format("{}, {:.2f} m from the tool", row.failing_conductor, row.failing_position_from_tool);
+}
+
 std::string failure_words(const RankingRow& row) {
   if (row.worst_component.empty()) return "No wire was evaluated.";
   if (!is_damaged(row)) return "No wire is damaged.";
   const std::string first = row.failing_mode.empty()
                                 ? ""
-                                : fmt::format("Fails first{}: {}, in {:.0f} % of the samples.",
+                                : fmt::format("Fails first{}: {}, in {:.0f} % of the samples{}{}.",
                                               row.unvalidated.empty() ? "" : " of the validated modes", row.failing_mode,
-                                              100 * row.failing_mode_share);
+                                              100 * row.failing_mode_share, row.failing_conductor.empty() ? "" : ", likeliest ",
+                                              failing_place_words(row));
   const std::string during = row.worst_step.empty() ? "" : ", during '" + row.worst_step + "'";
   return joined_words({first, fmt::format("The worst wire is {}, {:.2f} m from the tool. Its most damaging cycle ends at {:.1f} s{}.",
                                           row.worst_component, row.worst_position_from_tool, row.worst_time, during),

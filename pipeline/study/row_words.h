@@ -45,8 +45,12 @@ std::string uncapped_words(const RankingRow& row);
 /// narrow the range from .. to about ..". Empty: no input is uncertain.
 std::string uncertainty_words(const RankingRow& row);
 
-/// Returns "Fails first: wires of signal cable, in 100 % of the samples. The worst wire is .., 0.12 m from the tool. Its most
-/// damaging cycle ends at 144.3 s, during ..".
+/// Returns the conductor that is likeliest to fail first: "signal cable 3/conductor 2, 0.12 m from the tool". The worst wire may
+/// be in another conductor. Empty: no conductor can fail.
+std::string failing_place_words(const RankingRow& row);
+
+/// Returns "Fails first: wires of signal cable, in 100 % of the samples, likeliest (its place). The worst wire is .., 0.12 m from
+/// the tool. Its most damaging cycle ends at 144.3 s, during ..".
 std::string failure_words(const RankingRow& row);
 
 /// Returns the hours by which a first wire breaks with the job's own values, by the scatter of wires alone. Adds the factor

@@ -11,7 +11,6 @@
 #include <map>
 #include <mutex>
 #include <numbers>
-#include <set>
 #include <sstream>
 
 #include "pipeline/base/joined.h"
@@ -42,8 +41,6 @@ class XmlPlaces {
     const auto found = lines_.find(element + " " + name);
     return {file_, found == lines_.end() ? 0 : found->second, 0};
   }
-  /// Returns whether a joint has an <axis>. Without one, URDF means x, which urdfdom uses without a message.
-  bool gives_axis(const std::string& joint) const { return axes_.contains(of("joint", joint).line); }
   /// Returns the place of the element that the message names in quotes.
   Where mentioned(const std::string& message) const {
     for (const char* element : {"joint", "link"})
@@ -119,7 +116,6 @@ class XmlPlaces {
     if ((name == "link" || name == "joint") && ++elements_ > most_elements)
       fail(line, fmt::format("has more than {} links and joints", most_elements));
     lines_.try_emplace(name + " " + attribute(tag, "name"), line);
-    if (name == "axis" && !open_.empty()) axes_.insert(open_.back().second);
     if (name == "origin") refuse_degrees(attribute(tag, "rpy"), line);
     if (empty) return;
     open_.emplace_back(name, line);
@@ -162,7 +158,6 @@ class XmlPlaces {
   int elements_ = 0;
   std::vector<std::pair<std::string, int>> open_;
   std::map<std::string, int> lines_;  // key: "joint joint_1"
-  std::set<int> axes_;                // lines of the joints that have an <axis>
 };
 
 // ---- urdfdom ----------------------------------------------------------------------------------------------
@@ -333,9 +328,6 @@ class Chain {
     carriers_.push_back({model_.getRoot().get()});
     for (const urdf::Joint* joint : joints) {
       const Isometry3d origin = carried_ * transform(joint->parent_to_joint_origin_transform);
-      if (joint->type != urdf::Joint::FIXED && !places_.gives_axis(joint->name))
-        fail(at(*joint), fmt::format("joint '{}' has no <axis> (by the URDF standard it turns about x)", joint->name),
-             "write <axis xyz=\"1 0 0\"/> into it if that is its axis, else the right one");
       if (joint->type == urdf::Joint::FIXED) {
         carried_ = origin;
       } else if (turns(*joint)) {

@@ -11,7 +11,8 @@
 // cylinder becomes a capsule of the same length, and for its ends four boxes that cross at its axis: an octagon inside of the
 // cylinder, within 8 % of the radius.
 //
-// A continuous joint gets limits of +-100 turns. A URDF has no accelerations and no pose in the world.
+// A joint without <axis> has the axis x, the default of the specification. A continuous joint gets limits of +-100 turns. A URDF
+// has no accelerations and no pose in the world.
 // Source: http://wiki.ros.org/urdf/XML; read by urdfdom, which only urdf.cpp includes.
 #pragma once
 

@@ -94,6 +94,26 @@ TEST_CASE("new and check say of a dresspack what no routing cures, and list what
   CHECK(has(check.out, estimate));
 }
 
+TEST_CASE("new: where no routing keeps all limits, the warning that remains stands on the terminal and in the job, as check gives it") {
+  Scratch scratch;
+  // Links 1 m long cannot lead a hose in bends of 700 mm.
+  scratch.write("hose.yaml",
+                "name: hose\nsource: a catalogue\ndiameter_mm: 29\ninner_diameter_mm: 23\nhose_material: hose_polyamide\n"
+                "least_bend_radius_mm: 700\ncomponents:\n"
+                "  - {name: lead, helix_radius_mm: 0, data_sheet: '7 x 0.5 mm2, outer diameter 8.2 mm'}\n");
+  write_short_program(scratch);
+  const Outcome made = make(scratch, "--robot kuka_kr16_2 --program mine.yaml --dresspack hose.yaml job.yaml");
+  INFO(made.out << made.err);
+  REQUIRE(made.status == 0);
+  CHECK(has(made.out, "Use a remedy above, or dresslife route job.yaml, which searches longer."));
+  const std::string checked = run(scratch, "dresslife", "check job.yaml").out;
+  const std::size_t begin = checked.find("warning: smallest bend radius at rest");
+  REQUIRE(begin != std::string::npos);
+  const std::string warning = checked.substr(begin, checked.find('\n', begin) - begin);
+  CHECK(has(made.out, warning + "\n"));
+  CHECK(has(content(scratch / "job.yaml"), "# " + warning + "\n"));
+}
+
 TEST_CASE("new: clamps of which none runs are left to be filled in, without a place in a file that is gone") {
   Scratch scratch;
   scratch.write("hose.yaml",

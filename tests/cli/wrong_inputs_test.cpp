@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include "tests/catch.h"
 #include "tests/cli/process.h"
 
@@ -66,6 +67,26 @@ const std::string study = "base: job.yaml\nvary:\n  routing.free_length_m: [2.0,
 
 const std::string axes =
     "t_s,joint_1_deg,joint_2_deg,joint_3_deg,joint_4_deg,joint_5_deg,joint_6_deg\n0,0,0,0,0,30,0\n1,20,0,0,0,60,90\n2,0,0,0,0,30,0\n";
+const std::string listing =
+    "/PROG NOD\n/MN\n   1:J P[1] 60% FINE ;\n   2:L P[2] 250mm/sec CNT50 ;\n   3:J P[1] 60% FINE ;\n/POS\nP[1]{\n"
+    " GP1: UF : 1, UT : 1, J1= 0 deg, J2= 0 deg, J3= 0 deg, J4= 0 deg, J5= -90 deg, J6= 0 deg\n};\nP[2]{\n"
+    " GP1: UF : 0, UT : 0, CONFIG : 'N U T, 0, 0, 0',\n X = 950 mm, Y = -300 mm, Z = 500 mm, W = 180 deg, P = 0 deg, R = 0 deg\n};\n/END\n";
+const std::string arc =
+    "MODULE arc\nCONST robtarget p1:=[[1500,-300,1200],[0,0,1,0],[-1,-1,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
+    "CONST robtarget p2:=[[1600,0,1200],[0,0,1,0],[0,-1,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
+    "CONST robtarget p3:=[[1500,300,1200],[0,0,1,0],[0,-1,-1,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
+    "PROC main()\n  MoveJ p1,v1000,fine,tool0;\n  MoveC p2,p3,v200,fine,tool0;\nENDPROC\nENDMODULE\n";
+/// One swing of axes 5 and 6 in 8 s.
+const std::string log_rows = [] {
+  std::string text = "t;J1;J2;J3;J4;J5;J6\n";
+  for (int k = 0; k <= 8; ++k) text += fmt::format("{};0;-10;10;0;{};{}\n", k, k < 4 ? 35 - 2 * k : 19 + 2 * k, 10 * (4 - std::abs(k - 4)));
+  return text;
+}();
+const std::string duties =
+    "study: job.yaml\nduties:\n  - name: nod\n    hours_per_week: 80\n    programs:\n      - {job: job, percent_of_time: 50}\n"
+    "    history:\n      - {duty: nod, from: 2025-01-13, to: 2026-06-30}\n";
+const std::string plant = "name,duty,installed,planned_cost,unplanned_cost\nside 1,nod,2025-01-13,1200,9500\nside 2,nod,2025-08-04,1200,9500\n";
+
 const std::string fleet = "name,routing.free_length_m\nR1,2.03\nR2,2.05\n";
 
 struct Wrong {
@@ -77,6 +98,9 @@ struct Wrong {
   int status = 1;
 };
 
+const std::string check_listing = "dresslife check listing.yaml", check_arc = "dresslife check arc.yaml", run_duty = "dresslife duty duties.yaml",
+                  read_log = "dresslife import log.csv --log job.yaml -o shift.yaml",
+                  run_plan = "dresslife plan plant.csv --today 2026-11-25 --duties duties.yaml --windows 2027-07-12..2027-08-01";
 const std::string run_fleet = "dresslife run fleet.yaml";
 const std::string draw = "dresslife draw hose.yaml", run_study = "dresslife run study.yaml", draw_job = "dresslife draw job.yaml";
 std::string free_as(const std::string& range) { return "dresslife improve job.yaml --trials 2 --free '" + range + "'"; }
@@ -223,6 +247,30 @@ const Wrong wrong[] = {
     {"nod.src", "LIN_REL {Z -120} C_DIS", "CIRC {X 900,Y -350,Z 550,A 0,B 180,C 0}, {X 900,Y -350,Z 500,A 0,B 180,C 0}", "nod.src:10:1: error: ", "lie on a line", "correct the point on the way", "dresslife check krl.yaml"},
     {"nod.src", "PTP {X 900,Y -350,Z 600,A 0,B 180,C 0,S 2,T 2}\n", "", "nod.src:9:9: error: ", "gives some coordinates only", "name the program in a job, whose robot of six axes gives them", "dresslife-import nod.src -o out.h5"},
     {"hose.yaml", "inner_diameter_mm: 42", "hose_corrugation: {pitch_mm: 4.5, height_mm: 4, wall_mm: 7}", "hose.yaml:4:19: error: ", "wall_mm of hose_corrugation is 7 (must be at most 1.125 mm", "measure the profile", draw},
+    // Programs of Fanuc
+    {"nod.ls", "L P[2]", "L P[7]", "nod.ls:4:6: error: ", "NOD moves to P[7], which is not listed", "list the program with its positions (/POS)", check_listing},
+    {"nod.ls", "P[2]{\n", "", "nod.ls:10:1: error: ", "is no position", "write P[n]{ with its number at the begin", check_listing},
+    {"nod.ls", "J5= -90 deg", "J5= -1.57 rad", "nod.ls:7:1: error: ", "has J5 in rad", "in mm and deg", check_listing},
+    {"nod.ls", "X = 950 mm", "X = 950,5 mm", "nod.ls:10:1: error: ", "has a decimal comma in X", "with decimal points", check_listing},
+    {"nod.ls", "X = 950 mm", "X = 9500 mm", "nod.ls:4:6: error: ", "is out of reach", "check target, tool", check_listing},
+    {"nod.ls", "250mm/sec", "25m/sec", "nod.ls:4:6: error: ", "has a speed without a known unit", "write %, mm/sec", check_listing},
+    {"nod.ls", "UF : 0, UT : 0", "UF : 0, UT : 2", "nod.ls:4:6: error: ", "uses UTOOL[2], which lies in the controller", "give it in motion.tools", check_listing},
+    // Circles of RAPID
+    {"arc.mod", "p2:=[[1600,0", "p2:=[[1500,0", "arc.mod:7:3: error: ", "has no circle: its start, the point on the way and its end lie on a line", "correct the point on the way", check_arc},
+    {"arc.mod", "MoveC p2,p3", "MoveC p3", "arc.mod:7:3: error: ", "gives MoveC 4 arguments, too few", "give target, speed", check_arc},
+    {"arc.mod", "MoveC p2,p3", "MoveC p2,p1", "arc.mod:7:3: error: ", "has no circle", "or write a straight move", check_arc},
+    // Logs, duties and plans
+    {"log.csv", "J1;J2;J3;J4;J5;J6", "J1;J2;J3;J4;J5;J5", "", "log.csv:1:1: error: the log has no 6 columns that are the angles", "give --value joints=", read_log},
+    {"log.csv", "35", "135", "", "the row turns joint_5 to 135 deg (must be within -120 .. 120 deg)", "--value unit=deg", read_log},
+    {"", "", "", "--log: error: ", "needs a file of duties to write", "-o shift.yaml", "dresslife import log.csv --log job.yaml"},
+    {"duties.yaml", "percent_of_time: 50", "percent_of_time: 500", "duties.yaml:6:37: error: ", "percent_of_time is 500 (must be 0 .. 100)", "give the share of the hours", run_duty},
+    {"duties.yaml", "percent_of_time: 50", "repeats_per_hour: 9000", "duties.yaml:3:5: error: ", "take 228.0 minutes of each hour", "give fewer repeats", run_duty},
+    {"duties.yaml", "{job: job,", "{job: jobs,", "duties.yaml:6:9: error: ", "has no job 'jobs'", "did you mean 'job'?", run_duty},
+    {"duties.yaml", "to: 2026-06-30", "to: 2024-06-30", "duties.yaml:8:9: error: ", "the history ends on 2024-06-30, before it begins", "exchange the two dates", run_duty},
+    {"plant.csv", "1200,9500", "1200 EUR,9500", "plant.csv:2:23: error: ", "planned_cost is '1200 EUR'", "write 1200, without unit", run_plan},
+    {"plant.csv", "2025-01-13", "2035-01-13", "plant.csv:2:12: error: ", "'side 1' was installed after today, 20", "correct the date", run_plan},
+    {"plant.csv", "side 1,nod", "side 1,nodd", "plant.csv:2:1: error: ", "there is no duty 'nodd'", "did you mean 'nod'?", run_plan},
+    {"", "", "", "--windows: error: ", "ends before it begins", "exchange its two dates", replaced_all(run_plan, "2027-07-12..2027-08-01", "2027-08-01..2027-07-12")},
     // Keys that a search may change
     {"", "", "", "job.yaml: error: ", "no value of what is free makes a job: --set routing.lenght=2.05: error: unknown key 'routing.lenght'", "correct `free`, or --free", free_as("routing.lenght=2 .. 2.1")},
     {"", "", "", "job.yaml: error: ", "no value of what is free makes a job: --set routing.free_length_m=2050: error: ", "correct `free`, or --free", free_as("routing.free_length_m=2000 .. 2100")},
@@ -246,6 +294,13 @@ void write_inputs(const Scratch& scratch) {
   scratch.write("module.yaml", job.substr(0, motion) + "motion: {program: spot.mod}\n" + job.substr(after));
   scratch.write("axes.yaml", job.substr(0, motion) + "motion: {program: axes.csv}\n" + job.substr(after));
   scratch.write("axes.csv", axes);
+  scratch.write("nod.ls", listing);
+  scratch.write("listing.yaml", replaced_all(krl_job, "kuka_kr16_2\nmotion: nod.src", "fanuc_m20ia\nmotion: nod.ls"));
+  scratch.write("arc.mod", arc);
+  scratch.write("arc.yaml", job.substr(0, motion) + "motion: {program: arc.mod}\n" + job.substr(after));
+  scratch.write("log.csv", log_rows);
+  scratch.write("duties.yaml", duties);
+  scratch.write("plant.csv", plant);
   scratch.write("fleet.yaml", "base: job.yaml\ntable: fleet.csv\n");
   scratch.write("fleet.csv", fleet);
   scratch.write("study.yaml", study);
@@ -261,7 +316,8 @@ TEST_CASE("the inputs that are changed below are accepted as they are") {
   const Scratch scratch;
   write_inputs(scratch);
   for (const char* command : {"dresslife-sim job.yaml --preview -o out.h5", "dresslife-sim module.yaml --preview -o out.h5",
-                              "dresslife-sim axes.yaml --preview -o out.h5", "dresslife run -n fleet.yaml"}) {
+                              "dresslife-sim axes.yaml --preview -o out.h5", "dresslife-sim listing.yaml --preview -o out.h5",
+                              "dresslife-sim arc.yaml --preview -o out.h5", read_log.c_str(), "dresslife run -n fleet.yaml"}) {
     const std::string words = command;
     const Outcome outcome = run(scratch, words.substr(0, words.find(' ')), words.substr(words.find(' ') + 1));
     INFO(outcome.err);
@@ -445,6 +501,7 @@ const Doubtful doubtful[] = {
     {"hose.yaml", "least_bend_radius_mm: 300", "  - {name: air, radius_mm: 10, helix_radius_mm: 0, without_wires: {kind: hose, bore_mm: 8}}", "hose.yaml:19:67", "bore_mm of 'air' is 8, and it is 20 mm wide outside", "radius_mm: 5 if 10 is the outer diameter"},
     {"cable.yaml", "wire 0.1 mm, outer diameter 8.2 mm, jacket 1.1 mm", "class 6, jacket PVC 3 mm", "cable.yaml:4:5", "the jacket of 'cable' is 3 mm thick (limit 2.45: 2 times a usual one)", "jacket 1.5 mm if that was both walls", "draw cable.yaml"},
     setting("motion.override_percent: 1", "motion.override_percent is 1 (limit more than 1)", "motion.override_percent: 100"),
+    {"nod.ls", "CNT50", "CNT500", "nod.ls:4:6", "CNT500: more than 100 % (limit 100, which counts)", "a percentage up to 100", "check listing.yaml"},
     // Programs of KUKA
     {"nod.src", "VEL_PTP,60", "VEL_PTP,350", "nod.src:2:1", "BAS(#vel_ptp, 350): more than 100 % (limit 100, which counts)", "a percentage up to 100", "check krl.yaml"},
     {"nod.src", "ACC_PTP,80", "ACC_PTP,800", "nod.src:3:1", "BAS(#acc_ptp, 800): more than 100 %", "a percentage up to 100", "check krl.yaml"},

@@ -426,9 +426,11 @@ bool FanucRun::read_option(FanucCursor& at, Instruction& move, Options& options)
   };
   if (at.take("FINE"))
     move.zone = {};
-  else if (at.take("CNT"))
-    set(needed(at, "goes over into the next move by CNT"), 0, 100, move.zone.percent, 1);
-  else if (at.take("CD") || at.take("CR"))
+  else if (at.take("CNT")) {
+    const FanucNumber share = needed(at, "goes over into the next move by CNT");
+    if (share && *share > 100) note(fmt::format("CNT{:g}: {}", *share, above_all_speed), true);
+    set(share, 0, 100, move.zone.percent, 1);
+  } else if (at.take("CD") || at.take("CR"))
     set(needed(at, "goes over into the next move by a distance"), 0, 1e6, move.zone.distance, millimetre);
   else if (at.take("ACC"))
     set(needed(at, "accelerates by ACC"), 1, 150, move.acceleration_percent, 1);
@@ -566,7 +568,9 @@ void FanucRun::move(FanucCursor& at, Instruction::Kind kind) {
     FanucPosition there;
     there.frame = there.tool = -1;
     if (target) there = *target;
-    if (!target || target->form == FanucPosition::Form::pose) frames_of(there);
+    // A listing gives the frames of a P[n] beside its numbers: without them there is one question, not three.
+    const bool listed = FanucCursor(statement().text.substr(begin)).take("P");
+    if (target ? target->form == FanucPosition::Form::pose : !listed) frames_of(there);
     return;
   }
   via_options.remote = options.remote;

@@ -176,17 +176,15 @@ class ListingParser {
   /// P[1:"name"]{ GP1: UF : 0, UT : 1, CONFIG : 'N U T, 0, 0, 0', X = 1.0 mm, ... GP2: ... };
   void position() {
     FanucCursor head(line_);
-    if (!head.take("P") || !head.take_sign('[')) {
-      complain("is no position P[n]{...}", "list the program again");
-      return;
-    }
-    const auto number = head.number();
+    const bool begins = head.take("P") && head.take_sign('[');
+    const auto number = begins ? head.number() : std::nullopt;
     const int line = number_;
     constexpr std::size_t longest = 10'000;  // characters of one position
     const std::string_view window = std::string_view(source_.text()).substr(begin_, longest);
     const std::size_t open = window.find('{'), close = std::min(window.find('}'), window.size());
     if (!number || open == std::string_view::npos || open > close) {
-      complain("is no position P[n]{...}", "list the program again");
+      complain("is no position", "list the program again, or write P[n]{ with its number at the begin of the position");
+      while (line_.find('}') == std::string_view::npos && !next_begins_position()) next_line();  // the rest of it is no further problem
       return;
     }
     FanucPosition read;
@@ -201,6 +199,12 @@ class ListingParser {
       return;
     }
     listing_.positions[whole_number(*number)] = std::move(read);
+  }
+
+  /// Or a section, or nothing follows.
+  bool next_begins_position() const {
+    const std::string_view next = trimmed(std::string_view(source_.text()).substr(std::min(next_, source_.text().size())));
+    return next.empty() || next.starts_with("P[") || next.starts_with("/");
   }
 
   /// What stands between { and }.
@@ -263,6 +267,8 @@ class ListingParser {
       const auto number = at_.number();
       if (const std::string_view rest = at_.rest(); number && rest.size() > 1 && rest[0] == ',' && digit(rest[1]))
         return fmt::format("has a decimal comma in {}", upper_case(name));
+      for (const char* unit : {"rad", "m", "cm", "inch"})  // a controller lists mm and deg
+        if (FanucCursor(at_).take(unit)) return fmt::format("has {} in {}", upper_case(name), unit);
       if (name == "uf" || name == "ut") {
         if (group_ == 1)
           (name == "uf" ? read_.frame : read_.tool) =

@@ -412,4 +412,18 @@ TEST_CASE("report: cycles of one range share one bar") {
 }
 
 }  // namespace
+
+TEST_CASE("report: under what fails first stands the conductor that fails, not the worst wire of another cable") {
+  const Scratch scratch;
+  SampleLife life;
+  life.planned_hours = 50;
+  write_sample_life(scratch / "one.h5", life);
+  std::vector<RankingRow> rows = read_ranking({{"one", scratch / "one.h5", ""}});
+  rows[0].worst_component = "power cable 1/wire 7";
+  const std::string page = report_page("places", rows);
+  CHECK_THAT(page, Catch::Contains("wires of signal cable (75 %)<br>signal cable 3/conductor 2, 0.75 m from the tool</td><td><span "
+                                   "class=\"soft\">worst wire:</span> power cable 1/wire 7<br>") &&
+                       Catch::Contains("wires of signal cable, in 75 % of the samples, likeliest signal cable 3/conductor 2, 0.75 m from the tool"));
+}
+
 }  // namespace dresslife::pipeline

@@ -156,9 +156,9 @@ TEST_CASE("fanuc lines: German listings are the same program") {
 TEST_CASE("fanuc positions: what is not taught matters only where a move needs it") {
   CHECK(stops(run("   1:J P[1] 100% FINE ;\n")) == std::vector<int>{1});
   const Reading untaught = run("   1:J P[5] 100% FINE ;\n   2:J P[5] 10% FINE ;\n   3:J P[9] 5% FINE ;\n");
-  REQUIRE(untaught.problems.size() == 4);  // one for each position, and the frames that a pose would need
+  REQUIRE(untaught.problems.size() == 2);  // one for each position: its frames are listed with it
   CHECK(untaught.problems[0].what == "moves to P[5], which is not taught");
-  CHECK(untaught.problems[3].what == "moves to P[9], which is not listed");
+  CHECK(untaught.problems[1].what == "moves to P[9], which is not listed");
   // Only a positioner turns.
   const Reading positioner = run("   1:J P[1] 100% FINE ;\n   2:J P[6] 100% FINE ;\n");
   CHECK(stops(positioner) == std::vector<int>{1});

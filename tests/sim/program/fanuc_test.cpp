@@ -89,7 +89,7 @@ TEST_CASE("fanuc: inputs are asked for, missing frames and programs named") {
   const Reading r =
       run(" 1: IF DI[3]=ON,JMP LBL[1] ;\n 2:J P[1] R[9]% FINE ;\n 3: LBL[1] ;\n 4: UTOOL_NUM=2 ;\n 5: CALL "
           "OTHER ;\n 6: DO[1]=ON ;\n 7:J P[7] 5% FINE ;\n");
-  REQUIRE(r.problems.size() == 5);  // with the frames that P[7] would need
+  REQUIRE(r.problems.size() == 3);
   CHECK(r.problem(0) ==
         "cell.ls:5:4: error: branches on DI[3], which is known only while the robot runs; choose with "
         "--assume cell.ls:5=then or =else (motion.assume in a job), or give --value 'DI[3]=...'");
@@ -165,4 +165,14 @@ TEST_CASE("fanuc: a decimal comma in a position is refused") {
   listing.replace(listing.find("20.000"), 6, "20,5");
   const Reading r = Reader{Language::fanuc}({{"cell.ls", listing}});
   CHECK(r.problem() == "cell.ls:5:1: error: has a decimal comma in J2; write six coordinates or the joint angles, in mm and deg, with decimal points");
+}
+
+TEST_CASE("fanuc: a position without its head is one problem, at its line") {
+  std::string listing = "/PROG CELL\n/MN\n   1:J P[1] 50% FINE ;\n" + positions;
+  const std::size_t head = listing.find("P[1]", listing.find("/POS"));
+  listing.replace(head, listing.find('{', head) + 1 - head, "");
+  const Reading r = Reader{Language::fanuc}({{"cell.ls", listing}});
+  REQUIRE(r.problems.size() == 1);
+  CHECK(r.problem() ==
+        "cell.ls:6:1: error: is no position; list the program again, or write P[n]{ with its number at the begin of the position");
 }
