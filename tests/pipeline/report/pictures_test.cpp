@@ -17,6 +17,7 @@
 #include "pipeline/resolve/job_text.h"
 #include "tests/catch.h"
 #include "tests/pipeline/sample_job.h"
+#include "tests/pipeline/sample_strain.h"
 #include "tests/pipeline/scratch.h"
 
 namespace dresslife::pipeline {
@@ -171,43 +172,13 @@ TEST_CASE("pictures: a motion's data have each sample's own positions") {
   CHECK_THAT(text, Catch::Contains(R"("places":[0,0.5,1.5,2.5,3])"));
 }
 
-/// Two samples of three segments that bend by 0.1, 0.2 and `most` 1/m; without wires.
-void write_strain(const std::filesystem::path& name, const std::string& job, double most, double of_cables) {
-  FileWriter file(name, strain_format());
-  file.set_axis("level", 1), file.set_axis("segment", 3), file.set_axis("sample", 2);
-  file.append("/time", std::vector<double>{0, 1});
-  file.append("/program/step", std::vector<std::int32_t>{0, 0});
-  file.append("/program/text", std::vector<std::string>{"home"});
-  for (const char* of_segment : {"/segment/length", "/segment/wires_at"}) file.append(of_segment, std::vector<double>(3, 0.2));
-  file.append("/deformation/curvature", std::vector<float>{0.1f, 0, 0, 0.2f, 0.1f, 0, 0, 0.1f, float(-0.6 * most), float(0.8 * most), 0, 0});
-  for (const char* zero : {"/deformation/twist", "/deformation/elongation"}) file.append(zero, std::vector<float>(6));
-  for (const std::string set : {"", "/bound_stick", "/bound_free"}) {
-    file.append(set + "/site/segment", std::vector<std::int32_t>{});
-    for (const char* text : {"/site/component", "/site/material"}) file.append(set + text, std::vector<std::string>{});
-    for (const char* number : {"/site/helix", "/reversal/strain"}) file.append(set + number, std::vector<float>{});
-    file.append(set + "/site/fibre", std::vector<double>{});
-    file.append(set + "/reversal/offset", std::vector<std::uint64_t>{0});
-    file.append(set + "/reversal/sample", std::vector<std::uint32_t>{});
-  }
-  file.append("/probe/site", std::vector<std::uint32_t>{});
-  file.append("/probe/strain", std::vector<float>{});
-  if (of_cables > 0) {
-    file.append("/cable/curvature", std::vector<double>{of_cables / 2, of_cables, 9, 9});
-    file.append("/cable/dresspack", std::vector<std::int32_t>{0, 0, 1, 0});
-    file.append("/cable/component", std::vector<std::int32_t>{0, 0, 0, 1});
-  }
-  file.attribute("job", job);
-  for (const char* attribute : {"history", "input_sha256"}) file.attribute(attribute, "");
-  file.commit();
-}
-
 TEST_CASE("pictures: a bending cable's loop is its first bend doubled, from end to end of the largest curvature") {
   const Scratch scratch;
   const std::string text = edited(edited(edited(edited(sample_job, "stiffness_Nm2: 5", "stiffness_Nm2: 0.01"), "slip: [stick, free]", "slip: friction"), "lay_angle_deg: 25", "lay_angle_deg: 15"),
                                   "diameter_mm: 60", "diameter_mm: 60\n  inner_diameter_mm: 52\n  bending_friction: [{stiffness_Nm2: 0.02, slides_at_1_per_m: 0.25}]");
   const Dresspack dresspack = job_from(parse_yaml(text, "job.yaml")).dresspacks[0].dresspack;
   for (const double own : {0.0, 0.7}) {
-    write_strain(scratch / "strain.h5", text, 0.5, own);
+    write_sample_strain(scratch / "strain.h5", text, 0.5, own);
     const std::string chart = bending_chart(scratch / "strain.h5", 0);
     const std::vector<double> loop = path_of(chart, "curve-hot"), first = path_of(chart, "curve"), simulated = path_of(chart, "leader");
     REQUIRE(loop.size() == 2 * 242);
