@@ -130,8 +130,9 @@ TEST_CASE("observations: lives in the observer's unit, over all variants that ra
   of = predicted(observation, study, rows);
   CHECK(of.stuck == Approx(5));
   CHECK(of.free == Approx(1100));
-  observation.hours.reset(), observation.cycles = 100;
-  of = predicted(observation, study, rows);
+  Observation counted = observation;
+  counted.hours.reset(), counted.cycles = 100;
+  of = predicted(counted, study, rows);
   CHECK(of.stuck == Approx(5 * 6));
   CHECK(of.free == Approx(1100 * 6));
   rows[0].planned_hours = {1, 2, 3}, rows[0].scatter_hours = {4, 5, 6};
