@@ -90,25 +90,6 @@ TEST_CASE("calibrate: wires that lived longer than predicted lengthen what a job
   CHECK(other < 2 * before);
 }
 
-TEST_CASE("calibrate: run-outs that were predicted teach hardly anything, and none shortens a life") {
-  Scratch scratch;
-  scratch.write("job.yaml", wire_job);
-  const double before = life_hours(scratch, ""), cycles = before * 3600 / 2;
-  double least = 0.999 * before;
-  for (const double times : {1e-4, 1.0, 10.0}) {
-    scratch.write("o.yaml", "observations:\n" + row("ended", "    cycles: " + std::to_string(times * cycles) +
-                                                                 "\n    outcome: run_out\n"));
-    must_run(scratch, "dresslife", "calibrate o.yaml --quiet");
-    const double after = life_hours(scratch, "--set calibration=runs/calibrate_o/calibration.yaml");
-    constexpr double by_lot =
-        0.95;  // medians of samples have an error of some hundredths of a deviation, which is a factor of 3
-    CHECK(after > by_lot * least);
-    if (times < 1e-3) CHECK(after < before / by_lot);
-    least = after;
-  }
-  CHECK(least > 2 * before);
-}
-
 TEST_CASE(
     "calibrate: a bending test with 5 % of noise tells the friction, at 1.6 times the shipped pressures") {
   // Thirty weights in a first bend and on the way back.

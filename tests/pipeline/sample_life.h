@@ -5,6 +5,8 @@
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "pipeline/base/constants.h"
@@ -28,6 +30,8 @@ struct SampleLife {
   bool wires = true;    ///< false: the dresspack contains no wires
   std::vector<std::string>
       dresspacks{};  ///< two names: each dresspack has half of the segments, the worst wire lies in the second
+  std::vector<std::pair<std::string, double>> more_sites{};  ///< sites in the worst segment: path, damage
+  std::vector<std::pair<std::string, double>> conductors{};  ///< path, repeats until it fails at one place; empty: file of an older version
   std::string worst_component = "signal cable 3/conductor 2/layer 1/wire 17";
   std::string line_name = "weld spot";
   std::string job = "robot:\n  name: <R&D> \"two\"\n";
@@ -85,7 +89,7 @@ inline void write_sample_life(const std::filesystem::path& file, const SampleLif
   }
   segment_damage[worst_segment] = damage;
 
-  const std::size_t sites = sample.wires ? 1 : 0;
+  const std::size_t sites = sample.wires ? 1 + sample.more_sites.size() : 0;
   const auto put = [](auto& writer, const char* path, const auto& values) {
     using Value = typename std::decay_t<decltype(values)>::value_type;
     writer.append(path, std::span<const Value>(values));
@@ -94,11 +98,14 @@ inline void write_sample_life(const std::filesystem::path& file, const SampleLif
   writer.set_axis("level", 3);
   writer.set_axis("sample", samples);
   put(writer, "/site/segment", std::vector<std::int32_t>(sites, static_cast<std::int32_t>(worst_segment)));
-  put(writer, "/site/component", std::vector<std::string>(sites, sample.worst_component));
+  std::vector<std::string> components(sites, sample.worst_component);
+  std::vector<double> damages(sites, damage);
+  for (std::size_t k = 1; k < sites; ++k) std::tie(components[k], damages[k]) = sample.more_sites[k - 1];
+  put(writer, "/site/component", components);
   put(writer, "/site/helix", std::vector<double>(9 * sites, 0.0));
   put(writer, "/site/fibre", std::vector<double>(2 * sites, 0.0));
   put(writer, "/site/material", std::vector<std::string>(sites, "copper"));
-  put(writer, "/damage", std::vector<double>(sites, damage));
+  put(writer, "/damage", damages);
   put(writer, "/life", std::vector<double>(sites, damaged ? sample.repeats : infinity));
   put(writer, "/cycles/site", cycle_site);
   put(writer, "/cycles/range", range);
@@ -115,9 +122,16 @@ inline void write_sample_life(const std::filesystem::path& file, const SampleLif
   const std::vector<std::string> layers{"signal cable/conductor/layer 1/wire",
                                         "signal cable/conductor/layer 2/wire"};
   put(writer, "/layer/component", sample.wires ? layers : std::vector<std::string>{});
-  put(writer, "/layer/worst_site", std::vector<std::uint32_t>(2 * sites, 0));
+  put(writer, "/layer/worst_site", std::vector<std::uint32_t>(sample.wires ? 2 : 0, 0));
   put(writer, "/layer/damage",
       sample.wires ? std::vector<double>{damage, damage / 3} : std::vector<double>{});
+  if (!sample.conductors.empty()) {
+    std::vector<std::string> paths;
+    std::vector<double> lives;
+    for (const auto& [path, life] : sample.conductors) paths.push_back(path), lives.push_back(life);
+    put(writer, "/conductor/component", paths);
+    put(writer, "/conductor/place_life", lives);
+  }
   put(writer, "/worst/strain", strain);
   put(writer, "/time", time);
   put(writer, "/program/step", step);

@@ -3,15 +3,21 @@
 #include <cmath>
 #include <regex>
 
+#include "pipeline/base/statistics.h"
+#include "pipeline/cable/stiffness.h"
 #include "pipeline/files/motion_layout.h"
+#include "pipeline/job/job.h"
+#include "pipeline/report/bending_chart.h"
 #include "pipeline/report/duty_page.h"
 #include "pipeline/report/file_summary.h"
 #include "pipeline/report/motion_data.h"
 #include "pipeline/report/plan_page.h"
+#include "pipeline/report/plot.h"
 #include "pipeline/report/scene.h"
 #include "pipeline/resolve/job_text.h"
 #include "tests/catch.h"
 #include "tests/pipeline/sample_job.h"
+#include "tests/pipeline/sample_strain.h"
 #include "tests/pipeline/scratch.h"
 
 namespace dresslife::pipeline {
@@ -164,6 +170,51 @@ TEST_CASE("pictures: a motion's data have each sample's own positions") {
   CHECK_THAT(text, Catch::Contains(R"("keys":2)") && Catch::Contains(R"("samples":2)"));
   CHECK_THAT(text, Catch::Contains(R"("points":{"begin":0,"size":15,"low":1,"high":2.1,)"));
   CHECK_THAT(text, Catch::Contains(R"("places":[0,0.5,1.5,2.5,3])"));
+}
+
+TEST_CASE("pictures: a bending cable's loop is its first bend doubled, from end to end of the largest curvature") {
+  const Scratch scratch;
+  const std::string text = edited(edited(edited(edited(sample_job, "stiffness_Nm2: 5", "stiffness_Nm2: 0.01"), "slip: [stick, free]", "slip: friction"), "lay_angle_deg: 25", "lay_angle_deg: 15"),
+                                  "diameter_mm: 60", "diameter_mm: 60\n  inner_diameter_mm: 52\n  bending_friction: [{stiffness_Nm2: 0.02, slides_at_1_per_m: 0.25}]");
+  const Dresspack dresspack = job_from(parse_yaml(text, "job.yaml")).dresspacks[0].dresspack;
+  for (const double own : {0.0, 0.7}) {
+    write_sample_strain(scratch / "strain.h5", text, 0.5, own);
+    const std::string chart = bending_chart(scratch / "strain.h5", 0);
+    const std::vector<double> loop = path_of(chart, "curve-hot"), first = path_of(chart, "curve"), simulated = path_of(chart, "leader");
+    REQUIRE(loop.size() == 2 * 242);
+    REQUIRE(first.size() == 2 * 121);
+    REQUIRE(simulated.size() == 2 * 121);
+    constexpr double pixel = 0.1;  // places are written to it
+    const PlotAxis axis = linear_axis("", -0.5, 0.5, 9);
+    const double half = chart_panel * 0.5 / (axis.high - axis.low), x = first[0], y = first[1], most = bending_moments(dresspack, 1, {0.5})[0], end = y - first[241];
+    CHECK(x == Approx(chart_left + chart_panel / 2).margin(pixel));
+    REQUIRE(end > 50);  // else the rounding hides the curves
+    for (std::size_t k = 0; k <= 120; ++k) {
+      const double share = double(k) / 120, curvature = 0.5 * share;
+      CHECK(first[2 * k] == Approx(x + half * share).margin(pixel));
+      CHECK(y - first[2 * k + 1] == Approx(end * bending_moments(dresspack, 1, {curvature})[0] / most).margin(2 * pixel));
+      // What the hose's own friction holds ends at 0.25 1/m.
+      CHECK(simulated[2 * k] == Approx(first[2 * k]).margin(pixel));
+      const double modelled = elastic_bending_stiffness(dresspack) * curvature + 0.02 * std::min(curvature, 0.25);
+      CHECK(y - simulated[2 * k + 1] == Approx(end * modelled / most).margin(2 * pixel));
+      CHECK(loop[2 * k] == Approx(x - half + 2 * half * share).margin(pixel));
+      CHECK(y - loop[2 * k + 1] == Approx(2 * (y - first[2 * k + 1]) - end).margin(4 * pixel));
+      CHECK(loop[2 * (121 + k)] == Approx(2 * x - loop[2 * k]).margin(2 * pixel));
+      CHECK(loop[2 * (121 + k) + 1] == Approx(2 * y - loop[2 * k + 1]).margin(2 * pixel));
+    }
+    // In words, of the hose and of the cable: the friction's deciles are the parameter's.
+    const std::regex words("friction ([0-9.e-]+) N m \\(10 \\.\\. 90 %: ([0-9.e-]+) \\.\\. ([0-9.e-]+)\\); largest curvature ([0-9.]+) 1/m");
+    std::vector<double> largest;
+    for (std::sregex_iterator at(chart.begin(), chart.end(), words), none; at != none; ++at) {
+      const UncertainParameter& friction = uncertain_parameters()[index_of(Uncertain::friction_inside)];
+      constexpr double digits = 0.012;  // three of each number
+      CHECK(std::stod((*at)[2]) / std::stod((*at)[1]) == Approx(friction.value(-1.28155) / friction.value(0)).epsilon(digits));
+      CHECK(std::stod((*at)[3]) / std::stod((*at)[1]) == Approx(friction.value(1.28155) / friction.value(0)).epsilon(digits));
+      largest.push_back(std::stod((*at)[4]));
+    }
+    CHECK(largest == std::vector<double>{0.5, own > 0 ? own : 0.5});
+    CHECK((chart.find("cable (bent as the hose): E I") != std::string::npos) == (own == 0));
+  }
 }
 
 }  // namespace dresslife::pipeline

@@ -3,6 +3,7 @@
 #include "pipeline/job/job.h"
 #include "pipeline/settings/document.h"
 #include "tests/catch.h"
+#include "tests/pipeline/sample_life.h"
 #include "tests/pipeline/scratch.h"
 
 namespace dresslife::pipeline {
@@ -61,6 +62,60 @@ TEST_CASE("changes: a search ends when a file that its jobs read changes, goes o
   CHECK(ended() == (scratch / "weld.dat").string() + ": error: has changed" + correct);
   fs::remove(scratch / "weld.dat");
   CHECK(ended() == (scratch / "weld.dat").string() + ": error: was removed" + correct);
+}
+
+TEST_CASE("changes: files and programs of a stale job are compared with those of its receipts, of the last stages that belong together") {
+  const Scratch scratch;
+  Study study{"s", {}, Keep::all};
+  const StudyPlaces places{scratch / "s", scratch / "bin"};
+  const fs::path folder = places.job("one");
+  fs::create_directories(folder), fs::create_directories(places.programs);
+  study.jobs.push_back({"one", nullptr, ""});
+  scratch.write("s/one/job.yaml", "a: 1\n");
+  const auto file = [&](const std::string& name, const std::string& text) { return Digests().of(scratch.write(name, text)); };
+  using Made = std::vector<std::pair<std::string, std::string>>;
+  const std::array<Made, stage_count> made{Made{{"dresslife-sim", file("bin/dresslife-sim", "1")}, {"../../weld.src", file("weld.src", "DEF")}},
+                                           Made{{"dresslife-strain", file("bin/dresslife-strain", "2")}},
+                                           Made{{"dresslife-fatigue", file("bin/dresslife-fatigue", "3")}}};
+  const auto note = [&](std::size_t stage, const std::string& input, const std::string& output) {
+    Receipt receipt{"recipe", input, output, {}};
+    receipt.made_with = made[stage];
+    write_receipt(folder / files_of_stage(stage).receipt, receipt, scratch.write("s/one/output", "x"));
+  };
+  note(0, "-", "motion"), note(1, "motion", "strain"), note(2, "strain", "life");
+  const auto changed = [&] {
+    std::vector<JobState> states(1);
+    states[0].has_last = true;
+    report_changes(study, places, states);
+    return states[0].changed;
+  };
+  const std::string nothing = "its settings have changed (keep: lives keeps no old ones)", weld = (scratch / "weld.src").string();
+  CHECK(changed() == nothing);
+  scratch.write("weld.src", "DEF weld");
+  CHECK(changed() == weld + " has changed");
+  fs::remove(scratch / "weld.src");
+  CHECK(changed() == weld + " is gone");
+  scratch.write("bin/dresslife-fatigue", "4"), scratch.write("bin/dresslife-sim", "4"), scratch.write("bin/dresslife-strain", "4");
+  CHECK(changed() == weld + " is gone; dresslife-sim is another program; dresslife-strain is another program; and 1 more");
+  note(0, "-", "motion of another run");  // the simulation ran again since
+  CHECK(changed() == "dresslife-strain is another program; dresslife-fatigue is another program");
+}
+
+TEST_CASE("changes: keys of names and sources are named last, as they change no life") {
+  const Scratch scratch;
+  Study study{"s", {}, Keep::all};
+  const StudyPlaces places{scratch / "s", scratch / "bin"};
+  fs::create_directories(places.job("one"));
+  study.jobs.push_back({"one", nullptr, ""});
+  SampleLife life;
+  life.segments = 4, life.lines = 1, life.samples = 3;
+  life.job = "robot: {name: a, source: b}\nfatigue: {source: c}\nstrain: {gate: 1, slip: free}\n";
+  write_sample_life(places.life("one"), life);
+  scratch.write("s/one/job.yaml", "robot: {name: z, source: z}\nfatigue: {source: z}\nstrain: {gate: 2, slip: stick}\n");
+  std::vector<JobState> states(2);
+  states[0].has_last = true;
+  report_changes(study, places, states);
+  CHECK(states[0].changed == "strain.gate 1 -> 2; strain.slip free -> stick; robot.name a -> z; and 2 more");
 }
 
 }  // namespace

@@ -1,18 +1,22 @@
 // From rows of a ranking to the numbers of a calibration, against closed forms.
 #include "pipeline/advise/calibrate/learned.h"
 
+#include <Eigen/LU>
 #include <array>
 #include <cmath>
 
 #include "pipeline/advise/calibrate/emulation.h"
 #include "pipeline/advise/calibrate/learned_walls.h"
+#include "pipeline/advise/calibrate/learning.h"
 #include "pipeline/base/statistics.h"
+#include "pipeline/job/job.h"
 #include "pipeline/life/first_failure.h"
 #include "pipeline/study/ranking.h"
 #include "tests/catch.h"
 #include "tests/pipeline/life/straight_response.h"
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/sample_life.h"
+#include "tests/pipeline/sample_strain.h"
 #include "tests/pipeline/scratch.h"
 
 using namespace dresslife::pipeline;
@@ -92,6 +96,142 @@ TEST_CASE("learned: the response of a row counts from the parameters that the ro
     CHECK(life.log_median == Approx(lives[0].log_median));
     CHECK(life.spread == Approx(lives[0].spread));
     CHECK(life.between == Approx(lives[0].between));
+  }
+}
+
+TEST_CASE("learned: the likelihood of a life has all that an observation states, and its words have what moves it") {
+  const double ln10 = std::log(10.0), spread = 0.5;
+  for (const auto& [outcome, end] : {std::pair("broken", LifeEnd::broken), {"broken_by", LifeEnd::at_most}, {"run_out", LifeEnd::at_least},
+                                     {"rating", LifeEnd::at_least}}) {
+    Made made(std::string("    hours: 300\n    unshared_log10: 0.2\n    outcome: ") + outcome + "\n");
+    made.tests[0].observation.specimens = 3;
+    RankingRow row = made.row(500, spread);
+    row.failing_mode = "wires of lead", row.failing_mode_share = 0.75;
+    row.life_response = straight_response(0.1, 0.2, 0.3).text();
+    const EmulatedTest test = emulate(made.tests, *made.round, {row}, {made.scratch.folder(), {}}).at(0);
+    const Fatigue& fatigue = made.round->study().jobs[0].job->fatigue;
+    CHECK(test.life->end == end);
+    CHECK(test.life->specimens == (outcome == std::string("rating") ? 1 : 3));
+    CHECK(test.life->unshared_spread == Approx(0.2 * ln10));
+    CHECK(test.life->common_share == Approx(fatigue.scatter_shared * std::pow(fatigue.scatter_log10 * ln10 / spread, 2)));
+    CHECK(test.fails_first == "wires of lead, 75 %");
+    CHECK(test.moved_by == "motion 3.7, model 2.0, strength 2.0, slack 1.6");  // no friction: its cables are glued or free
+  }
+  // Of dresspacks in service: 1e5 repeats of 36 s, four fifths of the time, and 2e5 of 72 s, one fifth. Own values have a mean of 0.
+  for (const double centre : {0.0, 0.25}) {
+    Made made("    hours: 300\n    vary: {routing.free_length_m: [1.2, 1.3]}\n", centre);
+    made.tests[0].observation.service = {{200, 0, true}};
+    made.tests[0].variants[0].share_of_time = 0.8, made.tests[0].variants[1].share_of_time = 0.2;
+    made.round.emplace(made.tests, std::vector<std::string>{}, "round", Eigen::VectorXd::Constant(uncertain_count, centre),
+                       Eigen::VectorXd::Ones(uncertain_count));
+    std::vector<RankingRow> rows;
+    for (const std::size_t k : {0u, 1u}) {
+      RankingRow& row = rows.emplace_back(made.row(1000, 0.4));
+      row.job = made.round->study().jobs.at(k).name, row.repeat_seconds = k == 0 ? 36 : 72;
+      row.life_response = straight_response(0, 0.2, 0.3, std::log10(k == 0 ? 1e5 : 2e5)).text();
+    }
+    const EmulatedTest test = emulate(made.tests, *made.round, rows, {made.scratch.folder(), {}}).at(0);
+    CHECK(test.moved_by == "motion (each dresspack's own) 3.7, model 2.0, strength 2.0, slack (each dresspack's own) 1.6");
+    for (const double strength : {-0.8, 0.0, 0.5}) {
+      Eigen::VectorXd z = Eigen::VectorXd::Constant(uncertain_count, centre);
+      z[index_of(Uncertain::strength)] += strength;
+      double mean = 0;
+      for (const LifeVariant& each : test.life->variants) mean += each(z).log_median / double(test.life->variants.size());
+      const double per_hour = 0.8 * 3600 / 36 / 1e5 + 0.2 * 3600 / 72 / 2e5;
+      CHECK(mean == Approx(-std::log(per_hour) + 0.3 * ln10 * strength).epsilon(1e-5));
+    }
+  }
+}
+
+TEST_CASE("learned: of straight responses the posterior, and what each test says of the other, are those of normal distributions") {
+  Made made("    hours: 300\n    unshared_log10: 0.2\n");
+  ObservedTest other = made.tests[0];
+  other.observation.name = other.variants[0].name = "other";
+  other.variants[0].job["routing"]["free_length_m"] = parse_yaml("1.3", "other");
+  made.tests.push_back(other);
+  // ln life = ln 500 + k z, and its deviation with what each test has of its own, of both tests.
+  constexpr std::array<double, 2> scatter{0.5, 0.7}, of_strength{0.3, 0.15};
+  const std::array<double, 2> spread{std::hypot(0.5, 0.2 * std::log(10.0)), std::hypot(0.7, 0.2 * std::log(10.0))};
+  const auto place = [](Uncertain parameter) { return Eigen::Index(index_of(parameter)); };
+  std::array<Eigen::VectorXd, 2> k;
+  for (const std::size_t t : {0u, 1u}) {
+    k[t] = Eigen::VectorXd::Zero(uncertain_count);
+    k[t][place(Uncertain::strength)] = of_strength[t] * std::log(10.0);
+    k[t][place(Uncertain::slack)] = t == 0 ? 0 : -0.2 * std::log(10.0);
+    k[t][place(Uncertain::model)] = std::log(2.0), k[t][place(Uncertain::motion)] = std::log(3.7);
+  }
+  std::array<double, 2> observed{300, 900};
+  for (const std::size_t t : {0u, 1u}) made.tests[t].observation.hours = observed[t];
+  const StudyPlaces places{made.scratch.folder() / "round", {}};
+  const Learned learned = learn(made.tests, {}, places, [&](const Study& study) {
+    std::vector<RankingRow> rows;
+    for (const std::size_t t : {0u, 1u}) {
+      RankingRow& row = rows.emplace_back(made.row(500, scatter[t]));
+      row.job = study.jobs.at(t).name, row.failing_mode = t == 0 ? "wires of a" : "wires of b", row.failing_mode_share = 1;
+      row.life_response = straight_response(0, t == 0 ? 0 : 0.2, of_strength[t]).text();
+      SampleLife life;
+      life.segments = 4, life.lines = 1, life.samples = 3;
+      std::filesystem::create_directories(places.job(row.job));
+      write_sample_life(places.life(row.job), life);
+      write_sample_strain(places.job(row.job) / "strain.h5", sample_job, t == 0 ? 0.4 : 0.5, 0);
+    }
+    return rows;
+  });
+  REQUIRE(learned.rounds == 1);  // the rows above are those of the first centre
+  CHECK(learned.settled);
+  struct Normal {
+    Eigen::MatrixXd covariance;
+    Eigen::VectorXd mean;
+  };
+  const auto of_tests = [&](const std::vector<std::size_t>& which) {
+    Eigen::MatrixXd information = Eigen::MatrixXd::Identity(uncertain_count, uncertain_count);
+    Eigen::VectorXd moved = Eigen::VectorXd::Zero(uncertain_count);
+    for (const std::size_t t : which) {
+      information += k[t] * k[t].transpose() / std::pow(spread[t], 2);
+      moved += k[t] * std::log(observed[t] / 500) / std::pow(spread[t], 2);
+    }
+    return Normal{information.inverse(), information.inverse() * moved};
+  };
+  const Normal both = of_tests({0, 1});
+  constexpr double of_mean = 0.09, of_spread = 0.06;  // of draws worth 1,500 (posterior_test.cpp)
+  const LearnedWithin& within = learned.calibration.within;
+  CHECK(within.largest_curvature.value() == Approx(0.5));
+  CHECK(within.largest_twist.value() == Approx(2).epsilon(1e-3));
+  CHECK(within.least_strain_range.value() == Approx(0.018));  // of sample_life.h
+  CHECK_FALSE(within.fewest_cycles);
+  std::size_t i = 0;
+  for (std::size_t p = 0; p < uncertain_count; ++p) {
+    INFO(uncertain_parameters()[p].name);
+    if (!learned.axes[p].learned) {
+      CHECK(both.mean[Eigen::Index(p)] == 0);
+      continue;
+    }
+    const auto at = Eigen::Index(i++), all = Eigen::Index(p);
+    const double deviation = std::sqrt(both.covariance(all, all));
+    CHECK(learned.posterior.laplace.most_likely[at] == Approx(both.mean[all]).margin(1e-3));
+    CHECK(learned.posterior.mean[at] == Approx(both.mean[all]).margin(of_mean * deviation));
+    CHECK(learned.axes[p].narrowed == Approx(deviation).epsilon(of_spread));
+    const LearnedParameter& kept = learned.calibration.parameters.at(i - 1);
+    CHECK(kept.name == uncertain_parameters()[p].name);
+    CHECK(kept.mean == Approx(learned.posterior.mean[at]).margin(1e-6));
+    CHECK(kept.value == Approx(learned.axes[p].after[1]).epsilon(1e-3));
+    CHECK(kept.value_p10 == Approx(learned.axes[p].after[0]).epsilon(1e-3));
+    CHECK(kept.value_p90 == Approx(learned.axes[p].after[2]).epsilon(1e-3));
+  }
+  CHECK(i == learned.calibration.parameters.size());
+  for (const std::size_t t : {0u, 1u}) {
+    const LearnedTest& test = learned.tests[t];
+    INFO(test.observation.name);
+    CHECK(test.fails_first == (t == 0 ? "wires of a, 100 %" : "wires of b, 100 %"));
+    CHECK(test.moved_by == (t == 0 ? "motion 3.7, model 2.0, strength 2.0" : "motion 3.7, model 2.0, slack 1.6, strength 1.4"));
+    const auto check = [&](const PredictedDeciles& deciles, const Normal& of) {
+      const double middle = std::log(500) + k[t].dot(of.mean), deviation = std::hypot(std::sqrt(k[t].dot(of.covariance * k[t])), spread[t]);
+      // Deciles of 2,000 draws are known to 4 % of the deviation, three times that.
+      for (int side : {-1, 0, 1}) CHECK(std::log(deciles[std::size_t(side + 1)]) == Approx(middle + side * decile * deviation).margin(0.12 * deviation));
+    };
+    check(test.before, of_tests({}));
+    check(test.after, both);
+    check(test.by_others, of_tests({1 - t}));
   }
 }
 

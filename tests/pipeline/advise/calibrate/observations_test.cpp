@@ -124,6 +124,17 @@ TEST_CASE("observations: lives in the observer's unit, over all variants that ra
   CHECK(of.failed == 2);
   CHECK(of.low == Approx(10));
   CHECK(of.free == Approx(200));
+  // Where a row has a conductor's life glued and free, the bounds are of that: hours, or two repeats of three cycles in each.
+  for (RankingRow& row : rows) row.glued_hours = {1, 7, 9}, row.free_hours = {100, 900, 999};
+  rows[0].glued_hours[1] = 5, rows[3].free_hours[1] = 1100;
+  of = predicted(observation, study, rows);
+  CHECK(of.stuck == Approx(5));
+  CHECK(of.free == Approx(1100));
+  Observation counted = observation;
+  counted.hours.reset(), counted.cycles = 100;
+  of = predicted(counted, study, rows);
+  CHECK(of.stuck == Approx(5 * 6));
+  CHECK(of.free == Approx(1100 * 6));
   rows[0].planned_hours = {1, 2, 3}, rows[0].scatter_hours = {4, 5, 6};
   CHECK(lives_of(observation, rows[0])[0] == 4);
   rows[0].scatter_hours[0] = RankingRow::unknown;

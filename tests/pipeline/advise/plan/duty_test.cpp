@@ -117,6 +117,20 @@ TEST_CASE("a duty states how much the damages of a cycle's recordings differ") {
   duty.lives.share = {0.2, 0.2, 0.2, 0.4, 0};
   // The repeats do damage of 0.1, 0.2 and 0.2; the mean is 0.15. Deviations -1/3, 1/3, 1/3: sqrt(3/9 / 2 / 3) = 0.236.
   CHECK_THAT(in_one_line(mixture_words(duty)), Catch::Contains("The 3 recordings of cycle do 0.67 to 1.33 times its mean damage: the standard error of the mean is 24 %."));
+  duty.parts.erase(duty.parts.begin() + 2), duty.lives.share = {0.2, 0.2, 0.4, 0};  // 0.75 and 1.5 times the mean: sqrt(0.3125/2)
+  CHECK_THAT(in_one_line(mixture_words(duty)), Catch::Contains("The 2 recordings of cycle do 0.75 to 1.50 times its mean damage: the standard error of the mean is 40 %."));
+}
+
+TEST_CASE("a duty states by how much its programs damage different places, from 5 % on, and what changes add, from 1 % on") {
+  DutyResult duty;
+  duty.has_order = true, duty.rounds_per_hour = 1;
+  duty.modes = {"a", "b", "c", "d"};
+  duty.changes = {1.009, 1.012, 0.99, 1};
+  duty.damage.same_place = {1.009 / 1.049, 1.012 / 1.052, 0.99 / 1.5, 1};  // over the damage if all damaged one place
+  const std::string words = in_one_line(mixture_words(duty));
+  CHECK_THAT(words, Catch::Contains("the damage would be larger: b by 5 %, c by 50 %."));
+  CHECK_THAT(words, Catch::Contains("make the damage of b 1.01 times as large") && !Catch::Contains("the damage of a 1.01") &&
+                        !Catch::Contains("the damage of d"));
 }
 
 TEST_CASE("a duty of several programs without an order names the cycles that it leaves out") {
