@@ -14,7 +14,8 @@ std::optional<Day> exported_day(std::string_view text);
 /// "write 2027-07-12", for a text that is no exported_day().
 std::string day_remedy(const std::string& text);
 
-/// With a decimal point or a decimal comma. Absent: no number, or one whose comma may separate thousands (1,200).
+/// With a decimal point or a decimal comma, and with marks between thousands where both occur (1.200,50). Absent: no number, or one whose
+/// comma may separate thousands (1,200).
 std::optional<double> exported_number(std::string text);
 /// "write 1200 or 1.2", for a text that is no exported_number().
 std::string number_remedy(const std::string& text);
