@@ -24,7 +24,7 @@ bool may_be_thousands(const std::string& text) {
 std::string without_thousands(const std::string& text) {
   constexpr std::size_t thousand = 4;  // letters: three digits and a mark
   const std::size_t first = text.find_first_of(".,"), decimal = text.find_last_of(".,");
-  if (first == text.npos || text[first] == text[decimal]) return text;
+  if (first == text.npos || first == 0 || text[first] == text[decimal]) return text;
   std::string plain;
   for (std::size_t k = 0; k < decimal; ++k) {
     const bool mark = text[k] == text[first];

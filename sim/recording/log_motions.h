@@ -23,9 +23,10 @@ struct LogMotion {
   double duration() const { return times.back(); }
 };
 
-/// A cycle has up to `recordings` motions, each for three parts or more. The parts are in the order of their damage, by the
-/// sum of the fifth powers of the axes' successive ranges (the slope of strain-life curves of copper is near it), and cut into
-/// so many groups. A motion is the part whose damage is nearest to the mean of its group. It is turned so that it begins
+/// A cycle has up to `recordings` motions; more than three only as far as they take 600 s together. Its parts are in the order of their
+/// damage, by the sum of the fifth powers of the axes' successive ranges (the slope of strain-life curves of copper is near it) times the
+/// third power of their speed (measured: README), and cut into so many groups. A motion is the part whose damage is nearest to the mean
+/// of its group. It is turned so that it begins
 /// behind its longest stand, else at its slowest moment, and closed: the difference of its ends, within the bound, is
 /// spread over its motion. Its longest stand is shortened if the cycle takes longer than the mean of those alike. The
 /// rest has the cycles taken out. Where they were, a difference of poses vanishes within 1 s. It is cut at stands
