@@ -25,7 +25,7 @@ struct LogMotion {
 
 /// A cycle has up to `recordings` motions; more than three only as far as they take 600 s together. Its parts are in the order of their
 /// damage, by the sum of the fifth powers of the axes' successive ranges (the slope of strain-life curves of copper is near it) times the
-/// third power of their speed (measured: README), and cut into so many groups. A motion is the part whose damage is nearest to the mean
+/// third power of their speed, and cut into so many groups. A motion is the part whose damage is nearest to the mean
 /// of its group. It is turned so that it begins
 /// behind its longest stand, else at its slowest moment, and closed: the difference of its ends, within the bound, is
 /// spread over its motion. Its longest stand is shortened if the cycle takes longer than the mean of those alike. The
