@@ -37,7 +37,7 @@ struct Request {
   int lines = 4;
   std::string log;  ///< job whose robot the log is of; empty: not a log
   double smooth_deg = 0.1, alike_deg = 2, warp_percent = 10;
-  int recordings = 3;
+  int recordings = 8;
 };
 
 constexpr double shortest_cycle = 5;  // [s] of motion: shorter cycles count as several together
@@ -283,7 +283,7 @@ int main(int argc, char** argv) {
            {.range = {{1e-3, 20}}, .needs = "--log"}},
           {"--warp", "PERCENT", "with --log: largest difference of their times", &request.warp_percent,
            {.range = {{0, 50}}, .needs = "--log"}},
-          {"--recordings", "COUNT", "with --log: motions of one cycle that are simulated, at most; their damages show how well its damage is known",
+          {"--recordings", "COUNT", "with --log: motions of one cycle that are simulated, at most, and at most three if they take more than 600 s together; their damages show how well its damage is known",
            &request.recordings, {.range = {{1, 20}}, .needs = "--log"}}}};
   return pipeline::run_stage(
       info, argc, argv, [&request](const pipeline::StageCall& call, pipeline::Progress& progress) {

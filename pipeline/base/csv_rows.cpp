@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <set>
 
+#include "pipeline/base/joined.h"
 #include "pipeline/base/limits.h"
 #include "pipeline/base/text.h"
 
@@ -132,7 +133,8 @@ void check_titles(const CsvReader& table, const CsvRow& titles, std::initializer
       if (lower_case(title.text) == name)
         throw InputError(table.where(title), fmt::format("the table has no column '{}' (it has '{}')", name, title.text),
                          fmt::format("write '{}' instead of '{}'", name, title.text));
-    throw InputError(table.where(titles.front()), fmt::format("the table has no column '{}'", name), "add it");
+    throw InputError(table.where(titles.front()), fmt::format("the table has no column '{}' (it has {})", name, joined(seen, ", ")),
+                     "add it, or rename one");
   }
 }
 

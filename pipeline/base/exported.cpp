@@ -20,6 +20,20 @@ bool may_be_thousands(const std::string& text) {
                      [](unsigned char letter) { return std::isdigit(letter); });
 }
 
+/// Removes the separators of thousands from "1.200,50" and "1,200.50". Returns any other text unchanged.
+std::string without_thousands(const std::string& text) {
+  constexpr std::size_t thousand = 4;  // characters: three digits and a separator
+  const std::size_t first = text.find_first_of(".,"), decimal = text.find_last_of(".,");
+  if (first == text.npos || first == 0 || text[first] == text[decimal]) return text;
+  std::string plain;
+  for (std::size_t k = 0; k < decimal; ++k) {
+    const bool mark = text[k] == text[first];
+    if (mark != ((decimal - k) % thousand == 0)) return text;
+    if (!mark) plain += text[k];
+  }
+  return plain + '.' + text.substr(decimal + 1);
+}
+
 /// Returns the position of the first byte that is not UTF-8; the size of the text if all bytes are.
 std::size_t first_no_utf8(const std::string& text) {
   for (std::size_t at = 0; at < text.size();) {
@@ -79,6 +93,7 @@ std::string day_remedy(const std::string& text) {
 
 std::optional<double> exported_number(std::string text) {
   if (may_be_thousands(text)) return std::nullopt;
+  text = without_thousands(text);
   if (text.find('.') == text.npos && std::count(text.begin(), text.end(), ',') == 1)
     text[text.find(',')] = '.';
   return number_in(text);

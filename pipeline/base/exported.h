@@ -16,8 +16,8 @@ std::optional<Day> exported_day(std::string_view text);
 /// Returns a remedy such as "write 2027-07-12" for a text that exported_day() cannot read.
 std::string day_remedy(const std::string& text);
 
-/// Reads a number with a decimal point or a decimal comma. Returns std::nullopt for any other text, and for a number whose comma
-/// may separate thousands (1,200).
+/// Reads a number with a decimal point or a decimal comma. Separators of thousands are allowed if the number has both signs
+/// (1.200,50). Returns std::nullopt for any other text, and for a number whose comma may separate thousands (1,200).
 std::optional<double> exported_number(std::string text);
 /// Returns a remedy such as "write 1200 or 1.2" for a text that exported_number() cannot read.
 std::string number_remedy(const std::string& text);

@@ -23,9 +23,9 @@ struct LogMotion {
   double duration() const { return times.back(); }
 };
 
-/// Returns the motions. A cycle has up to `recordings` motions, each representing three parts or more. The parts are sorted by
-/// their damage, the sum of the fifth powers of the axes' successive ranges (near the slope of strain-life curves of copper), and
-/// divided into this number of groups. A motion is the part whose damage is nearest to the mean of its group. It is rotated in
+/// Returns the motions. A cycle has up to `recordings` motions, but more than three only if they take 600 s or less together. Its
+/// parts are sorted by their expected damage: the sum of the fifth powers of the axes' successive ranges (near the slope of
+/// strain-life curves of copper), times the third power of the speed. They are divided into this number of groups. A motion is the part whose damage is nearest to the mean of its group. It is rotated in
 /// time so that it begins after its longest standstill, else at its slowest moment, and closed: the difference of its ends,
 /// within the bound, is distributed over its motion. Its longest standstill is shortened if the cycle takes longer than the mean
 /// of its group. The rest is the log without the cycles. At their places a difference of poses vanishes within 1 s. The rest is

@@ -40,7 +40,7 @@ void write_log(const Scratch& scratch) {
 TEST_CASE("log: the life of a log of one cycle is that of the cycle") {
   const Scratch scratch;
   write_log(scratch);
-  const Outcome read = must_run(scratch, "dresslife", "import log.csv --log " + job + " -o shift.yaml");
+  const Outcome read = must_run(scratch, "dresslife", "import log.csv --log " + job + " -o shift.yaml --recordings 1");
   INFO(read.err);
   // The estimate comes before the log is read, the table of the axes after it.
   CHECK_THAT(read.err, Catch::StartsWith("log.csv: ") && Catch::Contains("about 300 rows in 29.9 s") &&

@@ -17,6 +17,7 @@
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/catalogue.h"
 #include "pipeline/resolve/job_text.h"
+#include "pipeline/settings/problems.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -156,7 +157,10 @@ class Export {
 
   std::vector<Row> rows() {
     std::vector<Row> rows;
-    for (CsvRow cells = reader_.next(); !cells.empty(); cells = reader_.next()) rows.push_back(row_of(cells));
+    Problems problems;
+    for (CsvRow cells = reader_.next(); !cells.empty(); cells = reader_.next())
+      problems.attempt("", reader_.where(cells.front()), [&] { rows.push_back(row_of(cells)); });
+    problems.finish(request_.file.string());
     if (rows.empty()) refuse_file("has titles and no row");
     check_overlaps(rows);
     return rows;
@@ -201,6 +205,8 @@ class Export {
             reader_.where(titles_.front()),
             fmt::format("the table has no column '{}'", columns()[needed].name),
             fmt::format("name one of its columns so ({})", joined(columns()[needed].titles, ", ")));
+    if (!at_[job] && request_.job.empty())
+      throw InputError(reader_.where(titles_.front()), "it is not known which job these dresspacks do", "give --job JOB.yaml, or a column job");
   }
 
   const CsvCell* cell(const CsvRow& cells, Column column) const {
@@ -284,6 +290,7 @@ class Export {
 
   /// Throws if a dresspack is in the table twice for the same time, because it would count twice.
   void check_overlaps(const std::vector<Row>& rows) const {
+    Problems problems;
     std::map<std::string, std::vector<const Row*>> places;
     for (const Row& row : rows) places[row.name].push_back(&row);
     for (auto& [name, at] : places) {
@@ -292,12 +299,13 @@ class Export {
       });
       for (std::size_t k = 1; k < at.size(); ++k)
         if (at[k]->from < at[k - 1]->to || (at[k]->from == at[k - 1]->from && at[k]->to == at[k - 1]->to))
-          throw InputError(
+          problems.add(
               at[k]->where,
               fmt::format("'{}' is in use from {} on, and line {} has it until {}", name,
                           day_text(at[k]->from), at[k - 1]->line, day_text(at[k - 1]->to)),
               "correct a date, remove the row that is there twice, or name the dresspack of each");
     }
+    problems.finish(request_.file.string());
   }
 
   const ServiceRequest& request_;

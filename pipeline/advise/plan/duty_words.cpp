@@ -129,11 +129,12 @@ std::string recording_words(const DutyResult& duty) {
     double repeats = 0, damage = 0, squares = 0;
     for (const std::size_t k : of) repeats += duty.parts[k].repeats_per_hour, damage += duty.lives.share[k];
     if (of.size() < 2 || !(damage > worth_a_word)) continue;
-    double least = INFINITY, most = 0;
+    double least = INFINITY, most = 0, before = 0;
     for (const std::size_t k : of) {
       const double times = duty.lives.share[k] / duty.parts[k].repeats_per_hour / (damage / repeats);
       least = std::min(least, times), most = std::max(most, times);
-      squares += (times - 1) * (times - 1);
+      if (k != of.front()) squares += (times - before) * (times - before) / 2;  // they are in the order of their expected damage
+      before = times;
     }
     const double count = static_cast<double>(of.size());
     text += wrapped(fmt::format("The {} recordings of {} do {:.2f} to {:.2f} times its mean damage: the standard error of the mean is {} %.", of.size(),

@@ -105,6 +105,12 @@ bool may_be_known(const std::string& title) {
                              [&](std::string_view word) { return title.find(word) != title.npos; });
 }
 
+/// Whether the title names the day on which a dresspack was taken out.
+bool says_removed(const std::string& title) {
+  return std::ranges::any_of(std::initializer_list<std::string_view>{"replace", "remov", "ausbau", "ausgebaut", "ersetzt", "gewechselt"},
+                             [&](std::string_view word) { return title.starts_with(word); });
+}
+
 Day needed_day(const std::string& text) {
   const bool two = text.size() > 11 && exported_day(text.substr(0, 10)) && exported_day(text.substr(text.size() - 10));
   if (const std::optional<Day> day = exported_day(text); day && !two) return *day;
@@ -148,6 +154,10 @@ Fleet read_fleet(const std::filesystem::path& file, Day today) {
   Problems problems;
   for (CsvRow row = reader.next(); !row.empty(); row = reader.next()) {
     const Where where = reader.where(row.front());
+    for (std::size_t k = 0; k < std::min(row.size(), titles.size()); ++k)
+      if (says_removed(titles[k].text) && exported_day(row[k].text))
+        problems.add(reader.where(row[k]), fmt::format("a dresspack that is in use no more ({}: {})", written[k].text, row[k].text),
+                     "remove its row; dresslife calibrate learns from such rows");
     problems.attempt("", where, [&] {
       fleet.rows.push_back(installed_from(Row(reader, titles, row), today, fleet.has_costs, problems));
       const std::string& name = fleet.rows.back().name;

@@ -80,7 +80,7 @@ TEST_CASE("fleet table: what is no table is refused at its cell") {
         "fleet:1:1: error: holds no table; write a line of column titles, then a row per job");
   CHECK(refusal("name,a\n") == "fleet:1:1: error: has titles and no row; write a row per job");
   CHECK(refusal("robot,a\nx,1\n") ==
-        "fleet:1:1: error: the table has no column 'name'; add it");
+        "fleet:1:1: error: the table has no column 'name' (it has a, robot); add it, or rename one");
   CHECK(refusal("name,a,a\n").starts_with("fleet:1:8: error: two columns are titled 'a'"));
   CHECK(refusal("name,,a\n").starts_with("fleet:1:6: error: a column has no title"));
   CHECK(

@@ -137,7 +137,10 @@ TEST_CASE("service records: what cannot be used is refused at its place, with a 
     CHECK_THAT(words, Contains(problem) && Contains(remedy));
   }
   CHECK_THAT(refusal(titles + "A,a,2024-02-03,,\n", "", false),
-             Contains("plant.csv:2:1: error: it is not known which job") && Contains("--job"));
+             Contains("plant.csv:1:1: error: it is not known which job") && Contains("--job"));
+  // All rows' at once.
+  CHECK_THAT(refusal(titles + "A,a,2027-02-03,,\nB,a,2024-02-03,2024-01-03,failed\nC,a,2024-02-03,,\n"),
+             Contains("plant.csv:2:5: error: 2027-02-03 is after") && Contains("plant.csv:3:16: error: replaced on"));
   CHECK_THAT(refusal("robot,installed,replaced,reason,job\nA,2024-01-01,2025-01-06,failed,none_such\n"),
              Contains("plant.csv:2:32"));
   CHECK_THAT(refusal(titles + "A,a,2024-01-01,2025-01-06,failed\n", "2025-06-01"),

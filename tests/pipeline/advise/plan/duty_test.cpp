@@ -115,10 +115,11 @@ TEST_CASE("a duty states how much the damages of a cycle's recordings differ") {
   for (const auto& [repeats, cycle] : {std::pair(2, "cycle"), {1, "cycle"}, {1, "cycle"}, {1, ""}, {0, "cycle"}})
     duty.parts.push_back({.job = "", .repeats_per_hour = double(repeats), .recording_of = cycle});
   duty.lives.share = {0.2, 0.2, 0.2, 0.4, 0};
-  // The repeats do damage of 0.1, 0.2 and 0.2; the mean is 0.15. Deviations -1/3, 1/3, 1/3: sqrt(3/9 / 2 / 3) = 0.236.
-  CHECK_THAT(in_one_line(mixture_words(duty)), Catch::Contains("The 3 recordings of cycle do 0.67 to 1.33 times its mean damage: the standard error of the mean is 24 %."));
-  duty.parts.erase(duty.parts.begin() + 2), duty.lives.share = {0.2, 0.2, 0.4, 0};  // 0.75 and 1.5 times the mean: sqrt(0.3125/2)
-  CHECK_THAT(in_one_line(mixture_words(duty)), Catch::Contains("The 2 recordings of cycle do 0.75 to 1.50 times its mean damage: the standard error of the mean is 40 %."));
+  // The repeats do damage of 0.1, 0.2 and 0.2; the mean is 0.15. Differences of neighbours 2/3 and 0: sqrt((2/3)^2 / 2 / 2 / 3) = 0.192.
+  CHECK_THAT(in_one_line(mixture_words(duty)), Catch::Contains("The 3 recordings of cycle do 0.67 to 1.33 times its mean damage: the standard error of the mean is 19 %."));
+  // Damage of 0.1 and 0.3: 0.6 and 1.8 times the mean, sqrt(1.2^2 / 2 / 2) = 0.6.
+  duty.parts.erase(duty.parts.begin() + 2), duty.lives.share = {0.2, 0.3, 0.4, 0};
+  CHECK_THAT(in_one_line(mixture_words(duty)), Catch::Contains("The 2 recordings of cycle do 0.60 to 1.80 times its mean damage: the standard error of the mean is 60 %."));
 }
 
 TEST_CASE("a duty states by how much its programs damage different places, from 5 % on, and what changes add, from 1 % on") {

@@ -460,9 +460,12 @@ TEST_CASE("a fleet is read from a spreadsheet's table, and what is wrong in it i
   CHECK(refusal("name;duty;installed;hours_per_week\nr;day;;37,500\n").find("write 37500 or 37.500") !=
         std::string::npos);
   const std::string costs = "name;duty;installed;planned_cost;unplanned_cost\nr;day;;";
-  CHECK(refusal(costs + "1.200,50;9500\n").find("write 1200.50, without") != std::string::npos);
-  CHECK(refusal(costs + "1,200.50;9500\n").find("write 1200.50, without") != std::string::npos);
-  CHECK(refusal(costs + "1200;1.234.567,89\n").find("write 1234567.89, without") != std::string::npos);
+  CHECK(read(costs + "1.200,50;9500\n").rows[0].planned_cost == 1200.5);
+  CHECK(read(costs + "1,200.50;9500\n").rows[0].planned_cost == 1200.5);
+  CHECK(read(costs + "1200;1.234.567,89\n").rows[0].unplanned_cost == 1234567.89);
+  CHECK(read("name;duty;installed;Ausbau\nr;day;01.02.2025;\n").rows.size() == 1);
+  CHECK(refusal("name;duty;installed;Ausbau\nr;day;01.02.2025;01.02.2026\n").find("fleet.csv:2:18: error: a dresspack that is in use no more (Ausbau: 01.02.2026)") !=
+        std::string::npos);
   CHECK(refusal(costs + "1200;9.500\n").find("fleet.csv:2:13: error: unplanned_cost is '9.500', in which the point may separate "
                                               "thousands; write 9500 or 9.5") != std::string::npos);
   CHECK(read(costs + "0.125;9.50\n").rows[0].unplanned_cost == 9.5);
