@@ -7,7 +7,6 @@
 
 #include "pipeline/base/warning_words.h"
 #include "pipeline/job/uncertainty.h"
-#include "sim/run/simulate.h"
 
 namespace dresslife::sim {
 namespace {
@@ -53,7 +52,7 @@ pipeline::Setup setup_with(const pipeline::Job& job, double factor, double time_
 
 }  // namespace
 
-std::vector<Warning> write_other_stiffnesses(const pipeline::Job& job, double time_step,
+std::vector<Warning> write_other_stiffnesses(const pipeline::Job& job, double time_step, const std::optional<Moment>& near,
                                              pipeline::FileWriter& file) {
   const double reach = pipeline::other_stiffness(job.uncertainty);
   std::vector<Warning> refused;
@@ -66,7 +65,10 @@ std::vector<Warning> write_other_stiffnesses(const pipeline::Job& job, double ti
       try {
         const Simulation simulation(setup_with(job, factor, time_step));
         RecordedMotion places;
-        simulation.run({[&](const Sample& sample) { places.add(sample); }, [&](int) { places = {}; }});
+        simulation.run({.take = [&](const Sample& sample) { places.add(sample); },
+                        .begin = [&](int) { places = {}; },
+                        .places_only = true},
+                       near);
         places.write(file, std::string("/") + name);
         file.attribute(std::string(name) + "_z", z);
         problem.clear();

@@ -176,41 +176,44 @@ struct Simulation::Repeat {
 // (R8) What a repeat forgets need not be exact: the first one of a motion that returns only leads into the
 // cycle, with twice the step, but for its last tenth. Whether it did is judged as between any two repeats.
 // Null: it broke down, drew the dresspack taut or was stopped; the motion then runs from rest, which says where.
-std::unique_ptr<World> Simulation::led_in(const RunSinks& sinks) const {
+std::unique_ptr<World> Simulation::led_in(const RunSinks& sinks, const Moment& from) const {
   const double h = setup_.simulation.time_step;
-  const int steps = (description_.samples - 1) * steps_per_sample(h);
-  const int coarse = static_cast<int>((1 - exact_lead) * steps / 2);
+  const int steps = (description_.samples - 1) * steps_per_sample(h), begin = static_cast<int>(std::lround(from.time / h));
+  const int coarse = std::max(0, static_cast<int>(((1 - exact_lead) * steps - begin) / 2)), exact = begin + 2 * coarse;
   const int taut_steps = 2 * steps_per_sample(h);  // of both steps; a run of samples looks as seldom
-  std::unique_ptr<World> world = world_at(start_, path_->at(0), 2 * h);
+  std::unique_ptr<World> world = world_at(from.state, path_->at(begin * h), 2 * h);
   RodState before;
   const auto advance = [&](int at) {
     const Pose pose = path_->at(at * h);
-    if (at == 2 * coarse) before = world->state();
+    if (at == exact) before = world->state();
     if (sinks.progress) sinks.progress(static_cast<double>(at) / steps);
     const double before_step = world->work();
     return world->advance(pose.clamps, pose.links).finite &&
            (at % taut_steps != 0 || rod_.mean_elongation(world->state()) <= longest_elongation) &&
            (!sinks.goes_on || sinks.goes_on(world->work() - before_step, true));
   };
-  for (int k = 1; k <= coarse; ++k)
-    if (!advance(2 * k)) return nullptr;
+  for (int k = begin + 2; k <= exact; k += 2)
+    if (!advance(k)) return nullptr;
   if (coarse > 0)
-    world = world_at(with_half_step(world->state(), before), path_->at(2 * coarse * h), h);
+    world = world_at(with_half_step(world->state(), before), path_->at(exact * h), h);
   else
-    world = world_at(start_, path_->at(0), h);
-  for (int k = 2 * coarse + 1; k <= steps; ++k)
+    world = world_at(from.state, path_->at(begin * h), h);
+  for (int k = exact + 1; k <= steps; ++k)
     if (!advance(k)) return nullptr;
   return world;
 }
 
-RunSummary Simulation::run(const RunSinks& sinks) const {
+RunSummary Simulation::run(const RunSinks& sinks, const std::optional<Moment>& near) const {
   const pipeline::SimulationSettings& settings = setup_.simulation;
   RunSummary summary;
   summary.returns = returns(*path_);
   summary.time_step = settings.time_step;
   bool choose = settings.choose_time_step;
   std::unique_ptr<World> world;
-  if (summary.returns && !choose && settings.most_repeats > 1) world = led_in(sinks);
+  if (summary.returns && !choose && settings.most_repeats > 1) {
+    if (near) world = led_in(sinks, *near);
+    if (!world) world = led_in(sinks, {0, start_});
+  }
   summary.repeats = world ? 2 : 1;
   if (!world) world = world_at(start_, path_->at(0), summary.time_step);
   for (bool first = true;; first = false, ++summary.repeats) {  // (R8)
@@ -237,7 +240,7 @@ RunSummary Simulation::run(const RunSinks& sinks) const {
       }
     }
     if (summary.returns && !summary.periodic && summary.repeats < settings.most_repeats) continue;
-    summary.curvature_error = repeat.error.estimate();
+    if (!sinks.places_only) summary.curvature_error = repeat.error.estimate();
     summary.curvature = repeat.checks.curvature();
     summary.twist = repeat.checks.twist();
     summary.tension = repeat.checks.tension();
@@ -268,13 +271,14 @@ std::optional<double> Simulation::run_once(World& world, Repeat& repeat, const R
   const auto hand_over = [&](int sample) {
     const double time = sample / setup_.simulation.sample_rate;
     const RodState& state = world.state();
-    const std::vector<double> pull = rod_.tensions(state);
+    const bool all = !sinks.places_only;
+    const std::vector<double> pull = all ? rod_.tensions(state) : std::vector<double>{};
     for (const Span& span : rod_.spans())
-      for (int i = 0; i < span.segments(); ++i)
+      for (int i = 0; all && i < span.segments(); ++i)
         tension[span.first_segment + i] = (pull[span.first_link + i] + pull[span.first_link + i + 1]) / 2;
     const std::vector<Frame> clamps = listed_clamps(rod_, state.clamps);
     const std::vector<double> travel = pulled_out(state);
-    sinks.take({time, path_->step(time), state, clamps, travel, pose, rod_.energy(state), tension,
+    sinks.take({time, path_->step(time), state, clamps, travel, pose, all ? rod_.energy(state) : Energy{}, tension,
                 since.touching, since.max_depth, checks.net_twist(), touch});
     since = {};
     touch.begin_sample();
@@ -285,7 +289,7 @@ std::optional<double> Simulation::run_once(World& world, Repeat& repeat, const R
     return pose.rings.empty() ? std::vector<double>{}
                               : shortest_ways(setup_, rod_, world.state().clamps, pose.rings);
   };
-  checks.see(world.state(), {}, 0, ways());
+  if (!sinks.places_only) checks.see(world.state(), {}, 0, ways());
   repeat.error.see(0, world.state());
   hand_over(0);
   for (int sample = 1; sample < description_.samples; ++sample) {  // (R6)
@@ -296,6 +300,7 @@ std::optional<double> Simulation::run_once(World& world, Repeat& repeat, const R
       pose = path_->at(time);
       const StepReport report = world.advance(pose.clamps, pose.links);
       check_step(report, time);
+      if (sinks.places_only) continue;
       checks.see(world.state(), world.contacts(), time, ways());
       touch.add(world.contacts(), step);
       rubbing.add(world.contacts(), world.state(), step);
@@ -308,6 +313,7 @@ std::optional<double> Simulation::run_once(World& world, Repeat& repeat, const R
     if (sinks.goes_on && !sinks.goes_on(world.work() - before, false)) return sample / setup_.simulation.sample_rate;
     if (last && sinks.still_of_use && !sinks.still_of_use(checks)) return sample / setup_.simulation.sample_rate;
   }
+  if (sinks.places_only) return {};
   repeat.rubbed = rubbing.patches(touch);
   repeat.obstacles = touch.obstacles();
   return {};

@@ -82,6 +82,12 @@ std::vector<pipeline::Warning> warnings_of(const Simulation& simulation, const R
 /// How many repeats it took; empty where there was one.
 std::string repeats_note(const RunSummary& summary);
 
+/// The chain at a time of the motion.
+struct Moment {
+  double time = 0;  ///< [s]
+  RodState state;
+};
+
 /// What a run hands its results to; only `take` is needed.
 struct RunSinks {
   std::function<void(const Sample&)> take;    ///< every sample of every repeat but the one that leads in
@@ -91,6 +97,9 @@ struct RunSinks {
   std::function<bool(double, bool)> goes_on = {};
   /// Whether the repeat that is evaluated goes on after the checks of its samples so far.
   std::function<bool(const MotionChecks&)> still_of_use = {};
+  /// Only states and clamps are wanted: a sample's energy, tension, contacts and touch, checks, rubbing and the error of the
+  /// step stay empty.
+  bool places_only = false;
 };
 
 class Simulation {
@@ -113,13 +122,14 @@ class Simulation {
   std::string moment(double time) const;  ///< "at 1.2 s, program step 3 'text'"
 
   /// Runs the motion, as often as it takes. Throws InputError when the dresspack is drawn taut or the state
-  /// is no longer finite.
-  RunSummary run(const RunSinks& sinks) const;
+  /// is no longer finite. near: a state of the same chain, perhaps with another stiffness; a repeat that leads in begins
+  /// there instead of at the motion's begin, if it reaches the end from there.
+  RunSummary run(const RunSinks& sinks, const std::optional<Moment>& near = {}) const;
 
  private:
   struct Repeat;  // what looks on while a repeat runs
   std::unique_ptr<World> world_at(const RodState& state, const Pose& pose, double step) const;
-  std::unique_ptr<World> led_in(const RunSinks& sinks) const;
+  std::unique_ptr<World> led_in(const RunSinks& sinks, const Moment& from) const;
   /// The time at which it was stopped; absent: it was not.
   std::optional<double> run_once(World& world, Repeat& repeat, const RunSinks& sinks, bool last) const;
   int steps_per_sample(double step) const;
