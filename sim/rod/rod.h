@@ -228,6 +228,13 @@ struct Twist6 {
   Vector3 angular() const { return {value[3], value[4], value[5]}; }
 };
 
+/// Several of them side by side, which hides what each operation waits for the one before: (row, which).
+struct Twists {
+  static constexpr int count = 4;
+  using Row = double __attribute__((vector_size(count * sizeof(double))));
+  Row value[6];
+};
+
 /// One step of (S3): a 6x6 block tridiagonal system, factored once, O(n). Between spans its blocks are not
 /// coupled.
 class RodSolver {
@@ -243,10 +250,9 @@ class RodSolver {
   bool solve(const RodState& state, const ClampFrames& end, double h, std::span<const Load> loads = {});
   std::span<const Twist6> velocity_change() const;
 
-  /// x = A^-1 (e in block `segment`, e_other in block `other` unless that is < 0, 0 elsewhere), for blocks >=
-  /// first only; A is the matrix of the last solve().
-  void unit_response(int segment, const Twist6& e, int other, const Twist6& e_other, int first,
-                     std::span<Twist6> x) const;
+  /// x: impulses, 0 in the blocks before `foremost`. Overwritten by A^-1 x, in blocks >= first only; A is the matrix of the
+  /// last solve().
+  void respond(int foremost, int first, std::span<Twists> x) const;
   /// Adds the answer A^-1 p to generalised impulses p to the velocity changes; p is overwritten. [N s, N m s]
   void apply_impulses(std::span<Twist6> impulses);
 
