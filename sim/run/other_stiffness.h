@@ -10,8 +10,8 @@
 
 namespace dresslife::sim {
 
-/// The chain of the job's own run this long before the end of a repeat leads in [s]. The whole repeat before instead moves the
-/// first sample by less than 1e-9 m where the hose swings freely (robot 1, hard), and by up to 0.6 mm where it rests by friction.
+/// The chain of the job's own run this long before the end of a repeat leads in [s], where the hose touches nothing from there
+/// on. The whole repeat before instead moves the first sample by less than 1e-9 m.
 constexpr double other_stiffness_lead = 60;
 
 /// Writes /softer and /stiffer of motion.h5, each from one repeat of the motion after one that leads in; nothing where the

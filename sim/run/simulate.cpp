@@ -175,7 +175,8 @@ struct Simulation::Repeat {
 
 // (R8) What a repeat forgets need not be exact: the first one of a motion that returns only leads into the
 // cycle, with twice the step, but for its last tenth. Whether it did is judged as between any two repeats.
-// Null: it broke down, drew the dresspack taut or was stopped; the motion then runs from rest, which says where.
+// Null: it broke down, drew the dresspack taut or was stopped; the motion then runs from rest, which says where. Also null where
+// it begins within the motion and the hose touches something: friction there remembers what was before.
 std::unique_ptr<World> Simulation::led_in(const RunSinks& sinks, const Moment& from) const {
   const double h = setup_.simulation.time_step;
   const int steps = (description_.samples - 1) * steps_per_sample(h), begin = static_cast<int>(std::lround(from.time / h));
@@ -188,7 +189,7 @@ std::unique_ptr<World> Simulation::led_in(const RunSinks& sinks, const Moment& f
     if (at == exact) before = world->state();
     if (sinks.progress) sinks.progress(static_cast<double>(at) / steps);
     const double before_step = world->work();
-    return world->advance(pose.clamps, pose.links).finite &&
+    return world->advance(pose.clamps, pose.links).finite && (begin == 0 || world->contacts().empty()) &&
            (at % taut_steps != 0 || rod_.mean_elongation(world->state()) <= longest_elongation) &&
            (!sinks.goes_on || sinks.goes_on(world->work() - before_step, true));
   };

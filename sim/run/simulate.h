@@ -123,7 +123,7 @@ class Simulation {
 
   /// Runs the motion, as often as it takes. Throws InputError when the dresspack is drawn taut or the state
   /// is no longer finite. near: a state of the same chain, perhaps with another stiffness; a repeat that leads in begins
-  /// there instead of at the motion's begin, if it reaches the end from there.
+  /// there instead of at the motion's begin, if it reaches the end from there without contact.
   RunSummary run(const RunSinks& sinks, const std::optional<Moment>& near = {}) const;
 
  private:
