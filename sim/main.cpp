@@ -85,15 +85,10 @@ void simulate(const pipeline::StageCall& call, const pipeline::Job& job, pipelin
     motion.emplace(*file, simulation.description());
   };
   begin(1);
-  std::optional<sim::Moment> near;
-  const double near_at = simulation.path().duration() - sim::other_stiffness_lead;
-  const auto add = [&](const sim::Sample& sample) {
-    motion->add(sample);
-    if (sample.time <= near_at && sample.time + 1.5 / job.simulation.sample_rate > near_at) near = {sample.time, sample.state};
-  };
-  const sim::RunSummary summary = simulation.run({add, begin, [&](double share) { progress.show(share); }});
+  const sim::RunSummary summary = simulation.run({[&](const sim::Sample& sample) { motion->add(sample); },
+                                                  begin, [&](double share) { progress.show(share); }});
   motion->finish(summary, [&](double time) { return simulation.path().step(time); });
-  const std::vector<pipeline::Warning> refused = sim::write_other_stiffnesses(job, summary.time_step, near, *file);
+  const std::vector<pipeline::Warning> refused = sim::write_other_stiffnesses(job, summary.time_step, *file);
   for (const std::string& note : {sim::repeats_note(summary), simulation.program_note()})
     if (!note.empty()) progress.note(note);
   pipeline::note_warnings(*file, call, progress,

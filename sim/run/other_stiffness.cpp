@@ -7,6 +7,7 @@
 
 #include "pipeline/base/warning_words.h"
 #include "pipeline/job/uncertainty.h"
+#include "sim/run/simulate.h"
 
 namespace dresslife::sim {
 namespace {
@@ -52,7 +53,7 @@ pipeline::Setup setup_with(const pipeline::Job& job, double factor, double time_
 
 }  // namespace
 
-std::vector<Warning> write_other_stiffnesses(const pipeline::Job& job, double time_step, const std::optional<Moment>& near,
+std::vector<Warning> write_other_stiffnesses(const pipeline::Job& job, double time_step,
                                              pipeline::FileWriter& file) {
   const double reach = pipeline::other_stiffness(job.uncertainty);
   std::vector<Warning> refused;
@@ -67,8 +68,7 @@ std::vector<Warning> write_other_stiffnesses(const pipeline::Job& job, double ti
         RecordedMotion places;
         simulation.run({.take = [&](const Sample& sample) { places.add(sample); },
                         .begin = [&](int) { places = {}; },
-                        .places_only = true},
-                       near);
+                        .places_only = true});
         places.write(file, std::string("/") + name);
         file.attribute(std::string(name) + "_z", z);
         problem.clear();

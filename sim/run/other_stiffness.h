@@ -6,18 +6,13 @@
 #include "pipeline/base/warnings.h"
 #include "pipeline/files/files.h"
 #include "pipeline/job/job.h"
-#include "sim/run/simulate.h"
 
 namespace dresslife::sim {
 
-/// The chain of the job's own run this long before the end of a repeat leads in [s], where the hose touches nothing from there
-/// on. The whole repeat before instead moves the first sample by less than 1e-9 m.
-constexpr double other_stiffness_lead = 60;
-
 /// Writes /softer and /stiffer of motion.h5, each from one repeat of the motion after one that leads in; nothing where the
 /// job's uncertainty does without. time_step: of the job's own run [s]. With twice of it `hard` lives a hundredth as long at
-/// 0.7 times the stiffness. near: of the job's own run, where the repeat that leads in begins. Returns warnings of those whose simulation is refused; their groups are absent.
-std::vector<pipeline::Warning> write_other_stiffnesses(const pipeline::Job& job, double time_step, const std::optional<Moment>& near,
+/// 0.7 times the stiffness. Returns warnings of those whose simulation is refused; their groups are absent.
+std::vector<pipeline::Warning> write_other_stiffnesses(const pipeline::Job& job, double time_step,
                                                        pipeline::FileWriter& file);
 
 }  // namespace dresslife::sim

@@ -175,46 +175,42 @@ struct Simulation::Repeat {
 
 // (R8) What a repeat forgets need not be exact: the first one of a motion that returns only leads into the
 // cycle, with twice the step, but for its last tenth. Whether it did is judged as between any two repeats.
-// Null: it broke down, drew the dresspack taut or was stopped; the motion then runs from rest, which says where. Also null where
-// it begins within the motion and the hose touches something: friction there remembers what was before.
-std::unique_ptr<World> Simulation::led_in(const RunSinks& sinks, const Moment& from) const {
+// Null: it broke down, drew the dresspack taut or was stopped; the motion then runs from rest, which says where.
+std::unique_ptr<World> Simulation::led_in(const RunSinks& sinks) const {
   const double h = setup_.simulation.time_step;
-  const int steps = (description_.samples - 1) * steps_per_sample(h), begin = static_cast<int>(std::lround(from.time / h));
-  const int coarse = std::max(0, static_cast<int>(((1 - exact_lead) * steps - begin) / 2)), exact = begin + 2 * coarse;
+  const int steps = (description_.samples - 1) * steps_per_sample(h);
+  const int coarse = static_cast<int>((1 - exact_lead) * steps / 2);
   const int taut_steps = 2 * steps_per_sample(h);  // of both steps; a run of samples looks as seldom
-  std::unique_ptr<World> world = world_at(from.state, path_->at(begin * h), 2 * h);
+  std::unique_ptr<World> world = world_at(start_, path_->at(0), 2 * h);
   RodState before;
   const auto advance = [&](int at) {
     const Pose pose = path_->at(at * h);
-    if (at == exact) before = world->state();
+    if (at == 2 * coarse) before = world->state();
     if (sinks.progress) sinks.progress(static_cast<double>(at) / steps);
     const double before_step = world->work();
-    return world->advance(pose.clamps, pose.links).finite && (begin == 0 || world->contacts().empty()) &&
+    return world->advance(pose.clamps, pose.links).finite &&
            (at % taut_steps != 0 || rod_.mean_elongation(world->state()) <= longest_elongation) &&
            (!sinks.goes_on || sinks.goes_on(world->work() - before_step, true));
   };
-  for (int k = begin + 2; k <= exact; k += 2)
-    if (!advance(k)) return nullptr;
+  for (int k = 1; k <= coarse; ++k)
+    if (!advance(2 * k)) return nullptr;
   if (coarse > 0)
-    world = world_at(with_half_step(world->state(), before), path_->at(exact * h), h);
+    world = world_at(with_half_step(world->state(), before), path_->at(2 * coarse * h), h);
   else
-    world = world_at(from.state, path_->at(begin * h), h);
-  for (int k = exact + 1; k <= steps; ++k)
+    world = world_at(start_, path_->at(0), h);
+  for (int k = 2 * coarse + 1; k <= steps; ++k)
     if (!advance(k)) return nullptr;
   return world;
 }
 
-RunSummary Simulation::run(const RunSinks& sinks, const std::optional<Moment>& near) const {
+RunSummary Simulation::run(const RunSinks& sinks) const {
   const pipeline::SimulationSettings& settings = setup_.simulation;
   RunSummary summary;
   summary.returns = returns(*path_);
   summary.time_step = settings.time_step;
   bool choose = settings.choose_time_step;
   std::unique_ptr<World> world;
-  if (summary.returns && !choose && settings.most_repeats > 1) {
-    if (near) world = led_in(sinks, *near);
-    if (!world) world = led_in(sinks, {0, start_});
-  }
+  if (summary.returns && !choose && settings.most_repeats > 1) world = led_in(sinks);
   summary.repeats = world ? 2 : 1;
   if (!world) world = world_at(start_, path_->at(0), summary.time_step);
   for (bool first = true;; first = false, ++summary.repeats) {  // (R8)

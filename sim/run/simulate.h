@@ -82,12 +82,6 @@ std::vector<pipeline::Warning> warnings_of(const Simulation& simulation, const R
 /// How many repeats it took; empty where there was one.
 std::string repeats_note(const RunSummary& summary);
 
-/// The chain at a time of the motion.
-struct Moment {
-  double time = 0;  ///< [s]
-  RodState state;
-};
-
 /// What a run hands its results to; only `take` is needed.
 struct RunSinks {
   std::function<void(const Sample&)> take;    ///< every sample of every repeat but the one that leads in
@@ -122,14 +116,13 @@ class Simulation {
   std::string moment(double time) const;  ///< "at 1.2 s, program step 3 'text'"
 
   /// Runs the motion, as often as it takes. Throws InputError when the dresspack is drawn taut or the state
-  /// is no longer finite. near: a state of the same chain, perhaps with another stiffness; a repeat that leads in begins
-  /// there instead of at the motion's begin, if it reaches the end from there without contact.
-  RunSummary run(const RunSinks& sinks, const std::optional<Moment>& near = {}) const;
+  /// is no longer finite.
+  RunSummary run(const RunSinks& sinks) const;
 
  private:
   struct Repeat;  // what looks on while a repeat runs
   std::unique_ptr<World> world_at(const RodState& state, const Pose& pose, double step) const;
-  std::unique_ptr<World> led_in(const RunSinks& sinks, const Moment& from) const;
+  std::unique_ptr<World> led_in(const RunSinks& sinks) const;
   /// The time at which it was stopped; absent: it was not.
   std::optional<double> run_once(World& world, Repeat& repeat, const RunSinks& sinks, bool last) const;
   int steps_per_sample(double step) const;

@@ -1,7 +1,6 @@
 #include "sim/run/other_stiffness.h"
 
 #include <cmath>
-#include <optional>
 
 #include "pipeline/job/uncertainty.h"
 #include "sim/run/motion_file.h"
@@ -20,8 +19,7 @@ struct Written {
   std::vector<double> softer, stiffer, factors;  // as /segment/position; of those that are there
 };
 
-/// lead: the repeat that leads in begins so long before the end of the job's own run [s]; 0: at the motion's begin.
-Written written(const pipeline::Job& job, double lead = 0) {
+Written written(const pipeline::Job& job) {
   const pipeline::Scratch scratch;
   const auto name = scratch / "motion.h5";
   Written result;
@@ -29,13 +27,9 @@ Written written(const pipeline::Job& job, double lead = 0) {
     pipeline::FileWriter file(name, pipeline::motion_format());
     const Simulation simulation(job);
     MotionFile motion(file, simulation.description());
-    std::optional<Moment> near;
-    const RunSummary summary = simulation.run({[&](const Sample& sample) {
-      motion.add(sample);
-      if (lead > 0 && sample.time <= simulation.path().duration() - lead) near = {sample.time, sample.state};
-    }});
+    const RunSummary summary = simulation.run({[&](const Sample& sample) { motion.add(sample); }});
     motion.finish(summary, [&](double time) { return simulation.path().step(time); });
-    result.warnings = write_other_stiffnesses(job, summary.time_step, near, file);
+    result.warnings = write_other_stiffnesses(job, summary.time_step, file);
     for (const char* attribute : {"job", "history", "input_sha256"}) file.attribute(attribute, "");
     file.commit();
   }
@@ -90,20 +84,6 @@ TEST_CASE("other stiffnesses: the places are those of jobs whose hose is softer 
   pipeline::Job stiff = job;
   stiff.dresspacks[0].dresspack.bending_stiffness *= both.factors[1];
   CHECK(largest_difference(both.stiffer, positions_with(stiff, 1)) < kept);
-}
-
-TEST_CASE("other stiffnesses: the end of the job's own run leads into the cycle that a whole repeat leads into") {
-  pipeline::Job job = sagging();
-  job.simulation.most_repeats = 2;
-  for (int k = 0; k < 30; ++k)
-    for (const pipeline::MotionStep& step : {move_to(2 - 0.05 * k), dwell_for(0.5), move_to(0)}) job.motion.steps.push_back(step);
-  const Written whole = written(job), late = written(job, other_stiffness_lead);
-  REQUIRE(late.factors == whole.factors);
-  REQUIRE(Simulation(job).path().duration() > other_stiffness_lead);
-  constexpr double settled = 1e-9;  // swings decay within seconds [m]
-  CHECK(largest_difference(late.softer, whole.softer) < settled);
-  CHECK(largest_difference(late.stiffer, whole.stiffer) < settled);
-  CHECK(largest_difference(written(job, 1).softer, whole.softer) > settled);  // else nothing is tested
 }
 
 TEST_CASE("other stiffnesses: none where the stiffness is known") {
