@@ -58,7 +58,8 @@ class ContactSolver {
   void change_answer(int row, double change);
 
   std::vector<Twist6> direction_, opposite_;  // (row): a contact's normal and two tangents in turn; of the other segment
-  std::vector<Twist6> response_, impulse_;    // (segment)
+  std::vector<Twists> response_;              // (segment)
+  std::vector<Twist6> impulse_;               // (segment)
   std::vector<double> effective_, velocity_, answer_;  // (row, row), (row), (row)
   std::vector<Contact> last_;                          // of the previous step
 };

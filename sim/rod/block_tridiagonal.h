@@ -43,8 +43,9 @@ inline int factor_diagonal(double* d) {
   return not_positive;
 }
 
-/// x := L^-1 x
-inline void solve_lower(const double* d, double* x) {
+/// x := L^-1 x. Number: double, or several right-hand sides side by side.
+template <class Number>
+inline void solve_lower(const double* d, Number* x) {
 #pragma GCC unroll 6
   for (int c = 0; c < 5; ++c)
 #pragma GCC unroll 6
@@ -52,7 +53,8 @@ inline void solve_lower(const double* d, double* x) {
 }
 
 /// x := L^-T x
-inline void solve_lower_transposed(const double* d, double* x) {
+template <class Number>
+inline void solve_lower_transposed(const double* d, Number* x) {
 #pragma GCC unroll 6
   for (int r = 4; r >= 0; --r)
 #pragma GCC unroll 6
@@ -60,13 +62,15 @@ inline void solve_lower_transposed(const double* d, double* x) {
 }
 
 /// x := pivot^-1 x
-inline void scale_by_pivots(const double* d, double* x) {
+template <class Number>
+inline void scale_by_pivots(const double* d, Number* x) {
 #pragma GCC unroll 6
   for (int r = 0; r < 6; ++r) x[r] *= d[7 * r];
 }
 
 /// Eliminates the value y of one block from the next: next -= (L^-1 U)^T y.
-inline void carry_down(const double* upper, const double* y, double* next) {
+template <class Number>
+inline void carry_down(const double* upper, const Number* y, Number* next) {
 #pragma GCC unroll 6
   for (int k = 0; k < 6; ++k)
 #pragma GCC unroll 6
@@ -74,10 +78,11 @@ inline void carry_down(const double* upper, const double* y, double* next) {
 }
 
 /// Eliminates the solved next block from this one: value -= pivot^-1 (L^-1 U) next.
-inline void carry_up(const double* d, const double* upper, const double* next, double* value) {
+template <class Number>
+inline void carry_up(const double* d, const double* upper, const Number* next, Number* value) {
 #pragma GCC unroll 6
   for (int r = 0; r < 6; ++r) {
-    double sum = 0;
+    Number sum{};
 #pragma GCC unroll 6
     for (int k = 0; k < 6; ++k) sum += upper[6 * r + k] * next[k];
     value[r] -= d[7 * r] * sum;

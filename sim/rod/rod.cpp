@@ -752,15 +752,11 @@ int RodSolver::solve_span(const RodState& state, int k, std::span<const Load> lo
   return not_positive;
 }
 
-void RodSolver::unit_response(int segment, const Twist6& e, int other, const Twist6& e_other, int first,
-                              std::span<Twist6> x) const {
+void RodSolver::respond(int foremost, int first, std::span<Twists> x) const {
   const auto& block = system_->block;
-  const int n = rod_.segments(), foremost = other < 0 ? segment : std::min(segment, other);
-  for (int i = first; i < n; ++i) std::fill_n(x[i].value, 6, 0.0);
-  x[segment] = e;
-  if (other >= 0) x[other] = e_other;
+  const int n = rod_.segments();
   for (int i = foremost; i < n; ++i) {
-    double* value = x[i].value;
+    Twists::Row* const value = x[i].value;
     solve_lower(block[i].diagonal, value);
     scale_by_pivots(block[i].diagonal, value);
     if (i + 1 < n) carry_down(block[i].upper, value, x[i + 1].value);

@@ -227,6 +227,13 @@ struct Twist6 {
   Vector3 angular() const { return {value[3], value[4], value[5]}; }
 };
 
+/// Several twists side by side, (row, twist): independent operations use the processor's latency.
+struct Twists {
+  static constexpr int count = 4;
+  using Row = double __attribute__((vector_size(count * sizeof(double))));
+  Row value[6];
+};
+
 /// One step of (S3): a 6x6 block tridiagonal system, factored once, O(n). Blocks of different spans are not coupled.
 class RodSolver {
  public:
@@ -241,10 +248,9 @@ class RodSolver {
   bool solve(const RodState& state, const ClampFrames& end, double h, std::span<const Load> loads = {});
   std::span<const Twist6> velocity_change() const;
 
-  /// Computes x = A^-1 (e in block `segment`, e_other in block `other` unless other < 0, 0 elsewhere), for blocks >=
-  /// first only. A is the matrix of the last solve().
-  void unit_response(int segment, const Twist6& e, int other, const Twist6& e_other, int first,
-                     std::span<Twist6> x) const;
+  /// Replaces x by A^-1 x, in blocks >= first only. A is the matrix of the last solve(). x: impulses, 0 in the blocks before
+  /// `foremost`.
+  void respond(int foremost, int first, std::span<Twists> x) const;
   /// Adds the response A^-1 p to generalised impulses p [N s, N m s] to the velocity changes. Overwrites p.
   void apply_impulses(std::span<Twist6> impulses);
 

@@ -66,7 +66,9 @@ std::vector<Warning> write_other_stiffnesses(const pipeline::Job& job, double ti
       try {
         const Simulation simulation(setup_with(job, factor, time_step));
         RecordedMotion places;
-        simulation.run({[&](const Sample& sample) { places.add(sample); }, [&](int) { places = {}; }});
+        simulation.run({.take = [&](const Sample& sample) { places.add(sample); },
+                        .begin = [&](int) { places = {}; },
+                        .places_only = true});
         places.write(file, std::string("/") + name);
         file.attribute(std::string(name) + "_z", z);
         problem.clear();

@@ -237,7 +237,7 @@ RunSummary Simulation::run(const RunSinks& sinks) const {
       }
     }
     if (summary.returns && !summary.periodic && summary.repeats < settings.most_repeats) continue;
-    summary.curvature_error = repeat.error.estimate();
+    if (!sinks.places_only) summary.curvature_error = repeat.error.estimate();
     summary.curvature = repeat.checks.curvature();
     summary.twist = repeat.checks.twist();
     summary.tension = repeat.checks.tension();
@@ -268,13 +268,14 @@ std::optional<double> Simulation::run_once(World& world, Repeat& repeat, const R
   const auto hand_over = [&](int sample) {
     const double time = sample / setup_.simulation.sample_rate;
     const RodState& state = world.state();
-    const std::vector<double> pull = rod_.tensions(state);
+    const bool all = !sinks.places_only;
+    const std::vector<double> pull = all ? rod_.tensions(state) : std::vector<double>{};
     for (const Span& span : rod_.spans())
-      for (int i = 0; i < span.segments(); ++i)
+      for (int i = 0; all && i < span.segments(); ++i)
         tension[span.first_segment + i] = (pull[span.first_link + i] + pull[span.first_link + i + 1]) / 2;
     const std::vector<Frame> clamps = listed_clamps(rod_, state.clamps);
     const std::vector<double> travel = pulled_out(state);
-    sinks.take({time, path_->step(time), state, clamps, travel, pose, rod_.energy(state), tension,
+    sinks.take({time, path_->step(time), state, clamps, travel, pose, all ? rod_.energy(state) : Energy{}, tension,
                 since.touching, since.max_depth, checks.net_twist(), touch});
     since = {};
     touch.begin_sample();
@@ -285,7 +286,7 @@ std::optional<double> Simulation::run_once(World& world, Repeat& repeat, const R
     return pose.rings.empty() ? std::vector<double>{}
                               : shortest_ways(setup_, rod_, world.state().clamps, pose.rings);
   };
-  checks.see(world.state(), {}, 0, ways());
+  if (!sinks.places_only) checks.see(world.state(), {}, 0, ways());
   repeat.error.see(0, world.state());
   hand_over(0);
   for (int sample = 1; sample < description_.samples; ++sample) {  // (R6)
@@ -296,6 +297,7 @@ std::optional<double> Simulation::run_once(World& world, Repeat& repeat, const R
       pose = path_->at(time);
       const StepReport report = world.advance(pose.clamps, pose.links);
       check_step(report, time);
+      if (sinks.places_only) continue;
       checks.see(world.state(), world.contacts(), time, ways());
       touch.add(world.contacts(), step);
       rubbing.add(world.contacts(), world.state(), step);
@@ -308,6 +310,7 @@ std::optional<double> Simulation::run_once(World& world, Repeat& repeat, const R
     if (sinks.goes_on && !sinks.goes_on(world.work() - before, false)) return sample / setup_.simulation.sample_rate;
     if (last && sinks.still_of_use && !sinks.still_of_use(checks)) return sample / setup_.simulation.sample_rate;
   }
+  if (sinks.places_only) return {};
   repeat.rubbed = rubbing.patches(touch);
   repeat.obstacles = touch.obstacles();
   return {};

@@ -91,6 +91,9 @@ struct RunSinks {
   std::function<bool(double, bool)> goes_on = {};
   /// Returns whether the evaluated repeat continues, given the checks of its samples so far.
   std::function<bool(const MotionChecks&)> still_of_use = {};
+  /// Only states and clamps are wanted: a sample's energy, tension, contacts and touch, checks, rubbing and the error of the
+  /// step stay empty.
+  bool places_only = false;
 };
 
 class Simulation {
