@@ -385,7 +385,7 @@ TEST_CASE("report: each fact of a job has the row's own number") {
            {"worst wire", "71.0 h of motion = 7,100 repeats of 36.0 s = 7.00 months by the calendar, median of the worst wire"},
            {"by the scatter of wires alone", "51.0 h in 10 %, 52.0 h in half, 53.0 h in 90 % of such dresspacks, all else as the job has it"},
            {"its causes", "strength 60 %"},
-           {"fails first", "wires of signal cable, in 75 % of the samples"},
+           {"fails first", "wires of signal cable, in 75 % of the samples, likeliest signal cable 3/conductor 2, 0.75 m from the tool"},
            {"bounds of 10 % failed", "11.0 h" + glued + "111 h" + free},
            {"bounds of half failed", "12.0 h" + glued + "112 h" + free},
            {"bounds of 90 % failed", "13.0 h" + glued + "113 h" + free},
