@@ -34,7 +34,7 @@ struct FanucPosition {
   int frame = 0, tool = 0;            ///< numbers of UF and UT; -1: the active frame (F)
   int line = 0;
 
-  bool known() const;  ///< whether all values and external axes are finite
+  bool known() const;  ///< whether `values` is not empty and all values and external axes are finite
 };
 
 struct FanucListing {

@@ -435,7 +435,8 @@ void FanucRun::drop_repeated(const Endless& loop, std::size_t known) {
 }
 
 /// Returns whether an endless loop that is back at its label runs another pass. It runs options.passes passes if given.
-/// Otherwise it ends when all values equal those after an earlier pass, or the moves equal those of the previous pass.
+/// Otherwise it ends when all values equal those after an earlier pass, when the moves equal those of the previous pass,
+/// or, with a problem, after ImportLimits::passes.
 bool FanucRun::goes_on(std::size_t label) {
   Endless& loop = endless_[{routine().listing, label}];
   auto& made = program_.instructions;
