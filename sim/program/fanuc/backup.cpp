@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Between the first pair of '.
+/// Returns the trimmed text between the first and the last ' of `text`; empty: no pair.
 std::string quoted(std::string_view text) {
   const std::size_t begin = text.find('\''), end = text.rfind('\'');
   return begin == std::string_view::npos || end <= begin
@@ -50,7 +50,7 @@ class VariableFile {
     }
   }
 
-  /// [*NUMREG*]$NUMREG  Storage: ...
+  /// Begins a variable: [*NUMREG*]$NUMREG  Storage: ...
   void begin(std::string_view name, std::string_view line) {
     constexpr std::pair<std::string_view, Variable> known[] = {
         {"$NUMREG", Variable::registers},         {"$POSREG", Variable::positions},
@@ -64,7 +64,7 @@ class VariableFile {
       if (same_word(name, word)) variable_ = variable;
   }
 
-  /// [5] = 3  'name', or [1,7] = 'name' and a position on the lines that follow.
+  /// Reads an element: [5] = 3  'name', or [1,7] = 'name' with a position on the following lines.
   void element(std::string_view line) {
     FanucCursor at(line);
     at.take_sign('[');
@@ -92,13 +92,13 @@ class VariableFile {
     position_ = &((*list)[number] = made);
     const std::size_t name = line.rfind('\'');
     if (line.find("Uninitialized", name < line.size() ? name : 0) != std::string_view::npos) {
-      position_->form = FanucPosition::Form::pose;  // what its components become that a program assigns
+      position_->form = FanucPosition::Form::pose;  // the form if a program assigns components
       position_->values.assign(6, NAN);
       position_ = nullptr;
     }
   }
 
-  /// "X: 1.0 Y: ...", "J1 = 1.0 deg J2 = ...", "Group: 1 Config: N U T, 0, 0, 0", "EXT1: 0.0 mm"
+  /// Reads "X: 1.0 Y: ...", "J1 = 1.0 deg J2 = ...", "Group: 1 Config: N U T, 0, 0, 0" or "EXT1: 0.0 mm".
   void coordinates(std::string_view line) {
     if (const std::size_t config = line.find("Config:"); config != std::string_view::npos) {
       position_->configuration =
@@ -131,7 +131,7 @@ class VariableFile {
     p.values[which] = value;
   }
 
-  /// Field: $MACROTABLE[5].$MACRO_NAME Access: RO: STRING[37] = 'MOVE TO HOME'
+  /// Reads a field: $MACROTABLE[5].$MACRO_NAME Access: RO: STRING[37] = 'MOVE TO HOME'
   void macro(std::string_view line) {
     if (line.find("$MACRO_NAME") != std::string_view::npos) macro_ = lower_case(quoted(line));
     if (line.find("$PROG_NAME") == std::string_view::npos || macro_.empty()) return;
@@ -141,7 +141,7 @@ class VariableFile {
   std::string_view text_;
   FanucVariables& into_;
   Variable variable_ = Variable::none;
-  FanucPosition* position_ = nullptr;  // that is being read
+  FanucPosition* position_ = nullptr;  // the position of the current element; null: none
   std::string macro_;
 };
 
@@ -162,8 +162,8 @@ std::vector<fs::path> files_in(const fs::path& folder) {
   return files;
 }
 
-/// The variable files of a folder of listings; where it has none, those of the folder around it: a backup in
-/// two languages has its listings in two folders.
+/// Returns the variable files of a folder of listings. If it has none, returns those of its parent folder, because a
+/// backup in two languages has its listings in two folders.
 std::vector<fs::path> variables_of(const fs::path& folder) {
   for (const fs::path& place : {folder, fs::absolute(folder).lexically_normal() / ".."}) {
     std::vector<fs::path> files = files_in(place);
@@ -178,11 +178,11 @@ std::string text_of(const fs::path& file) {
   return source.size() > ImportLimits::file_bytes ? "" : decoded_text(source.text());
 }
 
-/// What a listing calls, without running it: what CALL and RUN name, and macros.
+/// Finds the programs that a listing calls (CALL, RUN, macros) without running it.
 Calls calls_of_listing(const fs::path& file, const std::map<std::string, std::string>& macros) {
   Calls made;
   const SourceFile source(file.string(), text_of(file));
-  if (source.text().find("/PROG") == std::string::npos) return made;  // a log
+  if (source.text().find("/PROG") == std::string::npos) return made;  // a log, not a program
   Program ignored;
   Problems unread;
   const FanucListing listing = parse_fanuc(source, 0, ignored, unread);
@@ -214,7 +214,7 @@ void read_fanuc_variables(const SourceFile& file, FanucVariables& into) { Variab
 std::vector<fs::path> fanuc_files_beside(const fs::path& listing) {
   std::vector<fs::path> made;
   FanucVariables variables;
-  std::map<std::string, fs::path> beside;  // by their stems
+  std::map<std::string, fs::path> beside;  // stem in lower case -> listing
   const fs::path folder = listing.has_parent_path() ? listing.parent_path() : fs::path(".");
   for (const fs::path& file : files_in(folder))
     if (is_listing(file)) beside.try_emplace(lower_case(file.stem().string()), file);
@@ -263,7 +263,7 @@ FanucFolder fanuc_folder(const fs::path& folder) {
 
 namespace {
 
-/// The folder of the listings: the one given, or the only one within that holds any.
+/// Returns the folder of the listings: `folder`, or the only subfolder with listings. Throws InputError otherwise.
 fs::path folder_of_listings(const fs::path& folder, const std::vector<fs::path>& files) {
   std::vector<std::string> within;
   for (const fs::path& file : files) {

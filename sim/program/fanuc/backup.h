@@ -1,7 +1,7 @@
-// Files beside the listings in a backup of a Fanuc controller: the values of its registers, position
-// registers, frames and macros as variable files (.va), and the listing that runs.
+// Reads the backup of a Fanuc controller: variable files (.va) with the values of registers, position registers, frames
+// and macros, and the choice of the listing to run.
 //
-//   file         variable                       line                  is
+//   file         variable                       line                  content
 //   numreg.va    [*NUMREG*]$NUMREG              [5] = 3  'name'       R[5]
 //   posreg.va    [*POSREG*]$POSREG              [1,7] = 'name' ...    PR[7] of group 1
 //   sysframe.va  [*SYSTEM*]$MNUFRAME            [1,2] = ...           UFRAME[2] of group 1
@@ -9,10 +9,10 @@
 //                [*SYSTEM*]$MNUFRAMENUM         [1] = 2               UFRAME_NUM
 //                [*SYSTEM*]$MNUTOOLNUM          [1] = 2               UTOOL_NUM
 //   sysmacro.va  [*SYSTEM*]$MACROTABLE          $MACRO_NAME, $PROG_NAME   macros
-//   system.va    [*SYSTEM*]$OFFSET_CART         ... = FALSE           how offsets count
+//   system.va    [*SYSTEM*]$OFFSET_CART         ... = FALSE           whether offsets are frames
 //
-// A folder becomes a Backup by fanuc_backup(). The values are those of the moment at which the
-// backup was made. Other variables are not read. Source: backups.
+// framevar.va is read like sysframe.va. fanuc_backup() makes a Backup of a folder. The values are those at the time of
+// the backup. Other variables are not read. Source: backups.
 #pragma once
 
 #include <filesystem>
@@ -28,34 +28,34 @@ namespace dresslife::sim {
 
 struct FanucVariables {
   std::map<int, double> registers;
-  std::map<int, FanucPosition> position_registers;  ///< of group 1; frame and tool -1
-  std::map<int, FanucPosition> frames, tools;       ///< of group 1
+  std::map<int, FanucPosition> position_registers;  ///< group 1; their frame and tool are -1
+  std::map<int, FanucPosition> frames, tools;       ///< UFRAME[n], UTOOL[n] of group 1
   std::optional<int> frame_number, tool_number;
-  std::map<std::string, std::string> macros;  ///< its name in lower case -> its program's
-  bool offsets_are_frames = false;            ///< $OFFSET_CART; FALSE as controllers are delivered
+  std::map<std::string, std::string> macros;  ///< macro name -> program name, both in lower case
+  bool offsets_are_frames = false;            ///< $OFFSET_CART; FALSE by default on controllers
 };
 
-/// Adds what a variable file holds; a file that holds none of these adds nothing.
+/// Adds the known variables of a variable file to `into`. Other variables are ignored.
 void read_fanuc_variables(const SourceFile& file, FanucVariables& into);
 
-/// The files that a listing needs of those beside it: the variable files above, and the listings that it
-/// calls, directly or through others, whatever the case of their names. Without the listing itself.
+/// Returns the files that `listing` needs from its folder: the variable files above, and the listings that it calls,
+/// directly or indirectly. The case of names is ignored. `listing` itself is not included.
 std::vector<std::filesystem::path> fanuc_files_beside(const std::filesystem::path& listing);
 
-/// A backup as a folder.
+/// The files of a backup folder.
 struct FanucFolder {
-  std::vector<std::filesystem::path> listings;   ///< programs that can be read, in the order of their names
+  std::vector<std::filesystem::path> listings;   ///< readable programs, in the order of their names
   std::vector<std::filesystem::path> variables;  ///< the .va files above
-  /// Programs that move the robot, themselves or through others, and that none of the others calls. One: it
-  /// is the program of the folder; more: the user chooses (--routine).
+  /// Programs that move the robot, directly or through calls, and that no other program calls. A single one is the
+  /// program of the folder. If there are several, the user chooses (--routine).
   std::vector<std::string> mains;
 };
 
-/// Empty listings: no Fanuc backup. Logs that end in .ls but are no programs are left out.
+/// Returns the files of `folder`. Empty listings: not a Fanuc backup. Logs (.ls files without /PROG) are left out.
 FanucFolder fanuc_folder(const std::filesystem::path& folder);
 
-/// The programs of this language among `files` of `folder`. routine: the requested one; empty: none. Errors: InputError that names the
-/// choices if there are several programs.
+/// Returns the Fanuc programs among `files` of `folder`. routine: the requested program; empty: no request.
+/// Errors: throws InputError, with the choices if there are several programs.
 Backup fanuc_backup(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& files,
                  const std::string& routine);
 

@@ -12,7 +12,7 @@ bool is_comment(std::string_view text) {
   return text.starts_with("!") || text.starts_with("--") || text.starts_with("//");
 }
 
-/// Offset of the first comma outside of brackets and quotes.
+/// Returns the offset of the first comma outside brackets, parentheses and quotes; npos: none.
 std::size_t top_comma(std::string_view text) {
   int depth = 0;
   bool quoted = false;
@@ -26,7 +26,7 @@ std::size_t top_comma(std::string_view text) {
   return std::string_view::npos;
 }
 
-/// Offset of the parenthesis that closes the one before `from`.
+/// Returns the offset of the ')' that closes the '(' before `from`; text.size(): none.
 std::size_t closing(std::string_view text, std::size_t from) {
   int depth = 1;
   for (std::size_t i = from; i < text.size(); ++i) {
@@ -65,7 +65,7 @@ std::string fanuc_action(const std::string& statement) {
   const std::string word = again ? "" : at.word();
   if (!again && word != "if" && word != "select" && word != "else") return statement;
   std::size_t comma = top_comma(statement);
-  if (word == "if" && at.take_sign('(')) {  // IF (condition)action, also without a comma
+  if (word == "if" && at.take_sign('(')) {  // IF (condition)action; the comma is optional
     const std::size_t close = closing(statement, at.offset());
     FanucCursor behind(statement);
     behind.move_to(std::min(close + 1, statement.size()));
@@ -193,7 +193,7 @@ const FanucListing* FanucOutlook::macro(const std::string& statement) const {
 const FanucEffects& FanucOutlook::whole(const FanucListing& listing) {
   if (const auto found = known_.find(&listing); found != known_.end()) return found->second;
   FanucEffects& made = known_[&listing];
-  made.moves = made.any_register = true;  // of a program that calls itself
+  made.moves = made.any_register = true;  // assumption for recursive calls, replaced below
   FanucEffects read = effects(listing, 0, listing.statements.size());
   read.leaves = false;
   return known_[&listing] = read;
@@ -245,14 +245,14 @@ FanucEffects FanucOutlook::effects(const std::string& action) {
     made.add(whole(*called));
   } else if (fanuc_word(word) == FanucWord::other && word != "jmp" && word != "end" && word != "endif" &&
              word != "endfor" && word != "abort") {
-    made.any_register = true;  // a macro that is not read
+    made.any_register = true;  // a macro without a listing
   }
   return made;
 }
 
 namespace {
 
-/// Whether one statement can jump to a label that is not among from .. to, or end the program.
+/// Returns whether a statement can leave from .. to: by a jump, by ABORT, or by END if `to` is not the listing's end.
 bool jumps_out(const FanucListing& listing, const std::string& text, std::size_t from, std::size_t to) {
   const std::string action = fanuc_action(text);
   FanucCursor at(action);

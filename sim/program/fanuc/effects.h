@@ -1,6 +1,6 @@
-// Possible effects of Fanuc statements, found without running them, for undecided branches. A branch
-// whose arms neither move the robot nor lead elsewhere is no question: what they may write is unknown from
-// then on.
+// Finds the possible effects of Fanuc statements without running them, for branches with an unknown condition. A branch
+// whose arms do not move the robot and do not jump out is not a question. The values that its arms may write are
+// unknown afterwards.
 #pragma once
 
 #include <map>
@@ -13,33 +13,33 @@
 namespace dresslife::sim {
 
 struct FanucEffects {
-  bool moves = false;         ///< the robot
-  bool waits = false;         ///< for a time
-  bool leaves = false;        ///< a jump may lead out of these statements
-  bool any_register = false;  ///< writes registers and position registers that are not known before
-  std::set<int> registers, positions;
+  bool moves = false;         ///< whether the robot moves
+  bool waits = false;         ///< whether a timed wait occurs
+  bool leaves = false;        ///< whether a jump may lead out of these statements
+  bool any_register = false;  ///< whether R[] or PR[] with unknown numbers are written
+  std::set<int> registers, positions;  ///< numbers of the R[] and PR[] that may be written
   std::set<std::string>
-      named;  ///< "override", "$prgoverride", "uframe_num", "utool_num", "uframe[2]", "uframe[]": any
+      named;  ///< "override", "$prgoverride", "uframe_num", "utool_num", "uframe[2]", "uframe[]": any number
 
   void add(const FanucEffects& other);
 };
 
-/// Programs by their names (lower case) and macros by theirs, which name programs.
+/// Effects of programs and macros. Keys are names in lower case. `macros` maps a macro to its program.
 class FanucOutlook {
  public:
   FanucOutlook(const std::vector<FanucListing>& listings, const std::map<std::string, std::string>& macros);
 
-  /// Null: not among those read.
+  /// Returns the listing of a program; null: no listing was read for it.
   const FanucListing* program(const std::string& name) const;
-  /// The program that a statement calls as a macro; null: none, or one that is not read.
+  /// Returns the program that a statement calls as a macro; null: no macro, or no listing was read for it.
   const FanucListing* macro(const std::string& statement) const;
 
-  /// Of the statements from .. to - 1 of a listing. Jumps to `to` itself do not leave.
+  /// Returns the effects of the statements from .. to - 1 of a listing. A jump to `to` itself is not `leaves`.
   FanucEffects effects(const FanucListing& listing, std::size_t from, std::size_t to);
-  /// Whether a decision (an IF with its block, a SELECT with its cases) can jump out of the statements from
-  /// .. to.
+  /// Returns whether a decision (an IF with its block, a SELECT with its cases) can jump out of the statements
+  /// from .. to.
   bool leads_out(const FanucListing& listing, std::size_t decision, std::size_t from, std::size_t to) const;
-  /// Of one action: a statement, or what follows the condition of an IF.
+  /// Returns the effects of one action: a statement, or the text after the condition of an IF.
   FanucEffects effects(const std::string& action);
 
  private:
@@ -51,22 +51,23 @@ class FanucOutlook {
   std::map<const FanucListing*, FanucEffects> known_;
 };
 
-/// What an IF, SELECT, = or ELSE does behind its comma; other statements whole.
+/// Returns the action after the comma of an IF, SELECT, = or ELSE; empty: no action. Returns other statements unchanged.
 std::string fanuc_action(const std::string& statement);
 
 enum class FanucWord { motion, logic, shapes_motion, other };
 
-/// A system variable that moves depend on, which a statement assigns.
+/// An assignment to a system variable that has an effect on moves.
 struct FanucSetting {
-  std::string name;   ///< as in FanucEffects::named; empty: there is none
-  int number = 0;     ///< of a frame
-  int component = 0;  ///< of a frame: 1 .. 6 for X, Y, Z, W, P, R; 0: the whole frame
+  std::string name;   ///< as in FanucEffects::named; empty: no such variable
+  int number = 0;     ///< number of the frame
+  int component = 0;  ///< component of the frame: 1 .. 6 for X, Y, Z, W, P, R; 0: the whole frame
 };
-/// "$MNUTOOL[1,2].$Z=..." is {"utool[2]", 2, 3}, "$MCR.$GENOVERRIDE=..." is {"override"}.
+/// Returns the variable that `statement` assigns. "$MNUTOOL[1,2].$Z=..." gives {"utool[2]", 2, 3};
+/// "$MCR.$GENOVERRIDE=..." gives {"override"}.
 FanucSetting fanuc_setting(const std::string& statement);
 
-/// By the first word of a statement (lower case). shapes_motion: weaving, tracking, touching, soft axes: what
-/// it does lies in the controller. other: control flow, assignments, macros.
+/// Classifies a statement by its first word (lower case). shapes_motion: weaving, tracking, touching, soft axes, whose
+/// data lie in the controller. other: control flow, assignments, macros.
 FanucWord fanuc_word(const std::string& word);
 
 }  // namespace dresslife::sim

@@ -9,7 +9,7 @@ namespace {
 
 bool is_variables(const SourceFile& file) { return lower_case(file.name()).ends_with(".va"); }
 
-/// Programs of one name, which a controller cannot hold.
+/// Reports listings of different text with the same program name. A controller cannot hold both.
 void check_names(const std::deque<SourceFile>& files, const std::vector<FanucListing>& listings,
                  Problems& problems) {
   std::map<std::string, const FanucListing*> known;

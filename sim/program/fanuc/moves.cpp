@@ -17,7 +17,7 @@ bool nothing(const FanucPosition& offset) {
 
 }  // namespace
 
-Frame frame_of_fanuc(const std::vector<double>& n) {  // W, P, R about the fixed axes x, y, z
+Frame frame_of_fanuc(const std::vector<double>& n) {  // W, P, R turn about the fixed axes x, y, z
   return {
       millimetre * Vector3(n[0], n[1], n[2]),
       rotation({0, 0, n[5] * degree}) * rotation({0, n[4] * degree, 0}) * rotation({n[3] * degree, 0, 0})};
@@ -26,7 +26,7 @@ Frame frame_of_fanuc(const std::vector<double>& n) {  // W, P, R about the fixed
 std::vector<double> fanuc_values_of(const Frame& frame) {
   const Eigen::Matrix3d r = frame.orientation.toRotationMatrix();
   const double yaw = std::atan2(r(1, 0), r(0, 0)), c = std::cos(yaw), s = std::sin(yaw);
-  // W from what R leaves, so that their sum is exact where P is +-90 deg.
+  // W (roll) is computed after R (yaw) is taken out, so that the sum of R and W is exact at P = +-90 deg.
   const double pitch = std::atan2(-r(2, 0), c * r(0, 0) + s * r(1, 0)),
                roll = std::atan2(s * r(0, 2) - c * r(1, 2), c * r(1, 1) - s * r(0, 1));
   const Vector3 p = frame.position / millimetre;
@@ -35,7 +35,7 @@ std::vector<double> fanuc_values_of(const Frame& frame) {
 
 // ---- positions -------------------------------------------------------------------------------------------
 
-/// P[3:name] or PR[4]. Absent: neither, or its number is not known.
+/// Reads P[3:name] or PR[4]. std::nullopt: neither, an unknown number, another group, or a P[n] without an entry.
 std::optional<FanucPosition> FanucRun::position(FanucCursor& at) {
   const bool registered = at.take("PR");
   if (!registered && !at.take("P")) return {};
@@ -48,7 +48,7 @@ std::optional<FanucPosition> FanucRun::position(FanucCursor& at) {
   return found == list.end() ? std::nullopt : std::optional(found->second);
 }
 
-/// The same as the target of a move, with a problem where it is not there.
+/// Reads the P[n] or PR[n] of a move. Reports a problem if its values are unknown.
 std::optional<FanucPosition> FanucRun::target_position(FanucCursor& at) {
   const std::size_t begin = at.offset();
   const bool registered = at.take("PR");
@@ -99,7 +99,7 @@ std::optional<FanucPosition> FanucRun::target_position(FanucCursor& at) {
   return {};
 }
 
-/// What makes a position register unknown, which `values_` misses.
+/// Asks for the values that make the position register `name` unknown (values_.causes()).
 void FanucRun::missing_position(const std::string& name, const char* what) {
   const FanucCauses& causes = values_.causes();
   if (causes.size() != 1 || causes[0].name != name)
@@ -112,7 +112,8 @@ void FanucRun::missing_position(const std::string& name, const char* what) {
           {{Question::Kind::value, name, position_form}});
 }
 
-/// The active frame where a position names none; false: not known.
+/// Replaces a negative `number` by that of the active frame; it stays -1 if the user gives the active frame itself.
+/// Returns false, with a question, if the active frame is unknown.
 bool FanucRun::active(bool tool, int& number) {
   if (number >= 0) return true;
   values_.forget_missing();
@@ -137,7 +138,7 @@ bool FanucRun::active(bool tool, int& number) {
   return false;
 }
 
-/// A frame that the user gives; null: there is none of that name.
+/// Returns the user's frame of this name; null: none.
 const NamedFrame* FanucRun::given_frame(bool tool, const std::string& name) const {
   const auto& given = tool ? around_.tools : around_.work_objects;
   const auto found = std::find_if(given.begin(), given.end(),
@@ -145,7 +146,8 @@ const NamedFrame* FanucRun::given_frame(bool tool, const std::string& name) cons
   return found == given.end() ? nullptr : &*found;
 }
 
-/// A controller moves to a P[n] only while the frames that it was taught in are active.
+/// Warns if the active frame differs from the listed frame of a P[n]: a controller would stop at this move. If no frame
+/// is active yet, `listed` becomes the active one.
 void FanucRun::compare_active(bool tool, int listed) {
   const std::string name = tool ? "utool_num" : "uframe_num";
   if (!values_.has_named(name)) return values_.set_named(name, listed);
@@ -157,13 +159,13 @@ void FanucRun::compare_active(bool tool, int listed) {
        true);
 }
 
-/// UFRAME[n] or UTOOL[n], n above 0: as assigned, else as the user gave it, else as in the backup. What the value of an
-/// assignment depends on is asked for.
+/// Returns UFRAME[n] or UTOOL[n]: the value that the program assigned, else that of the user, else that of the backup.
+/// n = 0: the world or the flange. n < 0: the user's active frame. The causes of an unknown assigned value are questions.
 std::optional<NamedFrame> FanucRun::frame(bool tool, int number) {
   const std::string list = tool ? "UTOOL" : "UFRAME";
   NamedFrame made{fmt::format("{}[{}]", list, number), {}, false};
   if (number == 0) return made;
-  if (number < 0) return *given_frame(tool, list);  // the active one
+  if (number < 0) return *given_frame(tool, list);  // the active frame, see active()
   auto own = frames_.find({tool, number});
   if (own == frames_.end()) own = frames_.find({tool, any_frame});
   if (own != frames_.end()) {
@@ -171,7 +173,7 @@ std::optional<NamedFrame> FanucRun::frame(bool tool, int number) {
       made.frame = *own->second.frame;
       return made;
     }
-    // A frame that is given is the one before the assignment.
+    // The user's frame is not used here: it is the value before the assignment.
     if (!own->second.why.empty()) {
       values_.forget_missing();
       values_.miss(own->second.why);
@@ -195,7 +197,7 @@ std::optional<NamedFrame> FanucRun::frame(bool tool, int number) {
   return {};
 }
 
-/// Enters a frame into the program's list of tools or work objects, and its index into the move.
+/// Adds a frame to the program's tools or work objects, unless the list has it, and stores its index in the move.
 bool FanucRun::use(const NamedFrame& wanted, bool as_tool, Instruction& move) {
   NamedFrame frame = wanted;
   auto& list = as_tool ? program_.tools : program_.work_objects;
@@ -216,7 +218,8 @@ bool FanucRun::use(const NamedFrame& wanted, bool as_tool, Instruction& move) {
   return true;
 }
 
-/// User frame and tool of a Cartesian position, whose numbers it completes; both are asked for at once.
+/// Returns user frame and tool of a Cartesian position and completes their numbers in `p`. Unknown ones are asked for in
+/// one round.
 std::optional<std::pair<NamedFrame, NamedFrame>> FanucRun::frames_of(FanucPosition& p) {
   if (p.frame >= 0) compare_active(false, p.frame);
   if (p.tool >= 0) compare_active(true, p.tool);
@@ -227,17 +230,17 @@ std::optional<std::pair<NamedFrame, NamedFrame>> FanucRun::frames_of(FanucPositi
   return std::pair(*object, *tool);
 }
 
-/// Offsets add up number by number in the form in which the position is written, unless $OFFSET_CART is TRUE: then they are
-/// frames before it (SYSTEM.VA of the backup, or --value). What a camera finds is such a frame always.
+/// Returns $OFFSET_CART (SYSTEM.VA of the backup, or --value). TRUE: an offset is a frame on the left of the position.
+/// FALSE: the numbers of the offset are added to those of the position. A camera's offset is always a frame.
 bool FanucRun::offsets_are_frames() const {
   const auto given = values_.given("$offset_cart");
   return given ? same_word(*given, "true") : around_.variables.offsets_are_frames;
 }
 
-/// Pose and frames of a move to a Cartesian position. With P the pose of UT in UF, or (remote) its inverse:
-/// flange = UF P UT^-1. Offsets: UF OFFSET P TOOL_OFFSET UT^-1, where OFFSET is a frame, else it is added to the numbers of P.
-/// A remote move stands the other way round: the tool is UF in the world, the robot carries UT, and the tool's pose in it is
-/// P^-1. Source: FANUC, teach pendant instructions, motion options Offset,PR[x] and Tool_Offset,PR[x].
+/// Computes pose and frames of a move to a Cartesian position. P is the pose of UT in UF; a remote position gives its
+/// inverse. flange = UF P UT^-1. With offsets: UF OFFSET P TOOL_OFFSET UT^-1. An OFFSET that is not a frame is added to the
+/// numbers of P. In a remote move (RTCP) UF is the tool, fixed in the world, the robot carries UT, and the pose of the tool
+/// in UT is P^-1. Source: FANUC, teach pendant instructions, motion options Offset,PR[x] and Tool_Offset,PR[x].
 bool FanucRun::place(const FanucPosition& position, const Options& options, Instruction& move, Frame& pose) {
   FanucPosition p = position;
   const auto frames = frames_of(p);
@@ -292,7 +295,7 @@ bool FanucRun::read_speed(FanucCursor& at, Instruction& move) {
   values_.forget_missing();
   if (at.take("max_speed")) return true;
   std::string text(at.rest());
-  if (at.take("WELD_SPEED")) {  // of the weld schedule, which lies in the controller
+  if (at.take("WELD_SPEED")) {  // a value of the controller's weld schedule
     const auto given = values_.given("weld_speed");
     if (!given) {
       missing("WELD_SPEED", "moves with WELD_SPEED, which lies in the controller's weld schedule",
@@ -337,7 +340,7 @@ bool FanucRun::read_speed(FanucCursor& at, Instruction& move) {
   return true;
 }
 
-/// The number of an option, with a problem if it is unknown.
+/// Reads the number of an option. Asks for it if it is unknown.
 FanucNumber FanucRun::needed(FanucCursor& at, const char* what) {
   values_.forget_missing();
   const FanucNumber number = values_.value(at);
@@ -345,7 +348,7 @@ FanucNumber FanucRun::needed(FanucCursor& at, const char* what) {
   return number;
 }
 
-/// ",PR[n]" behind Offset; without it that of the condition.
+/// Reads ",PR[n]" behind Offset or Tool_Offset; without it, uses the PR[n] of OFFSET CONDITION or TOOL_OFFSET CONDITION.
 void FanucRun::offset_by(FanucCursor& at, std::optional<FanucPosition>& into, const char* condition) {
   FanucCursor next = at;
   next.take_sign(',');
@@ -379,7 +382,7 @@ void FanucRun::offset_by(FanucCursor& at, std::optional<FanucPosition>& into, co
   missing_position(fmt::format("PR[{}]", whole_number(*index->number)), "is offset by");
 }
 
-/// What a camera finds: ",VR[n]".
+/// Reads the offset of a camera: ",VR[n]". Only the user can give its value.
 void FanucRun::offset_by_camera(FanucCursor& at, std::optional<FanucPosition>& into) {
   at.take_sign(',');
   const auto index = at.take("VR") ? values_.index(at) : std::nullopt;
@@ -392,8 +395,8 @@ void FanucRun::offset_by_camera(FanucCursor& at, std::optional<FanucPosition>& i
         {{Question::Kind::value, name, position_form}});
 }
 
-/// Whether the condition of SKIP CONDITION comes before a move ends. Skip goes on with the next line when it comes,
-/// SkipJump at its label; where it does not come, the other way round.
+/// Returns whether the condition of SKIP CONDITION becomes true before a move ends. If it does, Skip continues with the
+/// next line and SkipJump at its label. If it does not, Skip continues at its label and SkipJump with the next line.
 bool FanucRun::skip_condition_comes(bool jumps) {
   values_.forget_missing();
   FanucCursor at(skip_condition_);
@@ -416,7 +419,7 @@ bool FanucRun::skip_condition_comes(bool jumps) {
   return *comes;
 }
 
-/// One option behind the speed; false: none that is known here.
+/// Reads one option behind the speed. Returns false if the cursor is not at a known option.
 bool FanucRun::read_option(FanucCursor& at, Instruction& move, Options& options) {
   const auto set = [&](FanucNumber number, double low, double high, double& into, double unit) {
     if (number)
@@ -473,7 +476,7 @@ bool FanucRun::read_options(FanucCursor& at, Instruction& move, Options& options
   while (!at.at_end()) {
     charge();
     if (at.take_sign(',') || at.take_sign(':') || read_option(at, move, options)) continue;
-    if (at.rest().starts_with("[")) {  // of a word that is skipped: SPOT[SD=1], DO[3:on]
+    if (at.rest().starts_with("[")) {  // brackets of a skipped word: SPOT[SD=1], DO[3:on]
       at.skip_to(']');
     } else if (at.word().empty()) {
       at.move_to(at.offset() + 1);
@@ -496,7 +499,7 @@ void FanucRun::emit(Instruction instruction) {
   program_.instructions.push_back(std::move(instruction));
 }
 
-/// LPOS or JPOS behind the move.
+/// Stores the target as the position of the robot (LPOS, JPOS) after the move.
 void FanucRun::remember(const Instruction& move, const FanucPosition& target) {
   last_ = target;
   if (target.form == FanucPosition::Form::pose)
@@ -507,7 +510,7 @@ void FanucRun::remember(const Instruction& move, const FanucPosition& target) {
   }
 }
 
-/// Joint angles: q3 = J3 + J2.
+/// Sets the target of a move to joint angles [rad], with q3 = J3 + J2. Returns false, with a problem, on error.
 bool FanucRun::place_joints(const FanucPosition& position, const Options& options, Instruction& move) {
   std::vector<double> angles = position.values;
   const bool in_space = options.offset && options.offset->form != FanucPosition::Form::joints;
@@ -521,13 +524,13 @@ bool FanucRun::place_joints(const FanucPosition& position, const Options& option
   for (double angle : angles) move.target.joints.push_back(angle * degree);
   if (angles.size() >= 3) move.target.joints[2] += move.target.joints[1];
   if (move.kind == Instruction::Kind::joint) return true;
-  int number = position.tool;  // the line is its origin's
+  int number = position.tool;  // a linear move needs the tool, because its origin follows the line
   if (!active(true, number)) return false;
   const auto tool = frame(true, number);
   return tool && (number == 0 || use(*tool, true, move));
 }
 
-/// The point on the way of an arc.
+/// Sets the intermediate point of an arc. Returns false, with a problem, if its form, frames or offsets do not fit the end.
 bool FanucRun::place_via(const FanucPosition& via, const FanucPosition& target, const Options& own,
                          const Options& options, Instruction& move) {
   const auto fault = [&](const char* what, const char* remedy) {
@@ -549,7 +552,7 @@ void FanucRun::move(FanucCursor& at, Instruction::Kind kind) {
   move.kind = kind;
   Options options, via_options;
   std::optional<FanucPosition> via;
-  if (kind == Instruction::Kind::circular) {  // C P[1] / : P[2] 100mm/sec ...
+  if (kind == Instruction::Kind::circular) {  // C P[1] : P[2] 100mm/sec ...
     via = target_position(at);
     if (!via) return;
     const std::size_t colon = std::min({at.rest().find(':'), at.rest().find('\n'), at.rest().size()});
@@ -564,11 +567,11 @@ void FanucRun::move(FanucCursor& at, Instruction::Kind kind) {
   if (target && target->form == FanucPosition::Form::other_groups)
     return note("moves other groups than the robot");
   const bool fast = read_speed(at, move), set = read_options(at, move, options);
-  if (!target || !fast || !set) {  // what else it lacks is asked for in the same round
+  if (!target || !fast || !set) {  // asks for unknown frames in the same round
     FanucPosition there;
     there.frame = there.tool = -1;
     if (target) there = *target;
-    // A listing gives the frames of a P[n] beside its numbers: without them there is one question, not three.
+    // A listing gives the frames of a P[n] with its numbers. A missing P[n] is one question, not three.
     const bool listed = FanucCursor(statement().text.substr(begin)).take("P");
     if (target ? target->form == FanucPosition::Form::pose : !listed) frames_of(there);
     return;
@@ -600,7 +603,8 @@ void FanucRun::move(FanucCursor& at, Instruction::Kind kind) {
   if (lower_case(statement().text).find("spot[") != std::string::npos) emit(dwell_of(around_.options.spot_time));
 }
 
-/// Skip,LBL[1],PR[5]=LPOS: the place is unknown.
+/// Makes the position of the robot unknown after a skipped move, and the register that stores it
+/// (Skip,LBL[1],PR[5]=LPOS).
 void FanucRun::stopped_on_the_way() {
   last_.reset();
   const std::string& text = statement().text;

@@ -74,7 +74,7 @@ class ListingParser {
     problems_.add({source_.name(), number_, column}, what, remedy);
   }
 
-  /// What stands before the ':' of a line that begins a statement: its number, or (in copies) nothing.
+  /// Returns the number before the ':' of a line; empty in copies without numbers. std::nullopt: no ':', or other text.
   static std::optional<std::string_view> number_of(std::string_view line) {
     const std::size_t colon = line.find(':');
     if (colon == std::string_view::npos) return {};
@@ -82,11 +82,11 @@ class ListingParser {
     return std::all_of(before.begin(), before.end(), digit) ? std::optional(before) : std::nullopt;
   }
 
-  /// "  12:  L P[1] ... ;" over as many lines as it takes to the ';'.
+  /// Reads a statement "  12:  L P[1] ... ;" and its continued lines up to the ';'.
   void statement() {
     const std::string_view line = trimmed(line_);
-    if (line.starts_with("---")) return;  // the end of what runs at a move's end
-    if (line == ";") return;              // an empty line, of which editors lose the number
+    if (line.starts_with("---")) return;  // closes the lines that a move runs at its end
+    if (line == ";") return;              // an empty line whose number an editor has removed
     if (!number_of(line_)) {
       complain("is no statement (a number, ':', the statement, ';')", "list the program again");
       return;
@@ -115,7 +115,7 @@ class ListingParser {
     listing_.statements.push_back(std::move(made));
   }
 
-  /// Whether the next line goes on with this statement: it has no number of its own.
+  /// Returns whether the next line continues this statement: it has no number.
   bool continues() const {
     const std::string_view all = source_.text();
     if (next_ >= all.size()) return false;
@@ -135,7 +135,7 @@ class ListingParser {
     return quoted ? line.rfind(';') : std::string_view::npos;
   }
 
-  /// Labels, and which ELSE, ENDIF and ENDFOR belong to which IF and FOR.
+  /// Finds the labels, the ELSE and ENDIF of each IF, and the ENDFOR of each FOR.
   void index() {
     std::vector<std::size_t> ifs, loops;
     auto& statements = listing_.statements;
@@ -173,7 +173,7 @@ class ListingParser {
     problems_.add({source_.name(), s.line, s.column}, fmt::format("has no {}", end), "write it");
   }
 
-  /// P[1:"name"]{ GP1: UF : 0, UT : 1, CONFIG : 'N U T, 0, 0, 0', X = 1.0 mm, ... GP2: ... };
+  /// Reads P[1:"name"]{ GP1: UF : 0, UT : 1, CONFIG : 'N U T, 0, 0, 0', X = 1.0 mm, ... GP2: ... };
   void position() {
     FanucCursor head(line_);
     const bool begins = head.take("P") && head.take_sign('[');
@@ -184,14 +184,15 @@ class ListingParser {
     const std::size_t open = window.find('{'), close = std::min(window.find('}'), window.size());
     if (!number || open == std::string_view::npos || open > close) {
       complain("is no position", "list the program again, or write P[n]{ with its number at the begin of the position");
-      while (line_.find('}') == std::string_view::npos && !next_begins_position()) next_line();  // the rest of it is no further problem
+      // Skips the rest of the position, so that it does not cause further problems.
+      while (line_.find('}') == std::string_view::npos && !next_begins_position()) next_line();
       return;
     }
     FanucPosition read;
     read.line = line;
     const std::string_view body = window.substr(open + 1, close - open - 1);
     const std::size_t end = begin_ + close;
-    while (!done_ && next_ <= end) next_line();  // to the line that closes it
+    while (!done_ && next_ <= end) next_line();  // up to the line with the closing }
     if (close == window.size()) complain("ends in a position", "close it with }");
     if (std::string problem = PositionFields(body, read).run(); !problem.empty()) {
       problems_.add({source_.name(), line, 1}, problem,
@@ -201,23 +202,23 @@ class ListingParser {
     listing_.positions[whole_number(*number)] = std::move(read);
   }
 
-  /// Or a section, or nothing follows.
+  /// Returns whether the remaining text begins with a position or a section, or is empty.
   bool next_begins_position() const {
     const std::string_view next = trimmed(std::string_view(source_.text()).substr(std::min(next_, source_.text().size())));
     return next.empty() || next.starts_with("P[") || next.starts_with("/");
   }
 
-  /// What stands between { and }.
+  /// Parser of the fields between { and } of a position.
   class PositionFields {
    public:
     PositionFields(std::string_view body, FanucPosition& read) : at_(body), read_(read) {}
 
-    /// Empty, or what is wrong.
+    /// Reads all fields. Returns the error message; empty: no error.
     std::string run() {
       while (!at_.at_end()) {
         const std::string name = at_.word();
         if (name.empty()) {
-          at_.move_to(at_.offset() + 1);  // a comma, a star, or what this reader does not know
+          at_.move_to(at_.offset() + 1);  // a comma, a star, or an unknown character
           continue;
         }
         if (name.starts_with("gp")) {
@@ -225,7 +226,7 @@ class ListingParser {
           continue;
         }
         if (!at_.take_sign(':') && !at_.take_sign('=')) continue;
-        const bool letters = name == "config" || name == "konfig";  // a German listing's
+        const bool letters = name == "config" || name == "konfig";  // konfig: German listings
         const std::string problem = letters ? configuration() : field(name);
         if (!problem.empty()) return problem;
       }
@@ -322,7 +323,7 @@ bool FanucPosition::known() const {
          std::all_of(external_axes.begin(), external_axes.end(), finite);
 }
 
-/// N U T, 0, 0, 0: wrist not flipped (F), arm up (D), arm in front (B); turns of axes 1, 4, 6.
+/// "N U T, 0, 0, 0": wrist not flipped (F: flipped), arm up (D: down), arm in front (B: behind); turns of axes 1, 4, 6.
 std::optional<ArmConfiguration> fanuc_configuration(std::string_view text) {
   ArmConfiguration read;
   FanucCursor at(text);

@@ -11,7 +11,7 @@ namespace {
 
 std::string file_of(const std::string& path) { return path.substr(path.find_last_of('/') + 1); }
 
-/// Whether two passes of a loop move alike.
+/// Returns whether two instructions of a loop have the same move and the same line.
 bool same_move(const Instruction& a, const Instruction& b) {
   return a.kind == b.kind && a.target.joints == b.target.joints &&
          a.target.pose.position == b.target.pose.position &&
@@ -60,7 +60,7 @@ pipeline::Where FanucRun::where() const {
 
 std::string FanucRun::line_name() const { return fmt::format("{}:{}", file_of(where().file), where().line); }
 
-/// The program that runs, as its listing writes it.
+/// Returns the name of the running program in capitals; empty before the first call.
 std::string FanucRun::program_name() const {
   return routines_.empty() ? "" : upper_case(routines_.back().listing->name);
 }
@@ -97,7 +97,7 @@ std::string form_of(const std::string& name) {
   return "a number";
 }
 
-/// "DI[3] and R[5]".
+/// Returns the names of all causes: "DI[3] and R[5]".
 std::string names_in(const FanucCauses& causes) {
   std::string names;
   for (const FanucCause& cause : causes)
@@ -117,7 +117,8 @@ std::string options_for(const FanucCauses& causes) {
 
 }  // namespace
 
-/// Names that make it known; a branch that was left out and has no name is decided itself.
+/// Returns the questions for the causes of an unknown value: the name of a cause, or the left-out branch of a cause
+/// without a name.
 std::vector<Question> FanucRun::questions_for(const FanucCauses& causes) {
   std::vector<Question> questions;
   for (const FanucCause& cause : causes) {
@@ -130,7 +131,7 @@ std::vector<Question> FanucRun::questions_for(const FanucCauses& causes) {
   return questions;
 }
 
-/// What `values_` misses, for a statement that needs it.
+/// Asks for the causes of an unknown value (values_.causes()) that the statement needs.
 void FanucRun::missing_value(const std::string& what) {
   const FanucCauses& causes = values_.causes();
   const std::vector<Question> questions = questions_for(causes);
@@ -218,7 +219,7 @@ std::vector<FanucValues::Argument> FanucRun::arguments_in(FanucCursor& at) {
   return read;
 }
 
-/// CALL name(arguments), RUN name.
+/// Runs CALL name(arguments). For RUN name (`beside`), makes unknown what the parallel program may write.
 void FanucRun::call_statement(const std::string& text, bool beside) {
   FanucCursor at(text);
   const std::string written(at.name()), name = lower_case(written);
@@ -235,7 +236,8 @@ void FanucRun::call_statement(const std::string& text, bool beside) {
   call(*listing, arguments_in(at));
 }
 
-/// Possible effects of a program without a file. The user may know: --value 'CALL NAME=nothing'.
+/// Applies the effects of a program without a file: the user's (--value 'CALL NAME=nothing'), else all registers become
+/// unknown. The position of the robot is unknown afterwards.
 void FanucRun::unread(const std::string& what) {
   if (values_.take_effect(what)) {
     note(what + ": not among the files read; its registers are as --value says", true);
@@ -268,7 +270,7 @@ void FanucRun::execute(const FanucStatement& s) {
   if (word == "select") return select();
   if (word == "lbl" || (word.empty() && !at.take_sign('='))) return;
   if (word.empty() || (word == "else" && !fanuc_action(text).empty()))
-    return;  // of a SELECT that went elsewhere
+    return;  // a case of a SELECT that chose another case
   action(text);
 }
 
@@ -280,7 +282,7 @@ void FanucRun::action(const std::string& text) {
   if (word == "jmp") return jump(at, true);
   if (word == "call" || word == "run") return call_statement(std::string(at.rest()), word == "run");
   if (word == "wait") return wait(at);
-  if (word == "monitor") {  // a list of WHEN condition, action
+  if (word == "monitor") {  // the monitored program is a list of WHEN condition, action
     const std::string name = "MONITOR " + std::string(at.name());
     note(name + ": what it does may come at any time, and is left out", true);
     if (!values_.take_effect(name)) values_.forget_registers({{name}});
@@ -348,10 +350,10 @@ void FanucRun::assignment(const std::string& word, FanucCursor& at) {
   unread("MACRO " + text.substr(0, std::min<std::size_t>(text.find_first_of("('="), 40)));
 }
 
-/// Ends and middles of blocks that run.
+/// Executes ENDFOR, ELSE, ENDIF or END of a running block.
 void FanucRun::block(const std::string& word) {
   if (word == "endfor") end_for();
-  if (word == "else") routine().at = statement().end + 1;  // behind the arm that ran
+  if (word == "else") routine().at = statement().end + 1;  // the THEN arm has run
   if (word == "end") routine().at = routine().listing->statements.size();
 }
 
@@ -377,7 +379,7 @@ void FanucRun::jump_to(std::size_t target, bool certain) {
   const bool looking = exploration_.guessing();
   if (looking && target <= here && !still_new(target)) throw Stop{};
   if (certain && target <= here && !looking) {
-    bool exit = false;  // some decision within may leave the loop: it is run until it does
+    bool exit = false;  // a decision in the loop may leave it: the loop runs until then
     for (auto d = routine().decided.lower_bound(target); d != routine().decided.end() && *d <= here; ++d)
       exit |= outlook_.leads_out(*routine().listing, *d, target, here);
     if (!exit && !goes_on(target)) {
@@ -390,10 +392,10 @@ void FanucRun::jump_to(std::size_t target, bool certain) {
         "waits in a loop that changes nothing, until what this branch depends on changes; the motion goes on behind it");
     return;
   }
-  routine().at = target;  // the label itself: the statement behind it may be the one that jumps
+  routine().at = target;  // the label, not the statement after it, which may be the jump itself
 }
 
-/// Whether a loop is back at its label without a move and with all values as they were: no pass of it will be another one.
+/// Returns whether a pass of a loop made no move and changed no value: all further passes would be the same.
 bool FanucRun::waits(std::size_t label) {
   Endless& loop = endless_[{routine().listing, label}];
   const auto& made = program_.instructions;
@@ -402,7 +404,7 @@ bool FanucRun::waits(std::size_t label) {
                   [](const Instruction& i) { return i.kind != Instruction::Kind::dwell; });
   loop.begin = made.size();
   ++loop.passes;
-  // A state is a long text: it is looked at behind 1, 2, 4, 8 ... passes and the pass that follows each.
+  // A state is a long text. It is stored after passes 1, 2, 4, 8 ... and compared after the pass that follows each.
   const auto is_power_of_two = [](int number) { return (number & (number - 1)) == 0; };
   const bool again = !moved && is_power_of_two(loop.passes - 1) && loop.states.contains(values_.state());
   loop.states.clear();
@@ -410,17 +412,17 @@ bool FanucRun::waits(std::size_t label) {
   return again;
 }
 
-/// Whether one of the last passes of a loop met something new, in a reading for questions only.
+/// Returns whether one of the last three passes of a loop met new statements or questions. Only while guessing.
 bool FanucRun::still_new(std::size_t label) {
-  constexpr int enough = 3;  // passes in a row without
+  constexpr int enough = 3;  // consecutive passes without news
   Endless& loop = endless_[{routine().listing, label}];
   loop.barren = loop.news == exploration_.news() ? loop.barren + 1 : 0;
   loop.news = exploration_.news();
   return loop.barren < enough;
 }
 
-/// The values behind the last pass are those behind pass `known`: the passes between repeat. If the first passes move as the
-/// last ones do, they belong to the repeats, and the last ones are dropped: each repeated pass stands once.
+/// Removes repeated passes. Precondition: the values after the last pass equal the values after pass `known` (from 1).
+/// If the last `known` passes have the same moves as the first ones, the last ones are removed: each pass is kept once.
 void FanucRun::drop_repeated(const Endless& loop, std::size_t known) {
   auto& made = program_.instructions;
   if (known == 0) return;
@@ -432,8 +434,9 @@ void FanucRun::drop_repeated(const Endless& loop, std::size_t known) {
   if (alike) made.resize(begin);
 }
 
-/// Whether an endless loop that is back at its label runs once more: as often as the user wants, else until
-/// it finds all values as before, or moves as in its first pass.
+/// Returns whether an endless loop that is back at its label runs another pass. It runs options.passes passes if given.
+/// Otherwise it ends when all values equal those after an earlier pass, when the moves equal those of the previous pass,
+/// or, with a problem, after ImportLimits::passes.
 bool FanucRun::goes_on(std::size_t label) {
   Endless& loop = endless_[{routine().listing, label}];
   auto& made = program_.instructions;
@@ -469,7 +472,7 @@ void FanucRun::wait(FanucCursor& at) {
   if (!time) {
     at.move_to(begin);
     const auto met = values_.condition(at);
-    if (met && !*met) {  // somebody else will make it true
+    if (met && !*met) {  // another program must change a register to make the condition true
       const std::string text = statement().text;
       for (std::size_t found = text.find("R["); found != std::string::npos;
            found = text.find("R[", found + 1)) {
@@ -495,7 +498,7 @@ void FanucRun::assign_register(FanucCursor& at) {
   note("R: writes a register whose number is known only while the robot runs");
 }
 
-/// PR[1]=PR[2]+PR[3], =P[1], =LPOS, =JPOS, =UFRAME[1]; PR[1,3]=number.
+/// Executes PR[1]=PR[2]+PR[3], =P[1], =LPOS, =JPOS, =UFRAME[1] or PR[1,3]=number.
 void FanucRun::assign_position(FanucCursor& at) {
   const auto index = values_.index(at);
   at.skip_to('=');
@@ -511,7 +514,7 @@ void FanucRun::assign_position(FanucCursor& at) {
     return values_.set_component(number, whole_number(*index->part), value);
   }
   const auto sum = position_sum(at);
-  const bool known = values_.given(fmt::format("pr[{}]", number)).has_value();  // counts where this is unknown
+  const bool known = values_.given(fmt::format("pr[{}]", number)).has_value();  // used if the sum is unknown
   if (sum && sum->known()) return values_.set_position(number, *sum);
   values_.forget_position(number, known ? FanucCauses{} : values_.causes());
 }
@@ -575,7 +578,7 @@ void FanucRun::assign_frame(const std::string& word, FanucCursor& at) {
   set_frame(word == "utool", whole_number(*index->number), at);
 }
 
-/// Six components that a program wrote are a pose here; what is not known makes the frame unknown.
+/// Assigns a frame. Six components that a program wrote are taken as a pose. An unknown value makes the frame unknown.
 void FanucRun::set_frame(bool tool, int number, FanucCursor& at) {
   values_.forget_missing();
   const std::optional<FanucPosition> read = position_sum(at);
@@ -585,7 +588,7 @@ void FanucRun::set_frame(bool tool, int number, FanucCursor& at) {
     frames_[{tool, number}] = {{}, values_.causes()};
 }
 
-/// The other components are asked for where nothing says them.
+/// Assigns one component of a frame. The frame is asked for if its other components are unknown.
 void FanucRun::set_frame_component(bool tool, int number, int component, FanucCursor& at) {
   values_.forget_missing();
   const FanucNumber value = values_.expression(at);
@@ -603,8 +606,8 @@ void FanucRun::set_frame_component(bool tool, int number, int component, FanucCu
 
 // ---- branches and loops ----------------------------------------------------------------------------------
 
-/// Which of its ways an undecided statement goes: asks, and goes on along one of them. By the value of one name where
-/// there is one, else by its line.
+/// Asks which of its `ways` an undecided statement takes, and returns the guessed one, 0 .. ways - 1. The question is the
+/// value of the only cause; if there are several or none, it is the line of the statement.
 int FanucRun::ask(const std::string& what, int ways, const std::string& answers) {
   const FanucCauses& causes = values_.causes();
   const std::string names = names_in(causes);
@@ -625,7 +628,8 @@ int FanucRun::guess(int ways) {
   return exploration_.choose(line_name(), ways);
 }
 
-/// Whether leaving statements out changes nothing but values, which are unknown from here on.
+/// Returns whether undecided statements with these effects can be left out. If so, the values that they may write become
+/// unknown. False: they move the robot, may jump out, or a later question depends on this line.
 bool FanucRun::no_matter(const FanucEffects& effects) {
   if (effects.moves || effects.leaves || exploration_.follows(line_name())) return false;
   if (effects.waits)
@@ -639,7 +643,7 @@ bool FanucRun::no_matter(const FanucEffects& effects) {
   return true;
 }
 
-/// What may have been written is unknown from here on.
+/// Makes all values that `effects` may write unknown.
 void FanucRun::forget(const FanucEffects& effects, const FanucCauses& why) {
   if (effects.any_register) values_.forget_registers(why);
   for (int number : effects.registers) values_.forget_register(number, why);
@@ -656,15 +660,15 @@ void FanucRun::forget(const FanucEffects& effects, const FanucCauses& why) {
   }
 }
 
-/// One of them is assigned, and it is not known which.
+/// Makes all user frames or all tools unknown, because one with an unknown number was assigned.
 void FanucRun::forget_frames(bool tool, const FanucCauses& why) {
   for (auto& [frame, assigned] : frames_)
     if (frame.first == tool) assigned = {{}, why};
   frames_[{tool, any_frame}] = {{}, why};
 }
 
-/// Whether the called program that runs moves nothing wherever it jumps: then it ends here, and what it may
-/// write is unknown.
+/// Returns whether the running called program has no move, timed wait or ABORT in any branch. If so, the program ends
+/// here, and all values that it may write become unknown.
 bool FanucRun::whole_program_no_matter() {
   if (routines_.size() < 2) return false;
   const FanucListing& listing = *routine().listing;
@@ -713,7 +717,7 @@ void FanucRun::if_statement(FanucCursor& at) {
   action(rest);
 }
 
-/// IF ... ,action with an unknown condition. Absent: it is left out.
+/// Decides IF ... ,action with an unknown condition. std::nullopt: the action is left out. ABORT is always left out.
 std::optional<bool> FanucRun::undecided(const std::string& action) {
   const std::size_t here = routine().at;
   const FanucListing& listing = *routine().listing;
@@ -743,7 +747,7 @@ std::optional<bool> FanucRun::undecided(const std::string& action) {
   return {};
 }
 
-/// SELECT R[1]=1,JMP LBL[1] ; =2,CALL X ; ELSE,JMP LBL[3] : one decision.
+/// Executes SELECT R[1]=1,JMP LBL[1] ; =2,CALL X ; ELSE,JMP LBL[3] as one decision.
 void FanucRun::select() {
   const std::size_t here = routine().at;
   const auto& statements = routine().listing->statements;
@@ -774,7 +778,7 @@ void FanucRun::select() {
   }
   if (!which) return;
   routine().at = behind;
-  if (*which >= cases.size()) return;  // none of them
+  if (*which >= cases.size()) return;  // no case applies
   routine().at = cases[*which].statement;
   FanucCursor jumping(cases[*which].action);
   if (jumping.take("JMP"))
@@ -784,7 +788,7 @@ void FanucRun::select() {
   if (routine().at == cases[*which].statement) routine().at = behind;
 }
 
-/// Index of the case that runs, or their number: none of them; absent: not known.
+/// Returns the index of the case that runs; cases.size(): no case applies; std::nullopt: unknown.
 std::optional<std::size_t> FanucRun::chosen(const std::vector<Case>& cases, FanucNumber selected) {
   const std::string file = where().file;
   FanucNumber value = selected;
@@ -794,9 +798,9 @@ std::optional<std::size_t> FanucRun::chosen(const std::vector<Case>& cases, Fanu
       FanucCursor at(known->second);  // --assume FILE:LINE=2
       value = at.number();
     }
-  if (assumed(where().line) == std::optional(false))  // FILE:LINE=else, of the whole_number SELECT
+  if (assumed(where().line) == std::optional(false))  // --assume FILE:LINE=else with the line of the SELECT
     return cases.empty() || !cases.back().otherwise ? cases.size() : cases.size() - 1;
-  std::vector<std::optional<bool>> known;  // --assume FILE:LINE=then of one case
+  std::vector<std::optional<bool>> known;  // --assume FILE:LINE=then with the line of one case
   for (const Case& one : cases) known.push_back(assumed(routine().listing->statements[one.statement].line));
   if (const auto taken = std::find(known.begin(), known.end(), true); taken != known.end())
     return static_cast<std::size_t>(taken - known.begin());
@@ -809,7 +813,7 @@ std::optional<std::size_t> FanucRun::chosen(const std::vector<Case>& cases, Fanu
   return value ? std::optional(cases.size()) : std::nullopt;
 }
 
-/// Absent: it is left out.
+/// Asks for the case of an undecided SELECT and returns its guessed index. std::nullopt: the SELECT is left out.
 std::optional<std::size_t> FanucRun::undecided_select(const std::vector<Case>& cases, std::size_t behind) {
   const FanucListing& listing = *routine().listing;
   FanucEffects effects;
@@ -855,7 +859,7 @@ void FanucRun::for_statement(FanucCursor& at) {
     }
     values_.set_register(whole_number(*index->number), from.value_or(1));
     routine().loops[here] = {whole_number(*index->number), from.value_or(1),
-                             1.0};  // one pass, in search of further questions
+                             1.0};  // a single pass to find further questions
     return;
   }
   const int number = whole_number(*index->number);
@@ -866,7 +870,7 @@ void FanucRun::for_statement(FanucCursor& at) {
     routine().loops[here] = {number, *to, down ? -1.0 : 1.0};
 }
 
-/// The counter goes on only while it is short of its last value: behind the loop it has that value.
+/// Executes ENDFOR. The counter changes only until it reaches its last value, and keeps that value after the loop.
 void FanucRun::end_for() {
   const auto found = routine().loops.find(statement().end);
   if (found == routine().loops.end()) return complain("has no FOR that runs", "enter the loop by its FOR");

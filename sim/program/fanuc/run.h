@@ -1,4 +1,4 @@
-// One run of a Fanuc program: statement by statement with a program counter, into moves and dwells (fanuc.h).
+// One run of a Fanuc program (fanuc.h): executes statements with a program counter and writes moves and dwells.
 #pragma once
 
 #include <deque>
@@ -14,7 +14,7 @@
 
 namespace dresslife::sim {
 
-/// X Y Z [mm], W P R [deg] as a frame, and back.
+/// Converts X Y Z [mm], W P R [deg] to a frame, and a frame to these six values.
 Frame frame_of_fanuc(const std::vector<double>& values);
 std::vector<double> fanuc_values_of(const Frame& frame);
 
@@ -23,18 +23,18 @@ class FanucRun {
   struct Surroundings {
     const std::deque<SourceFile>& files;
     const std::vector<FanucListing>& listings;
-    std::vector<Problems>& parsing;  ///< of each listing: reported when it is reached
+    std::vector<Problems>& parsing;  ///< (file) parse errors, reported when the listing is called
     const FanucVariables& variables;
     const ImportOptions& options;
     const std::vector<NamedFrame>&tools, &work_objects;
   };
   FanucRun(const Surroundings& around, Program& program, Problems& problems, Exploration& exploration);
 
-  /// arguments: what AR[1], AR[2] ... are, as a call writes them: "1,'a',R[2]".
+  /// arguments: the values of AR[1], AR[2] ..., in the form of a call: "1,'a',R[2]".
   void run(const FanucListing& listing, const std::string& arguments);
 
  private:
-  struct Stop {};  // thrown: the run ends
+  struct Stop {};  // exception that ends the run
   struct Loop {
     int register_number;
     double last, step;
@@ -42,19 +42,19 @@ class FanucRun {
   struct Routine {
     const FanucListing* listing;
     std::size_t at = 0;
-    std::map<std::size_t, Loop> loops;  // by their FOR
-    std::set<std::size_t> decided;      // statements that branched on known values
+    std::map<std::size_t, Loop> loops;  // index of the FOR -> its running loop
+    std::set<std::size_t> decided;      // indices of statements that branched on known values
   };
-  /// How an endless loop went so far, for the pass after which it repeats itself.
+  /// Passes of a loop up to now, to find the pass after which the loop repeats itself.
   struct Endless {
-    std::map<std::string, std::size_t> states;  // behind which pass; 0: behind none that moved
-    std::vector<std::size_t> ends;              // (pass) number of instructions behind it
-    std::size_t begin = 0;                      // of the pass: number of instructions
+    std::map<std::string, std::size_t> states;  // state -> number of the pass that ended in it; 0: added by waits()
+    std::vector<std::size_t> ends;              // (pass) number of instructions at the end of the pass
+    std::size_t begin = 0;                      // number of instructions at the start of the pass
     int passes = 0;
-    long news = -1;  // of the exploration at the last pass
-    int barren = 0;  // passes in a row that met nothing new
+    long news = -1;  // Exploration::news() at the last pass
+    int barren = 0;  // number of consecutive passes without news
   };
-  struct Case {  // of a SELECT
+  struct Case {  // one case of a SELECT
     std::size_t statement;
     FanucNumber value;
     bool otherwise;
@@ -70,7 +70,7 @@ class FanucRun {
   void jump(FanucCursor& at, bool certain);
   void jump_to(std::size_t target, bool certain);
   void drop_repeated(const Endless& loop, std::size_t known);
-  bool goes_on(std::size_t label);  // an endless loop for another pass
+  bool goes_on(std::size_t label);  // whether an endless loop runs another pass
   bool waits(std::size_t label);
   bool still_new(std::size_t label);
   void call_statement(const std::string& text, bool beside);
@@ -102,9 +102,9 @@ class FanucRun {
   struct Options {
     std::optional<FanucPosition> offset, tool_offset;
     bool remote = false, failed = false, skips = false, coordinated = false;
-    bool camera = false;  // the offset is what a camera finds
-    std::string calls;    // programs that run before or behind the point
-    std::string jumps;    // "[1]": the label of Skip or SkipJump, where the move goes on there
+    bool camera = false;  // the offset is a camera result
+    std::string calls;    // program called before or after the point
+    std::string jumps;    // "[1]": label of Skip or SkipJump; empty: no jump
   };
   bool read_options(FanucCursor& at, Instruction& move, Options& options);
   bool read_option(FanucCursor& at, Instruction& move, Options& options);
@@ -142,7 +142,7 @@ class FanucRun {
   void complain(const std::string& what, const std::string& remedy);
   void missing(const std::string& name, const std::string& what, const std::string& remedy,
                std::vector<Question> questions, bool decision = false);
-  void missing_value(const std::string& what);  // the value that values_ misses
+  void missing_value(const std::string& what);  // the unknown value of values_.causes()
   std::vector<Question> questions_for(const FanucCauses& causes);
   void note(const std::string& what, bool may_move = false);
   void charge(long steps = 1);
@@ -155,17 +155,17 @@ class FanucRun {
   FanucOutlook outlook_;
   std::vector<Routine> routines_;
   struct AssignedFrame {
-    std::optional<Frame> frame;  // absent: not known
-    FanucCauses why;             // it is not
+    std::optional<Frame> frame;  // std::nullopt: unknown
+    FanucCauses why;             // causes of an unknown frame
   };
-  static constexpr int any_frame = -1;                    // number of an unknown frame
-  std::map<std::pair<bool, int>, AssignedFrame> frames_;  // (tool?, number) that the program assigned
-  std::optional<FanucPosition> last_;                     // where the robot is: JPOS and LPOS
+  static constexpr int any_frame = -1;                    // key of an assignment to an unknown number
+  std::map<std::pair<bool, int>, AssignedFrame> frames_;  // (tool?, number) -> frame assigned by the program
+  std::optional<FanucPosition> last_;                     // position of the robot: JPOS and LPOS
   std::string offset_condition_, tool_offset_condition_;  // PR[n] of OFFSET CONDITION
   std::string skip_condition_;
   std::map<std::pair<const FanucListing*, std::size_t>, Endless> endless_;
   std::set<std::string> noted_;
-  pipeline::Where last_jump_;  // back
+  pipeline::Where last_jump_;  // last backward jump
   pipeline::Where last_decision_;
   long executed_ = 0, guessed_at_ = 0;
 };

@@ -9,7 +9,7 @@
 namespace dresslife::sim {
 namespace {
 
-/// "X 100 Y 0 Z 50 W 180 P 0 R 0", "J1 0 J2 ..." or six numbers X Y Z W P R, with commas or without.
+/// Parses "X 100 Y 0 Z 50 W 180 P 0 R 0", "J1 0 J2 ..." or six numbers X Y Z W P R. Commas are optional.
 std::optional<FanucPosition> position_in(const std::string& text) {
   FanucPosition made;
   made.frame = made.tool = -1;
@@ -51,7 +51,7 @@ FanucNumber number_in(const std::string& text) {
 }  // namespace
 
 void add_causes(FanucCauses& to, const FanucCauses& more) {
-  constexpr std::size_t most = 12;  // of one value
+  constexpr std::size_t most = 12;  // largest number of causes of a value
   for (const FanucCause& cause : more)
     if (to.size() < most && std::find(to.begin(), to.end(), cause) == to.end()) to.push_back(cause);
 }
@@ -77,7 +77,7 @@ FanucValues::FanucValues(const FanucVariables& backup, const std::map<std::strin
   for (const auto& [name, text] : given) take(plain_fanuc_name(name), text, problems);
 }
 
-/// A value of the user's, in place of the backup's.
+/// Stores a value of the user. It replaces the value of the backup.
 void FanucValues::take(const std::string& name, const std::string& text, Problems& problems) {
   given_[name] = text;
   FanucCursor at(name);
@@ -261,7 +261,7 @@ std::optional<FanucValues::Index> FanucValues::index(FanucCursor& at, int depth)
     at.move_to(begin);
   made.number = expression(at, depth + 1);
   if (at.take_sign(',')) made.part = expression(at, depth + 1);
-  at.skip_to(']');  // behind a comment
+  at.skip_to(']');  // skips a comment in the brackets
   return made;
 }
 
@@ -278,8 +278,8 @@ FanucNumber FanucValues::function(const std::string& word, FanucNumber of) const
   return std::isfinite(result) ? FanucNumber(result) : FanucNumber{};
 }
 
-/// A value that the user gives counts, unless the program itself has set the register and a call without a file may
-/// have changed it since: then the call is asked for. A register that the program never sets is asked for itself.
+/// Returns the value of an unknown register from the user. If the program has set the register and a call without a file
+/// may have changed it, the call is the question. If the program has not set the register, the register is the question.
 FanucNumber FanucValues::register_value(int number) {
   if (const auto found = registers_.find(number); found != registers_.end()) return found->second;
   const auto own = register_causes_.find(number);
@@ -292,14 +292,14 @@ FanucNumber FanucValues::register_value(int number) {
   return {};
 }
 
-/// A register or another name: R[5], PR[1,3], DI[3:part], AR[1], F[2], $MCR.$GENOVERRIDE, SIN[R[1]].
+/// Reads a register or another name: R[5], PR[1,3], DI[3:part], AR[1], F[2], $MCR.$GENOVERRIDE, SIN[R[1]].
 FanucNumber FanucValues::operand(FanucCursor& at, int depth) {
   const std::size_t begin = at.offset();
   const std::string word = at.word();
   if (word.empty()) return unknown("a value");
   if (word == "on") return 1;
   if (word == "off") return 0;
-  if (word[0] == '$') {  // as written, with its fields
+  if (word[0] == '$') {  // a system variable with its fields
     while (at.take_sign('.') || at.take_sign('['))
       if (at.rest().starts_with("$") || !at.name().empty()) at.take_sign(']');
     const std::string written(at.from(begin));
@@ -378,7 +378,7 @@ constexpr FanucOperator fanuc_operators[] = {
     {"<", comparisons}, {">", comparisons},    {"=", comparisons},  {"+", sums},         {"-", sums},
     {"*", products},    {"/", products},       {"DIV", products},   {"MOD", products}};
 
-/// The operator at the cursor, which is taken, of a level from `lowest` to `highest`; null: there is none.
+/// Takes the operator at the cursor if its level is lowest .. highest. Returns null if no such operator follows.
 const FanucOperator* next_operator(FanucCursor& at, int lowest, int highest) {
   for (const FanucOperator& op : fanuc_operators) {
     if (op.level < lowest || op.level > highest) continue;
@@ -387,7 +387,7 @@ const FanucOperator* next_operator(FanucCursor& at, int lowest, int highest) {
   return nullptr;
 }
 
-/// Of AND and OR one side can be enough.
+/// Applies `op`. One known side of AND or OR can decide the result; other operators need both sides.
 FanucNumber combined(std::string_view op, FanucNumber a, FanucNumber b) {
   if (const bool either = op == "OR"; either || op == "AND") {
     for (const FanucNumber& side : {a, b})
@@ -410,7 +410,7 @@ FanucNumber combined(std::string_view op, FanucNumber a, FanucNumber b) {
 
 }  // namespace
 
-/// By precedence climbing. A comparison is none of the sides of another one.
+/// Evaluates operators of level `lowest` and above by precedence climbing. Comparisons cannot be chained (a < b < c).
 FanucNumber FanucValues::level(FanucCursor& at, int lowest, int depth) {
   if (depth > ImportLimits::nesting) return {};
   ++charged_;

@@ -34,7 +34,7 @@ constexpr Words anywhere[] = {
     {"sek", "sec"},
 };
 
-/// Only before a bracket: E is a letter of many names, too.
+/// Words that are translated only before a bracket, because names can contain the same letters.
 constexpr Words before_bracket[] = {{"A", "DO"},  {"E", "DI"},  {"gA", "GO"}, {"gE", "GI"}, {"i", "R"},
                                     {"aA", "AO"}, {"aE", "AI"}, {"RA", "RO"}, {"RE", "RI"}};
 

@@ -19,7 +19,7 @@ Backup inform_backup(const fs::path& folder, const std::vector<fs::path>& files,
     }
   if (routine.empty()) backup.routine = only_start(folder, uncalled_programs(graph), "job");
   const auto first = file_of.find(lower_case(backup.routine));
-  if (first != file_of.end()) backup.files.push_back(first->second);  // it names the motion
+  if (first != file_of.end()) backup.files.push_back(first->second);  // the first file gives the motion its name
   for (const fs::path& file : files)
     if (first == file_of.end() || file != first->second) backup.files.push_back(file);
   return backup;

@@ -13,15 +13,15 @@
 namespace dresslife::sim {
 namespace {
 
-/// Position levels PL=1 .. 8 as the controllers are delivered (SC.PRM, S1CxG033 .. 040) [m].
+/// Default position levels PL=0 .. 8 of the controllers (SC.PRM, S1CxG033 .. 040) [m].
 constexpr double position_levels[] = {0, 0.0125, 0.025, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5};
 
-/// Variables as a speed or a time: V=I000 counts 0.1 mm/s, VJ=I000 0.01 %, T=I000 0.01 s.
+/// Returns the unit of a variable as a speed or a time: 0.1 mm/s for V=I000, 0.01 % for VJ=I000, 0.01 s for T=I000.
 double unit_of_variable(const std::string& tag) { return tag == "v" || tag == "vr" ? 0.1 : 0.01; }
 
-/// A position as the tree's values hold it (add_inform_types).
+/// A position value of the tree (add_inform_types).
 struct Position {
-  std::vector<double> numbers;  ///< pulses, deg, or mm and deg
+  std::vector<double> numbers;  ///< [pulses], [deg], or [mm] and [deg]
   std::string type;             ///< pulse, angle, base, robot, user
   int user = 0, tool = 0;
   std::vector<int> configuration;
@@ -54,7 +54,7 @@ const std::set<std::string>& harmless_words() {
   return words;
 }
 
-/// How a user writes a position: the tree's record of one.
+/// The form of a position that the user gives: the fields of its record in the tree.
 constexpr const char* position_form =
     "[[x, y, z, Rx, Ry, Rz], \"base\", 0, TOOL NUMBER, [0, 0, 0, 0, 0, 0]] in mm and deg";
 
@@ -113,7 +113,7 @@ class Inform final : public Dialect {
     if (const auto& given = statement.arguments; !given.empty() && given[0].kind == Expression::Kind::name &&
                                                  harmless(name) && !run.variable(given[0].text) &&
                                                  !run.given(given[0].text) &&
-                                                 is_variable(given[0].text))  // in no file read
+                                                 is_variable(given[0].text))  // its value is in no file
       run.set(given[0].text,
               unknown_value(upper_case(given[0].text), fmt::format("may be written by {} ({})", statement.text,
                                                          run.short_place(statement.place))));
@@ -128,7 +128,7 @@ class Inform final : public Dialect {
   bool harmless(const std::string& name) const override { return harmless_words().contains(name); }
   bool writes(const std::string&, int position, const Expression&) const override { return position == 0; }
   const RecordType* type_of(const std::string& name) const override { return code_.record(name); }
-  /// A job holds the positions of the controller as they were when it was saved.
+  /// A job contains a copy of the controller's P variables. Their values are those at the time when the job was saved.
   std::optional<std::string> form_of_copies(const std::string& name) const override {
     return name.starts_with("p") ? std::optional<std::string>(position_form) : std::nullopt;
   }
@@ -137,7 +137,7 @@ class Inform final : public Dialect {
     return type == "number" ? number_value(0) : Value{};
   }
 
-  /// Indices of the instructions that MOVC made, and whether FPT stands behind them.
+  /// Returns the indices of the instructions that MOVC made -> whether the MOVC has FPT.
   const std::map<std::size_t, bool>& arc_points() const { return arc_points_; }
 
  private:
@@ -155,7 +155,7 @@ class Inform final : public Dialect {
     return words.contains(name);
   }
 
-  /// "b[]" and 3: b003; "in#" and 3: in#(3).
+  /// Returns the name of an indexed variable: "b[]" and 3 give b003; "in#" and 3 give in#(3).
   static std::string indexed(const std::string& text, double index) {
     return inform_name(text.ends_with("[]") ? fmt::format("{}{:.0f}", text.substr(0, text.size() - 2), index)
                                             : fmt::format("{}({:.0f})", text, index));
@@ -166,7 +166,7 @@ class Inform final : public Dialect {
     run_->miss(name, place, what, remedy, {{kind, name, form}});
   }
 
-  /// A number that a move or a wait needs; what is not known is asked.
+  /// Returns a number that a move or a wait needs. Asks for it if it is unknown.
   std::optional<double> needed(const Expression& written, const char* what) {
     const Value value = run_->answered(written);
     if (value.is_number()) return value.number;
@@ -193,7 +193,7 @@ class Inform final : public Dialect {
 
   // ---- frames -----------------------------------------------------------------------------------------------------
 
-  /// TL#(n) or UF#(n): of TOOL.CND, UFRAME.CND, SETTOOL, MFRAME, or as the user gives it.
+  /// Returns TL#(n) or UF#(n): the value of SETTOOL, MFRAME, TOOL.CND or UFRAME.CND, else that of the user.
   std::optional<NamedFrame> frame(bool tool, int number, const Place& place) {
     const std::string name = fmt::format("{}#({})", tool ? "TL" : "UF", number);
     if (const Value* value = run_->variable(lower_case(name))) {
@@ -210,7 +210,7 @@ class Inform final : public Dialect {
     return {};
   }
 
-  /// SETTOOL TL#(1) P000; MFRAME UF#(1) P000 P001 P002: origin, a point on x, a point in the xy plane.
+  /// Executes SETTOOL TL#(1) P000 or MFRAME UF#(1) P000 P001 P002 (origin, a point on x, a point in the xy plane).
   void set_frame(const Statement& statement, Interpreter& run) {
     const auto& given = statement.arguments;
     std::vector<Position> points;
@@ -243,7 +243,7 @@ class Inform final : public Dialect {
     run.assign(given[0], std::move(value));
   }
 
-  /// SFTON P000 UF#(1): shifts the positions of the moves that follow. SFTOF.
+  /// Executes SFTON P000 UF#(1), which shifts the positions of the following moves, or SFTOF, which ends the shift.
   void shift(const Statement& statement, Interpreter& run) {
     shift_.reset();
     if (statement.name == "sftof" || statement.arguments.empty()) return;
@@ -251,7 +251,7 @@ class Inform final : public Dialect {
     shift_value_ = run.evaluate(statement.arguments[0]);
   }
 
-  /// The pose of the tool in the robot's base frame after a shift by numbers of a position in a frame.
+  /// Returns `pose` (tool in the robot's base frame) shifted by the numbers of `by` in the frame `frame_name`.
   std::optional<Frame> shifted(const Frame& pose, const Position& by, const std::string& frame_name,
                                const Place& place) {
     const Frame step = frame_of_fanuc(by.numbers);
@@ -269,7 +269,7 @@ class Inform final : public Dialect {
 
   // ---- positions as targets ---------------------------------------------------------------------------------------
 
-  /// Counts per degree of the robot's axes; empty: they are asked for.
+  /// Returns the counts per degree of the robot's axes. Empty: the user has not given them, and they are a question.
   std::vector<double> counts(const Place& place) {
     std::vector<double> read;
     if (const auto given = run_->given("pulses_per_degree");
@@ -308,8 +308,9 @@ class Inform final : public Dialect {
     return true;
   }
 
-  /// RCONF as the robot's kinematics take it. The first number is the wrist's: its meaning for the axes differs
-  /// between controllers (header); which one is meant is a value of the user's, else the newer one with a warning.
+  /// Converts RCONF to the configuration of the robot's kinematics. The meaning of its first number (wrist) depends on the
+  /// controller (README.md). The user chooses it by rconf_flip. Default: the sign of axis B if RCONF has more than 8
+  /// numbers, else axis R, with a warning.
   ArmConfiguration configuration(const Position& position, const Place& place) {
     if (position.configuration.size() < 6) return {};
     ArmConfiguration made{ArmConfiguration::Kind::motoman,
@@ -337,11 +338,11 @@ class Inform final : public Dialect {
                   "give VAR.DAT of the backup (--module), or the job that holds its value (///NPOS)",
                   position_form);
     for (const int tool : tools_of_jobs())
-      frame(true, tool, written.place);  // its tool is asked for in the same round
+      frame(true, tool, written.place);  // asks for the tool in the same round
     return {};
   }
 
-  /// Numbers of the tools with which positions of the jobs were taught; without any the first one, TL#(0).
+  /// Returns the numbers of the tools of all taught positions; {0} if no position is taught.
   std::set<int> tools_of_jobs() const {
     std::set<int> numbers;
     for (const Datum& datum : code_.data) {
@@ -355,13 +356,13 @@ class Inform final : public Dialect {
     return numbers.empty() ? std::set<int>{0} : numbers;
   }
 
-  /// Where the robot is: the last target.
+  /// The position of the robot: the last target.
   struct Reached {
     Position position;
-    Frame base;  ///< of a pose: of the tool in the robot's base frame
+    Frame base;  ///< pose of the tool in the robot's base frame, if `position` is a pose
   };
 
-  /// taught: gets the position that the tool is taught with, where it is known.
+  /// Reads the target of a move. Stores the position that gives the number of the tool in `taught`, if it is known.
   bool read_target(const Statement& statement, Instruction& move, std::optional<Position>& taught) {
     const Expression* written = argument_of(statement, "");
     if (!written) return run_->complain(statement.place, "moves to no position", "teach it"), false;
@@ -413,7 +414,7 @@ class Inform final : public Dialect {
     return moved.has_value();
   }
 
-  /// IMOV P000 V=100.0 BF: on from where the robot is.
+  /// Sets the target of IMOV P000 V=100.0 BF: the position of the robot plus `by`.
   bool relative(const Statement& statement, const Position& by, Instruction& move) {
     const Expression* system = argument_of(statement, "frame");
     if (reached_ && by.joints() && reached_->position.type == by.type && !system) {
@@ -445,7 +446,7 @@ class Inform final : public Dialect {
     const bool known = run_->variable(lower_case(name)) ||
                        std::any_of(tools_.begin(), tools_.end(),
                                    [&](const NamedFrame& t) { return same_word(t.name, name); });
-    if (free && !known) return true;  // axes alone
+    if (free && !known) return true;  // a move of the axes does not need the tool
     const auto tool = frame(true, position.tool, statement.place);
     if (!tool) return false;
     if (tool->stationary || tool->frame.position != Vector3::Zero() ||
@@ -471,7 +472,7 @@ class Inform final : public Dialect {
     const bool axes = move.kind == Instruction::Kind::joint;
     const char* option = axes ? "vj" : "v";
     auto number = speed_of(statement, option);
-    if (!number && argument_of(statement, option)) return false;  // asked for
+    if (!number && argument_of(statement, option)) return false;  // tag() has asked for it
     if (!axes && argument_of(statement, "vr")) number = std::nullopt;
     std::optional<double> turn;
     if (!axes) turn = speed_of(statement, "vr");
@@ -493,7 +494,7 @@ class Inform final : public Dialect {
     return true;
   }
 
-  /// V= counts mm/s as controllers are delivered; their setting may be cm/min.
+  /// Returns the unit of V= [m/s]: mm/s, the default of the controllers, or cm/min by the user's speed_unit.
   double unit_of_v(const Place& place) {
     const auto given = run_->given("speed_unit");
     if (!given && !unit_reported_)
@@ -520,7 +521,7 @@ class Inform final : public Dialect {
     else if (level)
       move.zone.distance = position_levels[static_cast<int>(*level)];
     else
-      move.zone.percent = 100;  // the next move begins while this one slows down
+      move.zone.percent = 100;  // the next move begins while this move brakes
     return true;
   }
 
@@ -552,7 +553,7 @@ class Inform final : public Dialect {
     if (spots) weld(statement, run);
   }
 
-  /// Jobs of another robot (RB2) and moves of two at once.
+  /// Returns whether a move belongs to the robot of the start job. Notes moves of another robot (RB2); refuses moves of two.
   bool of_this_robot(const Statement& statement, Interpreter& run) {
     const Routine* job = nullptr;
     for (const Routine& routine : code_.routines)
@@ -570,14 +571,14 @@ class Inform final : public Dialect {
     return false;
   }
 
-  /// Base and station axes: left out while they stay where they are.
+  /// Leaves base and station axes out of a move. Warns once if they do not stand still.
   void externals(const Statement& statement, Interpreter& run) {
     for (const char* option : {"base", "station"}) {
       const Expression* written = argument_of(statement, option);
       if (!written) continue;
       const auto at = position_in(run.evaluate(*written));
-      // A taught position repeats a standing axis within some pulses.
-      constexpr double same_place = 50;  // [pulses], and 0.05 mm or deg of what is not in pulses
+      // Taught values of an axis that stands still differ by a few pulses.
+      constexpr double same_place = 50;  // [pulses]; other positions: 0.05 mm or deg
       const auto& before = externals_[option];
       bool moved = !at || (!before.empty() && before.size() != at->numbers.size());
       for (std::size_t i = 0; !moved && i < before.size(); ++i)
@@ -631,14 +632,14 @@ class Inform final : public Dialect {
 
   // ---- variables --------------------------------------------------------------------------------------------------
 
-  /// CLEAR B003 10: from there on so many; ALL: up to the last one that is used.
+  /// Executes CLEAR B003 10: sets 10 variables from B003 on to 0. CLEAR B003 ALL: all variables from B003 on.
   void clear(const Statement& statement, Interpreter& run) {
     const auto& given = statement.arguments;
     if (given.empty() || given[0].kind != Expression::Kind::name || given[0].text == "stack") return;
     const std::string& first = given[0].text;
     const std::size_t digits = std::min(first.find_first_of("0123456789"), first.size());
     if (digits == first.size()) return;
-    constexpr int every = 1000;  // numbers of names
+    constexpr int every = 1000;  // variable numbers are 000 .. 999
     const auto number =
         given.size() > 1 && given[1].text != "all" ? run.number(given[1]) : std::optional<double>(every);
     const int from = std::atoi(first.c_str() + digits);
@@ -648,7 +649,8 @@ class Inform final : public Dialect {
                  number_value(0));
   }
 
-  /// What no assignment says: arithmetic of positions, one of their numbers (SETE), variables by an index.
+  /// Executes calculations that are not assignments in the tree: arithmetic of positions, one number of a position (SETE),
+  /// and variables with an index.
   void calculate(const Statement& statement, Interpreter& run) {
     const auto& given = statement.arguments;
     if (given.empty()) return;
@@ -673,7 +675,7 @@ class Inform final : public Dialect {
           *which > static_cast<double>(read->numbers.size()))
         return run.make_unknown(
             target, {"", fmt::format("is set in part by SETE ({})", run.short_place(statement.place))});
-      const double unit = read->type == "pulse" ? 1 : *which <= 3 ? 1e-3 : 1e-4;  // of 0.001 mm, 0.0001 deg
+      const double unit = read->type == "pulse" ? 1 : *which <= 3 ? 1e-3 : 1e-4;  // SETE counts 0.001 mm or 0.0001 deg
       value.items[0].items[static_cast<std::size_t>(*which) - 1] = number_value(with.number * unit);
       return run.assign(target, std::move(value));
     }
@@ -708,17 +710,17 @@ class Inform final : public Dialect {
   const std::vector<NamedFrame>& frames_;
   const std::string robot_;
   std::map<std::string, double> default_speed_;
-  std::optional<std::pair<Expression, std::string>> shift_;  // of SFTON, and its coordinate system
+  std::optional<std::pair<Expression, std::string>> shift_;  // position of SFTON and name of its frame
   Value shift_value_;
   std::optional<Reached> reached_;
   std::map<std::size_t, bool> arc_points_;
-  std::map<std::string, std::vector<double>> externals_;  // where base and station stand
+  std::map<std::string, std::vector<double>> externals_;  // "base", "station" -> first position of their axes
   std::set<std::string> reported_;
   bool unit_reported_ = false, flip_reported_ = false;
 };
 
-/// MOVC: the first of some leads straight to where the circle begins, each further one along the circle through it
-/// and its neighbours: (k-1, k, k+1) for the second, (k-2, k-1, k) for all behind it. FPT ends a circle.
+/// Converts consecutive MOVC to arcs. The first MOVC is a straight line to the first point of the circle. The second one
+/// is an arc through the points (k-1, k, k+1), each further one through (k-2, k-1, k). FPT ends a circle.
 void bend_arcs(const std::map<std::size_t, bool>& points, Program& program, Problems& problems) {
   auto& moves = program.instructions;
   for (auto first = points.begin(); first != points.end();) {
@@ -729,7 +731,7 @@ void bend_arcs(const std::map<std::size_t, bool>& points, Program& program, Prob
     const bool joined =
         first != points.begin() && std::prev(first)->second && std::prev(first)->first + 1 == begin;
     const std::size_t start =
-        joined ? begin - 1 : begin;  // FPT: the circle before ends where this one begins
+        joined ? begin - 1 : begin;  // after FPT this circle begins at the last point of the previous one
     first = std::next(last);
     if (end <= start) continue;
     if (end - start < 3) {
@@ -759,8 +761,8 @@ void bend_arcs(const std::map<std::size_t, bool>& points, Program& program, Prob
       }
       const Vector3 a = before.target.pose.position, b = move.target.pose.position,
                     c = other.target.pose.position;
-      const auto arc = krl::arc_through(a, b, c);  // from a over b on to c: c does not lie between a and b
-      if (!arc) continue;                          // on a line: straight
+      const auto arc = krl::arc_through(a, b, c);  // the order a, b, c: c is not between a and b
+      if (!arc) continue;                          // points on a line: a straight move
       const Vector3 from = a - arc->centre;
       double angle = std::atan2(arc->axis.dot(from.cross(b - arc->centre)), from.dot(b - arc->centre));
       if (angle <= 0) angle += 2 * std::numbers::pi;
@@ -771,7 +773,7 @@ void bend_arcs(const std::map<std::size_t, bool>& points, Program& program, Prob
   }
 }
 
-/// The job to start with: the one that is asked for, else that of the first file.
+/// Returns the start job: the requested one, else that of the first file; null: none.
 const Routine* start_of(const Code& code) {
   for (const Routine& routine : code.routines)
     if (code.start.empty() ? routine.place.file == 0 : routine.name == "job:" + code.start) return &routine;

@@ -48,7 +48,7 @@ class Words {
   }
   [[noreturn]] void fail(const std::string& what) { throw SyntaxError{place(), what, "correct the line"}; }
 
-  /// The next word, up to a character that no name has: "MOVJ", "IN#", "R1_HAND-OFF" where dashes are allowed.
+  /// Returns the next word without taking it: "MOVJ", "IN#", and "R1_HAND-OFF" if dashes are allowed.
   std::string_view peek_word(bool dashes = false) {
     skip_blanks();
     std::size_t end = at_;
@@ -73,7 +73,7 @@ class Words {
     at_ += sign.size();
     return true;
   }
-  /// All up to the next blank.
+  /// Takes the text up to the next blank.
   std::string item() {
     const std::string_view left = rest();
     const std::size_t end = std::min(left.find_first_of(" \t"), left.size());
@@ -81,7 +81,7 @@ class Words {
     return std::string(left.substr(0, end));
   }
 
-  /// A constant, a variable, or behind EXPRESS a calculation.
+  /// Reads a constant or a variable; after EXPRESS, a calculation.
   Expression operand() { return take("EXPRESS") ? level(precedence_of_sums, 0) : signed_value(0); }
   Expression condition() { return level(1, 0); }
 
@@ -181,9 +181,9 @@ class Words {
   int file_, line_;
 };
 
-/// "1,2.5,-3" as numbers; absent: there is something else.
+/// Returns the numbers of "1,2.5,-3"; std::nullopt for other text.
 std::optional<std::vector<double>> numbers_of(std::string_view text) {
-  constexpr std::size_t most = 40;  // in one position or one RCONF
+  constexpr std::size_t most = 40;  // largest count in one position or RCONF
   std::vector<double> numbers;
   while (!text.empty() && numbers.size() < most) {
     while (!text.empty() && (text.front() == ' ' || text.front() == '\t' || text.front() == '+'))
@@ -201,11 +201,11 @@ std::optional<std::vector<double>> numbers_of(std::string_view text) {
   return numbers;
 }
 
-/// The header of positions, for those that follow.
+/// Head lines that apply to the positions after them.
 struct PositionHead {
   std::string type = "pulse";  ///< pulse, angle, base, robot, user, tool, mtool
   double user = 0, tool = 0;
-  std::vector<double> configuration;  ///< of RCONF
+  std::vector<double> configuration;  ///< numbers of RCONF
 };
 
 class InformParser {
@@ -235,7 +235,7 @@ class InformParser {
   }
 
  private:
-  static constexpr int arguments = 8;  // of a job, ARGF
+  static constexpr int arguments = 8;  // largest number of ARGF of a job
 
   bool done() const { return at_ >= lines_.size() || problems_.full(); }
   Place place(int column = 1) const { return {file_, static_cast<int>(at_) + 1, column}; }
@@ -260,7 +260,7 @@ class InformParser {
     code_.data.push_back({declaration_at(place(), inform_name(name), "position", std::move(position)), module_, local});
   }
 
-  /// ///POSTYPE USER, ///RCONF 1,0,...: what holds from here on. Lines of other heads are skipped.
+  /// Reads a head line (///POSTYPE USER, ///RCONF 1,0,...). Unknown head lines are skipped.
   void head_line(std::string_view line, PositionHead& head) {
     Words at(line.substr(std::min(line.find_first_not_of('/'), line.size())), file_,
              static_cast<int>(at_) + 1);
@@ -273,7 +273,7 @@ class InformParser {
     if (word == "user") head.user = number();
     if (word == "postype") head.type = at.word();
     if (word == "rconf") head.configuration = numbers_of(at.rest()).value_or(std::vector<double>{});
-    head.configuration.resize(std::min<std::size_t>(head.configuration.size(), 24));  // as many as a head has
+    head.configuration.resize(std::min<std::size_t>(head.configuration.size(), 24));  // an RCONF has at most 24 numbers
   }
 
   // ---- jobs ----------------------------------------------------------------------------------------------------
@@ -317,14 +317,14 @@ class InformParser {
     code_.routines.push_back(std::move(routine));
   }
 
-  /// ///GROUP1 RB1,BS1: which robot the job moves. Two of them: "rb1,rb2".
+  /// Reads the robot of a job from ///GROUP1 RB1,BS1. Two robots: "rb1,rb2".
   static void group(std::string_view line, Routine& routine) {
     if (!line.starts_with("///GROUP")) return;
     for (std::size_t at = line.find("RB"); at != std::string_view::npos; at = line.find("RB", at + 1))
       routine.robot += (routine.robot.empty() ? "" : ",") + lower_case(line.substr(at, 3));
   }
 
-  /// Local variables begin as 0 at every call.
+  /// Declares the local variables, because they are 0 at the start of every call.
   void declare_locals(std::size_t begin, Routine& routine) {
     std::set<std::string> found;
     for (std::size_t line = begin; line < lines_.size(); ++line)
@@ -343,7 +343,7 @@ class InformParser {
                         std::make_move_iterator(declared.end()));
   }
 
-  /// Statements up to a line that begins with one of these words, which is not passed.
+  /// Reads statements up to a line that begins with one of the words `until`. That line is not taken.
   std::vector<Statement> body(const std::vector<const char*>& until) {
     std::vector<Statement> statements;
     if (++depth_ > ImportLimits::nesting) {
@@ -411,7 +411,7 @@ class InformParser {
     }
   }
 
-  /// A statement with an IF behind it is a branch.
+  /// Adds a statement; if an IF follows it, adds a branch with the statement.
   void only_if(Words& at, Statement s, std::vector<Statement>& into) {
     if (!at.take("IF") && !at.take("IFEXPRESS")) return into.push_back(std::move(s));
     const Place place = s.place;
@@ -420,7 +420,7 @@ class InformParser {
     into.push_back(std::move(branch));
   }
 
-  /// Labels of the job that are numbers, with their lines.
+  /// Returns the labels of the job that are numbers -> their lines.
   std::map<std::string, int> numbered_labels() const {
     std::map<std::string, int> labels;
     for (std::size_t line = 0; line < lines_.size(); ++line) {
@@ -433,7 +433,8 @@ class InformParser {
     return labels;
   }
 
-  /// JUMP LABEL: B000 goes to the label whose name is the number: a choice among them. Without that label the controller stops.
+  /// Reads JUMP LABEL: B000 as a choice among the labels that are numbers. If no label has this number, the controller
+  /// stops.
   Statement jump_by_number(Words& at, const Statement& s) {
     Statement made = s;
     made.kind = Kind::choose;
@@ -447,14 +448,14 @@ class InformParser {
     };
     for (const auto& [label, line] : numbered_labels()) {
       Expression number = Words(label, file_, s.place.line).operand();
-      number.place = {file_, line, 2};  // behind its *
+      number.place = {file_, line, 2};  // column after the *
       add_way({std::move(number)}, label);
     }
     add_way({}, written);
     return made;
   }
 
-  /// JUMP *LABEL, JUMP LABEL: B000, JUMP JOB:NAME, each with IF.
+  /// Reads JUMP *LABEL, JUMP LABEL: B000 or JUMP JOB:NAME, with an optional IF.
   void jump(Words& at, Statement s, std::vector<Statement>& into) {
     if (at.take_sign("*")) {
       s.kind = Kind::jump;
@@ -468,7 +469,7 @@ class InformParser {
     s.text = "JUMP " + s.name;
     Statement end = s;
     end.kind = Kind::finish;
-    Statement branch;  // both of them, where the condition holds
+    Statement branch;  // call and end, if the condition is true
     only_if(at, std::move(s), into);
     if (into.back().kind == Kind::branch)
       into.back().branches[0].body.push_back(std::move(end));
@@ -476,7 +477,7 @@ class InformParser {
       into.push_back(std::move(end));
   }
 
-  /// CALL JOB:NAME ARGF1 ARGFB000 IF ...; PSTART JOB:NAME SUB1
+  /// Reads CALL JOB:NAME ARGF1 ARGFB000 IF ... or PSTART JOB:NAME SUB1.
   void call(Words& at, Statement s, std::vector<Statement>& into) {
     const bool beside = s.name == "pstart";
     if (!at.take("JOB") || !at.take_sign(":")) {
@@ -528,7 +529,7 @@ class InformParser {
     return s;
   }
 
-  /// SWITCH B000 CASE 1 ... CASE 2 ... DEFAULT ... ENDSWITCH; the first CASE may stand on the line of SWITCH.
+  /// Reads SWITCH B000 CASE 1 ... CASE 2 ... DEFAULT ... ENDSWITCH. The first CASE may be on the line of SWITCH.
   Statement choice(Words& at) {
     Statement s = statement_at(at.place(), Kind::choose);
     s.arguments.push_back(at.operand());
@@ -565,7 +566,7 @@ class InformParser {
     return s;
   }
 
-  /// FOR I000 START= 1 TO 10 STEP=2 ... NEXT I000
+  /// Reads FOR I000 START= 1 TO 10 STEP=2 ... NEXT I000.
   Statement count(Words& at) {
     Statement s = statement_at(at.place(), Kind::count);
     s.keeps_counter = true;
@@ -586,7 +587,8 @@ class InformParser {
     return s;
   }
 
-  /// MOVL C00001 BC00001 V=100.0 PL=1 UNTIL IN#(1)=ON +MOVJ EC00001 VJ=5.00 //comment: each with its tag as option.
+  /// Reads MOVL C00001 BC00001 V=100.0 PL=1 UNTIL IN#(1)=ON +MOVJ EC00001 VJ=5.00 //comment. The tag of each argument is
+  /// its option.
   void move(Words& at, Statement& s) {
     static const std::set<std::string> numbers{"vj", "v", "vr", "ve", "pl", "cr", "acc", "dec"};
     bool beside = false;
@@ -632,7 +634,7 @@ class InformParser {
     }
   }
 
-  /// SET B000 1, ADD I000 EXPRESS I001 + 1, TIMER T=1.00, DOUT OT#(1) ON, and all else.
+  /// Reads SET B000 1, ADD I000 EXPRESS I001 + 1, TIMER T=1.00, DOUT OT#(1) ON, and all other instructions.
   void operation(Words& at, Statement s, std::vector<Statement>& into) {
     static const std::set<std::string> read{
         "set",    "add",    "sub",    "mul",   "div",  "inc",   "dec",   "clear",  "sete",    "gete",
@@ -657,7 +659,7 @@ class InformParser {
     into.push_back(std::move(s));
   }
 
-  /// What can be written as an assignment to a number becomes one.
+  /// Converts SET, GETARG, ADD, SUB, MUL, DIV, INC and DEC of numbers to an assignment.
   static void plain(Statement& s) {
     const auto& given = s.arguments;
     const bool two = given.size() == 2 && given[0].kind == Expression::Kind::name;
@@ -688,7 +690,7 @@ class InformParser {
 
   // ---- the controller's data -----------------------------------------------------------------------------------
 
-  /// TOOL.CND and UFRAME.CND: frames as positions tl#(n), uf#(n).
+  /// Reads TOOL.CND or UFRAME.CND: frames become positions tl#(n), uf#(n).
   void frames() {
     std::string name;
     bool taken = false;
@@ -714,7 +716,7 @@ class InformParser {
     }
   }
 
-  /// VAR.DAT: ///B, ///I, ///D, ///R with ten numbers a line, ///P with one position a line.
+  /// Reads VAR.DAT: ///B, ///I, ///D, ///R with ten numbers per line, ///P with one position per line.
   void variables() {
     std::string section;
     int next = 0;
@@ -737,7 +739,8 @@ class InformParser {
     }
   }
 
-  /// "RECTAN"0,0,3,<24 digits>,0,16,x,y,z,...: tool, RCONF, the system (16 base, 17 robot, 19 user), numbers.
+  /// Reads "RECTAN"0,0,3,<24 digits>,0,16,x,y,z,...: cells are -, user frame, tool, RCONF, -, system (16 base, 17 robot,
+  /// 19 user), numbers.
   void position_variable(int number, std::string_view line) {
     const bool pulses = line.starts_with("\"PULSE\"");
     if (!pulses && !line.starts_with("\"RECTAN\"")) return;
@@ -792,7 +795,7 @@ void name_inform_values(Code& code) {
 Calls inform_calls(const SourceFile& job) {
   Code code;
   code.files.push_back(job);
-  Problems ignored;  // reported where the job is read
+  Problems ignored;  // the reader of the job reports them
   parse_inform(code, 0, ignored);
   Calls calls;
   if (code.routines.empty()) return calls;

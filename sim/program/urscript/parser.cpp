@@ -38,7 +38,7 @@ class ScriptParser : StatementParser {
     module_ = static_cast<int>(code_.modules.size());
     const std::filesystem::path path = code_.files[file_].name();
     code_.modules.push_back({lower_case(path.stem().string()), path.stem().string(), {file_, 1, 1}});
-    Routine script;  // the statements outside of functions
+    Routine script;  // the statements outside functions
     script.written = path.stem().string();
     script.name = "script:" + lower_case(script.written);
     script.place = {file_, 1, 1};
@@ -48,7 +48,7 @@ class ScriptParser : StatementParser {
       if (!at_.at_end()) guarded([&] { statement(script.body); });
     }
     script.last_line = at_.place().line;
-    code_.routines.push_back(std::move(script));  // first: lines of functions are theirs
+    code_.routines.push_back(std::move(script));  // before the functions, which own the lines within its range
     for (const std::size_t index : around_others_)
       if (!is_within_another(index)) {  // "variables on the first scope level are treated as global"
         globals_.insert(assigned_[index].begin(), assigned_[index].end());
@@ -84,7 +84,7 @@ class ScriptParser : StatementParser {
 
   void statement(std::vector<Statement>& into) {
     if (at_.at_sign("$") || at_.peek().text.starts_with("$"))
-      return skip_line();  // $ 3 "Waypoint_1" of PolyScope
+      return skip_line();  // line of PolyScope: $ 3 "Waypoint_1"
     Statement s = statement_here();
     if (at_.at_word("def") || at_.at_word("thread") || at_.at_word("sec")) return routine();
     if (at_.take_word("if")) {
@@ -96,7 +96,7 @@ class ScriptParser : StatementParser {
       if (!line_done()) s.arguments.push_back(at_.expression());
     } else if (at_.take_word("break")) {
       s.kind = Kind::leave_loop;
-    } else if (at_.take_word("continue")) {  // to the end of the loop's body
+    } else if (at_.take_word("continue")) {  // a jump to the end of the loop's body
       if (loops_.empty()) at_.fail("has a continue outside of loops", "remove it");
       s.kind = Kind::jump;
       s.name = loops_.back();
@@ -112,7 +112,7 @@ class ScriptParser : StatementParser {
     into.push_back(std::move(s));
   }
 
-  /// [global, local] name = value, name[i] = value; false: there is no assignment.
+  /// Reads [global, local] name = value or name[i] = value. Returns false if the line is not an assignment.
   bool assignment(Statement& s) {
     const std::size_t begin = at_.mark();
     const bool global = at_.take_word("global"), local = !global && at_.take_word("local");
@@ -139,7 +139,7 @@ class ScriptParser : StatementParser {
     return true;
   }
 
-  /// run name(): its value is a handle.
+  /// Reads run name(). Its value is the handle of the thread.
   Expression run_thread(Statement& s) {
     at_.need_word("run");
     Expression call = at_.reference();
@@ -170,7 +170,7 @@ class ScriptParser : StatementParser {
     if (target.kind == Expression::Kind::call) s.arguments = std::move(target.items);
   }
 
-  /// def name(a, b=1): ... end; thread name(): ... end
+  /// Reads def name(a, b=1): ... end or thread name(): ... end.
   void routine() {
     const bool thread = at_.at_word("thread");
     at_.next();
@@ -181,7 +181,7 @@ class ScriptParser : StatementParser {
     read.written = std::string(at_.peek().text);
     read.name = at_.word("the function's name");
     read.module = module_;
-    std::vector<Statement> usual;  // values of parameters that a call leaves out
+    std::vector<Statement> usual;  // default values of parameters
     if (thread) read.robot = "thread";
     if (at_.take_sign("("))
       while (!at_.take_sign(")")) {
@@ -232,12 +232,12 @@ class ScriptParser : StatementParser {
     at_.need_word("end");
   }
 
-  bool is_within_another(std::size_t index) const {  // routines are counted by where they begin
+  bool is_within_another(std::size_t index) const {  // routines_ is in the order of their first lines
     return std::any_of(routines_.begin(), routines_.begin() + static_cast<long>(index),
                        [&](const Routine& other) { return other.last_line >= routines_[index].last_line; });
   }
 
-  /// What a function assigns without global, and what is global nowhere, is its own.
+  /// Declares the local variables of a function: its `local` names, and names that it assigns and that are not global.
   void declare_locals(std::size_t index) {
     Routine& routine = routines_[index];
     std::set<std::string> own = locals_[index];
@@ -250,21 +250,21 @@ class ScriptParser : StatementParser {
 
   int module_ = -1, threads_ = 0;
   std::vector<Routine> routines_;
-  std::vector<std::size_t> routines_here_;  // that are being read, the innermost last
-  std::set<std::size_t> around_others_;     // that hold other routines
-  std::vector<std::string> loops_;          // labels at their ends
+  std::vector<std::size_t> routines_here_;  // open routines, the innermost last
+  std::set<std::size_t> around_others_;     // routines that contain other routines
+  std::vector<std::string> loops_;          // end labels of the open loops
   std::set<std::string> globals_;
   std::map<std::size_t, std::set<std::string>> assigned_, locals_;
   std::map<std::string, std::string> written_by_threads_;
 };
 
-/// In URScript the case of a name counts, in the tree it does not: of several spellings of one name in these files
-/// all but one get a number behind them, "count#2". The one in small letters keeps its name, since those of the
-/// language are small. `names` holds the new ones and has to live as long as the tokens.
+/// Makes names that differ only in case different, because URScript distinguishes case and the tree does not. All
+/// spellings of a name but one get a number: "count#2". The spelling in small letters keeps its name, because the words
+/// of the language are small. `names` stores the new names. Precondition: it lives as long as the tokens.
 void number_spellings(const Code& code, std::vector<Token>& tokens, std::deque<std::string>& names) {
   static const std::set<std::string> words{"true", "false",  "none",  "def",    "end",   "if",   "elif",  "else",     "while", "return",
                                            "global", "local", "thread", "break", "continue", "and",  "or",   "not", "xor",      "run"};
-  std::map<std::string, std::set<std::string, std::greater<>>> spellings;  // small letters last in ASCII: first here
+  std::map<std::string, std::set<std::string, std::greater<>>> spellings;  // descending ASCII: small letters first
   Problems ignored;                                                        // the parser reports them
   for (const SourceFile& source : code.files)
     for (const Token& token : tokens_of(source, rules, ignored))

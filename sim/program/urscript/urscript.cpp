@@ -15,12 +15,12 @@
 namespace dresslife::sim {
 namespace {
 
-/// What a move of the language takes, in order, and what holds where it is left out (script manual).
+/// A move of the language: names of its arguments in their order, and default values (script manual).
 struct Signature {
   const char* name;
   Instruction::Kind kind;
   std::vector<const char*> arguments;
-  double acceleration, speed;  ///< [rad/s2, rad/s] of joint moves, else [m/s2, m/s]
+  double acceleration, speed;  ///< defaults; [rad/s2, rad/s] of joint moves, else [m/s2, m/s]
 };
 
 const Signature* move_of(const std::string& name) {
@@ -125,7 +125,7 @@ class Script final : public Dialect {
   }
   bool writes(const std::string&, int, const Expression&) const override {
     return false;
-  }  // arguments are copies
+  }  // arguments are passed by value
   const RecordType* type_of(const std::string&) const override { return nullptr; }
   std::string form_of(const std::string&) const override { return ""; }  // variables have no declared types
   Value initial(const std::string&) const override { return {}; }
@@ -161,7 +161,7 @@ class Script final : public Dialect {
 
   // ---- functions --------------------------------------------------------------------------------------------------
 
-  /// "get_digital_in(3)": as the user may give it.
+  /// Returns the user's value of a call such as "get_digital_in(3)"; otherwise an unknown value.
   Value given_or_unknown(const Expression& call, Interpreter& run, const char* why) {
     std::string name = run.written(call);
     std::erase(name, ' ');
@@ -172,7 +172,7 @@ class Script final : public Dialect {
     return unknown_value(name, why);
   }
 
-  /// The joint angles at a pose: a record of both, which a move takes, since the robot is not known here.
+  /// Returns the result of get_inverse_kin as a record of pose and nearby angles, because the robot is not known here.
   Value inverse_kinematics(const Expression& call, const std::vector<Value>& values, Interpreter& run) {
     Value near = values.size() > 1 ? values[1] : list_value({});
     for (const Expression& argument : call.items) {
@@ -223,7 +223,7 @@ class Script final : public Dialect {
     return pose_arithmetic(name, values);
   }
 
-  /// Roll, pitch, yaw about the axes of the base, and a rotation vector.
+  /// Converts roll, pitch, yaw about the axes of the base to a rotation vector (rpy2rotvec), or back (rotvec2rpy).
   static Value turn_arithmetic(const std::string& name, const Value& value) {
     const auto n = [&](std::size_t i) { return value.items[i].number; };
     if (value.kind != Value::Kind::list || value.items.size() != 3)
@@ -269,7 +269,7 @@ class Script final : public Dialect {
     return nullptr;
   }
 
-  /// A number of a move; absent: it is asked for. `otherwise`: where it is left out.
+  /// Returns a number of a move; `otherwise` if it is not given; std::nullopt, with a problem, if it is unknown or negative.
   std::optional<double> number(const Signature& signature, const Statement& statement, const char* name,
                                double otherwise) {
     const Expression* written = argument(signature, statement, name);
@@ -285,7 +285,7 @@ class Script final : public Dialect {
     return {};
   }
 
-  /// A target: joint angles, a pose, or what the kinematics make of one.
+  /// Reads a target: joint angles, a pose, or the result of get_inverse_kin or get_forward_kin.
   bool read_target(const Expression& written, Instruction& move, Value& value) {
     value = run_->answered(written);
     move.origins.push_back({"target", run_->written(written), {}});
@@ -332,14 +332,14 @@ class Script final : public Dialect {
     }
     if (*t == 0 && *a > 0) (joints ? move.speed.axis_acceleration : move.speed.tool_acceleration) = *a;
     move.zone.distance = *r;
-    if (std::string_view(signature.name).starts_with("servo")) move.zone = {0, 100};  // a stream of targets
+    if (std::string_view(signature.name).starts_with("servo")) move.zone = {0, 100};  // a stream of targets has no stops
     return true;
   }
 
   bool read_tool(const Statement& statement, Instruction& move) {
     const bool free =
         move.kind == Instruction::Kind::joint && !move.target.joints.empty() && move.zone.distance == 0;
-    if (!tcp_ && free) return true;  // axes alone
+    if (!tcp_ && free) return true;  // a move of the axes does not need the tool
     if (!tcp_) {
       run_->miss(
           "tcp", statement.place, "moves the tool, and no set_tcp before it says where that is",
@@ -367,7 +367,7 @@ class Script final : public Dialect {
     if (signature.kind == Instruction::Kind::circular) whole &= read_via(signature, statement, move);
     whole &= read_speed(signature, statement, move);
     if (whole || move.kind != Instruction::Kind::joint) whole &= read_tool(statement, move);
-    if (!whole) {  // later moves may ask where the robot stands
+    if (!whole) {  // later moves must not use the old position of the robot
       standing_.reset(), axes_.reset();
       return;
     }
@@ -421,7 +421,7 @@ class Script final : public Dialect {
       return run.ask_for(value, statement.place, "sets a tool that is known only while the robot runs", "",
                          "p[x, y, z, rx, ry, rz] in m and rad");
     tcp_ = NamedFrame{"tcp", *frame};
-    standing_.reset();  // the pose was another tool's
+    standing_.reset();  // the pose belongs to the previous tool
   }
 
   void run_thread(const Routine* thread, const Statement& statement, Interpreter& run) {
@@ -432,9 +432,9 @@ class Script final : public Dialect {
              !thread || steers(thread->body, 0));
   }
 
-  /// Whether a thread, or a function that it calls, moves the robot.
+  /// Returns whether a thread, or a function that it calls, moves the robot.
   bool steers(const std::vector<Statement>& body, int depth) const {
-    constexpr int deepest = 8;  // calls in threads
+    constexpr int deepest = 8;  // largest depth of calls
     return depth < deepest && std::any_of(body.begin(), body.end(), [&](const Statement& s) {
              if (s.kind == Statement::Kind::instruction && matters(s.name)) return true;
              const Routine* called =
@@ -447,10 +447,10 @@ class Script final : public Dialect {
 
   const Code& code_;
   std::optional<NamedFrame> tcp_;
-  std::optional<Value> standing_, axes_;  // where the last move led: a pose, or joint angles
+  std::optional<Value> standing_, axes_;  // target of the last move: pose, or joint angles
 };
 
-/// What could not be read; null: nothing.
+/// Returns the first parse error; null: none.
 const Problem* first_problem(const Code& code) {
   if (!code.problems.empty()) return &code.problems[0];
   for (const Routine& routine : code.routines)
@@ -458,7 +458,7 @@ const Problem* first_problem(const Code& code) {
   return nullptr;
 }
 
-/// PolyScope writes one function around all others.
+/// Returns whether a function is defined within another one. PolyScope writes one function around all others.
 bool is_within_another(const Routine& routine, const Code& code) {
   return std::any_of(code.routines.begin(), code.routines.end(), [&](const Routine& other) {
     return other.place.file == routine.place.file && !other.name.starts_with("script:") &&
@@ -466,7 +466,7 @@ bool is_within_another(const Routine& routine, const Code& code) {
   });
 }
 
-/// The statements outside of functions, and behind them the one function that they do not call.
+/// The start of a run: the statements outside functions, then the only function that they do not call.
 struct Start {
   const Routine* script = nullptr;
   const Routine* function = nullptr;
@@ -524,7 +524,7 @@ void run_urscript(const Code& code, const ImportOptions& options, const std::vec
     return;
   }
   const Routine* routine = start.function ? start.function : start.script;
-  Routine both;  // what stands outside of functions comes first
+  Routine both;  // statements outside functions run first
   if (start.function && start.script) {
     both = *start.function;
     both.body.insert(both.body.begin(), start.script->body.begin(), start.script->body.end());

@@ -8,7 +8,7 @@ using namespace dresslife::tests;
 
 namespace {
 
-/// Each letter of an ASCII or ISO 8859-1 text as two bytes.
+/// Returns an ASCII or ISO 8859-1 text with two bytes per character.
 std::string utf16(const std::string& text, bool big_endian) {
   std::string bytes;
   for (const char c : text) bytes += big_endian ? std::string{'\0', c} : std::string{c, '\0'};
@@ -29,7 +29,7 @@ TEST_CASE("encoding: marks are taken away, UTF-16 and single bytes become UTF-8"
                      "e") ==
         "gr\xC3\xB6\xC3\x9F"
         "e");
-  CHECK(decoded_text("5 \x80") == "5 \xE2\x82\xAC");  // Windows-1252's euro
+  CHECK(decoded_text("5 \x80") == "5 \xE2\x82\xAC");  // the euro sign of Windows-1252
   CHECK(decoded_text("gr\xC3\xB6\xC3\x9F"
                      "e") ==
         "gr\xC3\xB6\xC3\x9F"
@@ -46,13 +46,13 @@ TEST_CASE("encoding: pairs of UTF-16 become one letter, halves of them the repla
         "A");
   CHECK(decoded_text(std::string("\xFF\xFE"
                                  "A\0B",
-                                 5)) == "A");  // half a letter at the end
+                                 5)) == "A");  // the last character has only one byte
 }
 
 TEST_CASE("encoding: what is no well-formed UTF-8 is told apart") {
   for (const char* whole : {"", "a", "\xC3\xB6", "\xE2\x82\xAC", "\xF0\x9F\x98\x80", "\xF4\x8F\xBF\xBF"})
     CHECK(is_utf8(whole));
-  // A tail alone, a head alone, two forms too long, a surrogate, past U+10FFFF.
+  // A continuation byte alone, a lead byte alone, two overlong forms, a surrogate, a code point above U+10FFFF.
   for (const char* broken : {"\xB6", "\xC3", "\xC0\x80", "\xE0\x80\x80", "\xED\xA0\x80", "\xF4\x90\x80\x80"})
     CHECK_FALSE(is_utf8(broken));
 }

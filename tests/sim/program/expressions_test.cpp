@@ -1,4 +1,4 @@
-// What every language reckons and decides: random expressions, with as few parentheses as their meaning allows.
+// Values of expressions and conditions in every language: random expressions with the fewest possible parentheses.
 #include <cmath>
 #include <random>
 
@@ -11,14 +11,14 @@ using namespace dresslife::tests;
 
 namespace {
 
-/// How a language writes them.
+/// The syntax of expressions and waits in a language.
 struct Syntax {
   Language language;
   std::string file, begin, end;
-  std::string wait, wait_one_if, otherwise;  // {}: a value, a condition
+  std::string wait, wait_one_if, otherwise;  // {} is a value in wait, a condition in wait_one_if
   std::vector<std::pair<std::string, double (*)(double)>> functions;
   std::string equal, unequal, both, either, no;
-  std::vector<std::pair<std::string, double (*)(double, double)>> whole;  // operators of whole numbers
+  std::vector<std::pair<std::string, double (*)(double, double)>> whole;  // operators for whole numbers
 };
 
 double sine(double x) { return std::sin(x * degree); }
@@ -107,7 +107,7 @@ const std::vector<Syntax> languages{
 struct Part {
   std::string text;
   double value;
-  int binds;  // 1: a sum, or; 2: a product, and; 3: neither
+  int binds;  // precedence; 1: sum, OR; 2: product, AND; 3: others
   std::string within(int least) const { return binds < least ? "(" + text + ")" : text; }
 };
 
@@ -142,7 +142,7 @@ class Random {
     return {a.within(2) + "/" + b.text, a.value / b.value, 2};
   }
 
-  /// value: 0 or 1.
+  /// Returns a random condition. Its value is 0 or 1.
   Part condition(int depth) {
     const int kind = depth == 0 ? 0 : below(4);
     if (kind == 0) {
@@ -152,7 +152,7 @@ class Random {
       return {fmt::format("({}{}{})", a, names[op], b), double(holds[op]), 3};
     }
     const Part a = condition(depth - 1);
-    // RAPID's NOT takes all that AND joins.
+    // NOT in RAPID applies to all operands joined by AND.
     if (kind == 1)
       return {fmt::format("{}({})", syntax_.no, a.text), 1 - a.value,
               syntax_.language == Language::rapid ? 1 : 3};
@@ -166,7 +166,7 @@ class Random {
   std::mt19937 engine_{11};
 };
 
-/// Waits of 1000 s and each of these; `before`: declarations and assignments.
+/// Checks waits of 1000 s plus each value of `expected`. before: declarations and assignments.
 void check_values(const Syntax& syntax, const std::string& before,
                   const std::vector<std::pair<std::string, double>>& expected) {
   std::string text = syntax.begin;
@@ -244,7 +244,7 @@ TEST_CASE("rapid: functions of numbers, texts, vectors and poses have their valu
        {"EulerZYX(\\Z,pole)", 30},
        {"unit.q2", 0.6},
        {"unit.q4", 0.8},
-       // A quarter turn about z takes 10, 20 to -20, 10.
+       // A turn by 90 deg about z moves the point (10, 20) to (-20, 10).
        {"product.trans.x", 80},
        {"product.trans.y", 30},
        {"product.trans.z", 33},

@@ -1,4 +1,4 @@
-// What a Fanuc controller does with listings as they lie on it, each with its reason.
+// Rules of a Fanuc controller for its listings. Each test gives the reason of its rule.
 
 #include "tests/catch.h"
 #include "tests/sim/program/reading.h"
@@ -9,7 +9,7 @@ using namespace dresslife::tests;
 
 namespace {
 
-constexpr double rounding = 1e-9;  // of millimetres and angles through a dozen products
+constexpr double rounding = 1e-9;  // rounding error of millimetres and angles after a dozen products
 
 const std::string joints = R"(P[1]{
    GP1:
@@ -71,7 +71,7 @@ struct Asked {
   std::string routine = "";
 };
 
-/// The lines as the program CELL, with further files (name, text).
+/// Reads these lines as the program CELL, with further files (name, text).
 Reading run(const std::string& lines, const Asked& asked = {}, const Files& more = {}) {
   ImportOptions options;
   options.values = asked.values;
@@ -86,7 +86,7 @@ Reading run(const std::string& lines, const Asked& asked = {}, const Files& more
   return Reader{Language::fanuc, options, tools, objects}(files);
 }
 
-/// First joint angles of the moves [deg].
+/// Returns the angle of axis 1 [deg] of each move to joint angles.
 std::vector<int> stops(const Reading& reading) {
   std::vector<int> list;
   for (const Instruction& i : reading.program.instructions)
@@ -109,7 +109,7 @@ std::vector<std::string> warnings(const Reading& reading) {
 }  // namespace
 
 TEST_CASE("fanuc lines: one without a semicolon ends where the next number begins") {
-  // A controller would not load it; its meaning is plain, and no line may vanish into another.
+  // A controller does not load this listing. Its meaning is clear, and no line may become part of another line.
   const Reading moves =
       run("   1:J P[1] 100% FINE\n   2:J P[2] 100% FINE ;\n   3:\n   4:J P[1] 100% FINE ;\n");
   CHECK(moves.problem() == "no such problem");
@@ -156,17 +156,17 @@ TEST_CASE("fanuc lines: German listings are the same program") {
 TEST_CASE("fanuc positions: what is not taught matters only where a move needs it") {
   CHECK(stops(run("   1:J P[1] 100% FINE ;\n")) == std::vector<int>{1});
   const Reading untaught = run("   1:J P[5] 100% FINE ;\n   2:J P[5] 10% FINE ;\n   3:J P[9] 5% FINE ;\n");
-  REQUIRE(untaught.problems.size() == 2);  // one for each position: its frames are listed with it
+  REQUIRE(untaught.problems.size() == 2);  // one per position; no questions about frames, which a listing contains
   CHECK(untaught.problems[0].what == "moves to P[5], which is not taught");
   CHECK(untaught.problems[1].what == "moves to P[9], which is not listed");
-  // Only a positioner turns.
+  // P[6] moves only a positioner.
   const Reading positioner = run("   1:J P[1] 100% FINE ;\n   2:J P[6] 100% FINE ;\n");
   CHECK(stops(positioner) == std::vector<int>{1});
 }
 
 TEST_CASE("fanuc positions: a remote tool stands in the user frame, the robot carries the work") {
-  // RX ... is the place of UF in UT: 100 mm and 300 mm away, turned by 90 deg about z. Then UT in UF is the
-  // inverse, and the flange is at UF P^-1 UT^-1 whichever way the move is made.
+  // RX ... is the pose of UF in UT: 100 mm and 300 mm away, turned by 90 deg about z. The pose of UT in UF is its
+  // inverse. The flange is at UF P^-1 UT^-1 with and without RTCP.
   const Reading r =
       run("   1:J P[4] 100% FINE ;\n   2:L P[4] 100mm/sec FINE RTCP ;\n   3:L P[3] 100mm/sec FINE RTCP ;\n");
   REQUIRE(r.problem() == "no such problem");
@@ -184,12 +184,12 @@ TEST_CASE("fanuc positions: a remote tool stands in the user frame, the robot ca
   CHECK_FALSE(r.program.tools.at(r.move(0).tool).stationary);
   CHECK(r.program.tools.at(r.move(1).tool).stationary);
   CHECK(r.program.tools.at(r.move(1).tool).name == "UFRAME[3]");
-  // A position in the usual form on a remote move: (2, 0, 0.3) upside down, then 0.4 m up along the tool.
+  // A remote move to a position X, Y ...: (2, 0, 0.3) with the tool pointing down; the flange is 0.4 m above.
   CHECK((flange(r.move(2)).position - Vector3(2, 0, 0.7)).norm() < rounding);
 }
 
 TEST_CASE("fanuc loops: one that changes nothing waits, and the motion goes on behind it") {
-  // Whoever waits for DI[1] says what it is, not when it changes.
+  // The user gives the value of DI[1], but not the time at which it changes.
   for (const char* wait : {"", "   2:  WAIT .10(sec) ;\n", "   2:  R[5]=3 ;\n   2:  F[1]=OFF ;\n"}) {
     const Reading r = run(std::string("   1:  LBL[1] ;\n") + wait +
                               "   3:  IF DI[1]=OFF,JMP LBL[1] ;\n   4:J P[1] 100% FINE ;\n",
@@ -201,11 +201,11 @@ TEST_CASE("fanuc loops: one that changes nothing waits, and the motion goes on b
     CHECK(std::any_of(r.program.skipped.begin(), r.program.skipped.end(),
                       [](const Skipped& s) { return s.what.find("waits in a loop") == 0; }));
   }
-  // Nothing is behind a loop without a condition.
+  // Statements after a loop without a condition never run.
   CHECK(stops(run(
             "   1:J P[1] 100% FINE ;\n   2:  LBL[1] ;\n   3:  JMP LBL[1] ;\n   4:J P[2] 100% FINE ;\n")) ==
         std::vector<int>{1});
-  // A loop that counts or moves ends by itself.
+  // A loop that counts or moves runs until its own end.
   CHECK(
       stops(run("   1:  R[1]=0 ;\n   2:  LBL[1] ;\n   3:  R[1]=R[1]+1 ;\n   4:  IF R[1]<900,JMP LBL[1] ;\n   "
                 "5:J P[1] R[1]msec FINE ;\n")) == std::vector<int>{1});
@@ -227,21 +227,21 @@ TEST_CASE("fanuc positions: an offset adds up in the form of the position, or is
   CHECK((moved(turn).position - place - Vector3(0.01, 0, 0)).norm() < rounding);
   const Asked frames{.values = {{"$OFFSET_CART", "TRUE"}}};
   CHECK((moved(turn, frames).position - Vector3(0.01 - place.y(), place.x(), place.z())).norm() < rounding);
-  // Both turn the tool alike: R is the last of the turns.
+  // Both forms give the same orientation, because R is the last rotation.
   CHECK(std::abs(moved(turn).orientation.dot(moved(turn, frames).orientation)) ==
         Approx(1).epsilon(rounding));
-  // A backup says it.
+  // The value of a backup is used.
   const Reading backup =
       run("   1:L P[3] 100mm/sec FINE Offset,PR[1] ;\n", {.values = {{"PR[1]", turn}}},
           {{"system.va", "[*SYSTEM*]$OFFSET_CART  Storage: CMOS  Access: RW  : BOOLEAN = TRUE\n"}});
   CHECK((backup.move(0).target.pose.position - moved(turn, frames).position).norm() < rounding);
-  // RX ... of a remote tool: 110 mm instead of 100 mm; the pose is the inverse of that.
+  // RX of the remote tool becomes 110 mm instead of 100 mm. The pose is the inverse.
   CHECK((moved("X 10 Y 0 Z 0 W 0 P 0 R 0", {}, "P[4]").position - Vector3(0, 0.11, -0.3)).norm() < rounding);
   CHECK(run("   1:L P[4] 100mm/sec FINE Offset,PR[1] ;\n",
             {.values = {{"PR[1]", turn}, {"$OFFSET_CART", "TRUE"}}})
             .problems.at(0)
             .what == "is offset on a remote tool by a frame");
-  // A tool's offset is in its own axes: 10 mm along z of the tool that the robot carries.
+  // Tool_Offset is in the axes of the tool: 10 mm along z of the tool that the robot carries.
   const Reading tool = run("   1:L P[4] 100mm/sec FINE ;\n   2:L P[4] 100mm/sec FINE Tool_Offset,PR[1] ;\n",
                            {.values = {{"PR[1]", "X 0 Y 0 Z 10 W 0 P 0 R 0"}}});
   const Frame &before = tool.move(0).target.pose, &after = tool.move(1).target.pose;
@@ -288,7 +288,7 @@ TEST_CASE("fanuc values: components of position registers, with names and in sum
     CHECK((r.move(i).target.pose.position - Vector3(x[i], y[i], z[i])).norm() < rounding);
   }
   CHECK(run("   1:  UTOOL_NUM[GP2]=5 ;\n   2:L PR[1] 100mm/sec FINE ;\n", known)
-            .problems.empty());  // the positioner's
+            .problems.empty());  // the tool number of the positioner
   Asked jig = known;
   jig.values["UFRAME_NUM"] = "4";
   const Reading frame =
@@ -297,10 +297,10 @@ TEST_CASE("fanuc values: components of position registers, with names and in sum
           "100mm/sec FINE ;\n",
           jig);
   CHECK(frame.program.work_objects.at(0).frame.position.x() == Approx(0.5).epsilon(rounding));
-  REQUIRE(frame.problems.size() == 1);  // PR[5] is not known, and the frame is what it was no more
+  REQUIRE(frame.problems.size() == 1);  // PR[5] is unknown, so the frame is unknown after the second assignment
   CHECK(frame.problems[0].what ==
         "uses UFRAME[4], which depends on PR[5], which is known only while the robot runs");
-  // One component of an unknown register makes no position of zeros.
+  // If a program assigns one component of an unknown register, the other components stay unknown and are not 0.
   const Reading unknown = run("   1:  PR[9,3]=50 ;\n   2:L PR[9] 100mm/sec FINE ;\n", known);
   CHECK(unknown.problems.at(0).what == "moves to PR[9], which is known only while the robot runs");
   CHECK(run("   1:L PR[1] 100mm/sec FINE ;\n", {.values = {{"PR[1]", "1,2,3,4,5,6"}}}).problems.at(0).what ==
@@ -315,7 +315,7 @@ TEST_CASE("fanuc frames: a system variable's component is written, the others st
   REQUIRE(r.problem() == "no such problem");
   const Frame tool = r.program.tools.at(r.move(0).tool).frame,
               object = r.program.work_objects.at(r.move(0).work_object).frame;
-  CHECK((tool.position - Vector3(0, 0, 0.077)).norm() < rounding);  // X and Y of the tool that run() gives
+  CHECK((tool.position - Vector3(0, 0, 0.077)).norm() < rounding);  // X and Y are those of the tool in run()
   CHECK((object.position - Vector3(1, 0, 0)).norm() < rounding);
   CHECK((object.orientation * Vector3::UnitX() - Vector3::UnitY()).norm() < rounding);
 }
@@ -401,7 +401,7 @@ TEST_CASE("fanuc values: AND binds closer than OR") {
   CHECK_FALSE(taken("(R[1]=1 OR R[1]=0) AND R[2]=0"));
   CHECK(taken("R[1]+1=R[2] AND !(R[1]>R[2])"));
   CHECK(taken("R[1]<>R[2]"));
-  CHECK(taken("R[1]=1 OR DI[5]"));  // enough, whatever the input is
+  CHECK(taken("R[1]=1 OR DI[5]"));  // true for every value of the input
 }
 
 TEST_CASE("fanuc branches: no question where no arm moves, one question for a SELECT") {
@@ -412,19 +412,19 @@ TEST_CASE("fanuc branches: no question where no arm moves, one question for a SE
       "GI[1]=1,JMP LBL[3] ;\n  10:         =2,JMP LBL[3] ;\n  11:  LBL[3] ;\n  12:  IF (DI[9])R[5]=(1) ;\n");
   CHECK(logic.problem() == "no such problem");
   CHECK(stops(logic) == std::vector<int>{1, 2});
-  // A time that passes moves nothing; it is named.
+  // A timed wait in an undecided branch is left out, with a warning.
   const Reading wait =
       run("   1:J P[1] 100% FINE ;\n   2:  IF (!F[59]),JMP LBL[1] ;\n   3:  WAIT   1.00(sec) ;\n   4:  "
           "LBL[1] ;\n   5:J P[2] 100% FINE ;\n");
   CHECK(wait.problem() == "no such problem");
   CHECK(stops(wait) == std::vector<int>{1, 2});
   CHECK(warnings(wait).size() == 1);
-  // What the arms may write is unknown behind them.
+  // Values that the arms may write are unknown after the branch.
   CHECK(
       run("   1:  R[5]=20 ;\n   2:  IF (DI[9])R[5]=(1) ;\n   3:J P[1] R[5]% FINE ;\n").problems.at(0).what ==
       "has a speed by DI[9], which is known only while the robot runs");
 
-  // A called program without moves, whose jumps depend on arguments, ends one way or the other.
+  // A called program without moves is left out if its jumps depend on unknown values.
   const std::string told =
       "   1:  IF SO[4]=ON,JMP LBL[7] ;\n   2:  JMP LBL[AR[1]] ;\n   3:  LBL[1] ;\n   4:  R[5]=1 ;\n   5:  "
       "END ;\n   6:  "
@@ -463,7 +463,7 @@ TEST_CASE("fanuc branches: no question where no arm moves, one question for a SE
 
 TEST_CASE(
     "fanuc loops: a FOR leaves its counter at the last value, and a counter that the body changes counts") {
-  // ENDFOR adds only while the counter is short of its end (FANUC operator's manual).
+  // ENDFOR changes the counter only until it reaches its last value (FANUC operator's manual).
   const Reading r =
       run("   1:  FOR R[1]=1 TO 3 ;\n   2:J P[1] 10% FINE ;\n   3:  ENDFOR ;\n   4:J P[2] R[1]% FINE ;\n   "
           "5:  FOR R[2]=5 "
@@ -477,7 +477,7 @@ TEST_CASE(
 }
 
 TEST_CASE("fanuc loops: an endless one runs until it repeats itself, or as often as is asked") {
-  // A machine that runs in states: the first pass moves nothing.
+  // A state machine whose first pass has no move.
   const std::string states =
       "   1:  R[1]=0 ;\n   2:  LBL[1] ;\n   3:  IF R[1]=1,JMP LBL[3] ;\n   4:  IF R[1]=2,JMP LBL[4] ;\n   5: "
       " R[1]=1 ;\n  "
@@ -487,33 +487,33 @@ TEST_CASE("fanuc loops: an endless one runs until it repeats itself, or as often
   const Reading machine = run(states);
   CHECK(machine.problem() == "no such problem");
   CHECK(stops(machine) == std::vector<int>{1, 2});
-  // A counter of parts does not make the motion another one.
+  // A counter of parts does not change the motion.
   const std::string parts =
       "   1:  R[9]=0 ;\n   2:  LBL[1] ;\n   3:J P[1] 100% FINE ;\n   4:J P[2] 100% FINE ;\n   5:  "
       "R[9]=R[9]+1 ;\n   6:  "
       "JMP LBL[1] ;\n";
   CHECK(stops(run(parts)) == std::vector<int>{1, 2});
   CHECK(stops(run(parts, {.passes = 3})) == std::vector<int>{1, 2, 1, 2, 1, 2});
-  // Two kinds of parts in turn: the second pass moves elsewhere, the third one as the first.
+  // Two kinds of parts alternate: the second pass has other moves, the third pass has those of the first.
   const std::string turns =
       "   1:  R[1]=0 ;\n   2:  LBL[1] ;\n   3:J P[1] 100% FINE ;\n   4:  IF R[1]=1,JMP LBL[2] ;\n   5:  R[1]=1 ;\n"
       "   6:  JMP LBL[3] ;\n   7:  LBL[2] ;\n   8:J P[2] 100% FINE ;\n   9:  R[1]=0 ;\n  10:  LBL[3] ;\n  11:  JMP LBL[1] ;\n";
   CHECK(stops(run(turns)) == std::vector<int>{1, 1, 2});
-  // After a first part of another kind the turns repeat without it: it stays, as a pass of its own.
+  // The first part is of another kind, and the following passes repeat without it. The first pass is kept.
   const std::string start =
       "   1:  R[1]=2 ;\n   2:  LBL[1] ;\n   3:J P[1] 100% FINE ;\n   4:  IF R[1]=1,JMP LBL[2] ;\n"
       "   5:  IF R[1]=0,JMP LBL[4] ;\n   6:J P[2] 100% FINE ;\n   7:  LBL[4] ;\n   8:  R[1]=1 ;\n"
       "   9:  JMP LBL[3] ;\n  10:  LBL[2] ;\n  11:J P[2] 100% FINE ;\n  12:J P[2] 100% FINE ;\n"
       "  13:  R[1]=0 ;\n  14:  LBL[3] ;\n  15:  JMP LBL[1] ;\n";
   CHECK(stops(run(start)) == std::vector<int>{1, 2, 1, 2, 2, 1});
-  // One that only counts is reported with the line that decides it.
+  // A loop that only counts is reported with the line of its condition.
   const std::string counts =
       "   1:  R[1]=1 ;\n   2:  R[2]=0 ;\n   3:  LBL[1] ;\n   4:  R[2]=R[2]+1 ;\n   5:  IF R[1]=1,JMP LBL[1] "
       ";\n   6:J P[1] "
       "100% FINE ;\n";
   CHECK_THAT(run(counts).problem(),
              Catch::Contains("goes back again and again") && Catch::Contains("--assume cell.ls:8=then"));
-  // A palletizer: every pass is another one until it begins again.
+  // A palletizer: all passes differ until the first one repeats.
   const std::string pallet =
       "   1:  LBL[1] ;\n   2:  R[1]=0 ;\n   3:  LBL[2] ;\n   4:  PR[2]=PR[1] ;\n   5:  "
       "PR[2,3]=PR[2,3]+R[1]*10 ;\n   6:L "
@@ -530,7 +530,7 @@ TEST_CASE("fanuc moves: what changes a target is followed, or named") {
           "CONDITION PR[1] ;\n   4:L P[3] 100mm/sec FINE Offset ;\n   5:J P[1] 50% FINE Offset,PR[2] ;\n",
           known);
   REQUIRE(r.problem() == "no such problem");
-  // The tool looks down: 50 mm up in the frame, 50 mm down along the tool.
+  // The tool points down: 50 mm up in the frame, 50 mm down along the tool.
   const double z[] = {0.35, 0.25, 0.35};
   for (int i = 0; i < 3; ++i) CHECK(r.move(i).target.pose.position.z() == Approx(z[i]).epsilon(rounding));
   CHECK(run("   1:J P[1] 50% FINE Offset,PR[1] ;\n", known).problems.at(0).what ==
@@ -569,7 +569,7 @@ TEST_CASE("fanuc programs: names with hyphens, logs beside, doubles, faults in p
 }
 
 TEST_CASE("fanuc: an empty line may have lost its number") {
-  // As listings of vision programs have it: " ;" between two statements.
+  // Listings of vision programs contain " ;" between two statements.
   CHECK(stops(run("   1:J P[1] 50% FINE ;\n ;\n   3:J P[2] 50% FINE ;\n")) == std::vector<int>{1, 2});
 }
 
@@ -581,7 +581,7 @@ TEST_CASE("fanuc: frame 0 cannot be assigned") {
 }
 
 TEST_CASE("fanuc: what programs beside and condition handlers write is unknown") {
-  // BESIDE counts R[1] while CELL moves; a handler that MONITOR starts may come at any time.
+  // BESIDE writes R[1] while CELL moves. A handler that MONITOR starts may run at any time.
   const std::string choice = "   3:  IF R[1]=1,JMP LBL[1] ;\n   4:J P[2] 50% FINE ;\n   5:  LBL[1] ;\n";
   const std::string beside = "/PROG  BESIDE\n/MN\n   1:  R[1]=1 ;\n/POS\n/END\n";
   const std::string other = "/PROG  BESIDE\n/MN\n   1:  R[2]=1 ;\n/POS\n/END\n";
@@ -593,7 +593,7 @@ TEST_CASE("fanuc: what programs beside and condition handlers write is unknown")
 }
 
 TEST_CASE("fanuc: all that a move lacks is asked for in one round") {
-  // A place, a speed, a blend, an offset, and the frames that the place is given in.
+  // The move needs a position, a speed, a blend, an offset, and the frames of the position.
   const Reading r = run("   1:L PR[9] R[7]mm/sec CNT R[8] Offset,PR[4] ;\n");
   std::string all;
   for (std::size_t i = 0; i < r.problems.size(); ++i) all += r.problem(i) + "\n";

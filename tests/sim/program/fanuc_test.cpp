@@ -11,7 +11,7 @@ using namespace dresslife::tests;
 
 namespace {
 
-constexpr double rounding = 1e-12;  // of a few products of numbers near 1
+constexpr double rounding = 1e-12;  // rounding error of a few products of numbers near 1
 
 const std::string positions = R"(/POS
 P[1]{

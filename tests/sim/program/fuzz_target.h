@@ -1,4 +1,4 @@
-// Any bytes as a program of any language: the reader must come back, with problems that have a place.
+// Fuzz targets: any bytes as a program of any language. The reader must return, and all its problems must have a place.
 #pragma once
 
 #include <string>
@@ -34,12 +34,12 @@ inline const char* name_of(sim::Language language) {
   return "p.json";
 }
 
-/// Empty, or what the reader did wrong.
+/// Reads `text` as a program. Returns the fault of the reader; empty: none.
 inline std::string fault_of_reading(sim::Language language, const std::string& text) {
   std::deque<sim::SourceFile> files;
   files.emplace_back(name_of(language), text);
-  if (language == sim::Language::fanuc) files.emplace_back("p.va", text);  // also as the backup's variables
-  if (language == sim::Language::inform) {  // also as its conditions and variables
+  if (language == sim::Language::fanuc) files.emplace_back("p.va", text);  // the same bytes as variables of a backup
+  if (language == sim::Language::inform) {  // the same bytes as condition and variable files
     files.emplace_back("p.cnd", text);
     files.emplace_back("var.dat", text);
   }
@@ -63,7 +63,7 @@ inline std::string fault_of_reading(sim::Language language, const std::string& t
   return "";
 }
 
-/// The same for a URDF: a robot, or a message with the file's name.
+/// Reads `text` as a URDF. The result must be a robot or a message with the name of the file. Returns the fault; empty: none.
 inline std::string fault_of_urdf(const std::string& text) {
   pipeline::UrdfRequest request;
   request.urdf = "p.urdf";

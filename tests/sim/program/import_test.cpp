@@ -18,7 +18,7 @@ using namespace dresslife::tests;
 
 namespace {
 
-constexpr double rounding = 1e-12;  // of a few products of numbers near 1
+constexpr double rounding = 1e-12;  // rounding error of a few products of numbers near 1
 
 std::string mutated(const std::string& seed, std::mt19937& random) {
   std::string text = seed;
@@ -130,7 +130,7 @@ TEST_CASE("import: external axes that move are named with the entry that a job's
                            Catch::Contains("external_axes: [{name: external_1, kind: linear, carries: robot") &&
                            Catch::Contains("lower_mm: 0, upper_mm: 500"));
   CHECK(skipped_lines(Reader{Language::rapid}({{"m.mod", module(0)}}).program).empty());
-  // The proposed entry is one that a robot takes.
+  // The robot's YAML accepts the proposed entry.
   const std::size_t open = lines[0].find("external_axes: ["), close = lines[0].find("]}.", open);
   pipeline::Robot robot;
   pipeline::Node axis = *pipeline::parse_yaml("{" + lines[0].substr(open, close + 1 - open) + "}", "entry.yaml").find("external_axes");
@@ -171,7 +171,7 @@ TEST_CASE("import: mutated programs never break a reader") {
       refused += !reader({{"p", text}}).problems.empty();
       ++runs;
     }
-  CHECK(refused > runs / 4);  // the mutations do hurt
+  CHECK(refused > runs / 4);  // many mutations cause errors
   CHECK(refused < runs);
 }
 
@@ -188,9 +188,9 @@ TEST_CASE("import: a damaged URDF becomes a robot or a message") {
 
 TEST_CASE("import: the example programs read without a problem") {
   const std::string folder = std::string(DRESSLIFE_SOURCE_DIR) + "/config/programs/";
-  // Home twice, two approaches, sixteen spots with their welds, two ways out; start, four times eight, end;
-  // start, twice four, a wait, end; home, twice eight moves, two waits and a circle of five, home; home, four times
-  // five with a wait, home.
+  // Instructions of each program: 2 home, 2 approaches, 16 spots with 16 welds, 2 departures; start, 4 x 8, end;
+  // start, 2 x 4, a wait, end; home, 2 x (8 moves, 2 waits, a circle of 5 moves), home; home, 4 x (5 moves, a wait),
+  // home.
   const std::pair<const char*, std::size_t> examples[] = {
       {"side_panel.mod", 38}, {"pick_and_place.src", 34}, {"frame_weld.ls", 11}, {"door_handling.jbi", 32}, {"tray_filling.script", 26}};
   for (const auto& [name, count] : examples) {
@@ -212,7 +212,7 @@ TEST_CASE("import: a copy beside the named program does not count") {
   const Program read = read_program(motion);
   REQUIRE(read.instructions.size() == 2);
   for (const Instruction& move : read.instructions) CHECK(std::filesystem::path(move.where.file).filename() == "load.src");
-  CHECK(moves_left_out(read).empty());  // a note, no warning
+  CHECK(moves_left_out(read).empty());  // a note, not a warning
   REQUIRE(!read.skipped.empty());
   CHECK(read.skipped[0].what.find("load_old.src:1") != std::string::npos);
 }
@@ -254,8 +254,8 @@ TEST_CASE("import: waits for signals count no time, and are counted, in every la
 }
 
 TEST_CASE("import: the cycle times of the example programs") {
-  // Anchors: motion_cycle_time_test derives times by hand. A fault in a corner, a zone or a wait shows here; in one
-  // program such a fault moved the life by 40 %.
+  // Reference values from the program; motion_cycle_time_test has times derived by hand. A fault in a corner, a zone or a
+  // wait changes these times. Such a fault changed the life of one program by 40 %.
   struct {
     const char *program, *robot;
     double duration;  // [s]

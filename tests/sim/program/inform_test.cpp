@@ -9,7 +9,7 @@ using namespace dresslife::tests;
 
 namespace {
 
-constexpr double rounding = 1e-12;  // of a few products of numbers near 1
+constexpr double rounding = 1e-12;  // rounding error of a few products of numbers near 1
 
 const std::string rconf = "///RCONF 1,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0\n";
 const std::string base = "///TOOL 1\n///POSTYPE BASE\n///RECTAN\n" + rconf;
@@ -35,7 +35,7 @@ Reading run(const std::string& positions, const std::string& lines, const Import
   return Reader{Language::inform, options}(more);
 }
 
-/// The lines that moved the robot, in their order.
+/// Returns the lines of all moves, in the order of the run.
 std::vector<int> lines_of(const Reading& r) {
   std::vector<int> lines;
   for (const Instruction& i : r.program.instructions) lines.push_back(i.where.line);
@@ -120,7 +120,7 @@ TEST_CASE("inform: speeds, accelerations and position levels") {
   CHECK(r.move(2).zone.distance == Approx(0.0125));
   CHECK(r.move(3).speed.axis_percent.value() == 20);
   CHECK(r.move(4).speed.tool.value() == Approx(0.1));
-  CHECK(r.move(4).zone.percent == 100);  // no PL: without a stop
+  CHECK(r.move(4).zone.percent == 100);  // without PL the robot does not stop
   CHECK(r.move(5).speed.tool.value() == Approx(0.25));
   CHECK(r.move(6).dwell == 1.5);
   CHECK(r.move(7).dwell == Approx(0.3));
@@ -149,7 +149,7 @@ TEST_CASE("inform: MOVC leads straight to its first point, then round the circle
     CHECK(r.move(i).kind == Instruction::Kind::circular);
     CHECK((r.move(i).via.position - on_the_way[i - 1]).norm() < 1e-9);
   }
-  // Behind FPT another circle begins where the first one ends.
+  // After FPT a second circle begins at the end of the first one.
   const Reading two =
       run(quarters,
           "MOVC C00000 V=50.0\nMOVC C00001 V=50.0\nMOVC C00002 V=50.0 FPT\nMOVC C00003 V=50.0\n"
@@ -171,7 +171,7 @@ TEST_CASE("inform: an endless main loop is one cycle, also where it is left and 
   ImportOptions twice;
   twice.passes = 2;
   CHECK(lines_of(run(three, loop, twice)) == std::vector<int>{17, 19, 20, 19, 20});
-  // Counts down, then begins again: three different passes, then the first again.
+  // The loop counts down and restarts: three different passes, then the first one again.
   const Reading parts =
       run(three,
           "SET I000 2\n*LOOP\nIFTHENEXP I000<=0\n\tSET I000 2\n\tJUMP *RESET\nENDIF\nMOVJ C00001 VJ=9\n"
@@ -228,7 +228,7 @@ TEST_CASE("inform: positions are computed with, moved on from and shifted") {
   CHECK((at(2) - Vector3(500, 20, 75)).norm() < 1e-9);
   CHECK((at(3) - Vector3(1010, 20, 530)).norm() < 1e-9);
   CHECK((at(4) - Vector3(1000, 0, 500)).norm() < 1e-9);
-  // Along a tool that points down the way is the other way.
+  // In the frame of a tool that points down, z has the opposite direction.
   const Reading down = run(taught, "MOVL C00000 V=9\nIMOV P002 V=9 TF\n");
   CHECK(down.move(1).target.pose.position.z() == Approx(0.495));
   const Reading joints =
@@ -322,7 +322,7 @@ TEST_CASE("inform: what is wrong in a job has its line, and counts where the job
 }
 
 TEST_CASE("inform: a jump to the label of a number leads there") {
-  // A routine by hand: the place to come back to is a number.
+  // A subroutine without CALL: a number stores the label to return to.
   const std::string lines =
       "SET B000 4\nJUMP *SUB\n*4\nMOVL C00000 V=100.0\nSET B000 5\nJUMP *SUB\n*5\nMOVL C00001 V=100.0\nJUMP *LAST\n*SUB\nMOVL "
       "C00002 V=100.0\nJUMP LABEL: B000\nMOVL C00000 V=1.0\n*LAST\n";

@@ -1,4 +1,4 @@
-// Remedies of readers, as a user of a job needs them.
+// Remedies of the readers in the words of a job's YAML.
 #include "sim/program/job_words.h"
 
 #include "tests/catch.h"

@@ -1,4 +1,4 @@
-// KUKA backups: which programs and lists are read, and where the robot begins.
+// KUKA backups: choice of the programs and data lists that are read, and of the start program.
 
 #include "tests/pipeline/scratch.h"
 #include "tests/sim/program/reading.h"
@@ -12,7 +12,7 @@ std::string program(const std::string& name, const std::string& body) {
   return "DEF " + name + "()\n" + body + "\nEND\n";
 }
 
-/// A backup: a cell that calls `called` by number, two programs with a point of one name, the system's files.
+/// Writes a backup: a cell that calls `called` by number, two programs with a point of the same name, system files.
 void write_backup(const Scratch& folder, const std::string& called) {
   folder.write(
       "KRC/R1/Cell.src",

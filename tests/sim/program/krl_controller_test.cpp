@@ -1,4 +1,4 @@
-// What a KUKA controller makes of programs as they lie on it: each case says what it does and why.
+// Rules of a KUKA controller for its programs. Each test gives the rule and its reason.
 
 #include "tests/catch.h"
 #include "tests/sim/program/reading.h"
@@ -9,7 +9,7 @@ using namespace dresslife::tests;
 
 namespace {
 
-constexpr double rounding = 1e-12;  // of a few products of numbers near 1
+constexpr double rounding = 1e-12;  // rounding error of a few products of numbers near 1
 
 const std::string config =
     "DEFDAT $CONFIG\nREAL DEF_VEL_CP=2.0\nREAL DEF_VEL_FACT=1.0\nINT DEF_VEL_PTP=100\nREAL DEF_ACC_CP=2.3\n"
@@ -53,7 +53,7 @@ TEST_CASE("krl controller: a CHAR is the number of its letter") {
 }
 
 TEST_CASE("krl: inline forms reach FDAT_ACT, PDAT_ACT and LDAT_ACT that $CONFIG.DAT declares") {
-  // BAS(#PTP_PARAMS, v): acceleration and approximation of PDAT_ACT, frames of FDAT_ACT, v % of the speed.
+  // BAS(#PTP_PARAMS, v) sets acceleration and approximation of PDAT_ACT, frames of FDAT_ACT and v % of the speed.
   const Reading r =
       run("PDAT_ACT=PP1\nFDAT_ACT=FP1\nBAS(#PTP_PARAMS,60)\nPTP " + pose +
               " C_PTP\nLDAT_ACT=LP1\nFDAT_ACT=FP1\nBAS(#CP_PARAMS,0.5)\nLIN {X 900} C_DIS",
@@ -74,8 +74,7 @@ TEST_CASE("krl: inline forms reach FDAT_ACT, PDAT_ACT and LDAT_ACT that $CONFIG.
 }
 
 TEST_CASE("krl: a data list's names are its program's own") {
-  // Both lists declare XP1; the controller gives each program its own. Without kb's list, XP1 is not known
-  // there.
+  // Both lists declare XP1, and each program uses its own. Without the list of kb, XP1 is unknown in kb.
   const std::pair<std::string, std::string> ka{"ka.src", "DEF ka()\nPTP XP1\nkb()\nPTP XP1\nEND\n"},
       kb{"kb.src", "DEF kb()\nPTP XP1\nEND\n"},
       ka_list{"ka.dat", "DEFDAT ka\nDECL E6AXIS XP1=" + axes(1) + "\nENDDAT\n"},
@@ -121,7 +120,7 @@ TEST_CASE("krl: one program twice is refused where it runs, two values of one na
 }
 
 TEST_CASE("krl: what a program writes to an undeclared name stays in it while its data list is missing") {
-  // The name may be the list's own, so another program's use of it has no effect.
+  // The name may belong to the missing list, so its use in another program has no effect.
   const Reading r =
       run("n=1\nsub()", "", {{"sub.src", "DEF sub()\nIF n==1 THEN\nPTP " + axes(1) + "\nENDIF\nEND\n"}});
   REQUIRE(r.problems.size() == 1);
@@ -194,7 +193,7 @@ TEST_CASE("krl: WITH sets speed, approximation, tool and base for its move alone
   CHECK(r.move(2).speed.tool.value() == 1.5);
   CHECK(r.move(2).tool == -1);
   CHECK(r.move(2).zone.distance == 0);
-  CHECK(r.move(3).speed.tool.value() == 2.0);  // DEF_VEL_CP is the most
+  CHECK(r.move(3).speed.tool.value() == 2.0);  // DEF_VEL_CP is the limit
 }
 
 TEST_CASE("krl: moves of the spline planner take their jerk from $GEAR_JERK and $JERK, others do not") {
@@ -206,7 +205,7 @@ TEST_CASE("krl: moves of the spline planner take their jerk from $GEAR_JERK and 
                         {{"$config.dat", config}});
   REQUIRE(r.problem() == "no such problem");
   REQUIRE(r.program.instructions.size() == 7);
-  const double expected[] = {50, 40, 100, 100, 100, 60, 25};  // 125 of the 500 m/s3 of the machine data
+  const double expected[] = {50, 40, 100, 100, 100, 60, 25};  // 25: 125 of the 500 m/s3 of the machine data
   for (int k = 0; k < 7; ++k) {
     CAPTURE(k);
     CHECK(r.move(k).jerk_percent == Approx(expected[k]).epsilon(rounding));
@@ -229,7 +228,7 @@ TEST_CASE("krl: every case of BAS") {
       "DECL PDAT PP1={VEL 50.0,ACC 40.0,APO_DIST 150.0}\nDECL LDAT LP1={VEL 0.4,ACC "
       "100.0,APO_DIST 9.0}\nDECL FDAT FP1={TOOL_NO 2,BASE_NO 0,IPO_FRAME #BASE}";
   const Files system{{"$config.dat", config}};
-  // PTP_DAT takes the speed of the data, too; approximation is 100 % at most.
+  // PTP_DAT sets the speed of the data, too. The approximation is limited to 100 %.
   const Reading joint = run("PDAT_ACT=PP1\nBAS(#PTP_DAT)\nFDAT_ACT=FP1\nBAS(#FRAMES)\nPTP " + pose +
                                 " C_PTP\n"
                                 "BAS(#VEL_PTP,60)\nBAS(#ACC_PTP,20)\nPTP {X 900}",
@@ -256,7 +255,7 @@ TEST_CASE("krl: every case of BAS") {
 }
 
 TEST_CASE("krl: BAS(#INITMOV,0) starts with the values of $CONFIG.DAT") {
-  // Speed, approximation, the first tool and the world.
+  // Values of speed, approximation, the first tool and the world frame.
   const std::string body = "BAS(#INITMOV,0)\nPTP " + pose + " C_PTP\nLIN {X 900} C_DIS\nLIN {X 800} C_VEL";
   const Reading r = run(body, "", {{"$config.dat", config}});
   REQUIRE(r.problem() == "no such problem");
@@ -266,7 +265,7 @@ TEST_CASE("krl: BAS(#INITMOV,0) starts with the values of $CONFIG.DAT") {
   CHECK(r.move(1).speed.tool.value() == 2);
   CHECK(r.move(1).speed.orientation.value() == Approx(200 * degree).epsilon(rounding));
   CHECK(r.move(1).zone.distance == Approx(0.003).epsilon(rounding));
-  CHECK(r.move(2).zone.percent == 25);  // from half the speed on: a quarter of the way in which it would stop
+  CHECK(r.move(2).zone.percent == 25);  // below half the speed: a quarter of the braking distance
   const Reading without = run(body);
   REQUIRE(without.problems.size() == 2);
   CHECK(without.problems[0].what == "moves with TOOL_DATA[1], which no file read declares");
@@ -275,7 +274,7 @@ TEST_CASE("krl: BAS(#INITMOV,0) starts with the values of $CONFIG.DAT") {
 }
 
 TEST_CASE("krl: a move to where the robot stands is none") {
-  // PTP $AXIS_ACT and PTP $POS_ACT: the block coincidence run of hand-written programs.
+  // PTP $AXIS_ACT and PTP $POS_ACT are the block coincidence run of hand-written programs.
   for (const char* here : {"PTP $AXIS_ACT", "PTP $POS_ACT", "SPTP $AXIS_ACT", "LIN $POS_ACT"}) {
     const Reading r = run(std::string("$VEL.CP=1\n") + here + "\nPTP " + axes(3));
     REQUIRE(r.problem() == "no such problem");
@@ -284,7 +283,7 @@ TEST_CASE("krl: a move to where the robot stands is none") {
   const Reading kept = run("DECL E6AXIS h\nh = $AXIS_ACT_MEAS ; here\nPTP h\nPTP " + axes(3));
   REQUIRE(kept.problem() == "no such problem");
   CHECK(first_axes(kept.program) == std::vector<double>{3});
-  CHECK(run("DECL E6AXIS h\nh=$AXIS_ACT\nPTP " + axes(3) + "\nPTP h").problems.size() == 1);  // back there
+  CHECK(run("DECL E6AXIS h\nh=$AXIS_ACT\nPTP " + axes(3) + "\nPTP h").problems.size() == 1);  // back to the unknown start
   const Reading known = run("DECL E6AXIS h\nPTP " + axes(3) + "\nh=$AXIS_ACT\nh.A1=h.A1+4\nPTP h");
   REQUIRE(known.problem() == "no such problem");
   CHECK(first_axes(known.program) == std::vector<double>{3, 7});
@@ -292,7 +291,7 @@ TEST_CASE("krl: a move to where the robot stands is none") {
 }
 
 TEST_CASE("krl: what a target leaves out comes from where the robot stands, in the frames in use") {
-  // At z 1000 in the world, the new base lies 30 mm higher: there the robot stands at 970.
+  // The robot is at z = 1000 in the world. The new base is 30 mm above it, so the position in this base is 970.
   const Reading r =
       run("$VEL.CP=1\nPTP {X 1000,Y 0,Z 1000,A 0,B 0,C 0}\n$BASE={X 0,Y 0,Z 30,A 0,B 0,C 0}\nLIN {X "
           "900}\n$TOOL={X 0,Y 0,Z 50,A 0,B 0,C 0}\nLIN_REL {X 10}");
@@ -306,12 +305,12 @@ TEST_CASE("krl: relative moves along the tool, and those whose law is not public
   REQUIRE(tool.problem() == "no such problem");  // the tool's z points along the base's x
   CHECK((tool.move(1).target.pose.position - Vector3(1.1, 0, 1)).norm() < rounding);
   const Quaternion turned = rotation({0, 90 * degree, 0}) * rotation({90 * degree, 0, 0});
-  CHECK(tool.move(2).target.pose.orientation.angularDistance(turned) < 1e-9);  // acos near 1: half the digits
+  CHECK(tool.move(2).target.pose.orientation.angularDistance(turned) < 1e-9);  // acos near 1 loses half of the digits
   CHECK(run("$VEL.CP=1\nPTP " + pose + "\nLIN_REL {C 90}").problems.size() == 1);
 }
 
 TEST_CASE("krl: the robot's own place in the world counts") {
-  // $ROBROOT of Mada/$MACHINE.DAT: targets are given in the world, 500 mm below the robot's foot.
+  // $ROBROOT of Mada/$MACHINE.DAT: targets are in the world frame, 500 mm below the robot's foot.
   const Reading r = run("PTP " + pose, "",
                         {{"$machine.dat",
                           "DEFDAT $MACHINE\nFRAME $ROBROOT={X 0.0,Y 0.0,Z 500.0,A 0.0,B 0.0,C "
@@ -336,11 +335,11 @@ TEST_CASE("krl: bases and tools that only the user has") {
     REQUIRE(missing.problems.size() == 1);
     CHECK(missing.problems[0].what == "moves with BASE_DATA[1], which no file read declares");
     CHECK(missing.problems[0].remedy.find("--frames") != std::string::npos);
-    // A list that is declared without the element does not hold it, either.
+    // A list that is declared without the element does not give it a value.
     const Reading declared = run(program, "", {{"$c.dat", "DEFDAT $C\nDECL FRAME BASE_DATA[9]\nENDDAT\n"}},
                                  {Language::krl, {}, {}, bases});
     CHECK(declared.problem() == "no such problem");
-    // Axis angles need no base.
+    // A move to axis angles does not need a base.
     CHECK(run(std::string(body) + "\nPTP " + axes(1)).problems.empty());
   }
 }
@@ -350,7 +349,7 @@ TEST_CASE("krl: a target without a value is told apart from one that nobody decl
         "p.src:3:5: error: moves to 'pa', which has no value yet; assign it before the move, give the file "
         "that "
         "holds its value (.dat), or --value 'pa={X ...}'");
-  // What the user gives for it counts until the program writes to it, as for an input by its name.
+  // The user's value is used until the program writes to the name. The same rule applies to an input.
   Reader given{Language::krl};
   given.options.values = {{"pa", axes(7)}, {"gi", "3"}};
   CHECK(first_axes(run("DECL E6AXIS pa\nPTP pa\npa=" + axes(8) + "\nPTP pa", "", {}, given).program) ==
@@ -359,7 +358,7 @@ TEST_CASE("krl: a target without a value is told apart from one that nobody decl
       first_axes(run("SIGNAL gi $IN[1] TO $IN[8]\nDECL REAL r\nr=gi\nPTP {A1 r,A2 -90,A3 90,A4 0,A5 30,A6 0}",
                      "", {}, given)
                      .program) == std::vector<double>{3});
-  // One line for all uses of a missing name.
+  // All uses of a missing name are one problem.
   const Reading missing = run("PTP xa\nPTP xa\nPTP xb\nPTP xa");
   CHECK(missing.problems.size() == 2);
 }
@@ -391,7 +390,7 @@ TEST_CASE("krl: a coordinate that input decides asks, also beside known ones") {
 }
 
 TEST_CASE("krl: an assignment by aggregate leaves nothing of the value before") {
-  // E1 was known and is left out: the controller's rule is not known.
+  // E1 was known and is left out of the second aggregate. The controller's rule for this is not known.
   const Reading r =
       run("DECL E6POS p1\np1={X 1,Y 2,Z 3,A 0,B 0,C 0,E1 7}\np1={X 1,Y 2,Z 4,A 0,B 0,C 0}\nPTP p1");
   CHECK(r.problems.size() == 1);
@@ -415,14 +414,14 @@ TEST_CASE("krl: the robot stops where the controller, which runs ahead, waits fo
   for (const char* goes_on : {"", "; a comment with $OUT[1]", "CONTINUE\n$OUT[1]=TRUE", "CONTINUE\nWAIT FOR $IN[1]", "$FLAG[1]=TRUE",
                               "TRIGGER WHEN DISTANCE=0 DELAY=0 DO $OUT[1]=TRUE", "INTERRUPT DECL 9 WHEN $IN[1] DO halted()"})
     CHECK(blends(goes_on));
-  // A time behind CONTINUE passes while the robot moves.
+  // A timed wait after CONTINUE runs while the robot moves.
   const Reading ahead = run("$VEL.CP=1\n$APO.CDIS=10\nCONTINUE\nWAIT SEC 2\nLIN " + pose +
                             " C_DIS\nCONTINUE\nWAIT SEC 1\nLIN {X 900}");
   REQUIRE(ahead.program.instructions.size() == 3);
   CHECK(ahead.move(0).dwell == 2);
   CHECK(ahead.move(1).zone.distance > 0);
   CHECK(ahead.program.skipped.at(0).may_move);
-  // Without moves read ahead none is approximated.
+  // Without the advance run ($ADVANCE=0) no move is approximated.
   const Reading none = run("$VEL.CP=1\n$APO.CDIS=10\n$ADVANCE=0\nLIN " + pose + " C_DIS\n$ADVANCE=3\nLIN {X 900} C_DIS\nLIN {X 800}");
   CHECK(none.move(0).zone.distance == 0);
   CHECK(none.move(1).zone.distance == Approx(0.01));
@@ -576,7 +575,7 @@ TEST_CASE("krl: what an interrupt writes is unknown while it may happen, and a s
   REQUIRE(told.program.skipped.size() == 1);
   CHECK(told.program.skipped[0].may_move);
   CHECK(told.program.instructions.size() == 2);
-  // The handler is that of the module that declares the interrupt, wherever it is put on.
+  // The handler belongs to the module that declares the interrupt, not to the module that switches it on.
   const Reading elsewhere =
       run("search()\nIF hit THEN\nPTP " + axes(1) + "\nENDIF" + handler, "GLOBAL BOOL hit=FALSE",
           {{"s.src", "DEF search()\nINTERRUPT ON 21\nPTP " + axes(2) + "\nEND\n"}});
@@ -588,7 +587,7 @@ TEST_CASE("krl: what an interrupt writes is unknown while it may happen, and a s
 }
 
 TEST_CASE("krl: what a TRIGGER sets is unknown behind it") {
-  // It happens on the way of a move, before or behind the statements that follow.
+  // A TRIGGER runs during a move, before or after the following statements.
   const Reading r = run("BOOL b\nb=FALSE\n$VEL.CP=1\nPTP " + pose +
                         "\nTRIGGER WHEN DISTANCE=0 DELAY=20 DO b=TRUE PRIO=-1\n"
                         "LIN {X 900}\nIF b THEN\nLIN {X 800}\nENDIF");
@@ -609,7 +608,7 @@ TEST_CASE("krl: frames that the controller holds are asked for, and waiting alon
     for (const Question& question : problem.questions) {
       names.insert(question.name);
       CHECK(question.form == "{X .., Y .., Z .., A .., B .., C ..} in mm and deg");
-      CHECK(question.preset.empty());  // the null frame is not safe
+      CHECK(question.preset.empty());  // no default, because the null frame may be wrong
     }
   CHECK(names == std::set<std::string>{"$tool", "$base"});
   const std::string tool = "{X 0,Y 0,Z 100,A 0,B 0,C 0}";
@@ -624,7 +623,7 @@ TEST_CASE("krl: frames that the controller holds are asked for, and waiting alon
 }
 
 TEST_CASE("krl: an interrupt's handler that moves does not write to its targets") {
-  // PTP XHOME in a handler reads XHOME: behind INTERRUPT ON the main program's own PTP XHOME is as known.
+  // PTP home in a handler only reads `home`: it stays known in the main program after INTERRUPT ON.
   const Reading r =
       run("INTERRUPT DECL 20 WHEN $IN[1] DO away()\nINTERRUPT ON 20\nPTP home\nEND\n"
           "DEF away()\nBRAKE\nPTP home\nRESUME",
@@ -650,7 +649,7 @@ TEST_CASE("krl: CIRC with CA goes round by the angle, not to its target") {
   CHECK((end_of("-90") - Vector3(1.1, -0.1, 1.01)).norm() < rounding);
   CHECK((end_of("360") - Vector3(1.0, 0, 1.01)).norm() < rounding);
   CHECK((end_of("450") - Vector3(1.1, 0.1, 1.01)).norm() < rounding);
-  // How the tool turns where CA ends elsewhere than the target is not public.
+  // The rotation of the tool is not public if CA does not end at the target.
   CHECK(run(ready + "CIRC {X 1100,Y 100},{X 1200,Y 0,A 90}, CA 90").problem().find("turns the tool") !=
         std::string::npos);
   CHECK(run(ready + "CIRC {X 1100},{X 1200}, CA 90").problem().find("no circle") != std::string::npos);
@@ -662,18 +661,18 @@ TEST_CASE("krl: $ORI_TYPE #CONSTANT keeps the tool as it is, on circles by #PATH
   const Reading line = run(ready + "$ORI_TYPE=#CONSTANT\nLIN {X 1100,Y 0,Z 1000,A 90,B 0,C 0}");
   REQUIRE(line.problem() == "no such problem");
   CHECK(line.move(1).target.pose.orientation.isApprox(Quaternion::Identity()));
-  // Half a circle against the clock's hand seen from below: the way turns by -180 deg about z, the tool too.
+  // A half circle, counterclockwise from below: the path turns by -180 deg about z, and the tool turns with it.
   const Reading circle =
       run(ready + "$ORI_TYPE=#CONSTANT\n$CIRC_TYPE=#PATH\nCIRC {X 1100,Y 100},{X 1200,Y 0}");
   REQUIRE(circle.problem() == "no such problem");
   const Frame& end = circle.program.instructions.back().target.pose;
   CHECK((end.position - Vector3(1.2, 0, 1)).norm() < rounding);
   CHECK(std::abs(end.orientation.z()) > 1 - rounding);
-  // #JOINT ends at the target's orientation, and comes there otherwise than read.
+  // #JOINT ends at the orientation of the target, but the orientation on the way differs from the reader's.
   const Reading wrist = run(ready + "$ORI_TYPE=#JOINT\nLIN {X 1100,Y 0,Z 1000,A 90,B 0,C 0}");
   REQUIRE(wrist.program.skipped.size() == 1);
   CHECK(wrist.program.skipped[0].may_move);
-  // An inline form says it in its data.
+  // An inline form sets $ORI_TYPE by its data (ORI_TYP).
   const Reading form =
       run("LDAT_ACT=L1\nFDAT_ACT={TOOL_NO 0,BASE_NO 0,IPO_FRAME #BASE}\nBAS(#CP_PARAMS,0.1)\nLIN " + pose +
               "\nLIN {X 900,Y 0,Z 1000,A 0,B 0,C 0}",
@@ -711,12 +710,12 @@ TEST_CASE("krl: bits and letters count") {
 }
 
 TEST_CASE("krl: external axes move alone, and are where the robot stands") {
-  // PTP {E1 5} leaves the robot where it is; $POS_ACT of an E6POS has the external axes in it.
+  // PTP {E1 5} does not move the robot. $POS_ACT in an E6POS contains the external axes.
   const Reading alone = run("PTP {A1 1,A2 -90,A3 90,A4 0,A5 0,A6 0,E1 3}\nPTP {E1 5}\nASYPTP {E1 9}");
   REQUIRE(alone.problem() == "no such problem");
   CHECK(first_axes(alone.program) == std::vector<double>{1, 1});
   CHECK(alone.move(1).target.external_axes == std::vector<double>{5});
-  REQUIRE(alone.program.skipped.size() == 2);  // and the axis that a job's robot needs
+  REQUIRE(alone.program.skipped.size() == 2);  // the second one names the axis that the robot of the job needs
   CHECK(alone.program.skipped[0].may_move);
   const Reading stands = run("E6POS here\nhere={X 1,Y 2,Z 3,A 0,B 0,C 0,E1 7}\nPTP " + pose +
                              "\nhere=$POS_ACT\nhere.Z=1100\nPTP here");
@@ -736,7 +735,7 @@ TEST_CASE("krl: SPL points of passes that are cut off are none of the motion") {
 }
 
 TEST_CASE("krl: nothing behind an endless loop is run, and one that makes none of its moves is told") {
-  // The controller never comes to what stands behind. `n` may be written over the network, which is reported.
+  // The controller never runs statements after the loop. `n` may be written over the network, which is reported.
   const Reading quiet = run("PTP " + axes(1) + "\nLOOP\nn=1\nENDLOOP\nPTP " + axes(2), "INT n");
   REQUIRE(quiet.problem() == "no such problem");
   CHECK(first_axes(quiet.program) == std::vector<double>{1});
@@ -753,8 +752,8 @@ TEST_CASE("krl: nothing behind an endless loop is run, and one that makes none o
 }
 
 TEST_CASE("krl: what a submit program writes to may have any value") {
-  // sps.sub runs beside the robot over and over: the value of the data list is not used. Its own names are
-  // its own.
+  // sps.sub runs repeatedly in parallel to the robot program: the value of the data list is not used. Its local names do
+  // not change those of the program.
   const std::string body = "PTP " + axes(1) + "\nIF ready THEN\nPTP " + axes(2) +
                            "\nENDIF\nIF mine THEN\nPTP " + axes(3) + "\nENDIF";
   const std::string data = "BOOL ready=FALSE\nBOOL mine=TRUE\nDECL BOOL a[2]\na[1]=TRUE\na[2]=a[1]";
@@ -775,7 +774,7 @@ TEST_CASE("krl: all that a move lacks is asked for in one round") {
   REQUIRE(frames.problems.size() == 2);
   CHECK_THAT(frames.problem(0) + frames.problem(1),
              Catch::Contains("moves with TOOL_DATA[3]") && Catch::Contains("moves with BASE_DATA[4]"));
-  // Three components that an input decides: a line that names them all.
+  // Three components depend on inputs: one problem names all of them.
   const Reading place = run("DECL FRAME f\nf=" + pose +
                             "\nf.X=$ANIN[1]\nf.Y=$ANIN[2]\nf.Z=$ANIN[3]\n$TOOL=$NULLFRAME\nBAS(#BASE,0)\n"
                             "PTP f");
@@ -789,7 +788,7 @@ TEST_CASE("krl: RSI_MOVECORR leads the robot away, and back where the program sa
   REQUIRE_FALSE(led.program.skipped.empty());
   CHECK(led.program.skipped[0].may_move);
   CHECK(led.program.skipped[0].what == "RSI_MOVECORR: a sensor leads the robot");
-  // Nobody knows the axes that the move leaves out.
+  // The axes that the move leaves out are unknown.
   CHECK_THAT(run("PTP " + axes(1) + "\nRSI_MOVECORR()\nPTP {A1 2}").problem(),
              Catch::Contains("gives some coordinates only"));
 }

@@ -11,7 +11,7 @@ using namespace dresslife::tests;
 
 namespace {
 
-constexpr double rounding = 1e-12;  // of a few products of numbers near 1
+constexpr double rounding = 1e-12;  // rounding error of a few products of numbers near 1
 
 Reading run(const std::string& body, const std::string& data = "",
             const std::vector<NamedFrame>& tools = {}) {
@@ -35,7 +35,7 @@ TEST_CASE("krl: axes, frames with status and turn, circles") {
   CHECK(r.move(1).target.configuration.text() == "kuka 2 35");
   const Quaternion q = rotation({0, 0, 90 * degree}) * rotation({180 * degree, 0, 0});
   CHECK(r.move(1).target.pose.orientation.isApprox(q, rounding));
-  CHECK((r.move(2).target.pose.position - Vector3(1, 0, 0.8)).norm() < rounding);  // what is left out stays
+  CHECK((r.move(2).target.pose.position - Vector3(1, 0, 0.8)).norm() < rounding);  // coordinates that are left out do not change
   CHECK(r.move(2).speed.tool.value() == 0.5);
   CHECK(r.move(3).kind == Instruction::Kind::circular);
   CHECK((r.move(3).via.position - Vector3(1, 0.05, 0.75)).norm() < rounding);
@@ -67,7 +67,7 @@ TEST_CASE("krl: what the controller's editor writes, with its data list") {
   CHECK(r.move(1).speed.tool.value() == 0.25);
   CHECK(r.move(1).zone.distance == Approx(0.025).epsilon(rounding));
   CHECK(r.move(2).speed.tool.value() == 0.1);
-  CHECK(r.move(3).speed.tool.value() == 0.25);  // WITH is over
+  CHECK(r.move(3).speed.tool.value() == 0.25);  // WITH applies to one move only
 }
 
 TEST_CASE("krl: loops, calls, splines") {
@@ -86,8 +86,8 @@ TEST_CASE("krl: loops, calls, splines") {
 }
 
 TEST_CASE("krl: SPL points lie on a smooth curve") {
-  // A quarter circle of 300 mm, one point every 30 deg, chords c of 155 mm: unit slopes along the circle give
-  // arcs of the height c/4 sin(15 deg) = 10.05 mm; the circle's are 10.22 mm.
+  // A quarter circle of 300 mm with a point every 30 deg, chords c of 155 mm: unit slopes along the circle give
+  // arcs of the height c/4 sin(15 deg) = 10.05 mm; arcs of the circle have 10.22 mm.
   std::string block = "$VEL.CP=1\nLIN {X 300,Y 0,Z 0,A 0,B 0,C 0}\nSPLINE\n";
   for (int angle = 30; angle <= 90; angle += 30)
     block += fmt::format(" SPL {{X {:.6f},Y {:.6f}}}\n", 300 * std::cos(angle * degree),
@@ -116,14 +116,14 @@ TEST_CASE("krl: between SPL points lie cubics with the slopes of parabolas throu
     moves[k].target.pose = {at[k], rotation({0, 0, 0.3 * double(k)})};
     moves[k].zone = {0.01 * double(k), 0};
   }
-  moves[5] = moves[4], moves[5].kind = Instruction::Kind::dwell;  // a curve ends there
+  moves[5] = moves[4], moves[5].kind = Instruction::Kind::dwell;  // a dwell ends the curve
   moves[6] = moves[4], moves[6].target.pose.position.x() += 0.1;
   Program program;
   program.instructions = moves;
   bend_splines({1, 2, 3, 4, 6}, program);
   const std::vector<Instruction>& bent = program.instructions;
-  // Chords' lengths as parameter; the parabola through three points by Lagrange. At the ends the slope of the next point,
-  // mirrored at the chord's middle.
+  // The parameter is the length of the chords. The slope at a point is that of the Lagrange parabola through three points.
+  // The slope at an end is that of the neighbour, mirrored at the middle of the chord.
   const auto chord = [&](std::size_t k) { return Vector3(at[k + 1] - at[k]); };
   const auto slope = [&](std::size_t k) {
     const double a = chord(k - 1).norm(), b = chord(k).norm();
@@ -142,7 +142,7 @@ TEST_CASE("krl: between SPL points lie cubics with the slopes of parabolas throu
     const int steps = int(length / 0.02);
     for (int step = 1; step <= steps; ++step, ++next) {
       const double u = double(step) / steps;
-      // The cubic as a Bezier curve.
+      // Evaluates the cubic as a Bezier curve.
       const Vector3 b1 = at[k] + begin / 3, b2 = at[k + 1] - finish / 3;
       const Vector3 here = std::pow(1 - u, 3) * at[k] + 3 * u * (1 - u) * (1 - u) * b1 +
                            3 * u * u * (1 - u) * b2 + u * u * u * at[k + 1];
@@ -153,8 +153,8 @@ TEST_CASE("krl: between SPL points lie cubics with the slopes of parabolas throu
       CHECK(bent[next].zone.distance == (step < steps ? 0 : moves[k + 1].zone.distance));
     }
   }
-  CHECK(bent.size() == next + 2);  // behind the dwell there is no place to begin at
-  // Two points are a line; a point in another frame begins no curve.
+  CHECK(bent.size() == next + 2);  // the move after the dwell stays: its curve has no start point
+  // Two points give a line. A curve cannot start at a point in another frame.
   program.instructions = {moves[0], moves[1]};
   bend_splines({1}, program);
   CHECK(program.instructions.size() == 2);

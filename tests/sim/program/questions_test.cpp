@@ -1,4 +1,4 @@
-// What a program asks: all of it in one round, under names that are unique, in a file that can be filled in.
+// Questions of a program: all are asked in one round, with unique names, in a file that the user can fill in.
 #include "sim/program/answers.h"
 #include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
@@ -10,7 +10,7 @@ using namespace dresslife::tests;
 
 namespace {
 
-/// Every question of a reading, "kind name".
+/// Returns all questions of a reading as "kind name".
 std::set<std::string> questions(const Reading& reading) {
   std::set<std::string> names;
   for (const Problem& problem : reading.problems)
@@ -22,7 +22,7 @@ std::set<std::string> questions(const Reading& reading) {
   return names;
 }
 
-/// Answers to all questions; `pick` chooses among then and else, TRUE and FALSE, ON and OFF, 1 and 2, by the bits of a number.
+/// Answers all questions in `reader`. The bits of `pick` choose then or else, TRUE or FALSE, ON or OFF, 1 or 2.
 void answer(const Reading& reading, unsigned pick, Reader& reader) {
   std::set<std::string> done;
   for (const Problem& problem : reading.problems)
@@ -53,7 +53,7 @@ void answer(const Reading& reading, unsigned pick, Reader& reader) {
     }
 }
 
-/// Whether one round is enough, whatever is answered; else what is asked in the second one.
+/// Returns a question of the second round for any of 1024 sets of answers; empty: one round is always enough.
 std::string second_round(Language language, const Files& files) {
   const Reading asked = Reader{language}(files);
   if (questions(asked).empty()) return "nothing is asked at all";
@@ -70,7 +70,7 @@ std::string second_round(Language language, const Files& files) {
 
 const std::string axes = "[[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]]";
 
-/// A Fanuc listing of these statements, with four positions in user frame 0 and tool 0.
+/// Returns a Fanuc listing of these statements, with four positions in user frame 0 and tool 0.
 std::string listing(const std::string& name, const std::vector<std::string>& statements) {
   std::string text = "/PROG " + name + "\n/MN\n";
   for (std::size_t i = 0; i < statements.size(); ++i) text += fmt::format("{}: {} ;\n", i + 1, statements[i]);
@@ -86,8 +86,8 @@ std::string listing(const std::string& name, const std::vector<std::string>& sta
 }  // namespace
 
 TEST_CASE("questions: one round of answers is enough for RAPID, whatever the answers are") {
-  // Branches in branches, behind an exit, in a choice, in a routine; a count that a branch without moves sets; data, a tool and
-  // a work object that no file holds.
+  // Branches in branches, after an exit, in a choice and in a routine; a count set in a branch without moves; data, a tool
+  // and a work object that no file contains.
   const std::string text =
       "MODULE m\nCONST jointtarget j:=" + axes +
       ";\nVAR num k;\nPROC main()\nIF di1=1 THEN\nk:=gi1;\nENDIF\nFOR i FROM 1 TO k DO\nMoveAbsJ j,v100,fine,tool0;\nENDFOR\n"
@@ -104,7 +104,7 @@ TEST_CASE("questions: one round of answers is enough for RAPID, whatever the ans
 }
 
 TEST_CASE("questions: one round of answers is enough for a machine of states") {
-  // Each state asks for something else, and comes only when the one before has run.
+  // Each state has its own question and runs only after the previous state.
   const std::string states =
       "MODULE m\nCONST jointtarget j:=" + axes +
       ";\nVAR num state:=1;\nPROC main()\nWHILE TRUE DO\nTEST state\nCASE 1:\nIF di1=1 THEN\nMoveAbsJ "
@@ -116,7 +116,7 @@ TEST_CASE("questions: one round of answers is enough for a machine of states") {
 }
 
 TEST_CASE("questions: one round of answers is enough where ways must come together") {
-  // What an arm that moves nothing sets counts in one arm of a later branch alone.
+  // The value that an arm without moves sets is used in only one arm of a later branch.
   const std::string together =
       "MODULE m\nCONST jointtarget j:=" + axes +
       ";\nVAR num k;\nPROC main()\nIF di1=1 THEN\nk:=gi1;\nENDIF\nIF di2=1 THEN\nMoveAbsJ j,v100,fine,tool0;\nRETURN;\nENDIF\n"
@@ -124,7 +124,7 @@ TEST_CASE("questions: one round of answers is enough where ways must come togeth
   CHECK(questions(Reader{Language::rapid}({{"m.mod", together}})) ==
         std::set<std::string>{"value di1", "value di2", "value gi1"});
   CHECK(second_round(Language::rapid, {{"m.mod", together}}) == "");
-  // Eight inputs must be as the work needs them, else the cycle begins again: 1 of 256 ways by lot leads to the last question.
+  // The cycle restarts unless all of eight inputs are ON: 1 of 256 random ways leads to the last question.
   std::string lines = "*START\nMOVJ C00000 VJ=10.00\n";
   std::set<std::string> wanted{"value IN#(9)"};
   for (int i = 1; i <= 8; ++i) {
@@ -170,7 +170,7 @@ TEST_CASE("questions: a mistake behind a guess counts only where the program get
   CHECK(no({{"m.mod", text}}).problems.empty());
   CHECK_THAT(yes({{"m.mod", text}}).problem(),
              Catch::Contains("m.mod:7") && Catch::Contains("index 0 of a list of 5"));
-  // In a branch that moves nothing it is not met at all.
+  // In a branch without moves the error does not occur, because the branch is left out.
   const std::string still =
       "MODULE m\nCONST jointtarget j:=" + axes +
       ";\nVAR num a{5};\nVAR num k:=0;\nPROC main()\nIF di1=1 THEN\na{k}:=1;\nENDIF\nMoveAbsJ "
@@ -210,7 +210,7 @@ TEST_CASE("questions: what decides a branch is asked for in its own form") {
   CHECK(form("IF is_clear() THEN\n") == "TRUE or FALSE");
   CHECK(form("IF NOT is_clear() THEN\n") == "TRUE or FALSE");
   CHECK(form("IF parts()>2 THEN\n") == "a number");
-  // Constants of dialogs are the language's own: the dialog itself is asked for.
+  // Constants of dialogs belong to the language: the question is the dialog itself.
   const Reading dialog = Reader{Language::rapid}(
       {{"m.mod", "MODULE m\nPROC main()\nTEST UIMessageBox(\\Buttons:=btnOKCancel\\Icon:=iconInfo)\nCASE resOK:\nMoveAbsJ " +
                      axes + ",v100,fine,tool0;\nCASE resCancel:\nMoveAbsJ " + axes +
@@ -237,7 +237,7 @@ TEST_CASE("questions: data of inline forms are asked for as wholes, in their for
     INFO(lines);
     CHECK(questions(asked) == std::set<std::string>{"value m:fpick", "value m:ppdat1", "value m:lcpdat1", "value m:xpick"});
     CHECK(by_name["m:fpick"].form == "{TOOL_NO .., BASE_NO .., IPO_FRAME #BASE}");
-    CHECK(by_name["m:fpick"].preset.empty());  // the tool is not known
+    CHECK(by_name["m:fpick"].preset.empty());  // no default, because the tool is unknown
     CHECK(by_name["m:ppdat1"].form.starts_with("{VEL .., ACC .., APO_DIST .."));
     CHECK(by_name["m:ppdat1"].preset == "{VEL 100, ACC 100, APO_DIST 100}");
     CHECK(by_name["m:lcpdat1"].preset == "{VEL 2, ACC 100, APO_DIST 100}");
@@ -267,7 +267,7 @@ TEST_CASE("questions: names are unique by module and by routine") {
   Reader shared{Language::krl};
   shared.options.values = {{"xp1", "{A1 1,A2 0,A3 0,A4 0,A5 0,A6 0}"}};
   CHECK(questions(shared(krl)) == std::set<std::string>{"value a:xp1", "value b:xp1"});
-  // Two routines' own variables of one name, and LOCAL data of two modules.
+  // Local variables of two routines and LOCAL data of two modules with the same name.
   const Files rapid = {
       {"a.mod",
        "MODULE a\nLOCAL VAR num t;\nPROC main()\nVAR num n;\nTPReadNum n,\"\";\nTPReadNum t,\"\";\nWaitTime n+t;\nMoveAbsJ " +
@@ -303,7 +303,7 @@ TEST_CASE("questions: a Fanuc CALL of a program in no file is asked for by its n
   const Files files = {{"m.ls", listing("M", {"R[30]=0", "LBL[1]", "J P[1] 50% FINE", "J P[2] 50% FINE",
                                               "CALL NAILER", "R[30]=R[30]+1", "IF R[30]<4,JMP LBL[1]"})}};
   CHECK(questions(Reader{Language::fanuc}(files)) == std::set<std::string>{"value CALL NAILER"});
-  // What the program itself has set is not what the user gives for the register.
+  // The user's value of a register does not replace a value that the program has set.
   Reader by_register{Language::fanuc};
   by_register.options.values["R[30]"] = "3";
   CHECK(questions(by_register(files)) == std::set<std::string>{"value CALL NAILER"});
@@ -314,7 +314,7 @@ TEST_CASE("questions: a Fanuc CALL of a program in no file is asked for by its n
     INFO(effect);
     CHECK(reader(files).program.instructions.size() == moves);
   }
-  // A register that the program did not set is what the called program may have left there: the user may give it.
+  // If the program did not set the register, the called program may have set it: the user's value is used.
   const Files answer = {
       {"m.ls", listing("M", {"CALL ASK", "FOR R[1]=1 TO R[5]", "J P[1] 50% FINE", "ENDFOR"})}};
   Reader reader{Language::fanuc};
@@ -445,7 +445,7 @@ TEST_CASE("questions: the file of answers can be filled in and is read back as i
       if (value.name == name) return value.value;
     return std::string("none");
   };
-  const pipeline::Motion empty = read_back();  // left empty: not given
+  const pipeline::Motion empty = read_back();  // an empty answer is no answer
   CHECK(value_of(empty, "di1").empty());
   CHECK(value_of(empty, "o'clock") == "'12'");
   CHECK(empty.tools.empty());
@@ -515,7 +515,7 @@ TEST_CASE(
   reader.options.values = {{"command", "\"go\""},
                            {"p", "[[1,2,3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"}};
   CHECK(reader({{"m.mod", program}}).problem() == "no such problem");
-  // A server: the buffer's first message alone is asked for.
+  // A server that runs routines by received names: only the first message of the buffer is a question.
   const Reading server = Reader{Language::rapid}(
       {{"m.mod",
         "MODULE m\nVAR num i:=0;\nPROC main()\nWHILE TRUE DO\nIncr i;\n%command{i}%;\nENDWHILE\nENDPROC\n"

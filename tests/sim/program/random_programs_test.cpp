@@ -1,4 +1,5 @@
-// Random programs of moves, branches, loops and calls, written in every language and run here as well: the robot moves and waits in the same order.
+// Random programs of moves, branches, loops and calls in every language. A reference run in this test must give the same
+// order of moves and waits as each reader.
 #include <random>
 
 #include "tests/catch.h"
@@ -10,7 +11,7 @@ using namespace dresslife::tests;
 
 namespace {
 
-constexpr int variables = 4, routines = 3;  // the last variable is the only one that routines below main write to
+constexpr int variables = 4, routines = 3;  // routines other than main write only to the last variable
 const std::vector<std::string> comparisons{"<", "<=", ">", ">=", "=", "<>"};
 
 struct Statement {
@@ -21,7 +22,7 @@ struct Statement {
 };
 using Block = std::vector<Statement>;
 
-constexpr int first_angle = 9;  // [deg] a program begins with a move, as a motion has one
+constexpr int first_angle = 9;  // [deg] angle of the first move, because a motion needs at least one
 
 bool is_move(const Statement& wait) { return wait.value % 3 == 0; }
 int angle_of(const Statement& wait) { return 1 + wait.value % 8; }  // [deg]
@@ -32,7 +33,7 @@ class RandomProgram {
     for (int r = 0; r < routines; ++r) routine_.push_back(block(r, 3, 0));
   }
   const Block& routine(int r) const { return routine_[std::size_t(r)]; }
-  /// Moves and waits in their order: of axis 1 to so many degrees below 0, seconds above.
+  /// Returns moves and waits in their order. Negative: minus the angle of axis 1 [deg]. Positive: a wait [s].
   std::vector<int> run() {
     course_ = {-first_angle};
     std::array<int, variables> values{};
@@ -42,7 +43,7 @@ class RandomProgram {
 
  private:
   int below(int count) { return int(engine_() % unsigned(count)); }
-  Block block(int routine, int depth, unsigned taken) {  // taken: bits of variables that count loops around
+  Block block(int routine, int depth, unsigned taken) {  // taken: bits of variables that count enclosing loops
     Block made;
     for (int k = 1 + below(4); k-- > 0;) made.push_back(statement(routine, depth, taken));
     return made;
@@ -103,12 +104,12 @@ class RandomProgram {
   std::vector<int> course_;
 };
 
-/// How a language writes statements, with {v}: a variable, {n}, {m}: numbers, {c}: a comparison, {l}, {k}, {j}, {i}: labels that no other statement has.
+/// Statements of a language. {v}: variable; {n}, {m}: numbers; {c}: comparison; {l}, {k}, {j}, {i}: unique labels.
 struct Written {
   Language language;
   std::string variable, counter;
   std::string move, wait, add, assign, branch, otherwise, end, loop, again, count, counted, call;
-  std::string select, first_case, other_case, rest, selected;  // empty: by branches
+  std::string select, first_case, other_case, rest, selected;  // empty: written as branches
   std::string equal, unequal;
 };
 
@@ -170,7 +171,7 @@ const Written rapid{Language::rapid, "v{}", "c{}", "MoveAbsJ [[{n},-10,10,0,40,0
     inform{Language::inform, "I{:03}", "I{:03}", "MOVJ C{n:05} VJ=1\n", "TIMER T={n}.00\n", "SET {v} EXPRESS {v} + {n}\n", "SET {v} {n}\n", "IFTHENEXP {v}{c}{n}\n", "ELSE\n", "ENDIF\n",
            "WHILE {v}<{n}\n", "ENDWHILE\n", "FOR {v} START= {n} TO {m}\n", "NEXT {v}\n", "CALL JOB:SUB{n}\n", "", "", "", "", "", "=", "<>"};
 
-/// The files of a program in a language.
+/// Returns the files of a program in a language.
 Files files_of(const Written& as, const RandomProgram& program) {
   Writer writer(as);
   Files files;

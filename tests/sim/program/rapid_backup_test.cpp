@@ -1,4 +1,4 @@
-// ABB backups: which modules are read, and of which task.
+// ABB backups: choice of the task and of its modules.
 
 #include "tests/pipeline/scratch.h"
 #include "tests/sim/program/reading.h"
@@ -20,7 +20,7 @@ sim::Program read(const std::filesystem::path& path) { return sim::read_program(
 using tests::first_axes;
 using Angles = std::vector<double>;
 
-/// A task whose contents name main and pick, not old; `slash` parts folder and file.
+/// Writes a task whose list of contents has Main and Pick, but not old. slash: separator of folder and file.
 void write_task(const Scratch& folder, const std::string& slash) {
   folder.write("RAPID/TASK1/PROGMOD/Main.mod", module("Main", "main", go(1) + "pick;\n"));
   folder.write("RAPID/TASK1/PROGMOD/pick.mod", module("pick", "pick", go(2)));
@@ -43,7 +43,7 @@ TEST_CASE("rapid backup: the modules that its contents name are the program") {
     const sim::Program program = read(folder / "");
     CHECK(first_axes(program) == Angles{1, 2});
     CHECK(program.skipped.empty());
-    // Nor is a backup that lies there.
+    // A backup within HOME is not loaded.
     folder.write("HOME/Backup_2019/RAPID/TASK1/PROGMOD/Main.mod", module("Main", "main", go(5)));
     CHECK(first_axes(read(folder / "")) == Angles{1, 2});
     CHECK(first_axes(read(folder / "HOME/Backup_2019")) == Angles{5});
@@ -97,7 +97,7 @@ TEST_CASE("rapid backup: a list of modules says what a program is") {
   CHECK(first_axes(read(folder / "")) == Angles{1});
   folder.write("older/cell.pgf", list("cell.mod"));
   folder.write("older/cell.mod", module("cell", "main", go(3)));
-  CHECK(first_axes(read(folder / "")) == Angles{1});  // the list in the folder itself is meant
+  CHECK(first_axes(read(folder / "")) == Angles{1});  // the list in the folder itself is used
   std::filesystem::remove(folder / "cell.pgf");
   folder.write("RAPID/PROGMOD/cell.pgf", list("cell.mod"));
   folder.write("RAPID/PROGMOD/cell.mod", module("cell", "main", go(4)));

@@ -1,4 +1,4 @@
-// What an ABB controller makes of modules as they lie on it: each case says what it does and why.
+// Rules of an ABB controller for its modules. Each test gives the rule and its reason.
 
 #include "tests/catch.h"
 #include "tests/sim/program/reading.h"
@@ -9,9 +9,9 @@ using namespace dresslife::tests;
 
 namespace {
 
-constexpr double rounding = 1e-12;  // of a few products of numbers near 1
+constexpr double rounding = 1e-12;  // rounding error of a few products of numbers near 1
 
-/// Axis angles; the first one identifies the move.
+/// Returns axis angles whose first value identifies the move.
 std::string axes(double first) { return fmt::format("[[{},0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]]", first); }
 std::string go(double first) { return "MoveAbsJ " + axes(first) + ",v1000,fine,tool0;\n"; }
 const std::string pose =
@@ -24,14 +24,14 @@ Reading run(const std::string& body, const std::string& more = "", const ImportO
 
 using Angles = std::vector<double>;
 
-/// Of a program without problems.
+/// Returns the angles of axis 1 [deg]. Checks that the reading has no problems.
 std::vector<double> first_axes(const Reading& reading) {
   INFO(reading.problem());
   CHECK(reading.problems.empty());
   return tests::first_axes(reading.program);
 }
 
-/// Warned of or only noted.
+/// Returns whether a skipped instruction contains `words`, as a warning or as a note.
 bool told(const Reading& reading, const std::string& words) {
   return skips(reading, words, true) || skips(reading, words, false);
 }
@@ -39,7 +39,7 @@ bool told(const Reading& reading, const std::string& words) {
 }  // namespace
 
 TEST_CASE("rapid controller: LOCAL data and routines are their module's own") {
-  // Both modules hold a LOCAL j and a LOCAL step; each sees its own, whichever is read last.
+  // Both modules have a LOCAL j and a LOCAL step. Each module uses its own, in any order of reading.
   const auto module = [](const std::string& name, double at, const std::string& routine,
                          const std::string& call) {
     return "MODULE " + name + "\nLOCAL CONST jointtarget j:=" + axes(at) + ";\nPROC " + routine +
@@ -53,7 +53,7 @@ TEST_CASE("rapid controller: LOCAL data and routines are their module's own") {
 }
 
 TEST_CASE("rapid controller: one name for two global things is refused where it is used") {
-  // A controller does not load the second module; which of the two was meant is not known.
+  // A controller does not load the second module. The intended one of the two is unknown.
   const std::string twice =
       "MODULE m\nPROC main()\n" + go(1) + "ENDPROC\nPROC main()\n" + go(2) + "ENDPROC\nENDMODULE\n";
   CHECK_THAT(Reader{Language::rapid}({{"m.mod", twice}}).problem(),
@@ -67,7 +67,7 @@ TEST_CASE("rapid controller: one name for two global things is refused where it 
 }
 
 TEST_CASE("rapid controller: what an instruction that is left out writes is unknown behind it") {
-  // k is 0 in the file, but the operator types it: neither the branch nor the count may go by 0.
+  // k is 0 in the file, but the operator types its value: neither the branch nor the count may use 0.
   for (const char* reads :
        {"TPReadNum k,\"how many?\";", "TPReadFK k,\"which?\",\"A\",\"B\",stEmpty,stEmpty,stEmpty;",
         "GetNumber k;", "found:=StrToVal(typed,k);", "UnpackRawBytes raw,1,k\\Float4;"}) {
@@ -156,7 +156,7 @@ TEST_CASE("rapid controller: an index out of range and a division by zero stop t
   CHECK_THAT(r.problem(0), Catch::Contains("m.mod:5:") && Catch::Contains("the index 4 of a list of 3"));
   CHECK_THAT(r.problem(1), Catch::Contains("the index 0 of a list of 3"));
   CHECK_THAT(r.problem(2), Catch::Contains("divides by zero"));
-  // What is unknown for that reason is not complained of once more.
+  // A value that is unknown because of this error is not a second problem.
   const Reading target =
       run("VAR robtarget t{2};\nMoveJ t{3},v1000,fine,tool0;\nIF t{3}.trans.x>0 THEN\n" + go(1) + "ENDIF\n");
   REQUIRE(target.problems.size() == 2);
@@ -165,11 +165,11 @@ TEST_CASE("rapid controller: an index out of range and a division by zero stop t
 
 TEST_CASE("rapid controller: behind ExitCycle main begins again, with the data as they are") {
   CHECK(first_axes(run(go(1) + "ExitCycle;\n" + go(2))) == Angles{1});
-  // The first pass ends in a routine that main calls; then all of it runs.
+  // The first pass ends in a routine that main calls. The next passes run completely.
   const std::string step =
       "PROC step()\nIF n=1 ExitCycle;\n" + go(2) + "IF n=3 EXIT;\nENDPROC\nVAR num n:=0;\n";
   CHECK(first_axes(run(go(1) + "n:=n+1;\nstep;\n" + go(3), step)) == Angles{1, 1, 2, 3, 1, 2});
-  // Out of an endless loop: a machine of two states.
+  // ExitCycle in an endless loop: a state machine with two states.
   CHECK(first_axes(run("WHILE TRUE DO\n" + go(1) + "IF s THEN\ns:=FALSE;\nExitCycle;\nENDIF\n" + go(2) +
                            "s:=TRUE;\nENDWHILE\n",
                        "VAR bool s:=TRUE;\n")) == Angles{1, 1, 2, 1});
@@ -232,10 +232,10 @@ TEST_CASE("rapid controller: a loop that moves in one arm alone waits for it, as
   CHECK(first_axes(waits) == Angles{1, 2});
   CHECK_FALSE(waits.program.skipped.empty());
   CHECK(told(waits, "the robot waits for 'di1'"));
-  // Main begins again at its end: a loop, too. So is one that is left.
+  // Main restarts at its end and is a loop, too. So is a loop that is left by GOTO.
   CHECK(first_axes(run(then + "ENDIF\n")) == Angles{1, 2});
   CHECK(first_axes(run("WHILE TRUE DO\nIF di1=1 GOTO on;\nENDWHILE\non:\n" + go(3))) == Angles{3});
-  // Another motion where another arm, the rest of the loop or data of an idle pass decide.
+  // The branch is a question if another arm or the rest of the loop moves, or if an idle pass changes data.
   const std::string asks = "branches on what is known only while the robot runs";
   CHECK_THAT(loop(then + "ELSE\n" + go(3) + "ENDIF\n").problem(), Catch::Contains(asks));
   CHECK_THAT(loop(then + "ELSEIF di2=1 THEN\n" + go(3) + "ENDIF\n").problem(), Catch::Contains(asks));
@@ -360,7 +360,7 @@ TEST_CASE("rapid controller: values of records and lists are compared with all t
                            go(3) + "ENDIF\nIF l=k THEN\n" + go(4) + "ENDIF\nk{2}:=2;\nIF l=k THEN\n" + go(5) +
                            "ENDIF\nb.z:=4;\nIF b<>a THEN\n" + go(6) + "ENDIF\nr.trans:=b;\nIF r=q THEN\n" + go(7) + "ENDIF\nEXIT;\n";
   CHECK(first_axes(run(body, data + pose)) == Angles{1, 2, 3, 5, 6});
-  // What differs in a known part is different, whatever the unknown parts are.
+  // Values that differ in a known part are different for all values of the unknown parts.
   CHECK(first_axes(run("VAR pos u;\nu:=[gi1,2,3];\nIF u=[9,9,9] THEN\n" + go(1) + "ENDIF\n" + go(2))) == Angles{2});
   CHECK_THAT(run("VAR pos u;\nu:=[gi1,2,3];\nIF u=[9,2,3] THEN\n" + go(1) + "ENDIF\n" + go(2)).problem(),
              Catch::Contains("'gi1'"));
@@ -438,7 +438,7 @@ TEST_CASE("rapid controller: what is missing is told once, with the number of it
           "p,v1000,fine,grip\\WObj:=pallet;\nENDFOR\n",
           pose);
   REQUIRE(frames.problems.size() == 2);
-  for (const Problem& problem : frames.problems) CHECK(problem.more_uses.size() == 1);  // lines, not passes
+  for (const Problem& problem : frames.problems) CHECK(problem.more_uses.size() == 1);  // counted per line, not per pass
   CHECK_THAT(frames.problem(0), Catch::Contains("'grip'") && Catch::Contains("--frames"));
   const Reading parts =
       run("MoveJ Offs(p,0,0,height),v1000,fine,tool0;\nMoveL Offs(p,0,0,height+5),v1000,fine,tool0;\n", pose);
@@ -483,7 +483,7 @@ TEST_CASE("rapid controller: SpeedRefresh slows down, 0 lets the robot stand unt
 }
 
 TEST_CASE("rapid controller: what a trap writes is unknown, one that moves the robot is told") {
-  // Interrupts come whenever they come: a variable of a trap is known again once the program writes it.
+  // An interrupt may occur at any time. A variable that a trap writes is known again after the program writes to it.
   const std::string traps =
       "VAR bool stopped:=FALSE;\nVAR intnum number;\nTRAP halt\nstopped:=TRUE;\nENDTRAP\nTRAP "
       "flee\nStopMove;\n" +
@@ -501,14 +501,14 @@ TEST_CASE("rapid controller: what a trap writes is unknown, one that moves the r
 }
 
 TEST_CASE("rapid controller: main begins again at its end") {
-  // Machines of states without a loop of their own move by it: 1 once, then 2, 3, 2, 3, ...
+  // State machines without a loop need the restart of main: 1 once, then 2, 3, 2, 3, ...
   const std::string machine = "TEST state\nCASE 0:\n" + go(1) + "state:=1;\nCASE 1:\n" + go(2) +
                               "state:=2;\nCASE 2:\n" + go(3) + "state:=1;\nENDTEST\n";
   CHECK(first_axes(run(machine, "VAR num state:=0;\n")) == Angles{1, 2, 3});
   ImportOptions five;
   five.passes = 5;
   CHECK(first_axes(run(machine, "VAR num state:=0;\n", five)) == Angles{1, 2, 3, 2, 3});
-  // What main itself declares is new in each cycle, a counter of parts changes no move, and EXIT is the end.
+  // Variables of main are initialized in each cycle, a counter of parts changes no move, and EXIT is the end.
   CHECK(first_axes(run("VAR num state:=0;\n" + machine)) == Angles{1});
   CHECK(first_axes(run(go(1) + "Incr parts;\n", "VAR num parts:=0;\n")) == Angles{1});
   CHECK(first_axes(run(go(1) + "Incr parts;\nIF parts=3 EXIT;\n", "VAR num parts:=0;\n")) == Angles{1, 1, 1});
@@ -518,9 +518,9 @@ TEST_CASE("rapid controller: main begins again at its end") {
   const Reading asks = run(next + go(3) + typed, data);
   CHECK(first_axes(asks) == Angles{1, 3});
   CHECK(skips(asks, "its next cycle branches on what is known only while the robot runs", true));
-  // One place is no motion: then it asks.
+  // A motion with a single position is not accepted: the unknown value is a question.
   CHECK_THAT(run(next + typed, data).problem(), Catch::Contains("'n' may be written by tpreadnum"));
-  // Another routine than main is run once.
+  // A routine other than main runs once.
   ImportOptions step;
   step.routine = "step";
   CHECK(first_axes(run(go(9), "VAR num state:=0;\nPROC step()\n" + machine + "ENDPROC\n", step)) ==
@@ -528,7 +528,7 @@ TEST_CASE("rapid controller: main begins again at its end") {
 }
 
 TEST_CASE("rapid controller: one state of a machine is no motion") {
-  // An input leads from the third state on: the two before are known, the following ones are not.
+  // The third state depends on an input: the two states before it are known, the following ones are not.
   const std::string machine = "TEST state\nCASE 0:\n" + go(1) + go(2) + "state:=1;\nCASE 1:\n" + go(3) +
                               "state:=2;\nCASE 2:\nIF di1=1 state:=3;\nCASE 3:\n" + go(4) + "ENDTEST\n",
                     data = "VAR num state:=0;\n";
@@ -536,7 +536,7 @@ TEST_CASE("rapid controller: one state of a machine is no motion") {
   ImportOptions three;
   three.passes = 3;
   CHECK(first_axes(run(machine, data, three)) == Angles{1, 2, 3});
-  // Two states at places that move on for ever are one cycle, not the first state alone.
+  // Two states whose positions shift in every cycle are one cycle, not only the first state.
   const std::string shift =
       "TEST state\nCASE 0:\nMoveL Offs(p,0,y,0),v100,fine,tool0;\nstate:=1;\nCASE 1:\n"
       "MoveL Offs(p,0,0,y),v100,fine,tool0;\nstate:=0;\ny:=y+1;\nENDTEST\n";
@@ -552,12 +552,12 @@ TEST_CASE("rapid controller: a PERS without a value has it from another task's m
   CHECK_THAT(run(turn, "PERS num a;\n").problem(), Catch::Contains(words));
   CHECK(first_axes(run(turn, "PERS num a;\n", given({{"a", "7"}}))) == Angles{7});
   CHECK(first_axes(run("a:=3;\n" + turn, "PERS num a;\n")) == Angles{3});
-  // Element by element, too.
+  // The rule applies to each element of a list.
   const std::string list = "MoveAbsJ [[b{2},0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v1000,fine,tool0;\n";
   CHECK(run(list, "PERS num b{3};\n").problems.size() == 1);
   CHECK(first_axes(run("b{2}:=4;\n" + list, "PERS num b{3};\n")) == Angles{4});
   CHECK(first_axes(run(list, "VAR num b{3};\n")) == Angles{0});
-  // Two tasks that wait for each other: this one stands still until the other one sets what it has cleared.
+  // Two tasks that wait for each other: this task stands still until the other task sets the variable that it cleared.
   const std::string waits = "TEST state\nCASE 0:\n" + go(1) +
                             "a:=0;\nstate:=1;\nCASE 1:\nIF a=1 state:=2;\n"
                             "CASE 2:\n" +
@@ -570,7 +570,7 @@ TEST_CASE("rapid controller: a PERS without a value has it from another task's m
 TEST_CASE("rapid controller: a file of another language is told in a line") {
   const Reading other =
       Reader{Language::rapid}({{"arm.prg", "#!/usr/bin/env python3\nprint(f'{x!r}')  # ?\n"}});
-  CHECK(other.problems.size() == 2);  // no routine, no module
+  CHECK(other.problems.size() == 2);  // a missing routine and a missing module
   CHECK_THAT(other.problem(0) + other.problem(1), Catch::Contains("holds no MODULE"));
 }
 
@@ -598,13 +598,12 @@ TEST_CASE("rapid controller: what a branch without moves decides can be had by a
 }
 
 TEST_CASE("rapid controller: a main that is called at the end of each job is a cycle") {
-  // main -> job -> main -> ...: the controller goes on until its memory is full. Nothing behind the calls is
-  // run.
+  // main -> job -> main -> ...: the controller continues until its memory is full. Statements after the calls never run.
   const std::string job = "PROC job()\n" + go(1) + go(2) + "main;\n" + go(9) + "ENDPROC\n";
   CHECK(first_axes(run("job;\n" + go(8), job)) == Angles{1, 2});
-  // With a counter that nothing asks for its motion repeats all the same.
+  // A counter that no branch uses does not prevent the repetition.
   CHECK(first_axes(run("n:=n+1;\njob;\n", job + "VAR num n:=0;\n")) == Angles{1, 2});
-  // A recursion that ends is run to its end.
+  // A recursion with an end runs to its end.
   CHECK(first_axes(run("n:=n+1;\n" + go(1) + "IF n<6 main;\n" + go(7) + "n:=0;\n" + "Stop;\nEXIT;\n",
                        "VAR num n:=0;\n")) == Angles{1, 1, 1, 1, 1, 1, 7});
 }

@@ -8,7 +8,7 @@ using namespace dresslife::tests;
 
 namespace {
 
-constexpr double rounding = 1e-12;  // of a few products of numbers near 1
+constexpr double rounding = 1e-12;  // rounding error of a few products of numbers near 1
 
 const std::string data = R"(MODULE Data
   PERS tooldata gun:=[TRUE,[[100,0,250],[1,0,0,0]],[40,[0,0,100],[1,0,0,0],0,0,0]];
@@ -93,13 +93,13 @@ TEST_CASE("rapid: Offs shifts in the work object, RelTool in the tool") {
   const Reading r =
       run("MoveL RelTool(p1,0,0,10\\Rz:=90),v100,fine,tool0;\nMoveL Offs(p1,0,0,10),v100,fine,tool0;");
   REQUIRE(r.program.instructions.size() == 2);
-  // The tool of p1 is turned half about x: its z points down, and a turn about it is one backward about the
-  // world's.
+  // The tool of p1 is turned by 180 deg about x: its z points down. A turn about it has the opposite sign about the
+  // world's z.
   CHECK((r.move(0).target.pose.position - Vector3(0.1, 0.2, 0.29)).norm() < rounding);
   CHECK(r.move(0).target.pose.orientation.isApprox(Quaternion(0, 1, 0, 0) * rotation({0, 0, 90 * degree}),
                                                    rounding));
   CHECK((r.move(1).target.pose.position - Vector3(0.1, 0.2, 0.31)).norm() < rounding);
-  // About x, then about the y and z axes that the turn before has moved.
+  // Rotations about x, then about the rotated y axis, then about the rotated z axis.
   const Reading turned = run("MoveL RelTool(p1,0,0,0\\Rx:=30\\Ry:=20\\Rz:=40),v100,fine,tool0;");
   const Quaternion expected = Quaternion(0, 1, 0, 0) * Eigen::AngleAxisd(30 * degree, Vector3::UnitX()) *
                               Eigen::AngleAxisd(20 * degree, Vector3::UnitY()) *
@@ -235,7 +235,7 @@ TEST_CASE("rapid: a typing error in the name of a move is the first problem, and
   REQUIRE(r.problems.size() == 1);
   CHECK_THAT(r.problem(), Catch::Contains("main.mod:3:") && Catch::Contains("runs 'MoveAbs', which is neither an instruction") &&
                                 Catch::Contains("did you mean MoveAbsJ?") && Catch::Contains("motion.modules"));
-  CHECK(run("Mover home, 7;\nMoveJ p1, v1000, fine, gun;").program.instructions.size() == 1);  // no move: it has no tool
+  CHECK(run("Mover home, 7;\nMoveJ p1, v1000, fine, gun;").program.instructions.size() == 1);  // Mover has no tool: not a move
 }
 
 TEST_CASE(
@@ -260,7 +260,7 @@ TEST_CASE(
              Catch::Contains("has a tool 'bent' whose quaternion [2,0,0,0] has the length 2") &&
                  Catch::Contains("write [1.000000,0.000000,0.000000,0.000000]"));
   CHECK(run("MoveJ none,v100,fine,tool0;", {}, targets).problems.size() == 1);
-  CHECK(run("MoveJ p1,v100,fine,gun\\WObj:=jig;").problems.empty());  // rounded to eight decimals
+  CHECK(run("MoveJ p1,v100,fine,gun\\WObj:=jig;").problems.empty());  // a quaternion rounded to eight decimals is accepted
 }
 
 TEST_CASE("rapid: a wait of less than 0 s says so") {

@@ -1,4 +1,4 @@
-// Programs in tests: read from text, moves and problems as one-line texts.
+// Helpers for tests: reading of programs from text, access to moves, and problems as one-line texts.
 #pragma once
 
 #include <algorithm>
@@ -48,14 +48,14 @@ struct Reader {
   }
 };
 
-/// What `dresslife import --value NAME=VALUE` gives.
+/// Returns the options of `dresslife import --value NAME=VALUE`.
 inline sim::ImportOptions given(std::map<std::string, std::string> values) {
   sim::ImportOptions options;
   options.values = std::move(values);
   return options;
 }
 
-/// A job's motion by this program.
+/// Returns the motion of a job that names this program.
 inline pipeline::Motion motion_by(const std::filesystem::path& program, const std::string& routine = "") {
   pipeline::Motion motion;
   motion.program = program;
@@ -63,7 +63,7 @@ inline pipeline::Motion motion_by(const std::filesystem::path& program, const st
   return motion;
 }
 
-/// Whether an instruction with these words was left out, with a warning if it may move the robot.
+/// Returns whether an instruction whose text contains `words` was skipped and its `may_move` has this value.
 inline bool skips(const Reading& reading, const std::string& words, bool may_move) {
   const auto& skipped = reading.program.skipped;
   return std::any_of(skipped.begin(), skipped.end(), [&](const sim::Skipped& s) {
@@ -71,7 +71,7 @@ inline bool skips(const Reading& reading, const std::string& words, bool may_mov
   });
 }
 
-/// Angles of axis 1 over the moves to joint angles [deg], rounded.
+/// Returns the angles of axis 1 [deg], rounded, of all moves to joint angles.
 inline std::vector<double> first_axes(const sim::Program& program) {
   std::vector<double> angles;
   for (const sim::Instruction& move : program.instructions)

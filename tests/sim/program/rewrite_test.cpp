@@ -19,7 +19,7 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-/// What `patch -p1` makes of a text without an end of its last line.
+/// Returns the result of `patch -p1` on `text`.
 std::string applied(const std::string& text, const std::string& patch) {
   const std::vector<std::string> old = lines_of(text), rows = lines_of(patch);
   std::vector<std::string> made;
@@ -49,7 +49,7 @@ struct Changed {
   Rewritten written;
 };
 
-/// Moves are counted without dwells.
+/// Changes the line of instruction `move` and reads the result.
 Changed changed(Language language, const std::string& name, const std::string& text, std::size_t move,
                 LineChange change, const ImportOptions& options = {}) {
   Changed c{Reader{language, options}({{name, text}}), {}, {}};
@@ -152,7 +152,7 @@ TEST_CASE("rewrite: KRL, Fanuc, INFORM and URScript") {
   CHECK(fast.written.text.find(
             "   1:  !spares the cable ;\n   2:J P[1] 42% FINE    ;\n   3:J P[2] 50% CNT50    ;\n") !=
         std::string::npos);
-  // P[2] is used twice: the changed line has a new one.
+  // P[2] is used twice: the changed line uses a new position.
   const Changed other =
       changed(Language::fanuc, "m.ls", fanuc, 1,
               {.configuration = ArmConfiguration{ArmConfiguration::Kind::fanuc, {1, 1, 1, 0, 1, 0}}});

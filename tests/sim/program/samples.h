@@ -1,4 +1,4 @@
-// One file for each reader, with most of what it knows: for tests, and for fuzzing to begin with.
+// One sample file for each reader, for tests and as the start of the fuzzing corpus.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace dresslife::tests {
 
-/// One program per language, with most of what its reader knows.
+/// Returns one program per language. It contains most of the instructions that its reader supports.
 inline const std::vector<std::pair<sim::Language, std::string>>& samples() {
   using sim::Language;
   static const std::vector<std::pair<Language, std::string>> list{
@@ -64,7 +64,7 @@ inline const std::vector<std::pair<sim::Language, std::string>>& samples() {
   return list;
 }
 
-/// Five joints, of which four are driven; a fixed link on the way, one beside, a gripper that moves.
+/// A URDF with five joints, four of them driven, a fixed link in the chain, a fixed base and a gripper that moves.
 inline const std::string palletizer = R"(<?xml version="1.0"?>
 <!-- a made-up palletizer -->
 <robot name="palletizer">

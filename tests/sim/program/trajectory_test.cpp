@@ -8,7 +8,7 @@ using namespace dresslife::tests;
 
 namespace {
 
-constexpr double rounding = 1e-12;  // of a product of numbers near 1
+constexpr double rounding = 1e-12;  // rounding error of a product of numbers near 1
 
 Reading columns(const std::string& text, const std::map<std::string, std::string>& values = {}) {
   return Reader{Language::joint_columns, given(values)}({{"j.csv", text}});
@@ -27,7 +27,7 @@ std::string point(const std::string& positions, int second) {
 
 TEST_CASE(
     "columns: the unit comes from the names, where neither they nor the angles tell it, it is asked for") {
-  // 1.57 is a right angle in rad and next to nothing in degrees: the wrong unit gives a plausible motion.
+  // 1.57 is a right angle in rad and a very small angle in deg: the wrong unit gives a plausible motion.
   const std::string small = "timestamp,joint_1,joint_2\n0,0.0,-1.57\n1,0.5,-1.57\n";
   const Reading asked = columns(small);
   CHECK(asked.problem() ==
@@ -50,7 +50,7 @@ TEST_CASE("columns: the axes stand in the order of their names") {
   CHECK(columns("robot1_joint_2_l,robot1_joint_1_s,robot1_joint_3_u,time\n20,10,30,0\n")
             .move(0)
             .target.joints == expected);
-  // ROS sorts a Universal Robot's joints by the alphabet, its controller from the base.
+  // ROS sorts the joints of a Universal Robot alphabetically; the controller sorts them from the base.
   CHECK(
       columns("elbow_joint,shoulder_lift_joint,shoulder_pan_joint,wrist_1_joint,wrist_2_joint,wrist_3_joint\n"
               "30,20,10,40,50,60\n")
@@ -84,7 +84,7 @@ TEST_CASE("columns: a clock since 1970 is told by its digits") {
   const auto duration = [](const std::string& name, const std::string& first, const std::string& second) {
     return columns(name + ",a1_deg\n" + first + ",1\n" + second + ",2\n").move(1).speed.duration.value();
   };
-  constexpr double clock = 1e-5;  // a double holds 1.7e18 ns to 256 ns
+  constexpr double clock = 1e-5;  // a double near 1.7e18 ns has a resolution of 256 ns
   CHECK(duration("timestamp", "1740157761107442718", "1740157761207442718") == Approx(0.1).epsilon(clock));
   CHECK(duration("timestamp", "1740157761107", "1740157761207") == Approx(0.1).epsilon(clock));
   CHECK(duration("ros_time", "1740157761.1", "1740157761.2") == Approx(0.1).epsilon(clock));
@@ -110,7 +110,7 @@ TEST_CASE("ROS: joint_names give the order, and several trajectories are a quest
   CHECK(ros(first + "---\n" + second, {{"trajectory", "2"}}).move(0).target.joints ==
         std::vector<double>{5, 6});
   CHECK(ros("---\n" + first).program.instructions.size() == 2);
-  // MoveIt's DisplayTrajectory: a list, and an empty multi_dof trajectory beside.
+  // MoveIt's DisplayTrajectory: a list of trajectories, each with an empty multi_dof trajectory.
   const Reading display =
       ros("trajectory:\n- multi_dof_joint_trajectory: {joint_names: [], points: []}\n"
           "  joint_trajectory:\n    joint_names: [joint_1]\n    points:\n    - {positions: [1], "

@@ -10,13 +10,13 @@ using namespace dresslife::tests;
 
 namespace {
 
-constexpr double rounding = 1e-12;  // of a few products of numbers near 1
+constexpr double rounding = 1e-12;  // rounding error of a few products of numbers near 1
 
 Reading run(const std::string& text, const ImportOptions& options = {}) {
   return Reader{Language::urscript, options}({{"s.script", text}});
 }
 
-/// In a function, behind a set_tcp of 100 mm.
+/// Reads these lines in a function, after a set_tcp of 100 mm.
 Reading program(const std::string& lines, const ImportOptions& options = {}) {
   return run("def main():\nset_tcp(p[0,0,0.1,0,0,0])\n" + lines + "end\n", options);
 }
@@ -94,7 +94,7 @@ TEST_CASE("urscript: poses are composed as the manual says") {
   REQUIRE(r.problem() == "no such problem");
   const auto position = [&](std::size_t i) { return r.move(i).target.pose.position; };
   CHECK((position(0) - Vector3(1, 2.1, 3)).norm() < rounding);
-  // z turned to y by the first, then by a quarter about its own x: z of the result is x of the base.
+  // The first rotation moves z to y, the second one is 90 deg about the new x: z of the result is x of the base.
   CHECK((r.move(0).target.pose.orientation * Vector3::UnitZ() - Vector3::UnitX()).norm() < rounding);
   CHECK((position(1) - Vector3(1.1, 2, 3)).norm() < rounding);
   CHECK((r.move(1).target.pose.orientation * Vector3::UnitZ() - Vector3::UnitX()).norm() < rounding);
@@ -109,7 +109,7 @@ TEST_CASE("urscript: poses are composed as the manual says") {
 }
 
 TEST_CASE("urscript: roll, pitch and yaw are about the axes of the base, one after the other") {
-  // A quarter about x, then one about z: z goes to -y and on to x, x stays and goes to y. The axis is (1,1,1).
+  // 90 deg about x, then 90 deg about z: z moves to -y, then to x; x stays, then moves to y. The axis is (1,1,1).
   const Reading r = program(
       "v = rpy2rotvec([pi/2,0,pi/2])\nw = rotvec2rpy([0.3,0,0])\nu = rotvec2rpy(rpy2rotvec([0.4,-0.5,0.6]))\n"
       "movej([v[0],v[1],v[2],w[0],w[1],w[2]])\nmovej([u[0],u[1],u[2],0,0,0])\n");
@@ -131,7 +131,7 @@ TEST_CASE("urscript: functions, their variables and loops run as on the controll
       "n = 1\ni = 0\nwhile i < 5:\n  i = i + 1\n  if i == 2 or i == 3:\n    continue\n  elif not i < 5:\n    break\n"
       "  end\n  go(i + twice(n))\nend\nl = [7, 8, 9]\ngo(l[2] % 4)\nl[0] = -1\ngo(l[0])\ngo(get_list_length(l))\n");
   REQUIRE(r.problem() == "no such problem");
-  // twice() has an n and an m of its own.
+  // twice() has its own variables n and m.
   CHECK(first_axes(r) == std::vector<double>{3, 6, 1, -1, 3});
   const Reading beyond = run("l = [1,2]\nmovej([l[2],0,0,0,0,0])\n");
   CHECK(beyond.problem().find("has the index 2 of a list of 2") != std::string::npos);
@@ -243,7 +243,7 @@ TEST_CASE(
   const Reading read = run(text);
   REQUIRE(read.problem() == "no such problem");
   CHECK(first_axes(read) == std::vector<double>{1, 2});
-  CHECK(read.move(1).target.joints[5] == 9);  // the function writes to the variable of the one around it
+  CHECK(read.move(1).target.joints[5] == 9);  // the inner function writes to the variable of the outer function
   std::string own = text;
   own.replace(own.find("    i = 9"), 9, "    local i = 9");
   CHECK(run(own).move(1).target.joints[5] == 4);

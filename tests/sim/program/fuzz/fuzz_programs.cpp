@@ -1,5 +1,5 @@
-// libFuzzer's entry: any bytes as a program of the language FUZZ_READER, or as a URDF. It begins with the
-// tests' sample, which it writes into the corpus. Not part of the tests; built by scripts/fuzz.
+// Entry point of libFuzzer: any bytes as a program of the language FUZZ_READER, or as a URDF. It writes the sample of
+// the tests to the corpus as the first input. Not part of the tests; built by scripts/fuzz.
 #include <fstream>
 
 #include "tests/sim/program/fuzz_target.h"
