@@ -89,7 +89,7 @@ class Inform final : public Dialect {
 
   bool instruction(const Statement& statement, Interpreter& run) override {
     const std::string& name = statement.name;
-    if (moves(name)) return move(statement, run), true;
+    if (moves_inform_robot(name)) return move(statement, run), true;
     if (name == "speed") return speed(statement, run), true;
     if (name == "timer") return wait(statement, run), true;
     if (name == "spot" || name.starts_with("svspot")) return spot(statement, run), true;
@@ -121,7 +121,7 @@ class Inform final : public Dialect {
   }
 
   bool matters(const std::string& name) const override {
-    return moves(name) || name == "speed" || name == "sfton" || name == "sftof" || name == "settool" ||
+    return moves_inform_robot(name) || name == "speed" || name == "sfton" || name == "sftof" || name == "settool" ||
            name == "mframe" || name == "formcut" || name == "call" || name == "pstart";
   }
   bool only_waits(const std::string& name) const override { return name == "timer"; }
@@ -141,11 +141,6 @@ class Inform final : public Dialect {
   const std::map<std::size_t, bool>& arc_points() const { return arc_points_; }
 
  private:
-  static bool moves(const std::string& name) {
-    static const std::set<std::string> words{"movj", "movl",  "movc",  "movs",
-                                             "imov", "smovl", "smovc", "svspotmov"};
-    return words.contains(name);
-  }
   static bool is_variable(const std::string& name) {
     return inform_name(name) == name && name.find_first_of("0123456789") != std::string::npos &&
            name.find('#') == std::string::npos;

@@ -21,6 +21,9 @@ void add_inform_types(Code& code);
 /// Parses a job (.JBI) or a data file of the controller (.CND, .DAT) into `code`.
 void parse_inform(Code& code, int file, Problems& problems);
 
+/// Returns whether an instruction moves the robot. name: in small letters.
+bool moves_inform_robot(const std::string& name);
+
 /// Returns the jobs that a job calls or starts, and whether it moves the robot.
 Calls inform_calls(const SourceFile& job);
 

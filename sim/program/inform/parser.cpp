@@ -792,6 +792,11 @@ void name_inform_values(Code& code) {
   code.values = std::move(named);
 }
 
+bool moves_inform_robot(const std::string& name) {
+  static const std::set<std::string> words{"movj", "movl", "movc", "movs", "imov", "smovl", "smovc", "svspotmov"};
+  return words.contains(name);
+}
+
 Calls inform_calls(const SourceFile& job) {
   Code code;
   code.files.push_back(job);
@@ -804,7 +809,7 @@ Calls inform_calls(const SourceFile& job) {
     for (const Statement& s : body) {
       const std::string& name = s.name == "pstart" && !s.arguments.empty() ? s.arguments[0].text : s.name;
       if (name.starts_with("job:")) calls.names.insert(name.substr(std::string_view("job:").size()));
-      calls.moves |= name.starts_with("mov") || name == "imov";
+      calls.moves |= moves_inform_robot(name);
       for (const Branch& branch : s.branches) take(branch.body);
     }
   };
