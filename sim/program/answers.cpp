@@ -26,7 +26,7 @@ std::string quoted(const std::string& text) {
   return "'" + inner + "'";
 }
 
-/// Replaces line ends of a program's text, so that a YAML comment stays on one line.
+/// Replaces control characters of a program's text by blanks, so that a YAML comment stays on one line.
 std::string on_one_line(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');

@@ -26,7 +26,7 @@ constexpr std::array<std::string_view, 32> others{
     "seq",      "frame",       "id",      "index", "line",         "step",          "row",    "name",
     "temp",     "temperature", "voltage", "error", "digital",      "status",        "mode",   "jerk"};
 
-/// Returns the axis number of every name: the name's last or first number; empty: a name has none.
+/// Returns the axis number of every name: its last or first number; empty: a name has none, or they are not consecutive.
 std::vector<int> numbers_of(const std::vector<std::string>& names, bool last) {
   std::vector<int> numbers;
   for (const std::string& name : names) {

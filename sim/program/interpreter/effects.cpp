@@ -52,7 +52,7 @@ bool Interpreter::matters(const Statement& statement) {
   return moves(statement, module_) || (leaves(statement, false) && moves(*routines_.back()));
 }
 
-/// Whether one of the statements only waits.
+/// Whether the statements, or their branches, contain a wait.
 bool Interpreter::only_waits(const std::vector<Statement>& body) const {
   return std::any_of(body.begin(), body.end(), [&](const Statement& statement) {
     return (statement.kind == Kind::instruction && dialect_.only_waits(statement.name)) ||
