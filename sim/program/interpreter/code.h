@@ -82,7 +82,7 @@ struct Statement {
   bool keeps_counter = false;  ///< FOR: the counter is a variable of the program and keeps its value after the loop
   bool elsewhere = false;      ///< declare: no value here, because another task's module gives it
   bool constant = false;       ///< declare: the program cannot write to it
-  bool continued = false;      ///< KRL's CONTINUE stands before it
+  bool continued = false;      ///< KRL's CONTINUE precedes the statement
   Place place;
 };
 

@@ -283,7 +283,7 @@ Place Interpreter::origin(const Expression& expression) {
 }
 
 std::string Interpreter::written(const Expression& expression) const {
-  const Expression* first = &expression;  // the operator stands behind its first operand
+  const Expression* first = &expression;  // the first operand precedes the operator
   while ((first->kind == Form::binary || first->kind == Form::field || first->kind == Form::element) &&
          !first->items.empty())
     first = &first->items[0];

@@ -114,7 +114,7 @@ struct Skipped {
   bool may_move = false;  ///< the statement may move the robot or change its motion
 };
 
-/// Begin of the reason in Skipped::what for a percentage above 100, which is read as 100.
+/// First words of the reason in Skipped::what for a percentage above 100, which is read as 100.
 inline constexpr const char* above_all_speed = "more than 100 % (limit 100, which counts)";
 
 struct Program {

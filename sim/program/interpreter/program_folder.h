@@ -21,7 +21,7 @@ struct Backup {
 
 /// Calls of a program, found without running it.
 struct Calls {
-  std::string name;             ///< in lower case; empty: the file holds no program
+  std::string name;             ///< in lower case; empty: the file contains no program
   std::set<std::string> names;  ///< names of called programs, in lower case
   bool moves = false;
 };

@@ -134,7 +134,7 @@ Value euler_zyx(const Quaternion& q, char axis) {
 std::optional<Frame> frame_of_points(const Vector3& p1, const Vector3& p2, const Vector3& p3) {
   const Vector3 x = p2 - p1, in_plane = p3 - p1;
   const Vector3 z = x.cross(in_plane);
-  constexpr double shortest = 1e-6;  // [m], relative in the second test; below: equal points, or a line
+  constexpr double shortest = 1e-6;  // [m] from p1 to p2, and from p3 to the line p1 p2
   if (x.norm() < shortest || z.norm() < shortest * x.norm()) return {};
   Matrix3 r;
   r.col(0) = x.normalized();

@@ -109,7 +109,7 @@ class RapidParser : StatementParser {
     return statement;
   }
 
-  /// A routine with a mistake is kept, so that a call of it reports the mistake.
+  /// Reads a routine. A routine with an error is kept, so that a call of it reports the error.
   void routine(bool local) {
     Routine& routine = code_.routines.emplace_back();
     routine.module = module_;
