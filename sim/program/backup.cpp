@@ -56,7 +56,7 @@ Backup backup_of(const fs::path& program, const std::string& routine) {
   std::erase_if(files, [](const auto& of_language) {  // files with settings alone are not a program
     return std::none_of(of_language.second.begin(), of_language.second.end(), holds_moves);
   });
-  // System modules alone are not an ABB program if the folder has another controller's files: their extension may be the same.
+  // System modules alone are not an ABB program beside another controller's files, which may have the same extension.
   if (const auto rapid = files.find(Language::rapid); files.size() > 1 && rapid != files.end())
     if (std::all_of(rapid->second.begin(), rapid->second.end(),
                     [](const fs::path& file) { return lower_case(file.extension().string()) == ".sys"; }))

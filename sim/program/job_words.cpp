@@ -7,7 +7,7 @@
 namespace dresslife::sim {
 namespace {
 
-/// In quotes if YAML would read it in another way.
+/// Returns the text, in quotes if YAML would not read it as this text.
 std::string yaml_word(const std::string& text) {
   static const std::regex plain(R"([A-Za-z0-9_.$-]+)");
   if (std::regex_match(text, plain)) return text;

@@ -38,7 +38,8 @@ void Interpreter::run_instruction(const Statement& statement) {
          true);
 }
 
-/// Whether a call by a computed name, with this number of arguments, can start the routine and move the robot.
+/// Whether a call by a computed name, with this number of arguments, can start a routine that moves the robot. Routines
+/// that already run do not count.
 bool Interpreter::is_command(const Routine& routine, std::size_t arguments) {
   const auto needed = std::count_if(routine.parameters.begin(), routine.parameters.end(),
                                     [](const Parameter& p) { return !p.option; });

@@ -359,13 +359,13 @@ std::string Interpreter::path_of(const Expression& expression) {
   return path;
 }
 
-/// Returns the unknown value of a variable that another program may have written; std::nullopt: none writes it.
+/// Returns the value of a variable that another program may write: the user's, else unknown. std::nullopt: none writes it.
 std::optional<Value> Interpreter::value_written_beside(const Expression& expression) {
   const Expression* base = &expression;
   while (base->kind == Form::field || base->kind == Form::element) base = &base->items[0];
   const auto written = code_.written_beside.find(base->text);
   const bool own =
-      !locals_.empty() && locals_.back().contains(base->text);  // data lists are read without a routine
+      !locals_.empty() && locals_.back().contains(base->text);  // data lists are evaluated outside of routines
   if (written == code_.written_beside.end() || own) return {};
   const std::string path = path_of(expression);
   if (std::optional<Value> value = given(path)) return value;
@@ -375,7 +375,7 @@ std::optional<Value> Interpreter::value_written_beside(const Expression& express
 
 namespace {
 
-/// Whether a value is unknown without a known cause: an input, a variable that was never written.
+/// Whether a value is unknown and its cause has no name (an input, a variable that was never written).
 bool unset(const Value& value) {
   if (value.kind == Value::Kind::unknown) return value.cause && value.cause->name.empty();
   return value.kind == Value::Kind::list && !value.items.empty() &&
