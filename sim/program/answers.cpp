@@ -26,14 +26,14 @@ std::string quoted(const std::string& text) {
   return "'" + inner + "'";
 }
 
-/// A comment must stay one, whatever a program's text holds.
+/// Replaces control characters of a program's text by blanks, so that a YAML comment stays on one line.
 std::string on_one_line(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
   return text;
 }
 
-/// Each question once, in the order of the problems, with the words of every problem that asks it.
+/// Returns each question once, in the order of the problems, with the texts of all problems that ask it.
 std::vector<Entry> entries_of(const std::vector<Problem>& problems) {
   constexpr std::size_t most_comments = 4;  // problems that one answer solves
   std::vector<Entry> entries;

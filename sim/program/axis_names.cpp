@@ -26,7 +26,7 @@ constexpr std::array<std::string_view, 32> others{
     "seq",      "frame",       "id",      "index", "line",         "step",          "row",    "name",
     "temp",     "temperature", "voltage", "error", "digital",      "status",        "mode",   "jerk"};
 
-/// The number of the axis: the last or the first number of every name; empty: the names have none.
+/// Returns the axis number of every name: its last or first number; empty: a name has none, or they are not consecutive.
 std::vector<int> numbers_of(const std::vector<std::string>& names, bool last) {
   std::vector<int> numbers;
   for (const std::string& name : names) {
@@ -46,7 +46,7 @@ std::vector<std::size_t> sorted_by(const std::vector<int>& numbers) {
   return pipeline::smallest_first(numbers.size(), [&](std::size_t k) { return numbers[k]; });
 }
 
-/// Where each of an arm's words stands in exactly one name.
+/// Returns the index of the name that contains each of an arm's words; std::nullopt: not exactly one name per word.
 std::optional<std::vector<std::size_t>> order_by(const std::vector<std::string>& names,
                                                  const std::vector<std::vector<std::string>>& arm) {
   if (names.size() != arm.size()) return {};
@@ -109,7 +109,7 @@ ColumnName column_name(std::string_view name) {
     made.kind = ColumnName::Kind::point;
   } else if (any_other || words.empty()) {
     made.kind = ColumnName::Kind::other;
-  } else if (has("stamp")) {  // of a header beside %time
+  } else if (has("stamp")) {  // of a ROS header, in addition to %time
     made.kind = ColumnName::Kind::other;
   } else if (coordinate) {
     made.kind = ColumnName::Kind::point;
@@ -118,7 +118,7 @@ ColumnName column_name(std::string_view name) {
 }
 
 double unit_of_clock(double time) {
-  constexpr double first = 9e11;  // [ms] 1998, below which no recording of a robot is
+  constexpr double first = 9e11;  // [ms] 1998; recordings of robots are later
   double unit = 1;
   for (double digits = first; time > digits && unit > 1e-9; digits *= 1e3) unit *= 1e-3;
   return unit;

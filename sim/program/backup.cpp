@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A file that can hold moves, not settings alone.
+/// Whether a file can contain moves, not only settings.
 bool holds_moves(const fs::path& file) {
   const std::string end = lower_case(file.extension().string());
   const auto among = [&](std::initializer_list<const char*> ends) {
@@ -27,12 +27,12 @@ bool holds_moves(const fs::path& file) {
   return among({".mod", ".modx", ".prg", ".sys", ".sysx", ".src", ".ls", ".jbi"});
 }
 
-/// The language of a file of a backup; VAR.DAT holds the variables of a Motoman.
+/// Returns the language of a file of a backup; VAR.DAT contains the variables of a Motoman.
 Language language_within(const fs::path& file) {
   return lower_case(file.filename().string()) == "var.dat" ? Language::inform : language_of(file);
 }
 
-/// ABB's list of what a backup holds.
+/// Whether a file is ABB's list of a backup's contents.
 bool is_contents(const fs::path& file) { return lower_case(file.filename().string()) == "backinfo.txt"; }
 
 }  // namespace
@@ -53,10 +53,10 @@ Backup backup_of(const fs::path& program, const std::string& routine) {
       if (lower_case(file.extension().string()) != ".pgf" && !is_contents(file)) own.push_back(file);
     return rapid_backup(folder, own, routine);
   }
-  std::erase_if(files, [](const auto& of_language) {  // settings alone make no program
+  std::erase_if(files, [](const auto& of_language) {  // files with settings alone are not a program
     return std::none_of(of_language.second.begin(), of_language.second.end(), holds_moves);
   });
-  // System modules alone are no ABB program beside those of another controller, whose files may end likewise.
+  // System modules alone are not an ABB program beside another controller's files, which may have the same extension.
   if (const auto rapid = files.find(Language::rapid); files.size() > 1 && rapid != files.end())
     if (std::all_of(rapid->second.begin(), rapid->second.end(),
                     [](const fs::path& file) { return lower_case(file.extension().string()) == ".sys"; }))

@@ -1,7 +1,7 @@
 // Backups and program folders: the files of a program, and its start.
 //
-// The files of a folder are all those in it and in the folders within whose names end like a robot program's
-// (pipeline::program_files), sorted. One function for each language picks the program among them.
+// The files of a folder are all files in it and in its subfolders with the extension of a robot program
+// (pipeline::program_files), sorted. One function for each language selects the program among them.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,8 @@ namespace dresslife::sim {
 /// Whether a program is given as a folder or as a list of files.
 bool is_backup(const std::filesystem::path& program);
 
-/// routine: the requested one; empty: none. Errors: InputError that names the choices if there are several programs.
+/// Returns the program of a folder. routine: the requested routine; empty: none. Errors: InputError that names the
+/// choices if the folder has several programs.
 Backup backup_of(const std::filesystem::path& program, const std::string& routine);
 
 }  // namespace dresslife::sim

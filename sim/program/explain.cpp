@@ -8,7 +8,7 @@
 namespace dresslife::sim {
 namespace {
 
-/// Four decimals at most, as controllers write them.
+/// Returns a number with at most four decimals, as controllers write it.
 std::string number(double value) { return pipeline::short_decimal(value, 4); }
 
 std::string position(const Vector3& p) {
@@ -22,7 +22,7 @@ std::string frame(const Frame& f) {
                      number(q.y()), number(q.z()));
 }
 
-/// " (p20: data.mod:4)"; nothing where the reader did not say.
+/// Returns " (p20: data.mod:4)"; empty: the origin is not known.
 std::string from(const Instruction& instruction, std::string_view part) {
   for (const Origin& origin : instruction.origins) {
     if (origin.part != part) continue;

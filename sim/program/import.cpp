@@ -57,7 +57,7 @@ SourceFile source_of(const std::filesystem::path& file, const std::map<std::stri
   return {name, decoded_text(other == instead.end() ? source.text() : other->second)};
 }
 
-/// "sill.mod:34 main: MoveL p20, v500, z10, gun;"
+/// Returns "sill.mod:34 main: MoveL p20, v500, z10, gun;".
 std::string step_text(const Instruction& instruction) {
   const std::string file = std::filesystem::path(instruction.where.file).filename().string();
   const std::string routine = instruction.routine.empty() ? "" : " " + instruction.routine;
@@ -141,8 +141,9 @@ Grammar grammar_of(Language language) {
                                           : Grammar::rapid;
 }
 
-/// A mistake in a routine counts only if the routine runs, one outside of routines only if the program fails. With too
-/// many mistakes the reader stops in the file; then all of them count, because routines and data are lost.
+/// Parses the files. An error in a routine is reported only if the routine runs, an error outside of routines only if
+/// the program fails. With too many errors the parser stops in the file; then all errors are reported, because
+/// routines and data are missing.
 void parse_files(Code& code, Language language, Problems& problems) {
   for (int file = 0; file < static_cast<int>(code.files.size()); ++file) {
     Problems found;
@@ -163,7 +164,7 @@ namespace {
 
 constexpr int listed_reasons = 5;
 
-/// A program without a move: statements that ran and were left out may explain it.
+/// Reports a program without a move. Executed statements that were skipped may be the cause.
 void report_nothing(const Program& program, const ImportOptions& options, Problems& problems) {
   std::string left_out;
   int listed = 0;
@@ -185,7 +186,7 @@ void report_nothing(const Program& program, const ImportOptions& options, Proble
       "--module");
 }
 
-/// External axes that move, with what a job's robot needs of them: programs give positions alone.
+/// Notes external axes that move, and the data that the job's robot needs for them: programs only give positions.
 void report_external_axes(Program& program) {
   struct Way {
     double low = INFINITY, high = -INFINITY;
@@ -215,7 +216,7 @@ void report_external_axes(Program& program) {
                    moving, entries)});
 }
 
-/// Takes out the frames that no move uses: those of passes that were cut off.
+/// Removes the frames that no move uses (frames of passes that are not part of the motion).
 void drop_unused(std::vector<NamedFrame>& frames, int Instruction::*index,
                  std::vector<Instruction>& instructions) {
   std::vector<int> now(frames.size(), -1);
@@ -271,7 +272,7 @@ Program read_program(Language language, std::deque<SourceFile> files, const Impo
         run_inform(code, options, tools, work_objects, program, problems);
       else
         run_urscript(code, options, tools, program, problems);
-      for (const Problem& unread : code.problems)  // they may be why
+      for (const Problem& unread : code.problems)  // a possible cause
         if (problems.empty())
           program.skipped.push_back({unread.where, "not read: " + unread.what, true});
         else
@@ -321,8 +322,8 @@ std::vector<std::filesystem::path> add_all(std::vector<std::filesystem::path> li
   return list;
 }
 
-/// The modules, each once; a KRL or INFORM program sees what lies beside it and beside its modules, as on the
-/// controller.
+/// Adds the modules, each once. beside: also adds the other files in the folders of the program and of its modules,
+/// which KRL and INFORM programs see on the controller.
 void add_modules(const pipeline::Motion& motion, bool beside, const std::map<std::string, std::string>& instead,
                  std::deque<SourceFile>& files) {
   std::vector<std::filesystem::path> wanted;
@@ -371,7 +372,7 @@ Program read_program(const pipeline::Motion& motion, const FlangeAt& flange,
   const bool sees_its_folder = language == Language::krl || language == Language::inform;
   add_modules(motion, sees_its_folder && !is_backup(motion.program), instead, files);
   if (language == Language::fanuc &&
-      !is_backup(motion.program))  // programs that it calls and the registers of its backup lie beside it
+      !is_backup(motion.program))  // called programs and registers are in the same folder
     for (const std::filesystem::path& beside : fanuc_files_beside(motion.program)) {
       const bool listed = std::any_of(motion.modules.begin(), motion.modules.end(), [&](const auto& m) {
         return pipeline::inode_of(m.file) == pipeline::inode_of(beside) ||
@@ -404,12 +405,12 @@ pipeline::Motion motion_of(const Program& program, const pipeline::Motion& defau
   motion.work_objects = frames_of(program.work_objects);
   motion.steps.clear();
   std::vector<pipeline::Warning> left_out = moves_left_out(program);
-  for (pipeline::Warning& warning : left_out)  // wherever the program lies
+  for (pipeline::Warning& warning : left_out)  // independent of the program's folder
     warning.where = std::filesystem::path(warning.where).filename().string();
   motion.left_out = pipeline::joined(std::move(motion.left_out), left_out);
   for (const Instruction& instruction : program.instructions)
     motion.steps.push_back(step_of(instruction, program));
-  // A motion begins where its first move leads: the robot stands there while it waits before that move.
+  // A motion begins at the target of its first move: the robot stands there during dwells before that move.
   const auto first_move =
       std::find_if(motion.steps.begin(), motion.steps.end(), [](const auto& step) { return step.is_move(); });
   if (first_move != motion.steps.end()) std::rotate(motion.steps.begin(), first_move, first_move + 1);
@@ -430,7 +431,7 @@ RunMotion run_motion_of(const pipeline::Motion& motion, const FlangeAt& flange) 
 
 namespace {
 
-/// "SetDO: input, output or logic" -> "SetDO", "input, output or logic".
+/// Splits "SetDO: input, output or logic" into "SetDO" and "input, output or logic".
 std::pair<std::string, std::string> name_and_reason(const std::string& what) {
   const std::size_t colon = what.find(": ");
   return colon == std::string::npos ? std::pair(std::string(), what)
@@ -484,7 +485,7 @@ std::vector<pipeline::Warning> moves_left_out(const Program& program) {
     const std::string more = fmt::format(" (and {} more: line {})", group.more, group.lines);
     const std::string what = fmt::format("skipped: {}{}{}", group.name.empty() ? "" : fmt::format("{}: ", group.name),
                                          group.reason, group.more == 0 ? "" : more);
-    if (what.find("--value") != std::string::npos) {  // it says what to do
+    if (what.find("--value") != std::string::npos) {  // the text contains the remedy
       warnings.push_back({pipeline::WarningKind::program, group.first.text(), what});
       continue;
     }
@@ -505,7 +506,7 @@ std::vector<pipeline::Warning> moves_left_out(const Program& program) {
 std::vector<std::string> skipped_lines(const Program& program) {
   std::vector<std::string> lines;
   for (const pipeline::Warning& warning : moves_left_out(program)) lines.push_back(warning.line());
-  std::map<std::string, std::map<std::string, int>> harmless;  // reason -> name -> how often
+  std::map<std::string, std::map<std::string, int>> harmless;  // reason -> name -> count
   for (const Skipped& skipped : program.skipped) {
     if (skipped.may_move) continue;
     const auto [name, reason] = name_and_reason(skipped.what);

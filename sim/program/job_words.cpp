@@ -7,7 +7,7 @@
 namespace dresslife::sim {
 namespace {
 
-/// In quotes if YAML would read it in another way.
+/// Returns the text, in quotes if YAML would not read it as this text.
 std::string yaml_word(const std::string& text) {
   static const std::regex plain(R"([A-Za-z0-9_.$-]+)");
   if (std::regex_match(text, plain)) return text;
@@ -30,7 +30,7 @@ std::string replaced(const std::string& text, const std::regex& wanted, const Ma
 
 std::string in_words_of_a_job(std::string text) {
   if (text.find("--") == std::string::npos) return text;
-  // The keys that some remedies name beside the option.
+  // Keys of a job that some remedies name in addition to the option.
   static const std::regex beside(R"( \(motion\.(?:values|assume)(?: in a job)?\))"),
       module_beside(R"(--module, motion\.modules)"),
       frames(R"(--frames FILE\.yaml \((motion\.\w+) in a job\))"), frames_beside(R"( \(--frames\))");

@@ -16,7 +16,7 @@
 namespace dresslife::sim {
 namespace {
 
-/// A file as lines without their ends, and what becomes of them.
+/// The lines of a file without their line ends, and their changes.
 class Lines {
  public:
   Lines(const std::string& file, const std::string& bytes) : file_(file) {
@@ -33,7 +33,7 @@ class Lines {
 
   int count() const { return static_cast<int>(lines_.size()); }
   const std::string& at(int line) const { return original_.at(static_cast<std::size_t>(line) - 1); }
-  /// What the line has become, without what was put before and behind it.
+  /// Returns the changed line, without the lines added before and after it.
   std::string& now(int line) {
     Line& l = lines_.at(static_cast<std::size_t>(line) - 1);
     l.changed = true;
@@ -51,7 +51,7 @@ class Lines {
     l.changed = true;
   }
 
-  /// Numbers of a listing's statements again, in lines first .. end - 1, as some were put between.
+  /// Renumbers a listing's statements in lines first .. end - 1 after lines were added.
   void renumber(int first, int end) {
     int next = 0;
     for (int line = first; line < end; ++line) {
@@ -79,11 +79,11 @@ class Lines {
     return made;
   }
 
-  /// Hunks with three lines around each change.
+  /// Returns the unified diff, with three lines of context around each change.
   std::string patch() const {
     constexpr std::size_t around = 3;
     std::string made = fmt::format("--- a/{0}\n+++ b/{0}\n", file_);
-    std::size_t added = 0;  // lines of the hunks before, more than there were
+    std::size_t added = 0;  // number of lines added by the earlier hunks
     for (std::size_t i = 0; i < lines_.size();) {
       if (!lines_[i].changed) {
         ++i;
@@ -120,7 +120,7 @@ class Lines {
   struct Line {
     std::vector<std::string> now;
     bool changed;
-    std::size_t own = 0;  // which of them the line itself is
+    std::size_t own = 0;  // index of the line itself among them
   };
   std::string row(char mark, const std::string& line, bool last) const {
     return mark + line + (crlf_ ? "\r" : "") + "\n" +
@@ -144,7 +144,7 @@ std::string in_degrees(const std::vector<double>& joints) {
   return list;
 }
 
-/// "500" -> "350"; absent: no number.
+/// Returns the number times `factor`: "500" -> "350"; std::nullopt: not a number.
 std::optional<std::string> scaled(std::string_view number, double factor) {
   const auto value = pipeline::whole_number_in<double>(number);
   return value ? std::optional(pipeline::short_decimal(*value * factor, 6)) : std::nullopt;
@@ -154,7 +154,7 @@ std::string indentation(const std::string& line) {
   return line.substr(0, std::min(line.find_first_not_of(" \t"), line.size()));
 }
 
-/// What all writers share: the file, its words, and the instruction that a change is about.
+/// Common data of the writers of all languages: the file, its tokens, and access to a change's instruction.
 struct Writer {
   Lines& lines;
   const SourceFile& source;
@@ -178,7 +178,7 @@ struct Writer {
     return *found;
   }
 
-  /// Index of the first token of the instruction.
+  /// Returns the index of the instruction's first token.
   std::size_t begin(const LineChange& change) const {
     for (std::size_t i = 0; i < tokens.size(); ++i)
       if (tokens[i].line == change.where.line && tokens[i].column == change.where.column) return i;
@@ -191,13 +191,13 @@ struct Writer {
                       (tokens[last].kind == Token::Kind::text)};
   }
 
-  /// Replaces tokens first .. last, which stand on one line.
+  /// Replaces tokens first .. last. Errors: refuses the change if they are on several lines.
   void replace(std::size_t first, std::size_t last, const std::string& with, const LineChange& change) {
     if (tokens[first].line != tokens[last].line) refuse(change, "what would change stands on several lines");
     const int line = tokens[first].line;
     std::string& now = lines.now(line);
     const std::string old(text(first, last));
-    // From the end: what was replaced on the line before stands behind it.
+    // Replacements go from the line's end to its begin, so the text up to this column is still the original.
     const std::size_t at = now.rfind(old, static_cast<std::size_t>(tokens[first].column) - 1);
     if (at == std::string::npos || at != static_cast<std::size_t>(tokens[first].column) - 1)
       refuse(change, "it holds other than plain characters");
@@ -209,11 +209,11 @@ struct Writer {
 
 struct Argument {
   std::size_t first, last;      // tokens
-  std::size_t expression_last;  // without the options behind it
-  bool option;                  // it is an option alone
+  std::size_t expression_last;  // last token of the expression, before its options
+  bool option;                  // an option without an expression
 };
 
-/// The arguments of an instruction, up to its end (the token behind the last).
+/// Returns the arguments of an instruction. end: index of the token after the last argument.
 std::vector<Argument> arguments_of(const std::vector<Token>& tokens, std::size_t name, std::size_t& end) {
   std::vector<Argument> found;
   int depth = 0;
@@ -293,7 +293,7 @@ void change_rapid(Writer& w, const LineChange& change) {
   const bool named =
       target.first == target.expression_last && w.tokens[target.first].kind == Token::Kind::word;
   const std::string old_speed(w.text(speed.first, speed.last)), old_tool(w.text(tool.first, tool.last));
-  // From the line's end to its begin, so that places stay what they were.
+  // From the line's end to its begin, so that the columns of the tokens stay valid.
   w.lines.now(w.tokens[end].line) += " ! " + change.reason;
   if (change.speed) {
     for (std::size_t i = speed.expression_last + 1; i < speed.last; ++i)
@@ -340,7 +340,7 @@ void change_krl(Writer& w, const LineChange& change) {
   const Instruction& read = w.instruction(change);
   const bool joint_move = lower_case(w.tokens[name].text) == "ptp";
   if (!joint_move) refuse(change, "only PTP is changed");
-  std::size_t last = name;  // of the target
+  std::size_t last = name;  // last token of the target
   int depth = 0;
   for (std::size_t i = name + 1;
        w.tokens[i].kind != Token::Kind::line_end && w.tokens[i].kind != Token::Kind::end; ++i) {
@@ -383,13 +383,13 @@ void change_krl(Writer& w, const LineChange& change) {
 
 // ---- Fanuc --------------------------------------------------------------------------------------------------------
 
-/// The words behind "12:" of a listing's line.
+/// Returns the index after "12:" in a listing's line.
 std::size_t behind_number(const std::string& line) {
   const std::size_t colon = line.find(':');
   return colon == std::string::npos ? line.size() : colon + 1;
 }
 
-/// P[3:name] within a line, from `from` on; npos: none. PR[3] is another.
+/// Returns the index of P[3:name] in a line, from `from` on; npos: none. PR[3] (a register) does not match.
 std::size_t find_position(const std::string& line, std::size_t from) {
   for (std::size_t at = line.find("P[", from); at != std::string::npos; at = line.find("P[", at + 1))
     if (at == 0 || !(std::isalnum(static_cast<unsigned char>(line[at - 1])) || line[at - 1] == '_'))
@@ -399,14 +399,14 @@ std::size_t find_position(const std::string& line, std::size_t from) {
 
 int position_number(const std::string& line, std::size_t at) { return std::atoi(line.c_str() + at + 2); }
 
-/// First line of the positions.
+/// Returns the first line of the positions.
 int positions_begin(const Lines& lines) {
   for (int line = 1; line <= lines.count(); ++line)
     if (lines.at(line).starts_with("/POS")) return line;
   return lines.count() + 1;
 }
 
-/// CONFIG or the joint angles of P[number], under its own number or as a new one behind all others.
+/// Changes CONFIG or the joint angles of P[number], in place or as a new position after all others.
 void change_fanuc_position(Writer& w, const LineChange& change, int number) {
   const int begin = positions_begin(w.lines);
   int uses = 0, highest = 0, first = 0, last = 0;
@@ -444,7 +444,7 @@ void change_fanuc_position(Writer& w, const LineChange& change, int number) {
       const auto axis = static_cast<std::size_t>(text[at + 1] - '1');
       const std::size_t unit = text.find("deg", equals);
       if (axis >= change.joints.size() || unit == std::string::npos) continue;
-      // J3 counts from the horizontal: it goes with axis 2.
+      // Fanuc's J3 is measured from the horizontal: it is axis 3 minus axis 2.
       const double degrees = (change.joints[axis] - (axis == 2 ? change.joints[1] : 0)) / degree;
       text.replace(equals + 1, unit - equals - 1, fmt::format("{:>10.3f} ", degrees));
       ++angle;
@@ -491,7 +491,7 @@ void change_fanuc(Writer& w, const LineChange& change) {
     const double value = std::atof(now.substr(from, end - from).c_str());
     now.replace(from, end - from, fmt::format("{:.0f}", std::max(1.0, std::round(value * *change.speed))));
   }
-  constexpr std::size_t longest = 32;  // characters of a remark
+  constexpr std::size_t longest = 32;  // characters in a remark
   w.lines.before(
       line, fmt::format("{}  !{} ;", old.substr(0, behind_number(old)), change.reason.substr(0, longest)));
 }
@@ -531,7 +531,7 @@ void change_script(Writer& w, const LineChange& change) {
   const auto speed = read.kind == Instruction::Kind::joint ? read.speed.axis : read.speed.tool;
   if (!speed) refuse(change, "it has a time instead of a speed");
   int depth = 0, position = 0;
-  std::size_t first = 0, last = 0, end = 0;  // of v
+  std::size_t first = 0, last = 0, end = 0;  // tokens of the argument v
   for (std::size_t i = name + 1; i < w.tokens.size() && w.tokens[i].kind != Token::Kind::end; ++i) {
     const std::string_view text = w.tokens[i].text;
     if (text == "(" || text == "[") ++depth;

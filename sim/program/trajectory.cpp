@@ -21,12 +21,12 @@ std::optional<double> number_in(std::string_view text) {
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
-/// Rows of angles into moves: the first without a time, the others as long as the rows are apart.
+/// Converts rows of angles to moves: the first move has no duration, the others the time between two rows.
 class Rows {
  public:
   Rows(Program& program, Problems& problems) : program_(program), problems_(problems) {}
 
-  /// False: no more rows are wanted.
+  /// Adds a row. Returns false if no more rows are read.
   bool add(std::vector<double> joints, std::optional<double> time, const pipeline::Where& where,
            const std::string& text) {
     if (program_.instructions.size() >= ImportLimits::instructions) {
@@ -72,7 +72,7 @@ std::string answer(const ImportOptions& options, const char* name) {
   return found == options.values.end() ? "" : found->second;
 }
 
-/// A file of columns: its header, then its rows.
+/// Reader of a file of columns: the header, then the rows.
 class Columns {
  public:
   Columns(const SourceFile& file, const ImportOptions& options, Program& program, Problems& problems)
@@ -128,7 +128,7 @@ class Columns {
     choose(axes, at, points);
   }
 
-  /// Which columns are the axes, and in which order.
+  /// Chooses the columns of the axes and their order.
   void choose(const std::vector<std::string>& axes, const std::vector<std::size_t>& at, bool points) {
     if (points)
       return refuse(fmt::format("names points or lengths ({})", pipeline::joined(left_out_, ", ")),
@@ -185,10 +185,9 @@ class Columns {
     if (whole && rows_.size() <= ImportLimits::instructions) rows_.push_back(std::move(made));
   }
 
-  /// Factors to rad of the axes' columns; empty: not known.
+  /// Returns the factors that convert the axes' columns to rad; empty: not known.
   std::vector<double> factors() {
-    // No axis turns further than two turns either way, but for those of a wrist that is read in degrees
-    // anyway.
+    // No axis turns more than two revolutions in one direction, except wrist axes, which are in degrees anyway.
     constexpr double widest = 4 * std::numbers::pi;
     double largest = 0;
     for (const Row& row : rows_)
@@ -230,7 +229,7 @@ class Columns {
   Problems& problems_;
   std::vector<std::string> names_, left_out_;
   std::vector<ColumnName::Unit> units_;
-  std::vector<std::size_t> axes_;  // columns, in the order of the robot's axes
+  std::vector<std::size_t> axes_;  // columns in the order of the robot's axes
   std::optional<std::size_t> time_;
   double seconds_ = 1;
   bool clock_ = false;  // the times determine their unit
@@ -250,7 +249,7 @@ namespace {
 
 using pipeline::Node;
 
-/// Maps with `points` that hold something, at most six keys and lists deep.
+/// Collects the maps with non-empty `points`, at most six levels of keys and lists deep.
 void trajectories_in(const Node& node, std::vector<const Node*>& found, int depth = 0) {
   if (depth > 6 || found.size() > 100) return;
   for (const Node& item : node.items) trajectories_in(item, found, depth + 1);
@@ -262,7 +261,7 @@ void trajectories_in(const Node& node, std::vector<const Node*>& found, int dept
     for (const pipeline::Entry& entry : node.entries) trajectories_in(entry.value, found, depth + 1);
 }
 
-/// Seconds, as one number or as {sec, nanosec} (ROS 2), {secs, nsecs} (ROS 1).
+/// Returns a time [s] from one number, from {sec, nanosec} (ROS 2) or from {secs, nsecs} (ROS 1).
 std::optional<double> time_of(const Node& node) {
   if (node.is_scalar()) return number_in(node.text);
   double time = 0;
@@ -304,7 +303,7 @@ bool read_point(const Node& point, const std::vector<std::size_t>& order, std::s
   return rows.add(std::move(joints), time, point.where, fmt::format("point at {:.6g} s", *time));
 }
 
-/// Every document of a file, as `ros2 topic echo` writes them: parted by "---". False: one is no YAML.
+/// Reads the documents of a file, separated by "---" as in `ros2 topic echo`. Returns false if one is not valid YAML.
 bool documents_of(const SourceFile& file, std::vector<Node>& documents, Problems& problems) {
   const std::string& text = file.text();
   int lines = 0;
@@ -321,7 +320,7 @@ bool documents_of(const SourceFile& file, std::vector<Node>& documents, Problems
     try {
       documents.push_back(pipeline::parse_yaml(part, file.name()));
     } catch (const pipeline::InputError& error) {
-      // The message begins with its own place.
+      // The message begins with the error's place.
       const std::string what = error.what();
       const std::size_t word = what.find(": error: ");
       problems.add({file.name(), 1, 1}, what.substr(word == std::string::npos ? 0 : word + 9), "");
@@ -331,7 +330,7 @@ bool documents_of(const SourceFile& file, std::vector<Node>& documents, Problems
   return true;
 }
 
-/// The chosen one; null: none, or not known.
+/// Returns the chosen trajectory; null: none, or the choice is not known.
 const Node* chosen_trajectory(const SourceFile& file, const std::vector<Node>& documents,
                               const ImportOptions& options, Problems& problems) {
   std::vector<const Node*> found;

@@ -1,20 +1,20 @@
 // Recorded joint angles: comma separated columns, and ROS trajectory_msgs/JointTrajectory as YAML or JSON.
 //
 // Columns: one line of names, then numbers; the separator is a comma, a semicolon or a tab. Lines that begin
-// with # are comments. A column called time, t, stamp and the like holds times [s, or as its name says: ms,
-// us, ns]. Velocities, efforts, grippers, counters and their like are left out, and listed. Every other
+// with # are comments. A column named time, t, stamp or similar contains times [s, or the unit in its name: ms,
+// us, ns]. Velocities, efforts, grippers, counters and similar columns are skipped and listed. Every other
 // column is one axis.
-//   unit   as the names say (joint_1_rad, a1 [deg]); without a word, degrees where a number is larger than
-//          any axis turns in rad, else the user is asked: --value unit=deg or unit=rad.
-//   order  by the numbers in the names (joint_6 ... joint_1), else of the names of a known arm (Universal
-//          Robots, Motoman's S L U R B T), else the user is asked: --value joints=NAME,NAME,...
-// Columns of points (x, y, z, ...) are no axes.
+//   unit   from the names (joint_1_rad, a1 [deg]). Without a unit: degrees if a number exceeds the range of any
+//          axis in rad, else a question: --value unit=deg or unit=rad.
+//   order  by the numbers in the names (joint_6 ... joint_1), else by the axis names of a known arm (Universal
+//          Robots, Motoman's S L U R B T), else a question: --value joints=NAME,NAME,...
+// Columns of points (x, y, z, ...) are not axes.
 //
-// ROS: joint_names and points with positions [rad] and time_from_start, within other keys and lists or not.
-// The order of the axes follows the same rules. Where a file holds several trajectories, the user is asked:
+// ROS: joint_names and points with positions [rad] and time_from_start, at any level of keys and lists.
+// The order of the axes follows the same rules. Several trajectories in a file are a question:
 // --value trajectory=2.
 //
-// A row with a time is a move that lasts until it, and goes over into the next one without a stop.
+// A row with a time is a move that ends at this time and continues into the next move without a stop.
 #pragma once
 
 #include "sim/program/interpreter/program.h"

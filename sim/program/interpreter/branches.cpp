@@ -1,4 +1,4 @@
-// Branches: which arm, or whom to ask.
+// Branches: choice of the arm, or a question to the user.
 #include <algorithm>
 
 #include "sim/program/interpreter/interpreter.h"
@@ -11,7 +11,7 @@ using Kind = Statement::Kind;
 
 }  // namespace
 
-/// The user's answer for a line, under any of its names.
+/// Returns the user's answer for a line, under any of the line's names; null: none.
 template <class Answers>
 const typename Answers::mapped_type* Interpreter::answer(const Answers& answers, const Place& place) {
   if (answers.empty()) return nullptr;
@@ -30,7 +30,7 @@ std::optional<bool> Interpreter::assumed(const Place& place) {
   return found ? std::optional(*found == Assumption::then_branch) : std::nullopt;
 }
 
-/// Whether a condition compares what is unknown with what the program knows and changes: a counter.
+/// Whether a condition contains a known variable that the program assigns, for example a counter.
 bool Interpreter::compares_known(const Expression& condition) {
   if (condition.kind == Expression::Kind::name || condition.kind == Expression::Kind::element ||
       condition.kind == Expression::Kind::field) {
@@ -44,8 +44,7 @@ bool Interpreter::compares_known(const Expression& condition) {
 
 namespace {
 
-/// How the value `asked` is written that stands in a condition: as the value that it is compared with. Empty: not
-/// known.
+/// Returns the form of the value `asked` in a condition, from the value that it is compared with. Empty: not known.
 std::string form_within(const Expression& condition, const std::string& asked) {
   using Is = Expression::Kind;
   if (condition.kind == Is::call) return lower_case(asked).starts_with(condition.text) ? "TRUE or FALSE" : "";
@@ -67,13 +66,13 @@ std::string form_within(const Expression& condition, const std::string& asked) {
   return "";
 }
 
-/// "one of 1, 2, 5".
+/// Returns "one of 1, 2, 5": the values of all cases.
 std::string form_of_cases(const Interpreter& run, const Statement& choice) {
   std::string values;
   for (const Branch& branch : choice.branches)
     for (const Expression& value : branch.conditions) {
       std::string written = run.written(value);
-      written.resize(written.find_last_not_of(": ") + 1);  // RAPID writes CASE 1:
+      written.resize(written.find_last_not_of(": ") + 1);  // the ':' of RAPID's CASE 1:
       values += (values.empty() ? "" : ", ") + written;
     }
   return values.empty() ? "" : "one of " + values;
@@ -81,7 +80,7 @@ std::string form_of_cases(const Interpreter& run, const Statement& choice) {
 
 }  // namespace
 
-/// Asks for the one name that decides it, or which way the statement goes; and goes on along one of the ways.
+/// Asks for the name that decides a statement, or for the arm itself. Returns the arm (0 .. ways - 1) for this reading.
 int Interpreter::ask(const Place& place, const std::string& what, const Value& unknown,
                      const std::string& answers, int ways, bool by_value, const std::string& form) {
   const std::string line = short_place(place);
@@ -123,7 +122,7 @@ Interpreter::Flow Interpreter::run_branch(const Statement& statement) {
         return leave_out(statement, condition);
       if (const Branch* way = waited_for(statement)) return go_on(*way, condition);
       const Cause* cause = condition.first_cause();
-      decision = problem_count() != problems  // the reason is reported
+      decision = problem_count() != problems  // the cause is reported already
                      ? guess(branch.place, 2) == 0
                      : ask(branch.place, "branches on what is known only while the robot runs", condition,
                            "then or =else", 2, true,
@@ -160,17 +159,17 @@ Interpreter::Flow Interpreter::run_choice(const Statement& statement) {
   return Flow::next;
 }
 
-/// An undecided branch that does not move the robot: nothing but its variables becomes unknown.
+/// Skips an undecided branch that does not move the robot: the variables that it assigns become unknown.
 Interpreter::Flow Interpreter::leave_out(const Statement& statement, const Value& unknown) {
   const std::string line = short_place(statement.place);
   const std::shared_ptr<const Cause> cause = unknown_value(unknown).cause;
-  ++quiet_;  // an index that the branch would not meet
+  ++quiet_;  // no problems about indices in statements that may not run
   const bool waits = std::any_of(statement.branches.begin(), statement.branches.end(),
                                  [&](const Branch& branch) { return only_waits(branch.body); });
   note(statement.place,
        fmt::format("branch {}{}: known only while the robot runs", waits ? "that waits" : "without moves",
                    cause ? fmt::format(" on '{}'", cause->name) : ""));
-  // One name decides it, or the branch itself is asked for.
+  // If one name decides the branch, the question is that name, else the branch.
   const bool alone = cause && cause->others.empty();
   Cause why{"", "depends on the branch in " + line, line,
             alone && cause->behind ? cause->behind
@@ -181,7 +180,7 @@ Interpreter::Flow Interpreter::leave_out(const Statement& statement, const Value
   if (statement.kind == Kind::count && statement.keeps_counter) make_unknown(name_at(statement.name, statement.place), why);
   for (const Branch& branch : statement.branches) forget_assigned(branch.body, why, done);
   const bool goes = leaves(statement, false);
-  // What follows in the routine may run or not, and moves nothing either (see matters()).
+  // The rest of the routine may run or not. It does not move the robot (see matters()).
   if (goes) forget_assigned(routines_.back()->body, why, done);
   --quiet_;
   if (!goes) return Flow::next;
@@ -190,8 +189,8 @@ Interpreter::Flow Interpreter::leave_out(const Statement& statement, const Value
   return Flow::give_back;
 }
 
-/// The one arm of an undecided statement that moves the robot, in an endless loop that does nothing else: the
-/// loop waits for it, as WaitUntil would. Null: how it goes makes another motion.
+/// Returns the only arm of an undecided statement that moves the robot, if the rest of its endless loop has no
+/// effect: the loop waits for this arm, like WaitUntil. Null: the arms give different motions.
 const Branch* Interpreter::waited_for(const Statement& statement) {
   if (endless_.empty()) return nullptr;
   const std::vector<Statement>& round = *endless_.back();
@@ -208,7 +207,7 @@ const Branch* Interpreter::waited_for(const Statement& statement) {
   }
   if (!way || statement.kind != Kind::branch) return way;
   const Value condition = evaluate(way->conditions[0]);
-  return condition.kind == Value::Kind::truth && condition.number == 0 ? nullptr : way;  // it never comes
+  return condition.kind == Value::Kind::truth && condition.number == 0 ? nullptr : way;  // the condition is always false
 }
 
 Interpreter::Flow Interpreter::go_on(const Branch& way, const Value& unknown) {

@@ -1,4 +1,4 @@
-// Instructions, routines, and what they declare.
+// Instructions, calls of routines, and declarations.
 #include <algorithm>
 #include <utility>
 
@@ -8,7 +8,7 @@
 namespace dresslife::sim {
 namespace {
 
-constexpr std::size_t instruction_work = 10;  // of a move, in statements
+constexpr std::size_t instruction_work = 10;  // work of a move, in statements
 
 }  // namespace
 
@@ -38,7 +38,8 @@ void Interpreter::run_instruction(const Statement& statement) {
          true);
 }
 
-/// Whether a routine that moves the robot can be called with so many arguments by a name that is worked out.
+/// Whether a call by a computed name, with this number of arguments, can start a routine that moves the robot. Routines
+/// that already run do not count.
 bool Interpreter::is_command(const Routine& routine, std::size_t arguments) {
   const auto needed = std::count_if(routine.parameters.begin(), routine.parameters.end(),
                                     [](const Parameter& p) { return !p.option; });
@@ -47,11 +48,12 @@ bool Interpreter::is_command(const Routine& routine, std::size_t arguments) {
          moves(routine) && code_.find(routine.name, module_) == &routine;
 }
 
-/// %"step" + ValToStr(n)% x: the name is worked out.
+/// Runs a call by a computed name: %"step" + ValToStr(n)% x.
 void Interpreter::run_late(const Statement& statement) {
   const Value name = evaluate(statement.arguments[0]);
   if (name.kind != Value::Kind::text) {
-    // A server of messages: its commands are the routines that it may run. What they need is asked for as well.
+    // A server of messages: its commands are the routines that it may run. The missing values of these routines are
+    // questions, too.
     std::vector<const Routine*> commands;
     std::string names;
     for (const Routine& routine : code_.routines)
@@ -75,7 +77,7 @@ void Interpreter::run_late(const Statement& statement) {
     const int ways = static_cast<int>(commands.size());
     call(*commands[static_cast<std::size_t>(guess(statement.place, ways))],
          {statement.arguments.begin() + 1, statement.arguments.end()}, statement.place);
-    if (!loops_.empty()) throw Stop{};  // further messages ask for the same
+    if (!loops_.empty()) throw Stop{};  // further messages give the same question
     return;
   }
   run_named(name.text, {statement.arguments.begin() + 1, statement.arguments.end()}, statement.place);
@@ -96,7 +98,7 @@ void Interpreter::run_named(const std::string& name, const std::vector<Expressio
   note(place, name + ": not a routine of the files read and not a known instruction", true);
 }
 
-/// What an instruction that is left out may write to is unknown from here on.
+/// Makes the arguments unknown that a skipped instruction may write to.
 void Interpreter::forget_arguments(const std::string& name, const std::vector<Expression>& arguments,
                                    const Place& place) {
   int position = 0;
@@ -107,12 +109,12 @@ void Interpreter::forget_arguments(const std::string& name, const std::vector<Ex
   }
 }
 
-/// Names that two files define are reported once for both.
+/// Returns "a.mod and b.mod". A name that two files define is reported once, with both files.
 std::string Interpreter::rivals(const Place& a, const Place& b) const {
   return fmt::format("{} and {}", code_.files[a.file].name(), code_.files[b.file].name());
 }
 
-/// Another routine of the same name between which a person has to decide; null: none.
+/// Returns another routine of the same name, if the user must choose between them; null: none.
 const Routine* Interpreter::rival_of(const Routine& routine) {
   const Routine* const rival = code_.rival(routine);
   if (!rival || !options_.first_file_counts || routine.place.file != 0 || rival->place.file == 0) return rival;
@@ -120,7 +122,7 @@ const Routine* Interpreter::rival_of(const Routine& routine) {
   return nullptr;
 }
 
-/// The routine of a name, at its use; null: there is none.
+/// Returns the routine of a name that is used at `place`; null: none.
 const Routine* Interpreter::routine_named(const std::string& name, const Place& place) {
   const Routine* routine = code_.find(name, module_);
   if (!routine) return nullptr;
@@ -137,7 +139,7 @@ void Interpreter::declare(const Statement& statement) {
   for (const Parameter& parameter : routines_.back()->parameters) {
     if (parameter.name != statement.name) continue;
     if (!valued) return declare_parameter(statement);
-    if (locals_.back().contains(parameter.name)) return;  // URScript: the value of a call that gives none
+    if (locals_.back().contains(parameter.name)) return;  // URScript: the default value counts only if the caller gives none
   }
   locals_.back().insert_or_assign(statement.name, Variable{.state = Variable::State::ready,
                                                            .value = declared_value(statement),
@@ -145,7 +147,7 @@ void Interpreter::declare(const Statement& statement) {
                                                            .declaration = &statement});
 }
 
-/// KRL declares its parameters' types inside the routine.
+/// Applies the declared type of a KRL parameter; KRL declares it inside the routine.
 void Interpreter::declare_parameter(const Statement& statement) {
   const auto given = locals_.back().find(statement.name);
   if (given == locals_.back().end() || statement.arguments.size() > 1) return;
@@ -186,7 +188,7 @@ Value Interpreter::declared_value(const Statement& statement) {
   return forgotten(std::move(value), std::make_shared<const Cause>(Cause{answer_name(statement.name), why}));
 }
 
-/// Of an array: a list of so many levels.
+/// Gives the elements of an array with `levels` dimensions their record type.
 void Interpreter::shape_elements(Value& value, const RecordType* type, std::size_t levels) const {
   if (levels == 0 || value.kind != Value::Kind::list) {
     shape(value, type);
@@ -195,7 +197,7 @@ void Interpreter::shape_elements(Value& value, const RecordType* type, std::size
   for (Value& item : value.items) shape_elements(item, type, levels - 1);
 }
 
-/// The parameter that an argument goes to, by its name or as the next; null: there is none.
+/// Returns the parameter of an argument, by its name or by its position; null: none.
 const Parameter* Interpreter::parameter_of(const Routine& routine, const Expression& argument,
                                            std::size_t& position) {
   if (!argument.option.empty()) {
@@ -211,7 +213,7 @@ Value Interpreter::call(const Routine& routine, const std::vector<Expression>& a
                         const Place& place) {
   if (&routine == started_ && !routines_.empty()) call_within_itself(routine);
   if (static_cast<int>(routines_.size()) >= ImportLimits::calls) {
-    if (within_itself_->by_motion() > 0) end_within_itself(*started_);  // its data count, its motion repeats
+    if (within_itself_->by_motion() > 0) end_within_itself(*started_);  // its data change, its motion repeats
     complain(place,
              fmt::format("calls {} {} routines deep (without end?)", routine.written, ImportLimits::calls),
              "correct the recursion");
@@ -260,11 +262,11 @@ Value Interpreter::call(const Routine& routine, const std::vector<Expression>& a
   return result;
 }
 
-/// Where main is called again with the data as they were at an earlier call, or where its motion repeats, it
-/// is called without end: that is a cycle, and nothing behind the calls is ever run.
+/// Handles a call of the started routine by itself. If the data equal those of an earlier call, or if the motion
+/// repeats, the calls never end: they are a cycle, and the statements after the calls never run.
 void Interpreter::call_within_itself(const Routine& routine) {
   Passes& passes = *within_itself_;
-  constexpr bool with_locals = false;  // those of the calls around are never seen again
+  constexpr bool with_locals = false;  // the locals of the outer calls are never used again
   passes.add(state(with_locals));
   const auto wanted = static_cast<std::size_t>(options_.passes);
   if (wanted ? passes.count() >= wanted : passes.repeats()) end_within_itself(routine);
@@ -277,7 +279,5 @@ void Interpreter::end_within_itself(const Routine& routine) {
                                   passes_text(static_cast<long>(kept))));
   throw Stop{};
 }
-
-// ---- what a branch may do ---------------------------------------------------------------------------------
 
 }  // namespace dresslife::sim

@@ -1,5 +1,4 @@
-// RAPID and KRL as a tree: expressions, statements, routines. Both languages are read into it and run from
-// it.
+// The tree of a program: expressions, statements, routines. The parsers write it and the interpreter runs it.
 #pragma once
 
 #include <deque>
@@ -17,7 +16,7 @@ struct Place {
 
 struct Expression {
   enum class Kind {
-    none,  ///< left out: an optional argument's switch, an index []
+    none,  ///< no value: a switch (option without value), an empty index []
     number,
     text,
     truth,  ///< number 0 or 1
@@ -25,26 +24,26 @@ struct Expression {
     unary,     ///< text: operator, items[0]
     binary,    ///< text: operator, items[0], items[1]
     call,      ///< text: name, items: arguments
-    element,   ///< items[0]: of what, then the indices from 1
-    field,     ///< text: its name, items[0]: of what
-    aggregate  ///< items, with their names in `keys` or in their order
+    element,   ///< items[0]: the list, items[1], ...: the indices (count from 1)
+    field,     ///< text: name of the field, items[0]: the record
+    aggregate  ///< items: the components; keys: their names; keys empty: in the record's order
   };
   Kind kind = Kind::none;
-  std::string text;  ///< lower case, but for texts
+  std::string text;  ///< lower case, except the contents of Kind::text
   double number = 0;
-  bool whole = false;  ///< of a number: written as an INT of KRL
+  bool whole = false;  ///< the number is written as an INT of KRL
   std::vector<Expression> items;
   std::vector<std::string> keys;  ///< lower case
-  std::string option;             ///< of an argument given by name (\WObj:=...); lower case
-  bool if_present = false;        ///< of an argument \name?value: given only if the value's name is
+  std::string option;             ///< name of an argument given by name (\WObj:=...); lower case
+  bool if_present = false;        ///< argument \name?value: given only if the routine got the argument `value`
   Place place;
   int depth = 1;  ///< levels of items
 };
 
-/// An expression whose depth is that of its items and one more.
+/// Returns an expression; its depth is one more than the largest depth of its items.
 Expression expression_at(const Place& place, Expression::Kind kind, std::string text = "",
                          std::vector<Expression> items = {});
-/// The variable of that name.
+/// Returns an expression that names a variable.
 Expression name_at(const std::string& name, const Place& place);
 Expression number_at(const Place& place, double number);
 
@@ -52,7 +51,7 @@ struct Statement;
 
 struct Branch {
   std::vector<Expression>
-      conditions;  ///< of IF: one; of TEST and SWITCH: the case's values; empty: otherwise
+      conditions;  ///< IF: one condition; TEST, SWITCH: values of the case; empty: ELSE, DEFAULT
   std::vector<Statement> body;
   Place place;
 };
@@ -70,9 +69,9 @@ struct Statement {
     give_back,    ///< RETURN, arguments[0] or none
     leave_loop,   ///< KRL's EXIT
     label,        ///< name
-    jump,         ///< GOTO name: a label of the routine, in one of the blocks around
-    finish,       ///< the program ends here
-    end_cycle,    ///< what the controller runs again and again starts over (RAPID's ExitCycle)
+    jump,         ///< GOTO; name: a label in one of the enclosing blocks of the routine
+    finish,       ///< end of the program
+    end_cycle,    ///< start of the next cycle (RAPID's ExitCycle)
     declare       ///< name, type in `text`, arguments: value or none, then the dimensions
   };
   Kind kind = Kind::instruction;
@@ -80,21 +79,21 @@ struct Statement {
   std::string text;
   std::vector<Expression> arguments;
   std::vector<Branch> branches;
-  bool keeps_counter = false;  ///< FOR: its variable is the program's, and goes on behind the loop
-  bool elsewhere = false;      ///< declare: without a value here because another task's module gives it
-  bool constant = false;       ///< declare: nothing can write to it
-  bool continued = false;      ///< KRL's CONTINUE stands before it
+  bool keeps_counter = false;  ///< FOR: the counter is a variable of the program and keeps its value after the loop
+  bool elsewhere = false;      ///< declare: no value here, because another task's module gives it
+  bool constant = false;       ///< declare: the program cannot write to it
+  bool continued = false;      ///< KRL's CONTINUE precedes the statement
   Place place;
 };
 
 Statement statement_at(const Place& place, Statement::Kind kind, std::string name = "");
-/// value: Expression::Kind::none: it has none.
+/// Returns a declaration. value of Expression::Kind::none: the variable has no value.
 Statement declaration_at(const Place& place, const std::string& name, const std::string& type, Expression value = {});
 
 struct Parameter {
   std::string name;
-  bool option = false;      ///< given by its name
-  bool given_back = false;  ///< what the routine assigns to it, the caller's variable gets
+  bool option = false;      ///< the caller gives it by its name
+  bool given_back = false;  ///< an assignment to it changes the caller's variable
 };
 
 struct Routine {
@@ -102,48 +101,48 @@ struct Routine {
   std::vector<Parameter> parameters;
   std::vector<Statement> body;
   Place place;
-  int last_line = 0;                       ///< of the lines that belong to it
+  int last_line = 0;                       ///< last line of the routine
   int module = -1;                         ///< index into Code::modules; -1: none
-  bool local = false;                      ///< known in its module alone
-  std::vector<Problem> problems;           ///< of its lines; they count when it is run
-  Place handler;                           ///< of errors (RAPID's ERROR, UNDO, BACKWARD)
-  std::vector<std::string> handler_words;  ///< in it, in lower case; it is not run
-  std::string robot;  ///< of an INFORM job: "rb1" that it moves, "rb1,rb2"; empty: none is named
+  bool local = false;                      ///< visible only in its module
+  std::vector<Problem> problems;           ///< problems of its lines; they are reported if the routine runs
+  Place handler;                           ///< place of the error handler (RAPID's ERROR, UNDO, BACKWARD)
+  std::vector<std::string> handler_words;  ///< words of the handler, in lower case; the handler does not run
+  std::string robot;  ///< robots that an INFORM job moves: "rb1", "rb1,rb2"; empty: the job names none
 };
 
-/// What has names of its own: a RAPID module; a KRL program with the data list of its name.
+/// A scope of names: a RAPID module, or a KRL program with the data list of its name.
 struct Module {
   std::string name, written;  ///< lower case, as written
   Place place;
-  bool whole = true;  ///< no file of it is missing: what it does not declare, another module does
+  bool whole = true;  ///< all its files are read: another module declares the names that it does not declare
 };
 
 /// A declaration or assignment outside of routines.
 struct Datum {
   Statement statement;
   int module = -1;
-  bool local = false;      ///< known in its module alone
-  bool by_backup = false;  ///< a value of the time of the backup: it counts where no program gives one
+  bool local = false;      ///< visible only in its module
+  bool by_backup = false;  ///< value at the time of the backup; used if no program assigns a value
 };
 
-/// Name of an instruction whose first argument names the routine that it calls: %"step" + ValToStr(n)%;
+/// Name of the instruction that calls the routine named by its first argument: %"step" + ValToStr(n)%.
 inline constexpr const char* late_binding = "%";
 
-/// Name of the instruction for an empty placeholder (<SMT>); the program ends there.
+/// Name of the instruction for an empty placeholder (<SMT>). The program ends at it.
 inline constexpr const char* unwritten_statement = "<SMT>";
 
-/// Fields of a record, in their order; types: of records within, null for single values.
+/// Fields of a record in their order.
 struct RecordType {
   std::string name;
   std::vector<std::string> fields;
-  std::vector<const RecordType*> types;
-  std::vector<std::string> field_types{};  ///< of a KRL structure, in lower case; else empty
-  std::vector<int> sizes{};                ///< of a KRL structure: of fields that are lists, else 0
-  int optional_from = 1'000'000;           ///< fields from here on may be left out
-  bool indexed = false;                    ///< its fields have numbers, too: URScript's pose[2]
+  std::vector<const RecordType*> types;    ///< types of the fields that are records; null: single value
+  std::vector<std::string> field_types{};  ///< type names of a KRL structure, in lower case; else empty
+  std::vector<int> sizes{};                ///< list sizes of a KRL structure; 0: the field is not a list
+  int optional_from = 1'000'000;           ///< index of the first field that an aggregate may omit
+  bool indexed = false;                    ///< fields can be accessed by number, too: URScript's pose[2]
 };
 
-/// An answer that is safe: what controllers are delivered with.
+/// A safe answer: the value with which controllers are delivered.
 struct Preset {
   std::string text;
   Expression value;
@@ -155,25 +154,25 @@ struct Code {
   std::deque<Routine> routines;
   std::deque<Datum> data;
   std::deque<RecordType> records;
-  std::vector<Problem> problems;             ///< outside of routines
-  std::map<std::string, Expression> values;  ///< that the user gives; names in lower case, without blanks
-  /// "file.mod:12" or "12" -> the value by which an undecided TEST or SWITCH chooses.
+  std::vector<Problem> problems;             ///< problems outside of routines
+  std::map<std::string, Expression> values;  ///< the user's values; names in lower case, without blanks
+  /// "file.mod:12" or "12" -> the value for an undecided TEST or SWITCH.
   std::map<std::string, Expression> choices;
   std::map<std::string, Preset> presets;              ///< safe answers for names that the user may give
   std::map<std::string, std::string> written_beside;  ///< ImportOptions::written_beside, and submit programs
-  std::string start;  ///< routine to run, in lower case; empty: the language's own
+  std::string start;  ///< routine to run, in lower case; empty: the default of the language
   std::vector<Expression> start_arguments;
 
-  /// The routine that a name means within a module: its own local one, else the one of all modules.
+  /// Returns the routine of a name: the module's local routine, else the routine of all modules; null: none.
   const Routine* find(const std::string& name, int module) const;
-  /// The routine of that name which stands in that module; null: there is none.
+  /// Returns the routine `name` of the module `module`; null: none.
   const Routine* find_in(const std::string& module, const std::string& name) const;
-  /// Another routine that the same name means as well; null: there is none.
+  /// Returns another routine with the same name and scope; null: none.
   const Routine* rival(const Routine& routine) const;
   const RecordType* record(const std::string& name) const;
-  /// To be called once when all is read.
+  /// Builds the tables of find(). To be called once after all files are read.
   void index();
-  /// Gives the problems of a file's reading to the routines that hold their lines, the others to `problems`.
+  /// Moves the problems of a file to the routines that contain their lines, the others to `problems`.
   void sort_problems(int file, const Problems& found);
 
  private:

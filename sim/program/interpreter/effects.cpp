@@ -11,7 +11,7 @@ using Kind = Statement::Kind;
 
 }  // namespace
 
-/// A function of the program may move the robot before it gives back its value.
+/// Whether the evaluation of an expression moves the robot: a function of the program may do this.
 bool Interpreter::moves(const Expression& expression, int module) {
   const Routine* called =
       expression.kind == Expression::Kind::call ? code_.find(expression.text, module) : nullptr;
@@ -39,21 +39,20 @@ bool Interpreter::moves(const Statement& statement, int module) {
 }
 
 bool Interpreter::moves(const Routine& routine) {
-  const auto [known, is_new] = routine_moves_.emplace(&routine, false);  // a recursion adds nothing
+  const auto [known, is_new] = routine_moves_.emplace(&routine, false);  // false ends a recursion
   if (is_new)
     known->second = std::any_of(routine.body.begin(), routine.body.end(),
                                 [&](const Statement& inner) { return moves(inner, routine.module); });
   return known->second;
 }
 
-/// Whether it makes a difference to the motion how an undecided statement goes: it moves the robot, or it
-/// leaves a loop, jumps or returns in a routine that does. A branch that ends the program is none of its
-/// cycle.
+/// Whether the arm of an undecided statement affects the motion: the statement moves the robot, or it leaves a loop,
+/// jumps or returns in a routine that moves the robot. A branch that ends the program does not belong to the cycle.
 bool Interpreter::matters(const Statement& statement) {
   return moves(statement, module_) || (leaves(statement, false) && moves(*routines_.back()));
 }
 
-/// Somewhere in it time passes, and nothing moves.
+/// Whether the statements, or their branches, contain a wait.
 bool Interpreter::only_waits(const std::vector<Statement>& body) const {
   return std::any_of(body.begin(), body.end(), [&](const Statement& statement) {
     return (statement.kind == Kind::instruction && dialect_.only_waits(statement.name)) ||
@@ -62,14 +61,14 @@ bool Interpreter::only_waits(const std::vector<Statement>& body) const {
   });
 }
 
-/// However often it runs, the robot stands and the program's data are as before, but for what an instruction
-/// of input writes.
+/// Whether a statement, run any number of times, moves nothing and keeps the program's data. Data that an
+/// input instruction writes are an exception.
 bool Interpreter::changes_nothing(const Statement& statement, int module, int depth) {
-  constexpr int deepest = 4;  // calls
+  constexpr int deepest = 4;  // levels of nested calls
   charge(1);
   if (depth > deepest || moves(statement, module) || leaves(statement, false)) return false;
   switch (statement.kind) {
-    case Kind::assign: {  // KRL's outputs
+    case Kind::assign: {  // KRL writes outputs by assignment
       const std::string& name = base_name(statement.arguments[0]);
       const Expression::Kind value = statement.arguments[1].kind;
       return (name == "$out" || name == "$anout") &&
@@ -96,7 +95,7 @@ bool Interpreter::changes_nothing(const std::vector<Statement>& body, int module
                      [&](const Statement& statement) { return changes_nothing(statement, module, depth); });
 }
 
-/// A handler runs on an error alone. Its possible moves are reported once.
+/// Reports once that a routine's error handler may move the robot. A handler runs only after an error.
 void Interpreter::report_handler(const Routine& routine) {
   if (routine.handler_words.empty() || !reported_handlers_.insert(&routine).second) return;
   const bool may_move =
@@ -109,7 +108,7 @@ void Interpreter::report_handler(const Routine& routine) {
          routine.written + ": its handler of errors moves the robot; errors are taken not to happen");
 }
 
-/// All that the statements may write to is unknown from here on.
+/// Makes all data unknown that the statements may write to.
 void Interpreter::forget_assigned(const std::vector<Statement>& body, const Cause& why,
                                   std::set<const Routine*>& done) {
   for (const Statement& statement : body) {
@@ -131,7 +130,7 @@ void Interpreter::forget_writes_of(const Statement& call, int module, const std:
   module_ = here;
 }
 
-/// Of a call: what the routine assigns to data outside of it, and the arguments that it gives back.
+/// Makes all data unknown that a call may write to: data outside of the routine, and its returned arguments.
 void Interpreter::forget_written(const Statement& statement, const Cause& why,
                                  std::set<const Routine*>& done) {
   const Routine* routine = code_.find(statement.name, module_);
@@ -146,7 +145,7 @@ void Interpreter::forget_written(const Statement& statement, const Cause& why,
     if (written) make_unknown(argument, why);
   }
   if (!routine || !done.insert(routine).second) return;
-  Scope own;  // names of the routine hide those outside
+  Scope own;  // names of the routine hide outer names
   for (const Parameter& parameter : routine->parameters) own[parameter.name].state = Variable::State::ready;
   for (const Statement& inner : routine->body)
     if (inner.kind == Kind::declare) own[inner.name].state = Variable::State::ready;
@@ -157,7 +156,7 @@ void Interpreter::forget_written(const Statement& statement, const Cause& why,
   module_ = module;
 }
 
-/// Whether a statement may go elsewhere than behind itself, within the program.
+/// Whether a statement may jump, return or leave a loop. in_loop: a loop inside of the statement encloses it.
 bool Interpreter::leaves(const Statement& statement, bool in_loop) const {
   if (statement.kind == Kind::give_back || statement.kind == Kind::jump) return true;
   if (statement.kind == Kind::leave_loop) return !in_loop;

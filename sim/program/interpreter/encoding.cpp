@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint32_t replacement = 0xFFFD;
 
-/// Windows-1252 from 0x80 to 0x9F; 0 where it has no letter. The rest of it is ISO 8859-1.
+/// Letters of Windows-1252 from 0x80 to 0x9F; 0: no letter. The other bytes are ISO 8859-1.
 constexpr std::uint32_t windows_letters[] = {0x20AC, 0,      0x201A, 0x0192, 0x201E, 0x2026, 0x2020, 0x2021,
                                              0x02C6, 0x2030, 0x0160, 0x2039, 0x0152, 0,      0x017D, 0,
                                              0,      0x2018, 0x2019, 0x201C, 0x201D, 0x2022, 0x2013, 0x2014,
@@ -36,7 +36,7 @@ void append(std::string& text, std::uint32_t letter) {
   }
 }
 
-/// Bytes of the well-formed sequence that begins at `at`; 0: there is none.
+/// Returns the number of bytes of the well-formed sequence that begins at `at`; 0: none.
 std::size_t sequence_length(const std::string& bytes, std::size_t at) {
   const std::uint8_t first = byte_at(bytes, at);
   if (first < 0x80) return 1;
@@ -44,7 +44,7 @@ std::size_t sequence_length(const std::string& bytes, std::size_t at) {
   if (first < 0xC2 || first > 0xF4 || at + length > bytes.size()) return 0;
   for (std::size_t k = 1; k < length; ++k)
     if ((byte_at(bytes, at + k) & 0xC0) != 0x80) return 0;
-  const std::uint8_t second = byte_at(bytes, at + 1);  // too long a form, a surrogate, past U+10FFFF
+  const std::uint8_t second = byte_at(bytes, at + 1);  // wrong: an overlong form, a surrogate, above U+10FFFF
   const bool wrong = (first == 0xE0 && second < 0xA0) || (first == 0xED && second > 0x9F) ||
                      (first == 0xF0 && second < 0x90) || (first == 0xF4 && second > 0x8F);
   return wrong ? 0 : length;
@@ -81,8 +81,8 @@ std::string from_single_bytes(const std::string& bytes) {
   return text;
 }
 
-/// UTF-16 without a mark: program text is nearly all ASCII, so nearly every other byte is 0. 'A': 41 00 or
-/// 00 41.
+/// Whether the bytes are probably UTF-16 without a byte order mark: program text is almost only ASCII, so almost every
+/// second byte is 0 ('A': 41 00 or 00 41).
 bool every_other_byte_is_zero(const std::string& bytes, std::size_t first) {
   const std::size_t looked_at = std::min<std::size_t>(bytes.size(), 512);
   if (looked_at < 4) return false;

@@ -12,13 +12,12 @@ namespace {
 
 using Form = Expression::Kind;
 
-constexpr int value_depth = 12;  // levels of records in records
+constexpr int value_depth = 12;  // levels of nested records
 constexpr std::size_t text_length = 1000;
 
 }  // namespace
 
-/// Counts the levels of evaluation in each other, which the parser's and the calls' bounds keep below the
-/// stack.
+/// Counts the levels of nested evaluation. The limits of the parser and of calls keep them within the stack.
 Value Interpreter::evaluate(const Expression& expression) {
   struct Level {
     int& depth;
@@ -69,7 +68,7 @@ std::optional<double> Interpreter::number(const Expression& expression) {
 Value Interpreter::answered(const Expression& expression) {
   const std::size_t problems = problem_count();
   Value value = evaluate(expression);
-  // A list has parts that are asked for by their own names, and in KRL such as are not set.
+  // The parts of a list have their own questions; in KRL some parts may be unset.
   if (value.known() || value.kind == Value::Kind::list || problem_count() != problems) return value;
   const std::string text = written(expression);
   if (std::optional<Value> known = given_here(text)) return *known;
@@ -86,7 +85,7 @@ Value Interpreter::call_value(const Expression& expression) {
     return call(*routine, expression.items, expression.place);
   std::optional<Value> value = dialect_.function(expression, *this);
   if (value && value->known()) return *value;
-  // An input by its function, or a routine of a file that is not there: the user may know.
+  // A function that reads an input, or a routine of a missing file: the user may give the value.
   if (std::optional<Value> known = given_here(expression.text)) return *known;
   if (value && value->first_cause()) return *value;
   if (const Value cause = why_unknown(expression.items); cause.cause) return cause;
@@ -95,7 +94,7 @@ Value Interpreter::call_value(const Expression& expression) {
   return unknown_value(expression.text, "is a function that no file read holds");
 }
 
-/// What makes expressions unknown, found without running anything twice.
+/// Returns an unknown value with the causes of the expressions. Does not run a function a second time.
 Value Interpreter::why_unknown(const std::vector<Expression>& expressions) {
   Value why;
   for (const Expression& e : expressions) {
@@ -107,10 +106,10 @@ Value Interpreter::why_unknown(const std::vector<Expression>& expressions) {
 
 // ---- variables --------------------------------------------------------------------------------------------
 
-/// Separates data of all modules from that of one, and finds names that are given twice.
+/// Separates data of all modules from data of one module, and finds names that are declared twice.
 void Interpreter::index_data() {
   module_data_.assign(code_.modules.size(), {});
-  std::map<std::string, std::set<const Scope*>, std::less<>> scopes;  // of the names that the user gives
+  std::map<std::string, std::set<const Scope*>, std::less<>> scopes;  // scopes of the names that the user gives
   for (const Datum& datum : code_.data) {
     if (datum.statement.kind != Statement::Kind::declare) continue;
     Scope& scope = datum.local && datum.module >= 0 ? module_data_[datum.module] : globals_;
@@ -132,7 +131,7 @@ void Interpreter::index_data() {
   count_holders();
 }
 
-/// How many routines and modules declare each name.
+/// Counts the routines and modules that declare each name.
 void Interpreter::count_holders() {
   for (const Scope& scope : module_data_)
     for (const auto& [name, variable] : scope) ++holders_[name];
@@ -176,7 +175,7 @@ Interpreter::Variable* Interpreter::find(const std::string& name) {
   return within(globals_);
 }
 
-/// The value of a variable, worked out when it is first asked for, in its own module.
+/// Returns the value of a variable. The first use evaluates its declaration in the variable's own module.
 Value* Interpreter::ready(Variable& variable) {
   using State = Variable::State;
   if (variable.state == State::ready) return &variable.value;
@@ -209,7 +208,7 @@ Value* Interpreter::ready(Variable& variable) {
   return &variable.value;
 }
 
-/// What the user gives for data that a file declares: "name", or "module:name" where several have the name.
+/// Returns the user's value for declared data, by "name", or by "module:name" if several modules declare the name.
 std::optional<Value> Interpreter::given_for(const Datum& datum) {
   const Statement& statement = datum.statement;
   std::optional<Value> value;
@@ -284,7 +283,7 @@ Place Interpreter::origin(const Expression& expression) {
 }
 
 std::string Interpreter::written(const Expression& expression) const {
-  const Expression* first = &expression;  // the operator stands behind its first operand
+  const Expression* first = &expression;  // the first operand precedes the operator
   while ((first->kind == Form::binary || first->kind == Form::field || first->kind == Form::element) &&
          !first->items.empty())
     first = &first->items[0];
@@ -318,12 +317,12 @@ void Interpreter::forget(const std::string& name) {
   if (const auto found = globals_.find(name); found != globals_.end()) globals_.erase(found);
 }
 
-/// The variable, or the part of one, that an expression names; null: not there.
+/// Returns the variable, or the part of a variable, that an expression names; null: it does not exist.
 Value* Interpreter::locate(const Expression& expression) {
   charge(1);
   if (expression.kind == Form::name) return const_cast<Value*>(variable(expression.text));
   if (expression.kind != Form::field && expression.kind != Form::element) return nullptr;
-  // Indices first: a function in one may change what a place found earlier lies in.
+  // Indices first: a function in an index may change the variable and make a reference to its part invalid.
   std::vector<double> indices;
   for (std::size_t i = 1; expression.kind == Form::element && i < expression.items.size(); ++i) {
     const auto index = number(expression.items[i]);
@@ -360,13 +359,13 @@ std::string Interpreter::path_of(const Expression& expression) {
   return path;
 }
 
-/// What a program beside this one may have written in the meantime; absent: none writes there.
+/// Returns the value of a variable that another program may write: the user's, else unknown. std::nullopt: none writes it.
 std::optional<Value> Interpreter::value_written_beside(const Expression& expression) {
   const Expression* base = &expression;
   while (base->kind == Form::field || base->kind == Form::element) base = &base->items[0];
   const auto written = code_.written_beside.find(base->text);
   const bool own =
-      !locals_.empty() && locals_.back().contains(base->text);  // data lists are read without a routine
+      !locals_.empty() && locals_.back().contains(base->text);  // data lists are evaluated outside of routines
   if (written == code_.written_beside.end() || own) return {};
   const std::string path = path_of(expression);
   if (std::optional<Value> value = given(path)) return value;
@@ -376,7 +375,7 @@ std::optional<Value> Interpreter::value_written_beside(const Expression& express
 
 namespace {
 
-/// It was never written, and the reason is not known: an input, a variable without a value.
+/// Whether a value is unknown and its cause has no name (an input, a variable that was never written).
 bool unset(const Value& value) {
   if (value.kind == Value::Kind::unknown) return value.cause && value.cause->name.empty();
   return value.kind == Value::Kind::list && !value.items.empty() &&
@@ -393,11 +392,11 @@ Value Interpreter::name_value(const Expression& expression) {
       if (const Value* value = variable(path)) return *value;
       if (std::optional<Value> value = dialect_.constant(path)) return *value;
     }
-    // A part of an element that is kept by its path.
+    // A part of an element that is stored under its path.
     const Value whole = locate(expression.items[0]) ? Value{} : name_value(expression.items[0]);
     if (const Value* part = part_of_given(const_cast<Value&>(whole), expression)) return *part;
     if (whole.kind == Value::Kind::unknown && expression.items[0].text.starts_with("$") &&
-        dialect_.constant(expression.items[0].text))  // all of where the robot stands, not its parts one by one
+        dialect_.constant(expression.items[0].text))  // the robot's position as a whole, not its parts
       if (std::optional<Value> part = given(path_of(expression)); part || whole.cause)
         return part ? *part : whole;
     if (std::optional<Value> character = character_of(expression)) return *character;
@@ -418,7 +417,7 @@ Value Interpreter::name_value(const Expression& expression) {
                                                    : "is a name that no file read declares");
 }
 
-/// KRL: s[2] of a text that was assigned to s[].
+/// Returns s[2] of a KRL text that was assigned to s[]; std::nullopt: not an element of a text.
 std::optional<Value> Interpreter::character_of(const Expression& expression) {
   if (expression.kind != Form::element || expression.items.size() != 2) return {};
   const Value* whole = locate(expression.items[0]);
@@ -429,12 +428,12 @@ std::optional<Value> Interpreter::character_of(const Expression& expression) {
   return text_value(text.substr(static_cast<std::size_t>(*index) - 1, 1));
 }
 
-/// An element whose index is unknown is as unknown as that.
+/// Returns the value of an element with an unknown index: unknown, with the causes of the index.
 Value Interpreter::unknown_index(const Expression& expression) {
   if (expression.kind == Form::field) return unknown_index(expression.items[0]);
   for (std::size_t i = 1; expression.kind == Form::element && i < expression.items.size(); ++i)
     if (const Value index = evaluate(expression.items[i]); !index.known()) {
-      // Of a list that holds nothing known the element is asked for too, in the same round.
+      // If no part of the list is known, the element is a question in the same round, too.
       const Value list = evaluate(expression.items[0]);
       const bool empty = list.kind == Value::Kind::unknown ||
                          std::none_of(list.items.begin(), list.items.end(), [](const Value& item) {
@@ -447,7 +446,7 @@ Value Interpreter::unknown_index(const Expression& expression) {
 
 bool Interpreter::shape(Value& value, const RecordType* type) const {
   if (value.kind != Value::Kind::list) return value.kind == Value::Kind::unknown;
-  if (value.type) return true;  // KRL: the aggregate named its own components
+  if (value.type) return true;  // KRL: the aggregate names its components
   const std::size_t count = value.items.size(), fields = type->fields.size();
   if (count > fields || (count < fields && static_cast<int>(count) < type->optional_from)) return false;
   for (std::size_t i = 0; i < count; ++i)
@@ -478,7 +477,7 @@ void Interpreter::assign(const Expression& target, Value value) {
     return;
   }
   if (Value* whole = target.kind == Form::element ? locate(target.items[0]) : nullptr;
-      whole && whole->kind == Value::Kind::text) {  // KRL: a letter of a text
+      whole && whole->kind == Value::Kind::text) {  // KRL: one letter of a text
     *whole = unknown_value(answer_name(path_of(target.items[0])), "is written letter by letter");
     return;
   }
@@ -489,7 +488,7 @@ void Interpreter::assign(const Expression& target, Value value) {
     throw Stop{};
   }
   Scope& scope = scope_of(path);
-  for (const char* part : {".", "["}) {  // parts that were kept by their own paths
+  for (const char* part : {".", "["}) {  // parts that are stored under their own paths
     const auto begin = scope.lower_bound(path + part);
     auto end = begin;
     while (end != scope.end() && end->first.starts_with(path + part)) ++end;
@@ -501,7 +500,7 @@ void Interpreter::assign(const Expression& target, Value value) {
                                         .assigned = true});
 }
 
-/// Of an unknown value that goes to a record: how it is written is known then.
+/// Returns the cause of an unknown value that is assigned to a record, with the form of the record's type.
 std::shared_ptr<const Cause> Interpreter::typed_cause(const Value& unknown, const RecordType* type) const {
   if (!unknown.cause || !type || !unknown.cause->form.empty() || unknown.cause->behind) return unknown.cause;
   Cause cause = *unknown.cause;
@@ -509,8 +508,8 @@ std::shared_ptr<const Cause> Interpreter::typed_cause(const Value& unknown, cons
   return std::make_shared<const Cause>(std::move(cause));
 }
 
-/// A component or an element of what the user gives; null: it has none of that name or number. A list without
-/// a type takes that of the record which has such a component.
+/// Returns a component or an element of a value that the user gave; null: none of that name or number. A list
+/// without a type gets the type of the record that has this component.
 Value* Interpreter::part_of_given(Value& whole, const Expression& part) {
   if (whole.kind != Value::Kind::list) return nullptr;
   if (part.kind == Form::field) {
@@ -529,7 +528,7 @@ Value* Interpreter::part_of_given(Value& whole, const Expression& part) {
   return found;
 }
 
-/// The part, to be written to, of what the user gives: from then on it is a variable of the program.
+/// Returns a part of a value that the user gave, for an assignment. The value becomes a variable of the program.
 Value* Interpreter::given_part(const Expression& expression) {
   if (expression.kind != Form::field && expression.kind != Form::element) return nullptr;
   const Expression& outer = expression.items[0];
@@ -551,7 +550,7 @@ Value* Interpreter::given_part(const Expression& expression) {
   return whole ? part_of_given(*whole, expression) : nullptr;
 }
 
-/// Where a path is kept: beside the variable that it begins with.
+/// Returns the scope that stores a path: the scope of the path's variable.
 Interpreter::Scope& Interpreter::scope_of(const std::string& path) {
   const std::string base = path.substr(0, path.find_first_of(".["));
   if (!locals_.empty() && locals_.back().contains(base)) return locals_.back();
@@ -582,7 +581,7 @@ Interpreter::Variable* Interpreter::base_of(const Expression& expression) {
   return base->kind == Form::name ? find(base->text) : nullptr;
 }
 
-/// An element with an unknown index is written: any element may be the one.
+/// Handles an assignment to an element with an unknown index: every element may have been written.
 void Interpreter::assign_somewhere(const Expression& target) {
   const Value cause = unknown_index(target);
   if (Variable* variable = base_of(target)) {
@@ -660,7 +659,7 @@ std::vector<Question> Interpreter::questions_for(const Value& unknown, const std
   return questions;
 }
 
-/// How a value of the type is written that the name was declared with; empty: it is not known.
+/// Returns the form of a value of the name's declared type; empty: not known.
 std::string Interpreter::form_of(const std::string& name) {
   const std::string path = name.substr(name.find_last_of(':') + 1);
   const bool part = path.find_first_of(".[") != std::string::npos;
@@ -670,7 +669,7 @@ std::string Interpreter::form_of(const std::string& name) {
   if (!declared) return "";
   const std::string form = dialect_.form_of(declared->text);
   if (declared->arguments.size() == 1) return form;
-  std::string sizes;  // of a list
+  std::string sizes;  // of the dimensions
   for (std::size_t i = 1; i < declared->arguments.size(); ++i) {
     const auto size = number(declared->arguments[i]);
     if (!size) return "";
@@ -714,7 +713,7 @@ Value Interpreter::unary(const Expression& expression) {
   if (expression.text == "+") return value;
   if (expression.text == "b_not" && value.numeric == Value::Numeric::integer && value.is_number()) {
     Value inverted = value;
-    inverted.number = -value.number - 1;  // of a number in two's complement
+    inverted.number = -value.number - 1;  // bitwise NOT in two's complement
     return inverted;
   }
   return unknown_value(value);
@@ -722,7 +721,7 @@ Value Interpreter::unary(const Expression& expression) {
 
 namespace {
 
-/// Of values with parts that are not known: equal as far as both are known, or different; absent: not known.
+/// Whether two values with unknown parts are equal. False if known parts differ; std::nullopt: not known.
 std::optional<bool> alike(const Value& a, const Value& b) {
   using Type = Value::Kind;
   if (a.kind == Type::unknown || b.kind == Type::unknown) return {};
@@ -748,7 +747,7 @@ Value compared(const std::string& op, const Value& a, const Value& b) {
   return {};
 }
 
-constexpr double widest = 4294967295.0;  // whole number of which KRL takes the bits
+constexpr double widest = 4294967295.0;  // largest whole number for KRL's bit operators
 
 Value computed(const std::string& op, const Value& first, const Value& second) {
   using Numeric = Value::Numeric;
@@ -772,7 +771,7 @@ Value computed(const std::string& op, const Value& first, const Value& second) {
   return result;
 }
 
-/// orient * orient: turned by the second within the first.
+/// Returns orient * orient: the rotation a, then the rotation b in the frame of a.
 Value computed_turns(const Value& a, const Value& b) {
   const auto turn = [](const Value& v) {
     return Quaternion(v.items[0].number, v.items[1].number, v.items[2].number, v.items[3].number);
@@ -784,7 +783,7 @@ Value computed_turns(const Value& a, const Value& b) {
   return result;
 }
 
-/// pos + pos, pos - pos, pos * number, number * pos, pos * pos (vector product), orient * orient.
+/// Returns pos + pos, pos - pos, pos * number, number * pos, pos * pos (vector product) or orient * orient.
 Value computed_lists(const std::string& op, const Value& a, const Value& b) {
   const Value& list = a.kind == Value::Kind::list ? a : b;
   const bool turns = op == "*" && a.items.size() == 4 && b.items.size() == 4;
@@ -813,7 +812,7 @@ Value computed_lists(const std::string& op, const Value& a, const Value& b) {
   return result;
 }
 
-/// An unknown value that is reckoned or compared with a number is asked for as one.
+/// Returns an unknown value with the form "a number", if it is calculated or compared with a number.
 Value as_number(const Value& value, const Value& other) {
   if (value.kind != Value::Kind::unknown || !other.is_number() || !value.cause || !value.cause->form.empty() ||
       !value.cause->line.empty() || !value.cause->others.empty() || value.cause->behind)
@@ -831,7 +830,7 @@ Value Interpreter::binary(const Expression& expression) {
   const std::string& op = expression.text;
   if (op == ":") return dialect_.function(expression, *this).value_or(Value{});
   const Value a = evaluate(expression.items[0]), b = evaluate(expression.items[1]);
-  if (op == "and" || op == "or") {  // one side can be enough
+  if (op == "and" || op == "or") {  // one known side can be enough
     const bool deciding = op == "or";
     for (const Value* side : {&a, &b})
       if (side->kind == Value::Kind::truth && (side->number != 0) == deciding) return truth_value(deciding);

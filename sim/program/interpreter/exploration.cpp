@@ -6,14 +6,14 @@
 namespace dresslife::sim {
 namespace {
 
-// Every reading takes other ways, so the first readings find nearly everything. Programs with some hundred branches need a
-// hundred readings; a reading of a large backup takes some hundredths of a second.
+// Every reading takes other ways, so the first readings find almost all questions. Programs with some hundred branches need
+// a hundred readings; a reading of a large backup takes some hundredths of a second.
 constexpr int most_readings = 150;
-constexpr long most_work = ImportLimits::executed;  // of all readings together: a second or two
+constexpr long most_work = ImportLimits::executed;  // work of all readings together: one or two seconds
 constexpr int barren_in_a_row =
-    30;  // readings that met nothing new, before it is taken that there is nothing
+    30;  // readings in a row without anything new that end the search
 constexpr std::size_t remembered_ways =
-    12;  // that must be taken together to get somewhere: conditions of a state
+    12;  // largest number of ways that lead to something new only together (conditions of one state)
 
 }  // namespace
 
@@ -29,7 +29,7 @@ bool Exploration::next_reading() {
 
 int Exploration::choose(const std::string& place, int ways) {
   guessing_ = true;
-  // Late readings: a condition that is met again goes the same way a few times. Inputs keep their values for a while.
+  // Late readings: a branch keeps its way for a few visits, because inputs keep their values for a while.
   constexpr int late = 10, same_times = 10;
   auto& [before, times] = taken_here_.try_emplace(place, -1, 0).first->second;
   if (barren_ >= late && before >= 0 && before < ways && ++times < same_times) return before;
@@ -50,7 +50,7 @@ int Exploration::choose(const std::string& place, int ways) {
   return before = static_cast<int>(way - begin);
 }
 
-/// The last ways led to something new.
+/// Records that the last ways led to something new.
 void Exploration::report_ways() {
   news_printed_ = news_;
   for (const auto& [known, way] : last_ways_) (*known)[static_cast<std::size_t>(way)].led_to = news_;

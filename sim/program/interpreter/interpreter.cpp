@@ -1,5 +1,5 @@
-// Statement after statement, with notes on them. Other members: branches.cpp, loops.cpp, calls.cpp,
-// effects.cpp; expressions: evaluation.cpp.
+// Execution of statements, notes and problems. Other members: branches.cpp, loops.cpp, calls.cpp, effects.cpp;
+// expressions: evaluation.cpp.
 #include "sim/program/interpreter/interpreter.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace {
 
 using Kind = Statement::Kind;
 
-constexpr int stack_depth = 1200;  // of execute() and evaluate() in each other; a frame is below 1 kB
+constexpr int stack_depth = 1200;  // levels of nested execute() and evaluate(); a stack frame is smaller than 1 kB
 
 }  // namespace
 
@@ -40,7 +40,7 @@ Interpreter::Interpreter(const Code& code, Dialect& dialect, const ImportOptions
 void Interpreter::run(const Routine& routine) {
   try {
     index_data();
-    for (const Datum& datum : code_.data) {  // of a KRL data list; declarations wait until they are used
+    for (const Datum& datum : code_.data) {  // assignments of a KRL data list; a declaration is evaluated at its first use
       if (datum.statement.kind != Kind::assign) continue;
       module_ = datum.module;
       assign(datum.statement.arguments[0], evaluate(datum.statement.arguments[1]));
@@ -49,7 +49,7 @@ void Interpreter::run(const Routine& routine) {
     locals_.emplace_back();
     start(routine);
   } catch (const Stop&) {
-  } catch (const EndOfCycle&) {  // of what is not run again
+  } catch (const EndOfCycle&) {  // the routine does not start again
   }
   exploration_.spend(executed_);
   for (const auto& [line, assumption] : options_.assume)
@@ -90,7 +90,7 @@ pipeline::Where Interpreter::where(const Place& place) const {
   return {code_.files[place.file].name(), place.line, place.column};
 }
 
-/// The routine that holds the line; empty: none.
+/// Returns the name of the routine that contains the line; empty: none.
 std::string Interpreter::routine_at(const Place& place) const {
   for (const Routine& routine : code_.routines)
     if (routine.place.file == place.file && routine.place.line <= place.line &&
@@ -148,7 +148,7 @@ void Interpreter::charge(std::size_t work) {
   executed_ += static_cast<long>(work);
   if (guessed_at_ >= 0 && executed_ - guessed_at_ > ImportLimits::guessed) throw Stop{};
   if (executed_ <= ImportLimits::executed) return;
-  // The loop that has gone round most often since it was entered runs away, not those around or within it.
+  // The endless loop is the loop with the most passes since its start, not the loops around it or inside of it.
   const auto longest = std::max_element(loops_.begin(), loops_.end(),
                                         [](const Loop& a, const Loop& b) { return a.passes < b.passes; });
   const Place place = longest != loops_.end() ? longest->place
@@ -178,7 +178,7 @@ int Interpreter::frame_index(std::vector<NamedFrame>& list, const NamedFrame& fr
       static_cast<int>(list.size()));
   if (!is_new) return known->second;
   list.push_back(frame);
-  if (const int variant = ++frame_variants_[name]; variant > 1)  // the program changed it
+  if (const int variant = ++frame_variants_[name]; variant > 1)  // the program changed the frame
     list.back().name = fmt::format("{} ({})", frame.name, variant);
   return known->second;
 }

@@ -1,17 +1,17 @@
-// Runs the tree of a RAPID or KRL program as the controller would, as far as that can be known offline, and
-// collects the moves. What comes from inputs, or from an instruction that is left out, is an unknown value
-// that remembers what made it so: it spreads through expressions, and where a branch depends on it, the branch
-// is left out if nothing in it moves or changes the robot, and asked for otherwise (ImportOptions::assume,
-// values). Behind such a question the run goes on along one of the ways (exploration.h).
+// Runs the tree of a program as the controller would, as far as the files determine it, and collects the moves.
+// Inputs, and data that a skipped instruction may write, are unknown values. An unknown value holds its cause
+// and makes each expression unknown that uses it. A branch on an unknown value is skipped if its statements do
+// not move the robot or change its motion. Otherwise the branch is a question to the user
+// (ImportOptions::assume, values), and the run continues along one of the arms (exploration.h).
 //
-// Names: those of the routine hide those of its module, which hide those of all modules. Data outside of
-// routines is worked out when it is first used. A name that two files give to different things is refused
-// where it is used.
+// Names: a name of the routine hides the same name of its module; a name of the module hides the same name of
+// all modules. Data outside of routines is evaluated at its first use. A name that two files define differently
+// is an error at its use.
 //
-// An endless main loop is run until the program's variables are what they were after an earlier pass: that is
-// one cycle of the machine. Where they never are, it is one pass; ImportOptions::passes says how many else. A
-// loop that a known condition keeps going is run as often as it says, within ImportLimits. RAPID's main
-// begins again at its end, with the variables as they are: that is an endless loop, too.
+// An endless main loop runs until the program's variables have the values that they had after an earlier pass.
+// This is one cycle of the machine. If the variables never return to earlier values, the motion is one pass, or
+// ImportOptions::passes passes. A loop with a known condition runs as often as the condition says, within
+// ImportLimits. RAPID's main starts again at its end and keeps its variables; it is an endless loop, too.
 #pragma once
 
 #include <functional>
@@ -30,22 +30,21 @@ namespace dresslife::sim {
 
 /// Why a value is unknown.
 struct Cause {
-  std::string name;    ///< under which ImportOptions::values can give it; empty: there is none
+  std::string name;    ///< key in ImportOptions::values that makes the value known; empty: none
   std::string why;     ///< "is read by TPReadNum (m.mod:9)", "is no name that a file declares"
-  std::string line{};  ///< "m.mod:9" of an undecided branch that it depends on
-  std::shared_ptr<const Cause> behind = nullptr;  ///< why that branch is undecided; has itself none behind it
-  std::vector<std::shared_ptr<const Cause>> others{};  ///< further ones, of a value of several unknown ones
-  std::string form{};  ///< how its value is written; empty: it is not known
-  std::string standard{};  ///< name of the delivered value (Code::presets) that is a safe answer; empty: its own name
+  std::string line{};  ///< "m.mod:9", the line of an undecided branch that the value depends on
+  std::shared_ptr<const Cause> behind = nullptr;  ///< cause of that branch; its own `behind` is null
+  std::vector<std::shared_ptr<const Cause>> others{};  ///< further causes, if several unknown values are combined
+  std::string form{};  ///< form of the value's text; empty: not known
+  std::string standard{};  ///< name of the delivered value (Code::presets) that is a safe answer; empty: `name`
 
-  /// The name whose value would make it known; empty: there is none.
+  /// Returns the name of the missing value; empty: none.
   const std::string& asked() const { return behind ? behind->name : name; }
 };
 
 struct Value {
   enum class Kind { unknown, number, truth, text, list };
-  /// Of KRL's numbers, and of the variables that hold them: INT counts in whole numbers, also when it
-  /// divides.
+  /// Type of a KRL number or of the variable that holds it. Division of two INT values truncates.
   enum class Numeric : unsigned char { any, integer, real };
   Kind kind = Kind::unknown;
   Numeric numeric = Numeric::any;
@@ -53,16 +52,16 @@ struct Value {
   std::string text;
   std::vector<Value> items;
   const RecordType* type = nullptr;
-  std::shared_ptr<const Cause> cause;  ///< of an unknown one; null: not known either
+  std::shared_ptr<const Cause> cause;  ///< why the value is unknown; null: the cause is not known
 
-  bool known() const;  ///< with everything in it
+  bool known() const;  ///< true: the value and all its items are known
   bool is_number() const { return kind == Kind::number; }
-  const Value* field(const std::string& name) const;  ///< null: none of that name
-  std::size_t weight() const;                         ///< values in it
-  int depth() const;                                  ///< levels of lists in it
-  const Cause* first_cause() const;                   ///< of what is unknown in it; null: none
-  std::vector<const Cause*> causes() const;           ///< all of them, each asked() name once
-  bool operator==(const Value& other) const;          ///< unknown ones are equal, whatever made them so
+  const Value* field(const std::string& name) const;  ///< null: no field of that name
+  std::size_t weight() const;                         ///< number of values in it
+  int depth() const;                                  ///< levels of nested lists
+  const Cause* first_cause() const;                   ///< cause of the first unknown part; null: none
+  std::vector<const Cause*> causes() const;           ///< causes of all unknown parts, each asked() name once
+  bool operator==(const Value& other) const;          ///< two unknown values are equal, whatever their causes
 };
 
 Value number_value(double number);
@@ -70,58 +69,58 @@ Value truth_value(bool truth);
 Value text_value(std::string text);
 Value list_value(std::vector<Value> items, const RecordType* type = nullptr);
 Value unknown_value(std::string name, std::string why, std::string form = "");
-Value unknown_value(const Value& because);  ///< with the causes of that one
+Value unknown_value(const Value& because);  ///< an unknown value with the causes of `because`
 Value unknown_value(const Value& because, const Value& and_because);
-/// The same lists with nothing known in them.
+/// Returns a value with the lists of `value` in which every single value is unknown because of `cause`.
 Value forgotten(Value value, const std::shared_ptr<const Cause>& cause);
 
 class Interpreter;
 
-/// What RAPID and KRL do differently. Names are in lower case.
+/// Interface to the rules of one language. Names are in lower case.
 class Dialect {
  public:
   virtual ~Dialect() = default;
-  /// Called by the run that uses it, before anything else.
+  /// Stores the run that uses this dialect. Precondition of all other members.
   void attach(Interpreter& run) { run_ = &run; }
-  /// Value of a name that the program does not declare.
+  /// Returns the value of a name that the program does not declare; std::nullopt: the language has no such name.
   virtual std::optional<Value> constant(const std::string& name) = 0;
-  /// Value of a function of the language; absent: there is no such function.
+  /// Returns the value of a function of the language; std::nullopt: the language has no such function.
   virtual std::optional<Value> function(const Expression& call, Interpreter& run) = 0;
-  /// Runs an instruction of the language; false: it is none that matters.
+  /// Runs an instruction of the language. Returns false if the instruction has no effect on the motion.
   virtual bool instruction(const Statement& statement, Interpreter& run) = 0;
-  /// Whether an instruction moves the robot or changes how it will move.
+  /// Whether an instruction moves the robot or changes its later motion.
   virtual bool matters(const std::string& instruction) const = 0;
-  /// Whether an instruction lets time pass and does nothing else.
+  /// Whether an instruction only waits.
   virtual bool only_waits(const std::string& instruction) const = 0;
-  /// Whether an unknown instruction is known to be input, output or logic.
+  /// Whether an instruction that is not read is certainly input, output or logic.
   virtual bool harmless(const std::string& instruction) const = 0;
-  /// The move that an unknown instruction probably is, with a typing error, as the language writes it; empty: none.
+  /// Returns the move that an unknown instruction probably is (typing error), in the language's spelling; empty: none.
   virtual std::string move_meant(const Statement&) const { return ""; }
-  /// Whether an instruction that is left out, or a function that is not read, may write to this argument.
+  /// Whether a skipped instruction or an unknown function may write to this argument.
   virtual bool writes(const std::string& instruction, int /*position*/, const Expression& /*argument*/) const { return !harmless(instruction); }
-  /// Whether the controller runs this routine again when it has ended.
+  /// Whether the controller starts this routine again after its end.
   virtual bool begins_again(const Routine&) const { return false; }
   virtual const RecordType* type_of(const std::string& name) const = 0;
-  /// How a value of a type is written: "a number"; empty: as it is in the program.
+  /// Returns the form of an answer of a type: "a number"; empty: as the program writes such a value.
   virtual std::string form_of(const std::string& type) const = 0;
-  /// Whether a value can be a whole list.
+  /// Whether the user can give a whole list as one value.
   virtual bool gives_lists() const { return true; }
-  /// Where files hold copies of data of the controller, which differ if they were saved at different times: how such a value is
-  /// written, which is asked for then. Absent: two files that differ are a mistake.
+  /// Returns the form of an answer for data of which several files hold copies. Copies saved at different times differ; then the
+  /// user is asked for the value. std::nullopt: two different declarations are an error.
   virtual std::optional<std::string> form_of_copies(const std::string&) const { return {}; }
-  /// The number that a text of one letter stands for; absent: none in this language.
+  /// Returns the number of a text of one letter; std::nullopt: the language does not convert letters.
   virtual std::optional<double> letter(const Value&) const { return {}; }
-  /// An instruction that an undecided branch may have run.
+  /// Handles an instruction of an undecided branch: it may have run or not.
   virtual void may_have_run(const Statement&, const Cause&, Interpreter&) {}
-  /// Value of a declared variable without one.
+  /// Returns the value of a variable that is declared without a value.
   virtual Value initial(const std::string& type) const = 0;
-  /// Assigns a value to a variable or to a part of one.
+  /// Assigns a value to a variable or to a part of a variable.
   virtual void store(Value& place, Value value) const { place = std::move(value); }
-  /// Of a list, as programs write it.
+  /// Returns the index of a list's first element in the language.
   virtual int first_index() const { return 1; }
-  /// Whether a name that a module uses and no file read declares belongs to all modules, not to it alone.
+  /// Whether all modules share a name that this module uses and that no file declares.
   virtual bool shares(const std::string& /*name*/, int /*module*/) const { return true; }
-  /// Whether a name that a module does not share means something else in each module that uses it.
+  /// Whether an undeclared name that is not shared is a separate variable in each module.
   virtual bool is_of_module(const std::string&) const { return false; }
 
  protected:
@@ -137,86 +136,86 @@ class Interpreter {
 
   // ---- for the dialects --------------------------------------------------------------------------------
   Value evaluate(const Expression& expression);
-  std::optional<double> number(const Expression& expression);  ///< absent: unknown, or no number
-  /// The value of an argument. One that nothing else makes known is asked for by its line and text.
+  std::optional<double> number(const Expression& expression);  ///< std::nullopt: unknown, or not a number
+  /// Returns the value of an argument. If the value has no other name, the question names it by line and text.
   Value answered(const Expression& expression);
-  /// The variable as it stands; null: not declared.
+  /// Returns the current value of a variable; null: not declared.
   const Value* variable(const std::string& name);
-  /// What the user gives for a name or path; absent: nothing.
+  /// Returns the user's value for a name or path; std::nullopt: none.
   std::optional<Value> given(const std::string& name);
-  /// The same for what stands in the line that runs: "cell.mod:12:cjointt", else "cjointt".
+  /// Returns the user's value for a text in the current line ("cell.mod:12:cjointt"), else for the text ("cjointt").
   std::optional<Value> given_here(const std::string& what);
   std::string name_here(const std::string& what) const;
-  /// The name by which the user gives a variable or a part of one: with its module or routine where others
-  /// have that name, too.
+  /// Returns the name by which the user gives a variable or a part of it. The name contains the module or routine
+  /// if several of them declare it.
   std::string answer_name(const std::string& path);
-  /// Where the variable that an expression begins with was last written; line 0: not in the files.
+  /// Returns the place where the first variable of an expression was last written; line 0: not in the files.
   Place origin(const Expression& expression);
-  /// Name of the data that an expression is; of a parameter, of what the caller gave. Empty: it is no name.
+  /// Returns the name of the data in an expression; for a parameter, the caller's name. Empty: not a name.
   std::string name_of(const Expression& expression);
-  /// Whether the program has written to the data that an expression begins with.
+  /// Whether the program has written to the first variable of an expression.
   bool was_assigned(const Expression& expression) const;
-  /// The expression as it stands in its file, up to the argument's end.
+  /// Returns the expression's text in its file, up to the argument's end.
   std::string written(const Expression& expression) const;
   /// Runs a routine by its name, "name" or "module:name".
   void run_named(const std::string& name, const std::vector<Expression>& arguments, const Place& place);
-  /// Whether the argument that \name?value names was given to the routine that runs.
+  /// Whether the caller of the current routine gave the argument that \name?value names.
   bool present(const Expression& argument);
-  /// The variable becomes unknown, or what the user gives for it, because of `who`.
+  /// Makes a variable unknown because of `cause`, or assigns the user's value to it.
   void make_unknown(const Expression& target, Cause cause);
-  /// The same for all that a call of a routine may write to, as it stands in a module.
+  /// Makes all data unknown that a call may write to. module: the module whose names the call sees.
   void forget_writes_of(const Statement& call, int module, const std::string& why);
-  /// Every number and text of all modules becomes unknown: what is not read may have written it. Lists stay.
+  /// Makes every number and text of all modules unknown, because a skipped statement may have written it. Lists stay known.
   void forget_numbers(const std::string& why);
-  /// Of all modules, as it was written there.
+  /// Sets a variable of all modules. written: the place of the assignment.
   void set(const std::string& name, Value value, const Place& written = {});
   void forget(const std::string& name);
   void assign(const Expression& target, Value value);
-  /// "$vel.cp", "p[3].x": under which a part of an undeclared variable is kept; empty: an index is unknown.
+  /// Returns the key of a part of an undeclared variable: "$vel.cp", "p[3].x"; empty: an index is unknown.
   std::string path_of(const Expression& expression);
   void emit(Instruction instruction, const Statement& statement);
   void note(const Place& place, const std::string& what, bool may_move = false);
   void complain(const Place& place, const std::string& what, const std::string& remedy);
-  /// A missing value is reported once for all of its uses. decision: it is which way a statement goes.
+  /// Reports a missing value, once for all its uses. decision: the missing value is the arm of a branch.
   void miss(const std::string& name, const Place& place, const std::string& what, const std::string& remedy,
             std::vector<Question> questions = {}, bool decision = false);
-  /// Asks for all that makes a value unknown. `remedy` goes before "--value ..."; `form`: how the value itself
-  /// is written.
+  /// Asks the user for all causes of an unknown value. remedy: text before "--value ..."; form: the form of the
+  /// value's text.
   void ask_for(const Value& unknown, const Place& place, const std::string& what, const std::string& remedy,
                const std::string& form);
-  /// ": k is read by TPReadNum (m.mod:9)", or nothing.
+  /// Returns ": k is read by TPReadNum (m.mod:9)"; empty: the cause is not known.
   std::string because(const Value& unknown) const;
-  /// "--value 'k=...' ", or nothing: what would make it known.
+  /// Returns the options that make the value known: "--value 'k=...' "; empty: none.
   std::string remedy_for(const Value& unknown) const;
   std::vector<Question> questions_for(const Value& unknown, const std::string& form);
-  /// Problems so far, with those that count for nothing because they lie behind a guess.
+  /// Returns the number of problems, including those that are dropped because they follow a guess.
   std::size_t problem_count() const { return problems_.count() + dropped_; }
   pipeline::Where where(const Place& place) const;
   std::string short_place(const Place& place) const;  ///< "main.mod:12"
   std::string routine_at(const Place& place) const;
   const ImportOptions& options() const { return options_; }
-  int module() const { return module_; }  ///< whose names are seen; -1: none's
+  int module() const { return module_; }  ///< module whose names are visible; -1: none
   Program& program() { return program_; }
-  /// Index of the frame in the list; added when it is new.
+  /// Returns the index of the frame in the list; adds a new frame.
   int frame_index(std::vector<NamedFrame>& list, const NamedFrame& frame);
-  /// Gives a list its record's type, fields in their order; false: it does not fit.
+  /// Gives a list the type of its record and sorts its fields. Returns false if the list does not fit.
   bool shape(Value& value, const RecordType* type) const;
 
  private:
   enum class Flow { next, leave_loop, give_back, jump };
-  struct Stop {};        // thrown: the program ends, or goes past a limit
-  struct EndOfCycle {};  // thrown: the controller begins its routine again
+  struct Stop {};        // thrown: the program ends or exceeds a limit
+  struct EndOfCycle {};  // thrown: the controller starts its routine again
   struct Variable {
     enum class State { declared, being_read, ready };
     const Datum* datum = nullptr;  // null: made by an assignment
-    const Datum* rival = nullptr;  // another declaration of the same name, with another value
+    const Datum* rival = nullptr;  // another declaration of the same name with another value
     State state = State::declared;
     Value value;
-    Place written;          // where it was declared or last assigned; line 0: by no line
-    bool assigned = false;  // since it was declared: part of the program's state
-    bool counter = false;   // of a FOR that runs, which alone writes to it
-    std::string alias{};    // of a parameter: the name that the caller gave
-    const Statement* declaration = nullptr;  // null: of a parameter, or made by an assignment
+    Place written;          // place of the declaration or of the last assignment; line 0: none
+    bool assigned = false;  // assigned after its declaration: part of the program's state
+    bool counter = false;   // counter of a running FOR; only the FOR writes to it
+    std::string alias{};    // for a parameter: the caller's name of the data
+    const Statement* declaration = nullptr;  // null: a parameter, or made by an assignment
   };
   using Scope = std::map<std::string, Variable, std::less<>>;
   struct Deeper;
@@ -315,35 +314,35 @@ class Interpreter {
   Program& program_;
   Problems& problems_;
   Scope globals_;
-  std::vector<Scope> module_data_;  // of LOCAL data
-  std::deque<Scope> locals_;        // stay where they are while routines are called
-  int module_ = -1;                 // whose names are seen
+  std::vector<Scope> module_data_;  // LOCAL data of each module
+  std::deque<Scope> locals_;        // of each running routine; a deque keeps addresses valid during calls
+  int module_ = -1;                 // module whose names are visible
   Exploration& exploration_;
   std::set<std::string> used_values_, used_assumptions_;
-  std::map<std::string, std::string> given_to_;  // a value without its module -> whose name it first was
-  std::map<std::string, int> holders_;           // name -> routines and modules that declare it
-  int modules_apart_ = 0;                        // modules that keep names which no file declares
-  std::size_t dropped_ = 0;                      // problems behind a guess
-  int quiet_ = 0;                                // above 0: nothing is reported
-  long guessed_at_ = -1;                         // executed_ at the first guess; -1: there was none
-  Place here_;                                   // of the statement that runs
+  std::map<std::string, std::string> given_to_;  // name of a value without its module -> full name of its first use
+  std::map<std::string, int> holders_;           // name -> number of routines and modules that declare it
+  int modules_apart_ = 0;                        // number of modules with undeclared names of their own
+  std::size_t dropped_ = 0;                      // number of problems after a guess
+  int quiet_ = 0;                                // above 0: problems and notes are not reported
+  long guessed_at_ = -1;                         // executed_ at the first guess; -1: no guess yet
+  Place here_;                                   // place of the current statement
   std::map<const Routine*, bool> routine_moves_;
   struct Loop {
     Place place;
     long passes = 0;
   };
   const Routine* started_ = nullptr;
-  std::optional<Passes> within_itself_;  // of the routine that was started, by its calls of itself
-  std::vector<Loop> loops_;              // that are running, outermost first
-  std::vector<const std::vector<Statement>*> endless_;  // bodies that run again and again, outermost first
+  std::optional<Passes> within_itself_;  // passes of the started routine that end with a call of itself
+  std::vector<Loop> loops_;              // running loops, outermost first
+  std::vector<const std::vector<Statement>*> endless_;  // bodies of running endless loops, outermost first
   std::set<const Routine*> reported_handlers_;
   std::vector<const Routine*> routines_;
   Value result_;
-  const Statement* jump_ = nullptr;  // on its way to its label
-  std::deque<RecordType> records_;   // of aggregates with names
+  const Statement* jump_ = nullptr;  // the GOTO whose label is searched
+  std::deque<RecordType> records_;   // types of aggregates with named components
   std::map<std::string, const RecordType*> record_of_;
   std::map<std::string, int> frames_;          // name and contents -> index in the program's list
-  std::map<std::string, int> frame_variants_;  // name -> how many contents it had
+  std::map<std::string, int> frame_variants_;  // name -> number of different contents
   long executed_ = 0;
   int depth_ = 0;
 };

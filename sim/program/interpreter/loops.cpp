@@ -1,4 +1,4 @@
-// Loops, jumps back, and what begins again at its end: how often, until nothing new comes.
+// Loops, backward jumps, and routines that start again at their end: number of passes, search for a repetition.
 #include <algorithm>
 #include <functional>
 
@@ -9,15 +9,15 @@ namespace {
 
 using Kind = Statement::Kind;
 
-// In search of the pass of an endless loop after which it repeats itself: enough for a pallet of 200 boxes,
-// and little beside what a program may run.
+// Limits of the search for the repetition of an endless loop: enough for a pallet of 200 boxes, and a small part of
+// the work that a program may need.
 constexpr int searched_passes = 200;
 constexpr long searched_work = ImportLimits::executed / 3;
 constexpr std::size_t searched_moves = 20'000;
 
 }  // namespace
 
-/// A loop that runs, as long as this lives.
+/// Entry of a running loop in `loops_`; the destructor removes it.
 struct Interpreter::Round {
   Round(Interpreter& run, const Place& place) : run_(run), at_(run.loops_.size()) {
     run.loops_.push_back({place});
@@ -34,11 +34,11 @@ struct Interpreter::Round {
 
 namespace {
 
-/// The end of passes that only search for further questions.
+/// End criterion of passes that only search for further questions.
 class Barren {
  public:
   explicit Barren(const Exploration& exploration) : exploration_(exploration), news_(exploration.news()) {}
-  /// Whether enough passes in a row met nothing new.
+  /// Counts a pass. Returns true if the last three passes found nothing new.
   bool again() {
     constexpr int enough = 3;
     count_ = exploration_.news() == news_ ? count_ + 1 : 0;
@@ -54,7 +54,7 @@ class Barren {
 
 }  // namespace
 
-/// A body that runs again and again, as long as this lives.
+/// Entry of a repeated body in `endless_`; the destructor removes it.
 struct Interpreter::Again {
   Again(Interpreter& run, const std::vector<Statement>& body) : run_(run), at_(run.endless_.size()) {
     run.endless_.push_back(&body);
@@ -66,8 +66,8 @@ struct Interpreter::Again {
 };
 
 Interpreter::Flow Interpreter::execute(const std::vector<Statement>& body) {
-  std::optional<Round> round;            // of jumps back
-  std::map<std::size_t, Passes> passes;  // from each label back to it
+  std::optional<Round> round;            // loop of backward jumps
+  std::map<std::size_t, Passes> passes;  // index of a label -> passes from the label back to it
   for (std::size_t i = 0; i < body.size(); ++i) {
     if (body[i].kind == Kind::label) passes.try_emplace(i, program_.instructions);
     const Flow flow = execute(body[i]);
@@ -76,7 +76,7 @@ Interpreter::Flow Interpreter::execute(const std::vector<Statement>& body) {
     const auto label = std::find_if(body.begin(), body.end(), [&](const Statement& statement) {
       return statement.kind == Kind::label && statement.name == jump_->name;
     });
-    if (label == body.end()) return flow;  // in a block around this one
+    if (label == body.end()) return flow;  // the label is in an enclosing block
     const auto target = static_cast<std::size_t>(label - body.begin());
     if (target <= i) {
       if (!round) round.emplace(*this, jump_->place);
@@ -93,7 +93,7 @@ Interpreter::Flow Interpreter::execute(const std::vector<Statement>& body) {
   return Flow::next;
 }
 
-/// At a jump back: with the data of an earlier one everything repeats without end.
+/// At a backward jump: ends the program if the data equal those at an earlier jump, because everything then repeats.
 void Interpreter::end_where_it_repeats(Passes& passes, const Place& place) {
   if (passes.count() >= searched_passes) return;
   passes.add(state());
@@ -105,10 +105,10 @@ void Interpreter::end_where_it_repeats(Passes& passes, const Place& place) {
   throw Stop{};
 }
 
-/// The jump stands in `body` itself, and nothing between it and its label leaves the way round.
+/// Whether a jump loops forever: it is a statement of `body` itself, and no statement from its label on leaves the loop.
 bool Interpreter::jumps_for_ever(const std::vector<Statement>& body, std::size_t label,
                                  std::size_t jump) const {
-  if (body[jump].kind != Kind::jump) return false;  // in an arm of a branch
+  if (body[jump].kind != Kind::jump) return false;  // the jump is in an arm of a branch
   const std::vector<Statement> round(body.begin() + static_cast<long>(label),
                                      body.begin() + static_cast<long>(jump));
   return !holds_loop_exit(round);
@@ -116,7 +116,7 @@ bool Interpreter::jumps_for_ever(const std::vector<Statement>& body, std::size_t
 
 Interpreter::Flow Interpreter::run_count(const Statement& statement) {
   std::optional<bool> decision = assumed(statement.place);
-  const auto end_unknown = [&] {  // where the counter stands behind a loop whose end is not known
+  const auto end_unknown = [&] {  // the counter's value after a loop with an unknown end
     if (statement.keeps_counter)
       make_unknown(name_at(statement.name, statement.place),
                    {"", "is the counter of the loop in " + short_place(statement.place)});
@@ -125,7 +125,7 @@ Interpreter::Flow Interpreter::run_count(const Statement& statement) {
   if (decision && !*decision) return end_unknown();
   const auto from = number(statement.arguments[0]), to = number(statement.arguments[1]);
   const Expression& written_step = statement.arguments[2];
-  std::optional<double> step = from && to && *to < *from ? -1 : 1;  // RAPID counts either way
+  std::optional<double> step = from && to && *to < *from ? -1 : 1;  // RAPID counts up or down without STEP
   if (written_step.kind != Expression::Kind::none) step = number(written_step);
   if (!decision && (!from || !to || !step || *step == 0)) {
     Value unknown;
@@ -230,7 +230,7 @@ Interpreter::Flow Interpreter::run_until(const Statement& statement) {
   }
 }
 
-/// A sum over all that the program has assigned.
+/// Returns a checksum of all assigned variables. with_locals: includes the variables of the running routines.
 std::uint64_t Interpreter::state(bool with_locals) const {
   std::uint64_t sum = 14695981039346656037u;  // FNV-1a
   const auto take = [&](const void* bytes, std::size_t count) {
@@ -257,7 +257,7 @@ std::uint64_t Interpreter::state(bool with_locals) const {
   return sum;
 }
 
-/// The endless loop of a main program is one cycle of the motion; nothing can follow it.
+/// Runs the endless loop of a main program: the motion is its cycle. The program ends, because no statement follows.
 Interpreter::Flow Interpreter::run_endless(const Statement& statement) {
   const bool leaves = holds_loop_exit(statement.branches[0].body);
   const std::size_t wanted = options_.passes > 0 ? options_.passes : assumed(statement.place) ? 1 : 0;
@@ -274,7 +274,7 @@ Interpreter::Flow Interpreter::run_endless(const Statement& statement) {
     if (flow != Flow::next) return flow == Flow::leave_loop ? Flow::next : flow;
     passes.add(state());
     round.again();
-    if (problems_.count() > problems || exploration_.guessing()) {  // what further passes ask counts, too
+    if (problems_.count() > problems || exploration_.guessing()) {  // the questions of further passes are needed, too
       if (passes.count() > 1 && !hinted)
         problems_.hint(problems,
                        fmt::format("in pass {} of the loop in {}: --passes {} ends before", passes.count(),
@@ -310,7 +310,7 @@ Interpreter::Flow Interpreter::run_endless(const Statement& statement) {
   throw Stop{};
 }
 
-/// Runs the routine; true: it ended the program instead of itself.
+/// Runs the routine. Returns true if the routine ended the program.
 bool Interpreter::ends_within(const Routine& routine) {
   within_itself_.emplace(program_.instructions);
   try {
@@ -331,8 +331,8 @@ void Interpreter::leave_all_routines() {
   module_ = -1;
 }
 
-/// Single values that another task's module gives and this program writes, too: how tasks wait for each
-/// other.
+/// Returns the names of single values that another task's module declares and this program writes. Tasks use them to
+/// wait for each other.
 std::string Interpreter::shared_and_written() const {
   std::string names;
   for (const auto& [name, variable] : globals_)
@@ -342,8 +342,8 @@ std::string Interpreter::shared_and_written() const {
   return names;
 }
 
-/// A routine that begins again at its end: as an endless loop around it. What cannot be known of a later cycle
-/// does not take away the first one.
+/// Runs a routine that starts again at its end, like an endless loop around it. Problems in a later cycle do not
+/// discard the first cycle.
 void Interpreter::run_cycles(const Routine& routine) {
   const std::size_t wanted = options_.passes;
   const std::uint64_t state_before = state();
@@ -355,7 +355,7 @@ void Interpreter::run_cycles(const Routine& routine) {
   while (true) {
     const Problems before = problems_;
     const bool ended = ends_within(routine);
-    constexpr std::size_t few_moves = 2;  // make no motion
+    constexpr std::size_t few_moves = 2;  // fewer moves are not a cycle
     const bool one_cycle = passes.count() > 0 && passes.end(passes.count()) >= few_moves;
     if (!asking && problems_.count() > before.count() && one_cycle && !passes.only_lines_of_the_first()) {
       problems_.hint(before.count(), fmt::format("in pass {} of {}: --passes {} ends before",
@@ -376,7 +376,7 @@ void Interpreter::run_cycles(const Routine& routine) {
     asking |= problems_.count() > before.count() || exploration_.guessing();
     if (ended) return;
     passes.add(state());
-    if (asking) {  // what later cycles ask counts, too
+    if (asking) {  // the questions of later cycles are needed, too
       const bool mistaken = !exploration_.guessing() && problems_.mistakes() > 0;
       if (mistaken || barren.again() || (wanted && passes.count() >= wanted)) return;
       continue;

@@ -7,9 +7,9 @@ namespace {
 
 using Form = Expression::Kind;
 
-constexpr int precedence_of_signs = 6;  // of - and + before a value
+constexpr int precedence_of_signs = 6;  // of the unary operators - and +
 
-/// Precedence of a binary operator; 0: not one.
+/// Returns the precedence of a binary operator; 0: the token is not an operator.
 int precedence(const Token& token, Grammar grammar) {
   static constexpr std::pair<std::string_view, int> table[] = {
       {"or", 1}, {"xor", 1}, {"exor", 1}, {"b_or", 1}, {"b_exor", 1}, {"and", 2}, {"b_and", 2},
@@ -22,7 +22,7 @@ int precedence(const Token& token, Grammar grammar) {
   return 0;
 }
 
-/// i + 1
+/// Returns the expression index + 1.
 Expression counted_from_one(Expression index) {
   if (index.kind == Form::number) {
     index.number += 1;
@@ -130,7 +130,8 @@ Expression Cursor::expression(int lowest) {
   }
 }
 
-/// RAPID's NOT in front of an expression takes all that AND joins: NOT a AND b is NOT (a AND b).
+/// Reads an expression that may begin with a unary operator. RAPID's NOT applies to all operands of AND: NOT a AND b is
+/// NOT (a AND b).
 Expression Cursor::unary(int lowest) {
   const Deeper deeper(*this);
   const bool negation = at_word("not") || at_word("b_not");
@@ -163,7 +164,7 @@ Expression Cursor::primary() {
         next();
         return e;
       }
-      if (krl_ && token.text == "#" && peek(1).kind == Token::Kind::word) {  // # State: #State
+      if (krl_ && token.text == "#" && peek(1).kind == Token::Kind::word) {  // "# State" is #State
         next();
         e.kind = Form::name;
         e.text = fmt::format("#{}", lower_case(next().text));
@@ -199,13 +200,13 @@ Expression Cursor::aggregate_with_names() {
   const Deeper deeper(*this);
   Expression e = expression_at(place(), Form::aggregate);
   need_sign("{");
-  if (peek().kind == Token::Kind::word && at_sign(":", 1)) {  // {E6POS: X 1, ...}
+  if (peek().kind == Token::Kind::word && at_sign(":", 1)) {  // type name: {E6POS: X 1, ...}
     e.text = word("a type");
     next();
   }
   while (!at_sign("}")) {
     std::string key = word("the name of a component");
-    if (take_sign("[")) need_sign("]");  // POINT2[] " "
+    if (take_sign("[")) need_sign("]");  // component that is a whole array: POINT2[] " "
     e.keys.push_back(std::move(key));
     e.items.push_back(expression());
     if (!take_sign(",")) break;
@@ -267,7 +268,7 @@ Expression Cursor::reference() {
 
 std::vector<Expression> Cursor::arguments(std::string_view close) {
   std::vector<Expression> list;
-  bool comma = true;  // an argument may come
+  bool comma = true;  // the next token may begin an argument
   while (!at_sign(close) && !at_end() && peek().kind != Token::Kind::line_end) {
     if (take_sign(",")) {
       if (comma && krl_) list.emplace_back();  // KRL leaves arguments out: F( , 3)
@@ -280,7 +281,7 @@ std::vector<Expression> Cursor::arguments(std::string_view close) {
       const std::string option = word("the name of an argument");
       if (take_sign(":=")) {
         value = expression();
-      } else if (take_sign("?")) {  // \x?y: given as far as the routine's own argument y is
+      } else if (take_sign("?")) {  // \x?y: given if the routine got its own argument y
         value = expression();
         value.if_present = true;
       }
@@ -290,7 +291,7 @@ std::vector<Expression> Cursor::arguments(std::string_view close) {
     }
     if (!comma)
       fail(fmt::format("has {} where ',' or the end of the statement is expected", seen()), "correct the line");
-    if (grammar_ == Grammar::urscript && peek().kind == Token::Kind::word && at_sign("=", 1)) {  // a=1.2
+    if (grammar_ == Grammar::urscript && peek().kind == Token::Kind::word && at_sign("=", 1)) {  // named argument: a=1.2
       const std::string option = word("the name of an argument");
       next();
       list.push_back(expression());
@@ -298,7 +299,7 @@ std::vector<Expression> Cursor::arguments(std::string_view close) {
       comma = false;
       continue;
     }
-    if (!krl_ && peek().kind == Token::Kind::word && at_sign(":=", 1)) {  // Tool:=gun: in its place anyway
+    if (!krl_ && peek().kind == Token::Kind::word && at_sign(":=", 1)) {  // Tool:=gun: its position decides
       word("the name of an argument");
       next();
     }

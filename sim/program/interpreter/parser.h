@@ -1,7 +1,6 @@
-// What the parsers of RAPID, KRL and URScript share: a cursor over tokens, and expressions by precedence climbing:
+// Common parts of the parsers of RAPID, KRL and URScript: a cursor over tokens, and expressions by precedence climbing:
 //   or, xor < and < comparisons < + - < * / div mod < : (KRL's product of frames)
-// A syntax error is a thrown SyntaxError inside; the statement's reader makes a problem of it and goes on
-// behind it.
+// A syntax error throws SyntaxError; the parser of the statement adds a problem and continues after the statement.
 #pragma once
 
 #include "sim/program/interpreter/code.h"
@@ -19,7 +18,7 @@ enum class Grammar { rapid, krl, urscript };
 class Cursor {
  public:
   /// krl: [ ] are indices and { } aggregates with names. rapid: { } are indices and [ ] aggregates in order.
-  /// urscript: [ ] are both; indices count from 0, and the tree's from 1; p[...] is a call of p.
+  /// urscript: [ ] are both; its indices count from 0, the indices of the tree from 1; p[...] is a call of p.
   Cursor(const std::vector<Token>& tokens, int file, Grammar grammar)
       : tokens_(tokens), file_(file), grammar_(grammar), krl_(grammar == Grammar::krl) {}
 
@@ -30,19 +29,19 @@ class Cursor {
   bool at_sign(std::string_view sign, int ahead = 0) const;
   bool take_word(std::string_view word);
   bool take_sign(std::string_view sign);
-  std::string word(const char* what);  ///< any word, in lower case
+  std::string word(const char* what);  ///< takes any word; returns it in lower case
   void need_word(std::string_view word);
   void need_sign(std::string_view sign);
   Place place(int ahead = 0) const;
-  std::size_t mark() const { return at_; }  ///< to come back to
+  std::size_t mark() const { return at_; }  ///< position for back_to()
   void back_to(std::size_t mark) { at_ = mark; }
   [[noreturn]] void fail(const std::string& what, const std::string& remedy) const;
-  std::string seen() const;  ///< the token at the cursor, for messages
+  std::string seen() const;  ///< text of the token at the cursor, for messages
 
   Expression expression(int lowest = 1);
-  /// A name with its fields, elements and arguments.
+  /// Reads a name with its fields, elements and arguments.
   Expression reference();
-  /// Arguments up to the closing sign, which is not taken: a, b \Name:=c \Switch.
+  /// Reads arguments (a, b \Name:=c \Switch) up to the closing sign; the cursor stays before the sign.
   std::vector<Expression> arguments(std::string_view close);
 
  private:
@@ -51,7 +50,7 @@ class Cursor {
   Expression unary(int lowest);
   Expression aggregate_in_order();
   Expression aggregate_with_names();
-  Expression finished(Expression e) const;  // sets the depth, checks it
+  Expression finished(Expression e) const;  // sets and checks the depth
 
   const std::vector<Token>& tokens_;
   std::size_t at_ = 0;
@@ -60,7 +59,7 @@ class Cursor {
   bool krl_;
 };
 
-/// What the statements of both languages are read with: blocks, nesting, and problems instead of errors.
+/// Base class of the parsers of statements: blocks, nesting, and problems instead of exceptions.
 class StatementParser {
  protected:
   StatementParser(Code& code, int file, const std::vector<Token>& tokens, Problems& problems, Grammar grammar)
@@ -68,7 +67,7 @@ class StatementParser {
 
   bool at_any(const std::vector<const char*>& words) const;
 
-  // Of languages in which a line's end ends a statement.
+  // For languages in which the end of a line ends a statement.
   void skip_line_ends() {
     while (at_.peek().kind == Token::Kind::line_end) at_.next();
   }
@@ -77,7 +76,7 @@ class StatementParser {
   }
   bool line_done() const { return at_.at_end() || at_.peek().kind == Token::Kind::line_end; }
 
-  /// False: there was a syntax error, which is now a problem; the cursor stands where it was found.
+  /// Calls `read`. Returns false after a syntax error, which becomes a problem; the cursor stays at the error.
   template <class Read>
   bool attempt(const Read& read) {
     try {
@@ -90,8 +89,8 @@ class StatementParser {
     }
   }
 
-  /// Statements, read by `one`, up to one of these words, which is not taken. wrong_end: whether the cursor
-  /// is at the end of something else.
+  /// Reads statements with `one` up to one of the words `until`; the cursor stays before that word. wrong_end: returns
+  /// whether the cursor is at the end of another kind of block.
   template <class WrongEnd, class One>
   std::vector<Statement> block(const std::vector<const char*>& until, const WrongEnd& wrong_end,
                                const One& one) {
@@ -109,7 +108,7 @@ class StatementParser {
     return statements;
   }
 
-  /// The branches of TEST (RAPID) and SWITCH (KRL), up to the word `end`. body: reads the statements of one.
+  /// Reads the branches of TEST (RAPID) or SWITCH (KRL) up to the word `end`. body: reads the statements of one branch.
   template <class Body>
   void cases(Statement& s, const char* end, const Body& body) {
     while (!at_.take_word(end)) {
@@ -126,12 +125,12 @@ class StatementParser {
     }
   }
 
-  /// An instruction that begins here, with its first word as it is written.
+  /// Returns an empty instruction at the cursor; its `text` is the word at the cursor as written.
   Statement statement_here() const;
-  /// IF: the condition of its first branch.
+  /// Reads the condition of an IF's first branch.
   void condition(Statement& s);
-  /// The body of an IF's first branch, and the other branches up to the word `end`: behind `also`, with a condition, or behind
-  /// ELSE. body: reads the statements of one; it is given whether that is the one behind ELSE.
+  /// Reads the first branch's body and the other branches of an IF up to the word `end`. The word `also` begins a branch with a
+  /// condition, ELSE a branch without one. body: reads the statements of one branch; its argument: the branch follows ELSE.
   template <class Body>
   void arms(Statement& s, const char* end, const char* also, const Body& body) {
     s.branches[0].body = body(false);
@@ -145,7 +144,7 @@ class StatementParser {
     }
   }
 
-  /// A label or a jump to one, at its name.
+  /// Reads a label, or a jump to a label. Precondition: the cursor is at the label's name.
   Statement labelled(Statement::Kind kind);
 
   Code& code_;

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int repeats_for_certainty = 3;
 
-/// Whether two moves are the same motion; where they stand in the program does not count.
+/// Whether two moves give the same motion; their lines may differ.
 bool alike_moves(const Instruction& a, const Instruction& b) {
   const auto same_pose = [](const Frame& x, const Frame& y) {
     return x.position == y.position && x.orientation.coeffs() == y.orientation.coeffs();
@@ -45,7 +45,7 @@ template <class Same>
 std::size_t Passes::period(const Same& same) const {
   const std::size_t last = count();
   for (std::size_t period = 1; period * (repeats_for_certainty + 1) <= last; ++period) {
-    std::size_t first = last - period;  // the earliest pass from which on each equals the one a period later
+    std::size_t first = last - period;  // one before the first pass from which each pass equals the pass one period later
     while (first >= 1 && same(first, first + period)) --first;
     if (first + 1 + repeats_for_certainty * period <= last) return first + period;
   }
@@ -79,7 +79,7 @@ std::size_t Passes::kept(std::size_t wanted) const {
   if (const std::size_t periodic = by_motion()) return periodic;
   if (const std::size_t periodic = by_lines()) return periodic;
   if (count() > 1 && !only_lines_of_the_first()) return count();
-  std::size_t first = 1;  // that moves
+  std::size_t first = 1;  // first pass with a move
   while (first < count() && end(first) == end(0)) ++first;
   return first;
 }

@@ -1,5 +1,5 @@
-// The passes of an endless loop, or of a main program that begins again: where they end, and from which on
-// they repeat.
+// The passes of an endless loop, or of a main program that starts again: their ends, and the first pass that repeats
+// an earlier one.
 #pragma once
 
 #include <cstdint>
@@ -16,20 +16,20 @@ class Passes {
  public:
   explicit Passes(const std::vector<Instruction>& moves) : moves_(&moves), ends_{moves.size()} {}
 
-  void add(std::uint64_t state);  ///< state: a sum over the program's variables at the pass's end
+  void add(std::uint64_t state);  ///< ends a pass; state: checksum of the program's variables
   std::size_t count() const { return states_.size(); }
-  std::size_t end(std::size_t pass) const { return ends_[pass]; }  ///< moves up to the end of pass 1, 2, ..
-  /// The last pass ends as an earlier one did and moved as it did: from here on everything repeats.
+  std::size_t end(std::size_t pass) const { return ends_[pass]; }  ///< number of moves at the end of pass 1, 2, ..
+  /// Whether the last pass has the moves and the final state of an earlier pass. Then all later passes repeat.
   bool repeats() const;
-  /// Variables that only count never come back. Passes whose motion repeats, judged by the moves alone:
-  /// how many there are up to the end of the first period; 0: no period is seen.
+  /// Returns the number of passes up to the end of the first period, judged by the moves alone; 0: no period.
+  /// The moves are needed because a variable that counts never returns to an earlier value.
   std::size_t by_motion() const;
-  /// Likewise, judged by the lines that move alone: the same states again, if at other places.
+  /// Returns the same as by_motion(), judged by the lines of the moves alone; the targets may differ.
   std::size_t by_lines() const;
-  /// Whether the later passes moved only on lines on which the first one did, too. A program that goes
-  /// through states moves on others: its first pass is no cycle.
+  /// Whether the later passes moved only on lines of the first pass's moves. False for a program that goes
+  /// through several states: its first pass is not a whole cycle.
   bool only_lines_of_the_first() const;
-  /// How many passes the motion is.
+  /// Returns the number of passes in the motion. wanted: the user's number; 0: none.
   std::size_t kept(std::size_t wanted) const;
 
  private:

@@ -12,8 +12,8 @@ namespace dresslife::sim {
 namespace {
 
 constexpr std::size_t listed_problems = 50;
-constexpr std::size_t most_questions = 300;  // of one round
-constexpr std::array<std::string_view, 6> configuration_words{"", "abb", "kuka", "fanuc", "motoman", "near"};  // by their kinds
+constexpr std::size_t most_questions = 300;  // in one round
+constexpr std::array<std::string_view, 6> configuration_words{"", "abb", "kuka", "fanuc", "motoman", "near"};  // by ArmConfiguration::Kind
 
 }  // namespace
 
@@ -62,7 +62,7 @@ void Problems::add(const pipeline::Where& where, const std::string& what, const 
   problems_.push_back({.where = where, .what = what, .remedy = remedy, .routine = routine});
 }
 
-/// Whether it is already reported; then its line is counted, and its further questions are added.
+/// Returns whether the problem is already reported. In this case adds its line and its further questions to the report.
 bool Problems::counted(const Problem& problem) {
   for (Problem& known : problems_) {
     const bool same_line = known.where.line == problem.where.line && known.where.file == problem.where.file;
@@ -88,7 +88,7 @@ void Problems::add_use(Problem problem) {
 
 namespace {
 
-/// How an answer is written is seen where the value itself is used, not where others depend on it.
+/// Copies the forms of answers from `by`: the form is known at the use of the value itself, not at dependent values.
 void note_forms(std::vector<Problem>& problems, const Problem& by) {
   for (const Question& asked : by.questions)
     for (Problem& problem : problems)
@@ -96,7 +96,7 @@ void note_forms(std::vector<Problem>& problems, const Problem& by) {
         if (question.form.empty() && question.kind == asked.kind && question.name == asked.name) question.form = asked.form;
 }
 
-/// Whether a branch depends on nothing but what other problems ask for.
+/// Whether all names that a branch depends on are questions of other problems.
 bool asked_already(const std::vector<Problem>& problems, const Problem& branch) {
   const auto asked = [&](const Question& question) {
     return std::any_of(problems.begin(), problems.end(), [&](const Problem& known) {
@@ -137,7 +137,7 @@ bool Problems::full() const {
 
 namespace {
 
-/// " (here and 74 times more)"; of a decision its lines, since each has an answer of its own.
+/// Returns " (here and 74 times more)"; for a decision its lines, because each line has its own answer.
 std::string further_uses(const Problem& problem) {
   constexpr int listed = 8;
   const std::size_t count = problem.more_uses.size();

@@ -1,14 +1,12 @@
-// What every reader of robot programs gets from a file: the moves in the order in which the controller runs
-// them.
+// The result of every reader of robot programs: the moves in the order in which the controller runs them.
 //
-// Lengths are m, angles rad, times s, whatever the language writes; quaternions are Eigen's. A pose is that
-// of the tool frame in the work object's frame, the work object's that in the world (the robot's base frame,
-// as the controllers take it), the tool's that in the flange frame. A stationary tool stands in the world and
-// the robot carries the work object: then the tool's frame is that in the world and the work object's that in
-// the flange.
+// Units are m, rad and s in all languages; quaternions are Eigen's. The pose of a target is the tool frame in the
+// work object's frame. The work object's frame is given in the world (the robot's base frame, as on the
+// controllers), the tool's frame in the flange frame. A stationary tool stands in the world and the robot carries
+// the work object: then the tool's frame is given in the world and the work object's frame in the flange frame.
 //
-// Problems are collected while reading and reported all at once; what a reader leaves out on purpose (input and
-// output, messages, logic without moves) is listed with its line.
+// Problems are collected during reading and reported together. Statements that a reader skips on purpose (input
+// and output, messages, logic without moves) are listed with their lines.
 #pragma once
 
 #include <algorithm>
@@ -28,67 +26,67 @@ namespace dresslife::sim {
 
 enum class Language { rapid, krl, fanuc, inform, urscript, joint_columns, ros_trajectory };
 
-/// Which of the arms that reach a pose is meant, in the words of its controller.
+/// The arm configuration of a pose (one of several that reach it), in the numbers of its controller.
 struct ArmConfiguration {
   enum class Kind { any, abb, kuka, fanuc, motoman, near };
   Kind kind = Kind::any;
   /// abb: quadrants of axes 1, 4, 6 and cfx. kuka: status, turn. fanuc: wrist flipped, arm up, arm in front
   /// (1 or 0), then the turns of axes 1, 4 and 6. motoman: the first six of RCONF: wrist (0, 1: axis R within
-  /// 90 deg of its zero or not; 2, 3: axis B at 0 or above, or below), arm lower, behind, and whether axes R, T
-  /// and S stand 180 deg or more from zero. near: the arm nearest to these angles of the axes [deg].
+  /// 90 deg of its zero or not; 2, 3: axis B >= 0 or < 0), arm lower, behind, and whether axes R, T and S
+  /// are 180 deg or more from zero. near: the configuration nearest to these axis angles [deg].
   std::vector<int> numbers;
 
-  /// "abb 0 -1 0 1", "kuka 2 35", "fanuc NUT 0 0 0", "motoman 1 0 0 0 0 0", "near 0 -90 90 0 90 0"; empty for
-  /// any.
+  /// Returns "abb 0 -1 0 1", "kuka 2 35", "fanuc NUT 0 0 0", "motoman 1 0 0 0 0 0" or "near 0 -90 90 0 90 0";
+  /// empty for Kind::any.
   std::string text() const;
   bool operator==(const ArmConfiguration&) const = default;
 };
 
-/// Reads what text() writes. Empty: not a configuration.
+/// Reads a text of ArmConfiguration::text(). std::nullopt: not a configuration.
 std::optional<ArmConfiguration> arm_configuration(const std::string& text);
 
-/// Where a move leads: joint angles, or a pose of the tool.
+/// The target of a move: joint angles, or a pose of the tool.
 struct Target {
-  std::vector<double> joints;         ///< [rad]; empty: a pose
-  Frame pose;                         ///< of the tool in the work object
-  ArmConfiguration configuration;     ///< of a pose
-  std::vector<double> external_axes;  ///< as programmed, mm or deg as the axis is; empty: none
-  std::vector<double> circle_joints;  ///< of a circular move to joint angles: a point of its circle beyond its way [rad]
+  std::vector<double> joints;         ///< [rad]; empty: the target is a pose
+  Frame pose;                         ///< tool frame in the work object's frame
+  ArmConfiguration configuration;     ///< arm configuration of the pose
+  std::vector<double> external_axes;  ///< as programmed: [mm] of a linear axis, [deg] of a rotary one; empty: none
+  std::vector<double> circle_joints;  ///< circular move to joint angles: a point of the circle outside of the arc [rad]
 };
 
 struct NamedFrame {
   std::string name;
   Frame frame;
-  bool stationary = false;  ///< of a tool: it stands in the world, the robot carries the work object
+  bool stationary = false;  ///< the tool stands in the world and the robot carries the work object
 };
 
 struct MoveSpeed {
-  std::optional<double> axis_percent;  ///< of each axis' largest speed [%]
-  std::optional<double> axis;          ///< largest of the fastest axis [rad/s]
-  std::optional<double> tool;          ///< largest of the tool's origin [m/s]
-  std::optional<double> orientation;   ///< largest of the tool's rotation [rad/s]
-  std::optional<double> duration;      ///< of the whole move [s]
-  std::optional<double> axis_acceleration;  ///< largest of the fastest axis [rad/s2]
-  std::optional<double> tool_acceleration;  ///< largest of the tool's origin along its path [m/s2]
+  std::optional<double> axis_percent;  ///< share of each axis' largest speed [%]
+  std::optional<double> axis;          ///< largest speed of the fastest axis [rad/s]
+  std::optional<double> tool;          ///< largest speed of the tool's origin [m/s]
+  std::optional<double> orientation;   ///< largest angular velocity of the tool [rad/s]
+  std::optional<double> duration;      ///< duration of the whole move [s]
+  std::optional<double> axis_acceleration;  ///< largest acceleration of the fastest axis [rad/s2]
+  std::optional<double> tool_acceleration;  ///< largest acceleration of the tool's origin along its path [m/s2]
 };
 
 struct MoveZone {
-  double distance = 0;  ///< the tool may leave its path this near to the target [m]; 0 and percent 0: stop
-  double percent = 0;  ///< of the way in which the robot would stop, where the controller blends by speed [%]
+  double distance = 0;  ///< distance to the target at which the tool may leave its path [m]; 0 and percent 0: stop
+  double percent = 0;  ///< share of the braking distance, if the controller blends by speed [%]
 };
 
-/// Where a part of an instruction was last given its value.
+/// The place where a part of an instruction last got its value.
 struct Origin {
   const char* part = "";  ///< "target", "tool", "work object", "speed", "zone", "via"
-  std::string written;    ///< in the instruction: "p20", "Offs(p20, 0, 0, 10)"
-  pipeline::Where where;  ///< of its declaration or of the last assignment; line 0: nowhere in the files
+  std::string written;    ///< the part's text in the instruction: "p20", "Offs(p20, 0, 0, 10)"
+  pipeline::Where where;  ///< place of the declaration or of the last assignment; line 0: not in the files
 };
 
 struct Instruction {
   enum class Kind { joint, linear, circular, dwell };
   Kind kind = Kind::joint;
   Target target;
-  Frame via;             ///< of a circular move: the pose on the way
+  Frame via;             ///< circular move: the pose on the arc
   int tool = -1;         ///< index into Program::tools; -1: the flange
   int work_object = -1;  ///< index into Program::work_objects; -1: the world
   MoveSpeed speed;
@@ -96,12 +94,12 @@ struct Instruction {
   double acceleration_percent = 100, jerk_percent = 100;
   double dwell = 0;  ///< [s]
   pipeline::Where where;
-  std::string routine;  ///< that holds the line
-  std::string text;     ///< of the line
+  std::string routine;  ///< routine that contains the line
+  std::string text;     ///< text of the line
   std::vector<Origin> origins;
 };
 
-/// The robot stands still for so long [s].
+/// Returns an instruction that stops the robot for `seconds` [s].
 inline Instruction dwell_of(double seconds) {
   Instruction made;
   made.kind = Instruction::Kind::dwell;
@@ -109,14 +107,14 @@ inline Instruction dwell_of(double seconds) {
   return made;
 }
 
-/// Something that the reader left out.
+/// A statement that the reader skipped.
 struct Skipped {
   pipeline::Where where;
-  std::string what;       ///< "SetDO: input, output or logic": what it is, then why it is left out
-  bool may_move = false;  ///< whether it may move the robot or change its motion
+  std::string what;       ///< the statement and the reason: "SetDO: input, output or logic"
+  bool may_move = false;  ///< the statement may move the robot or change its motion
 };
 
-/// Begin of the reason of such a line: a percentage that counts as 100.
+/// First words of the reason in Skipped::what for a percentage above 100, which is read as 100.
 inline constexpr const char* above_all_speed = "more than 100 % (limit 100, which counts)";
 
 struct Program {
@@ -131,43 +129,43 @@ struct Program {
 struct Question {
   enum class Kind { value, branch, tool, work_object };
   Kind kind = Kind::value;
-  std::string name;  ///< under which the answer is given: "di1", "cell:p10", "UTOOL[1]"; of a branch its line
-  std::string form;  ///< how an answer is written: "then or else", "a number"; empty: as in the program
-  std::string preset = {};  ///< an answer that is safe; empty: there is none
+  std::string name;  ///< key of the answer: "di1", "cell:p10", "UTOOL[1]"; for a branch: its line
+  std::string form;  ///< form of the answer: "then or else", "a number"; empty: as in the program
+  std::string preset = {};  ///< a safe answer; empty: none
 };
 
 struct Problem {
   pipeline::Where where;
   std::string what, remedy;
-  std::string about = {};  ///< missing name of a problem that is reported once for all of its uses
-  std::set<std::pair<std::string, int>> more_uses = {};  ///< files and lines
-  bool decision = false;                                 ///< how a branch goes that depends on `about`
-  std::string routine = {};                              ///< that holds the line
-  std::vector<Question> questions = {};  ///< that solve it together; empty: the files must be mended
-  bool certain = true;                   ///< false: only some ways through the program meet it
+  std::string about = {};  ///< missing name; the problem is reported once for all uses of the name
+  std::set<std::pair<std::string, int>> more_uses = {};  ///< file and line of each further use
+  bool decision = false;                                 ///< the arm of a branch depends on `about`
+  std::string routine = {};                              ///< routine that contains the line
+  std::vector<Question> questions = {};  ///< their answers together solve the problem; empty: the files are wrong
+  bool certain = true;                   ///< false: only some ways through the program have this problem
 };
 
 class Problems {
  public:
-  /// `what` says what the routine, or the file, does wrong: "moves to 'p9', which no file read declares".
+  /// Adds a problem. what: the fault of the routine or file: "moves to 'p9', which no file read declares".
   void add(const pipeline::Where& where, const std::string& what, const std::string& remedy,
            const std::string& routine = "");
-  /// One with `about`: what is missing, or what a branch depends on. Further uses of the same are counted behind
-  /// the first one.
+  /// Adds a problem with `about` (the missing name, or the name that a branch depends on). Further uses of the same
+  /// name are counted in the first problem.
   void add_use(Problem problem);
-  /// Those of another reading of the same program.
+  /// Adds the problems of another reading of the same program.
   void add_all(const Problems& others);
   bool empty() const { return problems_.empty(); }
   bool full() const;  ///< the largest number of problems is reached
-  bool asks() const;  ///< one of them has a question
-  std::size_t mistakes() const;  ///< those that have none
+  bool asks() const;  ///< at least one problem has a question
+  std::size_t mistakes() const;  ///< number of problems without a question
   const std::vector<Problem>& list() const { return problems_; }
   std::size_t count() const { return problems_.size(); }
-  /// Adds to the remedies of those from the given one on.
+  /// Appends `more` to the remedies of the problems from index `from` on.
   void hint(std::size_t from, const std::string& more);
-  /// In the order of the files' lines.
+  /// Returns the problems in the order of the files' lines.
   std::vector<Problem> sorted() const;
-  /// Throws one Unread that words every problem on a line of its own, in that order.
+  /// Throws one Unread with all problems, one line for each, in the order of sorted().
   void throw_if_any() const;
 
  private:
@@ -176,13 +174,13 @@ class Problems {
   std::vector<Problem> problems_;
 };
 
-/// A program that cannot be read before its files are mended or its questions are answered.
+/// Error: the program cannot be read before its files are corrected or its questions are answered.
 class Unread : public pipeline::InputError {
  public:
-  /// lines: of the problems behind the first, each begins with a line end.
+  /// lines: one line for each problem after the first; each begins with a line end.
   Unread(const std::vector<Problem>& all, const std::string& lines)
       : InputError(all[0].where, all[0].what, all[0].remedy + lines), problems(all), lines_(lines) {}
-  /// The same with a line more at the end.
+  /// Returns a copy of the error with one more line at its end.
   Unread with(const std::string& line) const { return {problems, lines_ + "\n" + line}; }
   std::vector<Problem> problems;  ///< at least one, in the order of the files' lines
 
@@ -192,39 +190,39 @@ class Unread : public pipeline::InputError {
 
 enum class Assumption { then_branch, else_branch };
 
-/// The flange in the program's frame at six axis angles [rad].
+/// Returns the flange frame in the robot's base frame at six axis angles [rad].
 using FlangeAt = std::function<Frame(const std::array<double, 6>&)>;
 
 struct ImportOptions {
-  std::string routine;  ///< where to start, "name" or "name(arguments)"; empty: the language's own start
-  /// "file.mod:12" or "12" -> what an undecidable branch on that line does.
+  std::string routine;  ///< first routine: "name" or "name(arguments)"; empty: the default of the language
+  /// "file.mod:12" or "12" -> the arm of an undecided branch on that line.
   std::map<std::string, Assumption> assume;
-  /// "file.mod:12" or "12" -> the value by which an undecidable choice of several on that line goes.
+  /// "file.mod:12" or "12" -> the value for an undecided TEST or SWITCH on that line.
   std::map<std::string, std::string> choose;
-  /// Inputs, registers, persistent data, positions: name as the language writes it -> value.
+  /// Inputs, registers, persistent data, positions: name in the language's spelling -> value.
   std::map<std::string, std::string> values;
-  /// Names that something beside the program writes, in lower case -> what: "sps.sub".
+  /// Names in lower case that another program writes at the same time -> that program: "sps.sub".
   std::map<std::string, std::string> written_beside = {};
-  int passes = 0;        ///< of an endless main loop; 0: until it begins again as it did before
+  int passes = 0;        ///< passes of an endless main loop; 0: until the loop repeats
   double spot_time = 1;  ///< dwell of a spot weld [s]
-  /// Whether the user named the first file as the program: its routines count before those of the same name in files
-  /// that lie beside it, such as a copy of an older state.
+  /// The user named the first file as the program. Its routines have priority over routines of the same name in the
+  /// other files of its folder, for example in an older copy.
   bool first_file_counts = false;
   FlangeAt flange = {};  ///< empty: the robot is not known
 };
 
-/// Bounds on what a program may ask of its reader; past them the reading ends with a problem.
+/// Limits of a program's size and work. A program that exceeds one of them is a problem, and its reading ends.
 struct ImportLimits {
   static constexpr std::size_t file_bytes = 8u << 20;
   static constexpr std::size_t tokens = 2'000'000;
-  static constexpr int nesting = 60;           ///< of expressions and of blocks
-  static constexpr int calls = 60;             ///< routines that call routines
-  static constexpr long executed = 3'000'000;  ///< statements and values
-  static constexpr long guessed = 200'000;     ///< of them behind a guess, where nothing counts but questions
+  static constexpr int nesting = 60;           ///< levels of nested expressions and of nested blocks
+  static constexpr int calls = 60;             ///< levels of nested calls
+  static constexpr long executed = 3'000'000;  ///< executed statements and values
+  static constexpr long guessed = 200'000;     ///< those after a guess, which only serve to find questions
   static constexpr std::size_t instructions = 100'000;
   static constexpr std::size_t skipped = 20'000;
-  static constexpr std::size_t values = 100'000;  ///< numbers of one variable, and variables
-  static constexpr int passes = 1000;  ///< of an endless loop, in search of the one after which it repeats
+  static constexpr std::size_t values = 100'000;  ///< numbers in one variable; number of variables
+  static constexpr int passes = 1000;  ///< passes of an endless loop in the search for its repetition
 };
 
 /// A source file in memory.
@@ -234,14 +232,14 @@ class SourceFile {
 
   const std::string& name() const { return name_; }
   const std::string& text() const { return text_; }
-  /// Line (from 1) without its end and the blanks around it, at most 200 characters; unprintable ones as '?'.
+  /// Returns a line (counted from 1) without blanks at its ends, at most 200 characters; unprintable characters as '?'.
   std::string line(int number) const;
-  /// Likewise, from a column (from 1) on.
+  /// Returns the rest of a line from a column (counted from 1) on, in the form of line().
   std::string from(int number, int column) const;
 
  private:
   std::string name_, text_;
-  std::vector<std::size_t> starts_;  // of the lines
+  std::vector<std::size_t> starts_;  // index of the first character of each line
 };
 
 }  // namespace dresslife::sim

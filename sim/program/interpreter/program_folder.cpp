@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Programs that a program calls, itself or through others.
+/// Returns the programs that a program calls, directly or through other programs.
 std::set<std::string> reached_from(const std::string& program, const CallGraph& graph) {
   std::set<std::string> reached;
   std::vector<std::string> open{program};

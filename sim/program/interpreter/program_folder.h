@@ -1,4 +1,4 @@
-// The programs in a folder: their files, their calls and the one that starts.
+// The programs in a folder: their files, their calls and the program that starts.
 #pragma once
 
 #include <filesystem>
@@ -13,25 +13,25 @@ namespace dresslife::sim {
 
 struct Backup {
   Language language = Language::rapid;
-  std::vector<std::filesystem::path> files;  ///< the first one gives the program its name
-  std::string routine;                       ///< where it begins; empty: the language's own start
-  std::vector<std::string> missing = {};  ///< files that the folder's own list names and that are not there
-  std::map<std::string, std::string> written_beside = {};  ///< names that another task writes -> where
+  std::vector<std::filesystem::path> files;  ///< the program has the name of the first file
+  std::string routine;                       ///< first routine; empty: the default of the language
+  std::vector<std::string> missing = {};  ///< files in the folder's list of contents that do not exist
+  std::map<std::string, std::string> written_beside = {};  ///< names that another task writes -> file of that task
 };
 
 /// Calls of a program, found without running it.
 struct Calls {
-  std::string name;             ///< in lower case; empty: the file holds no program
-  std::set<std::string> names;  ///< that it calls, in lower case
+  std::string name;             ///< in lower case; empty: the file contains no program
+  std::set<std::string> names;  ///< names of called programs, in lower case
   bool moves = false;
 };
 using CallGraph = std::map<std::string, Calls>;  // by the programs' names
 
-/// Whether a program, or one that it calls, moves the robot.
+/// Whether a program, or a program that it calls, moves the robot.
 bool moves(const std::string& program, const CallGraph& graph);
-/// Programs that move the robot and that no other one calls; the main one alone where one has that name.
+/// Returns the programs that move the robot and that no other program calls; only one if one name begins with `main`.
 std::vector<std::string> uncalled_programs(const CallGraph& graph);
-/// The one start. Errors: InputError where there is none ("holds no WHAT that moves"), or where there are several.
+/// Returns the only choice. Errors: InputError if `choices` is empty ("holds no WHAT that moves") or has several entries.
 std::string only_start(const std::filesystem::path& folder, std::vector<std::string> choices, const char* what);
 
 }  // namespace dresslife::sim

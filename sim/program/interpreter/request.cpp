@@ -11,7 +11,7 @@ const TokenRules& rules_of(Grammar grammar) {
   return grammar == Grammar::krl ? krl_rules : grammar == Grammar::rapid ? rapid_rules : script_rules;
 }
 
-/// The text as a source of its own, read by `read`.
+/// Adds the text as a separate source file and calls `read` for it.
 template <class Read>
 void read_text(Code& code, const std::string& name, const std::string& text, Grammar grammar, Problems& problems,
                const Read& read) {
@@ -54,7 +54,7 @@ std::pair<std::string, std::string> routine_and_arguments(const std::string& wri
 
 namespace {
 
-/// What $CONFIG.DAT holds as KUKA delivers it. In 11 public backups PDEFAULT and LDEFAULT are these, FHOME in 10 of 11.
+/// Values of $CONFIG.DAT as delivered by KUKA. 11 of 11 public backups have this PDEFAULT and LDEFAULT, 10 this FHOME.
 constexpr std::pair<const char*, const char*> delivered[] = {
     {"pdefault", "{VEL 100, ACC 100, APO_DIST 100}"},
     {"ldefault", "{VEL 2, ACC 100, APO_DIST 100}"},

@@ -12,12 +12,12 @@ bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z')
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
-/// Two bytes of UTF-8: the letters of ISO 8859-1 and Latin Extended-A and -B (U+00C0 .. U+024F).
+/// Whether two bytes of UTF-8 are a letter of ISO 8859-1, Latin Extended-A or -B (U+00C0 .. U+024F).
 bool is_latin_letter(std::string_view text, std::size_t at) {
   if (at + 1 >= text.size()) return false;
   const auto first = static_cast<unsigned char>(text[at]), second = static_cast<unsigned char>(text[at + 1]);
   return first >= 0xC3 && first <= 0xC9 && (second & 0xC0) == 0x80 &&
-         !(first == 0xC3 && (second == 0x97 || second == 0xB7));  // times, divided by
+         !(first == 0xC3 && (second == 0x97 || second == 0xB7));  // not the signs of multiplication and division
 }
 
 class Cutter {
@@ -89,7 +89,7 @@ class Cutter {
     add(Token::Kind::word, begin, at_);
   }
 
-  /// RAPID: 0x1F, 0b101, 0o17.
+  /// Reads a number of RAPID with a prefix: 0x1F, 0b101, 0o17. Returns false if there is none.
   bool prefixed_number() {
     const char letter = lower(peek(1));
     const int base = letter == 'x' ? 16 : letter == 'b' ? 2 : letter == 'o' ? 8 : 0;
@@ -146,7 +146,7 @@ class Cutter {
         return;
       }
     }
-    if (close < text_.find('\n', at_)) {  // 'A': a text
+    if (close < text_.find('\n', at_)) {  // 'A' is a text
       add(Token::Kind::text, begin + 1, close);
       at_ = close + 1;
       return;
@@ -166,7 +166,7 @@ class Cutter {
     static constexpr std::string_view singles = "+-*/=<>()[]{},;:.\\%|?!&@^";
     if (singles.find(text_[at_]) == std::string_view::npos) {
       complain(at_, "holds a character that does not belong to the language", "remove it");
-      at_ = std::min(text_.find('\n', at_), text_.size());  // binary data: one complaint a line
+      at_ = std::min(text_.find('\n', at_), text_.size());  // binary data: one problem per line
       return;
     }
     add(Token::Kind::sign, at_, at_ + 1);

@@ -1,5 +1,4 @@
-// The words of RAPID and KRL: identifiers, numbers, texts and signs, each with its place. Both languages
-// ignore case.
+// The tokens of a program: identifiers, numbers, texts and signs, each with its place.
 #pragma once
 
 #include <string_view>
@@ -13,19 +12,19 @@ namespace dresslife::sim {
 struct Token {
   enum class Kind { word, number, text, sign, line_end, end };
   Kind kind = Kind::end;
-  std::string_view text;  ///< of the source; of a text without its quotes
+  std::string_view text;  ///< part of the source; for Kind::text without the quotes
   double number = 0;
   int line = 0, column = 0;
 };
 
 struct TokenRules {
-  char comment;            ///< begins a comment up to the line's end
+  char comment;            ///< first character of a comment, which ends at the line's end
   std::string_view extra;  ///< characters that may begin a word besides letters
   bool line_ends;          ///< whether a line's end ends a statement
   bool based_numbers;      ///< 'H1F' and 'B0110'
 };
 
-/// Cuts a file up; what is no word of any kind becomes a problem and is left out. The last token is
+/// Splits a file into tokens. A character that begins no token becomes a problem and is skipped. The last token is
 /// Kind::end. The tokens point into `source`.
 std::vector<Token> tokens_of(const SourceFile& source, const TokenRules& rules, Problems& problems);
 

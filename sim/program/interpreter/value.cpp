@@ -38,7 +38,7 @@ const Cause* Value::first_cause() const {
 std::vector<const Cause*> Value::causes() const {
   std::vector<const Cause*> found;
   const auto add = [&](const Cause& one) {
-    constexpr std::size_t most = 12;  // of one value: a position has six numbers
+    constexpr std::size_t most = 12;  // causes of one value; a position has six numbers
     const auto same = [&](const Cause* known) {
       return known->asked() == one.asked() && known->line == one.line;
     };

@@ -1,4 +1,4 @@
-// Stops of the advance at names of inputs, outputs and imported variables.
+// Advance stops at names of inputs, outputs and imported variables.
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -16,7 +16,7 @@ Statement stop_of_advance(const Place& place) {
 namespace {
 
 using Kind = Statement::Kind;
-using Names = std::map<std::string, bool, std::less<>>;  // declared -> whether it is a signal or imported
+using Names = std::map<std::string, bool, std::less<>>;  // declared name -> true: a signal or imported
 
 class Marker {
  public:
@@ -39,7 +39,7 @@ class Marker {
       names[statement.name] |= statement.text == "signal" || statement.text == "import";
   }
 
-  /// Absent: no file declares it.
+  /// Whether a name is a signal or imported; std::nullopt: no file declares it.
   std::optional<bool> is_signal(const std::string& name) const {
     for (const Names* names : {&own_, &of_modules_[module_], &shared_})
       if (const auto found = names->find(name); found != names->end()) return found->second;
@@ -52,7 +52,7 @@ class Marker {
                        [&](const Expression& item) { return has_signal(item); });
   }
 
-  /// In the line itself, without the blocks below it.
+  /// Whether the statement's own line contains a signal; its inner blocks do not count.
   bool has_signal(const Statement& statement) const {
     const auto in = [&](const std::vector<Expression>& expressions) {
       return std::any_of(expressions.begin(), expressions.end(),
@@ -66,7 +66,7 @@ class Marker {
   void mark(std::vector<Statement>& body) const {
     std::vector<Statement> marked;
     for (Statement& statement : body) {
-      // What happens later, and what a name means; the rest of a move's line are its settings.
+      // TRIGGER and INTERRUPT take effect later, a declaration only defines a name. Neither stops the advance.
       const bool later = statement.name == "trigger" || statement.name.starts_with("interrupt_");
       const bool waits = !later && statement.kind != Kind::declare && has_signal(statement);
       const bool repeats = statement.kind == Kind::while_loop || statement.kind == Kind::until_loop;

@@ -1,9 +1,9 @@
-// Folders with KUKA programs: a whole backup (KRC/R1 with Program, System, TP and Mada) or programs beside
-// each other. Left out: STEU (the controller's own data) and templates. Submit programs (.sub) move no robot,
-// but write to what the programs read.
+// Folders with KUKA programs: a whole backup (KRC/R1 with Program, System, TP and Mada) or programs in one folder.
+// STEU (data of the controller) and templates are not read. Submit programs (.sub) do not move a robot, but they write
+// variables that the programs read.
 //
-// Where it begins, unless a routine is asked for: in what CELL.SRC calls, else in the program that no other
-// one calls, of those that move the robot.
+// If the user requests no routine, the start is a program that moves the robot: the program that CELL.SRC calls, else
+// the program that no other one calls.
 #include <algorithm>
 #include <map>
 #include <set>
@@ -24,14 +24,14 @@ namespace {
 std::string stem_of(const fs::path& file) { return lower_case(file.stem().string()); }
 bool is_program(const fs::path& file) { return lower_case(file.extension().string()) == ".src"; }
 
-/// Whether a file lies, below `folder`, in a folder of one of these names.
+/// Whether the path from `folder` to a file contains a folder of one of these names.
 bool lies_in(const fs::path& file, const fs::path& folder, const std::set<std::string>& names) {
   const fs::path below = file.lexically_relative(folder).parent_path();
   return std::any_of(below.begin(), below.end(),
                      [&](const fs::path& part) { return names.contains(lower_case(part.string())); });
 }
 
-/// The folder R1 of the backup that a file lies in; empty: none.
+/// Returns the folder R1 that contains a file; empty: none.
 fs::path robot_of(const fs::path& file) {
   for (fs::path at = file.parent_path(); !at.empty() && at != at.parent_path(); at = at.parent_path())
     if (lower_case(at.filename().string()) == "r1") return at;
@@ -55,7 +55,7 @@ Calls calls_of(const fs::path& file) {
   return calls;
 }
 
-/// Programs that could be meant: those that CELL calls by their numbers, else those that no program calls.
+/// Returns the possible start programs: the programs that CELL calls, else those that no program calls.
 std::vector<std::string> starts(CallGraph graph) {
   std::vector<std::string> found;
   if (const auto cell = graph.find("cell"); cell != graph.end()) {
@@ -80,7 +80,7 @@ void check_one_robot(const fs::path& folder, const std::vector<fs::path>& files)
 
 Backup krl_backup(const fs::path& folder, const std::vector<fs::path>& files, const std::string& routine) {
   static const std::set<std::string> foreign{"steu", "template", "templates"};
-  // What KUKA installs, and what it calls by itself.
+  // Folders of the programs that KUKA installs; the controller calls them itself.
   static const std::set<std::string> system_folders{"system", "tp", "mada"};
   static const std::set<std::string> system_programs{"masref_user", "tm_useraction", "colldetect_useraction"};
   Backup backup;
@@ -99,7 +99,7 @@ Backup krl_backup(const fs::path& folder, const std::vector<fs::path>& files, co
       }
   }
   check_one_robot(folder, backup.files);
-  const auto put_first = [&](const std::string& name) {  // it names the motion
+  const auto put_first = [&](const std::string& name) {  // the first file names the motion
     std::stable_partition(backup.files.begin(), backup.files.end(),
                           [&](const fs::path& file) { return is_program(file) && file_of[name] == file; });
   };

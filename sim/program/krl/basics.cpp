@@ -1,5 +1,5 @@
-// What BAS.SRC and $CONFIG.DAT of a controller define: the frames that are in use, BAS and its cases, and the
-// functions that the editor writes behind WITH. Source: bas.src as KSS 5 to 8 install it.
+// The definitions of a controller's BAS.SRC and $CONFIG.DAT: the current frames, BAS and its cases, and the functions
+// that the editor writes after WITH. Source: bas.src of KSS 5 to 8.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -23,19 +23,19 @@ constexpr const char* harmless_names[] = {
     "strfind",  "h50",     "$timer",    "$timer_flag", "clear_krlmsg", "ir_stopm", "$cycflag",
     "$in",      "$anin",   "$err",      "ciostate",    advance_stop};
 constexpr const char* harmless_beginnings[] = {"eki_", "msg", "set_krl", "exists_krl", "diag_"};
-/// Of these, those that write to what they are given.
+/// Harmless functions that write to their arguments.
 constexpr const char* writing_names[] = {"cread",  "sread",    "copen",     "sopen",
                                          "swrite", "cwrite",   "cclose",    "strcopy",
                                          "stradd", "strclear", "msgdialog", "exists_krldlg"};
 
-/// Fields by which inline forms use an FDAT.
+/// Fields of an FDAT that inline forms use.
 constexpr const char* fdat_fields[] = {".tool_no", ".base_no", ".ipo_frame"};
 
 Value scaled(const Value& value, double factor) {
   return value.is_number() ? number_value(value.number * factor) : value;
 }
 
-/// At most this number, where both are known.
+/// Returns the smaller of a value and `most`, if both are known, else the value.
 Value at_most(const Value& value, const std::optional<double>& most) {
   return value.is_number() && most && value.number > *most ? number_value(*most) : value;
 }
@@ -75,13 +75,13 @@ Value Krl::record(const std::array<double, 6>& numbers, const char* type) const 
   return value;
 }
 
-const RecordType* Krl::type_of(const std::string&) const { return nullptr; }  // store() shapes what it takes
+const RecordType* Krl::type_of(const std::string&) const { return nullptr; }  // store() applies the type
 
 Value Krl::initial(const std::string& type) const { return prototype(type, 0); }
 
-/// A variable of a type before anything is assigned to it: its lists, with nothing in them.
+/// Returns the value of a variable before its first assignment: the lists of its type with unset values.
 Value Krl::prototype(const std::string& type, int depth) const {
-  constexpr int deepest = 6;  // structures in structures
+  constexpr int deepest = 6;  // levels of nested structures
   if (type == "signal") return unknown_value("", "is a signal of inputs or outputs");
   if (type == "import") return unknown_value("", "is imported from another module");
   Value value = unset_value();
@@ -107,7 +107,7 @@ Value Krl::prototype(const std::string& type, int depth) const {
 
 namespace {
 
-/// An external axis at zero stays there, whatever the controller keeps of it.
+/// Whether a field is an external axis at zero. Such an axis stays at zero if an aggregate omits it.
 bool is_idle_axis(const std::string& field, const Value& value) {
   return value.is_number() && value.number == 0 &&
          std::find(std::begin(external_names), std::end(external_names), field) != std::end(external_names);
@@ -115,7 +115,7 @@ bool is_idle_axis(const std::string& field, const Value& value) {
 
 }  // namespace
 
-/// As the controller assigns: components by their names, REAL to INT rounded.
+/// Assigns like the controller: components by their names; a REAL is rounded for an INT.
 void Krl::store(Value& place, Value value) const {
   const bool both = place.kind == Value::Kind::list && value.kind == Value::Kind::list;
   if (both && place.type && value.type) {
@@ -138,7 +138,7 @@ void Krl::store(Value& place, Value value) const {
   }
 }
 
-/// A CHAR is the number of its letter.
+/// Returns the character code of a text of one letter, because a KRL CHAR is a number.
 std::optional<double> Krl::letter(const Value& text) const {
   if (text.kind != Value::Kind::text || text.text.size() != 1) return {};
   return static_cast<unsigned char>(text.text[0]);
@@ -159,13 +159,13 @@ std::string Krl::form_of(const std::string& type) const {
   return "";
 }
 
-/// A name that its module does not declare is in the data list that is not there, or in $CONFIG.DAT.
+/// An undeclared name is in $CONFIG.DAT, except in a module whose data list is missing.
 bool Krl::shares(const std::string& name, int module) const {
   return name.starts_with("$") || code_.modules[module].whole;
 }
 
-/// What the editor of inline forms puts into the data list of the program; other names that no file declares are
-/// taken to be those of $CONFIG.DAT.
+/// Whether the editor of inline forms writes a name into the program's data list. Other undeclared names are assumed to
+/// be in $CONFIG.DAT.
 bool Krl::is_of_module(const std::string& name) const {
   static const std::set<std::string> of_all{"fhome",  "xhome",  "xhome1", "xhome2",
                                             "xhome3", "xhome4", "xhome5"};
@@ -177,8 +177,8 @@ bool Krl::is_of_module(const std::string& name) const {
           numbered("cpdat") || numbered("pdat") || numbered("ldat"));
 }
 
-/// An unknown value that an inline form takes from its data, asked for as those are kept: the whole FDAT, PDAT or
-/// LDAT, in its form. The editor gives a new PDAT and LDAT the values of PDEFAULT and LDEFAULT.
+/// Returns the unknown value of an inline form with a question for its whole FDAT, PDAT or LDAT. The editor gives a new
+/// PDAT and LDAT the values of PDEFAULT and LDEFAULT, which are the safe answers.
 Value Krl::of_form(const Value& value, const char* type) const {
   const std::string kind = type, form = form_of(kind);
   const Cause* known = value.kind == Value::Kind::unknown ? value.cause.get() : nullptr;
@@ -209,7 +209,7 @@ bool Krl::Frames::same(const Frames& other) const {
 Frame Krl::Frames::flange(const Frame& pose) const {
   if (!stationary) return base * pose * inverse(tool);
   return base * inverse(pose) *
-         inverse(tool);  // the flange holds the work at `tool`, the tool stands at `base`
+         inverse(tool);  // the flange carries the work object at `tool`, the tool stands at `base`
 }
 
 Frame Krl::Frames::pose(const Frame& flange) const {
@@ -217,7 +217,8 @@ Frame Krl::Frames::pose(const Frame& flange) const {
   return inverse(flange * tool) * base;
 }
 
-/// TOOL_DATA[n] and BASE_DATA[n] that the user gives; others are unknown under their names.
+/// Returns the user's frame for TOOL_DATA[n] or BASE_DATA[n], else an unknown value with this name. std::nullopt: another
+/// name, or the files contain the frame.
 std::optional<Value> Krl::named_frame(const std::string& path) {
   const bool tool = path.starts_with("tool_data["), base = path.starts_with("base_data[");
   if ((!tool && !base) || path.find_first_of(".]") != path.size() - 1) return {};
@@ -230,14 +231,15 @@ std::optional<Value> Krl::named_frame(const std::string& path) {
   return unknown_value(fmt::format("{}[{}]", tool ? "TOOL_DATA" : "BASE_DATA", index), "is in no file read");
 }
 
-/// TOOL_DATA[n] or BASE_DATA[n]; 0 is the flange or the world.
+/// Returns TOOL_DATA[n] or BASE_DATA[n]; n <= 0 is the flange or the world.
 Value Krl::numbered(const char* list, const Value& number, Interpreter& run) {
   if (!number.is_number()) return unknown_value(number);
   if (number.number <= 0) return frame_value(Frame{});
   return run.evaluate(element_at(list, static_cast<int>(std::min(number.number, 1e6)), Place{}));
 }
 
-/// The element of TOOL_DATA or BASE_DATA with these contents, the one in use first; else the variable itself.
+/// Returns the name of the element of TOOL_DATA or BASE_DATA with these numbers, preferably the current one; else $TOOL
+/// or $BASE.
 std::string Krl::name_of(const char* list, const std::array<double, 6>& numbers, Interpreter& run) {
   const bool tool = std::string(list) == "tool_data";
   const auto number = setting(tool ? "$act_tool" : "$act_base", "", run);
@@ -256,7 +258,7 @@ std::string Krl::name_of(const char* list, const std::array<double, 6>& numbers,
   return name.empty() ? (tool ? "$TOOL" : "$BASE") : name;
 }
 
-/// Contents of $TOOL or $BASE. What the program has not assigned the controller holds from before: the user gives it.
+/// Returns $TOOL or $BASE. Before an assignment the controller keeps an earlier value, which the user must give.
 Frame Krl::current(const char* variable, const char* list, Frames& frames, std::string& name,
                    Interpreter& run) {
   const Value* value = run.variable(variable);
@@ -290,7 +292,7 @@ Krl::Frames Krl::current_frames(Interpreter& run) {
   frames.stationary = mode && mode->kind == Value::Kind::text && mode->text == "#tcp";
   if (mode && mode->kind == Value::Kind::unknown && !is_unset(*mode) && frames.unknown.known())
     frames.unknown = *mode;
-  // $BASE is given in $WORLD, in which the robot may stand elsewhere.
+  // $BASE is given in $WORLD; $ROBROOT is the robot's place in it.
   if (const Value* root = run.variable("$robroot")) {
     if (const Coordinates place = coordinates(*root, frame_names); place.all())
       frames.base = inverse(frame_from(place.numbers)) * frames.base;
@@ -302,13 +304,13 @@ Krl::Frames Krl::current_frames(Interpreter& run) {
 
 // ---- BAS --------------------------------------------------------------------------------------------------
 
-/// Percent of DEF_VEL_PTP, of an axis' largest speed.
+/// Returns the speed [%] of an axis' largest speed, from a percentage of DEF_VEL_PTP.
 Value Krl::axis_speed(const Value& percent, Interpreter& run) {
   return scaled(at_most(percent, 100), setting("def_vel_ptp", "", run).value_or(100) / 100);
 }
 
-/// Controllers that adapt accelerations to the load take the percentage itself, the others that of
-/// DEF_ACC_PTP.
+/// Returns the acceleration [%] of an axis. Controllers that adapt accelerations to the load use the percentage itself,
+/// others the percentage of DEF_ACC_PTP.
 Value Krl::axis_acceleration(const Value& percent, Interpreter& run) {
   const Value* adapts = run.variable("$adap_acc");
   const bool whole = !adapts || adapts->kind != Value::Kind::text || adapts->text != "#none";
@@ -386,7 +388,7 @@ void Krl::path_data(const Place& place, Interpreter& run) {
   run.assign(name_at("$circ_type", place), part("circ_typ"));
 }
 
-/// BAS(#INITMOV, 0): what $CONFIG.DAT has for a start. Of its missing values only the speed is a question.
+/// Runs BAS(#INITMOV, 0): sets the initial values of $CONFIG.DAT. Only a missing speed is a question.
 void Krl::initialise(const Place& place, Interpreter& run) {
   const auto standard = [&](const char* name) {
     const Value value = run.evaluate(name_at(name, place));
@@ -462,7 +464,7 @@ void Krl::basics(const Statement& statement, Interpreter& run) {
 
 // ---- functions --------------------------------------------------------------------------------------------
 
-/// What the editor writes behind WITH.
+/// Returns the value of a function that the editor writes after WITH; std::nullopt: another function.
 std::optional<Value> Krl::spline_function(const Expression& call, const std::vector<Value>& values,
                                           Interpreter& run) {
   const std::string& name = call.text;
@@ -531,7 +533,7 @@ std::optional<Value> Krl::spline_function(const Expression& call, const std::vec
   return {};
 }
 
-/// VARSTATE("name"); a name that no file declares may stand in one that is not there.
+/// Returns VARSTATE("name"). A name that no file declares may be in a missing file.
 Value Krl::state_of(const Value& name, Interpreter& run) {
   if (name.kind != Value::Kind::text) return unknown_value(name);
   const Value* value = run.variable(lower_case(name.text));
@@ -571,7 +573,7 @@ std::optional<Value> Krl::function(const Expression& call, Interpreter& run) {
   if (!known.contains(call.text)) return {};
   std::vector<Value> values;
   for (const Expression& argument : call.items) values.push_back(run.evaluate(argument));
-  if (call.text == ":" || call.text == "inv_pos") {  // the second frame, given in the first
+  if (call.text == ":" || call.text == "inv_pos") {  // ":": the second frame is given in the first
     Frame product;
     for (const Value& value : values) {
       const Coordinates read = coordinates(value, frame_names);

@@ -1,5 +1,5 @@
-// What KRL's instructions, functions and system variables mean: moves, frames, BAS and the functions behind
-// WITH. krl.cpp holds the moves, basics.cpp what BAS.SRC and $CONFIG.DAT of a controller define.
+// The effects of KRL's instructions, functions and system variables: moves, frames, BAS and the functions after WITH.
+// krl.cpp contains the moves, basics.cpp the definitions of a controller's BAS.SRC and $CONFIG.DAT.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ namespace dresslife::sim {
 
 class Krl final : public Dialect {
  public:
-  /// tools, work_objects: those that the program's files do not hold. Both and the code must outlive this.
+  /// tools, work_objects: frames that the program's files do not define. The arguments must outlive this object.
   Krl(const Code& code, const std::vector<NamedFrame>& tools, const std::vector<NamedFrame>& work_objects);
 
   std::optional<Value> constant(const std::string& name) override;
@@ -39,25 +39,25 @@ class Krl final : public Dialect {
   /// Indices of the instructions that are SPL points of spline blocks.
   const std::set<std::size_t>& spline_points() const { return spline_points_; }
 
-  /// What the numbers of a target count from.
+  /// The reference of a target's numbers.
   enum class From {
-    origin,  ///< of the base, or of the axes
-    place,   ///< before the move, along the base (PTP_REL, LIN_REL)
-    tool     ///< before the move, along the tool (LIN_REL ... #TOOL)
+    origin,  ///< origin of the base, or zero of the axes
+    place,   ///< position before the move, in directions of the base (PTP_REL, LIN_REL)
+    tool     ///< position before the move, in directions of the tool (LIN_REL ... #TOOL)
   };
 
  private:
-  /// $TOOL and $BASE as a move finds them, in the robot's base frame.
+  /// $TOOL in the flange frame and $BASE in the robot's base frame at a move.
   struct Frames {
     Frame tool, base;
     std::string tool_name, base_name;
-    bool stationary = false;  ///< $IPO_MODE is #TCP: the tool stands at $BASE, the work hangs at $TOOL
-    Value unknown;            ///< why they are not known; known: they are
-    Value base_too;           ///< why the base is not, where the tool is not either
+    bool stationary = false;  ///< $IPO_MODE is #TCP: the tool stands at $BASE, the robot carries the work object at $TOOL
+    Value unknown;            ///< cause of an unknown frame; a known value: both frames are known
+    Value base_too;           ///< cause of an unknown base, if the tool is unknown, too
 
     bool same(const Frames& other) const;
-    Frame flange(const Frame& pose) const;  ///< that holds the tool at the pose
-    Frame pose(const Frame& flange) const;
+    Frame flange(const Frame& pose) const;  ///< flange frame at a pose of the tool in the base
+    Frame pose(const Frame& flange) const;  ///< pose of the tool in the base at a flange frame
   };
 
   // ---- krl.cpp: moves
@@ -133,26 +133,26 @@ class Krl final : public Dialect {
 
   struct Handler {
     const Statement* call;
-    int module;  // that declares it
+    int module;  // module that declares the interrupt
   };
   std::map<long, Handler> handlers_;  // by the interrupts' numbers
   std::set<long> braking_;            // interrupts that are on and stop moves
 
-  // Where the robot stands: axes after a move to axes, else a pose and the frames in which it is given.
+  // The robot's position: axis angles after a move to axis angles, else a pose and its frames.
   std::optional<std::array<double, 6>> axes_, numbers_;
   Frames numbers_in_;
-  Value lost_;  // why it is not known where the last move led
+  Value lost_;  // cause of an unknown target of the last move
   std::array<std::optional<double>, 6> external_;
 };
 
 namespace krl {
 
-/// DEF_ACC_CP as KUKA delivers it [m/s2]: without $config.dat it stands on both sides of a percentage.
+/// DEF_ACC_CP as delivered by KUKA [m/s2]. Without $config.dat it cancels, because accelerations are percentages of it.
 constexpr double standard_path_acceleration = 2.3;
-/// $JERK_MA.CP and DEF_JERK_STRUC.CP of published backups of KR 6, KR 125, KR 210 (KSS 8.3 to 8.6) [m/s3].
+/// $JERK_MA.CP and DEF_JERK_STRUC.CP [m/s3] of public backups of KR 6, KR 125, KR 210 (KSS 8.3 to 8.6).
 constexpr double standard_path_jerk = 500;
 
-/// A part of a variable: "$vel" "cp", "tool_data" 3.
+/// Returns the expression of a part of a variable: field "cp" of "$vel", element 3 of "tool_data".
 Expression field_at(const std::string& name, const std::string& field, const Place& place);
 Expression element_at(const std::string& name, int index, const Place& place);
 

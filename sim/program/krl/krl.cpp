@@ -24,21 +24,21 @@ bool is_standing(const std::string& name) {
   return std::find(std::begin(standing_names), std::end(standing_names), name) != std::end(standing_names);
 }
 
-/// Whether a move carries a word: C_DIS, #TOOL, in_spline.
+/// Whether a move has a mark: C_DIS, #TOOL, in_spline.
 bool has(const Statement& statement, const char* word) {
   return (" " + statement.text + " ").find(fmt::format(" {} ", word)) != std::string::npos;
 }
 
-/// Whether the spline planner makes a move: only it takes $GEAR_JERK and $JERK.
+/// Whether the spline planner plans a move. Only this planner uses $GEAR_JERK and $JERK.
 bool is_spline(const Statement& statement) { return statement.name.starts_with("s") || has(statement, "in_spline"); }
 
-/// A distance of SAPO_PTP that stands for "the percentage counts alone" [mm].
+/// Distance of SAPO_PTP [mm] from which only the percentage counts.
 constexpr double no_distance = 1e5;
 
 constexpr const char* target_form =
     "{X .., Y .., Z .., A .., B .., C .., S .., T ..} in mm and deg, or {A1 .., A2 .., A3 .., A4 .., A5 .., A6 ..}";
 
-constexpr double most_angle = 3600;  // of CA [deg]
+constexpr double most_angle = 3600;  // largest CA [deg]
 
 }  // namespace
 
@@ -60,7 +60,7 @@ std::optional<Value> Krl::constant(const std::string& name) {
   if (name.starts_with("#")) return text_value(name);
   if (name == "$nullframe" || name == "$world") return frame_value(Frame{});
   if (name == "$num_ax") return number_value(6);
-  if (name == "$t1" || name == "$t2") return truth_value(false);  // what wears cables is automatic operation
+  if (name == "$t1" || name == "$t2") return truth_value(false);  // cables wear in automatic operation
   if (name == "$on_path") return truth_value(false);              // a program runs from its first line
   const bool axes = name == "$axis_act" || name == "$axis_act_meas" || name == "$axis_int";
   if (!axes && name != "$pos_act" && name != "$pos_act_mes" && name != "$pos_int") return named_frame(name);
@@ -104,7 +104,7 @@ void Krl::ask_for_target(const Expression& written, const Value& value, Interpre
   }
 }
 
-/// All that the target lacks in one line: it is answered in one round.
+/// Asks for all missing parts of a target in one problem, so that one round of answers is enough.
 void Krl::ask_for_part(const Expression& written, const Coordinates& read, Interpreter& run) {
   const Value value = run.evaluate(written);
   const bool whole = value.kind == Value::Kind::unknown;
@@ -112,7 +112,7 @@ void Krl::ask_for_part(const Expression& written, const Coordinates& read, Inter
               whole ? target_form : "a number");
 }
 
-/// Numbers of where the robot stands that the user gives: "cell.src:12:$pos_act".
+/// Returns the robot's position that the user gives for the current line: "cell.src:12:$pos_act"; std::nullopt: none.
 std::optional<std::array<double, 6>> Krl::given_place(bool axes, Interpreter& run) {
   const auto value = run.given_here(axes ? "$axis_act" : "$pos_act");
   const Coordinates read =
@@ -120,7 +120,7 @@ std::optional<std::array<double, 6>> Krl::given_place(bool axes, Interpreter& ru
   return read.all() ? std::optional(read.numbers) : std::nullopt;
 }
 
-/// What a target leaves out stays as it was where the robot stands.
+/// Asks for the position before the move: components that a target omits keep their values.
 void Krl::ask_for_place_before(const Expression& written, bool axes, Interpreter& run) {
   run.ask_for(
       place_here(axes, run), written.place,
@@ -132,15 +132,16 @@ void Krl::ask_for_place_before(const Expression& written, bool axes, Interpreter
       "");
 }
 
-/// Where the robot stands is unknown: what the last move's target depends on is asked for too, but that may be given
-/// in the other form.
+/// Returns an unknown position of the robot. The question includes the causes of the last move's unknown target, because
+/// the user may know these instead.
 Value Krl::place_here(bool axes, Interpreter& run) const {
   const Value here = unknown_value(run.name_here(axes ? "$axis_act" : "$pos_act"),
                                    "is where the robot stands", form_of(axes ? "axis" : "frame"));
   return lost_.cause ? unknown_value(lost_, here) : here;
 }
 
-/// The numbers of the last target, in other frames where they have changed since; of axis angles those of the robot.
+/// Returns the position before the move, in the frames of the move. After a move to axis angles the robot's kinematics
+/// give the pose (ImportOptions::flange). std::nullopt: not known.
 std::optional<std::array<double, 6>> Krl::place_before(const Frames& frames) const {
   if (axes_ && frames.unknown.known() && run_->options().flange) {
     std::array<double, 6> angles = *axes_;
@@ -148,7 +149,7 @@ std::optional<std::array<double, 6>> Krl::place_before(const Frames& frames) con
     return numbers_of(frames.pose(run_->options().flange(angles)));
   }
   if (!numbers_ || frames.same(numbers_in_)) return numbers_;
-  if (!frames.unknown.known() || !numbers_in_.unknown.known()) return numbers_;  // they are asked for
+  if (!frames.unknown.known() || !numbers_in_.unknown.known()) return numbers_;  // the frames are a question
   return numbers_of(frames.pose(numbers_in_.flange(frame_from(*numbers_))));
 }
 
@@ -170,7 +171,7 @@ bool Krl::read_external(const Expression& written, const Value& value, bool rela
 
 namespace {
 
-/// A place in the frame of the move, from what is written and the place before; absent: not known.
+/// Returns a target in the frame of the move, from its components and the position before; std::nullopt: not known.
 std::optional<std::array<double, 6>> moved(const Coordinates& read, Krl::From from,
                                            const std::optional<std::array<double, 6>>& before) {
   if (read.all() && from == Krl::From::origin) return read.numbers;
@@ -212,14 +213,15 @@ bool Krl::read_via(const Expression& via, From from, const Frames& frames, Instr
   return true;
 }
 
-/// A setting by name (#VAR, #BASE) that depends on what is known only while the robot runs.
+/// Asks for the value of a setting (#VAR, #BASE) that is unknown.
 void Krl::ask_for_kind(const Value* kind, const char* what, const Place& place, Interpreter& run) {
   if (kind && kind->kind == Value::Kind::unknown && !is_unset(*kind))
     run.ask_for(*kind, place, fmt::format("{} that is known only while the robot runs", what),
                 "assign a constant", "a name");
 }
 
-/// $ORI_TYPE = #CONSTANT: the tool keeps the orientation that it has, whatever the target says.
+/// Whether $ORI_TYPE is #CONSTANT: the tool keeps its orientation, and the target's orientation is ignored. unknown: the
+/// position before the move is not known; then returns false with a warning.
 bool Krl::keeps_orientation(const Place& place, bool unknown, Interpreter& run) {
   const Value* type = run.variable("$ori_type");
   ask_for_kind(type, "turns the tool by an $ORI_TYPE", place, run);
@@ -255,7 +257,7 @@ bool Krl::read_known_target(const Expression& written, From from, const Frames& 
       ask_for_part(written, *read, run);
       return false;
     }
-  const bool outside = coordinates(value, external_names).any();  // PTP {E1 200}: the robot stays
+  const bool outside = coordinates(value, external_names).any();  // PTP {E1 200}: the robot's axes do not move
   const bool joint = axes.any() || (!frame.any() && outside && axes_);
   if (!joint && !frame.any() && !outside) {
     ask_for_target(written, value, run);
@@ -302,7 +304,7 @@ bool Krl::read_known_target(const Expression& written, From from, const Frames& 
 
 // ---- speed and zone ---------------------------------------------------------------------------------------
 
-/// A number that a system variable or a part of one holds.
+/// Returns the number in a system variable or in a field of it; std::nullopt: not known.
 std::optional<double> Krl::setting(const std::string& name, const char* field, Interpreter& run) {
   const Value* value = run.variable(name);
   if (value && *field) value = value->field(field);
@@ -310,7 +312,7 @@ std::optional<double> Krl::setting(const std::string& name, const char* field, I
 }
 
 bool Krl::read_axis_speed(const Statement& statement, Instruction& move, Interpreter& run) {
-  const auto slowest = [&](const char* list) -> std::optional<double> {  // axes move together
+  const auto slowest = [&](const char* list) -> std::optional<double> {  // the slowest axis limits a joint move
     double percent = 100;
     const Value* values = run.variable(list);
     for (std::size_t axis = 0; values && axis < 6 && axis < values->items.size(); ++axis) {
@@ -380,7 +382,7 @@ bool Krl::read_path_speed(const Statement& statement, Instruction& move, Interpr
   return true;
 }
 
-/// $OV_PRO slows every move down.
+/// Applies the override $OV_PRO to the speed of a move.
 bool Krl::read_override(const Statement& statement, Instruction& move, Interpreter& run) {
   const Value* value = run.variable("$ov_pro");
   if (!value || is_unset(*value)) return true;
@@ -426,7 +428,7 @@ void Krl::read_zone(const Statement& statement, Instruction& move, Interpreter& 
     return;
   }
   if (const auto ahead = setting("$advance", "", run); ahead && *ahead <= 0)
-    return;  // moves are not known ahead
+    return;  // without advance the controller does not blend
   const bool joint = move.kind == Instruction::Kind::joint,
              by_distance = has(statement, "c_dis") || has(statement, "c_spl");
   const auto distance = setting("$apo", "cdis", run);
@@ -435,7 +437,7 @@ void Krl::read_zone(const Statement& statement, Instruction& move, Interpreter& 
   } else if (by_distance) {
     move.zone.distance = std::max(0.0, known("cdis", "$APO.CDIS").value_or(0)) * millimetre;
   } else if (has(statement, "c_vel")) {
-    // From v % of the speed V on: (v V)^2 / 2a of the way V^2 / 2a in which the robot would stop.
+    // Blending begins at the share v of the speed V: at (v V)^2 / 2a of the braking distance V^2 / 2a.
     const double share = std::clamp(known("cvel", "$APO.CVEL").value_or(0), 0.0, 100.0) / 100;
     move.zone.percent = 100 * share * share;
   } else if (has(statement, "c_ori")) {
@@ -443,7 +445,7 @@ void Krl::read_zone(const Statement& statement, Instruction& move, Interpreter& 
   }
 }
 
-/// Origins of the parts of a move.
+/// Writes the origins of a move's parts.
 void Krl::add_origins(const Expression& target, const Frames& frames, Instruction& move, Interpreter& run) {
   const auto add = [&](const char* part, const std::string& written, const Expression& from) {
     const Place place = run.origin(from);
@@ -461,14 +463,14 @@ void Krl::add_origins(const Expression& target, const Frames& frames, Instructio
 
 // ---- moves ------------------------------------------------------------------------------------------------
 
-/// A move to $AXIS_ACT; before the first move also one to a variable that keeps it.
+/// Whether a move goes to the current position ($AXIS_ACT). Before the first move, a variable that contains it counts, too.
 bool Krl::stands_still(const Expression& target, Interpreter& run) const {
   if (target.kind != Expression::Kind::name) return false;
   if (is_standing(target.text)) return true;
   const auto moves = [](const Instruction& i) { return i.kind != Instruction::Kind::dwell; };
   const auto& made = run.program().instructions;
   if (std::any_of(made.begin(), made.end(), moves)) return false;
-  const Place last = run.origin(target);  // "p = $AXIS_ACT", unless a part of it was written since
+  const Place last = run.origin(target);  // the line "p = $AXIS_ACT", if no part of p was written later
   if (last.line == 0) return false;
   std::string line = lower_case(code_.files[last.file].from(last.line, last.column));
   line.resize(std::min(line.find(';'), line.size()));
@@ -478,7 +480,7 @@ bool Krl::stands_still(const Expression& target, Interpreter& run) const {
 
 void Krl::set_frames(const Frames& frames, Instruction& move, Interpreter& run) {
   const auto trivial = [](const Frame& f) { return f.position.isZero(0) && f.orientation.vec().isZero(0); };
-  // #TCP: the tool stands in $BASE, the work is held at $TOOL.
+  // #TCP: the tool stands at $BASE, the robot carries the work object at $TOOL.
   const bool turned = frames.stationary;
   const NamedFrame tool{turned ? frames.base_name : frames.tool_name, turned ? frames.base : frames.tool,
                         turned};
@@ -516,7 +518,8 @@ void Krl::ask_for_frame(const Value& unknown, const Statement& statement, Interp
   }
 }
 
-/// The arc, on by the angle of CA where there is one, and with a tool that turns with the way where it does.
+/// Emits the moves of a circular move. whole_angle: the angle CA of the arc; null: the arc ends at the target. With
+/// $CIRC_TYPE #PATH and a constant orientation the tool turns with the path.
 void Krl::go_round(const Statement& statement, const Expression* whole_angle,
                    const std::optional<std::array<double, 6>>& start, Instruction move, Interpreter& run) {
   const Value* type = run.variable("$circ_type");
@@ -536,7 +539,7 @@ void Krl::go_round(const Statement& statement, const Expression* whole_angle,
 
   const Frame from = frame_from(*start), to = move.target.pose;
   const auto arc = arc_through(from.position, move.via.position, to.position);
-  constexpr double taught_alike = 0.1 * degree;  // as well as points are taught
+  constexpr double taught_alike = 0.1 * degree;  // [rad] accuracy of taught points
   if (!arc || std::abs(given.number) > most_angle) {
     run.complain(
         statement.place,
@@ -566,7 +569,7 @@ void Krl::move_now(Instruction::Kind kind, const Statement& statement, Interpret
                                                       : From::place;
   const Expression* target = nullptr;
   const Expression* via = nullptr;
-  const Expression* angle = nullptr;  // of the whole arc
+  const Expression* angle = nullptr;  // CA, the angle of the whole arc
   for (const Expression& argument : statement.arguments) {
     if (argument.option == "ca") {
       angle = &argument;
@@ -587,11 +590,11 @@ void Krl::move_now(Instruction::Kind kind, const Statement& statement, Interpret
   const auto start = place_before(frames);
   bool whole = kind != Instruction::Kind::circular || read_via(*via, from, frames, move, run);
   whole &= read_target(*target, from, frames, move, run);
-  if (!whole) ask_for_frames(frames, statement, run);  // a place needs them
+  if (!whole) ask_for_frames(frames, statement, run);  // a pose needs the frames
   const bool has_speed = read_speed(statement, move, run);
-  read_zone(statement, move, run);  // all that the move lacks is asked for together
+  read_zone(statement, move, run);  // all missing values of the move are one round of questions
   if (!has_speed || !whole) return;
-  // Axis angles need no frames, unless the tool's way decides where blending begins.
+  // Axis angles need no frames, unless the blend begins at a distance of the tool.
   const bool free = !move.target.joints.empty() && move.zone.distance == 0;
   if (frames.unknown.known())
     set_frames(frames, move, run);
@@ -611,9 +614,9 @@ void Krl::move_now(Instruction::Kind kind, const Statement& statement, Interpret
 
 namespace {
 
-/// Whether a routine, or one that it calls, stops the robot's move.
+/// Whether statements, or routines that they call, stop the robot's move.
 bool brakes(const Code& code, const std::vector<Statement>& body, int module, int depth) {
-  constexpr int deepest = 4;  // calls in handlers
+  constexpr int deepest = 4;  // levels of calls in handlers
   return depth < deepest && std::any_of(body.begin(), body.end(), [&](const Statement& statement) {
            if (statement.name == "brake" || statement.name == "resume") return true;
            for (const Branch& branch : statement.branches)
@@ -626,7 +629,7 @@ bool brakes(const Code& code, const std::vector<Statement>& body, int module, in
 
 }  // namespace
 
-/// Variables that a handler writes are unknown, because it may have run.
+/// Makes the variables unknown that an interrupt's handler writes, because the handler may have run.
 void Krl::handlers_happen(long number, Interpreter& run) {
   const auto handler = handlers_.find(number);
   if (handler == handlers_.end()) return;
@@ -636,13 +639,13 @@ void Krl::handlers_happen(long number, Interpreter& run) {
                                    run.short_place(call.place)));
 }
 
-/// An interrupt is taken not to happen. If it would stop moves, that is reported.
+/// Handles an interrupt statement. Interrupts are assumed not to happen; one that stops moves gives a warning.
 void Krl::interrupt(const Statement& statement, Interpreter& run) {
   const Value number = statement.arguments.empty() ? number_value(0) : run.evaluate(statement.arguments[0]);
   const long key = number.is_number() ? static_cast<long>(std::clamp(number.number, -1e6, 1e6)) : -1;
   if (statement.name == "interrupt_decl") {
     const Statement& call = statement.branches[0].body[0];
-    if (call.name == "ir_stopm") return;  // after a stop by the operator
+    if (call.name == "ir_stopm") return;  // handler of a stop by the operator
     handlers_[key] = {&call, run.module()};
   } else if (statement.name == "interrupt_off") {
     statement.arguments.empty() ? braking_.clear() : static_cast<void>(braking_.erase(key));
@@ -657,7 +660,7 @@ void Krl::interrupt(const Statement& statement, Interpreter& run) {
   }
 }
 
-/// What WITH sets counts for this move only.
+/// Runs a move. The settings of WITH apply to this move only.
 bool Krl::move(Instruction::Kind kind, const Statement& statement, Interpreter& run) {
   std::map<std::string, std::pair<Value, Place>> before;
   const auto keep = [&](const std::string& name) {
@@ -667,7 +670,7 @@ bool Krl::move(Instruction::Kind kind, const Statement& statement, Interpreter& 
   for (const Branch& settings : statement.branches)
     for (const Statement& s : settings.body) {
       for (const char* list : {"$vel_axis", "$acc_axis", "$gear_jerk"})
-        keep(list);  // SVEL_JOINT and its like set all of them
+        keep(list);  // SVEL_JOINT and similar functions set all elements
       const Expression* base = &s.arguments[0];
       while (base->kind != Expression::Kind::name) base = &base->items[0];
       keep(base->text);
@@ -700,7 +703,7 @@ bool Krl::wait(const Statement& statement, Interpreter& run) {
 
 namespace {
 
-/// The move that ends in a blend so far; null: none does.
+/// Returns the last move if it ends in a blend; null: it does not.
 Instruction* blending(Interpreter& run) {
   auto& made = run.program().instructions;
   if (made.empty() || made.back().kind == Instruction::Kind::dwell) return nullptr;
@@ -710,7 +713,8 @@ Instruction* blending(Interpreter& run) {
 
 }  // namespace
 
-/// The move before ends at its target.
+/// Removes the blend of the last move, because the controller waits for the robot. If a name may be a SIGNAL, gives a
+/// warning instead.
 void Krl::wait_for_robot(const Statement& statement, Interpreter& run) {
   Instruction* const before = blending(run);
   if (!before) return;
@@ -761,7 +765,7 @@ bool Krl::instruction(const Statement& statement, Interpreter& run) {
     interrupt(statement, run);
     return true;
   }
-  if (statement.name == "trigger") {  // it happens during a move, before or behind the statements that follow
+  if (statement.name == "trigger") {  // its action runs during a move, before or after the next statements
     const Statement& inner = statement.branches[0].body[0];
     const std::string why = fmt::format("is written by the TRIGGER in {}", run.short_place(statement.place));
     if (inner.kind == Statement::Kind::assign)
@@ -771,7 +775,7 @@ bool Krl::instruction(const Statement& statement, Interpreter& run) {
     run.note(statement.place, "TRIGGER: input, output or logic");
     return true;
   }
-  if (statement.name == "p00") {  // talks to the line's controller, which answers with a program's number
+  if (statement.name == "p00") {  // the line's controller gives the program number
     run.make_unknown(name_at("pgno", statement.place),
                      {"", "is the program's number that the line's controller sends"});
     run.note(statement.place, "P00: input, output or logic");
@@ -784,7 +788,7 @@ bool Krl::instruction(const Statement& statement, Interpreter& run) {
 
 namespace {
 
-/// KUKA writes zeros for axes that are not there.
+/// Removes the external axes if all their positions are 0, because KUKA writes 0 for missing axes.
 void leave_out_unused_axes(Program& program) {
   const auto unused = [](const Instruction& i) {
     return std::all_of(i.target.external_axes.begin(), i.target.external_axes.end(),
@@ -798,7 +802,7 @@ void leave_out_unused_axes(Program& program) {
 
 namespace {
 
-/// The routine to start with: the one that is asked for, else the first of the first file or of its module.
+/// Returns the start routine: the requested one, else the first one of the first file or of its module; null: none.
 const Routine* start_of(const Code& code) {
   if (code.start.empty()) {
     const Routine* of_module = nullptr;
@@ -809,7 +813,7 @@ const Routine* start_of(const Code& code) {
     return of_module;
   }
   if (const Routine* routine = code.find(code.start, -1)) return routine;
-  for (const Routine& routine : code.routines)  // a local one is meant where there is no other
+  for (const Routine& routine : code.routines)  // a local routine, if no global one has the name
     if (routine.name == code.start) return &routine;
   return nullptr;
 }
@@ -823,7 +827,7 @@ void run_krl(const Code& code, const ImportOptions& options, const std::vector<N
     std::vector<std::string> names;
     for (const Routine& other : code.routines)
       if (names.size() < 40) names.push_back(other.written);
-    if (options.routine.empty())  // other files' routines are not what the user names
+    if (options.routine.empty())  // routines of other files do not count
       problems.add({code.files.empty() ? "" : code.files[0].name(), 1, 1}, "holds no DEF",
                    "name the .src file that holds the program, or write DEF NAME() .. END");
     else

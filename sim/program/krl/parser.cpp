@@ -17,17 +17,17 @@ constexpr const char* ends[] = {"end",      "endfct",    "enddat",    "endif", "
                                 "endwhile", "endloop",   "else",      "case",  "default",
                                 "until",    "endswitch", "endspline", "def",   "deffct"};
 
-/// Statements of which the robot's motion knows nothing.
+/// First words of statements without effect on the motion.
 constexpr const char* left_out_words[] = {
     "enum",  "ext",    "extfct", "extp",       "extfctp",   "channel", "anin",    "anout",   "pulse",
     "brake", "resume", "halt",   "time_block", "const_vel", "asyptp",  "asycont", "asystop", "asycancel"};
-/// System variables that the controller changes: values that a program writes to them do not last.
+/// System variables that the controller changes: an assigned value is not kept.
 constexpr const char* living_names[] = {"$timer", "$timer_flag", "$cycflag", "$in", "$anin", "$err"};
 
-/// What needs the robot where the program is: the controller, which runs ahead of the robot, waits for it here.
+/// Words at which the controller's advance run waits until the robot reaches the line.
 /// Source: KUKA's course on programming (HALT, WAIT, PULSE, ANIN, ANOUT, $IN, $OUT, $ANIN, $ANOUT, imported
-/// variables) and the description of $AXIS_ACT; the other places of the robot are ESTIMATED to do the same.
-/// Names that SIGNAL and IMPORT declare: advance.cpp.
+/// variables) and the description of $AXIS_ACT; the same effect of the other robot positions is ESTIMATED.
+/// Names declared by SIGNAL and IMPORT: advance.cpp.
 constexpr const char* present_words[] = {
     "wait",       "halt",      "pulse",        "anin",      "anout",          "$in",       "$out",
     "$anin",      "$anout",    "$digin1",      "$digin2",   "$digin3",        "$digin4",   "$digin5",
@@ -50,13 +50,14 @@ class KrlParser : StatementParser {
 
  private:
   int module_ = -1;
-  bool shared_ = false;     ///< in a data list of the system, whose names are everybody's
-  bool global_ = false;     ///< the declaration at hand says GLOBAL
-  bool constant_ = false;   ///< it says CONST
-  bool first_ = true;       ///< no routine of this file was read: the next one is everybody's
+  bool shared_ = false;     ///< the file is a data list of the system; its names are visible to all modules
+  bool global_ = false;     ///< the current declaration has GLOBAL
+  bool constant_ = false;   ///< the current declaration has CONST
+  bool first_ = true;       ///< no routine of this file was read; the first routine is visible to all modules
   int continued_ = 0;       ///< line of the last CONTINUE
 
-  /// A program and the data list of its name are one module; where names repeat, the folder decides.
+  /// Returns the module of the file. A program and the data list of its name are one module. If several files have
+  /// the name, those in the same folder belong together.
   int module_of_file() {
     const std::filesystem::path path = code_.files[file_].name();
     const std::string stem = lower_case(path.stem().string());
@@ -81,7 +82,7 @@ class KrlParser : StatementParser {
     return alike;
   }
 
-  /// $krl.dat is read last: what the controller's files declare counts.
+  /// Whether a name of $krl.dat is already declared. $krl.dat is read last; declarations of the controller have priority.
   bool is_declared_already(const std::string& name) const {
     return code_.files[file_].name() == "$krl.dat" &&
            std::any_of(code_.data.begin(), code_.data.end(), [&](const Datum& datum) {
@@ -107,7 +108,7 @@ class KrlParser : StatementParser {
   }
 
   void member() {
-    if (at_.at_sign("&")) return skip_line();  // &ACCESS, &REL: of the file system
+    if (at_.at_sign("&")) return skip_line();  // attributes of the file: &ACCESS, &REL
     const bool global = at_.at_word("global") && (at_.at_word("def", 1) || at_.at_word("deffct", 1));
     if (global) at_.next();
     if (at_.at_word("def") || at_.at_word("deffct")) return routine(global);
@@ -136,7 +137,7 @@ class KrlParser : StatementParser {
     first_ = false;
     parameters(routine);
     const char* end = function ? "endfct" : "end";
-    // What is wrong with its blocks is the routine's own problem: the rest of the file is read.
+    // An error in its blocks is a problem of this routine: the parser continues with the rest of the file.
     const bool whole = attempt([&] {
       need_line_end();
       read_body({end}, routine.body);
@@ -157,7 +158,7 @@ class KrlParser : StatementParser {
       at_.next();
   }
 
-  /// (a :IN, b[] :OUT, c): what is not said to go in alone comes back to the caller.
+  /// Reads parameters: (a :IN, b[] :OUT, c). All parameters without :IN are returned to the caller.
   void parameters(Routine& routine) {
     if (!at_.take_sign("(")) return;
     while (!at_.take_sign(")")) {
@@ -201,7 +202,7 @@ class KrlParser : StatementParser {
   void statement(std::vector<Statement>& into) {
     Statement s = statement_here();
     global_ = constant_ = false;
-    s.continued = continued_ > 0 && s.place.line <= continued_ + 1;  // it counts for the next line alone
+    s.continued = continued_ > 0 && s.place.line <= continued_ + 1;  // CONTINUE applies only to the next line
     const bool waits = !s.continued && waits_for_robot();
     if (waits) into.push_back(stop_of_advance(s.place));
     if (at_.at_word("global") || at_.at_word("decl") || at_.at_word("const")) {
@@ -262,7 +263,7 @@ class KrlParser : StatementParser {
     into.push_back(std::move(s));
   }
 
-  /// A line with one of present_words, unless it only says what happens later or what a name means.
+  /// Whether the line contains one of present_words. Declarations, TRIGGER and INTERRUPT lines do not count.
   bool waits_for_robot() const {
     if (at_any({"trigger", "interrupt", "global", "decl", "const", "signal", "ext", "extfct"})) return false;
     for (int ahead = 0;
@@ -284,7 +285,7 @@ class KrlParser : StatementParser {
     into.push_back(std::move(s));
   }
 
-  /// INT A, B[3] = 2 without DECL; anything else with two words is no statement that is read.
+  /// Reads a declaration without DECL: INT A, B[3] = 2. Another line that begins with two words is skipped.
   void declaration_or_unknown(Statement& s, std::vector<Statement>& into) {
     const std::size_t begin = at_.mark(), known = into.size();
     try {
@@ -296,7 +297,7 @@ class KrlParser : StatementParser {
     left_out(s, into);
   }
 
-  /// STRUC name INT a, b[3], FRAME c
+  /// Reads STRUC name INT a, b[3], FRAME c.
   void structure() {
     RecordType type;
     type.name = at_.word("the structure's name");
@@ -320,7 +321,7 @@ class KrlParser : StatementParser {
     code_.records.push_back(std::move(type));
   }
 
-  /// INTERRUPT DECL n WHEN condition DO call: the call in a branch; INTERRUPT ON n, INTERRUPT OFF n.
+  /// Reads INTERRUPT DECL n WHEN condition DO call (the call becomes a branch), INTERRUPT ON n, INTERRUPT OFF n.
   void interrupt(Statement& s, std::vector<Statement>& into) {
     at_.next();
     const bool off = at_.at_word("off") || at_.at_word("disable");
@@ -332,7 +333,7 @@ class KrlParser : StatementParser {
     into.push_back(std::move(s));
   }
 
-  /// TRIGGER WHEN ... DO call or assignment
+  /// Reads TRIGGER WHEN ... DO call or assignment.
   void trigger(Statement& s, std::vector<Statement>& into) {
     s.name = lower_case(at_.next().text);
     what_happens(s);
@@ -340,7 +341,7 @@ class KrlParser : StatementParser {
     into.push_back(std::move(s));
   }
 
-  /// Behind DO: a call or an assignment, in a branch of its own.
+  /// Reads the call or assignment after DO as a separate branch.
   void what_happens(Statement& s) {
     while (!line_done() && !at_.at_word("do")) at_.next();
     at_.need_word("do");
@@ -349,7 +350,7 @@ class KrlParser : StatementParser {
     s.branches.push_back({{}, {std::move(inner)}, {}});
   }
 
-  /// SIGNAL name $IN[1] TO $IN[8], IMPORT type name IS file: a variable that others write.
+  /// Reads SIGNAL name $IN[1] TO $IN[8] or IMPORT type name IS file: a variable that others write.
   void signal(std::vector<Statement>& into) {
     const std::string kind = at_.word("a type");
     if (kind == "import") at_.word("a type");
@@ -392,7 +393,7 @@ class KrlParser : StatementParser {
     s.arguments.push_back(at_.expression(4));
     at_.need_word("to");
     s.arguments.push_back(at_.expression(4));
-    s.arguments.push_back(at_.take_word("step") ? at_.expression(4) : number_at({}, 1));  // KRL counts up by default
+    s.arguments.push_back(at_.take_word("step") ? at_.expression(4) : number_at({}, 1));  // KRL counts up without STEP
     s.branches.emplace_back();
     s.branches[0].body = body({"endfor"});
     at_.need_word("endfor");
@@ -422,7 +423,7 @@ class KrlParser : StatementParser {
     cases(s, "endswitch", [&] { return body({"endswitch", "case", "default"}); });
   }
 
-  /// The moves of the block with the mark "in_spline", and with what WITH sets for all of them.
+  /// Reads the moves of a spline block. Each gets the mark "in_spline" and the settings of the block's WITH.
   void spline(std::vector<Statement>& into) {
     Branch settings;
     if (at_.take_word("with")) with(settings.body);
@@ -443,7 +444,7 @@ class KrlParser : StatementParser {
     for (Statement& s : inside) into.push_back(std::move(s));
   }
 
-  /// WITH $VEL.CP = 0.5, $APO.CDIS = 10: assignments before the move.
+  /// Reads WITH $VEL.CP = 0.5, $APO.CDIS = 10: assignments before the move.
   void with(std::vector<Statement>& into) {
     do {
       Statement& s = into.emplace_back(statement_at(at_.place(), Kind::assign));
@@ -469,7 +470,7 @@ class KrlParser : StatementParser {
     }
   }
 
-  /// PTP target [C_PTP [C_DIS]], CIRC via, target [, CA angle] [C_DIS], SLIN target [WITH ...] [C_DIS]
+  /// Reads PTP target [C_PTP [C_DIS]], CIRC via, target [, CA angle] [C_DIS], SLIN target [WITH ...] [C_DIS].
   void move(Statement& s) {
     s.name = at_.word("a move");
     s.text = s.name;
@@ -484,7 +485,7 @@ class KrlParser : StatementParser {
           s.arguments.push_back(at_.expression());
         }
       } else if (at_.take_word("with")) {
-        Branch settings;  // for this move alone
+        Branch settings;  // for this move only
         with(settings.body);
         s.branches.push_back(std::move(settings));
       } else {
@@ -515,7 +516,7 @@ class KrlParser : StatementParser {
 }  // namespace
 
 void add_krl_types(Code& code) {
-  // What every controller has: structures of positions and settings, and the system's variables of them.
+  // Structures and system variables of every controller, for positions and settings.
   code.files.emplace_back(
       "$krl.dat",
       "DEFDAT $KRL\n"
@@ -553,8 +554,9 @@ void add_krl_types(Code& code) {
 
 namespace {
 
-/// A submit program runs beside the robot's, over and over: what it writes to may have any value at any time.
-/// Names that it declares itself are its own; the system's are settings of moves, or read nowhere.
+/// Records the variables that a submit program writes. It runs cyclically in parallel to the robot program, so they may
+/// have any value at any time. Its own declarations and system variables ($...) are excluded; the system variables are
+/// settings of moves, or no program reads them.
 void note_what_is_submitted(Code& code, int file, const std::vector<Token>& tokens) {
   static const std::set<std::string> declaring{"decl",   "int",    "bool", "real",  "char",
                                                "global", "signal", "ext",  "extfct"};
@@ -566,7 +568,7 @@ void note_what_is_submitted(Code& code, int file, const std::vector<Token>& toke
     const std::string first = begin < end ? lower_case(tokens[begin].text) : "";
     if (declaring.contains(first))
       for (std::size_t i = begin + 1; i < end; ++i) own.insert(lower_case(tokens[i].text));
-    std::size_t at = begin + 1;  // behind the target's index and components
+    std::size_t at = begin + 1;  // after the target's index and components
     while (at < end && tokens[at].text != "=" && tokens[at].text != "(") ++at;
     const bool assigns = at < end && tokens[at].text == "=" && tokens[begin].kind == Token::Kind::word;
     const bool part =
@@ -582,7 +584,7 @@ void note_what_is_submitted(Code& code, int file, const std::vector<Token>& toke
 void parse_krl(Code& code, int file, Problems& problems) {
   const std::filesystem::path path = code.files[file].name();
   const std::string stem = lower_case(path.stem().string());
-  if (stem == "bas" || stem == "p00") return;  // basics.cpp knows what they do
+  if (stem == "bas" || stem == "p00") return;  // basics.cpp implements them
   const std::vector<Token> tokens = tokens_of(code.files[file], {';', "$#", true, true}, problems);
   if (file > 0 && lower_case(path.extension().string()) == ".sub")
     return note_what_is_submitted(code, file, tokens);

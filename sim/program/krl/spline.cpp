@@ -6,11 +6,11 @@
 namespace dresslife::sim {
 namespace {
 
-constexpr double spline_step = 0.02;  // between points that stand for the curve [m]
+constexpr double spline_step = 0.02;  // length of the lines along the curve [m]
 constexpr int most_steps = 50;        // from one SPL point to the next
 
-/// Unit slope at point k of the curve through the points, of the parabola through three of them over the
-/// length of the chords.
+/// Returns the unit tangent of the curve at point k: the slope of the parabola through three points, with the chord
+/// length as its parameter.
 Vector3 slope_at(const std::vector<Frame>& points, std::size_t k) {
   const auto chord = [&](std::size_t i) { return Vector3(points[i + 1].position - points[i].position); };
   const auto along = [&](std::size_t i) { return Vector3(chord(i) / std::max(chord(i).norm(), 1e-12)); };
@@ -24,7 +24,7 @@ Vector3 slope_at(const std::vector<Frame>& points, std::size_t k) {
   return (behind * along(k - 1) + before * along(k)).normalized();
 }
 
-/// The cubic from point k to the next, which the move `target` ends, as lines.
+/// Appends the cubic from point k to point k + 1 as lines. target: the move to point k + 1.
 void add_curve(const std::vector<Frame>& points, std::size_t k, const Instruction& target,
                std::vector<Instruction>& bent) {
   const Frame &from = points[k], &to = points[k + 1];
@@ -44,7 +44,7 @@ void add_curve(const std::vector<Frame>& points, std::size_t k, const Instructio
   }
 }
 
-/// Whether the pose of one is given in the frames of the other.
+/// Whether the poses of two moves have the same tool and work object.
 bool same_frames(const Instruction& a, const Instruction& b) {
   return a.kind != Instruction::Kind::dwell && a.target.joints.empty() && b.target.joints.empty() &&
          a.tool == b.tool && a.work_object == b.work_object;
@@ -56,7 +56,7 @@ void bend_splines(const std::set<std::size_t>& spline_points, Program& program) 
   const std::vector<Instruction>& moves = program.instructions;
   std::vector<Instruction> bent;
   for (std::size_t i = 0; i < moves.size();) {
-    std::size_t end = i;  // of the SPL points that share the frames of the place before them
+    std::size_t end = i;  // end of the SPL points with the frames of the move before them
     while (i > 0 && end < moves.size() && spline_points.contains(end) &&
            same_frames(moves[i - 1], moves[end]))
       ++end;

@@ -1,5 +1,5 @@
-// ABB: BACKUP/RAPID/TASK1/{PROGMOD,SYSMOD}/*.mod, one folder for each task, all of whose modules are loaded;
-// or a program's folder with its list of modules (.pgf) and the system modules beside it.
+// Folders of ABB: a backup BACKUP/RAPID/TASK1/{PROGMOD,SYSMOD}/*.mod with one folder for each task, whose modules are
+// all loaded; or a program's folder with its list of modules (.pgf) and system modules.
 #include <set>
 #include <sstream>
 
@@ -20,7 +20,7 @@ bool is_module(const fs::path& file) {
   return extension_of(file) != ".pgf" && name_of(file) != "backinfo.txt";
 }
 
-/// Folder of the task that a file of a backup belongs to, "…/RAPID/TASK1"; empty: it lies in no such folder.
+/// Returns the folder of a file's task, "…/RAPID/TASK1"; empty: the file is not in such a folder.
 fs::path task_of(const fs::path& file) {
   fs::path folder;
   std::string before;
@@ -33,7 +33,7 @@ fs::path task_of(const fs::path& file) {
   return {};
 }
 
-/// Whether a module's text says that it moves a robot: the words of moves, outside of comments.
+/// Whether a module moves a robot: its text contains a word of a move outside of comments.
 bool moves(const fs::path& file) {
   const std::string text = lower_case(pipeline::read_text(file));
   static constexpr std::string_view words[] = {"moveabsj", "movej", "movel", "movec", "triggl",
@@ -46,7 +46,8 @@ bool moves(const fs::path& file) {
   return false;
 }
 
-/// Modules that a list of modules (XML: <Module>name.mod</Module>) names, among those beside it.
+/// Returns the modules in a list of modules (XML: <Module>name.mod</Module>), from the list's folder. Errors: InputError
+/// for a missing module or an empty list.
 std::vector<fs::path> listed(const fs::path& list, const std::vector<fs::path>& files) {
   const std::string text = pipeline::read_text(list);
   const std::string lower = lower_case(text);
@@ -66,14 +67,14 @@ std::vector<fs::path> listed(const fs::path& list, const std::vector<fs::path>& 
     modules.push_back(*found);
   }
   if (modules.empty() && lower.find("endmodule") != std::string::npos)
-    return {list};  // a module by a list's name
+    return {list};  // a module with the extension of a list
   if (modules.empty())
     throw pipeline::InputError({list.string()}, "lists no module", "give the module that holds main");
   return modules;
 }
 
-/// Of backinfo.txt: the modules of a task, "PROGMOD/main.mod @ ..." below ">>TASK1: (T_ROB1,...)"; in lower
-/// case, with '/' (virtual controllers write '\\').
+/// Returns a task's modules in backinfo.txt: "PROGMOD/main.mod @ ..." after ">>TASK1: (T_ROB1,...)"; in lower case,
+/// with '/' (virtual controllers write '\\').
 std::vector<std::string> contents_of(const fs::path& backinfo, const std::string& task) {
   std::istringstream lines(lower_case(pipeline::read_text(backinfo)));
   std::vector<std::string> modules;
@@ -88,7 +89,7 @@ std::vector<std::string> contents_of(const fs::path& backinfo, const std::string
   return modules;
 }
 
-/// The modules of a task's folder: those that the backup's contents name, all where they name none of them.
+/// Adds the modules of a task's folder that the backup's list of contents names; all if it names none of them.
 void add_task(const fs::path& task, const std::vector<fs::path>& files, Backup& backup) {
   std::vector<std::string> named;
   std::vector<fs::path> own;
@@ -106,8 +107,8 @@ void add_task(const fs::path& task, const std::vector<fs::path>& files, Backup& 
   backup.missing = named;
 }
 
-/// What a module shares with other tasks: data that it declares PERS (not LOCAL, not TASK), and what it
-/// assigns.
+/// Data that a module may share with other tasks: its PERS declarations (not LOCAL, not TASK), and its assigned
+/// variables.
 struct Shared {
   std::set<std::string> persistent, assigned;
 };
@@ -124,7 +125,7 @@ Shared shared_of(const fs::path& module) {
     if (word(i) == "pers" && word(i - 1) != "local" && word(i - 1) != "task")
       shared.persistent.insert(word(i + 2));
     if (tokens[i].text != ":=") continue;
-    std::size_t at = i - 1;  // back over {index} and .component to the variable
+    std::size_t at = i - 1;  // goes back over {index} and .component to the variable
     while (at > 0 && tokens[at].text == "}") {
       while (at > 0 && tokens[at].text != "{") --at;
       if (at > 0) --at;
@@ -137,7 +138,7 @@ Shared shared_of(const fs::path& module) {
   return shared;
 }
 
-/// Persistent data of the task that another one writes: it may have any value whenever the task reads it.
+/// Records the task's persistent data that another task writes: it may have any value when the task reads it.
 void add_what_others_write(const fs::path& task, const std::vector<fs::path>& files, Backup& backup) {
   std::set<std::string> own;
   for (const fs::path& file : backup.files) own.merge(shared_of(file).persistent);
@@ -153,8 +154,8 @@ void add_what_others_write(const fs::path& task, const std::vector<fs::path>& fi
   }
 }
 
-/// Backups that were copied to the controller's disk (HOME) are not what it runs, where the folder holds tasks of its
-/// own.
+/// Removes tasks in HOME (backups on the controller's disk) if the folder has other tasks: the controller does not
+/// run them.
 void drop_copies(const fs::path& folder, std::set<fs::path>& tasks) {
   const auto is_copy = [&](const fs::path& task) {
     const fs::path within = task.lexically_relative(folder);
@@ -170,8 +171,8 @@ std::string names_of(const std::set<fs::path>& paths) {
   return names;
 }
 
-/// Of several lists of modules the only one that lies in the folder itself, else the only one of the
-/// controller's own folder, RAPID; else all of them.
+/// Selects one of several lists of modules: the only one in the folder itself, else the only one in the controller's
+/// folder RAPID. If neither is unique, keeps all.
 void keep_nearest(const fs::path& folder, std::set<fs::path>& lists) {
   const auto only = [&](const auto& is_meant) {
     if (std::count_if(lists.begin(), lists.end(), is_meant) == 1)
@@ -196,7 +197,7 @@ Backup rapid_backup(const fs::path& folder, const std::vector<fs::path>& files, 
     if (!task.empty()) tasks.insert(task);
   }
   drop_copies(folder, tasks);
-  for (const fs::path& file : files)  // those without moves run beside the robot's
+  for (const fs::path& file : files)  // tasks without moves run in parallel to the robot's task
     if (const fs::path task = task_of(file);
         tasks.contains(task) && is_module(file) && !moving.contains(task) && (tasks.size() == 1 || moves(file)))
       moving.insert(task);

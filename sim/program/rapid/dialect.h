@@ -1,13 +1,13 @@
-// RAPID's instructions and functions, and the state of the robot that they share. rapid.cpp chooses among
-// them, moves.cpp contains those that move.
+// RAPID's instructions and functions, and the state of the robot that they share. rapid.cpp selects the instruction,
+// moves.cpp contains the moves.
 #pragma once
 
 #include "sim/program/interpreter/interpreter.h"
 
 namespace dresslife::sim {
 
-/// Where an instruction keeps its arguments: indices among those without a name, -1: none, -2: the last, -3:
-/// the one before.
+/// The positions of an instruction's arguments: indices among the arguments without a name; -1: none, -2: the last,
+/// -3: the last but one.
 struct Signature {
   const char* name;
   Instruction::Kind kind;
@@ -15,7 +15,7 @@ struct Signature {
   int via, target, speed, zone, tool;
 };
 
-/// Null: no move.
+/// Returns the signature of a move; null: the instruction is not a move.
 const Signature* rapid_move(const std::string& instruction);
 
 class Rapid final : public Dialect {
@@ -28,7 +28,7 @@ class Rapid final : public Dialect {
   bool instruction(const Statement& statement, Interpreter& run) override;
   bool matters(const std::string& name) const override;
   bool only_waits(const std::string& name) const override { return name == "waittime"; }
-  /// In production main runs until it is stopped.
+  /// Whether the routine is main: in production main repeats until the operator stops it.
   bool begins_again(const Routine& routine) const override { return routine.name == "main"; }
   bool harmless(const std::string& name) const override;
   std::string move_meant(const Statement& statement) const override;
@@ -68,7 +68,8 @@ class Rapid final : public Dialect {
   bool steers(const std::vector<Statement>& body, int module, int depth) const;
   bool named_data(const Statement& statement, Interpreter& run);
   Value offset(const Expression& call, bool in_tool, Interpreter& run);
-  /// Of length 1. Another length is a problem of `written`, and the direction counts. Nothing: all of it is 0.
+  /// Returns the orientation as a unit quaternion. Another norm is a problem of `written`, and the quaternion is
+  /// normalised. std::nullopt: the quaternion is 0.
   std::optional<Quaternion> checked(const Value& orient, const char* what, const Expression& written,
                                     Interpreter& run);
   Value text_to_value(const Expression& call, Interpreter& run);
@@ -77,22 +78,22 @@ class Rapid final : public Dialect {
   const std::vector<NamedFrame>& tools_;
   const std::vector<NamedFrame>& work_objects_;
   double acceleration_percent_ = 100, jerk_percent_ = 100;
-  double speed_factor_ = 1, speed_limit_ = INFINITY;  // of VelSet; [m/s]
-  double override_ = 1;                               // of SpeedRefresh
-  Frame displacement_;                                // of PDispSet and PDispOn
-  std::vector<double> external_shift_;                // of EOffsSet and EOffsOn [mm or deg]
+  double speed_factor_ = 1, speed_limit_ = INFINITY;  // VelSet; limit [m/s]
+  double override_ = 1;                               // SpeedRefresh
+  Frame displacement_;                                // PDispSet and PDispOn
+  std::vector<double> external_shift_;                // EOffsSet and EOffsOn [mm or deg]
   bool configuration_of_paths_ = true, configuration_of_joint_moves_ = true;  // ConfL, ConfJ
 
-  /// Where the last move led.
+  /// The target of the last move.
   struct Reached {
-    Value target;                  // its robtarget or jointtarget
-    bool by_joints = false;        // it is a jointtarget
-    Frame displacement;            // that held for it
-    NamedFrame tool, work_object;  // of it
+    Value target;                  // robtarget or jointtarget
+    bool by_joints = false;        // the target is a jointtarget
+    Frame displacement;            // displacement during the move
+    NamedFrame tool, work_object;  // tool and work object of the move
   };
   std::optional<Reached> reached_;
-  Value lost_;                   // why it is not known where the last move led
-  bool lost_by_joints_ = false;  // that was a move to axis angles
+  Value lost_;                   // cause of an unknown target of the last move
+  bool lost_by_joints_ = false;  // this move was a move to axis angles
 };
 
 }  // namespace dresslife::sim

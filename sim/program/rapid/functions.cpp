@@ -12,7 +12,7 @@ namespace {
 
 Value finite(double x) { return std::isfinite(x) ? number_value(x) : Value{}; }
 
-/// The record of that name, or absent: it is another, or not known.
+/// Returns the value as a record of the type; std::nullopt: another record, or not known.
 std::optional<Value> record(const Code& code, Value value, const char* type) {
   const RecordType* wanted = code.record(type);
   if (value.kind != Value::Kind::list || !value.known()) return {};
@@ -29,7 +29,7 @@ std::optional<Value> record(const Code& code, Value value, const char* type) {
 
 // ---- numbers ----------------------------------------------------------------------------------------------
 
-/// Round and Trunc with \Dec keep so many decimals.
+/// Rounds or cuts a number to `decimals` decimals (Round and Trunc with \Dec).
 double to_decimals(double x, double decimals, double (*cut)(double)) {
   const double scale = std::pow(10, std::clamp(std::trunc(decimals), 0.0, 15.0));
   return cut(x * scale) / scale;
@@ -38,7 +38,7 @@ double to_decimals(double x, double decimals, double (*cut)(double)) {
 constexpr double byte_size = 256;
 bool is_byte(double x) { return x >= 0 && x < byte_size && x == std::trunc(x); }
 
-/// BitAnd(a, b) and its like, of bytes; BitCheck counts bits from 1.
+/// Returns BitAnd(a, b) and similar functions of bytes; BitCheck counts bits from 1.
 std::optional<Value> of_two_bytes(const std::string& name, unsigned a, unsigned b) {
   if (name == "bitand") return number_value(a & b);
   if (name == "bitor") return number_value(a | b);
@@ -114,27 +114,27 @@ std::optional<Value> of_text(const std::string& name, const std::vector<const Va
 
 // ---- poses ------------------------------------------------------------------------------------------------
 
-/// Of OrientZYX(z, y, x) [deg]: turned about z, then about the new y, then about the new x.
+/// Returns OrientZYX(z, y, x) [deg]: rotation about z, then about the new y, then about the new x.
 Quaternion from_zyx(double z, double y, double x) {
   return rotation({0, 0, z * degree}) * rotation({0, y * degree, 0}) * rotation({x * degree, 0, 0});
 }
 
-/// EulerZYX(\X|\Y|\Z, orient) [deg].
+/// Returns EulerZYX(\X|\Y|\Z, orient) [deg].
 Value euler_zyx(const Quaternion& q, char axis) {
   const Matrix3 r = q.toRotationMatrix();
   const double y = std::atan2(-r(2, 0), std::hypot(r(0, 0), r(1, 0)));
-  constexpr double pole = 1e-9;  // cos y: there z and x turn about one axis
+  constexpr double pole = 1e-9;  // largest |cos y| at which z and x turn about the same axis
   const bool at_pole = std::abs(std::cos(y)) < pole;
   if (axis == 'y') return finite(y / degree);
   if (axis == 'x') return finite(at_pole ? 0 : std::atan2(r(2, 1), r(2, 2)) / degree);
   return finite((at_pole ? std::atan2(-r(0, 1), r(1, 1)) : std::atan2(r(1, 0), r(0, 0))) / degree);
 }
 
-/// DefFrame(p1, p2, p3): origin p1, x towards p2, p3 in the xy plane on the side of y.
+/// Returns DefFrame(p1, p2, p3): origin p1, x towards p2, p3 in the xy plane with positive y.
 std::optional<Frame> frame_of_points(const Vector3& p1, const Vector3& p2, const Vector3& p3) {
   const Vector3 x = p2 - p1, in_plane = p3 - p1;
   const Vector3 z = x.cross(in_plane);
-  constexpr double shortest = 1e-6;  // [m], [m^2]: points of a robot that are not one point, nor on one line
+  constexpr double shortest = 1e-6;  // [m] from p1 to p2, and from p3 to the line p1 p2
   if (x.norm() < shortest || z.norm() < shortest * x.norm()) return {};
   Matrix3 r;
   r.col(0) = x.normalized();
@@ -219,7 +219,7 @@ Vector3 rapid_position(const Value& pos) { return millimetre * Vector3(item_numb
 
 std::optional<Quaternion> rapid_orientation(const Value& orient) {
   const Quaternion q(item_number(orient, 0), item_number(orient, 1), item_number(orient, 2), item_number(orient, 3));
-  constexpr double rounding = 0.02;  // of a norm: components written with two decimals
+  constexpr double rounding = 0.02;  // error of the norm of components with two decimals
   if (!(std::abs(q.norm() - 1) < rounding)) return {};
   return q.normalized();
 }
@@ -254,7 +254,7 @@ std::optional<Value> rapid_function(const Code& code, const std::string& name,
                                     const std::vector<RapidArgument>& arguments) {
   std::vector<const Value*> v;
   double decimals = 0;
-  bool outside = false;  // StrFind: the first letter that is not in the set
+  bool outside = false;  // StrFind \NotInSet: the first letter outside of the set
   for (const RapidArgument& argument : arguments) {
     if (argument.option.empty())
       v.push_back(&argument.value);

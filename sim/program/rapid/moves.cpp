@@ -1,4 +1,4 @@
-// RAPID's moves: target, speed, zone, tool, work object, and what displaces them.
+// RAPID's moves: target, speed, zone, tool, work object, and displacements.
 #include <algorithm>
 #include <map>
 
@@ -11,9 +11,9 @@
 namespace dresslife::sim {
 namespace {
 
-constexpr double no_axis = 9e8;  // 9E9 means: no such axis
+constexpr double no_axis = 9e8;  // larger values (9E9) mean: no such axis
 
-/// What RAPID itself declares, for a number that is like its names, as in v15000 and z500; else empty.
+/// Returns the remedy for an undeclared name in the style of predefined data (v15000, z500); empty: another name.
 std::string predefined(const std::string& type, const std::string& name) {
   const bool speed = type == "speeddata";
   if ((!speed && type != "zonedata") || name.size() < 2 || name[0] != (speed ? 'v' : 'z') || name.find_first_not_of("0123456789", 1) != name.npos)
@@ -61,7 +61,7 @@ std::vector<double> external_of(const Value& extax, const std::vector<double>& s
   return axes;
 }
 
-/// What a move's part is called and where it was last written.
+/// Stores the text of a move's part and the place where its value was last written.
 void remember(Instruction& move, const char* part, const Expression& written, Interpreter& run) {
   const Place place = run.origin(written);
   move.origins.push_back({part, run.written(written), place.line > 0 ? run.where(place) : pipeline::Where{}});
@@ -92,7 +92,7 @@ std::optional<Value> Rapid::typed(const Expression& written, const char* type, c
                                   Interpreter& run) {
   const std::size_t problems = run.problem_count();
   Value value = run.answered(written);
-  if (!value.known() && run.problem_count() != problems) return {};  // the reason is reported
+  if (!value.known() && run.problem_count() != problems) return {};  // the cause is reported already
   if (!value.known()) {
     const std::vector<const Cause*> causes = value.causes();
     const std::string name = causes.size() == 1 && causes[0]->line.empty() ? causes[0]->asked() : "";
@@ -110,7 +110,7 @@ std::optional<Value> Rapid::typed(const Expression& written, const char* type, c
                                run.remedy_for(value)),
                run.questions_for(value, form_of(type)));
     } else {
-      // What else it depends on is written in another way than the argument itself.
+      // The form of another name that the argument depends on differs from the argument's form.
       const bool itself = name == run.answer_name(run.path_of(written)) || name == run.name_here(run.written(written));
       run.ask_for(value, written.place, fmt::format("has {} that is known only while the robot runs", what), "",
                   itself ? form_of(type) : "");
@@ -163,7 +163,7 @@ bool Rapid::read_target(const Expression& written, bool joints, Instruction& mov
   const auto q = checked(value->items[1], "a target", written, run);
   if (!q) {
     const bool unset = *value == rapid_initial(code_, "robtarget");
-    // One that the program itself has set to zeros is no question: the controller stops here.
+    // A target that the program itself has set to zeros is not a question: the controller stops here.
     const std::string path = unset && !run.was_assigned(written) ? run.answer_name(run.path_of(written)) : "";
     if (path.empty())
       run.complain(
@@ -211,14 +211,14 @@ bool Rapid::read_speed(const Expression& written, Instruction& move, Interpreter
   return true;
 }
 
-/// ArcL and ArcC weld at the speed of their welddata; on the way to the seam that of the instruction counts.
+/// Reads the speed of ArcL and ArcC from their welddata. On the way to the seam (...Start) the instruction's speed counts.
 void Rapid::read_weld_speed(const Statement& statement, Instruction& move, Interpreter& run) {
   if (statement.name.ends_with("start")) return;
   for (std::size_t i = 3; i < statement.arguments.size(); ++i) {
     const Expression& argument = statement.arguments[i];
     if (!argument.option.empty()) continue;
     const Value value = run.evaluate(argument);
-    // welddata begins with the speed and three more parts; seamdata begins with times, a zone is typed.
+    // welddata is a list of the speed and three more parts; seamdata begins with times, a zone has a type.
     if (value.kind != Value::Kind::list || value.type || value.items.size() < 2 ||
         !value.items[0].is_number())
       continue;
@@ -316,7 +316,7 @@ bool Rapid::read_options(const Statement& statement, Instruction& move, Interpre
   return whole;
 }
 
-/// What an option adds to a move and is not read.
+/// Notes the options of a move that are not read.
 void Rapid::print_options(const Statement& statement, Interpreter& run) {
   for (const Expression& argument : statement.arguments) {
     if (argument.option == "id")
@@ -381,10 +381,10 @@ bool Rapid::move(const Signature& signature, const Statement& statement, Interpr
   return true;
 }
 
-// ---- where the robot is, and what displaces its targets ---------------------------------------------------
+// ---- position of the robot, displacements -----------------------------------------------------------------
 
-/// The last target as a robtarget of another tool and work object (null: those of the last move), within the
-/// displacement that holds now. Absent: the robot stands at axis angles, or nothing was moved yet.
+/// Returns the last target as a robtarget of another tool and work object (null: those of the last move), in the
+/// current displacement. std::nullopt: the last move went to axis angles, no move yet, or a frame is not known.
 std::optional<Value> Rapid::position_with(const Expression* tool, const Expression* work_object,
                                           Interpreter& run) {
   if (!reached_ || reached_->by_joints) return {};
@@ -408,7 +408,7 @@ std::optional<Value> Rapid::position_with(const Expression* tool, const Expressi
   return value;
 }
 
-/// CRobT(\Tool:=t \WObj:=w), CPos(...), CJointT().
+/// Returns CRobT(\Tool:=t \WObj:=w), CPos(...) or CJointT().
 Value Rapid::current_position(const Expression& call, Interpreter& run) {
   const Expression *tool = nullptr, *work_object = nullptr;
   for (const Expression& argument : call.items) {
@@ -416,7 +416,7 @@ Value Rapid::current_position(const Expression& call, Interpreter& run) {
     if (argument.option == "wobj") work_object = &argument;
   }
   const bool joints = call.text == "cjointt", lost = !reached_ && lost_.cause;
-  if (lost && lost_by_joints_ == joints) return lost_;  // where the last move went is asked for already
+  if (lost && lost_by_joints_ == joints) return lost_;  // the last target is a question already
   const std::string name = run.name_here(call.text), form = form_of(joints ? "jointtarget" : "robtarget");
   if (joints) {
     if (reached_ && reached_->by_joints) return reached_->target;
@@ -430,8 +430,8 @@ Value Rapid::current_position(const Expression& call, Interpreter& run) {
   return call.text == "cpos" ? position->items[0] : *position;
 }
 
-/// PDispOn \Rot \ExeP:=reached, programmed, tool \WObj:=w: what takes the programmed point to where the robot
-/// is; without \Rot a shift alone. PDispSet frame. PDispOff.
+/// Runs PDispOn \Rot \ExeP:=reached, programmed, tool \WObj:=w (the displacement from the programmed point to the robot's
+/// position; without \Rot only a translation), PDispSet frame, PDispOff.
 void Rapid::displace(const Statement& statement, Interpreter& run) {
   const std::string& name = statement.name;
   if (name == "pdispoff") displacement_ = Frame{};
@@ -473,7 +473,7 @@ void Rapid::displace(const Statement& statement, Interpreter& run) {
       turns ? reached * inverse(written) : Frame{reached.position - written.position, Quaternion::Identity()};
 }
 
-/// EOffsSet shift; EOffsOn \ExeP:=reached, programmed; EOffsOff: added to the external axes of every target.
+/// Runs EOffsSet shift; EOffsOn \ExeP:=reached, programmed; EOffsOff. The shift is added to the external axes of all targets.
 void Rapid::shift_external_axes(const Statement& statement, Interpreter& run) {
   external_shift_.clear();
   if (statement.name == "eoffsoff") return;

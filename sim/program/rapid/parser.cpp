@@ -15,7 +15,7 @@ class RapidParser : StatementParser {
       : StatementParser(code, file, tokens, problems, Grammar::rapid) {}
 
   void run() {
-    while (!at_.at_end() && !at_.at_word("module")) at_.next();  // %%% VERSION and LANGUAGE %%%
+    while (!at_.at_end() && !at_.at_word("module")) at_.next();  // skips %%% VERSION and LANGUAGE %%%
     while (!at_.at_end() && !problems_.full()) module();
   }
 
@@ -42,7 +42,7 @@ class RapidParser : StatementParser {
     }
   }
 
-  /// Runs `read`; a syntax error in it becomes a problem and the reading goes on behind the statement.
+  /// Runs `read`. A syntax error becomes a problem, and the parser continues after the statement.
   template <class Read>
   void guarded(const Read& read) {
     const Place before = at_.place();
@@ -52,7 +52,7 @@ class RapidParser : StatementParser {
     if (const Place now = at_.place(); now.line == before.line && now.column == before.column) at_.next();
   }
 
-  /// A word that a lost reader finds its way by.
+  /// Whether the cursor is at a word that begins or ends a block: the parser continues there after an error.
   bool opens_or_closes() const {
     return at_any({"endproc", "endfunc", "endtrap", "endmodule", "endif", "endfor", "endwhile", "endtest", "proc", "func",
                    "else", "elseif", "case", "default"});
@@ -109,7 +109,7 @@ class RapidParser : StatementParser {
     return statement;
   }
 
-  /// A routine with a mistake is kept, so that a call of it reports the mistake.
+  /// Reads a routine. A routine with an error is kept, so that a call of it reports the error.
   void routine(bool local) {
     Routine& routine = code_.routines.emplace_back();
     routine.module = module_;
@@ -145,7 +145,7 @@ class RapidParser : StatementParser {
     if (at_.take_sign("(")) parameters(routine);
     routine.body = body({end.c_str(), "error", "undo", "backward"});
     routine.handler = at_.place();
-    while (!at_.at_end() && !at_.at_word(end)) {  // handlers of errors: not of the normal cycle
+    while (!at_.at_end() && !at_.at_word(end)) {  // error handlers are not part of the normal cycle
       if (at_.at_word("endmodule") || at_.at_word("proc") || at_.at_word("func")) break;
       if (at_.peek().kind == Token::Kind::word) routine.handler_words.push_back(lower_case(at_.peek().text));
       at_.next();
@@ -155,7 +155,7 @@ class RapidParser : StatementParser {
   }
 
   void parameters(Routine& routine) {
-    bool alternative = false;  // of the optional parameter before: \switch a|switch b
+    bool alternative = false;  // alternative to the previous optional parameter: \switch a|switch b
     while (!at_.take_sign(")")) {
       if (at_.take_sign(",")) continue;
       if (at_.take_sign("|")) {
@@ -177,7 +177,7 @@ class RapidParser : StatementParser {
     }
   }
 
-  /// Statements up to one of these words, which is not taken.
+  /// Reads statements up to one of the words `until`; the cursor stays before that word.
   std::vector<Statement> body(const std::vector<const char*>& until) {
     return block(
         until,
@@ -225,7 +225,7 @@ class RapidParser : StatementParser {
     into.push_back(std::move(s));
   }
 
-  /// <SMT>: an empty placeholder of the editor. The controller stops when it gets there.
+  /// Reads <SMT>, an empty placeholder of the editor. The controller stops at it.
   void placeholder(std::vector<Statement>& into) {
     Statement s = statement_at(at_.place(), Kind::instruction, unwritten_statement);
     s.text = s.name;
@@ -244,7 +244,7 @@ class RapidParser : StatementParser {
   void if_statement(Statement& s) {
     condition(s);
     if (!at_.take_word("then")) return statement(s.branches[0].body);  // the compact IF
-    bool begun = true;  // THEN behind the first condition is taken
+    bool begun = true;  // first branch; its THEN is taken already
     arms(s, "endif", "elseif", [&](bool otherwise) {
       if (!std::exchange(begun, false) && !otherwise) at_.need_word("then");
       return body({"endif", "else", "elseif"});
@@ -297,7 +297,7 @@ class RapidParser : StatementParser {
 
   int module_ = -1;
 
-  /// CONNECT number WITH trap; the call of the trap in a branch.
+  /// Reads CONNECT number WITH trap; the call of the trap becomes a branch.
   void connect_statement(Statement& s) {
     s.name = "connect";
     while (!at_.at_end() && !at_.at_sign(";") && !at_.at_word("with")) at_.next();
@@ -342,13 +342,13 @@ class RapidParser : StatementParser {
 
 namespace {
 
-/// ABB can encode modules: bytes without words.
+/// Whether a module is encoded by ABB: it has many control characters.
 bool is_encoded(const std::string& text) {
   const auto is_control = [](char c) {
     const auto byte = static_cast<unsigned char>(c);
     return byte < ' ' && byte != '\t' && byte != '\n' && byte != '\r' && byte != '\f' && byte != 0x1a;
   };
-  constexpr std::ptrdiff_t one_in = 50;  // of random bytes it is one in ten; text has none
+  constexpr std::ptrdiff_t one_in = 50;  // random bytes have one in ten, text has none
   return std::count_if(text.begin(), text.end(), is_control) * one_in >
          static_cast<std::ptrdiff_t>(text.size());
 }

@@ -76,7 +76,7 @@ bool Rapid::writes(const std::string& name, int position, const Expression& argu
 
 Value Rapid::initial(const std::string& type) const { return rapid_initial(code_, type); }
 
-/// A record takes no single value: the controller stops there.
+/// Assigns a value. A single value for a record becomes unknown, because the controller stops at this assignment.
 void Rapid::store(Value& place, Value value) const {
   if (place.type && value.kind != Value::Kind::list && value.kind != Value::Kind::unknown)
     value = forgotten(
@@ -125,7 +125,7 @@ Value Rapid::work_object_value(const NamedFrame& object) const {
 
 // ---- instructions -----------------------------------------------------------------------------------------
 
-/// AccSet acceleration, ramp; VelSet percent, largest; SpeedRefresh percent.
+/// Runs AccSet acceleration, ramp; VelSet percent, largest; SpeedRefresh percent.
 void Rapid::settings(const Statement& statement, Interpreter& run) {
   std::vector<Value> values;
   for (const Expression& argument : statement.arguments)
@@ -170,7 +170,7 @@ void Rapid::wait(const Statement& statement, Interpreter& run) {
     run.emit(dwell_of(time.number), statement);
 }
 
-/// Incr n; Decr n; Clear n; Add n, by.
+/// Runs Incr n; Decr n; Clear n; Add n, by.
 bool Rapid::arithmetic(const Statement& statement, Interpreter& run) {
   const std::string& name = statement.name;
   const bool one = name == "incr" || name == "decr" || name == "clear";
@@ -192,7 +192,7 @@ bool Rapid::arithmetic(const Statement& statement, Interpreter& run) {
   return true;
 }
 
-/// GetDataVal "name", value; SetDataVal "name", value: data by a name that is worked out.
+/// Runs GetDataVal "name", value or SetDataVal "name", value: access to data by a computed name.
 bool Rapid::named_data(const Statement& statement, Interpreter& run) {
   const bool get = statement.name == "getdataval";
   if ((!get && statement.name != "setdataval") || statement.arguments.size() < 2) return false;
@@ -210,9 +210,9 @@ bool Rapid::named_data(const Statement& statement, Interpreter& run) {
   return true;
 }
 
-/// Whether a trap, or a routine that it calls, moves the robot, stops it or changes how it moves.
+/// Whether a trap, or a routine that it calls, moves or stops the robot or changes its motion.
 bool Rapid::steers(const std::vector<Statement>& body, int module, int depth) const {
-  constexpr int deepest = 4;  // calls in traps
+  constexpr int deepest = 4;  // levels of calls in traps
   return depth < deepest && std::any_of(body.begin(), body.end(), [&](const Statement& statement) {
            if (statement.name == "stopmove" || statement.name == "storepath" || matters(statement.name))
              return true;
@@ -224,7 +224,7 @@ bool Rapid::steers(const std::vector<Statement>& body, int module, int depth) co
          });
 }
 
-/// An interrupt is taken not to happen; what its trap writes to is unknown until the program writes it again.
+/// Runs CONNECT. Interrupts are assumed not to happen. The data that the trap writes is unknown until the program writes it.
 void Rapid::connect(const Statement& statement, Interpreter& run) {
   run.note(statement.place, "CONNECT: input, output or logic");
   if (statement.branches.empty()) return;
@@ -276,7 +276,7 @@ bool Rapid::instruction(const Statement& statement, Interpreter& run) {
 
 // ---- functions --------------------------------------------------------------------------------------------
 
-/// Offs(target, x, y, z) in the work object; RelTool(target, x, y, z \Rx \Ry \Rz) in the tool [mm, deg].
+/// Returns Offs(target, x, y, z) in the work object or RelTool(target, x, y, z \Rx \Ry \Rz) in the tool [mm, deg].
 Value Rapid::offset(const Expression& call, bool in_tool, Interpreter& run) {
   if (call.items.size() < 4) {
     run.complain(call.place, fmt::format("gives {} too few arguments", call.text),
@@ -314,7 +314,7 @@ Value Rapid::offset(const Expression& call, bool in_tool, Interpreter& run) {
                              : "has the quaternion [0,0,0,0]");
   Vector3 shift(by[0], by[1], by[2]);
   Quaternion turned = *q;
-  if (in_tool) {  // turned about x, then y, then z of the tool (RelTool)
+  if (in_tool) {  // RelTool: rotation about x, then y, then z of the tool
     shift = *q * shift;
     turned = *q * rotation({turn[0], 0, 0}) * rotation({0, turn[1], 0}) * rotation({0, 0, turn[2]});
   }
@@ -324,7 +324,7 @@ Value Rapid::offset(const Expression& call, bool in_tool, Interpreter& run) {
   return target;
 }
 
-/// ok := StrToVal(text, value): numbers and truths are read, other data is not known.
+/// Runs ok := StrToVal(text, value) for numbers and truth values; other data is unknown.
 Value Rapid::text_to_value(const Expression& call, Interpreter& run) {
   const Value text = call.items.empty() ? Value{} : run.evaluate(call.items[0]);
   if (call.items.size() != 2) return Value{};
@@ -345,7 +345,7 @@ std::optional<Value> Rapid::function(const Expression& call, Interpreter& run) {
   if (name == "offs") return offset(call, false, run);
   if (name == "reltool") return offset(call, true, run);
   if (name == "crobt" || name == "cjointt" || name == "cpos") return current_position(call, run);
-  if (name == "opmode" && !run.given(name)) return constant("op_auto");  // a production's cycle is meant
+  if (name == "opmode" && !run.given(name)) return constant("op_auto");  // the motion is a production cycle
   if (name == "runmode" && !run.given(name)) return constant("run_cont_cycle");
   if (name == "strtoval") return text_to_value(call, run);
   if (name == "present" && call.items.size() == 1) return truth_value(run.present(call.items[0]));
@@ -369,7 +369,7 @@ void run_rapid(const Code& code, const ImportOptions& options, const std::vector
                const std::vector<NamedFrame>& work_objects, Program& program, Problems& problems) {
   const std::string start = code.start.empty() ? "main" : code.start;
   const Routine* routine = code.find(start, -1);
-  for (const Routine& other : code.routines)  // a local one is meant where there is no other
+  for (const Routine& other : code.routines)  // a local routine, if no global one has the name
     if (!routine && other.name == start) routine = &other;
   if (!routine && options.routine.empty() && code.routines.size() == 1) routine = &code.routines[0];
   if (!routine) {

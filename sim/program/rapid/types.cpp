@@ -1,4 +1,4 @@
-// RAPID's records, and the speeds and zones that every controller knows by name.
+// RAPID's records, and the predefined speeds and zones of every controller.
 #include "sim/program/rapid/types.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ struct Written {
   int optional_from = 1'000'000;
 };
 
-/// In an order in which each record comes after those that it holds.
+/// Returns the record types. Each record comes after the records that it contains.
 const std::vector<Written>& written_types() {
   static const std::vector<Written> types{
       {"pos", {{"x", ""}, {"y", ""}, {"z", ""}}},
@@ -74,7 +74,7 @@ std::optional<Value> rapid_speed(const Code& code, const std::string& name) {
 }
 
 std::optional<Value> rapid_zone(const Code& code, const std::string& name) {
-  // Radius of the tool's path [mm]; the orientation's zone is 1.5 times it, but for z0 (data type zonedata).
+  // Zone radius of the tool's path [mm]. The zone of the orientation is 1.5 times as large, except for z0 (data type zonedata).
   static const std::vector<int> zones{0, 1, 5, 10, 15, 20, 30, 40, 50, 60, 80, 100, 150, 200};
   const RecordType* type = code.record("zonedata");
   const auto zone = [&](bool stop, double r) {

@@ -1,4 +1,4 @@
-// RAPID's records, and the speeds and zones that every controller knows by name. Units as in RAPID: mm, deg.
+// RAPID's records, and the predefined speeds and zones of every controller. Units as in RAPID: mm, deg.
 #pragma once
 
 #include <optional>
@@ -12,11 +12,11 @@ namespace dresslife::sim {
 void add_rapid_types(Code& code);
 std::optional<Value> rapid_speed(const Code& code, const std::string& name);
 std::optional<Value> rapid_zone(const Code& code, const std::string& name);
-/// Value of a variable before its first assignment: zeros.
+/// Returns the value of a variable before its first assignment: zeros.
 Value rapid_initial(const Code& code, const std::string& type, int depth = 0);
-/// Input, output and logic, sorted.
+/// Returns the instructions of input, output and logic, sorted.
 const std::vector<std::string>& harmless_rapid_instructions();
-/// Possible effect of a skipped instruction on the motion; null: not known.
+/// Returns the possible effect of a skipped instruction on the motion; null: not known.
 const char* rapid_named_effect(const std::string& instruction);
 
 }  // namespace dresslife::sim
