@@ -2,8 +2,8 @@
 //
 // strain.h5 contains the strain along the fibre and the shear of those wires of every segment and layer that have the largest
 // values of several measures (strain/evaluation.h). Their damage is that of their worst plane (F18). The damage of every other
-// wire is that of its signed equivalent strain (F17), times the ratio of both damages for the worst evaluated wire of
-// its segment and layer (F21):
+// wire is that of its signed equivalent strain (F17), times the ratio of both damages for the worst evaluated wire of its segment
+// and layer (F21):
 //     D = D_eq D'/D'_eq.
 // Planes cost 36 counted histories per wire; evaluating them for all wires would cost 36 times as much as the whole stage.
 #pragma once

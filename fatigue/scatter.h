@@ -1,8 +1,7 @@
 // Scatter of life: when the first wires break, and when enough wires have broken for a conductor to fail.
 //
 // The life of a wire is the life of its worst place by the curves, which are medians, times a lognormal factor
-// (F14): log10(life) = log10(median) + s z, z normal, one z per wire. The probability that a wire has
-// broken by the time t:
+// (F14): log10(life) = log10(median) + s z, z normal, one z per wire. The probability of a break by the time t:
 //     p(t) = Phi(log10(t / median) / s)
 // The probability that k of n wires have broken is the upper tail of the Poisson-binomial distribution of
 // their p (F15). Percentiles are found by bisection in log t. All lives are in repeats of the motion.

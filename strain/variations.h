@@ -3,7 +3,7 @@
 //
 // Friction inside is crossed with slack. Friction along the hose and grips are varied one by one. Friction inside is also set
 // to zero and to infinity (no slip at any pressure): the bounds of a cable. Play is not varied: in the shipped programs it
-// changes lives by a tenth of a decade and would cost as much as a slack. Places and forces of cables are computed anew for
+// changes lives by a tenth of a decade and would cost as much as a slack. Places and forces of cables are computed again for
 // each variation except friction inside. The wires are the likely worst ones of each segment and layer of the job itself. If
 // cables lie elsewhere, the likely worst wires of the cables that bend most there are added.
 #pragma once

@@ -7,7 +7,6 @@
 #include <sstream>
 
 #include "pipeline/base/warning_words.h"
-#include "pipeline/base/words.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -30,10 +29,35 @@ std::string plain(std::string text) {
 }  // namespace
 
 const char* word(WarningKind kind) {
-  return word_at({"program", "bend_radius", "twist", "tension", "slack", "periodic", "overlap", "mesh", "force", "material",
-                  "strain", "calibration", "motion"},
-                 kind)
-      .data();
+  switch (kind) {
+    case WarningKind::program:
+      return "program";
+    case WarningKind::bend_radius:
+      return "bend_radius";
+    case WarningKind::twist:
+      return "twist";
+    case WarningKind::tension:
+      return "tension";
+    case WarningKind::slack:
+      return "slack";
+    case WarningKind::periodic:
+      return "periodic";
+    case WarningKind::overlap:
+      return "overlap";
+    case WarningKind::mesh:
+      return "mesh";
+    case WarningKind::force:
+      return "force";
+    case WarningKind::material:
+      return "material";
+    case WarningKind::strain:
+      return "strain";
+    case WarningKind::calibration:
+      return "calibration";
+    case WarningKind::motion:
+      return "motion";
+  }
+  return "";
 }
 
 bool spoils_plan(WarningKind kind) {
@@ -58,10 +82,31 @@ bool spoils_plan(WarningKind kind) {
 }
 
 const char* title(WarningKind kind) {
-  return word_at({"skipped instructions", "bend radius", "twist", "tension", "slack", "not periodic", "overlapping parts",
-                  "long segments", "forces", "material, stiffness", "strain", "calibration", "unusual motion"},
-                 kind)
-      .data();
+  switch (kind) {
+    case WarningKind::program:
+      return "skipped instructions";
+    case WarningKind::bend_radius:
+      return "bend radius";
+    case WarningKind::periodic:
+      return "not periodic";
+    case WarningKind::overlap:
+      return "overlapping parts";
+    case WarningKind::mesh:
+      return "long segments";
+    case WarningKind::force:
+      return "forces";
+    case WarningKind::material:
+      return "material, stiffness";
+    case WarningKind::motion:
+      return "unusual motion";
+    case WarningKind::twist:
+    case WarningKind::tension:
+    case WarningKind::slack:
+    case WarningKind::strain:
+    case WarningKind::calibration:
+      return word(kind);
+  }
+  return "";
 }
 
 std::string Warning::line() const {

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <utility>
 
@@ -20,13 +19,36 @@ constexpr std::size_t packed_chunk_numbers =
 static_assert(packed_chunk_numbers <= ListDeflater::most_numbers);
 
 std::size_t size_of(Type type) {
-  constexpr std::array<std::size_t, 6> bytes{8, 4, 4, 4, 8, 0};
-  return bytes[static_cast<std::size_t>(type)];
+  switch (type) {
+    case Type::f64:
+    case Type::u64:
+      return 8;
+    case Type::f32:
+    case Type::i32:
+    case Type::u32:
+      return 4;
+    case Type::text:
+      break;
+  }
+  return 0;
 }
 
 hid_t file_type(Type type) {
-  const std::array<hid_t, 6> types{H5T_IEEE_F64LE, H5T_IEEE_F32LE, H5T_STD_I32LE, H5T_STD_U32LE, H5T_STD_U64LE, -1};
-  return types[static_cast<std::size_t>(type)];
+  switch (type) {
+    case Type::f64:
+      return H5T_IEEE_F64LE;
+    case Type::f32:
+      return H5T_IEEE_F32LE;
+    case Type::i32:
+      return H5T_STD_I32LE;
+    case Type::u32:
+      return H5T_STD_U32LE;
+    case Type::u64:
+      return H5T_STD_U64LE;
+    case Type::text:
+      break;
+  }
+  return -1;
 }
 
 Handle text_type(std::size_t bytes) {

@@ -3,7 +3,6 @@
 
 #include <hdf5.h>
 
-#include <array>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -43,10 +42,22 @@ inline void silence_library() {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
-/// By the kinds of values; text has a type of its own length.
 inline hid_t memory_type(Type type) {
-  const std::array<hid_t, 6> types{H5T_NATIVE_DOUBLE, H5T_NATIVE_FLOAT, H5T_NATIVE_INT32, H5T_NATIVE_UINT32, H5T_NATIVE_UINT64, -1};
-  return types[static_cast<std::size_t>(type)];
+  switch (type) {
+    case Type::f64:
+      return H5T_NATIVE_DOUBLE;
+    case Type::f32:
+      return H5T_NATIVE_FLOAT;
+    case Type::i32:
+      return H5T_NATIVE_INT32;
+    case Type::u32:
+      return H5T_NATIVE_UINT32;
+    case Type::u64:
+      return H5T_NATIVE_UINT64;
+    case Type::text:
+      break;
+  }
+  return -1;
 }
 
 /// The length of an axis in a format's table: a number, "name", or "name+1" for one more.

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <numbers>
 #include <vector>
 
@@ -21,9 +20,25 @@ enum class Use { none, optional, required };
 struct Parameter {
   const char* key;
   std::optional<double> Rig::*value;
-  std::array<Use, 6> by_kind;
+  Use torsion, rolling_flex, two_pulley, tick_tock, swivel, axial;
 
-  Use of(RigKind kind) const { return by_kind[static_cast<std::size_t>(kind)]; }
+  Use of(RigKind kind) const {
+    switch (kind) {
+      case RigKind::torsion:
+        return torsion;
+      case RigKind::rolling_flex:
+        return rolling_flex;
+      case RigKind::two_pulley:
+        return two_pulley;
+      case RigKind::tick_tock:
+        return tick_tock;
+      case RigKind::swivel:
+        return swivel;
+      case RigKind::axial:
+        return axial;
+    }
+    return Use::none;
+  }
 };
 
 constexpr Use no = Use::none, may = Use::optional, must = Use::required;

@@ -4,7 +4,6 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <cstdint>
@@ -37,9 +36,22 @@ std::string own_name(const LifeResponse& response, const std::string& job) {
 
 std::string stream_of(const LifeResponse& response, std::size_t parameter, const std::string& job) {
   const UncertainParameter& of = uncertain_parameters()[parameter];
-  const std::array<std::string, 4> owners{"construction " + response.construction, "material " + response.material, "everything",
-                                          own_name(response, job)};
-  return std::string(of.name) + "/" + owners[static_cast<std::size_t>(of.shared)];
+  std::string shared;
+  switch (of.shared) {
+    case SharedBy::construction:
+      shared = "construction " + response.construction;
+      break;
+    case SharedBy::material:
+      shared = "material " + response.material;
+      break;
+    case SharedBy::everything:
+      shared = "everything";
+      break;
+    case SharedBy::installation:
+      shared = own_name(response, job);
+      break;
+  }
+  return std::string(of.name) + "/" + shared;
 }
 
 /// Returns the lower triangle L with L L^T = covariance; a known parameter has a row of zeros. Shared parameters come before

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 
 #include "pipeline/base/limits.h"
 #include "pipeline/base/readable.h"
@@ -104,13 +103,26 @@ double share_of(const PlotAxis& axis, double value) {
 }  // namespace
 
 std::string escaped(const std::string& text) {
-  static const std::map<char, std::string> names{
-      {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}, {'\'', "&#39;"}};
   std::string out;
-  for (const char letter : shown(text)) {
-    const auto name = names.find(letter);
-    out += name == names.end() ? std::string(1, letter) : name->second;
-  }
+  for (const char letter : shown(text)) switch (letter) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\'':
+        out += "&#39;";
+        break;
+      default:
+        out += letter;
+    }
   return out;
 }
 

@@ -489,14 +489,14 @@ class FieldEcho final : public Fields {
   }
   /// What was opened last goes into the one before, unless it is empty; an item of a list always does.
   void close() {
-    const Node made = std::move(levels_.back());
+    Node made = std::move(levels_.back());
     const std::string key = keys_.back();
     levels_.pop_back();
     keys_.pop_back();
     if (levels_.back().is_list())
-      levels_.back().items.push_back(made);
+      levels_.back().items.push_back(std::move(made));
     else if (!made.entries.empty() || !made.items.empty())
-      put(key, made);
+      put(key, std::move(made));
   }
 
   const PathText& path_text_;

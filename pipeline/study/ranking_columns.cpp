@@ -94,7 +94,6 @@ class Table {
 
  private:
   void add(RankingColumn column) { columns.push_back(std::move(column)); }
-  void add_all(std::initializer_list<RankingColumn> more) { columns.insert(columns.end(), more); }
 
   static constexpr std::array<const char*, 3> ends{"p10", "p50", "p90"}, shares{"10 %", "50 %", "90 %"};
   /// Returns the whole meaning for the first column, with 10 % in place of {}; for the others a short one.
@@ -117,13 +116,13 @@ class Table {
   void add_abrasion() {
     constexpr const char* abrasion = UnvalidatedMode::abrasion;
     add_mode_lives("abrasion_life_hours_{}", "by then {} of such dresspacks are worn through by abrasion; not validated", abrasion);
-    add_all({of_mode("abrasion_first_share", "1", "share of the samples in which abrasion comes before the wires", abrasion,
-                         &UnvalidatedMode::first_share),
-             of_mode("abrasion_together_hours_p10", "h", "life_hours_p10 if abrasion counted", abrasion, &UnvalidatedMode::together_p10),
-             of_mode("abrasion_on", "text", "what rubs: a link, ring, floor, dresspack or cell", abrasion, &UnvalidatedMode::place),
-             of_mode("abrasion_position_from_tool_m", "m", "where, along the dresspack from the tool clamp", abrasion,
-                         &UnvalidatedMode::position_from_tool),
-             of("not_evaluated", "text", "parts of the dresspack and failure modes without a life", &RankingRow::not_evaluated)});
+    add(of_mode("abrasion_first_share", "1", "share of the samples in which abrasion comes before the wires", abrasion,
+                &UnvalidatedMode::first_share));
+    add(of_mode("abrasion_together_hours_p10", "h", "life_hours_p10 if abrasion counted", abrasion, &UnvalidatedMode::together_p10));
+    add(of_mode("abrasion_on", "text", "what rubs: a link, ring, floor, dresspack or cell", abrasion, &UnvalidatedMode::place));
+    add(of_mode("abrasion_position_from_tool_m", "m", "where, along the dresspack from the tool clamp", abrasion,
+                &UnvalidatedMode::position_from_tool));
+    add(of("not_evaluated", "text", "parts of the dresspack and failure modes without a life", &RankingRow::not_evaluated));
   }
 
   void add_rating() {
@@ -131,161 +130,161 @@ class Table {
     add_mode_lives("rating_hours_{}",
                    "in {} the maker's rating of a cable without described wires covers less, a lower bound of its life, by the "
                    "uncertainty of its damage exponent; not validated", rating);
-    add_all({of_mode("rating_first_share", "1", "share of the samples in which the wires of other cables outlive the rating", rating,
-                         &UnvalidatedMode::first_share),
-             of_mode("rating_of", "text", "that cable", rating, &UnvalidatedMode::place)});
+    add(of_mode("rating_first_share", "1", "share of the samples in which the wires of other cables outlive the rating", rating,
+                &UnvalidatedMode::first_share));
+    add(of_mode("rating_of", "text", "that cable", rating, &UnvalidatedMode::place));
   }
 
   void add_inspection() {
     constexpr const char* abrasion = UnvalidatedMode::abrasion;
-    add_all({of_mode("abrasion_found_share", "1",
-                         "share of the dresspacks worn through within the robot's life of which a visual check sees the wear before; not validated",
-                         abrasion, &UnvalidatedMode::found_share),
-             of_mode("abrasion_unseen_share", "1", "share of all dresspacks that wear through within the robot's life, unseen by checks",
-                         abrasion, &UnvalidatedMode::unseen_share)});
+    add(of_mode("abrasion_found_share", "1",
+                "share of the dresspacks worn through within the robot's life of which a visual check sees the wear before; not validated",
+                abrasion, &UnvalidatedMode::found_share));
+    add(of_mode("abrasion_unseen_share", "1", "share of all dresspacks that wear through within the robot's life, unseen by checks",
+                abrasion, &UnvalidatedMode::unseen_share));
   }
 
   void add_corkscrew_and_ends() {
     constexpr const char* corkscrew = UnvalidatedMode::corkscrew;
-    add_all({of_mode("corkscrew_life_hours_p10", "h",
-                         "by then a cable has wound into a corkscrew in 10 % of such dresspacks; inf: none does; not validated", corkscrew,
-                         [](const UnvalidatedMode& mode) { return mode.hours[0]; }),
-             of_mode("corkscrew_of", "text", "the cable that is nearest to it", corkscrew, &UnvalidatedMode::place),
-             of_mode("corkscrew_position_from_tool_m", "m", "where, along the dresspack from the tool clamp", corkscrew,
-                         &UnvalidatedMode::position_from_tool),
-             of("strain_relief_share", "1", "largest pull of a cable at a clamp over what EN 50262 asks a strain relief of type A to hold",
-                    &RankingRow::strain_relief_share)});
+    add(of_mode("corkscrew_life_hours_p10", "h",
+                "by then a cable has wound into a corkscrew in 10 % of such dresspacks; inf: none does; not validated", corkscrew,
+                [](const UnvalidatedMode& mode) { return mode.hours[0]; }));
+    add(of_mode("corkscrew_of", "text", "the cable that is nearest to it", corkscrew, &UnvalidatedMode::place));
+    add(of_mode("corkscrew_position_from_tool_m", "m", "where, along the dresspack from the tool clamp", corkscrew,
+                &UnvalidatedMode::position_from_tool));
+    add(of("strain_relief_share", "1", "largest pull of a cable at a clamp over what EN 50262 asks a strain relief of type A to hold",
+           &RankingRow::strain_relief_share));
   }
 
   void add_kink() {
     constexpr const char* kink = UnvalidatedMode::kink;
-    add_all({of_mode("kink_margin", "1", "radius of the tightest bend over that at which a tube in the dresspack kinks; below 1 it kinks", kink,
-                         &UnvalidatedMode::margin),
-             of_mode("kink_share", "1", "share of such tubes that kink", kink, &UnvalidatedMode::first_share),
-             of_mode("kink_of", "text", "the tube that is nearest to its kink", kink, &UnvalidatedMode::place),
-             of_mode("kink_position_from_tool_m", "m", "where, along the dresspack from the tool clamp", kink,
-                         &UnvalidatedMode::position_from_tool)});
+    add(of_mode("kink_margin", "1", "radius of the tightest bend over that at which a tube in the dresspack kinks; below 1 it kinks", kink,
+                &UnvalidatedMode::margin));
+    add(of_mode("kink_share", "1", "share of such tubes that kink", kink, &UnvalidatedMode::first_share));
+    add(of_mode("kink_of", "text", "the tube that is nearest to its kink", kink, &UnvalidatedMode::place));
+    add(of_mode("kink_position_from_tool_m", "m", "where, along the dresspack from the tool clamp", kink,
+                &UnvalidatedMode::position_from_tool));
   }
 
   void add_jacket() {
     constexpr const char* jacket = UnvalidatedMode::jacket;
     add_mode_lives("jacket_life_hours_{}",
                    "by then a cable's jacket has worn through inside the hose in {} of such dresspacks; not validated", jacket);
-    add_all({of_mode("jacket_first_share", "1", "share of the samples in which jacket wear comes before the wires", jacket,
-                         &UnvalidatedMode::first_share),
-             of_mode("jacket_together_hours_p10", "h", "life_hours_p10 if jacket wear counted", jacket, &UnvalidatedMode::together_p10),
-             of_mode("jacket_of", "text", "that cable", jacket, &UnvalidatedMode::place),
-             of_mode("jacket_position_from_tool_m", "m", "where, along the dresspack from the tool clamp", jacket,
-                         &UnvalidatedMode::position_from_tool)});
+    add(of_mode("jacket_first_share", "1", "share of the samples in which jacket wear comes before the wires", jacket,
+                &UnvalidatedMode::first_share));
+    add(of_mode("jacket_together_hours_p10", "h", "life_hours_p10 if jacket wear counted", jacket, &UnvalidatedMode::together_p10));
+    add(of_mode("jacket_of", "text", "that cable", jacket, &UnvalidatedMode::place));
+    add(of_mode("jacket_position_from_tool_m", "m", "where, along the dresspack from the tool clamp", jacket,
+                &UnvalidatedMode::position_from_tool));
   }
 
   void add_worst_wire() {
-    add_all({of("job", "text", "name of the job in its study", &RankingRow::job),
-             of("life_repeats", "1", "repeats of the motion until the worst wire breaks, in the median",
-                    &RankingRow::life_repeats),
-             of("life_hours", "h", "the same in hours of motion", &RankingRow::life_hours),
-             where("worst_segment_from_tool", "1", "segment of the worst wire's place, 1 is nearest to the tool",
-                       evaluated, [](const RankingRow& row) { return row.worst_segment_from_tool; }),
-             of("worst_component", "text", "path of the worst wire, outermost part first",
-                    &RankingRow::worst_component),
-             of("damage_per_repeat", "1", "of the worst wire", &RankingRow::damage_per_repeat),
-             of("life_months", "months", "life_hours at the job's operating hours per week",
-                    &RankingRow::life_months),
-             of("life_repeats_all_stick", "1", "life_repeats if nothing in the cables slipped",
-                    &RankingRow::life_repeats_all_stick),
-             of("life_repeats_all_free", "1", "life_repeats if everything in the cables slipped without friction",
-                    &RankingRow::life_repeats_all_free),
-             where("worst_position_from_tool_m", "m",
-                       "the worst wire's place along the dresspack, from the tool clamp", evaluated,
-                       [](const RankingRow& row) { return row.worst_position_from_tool; }),
-             where("worst_time_s", "s", "when the most damaging cycle of the worst wire closes", evaluated,
-                       [](const RankingRow& row) { return row.worst_time; }),
-             of("worst_step", "text", "program line that runs then", &RankingRow::worst_step),
-             where(
-                 "status", "text",
-                 "done; stale: the cells are of the job's last result; failed or to do: only job, message and settings are given",
-                 always, [](const RankingRow& row) { return std::string(row.stale ? "stale" : "done"); }),
-             where("message", "text", "why it failed, or what changed since the last result", always,
-                       [](const RankingRow& row) { return row.stale ? stale_words(row) : std::string(); })});
+    add(of("job", "text", "name of the job in its study", &RankingRow::job));
+    add(of("life_repeats", "1", "repeats of the motion until the worst wire breaks, in the median",
+           &RankingRow::life_repeats));
+    add(of("life_hours", "h", "the same in hours of motion", &RankingRow::life_hours));
+    add(where("worst_segment_from_tool", "1", "segment of the worst wire's place, 1 is nearest to the tool",
+              evaluated, [](const RankingRow& row) { return row.worst_segment_from_tool; }));
+    add(of("worst_component", "text", "path of the worst wire, outermost part first",
+           &RankingRow::worst_component));
+    add(of("damage_per_repeat", "1", "of the worst wire", &RankingRow::damage_per_repeat));
+    add(of("life_months", "months", "life_hours at the job's operating hours per week",
+           &RankingRow::life_months));
+    add(of("life_repeats_all_stick", "1", "life_repeats if nothing in the cables slipped",
+           &RankingRow::life_repeats_all_stick));
+    add(of("life_repeats_all_free", "1", "life_repeats if everything in the cables slipped without friction",
+           &RankingRow::life_repeats_all_free));
+    add(where("worst_position_from_tool_m", "m",
+              "the worst wire's place along the dresspack, from the tool clamp", evaluated,
+              [](const RankingRow& row) { return row.worst_position_from_tool; }));
+    add(where("worst_time_s", "s", "when the most damaging cycle of the worst wire closes", evaluated,
+              [](const RankingRow& row) { return row.worst_time; }));
+    add(of("worst_step", "text", "program line that runs then", &RankingRow::worst_step));
+    add(where(
+        "status", "text",
+        "done; stale: the cells are of the job's last result; failed or to do: only job, message and settings are given",
+        always, [](const RankingRow& row) { return std::string(row.stale ? "stale" : "done"); }));
+    add(where("message", "text", "why it failed, or what changed since the last result", always,
+              [](const RankingRow& row) { return row.stale ? stale_words(row) : std::string(); }));
   }
 
   void add_hose_and_causes() {
     constexpr const char* wall = UnvalidatedMode::wall;
-    add_all({of_mode("hose_life_hours", "h", "hours of motion until the hose's wall cracks; not validated. Empty: the law contradicts a published test", wall,
-                         [](const UnvalidatedMode& mode) { return is_credible(mode) ? mode.hours[1] : UnvalidatedMode::unknown; }),
-             of_mode("hose_segment_from_tool", "1", "segment of the wall's worst place, 1 is nearest to the tool", wall,
-                         &UnvalidatedMode::segment_from_tool),
-             of_mode("hose_position_from_tool_m", "m", "the same along the dresspack, from the tool clamp", wall,
-                         &UnvalidatedMode::position_from_tool),
-             of("worst_joint", "text",
-                    "joint whose motion damages the worst wire most; carrying: motion of the dresspack as a whole",
-                    &RankingRow::worst_joint),
-             where(
-                 "worst_joint_share", "1", "its share of the damage; above 1 if other joints reduce it",
-                 [](const RankingRow& row) { return !row.worst_joint.empty(); },
-                 [](const RankingRow& row) { return row.worst_joint_share; }),
-             of("worst_dresspack", "text", "dresspack of the worst wire, among several",
-                    &RankingRow::worst_dresspack),
-             of("settings", "text", "digest of the settings that the row belongs to", &RankingRow::settings),
-             of("largest_force_share", "1", "largest force of a cable over the force that tears it",
-                    &RankingRow::largest_force_share),
-             of("clamp_moment_share", "1",
-                    "moment of all cables on the hose at a clamp over the largest that the hose carries",
-                    &RankingRow::clamp_moment_share),
-             where(
-                 "force_ok", "yes or no", "whether both shares are realistic",
-                 [](const RankingRow& row) { return row.clamp_moment_share.has_value(); },
-                 [](const RankingRow& row) { return std::string(row.force_ok() ? "yes" : "no"); }),
-             of("life_hours_mean_stress_kept", "h", "life_hours if the mean stress never relaxed",
-                    &RankingRow::hours_mean_stress_kept),
-             of("life_hours_without_mean_stress", "h", "life_hours without any mean stress",
-                    &RankingRow::hours_without_mean_stress),
-             where(
-                 "life_months_p10", "months", "life_hours_p10 at the job's operating hours per week",
-                 [](const RankingRow& row) { return row.planned(); },
-                 [](const RankingRow& row) { return row.planned_months; }),
-             where("life_hours_all_stick", "h", "life_repeats_all_stick in hours of motion", always,
-                       [](const RankingRow& row) { return row.hours_of(row.life_repeats_all_stick); }),
-             where("life_hours_all_free", "h", "life_repeats_all_free in hours of motion", always,
-                       [](const RankingRow& row) { return row.hours_of(row.life_repeats_all_free); })});
+    add(of_mode("hose_life_hours", "h", "hours of motion until the hose's wall cracks; not validated. Empty: the law contradicts a published test", wall,
+                [](const UnvalidatedMode& mode) { return is_credible(mode) ? mode.hours[1] : UnvalidatedMode::unknown; }));
+    add(of_mode("hose_segment_from_tool", "1", "segment of the wall's worst place, 1 is nearest to the tool", wall,
+                &UnvalidatedMode::segment_from_tool));
+    add(of_mode("hose_position_from_tool_m", "m", "the same along the dresspack, from the tool clamp", wall,
+                &UnvalidatedMode::position_from_tool));
+    add(of("worst_joint", "text",
+           "joint whose motion damages the worst wire most; carrying: motion of the dresspack as a whole",
+           &RankingRow::worst_joint));
+    add(where(
+        "worst_joint_share", "1", "its share of the damage; above 1 if other joints reduce it",
+        [](const RankingRow& row) { return !row.worst_joint.empty(); },
+        [](const RankingRow& row) { return row.worst_joint_share; }));
+    add(of("worst_dresspack", "text", "dresspack of the worst wire, among several",
+           &RankingRow::worst_dresspack));
+    add(of("settings", "text", "digest of the settings that the row belongs to", &RankingRow::settings));
+    add(of("largest_force_share", "1", "largest force of a cable over the force that tears it",
+           &RankingRow::largest_force_share));
+    add(of("clamp_moment_share", "1",
+           "moment of all cables on the hose at a clamp over the largest that the hose carries",
+           &RankingRow::clamp_moment_share));
+    add(where(
+        "force_ok", "yes or no", "whether both shares are realistic",
+        [](const RankingRow& row) { return row.clamp_moment_share.has_value(); },
+        [](const RankingRow& row) { return std::string(row.force_ok() ? "yes" : "no"); }));
+    add(of("life_hours_mean_stress_kept", "h", "life_hours if the mean stress never relaxed",
+           &RankingRow::hours_mean_stress_kept));
+    add(of("life_hours_without_mean_stress", "h", "life_hours without any mean stress",
+           &RankingRow::hours_without_mean_stress));
+    add(where(
+        "life_months_p10", "months", "life_hours_p10 at the job's operating hours per week",
+        [](const RankingRow& row) { return row.planned(); },
+        [](const RankingRow& row) { return row.planned_months; }));
+    add(where("life_hours_all_stick", "h", "life_repeats_all_stick in hours of motion", always,
+              [](const RankingRow& row) { return row.hours_of(row.life_repeats_all_stick); }));
+    add(where("life_hours_all_free", "h", "life_repeats_all_free in hours of motion", always,
+              [](const RankingRow& row) { return row.hours_of(row.life_repeats_all_free); }));
   }
 
   void add_failure_and_rating() {
-    add_all({of("failing_conductor", "text", "conductor that is most likely to fail first",
-                    &RankingRow::failing_conductor),
-             where(
-                 "failing_position_from_tool_m", "m", "its place along the dresspack, from the tool clamp",
-                 [](const RankingRow& row) { return !row.failing_conductor.empty(); },
-                 [](const RankingRow& row) { return row.failing_position_from_tool; }),
-             where("rated_cycles_per_hour", "1/h",
-                       "cycles of the maker's rig that do the damage of one hour of the program", has_rating,
-                       [](const RankingRow& row) { return row.relative->cycles_per_hour; }),
-             where("relative_life_hours", "h", "hours until the damage of the rated cycles is reached", has_rating,
-                       [](const RankingRow& row) { return row.relative->hours(); }),
-             where("rated_cable", "text", "cable with that rating", has_rating,
-                       [](const RankingRow& row) { return row.relative->cable; })});
+    add(of("failing_conductor", "text", "conductor that is most likely to fail first",
+           &RankingRow::failing_conductor));
+    add(where(
+        "failing_position_from_tool_m", "m", "its place along the dresspack, from the tool clamp",
+        [](const RankingRow& row) { return !row.failing_conductor.empty(); },
+        [](const RankingRow& row) { return row.failing_position_from_tool; }));
+    add(where("rated_cycles_per_hour", "1/h",
+              "cycles of the maker's rig that do the damage of one hour of the program", has_rating,
+              [](const RankingRow& row) { return row.relative->cycles_per_hour; }));
+    add(where("relative_life_hours", "h", "hours until the damage of the rated cycles is reached", has_rating,
+              [](const RankingRow& row) { return row.relative->hours(); }));
+    add(where("rated_cable", "text", "cable with that rating", has_rating,
+              [](const RankingRow& row) { return row.relative->cable; }));
   }
 
   void add_uncertainty() {
-    add_all({of("outlives_next", "1", "share of samples in which the job lives longer than that of the next row",
-                    &RankingRow::outlives_next),
-             of("life_shares", "text", "shares of the uncertainty of life by cause", &RankingRow::life_shares),
-             of("measure_next", "text", "uncertain parameter with the largest share", &RankingRow::measure_next),
-             where(
-                 "measure_next_share", "1", "its share",
-                 [](const RankingRow& row) { return !row.measure_next.empty(); },
-                 [](const RankingRow& row) { return row.measure_next_share; })});
+    add(of("outlives_next", "1", "share of samples in which the job lives longer than that of the next row",
+           &RankingRow::outlives_next));
+    add(of("life_shares", "text", "shares of the uncertainty of life by cause", &RankingRow::life_shares));
+    add(of("measure_next", "text", "uncertain parameter with the largest share", &RankingRow::measure_next));
+    add(where(
+        "measure_next_share", "1", "its share",
+        [](const RankingRow& row) { return !row.measure_next.empty(); },
+        [](const RankingRow& row) { return row.measure_next_share; }));
   }
 
   void add_warnings() {
     const auto known = [](const RankingRow& row) { return row.warnings.has_value(); };
-    add_all({where("warnings", "1", "how many warnings the job has", known,
-                       [](const RankingRow& row) { return static_cast<int>(row.warnings->size()); }),
-             where("warning_words", "text", "all warnings", known, [](const RankingRow& row) {
-               std::vector<std::string> words;
-               for (const Warning& warning : *row.warnings) words.push_back(warning.text());
-               return joined(words, "; ");
-             })});
+    add(where("warnings", "1", "how many warnings the job has", known,
+              [](const RankingRow& row) { return static_cast<int>(row.warnings->size()); }));
+    add(where("warning_words", "text", "all warnings", known, [](const RankingRow& row) {
+      std::vector<std::string> words;
+      for (const Warning& warning : *row.warnings) words.push_back(warning.text());
+      return joined(words, "; ");
+    }));
     for (int k = 0; k < warning_kinds_count; ++k) {
       const auto kind = static_cast<WarningKind>(k);
       if (kind == WarningKind::force) continue;  // the column force_ok contains it
@@ -301,27 +300,27 @@ class Table {
   }
 
   void add_rank() {
-    add_all({of("loose_mesh_error", "1", "share of the curvature of loose cables that their mesh misses",
-                    &RankingRow::loose_mesh_error),
-             of("estimates", "text", "keys that the dresspacks leave out, with their estimated values",
-                    &RankingRow::estimates),
-             where(
-                 "rank", "1", "1 is best; jobs that cannot be separated share one",
-                 [](const RankingRow& row) { return row.rank > 0; },
-                 [](const RankingRow& row) { return static_cast<int>(row.rank); }),
-             of("failing_mode", "text", "what fails first in most of the samples", &RankingRow::failing_mode),
-             where(
-                 "failing_mode_share", "1", "in which share of them",
-                 [](const RankingRow& row) { return !row.failing_mode.empty(); },
-                 [](const RankingRow& row) { return row.failing_mode_share; })});
+    add(of("loose_mesh_error", "1", "share of the curvature of loose cables that their mesh misses",
+           &RankingRow::loose_mesh_error));
+    add(of("estimates", "text", "keys that the dresspacks leave out, with their estimated values",
+           &RankingRow::estimates));
+    add(where(
+        "rank", "1", "1 is best; jobs that cannot be separated share one",
+        [](const RankingRow& row) { return row.rank > 0; },
+        [](const RankingRow& row) { return static_cast<int>(row.rank); }));
+    add(of("failing_mode", "text", "what fails first in most of the samples", &RankingRow::failing_mode));
+    add(where(
+        "failing_mode_share", "1", "in which share of them",
+        [](const RankingRow& row) { return !row.failing_mode.empty(); },
+        [](const RankingRow& row) { return row.failing_mode_share; }));
   }
 
   void add_test() {
-    add_all({of("best_test", "text", "uncertain parameter whose test narrows the life most",
-                    &RankingRow::best_test),
-             of("best_test_life_hours_p10", "h", "life_hours_p10 after that test, if it confirms today's estimate",
-                    &RankingRow::tested_p10),
-             of("best_test_life_hours_p90", "h", "life_hours_p90 after it", &RankingRow::tested_p90)});
+    add(of("best_test", "text", "uncertain parameter whose test narrows the life most",
+           &RankingRow::best_test));
+    add(of("best_test_life_hours_p10", "h", "life_hours_p10 after that test, if it confirms today's estimate",
+           &RankingRow::tested_p10));
+    add(of("best_test_life_hours_p90", "h", "life_hours_p90 after it", &RankingRow::tested_p90));
   }
 };
 

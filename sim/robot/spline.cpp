@@ -44,7 +44,7 @@ VectorXd CubicSpline::slope(long k) const {
 }
 
 /// The end conditions, (m_1 - m_0)/h_0 = (m_2 - m_1)/h_1, give m_0 = m_1 + (h_0/h_1)(m_1 - m_2) in the
-/// first equation, and likewise at the other end; the other equations are tridiagonal in m_1 .. m_n-1. With three
+/// first equation, and the same holds at the other end; the other equations are tridiagonal in m_1 .. m_n-1. With three
 /// knots both conditions are the same: m_0 = m_1 = m_2.
 void CubicSpline::find_second_derivatives() {
   const long last = static_cast<long>(times_.size()) - 1;

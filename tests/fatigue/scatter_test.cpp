@@ -202,9 +202,9 @@ TEST_CASE("scatter: a common part against drawing") {
       lives.push_back(first * std::pow(10, scatter.common() * normal_of(1000, draw)));
     }
     for (const double share : percentiles) {
-      const double told = life_until(damage, 1, scatter, share);
-      const auto sooner = std::count_if(lives.begin(), lives.end(), [&](double life) { return life < told; });
-      INFO(shared << " " << share << " " << told);
+      const double predicted = life_until(damage, 1, scatter, share);
+      const auto sooner = std::count_if(lives.begin(), lives.end(), [&](double life) { return life < predicted; });
+      INFO(shared << " " << share << " " << predicted);
       CHECK(std::fabs(double(sooner) / draws - share) < 4.5 * std::sqrt(share * (1 - share) / draws));
     }
   }

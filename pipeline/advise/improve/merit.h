@@ -3,8 +3,8 @@
 // (M1) it runs; it keeps all limits; no mode without a validated law gets worse.
 //      t_m: p10 life by mode m (abrasion, jacket wear, ...). h: p10 life of the wires. L: fatigue.robot_life_hours.
 //      Mode m gets worse if t_m < min(L, h, t_m0 / 1.1). t_m0 is the life by that mode in the original job.
-//      A mode that comes after L or h is no reason to replace a dresspack. 1.1: twice the segments change a wear depth by up to
-// 10 %.
+//      A mode that comes after L or h is no reason to replace a dresspack. 1.1: twice the segments change a
+//      wear depth by up to 10 %.
 // (M2) longer min(h, L, t_m of the modes that get worse): wires that outlive the robot gain nothing from a longer life
 // (M3) longer min(L, all t_m): the mode that comes first
 // (M4) larger distance to the nearest limit

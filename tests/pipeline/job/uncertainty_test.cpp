@@ -119,7 +119,7 @@ TEST_CASE("changed material: a cyclic curve of its own keeps its distance to the
   CHECK(*after.cyclic_hardening_exponent / hardening(after) == Approx(1.1).epsilon(rounding));
 }
 
-TEST_CASE("changed material: measured points move likewise") {
+TEST_CASE("changed material: measured points move in the same way") {
   Material measured;
   measured.strain_life_table = {{0.02, 1e3}, {0.01, 1e5}};
   Fatigue fatigue;
