@@ -23,6 +23,8 @@ class Starts {
   /// own: the first start; after choose() the start of the job. build: creates another start. The caller owns both. Without a
   /// ring only the first start exists.
   Starts(Spans& own, const std::function<Spans&()>& build);
+  /// Only the first start.
+  explicit Starts(Spans& own) : own_(own) {}
 
   /// Returns the evaluations of a span that need the motion in addition to the job's own.
   std::vector<Evaluation*> placed(std::size_t span) const;

@@ -512,20 +512,19 @@ class OwnResults {
 
 using LikelySites = std::vector<std::vector<Evaluation::Site>>;  ///< (segment)
 
-/// Writes one variation: the likely worst wires of the job with another stiffness of the hose.
-void write_other_motion(MotionReader& motion, const pipeline::Job& job, const std::function<Starts::Spans&()>& build,
-                        HistoryWindow& window, std::size_t threads, const LikelySites& likely, std::size_t variation,
-                        VariationWriter& rows) {
-  Starts starts(build(), build);
+/// Writes one variation: the likely worst wires of the job with another stiffness of the hose. laid: cables in this motion, which
+/// continue from the job's own rest.
+void write_other_motion(MotionReader& motion, const Starts::Spans& own, Starts::Spans& laid, HistoryWindow& window,
+                        std::size_t threads, const LikelySites& likely, std::size_t variation, VariationWriter& rows) {
+  for (std::size_t span = 0; span < own.size(); ++span) laid[span]->go_on_from(*own[span]);
+  Starts starts(laid);
   Passage passage(motion, starts, window, threads);
   passage.rehearse(rehearsed_varied, 0);
   passage.run([](const MotionBlock&) {});
-  passage.choose(job.strain.rest);
-  if (starts.rests() == 1)  // with several rests choose() has done it
-    for (const auto& evaluation : starts.spans(0)) evaluation->find_bent();
+  for (const auto& evaluation : laid) evaluation->find_bent();
   std::size_t seen = 0;
   passage.each_segment([&](std::size_t span, std::size_t segment, std::size_t row) {
-    Evaluation& evaluation = *starts.spans(0)[span];
+    Evaluation& evaluation = *laid[span];
     const std::vector<Evaluation::Site> wires =
         with_likely_of_bent(likely[seen++], evaluation, segment, window.history(), row);
     if (wires.empty()) return;
@@ -602,14 +601,10 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
   });
   for (Evaluations& laid : otherwise_laid) laid.of_span.clear();  // frees their memory
   for (std::size_t other = 0; other < others.size(); ++other) {
-    std::list<Evaluations> laid;
     MotionReader& of = others[other].reader;
-    write_other_motion(
-        of, job,
-        [&]() -> Starts::Spans& {
-          return laid.emplace_back(job, of, threads, job.strain.factors, scratch, &all).of_span;
-        },
-        window, threads, likely, variations.points().size() + other, variation_rows);
+    Evaluations laid(job, of, threads, job.strain.factors, scratch, &all);
+    write_other_motion(of, evaluations, laid.of_span, window, threads, likely, variations.points().size() + other,
+                       variation_rows);
     work.other_motions(other + 1);
   }
   const auto worst =

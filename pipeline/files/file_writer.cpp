@@ -191,14 +191,18 @@ struct FileWriter::Impl {
     }
   }
 
+  /// Takes about a chunk at a time, so that the buffer of a large table stays small.
   void put(Open& target, const void* bytes, std::size_t count) {
     whole.check();  // so that a full disk is detected before an hour of work
     const char* begin = static_cast<const char*>(bytes);
-    target.buffer.insert(target.buffer.end(), begin, begin + count);
-    if (target.description->packed())
-      flush_packed(target, false);
-    else if (target.buffer.size() >= written_at_once)
-      flush(target);
+    const std::size_t most = std::max<std::size_t>(1, target.chunk_rows * target.row_bytes());
+    for (std::size_t done = 0; done < count; done += most) {
+      target.buffer.insert(target.buffer.end(), begin + done, begin + std::min(count, done + most));
+      if (target.description->packed())
+        flush_packed(target, false);
+      else if (target.buffer.size() >= written_at_once)
+        flush(target);
+    }
   }
 
   /// Writes whole chunks; at the end also the last one, filled up with its last number.
