@@ -328,8 +328,44 @@ void write_scatter(const Context& c, const Conductors& conductors, const LifeSca
   }
 }
 
-/// Writes the planner's place: that of the conductor that fails soonest in the mode that most often fails first. The name is
-/// empty if no conductor can fail. p10_repeats: [repeats].
+/// Results of a worst site: of the wires, or of the hose's wall.
+struct Worst {
+  double damage = 0, repeats = life_in_repeats(0), life_hours = repeats, life_months = repeats;
+  double segment_from_tool = 0, position_from_tool = 0, time = 0;
+  std::string component, step;
+};
+
+Worst worst_of(const Context& c, std::size_t site, const std::vector<DamagingCycle>& cycles) {
+  Worst worst;
+  if (site == no_site) return worst;
+  worst.damage = c.damage.damage[site];
+  worst.repeats = life_in_repeats(worst.damage);
+  worst.life_hours = hours(worst.repeats, c.repeat_seconds());
+  worst.life_months = pipeline::months(worst.life_hours, c.job.fatigue.operating_hours_per_week);
+  const std::size_t segment = c.sites.segment(site);
+  worst.segment_from_tool = double(c.segments_of(c.dresspack[segment]).end - segment);
+  worst.position_from_tool = c.from_tool(segment);
+  worst.component = c.component[site];
+  const auto most = std::max_element(cycles.begin(), cycles.end(),
+                                     [](const auto& a, const auto& b) { return a.damage < b.damage; });
+  const std::size_t sample = most == cycles.end() ? 0 : most->cycle.end.sample;
+  worst.time = c.time.empty() ? 0 : c.time[sample];
+  if (const std::string* const step = c.step_at(sample)) worst.step = *step;
+  return worst;
+}
+
+/// Returns the site of the most damaged wire of a conductor in a segment; no_site: none.
+std::size_t worst_of_conductor(const Context& c, const Conductors& conductors, std::size_t conductor, std::size_t segment) {
+  std::size_t worst = no_site;
+  for (std::size_t site = 0; site < c.sites.size(); ++site)
+    if (static_cast<std::size_t>(c.sites.segment(site)) == segment && conductors.of_component[c.component.index[site]] == conductor &&
+        (worst == no_site || c.damage.damage[site] > c.damage.damage[worst]))
+      worst = site;
+  return worst;
+}
+
+/// Writes the planner's place: that of the conductor that fails soonest in the mode that most often fails first, with the moment of
+/// the most damaging cycle of its wires there. The name is empty if no conductor can fail. p10_repeats: [repeats].
 void write_first_place(const Context& c, const Conductors& conductors, const FirstPlace& first, const ModeList& modes,
                        std::size_t failing_mode, double p10_repeats) {
   const double p10 = hours(p10_repeats, c.repeat_seconds());
@@ -342,6 +378,11 @@ void write_first_place(const Context& c, const Conductors& conductors, const Fir
   const bool known = place != first.soonest.end();
   c.life.attribute("failing_conductor", known ? path_in_words(c.job, conductors.path[place->conductor]) : "");
   c.life.attribute("failing_position_from_tool", known ? c.from_tool(place->segment) : 0.0);
+  const std::size_t site = known ? worst_of_conductor(c, conductors, place->conductor, place->segment) : no_site;
+  const Worst wire = worst_of(c, site, c.cycles_of(site));
+  c.life.attribute("failing_segment_from_tool", wire.segment_from_tool);
+  c.life.attribute("failing_time", wire.time);
+  c.life.attribute("failing_dresspack", pipeline::name_among(c.job, c.dresspack_of(site)));
 }
 
 /// Returns the whole strain history of the worst wire; empty if only its turning points are known.
@@ -439,32 +480,6 @@ void write_causes(const Context& c, const std::vector<DamagingCycle>& cycles,
   const double total = sum_of_damage(cycles);
   c.life.attribute("worst_joint", total > 0 ? names[most] : "");
   c.life.attribute("worst_joint_share", total > 0 ? by_joint.damage[most] / total : 0);
-}
-
-/// Results of a worst site: of the wires, or of the hose's wall.
-struct Worst {
-  double damage = 0, repeats = life_in_repeats(0), life_hours = repeats, life_months = repeats;
-  double segment_from_tool = 0, position_from_tool = 0, time = 0;
-  std::string component, step;
-};
-
-Worst worst_of(const Context& c, std::size_t site, const std::vector<DamagingCycle>& cycles) {
-  Worst worst;
-  if (site == no_site) return worst;
-  worst.damage = c.damage.damage[site];
-  worst.repeats = life_in_repeats(worst.damage);
-  worst.life_hours = hours(worst.repeats, c.repeat_seconds());
-  worst.life_months = pipeline::months(worst.life_hours, c.job.fatigue.operating_hours_per_week);
-  const std::size_t segment = c.sites.segment(site);
-  worst.segment_from_tool = double(c.segments_of(c.dresspack[segment]).end - segment);
-  worst.position_from_tool = c.from_tool(segment);
-  worst.component = c.component[site];
-  const auto most = std::max_element(cycles.begin(), cycles.end(),
-                                     [](const auto& a, const auto& b) { return a.damage < b.damage; });
-  const std::size_t sample = most == cycles.end() ? 0 : most->cycle.end.sample;
-  worst.time = c.time.empty() ? 0 : c.time[sample];
-  if (const std::string* const step = c.step_at(sample)) worst.step = *step;
-  return worst;
 }
 
 /// before, place: prefixes of the names of the attributes.

@@ -30,6 +30,8 @@ constexpr double least_lay =
 // Lay length in widths of the layer: four times the longest lay of cores in flexible cables, 8 to 16 (config/defaults.md).
 constexpr double longest_lay = 64;
 
+// Share of the mass of the construction. Copper wires are a third of it or more, and foamed insulation weighs a third of a solid one.
+constexpr double lightest_share = 0.3;
 constexpr double widest_hose = 0.2,
                  thinnest_cable = 1e-3;  // [m]: hoses on robots have diameters of 15 to 110 mm, sensor cables 2 mm
 constexpr double thin_hose =
@@ -399,9 +401,10 @@ std::vector<Warning> plausibility_warnings(const Dresspack& dresspack) {
   std::vector<Warning> warnings;
   Judge judge(warnings);
   const double mass = dresspack.mass_per_length, section = pi / 4 * dresspack.diameter * dresspack.diameter;
-  const double least = least_wire_mass(dresspack.components);
+  const double wires = least_wire_mass(dresspack.components);
   // In addition to its parts, a hose is filled with steel braid and rubber at most. Without parts its content is unknown.
   const double built = dresspack.components.empty() ? 0 : mass_of_construction(dresspack);
+  const double least = std::max(wires, lightest_share * built);
   const double most = built > 0 ? built + heaviest_filling * section : copper * section;
   if (mass > most)
     judge.add(
@@ -412,15 +415,16 @@ std::vector<Warning> plausibility_warnings(const Dresspack& dresspack) {
         mass < least_grams ? "the mass of the whole dresspack, or diameter_mm in another unit"
                            : "grams instead of kilograms, or diameter_mm in another unit",
         fmt::format("{}{}; or check diameter_mm: {:.4g}",
-                    mass / 1000 > least ? fmt::format("mass_kg_per_m: {:.4g} if that was g/m", mass / 1000)
+                    mass / 1000 > wires ? fmt::format("mass_kg_per_m: {:.4g} if that was g/m", mass / 1000)
                                         : "mass_kg_per_m of a metre",
                     built > 0 ? fmt::format(", {:.3g} by its parts and wall", built) : "",
                     1e3 * dresspack.diameter));
   if (mass > 0 && mass < least)
     judge.add(dresspack.where,
-              fmt::format("mass_kg_per_m is {:.3g} (limit {:.3g}: its wires, if they were of aluminium)",
-                          mass, least),
-              "another unit, or the empty hose", "mass_kg_per_m of the filled hose, or from_construction");
+              fmt::format("mass_kg_per_m is {:.3g} (limit {:.3g}: {})", mass, least,
+                          wires == least ? "its wires, if they were of aluminium"
+                                         : fmt::format("{:g} % of what its parts and its wall weigh by their sizes", 100 * lightest_share)),
+              "another unit, or the empty hose", fmt::format("mass_kg_per_m of the filled hose, or from_construction ({:.3g})", built));
   const double ratio = pi * swing_frequency * dresspack.damping_time;
   if (!dresspack.damping_source.empty() && (ratio < least_ratio || ratio > most_ratio))
     judge.add(

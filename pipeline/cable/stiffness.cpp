@@ -24,6 +24,7 @@ constexpr double wire_density = 8900;        // [kg/m3], of copper
 constexpr double torsion_of_core = 0.8;      // ESTIMATE: that of a solid round bar
 constexpr double gravity = 9.81;             // [m/s2]
 constexpr double believable_stretch = 1e-3;  // by the hose's own weight; hoses of polyamide have 1e-4 and less
+constexpr double stiffest_cable = 8;  // twice the largest ratio of bending tests of cables to their calculation, 3.7 (strain/measurements.md)
 constexpr double believable = 2;  // twice the E I changes a life by a factor of up to five (README)
 
 bool is_hose(const Dresspack& dresspack) { return inner_radius(dresspack).has_value(); }
@@ -356,7 +357,7 @@ std::vector<Warning> stiffness_warnings(const Dresspack& dresspack) {
   const double solid = stiffest * std::numbers::pi / 64 * std::pow(dresspack.diameter, 4);
   const double most = !missing.empty()     ? stuck + solid
                       : is_hose(dresspack) ? std::min(friction * believable, stuck)
-                                           : stuck;
+                                           : std::min(friction * stiffest_cable, stuck);
   if (given >= least && given <= most) return warnings;
   if (wall) {  // the given stiffness may be right
     warnings.push_back(*wall);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -53,6 +54,11 @@ struct Choice {
   std::vector<std::string> estimates = {};  ///< estimated keys of the dresspack
   std::vector<std::string> doubts = {};  ///< faults of program and dresspack that do not depend on the routing
   bool refused = false;
+  std::vector<ProposedValue> remedies = {};  ///< of the faults: values of the routing, and slacks of the dresspack's cables
+  std::vector<ProposedValue> slacks = {};    ///< slacks that the job sets in its dresspack
+
+  /// The fewer, the better.
+  std::pair<bool, std::size_t> badness() const { return {refused, faults.size()}; }
 };
 
 /// Returns the routing of a shipped job with this robot and one dresspack; of several jobs the one with this dresspack.
@@ -122,12 +128,19 @@ std::string without_place(const std::string& words, const fs::path& file) {
   return text;
 }
 
-/// Adds the results of dresslife check for the draft with this routing, with places in the user's files. motion: YAML; empty: the
+/// Returns whether a value belongs to the installation of the dresspack. A job must not change other values to keep a limit.
+bool is_of_installation(const ProposedValue& of) {
+  return of.key.starts_with("routing.") || (of.key.starts_with("dresspack.components.") && of.key.ends_with(".slack_percent"));
+}
+
+/// Sets the results of dresslife check for the draft with this routing, with places in the user's files. motion: YAML; empty: the
 /// draft's own motion.
 void judge(const Draft& draft, const std::string& motion, Choice& choice) {
+  choice.faults.clear(), choice.doubts.clear(), choice.estimates.clear(), choice.remedies.clear();
   const PassingFile file("job.yaml");
-  write_text_if_changed(file.path(),
-                        with_mark(to_yaml(routed(draft, to_yaml(choice.routing), motion, 1, file.path().parent_path())), Mark::yaml));
+  Node job = routed(draft, to_yaml(choice.routing), motion, 1, file.path().parent_path());
+  for (const ProposedValue& slack : choice.slacks) job[slack.key] = scalar(slack.value);
+  write_text_if_changed(file.path(), with_mark(to_yaml(job), Mark::yaml));
   try {
     read_job(file.path(), {});
   } catch (const InputError& problem) {
@@ -144,7 +157,30 @@ void judge(const Draft& draft, const std::string& motion, Choice& choice) {
     const bool of_routing = warning.kind != WarningKind::program && warning.kind != WarningKind::motion &&
                             warning.kind != WarningKind::material && warning.kind != WarningKind::overlap;
     (of_routing ? choice.faults : choice.doubts).push_back(without_place(warning.line(), file.path()));
+    if (of_routing) std::ranges::copy_if(proposed_values(warning), std::back_inserter(choice.remedies), is_of_installation);
   }
+}
+
+/// Returns a choice with its remedies, as long as they leave fewer faults: a remedy of one limit may exceed another one.
+Choice cured(const Draft& draft, const std::string& motion, Choice choice) {
+  constexpr int rounds = 3;
+  for (int round = 0; round < rounds && !choice.remedies.empty(); ++round) {
+    Choice next = choice;
+    Node job;
+    job["routing"] = next.routing;
+    for (const ProposedValue& of : choice.remedies)
+      if (of.key.starts_with("routing.")) {
+        set_value(job, of.key, parse_yaml(of.value, "remedy"), {"dresslife new"});
+      } else {
+        std::erase_if(next.slacks, [&](const ProposedValue& before) { return before.key == of.key; });
+        next.slacks.push_back(of);
+      }
+    next.routing = *job.find("routing");
+    judge(draft, motion, next);
+    if (next.badness() >= choice.badness()) break;
+    choice = std::move(next);
+  }
+  return choice;
 }
 
 /// Returns the draft with its preliminary routing. Its files stay references, so that errors name lines of the user's files.
@@ -172,7 +208,7 @@ Choice proposed(const Draft& draft) {
   Choice choice{parse_yaml(best.changes, "proposal"),
                 "proposed from the robot's shape; put your brackets here"};
   judge(draft, found.motion, choice);
-  return choice;
+  return cured(draft, found.motion, std::move(choice));
 }
 
 /// Returns proposals for the accelerations of a URDF file [deg/s2], which contains none; empty: they are given. A proposal is the
@@ -213,11 +249,13 @@ std::string job_of_urdf(const NewOptions& options, const std::vector<double>& ac
 
 Choice routing_for(const Draft& draft, const NewOptions& options) {
   std::optional<Choice> known = shipped_routing(options.robot, options.dresspack);
-  if (known && !draft.exercise) judge(draft, "", *known);
+  if (known && !draft.exercise) {
+    judge(draft, "", *known);
+    known = cured(draft, "", *std::move(known));
+  }
   if (known && !known->refused && known->faults.empty()) return *known;
   Choice made = proposed(draft);
-  const auto badness = [](const Choice& of) { return std::pair(of.refused, of.faults.size()); };
-  return known && badness(*known) <= badness(made) ? *known : made;
+  return known && known->badness() <= made.badness() ? *known : made;
 }
 
 std::string commented(const std::string& key, const std::string& value, const std::string& words) {
@@ -260,6 +298,8 @@ std::string text_of(const NewOptions& options, const Draft& draft, const Choice&
   text += fmt::format(
       "# position_m and direction are in the frame of the link; free_length_m is the length between the clamps.\n{}routing:\n", off);
   for (const Entry& key : choice.routing.entries) text += fmt::format("{}  {}: {}\n", off, key.key, set_text(key.value));
+  for (const ProposedValue& slack : choice.slacks)
+    text += commented(off + slack.key, slack.value, "without it, dresslife check warns");
   return text + commented("simulation", "{segments: 64}", "everything else has a default: config/README.md");
 }
 

@@ -13,6 +13,7 @@
 #include "pipeline/report/chart_style.h"
 #include "pipeline/report/known_history.h"
 #include "pipeline/report/life_charts.h"
+#include "pipeline/report/marked_place.h"
 #include "pipeline/report/plot.h"
 #include "pipeline/report/scene.h"
 
@@ -170,9 +171,10 @@ std::string bending_figure(const JobFiles& files) {
 }
 
 std::string scene_figure(const JobFiles& files, std::optional<double> time) {
-  const auto worst = worst_if_known(files);
-  return scene_picture(files.motion, time.value_or(worst ? worst->time : 0), worst ? worst->from_tool : 0,
-                       worst ? worst->dresspack : "");
+  std::optional<MarkedPlace> place;
+  if (kind_of(files.life) != FileKind::absent) place = marked_place(FileReader(files.life, life_format()));
+  return scene_picture(files.motion, time.value_or(place ? place->time : 0), place ? place->from_tool : 0,
+                       place ? place->dresspack : "");
 }
 
 std::string chart(Figure what, const JobFiles& files, std::optional<double> time) {

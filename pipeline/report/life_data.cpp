@@ -10,6 +10,7 @@
 #include "pipeline/files/motion_layout.h"
 #include "pipeline/report/json.h"
 #include "pipeline/report/known_history.h"
+#include "pipeline/report/marked_place.h"
 #include "pipeline/report/motion_data.h"
 #include "pipeline/report/stored_job.h"
 #include "pipeline/settings/document.h"
@@ -97,7 +98,15 @@ class Data {
                              "worst_time", "worst_segment_from_tool"})
       data.add(name, life_.number_attribute(name));
     return data.add("worst_component", life_.text_attribute("worst_component"))
-        .add("worst_segment", worst_segment());
+        .add("worst_segment", worst_segment())
+        .add("marked", marked());
+  }
+
+  /// Returns the place that the page marks and shows first; segment -1: none.
+  Json marked() const {
+    const std::optional<MarkedPlace> place = marked_place(life_);
+    if (!place) return Json{{"segment", -1}};
+    return Json{{"segment", place->segment}, {"time", place->time}, {"words", place->fails_first ? "fails first" : "the worst wire"}};
   }
 
   /// Returns the index in the file; -1: none.

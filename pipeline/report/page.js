@@ -9,7 +9,7 @@ const state = {
   time: 0,
   playing: false,
   speed: 1,
-  segment: life ? life.worst_segment : -1,
+  segment: life ? life.marked.segment : -1,
   colour: '',
   drawn: 0
 };
@@ -180,13 +180,13 @@ function buildView() {
   });
   const panel = document.getElementById('clamp');
   if (panel && motion.group('link_positions') && viewer.clampGroups) clamps = new Clamps(viewer, data.scene, motion, panel);
-  if (life) viewer.mark(viewer.worst, life.worst_segment);
+  if (life) viewer.mark(viewer.marked, life.marked.segment);
 }
 
 // ---- actions of the reader ----------------------------------------------------------------------------------------
 function choose(segment) {
   state.segment = segment;
-  if (viewer) viewer.mark(viewer.chosen, segment === life?.worst_segment ? -1 : segment);
+  if (viewer) viewer.mark(viewer.chosen, segment === life?.marked.segment ? -1 : segment);
   document.body.dataset.segment = segment;
   showPlace();
   showSection();
@@ -293,7 +293,7 @@ function openPreview() {
       link => new RegExp(`\\b${link.name.replace(/[.*+?^${}()|[\]\\]/g, '\\$&')}\\b`).test(data.preview.refusal));
   viewer.warnOf(named);
   const [tube, more] = viewer.tubes, share = data.preview.refusal_share;
-  if (share !== null && !more) viewer.mark(viewer.worst, Math.min(Math.floor(share * tube.segments), tube.segments - 1));
+  if (share !== null && !more) viewer.mark(viewer.marked, Math.min(Math.floor(share * tube.segments), tube.segments - 1));
   if (data.preview.refusal) viewer.look('place');
 }
 
@@ -315,7 +315,7 @@ buildView();
 buildTimeline();
 buildWire();
 if (viewer) showLegend();
-setTime(life && life.worst_segment >= 0 && life.damage_per_repeat > 0 ? life.worst_time - begin : 0);
+setTime(life && life.marked.segment >= 0 && life.damage_per_repeat > 0 ? life.marked.time - begin : 0);
 if (life && state.segment >= 0) choose(state.segment);
 if (data.preview) openPreview();
 tellWhatIsShown();

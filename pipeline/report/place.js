@@ -47,11 +47,13 @@ function showPlace() {
         `${readable(100 * segments.hose_damage[s] / (Math.max(...segments.hose_damage) || 1))} % of the damage of its worst place`,
         segments.hose_damage[s]);
   rows.push(make('dt', {}, 'now'), make('dd', {id: 'now'}));
-  place.replaceChildren(
-      make('h2', {}, placeWords(s) + (s === life.worst_segment ? ': the worst' : '')),
-      make('dl', {'aria-live': 'polite'}, ...rows));
-  if (s !== life.worst_segment && life.worst_segment >= 0)
-    place.append(button('the worst place', 'choose the worst place', () => choose(life.worst_segment), {class: 'link'}));
+  const marked = life.marked.segment, worst = life.worst_segment;
+  const what = s === marked ? `: ${life.marked.words}` : s === worst ? ': the worst wire' : '';
+  place.replaceChildren(make('h2', {}, placeWords(s) + what), make('dl', {'aria-live': 'polite'}, ...rows));
+  const offer = (words, segment) =>
+      place.append(button(words, `choose the place: ${words}`, () => choose(segment), {class: 'link'}), ' ');
+  if (marked >= 0 && s !== marked) offer(life.marked.words, marked);
+  if (worst >= 0 && worst !== marked && s !== worst) offer('the worst wire', worst);
   showNow();
 }
 function showNow() {

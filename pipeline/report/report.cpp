@@ -15,6 +15,7 @@
 #include "pipeline/report/damage_tables.h"
 #include "pipeline/report/life_charts.h"
 #include "pipeline/report/life_matrix.h"
+#include "pipeline/report/marked_place.h"
 #include "pipeline/report/motion_checks.h"
 #include "pipeline/report/page_assets.h"
 #include "pipeline/report/page_shell.h"
@@ -366,16 +367,18 @@ std::string charts(const RankingRow& row) {
              escaped(life.job), escaped(life.history));
 }
 
-/// Returns the picture of the worst moment; empty if the motion file was removed.
+/// Returns the picture of the moment that damages the marked place most; empty if the motion file was removed.
 std::string scene(const RankingRow& row) {
   const std::filesystem::path motion = row.life_file.parent_path() / "motion.h5";
   if (!row.damaged() || kind_of(motion) == FileKind::absent) return "";
-  const std::string picture =
-      scene_picture(motion, row.worst_time, row.worst_segment_from_tool, row.worst_dresspack);
+  const std::optional<MarkedPlace> place = marked_place(FileReader(row.life_file, life_format()));
+  if (!place) return "";
+  const std::string picture = scene_picture(motion, place->time, place->from_tool, place->dresspack);
   return picture.empty()
              ? ""
-             : "<h3>The moment</h3>\n<p class=\"soft\">Robot and dresspack when the most damaging cycle closes; the "
-               "worst segment is marked.</p>\n" +
+             : fmt::format("<h3>The moment</h3>\n<p class=\"soft\">Robot and dresspack when the most damaging cycle closes at the marked "
+                           "place, that of the {}.</p>\n",
+                           place->fails_first ? "conductor that fails first" : "worst wire") +
                    picture_in_page(picture);
 }
 

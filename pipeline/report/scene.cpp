@@ -109,12 +109,12 @@ std::vector<std::vector<Vector3d>> hose_points(const FileReader& file, std::size
 
 /// Adds a dresspack. Segment i extends half way to its neighbours.
 void add_hose(std::vector<Stroke>& strokes, const std::vector<Vector3d>& points, double radius,
-              int worst_from_tool) {
+              int from_tool) {
   const int segments = static_cast<int>(points.size()) - 2;
   for (int i = 1; i <= segments; ++i) {
     const Vector3d begin = i == 1 ? points[0] : Vector3d((points[i - 1] + points[i]) / 2);
     const Vector3d end = i == segments ? points[i + 1] : Vector3d((points[i] + points[i + 1]) / 2);
-    const char* style = i == segments + 1 - worst_from_tool ? "hose-hot" : "hose";
+    const char* style = i == segments + 1 - from_tool ? "hose-hot" : "hose";
     strokes.push_back({begin, points[i], radius, style});
     strokes.push_back({points[i], end, radius, style});
   }
@@ -166,8 +166,8 @@ std::size_t nearest_sample(const std::vector<double>& times, double time) {
   return later == times.end() || time - times[at - 1] <= *later - time ? at - 1 : at;
 }
 
-std::string scene_picture(const std::filesystem::path& motion_file, double time, int worst_from_tool,
-                          const std::string& worst_dresspack) {
+std::string scene_picture(const std::filesystem::path& motion_file, double time, int from_tool,
+                          const std::string& marked_dresspack) {
   const FileReader file(motion_file, motion_format());
   const Setup setup = setup_from(stored_job(file));
   const std::size_t sample = nearest_sample(file.read<double>("/time"), time);
@@ -177,7 +177,7 @@ std::string scene_picture(const std::filesystem::path& motion_file, double time,
   const std::vector<std::vector<Vector3d>> hoses = hose_points(file, sample);
   for (std::size_t d = 0; d < std::min(hoses.size(), setup.dresspacks.size()); ++d)
     add_hose(strokes, hoses[d], setup.dresspacks[d].dresspack.diameter / 2,
-             name_among(setup, d) == worst_dresspack ? worst_from_tool : 0);
+             name_among(setup, d) == marked_dresspack ? from_tool : 0);
 
   double height = 0;
   const View view = fit(strokes, height);

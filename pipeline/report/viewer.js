@@ -156,7 +156,7 @@ class Viewer {
     this.addRobot();
     this.addHoses();
     this.dirty = true;
-    this.worst = this.addMark(0xd32f00, data.preview ? 'here' : 'worst');
+    this.marked = this.addMark(0xd32f00, data.preview ? 'here' : data.life.marked.words || '');
     this.chosen = this.addMark(0x111111, '');
     this.findBox();
     this.resize();
@@ -274,7 +274,7 @@ class Viewer {
       tube.move(row, tube.at);
       tube.paint(k => colourOfSegment(tube.first + k));
     }
-    for (const mark of [this.worst, this.chosen])
+    for (const mark of [this.marked, this.chosen])
       if (mark.visible) this.mark(mark, mark.segment);
     this.dirty = true;
   }
@@ -300,10 +300,10 @@ class Viewer {
           }
     }
   }
-  // Moves the camera to one side of all objects, or near the worst or the chosen place.
+  // Moves the camera to one side of all objects, or near the marked or the chosen place.
   look(where) {
     const directions = {overview: [.45, -.85, .28], front: [1, 0, .02], side: [0, -1, .02], top: [0, -.02, 1]};
-    const mark = [this.chosen, this.worst].find(one => one.visible);
+    const mark = [this.chosen, this.marked].find(one => one.visible);
     const near = where === 'place' ? mark || {position: this.tubes[0].centres[this.tubes[0].rings >> 1]} : null;
     const direction = near ? this.camera.position.clone().sub(this.controls.target) : new THREE.Vector3(...directions[where]);
     const narrow = Math.min(1, this.camera.aspect), center = near ? near.position : this.box.getCenter(new THREE.Vector3());

@@ -33,6 +33,7 @@ constexpr double least_percent = 1;    // a hundredth of an axis' speed: no prog
 constexpr double fastest_tool = 10;     // [m/s]: the fastest controllers allow 5 to 7
 constexpr double longest_dwell = 100;  // [s]: cycles of production lines are shorter
 
+constexpr double largest_step = 10e-3;  // [s]: the largest step that an automatic choice takes; larger ones were not tried
 constexpr double least_rate = 5;       // [Hz]: fewer than three samples of a hose's swing at 1.8 Hz
 constexpr double largest_gate = 5e-4;  // an amplitude of 29 MPa in copper, half of the endurance limit of annealed copper
 
@@ -896,6 +897,11 @@ std::vector<Warning> plausibility_warnings(const Job& job) {
                                               job.simulation.sample_rate, least_rate),
                                   "seconds instead of 1/s; the samples miss the hose's swing",
                                   "simulation.sample_rate_Hz: 25"));
+  if (!motion.is_prescribed() && !job.simulation.choose_time_step && job.simulation.time_step > largest_step)
+    warnings.push_back(warning_of(WarningKind::mesh, "",
+                                  fmt::format("simulation.time_step_ms is {:g} (limit {:g} or less)", 1e3 * job.simulation.time_step,
+                                              1e3 * largest_step),
+                                  "a digit too many; nobody has tried a larger step", "simulation.time_step_ms: 5, or auto"));
   if (!motion.is_prescribed())
     for (const MountedDresspack& mounted : job.dresspacks) doubt_bend_reliefs(mounted, job.simulation.segments, warnings);
   if (job.strain.gate > largest_gate)

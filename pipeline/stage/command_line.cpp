@@ -98,8 +98,16 @@ std::string meant_command(const Command& program, int argc, char** argv) {
   return nearest_word(argv[1], names);
 }
 
+/// Returns the option that a word of a command line names; null: none.
+const Option* option_named(const Command& command, const std::string& word) {
+  const auto found = std::find_if(command.options.begin(), command.options.end(), [&](const Option& option) {
+    return word.starts_with('-') && (',' + option.names + ',').find(',' + word + ',') != std::string::npos;
+  });
+  return found == command.options.end() ? nullptr : &*found;
+}
+
 /// Returns "'--trial' is no option of improve; did you mean '--trials'?" for the first unknown option with a similar name, or a
-/// message for a number behind a flag. Empty: there is neither.
+/// message for a number behind a flag, or for an option without its value. Empty: there is none of these.
 std::string meant_option(const Command& program, int argc, char** argv) {
   const auto called =
       std::find_if(program.commands.begin(), program.commands.end(),
@@ -116,10 +124,13 @@ std::string meant_option(const Command& program, int argc, char** argv) {
       return fmt::format("'{}' is no option of {}; did you mean '{}'?\n", shown(word), command.name, near);
   }
   // In "run -n 2", a number follows a flag.
-  for (int k = 2; k < argc; ++k)
-    for (const Option& option : command.options)
-      if (std::holds_alternative<bool*>(option.target) && number_in(argv[k]) && (',' + option.names + ',').find(fmt::format(",{},", argv[k - 1])) != std::string::npos)
-        return fmt::format("'{}' takes no number ({}); leave out '{}'\n", argv[k - 1], option.meaning, argv[k]);
+  for (int k = 2; k < argc; ++k) {
+    const Option* const option = option_named(command, argv[k - 1]);
+    if (!option) continue;
+    const bool is_flag = std::holds_alternative<bool*>(option->target);
+    if (is_flag && number_in(argv[k])) return fmt::format("'{}' takes no number ({}); leave out '{}'\n", argv[k - 1], option->meaning, argv[k]);
+    if (!is_flag && option_named(command, argv[k])) return fmt::format("'{}' needs {} before '{}'\n", argv[k - 1], option->value, argv[k]);
+  }
   return "";
 }
 

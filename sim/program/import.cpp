@@ -489,6 +489,11 @@ std::vector<pipeline::Warning> moves_left_out(const Program& program) {
       warnings.push_back({pipeline::WarningKind::program, group.first.text(), what});
       continue;
     }
+    if (group.reason.starts_with(beyond_range)) {
+      warnings.push_back(pipeline::warning_of(pipeline::WarningKind::program, group.first.text(), what.substr(what.find(": ") + 2),
+                                              "a digit too many or another unit", "a number within this range"));
+      continue;
+    }
     if (group.reason.starts_with(above_all_speed)) {
       warnings.push_back(pipeline::warning_of(pipeline::WarningKind::program, group.first.text(), what.substr(what.find(": ") + 2),
                                               "a digit too many", "a percentage up to 100"));

@@ -244,8 +244,8 @@ std::vector<VectorXd> InverseKinematics::with_turns(const VectorXd& arm) const {
 }
 
 /// Returns "joint_4 at 361.2 deg, 11.2 deg above its 350". turns: number of full turns by which an axis may be rotated toward its
-/// limits. most: receives the largest excess [rad].
-std::string InverseKinematics::beyond_limits(const VectorXd& arm, int turns, double* most) const {
+/// limits. most: receives the largest excess.
+std::string InverseKinematics::beyond_limits(const VectorXd& arm, int turns, Excess* most) const {
   std::string words;
   for (long axis = 0; axis < 6; ++axis) {
     const pipeline::Joint& joint = robot_.joints[axis];
@@ -254,7 +254,7 @@ std::string InverseKinematics::beyond_limits(const VectorXd& arm, int turns, dou
     for (int k = -turns; k <= turns; ++k)
       if (const double angle = arm[axis] + 2 * pi * k; excess(angle) < excess(best)) best = angle;
     if (excess(best) <= limit_rounding) continue;
-    if (most) *most = std::max(*most, excess(best));
+    if (most && excess(best) > most->angle) *most = {joint.name, excess(best)};
     const bool above = best > joint.upper;
     words += fmt::format("{}{} at {:.1f} deg, {:.1f} deg {} its {:.6g}", words.empty() ? "" : "; ", joint.name, best * 180 / pi,
                          excess(best) * 180 / pi, above ? "above" : "below",
@@ -263,16 +263,24 @@ std::string InverseKinematics::beyond_limits(const VectorXd& arm, int turns, dou
   return words;
 }
 
-/// Returns the text of the arm with the least excess.
-std::string InverseKinematics::least_beyond(const std::vector<VectorXd>& arms) const {
+/// Returns the text of the arm with the least excess. of_it: receives its excess.
+std::string InverseKinematics::least_beyond(const std::vector<VectorXd>& arms, Excess* of_it) const {
   std::string words;
   double least = INFINITY;
   for (const VectorXd& arm : arms) {
-    double most = 0;
+    Excess most;
     const std::string own = beyond_limits(arm, 3, &most);
-    if (most < least) least = most, words = own;
+    if (most.angle >= least) continue;
+    least = most.angle, words = own;
+    if (of_it) *of_it = most;
   }
   return words;
+}
+
+InverseKinematics::Excess InverseKinematics::excess(const Frame& flange, const VectorXd& near) const {
+  Excess least;
+  if (unsupported_.empty()) least_beyond(arms(on_tracks(flange, near), near), &least);
+  return least;
 }
 
 /// Returns whether the angles match. Angles near a boundary of a quadrant or sign match on either side, because programs have few

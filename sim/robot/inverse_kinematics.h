@@ -76,6 +76,14 @@ class InverseKinematics {
   std::optional<Eigen::VectorXd> follow(const Frame& flange, const Eigen::VectorXd& near,
                                         std::string& reason) const;
 
+  /// The axis that is farthest outside of its limits. axis: empty: none is.
+  struct Excess {
+    std::string axis;
+    double angle = 0;  ///< [rad]
+  };
+  /// Returns the excess of the arm that reaches the flange's frame with the least excess.
+  Excess excess(const Frame& flange, const Eigen::VectorXd& near) const;
+
   /// Returns whether a path may end with these angles if its program states `programmed`. ABB monitors axes 1, 4 and
   /// 6, which may differ by a quadrant (ConfL); Fanuc requires equal letters and turns; others ignore it.
   bool may_end(const Eigen::VectorXd& joints, const ArmConfiguration& programmed) const;
@@ -94,8 +102,8 @@ class InverseKinematics {
   void add_wrists(const Frame& flange, double q1, double q2, double q3, const Eigen::VectorXd& near,
                   std::vector<Eigen::VectorXd>& found) const;
   std::vector<Eigen::VectorXd> with_turns(const Eigen::VectorXd& arm) const;
-  std::string beyond_limits(const Eigen::VectorXd& arm, int turns, double* most = nullptr) const;
-  std::string least_beyond(const std::vector<Eigen::VectorXd>& arms) const;
+  std::string beyond_limits(const Eigen::VectorXd& arm, int turns, Excess* most = nullptr) const;
+  std::string least_beyond(const std::vector<Eigen::VectorXd>& arms, Excess* most = nullptr) const;
   bool matches(const Eigen::VectorXd& joints, const ArmConfiguration& wanted, bool with_sides) const;
 
   const pipeline::Robot robot_;

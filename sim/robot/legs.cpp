@@ -55,6 +55,11 @@ class Layout {
                                  fmt::format("motion '{}' does not begin with a move", motion_.name),
                                  "begin with the joints_deg at which the robot starts");
     number(motion_.steps, "");
+    for (const auto& [axis, fault] : beyond_)
+      problems_.add(fault.where,
+                    fault.targets == 1 ? fault.worst.what
+                                       : fmt::format("{}, the farthest of {} targets outside of its limits", fault.worst.what, fault.targets),
+                    fault.worst.remedy);
     throw_if_any();
     int first = 0;
     expand(motion_.steps, first);
@@ -94,9 +99,16 @@ class Layout {
     }
   }
 
+  /// Collects for each axis the target that is farthest outside of its limits.
   void collect_limits(const MotionStep& step, const std::string& text) {
-    if (const auto fault = limit_fault(robot_, step.joints, fmt::format("waypoint '{}'", text)))
-      problems_.add(step.where, fault->what, fault->remedy);
+    for (const LimitFault& fault : limit_faults(robot_, step.joints, fmt::format("waypoint '{}'", text))) {
+      if (fault.axis < 0) {
+        problems_.add(step.where, fault.what, fault.remedy);
+        continue;
+      }
+      Beyond& beyond = beyond_[fault.axis];
+      if (beyond.targets++ == 0 || fault.excess > beyond.worst.excess) beyond.where = step.where, beyond.worst = fault;
+    }
   }
 
   void expand(const std::vector<MotionStep>& steps, int& line) {
@@ -149,20 +161,32 @@ class Layout {
     return made;
   }
 
-  bool refuse(const MotionStep& step, int line, const std::string& reason) {
+  /// of: the axis outside of its limits, or a text that targets with one cause share; targets with the same one are reported
+  /// together, by the target with the largest excess [rad]. Empty: the reason.
+  bool refuse(const MotionStep& step, int line, const std::string& reason, const std::string& of = "", double excess = 0) {
     const bool lacks = step.external_axes.size() > axes_.size() - robot_.axes();
     const std::string remedy =
         lacks ? "check target, tool, work object and configuration; the step also names external axes that "
                 "robot.external_axes does not have: without them the robot stands elsewhere"
               : "check target, tool, work object, configuration and where the robot stands";
+    const std::string& group = of.empty() ? reason : of;
     const auto same = std::find_if(refused_.begin(), refused_.end(), [&](const Refused& other) {
-      return other.reason == reason && other.remedy == remedy;
+      return other.group == group && other.remedy == remedy;
     });
-    if (same == refused_.end())
-      refused_.push_back({step.where, made_.texts[line], reason, remedy, {}});
-    else
+    Refused refused{step.where, made_.texts[line], reason, remedy, group, excess, {}};
+    if (same == refused_.end()) {
+      refused_.push_back(std::move(refused));
+    } else if (excess > same->excess) {
+      refused.further = std::move(same->further);
+      refused.further.insert(refused.further.begin(), same->where);
+      *same = std::move(refused);
+    } else {
       same->further.push_back(step.where);
+    }
     return false;
+  }
+  bool refuse(const MotionStep& step, int line, const std::string& reason, const InverseKinematics::Excess& excess) {
+    return refuse(step, line, reason, excess.axis, excess.angle);
   }
 
   /// Reports targets that are refused for one reason as one problem.
@@ -284,7 +308,7 @@ class Layout {
     // On a path the configuration cannot change; the end is found by following the path (lay_path).
     const auto joints =
         arm_.solve(move.tooling.flange(target), path ? ArmConfiguration{} : *configuration, near, reason);
-    if (!joints) return refuse(step, line, reason);
+    if (!joints) return refuse(step, line, reason, arm_.excess(move.tooling.flange(target), near));
     move.to = *joints;
     if (!path) return true;
     move.path = ToolPath(move.tooling, move.tooling.pose(arm_.flange(place_)), target);
@@ -326,13 +350,14 @@ class Layout {
         return std::pair{at, *next};
       }
       if (step <= shortest) {
-        refuse(*move.step, move.line,
-               next
-                   ? fmt::format("is not reached along its path (at {:.0f} % of it {})", 100 * u,
-                                 arm_.without_closed_form().empty() ? "the wrist would turn over"
-                                 : arm_.singular(joints) ? "the arm is singular: its axes would jump"
-                                                         : "its axes would jump into another configuration")
-                   : fmt::format("is not reached along its path (at {:.0f} % of it it {})", 100 * u, reason));
+        const std::string why = !next                                ? "it " + reason
+                                : arm_.without_closed_form().empty() ? "the wrist would turn over"
+                                : arm_.singular(joints)              ? "the arm is singular: its axes would jump"
+                                                                     : "its axes would jump into another configuration";
+        InverseKinematics::Excess excess;
+        if (!next) excess = arm_.excess(path.flange(u + step), at_share(move, u + step, joints));
+        refuse(*move.step, move.line, fmt::format("is not reached along its path (at {:.0f} % of it {})", 100 * u, why),
+               "path " + (excess.axis.empty() ? why : excess.axis), excess.angle);
         return {};
       }
       step /= 2;
@@ -624,9 +649,16 @@ class Layout {
   std::vector<std::size_t> stops_;  // moves at whose end the robot stops in spite of their zone
   struct Refused {
     pipeline::Where where;  // place of the first target
-    std::string text, reason, remedy;
+    std::string text, reason, remedy, group;
+    double excess = 0;  // [rad]
     std::vector<pipeline::Where> further;
   };
+  struct Beyond {
+    int targets = 0;
+    pipeline::Where where;  // of the farthest
+    LimitFault worst;
+  };
+  std::map<int, Beyond> beyond_;  // by axis
   std::vector<Refused> refused_;
   Problems problems_;
   VectorXd place_, last_;

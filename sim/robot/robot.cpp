@@ -72,21 +72,28 @@ void RobotKinematics::link_frames(std::span<const double> axes, std::span<Frame>
 
 std::optional<LimitFault> limit_fault(const pipeline::Robot& robot, std::span<const double> joints,
                                       const std::string& what) {
+  const std::vector<LimitFault> faults = limit_faults(robot, joints, what);
+  return faults.empty() ? std::nullopt : std::optional(faults.front());
+}
+
+std::vector<LimitFault> limit_faults(const pipeline::Robot& robot, std::span<const double> joints, const std::string& what) {
   const std::vector<Axis> axes = axes_of(robot);
   if (joints.size() != robot.axes())
-    return LimitFault{fmt::format("{} has {} joint angles", what, joints.size()),
-                      fmt::format("{} has {} axes: give one angle for each", robot.name, robot.axes())};
+    return {{fmt::format("{} has {} joint angles", what, joints.size()),
+             fmt::format("{} has {} axes: give one angle for each", robot.name, robot.axes())}};
+  std::vector<LimitFault> faults;
   for (size_t k = 0; k < joints.size(); ++k) {
     const Axis& axis = axes[k];
     if (joints[k] >= axis.lower - limit_rounding && joints[k] <= axis.upper + limit_rounding) continue;
     const bool above = joints[k] > axis.upper;
-    return LimitFault{fmt::format("{} turns {} to {:.6g} deg (must be within {:.6g} .. {:.6g} deg)", what,
-                                  axis.name, joints[k] * degrees, axis.lower * degrees, axis.upper * degrees),
-                      fmt::format("turn it {:.4g} deg {}, inside the limits of {}",
-                                  degrees * (above ? joints[k] - axis.upper : axis.lower - joints[k]),
-                                  above ? "less" : "more", robot.name)};
+    const double excess = above ? joints[k] - axis.upper : axis.lower - joints[k];
+    faults.push_back({fmt::format("{} turns {} to {:.6g} deg (must be within {:.6g} .. {:.6g} deg)", what, axis.name,
+                                  joints[k] * degrees, axis.lower * degrees, axis.upper * degrees),
+                      fmt::format("turn it {:.4g} deg {}, inside the limits of {}", degrees * excess, above ? "less" : "more",
+                                  robot.name),
+                      static_cast<int>(k), excess});
   }
-  return {};
+  return faults;
 }
 
 void check_joint_limits(const pipeline::Robot& robot, std::span<const double> joints, const std::string& what,

@@ -60,6 +60,8 @@ Quaternion from_roll_pitch_yaw(const Vector3& angles);
 
 struct LimitFault {
   std::string what, remedy;
+  int axis = -1;      ///< driven axis; -1: another number of angles than the robot has axes
+  double excess = 0;  ///< [rad]
 };
 
 /// Tolerance of a joint limit for rounding errors [rad, m]: degrees and millimetres in a file become radians and metres,
@@ -70,6 +72,8 @@ constexpr double limit_rounding = 1e-9;
 /// an angle outside its joint's limits, with angle and limits in degrees. Absent: they are valid. `what`: "waypoint 'home'".
 std::optional<LimitFault> limit_fault(const pipeline::Robot& robot, std::span<const double> joints,
                                       const std::string& what);
+/// Returns such a fault for each axis outside of its limits.
+std::vector<LimitFault> limit_faults(const pipeline::Robot& robot, std::span<const double> joints, const std::string& what);
 
 /// Throws the fault of limit_fault() as InputError at `where`.
 void check_joint_limits(const pipeline::Robot& robot, std::span<const double> joints, const std::string& what,

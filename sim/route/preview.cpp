@@ -11,8 +11,8 @@
 #include "sim/rod/start_curve.h"
 #include "sim/route/bracket.h"
 #include "sim/run/cures.h"
+#include "sim/run/longest_way.h"
 #include "sim/run/quick_checks.h"
-#include "sim/run/cures.h"
 #include "sim/run/routing.h"
 #include "sim/run/simulate.h"
 
@@ -40,15 +40,15 @@ class Previewer {
       : setup_(setup),
         rod_(rod_of(setup)),
         path_(path_of(setup)),
-        robot_(dynamic_cast<const RobotPath*>(path_.get())) {
+        robot_(dynamic_cast<const RobotPath*>(path_.get())),
+        longest_(longest_ways(setup, rod_, *path_, setup.simulation.time_step)) {
     if (robot_ && robot_->mounting_pose() != robot_->motion().position(0))
       moments_.push_back({before_the_program, 0, robot_->pose(robot_->mounting_pose())});
-    find_longest();
     const double duration = path_->duration();
     const int count = std::clamp(static_cast<int>(duration * shown_a_second), fewest_shown, most_shown);
     std::vector<double> times{0};
     for (int k = 1; k <= count && duration > 0; ++k) times.push_back(duration * k / count);
-    for (const Longest& longest : longest_) times.push_back(longest.time);
+    for (const LongestWay& longest : longest_) times.push_back(longest.time);
     std::sort(times.begin(), times.end());
     times.erase(std::unique(times.begin(), times.end()), times.end());
     for (const double time : times) moments_.push_back({time, path_->step(time), path_->at(time)});
@@ -65,7 +65,7 @@ class Previewer {
     }
     write_spans(file);
     write_scan(file);
-    QuickWarnings quick = quick_warnings(setup_);
+    QuickWarnings quick = quick_warnings(setup_, longest_);
     if (robot_ && !robot_->note().empty()) quick.notes.push_back(robot_->note());
     if (robot_ && setup_.simulation.contact)
       if (std::string note = gripper_note(setup_, robot_->tools()); !note.empty())
@@ -86,18 +86,6 @@ class Previewer {
     for (const ShownMoment& moment : moments_) {
       const std::vector<double> ways = shortest_ways(setup_, rod_, moment.pose.clamps, moment.pose.rings);
       for (std::size_t span = 0; span < ways.size(); ++span) ways_.push_back(is_free(span) ? 0 : ways[span]);
-    }
-  }
-
-  /// Finds the longest distance step by step, as the simulation does: it may occur between other moments.
-  void find_longest() {
-    longest_.assign(rod_.spans().size(), {});
-    const double step = std::max(setup_.simulation.time_step, path_->duration() / 100'000);
-    for (double time = 0; time <= path_->duration(); time += step) {
-      const Pose pose = path_->at(time);
-      const std::vector<double> ways = shortest_ways(setup_, rod_, pose.clamps, pose.rings);
-      for (std::size_t span = 0; span < ways.size(); ++span)
-        if (!is_free(span) && ways[span] > longest_[span].way) longest_[span] = {ways[span], time};
     }
   }
 
@@ -284,17 +272,13 @@ class Previewer {
     if (when) file.attribute("refusal_time", *when);
   }
 
-  struct Longest {
-    double way = 0, time = 0;  ///< [m], [s]
-  };
-
   const pipeline::Setup& setup_;
   Rod rod_;
   std::unique_ptr<ClampPath> path_;
   const RobotPath* robot_;
+  std::vector<LongestWay> longest_;  // (span) over the program; it may occur between the shown moments
   std::vector<ShownMoment> moments_;
-  std::vector<double> ways_;      // (moment, span)
-  std::vector<Longest> longest_;  // (span) over the program
+  std::vector<double> ways_;  // (moment, span)
 };
 
 }  // namespace

@@ -23,7 +23,6 @@ namespace {
 namespace check_name = pipeline::check_name;
 using pipeline::WarningKind;
 
-constexpr int most_moments = 100'000;  // of the program; a run evaluates every step
 constexpr int rest_moments = 1000;     // of the program; equilibria are computed only after enough motion
 constexpr int mounting_moments = 100;  // of the move from the mounting pose to the program
 // Rotation between two equilibria: far below half a turn, at which the direction of rotation would be ambiguous.
@@ -32,6 +31,8 @@ constexpr double rest_way = 0.05;  // displacement between two equilibria as a s
 constexpr double short_run_work =
     5e6;  // 2.4 s of processor time, measured: two repeats of three minutes, 64 segments without contact
 constexpr double lead_in_share = 0.5;  // share for the lead-in: a motion that takes longer runs once, from rest
+// A lead-in has a larger step and another past than the evaluated repeat. A radius that is smaller by this factor is too small there, too.
+constexpr double lead_in_margin = 0.85;
 constexpr double same_radius = 0.05;  // relative error of a bend radius with few segments
 
 pipeline::Setup with_segments(pipeline::Setup setup, int most) {
@@ -49,13 +50,14 @@ struct Rests {
 
 class QuickChecks {
  public:
-  explicit QuickChecks(const pipeline::Setup& setup)
+  QuickChecks(const pipeline::Setup& setup, std::vector<LongestWay> longest = {})
       : setup_(setup),
         rod_(rod_of(setup)),
         short_rod_(rod_of(with_segments(setup, short_run_segments))),
         rest_rod_(rod_of(with_segments(setup, rest_segments))),
         path_(path_of(setup)),
-        robot_(dynamic_cast<const RobotPath*>(path_.get())) {}
+        robot_(dynamic_cast<const RobotPath*>(path_.get())),
+        longest_(longest.empty() ? longest_ways(setup, rod_, *path_, setup.simulation.time_step) : std::move(longest)) {}
 
   QuickFindings findings() {
     QuickFindings found;
@@ -142,23 +144,11 @@ class QuickChecks {
     return count == 1 ? -1 : of.first_arc + of.properties.length / 2;
   }
 
-  /// Adds the largest straight distance of each span over the program, at every step of a run.
-  void add_slack(std::vector<Check>& checks) {
-    const std::size_t spans = rod_.spans().size();
-    longest_.assign(spans, 0.0);
-    when_.assign(spans, 0.0);
-    const double step = std::max(setup_.simulation.time_step, path_->duration() / most_moments);
-    const auto steps = static_cast<int>(std::ceil(path_->duration() / step));
-    for (int k = 0; k <= steps; ++k) {
-      const double time = std::min(k * step, path_->duration());
-      const Pose pose = path_->at(time);
-      const std::vector<double> ways = shortest_ways(setup_, rod_, pose.clamps, pose.rings);
-      for (std::size_t span = 0; span < spans; ++span)
-        if (!is_free(span) && ways[span] > longest_[span]) longest_[span] = ways[span], when_[span] = time;
-    }
+  /// Adds the least and the most slack of the spans of each dresspack at the largest straight way over the program.
+  void add_slack(std::vector<Check>& checks) const {
     for (int d = 0; d < rod_.dresspacks(); ++d) {
       const auto first = static_cast<std::size_t>(rod_.first_span(d)), end = static_cast<std::size_t>(rod_.first_span(d + 1));
-      const auto share = [&](std::size_t span) { return 1 - longest_[span] / properties(span).length; };
+      const auto share = [&](std::size_t span) { return 1 - longest_[span].way / properties(span).length; };
       std::size_t tight = end, loose = end;
       for (std::size_t span = first; span < end; ++span) {
         if (is_free(span)) continue;
@@ -167,7 +157,7 @@ class QuickChecks {
       }
       if (tight == end || properties(tight).slider) continue;  // only a run knows the travel of the retraction unit
       const auto add = [&](const char* name, std::size_t span, double limit, bool broken) {
-        checks.push_back({WarningKind::slack, name, "m", share(span) * properties(span).length, limit, broken, when_[span],
+        checks.push_back({WarningKind::slack, name, "m", share(span) * properties(span).length, limit, broken, longest_[span].time,
                           middle(span), d});
       };
       add(check_name::too_short, tight, least_slack_share * properties(tight).length, share(tight) < least_slack_share);
@@ -321,7 +311,7 @@ class QuickChecks {
           return ring.span == static_cast<int>(span);
         });
         const double base_roll = std::exchange(roll, 0);
-        if (is_free(span) || ringed || properties(span).slider || longest_[span] >= properties(span).length) continue;
+        if (is_free(span) || ringed || properties(span).slider || longest_[span].way >= properties(span).length) continue;
         const std::vector<Rests> shapes = all_rests(span, base_roll, result.run.begin);
         roll = shapes.front().roll;
         // If a short run has followed the motion, a missing equilibrium is no fault.
@@ -395,7 +385,7 @@ class QuickChecks {
   Rod rod_, short_rod_, rest_rod_;
   std::unique_ptr<ClampPath> path_;
   const RobotPath* robot_;
-  std::vector<double> longest_, when_;  // (span) [m], [s]
+  std::vector<LongestWay> longest_;  // (span)
 };
 
 }  // namespace
@@ -411,11 +401,13 @@ ShortRun short_run(pipeline::Setup setup, int segments, double useless_below, in
     sinks.goes_on = [&](double work, bool leads_in) {
       return (result.work += work) <= (leads_in ? lead_in_share : 1) * short_run_work;
     };
-    sinks.still_of_use = [&](const MotionChecks& checks) {
-      for (int j = 0; j < simulation.rod().links(); ++j)
-        if (simulation.rod().span_of_link(j).dresspack == of && checks.curvature()[j].value * useless_below > 1) return false;
-      return true;
-    };
+    if (useless_below > 0)
+      sinks.still_of_use = [&](const MotionChecks& checks, bool leads_in) {
+        const double least = (leads_in ? lead_in_margin : 1) * useless_below;
+        for (int j = 0; j < simulation.rod().links(); ++j)
+          if (simulation.rod().span_of_link(j).dresspack == of && checks.curvature()[j].value * least > 1) return false;
+        return true;
+      };
     RunSummary summary = simulation.run(sinks);
     result.checks = std::move(summary.checks);
     result.stopped_at = summary.stopped_at;
@@ -435,6 +427,8 @@ QuickFindings findings_unless(const pipeline::Setup& setup, const std::function<
                               double useless_below, int dresspack) {
   return QuickChecks(setup).findings_unless(rejects, useless_below, dresspack);
 }
-QuickWarnings quick_warnings(const pipeline::Setup& setup) { return QuickChecks(setup).warnings(); }
+QuickWarnings quick_warnings(const pipeline::Setup& setup, std::vector<LongestWay> longest) {
+  return QuickChecks(setup, std::move(longest)).warnings();
+}
 
 }  // namespace dresslife::sim

@@ -14,6 +14,7 @@
 
 #include "pipeline/base/warnings.h"
 #include "sim/run/checks.h"
+#include "sim/run/longest_way.h"
 
 namespace dresslife::pipeline {
 struct Setup;
@@ -61,6 +62,7 @@ struct QuickWarnings {
   std::vector<pipeline::Warning> warnings;
   std::vector<std::string> notes;
 };
-QuickWarnings quick_warnings(const pipeline::Setup& setup);
+/// longest: longest_ways() with setup.simulation.time_step; empty: they are computed.
+QuickWarnings quick_warnings(const pipeline::Setup& setup, std::vector<LongestWay> longest = {});
 
 }  // namespace dresslife::sim

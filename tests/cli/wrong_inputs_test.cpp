@@ -412,7 +412,7 @@ const Doubtful doubtful[] = {
     {"job.yaml", "dwell_s: 0.5", "dwell_s: 500", "job.yaml:8:7", "dwell_s is 500 (limit 100 or less). Likely cause: milliseconds", "dwell_s: 0.5 if"},
     {"hose.yaml", "mass_kg_per_m: 1.2", "mass_kg_per_m: 120", "hose.yaml:1:1", "mass_kg_per_m is 120 (limit 5.91: its parts, and diameter_mm filled", "mass_kg_per_m: 0.12 if that was g/m, 1 by its parts and wall"},
     {"hose.yaml", "mass_kg_per_m: 1.2", "mass_kg_per_m: 15", "hose.yaml:1:1", "mass_kg_per_m is 15 (limit 5.91", "1 by its parts and wall"},
-    {"hose.yaml", "mass_kg_per_m: 1.2", "mass_kg_per_m: 0.0012", "hose.yaml:1:1", "mass_kg_per_m is 0.0012 (limit 0.0196: its wires", "from_construction"},
+    {"hose.yaml", "mass_kg_per_m: 1.2", "mass_kg_per_m: 0.12", "hose.yaml:1:1", "mass_kg_per_m is 0.12 (limit 0.301: 30 % of what its parts and its wall weigh", "from_construction (1)"},
     {"hose.yaml", "bending_stiffness_Nm2: 2", "bending_stiffness_Nm2: 2000000", "", "bending_stiffness_Nm2 is 2e+06 (limits 0.016 .. 1.08e+03)", "bending_stiffness_Nm2: 0.0321 or from_construction"},
     {"hose.yaml", "damping_time_ms: 10", "damping_time_ms: 0.01", "hose.yaml:1:1", "damping_time_ms is 0.01 (limits 0.88 .. 177", "as measured"},
     {"hose.yaml", "damping_time_ms: 10", "damping_time_ms: 10000", "hose.yaml:1:1", "damping_time_ms is 1e+04 (limits 0.88 .. 177", "as measured"},
@@ -424,6 +424,7 @@ const Doubtful doubtful[] = {
     {"hose.yaml", "least_bend_radius_mm: 300", "least_bend_radius_mm: 0.25", "hose.yaml:1:1", "least_bend_radius_mm is 0.25 (limits 50 .. 2000: 1 to 40 diameters). Likely cause: metres", "least_bend_radius_mm: 250 if that was metres"},
     {"hose.yaml", "slack_percent: 1", "slack_percent: 1\n    play_mm: 400", "hose.yaml:12:5", "play_mm of 'lead' is 400 (limit 25: half of diameter_mm)", "it follows from the bore"},
     {"hose.yaml", "slack_percent: 1", "slack_percent: 1\n    friction_coefficient: 0.3\n    radial_line_load_N_per_m: 5e6", "hose.yaml:12:5", "radial_line_load_N_per_m of 'lead' is 5e+06, 610 MPa on its width (limit 10: jackets yield)", "0.05 MPa times the part's width"},
+    {"job.yaml", "segments: 24", "segments: 24, time_step_ms: 20", "", "simulation.time_step_ms is 20 (limit 10 or less)", "simulation.time_step_ms: 5, or auto"},
     {"job.yaml", "segments: 24", "segments: 24, sample_rate_Hz: 0.5", "", "simulation.sample_rate_Hz is 0.5 (limit 5 or more)", "simulation.sample_rate_Hz: 25"},
     {"job.yaml", "simulation: {", "strain: {gate: 0.1}\nsimulation: {", "", "strain.gate is 0.1 (limit 0.0005 or less): cycles below it are left out", "strain.gate: 0.001 if"},
     {"job.yaml", "free_length_m: 2.035", "free_length_m: 203.5", "", "least slack: too long", "routing.free_length_m: 2.046"},
@@ -639,6 +640,7 @@ TEST_CASE("a misspelt option is answered with the nearest one, a dry run names j
   };
   CHECK(answer("dresslife", "improve job.yaml --trial 2") == "'--trial' is no option of improve; did you mean '--trials'?");
   CHECK(answer("dresslife", "run job.yaml --job=2") == "'--job' is no option of run; did you mean '--jobs'?");
+  CHECK(answer("dresslife", "import log.csv --log -o shift.yaml") == "'--log' needs JOB.yaml before '-o'");
   CHECK(answer("dresslife", "run job.yaml -n 2") == "'-n' takes no number (print what would be made and why, and run nothing); leave out '2'");
   CHECK(answer("dresslife-import", "spot.mod --anwsers x") ==
         "'--anwsers' is no option of dresslife-import; did you mean '--answers'?");

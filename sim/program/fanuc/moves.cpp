@@ -435,9 +435,13 @@ bool FanucRun::read_option(FanucCursor& at, Instruction& move, Options& options)
     set(share, 0, 100, move.zone.percent, 1);
   } else if (at.take("CD") || at.take("CR"))
     set(needed(at, "goes over into the next move by a distance"), 0, 1e6, move.zone.distance, millimetre);
-  else if (at.take("ACC"))
-    set(needed(at, "accelerates by ACC"), 1, 150, move.acceleration_percent, 1);
-  else if (at.take("TOOL_OFFSET")) {
+  else if (at.take("ACC")) {
+    constexpr double least = 1, most = 150;
+    const FanucNumber percent = needed(at, "accelerates by ACC");
+    if (percent && (*percent < least || *percent > most))
+      note(fmt::format("ACC{:g}: {}", *percent, beyond_range_words(least, most)), true);
+    set(percent, least, most, move.acceleration_percent, 1);
+  } else if (at.take("TOOL_OFFSET")) {
     offset_by(at, options.tool_offset, "TOOL_OFFSET");
     options.failed |= !options.tool_offset;
   } else if (at.take("OFFSET")) {

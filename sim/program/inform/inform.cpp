@@ -483,7 +483,7 @@ class Inform final : public Dialect {
     }
     if (number && !(*number > 0))
       return run_->complain(statement.place, "has a speed that is not above 0", "correct the speed"), false;
-    if (axes) move.speed.axis_percent = std::min(*number, 100.0);
+    if (axes) move.speed.axis_percent = run_->within(*number, 0, 100, "VJ", statement.place);
     if (!axes && number) move.speed.tool = *number * unit_of_v(statement.place);
     if (turn && *turn > 0) move.speed.orientation = *turn * degree;
     return true;
@@ -529,7 +529,8 @@ class Inform final : public Dialect {
     move.kind = axes ? Instruction::Kind::joint : Instruction::Kind::linear;
     for (const char* option : {"acc", "dec"})
       if (const auto percent = tag(statement, option))
-        move.acceleration_percent = std::min(move.acceleration_percent, std::clamp(*percent, 1.0, 100.0));
+        move.acceleration_percent =
+            std::min(move.acceleration_percent, run.within(*percent, 1, 100, upper_case(option), statement.place));
     const Expression* station = argument_of(statement, "station");
     if (!argument_of(statement, "") && station)
       return run.note(statement.place, statement.text + ": moves a station alone, not the robot", true);

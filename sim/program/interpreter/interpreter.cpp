@@ -144,6 +144,11 @@ void Interpreter::note(const Place& place, const std::string& what, bool may_mov
   program_.skipped.push_back({at, what, may_move});
 }
 
+double Interpreter::within(double value, double low, double high, const std::string& name, const Place& place) {
+  if (value < low || value > high) note(place, fmt::format("{} {:g}: {}", name, value, beyond_range_words(low, high)), true);
+  return std::clamp(value, low, high);
+}
+
 void Interpreter::charge(std::size_t work) {
   executed_ += static_cast<long>(work);
   if (guessed_at_ >= 0 && executed_ - guessed_at_ > ImportLimits::guessed) throw Stop{};

@@ -175,6 +175,8 @@ class Interpreter {
   std::string path_of(const Expression& expression);
   void emit(Instruction instruction, const Statement& statement);
   void note(const Place& place, const std::string& what, bool may_move = false);
+  /// Returns the nearest value within a range, and notes a value outside of it. name: of the number, for the note.
+  double within(double value, double low, double high, const std::string& name, const Place& place);
   void complain(const Place& place, const std::string& what, const std::string& remedy);
   /// Reports a missing value, once for all its uses. decision: the missing value is the arm of a branch.
   void miss(const std::string& name, const Place& place, const std::string& what, const std::string& remedy,

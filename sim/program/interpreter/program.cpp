@@ -17,6 +17,10 @@ constexpr std::array<std::string_view, 6> configuration_words{"", "abb", "kuka",
 
 }  // namespace
 
+std::string beyond_range_words(double low, double high) {
+  return fmt::format("{} {:g} .. {:g} (the nearest of these counts)", beyond_range, low, high);
+}
+
 std::string ArmConfiguration::text() const {
   if (kind == Kind::any) return "";
   const std::string_view maker = configuration_words[static_cast<std::size_t>(kind)];

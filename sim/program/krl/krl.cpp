@@ -327,7 +327,7 @@ bool Krl::read_axis_speed(const Statement& statement, Instruction& move, Interpr
                     "a number in %");
         return {};
       }
-      percent = std::min(percent, value.number);
+      percent = std::min(percent, run.within(value.number, 0, 100, fmt::format("{}[{}]", upper_case(list), axis + 1), statement.place));
     }
     return percent;
   };
@@ -374,9 +374,10 @@ bool Krl::read_path_speed(const Statement& statement, Instruction& move, Interpr
     return false;
   }
   const auto acceleration = setting("$acc", "cp", run), whole = setting("def_acc_cp", "", run);
-  if (acceleration && *acceleration > 0)
-    move.acceleration_percent =
-        std::clamp(100 * *acceleration / whole.value_or(standard_path_acceleration), 1.0, 100.0);
+  if (acceleration && *acceleration > 0) {
+    const double most = whole.value_or(standard_path_acceleration);
+    move.acceleration_percent = run.within(100 * *acceleration / most, 1, 100, fmt::format("$ACC.CP in % of {:g} m/s2", most), statement.place);
+  }
   if (const auto jerk = setting("$jerk", "cp", run); is_spline(statement) && jerk && *jerk > 0)
     move.jerk_percent = std::clamp(100 * *jerk / standard_path_jerk, 1.0, 100.0);
   return true;
@@ -433,7 +434,7 @@ void Krl::read_zone(const Statement& statement, Instruction& move, Interpreter& 
              by_distance = has(statement, "c_dis") || has(statement, "c_spl");
   const auto distance = setting("$apo", "cdis", run);
   if (has(statement, "c_ptp") || (joint && by_distance && distance && *distance >= no_distance)) {
-    move.zone.percent = std::clamp(known("cptp", "$APO.CPTP").value_or(0), 0.0, 100.0);
+    move.zone.percent = run.within(known("cptp", "$APO.CPTP").value_or(0), 0, 100, "$APO.CPTP", statement.place);
   } else if (by_distance) {
     move.zone.distance = std::max(0.0, known("cdis", "$APO.CDIS").value_or(0)) * millimetre;
   } else if (has(statement, "c_vel")) {

@@ -116,6 +116,11 @@ TEST_CASE("fanuc: every unit of speed under an override, every way to end a move
   CHECK(r.move(0).speed.axis_percent.value() == Approx(20));
   CHECK(r.move(0).zone.percent == 100);
   CHECK(r.move(0).acceleration_percent == 150);
+  const auto is_noted = [&](const std::string& what) {
+    return std::ranges::any_of(r.program.skipped, [&](const Skipped& skipped) { return skipped.what == what && skipped.may_move; });
+  };
+  CHECK(is_noted("ACC200: outside of the controller's range 1 .. 150 (the nearest of these counts)"));
+  CHECK(is_noted("ACC0: outside of the controller's range 1 .. 150 (the nearest of these counts)"));
   CHECK(r.move(1).speed.tool.value() == Approx(0.25));
   CHECK(r.move(1).zone.distance == Approx(0.02));
   CHECK(r.move(2).speed.tool.value() == Approx(0.9 / 60 / 2));

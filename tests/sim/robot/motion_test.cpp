@@ -1,9 +1,11 @@
 #include "sim/robot/motion.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
 #include "tests/catch.h"
+#include "tests/pipeline/scratch.h"
 
 namespace dresslife::sim {
 namespace {
@@ -415,6 +417,20 @@ TEST_CASE("motion: a waypoint beyond a limit is reported where it stands") {
       JointMotion(motion_of({move_to({0, 0}), block}), robot_with({2, 2}, {4, 4})),
       "program.yaml:7:9: error: waypoint 'panel A: move 2' turns joint_2 to -601.606 deg (must be "
       "within -572.958 .. 572.958 deg); turn it 28.65 deg more, inside the limits of test robot");
+}
+
+TEST_CASE("motion: of many waypoints beyond the limits of an axis the farthest is reported, with their number") {
+  std::vector<pipeline::MotionStep> steps{move_to({0, 0})};
+  for (const auto& [line, angles] : {std::pair{2, std::vector{11.0, 0.0}}, {3, {12.0, 10.5}}, {4, {-10.5, 0.0}}}) {
+    steps.push_back(move_to(angles));
+    steps.back().where = {"program.yaml", line, 9};
+  }
+  const std::string text = pipeline::message_of([&] { JointMotion(motion_of(steps), robot_with({2, 2}, {4, 4})); });
+  CHECK(std::count(text.begin(), text.end(), '\n') == 1);
+  CHECK(text.find("program.yaml:3:9: error: waypoint 'move 3' turns joint_1 to 687.549 deg (must be within -572.958 .. 572.958 deg), the "
+                  "farthest of 3 targets outside of its limits; turn it 114.6 deg less") != std::string::npos);
+  CHECK(text.find("program.yaml:3:9: error: waypoint 'move 3' turns joint_2 to 601.606 deg (must be within -572.958 .. 572.958 deg); turn it "
+                  "28.65 deg less") != std::string::npos);
 }
 
 TEST_CASE("motion: a program has to begin with a move") {
