@@ -126,7 +126,6 @@ std::optional<Corkscrew> corkscrew(const pipeline::FileReader& strain, const pip
         worst->cable = k, worst->position = shape.middle[i], worst->sample = t;
       }
   }
-  if (worst && worst->margin <= 1) worst->repeats = 1;
   return worst;
 }
 

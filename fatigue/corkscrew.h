@@ -54,8 +54,7 @@ struct BoredCable {
 struct Corkscrew {
   std::size_t cable = 0;  ///< index in the strain file
   double margin = 0;      ///< factor on its forces and twist
-  double repeats =
-      0;  ///< until it is a corkscrew; infinite: no repeat leaves a twist, or the limits are far; 1: in every repeat
+  double repeats = 0;    ///< until the twist that each repeat leaves winds it, at least 1; infinite: none is left
   double turn_left = 0;  ///< D; 0 if below `least_turn_left` [rad]
   double position = 0;   ///< of the place from the base clamp [m]
   std::size_t sample = 0;

@@ -347,7 +347,11 @@ void find_corkscrews(Search& found, const std::vector<std::vector<double>>& tens
       mode.note += fmt::format(" A repeat leaves {} degrees of twist.",
                                pipeline::readable(180 / std::numbers::pi * worst->turn_left, 2));
     constexpr double spread = 0.3;  // deviation: stiffnesses of a cable are known to a factor of two; ESTIMATE
-    found.put_lives(mode, found.own_lives(mode, worst->repeats, spread));
+    std::vector<double> own = found.own_lives(mode, worst->repeats, spread);
+    const std::vector<double> stiffness = pipeline::standard_normals("margin of " + mode.mode + " " + mode.dresspack, own.size());
+    for (std::size_t s = 0; s < own.size(); ++s)
+      if (worst->margin * std::pow(10.0, spread * stiffness[s]) <= 1) own[s] = 0;  // in the first repeat
+    found.put_lives(mode, std::move(own));
   }
 }
 

@@ -1124,6 +1124,12 @@ TEST_CASE("life.h5: a twist that every repeat leaves winds a loose cable into a 
   CHECK(std::isinf(coil_of("elsewhere.h5").first[0].hours[0]));
   f.twist = 1.01 * tight / torsion;
   CHECK(coil_of("tight.h5").first[0].hours[1] == Approx(hours(1, duration)).epsilon(strata));
+  // Stiffnesses have a factor of two: at half the critical torque the cables wind that are half as stiff or less.
+  f.twist = 0.5 * tight / torsion;
+  const auto half = coil_of("half.h5").first[0];
+  CHECK(half.first_share == Approx(pipeline::normal_share(-std::log10(2) / 0.3)).margin(strata));
+  CHECK(half.hours[0] == Approx(hours(1, duration)));
+  CHECK(std::isinf(half.hours[1]));
   dresspack.materials[0].tensile_strength = 230e6;
   f.cables[0].strain = {-1e-3, 0, 0};  // a third of the force that breaks it
   CHECK(coil_of("forced.h5").first.empty());

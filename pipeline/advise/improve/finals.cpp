@@ -49,11 +49,21 @@ const Final* Finals::best_drawn() const {
                             [](const Final& a, const Final& b) { return a.merit < b.merit; });
 }
 
-bool Finals::is_gain(const Final& candidate) const {
+std::pair<Merit, Merit> Finals::compared(const Final& candidate) const {
   const Final& original = of.front();
   if (!candidate.tolerance || !candidate.tolerance->whole || !original.tolerance)
-    return clearly_better(candidate.merit, original.merit);
-  return clearly_better(candidate.tolerance->worst, original.tolerance->worst);
+    return {candidate.merit, original.merit};
+  return {candidate.tolerance->worst, original.tolerance->worst};
+}
+
+bool Finals::is_gain(const Final& candidate) const {
+  const auto [one, original] = compared(candidate);
+  return clearly_better(one, original);
+}
+
+bool Finals::fails_earlier(const Final& candidate) const {
+  const auto [one, original] = compared(candidate);
+  return one.kept > original.kept && pipeline::fails_earlier(one, original);
 }
 
 const RankingRow* Finals::worst_row(const Final& one) const {

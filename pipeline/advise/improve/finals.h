@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "pipeline/advise/improve/improvement.h"
@@ -34,8 +35,14 @@ struct Finals {
   const Final* best() const;
   /// Returns whether the candidate is clearly better than the original jobs, within the tolerance if both were evaluated.
   bool is_gain(const Final& candidate) const;
+  /// Returns whether a mode gets worse by the candidate, so that it is no gain although it keeps more limits.
+  bool fails_earlier(const Final& candidate) const;
   /// Returns the row of the worst of its jobs; null: none is done.
   const RankingRow* worst_row(const Final& of) const;
+
+ private:
+  /// Returns the merits of the candidate and of the original jobs, within the tolerance if both were evaluated.
+  std::pair<Merit, Merit> compared(const Final& candidate) const;
 };
 
 /// Runs the finalists and the original jobs: with two objectives the whole Pareto front, with one objective the best few.

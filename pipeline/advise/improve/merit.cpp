@@ -82,7 +82,14 @@ double search_value(const Outcome& outcome, const Outcome& as_it_is) {
   return value;
 }
 
+double first_failure(const Merit& merit) { return std::min(merit.counted_hours, merit.first_hours); }
+
+bool fails_earlier(const Merit& one, const Merit& other) {
+  return one.kept == Kept::limits && first_failure(one) * alike < first_failure(other);
+}
+
 bool clearly_better(const Merit& one, const Merit& other) {
+  if (fails_earlier(one, other)) return false;
   if (one.kept != other.kept) return one.kept > other.kept;
   if (one.counted_hours > other.counted_hours * alike) return true;
   return one.counted_hours * alike >= other.counted_hours && one.first_hours > other.first_hours * alike;

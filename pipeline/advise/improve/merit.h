@@ -52,7 +52,14 @@ ModeLife first_mode(const Outcome& outcome);
 /// reduces it by the logarithm of the ratio of its limit in (M1) to t_m. Precondition: the outcome ran.
 double search_value(const Outcome& outcome, const Outcome& as_it_is);
 
-/// Returns whether the first is better by more than the 10 % of (M1) in (M2), or with equal (M2) in (M3), or in (M1).
+/// Returns the p10 life until the wires or a mode fail, at most that of the robot.
+double first_failure(const Merit& merit);
+
+/// Returns whether one mode gets worse and the first failure comes earlier by more than the 10 % of (M1).
+bool fails_earlier(const Merit& one, const Merit& other);
+
+/// Returns whether the first is better by more than the 10 % of (M1) in (M2), or with equal (M2) in (M3), or in (M1). A candidate
+/// that fails earlier is not, even if it alone keeps all limits.
 bool clearly_better(const Merit& one, const Merit& other);
 
 /// Returns the modes within the robot's life, the earliest first, joined by commas: "jacket wear from 5,890 h". Empty: none.

@@ -80,6 +80,8 @@ std::string relief_words(const Improvement& found) {
 std::string keep_words(const Finals& finals) {
   const Final& best = *finals.best();
   if (finals.is_gain(best)) return "";
+  if (finals.fails_earlier(best))
+    return "Nothing that was tried is recommended: what keeps all limits fails earlier than the job as it is.";
   return clearly_better(best.merit, finals.of.front().merit)
              ? "Keep the job as it is. Nothing that was tried is clearly better within the mounting tolerance."
              : "Keep the job as it is. Nothing that was tried is clearly better.";

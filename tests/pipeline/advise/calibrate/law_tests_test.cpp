@@ -1,7 +1,12 @@
 // Laws of kinks, wear and bending against published tests: verdicts, mistakes in the file, and the shipped file.
 #include "pipeline/advise/calibrate/law_tests.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 
 #include "pipeline/cable/kink.h"
 #include "pipeline/cable/polymer.h"
@@ -119,4 +124,41 @@ TEST_CASE("law tests: the shipped file, with its misses") {
   }
   CHECK(independent == 49);
   CHECK(misses == 23);
+}
+
+TEST_CASE("law tests: the page's table has the verdicts of the shipped file") {
+  const std::filesystem::path folder = std::filesystem::path(DRESSLIFE_SOURCE_DIR) / "config/observations";
+  struct Law {
+    const char *row, *prefix, *suffix;  ///< of the table; of the names of its tests, which are in no later law
+  };
+  const std::vector<Law> laws{{"tube of polyamide 12 becomes oval (SMC)", "smc_", "_oval"},
+                              {"tube of polyamide 12 collapses (SMC)", "smc_", "_kink"},
+                              {"maker's least bend radius, polyamide and polyurethane (CKD)", "ckd_", ""},
+                              {"tube of PTFE kinks (Zeus)", "zeus_", ""},
+                              {"wear of polyamide (ASTM D3702, RTP)", "pa66_", ""},
+                              {"wear of polyurethane below that on abrasive cloth and wheels", "pur_", ""},
+                              {"moment of a bent cable, by its data sheet (heart pump leads)", "", ""}};
+  struct Count {
+    int all = 0, set = 0, agree = 0, miss = 0;
+  };
+  std::vector<Count> counts(laws.size());
+  for (const LawTest& test : read_law_tests(folder / "laws.yaml")) {
+    const auto law = std::ranges::find_if(laws, [&](const Law& one) { return test.name.starts_with(one.prefix) && test.name.ends_with(one.suffix); });
+    Count& count = counts.at(static_cast<std::size_t>(law - laws.begin()));
+    ++count.all;
+    if (test.sets_constant) {
+      ++count.set;
+      continue;
+    }
+    const std::string verdict = verdict_of(test, predicted(test));
+    count.agree += verdict == "agrees", count.miss += verdict.starts_with("MISS");
+  }
+  std::ifstream in(folder / "README.md");
+  const std::string page{std::istreambuf_iterator<char>(in), {}};
+  for (std::size_t k = 0; k < laws.size(); ++k) {
+    const Count& of = counts[k];
+    INFO(laws[k].row);
+    const std::string verdicts = of.set == of.all ? "| | |" : fmt::format("| {} | {} |", of.agree, of.miss);
+    CHECK(page.find(fmt::format("| {} | {} | {} {}\n", laws[k].row, of.all, of.set, verdicts)) != std::string::npos);
+  }
 }

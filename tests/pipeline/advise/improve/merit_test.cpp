@@ -113,6 +113,17 @@ TEST_CASE("merit: limits, then modes, then wires, then the first mode, then the 
     }
 }
 
+TEST_CASE("merit: a trial that alone keeps all limits is no gain if a mode makes the first failure earlier") {
+  const Outcome as_it_is = outcome(9e5, {{"abrasion", 1790}}, 0.02);
+  const auto gain = [&](const Outcome& trial) { return clearly_better(merit_of(trial, as_it_is), merit_of(as_it_is, as_it_is)); };
+  CHECK(merit_of(outcome(9e5, {{"abrasion", 1100}}), as_it_is) > merit_of(as_it_is, as_it_is));
+  CHECK_FALSE(gain(outcome(9e5, {{"abrasion", 1100}})));
+  CHECK(gain(outcome(9e5, {{"abrasion", 1640}})));   // earlier by less than a tenth
+  CHECK(gain(outcome(500, {{"abrasion", 1100}})));   // no mode gets worse: the price of a limit that is kept
+  const Outcome worn = outcome(100, {{"abrasion", 1790}}, 0.02);  // the wires failed first, and live longer now
+  CHECK(clearly_better(merit_of(outcome(9e5, {{"abrasion", 1100}}), worn), merit_of(worn, worn)));
+}
+
 TEST_CASE("merit: the value of a search follows the order where all limits are kept and no mode gets worse") {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> decades(1, 7);

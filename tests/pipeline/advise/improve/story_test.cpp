@@ -89,6 +89,18 @@ TEST_CASE("improve: a life beyond the robot's is no gain, and what a gain costs 
                  !Catch::Contains("--set"));
 }
 
+TEST_CASE("improve: a trial that alone keeps all limits and wears through earlier is not recommended") {
+  Searched searched = searched_of({{9e5, {{"abrasion", 1790}}}, {9e5, {{"abrasion", 1100}}}});
+  searched.found.trials[0].worst.beyond[0] = 0.02;
+  searched.finals.of[0].merit = searched.found.merit(0);
+  CHECK_THAT(searched.words(),
+             Catch::Contains("Nothing that was tried is recommended: what keeps all limits fails earlier than the job as it is. "
+                             "The best of it is trial 1 of 2: ") &&
+                 Catch::Contains("First of the modes that are not validated: abrasion after 1,100 h (as it is: abrasion after "
+                                 "1,790 h).") &&
+                 !Catch::Contains("--set"));
+}
+
 TEST_CASE("improve: a difference that few samples show is no clear one") {
   CHECK_THAT(
       searched_of({{1000}, {1500}}, 0.71).words(),
