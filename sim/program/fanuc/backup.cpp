@@ -246,18 +246,11 @@ FanucFolder fanuc_folder(const fs::path& folder) {
     made.variables.push_back(file);
     read_fanuc_variables(SourceFile(file.string(), text_of(file)), variables);
   }
-  CallGraph graph;
   for (const fs::path& file : listings)
     if (Calls calls = calls_of_listing(file, variables.macros); !calls.name.empty()) {
       made.listings.push_back(file);
-      graph[calls.name] = std::move(calls);
+      made.calls[calls.name] = std::move(calls);
     }
-  for (const auto& [name, calls] : graph) {
-    const bool called = std::any_of(graph.begin(), graph.end(), [&name = name](const auto& other) {
-      return other.first != name && other.second.names.contains(name);
-    });
-    if (!called && moves(name, graph)) made.mains.push_back(name);
-  }
   return made;
 }
 
@@ -283,27 +276,12 @@ fs::path folder_of_listings(const fs::path& folder, const std::vector<fs::path>&
                      : "name one of these folders");
 }
 
-std::string main_of(const FanucFolder& found, const fs::path& folder) {
-  const auto named = std::find(found.mains.begin(), found.mains.end(), "main");
-  if (named != found.mains.end()) return *named;
-  if (found.mains.size() == 1) return found.mains[0];
-  std::vector<std::string> names = found.mains;
-  constexpr std::size_t listed = 40;
-  const bool more = names.size() > listed;
-  if (more) names.resize(listed);
-  throw pipeline::InputError(
-      {folder.string()},
-      names.empty() ? "holds no program that moves the robot"
-                    : fmt::format("holds {} programs that no other one calls", found.mains.size()),
-      names.empty() ? "name the folder of one that does"
-                    : fmt::format("choose with --routine: {}{}", pipeline::joined(names, ", "), more ? " ..." : ""));
-}
-
 }  // namespace
 
 Backup fanuc_backup(const fs::path& folder, const std::vector<fs::path>& files, const std::string& routine) {
   const FanucFolder found = fanuc_folder(folder_of_listings(folder, files));
-  Backup backup{Language::fanuc, {}, routine.empty() ? main_of(found, folder) : routine, {}};
+  Backup backup{Language::fanuc, {}, routine};
+  if (routine.empty()) backup.routine = only_start(folder, uncalled_programs(found.calls), "program");
   const std::string start = lower_case(backup.routine.substr(0, backup.routine.find('(')));
   for (const auto* list : {&found.listings, &found.variables})
     for (const fs::path& file : *list) {
