@@ -203,13 +203,6 @@ FanucEffects FanucOutlook::effects(const std::string& action) {
     const std::string behind = fanuc_action(action);
     return behind == action ? made : effects(behind);
   }
-  const auto calls = [&](const std::string& name) {
-    const FanucListing* called = program(name);
-    if (called)
-      made.add(whole(*called));
-    else
-      made.written.insert(any_register);
-  };
   const std::string text = lower_case(action);
   if (fanuc_word(word) == FanucWord::motion && (at.take("P") || at.take("PR"))) {
     made.moves = true;
@@ -231,12 +224,15 @@ FanucEffects FanucOutlook::effects(const std::string& action) {
     made.written.insert(word);
   } else if (const FanucSetting setting = fanuc_setting(action); !setting.name.empty()) {
     made.written.insert(setting.name);
-  } else if (word == "call" || word == "run") {
-    if (word == "call") calls(lower_case(at.name()));
+  } else if (word == "call") {
+    if (const FanucListing* called = program(lower_case(at.name())))
+      made.add(whole(*called));
+    else
+      made.written.insert(any_register);
   } else if (const FanucListing* called = macro(action)) {
     made.add(whole(*called));
-  } else if (fanuc_word(word) == FanucWord::other && word != "jmp" && word != "end" && word != "endif" &&
-             word != "endfor" && word != "abort") {
+  } else if (fanuc_word(word) == FanucWord::other && word != "run" && word != "jmp" && word != "end" &&
+             word != "endif" && word != "endfor" && word != "abort") {
     made.written.insert(any_register);  // a macro without a listing
   }
   return made;

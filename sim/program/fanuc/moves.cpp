@@ -258,11 +258,9 @@ bool FanucRun::place(const FanucPosition& position, const Options& options, Inst
   for (const auto* offset : {&options.offset, &options.tool_offset}) {
     if (!counts(*offset)) continue;
     const bool joints = (*offset)->form != FanucPosition::Form::pose;
-    if (joints || (offset == &options.offset && p.remote && as_frame)) {
-      complain(joints ? "is offset by joint angles from a pose" : "is offset on a remote tool by a frame",
-               "list the program with the position as the robot reached it");
-      return false;
-    }
+    if (joints || (offset == &options.offset && p.remote && as_frame))
+      return refuse(joints ? "is offset by joint angles from a pose" : "is offset on a remote tool by a frame",
+                    "list the program with the position as the robot reached it");
   }
   if (counts(options.offset) && !as_frame)
     for (std::size_t i = 0; i < p.values.size() && i < options.offset->values.size(); ++i)
@@ -324,10 +322,7 @@ bool FanucRun::read_speed(FanucCursor& at, Instruction& move) {
     missing_value("has a speed by");
     return false;
   }
-  if (!(*speed > 0)) {
-    complain("has no speed above 0", "write one");
-    return false;
-  }
+  if (!(*speed > 0)) return refuse("has no speed above 0", "write one");
   if (written.take_sign('%')) {
     if (*speed > 100) note(fmt::format("{:g}%: {}", *speed, above_all_speed), true);
     move.speed.axis_percent = std::min(*speed, 100.0) * *share;
@@ -343,10 +338,8 @@ bool FanucRun::read_speed(FanucCursor& at, Instruction& move) {
     move.speed.duration = *speed * 1e-3 / *share;
   else if (written.take("sec"))
     move.speed.duration = *speed / *share;
-  else {
-    complain("has a speed without a known unit", "write %, mm/sec, cm/min, inch/min, deg/sec or sec");
-    return false;
-  }
+  else
+    return refuse("has a speed without a known unit", "write %, mm/sec, cm/min, inch/min, deg/sec or sec");
   if (text.size() == at.rest().size()) at.move_to(at.offset() + written.offset());
   return true;
 }
@@ -516,10 +509,8 @@ void FanucRun::remember(const Instruction& move, const FanucPosition& target) {
 bool FanucRun::place_joints(const FanucPosition& position, const Options& options, Instruction& move) {
   std::vector<double> angles = position.values;
   const bool in_space = options.offset && options.offset->form != FanucPosition::Form::joints;
-  if ((options.tool_offset && !nothing(*options.tool_offset)) || (in_space && !nothing(*options.offset))) {
-    complain("is offset in space from joint angles", "teach the position in Cartesian form");
-    return false;
-  }
+  if ((options.tool_offset && !nothing(*options.tool_offset)) || (in_space && !nothing(*options.offset)))
+    return refuse("is offset in space from joint angles", "teach the position in Cartesian form");
   if (options.offset && !in_space)
     for (std::size_t i = 0; i < angles.size() && i < options.offset->values.size(); ++i)
       angles[i] += options.offset->values[i];
@@ -536,17 +527,13 @@ bool FanucRun::place_joints(const FanucPosition& position, const Options& option
 /// Sets the intermediate point of an arc. Returns false, with a problem, if its form, frames or offsets do not fit the end.
 bool FanucRun::place_via(const FanucPosition& via, const FanucPosition& target, const Options& own,
                          const Options& options, Instruction& move) {
-  const auto fault = [&](const char* what, const char* remedy) {
-    complain(what, remedy);
-    return false;
-  };
   if (via.form != FanucPosition::Form::pose || target.form != FanucPosition::Form::pose)
-    return fault("is an arc through joint angles", "teach its points in Cartesian form");
+    return refuse("is an arc through joint angles", "teach its points in Cartesian form");
   if (via.frame != target.frame || via.tool != target.tool)
-    return fault("is an arc through points of two frames", "teach both in one");
+    return refuse("is an arc through points of two frames", "teach both in one");
   const auto one_sided = [](const auto& end, const auto& middle) { return end && !nothing(*end) && !middle; };
   if (one_sided(options.offset, own.offset) || one_sided(options.tool_offset, own.tool_offset))
-    return fault("is an arc of which only the end is offset", "write the offset at both of its points");
+    return refuse("is an arc of which only the end is offset", "write the offset at both of its points");
   return place(via, own, move, move.via);
 }
 

@@ -59,6 +59,11 @@ void FanucRun::complain(const std::string& what, const std::string& remedy) {
   if (!exploration_.guessing()) problems_.add(where(), what, remedy, program_name());
 }
 
+bool FanucRun::refuse(const std::string& what, const std::string& remedy) {
+  complain(what, remedy);
+  return false;
+}
+
 void FanucRun::missing(const std::string& name, const std::string& what, const std::string& remedy,
                        std::vector<Question> questions, bool decision) {
   if (questions.empty() && exploration_.guessing()) return;
@@ -238,7 +243,6 @@ void FanucRun::unread(const std::string& what) {
 void FanucRun::execute(const FanucStatement& s) {
   const std::string& text = s.text;
   FanucCursor at(text);
-  const std::size_t begin = at.offset();
   const std::string word = at.word();
   if (fanuc_word(word) == FanucWord::motion && !at.rest().starts_with("[")) {
     if (word == "a" || word == "s") note("an arc or spline by A or S moves: read as straight lines", true);
@@ -246,11 +250,7 @@ void FanucRun::execute(const FanucStatement& s) {
                     : word == "c" ? Instruction::Kind::circular
                                   : Instruction::Kind::linear);
   }
-  at.move_to(begin);
-  if (word == "if") {
-    at.word();
-    return if_statement(at);
-  }
+  if (word == "if") return if_statement(at);
   if (word == "select") return select();
   if (word == "lbl" || (word.empty() && !at.take_sign('='))) return;
   if (word.empty() || (word == "else" && !fanuc_action(text).empty()))
@@ -416,9 +416,9 @@ bool FanucRun::drop_repeated(std::size_t from, std::size_t before) {
 }
 
 /// Returns whether an endless loop that is back at its label runs another pass. It runs options.passes passes if given.
-/// Otherwise it ends when the moves equal those of the previous pass, when all values equal those after an earlier pass,
-/// or, with a problem, after ImportLimits::passes. If the values equal those after pass N and the last N passes have the
-/// moves of the first N, each pass is kept once.
+/// Otherwise it ends when the moves equal those of the previous pass, when all values equal those after an earlier
+/// pass, or, with a problem, after ImportLimits::passes. If the values equal those after pass N and the last N passes
+/// have the moves of the first N, each pass is kept once.
 bool FanucRun::goes_on(std::size_t label) {
   Endless& loop = endless_[{routine().listing, label}];
   auto& made = program_.instructions;

@@ -147,6 +147,7 @@ class FanucRun {
   std::optional<bool> assumed(int line) const;
   std::string program_name() const;
   void complain(const std::string& what, const std::string& remedy);
+  bool refuse(const std::string& what, const std::string& remedy);  // complains; returns false
   void missing(const std::string& name, const std::string& what, const std::string& remedy,
                std::vector<Question> questions, bool decision = false);
   void missing_value(const std::string& what);  // the unknown value of values_.causes()
