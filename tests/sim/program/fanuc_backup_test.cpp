@@ -109,7 +109,9 @@ TEST_CASE("fanuc backup: what lies beside a listing is read with it, a folder is
 
   folder.write("other.ls", program("OTHER", "   1:J PR[1] 50% FINE ;\n"));
   CHECK(read_program(motion_by(folder.folder(), "other")).instructions.size() == 1);
+  folder.write("main2.ls", program("MAIN2", "   1:J PR[1] 50% FINE ;\n"));
   CHECK(read_program(motion_by(folder.folder())).instructions.size() == 3);  // MAIN is the one of several
+  fs::remove(folder / "main2.ls");
   fs::remove(folder / "MAIN.LS");
   folder.write("cell.ls", program("CELL", "   1:  CALL WORK(1) ;\n"));
   CHECK_THROWS_WITH(read_program(motion_by(folder.folder())),
