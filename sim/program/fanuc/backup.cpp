@@ -36,14 +36,12 @@ class VariableFile {
   }
 
  private:
-  enum class Variable { none, registers, positions, frames, tools, frame_number, tool_number, macros };
-
   void line(std::string_view line) {
     if (line.starts_with("[")) {
       if (const std::size_t close = line.find(']'); close + 1 < line.size() && line[close + 1] != ' ')
         return begin(line.substr(close + 1, line.find(' ', close) - close - 1), line);
       element(line);
-    } else if (variable_ == Variable::macros) {
+    } else if (variable_ == "$MACROTABLE") {
       macro(line);
     } else if (position_) {
       coordinates(line);
@@ -52,16 +50,9 @@ class VariableFile {
 
   /// Begins a variable: [*NUMREG*]$NUMREG  Storage: ...
   void begin(std::string_view name, std::string_view line) {
-    constexpr std::pair<std::string_view, Variable> known[] = {
-        {"$NUMREG", Variable::registers},         {"$POSREG", Variable::positions},
-        {"$MNUFRAME", Variable::frames},          {"$MNUTOOL", Variable::tools},
-        {"$MNUFRAMENUM", Variable::frame_number}, {"$MNUTOOLNUM", Variable::tool_number},
-        {"$MACROTABLE", Variable::macros}};
-    variable_ = Variable::none;
+    variable_ = upper_case(name);
     position_ = nullptr;
     if (name == "$OFFSET_CART") into_.offsets_are_frames = line.ends_with("TRUE");
-    for (const auto& [word, variable] : known)
-      if (same_word(name, word)) variable_ = variable;
   }
 
   /// Reads an element: [5] = 3  'name', or [1,7] = 'name' with a position on the following lines.
@@ -76,16 +67,16 @@ class VariableFile {
     if (!second) {
       const auto value = at.number();
       if (!value) return;
-      if (variable_ == Variable::registers) into_.registers[number] = *value;
-      if (variable_ == Variable::frame_number && number == 1) into_.frame_number = static_cast<int>(*value);
-      if (variable_ == Variable::tool_number && number == 1) into_.tool_number = static_cast<int>(*value);
+      if (variable_ == "$NUMREG") into_.registers[number] = *value;
+      if (variable_ == "$MNUFRAMENUM" && number == 1) into_.frame_number = static_cast<int>(*value);
+      if (variable_ == "$MNUTOOLNUM" && number == 1) into_.tool_number = static_cast<int>(*value);
       return;
     }
     if (*first != 1) return;  // another group
-    std::map<int, FanucPosition>* list = variable_ == Variable::positions ? &into_.position_registers
-                                         : variable_ == Variable::frames  ? &into_.frames
-                                         : variable_ == Variable::tools   ? &into_.tools
-                                                                          : nullptr;
+    std::map<int, FanucPosition>* list = variable_ == "$POSREG"     ? &into_.position_registers
+                                         : variable_ == "$MNUFRAME" ? &into_.frames
+                                         : variable_ == "$MNUTOOL"  ? &into_.tools
+                                                                    : nullptr;
     if (!list || list->size() >= ImportLimits::values) return;
     FanucPosition made;
     made.frame = made.tool = -1;
@@ -140,7 +131,7 @@ class VariableFile {
 
   std::string_view text_;
   FanucVariables& into_;
-  Variable variable_ = Variable::none;
+  std::string variable_;  // its name in capitals
   FanucPosition* position_ = nullptr;  // the position of the current element; null: none
   std::string macro_;
 };
@@ -246,18 +237,11 @@ FanucFolder fanuc_folder(const fs::path& folder) {
     made.variables.push_back(file);
     read_fanuc_variables(SourceFile(file.string(), text_of(file)), variables);
   }
-  CallGraph graph;
   for (const fs::path& file : listings)
     if (Calls calls = calls_of_listing(file, variables.macros); !calls.name.empty()) {
       made.listings.push_back(file);
-      graph[calls.name] = std::move(calls);
+      made.calls[calls.name] = std::move(calls);
     }
-  for (const auto& [name, calls] : graph) {
-    const bool called = std::any_of(graph.begin(), graph.end(), [&name = name](const auto& other) {
-      return other.first != name && other.second.names.contains(name);
-    });
-    if (!called && moves(name, graph)) made.mains.push_back(name);
-  }
   return made;
 }
 
@@ -283,27 +267,12 @@ fs::path folder_of_listings(const fs::path& folder, const std::vector<fs::path>&
                      : "name one of these folders");
 }
 
-std::string main_of(const FanucFolder& found, const fs::path& folder) {
-  const auto named = std::find(found.mains.begin(), found.mains.end(), "main");
-  if (named != found.mains.end()) return *named;
-  if (found.mains.size() == 1) return found.mains[0];
-  std::vector<std::string> names = found.mains;
-  constexpr std::size_t listed = 40;
-  const bool more = names.size() > listed;
-  if (more) names.resize(listed);
-  throw pipeline::InputError(
-      {folder.string()},
-      names.empty() ? "holds no program that moves the robot"
-                    : fmt::format("holds {} programs that no other one calls", found.mains.size()),
-      names.empty() ? "name the folder of one that does"
-                    : fmt::format("choose with --routine: {}{}", pipeline::joined(names, ", "), more ? " ..." : ""));
-}
-
 }  // namespace
 
 Backup fanuc_backup(const fs::path& folder, const std::vector<fs::path>& files, const std::string& routine) {
   const FanucFolder found = fanuc_folder(folder_of_listings(folder, files));
-  Backup backup{Language::fanuc, {}, routine.empty() ? main_of(found, folder) : routine, {}};
+  Backup backup{Language::fanuc, {}, routine};
+  if (routine.empty()) backup.routine = only_start(folder, uncalled_programs(found.calls), "program");
   const std::string start = lower_case(backup.routine.substr(0, backup.routine.find('(')));
   for (const auto* list : {&found.listings, &found.variables})
     for (const fs::path& file : *list) {

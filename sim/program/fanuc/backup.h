@@ -46,9 +46,7 @@ std::vector<std::filesystem::path> fanuc_files_beside(const std::filesystem::pat
 struct FanucFolder {
   std::vector<std::filesystem::path> listings;   ///< readable programs, in the order of their names
   std::vector<std::filesystem::path> variables;  ///< the .va files above
-  /// Programs that move the robot, directly or through calls, and that no other program calls. A single one is the
-  /// program of the folder. If there are several, the user chooses (--routine).
-  std::vector<std::string> mains;
+  CallGraph calls;                               ///< of the listings
 };
 
 /// Returns the files of `folder`. Empty listings: not a Fanuc backup. Logs (.ls files without /PROG) are left out.

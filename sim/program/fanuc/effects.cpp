@@ -8,9 +8,7 @@
 namespace dresslife::sim {
 namespace {
 
-bool is_comment(std::string_view text) {
-  return text.starts_with("!") || text.starts_with("--") || text.starts_with("//");
-}
+const std::string any_register = "r[]";
 
 /// Returns the offset of the first comma outside brackets, parentheses and quotes; npos: none.
 std::size_t top_comma(std::string_view text) {
@@ -53,10 +51,7 @@ void FanucEffects::add(const FanucEffects& other) {
   moves |= other.moves;
   waits |= other.waits;
   leaves |= other.leaves;
-  any_register |= other.any_register;
-  registers.insert(other.registers.begin(), other.registers.end());
-  positions.insert(other.positions.begin(), other.positions.end());
-  named.insert(other.named.begin(), other.named.end());
+  written.insert(other.written.begin(), other.written.end());
 }
 
 std::string fanuc_action(const std::string& statement) {
@@ -193,7 +188,8 @@ const FanucListing* FanucOutlook::macro(const std::string& statement) const {
 const FanucEffects& FanucOutlook::whole(const FanucListing& listing) {
   if (const auto found = known_.find(&listing); found != known_.end()) return found->second;
   FanucEffects& made = known_[&listing];
-  made.moves = made.any_register = true;  // assumption for recursive calls, replaced below
+  made.moves = true;  // assumption for recursive calls, replaced below
+  made.written = {any_register};
   FanucEffects read = effects(listing, 0, listing.statements.size());
   read.leaves = false;
   return known_[&listing] = read;
@@ -201,51 +197,43 @@ const FanucEffects& FanucOutlook::whole(const FanucListing& listing) {
 
 FanucEffects FanucOutlook::effects(const std::string& action) {
   FanucEffects made;
-  if (is_comment(action) || action.empty()) return made;
   FanucCursor at(action);
   const std::string word = at.word();
   if (word == "if" || word == "select" || word == "else" || word.empty()) {
     const std::string behind = fanuc_action(action);
     return behind == action ? made : effects(behind);
   }
-  const auto calls = [&](const std::string& name) {
-    const FanucListing* called = program(name);
-    if (called)
-      made.add(whole(*called));
-    else
-      made.any_register = true;
-  };
   const std::string text = lower_case(action);
   if (fanuc_word(word) == FanucWord::motion && (at.take("P") || at.take("PR"))) {
     made.moves = true;
-    if (text.find("lpos") != std::string::npos) made.any_register = true;
+    if (text.find("lpos") != std::string::npos) made.written.insert(any_register);
   } else if (word == "wait") {
     const auto time = at.number();
     made.waits = time.value_or(0) > 0;
   } else if (word == "spot") {
     made.waits = true;
-  } else if (word == "r" || word == "pr") {
-    if (const auto index = constant_index(at))
-      (word == "r" ? made.registers : made.positions).insert(*index);
-    else
-      made.any_register = true;
+  } else if (word == "r" || word == "pr" || word == "uframe" || word == "utool") {
+    const auto index = constant_index(at);
+    made.written.insert(index                 ? fmt::format("{}[{}]", word, *index)
+                        : word.ends_with("r") ? any_register
+                                              : word + "[]");
   } else if (word == "for") {
     at.word();
-    if (const auto index = constant_index(at)) made.registers.insert(*index);
+    if (const auto index = constant_index(at)) made.written.insert(fmt::format("r[{}]", *index));
   } else if (word == "override" || word == "uframe_num" || word == "utool_num") {
-    made.named.insert(word);
-  } else if (word == "uframe" || word == "utool") {
-    const auto index = constant_index(at);
-    made.named.insert(index ? fmt::format("{}[{}]", word, *index) : word + "[]");
+    made.written.insert(word);
   } else if (const FanucSetting setting = fanuc_setting(action); !setting.name.empty()) {
-    made.named.insert(setting.name);
-  } else if (word == "call" || word == "run") {
-    if (word == "call") calls(lower_case(at.name()));
+    made.written.insert(setting.name);
+  } else if (word == "call") {
+    if (const FanucListing* called = program(lower_case(at.name())))
+      made.add(whole(*called));
+    else
+      made.written.insert(any_register);
   } else if (const FanucListing* called = macro(action)) {
     made.add(whole(*called));
-  } else if (fanuc_word(word) == FanucWord::other && word != "jmp" && word != "end" && word != "endif" &&
-             word != "endfor" && word != "abort") {
-    made.any_register = true;  // a macro without a listing
+  } else if (fanuc_word(word) == FanucWord::other && word != "run" && word != "jmp" && word != "end" &&
+             word != "endif" && word != "endfor" && word != "abort") {
+    made.written.insert(any_register);  // a macro without a listing
   }
   return made;
 }

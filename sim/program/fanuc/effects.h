@@ -16,10 +16,9 @@ struct FanucEffects {
   bool moves = false;         ///< whether the robot moves
   bool waits = false;         ///< whether a timed wait occurs
   bool leaves = false;        ///< whether a jump may lead out of these statements
-  bool any_register = false;  ///< whether R[] or PR[] with unknown numbers are written
-  std::set<int> registers, positions;  ///< numbers of the R[] and PR[] that may be written
-  std::set<std::string>
-      named;  ///< "override", "$prgoverride", "uframe_num", "utool_num", "uframe[2]", "uframe[]": any number
+  /// What may be written: "r[5]", "pr[2]", "override", "$prgoverride", "uframe_num", "utool_num", "utool[2]".
+  /// "uframe[]": a user frame of unknown number; "r[]": R[] or PR[] of unknown numbers.
+  std::set<std::string> written;
 
   void add(const FanucEffects& other);
 };
@@ -58,7 +57,7 @@ enum class FanucWord { motion, logic, shapes_motion, other };
 
 /// An assignment to a system variable that has an effect on moves.
 struct FanucSetting {
-  std::string name;   ///< as in FanucEffects::named; empty: no such variable
+  std::string name;   ///< as in FanucEffects::written; empty: no such variable
   int number = 0;     ///< number of the frame
   int component = 0;  ///< component of the frame: 1 .. 6 for X, Y, Z, W, P, R; 0: the whole frame
 };

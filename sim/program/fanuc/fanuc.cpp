@@ -44,8 +44,7 @@ void read_fanuc(const std::deque<SourceFile>& files, const ImportOptions& option
   check_names(files, listings, problems);
   const std::size_t open = std::min(options.routine.find('('), options.routine.size());
   const std::string name = lower_case(options.routine.substr(0, open));
-  std::string arguments = options.routine.substr(open);
-  if (arguments.starts_with("(")) arguments = arguments.substr(1, arguments.rfind(')') - 1);
+  const std::string arguments = options.routine.substr(open);
   const FanucListing* start = name.empty() ? &listings[0] : nullptr;
   for (const FanucListing& listing : listings)
     if (!name.empty() && listing.name == name) start = &listing;

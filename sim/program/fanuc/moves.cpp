@@ -35,46 +35,53 @@ std::vector<double> fanuc_values_of(const Frame& frame) {
 
 // ---- positions -------------------------------------------------------------------------------------------
 
-/// Reads P[3:name] or PR[4]. std::nullopt: neither, an unknown number, another group, or a P[n] without an entry.
-std::optional<FanucPosition> FanucRun::position(FanucCursor& at) {
-  const bool registered = at.take("PR");
-  if (!registered && !at.take("P")) return {};
+/// Reads P[3:name] or PR[4]. Takes nothing from another text.
+FanucRun::WrittenPosition FanucRun::position(FanucCursor& at) {
+  WrittenPosition read{at.take("PR"), {}, {}};
+  if (!read.registered && !at.take("P")) return read;
   const auto index = values_.index(at);
-  if (!index || !index->number || index->group != 1) return {};
-  const int number = whole_number(*index->number);
-  if (registered) return values_.position_register(number);
+  if (!index || !index->number) return read;
+  read.number = whole_number(*index->number);
   const auto& list = routine().listing->positions;
-  const auto found = list.find(number);
-  return found == list.end() ? std::nullopt : std::optional(found->second);
+  if (index->group != 1) return read;
+  if (read.registered)
+    read.position = values_.position_register(*read.number);
+  else if (const auto found = list.find(*read.number); found != list.end())
+    read.position = found->second;
+  return read;
+}
+
+/// Warns if a program that was not read may have written the PR[n] of the backup.
+void FanucRun::doubt(int number) {
+  if (values_.doubtful(number))
+    note(fmt::format("PR[{}] is taken from the backup; a program that was not read may have written it since",
+                     number),
+         true);
 }
 
 /// Reads the P[n] or PR[n] of a move. Reports a problem if its values are unknown.
 std::optional<FanucPosition> FanucRun::target_position(FanucCursor& at) {
+  at.skip_blanks();
   const std::size_t begin = at.offset();
-  const bool registered = at.take("PR");
-  if (!registered && !at.take("P")) {
+  values_.forget_missing();
+  const auto [registered, number, listed] = position(at);
+  if (at.offset() == begin) {
     complain("moves to no P[n] or PR[n]", "palletizing and other positions are not read; list them as P[n]");
     return {};
   }
-  values_.forget_missing();
-  const auto index = values_.index(at);
-  if (!index || !index->number) {
+  if (!number) {
     if (values_.missing().empty())
       complain("moves to a position without a number", "teach it");
     else
       missing_value("moves to a position by");
     return {};
   }
-  const std::string name = fmt::format("{}[{}]", registered ? "PR" : "P", whole_number(*index->number));
-  at.move_to(begin);
-  auto read = position(at);
+  const std::string name = fmt::format("{}[{}]", registered ? "PR" : "P", *number);
+  auto read = listed;
   const std::string own_name = fmt::format("{}:{}", routine().listing->name, name);
   if (!registered && (!read || (!read->known() && read->form != FanucPosition::Form::other_groups)))
     if (const auto given = values_.given_position(own_name)) read = given;
-  if (registered && values_.doubtful(whole_number(*index->number)))
-    note(fmt::format("{} is taken from the backup; a program that was not read may have written it since",
-                     name),
-         true);
+  if (registered) doubt(*number);
   if (read && read->known() && read->form == FanucPosition::Form::unknown) {
     complain(
         fmt::format("moves to {}, and nothing says whether its numbers are a pose or joint angles", name),
@@ -84,9 +91,7 @@ std::optional<FanucPosition> FanucRun::target_position(FanucCursor& at) {
   }
   if (read && (read->known() || read->form == FanucPosition::Form::other_groups)) return read;
   if (registered) {
-    values_.forget_missing();
-    values_.miss_position(whole_number(*index->number));
-    missing_position(name, "moves to");
+    missing_position(*number, "moves to");
     return {};
   }
   missing(fmt::format("{} of {}", name, routine().listing->name),
@@ -99,8 +104,11 @@ std::optional<FanucPosition> FanucRun::target_position(FanucCursor& at) {
   return {};
 }
 
-/// Asks for the values that make the position register `name` unknown (values_.causes()).
-void FanucRun::missing_position(const std::string& name, const char* what) {
+/// Asks for the values that make a position register unknown.
+void FanucRun::missing_position(int number, const char* what) {
+  const std::string name = fmt::format("PR[{}]", number);
+  values_.forget_missing();
+  values_.miss_position(number);
   const FanucCauses& causes = values_.causes();
   if (causes.size() != 1 || causes[0].name != name)
     return missing_value(fmt::format("{} {}, which depends on", what, name));
@@ -198,7 +206,7 @@ std::optional<NamedFrame> FanucRun::frame(bool tool, int number) {
 }
 
 /// Adds a frame to the program's tools or work objects, unless the list has it, and stores its index in the move.
-bool FanucRun::use(const NamedFrame& wanted, bool as_tool, Instruction& move) {
+void FanucRun::use(const NamedFrame& wanted, bool as_tool, Instruction& move) {
   NamedFrame frame = wanted;
   auto& list = as_tool ? program_.tools : program_.work_objects;
   int& index = as_tool ? move.tool : move.work_object;
@@ -207,7 +215,7 @@ bool FanucRun::use(const NamedFrame& wanted, bool as_tool, Instruction& move) {
         list[i].frame.position == frame.frame.position &&
         list[i].frame.orientation.coeffs() == frame.frame.orientation.coeffs())
       index = static_cast<int>(i);
-  if (index >= 0) return true;
+  if (index >= 0) return;
   for (int variant = 2;
        std::any_of(list.begin(), list.end(), [&](const NamedFrame& f) { return f.name == frame.name; });
        ++variant)
@@ -215,7 +223,6 @@ bool FanucRun::use(const NamedFrame& wanted, bool as_tool, Instruction& move) {
   list.push_back(frame);
   index = static_cast<int>(list.size()) - 1;
   charge(static_cast<long>(list.size()));
-  return true;
 }
 
 /// Returns user frame and tool of a Cartesian position and completes their numbers in `p`. Unknown ones are asked for in
@@ -251,11 +258,9 @@ bool FanucRun::place(const FanucPosition& position, const Options& options, Inst
   for (const auto* offset : {&options.offset, &options.tool_offset}) {
     if (!counts(*offset)) continue;
     const bool joints = (*offset)->form != FanucPosition::Form::pose;
-    if (joints || (offset == &options.offset && p.remote && as_frame)) {
-      complain(joints ? "is offset by joint angles from a pose" : "is offset on a remote tool by a frame",
-               "list the program with the position as the robot reached it");
-      return false;
-    }
+    if (joints || (offset == &options.offset && p.remote && as_frame))
+      return refuse(joints ? "is offset by joint angles from a pose" : "is offset on a remote tool by a frame",
+                    "list the program with the position as the robot reached it");
   }
   if (counts(options.offset) && !as_frame)
     for (std::size_t i = 0; i < p.values.size() && i < options.offset->values.size(); ++i)
@@ -268,9 +273,13 @@ bool FanucRun::place(const FanucPosition& position, const Options& options, Inst
     pose = inverse(pose);
     NamedFrame standing = object;
     standing.stationary = true;
-    return use(standing, true, move) && use(tool, false, move);
+    use(standing, true, move);
+    use(tool, false, move);
+    return true;
   }
-  return (p.frame == 0 || use(object, false, move)) && (p.tool == 0 || use(tool, true, move));
+  if (p.frame != 0) use(object, false, move);
+  if (p.tool != 0) use(tool, true, move);
+  return true;
 }
 
 // ---- speeds and options ----------------------------------------------------------------------------------
@@ -313,10 +322,7 @@ bool FanucRun::read_speed(FanucCursor& at, Instruction& move) {
     missing_value("has a speed by");
     return false;
   }
-  if (!(*speed > 0)) {
-    complain("has no speed above 0", "write one");
-    return false;
-  }
+  if (!(*speed > 0)) return refuse("has no speed above 0", "write one");
   if (written.take_sign('%')) {
     if (*speed > 100) note(fmt::format("{:g}%: {}", *speed, above_all_speed), true);
     move.speed.axis_percent = std::min(*speed, 100.0) * *share;
@@ -332,10 +338,8 @@ bool FanucRun::read_speed(FanucCursor& at, Instruction& move) {
     move.speed.duration = *speed * 1e-3 / *share;
   else if (written.take("sec"))
     move.speed.duration = *speed / *share;
-  else {
-    complain("has a speed without a known unit", "write %, mm/sec, cm/min, inch/min, deg/sec or sec");
-    return false;
-  }
+  else
+    return refuse("has a speed without a known unit", "write %, mm/sec, cm/min, inch/min, deg/sec or sec");
   if (text.size() == at.rest().size()) at.move_to(at.offset() + written.offset());
   return true;
 }
@@ -349,37 +353,28 @@ FanucNumber FanucRun::needed(FanucCursor& at, const char* what) {
 }
 
 /// Reads ",PR[n]" behind Offset or Tool_Offset; without it, uses the PR[n] of OFFSET CONDITION or TOOL_OFFSET CONDITION.
-void FanucRun::offset_by(FanucCursor& at, std::optional<FanucPosition>& into, const char* condition) {
+void FanucRun::offset_by(FanucCursor& at, std::optional<FanucPosition>& into, const std::string& condition) {
   FanucCursor next = at;
   next.take_sign(',');
-  const std::string& before = condition == std::string("OFFSET") ? offset_condition_ : tool_offset_condition_;
   const bool own = next.take("PR");
-  FanucCursor written(own ? at.rest() : std::string_view(before));
+  FanucCursor written(own ? at.rest() : std::string_view(condition));
   written.take_sign(',');
   values_.forget_missing();
-  const std::size_t begin = written.offset();
-  written.take("PR");
-  const auto index = values_.index(written);
-  written.move_to(begin);
-  into = position(written);
+  const auto [registered, number, known] = position(written);
+  into = known;
   if (own) at.move_to(at.offset() + written.offset());
   if (!own && !written.at_end())
     complain("is offset in a frame of its own", "list the program with the position as the robot reached it");
-  const bool doubtful = index && index->number && values_.doubtful(whole_number(*index->number));
   if (into && into->known()) {
     if (into->form == FanucPosition::Form::unknown) into->form = FanucPosition::Form::pose;
-    if (doubtful)
-      note(fmt::format(
-               "PR[{}] is taken from the backup; a program that was not read may have written it since",
-               whole_number(*index->number)),
-           true);
+    if (registered) doubt(*number);
     return;
   }
   into.reset();
-  if (!index || !index->number) return missing_value("is offset by");
-  values_.forget_missing();
-  values_.miss_position(whole_number(*index->number));
-  missing_position(fmt::format("PR[{}]", whole_number(*index->number)), "is offset by");
+  if (registered && number)
+    missing_position(*number, "is offset by");
+  else
+    missing_value("is offset by");
 }
 
 /// Reads the offset of a camera: ",VR[n]". Only the user can give its value.
@@ -442,10 +437,10 @@ bool FanucRun::read_option(FanucCursor& at, Instruction& move, Options& options)
       note(fmt::format("ACC{:g}: {}", *percent, beyond_range_words(least, most)), true);
     set(percent, least, most, move.acceleration_percent, 1);
   } else if (at.take("TOOL_OFFSET")) {
-    offset_by(at, options.tool_offset, "TOOL_OFFSET");
+    offset_by(at, options.tool_offset, tool_offset_condition_);
     options.failed |= !options.tool_offset;
   } else if (at.take("OFFSET")) {
-    offset_by(at, options.offset, "OFFSET");
+    offset_by(at, options.offset, offset_condition_);
     options.failed |= !options.offset;
   } else if (at.take("VOFFSET")) {
     offset_by_camera(at, options.offset);
@@ -518,10 +513,8 @@ void FanucRun::remember(const Instruction& move, const FanucPosition& target) {
 bool FanucRun::place_joints(const FanucPosition& position, const Options& options, Instruction& move) {
   std::vector<double> angles = position.values;
   const bool in_space = options.offset && options.offset->form != FanucPosition::Form::joints;
-  if ((options.tool_offset && !nothing(*options.tool_offset)) || (in_space && !nothing(*options.offset))) {
-    complain("is offset in space from joint angles", "teach the position in Cartesian form");
-    return false;
-  }
+  if ((options.tool_offset && !nothing(*options.tool_offset)) || (in_space && !nothing(*options.offset)))
+    return refuse("is offset in space from joint angles", "teach the position in Cartesian form");
   if (options.offset && !in_space)
     for (std::size_t i = 0; i < angles.size() && i < options.offset->values.size(); ++i)
       angles[i] += options.offset->values[i];
@@ -531,23 +524,20 @@ bool FanucRun::place_joints(const FanucPosition& position, const Options& option
   int number = position.tool;  // a linear move needs the tool, because its origin follows the line
   if (!active(true, number)) return false;
   const auto tool = frame(true, number);
-  return tool && (number == 0 || use(*tool, true, move));
+  if (tool && number != 0) use(*tool, true, move);
+  return tool.has_value();
 }
 
 /// Sets the intermediate point of an arc. Returns false, with a problem, if its form, frames or offsets do not fit the end.
 bool FanucRun::place_via(const FanucPosition& via, const FanucPosition& target, const Options& own,
                          const Options& options, Instruction& move) {
-  const auto fault = [&](const char* what, const char* remedy) {
-    complain(what, remedy);
-    return false;
-  };
   if (via.form != FanucPosition::Form::pose || target.form != FanucPosition::Form::pose)
-    return fault("is an arc through joint angles", "teach its points in Cartesian form");
+    return refuse("is an arc through joint angles", "teach its points in Cartesian form");
   if (via.frame != target.frame || via.tool != target.tool)
-    return fault("is an arc through points of two frames", "teach both in one");
+    return refuse("is an arc through points of two frames", "teach both in one");
   const auto one_sided = [](const auto& end, const auto& middle) { return end && !nothing(*end) && !middle; };
   if (one_sided(options.offset, own.offset) || one_sided(options.tool_offset, own.tool_offset))
-    return fault("is an arc of which only the end is offset", "write the offset at both of its points");
+    return refuse("is an arc of which only the end is offset", "write the offset at both of its points");
   return place(via, own, move, move.via);
 }
 

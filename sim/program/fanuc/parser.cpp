@@ -106,9 +106,9 @@ class ListingParser {
       end = begin_ + (last == std::string_view::npos ? line_.size() : last);
     }
     const std::string_view text = trimmed(std::string_view(source_.text()).substr(first, end - first));
-    if (text.empty()) return;
-    if (last == std::string_view::npos && !text.starts_with("!") &&
-        program_.skipped.size() < ImportLimits::skipped)
+    const bool comment = text.starts_with("!") || text.starts_with("--") || text.starts_with("//");
+    if (text.empty() || comment) return;
+    if (last == std::string_view::npos && program_.skipped.size() < ImportLimits::skipped)
       program_.skipped.push_back(
           {{source_.name(), made.line, made.column}, "no ';' at the end: the statement ends with its line"});
     made.text = fanuc_in_english(text);
@@ -189,7 +189,6 @@ class ListingParser {
       return;
     }
     FanucPosition read;
-    read.line = line;
     const std::string_view body = window.substr(open + 1, close - open - 1);
     const std::size_t end = begin_ + close;
     while (!done_ && next_ <= end) next_line();  // up to the line with the closing }

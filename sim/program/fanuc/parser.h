@@ -16,7 +16,7 @@
 namespace dresslife::sim {
 
 struct FanucStatement {
-  std::string text;       ///< English text without number and ';', comments included
+  std::string text;       ///< English text without number and ';'
   int line = 0;           ///< first line of the statement
   int column = 0;         ///< first column of the text
   std::size_t other = 0;  ///< IF ... THEN: index of its ELSE, or of its ENDIF if it has no ELSE
@@ -32,7 +32,6 @@ struct FanucPosition {
   bool remote = false;                ///< RX, RY ...: pose of the remote tool UF in the frame UT
   std::vector<double> external_axes;  ///< E1 ..., then the axes of groups 2 and up
   int frame = 0, tool = 0;            ///< numbers of UF and UT; -1: the active frame (F)
-  int line = 0;
 
   bool known() const;  ///< whether `values` is not empty and all values and external axes are finite
 };

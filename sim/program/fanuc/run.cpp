@@ -32,13 +32,8 @@ FanucRun::FanucRun(const Surroundings& around, Program& program, Problems& probl
 
 void FanucRun::run(const FanucListing& listing, const std::string& arguments) {
   FanucCursor at(arguments);
-  std::vector<FanucValues::Argument> read;
-  while (!at.at_end()) {
-    read.push_back({values_.expression(at), {}});
-    if (!at.take_sign(',') && !at.at_end()) at.move_to(at.offset() + 1);
-  }
   try {
-    call(listing, std::move(read));
+    call(listing, arguments_in(at));
   } catch (const Stop&) {
   }
   exploration_.spend(executed_ + values_.charged());
@@ -52,21 +47,21 @@ const FanucStatement& FanucRun::statement() const {
 }
 
 pipeline::Where FanucRun::where() const {
-  if (routines_.empty()) return {around_.files.empty() ? "" : around_.files[0].name(), 1, 1};
-  const Routine& r = routines_.back();
-  if (r.listing->statements.empty()) return {around_.files[r.listing->file].name(), 1, 1};
-  return {around_.files[r.listing->file].name(), statement().line, statement().column};
+  return {around_.files[routines_.back().listing->file].name(), statement().line, statement().column};
 }
 
 std::string FanucRun::line_name() const { return fmt::format("{}:{}", file_of(where().file), where().line); }
 
-/// Returns the name of the running program in capitals; empty before the first call.
-std::string FanucRun::program_name() const {
-  return routines_.empty() ? "" : upper_case(routines_.back().listing->name);
-}
+/// Returns the name of the running program in capitals.
+std::string FanucRun::program_name() const { return upper_case(routines_.back().listing->name); }
 
 void FanucRun::complain(const std::string& what, const std::string& remedy) {
   if (!exploration_.guessing()) problems_.add(where(), what, remedy, program_name());
+}
+
+bool FanucRun::refuse(const std::string& what, const std::string& remedy) {
+  complain(what, remedy);
+  return false;
 }
 
 void FanucRun::missing(const std::string& name, const std::string& what, const std::string& remedy,
@@ -180,7 +175,7 @@ std::optional<bool> FanucRun::assumed(int line) const {
 
 // ---- programs --------------------------------------------------------------------------------------------
 
-void FanucRun::call(const FanucListing& listing, std::vector<FanucValues::Argument> arguments) {
+void FanucRun::call(const FanucListing& listing, std::vector<FanucValues::Stored> arguments) {
   if (static_cast<int>(routines_.size()) >= ImportLimits::calls) {
     complain(fmt::format("calls {} programs deep (without end?)", ImportLimits::calls), "correct the recursion");
     throw Stop{};
@@ -206,8 +201,8 @@ void FanucRun::call(const FanucListing& listing, std::vector<FanucValues::Argume
   routines_.pop_back();
 }
 
-std::vector<FanucValues::Argument> FanucRun::arguments_in(FanucCursor& at) {
-  std::vector<FanucValues::Argument> read;
+std::vector<FanucValues::Stored> FanucRun::arguments_in(FanucCursor& at) {
+  std::vector<FanucValues::Stored> read;
   if (!at.take_sign('(')) return read;
   while (!at.at_end() && !at.take_sign(')') && read.size() < 100) {
     values_.forget_missing();
@@ -226,25 +221,20 @@ void FanucRun::call_statement(const std::string& text, bool beside) {
   const FanucListing* listing = outlook_.program(name);
   if (beside) {
     note(fmt::format("RUN {}: runs beside this program", name), listing != nullptr);
-    if (!listing) {
-      if (!values_.take_effect("RUN " + written)) values_.forget_registers({{"RUN " + written}});
-      return;
-    }
-    return forget(outlook_.effects(*listing, 0, listing->statements.size()), {});
+    if (listing) return forget(outlook_.effects(*listing, 0, listing->statements.size()), {});
+    values_.take_effect("RUN " + written);
+    return;
   }
   if (!listing) return unread("CALL " + written);
   call(*listing, arguments_in(at));
 }
 
-/// Applies the effects of a program without a file: the user's (--value 'CALL NAME=nothing'), else all registers become
-/// unknown. The position of the robot is unknown afterwards.
+/// Applies the effects of a program without a file. The position of the robot is unknown afterwards.
 void FanucRun::unread(const std::string& what) {
-  if (values_.take_effect(what)) {
+  if (values_.take_effect(what))
     note(what + ": not among the files read; its registers are as --value says", true);
-  } else {
+  else
     note(what + ": not among the files read; registers may be others behind it", true);
-    values_.forget_registers({{what}});
-  }
   last_.reset();
 }
 
@@ -252,9 +242,7 @@ void FanucRun::unread(const std::string& what) {
 
 void FanucRun::execute(const FanucStatement& s) {
   const std::string& text = s.text;
-  if (text.starts_with("!") || text.starts_with("--") || text.starts_with("//")) return;
   FanucCursor at(text);
-  const std::size_t begin = at.offset();
   const std::string word = at.word();
   if (fanuc_word(word) == FanucWord::motion && !at.rest().starts_with("[")) {
     if (word == "a" || word == "s") note("an arc or spline by A or S moves: read as straight lines", true);
@@ -262,11 +250,7 @@ void FanucRun::execute(const FanucStatement& s) {
                     : word == "c" ? Instruction::Kind::circular
                                   : Instruction::Kind::linear);
   }
-  at.move_to(begin);
-  if (word == "if") {
-    at.word();
-    return if_statement(at);
-  }
+  if (word == "if") return if_statement(at);
   if (word == "select") return select();
   if (word == "lbl" || (word.empty() && !at.take_sign('='))) return;
   if (word.empty() || (word == "else" && !fanuc_action(text).empty()))
@@ -285,7 +269,7 @@ void FanucRun::action(const std::string& text) {
   if (word == "monitor") {  // the monitored program is a list of WHEN condition, action
     const std::string name = "MONITOR " + std::string(at.name());
     note(name + ": what it does may come at any time, and is left out", true);
-    if (!values_.take_effect(name)) values_.forget_registers({{name}});
+    values_.take_effect(name);
     return;
   }
   if (word == "abort") {
@@ -421,22 +405,20 @@ bool FanucRun::still_new(std::size_t label) {
   return loop.barren < enough;
 }
 
-/// Removes repeated passes. Precondition: the values after the last pass equal the values after pass `known` (from 1).
-/// If the last `known` passes have the same moves as the first ones, the last ones are removed: each pass is kept once.
-void FanucRun::drop_repeated(const Endless& loop, std::size_t known) {
+/// Removes the moves from index `from` on if they equal as many moves before index `before`. Returns whether they did.
+bool FanucRun::drop_repeated(std::size_t from, std::size_t before) {
   auto& made = program_.instructions;
-  if (known == 0) return;
-  const std::size_t begin = loop.ends[loop.ends.size() - known - 1], count = made.size() - begin,
-                    before = loop.ends[known - 1];
-  bool alike = count <= before;
-  for (std::size_t i = 0; alike && i < count; ++i)
-    alike = same_move(made[begin + i], made[before - count + i]);
-  if (alike) made.resize(begin);
+  const Instruction* all = made.data();
+  const std::size_t count = made.size() - from;
+  if (count > before || !std::equal(all + from, all + made.size(), all + before - count, same_move)) return false;
+  made.resize(from);
+  return true;
 }
 
 /// Returns whether an endless loop that is back at its label runs another pass. It runs options.passes passes if given.
-/// Otherwise it ends when all values equal those after an earlier pass, when the moves equal those of the previous pass,
-/// or, with a problem, after ImportLimits::passes.
+/// Otherwise it ends when the moves equal those of the previous pass, when all values equal those after an earlier
+/// pass, or, with a problem, after ImportLimits::passes. If the values equal those after pass N and the last N passes
+/// have the moves of the first N, each pass is kept once.
 bool FanucRun::goes_on(std::size_t label) {
   Endless& loop = endless_[{routine().listing, label}];
   auto& made = program_.instructions;
@@ -444,12 +426,9 @@ bool FanucRun::goes_on(std::size_t label) {
   if (around_.options.passes > 0) return loop.passes < around_.options.passes;
   loop.ends.push_back(made.size());
   const auto [known, fresh] = loop.states.try_emplace(values_.state(), loop.ends.size());
-  const std::size_t length = made.size() - loop.begin;
-  bool alike = loop.passes > 1 && length > 0 && 2 * length <= made.size();
-  for (std::size_t i = 0; alike && i < length; ++i)
-    alike = same_move(made[loop.begin + i], made[loop.begin - length + i]);
-  if (alike) made.resize(loop.begin);
-  if (!fresh && !alike) drop_repeated(loop, known->second);
+  const bool alike = loop.passes > 1 && made.size() > loop.begin && drop_repeated(loop.begin, loop.begin);
+  if (const std::size_t pass = known->second; !fresh && !alike && pass > 0)
+    drop_repeated(loop.ends[loop.ends.size() - pass - 1], loop.ends[pass - 1]);
   loop.begin = made.size();
   if (!fresh || alike) return false;
   if (loop.passes < ImportLimits::passes) return true;
@@ -545,10 +524,9 @@ std::optional<FanucPosition> FanucRun::position_sum(FanucCursor& at) {
       read->values = fanuc_values_of(known->frame);
     } else {
       at.move_to(begin);
-      read = position(at);
-      if (FanucCursor written(at.from(begin)); read && !read->known() && written.take("PR"))
-        if (const auto index = values_.index(written); index && index->number)
-          values_.miss_position(whole_number(*index->number));
+      const WrittenPosition written = position(at);
+      read = written.position;
+      if (read && !read->known() && written.registered) values_.miss_position(*written.number);
     }
     if (!read) return {};
     read->frame = read->tool = -1;
@@ -645,18 +623,24 @@ bool FanucRun::no_matter(const FanucEffects& effects) {
 
 /// Makes all values that `effects` may write unknown.
 void FanucRun::forget(const FanucEffects& effects, const FanucCauses& why) {
-  if (effects.any_register) values_.forget_registers(why);
-  for (int number : effects.registers) values_.forget_register(number, why);
-  for (int number : effects.positions) values_.forget_position(number, why);
-  for (const std::string& name : effects.named) {
-    if (name.find('[') == std::string::npos) values_.set_named(name, {});
+  for (const std::string& name : effects.written) {
     FanucCursor at(name);
-    const bool tool = at.word() == "utool";
-    if (!at.take_sign('[')) continue;
-    if (const auto number = at.number())
-      frames_[{tool, whole_number(*number)}] = {{}, why};
-    else
-      forget_frames(tool, why);
+    const std::string word = at.word();
+    const auto number = at.take_sign('[') ? at.number() : std::nullopt;
+    if (word == "r" || word == "pr") {
+      if (!number)
+        values_.forget_registers(why);
+      else if (word == "r")
+        values_.forget_register(whole_number(*number), why);
+      else
+        values_.forget_position(whole_number(*number), why);
+    } else if (number) {
+      frames_[{word == "utool", whole_number(*number)}] = {{}, why};
+    } else if (name.ends_with("[]")) {
+      forget_frames(word == "utool", why);
+    } else {
+      values_.set_named(name, {});
+    }
   }
 }
 
@@ -685,66 +669,61 @@ bool FanucRun::whole_program_no_matter() {
 }
 
 void FanucRun::if_statement(FanucCursor& at) {
-  const std::size_t here = routine().at;
   const FanucStatement& s = statement();
+  const bool block = lower_case(s.text).ends_with("then");
+  const std::string rest = block ? "" : fanuc_action(s.text);
   std::optional<bool> decision = values_.condition(at);
   if (decision) {
-    routine().decided.insert(here);
+    routine().decided.insert(routine().at);
     last_decision_ = where();
   }
   if (const auto known = assumed(s.line)) decision = known;
-  if (lower_case(s.text).ends_with("then")) {
-    if (!decision) {
-      if (no_matter(outlook_.effects(*routine().listing, here + 1, s.end))) {
-        routine().at = s.end;
-        return;
-      }
-      if (whole_program_no_matter()) return;
-      decision = ask("branches on", 2, then_or_else) == 0;
-    }
-    if (!*decision) routine().at = s.other + 1;
-    return;
-  }
-  const std::string rest = fanuc_action(s.text);
-  if (rest.empty()) return complain("is no IF condition,action", "correct the statement");
+  if (!block && rest.empty()) return complain("is no IF condition,action", "correct the statement");
   if (!decision) decision = undecided(rest);
-  if (!decision || !*decision) return;
-  FanucCursor jumping(rest);
-  if (jumping.take("JMP")) return jump(jumping, false);
-  FanucCursor moving(rest);
-  if (fanuc_word(moving.word()) == FanucWord::motion && !moving.rest().starts_with("["))
-    return complain("moves behind a condition", "list the program again");
-  action(rest);
+  if (!decision) return;
+  if (block && !*decision) routine().at = s.other + 1;
+  if (!block && *decision) conditional_action(rest);
 }
 
-/// Decides IF ... ,action with an unknown condition. std::nullopt: the action is left out. ABORT is always left out.
+void FanucRun::conditional_action(const std::string& text) {
+  FanucCursor at(text);
+  const std::string word = at.word();
+  if (word == "jmp") return jump(at, false);
+  if (fanuc_word(word) == FanucWord::motion && !at.rest().starts_with("["))
+    return complain("moves behind a condition", "list the program again");
+  action(text);
+}
+
+/// Decides an IF with an unknown condition. action: empty for a block. std::nullopt: the action or block is left out.
+/// ABORT is always left out.
 std::optional<bool> FanucRun::undecided(const std::string& action) {
   const std::size_t here = routine().at;
   const FanucListing& listing = *routine().listing;
-  const auto asked = [&]() -> std::optional<bool> {
-    if (whole_program_no_matter()) return {};
-    return ask("branches on", 2, then_or_else) == 0;
-  };
   FanucCursor at(action);
   const std::string word = at.word();
-  std::size_t target = word == "end" ? listing.statements.size() : here;
-  if (word == "jmp" && at.take("LBL")) {
-    const auto label = values_.index(at);
-    const auto found =
-        label && label->number ? listing.labels.find(whole_number(*label->number)) : listing.labels.end();
-    if (found == listing.labels.end()) return asked();
-    target = found->second;
-  }
   if (word == "abort") {
     note("ABORT: on a condition that is taken not to be met");
     return {};
   }
-  const FanucEffects effects = target == here  ? outlook_.effects(action)
-                               : target > here ? outlook_.effects(listing, here + 1, target)
-                                               : outlook_.effects(listing, target, here);
-  if (!no_matter(effects)) return asked();
-  if (target > here) routine().at = target;
-  return {};
+  std::size_t target = action.empty() ? statement().end : word == "end" ? listing.statements.size() : here;
+  bool leaves = false;
+  if (word == "jmp" && at.take("LBL")) {
+    const auto label = values_.index(at);
+    const auto found =
+        label && label->number ? listing.labels.find(whole_number(*label->number)) : listing.labels.end();
+    leaves = found == listing.labels.end();
+    if (!leaves) target = found->second;
+  }
+  FanucEffects effects = target == here  ? outlook_.effects(action)
+                         : target > here ? outlook_.effects(listing, here + 1, target)
+                                         : outlook_.effects(listing, target, here);
+  effects.leaves |= leaves;
+  if (no_matter(effects)) {
+    routine().at = std::max(target, here);
+    return {};
+  }
+  if (whole_program_no_matter()) return {};
+  return ask("branches on", 2, then_or_else) == 0;
 }
 
 /// Executes SELECT R[1]=1,JMP LBL[1] ; =2,CALL X ; ELSE,JMP LBL[3] as one decision.
@@ -758,7 +737,6 @@ void FanucRun::select() {
   std::size_t behind = here;
   for (bool first = true; behind < statements.size(); ++behind, first = false) {
     const std::string& text = statements[behind].text;
-    if (text.starts_with("!") || text.starts_with("--")) continue;
     FanucCursor next = first ? at : FanucCursor(text);
     const bool otherwise = !first && next.take("ELSE");
     if (!otherwise && !next.take_sign('=')) break;
@@ -780,11 +758,7 @@ void FanucRun::select() {
   routine().at = behind;
   if (*which >= cases.size()) return;  // no case applies
   routine().at = cases[*which].statement;
-  FanucCursor jumping(cases[*which].action);
-  if (jumping.take("JMP"))
-    jump(jumping, false);
-  else
-    action(cases[*which].action);
+  conditional_action(cases[*which].action);
   if (routine().at == cases[*which].statement) routine().at = behind;
 }
 

@@ -30,7 +30,7 @@ class FanucRun {
   };
   FanucRun(const Surroundings& around, Program& program, Problems& problems, Exploration& exploration);
 
-  /// arguments: the values of AR[1], AR[2] ..., in the form of a call: "1,'a',R[2]".
+  /// arguments: the values of AR[1], AR[2] ..., in the form of a call: "(1,'a',R[2])"; empty: none.
   void run(const FanucListing& listing, const std::string& arguments);
 
  private:
@@ -62,19 +62,19 @@ class FanucRun {
   };
 
   // ---- statements: run.cpp
-  void call(const FanucListing& listing, std::vector<FanucValues::Argument> arguments);
+  void call(const FanucListing& listing, std::vector<FanucValues::Stored> arguments);
   void execute(const FanucStatement& s);
   void action(const std::string& text);
   void assignment(const std::string& word, FanucCursor& at);
   void block(const std::string& word);
   void jump(FanucCursor& at, bool certain);
   void jump_to(std::size_t target, bool certain);
-  void drop_repeated(const Endless& loop, std::size_t known);
+  bool drop_repeated(std::size_t from, std::size_t before);
   bool goes_on(std::size_t label);  // whether an endless loop runs another pass
   bool waits(std::size_t label);
   bool still_new(std::size_t label);
   void call_statement(const std::string& text, bool beside);
-  std::vector<FanucValues::Argument> arguments_in(FanucCursor& at);
+  std::vector<FanucValues::Stored> arguments_in(FanucCursor& at);
   void unread(const std::string& what);
   void wait(FanucCursor& at);
   void assign_register(FanucCursor& at);
@@ -85,6 +85,7 @@ class FanucRun {
   void forget_frames(bool tool, const FanucCauses& why);
   void set_frame_component(bool tool, int number, int component, FanucCursor& at);
   void if_statement(FanucCursor& at);
+  void conditional_action(const std::string& text);
   std::optional<bool> undecided(const std::string& action);
   bool no_matter(const FanucEffects& effects);
   void forget(const FanucEffects& effects, const FanucCauses& why);
@@ -109,12 +110,18 @@ class FanucRun {
   bool read_options(FanucCursor& at, Instruction& move, Options& options);
   bool read_option(FanucCursor& at, Instruction& move, Options& options);
   FanucNumber needed(FanucCursor& at, const char* what);
-  void offset_by(FanucCursor& at, std::optional<FanucPosition>& into, const char* condition);
+  void offset_by(FanucCursor& at, std::optional<FanucPosition>& into, const std::string& condition);
   void offset_by_camera(FanucCursor& at, std::optional<FanucPosition>& into);
   bool skip_condition_comes(bool jumps);
-  void missing_position(const std::string& name, const char* what);
+  void missing_position(int number, const char* what);
+  void doubt(int number);
   const NamedFrame* given_frame(bool tool, const std::string& name) const;
-  std::optional<FanucPosition> position(FanucCursor& at);
+  struct WrittenPosition {
+    bool registered;                        // PR[n]
+    std::optional<int> number;              // no value: unknown
+    std::optional<FanucPosition> position;  // no value: unknown number, other group, or no such P[n]
+  };
+  WrittenPosition position(FanucCursor& at);
   std::optional<FanucPosition> target_position(FanucCursor& at);
   bool place_joints(const FanucPosition& position, const Options& options, Instruction& move);
   bool place_via(const FanucPosition& via, const FanucPosition& target, const Options& own,
@@ -127,7 +134,7 @@ class FanucRun {
   bool active(bool tool, int& number);
   void compare_active(bool tool, int listed);
   std::optional<NamedFrame> frame(bool tool, int number);
-  bool use(const NamedFrame& frame, bool as_tool, Instruction& move);
+  void use(const NamedFrame& frame, bool as_tool, Instruction& move);
   void emit(Instruction instruction);
   void stopped_on_the_way();
   void remember(const Instruction& move, const FanucPosition& target);
@@ -140,6 +147,7 @@ class FanucRun {
   std::optional<bool> assumed(int line) const;
   std::string program_name() const;
   void complain(const std::string& what, const std::string& remedy);
+  bool refuse(const std::string& what, const std::string& remedy);  // complains; returns false
   void missing(const std::string& name, const std::string& what, const std::string& remedy,
                std::vector<Question> questions, bool decision = false);
   void missing_value(const std::string& what);  // the unknown value of values_.causes()

@@ -69,7 +69,8 @@ std::string plain_fanuc_name(std::string_view written) {
 
 FanucValues::FanucValues(const FanucVariables& backup, const std::map<std::string, std::string>& given,
                          Problems& problems)
-    : registers_(backup.registers), positions_(backup.position_registers) {
+    : positions_(backup.position_registers) {
+  for (const auto& [number, value] : backup.registers) registers_[number].value = value;
   if (backup.frame_number) named_["uframe_num"] = *backup.frame_number;
   if (backup.tool_number) named_["utool_num"] = *backup.tool_number;
   for (const auto& [number, position] : positions_)
@@ -84,8 +85,7 @@ void FanucValues::take(const std::string& name, const std::string& text, Problem
   const std::string word = at.word();
   const auto number = at.take_sign('[') ? at.number() : std::nullopt;
   const int index = whole_number(number.value_or(0));
-  const bool whole_position = word == "pr" && number && name.find(',') == std::string::npos;
-  if (whole_position) {
+  if (word == "pr" && number && name.find(',') == std::string::npos) {
     if (const auto position = position_in(text))
       positions_[index] = *position, taught_.insert(index);
     else
@@ -93,7 +93,7 @@ void FanucValues::take(const std::string& name, const std::string& text, Problem
                    "write 'X 100 Y 0 Z 50 W 180 P 0 R 0' [mm, deg] or 'J1 0 J2 10 ...' [deg]");
   } else if (word == "r" && number) {
     if (const auto value = number_in(text))
-      registers_[index] = *value;
+      registers_[index].value = value;
     else
       problems.add({"--value " + name + "=" + text}, "is no number", "write for example R[5]=3");
   } else if (named_.contains(name)) {
@@ -120,32 +120,29 @@ FanucNumber FanucValues::unknown(const std::string& name) {
 
 void FanucValues::set_register(int number, FanucNumber value) {
   if (written_.size() < ImportLimits::values) written_.insert(number);
-  if (value && std::isfinite(*value) && registers_.size() < ImportLimits::values) {
-    registers_[number] = *value;
-    register_causes_.erase(number);
-  } else {
-    registers_.erase(number);
-    if (register_causes_.size() < ImportLimits::values) register_causes_[number] = missing_;
-  }
+  if (value && !std::isfinite(*value)) value.reset();
+  if (registers_.contains(number) || registers_.size() < ImportLimits::values)
+    registers_[number] = {value, value ? FanucCauses{} : missing_};
 }
 
 void FanucValues::forget_register(int number, const FanucCauses& why) {
-  registers_.erase(number);
-  if (register_causes_.size() < ImportLimits::values) add_causes(register_causes_[number], why);
+  if (!registers_.contains(number) && registers_.size() >= ImportLimits::values) return;
+  Stored& forgotten = registers_[number];
+  forgotten.value.reset();
+  add_causes(forgotten.causes, why);
 }
 
 void FanucValues::set_position(int number, const FanucPosition& position) {
   taught_.erase(number);
   position_causes_.erase(number);
-  component_causes_.erase(number);
   if (positions_.size() < ImportLimits::values) positions_[number] = position;
 }
 
 void FanucValues::forget_position(int number, const FanucCauses& why) {
   positions_.erase(number);
   taught_.erase(number);
-  component_causes_.erase(number);
-  if (position_causes_.size() < ImportLimits::values) position_causes_[number] = why;
+  if (position_causes_.contains(number) || position_causes_.size() < ImportLimits::values)
+    position_causes_[number] = {{whole_position, why}};
 }
 
 void FanucValues::set_component(int number, int part, FanucNumber value) {
@@ -155,33 +152,36 @@ void FanucValues::set_component(int number, int part, FanucNumber value) {
   if (part <= static_cast<int>(position.values.size())) position.values[part - 1] = value.value_or(NAN);
   taught_.erase(number);
   if (positions_.size() < ImportLimits::values) positions_[number] = position;
-  component_causes_[number].erase(part);
-  if (!value) component_causes_[number][part] = missing_;
+  position_causes_[number].erase(part);
+  if (!value) position_causes_[number][part] = missing_;
+}
+
+/// Returns why a component of a position register, or the whole, is unknown; null: the program did not make it unknown.
+const FanucCauses* FanucValues::position_causes(int number, int part) const {
+  const auto found = position_causes_.find(number);
+  if (found == position_causes_.end() || !found->second.contains(part)) return nullptr;
+  return &found->second.at(part);
 }
 
 void FanucValues::miss_position(int number) {
   const FanucPosition position = position_register(number);
-  const auto parts = component_causes_.find(number);
-  bool whole_number = position.values.empty();
-  for (std::size_t i = 0; i < position.values.size(); ++i) {
-    if (std::isfinite(position.values[i])) continue;
-    const int part = static_cast<int>(i) + 1;
-    if (parts != component_causes_.end() && parts->second.contains(part) && !parts->second.at(part).empty())
-      add_causes(missing_, parts->second.at(part));
-    else
-      whole_number = true;
-  }
-  if (!whole_number) return;
-  const auto known = position_causes_.find(number);
-  if (known != position_causes_.end() && !known->second.empty())
-    add_causes(missing_, known->second);
-  else
-    add_causes(missing_, {{fmt::format("PR[{}]", number)}});
+  bool whole = position.values.empty();
+  const auto add = [&](int part) {
+    const FanucCauses* causes = position_causes(number, part);
+    if (causes) add_causes(missing_, *causes);
+    return causes && !causes->empty();
+  };
+  for (std::size_t i = 0; i < position.values.size(); ++i)
+    if (!std::isfinite(position.values[i])) whole |= !add(static_cast<int>(i) + 1);
+  if (whole && !add(whole_position)) add_causes(missing_, {{fmt::format("PR[{}]", number)}});
 }
 
 bool FanucValues::take_effect(const std::string& call) {
   const auto text = given(plain_fanuc_name(call));
-  if (!text) return false;
+  if (!text) {
+    forget_registers({{call}});
+    return false;
+  }
   FanucCursor at(*text);
   while (at.take("R")) {
     const auto number = at.take_sign('[') ? at.number() : std::nullopt;
@@ -226,11 +226,11 @@ FanucNumber FanucValues::override_percent(const std::string& name) const {
 }
 
 void FanucValues::forget_registers(const FanucCauses& why) {
-  for (const auto& [number, value] : registers_)
-    if (register_causes_.size() < ImportLimits::values) register_causes_[number] = {};
-  for (auto& [number, causes] : register_causes_) add_causes(causes, why);
+  for (auto& [number, stored] : registers_) {
+    stored.value.reset();
+    add_causes(stored.causes, why);
+  }
   add_causes(forgotten_by_, why);
-  registers_.clear();
   std::erase_if(positions_, [&](const auto& entry) { return !taught_.contains(entry.first); });
   doubt_ = true;
 }
@@ -241,7 +241,8 @@ bool FanucValues::doubtful(int position_register) const {
 
 std::string FanucValues::state() const {
   std::string text;
-  for (const auto& [number, value] : registers_) text += fmt::format("{}={} ", number, value);
+  for (const auto& [number, stored] : registers_)
+    if (stored.value) text += fmt::format("{}={} ", number, *stored.value);
   for (const auto& [number, position] : positions_)
     text += fmt::format("p{}={} ", number, fmt::join(position.values, ","));
   for (const auto& [name, value] : named_) text += fmt::format("{}={} ", name, value.value_or(NAN));
@@ -281,9 +282,9 @@ FanucNumber FanucValues::function(const std::string& word, FanucNumber of) const
 /// Returns the value of an unknown register from the user. If the program has set the register and a call without a file
 /// may have changed it, the call is the question. If the program has not set the register, the register is the question.
 FanucNumber FanucValues::register_value(int number) {
-  if (const auto found = registers_.find(number); found != registers_.end()) return found->second;
-  const auto own = register_causes_.find(number);
-  const FanucCauses& causes = own != register_causes_.end() ? own->second : forgotten_by_;
+  const auto own = registers_.find(number);
+  if (own != registers_.end() && own->second.value) return own->second.value;
+  const FanucCauses& causes = own != registers_.end() ? own->second.causes : forgotten_by_;
   const bool calls = std::any_of(causes.begin(), causes.end(),
                                  [](const FanucCause& cause) { return cause.name.find(' ') != std::string::npos; });
   if (causes.empty() || (calls ? !written_.contains(number) : given(fmt::format("r[{}]", number)).has_value()))
@@ -317,15 +318,16 @@ FanucNumber FanucValues::operand(FanucCursor& at, int depth) {
   if (read->group != 1) return unknown(fmt::format("{}[GP{}:{}]", name, read->group, number));
   if (word == "pr" && read->part) {
     const FanucPosition position = position_register(number);
-    const std::size_t part = static_cast<std::size_t>(whole_number(*read->part));
-    if (part >= 1 && part <= position.values.size() && std::isfinite(position.values[part - 1]))
+    const int part = whole_number(*read->part);
+    if (part >= 1 && part <= static_cast<int>(position.values.size()) &&
+        std::isfinite(position.values[part - 1]))
       return position.values[part - 1];
     const std::string component = fmt::format("PR[{},{}]", number, part);
-    const auto known = component_causes_.find(number);
-    const bool computed = known != component_causes_.end() && known->second.contains(static_cast<int>(part));
-    if (given(plain_fanuc_name(component)) || (!computed && !position_causes_.contains(number))) return unknown(component);
+    const FanucCauses* computed = position_causes(number, part);
+    if (given(plain_fanuc_name(component)) || (!computed && !position_causes(number, whole_position)))
+      return unknown(component);
     if (computed)
-      add_causes(missing_, known->second.at(static_cast<int>(part)));
+      add_causes(missing_, *computed);
     else
       miss_position(number);
     return {};

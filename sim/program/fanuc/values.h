@@ -77,16 +77,17 @@ class FanucValues {
   /// backup or the user stay known. Those of the backup are doubtful() afterwards.
   void forget_registers(const FanucCauses& why);
   /// Applies the user's value for "CALL NAME": "nothing", or the registers that the program sets: "R[5]=3 R[6]=0".
-  /// Returns false if the user gives no value for `call`.
+  /// Returns false if the user gives no value for `call`. Then all registers become unknown.
   bool take_effect(const std::string& call);
   bool doubtful(int position_register) const;
 
-  /// One of AR[1], AR[2] ... of a called program. enter() and leave() enclose its run.
-  struct Argument {
+  /// A stored number with the causes of an unknown one.
+  struct Stored {
     FanucNumber value;
-    FanucCauses causes;  ///< causes of an unknown value
+    FanucCauses causes;
   };
-  void enter(std::vector<Argument> arguments) { arguments_.push_back(std::move(arguments)); }
+  /// arguments: AR[1], AR[2] ... of a called program. enter() and leave() enclose its run.
+  void enter(std::vector<Stored> arguments) { arguments_.push_back(std::move(arguments)); }
   void leave() { arguments_.pop_back(); }
 
   std::string state() const;  ///< text of all known values; equal texts mean equal values
@@ -99,20 +100,21 @@ class FanucValues {
   FanucNumber register_value(int number);
   FanucNumber level(FanucCursor& at, int lowest, int depth);
   void take(const std::string& name, const std::string& text, Problems& problems);
+  const FanucCauses* position_causes(int number, int part) const;
 
-  std::map<int, double> registers_;
+  std::map<int, Stored> registers_;
   std::map<int, FanucPosition> positions_;
   std::map<std::string, FanucNumber> named_;  // no entry: never assigned
   std::map<std::string, std::string> given_;  // key: plain_fanuc_name()
-  std::vector<std::vector<Argument>> arguments_;
+  std::vector<std::vector<Stored>> arguments_;
   std::set<int> taught_;  // position registers of the backup or the user that the program has not written
   bool doubt_ = false;
   FanucCauses missing_;
-  std::map<int, FanucCauses> register_causes_, position_causes_;  // causes of unknown registers
-  std::map<int, std::map<int, FanucCauses>> component_causes_;    // position register -> component -> causes
-  FanucCauses forgotten_by_;                                      // causes of registers without an own entry
-  std::set<int> written_;                                         // registers that the program has set
-  long charged_ = 0;                                              // number of operands and operators evaluated
+  static constexpr int whole_position = -1;
+  std::map<int, std::map<int, FanucCauses>> position_causes_;  // PR number -> component, or whole_position
+  FanucCauses forgotten_by_;  // causes of registers without an own entry
+  std::set<int> written_;     // registers that the program has set
+  long charged_ = 0;          // number of operands and operators evaluated
 };
 
 /// Returns a name in lower case without comments and blanks: "R[ 5 :speed]" -> "r[5]".

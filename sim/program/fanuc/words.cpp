@@ -127,10 +127,6 @@ class Translation {
 
 }  // namespace
 
-std::string fanuc_in_english(std::string_view statement) {
-  if (statement.starts_with("!") || statement.starts_with("--") || statement.starts_with("//"))
-    return std::string(statement);
-  return Translation(statement).run();
-}
+std::string fanuc_in_english(std::string_view statement) { return Translation(statement).run(); }
 
 }  // namespace dresslife::sim

@@ -43,6 +43,7 @@ std::vector<std::string> uncalled_programs(const CallGraph& graph) {
   std::vector<std::string> found, mains;
   for (const auto& [name, calls] : graph) {
     if (called.contains(name) || !moves(name, graph)) continue;
+    if (name == "main") return {name};
     found.push_back(name);
     if (name.starts_with("main")) mains.push_back(name);
   }

@@ -29,7 +29,7 @@ using CallGraph = std::map<std::string, Calls>;  // by the programs' names
 
 /// Whether a program, or a program that it calls, moves the robot.
 bool moves(const std::string& program, const CallGraph& graph);
-/// Returns the programs that move the robot and that no other program calls; only one if one name begins with `main`.
+/// Returns the programs that move the robot and that no other calls; only `main`, or the one that begins with it.
 std::vector<std::string> uncalled_programs(const CallGraph& graph);
 /// Returns the only choice. Errors: InputError if `choices` is empty ("holds no WHAT that moves") or has several entries.
 std::string only_start(const std::filesystem::path& folder, std::vector<std::string> choices, const char* what);

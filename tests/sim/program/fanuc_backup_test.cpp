@@ -105,16 +105,18 @@ TEST_CASE("fanuc backup: what lies beside a listing is read with it, a folder is
   const FanucFolder found = fanuc_folder(folder.folder());
   CHECK(found.listings.size() == 4);
   CHECK(found.variables.size() == 4);
-  CHECK(found.mains == std::vector<std::string>{"main"});
+  CHECK(uncalled_programs(found.calls) == std::vector<std::string>{"main"});
 
   folder.write("other.ls", program("OTHER", "   1:J PR[1] 50% FINE ;\n"));
   CHECK(read_program(motion_by(folder.folder(), "other")).instructions.size() == 1);
+  folder.write("main2.ls", program("MAIN2", "   1:J PR[1] 50% FINE ;\n"));
   CHECK(read_program(motion_by(folder.folder())).instructions.size() == 3);  // MAIN is the one of several
+  fs::remove(folder / "main2.ls");
   fs::remove(folder / "MAIN.LS");
   folder.write("cell.ls", program("CELL", "   1:  CALL WORK(1) ;\n"));
   CHECK_THROWS_WITH(read_program(motion_by(folder.folder())),
-                    Catch::Contains("holds 3 programs that no other one calls; choose with --routine: cell, "
-                                    "mov_home, other"));
+                    Catch::Contains("holds several programs, and none that calls them; name one with --routine "
+                                    "(motion.routine in a job): cell, mov_home, other"));
 }
 
 TEST_CASE(

@@ -459,6 +459,9 @@ TEST_CASE("fanuc branches: no question where no arm moves, one question for a SE
   CHECK(stops(run(choice, {.choose = {{"cell.ls:5", "7"}}})) == std::vector<int>{1});
   CHECK(stops(run(choice, {.values = {{"R[1]", "1"}}})) == std::vector<int>{1, 2});
   CHECK(stops(run(choice, {.assume = {{"cell.ls:6", Assumption::then_branch}}})) == std::vector<int>{1, 1});
+  // A case calls a program or jumps. A controller accepts no move there.
+  const Reading moving = run("   1:J P[1] 50% FINE ;\n   2:  SELECT R[1]=1,J P[2] 50% FINE ;\n", {.values = {{"R[1]", "1"}}});
+  CHECK(moving.problem() == "cell.ls:5:6: error: moves behind a condition; list the program again");
 }
 
 TEST_CASE(
