@@ -112,17 +112,21 @@ std::vector<OtherMotion> other_motions(const FileReader& motion, const pipeline:
 /// Appends the results of variations.
 class VariationWriter {
  public:
-  /// The variations of `others` are numbered after those of `variations`.
+  /// The variations of `others`, one for each friction inside, are numbered after those of `variations`.
   VariationWriter(FileWriter& file, const Variations& variations, const std::vector<OtherMotion>& others) : file_(file) {
+    std::vector<Variations::Point> points = variations.points();
+    std::vector<double> stiffness(points.size());
+    for (const OtherMotion& other : others)
+      for (const double friction : variations.friction_inside()) {
+        points.emplace_back()[index_of(pipeline::Uncertain::friction_inside)] = friction;
+        stiffness.push_back(other.z);
+      }
+    if (points.empty()) return;
     std::vector<double> z;
-    for (const Variations::Point& point : variations.points()) z.insert(z.end(), point.begin(), point.end());
-    z.resize(z.size() + others.size() * Variations::Point{}.size());
-    if (z.empty()) return;
+    for (const Variations::Point& point : points) z.insert(z.end(), point.begin(), point.end());
     file.append("/variation/z", z);
     std::vector<std::int32_t> inside, rests = variations.rests();
     for (const pipeline::Inside one : variations.inside()) inside.push_back(static_cast<std::int32_t>(one));
-    std::vector<double> stiffness(inside.size());
-    for (const OtherMotion& other : others) stiffness.push_back(other.z);
     inside.resize(stiffness.size()), rests.resize(stiffness.size());
     file.append("/variation/inside", inside);
     file.append("/variation/rest", rests);
@@ -512,10 +516,11 @@ class OwnResults {
 
 using LikelySites = std::vector<std::vector<Evaluation::Site>>;  ///< (segment)
 
-/// Writes one variation: the likely worst wires of the job with another stiffness of the hose. laid: cables in this motion, which
-/// continue from the job's own rest.
+/// Writes the variations with another stiffness of the hose: the likely worst wires of the job, with each factor of the friction
+/// inside. laid: cables in this motion, which continue from the job's own rest. variation: number of the first one.
 void write_other_motion(MotionReader& motion, const Starts::Spans& own, Starts::Spans& laid, HistoryWindow& window,
-                        std::size_t threads, const LikelySites& likely, std::size_t variation, VariationWriter& rows) {
+                        std::size_t threads, const LikelySites& likely, const std::vector<double>& friction_factors,
+                        std::size_t variation, VariationWriter& rows) {
   for (std::size_t span = 0; span < own.size(); ++span) laid[span]->go_on_from(*own[span]);
   Starts starts(laid);
   Passage passage(motion, starts, window, threads);
@@ -530,7 +535,8 @@ void write_other_motion(MotionReader& motion, const Starts::Spans& own, Starts::
     if (wires.empty()) return;
     std::vector<std::size_t> sites;
     for (const Evaluation::Site site : wires) sites.push_back(evaluation.row_of(segment, site));
-    rows.append(variation, sites, evaluation.varied(wires, {1.0}, segment, window.history(), row).front());
+    const std::vector<SiteRows> varied = evaluation.varied(wires, friction_factors, segment, window.history(), row);
+    for (std::size_t k = 0; k < varied.size(); ++k) rows.append(variation + k, sites, varied[k]);
   });
 }
 
@@ -600,11 +606,14 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
     work.segments(static_cast<double>(likely.size()) / static_cast<double>(segments));
   });
   for (Evaluations& laid : otherwise_laid) laid.of_span.clear();  // frees their memory
+  const pipeline::UncertainParameter& friction = pipeline::uncertain_parameters()[index_of(pipeline::Uncertain::friction_inside)];
+  std::vector<double> friction_factors;
+  for (const double z : variations.friction_inside()) friction_factors.push_back(friction.value(z));
   for (std::size_t other = 0; other < others.size(); ++other) {
     MotionReader& of = others[other].reader;
     Evaluations laid(job, of, threads, job.strain.factors, scratch, &all);
-    write_other_motion(of, evaluations, laid.of_span, window, threads, likely, variations.points().size() + other,
-                       variation_rows);
+    write_other_motion(of, evaluations, laid.of_span, window, threads, likely, friction_factors,
+                       variations.points().size() + other * friction_factors.size(), variation_rows);
     work.other_motions(other + 1);
   }
   const auto worst =

@@ -89,7 +89,11 @@ Variations::Variations(const pipeline::Job& job, const Spans& as_given, const Bu
                                        [](const auto& evaluation) { return evaluation->rubs_inside(); });
   std::vector<Friction> around, all{{}};
   // Small values of friction are needed, because there lives bend toward those without damage.
-  if (rubs_inside) around = {{-reach}, {-reach / 2}, {reach}, {0, Inside::glued}, {0, Inside::free}};
+  if (rubs_inside) {
+    friction_inside_ = {0, -reach, -reach / 2, reach};
+    for (std::size_t k = 1; k < friction_inside_.size(); ++k) around.push_back({friction_inside_[k]});
+    around.push_back({0, Inside::glued}), around.push_back({0, Inside::free});
+  }
   all.insert(all.end(), around.begin(), around.end());
   if (!around.empty()) add(as_given, {}, around);
   const auto lay = [&](Uncertain parameter, const auto& nodes, const std::vector<Friction>& friction) {

@@ -1,11 +1,12 @@
 // Strains of the likely worst wires with other friction, slack and grips, from which dresslife-fatigue computes the
 // influence of uncertain inputs on the life (pipeline/job/uncertainty.h).
 //
-// Friction inside is crossed with slack. Friction along the hose and grips are varied one by one. Friction inside is also set
-// to zero and to infinity (no slip at any pressure): the bounds of a cable. Play is not varied: in the shipped programs it
-// changes lives by a tenth of a decade and would cost as much as a slack. Places and forces of cables are computed again for
-// each variation except friction inside. The wires are the likely worst ones of each segment and layer of the job itself. If
-// cables lie elsewhere, the likely worst wires of the cables that bend most there are added.
+// Friction inside is crossed with slack, and by strain_file.cpp with the hose's stiffness. Friction along the hose and grips are
+// varied one by one. Friction inside is also set to zero and to infinity (no slip at any pressure): the bounds of a cable. Play
+// is not varied: in the shipped programs it changes lives by a tenth of a decade and would cost as much as a slack. Places and
+// forces of cables are computed again for each variation except friction inside. The wires are the likely worst ones of each
+// segment and layer of the job itself. If cables lie elsewhere, the likely worst wires of the cables that bend most there are
+// added.
 #pragma once
 
 #include <array>
@@ -40,6 +41,8 @@ class Variations {
   Variations(const pipeline::Job& job, const Spans& as_given, const Build& build);
 
   bool empty() const { return points_.empty(); }
+  /// Returns z of friction inside at which strains are evaluated; 0 alone if nothing rubs inside the cables.
+  const std::vector<double>& friction_inside() const { return friction_inside_; }
   const std::vector<Point>& points() const { return points_; }  ///< (variation)
   const std::vector<pipeline::Inside>& inside() const { return inside_; }  ///< (variation)
   const std::vector<std::int32_t>& rests() const { return rests_; }        ///< (variation) rest of the starts
@@ -75,6 +78,7 @@ class Variations {
 
   bool enabled_;
   const Spans& as_given_;
+  std::vector<double> friction_inside_{0};
   std::vector<Point> points_;
   std::vector<pipeline::Inside> inside_;
   std::vector<std::int32_t> rests_;

@@ -311,7 +311,7 @@ void find_best_test(const FailureModes& modes, const std::vector<LifeSurface>& s
 // ---- errors of percentiles --------------------------------------------------------------------------------
 
 constexpr std::size_t of_friction = index_of(Uncertain::friction_inside), of_slack = index_of(Uncertain::slack),
-                      rest_parameter = index_of(Uncertain::rest);
+                      of_stiffness = index_of(Uncertain::hose_stiffness), rest_parameter = index_of(Uncertain::rest);
 
 /// Returns the response without the points for which `drops` returns true.
 template <class Drops>
@@ -393,7 +393,9 @@ std::vector<FailureModes> coarser(const FailureModes& modes) {
   }
   if (others)
     add([](const LifeResponse& mode) {
-      return without_points(mode, [](const auto& point) { return point[of_friction] != 0 && point[of_slack] != 0; });
+      return without_points(mode, [](const auto& point) {
+        return point[of_friction] != 0 && (point[of_slack] != 0 || point[of_stiffness] != 0);
+      });
     });
   return all;
 }

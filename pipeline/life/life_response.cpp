@@ -18,7 +18,7 @@ using StrainPoint = std::array<double, strain_parameters>;
 
 constexpr double farthest = 3.5;  // standard deviations; beyond this z, no knowledge exists
 constexpr std::size_t friction = index_of(Uncertain::friction_inside), slack = index_of(Uncertain::slack),
-                      of_rest = index_of(Uncertain::rest);
+                      of_rest = index_of(Uncertain::rest), hose_stiffness = index_of(Uncertain::hose_stiffness);
 
 std::size_t number_of(Inside inside) { return static_cast<std::size_t>(inside); }
 
@@ -64,7 +64,9 @@ LifeSurface::LifeSurface(const LifeResponse& response) : response_(response) {
       alone_[p].push_back(index.at(at));
     }
   }
-  for (const Inside inside : {Inside::as_is, Inside::glued, Inside::free}) cores_[number_of(inside)] = core_of(inside);
+  for (const Inside inside : {Inside::as_is, Inside::glued, Inside::free})
+    cores_[number_of(inside)] = core_of(inside, slack);
+  stiffness_ = core_of(Inside::as_is, hose_stiffness);
   const Place strength = place_among(response.strength, 0), slope = place_among(response.slope, 0);
   at_zero_ = worst(0, strength, slope);
   for (const Inside inside : {Inside::glued, Inside::free}) {
@@ -74,20 +76,21 @@ LifeSurface::LifeSurface(const LifeResponse& response) : response_(response) {
 }
 
 /// Returns the core of a bound. A bound without computed points is as_is, shifted.
-LifeSurface::Core LifeSurface::core_of(Inside inside) const {
+LifeSurface::Core LifeSurface::core_of(Inside inside, std::size_t parameter) const {
   Core of;
+  of.parameter = parameter;
   std::map<std::pair<double, double>, std::size_t> index;
   for (std::size_t k = 0; k < response_.points.size(); ++k) {
     const StrainPoint& point = response_.points[k];
-    if (response_.inside[k] != inside || !is_zero_but(point, {friction, slack})) continue;
-    index[{point[friction], point[slack]}] = k;
-    of.friction.push_back(point[friction]), of.slack.push_back(point[slack]);
+    if (response_.inside[k] != inside || !is_zero_but(point, {friction, parameter})) continue;
+    index[{point[friction], point[parameter]}] = k;
+    of.friction.push_back(point[friction]), of.other.push_back(point[parameter]);
   }
   if (index.empty()) return cores_[number_of(Inside::as_is)];
-  sort_once(of.friction), sort_once(of.slack);
+  sort_once(of.friction), sort_once(of.other);
   for (const double f : of.friction)
-    for (const double s : of.slack) {
-      const auto found = index.find({f, s});
+    for (const double other : of.other) {
+      const auto found = index.find({f, other});
       if (found == index.end()) {
         of.grid.clear();
         return of;
@@ -129,12 +132,22 @@ double LifeSurface::core(const Core& of, const ParameterPoint& z, const Place& s
                          const Place& slope) const {
   if (!of.grid.empty())
     return between(place_among(of.friction, z[friction]), [&](std::size_t f) {
-      return between(place_among(of.slack, z[slack]), [&](std::size_t s) {
-        return worst(of.grid[f * of.slack.size() + s], strength, slope);
+      return between(place_among(of.other, z[of.parameter]), [&](std::size_t k) {
+        return worst(of.grid[f * of.other.size() + k], strength, slope);
       });
     });
   return together(worst(0, strength, slope),
-                  std::array{alone(friction, z, strength, slope), alone(slack, z, strength, slope)});
+                  std::array{alone(friction, z, strength, slope), alone(of.parameter, z, strength, slope)});
+}
+
+double LifeSurface::with_stiffness(const Core& of, const ParameterPoint& z, const Place& strength,
+                                   const Place& slope) const {
+  const double with_slack = core(of, z, strength, slope) + of.shift;
+  if (nodes_[hose_stiffness].size() < 2) return with_slack;
+  ParameterPoint as_stiff = z;
+  as_stiff[hose_stiffness] = 0;
+  return together(core(stiffness_, as_stiff, strength, slope),
+                  std::array{with_slack, core(stiffness_, z, strength, slope)});
 }
 
 double LifeSurface::alone(std::size_t p, const ParameterPoint& z, const Place& strength,
@@ -152,10 +165,10 @@ double LifeSurface::change(const ParameterPoint& far, Inside inside) const {
   const Core& of = cores_[number_of(inside)];
   const Place strength = place_among(response_.strength, z[index_of(Uncertain::strength)]);
   const Place slope = place_among(response_.slope, z[index_of(Uncertain::slope)]);
-  std::array<double, strain_parameters> lives{core(of, z, strength, slope) + of.shift};
+  std::array<double, strain_parameters> lives{with_stiffness(of, z, strength, slope)};
   std::size_t count = 1;
   for (std::size_t p = 0; p < strain_parameters; ++p)
-    if (nodes_[p].size() > 1 && p != friction && p != slack) lives[count++] = alone(p, z, strength, slope);
+    if (nodes_[p].size() > 1 && p != friction && p != slack && p != hose_stiffness) lives[count++] = alone(p, z, strength, slope);
   double sum = together(worst(0, strength, slope), std::span(lives).first(count)) - at_zero_;
   for (const Uncertain of_lives : {Uncertain::model, Uncertain::motion})
     sum += std::log10(uncertain_parameters()[index_of(of_lives)].value(far[index_of(of_lives)]));

@@ -89,17 +89,20 @@ class LifeSurface {
     std::size_t below = 0;
     double share = 0;
   };
-  /// W over friction and slack, for one kind of slip.
+  /// W over friction and one other parameter, for one kind of slip.
   struct Core {
-    std::vector<double> friction, slack;  ///< z of the nodes, increasing
-    std::vector<std::size_t> grid;        ///< (friction, slack) index of the point; empty: some combinations are unknown
+    std::size_t parameter = 0;            ///< the other one: slack or the hose's stiffness
+    std::vector<double> friction, other;  ///< z of the nodes, increasing
+    std::vector<std::size_t> grid;        ///< (friction, other) index of the point; empty: some combinations are unknown
     double shift = 0;
   };
   static Place place_among(const std::vector<double>& nodes, double z);
-  Core core_of(Inside inside) const;
+  Core core_of(Inside inside, std::size_t parameter) const;
   bool depends_on_strain(std::size_t parameter) const;
   double worst(std::size_t point, const Place& strength, const Place& slope) const;
   double core(const Core& of, const ParameterPoint& z, const Place& strength, const Place& slope) const;
+  /// Returns W over friction, slack and the hose's stiffness.
+  double with_stiffness(const Core& of, const ParameterPoint& z, const Place& strength, const Place& slope) const;
   /// Returns W for a point at which only this parameter has a z other than 0.
   double alone(std::size_t parameter, const ParameterPoint& z, const Place& strength,
                const Place& slope) const;
@@ -108,6 +111,7 @@ class LifeSurface {
   std::array<std::vector<double>, strain_parameters> nodes_;        ///< (parameter, node) z of the points with as_is
   std::array<std::vector<std::size_t>, strain_parameters> alone_;   ///< (parameter, node) point
   std::array<Core, inside_count> cores_;
+  Core stiffness_;  ///< over friction and the hose's stiffness
   double at_zero_ = 0;
 };
 

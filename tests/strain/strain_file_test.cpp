@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <set>
 #include <span>
 
 #include "fatigue/life_file.h"
@@ -504,7 +505,7 @@ TEST_CASE("variations hold the strains that the same job has with the keys that 
   }
 }
 
-TEST_CASE("the variation of a softer hose holds the strains that its motion has by itself") {
+TEST_CASE("the variations of a softer hose hold the strains that its motion has by itself, with each friction inside") {
   const Scratch scratch;
   write_motion(scratch / "both.h5", cycle, 0.04, turning, rate_at);
   write_motion(scratch / "softer.h5", cycle, 0.04, rate_at);
@@ -514,42 +515,54 @@ TEST_CASE("the variation of a softer hose holds the strains that its motion has 
     REQUIRE(text.find(from) != std::string::npos);
     text.replace(text.find(from), from.size(), to);
   };
+  replace("material: copper}", "material: copper, friction_coefficient: 0.3, radial_line_load_N_per_m: 400}");
   replace("count: 3", "count: 1");  // a ring has several rests, of which the test would have to find the same one
   if (loose) {
     replace("helix_radius_mm: 18.45\n", "helix_radius_mm: 18.45\n      slack_percent: 3\n");
     replace("  damping_time_ms: 10\n", "  damping_time_ms: 10\n  inner_diameter_mm: 52\n");
   }
-  const auto job = [&](const std::string& enabled) {
-    return pipeline::job_from(pipeline::parse_yaml(text, "job.yaml"), {"uncertainty.enabled=" + enabled});
+  const auto job = [&](const std::string& enabled, double friction = 1) {
+    return pipeline::job_from(pipeline::parse_yaml(text, "job.yaml"),
+                              {"uncertainty.enabled=" + enabled, "strain.slip=[stick, friction]",
+                               "strain.friction_factor=" + std::to_string(friction)});
   };
   evaluate(scratch / "both.h5", scratch / "varied.h5", job("true"));
   evaluate(scratch / "both.h5", scratch / "known.h5", job("false"));
-  evaluate(scratch / "softer.h5", scratch / "one.h5", job("false"));
   CHECK_FALSE(FileReader(scratch / "known.h5", pipeline::strain_format()).has("/variation/stiffness"));
   constexpr std::size_t no_room = 1;  // segments are read one by one
   evaluate(scratch / "both.h5", scratch / "no_room.h5", job("true"), no_room, 3);
   CHECK(pipeline::bytes_of(scratch / "no_room.h5") == pipeline::bytes_of(scratch / "varied.h5"));
-  const FileReader varied(scratch / "varied.h5", pipeline::strain_format()),
-      one(scratch / "one.h5", pipeline::strain_format());
-  const auto stiffness = varied.read<double>("/variation/stiffness");
-  REQUIRE(stiffness.back() == -1.2);
-  CHECK(std::ranges::count(stiffness, 0.0) == static_cast<std::ptrdiff_t>(stiffness.size()) - 1);
+  const FileReader varied(scratch / "varied.h5", pipeline::strain_format());
+  const auto stiffness = varied.read<double>("/variation/stiffness"), z = varied.read<double>("/variation/z");
+  const std::vector<double> frictions{0, -1.5, -0.75, 1.5};
+  const std::size_t others = stiffness.size() - frictions.size(), in_row = z.size() / stiffness.size();
+  CHECK(std::ranges::count(stiffness, 0.0) == static_cast<std::ptrdiff_t>(others));
   const auto variation = varied.read<std::uint32_t>("/variation/row/variation"),
              site = varied.read<std::uint32_t>("/variation/row/site"),
              turning_points = varied.read<std::uint32_t>("/variation/row/turning");
-  const auto strain = varied.read<float>("/variation/strain"), own = one.read<float>("/reversal/strain");
-  const auto offset = one.read<std::uint64_t>("/reversal/offset");
+  const auto strain = varied.read<float>("/variation/strain");
   constexpr double third_harmonic = 1e-3;  // error of the waves of a layer (W13), share of the strain's range
-  std::size_t next = 0, compared = 0;
-  for (std::size_t row = 0; row < site.size(); next += turning_points[row++]) {
-    if (stiffness[variation[row]] == 0) continue;
-    const auto [low, high] = std::minmax_element(strain.begin() + next, strain.begin() + next + turning_points[row]);
-    const auto [own_low, own_high] =
-        std::minmax_element(own.begin() + offset[site[row]], own.begin() + offset[site[row] + 1]);
-    const double range = *own_high - *own_low;
-    CHECK(std::abs(*low - *own_low) < third_harmonic * range);
-    CHECK(std::abs(*high - *own_high) < third_harmonic * range);
-    ++compared;
+  std::set<std::vector<float>> different;
+  for (std::size_t k = 0; k < frictions.size(); ++k) {
+    REQUIRE(stiffness[others + k] == -1.2);
+    REQUIRE(z[(others + k) * in_row] == frictions[k]);
+    evaluate(scratch / "softer.h5", scratch / "one.h5", job("false", std::pow(2.2, frictions[k])));
+    const FileReader one(scratch / "one.h5", pipeline::strain_format());
+    const auto own = one.read<float>("/reversal/strain");
+    const auto offset = one.read<std::uint64_t>("/reversal/offset");
+    different.insert(own);
+    std::size_t next = 0, compared = 0;
+    for (std::size_t row = 0; row < site.size(); next += turning_points[row++]) {
+      if (variation[row] != others + k) continue;
+      const auto [low, high] = std::minmax_element(strain.begin() + next, strain.begin() + next + turning_points[row]);
+      const auto [own_low, own_high] =
+          std::minmax_element(own.begin() + offset[site[row]], own.begin() + offset[site[row] + 1]);
+      const double range = *own_high - *own_low;
+      CHECK(std::abs(*low - *own_low) < third_harmonic * range);
+      CHECK(std::abs(*high - *own_high) < third_harmonic * range);
+      ++compared;
+    }
+    CHECK(compared >= segments);
   }
-  CHECK(compared >= segments);
+  CHECK(different.size() == frictions.size());  // otherwise the friction is not tested
 }

@@ -174,6 +174,33 @@ TEST_CASE("a response has the values of its table at every combination of nodes"
     }
 }
 
+TEST_CASE("the hose's stiffness counts with the friction inside at which it was computed, and joins slack and play") {
+  constexpr std::size_t stiffness = index_of(Uncertain::hose_stiffness);
+  RandomTable table;
+  LifeResponse& of = table.response;
+  std::map<std::pair<double, double>, double> crossed;  // (friction, stiffness) W
+  for (const double k : {-1.65, 1.65})
+    for (const double f : table.nodes[friction]) {
+      of.points.push_back({}), of.inside.push_back(Inside::as_is);
+      of.points.back()[friction] = f, of.points.back()[stiffness] = k;
+      const double life = crossed[{f, k}] = table.random();
+      of.worst_life.insert(of.worst_life.end(), 12, life);
+    }
+  const double at_zero = table.worst(Inside::as_is, 0, 0, 0, 0, 0);
+  for (const double f : table.nodes[friction])
+    for (const double k : {-1.65, 1.65}) {
+      ParameterPoint z = at(friction, f);
+      z[stiffness] = k;
+      CHECK(of.change(z) == Approx(crossed[{f, k}] - at_zero).margin(rounding));
+      z[slack] = 1, z[play] = 2;
+      const double with_slack = together(table.worst(Inside::as_is, f, 0, 0, 0, 0),
+                                         std::array{table.worst(Inside::as_is, f, 1, 0, 0, 0), crossed[{f, k}]});
+      CHECK(of.change(z) ==
+            Approx(together(at_zero, std::array{with_slack, table.worst(Inside::as_is, 0, 0, 2, 0, 0)}) - at_zero)
+                .margin(rounding));
+    }
+}
+
 TEST_CASE(
     "a response is straight along each axis between neighbouring nodes and beyond the last, as far as 3.5") {
   RandomTable table;
