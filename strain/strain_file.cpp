@@ -517,11 +517,10 @@ class OwnResults {
 using LikelySites = std::vector<std::vector<Evaluation::Site>>;  ///< (segment)
 
 /// Writes the variations with another stiffness of the hose: the likely worst wires of the job, with each factor of the friction
-/// inside. laid: cables in this motion, which continue from the job's own rest. variation: number of the first one.
-void write_other_motion(MotionReader& motion, const Starts::Spans& own, Starts::Spans& laid, HistoryWindow& window,
-                        std::size_t threads, const LikelySites& likely, const std::vector<double>& friction_factors,
-                        std::size_t variation, VariationWriter& rows) {
-  for (std::size_t span = 0; span < own.size(); ++span) laid[span]->go_on_from(*own[span]);
+/// inside. laid: cables in this motion. variation: number of the first one.
+void write_other_motion(MotionReader& motion, Starts::Spans& laid, HistoryWindow& window, std::size_t threads,
+                        const LikelySites& likely, const std::vector<double>& friction_factors, std::size_t variation,
+                        VariationWriter& rows) {
   Starts starts(laid);
   Passage passage(motion, starts, window, threads);
   passage.rehearse(rehearsed_varied, 0);
@@ -612,7 +611,7 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
   for (std::size_t other = 0; other < others.size(); ++other) {
     MotionReader& of = others[other].reader;
     Evaluations laid(job, of, threads, job.strain.factors, scratch, &all);
-    write_other_motion(of, evaluations, laid.of_span, window, threads, likely, friction_factors,
+    write_other_motion(of, laid.of_span, window, threads, likely, friction_factors,
                        variations.points().size() + other * friction_factors.size(), variation_rows);
     work.other_motions(other + 1);
   }
