@@ -25,7 +25,7 @@ void describe(Fields& f, Strain& strain) {
   f.integer("surface_fibres", strain.surface_fibres, Need::optional, between(0, 64),
             "The number of fibres on each wire's surface. 1: the outer one. 0: the axis.");
   f.number("gate", strain.gate, Need::optional, between(0, 0.1),
-           "The strain range below which turning points are dropped.");
+           "The strain range below which turning points are dropped. Lives whose cycles lie below it are endless.");
   f.integer(
       "cable_elements_per_segment", strain.cable_elements, Need::optional, between(0, most_cable_elements),
       "The number of pieces per segment of loose cables, which bend in shorter waves than the hose. 0: by "

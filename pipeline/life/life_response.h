@@ -3,8 +3,8 @@
 // z of all parameters and u are standard normal. log10 of a life in repeats is
 //     P(z_scatter, u) + W(z) - W(0) + log10 of the model's factor,
 // P is the life over the scatter of wires, interpolated linearly between its percentiles. W is log10 of the worst wire's life,
-// computed at some points of z: for friction and slack at all their combinations, for every other parameter of the strain side
-// alone, and at each of these points for strength and slope of the material. together() combines changes that were computed
+// computed at some points of z: for friction with slack and friction with the hose's stiffness at all their combinations, for
+// every other parameter of the strain side alone, and at each of these points for strength and slope of the material. together() combines changes that were computed
 // alone. W is interpolated linearly along each axis and extrapolated with the same slope. A life above `endless` counts as
 // infinite. The same data exist for the bounds: cables whose parts are glued, and cables whose parts slip without friction. For
 // the bounds friction has no effect, and W is a function of slack. It is shifted so that W at z = 0 is the life of the bound's

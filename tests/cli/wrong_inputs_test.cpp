@@ -426,7 +426,7 @@ const Doubtful doubtful[] = {
     {"hose.yaml", "slack_percent: 1", "slack_percent: 1\n    friction_coefficient: 0.3\n    radial_line_load_N_per_m: 5e6", "hose.yaml:12:5", "radial_line_load_N_per_m of 'lead' is 5e+06, 610 MPa on its width (limit 10: jackets yield)", "0.05 MPa times the part's width"},
     {"job.yaml", "segments: 24", "segments: 24, time_step_ms: 20", "", "simulation.time_step_ms is 20 (limit 10 or less)", "simulation.time_step_ms: 5, or auto"},
     {"job.yaml", "segments: 24", "segments: 24, sample_rate_Hz: 0.5", "", "simulation.sample_rate_Hz is 0.5 (limit 5 or more)", "simulation.sample_rate_Hz: 25"},
-    {"job.yaml", "simulation: {", "strain: {gate: 0.1}\nsimulation: {", "", "strain.gate is 0.1 (limit 0.0005 or less): cycles below it are left out", "strain.gate: 0.001 if"},
+    {"job.yaml", "simulation: {", "strain: {gate: 0.1}\nsimulation: {", "", "strain.gate is 0.1 (limit 0.0002 or less): cycles below it are left out", "strain.gate: 0.001 if"},
     {"job.yaml", "free_length_m: 2.035", "free_length_m: 203.5", "", "least slack: too long", "routing.free_length_m: 2.046"},
     simulation_key("gravity_m_per_s2: [0, 0, 9.81]", "the upward part of simulation.gravity_m_per_s2 is 9.81", "simulation.gravity_m_per_s2: [0, 0, -9.81]"),
     simulation_key("gravity_m_per_s2: [0, 0, -1]", "the size of simulation.gravity_m_per_s2 is 1 (limit 9.71 .. 9.90). Likely cause: multiples of g", "simulation.gravity_m_per_s2: [0, 0, -9.81]"),

@@ -150,10 +150,10 @@ TEST_CASE("plausible jobs: a sample rate that misses the swing, a gate that hide
     if (prescribed) job.motion.rig.emplace();
     return plausibility_warnings(job).size();
   };
-  CHECK(doubts_of(5, 5e-4, false) == 0);
-  CHECK(doubts_of(4.9, 5e-4, false) == 1);
-  CHECK(doubts_of(4.9, 5e-4, true) == 0);
-  CHECK(doubts_of(5, 5.1e-4, true) == 1);
+  CHECK(doubts_of(5, 2e-4, false) == 0);
+  CHECK(doubts_of(4.9, 2e-4, false) == 1);
+  CHECK(doubts_of(4.9, 2e-4, true) == 0);
+  CHECK(doubts_of(5, 2.1e-4, true) == 1);
   CHECK(doubts_of(1, 0.1, false) == 2);
 }
 
