@@ -419,6 +419,9 @@ void find_kinks(Search& found) {
           "Its tightest bend has a radius of {} mm. {} {} mm{}.", pipeline::readable(1e3 * radius_of(worst), 3),
           spreads ? "By its two diameters half of such tubes kink at" : "Its maker allows",
           pipeline::readable(1e3 * worst.kinks.median, 3), spreads ? "" : " or more");
+      constexpr double other_polymers = 5;  // times as large are the largest published radii (kink.h)
+      if (spreads && mode.margin < other_polymers)
+        mode.note += " Tubes of PTFE with thick walls kink at up to five times that: give least_bend_radius_mm of such a hose.";
     }
     found.put_lives(mode, std::move(own));
   }

@@ -137,6 +137,10 @@ class Judge {
                         1e3 * of.jacket->thickness, 1e3 * thickest_jacket * usual, thickest_jacket),
             "the added diameter instead of one wall, or another unit",
             fmt::format("jacket {:.3g} mm if that was both walls, or {:.2g} mm, a usual one", 5e2 * of.jacket->thickness, 1e3 * usual));
+      if (of.jacket && of.jacket->thickness < thinnest_sleeve)
+        add(of.where,
+            fmt::format("the jacket of '{}' is {:.3g} mm thick (limit {:g} or more)", of.name, 1e3 * of.jacket->thickness, 1e3 * thinnest_sleeve),
+            "metres instead of millimetres", fmt::format("thickness_mm: {:.4g} if that was metres", 1e6 * of.jacket->thickness));
       if (of.friction.value_or(0) > largest_friction)
         add(of.where, fmt::format("friction_coefficient of '{}' is {:.3g} (limit {:g})", of.name, *of.friction, largest_friction),
             "per cent instead of a share",

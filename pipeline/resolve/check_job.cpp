@@ -123,23 +123,29 @@ void check_wear(const Sleeve& layer, const std::string& key, const Dresspack& dr
                      fmt::format("give the material the list wear, or leave the {} out", key));
 }
 
+/// name, whole: in words, "the sleeve", "dresspack". radius: of the whole [m].
+void check_thickness(const Sleeve& layer, const std::string& name, const char* whole, double radius) {
+  if (layer.thickness < radius) return;
+  throw InputError(layer.where,
+                   fmt::format("{} is {:.4g} mm thick, the {} {:.4g} mm wide", name, 1e3 * layer.thickness, whole, 2e3 * radius),
+                   "give thickness_mm of one wall, less than the radius");
+}
+
 void check_uses(const Dresspack& dresspack) {
   for (const Component& part : dresspack.components) {
     check_uses(part, dresspack);
     if (!part.jacket) continue;
     check_wear(*part.jacket, "jacket", dresspack);
-    if (!(part.jacket->thickness < part.radius))
-      throw InputError(part.jacket->where,
-                       fmt::format("the jacket of '{}' is {:.4g} mm thick, the cable {:.4g} mm wide", part.name,
-                                   1e3 * part.jacket->thickness, 2e3 * part.radius),
-                       "give thickness_mm of one wall, less than the radius");
+    check_thickness(*part.jacket, fmt::format("the jacket of '{}'", part.name), "cable", part.radius);
   }
   const Material* const hose = find_material(dresspack, dresspack.hose_material);
   if (hose && !hose->has_strain_life())
     throw InputError(dresspack.where,
                      fmt::format("hose_material '{}' only has wear rates (the wall's strain needs a life)", hose->name),
                      "give it a strain_life_table, or name it in sleeve");
-  if (dresspack.sleeve) check_wear(*dresspack.sleeve, "sleeve", dresspack);
+  if (!dresspack.sleeve) return;
+  check_wear(*dresspack.sleeve, "sleeve", dresspack);
+  check_thickness(*dresspack.sleeve, "the sleeve", "dresspack", dresspack.diameter / 2);
 }
 
 /// Checks one dresspack. path: prefix of its keys, "" or "dresspacks[2].". Returns the number of levels of its parts;

@@ -96,6 +96,14 @@ TEST_CASE("plausible: friction of the hose and of a part, up to the limit that i
   }
 }
 
+TEST_CASE("plausible: a jacket in metres is doubted") {
+  Dresspack dresspack = read_dresspack(DRESSLIFE_SOURCE_DIR "/config/dresspacks/spot_welding.yaml");
+  dresspack.components.at(0).jacket->thickness = 1.3e-6;
+  const auto warnings = plausibility_warnings(dresspack);
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0].words, Catch::Contains("thickness_mm: 1.3 if that was metres"));
+}
+
 TEST_CASE("plausible: wear rates between a tenth of the least that slides and more than abrasive cloth takes off") {
   Dresspack dresspack = read_dresspack(DRESSLIFE_SOURCE_DIR "/config/dresspacks/spot_welding.yaml");
   const auto words = [&](double rate) {

@@ -333,6 +333,8 @@ TEST_CASE("job: a sleeve has a material with wear rates, which wires and the hos
   refused("  hose_material: polyurethane\n  inner_diameter_mm: 53\n",
           "hose_material 'polyurethane' only has wear rates (the wall's strain needs a life)");
   refused("  sleeve: {thickness_mm: 0, material: polyurethane}\n", "thickness_mm");
+  refused("  sleeve: {thickness_mm: 30, material: polyurethane}\n",
+          "the sleeve is 30 mm thick, the dresspack 60 mm wide; give thickness_mm of one wall");
 }
 
 TEST_CASE("job: the jacket of a cable has a material with wear rates, and only lives depend on it") {
