@@ -1,7 +1,10 @@
 // dresslife-sim: a job in, motion.h5 out.
+#include <fmt/format.h>
+
 #include <optional>
 #include <string>
 
+#include "pipeline/base/whole_file.h"
 #include "pipeline/files/checks.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
@@ -25,7 +28,7 @@ namespace {
 
 /// What the options of this stage ask for.
 struct Request {
-  bool preview = false, rehearse = false, exercise = false;
+  bool duration = false, preview = false, rehearse = false, exercise = false;
   std::string screen;  ///< a list of changes; empty: not asked
   std::optional<int> propose;
   sim::ProposalSettings proposals;
@@ -63,6 +66,11 @@ bool written_without_run(const Request& request, const pipeline::StageCall& call
   pipeline::stamp(file, call, job, "");
   file.commit();
   return true;
+}
+
+void write_duration(const pipeline::StageCall& call, const pipeline::Job& job) {
+  if (job.motion.is_prescribed()) throw pipeline::InputError(job.motion.where, "a prescribed deformation has no path whose duration is computed", "run it");
+  pipeline::write_text_if_changed(call.output, pipeline::with_mark(fmt::format("repeat_seconds: {}\n", sim::path_of(job)->duration()), pipeline::Mark::yaml));
 }
 
 void prescribe(const pipeline::StageCall& call, const pipeline::Job& job, pipeline::Progress& progress) {
@@ -109,7 +117,8 @@ int main(int argc, char** argv) {
       .example = "dresslife-sim config/jobs/irb6640_spot_welding.yaml -o motion.h5",
       .input_is_job = true,
       .options =
-          {{"--preview", "", "simulate nothing; write what stands where, and which lengths suit (preview.h5)",
+          {{"--duration", "", "simulate nothing; write the seconds of one repeat of the motion (YAML)", &request.duration},
+           {"--preview", "", "simulate nothing; write what stands where, and which lengths suit (preview.h5)",
             &request.preview},
            {"--screen", "LIST.yaml",
             "simulate nothing; write the checks by geometry of the job with each of these changes (screening.h5)",
@@ -155,6 +164,7 @@ int main(int argc, char** argv) {
   return pipeline::run_stage(
       info, argc, argv, [&request](const pipeline::StageCall& call, pipeline::Progress& progress) {
         pipeline::Job job = pipeline::read_job(call.input, call.sets);
+        if (request.duration) return write_duration(call, job);
         if (written_without_run(request, call, job, progress)) return;
         if (job.motion.is_prescribed()) return prescribe(call, job, progress);
         try {

@@ -80,6 +80,7 @@ std::string day_remedy(const std::string& text) {
   if (std::sscanf(text.c_str(), "%4d-%2d-%2d%n", &year, &month, &day, &used) == 3 && used == static_cast<int>(text.size())) {
     int last = 31;
     while (last > 28 && !day_in_order(year, month, last)) --last;
+    if (month >= 1 && month <= 12 && day >= 1 && day <= last) return fmt::format("write {:04}-{:02}-{:02}", year, month, day);
     return date_remedy + (month < 1 || month > 12 ? std::string(" (a year has 12 months)")
                                                   : fmt::format(" ({:04}-{:02} has {} days)", year, month, last));
   }

@@ -2,13 +2,22 @@
 
 #include <fmt/format.h>
 
+#include <map>
+#include <set>
+#include <string>
+
 #include "pipeline/advise/plan/evaluated_duties.h"
 #include "pipeline/advise/plan/rounds.h"
+#include "pipeline/base/csv_rows.h"
 #include "pipeline/base/installation.h"
-#include "pipeline/base/plain_file.h"
+#include "pipeline/base/whole_file.h"
 #include "pipeline/commands/making.h"
+#include "pipeline/job/job.h"
+#include "pipeline/resolve/job_text.h"
+#include "pipeline/settings/document.h"
 #include "pipeline/study/folder_lock.h"
 #include "pipeline/study/folder_source.h"
+#include "pipeline/study/stage_program.h"
 
 namespace dresslife::pipeline {
 
@@ -22,6 +31,32 @@ void add_rounds(const DutyFile& file, const RunOptions& options, Study& study, c
   if (rounds.jobs.empty()) return;
   for (RankingRow& row : made_rows(rounds, places, options)) rows.push_back(std::move(row));
   study.jobs.insert(study.jobs.end(), rounds.jobs.begin(), rounds.jobs.end());
+}
+
+/// Returns, by job, the duration of one repeat of the duties' programs. A motion that dresslife-sim refuses is left out, because
+/// the run states the reason. So are the programs beyond the first hundred: a large study needs no wait before its first stage.
+std::map<std::string, double> repeat_seconds(const DutyFile& file, const Study& study) {
+  constexpr std::size_t most = 100;  // each takes less than a tenth of a second
+  std::set<std::string> named;
+  for (const Duty& duty : file.duties)
+    for (const DutyProgram& program : duty.programs)
+      if (named.size() < most) named.insert(program.job);
+  const PassingFile described("job.yaml"), duration("duration.yaml");
+  std::map<std::string, double> seconds;
+  for (const StudyJob& job : study.jobs) {
+    if (!named.contains(job.name) || !job.job || job.job->motion.is_prescribed()) continue;
+    write_text_if_changed(described.path(), with_mark(job_text(*job.job), Mark::yaml), Sync::never);
+    if (run_stage_program("dresslife-sim", {described.path().string(), "--duration", "-o", duration.path().string(), "--quiet"}, StageWords::dropped) != 0)
+      continue;
+    const Node written = read_yaml(duration.path());
+    if (const Node* const of_repeat = written.find("repeat_seconds")) seconds[job.name] = number_in(of_repeat->text).value_or(0);
+  }
+  return seconds;
+}
+
+void check_before_run(const DutyFile& file, const StudyState& standing) {
+  check_programs(file, standing.study);
+  if (!standing.all_done()) check_hours(file, repeat_seconds(file, standing.study));
 }
 
 }  // namespace
@@ -43,7 +78,7 @@ DutiesRun run_duties(const DutyFile& file, const RunOptions& options) {
   const bool begun = kind_of(folder) == FileKind::folder;
   StudyState standing;
   if (!begun) standing = expanded(request);  // a study that cannot be expanded creates no folder
-  if (!begun) check_programs(file, standing.study);
+  if (!begun) check_before_run(file, standing);
   const FolderLock lock(folder);
   claim_folder(folder, study);
   if (begun) standing = standing_of(request);
@@ -51,7 +86,7 @@ DutiesRun run_duties(const DutyFile& file, const RunOptions& options) {
     read_jobs(standing);
   else if (standing.remembered)
     standing = expanded(request);
-  if (begun) check_programs(file, standing.study);
+  if (begun) check_before_run(file, standing);
   for (const Warning& warning : mounting_warnings(file, standing.study, nullptr)) tell(shown(warning.line() + "\n"));
   if (!begun) look_again(standing);
   make_rest(request, standing, options);

@@ -267,7 +267,7 @@ int plan(const PlanOptions& options) {
   };
   print(options.json ? json()
                      : shown(fmt::format("{}{}{}\n{}Table: {} (columns: comma, decimals: point)\nWeeks: {}\nCalendar: {}\nPage: {}\n",
-                                         block(doubts(duties)), plan_words(fleet, found), tests,
+                                         block(doubts(duties)), plan_words(fleet, found), wrapped_lines(tests),
                                          block(cautions(duties)), table.string(), weeks.string(),
                                          calendar.string(), page.string()) +
                              what_if));

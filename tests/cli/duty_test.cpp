@@ -181,6 +181,8 @@ TEST_CASE("duties that cannot be added up are refused before anything runs") {
   };
   CHECK(refusal("[{job: one, percent_of_time: 5}, {job: stiff, percent_of_time: 5}]").find("differ in dresspack") != std::string::npos);
   CHECK(refusal("[{job: onee, percent_of_time: 5}]").find("did you mean 'one'?") != std::string::npos);
+  const std::string too_many = refusal("[{job: one, repeats_per_hour: 10000}, {job: other, percent_of_time: 5}]");
+  CHECK_THAT(too_many, Catch::Contains("duties.yaml:3") && Catch::Contains("minutes of each hour (10,000 x") && Catch::Contains("of 'other'"));
   CHECK_FALSE(fs::exists(scratch / "runs"));
   const std::string outlived = refusal("[{job: one, percent_of_time: 5}]", "    history: [{duty: d, hours: 9.0e+6}]\n");
   CHECK(outlived.find("the model contradicts this dresspack") != std::string::npos);

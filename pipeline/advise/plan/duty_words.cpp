@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -125,25 +126,39 @@ std::string recording_words(const DutyResult& duty) {
   for (std::size_t k = 0; k < duty.parts.size(); ++k)
     if (!duty.parts[k].recording_of.empty() && duty.parts[k].repeats_per_hour > 0) cycles[duty.parts[k].recording_of].push_back(k);
   std::string text;
+  bool leaves_out_rests = false;
   for (const auto& [name, of] : cycles) {
     double repeats = 0, damage = 0, squares = 0;
     for (const std::size_t k : of) repeats += duty.parts[k].repeats_per_hour, damage += duty.lives.share[k];
     if (of.size() < 2 || !(damage > worth_a_word)) continue;
     double least = INFINITY, most = 0, before = 0;
+    std::array<double, 2> at_other_rests{};
     for (const std::size_t k : of) {
       const double times = duty.lives.share[k] / duty.parts[k].repeats_per_hour / (damage / repeats);
       least = std::min(least, times), most = std::max(most, times);
       if (k != of.front()) squares += (times - before) * (times - before) / 2;  // they are in the order of their expected damage
       before = times;
+      for (const std::size_t side : {0, 1}) at_other_rests[side] += duty.lives.share[k] / damage * duty.parts[k].at_other_rests[side];
     }
-    const double count = static_cast<double>(of.size());
-    text += wrapped(fmt::format("The {} recordings of {} do {:.2f} to {:.2f} times its mean damage: the standard error of the mean is {} %.", of.size(),
-                                name, least, most, readable(100 * std::sqrt(squares / (count - 1) / count), 2)),
-                    118, "  ");
+    const double count = static_cast<double>(of.size()), error = std::sqrt(squares / (count - 1) / count);
+    std::string words = fmt::format("The {} recordings of {} do {:.2f} to {:.2f} times its mean damage: the standard error of the mean is {} %.", of.size(),
+                                    name, least, most, readable(100 * error, 2));
+    const auto [low, high] = std::minmax(at_other_rests[0], at_other_rests[1]);
+    if (!(low > 0)) {
+      leaves_out_rests = true;
+    } else if (high > low) {
+      const double of_rest = std::max(std::abs(std::log(low)), std::abs(std::log(high)));
+      words += fmt::format(" With the loose cables at other places of rest (one standard deviation) it is {} to {} times as large. Together the mean is known "
+                           "within a factor of {}.",
+                           readable(low, 2), readable(high, 2), readable(std::exp(std::hypot(of_rest, std::log1p(error))), 2));
+    }
+    text += wrapped(words, 118, "  ");
   }
-  return text.empty() ? text : text + wrapped("Where cables lie loose in the hose, the damage of a cycle also depends on the places at which they rest before it. "
-                                              "The standard error leaves that out: it may be several times too small.",
-                                              118, "  ");
+  if (leaves_out_rests)
+    text += wrapped("Where cables lie loose in the hose, the damage of a cycle also depends on the places at which they rest before it. With "
+                    "uncertainty.rest: 0 the standard error leaves that out: it may be several times too small.",
+                    118, "  ");
+  return text;
 }
 
 }  // namespace

@@ -358,34 +358,45 @@ std::vector<double> repeats_of(const std::vector<DutyPart>& parts) {
   return repeats;
 }
 
+/// The time that the programs of a duty take in an hour of operation.
+class HourOfDuty {
+ public:
+  void add(double repeats, double seconds, const std::string& what) {
+    time_ += repeats * seconds / 3600;
+    words_ += fmt::format("{}{} x {:.1f} s of {}", words_.empty() ? "" : ", ", readable(repeats), seconds, what);
+  }
+  /// Errors: InputError if the programs take longer than the hour.
+  void check(const Duty& duty) const {
+    constexpr double rounding = 1e-9;
+    if (time_ > 1 + rounding)
+      throw InputError(duty.where,
+                       fmt::format("the programs of duty '{}' take {:.1f} minutes of each hour ({})", duty.name, 60 * time_, words_),
+                       "give fewer repeats, or smaller shares of the time");
+  }
+
+ private:
+  double time_ = 0;
+  std::string words_;
+};
+
 std::vector<Rate> rates_of(const Duty& duty, Programs& programs, std::vector<DutyPart>& parts) {
   std::vector<Rate> rates;
-  double time = 0;
-  std::string words;
+  HourOfDuty hour;
   for (const DutyProgram& program : duty.programs) {
     const double seconds = programs.row(program).repeat_seconds;
     const double rate = program.rate(seconds, duty.shift_hours, duty.repeats_per_hour);
     rates.push_back({rate, program.deviation_percent});
     parts.push_back({.job = program.job, .repeats_per_hour = rate, .share_of_time = rate * seconds / 3600, .recording_of = program.recording_of});
-    time += parts.back().share_of_time;
-    words += fmt::format("{}{} x {:.1f} s of '{}'", words.empty() ? "" : ", ", readable(rate), seconds,
-                         program.job);
+    hour.add(rate, seconds, fmt::format("'{}'", program.job));
   }
   if (!duty.order.empty()) {
     double moves = programs.row(program_of_round(duty)).repeat_seconds;  // moves between the programs of a round
     for (const OrderedProgram& ordered : duty.order)
       for (const DutyProgram& program : duty.programs)
         if (program.job == ordered.job) moves -= programs.row(program).repeat_seconds;
-    const double rounds = repeats_in_rounds(duty, repeats_of(parts)).back();
-    time += rounds * moves / 3600;
-    words += fmt::format(", {} x {:.1f} s of moves between them", readable(rounds), moves);
+    hour.add(repeats_in_rounds(duty, repeats_of(parts)).back(), moves, "moves between them");
   }
-  constexpr double rounding = 1e-9;
-  if (time > 1 + rounding)
-    throw InputError(duty.where,
-                     fmt::format("the programs of duty '{}' take {:.1f} minutes of each hour ({})", duty.name,
-                                 60 * time, words),
-                     "give fewer repeats, or smaller shares of the time");
+  hour.check(duty);
   return rates;
 }
 
@@ -408,6 +419,25 @@ void vary_repeats(const Duty& duty, const SamePlace& places, DutyResult& result)
     for (int i = 0; i <= steps; ++i)
       part.over_share.push_back({most * i / steps, lives_at(most * i / steps / part.share_of_time)});
   }
+}
+
+/// Returns DutyPart::at_other_rests, for the mode that fails first at the medians.
+std::array<double, 2> at_other_rests(const FailureModes& modes) {
+  const std::size_t rest = index_of(Uncertain::rest);
+  const auto median = [](const LifeResponse& mode) { return LifeSurface(mode).log10_life({}, 0, Inside::as_is); };
+  const LifeResponse& first = *std::ranges::min_element(modes, {}, median);
+  const auto at = static_cast<Eigen::Index>(rest);
+  const double deviation = std::sqrt(first.knowledge.covariance(at, at));
+  if (!(deviation > 0)) return {};
+  const LifeSurface life(first);
+  std::array<double, 2> ratios{1, 1};
+  if (!life.depends_on(rest)) return ratios;
+  for (const int side : {-1, 1}) {
+    ParameterPoint z{};
+    z[rest] = side * deviation;
+    ratios[side > 0] = std::pow(10, life.change({}, Inside::as_is) - life.change(z, Inside::as_is));
+  }
+  return ratios;
 }
 
 }  // namespace
@@ -444,6 +474,19 @@ void check_programs(const DutyFile& file, const Study& study) {
     problems.attempt("", duty.where, [&] {
       for (const DutyProgram& program : duty.programs) jobs.of(program);
       check_same_dresspack(file, duty, jobs, texts);
+    });
+  problems.finish(file.where.file);
+}
+
+void check_hours(const DutyFile& file, const std::map<std::string, double>& repeat_seconds) {
+  Problems problems;
+  for (const Duty& duty : file.duties)
+    problems.attempt("", duty.where, [&] {
+      HourOfDuty hour;
+      for (const DutyProgram& program : duty.programs)
+        if (const auto known = repeat_seconds.find(program.job); known != repeat_seconds.end())
+          hour.add(program.rate(known->second, duty.shift_hours, duty.repeats_per_hour), known->second, fmt::format("'{}'", program.job));
+      hour.check(duty);
     });
   problems.finish(file.where.file);
 }
@@ -526,6 +569,8 @@ std::vector<DutyResult> evaluated(const DutyFile& file, const Study& study,
     std::vector<Rate> rates;
     DutyResult& result = results.emplace_back(outline_of(duty, programs, rates));
     const std::vector<EvaluatedProgram> evaluated = programs.of(duty);
+    for (std::size_t k = 0; k < evaluated.size(); ++k)
+      if (!result.parts[k].recording_of.empty()) result.parts[k].at_other_rests = at_other_rests(*evaluated[k].modes);
     for (const LifeResponse& mode : *evaluated.front().modes) result.modes.push_back(mode.mode);
     const std::optional<WireDamage> round = programs.round_of(duty, evaluated.front());
     const SamePlace places(evaluated, round ? &*round : nullptr);

@@ -1,6 +1,7 @@
 // The duties of a file, evaluated with the results of the study that the file names.
 #pragma once
 
+#include <array>
 #include <map>
 #include <set>
 #include <string>
@@ -30,6 +31,9 @@ struct DutyPart {
   LifePercentiles without{}, as_twice{};  ///< [h] lives under the duty without this program, and with twice as many repeats of it
   std::vector<LifeAtShare> over_share{};  ///< from 0 to all time that the other programs leave; empty: it never runs
   std::string recording_of{};  ///< DutyProgram::recording_of
+  /// ratio of its damage with the loose cables at other places of rest, one standard deviation to either side, to its damage at the
+  /// medians; 1: no effect; 0: not known
+  std::array<double, 2> at_other_rests{};
 };
 
 /// A mode that no test validates (unvalidated_modes.h), of one dresspack; of ratings, of one cable.
@@ -66,6 +70,9 @@ std::vector<DutyMode> other_modes(const std::vector<DutyPart>& parts, const std:
 /// Checks the programs before the study runs. Errors: InputError for a program that is no job of the study, for a study that
 /// keeps no lives, and for programs with different dresspacks, routings or settings, because their damage does not add up.
 void check_programs(const DutyFile& file, const Study& study);
+/// Checks before the study runs that the programs fit into the hours of operation. repeat_seconds: (name of the job) duration of
+/// one repeat; a program without an entry counts as no time. The moves of an order are not counted. Errors: InputError.
+void check_hours(const DutyFile& file, const std::map<std::string, double>& repeat_seconds);
 /// Returns a warning for duties whose programs start in different poses if the study does not give the pose in which the hose is
 /// mounted: then the hose has another twist in each program. rows: null before the run (checks programs with poses in the jobs);
 /// rows of the study after the run (checks programs in files, whose poses are in their strain.h5). Precondition:

@@ -181,10 +181,8 @@ std::string check_words(const std::optional<std::vector<CheckValue>>& checks, co
   constexpr double worth_a_line = 1e-3;  // of the cost of one unplanned replacement
   constexpr std::size_t most = 3;
   if (!checks)
-    return wrapped(
-        "By the predicted abrasion fewer than 1 in 1,000 such plants have all of these dresspacks alive today, so no value of "
-        "visual checks is given.",
-        width, "");
+    return "By the predicted abrasion fewer than 1 in 1,000 such plants have all of these dresspacks alive today, so no value of "
+           "visual checks is given.\n";
   double fails = 0, found = 0, saves = 0;
   std::vector<std::size_t> best;
   for (std::size_t i = 0; i < checks->size(); ++i) {
@@ -244,9 +242,20 @@ std::string age_words(const Fleet& fleet, const Plan& plan, const std::map<std::
     std::string line = fmt::format("Not validated and not in this plan: {}. At these ages 1 of 10 dresspacks has failed by it.", mode);
     if (!reached.today.empty()) line += fmt::format(" Inspect now: {}.", names(reached.today));
     if (!reached.later.empty()) line += fmt::format(" They reach this age before they are replaced: {}.", names(reached.later));
-    text += wrapped(line, width, "");
+    text += line + '\n';
   }
   return text;
+}
+
+std::string wrapped_lines(const std::string& text) {
+  std::string lines;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    const std::string line = text.substr(begin, end - begin);
+    begin = end + 1;
+    lines += columns_of(line) > width ? wrapped(line, width, "") : line + '\n';
+  }
+  return lines;
 }
 
 std::vector<BesideRow> beside_rows(const Fleet& fleet, const Plan& plan, const Fleet& changed, const Plan& other) {

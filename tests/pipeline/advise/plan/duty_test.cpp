@@ -120,6 +120,13 @@ TEST_CASE("a duty states how much the damages of a cycle's recordings differ") {
   // Damage of 0.1 and 0.3: 0.6 and 1.8 times the mean, sqrt(1.2^2 / 2 / 2) = 0.6.
   duty.parts.erase(duty.parts.begin() + 2), duty.lives.share = {0.2, 0.3, 0.4, 0};
   CHECK_THAT(in_one_line(mixture_words(duty)), Catch::Contains("The 2 recordings of cycle do 0.60 to 1.80 times its mean damage: the standard error of the mean is 60 %."));
+  // The places of rest are not known: the words name what the error leaves out. Held cables have one place of rest.
+  CHECK_THAT(in_one_line(mixture_words(duty)), Catch::Contains("the standard error leaves that out"));
+  for (DutyPart& part : duty.parts) part.at_other_rests = {1, 1};
+  CHECK_THAT(in_one_line(mixture_words(duty)), !Catch::Contains("rest"));
+  // Shares of 0.4 and 0.6: 0.4 x 2 + 0.6 x 4 = 3.2 and 0.4 x 0.5 + 0.6 x 0.25 = 0.35 times; exp(hypot(ln 3.2, ln 1.6)) = 3.5.
+  duty.parts[0].at_other_rests = {2, 0.5}, duty.parts[1].at_other_rests = {4, 0.25};
+  CHECK_THAT(in_one_line(mixture_words(duty)), Catch::Contains("it is 0.35 to 3.2 times as large. Together the mean is known within a factor of 3.5."));
 }
 
 TEST_CASE("a duty states by how much its programs damage different places, from 5 % on, and what changes add, from 1 % on") {

@@ -56,8 +56,8 @@ TEST_CASE("a plan names the dresspacks that reach the age of a mode without vali
   Plan plan = plan_of(fleet, {{"d", weibull(3, {1e6})}}, windows_in({4, 14}), start, {0.2, false});
   REQUIRE((plan.end - plan.today).count() == 24 * 7);
   const auto words = [&](double hours) {
-    std::string text = age_words(fleet, plan, {{"d", {{"jacket wear", hours}}}}, {{"d", week}});
-    std::replace(text.begin(), text.end(), '\n', ' ');  // in one line
+    const std::string text = age_words(fleet, plan, {{"d", {{"jacket wear", hours}}}}, {{"d", week}});
+    CHECK(text.find('\n') + 1 == text.size());  // one line, so that a page breaks it by its own width; empty: none
     return text;
   };
   CHECK(words(2900).find("jacket wear") != std::string::npos);
@@ -66,6 +66,9 @@ TEST_CASE("a plan names the dresspacks that reach the age of a mode without vali
   CHECK(words(100).find("Inspect now: r0, r1, r2.") != std::string::npos);
   CHECK(words(4200 + 24 * week + 1).empty());
   CHECK(age_words(fleet, plan, {}, {}).empty());
+  const std::string lines = wrapped_lines("  1,234  a test\n" + words(2900));
+  CHECK(lines.starts_with("  1,234  a test\nNot validated"));
+  for (std::size_t begin = 0, end; (end = lines.find('\n', begin)) != std::string::npos; begin = end + 1) CHECK(end - begin <= 118);
   // If it is replaced in the first window, its age increases by at most 4 weeks.
   for (RowPlan& row : plan.rows) row.window = 0;
   CHECK(words(2800 + 4 * week + 1).find("r1") == std::string::npos);
@@ -445,7 +448,9 @@ TEST_CASE("a fleet is read from a spreadsheet's table, and what is wrong in it i
   CHECK(fleet.rows[0].hours_per_week == 100.0);
   CHECK(fleet.rows[1].since == start);
   CHECK(fleet.has_costs);
+  CHECK(refusal("name,duty,installed\nr,day,2025-2-3\n").find("'2025-2-3' is no date; write 2025-02-03") != std::string::npos);
   CHECK(refusal("name,duty,installed\nr,day,2025-02-30\n").find("fleet.csv:2:7: error: '2025-02-30' is no date") != std::string::npos);
+  CHECK(refusal("name,duty,installed\nr,day,2025-2-3\n").find("'2025-2-3' is no date; write 2025-02-03") != std::string::npos);
   CHECK(refusal("name,duty,installed\nr,day,2025-02-30\n").find("as in 2027-07-12 (2025-02 has 28 days)") != std::string::npos);
   CHECK(refusal("name,duty,installed\nr,day,2025-28-02\n").find("(a year has 12 months)") != std::string::npos);
   CHECK(refusal("name,duty,installed\nr,day,soon\n").find("write YYYY-MM-DD") != std::string::npos);
