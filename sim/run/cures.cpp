@@ -239,6 +239,7 @@ class RemedySearch {
       std::size_t tried = 0;
       std::optional<Change> kept;  // keeps the limits, but not with the margin
       for (const double length : lengths(tried_lengths[turn])) {
+        if (tried == most_tried[turn] && best_.trial.radius > 0) break;
         Change change{length, routing().pre_twist, turns[turn]};
         change.curvature = trials_.curvature(length, change.turned);
         const bool is_straightest = best_.trial.radius == 0 && change.curvature < best_.curvature;

@@ -31,8 +31,6 @@ constexpr double rest_way = 0.05;  // displacement between two equilibria as a s
 constexpr double short_run_work =
     5e6;  // 2.4 s of processor time, measured: two repeats of three minutes, 64 segments without contact
 constexpr double lead_in_share = 0.5;  // share for the lead-in: a motion that takes longer runs once, from rest
-// A lead-in has a larger step and another past than the evaluated repeat. A radius that is smaller by this factor is too small there, too.
-constexpr double lead_in_margin = 0.85;
 constexpr double same_radius = 0.05;  // relative error of a bend radius with few segments
 
 pipeline::Setup with_segments(pipeline::Setup setup, int most) {
@@ -50,7 +48,7 @@ struct Rests {
 
 class QuickChecks {
  public:
-  QuickChecks(const pipeline::Setup& setup, std::vector<LongestWay> longest = {})
+  explicit QuickChecks(const pipeline::Setup& setup, std::vector<LongestWay> longest = {})
       : setup_(setup),
         rod_(rod_of(setup)),
         short_rod_(rod_of(with_segments(setup, short_run_segments))),
@@ -401,13 +399,11 @@ ShortRun short_run(pipeline::Setup setup, int segments, double useless_below, in
     sinks.goes_on = [&](double work, bool leads_in) {
       return (result.work += work) <= (leads_in ? lead_in_share : 1) * short_run_work;
     };
-    if (useless_below > 0)
-      sinks.still_of_use = [&](const MotionChecks& checks, bool leads_in) {
-        const double least = (leads_in ? lead_in_margin : 1) * useless_below;
-        for (int j = 0; j < simulation.rod().links(); ++j)
-          if (simulation.rod().span_of_link(j).dresspack == of && checks.curvature()[j].value * least > 1) return false;
-        return true;
-      };
+    sinks.still_of_use = [&](const MotionChecks& checks) {
+      for (int j = 0; j < simulation.rod().links(); ++j)
+        if (simulation.rod().span_of_link(j).dresspack == of && checks.curvature()[j].value * useless_below > 1) return false;
+      return true;
+    };
     RunSummary summary = simulation.run(sinks);
     result.checks = std::move(summary.checks);
     result.stopped_at = summary.stopped_at;

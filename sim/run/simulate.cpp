@@ -169,39 +169,32 @@ struct Simulation::Repeat {
 
 // (R8) Errors that a repeat forgets are allowed: the first repeat of a motion that ends at its begin only leads into the
 // cycle and has twice the step, except for its last tenth. The result is judged like that of any two repeats.
-// Without a world if it broke down, pulled the dresspack taut or was stopped; then the motion runs from rest, which finds the place.
-Simulation::LeadIn Simulation::led_in(const RunSinks& sinks) const {
+// Returns null if it broke down, pulled the dresspack taut or was stopped; then the motion runs from rest, which finds the place.
+std::unique_ptr<World> Simulation::led_in(const RunSinks& sinks) const {
   const double h = setup_.simulation.time_step;
   const int steps = (description_.samples - 1) * steps_per_sample(h);
   const int coarse = static_cast<int>((1 - exact_lead) * steps / 2);
   const int taut_steps = 2 * steps_per_sample(h);  // for both steps; a run with samples checks at the same distance
   std::unique_ptr<World> world = world_at(start_, path_->at(0), 2 * h);
   RodState before;
-  MotionChecks checks(rod_, limits_of(setup_));
-  bool of_use = true;
   const auto advance = [&](int at) {
     const Pose pose = path_->at(at * h);
     if (at == 2 * coarse) before = world->state();
     if (sinks.progress) sinks.progress(static_cast<double>(at) / steps);
     const double before_step = world->work();
-    if (!world->advance(pose.clamps, pose.links).finite) return false;
-    if (sinks.still_of_use && at % taut_steps == 0) {
-      checks.see(world->state(), {}, at * h);
-      of_use = sinks.still_of_use(checks, true);
-    }
-    return of_use && (at % taut_steps != 0 || rod_.mean_elongation(world->state()) <= longest_elongation) &&
+    return world->advance(pose.clamps, pose.links).finite &&
+           (at % taut_steps != 0 || rod_.mean_elongation(world->state()) <= longest_elongation) &&
            (!sinks.goes_on || sinks.goes_on(world->work() - before_step, true));
   };
-  const auto ended = [&](int at) { return of_use ? LeadIn{} : LeadIn{nullptr, at * h, checks.table()}; };
   for (int k = 1; k <= coarse; ++k)
-    if (!advance(2 * k)) return ended(2 * k);
+    if (!advance(2 * k)) return nullptr;
   if (coarse > 0)
     world = world_at(with_half_step(world->state(), before), path_->at(2 * coarse * h), h);
   else
     world = world_at(start_, path_->at(0), h);
   for (int k = 2 * coarse + 1; k <= steps; ++k)
-    if (!advance(k)) return ended(k);
-  return {std::move(world), {}, {}};
+    if (!advance(k)) return nullptr;
+  return world;
 }
 
 RunSummary Simulation::run(const RunSinks& sinks) const {
@@ -211,14 +204,7 @@ RunSummary Simulation::run(const RunSinks& sinks) const {
   summary.time_step = settings.time_step;
   bool choose = settings.choose_time_step;
   std::unique_ptr<World> world;
-  if (summary.returns && !choose && settings.most_repeats > 1) {
-    LeadIn lead_in = led_in(sinks);
-    if (lead_in.useless_at) {
-      summary.stopped_at = lead_in.useless_at, summary.checks = std::move(lead_in.checks);
-      return summary;
-    }
-    world = std::move(lead_in.world);
-  }
+  if (summary.returns && !choose && settings.most_repeats > 1) world = led_in(sinks);
   summary.repeats = world ? 2 : 1;
   if (!world) world = world_at(start_, path_->at(0), summary.time_step);
   for (bool first = true;; first = false, ++summary.repeats) {  // (R8)
@@ -227,7 +213,7 @@ RunSummary Simulation::run(const RunSinks& sinks) const {
     Repeat repeat(*this, summary.time_step);
     const bool last = !summary.returns || summary.repeats >= settings.most_repeats;
     if (const std::optional<double> stop = run_once(*world, repeat, sinks, last)) {
-      if (first || (sinks.still_of_use && !sinks.still_of_use(repeat.checks, !last)))
+      if (first || (last && sinks.still_of_use && !sinks.still_of_use(repeat.checks)))
         summary.stopped_at = stop, summary.checks = repeat.checks.table();
       return summary;
     }
@@ -316,7 +302,7 @@ std::optional<double> Simulation::run_once(World& world, Repeat& repeat, const R
     check_taut(world.state(), sample / setup_.simulation.sample_rate);
     hand_over(sample);
     if (sinks.goes_on && !sinks.goes_on(world.work() - before, false)) return sample / setup_.simulation.sample_rate;
-    if (sinks.still_of_use && !sinks.still_of_use(checks, !last)) return sample / setup_.simulation.sample_rate;
+    if (last && sinks.still_of_use && !sinks.still_of_use(checks)) return sample / setup_.simulation.sample_rate;
   }
   if (sinks.places_only) return {};
   repeat.rubbed = rubbing.patches(touch);

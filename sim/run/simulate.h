@@ -89,8 +89,8 @@ struct RunSinks {
   std::function<void(double)> progress = {};  ///< finished share of the repeat, 0..1
   /// Returns whether the run continues after further work (World::work). Second argument: whether this is the lead-in repeat.
   std::function<bool(double, bool)> goes_on = {};
-  /// Returns whether a repeat continues, given the checks of its samples so far. Second argument: whether another repeat follows.
-  std::function<bool(const MotionChecks&, bool)> still_of_use = {};
+  /// Returns whether the evaluated repeat continues, given the checks of its samples so far.
+  std::function<bool(const MotionChecks&)> still_of_use = {};
   /// Only states and clamps are wanted: a sample's energy, tension, contacts and touch, checks, rubbing and the error of the
   /// step stay empty.
   bool places_only = false;
@@ -122,12 +122,7 @@ class Simulation {
  private:
   struct Repeat;  // callbacks and checks during a repeat
   std::unique_ptr<World> world_at(const RodState& state, const Pose& pose, double step) const;
-  struct LeadIn {
-    std::unique_ptr<World> world;
-    std::optional<double> useless_at;  // [s]
-    std::vector<Check> checks;         // until then
-  };
-  LeadIn led_in(const RunSinks& sinks) const;
+  std::unique_ptr<World> led_in(const RunSinks& sinks) const;
   /// Returns the time at which it was stopped; absent: it was not.
   std::optional<double> run_once(World& world, Repeat& repeat, const RunSinks& sinks, bool last) const;
   int steps_per_sample(double step) const;

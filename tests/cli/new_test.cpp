@@ -114,6 +114,22 @@ TEST_CASE("new: where no routing keeps all limits, the warning that remains stan
   CHECK(has(content(scratch / "job.yaml"), "# " + warning + "\n"));
 }
 
+TEST_CASE("new: a slack that check proposes stands in the job, and check of the job has no warnings") {
+  Scratch scratch;
+  write_short_program(scratch);
+  std::string hose = content(fs::path(DRESSLIFE_SOURCE_DIR) / "config/dresspacks/spot_welding.yaml");
+  const std::size_t slack = hose.find("slack_percent: ");
+  REQUIRE(slack != std::string::npos);
+  hose.replace(slack, hose.find('\n', slack) - slack, "slack_percent: 0.05");
+  scratch.write("hose.yaml", hose);
+  const Outcome made = make(scratch, "--robot abb_irb6640_185_280 --program mine.yaml --dresspack hose.yaml job.yaml");
+  INFO(made.out << made.err);
+  REQUIRE(made.status == 0);
+  CHECK_FALSE(has(made.out, "warning: "));
+  CHECK(has(content(scratch / "job.yaml"), "\ndresspack.components.1.slack_percent: "));
+  CHECK(has(run(scratch, "dresslife", "check job.yaml").out, "job.yaml: no warnings"));
+}
+
 TEST_CASE("new: clamps of which none runs are left to be filled in, without a place in a file that is gone") {
   Scratch scratch;
   scratch.write("hose.yaml",

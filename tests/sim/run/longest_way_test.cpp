@@ -1,6 +1,7 @@
 // The largest straight way over a motion, against a search of all moments that leaves none out.
 #include "sim/run/longest_way.h"
 
+#include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
 #include "sim/run/routing.h"
 #include "tests/catch.h"
@@ -32,7 +33,7 @@ TEST_CASE("the longest way that leaves out moments is that of all moments") {
       shipped("side_panel"),                                // straight and circular paths of the tool
       shipped("irb6640_guided"),                            // two spans, a ring
       shipped("irb6640_two_dresspacks"),
-      shipped("irb6640_spot_welding", {"motion=hard", "robot=kuka_kr210_l150"}),
+      shipped("irb6640_spot_welding", {"motion=hard", "robot=abb_irb6700_235_265"}),
       shipped("irb6640_spot_welding", {"routing.retraction={force_N: 100, stroke_m: 0.3}"})};
   for (const pipeline::Job& job : jobs) {
     const Rod rod = rod_of(job);
