@@ -51,9 +51,9 @@ struct StageCall {
   StageInfo info;
   StageLimits limits{};
   bool of_a_study = false;  ///< messages go into a log
-  std::filesystem::path input, output;
-  std::filesystem::path job_file;  ///< from --job; empty: the job in the input file
-  std::vector<std::string> sets;
+  std::filesystem::path input{}, output{};
+  std::filesystem::path job_file{};  ///< from --job; empty: the job in the input file
+  std::vector<std::string> sets{};
   bool quiet = false;
   std::shared_future<std::string> input_sha256{};  ///< computed in parallel to the stage, for stamp()
   std::vector<StageInput> inputs{};
