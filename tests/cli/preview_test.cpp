@@ -84,7 +84,7 @@ routing:
   REQUIRE(end != std::string::npos);
   const double place = std::stod(told.out.substr(begin, end - begin));
   const std::string seen = in_browser(scratch, "job_preview.html", R"(
-    return await evaluate(`(() => { const {worst, tubes} = dresslife.viewer(); return (worst.visible ? (worst.segment + .5) / tubes[0].segments * 1.9 : -1) + ' ' +
+    return await evaluate(`(() => { const {marked, tubes} = dresslife.viewer(); return (marked.visible ? (marked.segment + .5) / tubes[0].segments * 1.9 : -1) + ' ' +
         [...document.querySelectorAll('.label.mark')].map(label => label.textContent).join(); })()`);)");
   if (seen.empty()) return;
   INFO(seen);
