@@ -70,7 +70,8 @@ bool written_without_run(const Request& request, const pipeline::StageCall& call
 
 void write_duration(const pipeline::StageCall& call, const pipeline::Job& job) {
   if (job.motion.is_prescribed()) throw pipeline::InputError(job.motion.where, "a prescribed deformation has no path whose duration is computed", "run it");
-  pipeline::write_text_if_changed(call.output, pipeline::with_mark(fmt::format("repeat_seconds: {}\n", sim::path_of(job)->duration()), pipeline::Mark::yaml));
+  const double rate = job.simulation.sample_rate, seconds = sim::intervals(sim::path_of(job)->duration(), rate) / rate;
+  pipeline::write_text_if_changed(call.output, pipeline::with_mark(fmt::format("repeat_seconds: {}\n", seconds), pipeline::Mark::yaml));
 }
 
 void prescribe(const pipeline::StageCall& call, const pipeline::Job& job, pipeline::Progress& progress) {

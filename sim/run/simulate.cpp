@@ -11,16 +11,15 @@
 #include "sim/run/routing.h"
 
 namespace dresslife::sim {
+
+int intervals(double duration, double rate) { return static_cast<int>(std::ceil(duration * rate - 1e-9)); }
+
 namespace {
 
 using pipeline::InputError;
 
 constexpr double same_step = 1e-9;  // [s]
 constexpr double exact_lead = 0.1;  // share of the lead-in repeat, at its end, that has the motion's own step
-
-/// Returns the number of intervals that cover the motion. A duration that is a whole number of intervals up to rounding gets no
-/// additional one.
-int intervals(double duration, double rate) { return static_cast<int>(std::ceil(duration * rate - 1e-9)); }
 
 /// Checks the size before memory or time is used. The acceleration of each step of a repeat is kept, 8 bytes each; each
 /// sample is written with at least 136 bytes per segment.

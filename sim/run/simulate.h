@@ -58,6 +58,10 @@ struct Sample {
   const Touch& touch;                  ///< forces since the previous sample, and rubbing since the begin of the repeat
 };
 
+/// Returns the number of intervals of a rate [Hz] that cover a motion [s]. A duration that is a whole number of intervals up to
+/// rounding gets no additional one. One repeat in motion.h5 takes so many.
+int intervals(double duration, double rate);
+
 /// The summary of a run.
 struct RunSummary {
   int repeats = 1;        ///< number of repeats that were run, including the lead-in; the last one is the result

@@ -223,7 +223,7 @@ const Wrong wrong[] = {
     {"cable.yaml", "7 x 0.5 mm2", "7 x AWG 20", "cable.yaml:6:17: error: ", "'7 x awg 20' of a data sheet is not understood", "write '7 x 0.518 mm2' for AWG 20", "dresslife draw cable.yaml"},
     {"cable.yaml", "jacket 1.1 mm", "jacket 11 mm", "cable.yaml:6:17: error: ", "leaves no room in 8.2 mm", "check jacket_thickness_mm", "dresslife draw cable.yaml"},
     {"axes.csv", "", replaced_all(replaced_all(axes, ",", ";"), "30;0", "30,5;0"), "axes.csv:2:1: error: ", "has no number in cell 6", "; ", "dresslife-sim axes.yaml --preview -o out.h5"},
-    {"axes.csv", "", replaced_all(axes, "_deg", "_rad"), "axes.csv:2:1: error: ", "turns joint_5 to 1718.87 deg", "; ", "dresslife-sim axes.yaml --preview -o out.h5"},
+    {"axes.csv", "", replaced_all(axes, "_deg", "_rad"), "axes.csv:3:1: error: ", "turns joint_5 to 3437.75 deg", "; ", "dresslife-sim axes.yaml --preview -o out.h5"},
     {"axes.csv", "", replaced_all(axes, "1,20", "3,20"), "axes.csv:4:1: error: ", "has the time 2 s, not after the one before", "; ", "dresslife-sim axes.yaml --preview -o out.h5"},
     {"axes.csv", "", replaced_all(axes, "1,20", "1,#REF!"), "axes.csv:3:1: error: ", "has no number in cell 2", "; ", "dresslife-sim axes.yaml --preview -o out.h5"},
     {"axes.csv", "", axes.substr(axes.find('\n') + 1), "axes.csv:1:1: error: ", "begins with numbers", "put a line of names first", "dresslife-sim axes.yaml --preview -o out.h5"},
