@@ -33,10 +33,10 @@ TEST_CASE("plausible: a mass between that of its wires and of its parts in a hea
   limit(8960 * section);  // solid copper as the bound for unknown parts
   dresspack.components = parts;
   // Less than 30 % of the mass of its parts, or than its wires in aluminium: ten straight ones of 1 mm have 10 x 2700 x pi/4 x 1e-6 kg/m.
-  const auto least = [&](double limit) {
-    dresspack.mass_per_length = 1.001 * limit;
+  const auto least = [&](double bound) {
+    dresspack.mass_per_length = 1.001 * bound;
     CHECK(plausibility_warnings(dresspack).empty());
-    dresspack.mass_per_length = 0.999 * limit;
+    dresspack.mass_per_length = 0.999 * bound;
     CHECK(plausibility_warnings(dresspack).size() == 1);
   };
   least(0.3 * mass_of_construction(dresspack));
