@@ -156,7 +156,7 @@ class Viewer {
     this.addRobot();
     this.addHoses();
     this.dirty = true;
-    this.marked = this.addMark(0xd32f00, data.preview ? 'here' : data.life.marked.words || '');
+    this.marked = this.addMark(0xd32f00, data.preview ? 'here' : data.life?.marked.words || '');
     this.chosen = this.addMark(0x111111, '');
     this.findBox();
     this.resize();

@@ -901,7 +901,7 @@ std::vector<Warning> plausibility_warnings(const Job& job) {
     warnings.push_back(warning_of(WarningKind::mesh, "",
                                   fmt::format("simulation.time_step_ms is {:g} (limit {:g} or less)", 1e3 * job.simulation.time_step,
                                               1e3 * largest_step),
-                                  "a digit too many; nobody has tried a larger step", "simulation.time_step_ms: 5, or auto"));
+                                  "a digit too many; larger steps were not tested", "simulation.time_step_ms: 5, or auto"));
   if (!motion.is_prescribed())
     for (const MountedDresspack& mounted : job.dresspacks) doubt_bend_reliefs(mounted, job.simulation.segments, warnings);
   if (job.strain.gate > largest_gate)
