@@ -63,6 +63,22 @@ std::string lines_words(const OtherWay& way) {
   return way.lines.empty() ? "all lines" : joined(way.lines, "; ");
 }
 
+/// Returns the same with successive lines of a file as "welding.mod:45..54".
+std::string spans_words(const OtherWay& way) {
+  OtherWay spans = way;
+  spans.lines.clear();
+  std::string next;  // the line after the last one of the present span
+  for (const std::string& line : way.lines) {
+    const std::size_t number = line.rfind(':') + 1;
+    if (line == next)
+      spans.lines.back() = spans.lines.back().substr(0, spans.lines.back().find("..", number)) + ".." + line.substr(number);
+    else
+      spans.lines.push_back(line);
+    next = line.substr(0, number) + std::to_string(std::atoi(line.c_str() + number) + 1);
+  }
+  return lines_words(spans);
+}
+
 std::string csv_of(const TriedWay& before, const std::vector<TriedWay>& ways) {
   std::string text = "lines,way,life_hours_p10,times_as_long,cycle_s,cycle_won_s,beyond,sets,patch\n";
   for (const TriedWay& tried : ways) {
@@ -89,7 +105,7 @@ std::string table_of(const std::string& job, const TriedWay& before, const std::
     const TriedWay& tried = ways[k];
     if (!tried.outcome.failure.empty()) break;
     text += fmt::format("  {:>8.3g} x {:>+8.2f} s  {}: {}{}{}\n", times_as_long(tried, before),
-                        tried.seconds - before.seconds, lines_words(tried.way), tried.way.what,
+                        tried.seconds - before.seconds, spans_words(tried.way), tried.way.what,
                         tried.outcome.feasible() ? "" : "; ", tried.outcome.words());
     if (!tried.file.empty()) text += fmt::format("  {:>24}patch: {}\n", "", tried.file.string());
   }

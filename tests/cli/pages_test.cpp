@@ -1,5 +1,4 @@
-// The pages of the project: the real reader reads every YAML example, every command runs, and the README's first job has the
-// README's numbers.
+// The pages of the project: the real reader reads every YAML example, and every command runs.
 
 #include "tests/catch.h"
 #include <map>
@@ -42,7 +41,7 @@ const std::map<std::string, std::string> instead{
     {"dresslife draw CABLE.yaml -o cable.svg", "dresslife draw control_cable -o cable.svg"},
     {"dresslife rate CABLE.yaml", "dresslife rate control_cable"},
     {"dresslife new --robot NAME --program FILE --dresspack NAME JOB.yaml",
-     "dresslife new --robot abb_irb6640_185_280 --program easy --dresspack handling made.yaml"},
+     "dresslife new --robot abb_irb6640_185_280 --program roof.mod --dresspack handling made.yaml"},
     {"dresslife new", "dresslife new"},
     {"dresslife run STUDY", "not run"},
     {"dresslife report STUDY", "not run"},
@@ -66,7 +65,7 @@ const std::map<std::string, std::string> instead{
      "dresslife plan CONFIG/duties/fleet.csv --duties two_robots --today 2026-11-23 --windows "
      "2027-07-12..2027-08-01,2027-12-20..2028-01-02" +
          quick},
-    {"dresslife reprogram JOB_OR_STUDY", "dresslife reprogram irb6640_spot_welding --lines 1" + quick},
+    {"dresslife reprogram JOB_OR_STUDY", "dresslife reprogram side_panel --lines 1" + quick},
     {"dresslife-sim JOB.yaml -o motion.h5",
      "dresslife-sim CONFIG/jobs/irb6640_spot_welding.yaml -o motion.h5" + quick},
     {"dresslife-strain motion.h5 -o strain.h5", "dresslife-strain motion.h5 -o strain.h5"},
@@ -256,31 +255,4 @@ TEST_CASE("every YAML example of every page is read, and every command runs") {
     }
   }
   CHECK(done.size() > 30);  // proves that pages are found
-}
-
-TEST_CASE("the README's first job, copied as it stands, has the numbers of the README's table") {
-  const std::string page = content(source / "README.md");
-  std::string first_job;
-  for (const Piece& piece : pieces_of(source / "README.md"))
-    if (piece.yaml && first_job.empty()) first_job = piece.text;
-  REQUIRE(first_job.find("motion: spot_robot_1") != std::string::npos);
-  Scratch scratch;
-  scratch.write("spot_robot_1.yaml", first_job);
-  const Outcome outcome = must_run(scratch, "dresslife", "run spot_robot_1.yaml");
-  INFO(outcome.err);
-
-  // The line of the table without its rank, and the job's name.
-  const auto line_of = [](const std::string& text) {
-    std::smatch found;
-    const bool there = std::regex_search(text, found, std::regex("\\n *[0-9]+  spot_robot_1 +(\\*?(over )?[0-9][^\\n]*)"));
-    return there ? std::regex_replace(found[1].str(), std::regex(" +"), " ") : std::string("no such line");
-  };
-  CHECK(line_of(page) == line_of(outcome.out));
-  const std::string action = outcome.out.substr(0, outcome.out.find("\n\n"));  // three lines
-  CHECK(action.starts_with("The jacket of signal cable "));
-  CHECK(page.find("\n    " + std::regex_replace(action, std::regex("\n"), "\n    ") + "\n") != std::string::npos);
-  // "the model says 18 years for `spot_robot_1`"
-  std::smatch years;
-  REQUIRE(std::regex_search(outcome.out, years, std::regex("has\\s+failed\\s+after\\s+[0-9,]+\\s+h\\s+of\\s+motion\\s+\\(([0-9]+)\\s+years\\)")));
-  CHECK(page.find("the model says " + years[1].str() + " years for `spot_robot_1`") != std::string::npos);
 }
