@@ -1073,6 +1073,8 @@ TEST_CASE("life.h5: abrasion stands beside the wires with its place, its time an
   CHECK(unseen[0].found_share == 0);
   const double worn = std::log10(job.fatigue.robot_life_hours / hours(repeats, duration)) / spread;
   CHECK(unseen[0].unseen_share == Approx(pipeline::normal_share(worn)).margin(strata));
+  CHECK_THAT(modes[0].note,
+             Catch::StartsWith(fmt::format("By the model {:.0f} % of the dresspacks", 100 * pipeline::normal_share(worn))));
   job.inspection.interval_weeks = 0;
   const auto unchecked = modes_of(FileReader(run(folder, f, job, "unchecked.h5").file, pipeline::life_format()));
   CHECK(std::isnan(unchecked[0].unseen_share));
@@ -1244,6 +1246,7 @@ TEST_CASE("life.h5: a cable without described wires has the life of its rating, 
   const auto modes = rated_modes(life);
   REQUIRE(modes.size() == 1);
   CHECK(modes[0].place == "power cable");
+  CHECK((modes[0].time == Approx(0.2 * duration) || modes[0].time == Approx(0.6 * duration)));  // the bends to either side
   CHECK(modes[0].note == "Its rating is of bending alone: twist is not evaluated.");
   CHECK_THAT(life.text_attribute("not_evaluated"), Catch::StartsWith("twist of power cable, abrasion"));
   constexpr double strata = 1e-3;  // 10,000 samples
