@@ -43,6 +43,7 @@ struct Shape {
   std::vector<std::size_t> segment;  ///< numbers in the file
   std::vector<double> middle;        ///< from the base clamp [m]
   double length = 0, turn_left = 0;  ///< [m], [rad]
+  bool knows_turn = true;            ///< see Corkscrew
 
   Shape(const pipeline::FileReader& strain, std::size_t dresspack, const std::vector<double>& twist) {
     const auto lengths = strain.read<double>("/segment/length");
@@ -54,7 +55,8 @@ struct Shape {
       turn_left += lengths[k] * (twist[twist.size() - of.size() + k] - twist[k]);
     }
     turn_left = std::abs(turn_left);
-    if (turn_left < least_turn_left || !returns(strain)) turn_left = 0;
+    knows_turn = turn_left < least_turn_left || returns(strain);
+    if (turn_left < least_turn_left || !knows_turn) turn_left = 0;
   }
 };
 
@@ -108,7 +110,7 @@ std::optional<Corkscrew> corkscrew(const pipeline::FileReader& strain, const pip
     const double growth = cable.torsion * shape.turn_left / shape.length;  // increase of the torque per repeat
     if (!worst)
       worst =
-          Corkscrew{k, BoredCable::largest_margin, std::numeric_limits<double>::infinity(), shape.turn_left};
+          Corkscrew{k, BoredCable::largest_margin, std::numeric_limits<double>::infinity(), shape.turn_left, shape.knows_turn};
     for (std::size_t t = 0; t < tension[k].size(); ++t)
       for (std::size_t i = 0; i < shape.segment.size(); ++i) {
         const std::size_t row = t * segments + shape.segment[i];

@@ -55,7 +55,8 @@ struct Corkscrew {
   std::size_t cable = 0;  ///< index in the strain file
   double margin = 0;      ///< factor on its forces and twist
   double repeats = 0;    ///< until the twist that each repeat leaves winds it, at least 1; infinite: none is left
-  double turn_left = 0;  ///< D; 0 if below `least_turn_left` [rad]
+  double turn_left = 0;  ///< D; 0 if below `least_turn_left`, or unknown [rad]
+  bool knows_turn = true;  ///< false: twist is left, but the robot does not end in its first pose
   double position = 0;   ///< of the place from the base clamp [m]
   std::size_t sample = 0;
 };

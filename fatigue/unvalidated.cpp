@@ -257,11 +257,20 @@ bool is_smooth_hose(const pipeline::Dresspack& dresspack) {
   return dresspack.inner_diameter && !dresspack.hose_corrugation;
 }
 
-/// Abrasion of each dresspack whose contacts are in the strain file, and whose thickness and wear rates are known.
+/// Returns whether the simulation had every contact that wears a dresspack. Without shapes of the robot nothing would seem to rub.
+bool knows_contacts(const FileReader& strain, const pipeline::Job& job) {
+  const auto has_shape = [](const pipeline::Link& link) {
+    return !link.capsules.empty() || !link.boxes.empty() || !link.meshes.empty();
+  };
+  return strain.has(table_of_work) && job.simulation.contact && job.simulation.self_contact &&
+         (job.robot.links.empty() || std::ranges::any_of(job.robot.links, has_shape));
+}
+
+/// Abrasion of each dresspack whose contacts are known, and whose thickness and wear rates are known.
 void find_abrasion(Search& found) {
   const FileReader& strain = found.strain;
   const pipeline::Job& job = found.job;
-  if (!strain.has(table_of_work)) return;
+  if (!knows_contacts(strain, job)) return;
   const auto patches = patches_of(strain, job.dresspacks.size());
   for (std::size_t d = 0; d < job.dresspacks.size(); ++d) {
     std::optional<WornMaterial> material = worn_of(job.dresspacks[d].dresspack);
@@ -346,6 +355,8 @@ void find_corkscrews(Search& found, const std::vector<std::vector<double>>& tens
     if (worst->turn_left > 0)
       mode.note += fmt::format(" A repeat leaves {} degrees of twist.",
                                pipeline::readable(180 / std::numbers::pi * worst->turn_left, 2));
+    if (!worst->knows_turn)
+      mode.note += " The motion does not end in its first pose, so whether repeats add up to more twist is not evaluated.";
     constexpr double spread = 0.3;  // deviation: stiffnesses of a cable are known to a factor of two; ESTIMATE
     std::vector<double> own = found.own_lives(mode, worst->repeats, spread);
     const std::vector<double> stiffness = pipeline::standard_normals("margin of " + mode.mode + " " + mode.dresspack, own.size());
@@ -486,11 +497,12 @@ std::string not_evaluated(const FileReader& strain, const pipeline::Job& job, bo
       if (part.components.empty() && !(part.plain && part.plain->kind == pipeline::PlainKind::cable))
         continue;
       ++cables;
-      const bool rubs = !part.components.empty() && strain.has(work_of_jackets);
-      if (!rubs || !jacket_of(dresspack, part)) bare.push_back(part.name);
+      // The work of a cable without friction is not in the file.
+      const bool rubs = !part.components.empty() && strain.has(work_of_jackets) && part.friction.value_or(0) > 0;
+      if (!rubs || !is_hose(dresspack) || !jacket_of(dresspack, part)) bare.push_back(part.name);
     }
   }
-  const bool worn = strain.has(table_of_work) &&
+  const bool worn = knows_contacts(strain, job) &&
                     std::all_of(job.dresspacks.begin(), job.dresspacks.end(),
                                 [](const auto& mounted) { return worn_of(mounted.dresspack).has_value(); });
   if (!worn) add(UnvalidatedMode::abrasion);

@@ -121,6 +121,24 @@ void add_outside(const Dresspack& dresspack, std::vector<Warning>& warnings) {
                       1e3 * std::max(0.0, room.bore - of.radius))));
 }
 
+/// Adds a warning about a hose that its parts fill too much. A maker's clearance of a tenth of a cable's diameter is less strict.
+void add_filling(const Dresspack& dresspack, std::vector<Warning>& warnings) {
+  constexpr double most = 0.7;  // of the bore, in moved conduits: PMA, recommendation for filling grade
+  const std::optional<double> bore = inner_radius(dresspack);
+  if (!bore) return;
+  double squares = dresspack.core_components.empty() ? dresspack.core_diameter * dresspack.core_diameter / 4 : 0;
+  for (const auto* const parts : {&dresspack.components, &dresspack.core_components})
+    for (const Component& part : *parts) squares += part.count * part.radius * part.radius;
+  if (const double share = squares / (*bore * *bore); share > most)
+    warnings.push_back(warning_of(
+        WarningKind::overlap, dresspack.where.text(),
+        fmt::format("the parts fill {:.0f} % of the bore of {:.4g} mm (limit {:g} % of a hose that moves: the parts rub more on each other)",
+                    100 * share, 2e3 * *bore, 100 * most),
+        "a hose that is too narrow for its parts",
+        fmt::format("a hose with inner_diameter_mm: {:.4g} or more, or fewer parts",
+                    std::ceil(2e4 * std::sqrt(squares / most)) / 10)));
+}
+
 }  // namespace
 
 // The distance has one minimum between phi = -turned, where the neighbour is beside the point, and 0, where it is a lay before
@@ -172,6 +190,7 @@ std::vector<Warning> overlap_warnings(const Dresspack& dresspack) {
   for (const Component& component : dresspack.components) add_overlaps(component, problems, &warnings);
   add_overlaps_between(dresspack.components, problems, &warnings);
   add_outside(dresspack, warnings);
+  add_filling(dresspack, warnings);
   problems.finish();
   return warnings;
 }

@@ -27,7 +27,8 @@ bool overlap_each_other(const Component& one, const Component& other);
 
 /// Returns a warning for each component, and for each pair of components of one parent, whose parts overlap by more than 2 % of
 /// their diameter (the error of a caliper, and the tolerance of a fit into the parent): the parts, the overlap, and values that
-/// fit. Also warns of parts outside of a bore that is an ESTIMATE (room_of_parts()). Errors: InputErrors for parts nearer than
+/// fit. Also warns of parts outside of a bore that is an ESTIMATE (room_of_parts()), and of a bore that is filled by more than 70 %
+/// (PMA, recommendation for filling grade). Errors: InputErrors for parts nearer than
 /// half of their diameter; for two components only if they have equal tan(alpha)/R, like cables at one angle. Insulation is soft,
 /// but such parts would share over a third of their cross-sections.
 std::vector<Warning> overlap_warnings(const Dresspack& dresspack);

@@ -86,6 +86,7 @@ struct StrainFile {
   double curvature = 0;        // about d1 at sample 20 and, in the other direction, 60; otherwise 0 [1/m]
   double curvature_d2 = 0;     // with curvature about d1, of the first segment alone, at sample 20 [1/m]
   std::vector<Rubbed> rubbed;  // by link_4, 5 mm long, in one sector of 5 degrees; empty: no table
+  double last_segment = 0.4;   // its length; the whole dresspack is 0.6 m longer [m]
 };
 
 /// 0, a, -a, 0 at samples 0, 20, 60, 100: one closed cycle of amplitude a.
@@ -128,7 +129,7 @@ void write_strain(const std::filesystem::path& path, const StrainFile& f) {
   file.set_axis("sample", samples);
   std::vector<double> time, probe;
   for (std::size_t t = 0; t < samples; ++t) time.push_back(duration * t / (samples - 1));
-  const std::vector<double> lengths{0.1, 0.2, 0.3, 0.4};
+  const std::vector<double> lengths{0.1, 0.2, 0.3, f.last_segment};
   const std::vector<std::string> text{"approach", "weld", "retreat"};
   const std::vector<double> rows(samples * segments, 0.0);
   std::vector<double> twists;
@@ -1065,16 +1066,34 @@ TEST_CASE("life.h5: abrasion stands beside the wires with its place, its time an
   CHECK_THAT(result.notes.summary, Catch::Contains("; the surface lasts "));
   CHECK(modes[0].found_share > 0);
   CHECK_THAT(modes[0].note, Catch::Contains("A visual check every 2 weeks finds "));
+  CHECK(modes[0].visible_from == Approx(std::pow(0.5, 1.5)).epsilon(1e-3));  // area of half the depth; four digits in the text
   job.inspection.visible_depth_percent = 100;  // visible only at failure: no check finds it
   const auto unseen = modes_of(FileReader(run(folder, f, job, "unseen.h5").file, pipeline::life_format()));
   CHECK(unseen[0].hours == modes[0].hours);
   CHECK(unseen[0].found_share == 0);
   const double worn = std::log10(job.fatigue.robot_life_hours / hours(repeats, duration)) / spread;
   CHECK(unseen[0].unseen_share == Approx(pipeline::normal_share(worn)).margin(strata));
+  CHECK_THAT(modes[0].note,
+             Catch::StartsWith(fmt::format("By the model {:.0f} % of the dresspacks", 100 * pipeline::normal_share(worn))));
   job.inspection.interval_weeks = 0;
   const auto unchecked = modes_of(FileReader(run(folder, f, job, "unchecked.h5").file, pipeline::life_format()));
   CHECK(std::isnan(unchecked[0].unseen_share));
   CHECK(unchecked[0].note.empty());
+  // Contacts that were not simulated must not look like a hose that nothing rubs.
+  const auto is_known = [&](const char* name) {
+    const FileReader file(run(folder, f, job, name).file, pipeline::life_format());
+    CHECK(modes_of(file).empty() == (names_in(file).find("abrasion") != std::string::npos));
+    return !modes_of(file).empty();
+  };
+  job.robot.links.resize(2);
+  CHECK_FALSE(is_known("no_shapes.h5"));
+  job.robot.links[1].capsules.emplace_back();
+  CHECK(is_known("shapes.h5"));
+  job.simulation.self_contact = false;
+  CHECK_FALSE(is_known("not_on_itself.h5"));
+  job.simulation.self_contact = true, job.simulation.contact = false;
+  CHECK_FALSE(is_known("no_contact.h5"));
+  job.simulation.contact = true;
 
   f.rubbed[1] = {-0.15, 10, 30};
   CHECK_THROWS_WITH(run(folder, f, job, "damaged.h5"),
@@ -1106,22 +1125,34 @@ TEST_CASE("life.h5: a twist that every repeat leaves winds a loose cable into a 
   REQUIRE(still.size() == 1);
   CHECK(std::isinf(still[0].hours[0]));
   CHECK(still[0].note == "Neither its forces nor its twist would wind it.");
+  // Compression alone winds at 2 E I kappa/r. The cable has half of it, then the same as a pull.
+  const pipeline::CableForce force(dresspack, dresspack.components[0]);
+  const double bending = force.bending_stiffness();
+  f.cables[0].strain[0] = -force.strain_at(bending * 20 / f.room);
+  CHECK(coil_of("pressed.h5").first[0].note == "Forces and twist 2.0 times as large would wind it.");
+  f.cables[0].strain[0] *= -1;
+  CHECK(coil_of("pulled.h5").first[0].note == "Neither its forces nor its twist would wind it.");
+  f.cables[0].strain[0] = 0;
   f.twist = 0.5;
   CHECK(std::isinf(coil_of("recorded.h5").first[0].hours[0]));  // without joints the twist that a repeat leaves is unknown
   for (std::size_t t = 0; t < samples; ++t) f.joints.push_back(2 * std::numbers::pi * static_cast<double>(t) / (samples - 1));
   const auto [wound, other] = coil_of("wound.h5");
   REQUIRE(wound.size() == 1);
   // Without a force: torque 4/3 E I q at the tight coil. The twist of the last sample is the twist that a repeat leaves.
-  const double bending = pipeline::CableForce(dresspack, dresspack.components[0]).bending_stiffness();
   const double torsion = pipeline::pull_and_twist(dresspack, dresspack.components[0]).relaxed() +
                          pipeline::torsion_of_polymer * pipeline::polymer_bending(dresspack.components[0]);
   const double tight = 4.0 / 3 * bending * std::sqrt(20 / f.room), torque = torsion * f.twist;
   constexpr double strata = 1e-3;  // 10,000 samples
   CHECK(wound[0].hours[1] == Approx(hours(tight / torque - 1, duration)).epsilon(strata));
   CHECK(wound[0].time == Approx(duration));
-  CHECK_THAT(wound[0].note, Catch::Contains("A repeat leaves 29 degrees of twist."));
+  CHECK_THAT(wound[0].note, Catch::EndsWith("A repeat leaves 29 degrees of twist."));
+  f.last_segment = 2.4, job.dresspacks[0].routing.free_length = 3;  // with as much twist per metre
+  CHECK(coil_of("long.h5").first[0].hours[1] == Approx(wound[0].hours[1]).epsilon(strata));
+  f.last_segment = 0.4, job.dresspacks[0].routing.free_length = 1;
   for (double& angle : f.joints) angle /= 3;
-  CHECK(std::isinf(coil_of("elsewhere.h5").first[0].hours[0]));
+  const auto elsewhere = coil_of("elsewhere.h5").first[0];
+  CHECK(std::isinf(elsewhere.hours[0]));
+  CHECK_THAT(elsewhere.note, Catch::Contains("The motion does not end in its first pose"));
   f.twist = 1.01 * tight / torsion;
   CHECK(coil_of("tight.h5").first[0].hours[1] == Approx(hours(1, duration)).epsilon(strata));
   // Stiffnesses have a factor of two: at half the critical torque the cables wind that are half as stiff or less.
@@ -1163,6 +1194,8 @@ TEST_CASE("life.h5: of the cables in a hose the one whose jacket is worn through
   CHECK(jackets_of("bare.h5").first.empty());
   CHECK_THAT(jackets_of("bare.h5").second, Catch::Contains("jackets of the cables"));
   cable.jacket = pipeline::Sleeve{1e-3, "polymer", {}};
+  CHECK_THAT(jackets_of("frictionless.h5").second, Catch::Contains("jackets of the cables"));
+  cable.friction = 0.3;
   const auto [modes, missing] = jackets_of("worn.h5");
   CHECK_THAT(missing, !Catch::Contains("jacket"));
   REQUIRE(modes.size() == 1);
@@ -1173,11 +1206,17 @@ TEST_CASE("life.h5: of the cables in a hose the one whose jacket is worn through
   const double area = 4.0 / 3 * 1e-3 * std::sqrt(2 * cable.radius * 1e-3), repeats = area * 20 * cable.radius / (1e-14 * 1e4);
   constexpr double strata = 1e-3;  // 10,000 samples
   CHECK(modes[0].hours[1] == Approx(hours(repeats, duration)).epsilon(strata));
+  job.cell.temperature = 43;
+  CHECK(jackets_of("warm.h5").first[0].hours[1] == Approx(modes[0].hours[1] / std::exp(0.0175 * 20)).epsilon(strata));
   f.jackets[1].cable = 2;
   CHECK_THROWS_WITH(run(folder, f, job, "damaged.h5"),
                     Catch::Contains("/jacket: row 2 is no patch of a dresspack; make the file again with dresslife-strain"));
   f.jackets[1] = {1, 0.15, 1e4, 1000};
   CHECK_THROWS_WITH(run(folder, f, job, "late.h5"), Catch::Contains("/jacket: row 2 is of no sample"));
+  f.jackets.clear(), dresspack.inner_diameter.reset();
+  const auto bundle = jackets_of("no_hose.h5");
+  CHECK(bundle.first.empty());
+  CHECK_THAT(bundle.second, Catch::Contains("jackets of the cables"));
 }
 
 TEST_CASE("life.h5: a cable without described wires has the life of its rating, one with wires does not have it, too") {
@@ -1207,6 +1246,7 @@ TEST_CASE("life.h5: a cable without described wires has the life of its rating, 
   const auto modes = rated_modes(life);
   REQUIRE(modes.size() == 1);
   CHECK(modes[0].place == "power cable");
+  CHECK((modes[0].time == Approx(0.2 * duration) || modes[0].time == Approx(0.6 * duration)));  // the bends to either side
   CHECK(modes[0].note == "Its rating is of bending alone: twist is not evaluated.");
   CHECK_THAT(life.text_attribute("not_evaluated"), Catch::StartsWith("twist of power cable, abrasion"));
   constexpr double strata = 1e-3;  // 10,000 samples
@@ -1259,7 +1299,10 @@ TEST_CASE("life.h5: a smooth tube kinks where the tightest bend passes its radiu
   CHECK_THAT(limited.note, Catch::Contains("Its maker allows") && !Catch::Contains("PTFE"));
   f.curvature = 50;  // tighter than the position of the tube allows
   CHECK(kink_of(FileReader(run(folder, f, job, "folded.h5").file, pipeline::life_format())).first_share == 1);
-  f.curvature = 0;
+  f.curvature = 3, f.curvature_d2 = 4;  // 5/m in the first segment, 0 in the next: 7.5/m at the clamp
+  const auto clamped = kink_of(FileReader(run(folder, f, job, "clamped.h5").file, pipeline::life_format()));
+  CHECK(clamped.margin == Approx((1 / 7.5 - 0.01) / (1.01 * kinks_at)).epsilon(1e-3));
+  f.curvature = f.curvature_d2 = 0;
   const auto straight = kink_of(FileReader(run(folder, f, job, "straight.h5").file, pipeline::life_format()));
   CHECK(std::isinf(straight.margin));
   CHECK(straight.first_share == 0);
@@ -1285,5 +1328,6 @@ TEST_CASE("life.h5: surfaces wear faster in a warm cell, and as before at 23 C")
   const auto usual = life_at(23), warm = life_at(43);
   constexpr double strata = 1e-3;  // 10,000 samples
   CHECK(usual[1] / warm[1] == Approx(std::exp(0.0175 * 20)).epsilon(strata));
-  CHECK(warm[2] / warm[0] > usual[2] / usual[0]);
+  const double spread = std::hypot(std::log10(5.0), 1.5 * std::log10(1.1), 0.0075 * 20 / std::log(10.0));
+  CHECK(std::log10(warm[2] / warm[0]) == Approx(2 * 1.28155 * spread).epsilon(strata));  // 0.4 % more than at 23 C
 }

@@ -153,6 +153,9 @@ TEST_CASE(
   const Abrasion none = abrasion({smooth(), &material}, {});
   CHECK(std::isinf(none.repeats));
   CHECK(none.obstacle.empty());
+  const Abrasion still = abrasion({smooth(), &material}, rubbed(0, 0.5, 0.505, 0.005, 3, 1));  // no force or no sliding
+  CHECK(std::isinf(still.repeats));
+  CHECK(still.obstacle.empty());
 }
 
 TEST_CASE("wear: a sleeve wears before the hose, a hose without thickness or rates is not evaluated") {

@@ -115,3 +115,22 @@ TEST_CASE("parts of two components that would lie in each other are warned of, t
   CHECK(nearest_distance(parts[0], parts[1]) == Approx(4e-3 * std::sin(22.5 * degree)));
   CHECK(overlap_warnings(dresspack).size() == 1);
 }
+
+TEST_CASE("a hose that its parts fill by more than 70 % is warned of, with a bore that is wide enough") {
+  Component cable;
+  cable.name = "cable", cable.count = 4, cable.radius = 5e-3, cable.helix_radius = 7.5e-3;
+  Dresspack dresspack;
+  dresspack.diameter = 0.03, dresspack.components = {cable};
+  CHECK(overlap_warnings(dresspack).empty());  // no hose
+  dresspack.inner_diameter = 0.0240;           // 4 x 5^2 of 12^2: 69 %
+  CHECK(overlap_warnings(dresspack).empty());
+  dresspack.core_diameter = 3e-3;
+  const std::vector<Warning> filled = overlap_warnings(dresspack);
+  REQUIRE(filled.size() == 1);
+  CHECK_THAT(filled[0].words, Catch::Contains("the parts fill 71 % of the bore of 24 mm (limit 70 %") &&
+                                  Catch::Contains("inner_diameter_mm: 24.2 or more"));
+  dresspack.inner_diameter = 0.0242;
+  CHECK(overlap_warnings(dresspack).empty());
+  dresspack.core_components = {cable};  // in place of the core's circle
+  CHECK(overlap_warnings(dresspack).size() == 1);
+}
