@@ -510,6 +510,7 @@ TEST_CASE("a fleet is read from a spreadsheet's table, and what is wrong in it i
   CHECK(refusal("name,duty,installed\nr,day,\nr,day,\n").find("is the name of line 2, too") != std::string::npos);
   CHECK(refusal("name,duty\nr,day\n").find("no column 'installed'") != std::string::npos);
   CHECK(refusal("name,duty,installed,hours\nr,day,,3\n").find("unknown column 'hours'") != std::string::npos);
+  CHECK(read("Name;Duty;Installed;Hours per week\nr;day;;80,5\n").rows[0].hours_per_week == std::optional<double>(80.5));
   CHECK(refusal("name,duty,installed,planned_cost\nr,day,,3\n").find("no column 'unplanned_cost'") != std::string::npos);
   CHECK(refusal("name,duty,installed,planned_cost,unplanned_cost\nr,day,,3,2\n").find("must be larger") != std::string::npos);
   CHECK(refusal("name,duty,installed,hours_per_week\nr,day,,200\n").find("must be 0.1 .. 168") != std::string::npos);
