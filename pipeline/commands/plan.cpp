@@ -198,14 +198,15 @@ int plan(const PlanOptions& options) {
   add_past(fleet);
   const PlanRule rule{options.risk_percent.value_or(10) / 100, fleet.has_costs && !options.risk_percent,
                       knows_survivors(made.study)};
+  Plan found = plan_of(fleet, tables, windows, day, rule);
   // ages of many survivors leave few worlds with weight
-  if (const double effective = effective_worlds(fleet, tables, day, rule); effective < enough_worlds) {
+  if (found.effective_worlds < enough_worlds) {
     // the estimate from few worlds is exact to a tenth; the limit takes ten seconds for 500 dresspacks
     constexpr double spare = 1.2, most = 8;
-    const auto times = static_cast<std::size_t>(std::clamp(std::ceil(spare * enough_worlds / effective), 2.0, most));
+    const auto times = static_cast<std::size_t>(std::clamp(std::ceil(spare * enough_worlds / found.effective_worlds), 2.0, most));
     tables = life_tables(file, made.study, made.rows, needed, has_changes, times * usual_worlds);
+    found = plan_of(fleet, tables, windows, day, rule);
   }
-  const Plan found = plan_of(fleet, tables, windows, day, rule);
   if (found.effective_worlds < fewest_worlds)
     throw InputError(
         {options.fleet},

@@ -179,8 +179,8 @@ std::string years_table(const Fleet& fleet, const Plan& plan) {
       "<h3>Spare dresspacks</h3>\n" +
       wide_table({"year from today", "#expected", "#in 90 of 100 plants", "#planned", "#after failures"}, rows);
   if (fleet.has_costs)
-    text += fmt::format("<p>Cost until {}: <b>{}</b> by this plan, {} if only failed dresspacks are replaced.</p>\n", day_text(plan.end),
-                        printed(plan.cost), printed(plan.cost_without_windows));
+    text += fmt::format("<p>Cost until {}: <b>{}</b> by this plan, {} if only failed dresspacks are replaced.{}</p>\n", day_text(plan.end),
+                        printed(plan.cost), printed(plan.cost_without_windows), later_saving_words(plan));
   return text;
 }
 

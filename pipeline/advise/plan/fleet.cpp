@@ -132,7 +132,7 @@ Fleet read_fleet(const std::filesystem::path& file, Day today) {
   Fleet fleet;
   const CsvRow written = titles;
   for (CsvCell& title : titles)
-    std::ranges::transform(title.text, title.text.begin(), [](unsigned char letter) { return std::tolower(letter); });
+    std::ranges::transform(title.text, title.text.begin(), [](unsigned char letter) { return letter == ' ' ? '_' : std::tolower(letter); });
   const auto has = [&](const std::string& title) {
     return std::any_of(titles.begin(), titles.end(), [&](const CsvCell& cell) { return cell.text == title; });
   };

@@ -44,8 +44,9 @@ struct Fleet {
   std::vector<std::string> unused;  ///< titles of columns that a plan does not need
 };
 
-/// Reads a fleet. Titles may have any capitals. Errors: InputError with line and column, for all rows together: a missing column,
-/// two equal names, text that is no date, a date after `today`, an unplanned cost that is not above the planned cost.
+/// Reads a fleet. Titles may have any capitals, and blanks for underscores. Errors: InputError with line and column, for all rows
+/// together: a missing column, two equal names, text that is no date, a date after `today`, an unplanned cost that is not above
+/// the planned cost.
 Fleet read_fleet(const std::filesystem::path& file, Day today);
 
 /// A period in which dresspacks can be replaced. The plan replaces them on its first day.

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "pipeline/base/constants.h"
+#include "pipeline/base/order.h"
 #include "pipeline/base/random.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/statistics.h"
@@ -38,10 +39,9 @@ class Worlds {
   }
   explicit Worlds(std::size_t count) : log_weight_(count, 0.0), weight_(count, 1.0 / static_cast<double>(count)) {}
 
-  /// Adds the evidence that a dresspack has survived (D3). If no draw of a world survives, half a draw is assumed.
-  void survived(const LifeTable& table, double age) {
-    for (std::size_t w = 0; w < log_weight_.size(); ++w)
-      log_weight_[w] += std::log((table.alive(w, age) * double(table.draws) + 0.5) / (double(table.draws) + 0.5));
+  /// Adds the evidence that a dresspack has survived (D3). alive: (world) S_w at its age.
+  void survived(const std::vector<double>& alive) {
+    for (std::size_t w = 0; w < log_weight_.size(); ++w) log_weight_[w] += std::log(alive[w]);
   }
   void weigh() {
     const double most = *std::max_element(log_weight_.begin(), log_weight_.end());
@@ -168,12 +168,43 @@ LifeTable lives_after(const std::vector<Installed::Spell>& before, const LifeTab
   return lives;
 }
 
+/// Returns S_w(age) of (D3), (world).
+std::vector<double> shares_alive(const LifeTable& table, double age) {
+  constexpr std::size_t most_pooled = 64;  // worlds: with 64 lives each, the error of 1 - S = 1 % is 16 %
+  constexpr double longest = 1e12;         // [h] so that the mean is finite
+  std::vector<double> typical(table.worlds);  // [h] geometric mean of the lives of a world
+  for (std::size_t w = 0; w < table.worlds; ++w) {
+    const std::span lives(table.hours.data() + w * table.draws, table.draws);
+    for (const float life : lives) typical[w] += std::log(std::min<double>(life, longest)) / double(table.draws);
+    typical[w] = std::exp(typical[w]);
+  }
+  const std::vector<std::size_t> order = largest_first(table.worlds, [&](std::size_t w) { return typical[w]; });
+  const std::size_t pooled = std::min(most_pooled, table.worlds);
+  const double lives = double(pooled * table.draws);
+  std::vector<double> shares(table.worlds);
+  for (std::size_t place = 0; place < order.size(); ++place) {
+    const std::size_t w = order[place], first = std::min(place - std::min(place, pooled / 2), order.size() - pooled);
+    double alive = 0;
+    for (std::size_t k = first; k < first + pooled; ++k) alive += table.alive(order[k], age * typical[order[k]] / typical[w]);
+    // If none of the lives is longer, half a life is assumed.
+    shares[w] = (alive * double(table.draws) + 0.5) / (lives + 0.5);
+  }
+  return shares;
+}
+
 Worlds worlds_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables, const std::vector<std::shared_ptr<const LifeTable>>& first, Day today,
                  const PlanRule& rule) {
   Worlds worlds(tables.begin()->second.worlds, rule.weights);
-  if (!rule.knows_survivors)
-    for (std::size_t i = 0; i < first.size(); ++i) worlds.survived(*first[i], run_of(fleet.rows[i], *first[i], today));
-  if (rule.weights.empty()) worlds.weigh();
+  if (!rule.weights.empty()) return worlds;
+  if (!rule.knows_survivors) {
+    std::vector<std::vector<double>> alive(first.size());  // (row, world)
+    const std::size_t threads = std::min(thread_count(), first.size());
+    in_parallel(threads, [&](std::size_t part) {
+      for (std::size_t i = part; i < first.size(); i += threads) alive[i] = shares_alive(*first[i], run_of(fleet.rows[i], *first[i], today));
+    });
+    for (const std::vector<double>& of_row : alive) worlds.survived(of_row);
+  }
+  worlds.weigh();
   return worlds;
 }
 
@@ -304,17 +335,27 @@ class Simulation {
   /// Simulates one plant. decision: null: only failed dresspacks are replaced.
   Outcome plant(RandomNumbers& random, Decision* decision) const {
     Outcome outcome{std::vector<int>(years_, 0), std::vector<int>(years_, 0), std::vector<int>(weeks_, 0)};
-    const double at = random.uniform() * until_.back();
-    const auto world = static_cast<std::size_t>(std::upper_bound(until_.begin(), until_.end(), at) - until_.begin());
-    for (std::size_t i = 0; i < fleet_.rows.size(); ++i) dresspack(i, std::min(world, until_.size() - 1), random, decision, outcome);
+    const std::size_t world = draw_world(random);
+    for (std::size_t i = 0; i < fleet_.rows.size(); ++i) dresspack(i, world, random, decision, outcome);
     return outcome;
   }
 
  private:
-  /// Samples a life in a world that is longer than an age.
-  static double draw(const LifeTable& table, std::size_t world, double age, RandomNumbers& random) {
-    const float *const first = table.first_after(world, age), *const end = table.hours.data() + (world + 1) * table.draws;
-    return first == end ? age : first[static_cast<std::size_t>(random.uniform() * double(end - first))];
+  std::size_t draw_world(RandomNumbers& random) const {
+    const double at = random.uniform() * until_.back();
+    const auto world = static_cast<std::size_t>(std::upper_bound(until_.begin(), until_.end(), at) - until_.begin());
+    return std::min(world, until_.size() - 1);
+  }
+
+  /// Samples a life in a world that is longer than an age. If no life of this world is, it is one of another world, as in
+  /// Worlds::fails().
+  double draw(const LifeTable& table, std::size_t world, double age, RandomNumbers& random) const {
+    constexpr int tries = 100;
+    for (int k = 0; k < tries; ++k, world = draw_world(random)) {
+      const float *const first = table.first_after(world, age), *const end = table.hours.data() + (world + 1) * table.draws;
+      if (first != end) return first[static_cast<std::size_t>(random.uniform() * double(end - first))];
+    }
+    return age;  // it fails at once
   }
 
   /// Samples the life of a dresspack that is installed at these hours from today.
@@ -502,10 +543,6 @@ std::vector<std::shared_ptr<const LifeTable>> first_lives(const Fleet& fleet, co
     }
   });
   return lives;
-}
-
-double effective_worlds(const Fleet& fleet, const std::map<std::string, LifeTable>& tables, Day today, const PlanRule& rule) {
-  return worlds_of(fleet, tables, first_lives(fleet, tables), today, rule).effective();
 }
 
 Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables, const std::vector<Window>& windows, Day today,

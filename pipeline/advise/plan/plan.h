@@ -7,6 +7,8 @@
 // A calibration with a maintenance system's table includes this evidence already: then all worlds have the same weight.
 // S_w,i(a): share of dresspacks under i's duty that reach the age a in the world w. So one dresspack informs about the others,
 // and the uncertainty does not shrink with the size of the fleet.
+// Few lives of a world are known, and the product would mainly depend on their chance. So in (D3) S_w is that of the 64 worlds with
+// the nearest geometric means of lives, whose lives are multiplied by the ratio of these means.
 //
 // At a window a dresspack has the age a, and the next window is one interval later. It is replaced in the first window with
 //     P(failure in the interval | it lives) > risk, and a new dresspack has less                               (D4)
@@ -138,9 +140,6 @@ void keep_ages(Fleet& changed, const Fleet& now, const std::map<std::string, Lif
 /// installed. A history in hours describes the first hours of each dresspack; a warning names a dresspack with fewer hours than
 /// its history. tables: must include the duties in histories.
 std::vector<Warning> add_histories(Fleet& fleet, const DutyFile& file, const std::map<std::string, LifeTable>& tables, Day today);
-
-/// Returns the value that plan_of() would give Plan::effective_worlds.
-double effective_worlds(const Fleet& fleet, const std::map<std::string, LifeTable>& tables, Day today, const PlanRule& rule);
 
 /// Computes the plan. tables: by the names of duties. Preconditions: windows are not empty; every duty has a table; all tables
 /// have the same number of worlds.

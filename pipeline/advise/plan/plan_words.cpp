@@ -152,9 +152,13 @@ std::string plan_words(const Fleet& fleet, const Plan& plan) {
         readable(year.planned, 2), readable(year.unplanned, 2));
   }
   if (fleet.has_costs)
-    text += fmt::format("Cost until {}: {} by this plan, {} if only failed dresspacks are replaced.\n",
-                        day_text(plan.end), readable(plan.cost), readable(plan.cost_without_windows));
+    text += fmt::format("Cost until {}: {} by this plan, {} if only failed dresspacks are replaced.{}\n",
+                        day_text(plan.end), readable(plan.cost), readable(plan.cost_without_windows), later_saving_words(plan));
   return text;
+}
+
+std::string later_saving_words(const Plan& plan) {
+  return plan.by_cost && plan.cost > plan.cost_without_windows ? " The plan saves only after this day, because its dresspacks are younger then." : "";
 }
 
 std::string test_words(const std::vector<TestValue>& tests, const Plan& plan) {

@@ -16,6 +16,8 @@ std::string plan_words(const Fleet& fleet, const Plan& plan);
 
 /// Returns the first sentence of plan_words().
 std::string expected_words(const Plan& plan);
+/// Returns why a plan by cost has the larger cost within its time, behind a blank. Empty: it has not.
+std::string later_saving_words(const Plan& plan);
 /// Returns the reasons why dresspacks are replaced in no window, one line per reason. Empty: all are replaced.
 std::string kept_words(const Fleet& fleet, const Plan& plan);
 /// Returns the names of the dresspacks that are replaced in a window.
