@@ -273,7 +273,7 @@ DecidingLimit decided(const Trial& trial, const Draft& draft) {
           kind != kinds.end() && warning.kind == kind->second && at != std::string::npos)
         return {"the limit that decides: " + warning.words.substr(0, at - 1),  // without its full stop
                 warning.words.substr(at + remedy.size()) + "; or " + other};
-    return {fmt::format("the limit that decides: {}, passed by {}", limit, passed_text(most, passed[most])), other};
+    return {fmt::format("the limit that decides: {}, violated by {}", limit, passed_text(most, passed[most])), other};
   }
   // The limit shrinks with the hose, but a thinner hose is also bent more: abb_irb2600_12_165 with `hard` exceeds the limit by
   // 0.14 at 100 % and by 0.033 at 78 %, and keeps all limits at 70 %. Short runs give a bend to some percent.

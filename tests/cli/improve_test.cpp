@@ -288,7 +288,7 @@ TEST_CASE("improve refuses what it cannot search") {
   CHECK(none.status == 1);
   INFO(none.out);
   CHECK(none.out.find("No feasible job was found in 3 trials and ") != std::string::npos);
-  CHECK(none.out.find("\nNo trial keeps bend radius: the best passes it by ") != std::string::npos);
+  CHECK(none.out.find("\nNo trial keeps bend radius: the best violates it by ") != std::string::npos);
   CHECK(
       none.out.find(
           "\nIt stands at the end of what may be changed: routing.free_length_m, at least 0.85; widen it\n") !=

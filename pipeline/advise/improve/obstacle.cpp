@@ -32,7 +32,7 @@ std::vector<std::string> binding(const std::vector<Trial>& trials, const Trial& 
     const std::string& name = outcome_limit_names()[k];
     const std::vector<std::string>& reached = trials[best].worst.reached;
     if (least > 0)
-      lines.push_back(fmt::format("No trial keeps {}: the best passes it by {} ({}{})", name, passed_text(k, least),
+      lines.push_back(fmt::format("No trial keeps {}: the best violates it by {} ({}{})", name, passed_text(k, least),
                                   k < reached.size() && !reached[k].empty() ? reached[k] + "; " : "",
                                   best == 0 ? "the jobs as they are" : fmt::format("trial {}", best)));
     if (nearest.worst.beyond[k] > 0) together += (together.empty() ? "" : ", ") + name;

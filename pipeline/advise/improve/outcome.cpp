@@ -218,7 +218,7 @@ std::string Outcome::words() const {
   for (std::size_t k = 0; k < beyond.size(); ++k)
     if (beyond[k] > 0)
       text +=
-          fmt::format("{}{} passed by {}{}", text.empty() ? "" : ", ", outcome_limit_names()[k],
+          fmt::format("{}{} violated by {}{}", text.empty() ? "" : ", ", outcome_limit_names()[k],
                       passed_text(k, beyond[k]), k < reached.size() && !reached[k].empty() ? " (" + reached[k] + ")" : "");
   return text;
 }

@@ -64,7 +64,7 @@ struct Outcome {
   bool feasible() const;                                        ///< the job is done, and every limit is satisfied
   double violation() const;                                     ///< sum of the violations
 
-  /// Returns "bend radius passed by 11 % (532 mm, at least 600 mm), ...": violated limits, or the failure; empty: feasible.
+  /// Returns "bend radius violated by 11 % (532 mm, at least 600 mm), ...": violated limits, or the failure; empty: feasible.
   std::string words() const;
 };
 

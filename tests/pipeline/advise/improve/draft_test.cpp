@@ -131,7 +131,7 @@ TEST_CASE("the worst of several jobs has the least life and the most of each lim
   CHECK(worst.hours == 100);
   CHECK(worst.violation() == 0.25);
   CHECK_FALSE(worst.feasible());
-  CHECK(worst.words() == "bend radius passed by 22 % (467 mm, at least 600 mm)");
+  CHECK(worst.words() == "bend radius violated by 22 % (467 mm, at least 600 mm)");
   CHECK(worst.robot_life == 40000);
   CHECK(mode_words(worst) == "abrasion from 70.0 h, jacket wear from 500 h");
   CHECK(good.feasible());
@@ -238,15 +238,15 @@ TEST_CASE(
   row.unvalidated.pop_back();
   asked.jacket = 1200;
   CHECK(outcome_of(row, folder, asked).violation() == Approx(std::log(3.0)));
-  CHECK(outcome_of(row, folder, asked).words() == "jacket wear passed by 67 % (400 h, at least 1,200 h)");
+  CHECK(outcome_of(row, folder, asked).words() == "jacket wear violated by 67 % (400 h, at least 1,200 h)");
   row.unvalidated.pop_back(), asked.jacket.reset();
   row.unvalidated.push_back(mode(UnvalidatedMode::corkscrew, 100, 200));
   asked.corkscrew = 200;
-  CHECK(outcome_of(row, folder, asked).words() == "corkscrew passed by 50 % (100 h, at least 200 h)");
+  CHECK(outcome_of(row, folder, asked).words() == "corkscrew violated by 50 % (100 h, at least 200 h)");
   row.unvalidated.pop_back(), asked.corkscrew.reset();
   row.unvalidated.push_back(mode(UnvalidatedMode::kink, endless, endless));
   row.unvalidated.back().margin = 1.5, asked.kink = 3;
-  CHECK(outcome_of(row, folder, asked).words() == "kink passed by 50 % (1.50 times, at least 3.00 times)");
+  CHECK(outcome_of(row, folder, asked).words() == "kink violated by 50 % (1.50 times, at least 3.00 times)");
   row.unvalidated.back().margin = endless;  // nothing bends
   CHECK(outcome_of(row, folder, asked).violation() == 0);
   row.unvalidated.pop_back(), asked.kink.reset();

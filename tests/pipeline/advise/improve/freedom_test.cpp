@@ -88,12 +88,12 @@ TEST_CASE(
   CHECK(
       obstacle_words({trial(0.5, 0.5, 0.5, -0.1), failed, nearest}, freedom) ==
       Lines{
-          "Nearest is trial 2: bend radius passed by 12 % (529 mm, at least 600 mm), twist passed by 25 %; it lives 0.75 times as long as "
+          "Nearest is trial 2: bend radius violated by 12 % (529 mm, at least 600 mm), twist violated by 25 %; it lives 0.75 times as long as "
           "the jobs as they are",
-          "No trial keeps bend radius: the best passes it by 12 % (529 mm, at least 600 mm; trial 2)",
+          "No trial keeps bend radius: the best violates it by 12 % (529 mm, at least 600 mm; trial 2)",
           "It stands at the end of what may be changed: routing.free_length_m, at most 2.6; widen it"});
   CHECK(obstacle_words({trial(0.5, 0.5, 0.5, -0.1), trial(0.5, 0.5, -0.1, 0.75)}, freedom) ==
-        Lines{"Nearest are the jobs as they are: bend radius passed by 39 %",
+        Lines{"Nearest are the jobs as they are: bend radius violated by 39 %",
               "Each limit is kept by some trial, but not with the others: bend radius",
               "It stands inside of all that may be changed: more trials, other keys, or another dresspack"});
   CHECK(obstacle_words({failed}, freedom) == Lines{"No trial runs; the last: too short by 3 mm"});
