@@ -542,8 +542,8 @@ std::vector<std::pair<const char*, std::string>> keys_of_phrase(const std::strin
       {std::regex("(outer |outside |overall )?diameter|od|o\\.d\\.?"), "outer_diameter_mm"},
       {std::regex("([a-z-]+ )?(jacket|sheath)( [a-z-]+)*"), "jacket_thickness_mm"},
       {std::regex("cores?( diameter)?"), "core_diameter_mm"},
-      {std::regex("widen( length)?"), "lay_length_mm"},
-      {std::regex("(pair|group) widen( length)?"), "group_lay_length_mm"},
+      {std::regex("lay( length)?"), "lay_length_mm"},
+      {std::regex("(pair|group) lay( length)?"), "group_lay_length_mm"},
       {std::regex("wire lay( length)?"), "wire_lay_length_mm"}};
   std::smatch found;
   if (std::regex_match(phrase, found, word_class)) return {{"conductor_class", found[1]}};
