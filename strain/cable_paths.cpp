@@ -32,8 +32,9 @@ constexpr int most_attempts = 20;
 constexpr std::size_t rehearsed_at_once = 4;
 // Time in which cables with another slack get this slack [s]. All of it at once would lie in short waves.
 constexpr double feeding = 15;
-// Least share of the largest sum of eighth powers of curvature. A cable with half of its curvature is far from being the worst.
-constexpr double near_most = 1e-2;
+// Only cables are evaluated whose sum of eighth powers of curvature is at least this share of the largest sum.
+// Half of the largest curvature gives 0.4 % of the sum.
+constexpr double bent_share = 1e-2;
 
 /// Returns the place of a part in the cross-section at an arc along the dresspack.
 std::array<double, 2> place_of(const Construction& construction, int part, double arc) {
@@ -540,7 +541,7 @@ std::vector<int> CablePaths::bent_most(std::size_t segment) const {
     for (std::size_t of = 0; of < bending_sums_.size(); ++of)
       if (component(loosened_[of % loose]) == component(loosened_[k]))
         most = std::max(most, bending_sums_[of]);
-    if (bending_sums_[segment * loose + k] >= near_most * most) parts.push_back(cables_[loosened_[k]].part);
+    if (bending_sums_[segment * loose + k] >= bent_share * most) parts.push_back(cables_[loosened_[k]].part);
   }
   return parts;
 }

@@ -24,38 +24,25 @@ constexpr std::size_t digest_digits = 32;
 /// Names of files that our programs write into a notes folder.
 constexpr std::array<std::string_view, 8> notes{notes_mark,    "study",      "failure",     "memory",
                                                 ".ninja_log",  ".ninja_deps", "build.ninja", ".lock"};
-constexpr std::array<std::string_view, 5> ends_of_notes{".receipt", ".log", ".launcher", ".likes", ".part"};
+constexpr std::array<std::string_view, 5> ends_of_notes{".receipt", ".log",   ".launcher",
+                                                        ".same",    ".part"};
 
-/// Beginnings of our files that contain no comment line, and of older versions, which had no mark.
-struct Beginning {
-  std::string_view begins, contains = "";
+/// Beginnings of our files that contain no comment line.
+constexpr std::array<std::string_view, 13> beginnings{
+    "dresslife file\n",                                       // HDF5 (pipeline/files/checksum.h)
+    "recipe ",                                                // receipts
+    "dresslife study ",                                       // notes of a run about its study
+    "== dresslife-",                                          // logs
+    "ninja_required_version = 1.8\nbuilddir = .stage",        // build.ninja
+    "job,life_repeats,life_hours,worst_segment_from_tool,",   // ranking.csv
+    "trial,feasible,life_hours_p10,",                         // improve.csv
+    "cable,job,rig,status,cycles_p10,",                       // rate.csv
+    "duty,job,repeats_per_hour,share_of_time,",               // of duty
+    "name,duty,installed,age_hours,",                         // of plan
+    "name,fails_in_week_of_",
+    "BEGIN:VCALENDAR\r\nPRODID:-//dresslife//plan",
+    "lines,way,life_hours_p10,times_as_long,"                 // of reprogram
 };
-constexpr std::array beginnings{
-    Beginning{"dresslife file\n"},                                     // HDF5 (pipeline/files/checksum.h)
-    Beginning{"recipe "},                                              // receipts
-    Beginning{"dresslife study "},                                     // notes of a run about its study
-    Beginning{"== dresslife-"},                                        // logs
-    Beginning{"ninja_required_version = 1.8\nbuilddir = .stage"},      // build.ninja
-    Beginning{"job,life_repeats,life_hours,worst_segment_from_tool,"},  // ranking.csv
-    Beginning{"trial,feasible,life_hours_p10,"},                       // improve.csv
-    Beginning{"cable,job,rig,status,cycles_p10,"},                     // rate.csv
-    Beginning{"duty,job,repeats_per_hour,share_of_time,"},             // of duty
-    Beginning{"name,duty,installed,age_hours,"},                       // of plan
-    Beginning{"name,fails_in_week_of_"},
-    Beginning{"BEGIN:VCALENDAR\r\nPRODID:-//dresslife//plan"},
-    Beginning{"lines,way,life_hours_p10,times_as_long,"},              // of reprogram
-    // Older versions:
-    Beginning{"trial,feasible,scatter_life_hours_p10,"},
-    Beginning{"# Proposed by dresslife route "},
-    Beginning{"#!/bin/sh\n# Written by dresslife submit;"},
-    Beginning{"<!DOCTYPE html>\n<html lang=\"en\">\n<!-- dresslife page made from "},
-    Beginning{"<!DOCTYPE html>\n<html lang=\"en\">", ": dresspack life</title>"},
-    Beginning{"<!DOCTYPE html>\n<html lang=\"en\">", ": improved</title>"},
-    Beginning{"| observation | what | observed | predicted, medians of the variants |"},
-    Beginning{"<svg ", "role=\"img\">\n<style>\nsvg { display: block;"},
-    Beginning{"<svg ", "role=\"img\">\n<title>Cross-section of "},
-    Beginning{"<svg ", ">\n<style>\nsvg { font: 12px sans-serif; background: #fff }"},
-    Beginning{"<?xml version=\"1.0\" ?>\n<Xdmf Version=\"2.0\">\n<Domain>\n<Grid Name=\"job\""}};
 
 /// The digest in a mark, and the text behind the mark.
 struct OwnershipMark {
@@ -104,29 +91,14 @@ std::size_t place_of_mark(std::string_view text, Mark mark) {
   return behind_first_line ? text.find('\n') + 1 : 0;
 }
 
-/// Returns whether the file notes why the last attempt of a job failed. It begins with three digests
-/// (pipeline/study/build_graph.cpp).
-bool is_note_of_failure(const fs::path& file) {
-  const std::string begin = beginning_of(file, 3 * (digest_digits + 1));
-  return file.filename() == "failure" && begin.size() == 3 * (digest_digits + 1) && begin.back() == '\n' &&
-         begin.find_first_not_of("0123456789abcdef \n") == std::string::npos;
-}
-
-/// Returns whether a folder is a notes folder: it has a mark, or (older versions) it contains one of our notes or nothing.
+/// Returns whether a folder is a notes folder: it has a mark. After a run that was killed before it wrote the mark: it contains
+/// one of our notes or nothing.
 bool is_notes(const fs::path& folder) {
   if (kind_of_name(folder) != FileKind::folder) return false;
-  if (begins_as_ours(beginning_of(folder / notes_mark, ownership_bytes))) return true;
   const std::vector<fs::path> entries = entries_of(folder);
   return entries.empty() || std::any_of(entries.begin(), entries.end(), [](const fs::path& entry) {
-           return begins_as_ours(beginning_of(entry, ownership_bytes)) || is_note_of_failure(entry);
+           return begins_as_ours(beginning_of(entry, ownership_bytes));
          });
-}
-
-/// Returns whether this is the job.yaml of an older version (commit 80628f4 or before). It has no mark, but a notes folder beside
-/// it.
-bool is_old_job(const fs::path& file, std::string_view begin) {
-  return file.filename() == "job.yaml" && begin.starts_with("robot:\n") && is_notes(file.parent_path() / notes_name) &&
-         !fs::is_empty(file.parent_path() / notes_name);
 }
 
 struct Policy {
@@ -189,9 +161,8 @@ bool begins_as_ours(std::string_view text) {
   const std::string_view begin = text.substr(0, ownership_bytes);
   return !marked(begin).digest.empty() ||
          (begin.size() >= png_head + 4 && begin.substr(png_head + 4).starts_with(png_words)) ||
-         std::any_of(beginnings.begin(), beginnings.end(), [&](const Beginning& known) {
-           return begin.starts_with(known.begins) && begin.find(known.contains) != std::string_view::npos;
-         });
+         std::any_of(beginnings.begin(), beginnings.end(),
+                     [&](std::string_view known) { return begin.starts_with(known); });
 }
 
 bool lies_in_notes(const fs::path& file) {
@@ -205,7 +176,7 @@ bool is_ours(const fs::path& file) {
   if (!state.exists()) return false;
   if (state.size == 0 || lies_in_notes(file)) return true;
   const std::string begin = beginning_of(file, ownership_bytes);
-  if (!begins_as_ours(begin)) return is_old_job(file, begin);
+  if (!begins_as_ours(begin)) return false;
   return !marked(begin).is_yours_once_changed || is_as_marked(read_text(file));
 }
 

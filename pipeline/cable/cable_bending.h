@@ -1,5 +1,5 @@
 // Resistance of a straight cable of nested helices to bending, pull and twist. Bending: M(curvature), with friction at each
-// conductor in the cable and each wire in the conductors (W29 of strain/README.md), and the friction that explains a measured
+// conductor in the cable and each wire in the conductors (W29 of strain/theory.md), and the friction that explains a measured
 // stiffness. Pull and twist: E A, G J and their coupling.
 //
 // The cable is deformed uniformly from straight, for the first time, by a small amount x. The strain of every part and wire is

@@ -1,10 +1,10 @@
-// Force of a cable for a given strain, and its strength (strain/README.md, W37). A strain is credible only if the force that
+// Force of a cable for a given strain, and its strength (strain/theory.md, W37). A strain is credible only if the force that
 // causes it is.
 //
 // A wire has a lay angle alpha at each level of the cable. Its strain is the cable's strain times the product of cos^2(alpha) and
 // of the shares of soft beds (W31). It contributes its force times the product of cos(alpha). The stress
 // of a metal wire follows its cyclic curve,
-//     strain = sigma / E + (sigma / K')^(1/n')    (F7 of fatigue/README.md),
+//     strain = sigma / E + (sigma / K')^(1/n')    (F7 of fatigue/theory.md),
 // an increasing odd function. Insulation is neglected. A part without wires (plain_part.h) is elastic.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Pull of a straight cable while it is twisted: the stretch of nested helices (strain/README.md, W5 and W6) for a parent without
+// Pull of a straight cable while it is twisted: the stretch of nested helices (strain/theory.md, W5 and W6) for a parent without
 // curvature, in which nothing depends on the angle:
 //     V^2 = (R sigma)^2 + lambda^2,   sigma = tan(alpha)/R + twist,
 //     stretch = cos(alpha) V,   twist of the part = sigma cos^2(alpha).

@@ -1,4 +1,4 @@
-// Forces in the cables of a span and on its clamps, caused by the cables' strains (strain/README.md, W37).
+// Forces in the cables of a span and on its clamps, caused by the cables' strains (strain/theory.md, W37).
 #pragma once
 
 #include <array>

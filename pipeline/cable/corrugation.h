@@ -1,4 +1,4 @@
-// Strain of a corrugated wall when the hose stretches (W22 of strain/README.md).
+// Strain of a corrugated wall when the hose stretches (W22 of strain/theory.md).
 //
 // Along the hose, one corrugation is a thin folded beam: round crests and roots of mean radius r = pitch/4, joined by straight
 // flanks across the hose. Let w = height - wall be the depth of the wall's middle surface and a = w/2 - r half a flank. A pull F

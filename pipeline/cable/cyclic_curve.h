@@ -1,4 +1,4 @@
-// The two constants of a metal's cyclic curve, strain = sigma / E + (sigma / K')^(1/n') (F7 of fatigue/README.md): given by the
+// The two constants of a metal's cyclic curve, strain = sigma / E + (sigma / K')^(1/n') (F7 of fatigue/theory.md): given by the
 // material, or computed from its strain-life constants.
 #pragma once
 

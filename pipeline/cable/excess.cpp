@@ -110,11 +110,12 @@ std::vector<Warning> tight_warnings(const std::string& key, const MountedDresspa
     if (slack >= needed / 2 || CableForce(mounted.dresspack, component).strength() <= 0) continue;
     warnings.push_back(warning_of(
         WarningKind::force, "",
-        fmt::format("'{}' has {:.3g} % of slack (limit {} %: half of what it needs to wind once around the hose's axis)",
-                    component.name, 100 * slack, percent_above(needed / 2)),
+        fmt::format(
+            "'{}' has {:.3g} % of slack (limit {} %: half of what it needs to wind once around the hose's axis)",
+            component.name, 100 * slack, percent_above(needed / 2)),
         "it stays on one side of the hose, so that a bend of the hose pulls it",
-        fmt::format("{}.components.{}.slack_percent: {} (now {:.3g}); dresspacks are laid with 1 to 2 %", key, number,
-                    percent_above(slack_to_lay(needed)), component.laying.slack)));
+        fmt::format("{}.components.{}.slack_percent: {} (now {:.3g}); dresspacks are installed with 1 to 2 %",
+                    key, number, percent_above(slack_to_lay(needed)), component.laying.slack)));
   }
   return warnings;
 }

@@ -1,4 +1,4 @@
-// Nested helices: computes the state of a component on a helix from the state of its parent rod. W5 to W12 of strain/README.md,
+// Nested helices: computes the state of a component on a helix from the state of its parent rod. W5 to W12 of strain/theory.md,
 // which also has the measurements.
 //
 // A rod is a curve with a frame (d1, d2, d3 = tangent). Its parameter l is its own ideal length. `stretch`, the path length per
@@ -17,7 +17,7 @@
 //     bend2   = cos(alpha) (R sigma^2 + y X) / V
 //     twist   = cos(alpha) sigma stretch / V
 // with the parent's state on the right. Axial strain is the stretch over that of the undeformed construction, minus one (W7).
-// These equations are exact. The `thesis` kinematics is Backman's set (12) to (23), see W9 of strain/README.md.
+// These equations are exact. The `thesis` kinematics is Backman's set (12) to (23), see W9 of strain/theory.md.
 #pragma once
 
 #include "pipeline/cable/series.h"

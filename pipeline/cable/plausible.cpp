@@ -149,7 +149,7 @@ class Judge {
         add(of.where,
             fmt::format("tension_N of '{}' is {:.4g} (limit {:.3g}: {:g} MPa on its section)", of.name,
                         of.tension, strongest_part * pi * of.radius * of.radius, strongest_part / 1e6),
-            "another unit", "no tension_N, or the pull with which it was laid");
+            "another unit", "no tension_N, or the pull with which it was installed");
       if (const double section = pi * of.radius * of.radius;
           of.laying.mass && *of.laying.mass > copper * section)
         add(of.where,

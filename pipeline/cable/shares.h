@@ -1,4 +1,4 @@
-// Reduction of a part's strain by a soft jacket and by a soft bed (W30 and W31 of strain/README.md).
+// Reduction of a part's strain by a soft jacket and by a soft bed (W30 and W31 of strain/theory.md).
 #pragma once
 
 namespace dresslife::helices {

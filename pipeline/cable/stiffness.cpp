@@ -25,7 +25,7 @@ constexpr double torsion_of_core = 0.8;      // ESTIMATE: that of a solid round 
 constexpr double gravity = 9.81;             // [m/s2]
 constexpr double believable_stretch = 1e-3;  // by the hose's own weight; hoses of polyamide have 1e-4 and less
 constexpr double stiffest_cable = 8;  // twice the largest ratio of bending tests of cables to their calculation, 3.7 (strain/measurements.md)
-constexpr double believable = 2;  // twice the E I changes a life by a factor of up to five (README)
+constexpr double believable = 2;  // twice the E I changed lives of shipped jobs by a factor of up to five
 
 bool is_hose(const Dresspack& dresspack) { return inner_radius(dresspack).has_value(); }
 

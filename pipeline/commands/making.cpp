@@ -69,6 +69,12 @@ class Unkept {
   std::unordered_map<std::size_t, std::size_t> ended_;
 };
 
+std::size_t count_left(const Study& study, const std::vector<JobState>& states) {
+  std::size_t left = 0;
+  for (std::size_t k = 0; k < states.size(); ++k) left += study.jobs[k].failure.empty() && !states[k].done();
+  return left;
+}
+
 /// Runs the written graph. left: number of jobs in it. Returns the number of started stages.
 int build_rest(const Study& study, const StudyPlaces& places, const RunOptions& options, std::size_t left,
                std::vector<JobState>& states, const Digests& before, Progress& progress) {
@@ -92,15 +98,15 @@ int build_rest(const Study& study, const StudyPlaces& places, const RunOptions& 
 
 /// Runs the first of every group of jobs with the same recipes. The other jobs of the group take its results. Jobs without such
 /// a group wait for the next graph. Returns the number of started stages.
-int make_first_of_likes(const Study& study, const StudyPlaces& places, const RunOptions& options,
+int make_first_of_same(const Study& study, const StudyPlaces& places, const RunOptions& options,
                         std::vector<JobState>& states, const Digests& before, Progress& progress) {
   if (study.keep == Keep::lives) return 0;  // the first job would keep no files that the others could take
-  std::map<std::array<std::string, stage_count>, std::vector<std::size_t>> likes;
+  std::map<std::array<std::string, stage_count>, std::vector<std::size_t>> by_recipe;
   for (std::size_t k = 0; k < states.size(); ++k)
-    if (study.jobs[k].failure.empty() && !states[k].done()) likes[states[k].recipes].push_back(k);
+    if (study.jobs[k].failure.empty() && !states[k].done()) by_recipe[states[k].recipes].push_back(k);
   Study first{study.name, {}, study.keep};
   std::vector<std::size_t> jobs;
-  for (const auto& [recipes, same] : likes)
+  for (const auto& [recipes, same] : by_recipe)
     if (same.size() > 1) jobs.push_back(same.front());
   if (jobs.empty()) return 0;
   std::vector<JobState> of_first;
@@ -118,20 +124,16 @@ int make_rest(const StudyRequest& request, StudyState& standing, const RunOption
   const auto& [study, places, states, remembered, looks, digests] = standing;
   Progress progress(study.name, options.quiet);
   if (!remembered) share_stages(study, places, standing.states);
-  std::size_t left = 0;
   for (std::size_t k = 0; k < states.size(); ++k) {
     if (!study.jobs[k].failure.empty()) continue;
-    left += !states[k].done();
     remove_unkept(states[k], places.job(study.jobs[k].name));
     if (!states[k].damaged.empty())
       progress.note(fmt::format("{}: {}", places.job(study.jobs[k].name).string(), states[k].words()));
   }
   int started = 0;
-  if (!remembered && left > 1) {
-    started = make_first_of_likes(study, places, options, standing.states, digests, progress);
-    left = 0;
-    for (std::size_t k = 0; k < states.size(); ++k) left += study.jobs[k].failure.empty() && !states[k].done();
-  }
+  if (!remembered && count_left(study, states) > 1)
+    started = make_first_of_same(study, places, options, standing.states, digests, progress);
+  const std::size_t left = count_left(study, states);
   if (remembered)
     renew_receipts(study, places, states);
   else
@@ -146,14 +148,11 @@ std::vector<RankingRow> made_rows(const Study& study, const StudyPlaces& places,
   std::vector<JobState> states = states_of(study, places, before);
   share_stages(study, places, states);
   Progress progress(study.name, options.quiet);
-  std::size_t left = 0;
-  for (std::size_t k = 0; k < states.size(); ++k) {
-    if (!study.jobs[k].failure.empty()) continue;
-    left += !states[k].done();
-    remove_unkept(states[k], places.job(study.jobs[k].name));
-  }
+  for (std::size_t k = 0; k < states.size(); ++k)
+    if (study.jobs[k].failure.empty()) remove_unkept(states[k], places.job(study.jobs[k].name));
   write_build_graph(study, places, states, options.limits, options.launcher);
-  if (left > 0) build_rest(study, places, options, left, states, before, progress);
+  if (const std::size_t left = count_left(study, states); left > 0)
+    build_rest(study, places, options, left, states, before, progress);
   return ranking_of(study, places, states);
 }
 

@@ -173,7 +173,7 @@ void FileReader::Impl::read_values(const std::string& path, std::size_t first, s
                                           : read_packed<std::uint32_t>(from, first, count, out);
   } else {
     out.resize(count * from.row_values);
-    read(from, first, count, memory_type(type_of<T>), out.data());
+    read(from, first, count, number_type(type_of<T>), out.data());
   }
   check_finite(from, first, out);
 }

@@ -18,39 +18,6 @@ constexpr std::size_t packed_chunk_numbers =
     1 << 15;  // fewer calls; the range of values, and so the number of bits, hardly increases
 static_assert(packed_chunk_numbers <= ListDeflater::most_numbers);
 
-std::size_t size_of(Type type) {
-  switch (type) {
-    case Type::f64:
-    case Type::u64:
-      return 8;
-    case Type::f32:
-    case Type::i32:
-    case Type::u32:
-      return 4;
-    case Type::text:
-      break;
-  }
-  return 0;
-}
-
-hid_t file_type(Type type) {
-  switch (type) {
-    case Type::f64:
-      return H5T_IEEE_F64LE;
-    case Type::f32:
-      return H5T_IEEE_F32LE;
-    case Type::i32:
-      return H5T_STD_I32LE;
-    case Type::u32:
-      return H5T_STD_U32LE;
-    case Type::u64:
-      return H5T_STD_U64LE;
-    case Type::text:
-      break;
-  }
-  return -1;
-}
-
 Handle text_type(std::size_t bytes) {
   Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
   H5Tset_size(type, std::max<std::size_t>(bytes, 1));
@@ -77,7 +44,7 @@ bool write_text_attribute(hid_t object, const std::string& name, const std::stri
 struct FileWriter::Impl {
   struct Open {
     const Dataset* description = nullptr;
-    Handle id, file_type, memory_type;  // id: valid after the first write
+    Handle id, type;  // id: valid after the first write
     std::size_t row_values = 1, value_bytes = 0, rows = 0, chunk_rows = 1;
     std::vector<char> buffer;
     std::map<std::string, std::string> attributes;
@@ -125,12 +92,10 @@ struct FileWriter::Impl {
     if (made.description->type == Type::text) {
       const auto width = text_widths.find(path);
       made.value_bytes = std::max<std::size_t>(1, width == text_widths.end() ? text_bytes : width->second);
-      made.file_type = text_type(made.value_bytes);
-      made.memory_type = text_type(made.value_bytes);
+      made.type = text_type(made.value_bytes);
     } else {
-      made.value_bytes = size_of(made.description->type);
-      made.file_type = Handle(H5Tcopy(file_type(made.description->type)), H5Tclose);
-      made.memory_type = Handle(H5Tcopy(memory_type(made.description->type)), H5Tclose);
+      made.type = Handle(H5Tcopy(number_type(made.description->type)), H5Tclose);
+      made.value_bytes = H5Tget_size(made.type);
     }
     const std::size_t most =
         made.description->packed() ? packed_chunk_numbers * made.value_bytes : written_at_once;
@@ -157,12 +122,11 @@ struct FileWriter::Impl {
     if (made.description->deflate) H5Pset_shuffle(creation);
     if (made.description->deflate || made.description->lists) H5Pset_deflate(creation, 1);
     if (made.description->decimals) {
-      H5Pset_fill_value(creation, made.file_type, nullptr);  // a defined value would need a code of its own
+      H5Pset_fill_value(creation, made.type, nullptr);  // a defined value would need a code of its own
       H5Pset_scaleoffset(creation, H5Z_SO_FLOAT_DSCALE, *made.description->decimals);
     }
     make_groups(path);
-    made.id = Handle(
-        H5Dcreate2(file, path.c_str(), made.file_type, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose);
+    made.id = Handle(H5Dcreate2(file, path.c_str(), made.type, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose);
     if (!made.id.valid()) fail("dataset " + path);
     for (const auto& [name, value] : made.attributes)
       if (!write_text_attribute(made.id, name, value)) fail("attribute " + name + " of " + path);
@@ -259,8 +223,7 @@ struct FileWriter::Impl {
     H5Sselect_hyperslab(file_space, H5S_SELECT_SET, first.data(), nullptr, count.data(), nullptr);
     const Handle memory_space(H5Screate_simple(static_cast<int>(shape.size()), count.data(), nullptr),
                               H5Sclose);
-    if (H5Dwrite(target.id, target.memory_type, memory_space, file_space, H5P_DEFAULT, target.buffer.data()) <
-        0)
+    if (H5Dwrite(target.id, target.type, memory_space, file_space, H5P_DEFAULT, target.buffer.data()) < 0)
       fail("dataset " + target.description->path);
     target.rows += rows;
     target.buffer.clear();

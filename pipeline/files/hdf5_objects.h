@@ -42,18 +42,20 @@ inline void silence_library() {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
-inline hid_t memory_type(Type type) {
+static_assert(std::endian::native == std::endian::little, "numbers are stored as they are in memory");
+/// Returns the type of numbers, the same in files and in memory. Negative: text, whose type depends on its length.
+inline hid_t number_type(Type type) {
   switch (type) {
     case Type::f64:
-      return H5T_NATIVE_DOUBLE;
+      return H5T_IEEE_F64LE;
     case Type::f32:
-      return H5T_NATIVE_FLOAT;
+      return H5T_IEEE_F32LE;
     case Type::i32:
-      return H5T_NATIVE_INT32;
+      return H5T_STD_I32LE;
     case Type::u32:
-      return H5T_NATIVE_UINT32;
+      return H5T_STD_U32LE;
     case Type::u64:
-      return H5T_NATIVE_UINT64;
+      return H5T_STD_U64LE;
     case Type::text:
       break;
   }

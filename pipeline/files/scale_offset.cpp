@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 namespace dresslife::pipeline {
@@ -104,6 +105,33 @@ int bits_for(double largest, double smallest, double scale) {
                                                : whole_double;
 }
 
+/// Makes the chunk long enough for the packed numbers and `spare` more bytes, and writes its head.
+/// Returns the place of the packed numbers.
+template <class T>
+char* begin_chunk(std::size_t count, std::int32_t bits, T smallest, std::size_t spare, std::vector<char>& chunk) {
+  chunk.assign(chunk_bytes(count, bits) + spare, 0);
+  std::memcpy(chunk.data(), &bits, sizeof(bits));
+  chunk[4] = 8;
+  std::memcpy(chunk.data() + 5, &smallest, sizeof(smallest));
+  return chunk.data() + header_bytes;
+}
+
+/// The head of a chunk.
+template <class T>
+struct Head {
+  std::int32_t bits;
+  T smallest;
+};
+/// Returns the head; std::nullopt: the chunk is shorter than a head.
+template <class T>
+std::optional<Head<T>> head_of(std::span<const char> chunk) {
+  if (chunk.size() < header_bytes) return std::nullopt;
+  Head<T> head;
+  std::memcpy(&head.bits, chunk.data(), sizeof(head.bits));
+  std::memcpy(&head.smallest, chunk.data() + 5, sizeof(head.smallest));
+  return head;
+}
+
 }  // namespace
 
 void pack_chunk(std::span<const float> numbers, int decimals, std::vector<char>& chunk) {
@@ -114,12 +142,8 @@ void pack_chunk(std::span<const float> numbers, int decimals, std::vector<char>&
   }
   const float scale = power_of_ten(decimals);
   const std::int32_t bits = bits_for(largest, smallest, scale);
-  chunk.assign(chunk_bytes(numbers.size(), bits) + group * sizeof(float),
-               0);  // the last group may be incomplete
-  std::memcpy(chunk.data(), &bits, sizeof(bits));
-  chunk[4] = 8;
-  std::memcpy(chunk.data() + 5, &smallest, sizeof(smallest));
-  char* out = chunk.data() + header_bytes;
+  char* out = begin_chunk(numbers.size(), bits, smallest, group * sizeof(float),
+                          chunk);  // the last group may be incomplete
   if (bits == whole) {
     std::memcpy(out, numbers.data(), numbers.size_bytes());
   } else if (bits > 0) {
@@ -134,11 +158,9 @@ void pack_chunk(std::span<const float> numbers, int decimals, std::vector<char>&
 }
 
 bool unpack_chunk(std::span<const char> chunk, int decimals, std::span<float> numbers) {
-  std::int32_t bits = 0;
-  float smallest;
-  if (chunk.size() < header_bytes) return false;
-  std::memcpy(&bits, chunk.data(), sizeof(bits));
-  std::memcpy(&smallest, chunk.data() + 5, sizeof(smallest));
+  const auto head = head_of<float>(chunk);
+  if (!head) return false;
+  const auto [bits, smallest] = *head;
   if (bits < 0 || bits > whole || chunk.size() + 1 < chunk_bytes(numbers.size(), bits)) return false;
   const char* in = chunk.data() + header_bytes;
   if (bits == whole) {
@@ -164,11 +186,8 @@ void pack_chunk(std::span<const double> numbers, int decimals, std::vector<char>
   const auto [smallest, largest] = std::minmax_element(numbers.begin(), numbers.end());
   const double scale = std::pow(10.0, decimals), least = *smallest;
   const std::int32_t bits = bits_for(*largest, least, scale);
-  chunk.assign(chunk_bytes(numbers.size(), bits) + sizeof(std::uint64_t), 0);  // the last word may end beyond the chunk
-  std::memcpy(chunk.data(), &bits, sizeof(bits));
-  chunk[4] = 8;
-  std::memcpy(chunk.data() + 5, &least, sizeof(least));
-  char* const out = chunk.data() + header_bytes;
+  char* const out = begin_chunk(numbers.size(), bits, least, sizeof(std::uint64_t),
+                                chunk);  // the last word may end beyond it
   if (bits == whole_double) {
     std::memcpy(out, numbers.data(), numbers.size_bytes());
   } else if (bits > 0) {
@@ -185,11 +204,10 @@ void pack_chunk(std::span<const double> numbers, int decimals, std::vector<char>
 }
 
 bool unpack_chunk(std::span<const char> chunk, int decimals, std::span<double> numbers) {
-  std::int32_t bits = 0;
-  double smallest;
-  if (chunk.size() < header_bytes) return false;
-  std::memcpy(&bits, chunk.data(), sizeof(bits));
-  std::memcpy(&smallest, chunk.data() + 5, sizeof(smallest));
+  const auto head = head_of<double>(chunk);
+  if (!head) return false;
+  const auto bits = head->bits;
+  const double smallest = head->smallest;
   const bool possible = (bits >= 0 && bits <= most_bits_of_double) || bits == whole_double;
   if (!possible || chunk.size() + 1 < chunk_bytes(numbers.size(), bits)) return false;
   const char* const in = chunk.data() + header_bytes;

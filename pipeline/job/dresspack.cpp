@@ -13,9 +13,9 @@ namespace {
 void describe(Fields& f, Laying& laying) {
   f.choice(
       "position", laying.position,
-      "The position of the part in the cross-section of a hose. A held part keeps its place. A loose part "
-      "moves to where it rests. auto: loose if the part is no wire, has a lay angle of at most 20 deg, may "
-      "slide, and the dresspack has inner_diameter_mm or hose_corrugation.");
+      "Whether the part can move in the hose. held: it keeps its place. loose: it moves. auto: loose for a part "
+      "that is no wire, may slide and has a lay angle of at most 20 deg, if the room in the hose is known "
+      "(inner_diameter_mm or hose_corrugation).");
   f.number("slack_percent", laying.slack, Need::optional, between(0, 20),
            "The length of the part beyond its path in the hose at rest. Default for a loose part: 1, an "
            "ESTIMATE.");
@@ -54,9 +54,8 @@ void describe(Fields& f, Component& component) {
                  "The Coulomb friction of the part on its support. Default: 0.3, an ESTIMATE.");
   f.maybe_number(
       "radial_line_load_N_per_m", component.radial_line_load, at_least(0),
-      "The force per length by which jacket and tape press the part on its support. Default: an ESTIMATE, a "
-      "jacket's 0.17 MPa times the width of the part, or the pressure on its parent. A cable in a hose has "
-      "none.");
+      "The force per length by which jacket and tape press the part on its support. Default: 0.17 MPa times the width "
+      "of the part (ESTIMATE), or the pressure on its parent, and 0 for a cable in a hose.");
   f.number("tension_N", component.tension, Need::optional, at_least(0),
            "The tension of the part in the dresspack at rest.");
   describe(f, component.laying);
@@ -70,10 +69,10 @@ void describe(Fields& f, Component& component) {
   f.number("jacket_stiffness_N_per_m2", component.jacket_stiffness, Need::optional, at_least(0),
            "The force per length and displacement by which a jacket holds the part along its path if it "
            "fills the gussets. It counts where strain.slip is friction.");
-  f.maybe_number("radial_stiffness_N_per_m2", component.radial_stiffness, above(0),
-                 "The radial force per length and displacement of the part's support. Default: 5e7, of "
-                 "polymer, under parts in a cable that have parts themselves. Other supports are rigid, and "
-                 "all are rigid where strain.kinematics is thesis.");
+  f.maybe_number(
+      "radial_stiffness_N_per_m2", component.radial_stiffness, above(0),
+      "The radial stiffness of the part's support. Default: 5e7 (polymer) under the cores of a cable. Other supports "
+      "are rigid. With strain.kinematics: thesis all are rigid.");
   f.maybe_number("measured_bending_stiffness_Nm2", component.measured_bending_stiffness, above(0),
                  "The measured bending moment over curvature of one part that has parts. It sets the level "
                  "of radial_line_load_N_per_m of everything inside, where strain.slip is friction.");
@@ -127,10 +126,11 @@ void describe(Fields& f, Dresspack& dresspack) {
   f.number_or_word("mass_kg_per_m", dresspack.mass_per_length, dresspack.mass_from_construction, from, need,
                    range,
                    "The mass of the filled hose. from_construction: the sum of its parts and its wall.");
-  f.number_or_word("bending_stiffness_Nm2", dresspack.bending_stiffness, dresspack.bending_from_construction,
-                   from, need, range,
-                   "E I of the filled hose. from_construction: of its parts, wall and core in construction_state; in the state "
-                   "friction the simulation bends the sliding parts and, beside them, their friction.");
+  f.number_or_word(
+      "bending_stiffness_Nm2", dresspack.bending_stiffness, dresspack.bending_from_construction, from, need,
+      range,
+      "E I of the filled hose. from_construction: it is computed from parts, wall and core in construction_state. In "
+      "the state friction the simulation adds the friction of the parts.");
   f.number_or_word("torsional_stiffness_Nm2", dresspack.torsional_stiffness,
                    dresspack.torsional_from_construction, from, need, range,
                    "G J of the filled hose. from_construction: as for bending.");
@@ -161,10 +161,11 @@ void describe(Fields& f, Dresspack& dresspack) {
                  "The loss factor of bending without friction, the same from 0.8 to 30 Hz: twice the damping ratio of a "
                  "swing against bending alone. The stiffness without friction is then that at 1 Hz.");
   if (!dresspack.bending_from_construction)
-    f.list("bending_friction", dresspack.bending_friction, Need::optional,
-           "The share of bending_stiffness_Nm2 that friction holds, as at most four elements. That stiffness is then moment "
-           "over curvature of the first bend to construction_curvature_1_per_m. A stiffness from_construction computes "
-           "its own elements and refuses the key.");
+    f.list(
+        "bending_friction", dresspack.bending_friction, Need::optional,
+        "The part of bending_stiffness_Nm2 that is friction, as at most four elements. bending_stiffness_Nm2 is then "
+        "moment over curvature of the first bend to construction_curvature_1_per_m. The key needs a stiffness as a "
+        "number.");
   f.text("damping_source", dresspack.damping_source, need,
          "The source of the damping. The life depends on it.");
   f.number("friction_coefficient", dresspack.friction, Need::optional, between(0, 2),
@@ -202,9 +203,10 @@ void describe(Fields& f, Dresspack& dresspack) {
   f.list("components", dresspack.components, Need::optional,
          "The parts in the hose. Without them only the motion is computed. `place: auto` instead of "
          "helix_radius_mm and phase_deg packs parts into the bore.");
-  f.list("core_components", dresspack.core_components, Need::optional,
-         "The parts in the filling of the core, instead of core_parts: hoses, which may kink, and cables with ratings, which have a life. "
-         "Stiffness and mass of the filling are those of the other keys.");
+  f.list(
+      "core_components", dresspack.core_components, Need::optional,
+      "The parts in the filling of the core, instead of core_parts: hoses, which may kink, and cables with ratings. "
+      "The other keys give stiffness and mass of the filling.");
   f.list("materials", dresspack.materials, Need::optional, "Materials that are not in config/materials.");
   f.list("ratings", dresspack.ratings, Need::optional,
          "The cycles in test rigs that the maker states, of a dresspack that is one cable without a hose.");

@@ -31,7 +31,7 @@ constexpr std::string_view word(Position value) { return word_at({"auto", "held"
 enum class SlipState { sliding, friction, stuck };
 constexpr std::string_view word(SlipState value) { return word_at({"sliding", "friction", "stuck"}, value); }
 
-/// How a first-level part lies in its dresspack and how it is clamped (strain/README.md, W32 to W37).
+/// How a first-level part lies in its dresspack and how it is clamped (strain/theory.md, W32 to W37).
 struct Laying {
   Position position = Position::automatic;
   double slack = 0;                 ///< excess length over the path on which it was installed [% of that path]
@@ -49,7 +49,7 @@ struct Sleeve {
   Where where;
 };
 
-/// K equal parts on one helix. Each of them may contain further layers of parts (strain/README.md).
+/// K equal parts on one helix. Each of them may contain further layers of parts (strain/theory.md).
 struct Component {
   std::string name;         ///< "signal cable"; parts are numbered "signal cable 1", ...
   std::string layer;        ///< set if several layers of parts share a name: "layer 1"; else empty

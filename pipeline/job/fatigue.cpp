@@ -22,10 +22,10 @@ void describe(Fields& f, Fatigue& fatigue) {
             "The number of worst places for which the cycles are written.");
   f.number("operating_hours_per_week", fatigue.operating_hours_per_week, Need::optional, between(0.1, 168),
            "The hours of motion per week. They convert hours into months.");
-  f.number("robot_life_hours", fatigue.robot_life_hours, Need::optional, between(1, 1e7),
-           "The life of the robot. Tables show longer lives as longer than this. ranking.csv and the lines "
-           "below a table keep the hours. improve counts no longer life of the wires as a gain. ESTIMATE: robots are overhauled "
-           "or replaced after 20,000 to 40,000 h (ABB's product manual 3HAC044266-001 gives gearboxes 40,000 h).");
+  f.number(
+      "robot_life_hours", fatigue.robot_life_hours, Need::optional, between(1, 1e7),
+      "The life of the robot. Tables print longer lives as longer than this, ranking.csv in hours. `improve` counts no "
+           "longer life of the wires as a gain. ESTIMATE: robots are overhauled or replaced after 20,000 to 40,000 h.");
   f.number(
       "scatter_log10", fatigue.scatter_log10, Need::optional, between(0, 1),
       "The standard deviation of log10 of a wire's life. ESTIMATE: lives of 20 equal wires cover 0.75 of a "

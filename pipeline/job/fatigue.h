@@ -23,7 +23,7 @@ constexpr std::string_view word(MeanStress value) {
   return word_at({"none", "morrow", "swt", "walker"}, value);
 }
 
-/// Relaxation of the offset of stress in a repeated history (fatigue/README.md, F22).
+/// Relaxation of the offset of stress in a repeated history (fatigue/theory.md, F22).
 enum class MeanStressRelaxation { none, power_law, complete };
 constexpr std::string_view word(MeanStressRelaxation value) {
   return word_at({"none", "power_law", "complete"}, value);

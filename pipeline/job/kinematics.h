@@ -1,4 +1,4 @@
-// Geometry of nested helices (strain/README.md, W5 to W9).
+// Geometry of nested helices (strain/theory.md, W5 to W9).
 #pragma once
 
 #include <string_view>

@@ -1,4 +1,4 @@
-// The material of a wire or of the hose: its strain-life constants and cyclic curve (fatigue/README.md).
+// The material of a wire or of the hose: its strain-life constants and cyclic curve (fatigue/theory.md).
 #pragma once
 
 #include <optional>

@@ -143,7 +143,7 @@ void describe(Fields& f, Motion& motion) {
          "contain.");
   f.choice("rows", motion.rows,
            "The motion between joint angles with times. blended: straight lines, with the accelerations of the axes at each row. "
-           "spline: a cubic spline through the rows, at rest where two rows are equal; it keeps the times and no limits.");
+           "spline: a cubic spline through the rows, which keeps the times and no limits of the axes.");
   f.integer("passes", motion.passes, Need::optional, at_least(0),
             "The number of passes of the program's endless main loop. 0: until it repeats itself.");
   f.number("spot_time_s", motion.spot_time, Need::optional, at_least(0),

@@ -7,9 +7,10 @@
 namespace dresslife::pipeline {
 void describe(Fields& f, PlainPart& part) {
   f.place(part.where);
-  f.choice("kind", part.kind,
-           "The kind of the part: a filler, a hose with a bore, an optical fibre, or a cable whose wires are not described. "
-           "All but hoses are solid. A cable has a life by its ratings.");
+  f.choice(
+      "kind", part.kind,
+      "The kind of the part: a filler, a hose with a bore, an optical fibre, or a cable without described wires, "
+      "whose life follows from its ratings. All but hoses are solid.");
   f.maybe_number("bore_mm", part.bore, above(0),
                  "The inner diameter of a hose. Default: two thirds of the outer one.");
   f.choice("filled_with", part.medium, "The content of a hose: water, or air of no weight.");

@@ -83,10 +83,9 @@ void describe(Fields& f, Rig& rig) {
   f.place(rig.where);
   f.choice(
       "kind", rig.kind,
-      "The kind of test. torsion: twist to and fro between two grips. rolling_flex: a bend of 180 deg rolls "
-      "along the cable and back, also in an energy chain (C-track). two_pulley: a carriage with two pulleys "
-      "runs along the cable, an S (EN 50396). tick_tock: bending over two mandrels to either side. swivel: "
-      "bending to either side at a clip. axial: pull and release, the test of the material itself.");
+      "The kind of test. torsion: twist between two grips. rolling_flex: a bend of 180 deg rolls along the cable, "
+      "as in an energy chain. two_pulley: a carriage with two pulleys runs along the cable (EN 50396). tick_tock: "
+      "bending over two mandrels. swivel: bending at a clip. axial: pull and release.");
   f.maybe_number("length_m", rig.length, between(1e-3, 1000),
                  "torsion: the length between the grips. Default: 1.");
   f.maybe_number("twist_deg_per_m", rig.twist, between(1e-3, 1e5), "torsion: the twist to either side.");

@@ -1,4 +1,4 @@
-// A test rig for cables, as in standards and data sheets: a deformation of the cable that repeats (sim/README.md, D4 to D8,
+// A test rig for cables, as in standards and data sheets: a deformation of the cable that repeats (sim/run/rig_deformation.h, D4 to D8,
 // describe the prescribed deformation). One repeat of the motion is one cycle of the rig, so a life in repeats is a life in rig
 // cycles.
 #pragma once

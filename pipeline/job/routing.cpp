@@ -14,9 +14,10 @@ void describe(Fields& f, BendRelief& relief) {
   constexpr double stiffest = 1e6;  // [N m2] a steel bar of 100 mm diameter
   f.number("length_mm", relief.length, Need::required, at_least(0),
            "The length of the relief from the clamp. At most half the dresspack between two clamps.");
-  f.number("bending_stiffness_Nm2", relief.stiffness, Need::required, between(0, stiffest),
-           "The bending stiffness of the relief alone: M/curvature of the sleeve or spring without the dresspack. One as stiff as "
-           "the dresspack helps; one that is much stiffer only moves the bend to its end.");
+  f.number(
+      "bending_stiffness_Nm2", relief.stiffness, Need::required, between(0, stiffest),
+      "The bending stiffness of the sleeve or spring without the dresspack. A relief as stiff as the dresspack helps. "
+      "A much stiffer one moves the bend to its end.");
 }
 
 void describe(Fields& f, Clamp& clamp) {

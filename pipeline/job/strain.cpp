@@ -20,17 +20,17 @@ void describe(Fields& f, Strain& strain) {
   f.choice(
       "equivalent", strain.equivalent,
       "The strain that is counted. axial: along the fibre. shear_included: with the shear of the wire's "
-      "torsion, signed sqrt(eps^2 + gamma^2/3). critical_plane: for the likely worst wires the strain "
-      "across the plane with the largest damage.");
+      "torsion, signed sqrt(eps^2 + gamma^2/3). critical_plane: across the plane with the largest damage, for "
+      "the likely worst wires.");
   f.integer("surface_fibres", strain.surface_fibres, Need::optional, between(0, 64),
             "The number of fibres on each wire's surface. 1: the outer one. 0: the axis.");
   f.number("gate", strain.gate, Need::optional, between(0, 0.1),
            "The strain range below which turning points are dropped. Lives whose cycles lie below it are endless.");
   f.integer(
       "cable_elements_per_segment", strain.cable_elements, Need::optional, between(0, most_cable_elements),
-      "The number of pieces per segment of loose cables, which bend in shorter waves than the hose. 0: by "
-      "their slack and room, at least 2 per segment and 64 in all. Twice as many take twice the time and "
-      "leave a quarter of the error (loose_mesh_error of strain.h5).");
+      "The number of elements of a loose cable per segment. 0: it follows from slack and room, at least 2 per segment "
+      "and 64 in all. Twice as many take twice the time and have a quarter of the error (loose_mesh_error of "
+      "strain.h5).");
   const auto factor = [&](const char* key, double& value, const char* meaning) {
     f.number(key, value, Need::optional, between(1e-3, 1e3), meaning);
   };

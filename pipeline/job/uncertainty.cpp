@@ -23,16 +23,15 @@ double UncertainParameter::z_of(double value) const {
 const std::array<UncertainParameter, uncertain_count>& uncertain_parameters() {
   static const std::array<UncertainParameter, uncertain_count> parameters{{
       {"friction_inside", "strain.friction_factor", true, 2.2, true, SharedBy::construction,
-       "ESTIMATE, from the friction moment over diameter cubed of seven published jacketed cables: median 16 kPa, 7 to 52 kPa "
-       "for 10 to 90 %. A jacket of 2 MPa hoop stress presses 4 to 12 times as hard as the shipped ones: 0.1 to 3 % of samples "
-       "exceed that",
+       "ESTIMATE, from seven published jacketed cables",
        "a cable's bending moment at 1 1/m: measured_bending_stiffness_Nm2", "the friction inside the cables",
        "One bending test of a cable (one hour)",
        0.26},  // a factor of 1.3: the moment is measured to 15 %, about half of it is friction
       {"friction_hose", "strain.hose_friction_factor", true, 2, true, SharedBy::construction,
-       "ESTIMATE: polymer on polymer 0.15 to 0.6, and what presses is the cable's own weight",
+       "ESTIMATE: coefficients of polymers on polymers are 0.15 to 0.6",
        "the force that pulls one cable through its hose", "the friction of the cables on their hose",
-       "One cable pulled through its hose with a spring scale (one hour)", 0.2},  // the force is measured to 20 %
+       "One cable pulled through its hose with a spring scale (one hour)",
+       0.2},  // the force is measured to 20 %
       {"slack", "strain.slack_factor", true, 1.5, true, SharedBy::installation,
        "ESTIMATE: 2 cm in 2 m, mounted by hand to within about 1 cm",
        "the length of each cable between the clamps against the hose's: slack_percent",
@@ -47,30 +46,29 @@ const std::array<UncertainParameter, uncertain_count>& uncertain_parameters() {
        "ESTIMATE: a clamp's screw and rubber by hand; without effect where no grip is given",
        "the force that pulls a cable out of its clamp: tool_grip_N",
        "the force at which a clamp lets a cable slip",
-       "One cable pulled out of its clamp with a spring scale (one hour)", 0.2},  // the force is measured to 20 %
+       "One cable pulled out of its clamp with a spring scale (one hour)",
+       0.2},  // the force is measured to 20 %
       {"rest", "strain.rest", false, 1, true, SharedBy::installation,
-       "the places of rest to which several starts of the cables lead (/start/rest of strain.h5). Without a ring of loose "
-       "cables there is one",
+       "The places are those to which several starts of the cables lead (/start/rest of strain.h5). The key has no "
+       "effect without a ring of loose cables",
        "nothing: with slack_percent the number of places changes, too", "where the loose cables come to rest",
        "The places of the cables in an opened hose noted (half a day)",
        3.0},  // the cables of the next dresspack have other rest positions
       {"hose_stiffness", "simulation.stiffness_factor", true, 1.75, true, SharedBy::construction,
-       "ESTIMATE, from E I over diameter to the fourth of five published jacketed cables, 15 to 60 MPa as that of a solid rod. "
-       "Fifteen of sixteen published bending tests of leads are 1.1 to 3.7 times as stiff as their constructions. Without a "
-       "moving hose there is none",
+       "ESTIMATE, from five published jacketed cables. The key has no effect if the hose does not move",
        "the sag of a hanging length of the filled hose with a weight: bending_stiffness_Nm2",
        "the stiffness of the hose", "A hanging length of the filled hose bent by a weight (one hour)",
        0.15},  // the sag is measured to 15 %
       {"strength", "fatigue.strength_factor", true, 1.3, false, SharedBy::material,
-       "Nachtigall 1975: rules from tensile tests miss lives by a factor of 3 in one case of five, 1.2 in strain at the "
-       "fifth power; with it the sets of config/materials for soft copper, 1.1 to 1.3 apart",
+       "Source: errors of rules from tensile tests (Nachtigall 1975) and the differences of the soft coppers in "
+       "config/materials",
        "two cables in a torsion or flex test, with the cycles at which they failed (dresslife calibrate)",
        "the strain that the wires withstand",
        "Two cables bent or twisted in a test until they fail (some weeks)",
        0.1},  // 0.3 decades of life, to the power 1/7
       {"slope", "fatigue.slope_change", false, 0.01, false, SharedBy::material,
-       "ESTIMATE: b of copper is given as -0.112, -0.12 and, by one pair of measurements, -0.12",
-       "the same test at half the twist or bend", "the slope of the wires' fatigue life over the strain",
+       "ESTIMATE: published slopes of copper are -0.112 and -0.12", "the same test at half the twist or bend",
+       "the slope of the wires' fatigue life over the strain",
        "The same test at half the bend or twist (some weeks)",
        0.005},  // 0.15 decades of life for a factor of two in strain
       {"scatter", "fatigue.scatter_factor", true, 1.4, false, SharedBy::material,
@@ -78,17 +76,12 @@ const std::array<UncertainParameter, uncertain_count>& uncertain_parameters() {
        "five or more equal specimens in one test", "how much the lives of equal wires differ",
        "Five equal cables tested until they fail (some weeks)",
        0.35},  // standard deviation of five values: 1 / sqrt(2 (5 - 1))
-      {"model", "fatigue.model_factor", true, 2, false, SharedBy::everything,
-       "ESTIMATE: a factor of 2 for wear, corrosion and temperature; in vacuum copper lives 20 times as "
-       "long as in air",
+      {"model", "fatigue.model_factor", true, 2, false, SharedBy::everything, "ESTIMATE",
        "dresspacks that broke, or have not, with their programs and hours (dresslife calibrate)",
        "what the model leaves out, such as wear and temperature",
        "One dresspack observed until it fails (months)", 0.5},  // 0.2 decades of scatter
       {"motion", "fatigue.motion_factor", true, 3.7, false, SharedBy::installation,
-       "ESTIMATE: ramps of 12.5 and 50 % instead of 25 % gave 0.9 and 1.0 times the p10 life of hard, 0.6 and 3.4 times that of robot "
-       "1, 0.1 and 2.1 times that of robot 2, 0.4 and 3.0 times that of easy: a factor of 3.1 (rms). Half and twice the loss_factor "
-       "gave 7.4, which is 2.1 for the 30 % within which six of eight published cables lie. Together 3.9, of which a part is that of "
-       "`rest`. The effect on one program does not predict the effect on another. Without a robot there is none",
+       "ESTIMATE, from four programs with other ramps and another damping. The key has no effect without a robot",
        "the swing of the mounted dresspack after a stop: damping_time_ms, bending_stiffness_Nm2, motion.ramp_percent",
        "how the hose swings", "The stops filmed with the dresspack mounted (one hour)",
        1.0},  // the film does not show the cables in the hose

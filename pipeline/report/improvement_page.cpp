@@ -103,25 +103,25 @@ Panel panel_of(double width, PlotAxis x, PlotAxis y) {
 }
 
 /// Returns a chart of lives over trials: trials within the limits, trials beyond them, and the best trial so far.
-std::string history_chart(const std::vector<ImprovementStory::TrialPoint>& looks, double low, double high,
+std::string history_chart(const std::vector<ImprovementStory::TrialPoint>& points, double low, double high,
                           double width) {
-  const Panel panel = panel_of(width, linear_axis("trial", 0, static_cast<double>(looks.size())),
+  const Panel panel = panel_of(width, linear_axis("trial", 0, static_cast<double>(points.size())),
                                decades_axis("life of the worst job, p10 [h]", low, high));
   Picture picture(width, chart_height, "The search",
                   "Life over trials, with those that keep all limits and the best of them so far.");
   panel.draw_axes(picture);
   double best = 0;
   std::vector<std::pair<double, double>> stairs;
-  for (const ImprovementStory::TrialPoint& look : looks) {
-    if (!look.ran || !(look.hours > 0)) continue;
-    const double x = panel.across(look.trial);
-    const double y = panel.down(std::min(look.hours, panel.y.high));
-    picture.dot(x, y, look.feasible ? 4 : 2.5, look.feasible ? "dot" : "bar-hot",
-                fmt::format("trial {}: {} h{}", look.trial, printed_life(look.hours),
-                            look.feasible ? "" : "; " + look.words));
-    if (!look.feasible || look.hours <= best) continue;
+  for (const ImprovementStory::TrialPoint& point : points) {
+    if (!point.ran || !(point.hours > 0)) continue;
+    const double x = panel.across(point.trial);
+    const double y = panel.down(std::min(point.hours, panel.y.high));
+    picture.dot(x, y, point.feasible ? 4 : 2.5, point.feasible ? "dot" : "bar-hot",
+                fmt::format("trial {}: {} h{}", point.trial, printed_life(point.hours),
+                            point.feasible ? "" : "; " + point.words));
+    if (!point.feasible || point.hours <= best) continue;
     if (best > 0) stairs.emplace_back(x, panel.down(std::min(best, panel.y.high)));
-    best = look.hours;
+    best = point.hours;
     stairs.emplace_back(x, y);
   }
   if (!stairs.empty()) stairs.emplace_back(panel.right(), stairs.back().second);
@@ -129,15 +129,15 @@ std::string history_chart(const std::vector<ImprovementStory::TrialPoint>& looks
   return picture.svg();
 }
 
-std::string history_charts(const std::vector<ImprovementStory::TrialPoint>& looks) {
+std::string history_charts(const std::vector<ImprovementStory::TrialPoint>& points) {
   double low = HUGE_VAL, high = 0;
-  for (const ImprovementStory::TrialPoint& look : looks)
-    if (look.ran && look.hours > 0 && std::isfinite(look.hours)) {
-      low = std::min(low, look.hours);
-      high = std::max(high, look.hours);
+  for (const ImprovementStory::TrialPoint& point : points)
+    if (point.ran && point.hours > 0 && std::isfinite(point.hours)) {
+      low = std::min(low, point.hours);
+      high = std::max(high, point.hours);
     }
   if (!(high > 0)) return "";
-  return at_both_widths([&](double width) { return history_chart(looks, low, high, width); });
+  return at_both_widths([&](double width) { return history_chart(points, low, high, width); });
 }
 
 std::string front_charts(const ImprovementStory& story) {
@@ -166,16 +166,16 @@ std::string front_charts(const ImprovementStory& story) {
 }
 
 std::string history_section(const ImprovementStory& story) {
-  const auto failed = std::count_if(story.looks.begin(), story.looks.end(),
-                                    [](const ImprovementStory::TrialPoint& look) { return !look.ran; });
-  const auto feasible = std::count_if(story.looks.begin(), story.looks.end(),
-                                      [](const ImprovementStory::TrialPoint& look) { return look.feasible; });
+  const auto failed = std::count_if(story.points.begin(), story.points.end(),
+                                    [](const ImprovementStory::TrialPoint& point) { return !point.ran; });
+  const auto feasible = std::count_if(story.points.begin(), story.points.end(),
+                                      [](const ImprovementStory::TrialPoint& point) { return point.feasible; });
   return fmt::format(
              "<h2>The search</h2>\n<p>{} trials, of which {} keep all limits (blue), {} break some (orange) and {} do not "
              "run; the line is the longest life so far. A longer life that makes another mode worse, or that exceeds the robot's, is not better.</p>\n",
-             story.looks.size(), feasible,
-             static_cast<std::ptrdiff_t>(story.looks.size()) - feasible - failed, failed) +
-         history_charts(story.looks);
+             story.points.size(), feasible,
+             static_cast<std::ptrdiff_t>(story.points.size()) - feasible - failed, failed) +
+         history_charts(story.points);
 }
 
 }  // namespace

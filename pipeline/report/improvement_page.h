@@ -41,7 +41,7 @@ struct ImprovementStory {
   std::string gain;                 ///< sentences about the gain; empty: the original jobs do not run
   std::optional<double> longer_in;  ///< share of samples in which the wires live longer than before
   std::vector<Nudge> nudges;
-  std::vector<TrialPoint> looks;
+  std::vector<TrialPoint> points;
   std::vector<std::pair<double, double>> front;  ///< (second objective, life [h]); only with two objectives
   std::string second_title;                      ///< "free length [m]"
 };

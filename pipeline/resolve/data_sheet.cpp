@@ -62,7 +62,7 @@ double fullness(const CoreRing& outer, double diameter) {
 double lay_angle_at(double radius, double lay_length) { return std::atan(2 * pi * radius / lay_length); }
 
 /// Widens a ring until its parts fit beside each other with their lay.
-void lay(CoreRing& ring, double diameter, double lay_length, const Where& where) {
+void widen(CoreRing& ring, double diameter, double lay_length, const Where& where) {
   ring.lay_angle = lay_angle_at(ring.radius, lay_length);
   const auto fits = [&](double radius) {
     return neighbour_distance(radius, lay_angle_at(radius, lay_length), ring.count) >=
@@ -248,7 +248,7 @@ class Expansion {
     conductor_ = width_of(wire_rings_, wire_);
   }
 
-  std::vector<CoreRing> laid(int count, double diameter, const std::optional<double>& lay_length) const {
+  std::vector<CoreRing> rings_of(int count, double diameter, const std::optional<double>& lay_length) const {
     if (count == 1) return packed(1, diameter, infinite, Fillers::none, sheet_.where);
     return packed(count, diameter, lay_length.value_or(usual_lay(count, diameter)), Fillers::allowed, sheet_.where);
   }
@@ -256,11 +256,11 @@ class Expansion {
     return core_lay_ratio * width_of(packed(count, diameter, infinite, Fillers::allowed, sheet_.where), diameter);
   }
   std::vector<CoreRing> twisted(double core) const {
-    return laid(sheet_.cores_per_group, core, sheet_.group_lay_length);
+    return rings_of(sheet_.cores_per_group, core, sheet_.group_lay_length);
   }
   double group_diameter(double core) const { return width_of(twisted(core), core); }
   std::vector<CoreRing> cabled(double core) const {
-    return laid(sheet_.cores, group_diameter(core), sheet_.lay_length);
+    return rings_of(sheet_.cores, group_diameter(core), sheet_.lay_length);
   }
   double cabled_width(double core) const { return width_of(cabled(core), group_diameter(core)); }
 
@@ -683,7 +683,7 @@ std::vector<CoreRing> packed(int count, double diameter, double lay_length, Fill
   double inner = 0;
   for (std::size_t k = 0; k < best.size(); ++k) {
     if (k > 0) best[k].radius = std::max(best[k].radius, inner + diameter);
-    if (best[k].radius > 0) lay(best[k], diameter, lay_length, where);
+    if (best[k].radius > 0) widen(best[k], diameter, lay_length, where);
     inner = best[k].radius;
   }
   return best;

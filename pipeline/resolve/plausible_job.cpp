@@ -114,9 +114,9 @@ struct Seen {
   bool only_timed = true;    ///< all moves are joint moves, and all except the first have durations
 };
 
-void look_at(const std::vector<MotionStep>& steps, Seen& seen) {
+void add_steps(const std::vector<MotionStep>& steps, Seen& seen) {
   for (const MotionStep& step : steps) {
-    look_at(step.steps, seen);
+    add_steps(step.steps, seen);
     if (step.speed_percent && *step.speed_percent < least_percent) seen.slow.add(step);
     if (step.acceleration_percent.value_or(100) <= least_percent) seen.lazy.add(step);
     if (step.tool_zone.value_or(0) > widest_path_zone) seen.wide.add(step);
@@ -264,7 +264,7 @@ void doubt_frames(const std::vector<MotionFrame>& frames, const char* kind, cons
 
 std::vector<Warning> plausibility_of_steps(const Motion& motion) {
   Seen seen;
-  look_at(motion.steps, seen);
+  add_steps(motion.steps, seen);
   std::vector<Warning> warnings;
   // A controller's program has no keys.
   const auto key = [](const char* in_job, const char* in_program, const MotionStep& step) {

@@ -27,13 +27,13 @@ bool may_be_radians(double value) {
 
 std::string degrees_text(double radians) { return fmt::format("{:.4g}", std::round(radians * 180 / pi)); }
 
-void look_at(const Node& node, const std::string& path, std::vector<Warning>& warnings) {
+void add_warnings(const Node& node, const std::string& path, std::vector<Warning>& warnings) {
   for (std::size_t k = 0; k < node.items.size(); ++k)
-    look_at(node.items[k], fmt::format("{}[{}]", path, k + 1), warnings);
+    add_warnings(node.items[k], fmt::format("{}[{}]", path, k + 1), warnings);
   for (const Entry& entry : node.entries) {
     const std::string key = path + "." + entry.key;
     if (!entry.key.ends_with("_deg") || entry.key == "pre_twist_deg") {
-      look_at(entry.value, key, warnings);
+      add_warnings(entry.value, key, warnings);
       continue;
     }
     const bool is_list = entry.value.is_list();
@@ -62,7 +62,7 @@ void look_at(const Node& node, const std::string& path, std::vector<Warning>& wa
 
 std::vector<Warning> radians_in(const Node& map, const std::string& path) {
   std::vector<Warning> warnings;
-  look_at(map, path, warnings);
+  add_warnings(map, path, warnings);
   return warnings;
 }
 

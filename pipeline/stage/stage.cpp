@@ -36,7 +36,7 @@ std::string_view part_name(JobPart part) {
 struct StageFlags {
   bool force = false;
   std::filesystem::path receipt;
-  std::filesystem::path likes;  ///< file with the folders of further jobs that this output belongs to, one per line
+  std::filesystem::path same;  ///< file with the folders of further jobs that this output belongs to, one per line
 };
 
 void check_output(const StageCall& call, const StageFlags& flags) {
@@ -102,9 +102,12 @@ Command command_of(const StageInfo& info, StageCall& call, StageFlags& flags) {
     options.push_back({"--receipt", "FILE",
                        "note there from what the output is made, and make it only when that has changed",
                        &flags.receipt, {.needs = info.input_is_job ? "" : "--job"}});
-    options.push_back({"--likes", "FILE",
-                       "a list of folders that get the same output and note, each under its name", &flags.likes,
-                       {.needs = "--receipt"}});
+    options.push_back(
+        {"--same",
+         "FILE",
+         "file with a list of folders that get the same output and receipt, each under its name",
+         &flags.same,
+         {.needs = "--receipt"}});
   }
   options.push_back(
       {"--job-time", "SECONDS", "give up after so long", &call.limits.seconds, {.shown_default = ""}});
@@ -159,12 +162,12 @@ void say_known_warnings(const StageCall& call) {
 
 /// Gives the output to the jobs of a study that are equal up to this stage, by a second name for each. The names are made before
 /// the receipts, because each new name changes the state of the file.
-void give_to_likes(const StageCall& call, const StageFlags& flags, const Receipt& receipt) {
-  if (flags.likes.empty()) return write_receipt(flags.receipt, receipt, call.output);
+void share_output(const StageCall& call, const StageFlags& flags, const Receipt& receipt) {
+  if (flags.same.empty()) return write_receipt(flags.receipt, receipt, call.output);
   const std::filesystem::path name = call.output.filename(),
                               note = flags.receipt.lexically_relative(call.output.parent_path());
   std::vector<std::filesystem::path> folders;
-  std::istringstream lines(read_text(flags.likes));
+  std::istringstream lines(read_text(flags.same));
   for (std::string line; std::getline(lines, line);) folders.push_back(line);
   for (const std::filesystem::path& folder : folders) {
     remove_ours(folder / note);  // it describes a file that will be replaced
@@ -199,7 +202,7 @@ void run_with_receipt(const StageCall& call, const StageFlags& flags, const Sett
     if (call.info.results) wanted.results = call.info.results(call.output);
   }
   check_inputs_unchanged(call);
-  give_to_likes(call, flags, wanted);
+  share_output(call, flags, wanted);
 }
 
 /// Memory limit until a stage knows the need of its job (pipeline/stage/memory.h). It is enough to read the job and the input.

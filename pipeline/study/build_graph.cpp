@@ -154,7 +154,7 @@ std::string rules(const StudyPlaces& places, const StageLimits& limits, const st
     // end of its pipe for the end of the stage, so the pipe must stay open as long as the stage runs.
     text += fmt::format(
         "rule {0}\n  command = exec {9}\"$$DRESSLIFE_PROGRAMS/{1}\" $job/{2}{3} -o $job/{4} --receipt $job/{5} "
-        "{10}--quiet --job-time {6} --job-memory {7}$likes 3>&1 > $job/{8} 2>&1\n  description = {0} $job\n\n",
+        "{10}--quiet --job-time {6} --job-memory {7}$same 3>&1 > $job/{8} 2>&1\n  description = {0} $job\n\n",
         stage.name, program_name(stage), stage.input, job, stage.output, receipt_file(stage).string(),
         limits.seconds, limits.megabytes, (launcher.empty() ? log_file(stage) : launcher_log(stage)).string(),
         launching(launcher, stage), replaces_files_of_others() ? "--force " : "");
@@ -167,18 +167,18 @@ std::string target_of(const Stage& stage, const std::string& job) {
 }
 
 /// (job, stage) folders of the other jobs that get the output, one per line.
-using Likes = std::vector<std::array<std::string, stage_count>>;
-Likes likes_of(const Study& study, const std::vector<JobState>& states, const std::vector<Makers>& makers) {
-  Likes likes(states.size());
+using SameOutput = std::vector<std::array<std::string, stage_count>>;
+SameOutput same_output_of(const Study& study, const std::vector<JobState>& states, const std::vector<Makers>& makers) {
+  SameOutput same(states.size());
   for (std::size_t k = 0; k < states.size(); ++k)
     for (std::size_t stage = states[k].next; stage < stage_count; ++stage)
-      if (makers[k][stage] != k) likes[makers[k][stage]][stage] += study.jobs[k].name + '\n';
-  return likes;
+      if (makers[k][stage] != k) same[makers[k][stage]][stage] += study.jobs[k].name + '\n';
+  return same;
 }
 
 /// Returns the build statements of the stages that a job runs itself, each after the stage that makes its input.
 std::string chain_of(const Study& study, const StudyPlaces& places, const JobState& state, std::size_t k,
-                     const std::vector<Makers>& makers, const Likes& likes) {
+                     const std::vector<Makers>& makers, const SameOutput& same) {
   std::string text;
   const std::string& job = study.jobs[k].name;
   for (std::size_t stage = state.next; stage < stage_count; ++stage) {
@@ -187,10 +187,10 @@ std::string chain_of(const Study& study, const StudyPlaces& places, const JobSta
         stage == state.next ? "" : ' ' + target_of(stages[stage - 1], study.jobs[makers[k][stage - 1]].name);
     text += fmt::format("build {}: {}{}\n  job = {}\n", target_of(stages[stage], job), stages[stage].name,
                         before, job);
-    if (likes[k][stage].empty()) continue;
-    const std::string list = job + '/' + beside(stages[stage], ".likes").string();
-    write_text_if_changed(places.folder / list, likes[k][stage], Sync::never);
-    text += fmt::format("  likes = {}--likes {}\n", "$ ", list);
+    if (same[k][stage].empty()) continue;
+    const std::string list = job + '/' + beside(stages[stage], ".same").string();
+    write_text_if_changed(places.folder / list, same[k][stage], Sync::never);
+    text += fmt::format("  same = {}--same {}\n", "$ ", list);
   }
   return text;
 }
@@ -474,7 +474,7 @@ void write_build_graph(const Study& study, const StudyPlaces& places, const std:
   renew_receipts(study, places, states);
   std::string graph = rules(places, limits, launcher);
   const std::vector<Makers> makers = makers_of(study, states);
-  const Likes likes = likes_of(study, states, makers);
+  const SameOutput same = same_output_of(study, states, makers);
   for (std::size_t k = 0; k < states.size(); ++k) {
     const StudyJob& job = study.jobs[k];
     if (!job.failure.empty()) continue;
@@ -489,7 +489,7 @@ void write_build_graph(const Study& study, const StudyPlaces& places, const std:
     for (std::size_t stage = states[k].next; stage < stage_count && !is_new; ++stage)
       for (const fs::path& log : {log_file(stages[stage]), launcher_log(stages[stage])})
         remove_ours(folder / log);
-    graph += chain_of(study, places, states[k], k, makers, likes);
+    graph += chain_of(study, places, states[k], k, makers, same);
   }
   write_text_if_changed(places.folder / places.graph(), graph);
 }

@@ -96,14 +96,9 @@ std::string mode_table(const RankingRow& row, std::size_t width, const std::stri
     const std::array cells{line.mode, line.hours[0], line.hours[1], line.hours[2], line.before_wires, line.from_tool, line.time};
     for (std::size_t i = 0; i < cells.size(); ++i) columns[i].cells.push_back(cells[i]);
   }
-  std::string text;
-  const auto add_line = [&](auto cell_of) {
-    std::string cells = indent;
-    for (const Column& column : columns) cells += column.padded(cell_of(column)) + "  ";
-    text += cells.substr(0, cells.find_last_not_of(' ') + 1) + '\n';
-  };
-  add_line([](const Column& column) { return column.title; });
-  for (std::size_t k = 0; k < lines.size(); ++k) add_line([k](const Column& column) { return column.cells[k]; });
+  std::string text = indent + table_line(columns, [](const Column& column) { return column.title; });
+  for (std::size_t k = 0; k < lines.size(); ++k)
+    text += indent + table_line(columns, [k](const Column& column) { return column.cells[k]; });
   const auto below = [&](const std::string& words) { text += wrapped(words, width, indent); };
   below("† No test confirms the law of this mode: 'replace after' leaves it out." + cell_legend(lines));
   if (row.planned() && !row.worst_component.empty())

@@ -448,21 +448,16 @@ std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width
   std::vector<std::string> above(selected.indices.size());
   for (std::size_t k = 0; k < above.size(); ++k)
     if (std::string& name = columns[1].cells[k]; numbers + columns_of(name) > width) above[k].swap(name);
-  const auto line = [&](auto cell_of) {
-    std::string text;
-    for (const Column& column : columns) text += column.padded(cell_of(column)) + "  ";
-    return text.substr(0, text.find_last_not_of(' ') + 1) + '\n';
-  };
   const std::string indent(columns[0].width() + 2, ' ');
   const auto below = [&](const std::string& words) { return wrapped(one_line(words), width, indent); };
   std::string text, details;
   if (rows.size() == 1 && rows[0].done()) text += wrapped(action_words(rows[0]), width, "") + '\n';
-  text += line([](const Column& column) { return column.title; });
+  text += table_line(columns, [](const Column& column) { return column.title; });
   for (std::size_t i = 0; i < selected.indices.size(); ++i) {
     const RankingRow& row = rows[selected.indices[i]];
     if (i > 0 && selected.indices[i] != selected.indices[i - 1] + 1) text += indent + "(more)\n";
     if (!above[i].empty()) text += indent + above[i] + '\n';
-    text += line([i](const Column& column) { return column.cells[i]; });
+    text += table_line(columns, [i](const Column& column) { return column.cells[i]; });
     if (row.done() && selected.indices[i] >= shown_at_length && !selected.summary.empty()) continue;
     std::string words;
     if (const std::string action = action_words(row); rows.size() > 1 && row.done() && !action.starts_with("Plan"))

@@ -113,15 +113,26 @@ class Table {
                   [i](const UnvalidatedMode& of) { return of.hours[i]; }));
   }
 
-  void add_abrasion() {
-    constexpr const char* abrasion = UnvalidatedMode::abrasion;
-    add_mode_lives("abrasion_life_hours_{}", "by then {} of such dresspacks are worn through by abrasion; not validated", abrasion);
-    add(of_mode("abrasion_first_share", "1", "share of the samples in which abrasion comes before the wires", abrasion,
-                &UnvalidatedMode::first_share));
-    add(of_mode("abrasion_together_hours_p10", "h", "life_hours_p10 if abrasion counted", abrasion, &UnvalidatedMode::together_p10));
-    add(of_mode("abrasion_on", "text", "what rubs: a link, ring, floor, dresspack or cell", abrasion, &UnvalidatedMode::place));
-    add(of_mode("abrasion_position_from_tool_m", "m", "where, along the dresspack from the tool clamp", abrasion,
+  void add_position(const std::string& name, const char* mode) {
+    add(of_mode(name + "_position_from_tool_m", "m", "where, along the dresspack from the tool clamp", mode,
                 &UnvalidatedMode::position_from_tool));
+  }
+  /// Adds the columns of a mode in which something wears through. name: beginning of their names. words: the mode in a sentence.
+  /// preposition, place: end of the name and meaning of the column that names the place.
+  void add_wear(const std::string& name, const char* mode, const char* lives, const std::string& words,
+                const std::string& preposition, const char* place) {
+    add_mode_lives((name + "_life_hours_{}").c_str(), lives, mode);
+    add(of_mode(name + "_first_share", "1", "share of the samples in which " + words + " comes before the wires", mode,
+                &UnvalidatedMode::first_share));
+    add(of_mode(name + "_together_hours_p10", "h", "life_hours_p10 if " + words + " counted", mode,
+                &UnvalidatedMode::together_p10));
+    add(of_mode(name + "_" + preposition, "text", place, mode, &UnvalidatedMode::place));
+    add_position(name, mode);
+  }
+
+  void add_abrasion() {
+    add_wear("abrasion", UnvalidatedMode::abrasion, "by then {} of such dresspacks are worn through by abrasion; not validated",
+             "abrasion", "on", "what rubs: a link, ring, floor, dresspack or cell");
     add(of("not_evaluated", "text", "parts of the dresspack and failure modes without a life", &RankingRow::not_evaluated));
   }
 
@@ -150,8 +161,7 @@ class Table {
                 "by then a cable has wound into a corkscrew in 10 % of such dresspacks; inf: none does; not validated", corkscrew,
                 [](const UnvalidatedMode& mode) { return mode.hours[0]; }));
     add(of_mode("corkscrew_of", "text", "the cable that is nearest to it", corkscrew, &UnvalidatedMode::place));
-    add(of_mode("corkscrew_position_from_tool_m", "m", "where, along the dresspack from the tool clamp", corkscrew,
-                &UnvalidatedMode::position_from_tool));
+    add_position("corkscrew", corkscrew);
     add(of("strain_relief_share", "1", "largest pull of a cable at a clamp over what EN 50262 asks a strain relief of type A to hold",
            &RankingRow::strain_relief_share));
   }
@@ -162,20 +172,13 @@ class Table {
                 &UnvalidatedMode::margin));
     add(of_mode("kink_share", "1", "share of such tubes that kink", kink, &UnvalidatedMode::first_share));
     add(of_mode("kink_of", "text", "the tube that is nearest to its kink", kink, &UnvalidatedMode::place));
-    add(of_mode("kink_position_from_tool_m", "m", "where, along the dresspack from the tool clamp", kink,
-                &UnvalidatedMode::position_from_tool));
+    add_position("kink", kink);
   }
 
   void add_jacket() {
-    constexpr const char* jacket = UnvalidatedMode::jacket;
-    add_mode_lives("jacket_life_hours_{}",
-                   "by then a cable's jacket has worn through inside the hose in {} of such dresspacks; not validated", jacket);
-    add(of_mode("jacket_first_share", "1", "share of the samples in which jacket wear comes before the wires", jacket,
-                &UnvalidatedMode::first_share));
-    add(of_mode("jacket_together_hours_p10", "h", "life_hours_p10 if jacket wear counted", jacket, &UnvalidatedMode::together_p10));
-    add(of_mode("jacket_of", "text", "that cable", jacket, &UnvalidatedMode::place));
-    add(of_mode("jacket_position_from_tool_m", "m", "where, along the dresspack from the tool clamp", jacket,
-                &UnvalidatedMode::position_from_tool));
+    add_wear("jacket", UnvalidatedMode::jacket,
+             "by then a cable's jacket has worn through inside the hose in {} of such dresspacks; not validated", "jacket wear", "of",
+             "that cable");
   }
 
   void add_worst_wire() {

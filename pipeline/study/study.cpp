@@ -247,20 +247,20 @@ std::vector<KeyRow> study_keys() {
       {"study", "jobs", "", "map of names to maps of key paths and values", "none",
        "The changes of single named jobs. With `vary`, each of them is varied."},
       {"study", "table", "", "a CSV file", "none",
-       "A table with one job per row, such as a fleet. It has a column `name`. The title of every other column is a key "
-       "path, and `program` stands for `motion`. An empty cell leaves the base as it is. Appended rows do not change "
-       "the others."},
+       "A table with one job per row. It has a column `name`. The title of every other column is a key path, or "
+       "`program` for `motion`. An empty cell leaves the base unchanged."},
       {"study", "keep", "", "all | histories | lives", "all",
        "The files that stay after a job is done. histories: strain.h5 and life.h5. lives: only the rows of the ranking. "
-       "Missing files alone do not start a job again. After a change of settings the job starts at the changed stage, "
-       "or before it if its input is missing."},
+       "A missing file alone does not start a job again."},
       {"study", "free", "", "map of key paths to ranges", "none",
-       "The keys that `dresslife improve` may change: `LOW .. HIGH`, `SPREAD around` the job's own value, `ANGLE deg "
-       "around` a direction, `LOW .. HIGH along LINK` for a position, or a list. `dresslife run` does not read it."},
-      {"study", "limits", "", "contact_force_N, tension_N, abrasion_life_h, wall_life_h, rating_life_h, jacket_life_h, corkscrew_life_h, kink_margin", "none",
-       "Further limits of `dresslife improve`: largest forces, and least hours of modes that are not validated. By these 1 of 10 has "
-       "failed by abrasion, jacket wear, corkscrew or cracks of the hose's wall, and the makers' ratings of 1 in 10 samples are used up. "
-       "kink_margin is the least ratio of a bend's radius to that at which a tube kinks."},
+       "The keys that `dresslife improve` may change, each with a range: `LOW .. HIGH`, `SPREAD around` the job's "
+       "value, `ANGLE deg around` a direction, `LOW .. HIGH along LINK` for a position, or a list of values."},
+      {"study", "limits", "",
+       "contact_force_N, tension_N, abrasion_life_h, wall_life_h, rating_life_h, jacket_life_h, corkscrew_life_h, "
+       "kink_margin",
+       "none",
+       "Further limits of `dresslife improve`: largest forces, and least lives (p10) by modes that are not validated. "
+       "kink_margin: the least ratio of a bend's radius to the radius at which a tube kinks."},
       {"study", "sample", "", "map", "none",
        "The keys that are sampled at random for each of the other jobs: its `keys` are key paths with `!normal`, "
        "`!uniform` or `!choice`."}};

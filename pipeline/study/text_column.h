@@ -25,4 +25,12 @@ struct Column {
   }
 };
 
+/// Returns a line of a table, which ends with a line feed. cell_of: returns the cell of a column.
+template <class Columns, class CellOf>
+std::string table_line(const Columns& columns, const CellOf& cell_of) {
+  std::string text;
+  for (const Column& column : columns) text += column.padded(cell_of(column)) + "  ";
+  return text.substr(0, text.find_last_not_of(' ') + 1) + '\n';
+}
+
 }  // namespace dresslife::pipeline

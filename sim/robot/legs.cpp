@@ -66,7 +66,7 @@ class Layout {
     throw_if_any();
     find_paths();
     for (std::size_t k = 0; k + 1 < moves_.size(); ++k) round_corner(k);
-    for (std::size_t k = 0; k < moves_.size(); ++k) lay(k);
+    for (std::size_t k = 0; k < moves_.size(); ++k) add_move(k);
     throw_if_any();
     if (!made_.legs.empty()) made_.legs.back().zone = 0;
     made_.place = place_;
@@ -490,7 +490,7 @@ class Layout {
     made_.legs.push_back(std::move(leg));
   }
 
-  void lay(std::size_t k) {
+  void add_move(std::size_t k) {
     const Move& move = moves_[k];
     if (move.dwell > 0) {
       if (!made_.legs.empty()) made_.legs.back().zone = 0;

@@ -210,17 +210,17 @@ class Pieces {
 namespace {
 
 /// Adds legs that belong to no path, one by one.
-void add_legs(const std::vector<Leg>& legs, const VectorXd& accelerations, const VectorXd& jerks, Pieces& laid) {
+void add_legs(const std::vector<Leg>& legs, const VectorXd& accelerations, const VectorXd& jerks, Pieces& pieces) {
   const CornerSpeeds corners(legs, accelerations, jerks);
   for (int k = 0; k < static_cast<int>(legs.size()); ++k) {
     const Leg& leg = legs[k];
     if (leg.dwell > 0) {
       const VectorXd rest = VectorXd::Zero(leg.from.size());
-      laid.add(leg.from, rest, rest, leg.dwell, leg.step, leg.step, leg.ramp);
+      pieces.add(leg.from, rest, rest, leg.dwell, leg.step, leg.step, leg.ramp);
       continue;
     }
-    laid.add_leg(leg, corners.at_end(k - 1), corners.at_end(k));
-    if (corners.at_end(k).limit > 0) laid.add_blend(leg, legs[k + 1], corners.at_end(k));
+    pieces.add_leg(leg, corners.at_end(k - 1), corners.at_end(k));
+    if (corners.at_end(k).limit > 0) pieces.add_blend(leg, legs[k + 1], corners.at_end(k));
   }
 }
 
@@ -288,24 +288,24 @@ JointMotion::JointMotion(const pipeline::Motion& motion, const pipeline::Robot& 
   const AxisLimits limits = limits_of(robot, motion.override_percent);
   const VectorXd jerks = motion.jerk ? jerk_limits(motion, robot) : VectorXd();
   const VectorXd full = limits.acceleration * (motion.acceleration_percent / 100);
-  Pieces laid;
-  if (motion.rows == pipeline::RecordedRows::spline) laid.append(spline_pieces(motion, program.targets));
+  Pieces pieces;
+  if (motion.rows == pipeline::RecordedRows::spline) pieces.append(spline_pieces(motion, program.targets));
   for (auto begin = program.legs.begin(); begin != program.legs.end();) {
     const auto end =
         std::find_if(begin, program.legs.end(), [&](const Leg& leg) { return leg.path != begin->path; });
     const std::vector<Leg> legs(begin, end);
     if (begin->path == 0)
-      add_legs(legs, motion.jerk ? full : accelerations, jerks, laid);
+      add_legs(legs, motion.jerk ? full : accelerations, jerks, pieces);
     else
-      laid.append(path_pieces(legs, accelerations, limits, smoothing_of(motion, legs), laid.time));
+      pieces.append(path_pieces(legs, accelerations, limits, smoothing_of(motion, legs), pieces.time));
     begin = end;
   }
-  duration_ = laid.time;
+  duration_ = pieces.time;
   // The standstill at the end, of any duration; a program without motion consists of it.
   const int last = static_cast<int>(program.texts.size()) - 1;
   const VectorXd rest = VectorXd::Zero(program.place.size());
-  laid.pieces.push_back({duration_, 1, program.place, rest, rest, last, last});
-  pieces_ = std::move(laid.pieces);
+  pieces.pieces.push_back({duration_, 1, program.place, rest, rest, last, last});
+  pieces_ = std::move(pieces.pieces);
   step_texts_ = std::move(program.texts);
 }
 

@@ -64,9 +64,9 @@ Frame RobotKinematics::Moving::at(std::span<const double> axes) const {
 
 void RobotKinematics::link_frames(std::span<const double> axes, std::span<Frame> frames) const {
   assert(static_cast<int>(axes.size()) == axes_ && static_cast<int>(frames.size()) == links());
-  Frame carried;
-  for (const Moving& track : tracks_) carried = carried * track.at(axes);
-  frames[0] = carried * base_;
+  Frame on_track;
+  for (const Moving& track : tracks_) on_track = on_track * track.at(axes);
+  frames[0] = on_track * base_;
   for (size_t k = 0; k < joints_.size(); ++k) frames[k + 1] = frames[k] * joints_[k].at(axes);  // (R1)
 }
 

@@ -333,6 +333,12 @@ struct SlideEquation {
   double locked = 0;  ///< w if the clamp does not slide
 
   bool slides() const { return travel.mode == Travel::Mode::sliding; }
+  /// Returns e . dv_0.
+  double moved_by(const Twist6& change) const {
+    double moved = 0;
+    for (int r = 0; r < 6; ++r) moved += row[r] * change.value[r];
+    return moved;
+  }
 };
 
 }  // namespace
@@ -695,10 +701,7 @@ int RodSolver::solve_sliding(const RodState& state, int k, std::span<const Load>
 double RodSolver::travel_change(int k) const {
   const SlideEquation& s = system_->slide[k];
   if (!s.slides()) return s.locked;
-  const Twist6& first = system_->change[rod_.spans()[k].first_segment];
-  double moved = 0;
-  for (int r = 0; r < 6; ++r) moved += s.row[r] * first.value[r];
-  return (s.right + s.coupling * moved) / s.pivot;
+  return (s.right + s.coupling * s.moved_by(system_->change[rod_.spans()[k].first_segment])) / s.pivot;
 }
 
 // Returns whether the result contradicts the assumed mode, and selects the next mode. `support` is the force that holds the
@@ -720,9 +723,7 @@ bool RodSolver::choose_mode(const RodState& state, int k) {
       s.travel.mode = Mode::held;
     return s.travel.mode != mode;
   }
-  const Twist6& first = system_->change[rod_.spans()[k].first_segment];
-  double moved = 0;
-  for (int r = 0; r < 6; ++r) moved += s.row[r] * first.value[r];
+  const double moved = s.moved_by(system_->change[rod_.spans()[k].first_segment]);
   const double support = (s.pivot * s.locked - s.right - s.coupling * moved) / system_->step;
   const bool out = mode != Mode::at_end && support < -slider.friction;
   const bool in = mode != Mode::at_home && support > slider.friction;
@@ -752,11 +753,14 @@ int RodSolver::solve_span(const RodState& state, int k, std::span<const Load> lo
   return not_positive;
 }
 
-void RodSolver::respond(int foremost, int first, std::span<Twists> x) const {
-  const auto& block = system_->block;
-  const int n = rod_.segments();
+namespace {
+
+/// Replaces x by A^-1 x, in blocks >= first only. A: factored. x: one or several right-hand sides, 0 before `foremost`.
+template <class X>
+void substitute(const std::vector<TridiagonalBlock>& block, int foremost, int first, std::span<X> x) {
+  const int n = static_cast<int>(block.size());
   for (int i = foremost; i < n; ++i) {
-    Twists::Row* const value = x[i].value;
+    auto* const value = x[i].value;
     solve_lower(block[i].diagonal, value);
     scale_by_pivots(block[i].diagonal, value);
     if (i + 1 < n) carry_down(block[i].upper, value, x[i + 1].value);
@@ -767,21 +771,16 @@ void RodSolver::respond(int foremost, int first, std::span<Twists> x) const {
   }
 }
 
+}  // namespace
+
+void RodSolver::respond(int foremost, int first, std::span<Twists> x) const {
+  substitute(system_->block, foremost, first, x);
+}
+
 void RodSolver::apply_impulses(std::span<Twist6> impulses) {
-  const auto& block = system_->block;
-  const int n = rod_.segments();
-  for (int i = 0; i < n; ++i) {
-    double* value = impulses[i].value;
-    solve_lower(block[i].diagonal, value);
-    scale_by_pivots(block[i].diagonal, value);
-    if (i + 1 < n) carry_down(block[i].upper, value, impulses[i + 1].value);
-  }
-  for (int i = n - 1; i >= 0; --i) {
-    double* value = impulses[i].value;
-    if (i + 1 < n) carry_up(block[i].diagonal, block[i].upper, impulses[i + 1].value, value);
-    solve_lower_transposed(block[i].diagonal, value);
-    for (int k = 0; k < 6; ++k) system_->change[i].value[k] += value[k];
-  }
+  substitute(system_->block, 0, 0, impulses);
+  for (std::size_t i = 0; i < system_->block.size(); ++i)
+    for (int k = 0; k < 6; ++k) system_->change[i].value[k] += impulses[i].value[k];
 }
 
 // (S9) Computes the force during the step. k g alone oscillates by O(h^2).

@@ -82,25 +82,25 @@ double BracketFit::beyond(double most_length, double diameter) const {
   return std::max((length - most_length) / diameter, -clearance / diameter);
 }
 
-BracketFit fit_of(const Carried& carried, const Surfaces& surfaces, std::span<const std::vector<Frame>> poses) {
+BracketFit fit_of(const BracketPlace& place, const Surfaces& surfaces, std::span<const std::vector<Frame>> poses) {
   BracketFit fit;
   fit.clearance = std::numeric_limits<double>::infinity();
-  if (surfaces.has_shapes(carried.link))
-    fit.length = std::max(0.0, surfaces.of_link(carried.link, carried.position, far_away) - carried.radius);
+  if (surfaces.has_shapes(place.link))
+    fit.length = std::max(0.0, surfaces.of_link(place.link, place.position, far_away) - place.radius);
   for (std::size_t m = 0; m < poses.size(); ++m) {
     const std::vector<Frame>& links = poses[m];
-    const Frame& own = links[static_cast<std::size_t>(carried.link)];
-    const Vector3 point = own.position + own.orientation * carried.position;
-    const auto most = [&] { return std::min(clear, fit.clearance + carried.radius); };
+    const Frame& own = links[static_cast<std::size_t>(place.link)];
+    const Vector3 point = own.position + own.orientation * place.position;
+    const auto most = [&] { return std::min(clear, fit.clearance + place.radius); };
     const auto see = [&](double distance, int neighbour) {
       if (distance >= most()) return;
-      fit.clearance = distance - carried.radius;
+      fit.clearance = distance - place.radius;
       fit.neighbour = neighbour;
       fit.moment = m;
     };
     see(surfaces.of_cell(point, most()), -1);
     for (std::size_t link = 0; link < links.size(); ++link)
-      if (static_cast<int>(link) != carried.link)
+      if (static_cast<int>(link) != place.link)
         see(surfaces.of_link(static_cast<int>(link), links[link].orientation.conjugate() * (point - links[link].position),
                              most()),
             static_cast<int>(link));

@@ -40,7 +40,7 @@ class Surfaces {
 std::string gripper_note(const pipeline::Setup& setup, const std::vector<Vector3>& tools);
 
 /// A clamp or ring on its link.
-struct Carried {
+struct BracketPlace {
   int link = 0;
   Vector3 position = Vector3::Zero();  ///< in the link's frame [m]
   double radius = 0;                   ///< of the dresspack [m]
@@ -55,6 +55,6 @@ struct BracketFit {
 };
 
 /// Returns the fit of a bracket. poses: (moment, link) frames in the world.
-BracketFit fit_of(const Carried& carried, const Surfaces& surfaces, std::span<const std::vector<Frame>> poses);
+BracketFit fit_of(const BracketPlace& place, const Surfaces& surfaces, std::span<const std::vector<Frame>> poses);
 
 }  // namespace dresslife::sim

@@ -261,7 +261,7 @@ class Search {
       Candidate next = changed(parent, size);
       std::array<double, screened_limits> wishes = wished;
       wishes[bend] += lacked;
-      look_at(next, best.missing, wishes);
+      evaluate(next, best.missing, wishes);
       if (next.missing < best.missing) best = std::move(next);
     }
     best.whole = false;
@@ -274,7 +274,7 @@ class Search {
     for (int k = 0; k < tried; ++k) {
       const double share = static_cast<double>(k) / tried;
       Candidate next = share < 0.4 ? random() : changed(kept[chance_.below(kept.size())], 2 * (1 - share));
-      look_at(next, kept.size() < parents ? std::numeric_limits<double>::infinity() : kept.back().missing);
+      evaluate(next, kept.size() < parents ? std::numeric_limits<double>::infinity() : kept.back().missing);
       const auto place =
           std::upper_bound(kept.begin(), kept.end(), next,
                            [](const Candidate& a, const Candidate& b) { return a.missing < b.missing; });
@@ -382,7 +382,7 @@ class Search {
   }
 
   /// to_beat: a larger violation need not be computed exactly.
-  void look_at(Candidate& candidate, double to_beat,
+  void evaluate(Candidate& candidate, double to_beat,
                const std::array<double, screened_limits>& wishes = wished) {
     pipeline::Routing& routing = candidate.routing;
     routing.where = setup_.dresspacks.front().routing.where;

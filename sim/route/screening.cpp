@@ -377,8 +377,8 @@ void Screener::Parts::see_brackets(const pipeline::Setup& setup, Screening& scre
   for (const pipeline::MountedDresspack& mounted : setup.dresspacks) {
     const double diameter = mounted.dresspack.diameter;
     const auto see = [&](const auto& place, double radius) {
-      const Carried carried{find_link(setup.robot, place.link, place.where), place.position, radius};
-      const BracketFit fit = fit_of(carried, *surfaces, carriers);
+      const BracketPlace on_link{find_link(setup.robot, place.link, place.where), place.position, radius};
+      const BracketFit fit = fit_of(on_link, *surfaces, carriers);
       const double g = fit.beyond(longest_bracket_of(mounted.routing), diameter);
       if (g > screening.beyond[limit])
         screening.beyond[limit] = g, screening.time[limit] = moments[fit.moment].time;
@@ -391,8 +391,8 @@ void Screener::Parts::see_brackets(const pipeline::Setup& setup, Screening& scre
   }
 }
 
-BracketFit Screener::bracket(const Carried& carried) const {
-  return fit_of(carried, *parts_->surfaces, parts_->carriers);
+BracketFit Screener::bracket(const BracketPlace& place) const {
+  return fit_of(place, *parts_->surfaces, parts_->carriers);
 }
 double Screener::time_of(std::size_t moment) const { return parts_->moments[moment].time; }
 

@@ -1,8 +1,7 @@
 // Checks of a routing by geometry only, in milliseconds: whether it can work, and its distance from each limit.
 //
-// The dresspack is a smooth curve of its length through its clamps and rings (start_curve.h) in
-// poses of the program that differ most, without weight, contact or speed. For each limit: g <= 0 is the margin,
-// g > 0 the violation.
+// The dresspack is a smooth curve of its length through its clamps and rings (start_curve.h), without weight, contact
+// or speed, in those poses of the program that differ most. For each limit: g <= 0 is the margin, g > 0 the violation.
 //
 // (V1) too short   g = (w - (1 - s_least) L)/L     w: largest straight distance over the program, L: length
 // (V2) too long    g = ((1 - s_most) L - w)/L      s_least, s_most: shares of slack in checks.h
@@ -42,7 +41,7 @@ constexpr std::string_view word(ScreenedLimit value) {
 }
 
 /// A routing with a larger violation cannot work: the values are the largest possible errors of the curve, which has no weight
-/// and no contact. In a test with 350 random routings no rejected one kept its limits in a full run (README.md). Overlap with the
+/// and no contact. In a test with 350 random routings no rejected one kept its limits in a full run. Overlap with the
 /// robot is never certain, because the hose is pushed aside. For brackets geometry is exact.
 inline constexpr std::array<double, screened_limits> surely_beyond{
     0, 0, 1, 0.5, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(), 0};
@@ -52,8 +51,7 @@ double distance_to_axis(const Vector3& point, const Vector3& from, const Vector3
 
 /// Results of the worst span or dresspack for each limit.
 struct Screening {
-  std::array<double, screened_limits>
-      beyond;  ///< (limit) g; the most negative number if the limit is not requested
+  std::array<double, screened_limits> beyond;  ///< (limit) g; the most negative number if the limit is not requested
   std::array<double, screened_limits> time;  ///< (limit) time of the decisive moment [s]
 
   bool rejected() const;     ///< some limit is certainly exceeded
@@ -76,7 +74,7 @@ class Screener {
   double bend_at_rest(const pipeline::Setup& setup) const;
 
   /// Returns the fit of a bracket for this clamp over the program. Precondition: a robot, and `brackets` was set.
-  BracketFit bracket(const Carried& carried) const;
+  BracketFit bracket(const BracketPlace& place) const;
   /// Returns the time of BracketFit::moment [s].
   double time_of(std::size_t moment) const;
 

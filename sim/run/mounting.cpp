@@ -12,7 +12,7 @@
 namespace dresslife::sim {
 namespace {
 
-constexpr double carrying_speed = 20 * EIGEN_PI / 180;  // speed of the fastest axis on the way to the start [rad/s]
+constexpr double joint_speed = 20 * EIGEN_PI / 180;  // speed of the fastest axis on the way to the start [rad/s]
 constexpr int settling_steps = 20000;
 constexpr double rest = 1e-5;          // target of the settling [m/s]
 constexpr double near_rest = 2e-2;     // accepted as a start: the hose sways by less than its diameter [m/s]
@@ -86,7 +86,7 @@ class Mounting {
     for (int d = 0; d < rod_.dresspacks(); ++d) hang_up(d);
     RodState state = at_rest(as_spans(joined(hung_rod(), hung_)), mounting_pose());
     if (!robot_ || robot_->mounting_pose() == robot_->motion().position(0)) return state;
-    return at_rest(carried(state), path_.at(0));
+    return at_rest(moved_to_start(state), path_.at(0));
   }
 
  private:
@@ -385,10 +385,10 @@ class Mounting {
   }
 
   /// Returns the state after the joint move from the mounting pose to the first waypoint, with smooth begin and end.
-  RodState carried(const RodState& start) const {
+  RodState moved_to_start(const RodState& start) const {
     const Eigen::VectorXd from = robot_->mounting_pose(), way = robot_->motion().position(0) - from;
     const int steps = static_cast<int>(
-        std::ceil(way.lpNorm<Eigen::Infinity>() / (carrying_speed * setup_.simulation.time_step)));
+        std::ceil(way.lpNorm<Eigen::Infinity>() / (joint_speed * setup_.simulation.time_step)));
     const std::unique_ptr<World> world = make_world(setup_, rod_, robot_, start, robot_->pose(from));
     for (int k = 1; k <= steps; ++k) {
       const double u = static_cast<double>(k) / steps;

@@ -24,7 +24,7 @@ struct HoseLine {
   double length = 0, spacing = 0;          ///< of the axis, of its nodes [m]
   std::vector<Eigen::Vector2d> turn;       ///< (node) cosine and sine of phi
   std::vector<Eigen::Vector2d> curvature;  ///< K = e^(i phi) (k2, -k1), in the direction in which the axis bends [1/m]
-  std::vector<Eigen::Vector2d> rest;       ///< K0, of the hose as the cables were laid [1/m]
+  std::vector<Eigen::Vector2d> rest;       ///< K0, of the hose as the cables were mounted [1/m]
   std::vector<Eigen::Vector2d> pull;       ///< gravity minus acceleration [m/s2]
   std::vector<double> elongation;
 

@@ -16,7 +16,7 @@ namespace dresslife::strain {
 struct LooseSettings {
   double length = 0;          ///< of the hose's axis between the clamps [m]
   std::size_t elements = 64;  ///< of equal length
-  double rest_curvature = 0;  ///< about d2, of the hose as the cables were laid [1/m]
+  double rest_curvature = 0;  ///< about d2, of the hose as the cables were mounted [1/m]
   bool presses = true;        ///< computes the contact forces
 
   bool operator==(const LooseSettings&) const = default;

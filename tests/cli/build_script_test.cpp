@@ -67,7 +67,7 @@ TEST_CASE("a build that fails says what the compiler said, and ends with 1") {
   CHECK(failed.err.find("scripts/build: error: the build failed") != std::string::npos);
 }
 
-TEST_CASE("a long build tells now and then how far it is") {
+TEST_CASE("a long build prints its progress now and then") {
   Scratch scratch;
   write_checkout(scratch, "old");
   scratch.write("old/CMakeLists.txt",

@@ -91,7 +91,7 @@ TEST_CASE("calibrate: wires that lived longer than predicted lengthen what a job
 }
 
 TEST_CASE(
-    "calibrate: a bending test with 5 % of noise tells the friction, at 1.6 times the shipped pressures") {
+    "calibrate: a bending test with 5 % of noise gives the friction, at 1.6 times the shipped pressures") {
   // Thirty weights in a first bend and on the way back.
   Scratch scratch;
   const std::string cable =

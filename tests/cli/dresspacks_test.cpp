@@ -120,7 +120,7 @@ TEST_CASE("the relative life of a rated cable is the same beside another dresspa
   CHECK(per_hour("both") == Approx(alone).epsilon(1e-3));  // tolerance of the damages above
 }
 
-TEST_CASE("a study of two dresspacks ranks by the worse and tells which it is") {
+TEST_CASE("a study of two dresspacks ranks by the worse and reports which it is") {
   Scratch scratch;
   scratch.write("job.yaml", job_of("dresspacks:\n  - {name: hose, dresspack: " + thick + ", routing: " +
                                    routing(1.1, 0) + "}\n  - {name: cable, dresspack: " + thin +

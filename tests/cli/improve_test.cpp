@@ -229,7 +229,7 @@ TEST_CASE("improve and route keep the results of jobs of one name in two folders
   }
 }
 
-TEST_CASE("improve tells the front of two aims, of which the jobs as they are may be one") {
+TEST_CASE("improve prints the Pareto front of two objectives, which may contain the original jobs") {
   Scratch scratch;
   write_small_study(scratch);
   const Outcome told =

@@ -165,7 +165,7 @@ TEST_CASE("the page in a browser: no complaints, a picture, play and clicks, the
   CHECK(sampled == "true");  // no history is reconstructed from its turning points
 }
 
-TEST_CASE("pages tell the numbers of the files: hours, shares of damage, draws") {
+TEST_CASE("pages print the numbers of the files: hours, shares of damage, draws") {
   using dresslife::pipeline::FileReader;
   using dresslife::pipeline::printed;
   using dresslife::pipeline::printed_hours;

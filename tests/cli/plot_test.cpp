@@ -71,7 +71,7 @@ TEST_CASE("plot draws the moment over curvature of a hose and its cable") {
   CHECK(held == Approx(polymer + 6 * (wire + 117e9 * pi * 1e-8 * 1e-6 / 2 * std::pow(std::cos(pi / 12), 3))).epsilon(0.05));
 }
 
-TEST_CASE("show tells what lies in a file, with shapes, units, ranges and meanings") {
+TEST_CASE("show reports what lies in a file, with shapes, units, ranges and meanings") {
   Scratch scratch;
   write_small_job(scratch);
   must_run(scratch, "dresslife", "run job.yaml --quiet");

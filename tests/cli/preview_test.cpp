@@ -9,7 +9,7 @@ using namespace dresslife::tests;
 using dresslife::pipeline::FileReader;
 using dresslife::pipeline::preview_format;
 
-TEST_CASE("preview tells how far the clamps are apart and which lengths suit") {
+TEST_CASE("preview reports how far the clamps are apart and which lengths suit") {
   Scratch scratch;
   write_small_job(scratch);
   const Outcome told = must_run(scratch, "dresslife", "preview job.yaml");
@@ -66,7 +66,7 @@ TEST_CASE("preview opens a job that is refused where it is refused") {
   CHECK(result_of(seen) == "0.000 true true");
 }
 
-TEST_CASE("preview names what a dresspack runs through, tells where, and opens there") {
+TEST_CASE("preview names what a dresspack runs through, reports where, and opens there") {
   Scratch scratch;
   scratch.write("job.yaml", R"(robot: abb_irb6640_185_280
 motion: easy
@@ -92,7 +92,7 @@ routing:
   CHECK(seen.find(" here\"") != std::string::npos);
 }
 
-TEST_CASE("a click on a link shows a clamp there, and a clamp that is dragged tells its length and clearance") {
+TEST_CASE("a click on a link shows a clamp there, and a clamp that is dragged reports its length and clearance") {
   Scratch scratch;
   must_run(scratch, "dresslife", "preview irb6640_spot_welding");
   // The first clamp as it is; a click in the middle of link_2's shapes; a drag from the clamp to this place.

@@ -110,7 +110,7 @@ TEST_CASE("the page of an improvement can be printed and read on a phone, its ch
       {"dresspack.components.1.routing.base_clamp.position_m", "[0.1, 0.2, 0.3]", "[0.15, 0.2, 0.3]"}};
   story.before = story.after = ImprovementStory::Lives{"", "all kept", "jacket wear from 5,890 h, abrasion of the outer hose from 25,000 h", 100, 1000, 1e9};
   for (int trial = 0; trial < 60; ++trial)
-    story.looks.push_back({trial, true, trial % 3 != 0, 100.0 * (1 + trial * 37 % 60), "bend radius"});
+    story.points.push_back({trial, true, trial % 3 != 0, 100.0 * (1 + trial * 37 % 60), "bend radius"});
   story.front = {{2.0, 100}, {2.1, 2000}, {2.2, 4000}};
   story.nudges = {{"base clamp, z + 10 mm", true, 0.86, "", "jacket wear", 5000}};
   scratch.write("improve.html", improvement_page(story));

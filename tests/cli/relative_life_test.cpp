@@ -95,7 +95,7 @@ TEST_CASE("relative life: two tests are each other's reciprocal") {
   CHECK(std::stod(up.per_hour) * std::stod(down.per_hour) == Approx(cycles_per_hour * cycles_per_hour).epsilon(1e-9));
 }
 
-TEST_CASE("relative life: without a rating nothing is told and no rig runs") {
+TEST_CASE("relative life: without a rating nothing is printed and no rig runs") {
   Scratch scratch;
   const Relative none = run_one(scratch, "none", twisted(180, ""));
   CHECK(none.per_hour.empty());

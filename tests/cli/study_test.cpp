@@ -100,7 +100,7 @@ TEST_CASE("a lost result is made again, the others stay") {
   CHECK(content(scratch / "runs/study/bending_stiffness_Nm2=3/life.h5") == life);
 }
 
-TEST_CASE("a failed job stops no other and is told with its reason") {
+TEST_CASE("a failed job stops no other and is reported with its reason") {
   Scratch scratch;
   write_small_job(scratch);
   scratch.write("study.yaml", R"(base: job.yaml
@@ -137,7 +137,7 @@ TEST_CASE("names in a study and in --set are looked up beside the job too") {
   CHECK(run(scratch, "dresslife", "show elsewhere/job.yaml --set fatigue.material=our_copper").status == 0);
 }
 
-TEST_CASE("status tells to do, done and stale") {
+TEST_CASE("status reports to do, done and stale") {
   Scratch scratch;
   write_small_job(scratch);
   scratch.write("study.yaml", study_text);

@@ -88,7 +88,7 @@ TEST_CASE("copper: the constants follow from their sources") {
   CHECK(universal_slopes(1, 0.889).ductility == Approx(halved.fatigue_ductility).epsilon(rounded));
 }
 
-TEST_CASE("copper: predicted beside measured, as fatigue/measurements.md tells it") {
+TEST_CASE("copper: predicted beside measured, as fatigue/measurements.md reports it") {
   constexpr double as_printed = 0.006;  // three digits
   struct Told {
     const char* name;

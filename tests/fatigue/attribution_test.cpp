@@ -214,7 +214,7 @@ TEST_CASE("attribution: damage by clamp is that of the nearest one and adds up t
   }
 }
 
-TEST_CASE("attribution: clamps between the ends are told with their links and a free end has none") {
+TEST_CASE("attribution: clamps between the ends are reported with their links and a free end has none") {
   pipeline::Routing routing;
   routing.clamps.resize(2);
   routing.clamps[0].clamp.link = "link_4";

@@ -605,7 +605,7 @@ TEST_CASE("life.h5: a job beyond the curvature or twist of its calibration's tes
   CHECK_THAT(doubted(5 / 1.04, 2 / 1.06), Catch::Contains("a twist [rad/m] of 2.0 "));
 }
 
-TEST_CASE("life.h5: the damage is shared out among the joints and told by clamp") {
+TEST_CASE("life.h5: the damage is divided among the joints and reported by clamp") {
   const Folder folder;
   pipeline::Job job = test_job();
   for (int k = 0; k < 3; ++k)
@@ -752,7 +752,7 @@ TEST_CASE("life.h5: out of phase shear opens no plane further than the strain al
             .epsilon(single));
 }
 
-TEST_CASE("life.h5: the shear of the worst wire is told from its probe") {
+TEST_CASE("life.h5: the shear of the worst wire is reported from its probe") {
   const Folder folder;
   StrainFile f = example();
   const FileReader none(run(folder, f).file, pipeline::life_format());
@@ -762,7 +762,7 @@ TEST_CASE("life.h5: the shear of the worst wire is told from its probe") {
   CHECK(told.number_attribute("worst_shear_range") == Approx(1e-3));
 }
 
-TEST_CASE("life.h5: the hose's wall is told beside the wires and not among them") {
+TEST_CASE("life.h5: the hose's wall is reported beside the wires and not among them") {
   const Folder folder;
   pipeline::Job job = test_job();
   pipeline::Material hose;
@@ -974,7 +974,7 @@ TEST_CASE("uncertainty: one wire strained far above its neighbours leaves a cond
   CHECK(life.number_attribute("life_hours_p50_all_glued") < 10.01 * life.number_attribute("life_hours_all_stick"));
 }
 
-TEST_CASE("uncertainty: the response is what the stage tells with the keys that it stands for") {
+TEST_CASE("uncertainty: the response equals the results of the stage with the changed keys") {
   const Folder folder;
   pipeline::Job job = test_job();
   job.uncertainty.enabled = true;

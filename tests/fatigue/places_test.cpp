@@ -104,7 +104,7 @@ TEST_CASE("places: limits of scatter, of its common part and of damage") {
   CHECK(lives_of(pack, 100, {0.2, 0.5}).lives[0] > lives_of(pack, 10, {0.2, 0.5}).lives[0]);
 }
 
-TEST_CASE("places: told lives are on the safe side of drawn ones, and near") {
+TEST_CASE("places: reported lives are shorter than sampled ones, and near them") {
   constexpr int draws = 4000;
   std::mt19937 random(11);
   for (const double percent : {4.0, 10.0, 40.0})

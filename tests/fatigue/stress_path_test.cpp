@@ -86,7 +86,7 @@ TEST_CASE("Ramberg-Osgood: published points, and stress undoes strain") {
   CHECK(straight.stress(0.01) == Approx(0.01 / (1 / 200e9 + 1 / 1e9)).epsilon(solved));
 }
 
-TEST_CASE("cyclic constants follow by compatibility, and a contradiction is told") {
+TEST_CASE("cyclic constants follow by compatibility, and a contradiction is reported") {
   auto cu = copper();
   const CyclicCurve curve(cu);
   CHECK(curve.hardening_exponent() == Approx(0.112 / 0.6).epsilon(solved));

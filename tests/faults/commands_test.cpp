@@ -61,7 +61,7 @@ void write_inputs(const Scratch& scratch) {
 }  // namespace
 
 TEST_CASE(
-    "each call that fails in each command is told or does no harm: no result is false, no file of the user goes") {
+    "each call that fails in each command is reported or does no harm: no result is false, no file of the user goes") {
   Scratch scratch;
   write_inputs(scratch);
   const std::map<std::string, std::string> before = files_in(scratch.folder());

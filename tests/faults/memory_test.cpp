@@ -105,7 +105,7 @@ TEST_CASE("a job that does not fit is refused before it begins, with the key to 
   CHECK_FALSE(fs::exists(scratch / "strain.h5"));
 }
 
-TEST_CASE("a study's logs tell what each stage takes, and a job that does not fit fails alone") {
+TEST_CASE("a study's logs print what each stage takes, and a job that does not fit fails alone") {
   const Scratch scratch;
   write_small_job(scratch);
   scratch.write("study.yaml", "base: job.yaml\njobs: {small: {}, large: {simulation.segments: 2000}}\n");

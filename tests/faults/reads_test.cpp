@@ -27,7 +27,7 @@ const std::vector<Kind> kinds_of_reads{
 
 }  // namespace
 
-TEST_CASE("each read, look and lock that fails in a stage fails it in words, or does no harm") {
+TEST_CASE("each read, search and lock that fails in a stage fails it with a message, or has no effect") {
   Scratch scratch;
   write_small_job(scratch);
   std::map<std::string, std::string> right;
@@ -70,7 +70,7 @@ TEST_CASE("each read, look and lock that fails in a stage fails it in words, or 
   }
 }
 
-TEST_CASE("each read and look that fails in a command over results is told, and no state or page is false") {
+TEST_CASE("each read and search of a file that fails in a command over results is reported, and no state or page is false") {
   Scratch scratch;
   write_small_job(scratch);
   scratch.write("study.yaml", "base: job.yaml\nvary: {dresspack.bending_stiffness_Nm2: [2, 3]}\n");

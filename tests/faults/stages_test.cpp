@@ -242,7 +242,7 @@ TEST_CASE("a stage that runs out of its time or memory says so and leaves nothin
 #endif
 }
 
-TEST_CASE("closed and full streams are survived and told by the status") {
+TEST_CASE("closed and full streams are survived and reported by the exit status") {
   const Chain chain;
   const Scratch& scratch = chain.scratch;
   const std::string bin = "'" DRESSLIFE_BIN_DIR "/dresslife";

@@ -112,7 +112,7 @@ TEST_CASE("whatever is killed when, a resumed study has the results of an undist
 }
 
 TEST_CASE(
-    "each write, sync, close and rename of the runner that fails is told, and no old page stands as new") {
+    "each write, sync, close and rename of the runner that fails is reported, and no old page stands as new") {
   Scratch scratch;
   write_small_job(scratch);
   scratch.write("study.yaml", study_text);
@@ -239,7 +239,7 @@ TEST_CASE("a runner that is killed takes its stages along") {
   CHECK(run_study(scratch).status == 0);
 }
 
-TEST_CASE("a job that takes too long or too much is told, and the others are ranked") {
+TEST_CASE("a job that takes too long or too much is reported, and the others are ranked") {
   Scratch scratch;
   write_small_job(scratch);
   scratch.write("study.yaml", R"(base: job.yaml
@@ -335,7 +335,7 @@ TEST_CASE("a changed input counts whatever its date, a damaged or foreign result
   CHECK(results(scratch / "runs/study") == before);
 }
 
-TEST_CASE("what receipts tell the ranking is all that it would read from the files") {
+TEST_CASE("receipts contain everything that the ranking would read from the files") {
   Scratch scratch;
   write_small_job(scratch);
   scratch.write("study.yaml", study_text);

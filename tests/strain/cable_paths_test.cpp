@@ -389,7 +389,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "where loose cables bend converges with the square of their pieces' length, within twice what is told") {
+    "where loose cables bend converges with the square of their pieces' length, within twice what is reported") {
   constexpr std::size_t samples = 20;
   Dresspack dresspack = thesis_hose();
   dresspack.components[0].laying.slack = 1;
@@ -483,7 +483,7 @@ TEST_CASE("a repeat that its last quarter does not lead to begins with no memory
   CHECK(apart < 1e-5);  // successive repeats may differ by 1e-6, and the rest of such differences adds up
 }
 
-TEST_CASE("forces of held cables are told beside their moment on the hose") {
+TEST_CASE("forces of held cables are reported beside their moment on the hose") {
   Run run(held_hose(), Slip::free, 20, 20);
   const CablePulls pulls = pulls_of(run.paths);
   CHECK(pulls.force_share > 1);  // copper cannot carry the force that held cables cause
@@ -577,7 +577,7 @@ TEST_CASE("a loose cable with slack gives the length that twist takes, and pulls
   }
 }
 
-TEST_CASE("forces of cables that stick to the hose are told, too") {
+TEST_CASE("forces of cables that stick to the hose are reported, too") {
   const Dresspack dresspack = held_hose();
   const Construction construction(dresspack, Kinematics::exact);
   const std::vector<double> lengths(segments, length / segments);

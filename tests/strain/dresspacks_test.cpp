@@ -272,7 +272,7 @@ TEST_CASE("two dresspacks in one file give the same bytes for any threads and an
           pipeline::read_text(scratch / (std::string("other") + kind)));
 }
 
-TEST_CASE("what does not fit together among several dresspacks is told") {
+TEST_CASE("what does not fit together among several dresspacks is reported") {
   const Scratch scratch;
   write_motion(scratch / "both.motion.h5", {thick, thin});
   write_motion(scratch / "thick.motion.h5", {thick});

@@ -272,7 +272,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "pieces of loose cables that miss their waves are told with how many to take, and none that are left to "
+    "pieces of loose cables that miss their waves are reported with how many to take, and none that are left to "
     "the waves do") {
   const Scratch scratch;
   write_motion(scratch / "motion.h5");

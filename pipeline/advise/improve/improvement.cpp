@@ -111,7 +111,7 @@ class Improver {
     const std::optional<VectorXd> start = freedom_.place_of_job();
     if (start) {
       as_it_is.place = *start;
-      search->tell({look_of(as_it_is, *start)});
+      search->tell({candidate_of(as_it_is, *start)});
     }
     done_.trials.push_back(std::move(as_it_is));
     makers_.tell(done_);
@@ -139,13 +139,13 @@ class Improver {
       const int left = request_.trials - static_cast<int>(done_.trials.size());
       const std::vector<VectorXd> asked = search.ask(std::min(left, request_.at_a_time));
       if (asked.empty()) break;  // the search has ended
-      std::vector<Candidate> looks;
+      std::vector<Candidate> candidates;
       for (Trial& trial : tried(sets_at(asked))) {
-        trial.place = asked[looks.size()];
-        looks.push_back(look_of(trial, trial.place));
+        trial.place = asked[candidates.size()];
+        candidates.push_back(candidate_of(trial, trial.place));
         done_.trials.push_back(std::move(trial));
       }
-      search.tell(looks);
+      search.tell(candidates);
       makers_.tell(done_);
     }
   }
@@ -270,8 +270,8 @@ class Improver {
   /// (V1) to (V5).
   std::vector<Candidate> rehearsed(const std::vector<VectorXd>& places) {
     const std::string candidates = list_of_changes(sets_at(places));
-    std::vector<Candidate> looks;
-    for (const VectorXd& place : places) looks.push_back({place, true, {}, {}});
+    std::vector<Candidate> results;
+    for (const VectorXd& place : places) results.push_back({place, true, {}, {}});
     std::vector<std::pair<double, std::string>> worst(places.size());  // violation and its limits
     for (const auto& job : screened_) {
       const ScreenedList list =
@@ -279,7 +279,7 @@ class Improver {
       for (std::size_t k = 0; k < places.size(); ++k) {
         if (k >= list.candidates.size()) throw std::logic_error("a list of short runs is not whole");
         const ScreenedCandidate& of = list.candidates[k];
-        add_rehearsal(looks[k], list, of);
+        add_rehearsal(results[k], list, of);
         const double violation = of.refusal.empty() ? of.violation() : HUGE_VAL;
         if (violation >= worst[k].first)
           worst[k] = {violation, of.refusal.empty() ? list.words(of) : of.refusal};
@@ -289,18 +289,18 @@ class Improver {
       if (violation < nearest_ || nearest_words_.empty()) nearest_ = violation, nearest_words_ = words;
     done_.rehearsals += static_cast<int>(places.size() * screened_.size());
     makers_.tell(done_);
-    return looks;
+    return results;
   }
 
-  static void add_rehearsal(Candidate& look, const ScreenedList& list, const ScreenedCandidate& candidate) {
-    const bool runs = candidate.refusal.empty();
-    if (!runs && look.ran) look = {look.place, false, {}, {}};
-    if (runs != look.ran) return;
+  static void add_rehearsal(Candidate& candidate, const ScreenedList& list, const ScreenedCandidate& screened) {
+    const bool runs = screened.refusal.empty();
+    if (!runs && candidate.ran) candidate = {candidate.place, false, {}, {}};
+    if (runs != candidate.ran) return;
     const std::vector<double> beyond =
-        runs ? limits_of_rehearsal(list.limits, candidate.beyond) : candidate.beyond;
-    if (runs) add_bends(look.pieces, candidate.bends);
-    if (look.beyond.empty()) look.beyond = beyond;
-    for (std::size_t k = 0; k < beyond.size(); ++k) look.beyond[k] = std::max(look.beyond[k], beyond[k]);
+        runs ? limits_of_rehearsal(list.limits, screened.beyond) : screened.beyond;
+    if (runs) add_bends(candidate.pieces, screened.bends);
+    if (candidate.beyond.empty()) candidate.beyond = beyond;
+    for (std::size_t k = 0; k < beyond.size(); ++k) candidate.beyond[k] = std::max(candidate.beyond[k], beyond[k]);
   }
 
   std::vector<double> surely_beyond(const std::vector<VectorXd>& places) const {
@@ -361,15 +361,15 @@ class Improver {
     }
   }
 
-  Candidate look_of(const Trial& trial, const VectorXd& place) const {
-    Candidate look{place, trial.worst.failure.empty(), {}, trial.worst.beyond};
-    if (look.ran)
-      look.aims.push_back(
+  Candidate candidate_of(const Trial& trial, const VectorXd& place) const {
+    Candidate candidate{place, trial.worst.failure.empty(), {}, trial.worst.beyond};
+    if (candidate.ran)
+      candidate.aims.push_back(
           -search_value(trial.worst, done_.trials.empty() ? trial.worst : done_.trials.front().worst));
-    if (look.ran && aims() == 2)
-      look.aims.push_back(request_.second == SecondAim::hose_length ? trial.hose_length
+    if (candidate.ran && aims() == 2)
+      candidate.aims.push_back(request_.second == SecondAim::hose_length ? trial.hose_length
                                                                     : trial.cycle_seconds);
-    return look;
+    return candidate;
   }
 
   std::vector<std::size_t> best_trials() const {
@@ -377,12 +377,12 @@ class Improver {
     if (!best) return {};
     if (aims() == 1) return {*best};  // of equal trials the first
     // If some trials make no mode worse, only these are considered.
-    std::vector<Candidate> looks;
+    std::vector<Candidate> candidates;
     for (std::size_t k = 0; k < done_.trials.size(); ++k) {
-      looks.push_back(look_of(done_.trials[k], {}));
-      if (done_.merit(k).kept < done_.merit(*best).kept) looks.back().ran = false;
+      candidates.push_back(candidate_of(done_.trials[k], {}));
+      if (done_.merit(k).kept < done_.merit(*best).kept) candidates.back().ran = false;
     }
-    return front(looks);
+    return front(candidates);
   }
 
   const ImproveRequest& request_;

@@ -147,7 +147,7 @@ ImprovementStory story_of(const Improvement& found, const Finals& finals, Second
   story.name = found.name;
   for (std::size_t k = 0; k < found.trials.size(); ++k) {
     const Outcome& worst = found.trials[k].worst;
-    story.looks.push_back(
+    story.points.push_back(
         {static_cast<int>(k), worst.failure.empty(), worst.feasible(), worst.hours, worst.words()});
   }
   const bool by_length = second == SecondAim::hose_length;

@@ -29,14 +29,14 @@ Shape& shape_of(CandidateModels::Shapes& shapes, std::size_t limit, bool differe
 
 /// Returns the rehearsals at places of results first, then those nearest to the centre.
 std::vector<const Candidate*> chosen(const std::vector<Candidate>& rehearsals,
-                                     const std::vector<Candidate>& looks, const VectorXd& centre) {
+                                     const std::vector<Candidate>& evaluated, const VectorXd& centre) {
   std::vector<std::pair<double, const Candidate*>> some;
   for (const Candidate& rehearsal : rehearsals) {
-    const auto is_here = [&](const Candidate& look) {
-      return (look.place - rehearsal.place).cwiseAbs().maxCoeff() < same;
+    const auto is_here = [&](const Candidate& candidate) {
+      return (candidate.place - rehearsal.place).cwiseAbs().maxCoeff() < same;
     };
-    const bool looked_at = std::any_of(looks.begin(), looks.end(), is_here);
-    some.emplace_back(looked_at ? -1 : (rehearsal.place - centre).squaredNorm(), &rehearsal);
+    const bool is_evaluated = std::any_of(evaluated.begin(), evaluated.end(), is_here);
+    some.emplace_back(is_evaluated ? -1 : (rehearsal.place - centre).squaredNorm(), &rehearsal);
   }
   std::stable_sort(some.begin(), some.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   if (some.size() > most_rehearsals) some.resize(most_rehearsals);
@@ -45,16 +45,16 @@ std::vector<const Candidate*> chosen(const std::vector<Candidate>& rehearsals,
   return of;
 }
 
-VectorXd pieces_of(const Candidate& look, std::size_t limit) {
-  if (limit >= look.pieces.size() || look.pieces[limit].empty())
-    return VectorXd::Constant(1, tamed(look.beyond[limit]));
-  const std::vector<double>& pieces = look.pieces[limit];
+VectorXd pieces_of(const Candidate& candidate, std::size_t limit) {
+  if (limit >= candidate.pieces.size() || candidate.pieces[limit].empty())
+    return VectorXd::Constant(1, tamed(candidate.beyond[limit]));
+  const std::vector<double>& pieces = candidate.pieces[limit];
   VectorXd of(static_cast<Index>(pieces.size()));
   std::transform(pieces.begin(), pieces.end(), of.begin(), tamed);
   return of;
 }
 
-double failure_of(const Candidate& look) { return look.ran ? -1 : 1 + tamed(look.violation()); }
+double failure_of(const Candidate& candidate) { return candidate.ran ? -1 : 1 + tamed(candidate.violation()); }
 
 }  // namespace
 
@@ -97,25 +97,25 @@ GaussianProcess::Prediction CandidateModels::Limit::at(const VectorXd& place, do
   return predicted;
 }
 
-CandidateModels::CandidateModels(const std::vector<Candidate>& looks,
+CandidateModels::CandidateModels(const std::vector<Candidate>& evaluated,
                                  const std::vector<Candidate>& rehearsals, const VectorXd& centre,
                                  Shapes shapes)
     : shapes_(std::move(shapes)) {
   std::size_t limits = 0;
-  for (const std::vector<Candidate>* list : {&looks, &rehearsals})
-    for (const Candidate& look : *list)
-      if (look.ran) limits = look.beyond.size();
+  for (const std::vector<Candidate>* list : {&evaluated, &rehearsals})
+    for (const Candidate& candidate : *list)
+      if (candidate.ran) limits = candidate.beyond.size();
   limits_.resize(limits);
   shapes_.resize(of_limits + 2 * limits, GaussianProcess::usual_shape(centre.size()));
-  for (const Candidate& look : looks) {
-    failed_.add(look.place, failure_of(look));
-    any_failed_ = any_failed_ || !look.ran;
-    any_feasible_ = any_feasible_ || look.feasible();
-    if (!look.ran) continue;
-    aim_.add(look.place, look.aims.front());
-    for (std::size_t k = 0; k < limits; ++k) limits_[k].looked.add(look.place, tamed(look.beyond[k]));
+  for (const Candidate& candidate : evaluated) {
+    failed_.add(candidate.place, failure_of(candidate));
+    any_failed_ = any_failed_ || !candidate.ran;
+    any_feasible_ = any_feasible_ || candidate.feasible();
+    if (!candidate.ran) continue;
+    aim_.add(candidate.place, candidate.aims.front());
+    for (std::size_t k = 0; k < limits; ++k) limits_[k].evaluated.add(candidate.place, tamed(candidate.beyond[k]));
   }
-  for (const Candidate* rehearsal : chosen(rehearsals, looks, centre)) add_rehearsal(*rehearsal);
+  for (const Candidate* rehearsal : chosen(rehearsals, evaluated, centre)) add_rehearsal(*rehearsal);
   build_all();
 }
 
@@ -143,13 +143,13 @@ void CandidateModels::fit() {
       shape = GaussianProcess::likeliest_shape(of.places.topRows(n), of.values.topRows(n), shape,
                                                shape_evaluations);
   };
-  const Index looks = aim_.places.rows();
-  refit(shapes_[of_aim], aim_, looks);
-  if (any_failed_) refit(shapes_[of_failure], failed_, std::max(looks, most_for_shape));
+  const Index evaluated = aim_.places.rows();
+  refit(shapes_[of_aim], aim_, evaluated);
+  if (any_failed_) refit(shapes_[of_failure], failed_, std::max(evaluated, most_for_shape));
   for (std::size_t k = 0; k < limits_.size(); ++k) {
     if (!limits_[k].varies) continue;
     refit(shape_of(shapes_, k, false), limits_[k].rehearsed, most_for_shape);
-    refit(shape_of(shapes_, k, true), limits_[k].difference, looks);
+    refit(shape_of(shapes_, k, true), limits_[k].difference, evaluated);
   }
   build_all();
 }
@@ -159,7 +159,7 @@ void CandidateModels::build_all() {
   if (any_failed_) failed_.build(shapes_[of_failure]);
   for (Limit& limit : limits_) {
     double low = HUGE_VAL, high = -HUGE_VAL;
-    for (const FunctionModel* known : {&limit.rehearsed, &limit.looked})
+    for (const FunctionModel* known : {&limit.rehearsed, &limit.evaluated})
       if (known->places.rows() > 0) {
         const VectorXd largest = known->values.rowwise().maxCoeff();
         low = std::min(low, largest.minCoeff()), high = std::max(high, largest.maxCoeff());
@@ -174,10 +174,10 @@ void CandidateModels::build_limits() {
     Limit& limit = limits_[k];
     if (!limit.varies) continue;
     limit.rehearsed.build(shape_of(shapes_, k, false));
-    limit.difference = {limit.looked.places, limit.looked.values};
+    limit.difference = {limit.evaluated.places, limit.evaluated.values};
     if (limit.rehearsed.model)
       for (Index i = 0; i < limit.difference.places.rows(); ++i) {
-        const auto rehearsed = limit.rehearsed.model->of_each(limit.looked.places.row(i).transpose());
+        const auto rehearsed = limit.rehearsed.model->of_each(limit.evaluated.places.row(i).transpose());
         limit.difference.values(i, 0) -= rehearsed.means.maxCoeff();
       }
     limit.difference.build(shape_of(shapes_, k, true),
@@ -188,7 +188,7 @@ void CandidateModels::build_limits() {
 void CandidateModels::believe(const VectorXd& place) {
   if (aim_.model) aim_.add(place, aim_at(place, 0));
   for (Limit& limit : limits_)
-    if (limit.varies && limit.difference.model) limit.looked.add(place, limit.at(place, 0).mean);
+    if (limit.varies && limit.difference.model) limit.evaluated.add(place, limit.at(place, 0).mean);
   if (failed_.model) failed_.add(place, failed_.model->at(place).mean);
   build_all();
 }

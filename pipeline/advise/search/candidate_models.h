@@ -28,9 +28,10 @@ class CandidateModels {
  public:
   using Shapes = std::vector<GaussianProcess::Shape>;
 
-  /// Builds the models from the results `looks` and the rehearsals. Uses at most the 250 rehearsals nearest to `centre`.
-  /// shapes: shapes() of an earlier model; empty: default shapes. Precondition: at least one candidate or rehearsal ran.
-  CandidateModels(const std::vector<Candidate>& looks, const std::vector<Candidate>& rehearsals,
+  /// Builds the models from the results `evaluated` and the rehearsals. Uses at most the 250 rehearsals nearest to
+  /// `centre`. shapes: shapes() of an earlier model; empty: default shapes.
+  /// Precondition: at least one candidate or rehearsal ran.
+  CandidateModels(const std::vector<Candidate>& evaluated, const std::vector<Candidate>& rehearsals,
                   const Eigen::VectorXd& centre, Shapes shapes);
 
   /// Maximises the likelihood of the shapes.
@@ -64,7 +65,7 @@ class CandidateModels {
     void build(const GaussianProcess::Shape& shape, const GaussianProcess::Scale& scale = {});
   };
   struct Limit {
-    FunctionModel rehearsed, looked;  // looked: values of g from results
+    FunctionModel rehearsed, evaluated;  // evaluated: values of g from results
     FunctionModel difference{};
     bool varies = false;
     /// Returns the prediction of the piece with the largest bound.

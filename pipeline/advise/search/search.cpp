@@ -27,16 +27,16 @@ bool dominates(const std::vector<double>& a, const std::vector<double>& b) {
 
 }  // namespace
 
-std::vector<std::size_t> front(const std::vector<Candidate>& looks) {
+std::vector<std::size_t> front(const std::vector<Candidate>& candidates) {
   std::vector<std::size_t> best;
-  for (std::size_t k = 0; k < looks.size(); ++k) {
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
     const auto beats = [&](const Candidate& other) {
-      return other.feasible() && dominates(other.aims, looks[k].aims);
+      return other.feasible() && dominates(other.aims, candidates[k].aims);
     };
-    if (looks[k].feasible() && std::none_of(looks.begin(), looks.end(), beats)) best.push_back(k);
+    if (candidates[k].feasible() && std::none_of(candidates.begin(), candidates.end(), beats)) best.push_back(k);
   }
   std::stable_sort(best.begin(), best.end(), [&](std::size_t a, std::size_t b) {
-    return looks[a].aims.front() < looks[b].aims.front();
+    return candidates[a].aims.front() < candidates[b].aims.front();
   });
   return best;
 }

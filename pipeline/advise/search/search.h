@@ -29,7 +29,7 @@ struct Candidate {
 bool better(const Candidate& a, const Candidate& b);
 
 /// Returns the indices of the Pareto-optimal feasible candidates, sorted by the first objective.
-std::vector<std::size_t> front(const std::vector<Candidate>& looks);
+std::vector<std::size_t> front(const std::vector<Candidate>& candidates);
 
 /// Returns, (place), a lower bound of the violation of each candidate, without running it; 0: it may be feasible.
 using Screen = std::function<std::vector<double>(const std::vector<Eigen::VectorXd>&)>;
@@ -43,7 +43,7 @@ class Search {
   virtual ~Search() = default;
   /// Returns at most `count` next candidates, all of them new. Empty: the search has ended.
   virtual std::vector<Eigen::VectorXd> ask(int count) = 0;
-  virtual void tell(const std::vector<Candidate>& looks) = 0;
+  virtual void tell(const std::vector<Candidate>& candidates) = 0;
 };
 
 }  // namespace dresslife::pipeline

@@ -35,8 +35,8 @@ constexpr double hopeless = 0.7;
 constexpr double least_gain = 1e-3;  // smallest gain of a constraint that counts as progress
 constexpr double much_more = 1.3;    // ratio of the number of data that causes a new fit of the shapes
 
-const Candidate& best_of(const std::vector<Candidate>& looks) {
-  return *std::min_element(looks.begin(), looks.end(), better);
+const Candidate& best_of(const std::vector<Candidate>& candidates) {
+  return *std::min_element(candidates.begin(), candidates.end(), better);
 }
 
 /// Smaller is better.
@@ -50,8 +50,8 @@ bool clearly_less(const Merit& a, const Merit& b) {
   return a.first < b.first - least_gain || (a.first <= b.first && a.second < b.second - least_gain);
 }
 
-bool any_ran(const std::vector<Candidate>& looks) {
-  return std::any_of(looks.begin(), looks.end(), [](const Candidate& look) { return look.ran; });
+bool any_ran(const std::vector<Candidate>& candidates) {
+  return std::any_of(candidates.begin(), candidates.end(), [](const Candidate& candidate) { return candidate.ran; });
 }
 
 SearchBox around(const VectorXd& centre, double width) {
@@ -97,14 +97,15 @@ VectorXd SurrogateSearch::first_look() {
 /// Returns the squared distance to the nearest candidate with or without a result.
 double SurrogateSearch::distance_to_known(const VectorXd& place) const {
   double least = static_cast<double>(variables_);
-  for (const Candidate& look : looks_) least = std::min(least, (look.place - place).squaredNorm());
+  for (const Candidate& candidate : evaluated_) least = std::min(least, (candidate.place - place).squaredNorm());
   for (const VectorXd& other : pending_) least = std::min(least, (other - place).squaredNorm());
   return least;
 }
 
 bool SurrogateSearch::is_known(const VectorXd& place) const {
   const auto same = [&](const VectorXd& other) { return (other - place).cwiseAbs().maxCoeff() < near; };
-  return std::any_of(looks_.begin(), looks_.end(), [&](const Candidate& look) { return same(look.place); }) ||
+  return std::any_of(evaluated_.begin(), evaluated_.end(),
+                     [&](const Candidate& candidate) { return same(candidate.place); }) ||
          std::any_of(pending_.begin(), pending_.end(), same);
 }
 
@@ -175,10 +176,10 @@ void SurrogateSearch::rehearse(const std::vector<VectorXd>& places) {
 }
 
 /// Rehearses candidates that were evaluated without a rehearsal, so that the difference is known at their places.
-void SurrogateSearch::rehearse_looks(const std::vector<Candidate>& looks) {
+void SurrogateSearch::rehearse_evaluated(const std::vector<Candidate>& candidates) {
   std::vector<VectorXd> places;
-  for (const Candidate& look : looks)
-    if (!is_rehearsed(look.place)) places.push_back(look.place);
+  for (const Candidate& candidate : candidates)
+    if (!is_rehearsed(candidate.place)) places.push_back(candidate.place);
   if (!places.empty()) rehearse(places);
 }
 
@@ -261,11 +262,11 @@ std::vector<VectorXd> SurrogateSearch::next_rehearsals(CandidateModels& models, 
 
 /// Returns whether no result is near feasibility after a third of the rehearsals before the first evaluation.
 bool SurrogateSearch::is_hopeless() const {
-  const auto misses = [](const Candidate& look) { return !look.ran || look.violation() > hopeless; };
+  const auto misses = [](const Candidate& candidate) { return !candidate.ran || candidate.violation() > hopeless; };
   return asked_ == 0 &&
          static_cast<int>(rehearsals_.size()) >= std::max(settings_.rehearsals / 3, settings_.first_looks) &&
          std::all_of(rehearsals_.begin(), rehearsals_.end(), misses) &&
-         std::all_of(looks_.begin(), looks_.end(), misses);
+         std::all_of(evaluated_.begin(), evaluated_.end(), misses);
 }
 
 /// Makes rehearsals near feasibility by (Q6).
@@ -286,7 +287,7 @@ void SurrogateSearch::rehearse_ahead(int wanted) {
       has_nearest = false;
       continue;
     }
-    CandidateModels models = models_of(looks_, ahead_from_);
+    CandidateModels models = models_of(evaluated_, ahead_from_);
     if (models.any_feasible() || static_cast<int>(promising(models).size()) >= wanted) return;
     const VectorXd centre = nearest_rehearsal(models, ahead_from_);
     const Merit now = nearness(models, centre);
@@ -304,39 +305,39 @@ void SurrogateSearch::rehearse_ahead(int wanted) {
 /// Returns the results with one objective made of two: the larger of both, each weighted and as a share of its range among the
 /// best, plus a small part of their sum (J. Knowles, ParEGO, IEEE Trans. Evolutionary Computation 10 (2006) 50).
 std::vector<Candidate> SurrogateSearch::by_weight(double weight) const {
-  std::vector<Candidate> looks = looks_;
-  if (settings_.aims == 1) return looks;
-  const bool any_feasible =
-      std::any_of(looks.begin(), looks.end(), [](const Candidate& look) { return look.feasible(); });
+  std::vector<Candidate> candidates = evaluated_;
+  if (settings_.aims == 1) return candidates;
+  const bool any_feasible = std::any_of(candidates.begin(), candidates.end(),
+                                        [](const Candidate& candidate) { return candidate.feasible(); });
   std::array<double, 2> low{HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL};
-  for (const Candidate& look : looks)
-    for (std::size_t k = 0; look.ran && look.feasible() == any_feasible && k < 2; ++k) {
-      low[k] = std::min(low[k], look.aims[k]);
-      high[k] = std::max(high[k], look.aims[k]);
+  for (const Candidate& candidate : candidates)
+    for (std::size_t k = 0; candidate.ran && candidate.feasible() == any_feasible && k < 2; ++k) {
+      low[k] = std::min(low[k], candidate.aims[k]);
+      high[k] = std::max(high[k], candidate.aims[k]);
     }
-  for (Candidate& look : looks) {
-    if (!look.ran) continue;
+  for (Candidate& candidate : candidates) {
+    if (!candidate.ran) continue;
     const auto share = [&](std::size_t k) {
-      return (look.aims[k] - low[k]) / std::max(high[k] - low[k], near);
+      return (candidate.aims[k] - low[k]) / std::max(high[k] - low[k], near);
     };
     constexpr double of_sum = 0.05;
     const double a = weight * share(0), b = (1 - weight) * share(1);
-    look.aims = {std::max(a, b) + of_sum * (a + b)};
+    candidate.aims = {std::max(a, b) + of_sum * (a + b)};
   }
-  return looks;
+  return candidates;
 }
 
 /// Returns models of the results, and of the rehearsals from `first` on near the best known place. The shapes are fitted again
 /// after the number of data has grown by the factor much_more.
-CandidateModels SurrogateSearch::models_of(const std::vector<Candidate>& looks, std::size_t first) {
-  const bool by_looks = !any_ran(rehearsals_) || (!looks.empty() && best_of(looks).feasible());
-  const std::vector<Candidate> those = by_looks ? looks : rehearsals_from(first);
-  CandidateModels models(looks, rehearsals_, best_of(those).place, shapes_);
-  const auto known = static_cast<double>(looks.size() + rehearsals_.size());
-  if (looks.size() != shapes_of_looks_ || known > much_more * shapes_of_) {
+CandidateModels SurrogateSearch::models_of(const std::vector<Candidate>& candidates, std::size_t first) {
+  const bool by_results = !any_ran(rehearsals_) || (!candidates.empty() && best_of(candidates).feasible());
+  const std::vector<Candidate> those = by_results ? candidates : rehearsals_from(first);
+  CandidateModels models(candidates, rehearsals_, best_of(those).place, shapes_);
+  const auto known = static_cast<double>(candidates.size() + rehearsals_.size());
+  if (candidates.size() != shapes_of_evaluated_ || known > much_more * shapes_of_) {
     models.fit();
     shapes_ = models.shapes();
-    shapes_of_looks_ = looks.size();
+    shapes_of_evaluated_ = candidates.size();
     shapes_of_ = known;
   }
   return models;
@@ -361,17 +362,17 @@ std::vector<VectorXd> SurrogateSearch::ask(int count) {
   const auto wanted = static_cast<std::size_t>(count);
   if (rehearse_) rehearse_ahead(count);
   if (rehearse_ && is_hopeless()) return {};
-  const bool can_model = any_ran(looks_) || any_ran(rehearsals_);
+  const bool can_model = any_ran(evaluated_) || any_ran(rehearsals_);
   while (places.size() < wanted && (!can_model || (!rehearse_ && asked_ < settings_.first_looks)))
     take(first_look());
   if (places.size() == wanted) return places;
 
   region_ = (region_ + 1) % regions_.size();
-  const std::vector<Candidate> looks = by_weight(regions_[region_].weight);
-  CandidateModels models = models_of(looks);
+  const std::vector<Candidate> candidates = by_weight(regions_[region_].weight);
+  CandidateModels models = models_of(candidates);
   for (const VectorXd& place : pending_) models.believe(place);
-  const bool by_looks = models.any_feasible() || !any_ran(rehearsals_);
-  const VectorXd best = by_looks ? best_of(looks).place : nearest_rehearsal(models);
+  const bool by_results = models.any_feasible() || !any_ran(rehearsals_);
+  const VectorXd best = by_results ? best_of(candidates).place : nearest_rehearsal(models);
   while (places.size() < wanted) {
     static constexpr Trust trusts[] = {{0, 0, false}, {1, 1, false}, {1, -1, false}, {2, 0, true}};
     std::optional<VectorXd> place;
@@ -387,19 +388,19 @@ std::vector<VectorXd> SurrogateSearch::ask(int count) {
   return places;
 }
 
-void SurrogateSearch::tell(const std::vector<Candidate>& looks) {
+void SurrogateSearch::tell(const std::vector<Candidate>& candidates) {
   Region& region = regions_[region_];
-  const std::size_t before = looks_.size();
-  looks_.insert(looks_.end(), looks.begin(), looks.end());
+  const std::size_t before = evaluated_.size();
+  evaluated_.insert(evaluated_.end(), candidates.begin(), candidates.end());
   pending_.clear();
-  if (rehearse_) rehearse_looks(looks);
+  if (rehearse_) rehearse_evaluated(candidates);
   if (picks_ == 0 || before == 0) return;
   const std::vector<Candidate> now = by_weight(region.weight);
   const auto old_end = now.begin() + static_cast<std::ptrdiff_t>(before);
   const Candidate& old = *std::min_element(now.begin(), old_end, better);
-  const bool hit = std::any_of(old_end, now.end(), [&](const Candidate& look) { return better(look, old); });
+  const bool hit = std::any_of(old_end, now.end(), [&](const Candidate& candidate) { return better(candidate, old); });
   region.hits = hit ? region.hits + 1 : 0;
-  region.misses = hit ? 0 : region.misses + static_cast<int>(looks.size());
+  region.misses = hit ? 0 : region.misses + static_cast<int>(candidates.size());
   if (region.hits == hits_to_widen) {
     region.width = std::min(most_width, 2 * region.width);
     region.hits = 0;

@@ -1,4 +1,4 @@
-// Constrained Bayesian optimisation in a trust region (README.md: (Q1) to (Q6)).
+// Constrained Bayesian optimisation in a trust region (pipeline/advise/search/README.md: (Q1) to (Q6)).
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ class SurrogateSearch : public Search {
   SurrogateSearch(Eigen::Index variables, const SurrogateSettings& settings, Screen screen,
                   Rehearse rehearse = {});
   std::vector<Eigen::VectorXd> ask(int count) override;
-  void tell(const std::vector<Candidate>& looks) override;
+  void tell(const std::vector<Candidate>& candidates) override;
 
   /// Returns the rehearsals in their order, without objectives.
   const std::vector<Candidate>& rehearsals() const { return rehearsals_; }
@@ -45,7 +45,7 @@ class SurrogateSearch : public Search {
 
   Eigen::VectorXd first_look();
   double distance_to_known(const Eigen::VectorXd& place) const;
-  CandidateModels models_of(const std::vector<Candidate>& looks, std::size_t first = 0);
+  CandidateModels models_of(const std::vector<Candidate>& candidates, std::size_t first = 0);
   std::vector<Eigen::VectorXd> ranked(const CandidateModels& models, const Eigen::VectorXd& best,
                                       double width, const Trust& trust);
   std::vector<Eigen::VectorXd> promising(const CandidateModels& models) const;
@@ -59,7 +59,7 @@ class SurrogateSearch : public Search {
                                                std::size_t count);
   void rehearse_ahead(int wanted);
   bool is_hopeless() const;
-  void rehearse_looks(const std::vector<Candidate>& looks);
+  void rehearse_evaluated(const std::vector<Candidate>& candidates);
   void rehearse(const std::vector<Eigen::VectorXd>& places);
   std::vector<Eigen::VectorXd> candidates(const SearchBox& box, const Eigen::VectorXd& centre, double share);
   Eigen::VectorXd allowed(const std::vector<Eigen::VectorXd>& by_merit);
@@ -72,11 +72,11 @@ class SurrogateSearch : public Search {
   Screen screen_;
   Rehearse rehearse_;
   RandomNumbers numbers_;
-  std::vector<Candidate> looks_;  // results received
+  std::vector<Candidate> evaluated_;  // results received
   std::vector<Candidate> rehearsals_;
   std::vector<Eigen::VectorXd> pending_;        // candidates without results
   std::vector<GaussianProcess::Shape> shapes_;  // shapes of the models, from the last fit
-  std::size_t shapes_of_looks_ = 0;             // number of results at the last fit of the shapes
+  std::size_t shapes_of_evaluated_ = 0;             // number of results at the last fit of the shapes
   double shapes_of_ = 0;                        // number of results and rehearsals at the last fit
   std::vector<Region> regions_;
   std::size_t region_ = 0;      // region of the last candidates

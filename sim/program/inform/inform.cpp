@@ -304,7 +304,7 @@ class Inform final : public Dialect {
   }
 
   /// Converts RCONF to the configuration of the robot's kinematics. The meaning of its first number (wrist) depends on the
-  /// controller (README.md). The user chooses it by rconf_flip. Default: the sign of axis B if RCONF has more than 8
+  /// controller (sim/program/inform/README.md). The user chooses it by rconf_flip. Default: the sign of axis B if RCONF has more than 8
   /// numbers, else axis R, with a warning.
   ArmConfiguration configuration(const Position& position, const Place& place) {
     if (position.configuration.size() < 6) return {};

@@ -15,6 +15,13 @@ using Form = Expression::Kind;
 constexpr int value_depth = 12;  // levels of nested records
 constexpr std::size_t text_length = 1000;
 
+/// Returns what the fields and elements of a reference are parts of: `a` of a.b[3].
+const Expression& reference_base(const Expression& reference) {
+  const Expression* base = &reference;
+  while (base->kind == Form::field || base->kind == Form::element) base = &base->items[0];
+  return *base;
+}
+
 }  // namespace
 
 /// Counts the levels of nested evaluation. The limits of the parser and of calls keep them within the stack.
@@ -275,10 +282,9 @@ std::optional<Value> Interpreter::given_here(const std::string& what) {
 }
 
 Place Interpreter::origin(const Expression& expression) {
-  const Expression* base = &expression;
-  while (base->kind == Form::field || base->kind == Form::element) base = &base->items[0];
-  if (base->kind == Form::call && !base->items.empty()) return origin(base->items[0]);
-  const Variable* found = base->kind == Form::name ? find(base->text) : nullptr;
+  const Expression& base = reference_base(expression);
+  if (base.kind == Form::call && !base.items.empty()) return origin(base.items[0]);
+  const Variable* found = base.kind == Form::name ? find(base.text) : nullptr;
   return found ? found->written : Place{};
 }
 
@@ -361,15 +367,14 @@ std::string Interpreter::path_of(const Expression& expression) {
 
 /// Returns the value of a variable that another program may write: the user's, else unknown. std::nullopt: none writes it.
 std::optional<Value> Interpreter::value_written_beside(const Expression& expression) {
-  const Expression* base = &expression;
-  while (base->kind == Form::field || base->kind == Form::element) base = &base->items[0];
-  const auto written = code_.written_beside.find(base->text);
+  const std::string& name = reference_base(expression).text;
+  const auto written = code_.written_beside.find(name);
   const bool own =
-      !locals_.empty() && locals_.back().contains(base->text);  // data lists are evaluated outside of routines
+      !locals_.empty() && locals_.back().contains(name);  // data lists are evaluated outside of routines
   if (written == code_.written_beside.end() || own) return {};
   const std::string path = path_of(expression);
   if (std::optional<Value> value = given(path)) return value;
-  return unknown_value(answer_name(path.empty() ? base->text : path),
+  return unknown_value(answer_name(path.empty() ? name : path),
                        fmt::format("may be written by {}, which runs beside", written->second));
 }
 
@@ -559,11 +564,7 @@ Interpreter::Scope& Interpreter::scope_of(const std::string& path) {
   return module_data_[module_];
 }
 
-const std::string& Interpreter::base_name(const Expression& expression) {
-  const Expression* base = &expression;
-  while (base->kind == Form::field || base->kind == Form::element) base = &base->items[0];
-  return base->text;
-}
+const std::string& Interpreter::base_name(const Expression& expression) { return reference_base(expression).text; }
 
 bool Interpreter::was_assigned(const Expression& expression) const {
   const Variable* variable = const_cast<Interpreter*>(this)->base_of(expression);
@@ -576,9 +577,8 @@ bool Interpreter::is_constant(const Variable& variable) {
 }
 
 Interpreter::Variable* Interpreter::base_of(const Expression& expression) {
-  const Expression* base = &expression;
-  while (base->kind == Form::field || base->kind == Form::element) base = &base->items[0];
-  return base->kind == Form::name ? find(base->text) : nullptr;
+  const Expression& base = reference_base(expression);
+  return base.kind == Form::name ? find(base.text) : nullptr;
 }
 
 /// Handles an assignment to an element with an unknown index: every element may have been written.

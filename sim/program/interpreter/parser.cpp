@@ -337,4 +337,17 @@ Statement StatementParser::labelled(Statement::Kind kind) {
   return statement_at(place, kind, at_.word("a label"));
 }
 
+void StatementParser::close_loop(Statement& s, std::vector<Statement> body, const char* end) {
+  s.branches.push_back({{}, std::move(body), {}});
+  at_.need_word(end);
+}
+
+void StatementParser::call(Statement& s, Expression called) const {
+  if (called.kind != Form::call && called.kind != Form::name)
+    at_.fail("is neither an assignment nor a call", "correct the line");
+  s.name = called.text;
+  s.text = called.text;
+  if (called.kind == Form::call) s.arguments = std::move(called.items);
+}
+
 }  // namespace dresslife::sim

@@ -146,6 +146,11 @@ class StatementParser {
 
   /// Reads a label, or a jump to a label. Precondition: the cursor is at the label's name.
   Statement labelled(Statement::Kind kind);
+  /// Gives a loop its body, and reads the word `end` behind it.
+  void close_loop(Statement& s, std::vector<Statement> body, const char* end);
+  /// Makes the call of a routine. called: its name, or its name with arguments. Errors: SyntaxError for any other
+  /// expression.
+  void call(Statement& s, Expression called) const;
 
   Code& code_;
   int file_;

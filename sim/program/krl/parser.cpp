@@ -312,10 +312,7 @@ class KrlParser : StatementParser {
       if (!at_.take_sign("[")) continue;
       if (at_.peek().kind == Token::Kind::number)
         type.sizes.back() = static_cast<int>(std::clamp(at_.next().number, 0.0, 1e6));
-      while (!at_.take_sign("]")) {
-        if (line_done()) at_.fail("ends in an index", "close it with ]");
-        at_.next();
-      }
+      skip_index();
     } while (at_.take_sign(","));
     need_line_end();
     code_.records.push_back(std::move(type));
@@ -394,24 +391,18 @@ class KrlParser : StatementParser {
     at_.need_word("to");
     s.arguments.push_back(at_.expression(4));
     s.arguments.push_back(at_.take_word("step") ? at_.expression(4) : number_at({}, 1));  // KRL counts up without STEP
-    s.branches.emplace_back();
-    s.branches[0].body = body({"endfor"});
-    at_.need_word("endfor");
+    close_loop(s, body({"endfor"}), "endfor");
   }
 
   void loop(Statement& s, Kind kind, const char* end, bool condition) {
     s.kind = kind;
     if (condition) s.arguments.push_back(at_.expression());
-    s.branches.emplace_back();
-    s.branches[0].body = body({end});
-    at_.need_word(end);
+    close_loop(s, body({end}), end);
   }
 
   void repeat_statement(Statement& s) {
     s.kind = Kind::until_loop;
-    s.branches.emplace_back();
-    s.branches[0].body = body({"until"});
-    at_.need_word("until");
+    close_loop(s, body({"until"}), "until");
     if (waits_for_robot()) s.branches[0].body.push_back(stop_of_advance(at_.place()));
     s.arguments.push_back(at_.expression());
   }
@@ -505,11 +496,7 @@ class KrlParser : StatementParser {
       s.arguments.push_back(at_.expression());
       return;
     }
-    if (target.kind != Expression::Kind::call && target.kind != Expression::Kind::name)
-      at_.fail("is neither an assignment nor a call", "correct the line");
-    s.name = target.text;
-    s.text = target.text;
-    if (target.kind == Expression::Kind::call) s.arguments = std::move(target.items);
+    call(s, std::move(target));
   }
 };
 

@@ -253,9 +253,7 @@ class RapidParser : StatementParser {
 
   void loop_body(Statement& s, const char* end) {
     at_.need_word("do");
-    s.branches.emplace_back();
-    s.branches[0].body = body({end});
-    at_.need_word(end);
+    close_loop(s, body({end}), end);
   }
 
   void for_statement(Statement& s) {

@@ -105,7 +105,7 @@ class ScriptParser : StatementParser {
     } else if (at_.take_word("pass")) {
       return;
     } else if (!assignment(s)) {
-      call(s);
+      call_or_thread(s);
     }
     if (!line_done() && at_.peek().kind != Token::Kind::word)  // one line may hold several statements
       at_.fail(fmt::format("has {} behind the end of the statement", at_.seen()), "correct the line");
@@ -150,7 +150,7 @@ class ScriptParser : StatementParser {
     return call;
   }
 
-  void call(Statement& s) {
+  void call_or_thread(Statement& s) {
     if (at_.at_word("run")) {
       const Expression thread = run_thread(s);
       s.name = "run";
@@ -162,12 +162,7 @@ class ScriptParser : StatementParser {
         s.name = word;
         return skip_line();
       }
-    Expression target = at_.reference();
-    if (target.kind != Expression::Kind::call && target.kind != Expression::Kind::name)
-      at_.fail("is neither an assignment nor a call", "correct the line");
-    s.name = target.text;
-    s.text = target.text;
-    if (target.kind == Expression::Kind::call) s.arguments = std::move(target.items);
+    call(s, at_.reference());
   }
 
   /// Reads def name(a, b=1): ... end or thread name(): ... end.

@@ -94,7 +94,7 @@ TEST_CASE("what a part without wires cannot be is refused with its place and a r
              Contains("give one of the two, or without_wires: {kind: hose, fibre, filler or cable}"));
 }
 
-TEST_CASE("the middle of a hose is told once: by the core's keys or by a component") {
+TEST_CASE("the middle of a hose is described once: by the core's keys or by a component") {
   const std::string middle = with("{name: x, radius_mm: 6, helix_radius_mm: 0, without_wires: {kind: hose}}");
   CHECK(refusal({free_cables, hose, middle}) == "");
   CHECK_THAT(refusal({free_cables, hose, middle, "dresspack.core_diameter_mm=12"}),

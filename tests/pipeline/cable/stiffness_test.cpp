@@ -164,7 +164,7 @@ TEST_CASE(
   CHECK(before > in_state(dresspack, SlipState::sliding).bending);
 }
 
-TEST_CASE("stiffness: a job takes it, tells it in words, and simulates by the number") {
+TEST_CASE("stiffness: a job takes it, prints it in words, and simulates with the number") {
   const std::string wall = "dresspack.hose_material=hose_polyamide",
                     profile = "dresspack.hose_corrugation={pitch_mm: 5, height_mm: 4.5, wall_mm: 0.8}";
   const std::string words = "dresspack.bending_stiffness_Nm2=from_construction";
@@ -378,7 +378,7 @@ TEST_CASE("stiffness: a given one that its construction cannot have is warned of
   CHECK_THAT(told(), Contains("too low: bending_stiffness_Nm2 1.72") && Contains("lacks what fills its core of 26 mm"));
 }
 
-TEST_CASE("stiffness: a hose whose wall nobody named is warned of, with what it has and what to write") {
+TEST_CASE("stiffness: a hose without a wall gives a warning with its stiffness and the key to write") {
   Dresspack dresspack = thesis_pack();
   dresspack.bending_stiffness = 12;
   dresspack.axial_from_construction = true;

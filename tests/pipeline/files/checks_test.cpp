@@ -29,7 +29,7 @@ void write_motion(const std::filesystem::path& name, const std::vector<CheckedVa
 
 }  // namespace
 
-TEST_CASE("checks: a receipt tells those of its motion, bit for bit, when the motion is gone") {
+TEST_CASE("checks: a receipt reports those of its motion, bit for bit, when the motion is gone") {
   const Scratch scratch;
   const std::filesystem::path motion = scratch / "motion.h5", note = scratch / "sim.receipt";
   constexpr double endless = std::numeric_limits<double>::infinity();

@@ -30,7 +30,7 @@ std::string layout(const std::filesystem::path& name) {
   return text;
 }
 
-TEST_CASE("motion layout: files of one dresspack and of several are told apart into spans") {
+TEST_CASE("motion layout: files of one dresspack and of several are divided into spans") {
   const Scratch scratch;
   write_motion(scratch / "old.h5", 6, 3, {}, {}, {});
   CHECK(layout(scratch / "old.h5") == "0: 0+6 0-2; ");  // an old file has no data of the clamp between

@@ -13,7 +13,7 @@ TEST_CASE("cluster: the shipped one, in SI units") {
   CHECK(slurm.most_stages == 40000);
 }
 
-TEST_CASE("cluster: what is wrong is told with its place") {
+TEST_CASE("cluster: what is wrong is reported with its place") {
   const Scratch scratch;
   const auto refused = [&](const std::string& text) {
     return message_of([&] { read_cluster(scratch.write("own.yaml", text)); });

@@ -118,7 +118,7 @@ TEST_CASE("simple mesh: few triangles stay, many become few near the surface") {
 }
 
 TEST_CASE(
-    "cross-section: wires are told by the paths that the files have, layer after layer and part after part") {
+    "cross-section: wires are distinguished by the paths that the files have, layer after layer and part after part") {
   Dresspack dresspack;
   Component wire, cable, tube;
   wire.name = "wire";
@@ -135,7 +135,7 @@ TEST_CASE(
                                                           "layer 1/wire 1", "layer 1/wire 2"});
 }
 
-TEST_CASE("scene data: shapes in their frames, and a mesh that is lost is told") {
+TEST_CASE("scene data: shapes in their frames, and a mesh that is lost is reported") {
   const Scratch scratch;
   std::ofstream(scratch / "gun.obj") << "v 0 0 0\nv 1000 0 0\nv 0 500 0\nf 1 2 3\n";
   Setup setup;

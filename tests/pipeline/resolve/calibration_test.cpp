@@ -125,7 +125,7 @@ TEST_CASE("calibration: bad files are refused at their place") {
   CHECK(message_of([&] { read_job(lost); }).find("nowhere.yaml") != std::string::npos);
 }
 
-TEST_CASE("calibration: tells where a job goes beyond what it was learned from") {
+TEST_CASE("calibration: reports where a job goes beyond what it was learned from") {
   LearnedWithin within;
   within.least_strain_range = 1e-3;
   within.largest_strain_range = 6e-3;

@@ -110,7 +110,7 @@ TEST_CASE("dresspacks: entries of the catalogue are looked up in the list and op
   CHECK(changed.dresspacks[1].dresspack.components.empty());
 }
 
-TEST_CASE("dresspacks: what is wrong with the list is told where it stands") {
+TEST_CASE("dresspacks: what is wrong with the list is reported where it stands") {
   const std::string list = listed(two);
   const auto check = [](const std::string& text, const std::string& needle, const std::string& message) {
     INFO(message);

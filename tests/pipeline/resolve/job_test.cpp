@@ -172,7 +172,7 @@ TEST_CASE("job: numbers may be written in every usual way") {
   }
 }
 
-TEST_CASE("job: whole numbers, words, truth values, texts, maps and lists are told apart") {
+TEST_CASE("job: whole numbers, words, truth values, texts, maps and lists are distinguished") {
   check_case({"segments: 20", "segments: 20.5", "20.5",
               "simulation.segments is 20.5 (must be a whole number); give the number of rigid segments of each "
               "dresspack"});

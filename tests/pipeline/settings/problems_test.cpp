@@ -33,7 +33,7 @@ Said said_of(const std::vector<std::pair<std::string, std::string>>& changes,
 
 using Words = std::vector<std::string>;
 
-TEST_CASE("problems: all mistakes of a job are told at once, in the order of the file") {
+TEST_CASE("problems: all mistakes of a job are reported at once, in the order of the file") {
   const Said said = said_of({{"radius_mm: 120", "radius_mm: -120"},
                              {"fatigue: {", "colour: red\nfatigue: {"},
                              {"axial_stiffness_N: 1e5", "axial_stiffness_N: stiff"},
@@ -64,13 +64,13 @@ TEST_CASE("problems: contradictions of parts that were read stand beside what ca
   CHECK(said.words[1].starts_with("strain.kinematics"));
 }
 
-TEST_CASE("problems: every change of the command line that cannot be made is told") {
+TEST_CASE("problems: every change of the command line that cannot be made is reported") {
   const Said said = said_of({}, {"simulation.segments.more=3", "routing=", "no equals sign"});
   REQUIRE(said.places.size() == 3);
   CHECK(said.words[0].starts_with("'more' of simulation.segments.more lies inside a single value"));
 }
 
-TEST_CASE("problems: one is told as it ever was, the same line once, and no more than a person reads") {
+TEST_CASE("problems: the same line is reported once, and no more lines than a person reads") {
   Problems problems;
   CHECK_NOTHROW(problems.finish());
   const Where here{"a.yaml", 3, 1};

@@ -38,7 +38,7 @@ TEST_CASE("memory: a file's buffers are its data, or the library's cache where t
   CHECK(file_buffers(format, {{"row", 100}, {"sample", 1'000'000}}) == 2 * few + cache + on_its_way + packed);
 }
 
-TEST_CASE("memory: what the machine has free is told and is not more than it has") {
+TEST_CASE("memory: the free memory of the machine is known and is not more than its memory") {
   const std::optional<double> free = free_memory_mb();
   if (!free) return;
   CHECK(*free > 0);

@@ -476,7 +476,7 @@ TEST_CASE("build graph: a file beside the job counts by its content") {
   CHECK(bench.words(study) == Words{"done"});
 }
 
-TEST_CASE("build graph: a failed stage stops its job only, is told with its reason and tried again") {
+TEST_CASE("build graph: a failed stage stops its job only, is reported with its reason and tried again") {
   Bench bench;
   const Study study = bench.study({{"bad", "simulation.segments=20"}, {"good", "simulation.segments=40"}});
   bench.report_stage("bad", "fail-strain");
@@ -497,7 +497,7 @@ TEST_CASE("build graph: a failed stage stops its job only, is told with its reas
   CHECK(bench.calls("bad") == "sim strain strain fatigue ");
 }
 
-TEST_CASE("build graph: a stage that is killed or ends without a word is told") {
+TEST_CASE("build graph: a stage that is killed or ends without a word is reported") {
   Bench bench;
   const Study study = bench.study({{"one", "simulation.segments=20"}});
   bench.write_script("sim", "#!/bin/sh\nkill -9 $$\n");

@@ -34,7 +34,7 @@ TEST_CASE("fleet table: each row is a job, each column a key, an empty cell the 
   CHECK(study.jobs[1].job->strain.slip == std::vector<Slip>{Slip::stick, Slip::stick});
 }
 
-TEST_CASE("fleet table: a job that cannot be run is told at its cell") {
+TEST_CASE("fleet table: a job that cannot be run is reported at its cell") {
   const Scratch scratch;
   scratch.write("job.yaml", sample_job);
   const std::string table = scratch.write("fleet.csv", "name;simulation.segments\na;20\nb; 3\n");

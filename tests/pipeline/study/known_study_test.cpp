@@ -61,7 +61,7 @@ void check_same(const StudyState& one, const StudyState& other) {
 
 }  // namespace
 
-TEST_CASE("known study: what is remembered is what the study expands to, and how it stands") {
+TEST_CASE("known study: the note equals the expansion of the study and its states") {
   Bench bench;
   CHECK_FALSE(bench.standing().remembered);  // before the first run
   CHECK(bench.run() == 6);
@@ -112,7 +112,7 @@ TEST_CASE("known study: a touched file changes nothing, a changed one all that d
   CHECK(bench.standing().remembered);
 }
 
-TEST_CASE("known study: nothing is remembered of what could expand to something else") {
+TEST_CASE("known study: a note that could expand to something else is not used") {
   const auto forgets = [](const std::string& what, const std::function<void(Bench&)>& change) {
     INFO(what);
     Bench bench;
@@ -147,7 +147,7 @@ TEST_CASE("known study: nothing is remembered of what could expand to something 
   });
 }
 
-TEST_CASE("known study: receipts tell what the life files say, bit by bit") {
+TEST_CASE("known study: receipts contain the values of the life files, bit by bit") {
   Bench bench;
   bench.run();
   const StudyState known = bench.standing();

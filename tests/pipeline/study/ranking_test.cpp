@@ -587,7 +587,7 @@ TEST_CASE("ranking: the terminal's table is aligned, within its width, and says 
 }
 
 TEST_CASE(
-    "ranking: jobs are ranked and told by the life that 10 % do not reach, older files by their worst wire") {
+    "ranking: jobs are ranked and reported by the life that 10 % do not reach, older files by their worst wire") {
   const Scratch scratch;
   SampleLife weak = living(20000), strong = living(10000);
   weak.planned_hours = 50, strong.planned_hours = 60;

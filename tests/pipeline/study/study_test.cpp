@@ -88,7 +88,7 @@ TEST_CASE("study: jobs are named by their values, fit for a folder") {
   CHECK(study_of(scratch, "base: job.yaml\nname: ''\n").name == "my_study");
 }
 
-TEST_CASE("study: a job that cannot be run is told with its place, the others stand") {
+TEST_CASE("study: a job that cannot be run is reported with its place, the others stand") {
   const Scratch scratch;
   const std::string text = "base: job.yaml\nvary:\n  simulation.segments: [20, 3, 40]\n";
   const Study study = study_of(scratch, text);

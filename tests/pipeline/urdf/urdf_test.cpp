@@ -214,7 +214,7 @@ TEST_CASE("urdf: meshes are found beside the file and in their packages") {
              Catch::Contains("mesh 'colour.dae' is neither STL nor OBJ; convert it"));
 }
 
-TEST_CASE("urdf: what is wrong is told with its line") {
+TEST_CASE("urdf: what is wrong is reported with its line") {
   const auto told = [](const std::string& text, const std::string& needle, const std::string& words,
                        const UrdfRequest& asked) {
     const std::string place = needle.empty() ? "palletizer.urdf" : "palletizer.urdf:" + line_of(text, needle);

@@ -101,7 +101,7 @@ TEST_CASE("a world restarted from its state goes on as if it had not stopped") {
         1e-9);  // ODE normalises quaternions
 }
 
-TEST_CASE("a world that remembers how far obstacles are moves as one that looks at every step") {
+TEST_CASE("a world that remembers the distances of obstacles moves as one that computes them at every step") {
   const Rod rod(DrivenCable::properties(30));
   const RodState start = rod.straight(DrivenCable::base());
   // A box and a capsule move toward the cable from 1 m away at up to 2.5 m/s, one after the other, and back.

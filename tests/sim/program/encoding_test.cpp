@@ -49,7 +49,7 @@ TEST_CASE("encoding: pairs of UTF-16 become one letter, halves of them the repla
                                  5)) == "A");  // the last character has only one byte
 }
 
-TEST_CASE("encoding: what is no well-formed UTF-8 is told apart") {
+TEST_CASE("encoding: text that is not well-formed UTF-8 is recognised") {
   for (const char* whole : {"", "a", "\xC3\xB6", "\xE2\x82\xAC", "\xF0\x9F\x98\x80", "\xF4\x8F\xBF\xBF"})
     CHECK(is_utf8(whole));
   // A continuation byte alone, a lead byte alone, two overlong forms, a surrogate, a code point above U+10FFFF.

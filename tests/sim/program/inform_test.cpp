@@ -269,7 +269,7 @@ TEST_CASE("inform: jobs call jobs with arguments, a job that is not there leaves
   CHECK(start.problem().find("'IARG#(1)'") != std::string::npos);
 }
 
-TEST_CASE("inform: another robot's moves, stations and two robots at once are told") {
+TEST_CASE("inform: another robot's moves, stations and two robots at once are reported") {
   const std::string second = job("SECOND", three, "MOVJ C00001 VJ=9\n", "///GROUP1 RB2\n");
   const Reading r = run(three, "MOVJ C00000 VJ=9\nCALL JOB:SECOND\n", {}, {frames, {"S.JBI", second}});
   CHECK(r.program.instructions.size() == 1);

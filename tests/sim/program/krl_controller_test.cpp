@@ -344,7 +344,7 @@ TEST_CASE("krl: bases and tools that only the user has") {
   }
 }
 
-TEST_CASE("krl: a target without a value is told apart from one that nobody declares") {
+TEST_CASE("krl: a target without a value is distinguished from one that nobody declares") {
   CHECK(run("DECL E6POS pa\nPTP pa").problem() ==
         "p.src:3:5: error: moves to 'pa', which has no value yet; assign it before the move, give the file "
         "that "
@@ -563,7 +563,7 @@ TEST_CASE("krl: structures that would fill the memory are left without values") 
         1);
 }
 
-TEST_CASE("krl: what an interrupt writes is unknown while it may happen, and a search is told") {
+TEST_CASE("krl: what an interrupt writes is unknown while it may happen, and a search is reported") {
   const std::string handler = "\nEND\nDEF found()\nBRAKE\nhit=TRUE\nRESUME";
   const std::string start = "INTERRUPT DECL 21 WHEN $IN[1] DO found()\n$VEL.CP=1\nPTP " + pose +
                             "\nINTERRUPT ON 21\nhit=FALSE\nLIN {X 900}\nINTERRUPT OFF 21\n";
@@ -734,7 +734,7 @@ TEST_CASE("krl: SPL points of passes that are cut off are none of the motion") {
   CHECK(r.program.instructions.size() > 3);
 }
 
-TEST_CASE("krl: nothing behind an endless loop is run, and one that makes none of its moves is told") {
+TEST_CASE("krl: nothing behind an endless loop is run, and one that makes none of its moves is reported") {
   // The controller never runs statements after the loop. `n` may be written over the network, which is reported.
   const Reading quiet = run("PTP " + axes(1) + "\nLOOP\nn=1\nENDLOOP\nPTP " + axes(2), "INT n");
   REQUIRE(quiet.problem() == "no such problem");

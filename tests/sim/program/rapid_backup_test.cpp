@@ -61,7 +61,7 @@ TEST_CASE("rapid backup: a backup of another controller may hold files that end 
   CHECK(first_axes(read(folder / "")) == Angles{7});
 }
 
-TEST_CASE("rapid backup: a module that the contents name and that is not there is told") {
+TEST_CASE("rapid backup: a module that the contents name and that is not there is reported") {
   const Scratch folder;
   write_task(folder, "/");
   std::filesystem::remove(folder / "RAPID/TASK1/SYSMOD/user.sys");

@@ -208,13 +208,13 @@ TEST_CASE("rapid controller: NoEOffs leaves the offsets of external axes out") {
   CHECK(r.move(2).target.external_axes == std::vector<double>{150});
 }
 
-TEST_CASE("rapid controller: RAISE is told, its handlers are not followed") {
+TEST_CASE("rapid controller: RAISE is reported, its handlers are not followed") {
   const Reading r = run(go(1) + "RAISE e;\n" + go(2) + "ERROR\nTRYNEXT;\n", "VAR errnum e:=-1;\n");
   CHECK(first_axes(r) == Angles{1, 2});
   CHECK(skips(r, "RAISE", true));
 }
 
-TEST_CASE("rapid controller: a weave is told, the line is followed") {
+TEST_CASE("rapid controller: a weave is reported, the line is followed") {
   const Reading r = run("ArcL p,v100,sm1,wd1\\Weave:=wv1,fine,tool0;\n",
                         pose +
                             "PERS seamdata sm1:=[1,1,0,0];\nPERS welddata "
@@ -253,7 +253,7 @@ TEST_CASE("rapid controller: a branch that only waits is no question") {
   CHECK(told(r, "branch that waits on 'di1'"));
 }
 
-TEST_CASE("rapid controller: a handler of errors is not run, and told where it moves the robot") {
+TEST_CASE("rapid controller: a handler of errors is not run, and reported where it moves the robot") {
   const std::string away = "PROC away()\n" + go(9) + "ENDPROC\n";
   const Reading r = run(go(1) + "ERROR\naway;\nTRYNEXT;\n", away);
   CHECK(first_axes(r) == Angles{1});
@@ -432,7 +432,7 @@ TEST_CASE("rapid controller: the loop that runs away is named, not the routine t
   CHECK_THAT(r.problem(), Catch::Contains("m.mod:4:") && Catch::Contains("--assume m.mod:4=then"));
 }
 
-TEST_CASE("rapid controller: what is missing is told once, with the number of its other places") {
+TEST_CASE("rapid controller: what is missing is reported once, with the number of its other places") {
   const Reading frames =
       run("FOR i FROM 1 TO 3 DO\nMoveJ p,v1000,fine,grip\\WObj:=pallet;\nMoveL "
           "p,v1000,fine,grip\\WObj:=pallet;\nENDFOR\n",
@@ -455,7 +455,7 @@ TEST_CASE("rapid controller: one question for one decision, whatever it depends 
 }
 
 TEST_CASE(
-    "rapid controller: encoded modules are told for what they are, and matter only where they are called") {
+    "rapid controller: encoded modules are reported as encoded, and matter only where they are called") {
   std::string encoded;
   for (int i = 0; i < 2000; ++i) encoded += static_cast<char>(i * 37 % 256);
   const auto with = [&](const std::string& body) {
@@ -482,7 +482,7 @@ TEST_CASE("rapid controller: SpeedRefresh slows down, 0 lets the robot stand unt
   CHECK(skips(r, "SpeedRefresh 0", true));
 }
 
-TEST_CASE("rapid controller: what a trap writes is unknown, one that moves the robot is told") {
+TEST_CASE("rapid controller: what a trap writes is unknown, one that moves the robot is reported") {
   // An interrupt may occur at any time. A variable that a trap writes is known again after the program writes to it.
   const std::string traps =
       "VAR bool stopped:=FALSE;\nVAR intnum number;\nTRAP halt\nstopped:=TRUE;\nENDTRAP\nTRAP "
@@ -567,7 +567,7 @@ TEST_CASE("rapid controller: a PERS without a value has it from another task's m
   CHECK_FALSE(skips(run(waits, "VAR num a;\nVAR num state;\n"), "another task", true));
 }
 
-TEST_CASE("rapid controller: a file of another language is told in a line") {
+TEST_CASE("rapid controller: a file of another language is reported in a line") {
   const Reading other =
       Reader{Language::rapid}({{"arm.prg", "#!/usr/bin/env python3\nprint(f'{x!r}')  # ?\n"}});
   CHECK(other.problems.size() == 2);  // a missing routine and a missing module

@@ -191,7 +191,7 @@ TEST_CASE("rewrite: KRL, Fanuc, INFORM and URScript") {
   }
 }
 
-TEST_CASE("rewrite: what cannot be written is told at its line") {
+TEST_CASE("rewrite: what cannot be written is reported at its line") {
   const auto refusal = [](const std::string& text, std::size_t move, LineChange change) {
     const Reading r = Reader{Language::rapid}({{"m.mod", text}});
     change.where = r.move(move).where;

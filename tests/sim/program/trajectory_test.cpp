@@ -80,7 +80,7 @@ TEST_CASE("columns: points are no axes, and what is no angle is left out by name
   CHECK(bag.program.skipped.size() == 6);
 }
 
-TEST_CASE("columns: a clock since 1970 is told by its digits") {
+TEST_CASE("columns: a clock since 1970 is recognised by its digits") {
   const auto duration = [](const std::string& name, const std::string& first, const std::string& second) {
     return columns(name + ",a1_deg\n" + first + ",1\n" + second + ",2\n").move(1).speed.duration.value();
   };

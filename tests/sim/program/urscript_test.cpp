@@ -195,7 +195,7 @@ TEST_CASE("urscript: inputs are asked for by their calls, threads are named") {
           alone)) == std::vector<double>{3});
 }
 
-TEST_CASE("urscript: what is missing or not read is told with its place") {
+TEST_CASE("urscript: what is missing or not read is reported with its place") {
   CHECK(run("movel(p[1,2,3,0,0,0])\n")
             .problem()
             .find("s.script:1:1: error: moves the tool, and no set_tcp before it") != std::string::npos);

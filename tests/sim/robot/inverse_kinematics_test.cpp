@@ -133,7 +133,7 @@ TEST_CASE("inverse kinematics: a configuration brings back the very angles, turn
   }
 }
 
-TEST_CASE("inverse kinematics: the words of the controllers at poses that can be told by eye") {
+TEST_CASE("inverse kinematics: the words of the controllers at poses that can be checked by eye") {
   const InverseKinematics abb(irb6640()), kuka(kr16()), fanuc(m20ia());
   const auto at = [](std::vector<double> degrees) {
     VectorXd joints(6);
@@ -164,7 +164,7 @@ TEST_CASE("inverse kinematics: the words of the controllers at poses that can be
   CHECK((down.orientation * z + z).norm() < pose_rounding);
 }
 
-TEST_CASE("inverse kinematics: a Motoman's wrist is told by axis R or by the sign of axis B, and any arm by its angles") {
+TEST_CASE("inverse kinematics: a Motoman's wrist is given by axis R or by the sign of axis B, and any arm by its angles") {
   std::mt19937 random(23);
   const InverseKinematics arm(m20ia());
   const VectorXd elsewhere = VectorXd::Zero(6);
@@ -186,7 +186,7 @@ TEST_CASE("inverse kinematics: a Motoman's wrist is told by axis R or by the sig
   }
 }
 
-TEST_CASE("inverse kinematics: out of reach, out of limits and wrong geometry are told") {
+TEST_CASE("inverse kinematics: out of reach, out of limits and wrong geometry are reported") {
   const InverseKinematics arm(irb6640());
   std::string reason;
   Frame far = arm.flange(VectorXd::Zero(6));
@@ -351,7 +351,7 @@ TEST_CASE("inverse kinematics: a path is followed on its branch, there and back"
   CHECK((joints - begin).cwiseAbs().maxCoeff() < 1e-7);
 }
 
-TEST_CASE("inverse kinematics: singular arms are told") {
+TEST_CASE("inverse kinematics: singular arms are reported") {
   const InverseKinematics arm(ur10());
   CHECK(arm.singular((VectorXd(6) << 0, -1, 0, 0, 1, 0).finished()));  // the elbow is stretched
   CHECK(arm.singular((VectorXd(6) << 0, -1, 1, 0, 0, 0).finished()));  // axes 4 and 6 are parallel

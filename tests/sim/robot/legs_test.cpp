@@ -484,7 +484,7 @@ TEST_CASE("legs: many targets out of reach are one problem with their number and
           "target") != std::string::npos);
 }
 
-TEST_CASE("legs: targets out of reach are told together, with their lines") {
+TEST_CASE("legs: targets out of reach are reported together, with their lines") {
   auto far = to(PathKind::linear, {5, 0, 1}, 1, 0), wrong = to(PathKind::joint, corner, 1, 0);
   far.where = {"main.mod", 12, 3};
   far.text = "main.mod:12 main: MoveL p2;";

@@ -51,7 +51,7 @@ TEST_CASE("a rehearsal grades what the run's checks saw") {
   CHECK(rehearsed(job, as_the_job, 1).refusal.find("too short") != std::string::npos);
 }
 
-TEST_CASE("bends of a rehearsal are told by moment and stretch, and their largest is the run's sharpest") {
+TEST_CASE("bends of a rehearsal are reported by moment and stretch, and their largest is the run's sharpest") {
   pipeline::Job job = simple_job();
   job.simulation.most_repeats = 1;
   const Rehearsal found = rehearsed(job, as_the_job, 1);

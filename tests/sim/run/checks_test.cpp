@@ -86,7 +86,7 @@ TEST_CASE("checks: every step counts, with its time, place and value") {
   CHECK(find(summary.checks, "largest contact force").value > 0);
 }
 
-TEST_CASE("checks: too short and too long are told with their moment") {
+TEST_CASE("checks: too short and too long are reported with their moment") {
   pipeline::Job job = simple_job();
   job.simulation.most_repeats = 1;
   // The tool clamp swings about an axis at 50 mm from the base clamp.

@@ -101,7 +101,7 @@ TEST_CASE("periodic: one that only rests is led in, then found periodic at once"
   CHECK(r.begin.size() == 1);
 }
 
-TEST_CASE("periodic: what the lead-in cannot do is told by the motion itself") {
+TEST_CASE("periodic: what the lead-in cannot do is reported by the motion itself") {
   pipeline::Job job = simple_job();  // wound once around a post, for which the hose is too short
   job.robot.joints[0].axis = {0, 0, 1};
   job.robot.links[0].capsules = {{{0, 0, 0}, {0, 0, 2}, 0.25}};

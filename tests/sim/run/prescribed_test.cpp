@@ -240,7 +240,7 @@ TEST_CASE("prescribed: a job with a rig, written out, is the same job") {
         std::string::npos);
 }
 
-TEST_CASE("deformation file: what is wrong is told by line and column") {
+TEST_CASE("deformation file: what is wrong is reported by line and column") {
   const Scratch scratch;
   const auto job_with = [&](const std::string& csv) {
     scratch.write("d.csv", csv);

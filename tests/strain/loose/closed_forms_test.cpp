@@ -46,7 +46,7 @@ TEST_CASE("without play a loose cable has the strain of one that is held") {
   CHECK(largest_offset(cables.state(0), 0) < 1e-6);
 }
 
-TEST_CASE("a laid cable is at ease where it was laid, bent or not") {
+TEST_CASE("a cable has no strain in the shape in which it was mounted, bent or not") {
   for (const double lay : {-10.0, 0.5, 20.0})
     for (const double rest : {0.0, 0.8}) {
       LooseCable cable = signal_cable(0.01845 * std::cos(0.3), 0.01845 * std::sin(0.3));
@@ -62,7 +62,7 @@ TEST_CASE("a laid cable is at ease where it was laid, bent or not") {
     }
 }
 
-TEST_CASE("twist along the lay of a laid cable without play stretches it, twist against it lets it go") {
+TEST_CASE("twist along the lay stretches a cable without play, twist against it relaxes the cable") {
   constexpr double radius = 0.01845, lay = 8 * pi / 180;
   LooseCable cable = signal_cable(radius);
   cable.lay_rate = std::tan(lay) / radius;

@@ -68,7 +68,7 @@ TEST_CASE("a closed motion without friction closes") {
 }
 
 TEST_CASE(
-    "what the mesh misses of a cable's waves is told, and falls with the square of its nodes' distance") {
+    "what the mesh misses of a cable's waves is reported, and falls with the square of its nodes' distance") {
   LooseCable cable = signal_cable(0.01845);
   cable.play = 0.005;
   cable.slack = 0.01;
@@ -468,7 +468,7 @@ TEST_CASE("spare lanes and the cables beside it change no digit of a cable") {
   }
 }
 
-TEST_CASE("cables laid in several ways side by side lie as they would alone, to the last digit") {
+TEST_CASE("cables mounted in several ways in one batch have the same places as alone, to the last digit") {
   const LooseSettings settings{2.035, 64};
   std::vector<std::unique_ptr<LooseCables>> together, alone;
   std::vector<LooseCables*> all;

@@ -90,7 +90,7 @@ TEST_CASE("posterior: lives that broke, under a straight model, have a closed fo
   }
 }
 
-TEST_CASE("posterior: of run-outs alone the draws tell, Laplace does not") {
+TEST_CASE("posterior: with run-outs only the samples are right, Laplace is not") {
   // z ~ N(0, 1), likelihood Phi((a + b z)/s): mean b/S phi(a/S)/Phi(a/S), S^2 = s^2 + b^2 (extended skew-normal); variance
   // 1 - (b/S)^2 r (r + a/S), r = phi/Phi.
   const double b = 1.5, s = 0.3;

@@ -54,7 +54,7 @@ TEST_CASE(
   CHECK(freedom.place_of_job());
 }
 
-TEST_CASE("ends of what is free are told where a place stands at them") {
+TEST_CASE("a key at an end of its range is reported") {
   const Freedom freedom = freed(
       "routing.free_length_m: 1.9 .. 2.6\nrouting.tool_clamp.position_m: 0.1 around [0, 0.2, 0.3]\n"
       "routing.tool_clamp.direction: 30 deg around\ndresspack: [spot_welding, sensor_cable]");
@@ -69,7 +69,7 @@ TEST_CASE("ends of what is free are told where a place stands at them") {
 }
 
 TEST_CASE(
-    "where nothing is feasible it is told which limit binds, how near the best came, and what to widen") {
+    "where nothing is feasible it is reported which limit binds, how near the best came, and what to widen") {
   const Freedom freedom = freed("{routing.free_length_m: 1.9 .. 2.6, routing.pre_twist_deg: -90 .. 90}");
   const auto trial = [](double u, double v, double bend, double twist) {
     Trial made;

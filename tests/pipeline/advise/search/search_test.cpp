@@ -212,7 +212,7 @@ TEST_CASE("with many valleys it mostly ends in the deepest, where chance does no
   CHECK(deepest >= 4);
 }
 
-TEST_CASE("looks that do not run lead to where they do") {
+TEST_CASE("candidates that do not run lead the search to candidates that run") {
   // The tutorial's problem, of which only a part of the box can be evaluated. Its best place lies at the part's edge.
   const Problem problem = tutorial();
   SurrogateSearch search = surrogate(problem, 1);
@@ -233,7 +233,7 @@ TEST_CASE("looks that do not run lead to where they do") {
   CHECK(best.aims.front() == Approx(1.0).margin(0.02));  // there x1 >= (2 x0)^3 = 1
 }
 
-TEST_CASE("where a thousandth keeps all limits, rehearsals lead there within a few looks") {
+TEST_CASE("if a thousandth of the range is feasible, rehearsals lead there within a few evaluations") {
   const Problem problem = springs();
   RandomSearch draws(6, 99, nothing_rejected);
   int kept = 0;
@@ -307,7 +307,7 @@ TEST_CASE("where a limit is the largest of many, its pieces lead to where it is 
   }
 }
 
-TEST_CASE("a search is a function of its seed and of what it is told") {
+TEST_CASE("a search is a function of its seed and of the results that it gets") {
   const Problem problem = g24();
   SurrogateSearch whole = surrogate(problem, 7), first = surrogate(problem, 7);
   const std::vector<Candidate> looks = searched(whole, problem, 40, 4);
@@ -356,7 +356,7 @@ TEST_CASE(
   for (const VectorXd& place : asked) CHECK(beyond(place) < 0.15);  // 0.1 is the valley's floor, 1.9 its rim
 }
 
-TEST_CASE("rehearsals that do not run, or tell nothing, do not lead astray") {
+TEST_CASE("rehearsals that do not run or give no information do not mislead the search") {
   // Runs only where x0 > 0.5. Elsewhere the limits are unknown.
   const Problem problem = g24();
   const auto runs = [](const VectorXd& place) { return place[0] > 0.5; };
