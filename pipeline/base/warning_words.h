@@ -5,8 +5,21 @@
 
 namespace dresslife::pipeline {
 
+/// What cures a warning.
+struct Remedy {
+  std::vector<KeyValue> values = {};  ///< that cure it together
+  std::string words = {};             ///< what follows the values: " (now 0.5), or a longer hose"
+
+  /// Returns "KEY: VALUE and KEY: VALUE (now 0.5), or a longer hose".
+  std::string text() const;
+  bool empty() const { return values.empty() && words.empty(); }
+};
+
 /// Returns a warning in the form of every stage: "WHAT. Likely cause: CAUSE. Remedy: REMEDY". what: the part, the value with its
-/// limit, the place and the time, if they apply. remedy: a key with a value that would solve the problem.
+/// limit, the place and the time, if they apply.
+Warning warning_of(WarningKind kind, std::string where, const std::string& what, const std::string& cause,
+                   const Remedy& remedy);
+/// remedy: words without values.
 Warning warning_of(WarningKind kind, std::string where, const std::string& what, const std::string& cause,
                    const std::string& remedy);
 

@@ -6,12 +6,14 @@
 #include <optional>
 #include <sstream>
 
+#include "pipeline/base/joined.h"
 #include "pipeline/base/warning_words.h"
 
 namespace dresslife::pipeline {
 namespace {
 
 constexpr std::size_t most_bytes = 60'000;  // HDF5 allows 64 kB in an attribute
+constexpr const char* separator = ": ";     // between key and value
 
 std::optional<WarningKind> kind_named(std::string_view name) {
   for (int k = 0; k < warning_kinds_count; ++k)
@@ -114,16 +116,27 @@ std::string Warning::line() const {
 }
 std::string Warning::text() const { return where.empty() ? words : where + ": " + words; }
 
+std::string Remedy::text() const {
+  std::vector<std::string> pairs;
+  for (const KeyValue& of : values) pairs.push_back(of.key + separator + of.value);
+  return joined(pairs, " and ") + words;
+}
+
+Warning warning_of(WarningKind kind, std::string where, const std::string& what, const std::string& cause,
+                   const Remedy& remedy) {
+  return {kind, std::move(where), fmt::format("{}. Likely cause: {}. Remedy: {}", what, cause, remedy.text()), remedy.values};
+}
 Warning warning_of(WarningKind kind, std::string where, const std::string& what, const std::string& cause,
                    const std::string& remedy) {
-  return {kind, std::move(where), fmt::format("{}. Likely cause: {}. Remedy: {}", what, cause, remedy)};
+  return warning_of(kind, std::move(where), what, cause, Remedy{{}, remedy});
 }
 
 std::string warnings_text(const std::vector<Warning>& warnings) {
   std::string text;
   for (std::size_t k = 0; k < warnings.size(); ++k) {
-    const std::string line = fmt::format("{}{}\t{}\t{}", k ? "\n" : "", word(warnings[k].kind),
-                                         plain(warnings[k].where), plain(warnings[k].words));
+    std::string line = fmt::format("{}{}\t{}\t{}", k ? "\n" : "", word(warnings[k].kind), plain(warnings[k].where),
+                                   plain(warnings[k].words));
+    for (const KeyValue& of : warnings[k].remedy) line += "\t" + plain(of.key + separator + of.value);
     if (text.size() + line.size() > most_bytes)
       return text + fmt::format("{}{}\t\tand {} more warnings", k ? "\n" : "", word(warnings[k].kind),
                                 warnings.size() - k);
@@ -136,10 +149,17 @@ std::vector<Warning> warnings_from(const std::string& text) {
   std::vector<Warning> warnings;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
-    const std::size_t first = line.find('\t'), second = line.find('\t', first + 1);
-    if (first == std::string::npos || second == std::string::npos) continue;
-    if (const auto kind = kind_named(line.substr(0, first)))
-      warnings.push_back({*kind, line.substr(first + 1, second - first - 1), line.substr(second + 1)});
+    std::vector<std::string> fields;
+    std::istringstream parts(line);
+    for (std::string part; std::getline(parts, part, '\t');) fields.push_back(part);
+    if (fields.size() < 3) continue;
+    const auto kind = kind_named(fields[0]);
+    if (!kind) continue;
+    Warning warning{*kind, fields[1], fields[2]};
+    for (std::size_t k = 3; k < fields.size(); ++k)
+      if (const std::size_t at = fields[k].find(separator); at != std::string::npos)
+        warning.remedy.push_back({fields[k].substr(0, at), fields[k].substr(at + std::string_view(separator).size())});
+    warnings.push_back(std::move(warning));
   }
   return warnings;
 }

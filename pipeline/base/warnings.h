@@ -34,10 +34,19 @@ const char* word(WarningKind kind);
 /// Returns "bend radius" or "skipped instructions": the words for people.
 const char* title(WarningKind kind);
 
+/// A key of a job and a value for it, as YAML: "routing.free_length_m", "1.943".
+struct KeyValue {
+  std::string key, value;
+  bool operator==(const KeyValue&) const = default;
+};
+
 struct Warning {
   WarningKind kind{};
   std::string where;  ///< "side_panel.mod:45"; empty: the whole job
   std::string words;  ///< problem and remedy; one line
+  /// The values with which the remedy begins (warning_words.h). All of them together cure the warning. Keys are paths in the job; in a
+  /// warning about a file of a dresspack they count from its place. Empty: no value is known.
+  std::vector<KeyValue> remedy = {};
   /// Returns "side_panel.mod:45: warning: skipped: ..."
   std::string line() const;
   /// Returns the line without the word "warning", for a table of warnings.
@@ -45,8 +54,8 @@ struct Warning {
   bool operator==(const Warning&) const = default;
 };
 
-/// Returns the text of the attribute: a line for each warning with kind, place and words between tabs. If it would be longer than
-/// 60 kB, it has the first warnings and the number of the others.
+/// Returns the text of the attribute: a line for each warning with kind, place, words, and each KEY: VALUE of its remedy between
+/// tabs. If it would be longer than 60 kB, it has the first warnings and the number of the others.
 std::string warnings_text(const std::vector<Warning>& warnings);
 /// Reads a text of warnings_text(). Skips lines of unknown form, which a newer program may have written.
 std::vector<Warning> warnings_from(const std::string& text);

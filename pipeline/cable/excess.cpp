@@ -81,9 +81,8 @@ std::vector<Warning> slack_warnings(const Dresspack& dresspack) {
                     100 * believable_share),
         fmt::format("it has {:.2g} mm of room to wind in and {:.3g} % ({:.3g} mm in a metre) of excess length",
                     1e3 * loose.room, 100 * slack, 1e3 * slack),
-        fmt::format("slack_percent: {} or less; or {} mm of room around it",
-                    percent_below(excess_at_force(cable, limit, loose.room)),
-                    millimetres_above(room_of_excess(cable, slack, limit)))));
+        Remedy{{{"slack_percent", percent_below(excess_at_force(cable, limit, loose.room))}},
+               fmt::format(" or less; or {} mm of room around it", millimetres_above(room_of_excess(cable, slack, limit)))}));
   }
   return warnings;
 }
@@ -114,8 +113,8 @@ std::vector<Warning> tight_warnings(const std::string& key, const MountedDresspa
             "'{}' has {:.3g} % of slack (limit {} %: half of what it needs to wind once around the hose's axis)",
             component.name, 100 * slack, percent_above(needed / 2)),
         "it stays on one side of the hose, so that a bend of the hose pulls it",
-        fmt::format("{}.components.{}.slack_percent: {} (now {:.3g}); dresspacks are installed with 1 to 2 %",
-                    key, number, percent_above(slack_to_lay(needed)), component.laying.slack)));
+        Remedy{{{fmt::format("{}.components.{}.slack_percent", key, number), percent_above(slack_to_lay(needed))}},
+               fmt::format(" (now {:.3g}); dresspacks are installed with 1 to 2 %", component.laying.slack)}));
   }
   return warnings;
 }
@@ -141,8 +140,10 @@ std::vector<Warning> construction_warnings_at(const std::string& key, Dresspack 
   dresspack.where = {key};
   place_parts(dresspack.components, key);
   std::vector<Warning> all = construction_warnings(dresspack, may_slide);
-  for (Warning& warning : all)
+  for (Warning& warning : all) {
     if (warning.where.empty()) warning.where = key;
+    for (KeyValue& of : warning.remedy) of.key = warning.where + "." + of.key;
+  }
   return all;
 }
 

@@ -54,8 +54,8 @@ std::vector<Warning> tight_warnings(const std::string& key, const MountedDresspa
 /// differs from that of its parts and, if cables may slide, excess length without room.
 std::vector<Warning> construction_warnings(const Dresspack& dresspack, bool may_slide);
 
-/// Returns construction_warnings() with a job's key path as the place of each part: "dresspack.components.2". key: of the
-/// dresspack.
+/// Returns construction_warnings() with a job's key path as the place of each part, "dresspack.components.2", and in remedies. key: of
+/// the dresspack.
 std::vector<Warning> construction_warnings_at(const std::string& key, Dresspack dresspack, bool may_slide);
 
 /// Returns a percentage rounded down to two digits, for limits: "0.05".

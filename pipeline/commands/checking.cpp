@@ -107,26 +107,6 @@ JobCheck check_of(const std::filesystem::path& file, const std::vector<std::stri
   return check_of(file, sets, PassingFile("preview.h5").path());
 }
 
-std::vector<ProposedValue> proposed_values(const Warning& warning) {
-  constexpr std::string_view begin = "Remedy: ", next = " and ", letters = "abcdefghijklmnopqrstuvwxyz_.0123456789", digits = "-.0123456789";
-  std::vector<ProposedValue> values;
-  std::size_t at = warning.words.find(begin);
-  if (at == std::string::npos) return values;
-  std::string_view rest = std::string_view(warning.words).substr(at + begin.size());
-  while (true) {
-    const std::size_t colon = rest.find_first_not_of(letters);
-    if (colon == 0 || !rest.substr(std::min(colon, rest.size())).starts_with(": ")) return values;
-    const std::string key(rest.substr(0, colon));
-    rest.remove_prefix(colon + 2);
-    const std::size_t end = rest.starts_with('[') ? rest.find(']') + 1 : std::min(rest.find_first_not_of(digits), rest.size());
-    if (end == 0) return values;
-    values.push_back({key.find('.') == std::string::npos ? warning.where + "." + key : key, std::string(rest.substr(0, end))});
-    rest.remove_prefix(end);
-    if (!rest.starts_with(next)) return values;
-    rest.remove_prefix(next.size());
-  }
-}
-
 void print_check(const JobCheck& check) {
   for (const Warning& warning : check.warnings) print(shown(warning.line() + "\n"));
   for (const std::string& note : check.notes) print(shown(note + "\n"));

@@ -24,14 +24,6 @@ JobCheck check_of(const std::filesystem::path& job, const std::vector<std::strin
 JobCheck check_of(const std::filesystem::path& job, const std::vector<std::string>& sets,
                   const std::filesystem::path& preview_file);
 
-/// A key of a job with the value that a remedy proposes, as YAML: "routing.free_length_m", "1.943".
-struct ProposedValue {
-  std::string key, value;
-};
-/// Returns the values with which the remedy of a warning begins, in "Remedy: KEY: VALUE and KEY: VALUE (reasons), or other remedies". A
-/// key without a path counts from the place of the warning. Empty: the remedy begins otherwise.
-std::vector<ProposedValue> proposed_values(const Warning& warning);
-
 /// Prints the warnings, notes and the refusal.
 void print_check(const JobCheck& check);
 

@@ -54,8 +54,8 @@ struct Choice {
   std::vector<std::string> estimates = {};  ///< estimated keys of the dresspack
   std::vector<std::string> doubts = {};  ///< faults of program and dresspack that do not depend on the routing
   bool refused = false;
-  std::vector<ProposedValue> remedies = {};  ///< of the faults: values of the routing, and slacks of the dresspack's cables
-  std::vector<ProposedValue> slacks = {};    ///< slacks that the job sets in its dresspack
+  std::vector<KeyValue> remedies = {};  ///< of the faults: values of the routing, and slacks of the dresspack's cables
+  std::vector<KeyValue> slacks = {};    ///< slacks that the job sets in its dresspack
 
   /// The fewer, the better.
   std::pair<bool, std::size_t> badness() const { return {refused, faults.size()}; }
@@ -129,7 +129,7 @@ std::string without_place(const std::string& words, const fs::path& file) {
 }
 
 /// Returns whether a value belongs to the installation of the dresspack. A job must not change other values to keep a limit.
-bool is_of_installation(const ProposedValue& of) {
+bool is_of_installation(const KeyValue& of) {
   return of.key.starts_with("routing.") || (of.key.starts_with("dresspack.components.") && of.key.ends_with(".slack_percent"));
 }
 
@@ -139,7 +139,7 @@ void judge(const Draft& draft, const std::string& motion, Choice& choice) {
   choice.faults.clear(), choice.doubts.clear(), choice.estimates.clear(), choice.remedies.clear();
   const PassingFile file("job.yaml");
   Node job = routed(draft, to_yaml(choice.routing), motion, 1, file.path().parent_path());
-  for (const ProposedValue& slack : choice.slacks) job[slack.key] = scalar(slack.value);
+  for (const KeyValue& slack : choice.slacks) job[slack.key] = scalar(slack.value);
   write_text_if_changed(file.path(), with_mark(to_yaml(job), Mark::yaml));
   try {
     read_job(file.path(), {});
@@ -157,7 +157,7 @@ void judge(const Draft& draft, const std::string& motion, Choice& choice) {
     const bool of_routing = warning.kind != WarningKind::program && warning.kind != WarningKind::motion &&
                             warning.kind != WarningKind::material && warning.kind != WarningKind::overlap;
     (of_routing ? choice.faults : choice.doubts).push_back(without_place(warning.line(), file.path()));
-    if (of_routing) std::ranges::copy_if(proposed_values(warning), std::back_inserter(choice.remedies), is_of_installation);
+    if (of_routing) std::ranges::copy_if(warning.remedy, std::back_inserter(choice.remedies), is_of_installation);
   }
 }
 
@@ -168,11 +168,11 @@ Choice cured(const Draft& draft, const std::string& motion, Choice choice) {
     Choice next = choice;
     Node job;
     job["routing"] = next.routing;
-    for (const ProposedValue& of : choice.remedies)
+    for (const KeyValue& of : choice.remedies)
       if (of.key.starts_with("routing.")) {
         set_value(job, of.key, parse_yaml(of.value, "remedy"), {"dresslife new"});
       } else {
-        std::erase_if(next.slacks, [&](const ProposedValue& before) { return before.key == of.key; });
+        std::erase_if(next.slacks, [&](const KeyValue& before) { return before.key == of.key; });
         next.slacks.push_back(of);
       }
     next.routing = *job.find("routing");
@@ -298,7 +298,7 @@ std::string text_of(const NewOptions& options, const Draft& draft, const Choice&
   text += fmt::format(
       "# position_m and direction are in the frame of the link; free_length_m is the length between the clamps.\n{}routing:\n", off);
   for (const Entry& key : choice.routing.entries) text += fmt::format("{}  {}: {}\n", off, key.key, set_text(key.value));
-  for (const ProposedValue& slack : choice.slacks)
+  for (const KeyValue& slack : choice.slacks)
     text += commented(off + slack.key, slack.value, "without it, dresslife check warns");
   return text + commented("simulation", "{segments: 64}", "everything else has a default: config/README.md");
 }

@@ -52,7 +52,7 @@ int report(const StudyOptions& options) {
   }
   const int failed = count_failed(rows);
   if (failed > 0)
-    tell(fmt::format("{}: error: {} of {} jobs have no result (their reasons are in the table); make them with dresslife run\n",
+    tell(fmt::format("{}: error: {} of {} jobs have no current result (their reasons are in the table); make them with dresslife run\n",
                      options.study, failed, study.jobs.size()));
   return failed > 0 || !all_written ? 1 : 0;
 }

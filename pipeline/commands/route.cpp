@@ -354,7 +354,7 @@ std::string words_of(const Trial& trial, const Draft& draft, const MountingToler
   for (const std::string& words :
        {action_words(row), uncertainty_words(row), failure_words(row)})
     text += words + (words.empty() ? "" : "\n");
-  return text + mode_table(row, 120, "");
+  return text + mode_table(row, 120, "") + mode_legend({row}, 120, "");
 }
 
 /// Removes the runs of a search except that of the best routing.

@@ -206,8 +206,8 @@ Format make_motion_format() {
     {"curvature_error", f64, maybe,
      "estimated relative rms error of the curvature by the time step, in the most dynamic seconds"},
     {"warnings", text, maybe,
-     "warnings of this stage and those before it, one per line: kind, place and words, separated by tabs; empty: "
-     "none"},
+     "warnings of this stage and those before it, one per line: kind, place, words and each KEY: VALUE of the remedy, "
+     "separated by tabs; empty: none"},
   });
   return format;
 }
@@ -547,7 +547,8 @@ Format make_preview_format() {
     {"refusal", text, always, "why the simulation refuses the job; empty: it accepts it"},
     {"refusal_time", f64, maybe, "time of the refusal, s; absent: it has none"},
     {"warnings", text, maybe,
-     "warnings of geometry, statics and a short run, one per line: kind, place and words, separated by tabs"},
+     "warnings of geometry, statics and a short run, one per line: kind, place, words and each KEY: VALUE of the remedy, "
+     "separated by tabs"},
     {"notes", text, maybe, "several shapes at rest, one per line"},
   });
   return format;

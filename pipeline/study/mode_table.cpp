@@ -99,15 +99,23 @@ std::string mode_table(const RankingRow& row, std::size_t width, const std::stri
   std::string text = indent + table_line(columns, [](const Column& column) { return column.title; });
   for (std::size_t k = 0; k < lines.size(); ++k)
     text += indent + table_line(columns, [k](const Column& column) { return column.cells[k]; });
-  const auto below = [&](const std::string& words) { text += wrapped(words, width, indent); };
-  below("† No test confirms the law of this mode: 'replace after' leaves it out." + cell_legend(lines));
-  if (row.planned() && !row.worst_component.empty())
-    below(
-        "Wires: hours until a conductor has lost its share of wires, over all samples. The worst wire is that of the shortest median life "
-        "with the job's own values. It need not be in that conductor.");
   for (const ModeLine& line : lines)
-    if (line.early && !line.note.empty()) below(fmt::format("{}: {}", line.mode.substr(0, line.mode.find("†")), line.note));
+    if (line.early && !line.note.empty())
+      text += wrapped(fmt::format("{}: {}", line.mode.substr(0, line.mode.find("†")), line.note), width, indent);
   return text;
+}
+
+std::string mode_legend(const std::vector<RankingRow>& rows, std::size_t width, const std::string& indent) {
+  std::vector<ModeLine> all;
+  for (const RankingRow& row : rows)
+    if (row.has_result() && !row.unvalidated.empty())
+      for (ModeLine& line : mode_lines(row)) all.push_back(std::move(line));
+  if (all.empty()) return "";
+  return wrapped("† No test confirms the law of this mode: 'replace after' leaves it out." + cell_legend(all) +
+                     " before wires: share of the samples in which the mode comes before broken wires. at: time of its largest load. "
+                     "wires: hours until a conductor has lost its share of wires. The worst wire is that of the shortest median life with the "
+                     "job's own values. It may be in another conductor.",
+                 width, indent);
 }
 
 }  // namespace dresslife::pipeline

@@ -31,8 +31,10 @@ std::vector<ModeLine> mode_lines(const RankingRow& row);
 /// Returns the meaning of "none" and "-" if a line has such a cell; begins with a space.
 std::string cell_legend(const std::vector<ModeLine>& lines);
 
-/// Returns the lines as a table with a legend, and below it the notes of early modes. Each line begins with `indent` and has at
-/// most `width` columns. Empty: no modes.
+/// Returns the lines as a table, and below it the notes of early modes. Each line begins with `indent` and has at most `width`
+/// columns. Empty: no modes.
 std::string mode_table(const RankingRow& row, std::size_t width, const std::string& indent);
+/// Returns the meaning of the words in the tables of these rows. Empty: they have no tables.
+std::string mode_legend(const std::vector<RankingRow>& rows, std::size_t width, const std::string& indent);
 
 }  // namespace dresslife::pipeline

@@ -451,6 +451,7 @@ std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width
   const std::string indent(columns[0].width() + 2, ' ');
   const auto below = [&](const std::string& words) { return wrapped(one_line(words), width, indent); };
   std::string text, details;
+  std::vector<RankingRow> detailed;  // rows with a table of modes
   if (rows.size() == 1 && rows[0].done()) text += wrapped(action_words(rows[0]), width, "") + '\n';
   text += table_line(columns, [](const Column& column) { return column.title; });
   for (std::size_t i = 0; i < selected.indices.size(); ++i) {
@@ -462,7 +463,8 @@ std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width
     std::string words;
     if (const std::string action = action_words(row); rows.size() > 1 && row.done() && !action.starts_with("Plan"))
       words += below(action);
-    if (const std::string modes = row.has_result() ? mode_table(row, width, indent) : ""; !modes.empty()) words += modes + '\n';
+    if (const std::string modes = row.has_result() ? mode_table(row, width, indent) : ""; !modes.empty())
+      words += modes + '\n', detailed.push_back(row);
     for (const std::string& paragraph : paragraphs(row)) words += below(paragraph);
     if (!words.empty()) details += '\n' + (rows.size() > 1 ? one_line(row.job) + '\n' : "") + words;
   }
@@ -470,6 +472,7 @@ std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width
   text += wrapped("h: hours of motion. glued .. free: 'replace after' if the parts inside the cables cannot slide, and if they slide "
                   "without friction.", width, indent);
   text += details;
+  if (const std::string legend = mode_legend(detailed, width, indent); !legend.empty()) text += '\n' + legend;
   std::string estimates;
   for (const std::string& one : estimate_words(rows)) estimates += wrapped(one_line(one), width, "");
   if (!estimates.empty()) text += '\n' + shown(estimates);

@@ -53,9 +53,9 @@ std::string error_words(const RankingRow& row) {
   std::string words;
   for (std::size_t i = 0; i < shares.size(); ++i)
     if (std::isfinite(row.planned_errors[i]) && row.planned_errors[i] >= none)
-      words += fmt::format("{}the {} % value by a factor of {:.2g}", words.empty() ? "" : ", ", shares[i], row.planned_errors[i]);
+      words += fmt::format("{}the {} % value by a factor of {}", words.empty() ? "" : ", ", shares[i], readable(row.planned_errors[i], 2));
   if (words.empty()) return "";
-  return fmt::format("Few samples and lives between computed ones make these hours uncertain, too: {}.", words);
+  return fmt::format("These hours also have a numerical error: {}.", words);
 }
 
 std::string joined_words(const std::vector<std::string>& sentences) {
@@ -201,8 +201,8 @@ std::string shown_calendar(const RankingRow& row) {
 std::string uncapped_words(const RankingRow& row) {
   const auto& [tenth, half, most] = row.planned_hours;
   if (!row.planned() || !std::isfinite(tenth) || !(most > row.robot_life_hours)) return "";
-  std::string text = fmt::format("By the model 1 of 10 such dresspacks has failed after {} of motion ({})", hours_text(tenth),
-                                 calendar_text(row.planned_months));
+  std::string text = fmt::format("Hours beyond the robot's life ({} h) only compare jobs: 1 of 10 such dresspacks has failed after {} of motion ({})",
+                                 readable(row.robot_life_hours), hours_text(tenth), calendar_text(row.planned_months));
   if (std::isfinite(half)) text += ", half after " + hours_text(half);
   if (std::isfinite(most)) text += ", 90 % after " + hours_text(most);
   if (!std::isnan(row.glued_hours[0]))
@@ -289,7 +289,7 @@ std::string joint_words(const RankingRow& row) {
       row.worst_joint == "carrying"
           ? "The damage follows the swing of the hose more than the position of any axis."
           : fmt::format("The strain of this wire follows {} most.", row.worst_joint);
-  return moved + " That is a correlation, no cause. Try what an axis costs. The tool then leaves its path: compare that life with this job's only. dresslife run JOB -o held --set motion.hold_joint=" +
+  return moved + " That is a correlation, no cause. This job without the axis shows what it costs: dresslife run JOB -o held --set motion.hold_joint=" +
          (row.worst_joint == "carrying" ? "AXIS" : row.worst_joint);
 }
 

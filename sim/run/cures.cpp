@@ -10,7 +10,6 @@
 #include <optional>
 
 #include "pipeline/base/constants.h"
-#include "pipeline/base/joined.h"
 #include "pipeline/base/warning_words.h"
 #include "pipeline/files/check_names.h"
 #include "pipeline/job/line_key.h"
@@ -20,6 +19,7 @@ namespace dresslife::sim {
 namespace {
 
 namespace check_name = pipeline::check_name;
+using pipeline::Remedy;
 using pipeline::WarningKind;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -87,8 +87,8 @@ class RestTrials {
 
   double longest() const { return longest_; }
   /// turned: (end) whether the clamp points along the mean of its chords. reversed: end that points in the opposite direction;
-  /// -1: none.
-  double curvature(double length, const std::array<bool, 2>& turned = {}, int reversed = -1) const {
+  /// -1: none. enough: a result above this value may be too small, because the remaining poses are left out.
+  double curvature(double length, const std::array<bool, 2>& turned = {}, int reversed = -1, double enough = infinite) const {
     RodProperties of = properties_;
     of.segments = std::min(of.segments, most_segments);
     of.length = length;
@@ -98,6 +98,7 @@ class RestTrials {
         if (turned[end]) clamps.end(end).orientation = clamps.end(end).orientation * chord_turn_[end];
       if (reversed >= 0) clamps.end(reversed).orientation = clamps.end(reversed).orientation * Quaternion(0, 1, 0, 0);
       most = std::max(most, curvature_at_rest(of, clamps));
+      if (most > enough) break;
     }
     return most;
   }
@@ -197,11 +198,10 @@ class RemedySearch {
   RemedySearch(const CheckedMotion& motion, const std::vector<Check>& checks, const RestTrials& trials, int dresspack)
       : motion_(motion), checks_(checks), trials_(trials), dresspack_(dresspack) {}
 
-  /// Returns the text of the first routing that keeps them; empty: no tried routing does. All warnings of a dresspack name the
-  /// same one.
-  std::string words() {
-    std::string& known = motion_.remedies[dresspack_];
-    if (known.empty()) known = found_words();
+  /// Returns the first routing that keeps them; empty: no tried routing does. All warnings of a dresspack name the same one.
+  Remedy remedy() {
+    Remedy& known = motion_.remedies[dresspack_];
+    if (known.empty()) known = found();
     return known;
   }
   /// Returns " (best of those tried: 1.250 m, bend radius 210.3 mm at rest, 187.2 mm in a short run; asked are 200.0 mm)": the
@@ -225,14 +225,14 @@ class RemedySearch {
   }
 
  private:
-  std::string found_words() {
+  Remedy found() {
     const Check* net = find(checks_, check_name::net_twist, dresspack_);
     constexpr double little = 10 * degree;  // a smaller pre-twist does not visibly change the shape
     if (net && std::abs(net->centre) > little) {
       Change change{routing().free_length, std::round((routing().pre_twist - net->centre) / degree) * degree};
       change.curvature = trials_.curvature(change.length);
       change.trial = tried_with(change);
-      if (change.trial.keeps) return words_of(change);
+      if (change.trial.keeps) return remedy_of(change);
     }
     constexpr std::array<std::array<bool, 2>, 4> turns{{{false, false}, {false, true}, {true, false}, {true, true}}};
     for (std::size_t turn = 0; turn < turns.size(); ++turn) {
@@ -241,20 +241,22 @@ class RemedySearch {
       for (const double length : lengths(tried_lengths[turn])) {
         if (tried == most_tried[turn] && best_.trial.radius > 0) break;
         Change change{length, routing().pre_twist, turns[turn]};
-        change.curvature = trials_.curvature(length, change.turned);
+        // A shape that exceeds the limit counts only as the straightest so far, before a short run has a radius.
+        const double enough = std::max(1 / limit(), best_.trial.radius == 0 ? best_.curvature : 0);
+        change.curvature = trials_.curvature(length, change.turned, -1, enough);
         const bool is_straightest = best_.trial.radius == 0 && change.curvature < best_.curvature;
         if (is_straightest) best_ = change;
         if (change.curvature * limit() > 1 || tried == most_tried[turn]) continue;
         ++tried;
         change.trial = tried_with(change);
         if (is_straightest) best_ = change;
-        if (change.trial.cured) return words_of(change);
+        if (change.trial.cured) return remedy_of(change);
         if (change.trial.keeps && (!kept || change.trial.radius > kept->trial.radius)) kept = change;
         if (change.trial.radius > best_.trial.radius) best_ = change;
       }
-      if (kept) return words_of(*kept);
+      if (kept) return remedy_of(*kept);
     }
-    return "";
+    return {};
   }
   const pipeline::MountedDresspack& mounted() const {
     return motion_.setup.dresspacks[static_cast<std::size_t>(dresspack_)];
@@ -296,19 +298,22 @@ class RemedySearch {
     return trial_of(motion_, changed, {WarningKind::bend_radius, WarningKind::slack}, dresspack_, checks_, best_.trial.radius);
   }
 
-  std::string words_of(const Change& change) const {
-    std::vector<std::string> keys;
-    const auto add = [&](const std::string& key) { keys.push_back(key_of(motion_.setup, dresspack_, "routing." + key)); };
-    if (change.length != routing().free_length) add(fmt::format("free_length_m: {:.3f}", change.length));
-    if (change.pre_twist != routing().pre_twist) add(fmt::format("pre_twist_deg: {:.0f}", change.pre_twist / degree));
+  Remedy remedy_of(const Change& change) const {
+    Remedy remedy;
+    const auto add = [&](const std::string& key, const std::string& value) {
+      remedy.values.push_back({key_of(motion_.setup, dresspack_, "routing." + key), value});
+    };
+    if (change.length != routing().free_length) add("free_length_m", fmt::format("{:.3f}", change.length));
+    if (change.pre_twist != routing().pre_twist) add("pre_twist_deg", fmt::format("{:.0f}", change.pre_twist / degree));
     for (int end = 0; end < 2; ++end)
       if (change.turned[static_cast<std::size_t>(end)])
-        add(fmt::format("{}_clamp.direction: {}", end == 0 ? "base" : "tool", vector_words(direction(end))));
+        add(end == 0 ? "base_clamp.direction" : "tool_clamp.direction", vector_words(direction(end)));
     const std::string near =
         change.trial.cured ? "" : fmt::format(", the bend radius by little: {}", in_words(change.trial.radius, "m"));
     const std::string until = change.trial.until ? fmt::format(" of the first {:.0f} s", *change.trial.until) : "";
-    return fmt::format("{} (bend radius at rest {}; keeps the limits in a short run{}{})", pipeline::joined(keys, " and "),
-                       radius_words(change.curvature), until, near);
+    remedy.words = fmt::format(" (bend radius at rest {}; keeps the limits in a short run{}{})", radius_words(change.curvature),
+                               until, near);
+    return remedy;
   }
 
   const CheckedMotion& motion_;
@@ -370,25 +375,24 @@ double slower(const CheckedMotion& motion, const std::vector<Check>& checks, con
 Cure bend_cure(const CheckedMotion& motion, const std::vector<Check>& checks, const Check& broken) {
   const std::string remark = (motion.rod ? relief_remark(motion, broken) : "") + limit_remark(motion, broken);
   if (!motion.rod)
-    return {"the prescribed deformation bends it so", "a larger radius in motion.rig or motion.deformation" + remark};
+    return {"the prescribed deformation bends it so", {{}, "a larger radius in motion.rig or motion.deformation" + remark}};
   const pipeline::Routing& routing = mounted_of(motion, broken).routing;
   if (!can_be_tried(motion, broken.dresspack))
     return {!routing.rings.empty() ? "it turns around the edge of a guide ring, or its length and its clamps do not suit the motion"
                                    : "its length and its clamps do not suit the motion",
-            fmt::format("the {} that `dresslife improve` finds{}",
-                        !routing.rings.empty() ? "routing.rings" : "lengths and clamps", remark)};
+            {{}, fmt::format("the {} that `dresslife improve` finds{}",
+                             !routing.rings.empty() ? "routing.rings" : "lengths and clamps", remark)}};
   const RestTrials trials(motion, broken);
   const double k_rest = trials.curvature(trials.length());
   const bool at_rest = k_rest * broken.limit >= 1, swings = !at_rest && broken.name == check_name::bend_radius;
   RemedySearch search(motion, checks, trials, broken.dresspack);
-  std::string remedy = search.words();
+  Remedy remedy = search.remedy();
   std::string cause;
   if (std::isinf(k_rest)) {
     cause = "its length and its clamps do not suit the motion; no shape at rest was found for the clamps as they are";
   } else if (at_rest) {
-    cause = remedy.empty()                                         ? "distance and direction of the clamps"
-            : remedy.find(".direction: ") != std::string::npos ? "directions of the clamps"
-                                                                   : "the free length";
+    const bool turns = std::ranges::any_of(remedy.values, [](const pipeline::KeyValue& of) { return of.key.ends_with(".direction"); });
+    cause = remedy.empty() ? "distance and direction of the clamps" : turns ? "directions of the clamps" : "the free length";
     // The warning of the check at rest already contains its own radius, with more segments and with twist.
     if (broken.name == check_name::bend_radius)
       cause += fmt::format(" (already at rest and without the robot its bend radius is {} over the program)", radius_words(k_rest));
@@ -404,27 +408,29 @@ Cure bend_cure(const CheckedMotion& motion, const std::vector<Check>& checks, co
   // a clamp that points away from the other one, and would keep the limit in the opposite direction
   for (const int end : {0, 1}) {
     if (!at_rest || !remedy.empty() || trials.chord_direction(end).z() >= 0) continue;
-    const double reversed = trials.curvature(trials.length(), {}, end);
+    const double reversed = trials.curvature(trials.length(), {}, end, 1 / broken.limit);
     if (reversed * broken.limit > 1) continue;
     const std::string key = fmt::format("routing.{}_clamp", end == 0 ? "base" : "tool");
     cause = fmt::format("a wrong sign: {}.direction points away from the other clamp", key);
-    remedy = fmt::format("{}: {} if so (bend radius at rest {})", key_of(motion.setup, broken.dresspack, key + ".direction"),
-                         vector_words(Vector3::Zero() - (end == 0 ? routing.base_clamp : routing.tool_clamp)->direction), radius_words(reversed));
+    const Vector3 direction = Vector3::Zero() - (end == 0 ? routing.base_clamp : routing.tool_clamp)->direction;
+    remedy = {{{key_of(motion.setup, broken.dresspack, key + ".direction"), vector_words(direction)}},
+              fmt::format(" if so (bend radius at rest {})", radius_words(reversed))};
   }
   if (remedy.empty() && swings)
     if (const double percent = slower(motion, checks, broken, k_rest); percent > 0)
-      remedy = fmt::format("motion.acceleration_percent: {:.0f} (now {:.0f}; tried in a short run)", percent,
-                           motion.setup.motion.acceleration_percent);
+      remedy = {{{"motion.acceleration_percent", fmt::format("{:.0f}", percent)}},
+                fmt::format(" (now {:.0f}; tried in a short run)", motion.setup.motion.acceleration_percent)};
   if (remedy.empty()) {
     double least = broken.value;  // a limit that both the checks at rest and the short run would keep
     for (const Check& check : checks)
       if (check.kind == WarningKind::bend_radius && check.dresspack == broken.dresspack)
         least = std::min(least, check.value);
-    remedy = fmt::format(
+    remedy.words = fmt::format(
         "{}; or {}: {:.0f} if the maker allows it", no_other_words(motion, search.best_words(least)),
         key_of(motion.setup, broken.dresspack, "dresspack.least_bend_radius_mm"), std::floor(1e3 * least));
   }
-  return {cause, remedy + remark};
+  remedy.words += remark;
+  return {cause, remedy};
 }
 
 /// Returns L of the span with the least slack.
@@ -436,7 +442,7 @@ double free_length_of(const CheckedMotion& motion, const Check& check) {
 /// Returns the cure of a net twist: a pre-twist moves its centre to zero, and a longer hose distributes the remaining twist.
 Cure twist_cure(const CheckedMotion& motion, const std::vector<Check>& checks, const Check& broken) {
   if (!motion.rod)
-    return {"the prescribed deformation twists it so", "less twist in motion.rig or motion.deformation"};
+    return {"the prescribed deformation twists it so", {{}, "less twist in motion.rig or motion.deformation"}};
   const Check* net = find(checks, check_name::net_twist, broken.dresspack);
   const pipeline::Routing& routing = mounted_of(motion, broken).routing;
   const double most = net ? std::abs(net->value) : 0, centre = net ? net->centre : 0;
@@ -454,24 +460,25 @@ Cure twist_cure(const CheckedMotion& motion, const std::vector<Check>& checks, c
   const std::string other_link = "the tool clamp on a link that turns less";
   if (half_range < broken.limit * length && std::abs(centre) > 0.02 * most &&
       keeps(length, std::round((routing.pre_twist - centre) / degree) * degree))
-    return {cause, fmt::format("{}: {:.0f}", key_of(motion.setup, broken.dresspack, "routing.pre_twist_deg"),
-                               (routing.pre_twist - centre) / degree)};
+    return {cause, {{{key_of(motion.setup, broken.dresspack, "routing.pre_twist_deg"),
+                      fmt::format("{:.0f}", (routing.pre_twist - centre) / degree)}}}};
   const double needed = std::max(half_range / broken.limit, length * std::abs(broken.value) / broken.limit);
   // At most the length that the check of slack allows, because a longer hose would hang into the robot.
   const Check* slack = find(checks, check_name::too_short, broken.dresspack);
   const double span = slack ? free_length_of(motion, *slack) : length;
   const double most_longer = slack ? working_length(span - slack->value).most / span : 1;
-  if (needed > most_longer * length || !keeps(std::ceil(1e3 * needed) / 1e3, routing.pre_twist)) return {cause, other_link};
-  return {cause, fmt::format("{}: {} (now {:.3f}; tried in a short run), or {}",
-                             key_of(motion.setup, broken.dresspack, "routing.free_length_m"), at_least_metres(needed), length,
-                             other_link)};
+  if (needed > most_longer * length || !keeps(std::ceil(1e3 * needed) / 1e3, routing.pre_twist)) return {cause, {{}, other_link}};
+  return {cause, {{{key_of(motion.setup, broken.dresspack, "routing.free_length_m"), at_least_metres(needed)}},
+                  fmt::format(" (now {:.3f}; tried in a short run), or {}", length, other_link)}};
 }
 
-std::string length_key(const CheckedMotion& motion, const Check& check) {
-  if (check.position < 0) return key_of(motion.setup, check.dresspack, "routing.free_length_m");
+/// Returns the remedy of a span whose length is not `wanted` [m].
+Remedy other_length(const CheckedMotion& motion, const Check& check, double wanted) {
+  if (check.position < 0)
+    return {{{key_of(motion.setup, check.dresspack, "routing.free_length_m"), fmt::format("{:.3f}", wanted)}}};
   const int clamp = span_at(*motion.rod, check) - motion.rod->first_span(check.dresspack) + 1;
-  return fmt::format("length between clamps {} and {} ({})", clamp, clamp + 1,
-                     key_of(motion.setup, check.dresspack, "routing.clamps.at_length_m"));
+  return {{}, fmt::format("length between clamps {} and {} ({}): {:.3f}", clamp, clamp + 1,
+                          key_of(motion.setup, check.dresspack, "routing.clamps.at_length_m"), wanted)};
 }
 
 Cure slack_cure(const CheckedMotion& motion, const std::vector<Check>& checks, const Check& broken) {
@@ -482,15 +489,17 @@ Cure slack_cure(const CheckedMotion& motion, const std::vector<Check>& checks, c
       fmt::format("the clamps are {:.3f} m apart, which asks for {:.3f} .. {:.3f} m of hose; it has {:.3f} m", way, range.least,
                   range.most, length);
   const double wanted = short_one ? std::ceil(1e3 * range.least) / 1e3 : std::floor(1e3 * range.most) / 1e3;
-  const std::string alone = fmt::format("{}: {:.3f}", length_key(motion, broken), wanted);
+  Remedy alone = other_length(motion, broken, wanted);
   if (!can_be_tried(motion, broken.dresspack)) return {cause, alone};
   const RestTrials trials(motion, broken);
-  const std::string remedy = RemedySearch(motion, checks, trials, broken.dresspack).words();
-  return {cause, remedy.empty() ? alone + " for the slack alone; " + no_other_words(motion, " of the bend radius") : remedy};
+  const Remedy remedy = RemedySearch(motion, checks, trials, broken.dresspack).remedy();
+  if (!remedy.empty()) return {cause, remedy};
+  alone.words += " for the slack alone; " + no_other_words(motion, " of the bend radius");
+  return {cause, alone};
 }
 
 Cure tension_cure(const CheckedMotion& motion, const std::vector<Check>& checks, const Check& broken) {
-  if (!motion.rod) return {"the prescribed elongation", "less of it in motion.rig or motion.deformation"};
+  if (!motion.rod) return {"the prescribed elongation", {{}, "less of it in motion.rig or motion.deformation"}};
   const Check* slack = find(checks, check_name::too_short, broken.dresspack);
   if (slack && slack->warning) {
     const Cure longer = slack_cure(motion, checks, *slack);
@@ -498,17 +507,16 @@ Cure tension_cure(const CheckedMotion& motion, const std::vector<Check>& checks,
   }
   const double percent = motion.setup.motion.acceleration_percent;
   return {"its weight and the acceleration of the program",
-          fmt::format("motion.acceleration_percent: {:.0f} or less (now {:.0f}), or {}: {:.0f} if the maker allows it",
-                      std::max(1.0, std::floor(percent * broken.limit / broken.value)), percent,
-                      key_of(motion.setup, broken.dresspack, "dresspack.most_tension_N"), std::ceil(broken.value))};
+          {{{"motion.acceleration_percent", fmt::format("{:.0f}", std::max(1.0, std::floor(percent * broken.limit / broken.value)))}},
+           fmt::format(" or less (now {:.0f}), or {}: {:.0f} if the maker allows it", percent,
+                       key_of(motion.setup, broken.dresspack, "dresspack.most_tension_N"), std::ceil(broken.value))}};
 }
 
 Cure travel_cure(const CheckedMotion& motion, const Check& broken) {
   return {"the retraction unit is pulled out to its end",
-          fmt::format("{}: {} or more, or {} longer by as much as it is pulled beyond",
-                      key_of(motion.setup, broken.dresspack, "routing.retraction.stroke_m"),
-                      at_least_metres(1.1 * broken.limit),
-                      key_of(motion.setup, broken.dresspack, "routing.free_length_m"))};
+          {{{key_of(motion.setup, broken.dresspack, "routing.retraction.stroke_m"), at_least_metres(1.1 * broken.limit)}},
+           fmt::format(" or more, or {} longer by as much as it is pulled beyond",
+                       key_of(motion.setup, broken.dresspack, "routing.free_length_m"))}};
 }
 
 std::string place_words(const CheckedMotion& motion, const Check& check) {
@@ -524,15 +532,15 @@ std::string hand_words(const Check& check) {
 
 /// Returns a remedy for a dresspack that cannot be clamped or is pulled tight at this time. untried: remedy if no routing can be
 /// tried.
-std::string remedy_for(const CheckedMotion& motion, int dresspack, double time, const std::string& untried) {
-  if (!can_be_tried(motion, dresspack)) return untried;
+Remedy remedy_for(const CheckedMotion& motion, int dresspack, double time, const std::string& untried) {
+  if (!can_be_tried(motion, dresspack)) return {{}, untried};
   Check refused;
   refused.time = time;
   refused.dresspack = dresspack;
   const RestTrials trials(motion, refused);
   const std::vector<Check> none;
-  const std::string remedy = RemedySearch(motion, none, trials, dresspack).words();
-  return remedy.empty() ? untried + "; " + no_other_words(motion, "s") : remedy;
+  const Remedy remedy = RemedySearch(motion, none, trials, dresspack).remedy();
+  return remedy.empty() ? Remedy{{}, untried + "; " + no_other_words(motion, "s")} : remedy;
 }
 
 }  // namespace
@@ -555,7 +563,8 @@ std::string refusal_remedy(const pipeline::Setup& setup, const RoutingRefusal& r
   const Rod rod = rod_of(setup);
   const std::unique_ptr<ClampPath> path = path_of(setup);
   return remedy_for({setup, {}, &rod, path.get()}, refusal.dresspack, refusal.time.value_or(0),
-                    refusal.remedy);
+                    refusal.remedy)
+      .text();
 }
 
 std::vector<pipeline::Warning> check_warnings(const CheckedMotion& motion, const std::vector<Check>& checks) {

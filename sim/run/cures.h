@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/base/warning_words.h"
 #include "sim/run/checks.h"
 #include "sim/run/clamp_path.h"
 #include "sim/run/quick_checks.h"
@@ -28,11 +29,12 @@ struct CheckedMotion {
   const Rod* rod = nullptr;                   ///< null for a prescribed deformation
   const ClampPath* path = nullptr;            ///< null for a prescribed deformation
   mutable double work = 0;                    ///< work of the short runs that tried remedies, in the unit of World::work
-  mutable std::map<int, std::string> remedies{};  ///< (dresspack) text of a routing that keeps its limits; empty: none was found
+  mutable std::map<int, pipeline::Remedy> remedies{};  ///< (dresspack) a routing that keeps its limits; empty: none was found
 };
 
 struct Cure {
-  std::string cause, remedy;
+  std::string cause;
+  pipeline::Remedy remedy;
 };
 
 /// Returns cause and remedy. Precondition: `broken` is one of the checks, and its limit is exceeded.

@@ -40,7 +40,7 @@ const std::map<std::string, std::string> instead{
     {"scripts/run config/studies/two_robots.yaml", "dresslife run two_robots" + quick},
     {"dresslife draw CABLE.yaml -o cable.svg", "dresslife draw control_cable -o cable.svg"},
     {"dresslife rate CABLE.yaml", "dresslife rate control_cable"},
-    {"dresslife new --robot NAME --program FILE --dresspack NAME JOB.yaml",
+    {"dresslife new --robot NAME_OR_URDF --program FILE --dresspack NAME JOB.yaml",
      "dresslife new --robot abb_irb6640_185_280 --program roof.mod --dresspack handling made.yaml"},
     {"dresslife new", "dresslife new"},
     {"dresslife run STUDY", "not run"},

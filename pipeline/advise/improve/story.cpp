@@ -223,7 +223,7 @@ std::string improvement_words(const Improvement& found, const Finals& finals, co
   if (const RankingRow* const row = finals.worst_row(best)) {
     for (const std::string& words : {action_words(*row), uncertainty_words(*row), failure_words(*row)})
       text += words + (words.empty() ? "" : "\n");
-    text += mode_table(*row, 120, "");
+    text += mode_table(*row, 120, "") + mode_legend({*row}, 120, "");
   }
   text += change_lines(trial);
   for (const std::string& job : best.jobs)

@@ -10,6 +10,7 @@ TEST_CASE("warnings come back from an attribute as they went in") {
   std::vector<Warning> all;
   for (int k = 0; k < warning_kinds_count; ++k)
     all.push_back({static_cast<WarningKind>(k), k % 2 ? "door.mod:12" : "", "what: it is; what to do"});
+  all[0].remedy = {{"routing.tool_clamp.direction", "[1, 0, 0]"}, {"a", "b: c"}};
   CHECK(warnings_from(warnings_text(all)) == all);
   CHECK(warnings_text({}).empty());
   CHECK(warnings_from("").empty());
@@ -32,12 +33,17 @@ TEST_CASE("warnings: what separates them is taken out of their words, none is cu
   CHECK(kept.back().words == fmt::format("and {} more warnings", 5000 - (kept.size() - 1)));
 }
 
-TEST_CASE("warnings say what is wrong, why, and what to do") {
-  const Warning warning = warning_of(WarningKind::twist, "hose", "twist: 200 deg/m (limit 180 deg/m)", "the clamps turn it",
-                                     "routing.pre_twist_deg: -90");
-  CHECK(warning.line() ==
-        "hose: warning: twist: 200 deg/m (limit 180 deg/m). Likely cause: the clamps turn it. Remedy: "
-        "routing.pre_twist_deg: -90");
+TEST_CASE("warnings say what is wrong, why, and what to do, with the values of the remedy also as data") {
+  const auto twist = [](const auto& remedy) {
+    return warning_of(WarningKind::twist, "hose", "twist: 200 deg/m (limit 180 deg/m)", "the clamps turn it", remedy);
+  };
+  const std::string begin = "hose: warning: twist: 200 deg/m (limit 180 deg/m). Likely cause: the clamps turn it. Remedy: ";
+  const Remedy remedy{{{"routing.pre_twist_deg", "-90"}, {"routing.free_length_m", "1.2"}}, ", or another clamp"};
+  CHECK(twist(remedy).line() == begin + "routing.pre_twist_deg: -90 and routing.free_length_m: 1.2, or another clamp");
+  CHECK(twist(remedy).remedy == remedy.values);
+  const std::string in_words = "routing.pre_twist_deg: -90";
+  CHECK(twist(in_words).line() == begin + in_words);
+  CHECK(twist(in_words).remedy.empty());
 }
 
 TEST_CASE("warnings of a stage stand behind the earlier ones, each once") {

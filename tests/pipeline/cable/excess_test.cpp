@@ -95,7 +95,17 @@ TEST_CASE("excess: a cable that is too long for its room is named with its force
                         Contains("limit 20 %") && Contains("Likely cause: it has 0.5 mm of room to wind in and 1 %") &&
                         Contains("Remedy: slack_percent: "));
   // The remedy removes the warning. A slack larger by a twentieth does not.
-  const double fits = std::stod(words.substr(words.find("slack_percent: ") + 15));
+  REQUIRE(warnings[0].remedy.size() == 1);
+  CHECK(warnings[0].remedy[0].key == "slack_percent");
+  int of_slack = 0;
+  for (const Warning& placed : construction_warnings_at("dresspack", hose(0.5, 1), true)) {
+    if (placed.kind != WarningKind::force) continue;
+    ++of_slack;
+    REQUIRE(placed.remedy.size() == 1);
+    CHECK(placed.remedy[0].key == "dresspack.components.1.slack_percent");
+  }
+  CHECK(of_slack == 1);
+  const double fits = std::stod(warnings[0].remedy[0].value);
   REQUIRE(fits > 0);
   CHECK(slack_warnings(hose(0.5, fits)).empty());
   CHECK_FALSE(slack_warnings(hose(0.5, 1.2 * fits)).empty());
@@ -116,6 +126,7 @@ TEST_CASE("excess: a cable that cannot wind around the axis of its hose is named
   REQUIRE(warnings.size() == 1);
   CHECK_THAT(warnings[0].words, Contains("'signal cable' has 0 % of slack (limit 0.11 %: ") &&
                                     Contains("Remedy: dresspacks.1.dresspack.components.2.slack_percent: 1 (now 0)"));
+  CHECK(warnings[0].remedy == std::vector<KeyValue>{{"dresspacks.1.dresspack.components.2.slack_percent", "1"}});
   parts[1].laying.slack = 1;
   CHECK(tight_warnings("dresspack", mounted).empty());
   parts[1].laying.slack = 0;
