@@ -109,41 +109,37 @@ std::vector<OtherMotion> other_motions(const FileReader& motion, const pipeline:
   return all;
 }
 
-/// Appends the results of variations.
+/// Appends the results of the variations in one motion after those of the motions before.
 class VariationWriter {
  public:
-  /// The variations of `others`, one for each friction inside, are numbered after those of `variations`.
-  VariationWriter(FileWriter& file, const Variations& variations, const std::vector<OtherMotion>& others) : file_(file) {
-    std::vector<Variations::Point> points = variations.points();
-    std::vector<double> stiffness(points.size());
-    for (const OtherMotion& other : others)
-      for (const double friction : variations.friction_inside()) {
-        points.emplace_back()[index_of(pipeline::Uncertain::friction_inside)] = friction;
-        stiffness.push_back(other.z);
-      }
-    if (points.empty()) return;
+  /// before: number of variations in the file.
+  VariationWriter(FileWriter& file, const Variations& variations, std::size_t before)
+      : file_(file), before_(before) {
+    if (variations.empty()) return;
     std::vector<double> z;
-    for (const Variations::Point& point : points) z.insert(z.end(), point.begin(), point.end());
+    for (const Variations::Point& point : variations.points()) z.insert(z.end(), point.begin(), point.end());
     file.append("/variation/z", z);
-    std::vector<std::int32_t> inside, rests = variations.rests();
+    std::vector<std::int32_t> inside;
     for (const pipeline::Inside one : variations.inside()) inside.push_back(static_cast<std::int32_t>(one));
-    inside.resize(stiffness.size()), rests.resize(stiffness.size());
     file.append("/variation/inside", inside);
-    file.append("/variation/rest", rests);
-    if (!others.empty()) file.append("/variation/stiffness", stiffness);
+    file.append("/variation/rest", variations.rests());
+    file.append("/variation/stiffness", std::vector<double>(inside.size(), variations.stiffness()));
   }
 
-  void append(std::size_t variation, const std::vector<std::size_t>& sites, const SiteRows& rows) {
-    file_.append("/variation/row/variation",
-                 std::vector<std::uint32_t>(sites.size(), static_cast<std::uint32_t>(variation)));
-    file_.append("/variation/row/site", std::vector<std::uint32_t>(sites.begin(), sites.end()));
-    file_.append("/variation/row/turning",
-                 std::vector<std::uint32_t>(rows.turning.begin(), rows.turning.end()));
-    file_.append("/variation/strain", rows.strain);
+  Variations::Put put() {
+    return [this](std::size_t variation, const std::vector<std::size_t>& sites, const SiteRows& rows) {
+      file_.append("/variation/row/variation",
+                   std::vector<std::uint32_t>(sites.size(), static_cast<std::uint32_t>(before_ + variation)));
+      file_.append("/variation/row/site", std::vector<std::uint32_t>(sites.begin(), sites.end()));
+      file_.append("/variation/row/turning",
+                   std::vector<std::uint32_t>(rows.turning.begin(), rows.turning.end()));
+      file_.append("/variation/strain", rows.strain);
+    };
   }
 
  private:
   FileWriter& file_;
+  std::size_t before_;
 };
 
 void copy_program(const FileReader& motion, FileWriter& strain) {
@@ -516,26 +512,26 @@ class OwnResults {
 
 using LikelySites = std::vector<std::vector<Evaluation::Site>>;  ///< (segment)
 
-/// Writes the variations with another stiffness of the hose: the likely worst wires of the job, with each factor of the friction
-/// inside. laid: cables in this motion. variation: number of the first one.
-void write_other_motion(MotionReader& motion, Starts::Spans& laid, HistoryWindow& window, std::size_t threads,
-                        const LikelySites& likely, const std::vector<double>& friction_factors, std::size_t variation,
-                        VariationWriter& rows) {
+/// Finds the cables that bend most at the places of variations.
+void find_bent(const Variations& variations, std::size_t spans) {
+  for (std::size_t span = 0; span < spans; ++span)
+    for (Evaluation* const placed : variations.placed(span)) placed->find_bent();
+}
+
+/// Writes the variations in the motion of a hose with another stiffness.
+void write_other_motion(MotionReader& motion, Starts::Spans& laid, const Variations& variations,
+                        HistoryWindow& window, std::size_t threads, const LikelySites& likely,
+                        const Variations::Put& put) {
   Starts starts(laid);
   Passage passage(motion, starts, window, threads);
+  passage.take_along(variations);
   passage.rehearse(rehearsed_varied, 0);
   passage.run([](const MotionBlock&) {});
   for (const auto& evaluation : laid) evaluation->find_bent();
+  find_bent(variations, laid.size());
   std::size_t seen = 0;
   passage.each_segment([&](std::size_t span, std::size_t segment, std::size_t row) {
-    Evaluation& evaluation = *laid[span];
-    const std::vector<Evaluation::Site> wires =
-        with_likely_of_bent(likely[seen++], evaluation, segment, window.history(), row);
-    if (wires.empty()) return;
-    std::vector<std::size_t> sites;
-    for (const Evaluation::Site site : wires) sites.push_back(evaluation.row_of(segment, site));
-    const std::vector<SiteRows> varied = evaluation.varied(wires, friction_factors, segment, window.history(), row);
-    for (std::size_t k = 0; k < varied.size(); ++k) rows.append(variation + k, sites, varied[k]);
+    variations.evaluate(likely[seen++], span, segment, window.history(), row, put);
   });
 }
 
@@ -585,34 +581,35 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
     work.first_pass(static_cast<double>(block.first) / static_cast<double>(samples));
   });
   passage.choose(job.strain.rest);
-  for (std::size_t k = 0; k < evaluations.size(); ++k)
-    for (Evaluation* const placed : variations.placed(k)) placed->find_bent();
+  find_bent(variations, evaluations.size());
   variations.add(starts);
   const std::vector<Warning> warnings =
       pipeline::joined(pipeline::joined(construction_warnings(job), evening_warnings(evaluations)),
                        write_cables(strain, job.simulation, evaluations));
   write_bending(strain, job);
   write_rests(strain, starts);
-  VariationWriter variation_rows(strain, variations, others);
+  VariationWriter variation_rows(strain, variations, 0);
+  const Variations::Put put = variation_rows.put();
   LikelySites likely;
   passage.each_segment([&](std::size_t span, std::size_t segment, std::size_t row) {
     evaluations[span]->evaluate(segment, window.history(), row, results.sink());
     likely.push_back(evaluations[span]->likely_worst());
-    variations.evaluate(span, segment, window.history(), row,
-                        [&](std::size_t variation, const std::vector<std::size_t>& of, const SiteRows& rows) {
-                          variation_rows.append(variation, of, rows);
-                        });
+    variations.evaluate(likely.back(), span, segment, window.history(), row, put);
     work.segments(static_cast<double>(likely.size()) / static_cast<double>(segments));
   });
-  for (Evaluations& laid : otherwise_laid) laid.of_span.clear();  // frees their memory
-  const pipeline::UncertainParameter& friction = pipeline::uncertain_parameters()[index_of(pipeline::Uncertain::friction_inside)];
-  std::vector<double> friction_factors;
-  for (const double z : variations.friction_inside()) friction_factors.push_back(friction.value(z));
+  std::size_t written = variations.points().size();
   for (std::size_t other = 0; other < others.size(); ++other) {
+    otherwise_laid.clear();  // frees its memory
     MotionReader& of = others[other].reader;
     Evaluations laid(job, of, threads, job.strain.factors, scratch, &all);
-    write_other_motion(of, laid.of_span, window, threads, likely, friction_factors,
-                       variations.points().size() + other * friction_factors.size(), variation_rows);
+    const Variations varied(
+        job, others[other].z, laid.of_span,
+        [&](const pipeline::StrainFactors& factors) -> const Variations::Spans& {
+          return otherwise_laid.emplace_back(job, of, threads, factors, scratch, &all).of_span;
+        });
+    VariationWriter rows(strain, varied, written);
+    write_other_motion(of, laid.of_span, varied, window, threads, likely, rows.put());
+    written += varied.points().size();
     work.other_motions(other + 1);
   }
   const auto worst =

@@ -8,7 +8,8 @@ namespace {
 using pipeline::Inside;
 using pipeline::Uncertain;
 
-// With little slack cables become tight, and lives fall by decades from one tenth of a per cent of slack to the next.
+// With little slack cables become tight, and lives fall by decades from one tenth of a per cent of slack to the next. How much
+// slack they need depends on the hose's stiffness.
 constexpr double low_slack = -2.25;
 
 bool any_component(const pipeline::Job& job, const std::function<bool(const pipeline::Component&)>& holds) {
@@ -24,7 +25,10 @@ bool rubs_on_hose(const pipeline::Component& part) {
   return !part.components.empty() && part.friction.value_or(0) > 0;
 }
 
-constexpr std::size_t slack_nodes = 3, other_nodes = 2;
+// z of the nodes
+constexpr std::array slacks{low_slack, -1.25, Variations::reach};
+constexpr std::array slacks_of_other_stiffness{-1.25, Variations::reach},
+    both_sides{-Variations::reach, Variations::reach};
 
 /// Returns whether a change of a parameter other than friction inside changes any strain.
 bool matters(const pipeline::Job& job, const Variations::Spans& spans, Uncertain parameter) {
@@ -64,10 +68,11 @@ pipeline::StrainFactors moved(pipeline::StrainFactors factors, Uncertain paramet
   return factors;
 }
 
-}  // namespace
-
-std::vector<Evaluation::Site> with_likely_of_bent(std::vector<Evaluation::Site> likely, Evaluation& placed, std::size_t segment,
-                                                  const DeformationHistory& history, std::size_t row) {
+/// Returns `likely` and the likely worst wires of an evaluation whose cables lie elsewhere, sorted, without duplicates.
+/// Segments as in Evaluation::likely_of_bent().
+std::vector<Evaluation::Site> with_likely_of_bent(std::vector<Evaluation::Site> likely, Evaluation& placed,
+                                                  std::size_t segment, const DeformationHistory& history,
+                                                  std::size_t row) {
   const std::vector<Evaluation::Site>& own = placed.likely_of_bent(segment, history, row);
   likely.insert(likely.end(), own.begin(), own.end());
   std::ranges::sort(likely);
@@ -75,40 +80,53 @@ std::vector<Evaluation::Site> with_likely_of_bent(std::vector<Evaluation::Site> 
   return likely;
 }
 
+}  // namespace
+
 std::size_t placements_at_most(const pipeline::Job& job) {
   if (!job.uncertainty.enabled) return 0;
-  return (any_component(job, has_slack) ? slack_nodes : 0) +
-         (any_component(job, has_grip) ? other_nodes : 0) +
-         (rubs(job.strain.slip.front()) && any_component(job, rubs_on_hose) ? other_nodes : 0);
+  return (any_component(job, has_slack) ? slacks.size() : 0) +
+         (any_component(job, has_grip) ? both_sides.size() : 0) +
+         (rubs(job.strain.slip.front()) && any_component(job, rubs_on_hose) ? 1 : 0);
+}
+
+std::vector<Variations::Friction> Variations::other_frictions(const Spans& spans) {
+  if (std::ranges::none_of(spans, [](const auto& evaluation) { return evaluation->rubs_inside(); }))
+    return {};
+  // Small values of friction are needed, because there lives bend toward those without damage.
+  return {{-reach}, {-reach / 2}, {reach}, {0, Inside::glued}, {0, Inside::free}};
 }
 
 Variations::Variations(const pipeline::Job& job, const Spans& as_given, const Build& build)
     : enabled_(job.uncertainty.enabled), as_given_(as_given) {
   if (!job.uncertainty.enabled) return;
-  const bool rubs_inside = std::any_of(as_given.begin(), as_given.end(),
-                                       [](const auto& evaluation) { return evaluation->rubs_inside(); });
-  std::vector<Friction> around, all{{}};
-  // Small values of friction are needed, because there lives bend toward those without damage.
-  if (rubs_inside) {
-    friction_inside_ = {0, -reach, -reach / 2, reach};
-    for (std::size_t k = 1; k < friction_inside_.size(); ++k) around.push_back({friction_inside_[k]});
-    around.push_back({0, Inside::glued}), around.push_back({0, Inside::free});
+  std::vector<Friction> all = other_frictions(as_given);
+  if (!all.empty()) add(as_given, {}, all);
+  std::erase_if(all, [](const Friction& of) { return of.z == -reach / 2; });
+  all.insert(all.begin(), Friction{});
+  lay(job, build, Uncertain::slack, slacks, all);
+  // With less friction along the hose log10 of a life continues the straight line to within half a decade.
+  lay(job, build, Uncertain::friction_hose, std::array{reach}, {{}});
+  lay(job, build, Uncertain::grip, both_sides, {{}});
+}
+
+Variations::Variations(const pipeline::Job& job, double stiffness, const Spans& laid, const Build& build)
+    : enabled_(job.uncertainty.enabled), as_given_(laid), stiffness_(stiffness) {
+  std::vector<Friction> all = other_frictions(laid);
+  all.insert(all.begin(), Friction{});
+  add(laid, {}, all);
+  lay(job, build, Uncertain::slack, slacks_of_other_stiffness, {{}});
+}
+
+void Variations::lay(const pipeline::Job& job, const Build& build, Uncertain parameter,
+                     std::span<const double> nodes, const std::vector<Friction>& friction) {
+  if (!matters(job, as_given_, parameter)) return;
+  for (const double z : nodes) {
+    Point point{};
+    point[index_of(parameter)] = z;
+    const Spans& placed = build(moved(job.strain.factors, parameter, z));
+    for (std::size_t span = 0; span < placed.size(); ++span) placed[span]->share_loose(*as_given_[span]);
+    add(placed, point, friction);
   }
-  all.insert(all.end(), around.begin(), around.end());
-  if (!around.empty()) add(as_given, {}, around);
-  const auto lay = [&](Uncertain parameter, const auto& nodes, const std::vector<Friction>& friction) {
-    if (!matters(job, as_given, parameter)) return;
-    for (const double z : nodes) {
-      Point point{};
-      point[index_of(parameter)] = z;
-      const Spans& placed = build(moved(job.strain.factors, parameter, z));
-      for (std::size_t span = 0; span < placed.size(); ++span) placed[span]->share_loose(*as_given[span]);
-      add(placed, point, friction);
-    }
-  };
-  lay(Uncertain::slack, std::array<double, slack_nodes>{low_slack, -1.25, reach}, all);
-  lay(Uncertain::friction_hose, std::array<double, other_nodes>{-reach, reach}, {{}});
-  lay(Uncertain::grip, std::array<double, other_nodes>{-reach, reach}, {{}});
 }
 
 void Variations::go_on() const {
@@ -155,14 +173,14 @@ std::vector<Evaluation*> Variations::placed(std::size_t span) const {
   return all;
 }
 
-void Variations::evaluate(std::size_t span, std::size_t segment, const DeformationHistory& history,
-                          std::size_t row, const Put& put) const {
-  const std::vector<Evaluation::Site>& likely = as_given_[span]->likely_worst();
+void Variations::evaluate(const std::vector<Evaluation::Site>& likely, std::size_t span, std::size_t segment,
+                          const DeformationHistory& history, std::size_t row, const Put& put) const {
   if (likely.empty()) return;
   for (const Placement& placement : placements_) {
     Evaluation& placed = *(*placement.spans)[span];
     std::vector<Evaluation::Site> wires = likely;
-    if (placement.spans != &as_given_)  // cables at other places can have other worst wires
+    if (placement.spans != &as_given_ ||
+        stiffness_ != 0)  // cables at other places can have other worst wires
       wires = with_likely_of_bent(std::move(wires), placed, segment, history, row);
     std::vector<std::size_t> sites;
     for (const Evaluation::Site site : wires) sites.push_back(as_given_[span]->row_of(segment, site));

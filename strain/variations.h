@@ -1,17 +1,19 @@
 // Strains of the likely worst wires with other friction, slack and grips, from which dresslife-fatigue computes the
 // influence of uncertain inputs on the life (pipeline/job/uncertainty.h).
 //
-// Friction inside is crossed with slack, and by strain_file.cpp with the hose's stiffness. Friction along the hose and grips are
-// varied one by one. Friction inside is also set to zero and to infinity (no slip at any pressure): the bounds of a cable. Play
-// is not varied: in the shipped programs it changes lives by a tenth of a decade and would cost as much as a slack. Places and
-// forces of cables are computed again for each variation except friction inside. The wires are the likely worst ones of each
-// segment and layer of the job itself. If cables lie elsewhere, the likely worst wires of the cables that bend most there are
-// added.
+// Lives depend on combinations of friction inside, slack and the hose's stiffness. At the job's own stiffness friction inside is
+// crossed with slack. At another stiffness each is varied one by one. The response combines the rest
+// (pipeline/life/life_response.h). Friction along the hose and grips are varied one by one. Friction inside is also set to zero and
+// to infinity (no slip at any pressure): the bounds of a cable. Play is not varied: in the shipped programs it changes lives by a
+// tenth of a decade and would cost as much as a slack. Places and forces of cables are computed again for each variation except
+// friction inside. The wires are the likely worst ones of each segment and layer of the job itself. If cables lie elsewhere, the
+// likely worst wires of the cables that bend most there are added.
 #pragma once
 
 #include <array>
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "pipeline/job/job.h"
@@ -23,11 +25,6 @@ namespace dresslife::strain {
 /// Returns the largest number of evaluations with other cable places besides the job's own; 0 if its uncertainty is off.
 std::size_t placements_at_most(const pipeline::Job& job);
 
-/// Returns `likely` and the likely worst wires of an evaluation whose cables lie elsewhere, sorted, without duplicates.
-/// Segments as in Evaluation::likely_of_bent().
-std::vector<Evaluation::Site> with_likely_of_bent(std::vector<Evaluation::Site> likely, Evaluation& placed, std::size_t segment,
-                                                  const DeformationHistory& history, std::size_t row);
-
 class Variations {
  public:
   static constexpr double reach = 1.5;  ///< 87 % of a normal distribution lie within +-1.5
@@ -37,13 +34,15 @@ class Variations {
   /// Creates evaluations of all spans with other factors; the caller owns them.
   using Build = std::function<const Spans&(const pipeline::StrainFactors&)>;
 
-  /// Without variations if the job's uncertainty is off or no part can slide.
+  /// In the job's own motion. as_given: the job's own evaluations. Without variations if the job's uncertainty is off or no part
+  /// can slide.
   Variations(const pipeline::Job& job, const Spans& as_given, const Build& build);
+  /// In the motion of a hose whose stiffness has this z; the first variation is that of the job's own factors. laid: with them.
+  Variations(const pipeline::Job& job, double stiffness, const Spans& laid, const Build& build);
 
   bool empty() const { return points_.empty(); }
-  /// Returns z of friction inside at which strains are evaluated; 0 alone if nothing rubs inside the cables.
-  const std::vector<double>& friction_inside() const { return friction_inside_; }
-  const std::vector<Point>& points() const { return points_; }  ///< (variation)
+  double stiffness() const { return stiffness_; }                          ///< z of the hose's stiffness
+  const std::vector<Point>& points() const { return points_; }             ///< (variation)
   const std::vector<pipeline::Inside>& inside() const { return inside_; }  ///< (variation)
   const std::vector<std::int32_t>& rests() const { return rests_; }        ///< (variation) rest of the starts
   /// Returns the evaluations of a span that need the motion in addition to the job's own.
@@ -57,9 +56,9 @@ class Variations {
   /// Receives the results of a variation for some sites: their rows in the file and their turning points.
   using Put =
       std::function<void(std::size_t variation, const std::vector<std::size_t>& sites, const SiteRows& rows)>;
-  /// Evaluates one segment. Call directly after the job's own evaluation of this segment.
-  void evaluate(std::size_t span, std::size_t segment, const DeformationHistory& history, std::size_t row,
-                const Put& put) const;
+  /// Evaluates one segment. likely: the likely worst wires of the job's own evaluation there.
+  void evaluate(const std::vector<Evaluation::Site>& likely, std::size_t span, std::size_t segment,
+                const DeformationHistory& history, std::size_t row, const Put& put) const;
 
  private:
   /// One set of cable places, with its factors of friction inside and the variation number of each factor.
@@ -74,11 +73,15 @@ class Variations {
     pipeline::Inside inside = pipeline::Inside::as_is;
     double factor() const;
   };
+  static std::vector<Friction> other_frictions(const Spans& spans);
   void add(const Spans& spans, Point z, const std::vector<Friction>& friction);
+  /// Adds an evaluation with another value of a parameter than as_given_.
+  void lay(const pipeline::Job& job, const Build& build, pipeline::Uncertain parameter,
+           std::span<const double> nodes, const std::vector<Friction>& friction);
 
   bool enabled_;
   const Spans& as_given_;
-  std::vector<double> friction_inside_{0};
+  double stiffness_ = 0;
   std::vector<Point> points_;
   std::vector<pipeline::Inside> inside_;
   std::vector<std::int32_t> rests_;

@@ -50,54 +50,109 @@ double together(double base, std::span<const double> alone) {
 
 // ---- the response -----------------------------------------------------------------------------------------
 
+namespace {
+
+/// The parameters of which combinations are computed.
+constexpr std::array crossed{friction, slack, hose_stiffness};
+bool is_crossed(std::size_t parameter) { return std::ranges::find(crossed, parameter) != crossed.end(); }
+
+/// W over the crossed parameters, for one kind of slip.
+class CrossedLives {
+ public:
+  /// as_is: those of the job's own slip, if `inside` is a bound; else null.
+  CrossedLives(const LifeResponse& response, Inside inside, const CrossedLives* as_is)
+      : response_(response), as_is_(as_is), materials_(response.strength.size() * response.slope.size()) {
+    for (std::size_t k = 0; k < response.points.size(); ++k)
+      if (response.inside[k] == inside && is_zero_but(response.points[k], {friction, slack, hose_stiffness}))
+        computed_[response.points[k]] = k;
+    if (!as_is) return;
+    const auto zero_of = [](const std::vector<double>& nodes) {
+      return std::ranges::find(nodes, 0.0) - nodes.begin();
+    };
+    const auto own = static_cast<std::size_t>(zero_of(response.strength)) * response.slope.size() +
+                     static_cast<std::size_t>(zero_of(response.slope));
+    shift_ = response.bound[number_of(inside)] - at({})[own];
+  }
+
+  std::vector<double> nodes_of(std::size_t parameter) const {
+    std::vector<double> nodes;
+    for (const auto& [point, k] : computed_) nodes.push_back(point[parameter]);
+    sort_once(nodes);
+    return nodes;
+  }
+
+  /// Returns W (strength, slope) at nodes of the crossed parameters.
+  std::vector<double> at(const StrainPoint& point) const {
+    const auto found = computed_.find(point);
+    if (found == computed_.end()) return estimated(point);
+    const auto begin = response_.worst_life.begin() + static_cast<std::ptrdiff_t>(found->second * materials_);
+    std::vector<double> lives(begin, begin + static_cast<std::ptrdiff_t>(materials_));
+    for (double& life : lives) life += shift_;
+    return lives;
+  }
+
+ private:
+  std::vector<double> estimated(const StrainPoint& point) const {
+    StrainPoint base{}, one = point, other = point;
+    if (point[friction] != 0 && point[slack] != 0)  // they combine at the stiffness of this point
+      one[slack] = 0, other[friction] = 0, base[hose_stiffness] = point[hose_stiffness];
+    else
+      one[hose_stiffness] = 0, other[friction] = other[slack] = 0;
+    if (one == point || other == point) return changed_as_is(point);
+    std::vector<double> lives = at(base);
+    const std::vector<double> of_one = at(one), of_other = at(other);
+    for (std::size_t k = 0; k < lives.size(); ++k)
+      lives[k] = together(lives[k], std::array{of_one[k], of_other[k]});
+    return lives;
+  }
+
+  /// Returns W of a bound that was not computed at this point: it changes as that of the job's own slip.
+  std::vector<double> changed_as_is(const StrainPoint& point) const {
+    std::vector<double> lives = as_is_->at(point);
+    if (point == StrainPoint{}) {
+      for (double& life : lives) life += shift_;
+      return lives;
+    }
+    const std::vector<double> own = as_is_->at({}), here = at({});
+    for (std::size_t k = 0; k < lives.size(); ++k) lives[k] += here[k] - own[k];
+    return lives;
+  }
+
+  const LifeResponse& response_;
+  const CrossedLives* as_is_;
+  std::size_t materials_;
+  std::map<StrainPoint, std::size_t> computed_;
+  double shift_ = 0;  ///< of a bound
+};
+
+}  // namespace
+
 LifeSurface::LifeSurface(const LifeResponse& response) : response_(response) {
   std::map<StrainPoint, std::size_t> index;
   for (std::size_t k = 0; k < response.points.size(); ++k)
     if (response.inside[k] == Inside::as_is) index[response.points[k]] = k;
   for (std::size_t p = 0; p < strain_parameters; ++p) {
+    if (is_crossed(p)) continue;
     for (const auto& [point, k] : index)
-      if (is_zero_but(point, {p})) nodes_[p].push_back(point[p]);
-    sort_once(nodes_[p]);
-    for (const double z : nodes_[p]) {
-      StrainPoint at{};
-      at[p] = z;
-      alone_[p].push_back(index.at(at));
-    }
+      if (is_zero_but(point, {p})) nodes_[p].push_back(point[p]), alone_[p].push_back(k);
   }
-  for (const Inside inside : {Inside::as_is, Inside::glued, Inside::free})
-    cores_[number_of(inside)] = core_of(inside, slack);
-  stiffness_ = core_of(Inside::as_is, hose_stiffness);
-  const Place strength = place_among(response.strength, 0), slope = place_among(response.slope, 0);
-  at_zero_ = worst(0, strength, slope);
-  for (const Inside inside : {Inside::glued, Inside::free}) {
-    Core& of = cores_[number_of(inside)];
-    of.shift = response.bound[number_of(inside)] - core(of, {}, strength, slope);
+  const CrossedLives as_is(response, Inside::as_is, nullptr);
+  for (const Inside inside : {Inside::as_is, Inside::glued, Inside::free}) {
+    const bool bound = inside != Inside::as_is;
+    const CrossedLives lives(response, inside, bound ? &as_is : nullptr);
+    Table& of = tables_[number_of(inside)];
+    of.friction = bound ? std::vector{0.0} : as_is.nodes_of(friction);
+    of.slack = as_is.nodes_of(slack), of.stiffness = as_is.nodes_of(hose_stiffness);
+    for (const double f : of.friction)
+      for (const double s : of.slack)
+        for (const double k : of.stiffness) {
+          StrainPoint point{};
+          point[friction] = f, point[slack] = s, point[hose_stiffness] = k;
+          const std::vector<double> here = lives.at(point);
+          of.worst.insert(of.worst.end(), here.begin(), here.end());
+        }
   }
-}
-
-/// Returns the core of a bound. A bound without computed points is as_is, shifted.
-LifeSurface::Core LifeSurface::core_of(Inside inside, std::size_t parameter) const {
-  Core of;
-  of.parameter = parameter;
-  std::map<std::pair<double, double>, std::size_t> index;
-  for (std::size_t k = 0; k < response_.points.size(); ++k) {
-    const StrainPoint& point = response_.points[k];
-    if (response_.inside[k] != inside || !is_zero_but(point, {friction, parameter})) continue;
-    index[{point[friction], point[parameter]}] = k;
-    of.friction.push_back(point[friction]), of.other.push_back(point[parameter]);
-  }
-  if (index.empty()) return cores_[number_of(Inside::as_is)];
-  sort_once(of.friction), sort_once(of.other);
-  for (const double f : of.friction)
-    for (const double other : of.other) {
-      const auto found = index.find({f, other});
-      if (found == index.end()) {
-        of.grid.clear();
-        return of;
-      }
-      of.grid.push_back(found->second);
-    }
-  return of;
+  at_zero_ = worst(response.worst_life, 0, place_among(response.strength, 0), place_among(response.slope, 0));
 }
 
 /// Returns the place of z among increasing nodes: between node `below` and the next one, at `share` of their distance. `share` is
@@ -120,34 +175,24 @@ double between(const Place& place, const ValueAt& value_at) {
 
 }  // namespace
 
-double LifeSurface::worst(std::size_t point, const Place& strength, const Place& slope) const {
+double LifeSurface::worst(const std::vector<double>& lives, std::size_t point, const Place& strength,
+                          const Place& slope) const {
   const std::size_t slopes = response_.slope.size();
-  const double* const of_point = response_.worst_life.data() + point * response_.strength.size() * slopes;
+  const double* const of_point = lives.data() + point * response_.strength.size() * slopes;
   return between(strength, [&](std::size_t s) {
     return between(slope, [&](std::size_t t) { return of_point[s * slopes + t]; });
   });
 }
 
-double LifeSurface::core(const Core& of, const ParameterPoint& z, const Place& strength,
-                         const Place& slope) const {
-  if (!of.grid.empty())
-    return between(place_among(of.friction, z[friction]), [&](std::size_t f) {
-      return between(place_among(of.other, z[of.parameter]), [&](std::size_t k) {
-        return worst(of.grid[f * of.other.size() + k], strength, slope);
+double LifeSurface::crossed_worst(const Table& of, const ParameterPoint& z, const Place& strength,
+                                  const Place& slope) const {
+  return between(place_among(of.friction, z[friction]), [&](std::size_t f) {
+    return between(place_among(of.slack, z[slack]), [&](std::size_t s) {
+      return between(place_among(of.stiffness, z[hose_stiffness]), [&](std::size_t k) {
+        return worst(of.worst, (f * of.slack.size() + s) * of.stiffness.size() + k, strength, slope);
       });
     });
-  return together(worst(0, strength, slope),
-                  std::array{alone(friction, z, strength, slope), alone(of.parameter, z, strength, slope)});
-}
-
-double LifeSurface::with_stiffness(const Core& of, const ParameterPoint& z, const Place& strength,
-                                   const Place& slope) const {
-  const double with_slack = core(of, z, strength, slope) + of.shift;
-  if (nodes_[hose_stiffness].size() < 2) return with_slack;
-  ParameterPoint as_stiff = z;
-  as_stiff[hose_stiffness] = 0;
-  return together(core(stiffness_, as_stiff, strength, slope),
-                  std::array{with_slack, core(stiffness_, z, strength, slope)});
+  });
 }
 
 double LifeSurface::alone(std::size_t p, const ParameterPoint& z, const Place& strength,
@@ -155,21 +200,21 @@ double LifeSurface::alone(std::size_t p, const ParameterPoint& z, const Place& s
   // Rest positions beyond those of the computed starts are unknown.
   const double at = p == of_rest ? std::clamp(z[p], nodes_[p].front(), nodes_[p].back()) : z[p];
   return between(place_among(nodes_[p], at),
-                 [&](std::size_t k) { return worst(alone_[p][k], strength, slope); });
+                 [&](std::size_t k) { return worst(response_.worst_life, alone_[p][k], strength, slope); });
 }
 
 double LifeSurface::change(const ParameterPoint& far, Inside inside) const {
   ParameterPoint z = far;
   for (double& one : z) one = std::clamp(one, -farthest, farthest);
   if (inside != Inside::as_is) z[friction] = 0;
-  const Core& of = cores_[number_of(inside)];
   const Place strength = place_among(response_.strength, z[index_of(Uncertain::strength)]);
   const Place slope = place_among(response_.slope, z[index_of(Uncertain::slope)]);
-  std::array<double, strain_parameters> lives{with_stiffness(of, z, strength, slope)};
+  std::array<double, strain_parameters> lives{crossed_worst(tables_[number_of(inside)], z, strength, slope)};
   std::size_t count = 1;
   for (std::size_t p = 0; p < strain_parameters; ++p)
-    if (nodes_[p].size() > 1 && p != friction && p != slack && p != hose_stiffness) lives[count++] = alone(p, z, strength, slope);
-  double sum = together(worst(0, strength, slope), std::span(lives).first(count)) - at_zero_;
+    if (nodes_[p].size() > 1) lives[count++] = alone(p, z, strength, slope);
+  double sum =
+      together(worst(response_.worst_life, 0, strength, slope), std::span(lives).first(count)) - at_zero_;
   for (const Uncertain of_lives : {Uncertain::model, Uncertain::motion})
     sum += std::log10(uncertain_parameters()[index_of(of_lives)].value(far[index_of(of_lives)]));
   return sum;

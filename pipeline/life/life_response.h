@@ -3,16 +3,15 @@
 // z of all parameters and u are standard normal. log10 of a life in repeats is
 //     P(z_scatter, u) + W(z) - W(0) + log10 of the model's factor,
 // P is the life over the scatter of wires, interpolated linearly between its percentiles. W is log10 of the worst wire's life,
-// computed at some points of z: for friction with slack and friction with the hose's stiffness at all their combinations, for
-// every other parameter of the strain side alone, and at each of these points for strength and slope of the material. together() combines changes that were computed
-// alone. W is interpolated linearly along each axis and extrapolated with the same slope. A life above `endless` counts as
-// infinite. The same data exist for the bounds: cables whose parts are glued, and cables whose parts slip without friction. For
-// the bounds friction has no effect, and W is a function of slack. It is shifted so that W at z = 0 is the life of the bound's
-// worst wire.
+// computed at some points of z, and at each of them for strength and slope of the material. Friction inside, slack and the hose's
+// stiffness have one table with all combinations of their nodes. Combinations that were not computed follow from together():
+// friction and slack combine at the stiffness of the combination, slack and stiffness at the job's own friction. Every other
+// parameter of the strain side is computed alone, and together() adds its change. W is interpolated linearly along each axis and
+// extrapolated with the same slope. A life above `endless` counts as infinite.
 //
-// The same is known for cables whose inside is glued, and for cables whose inside slips without friction:
-// the bounds. There friction has no effect, W is known over slack, and it is shifted so that W at z = 0 is
-// the life of the bound's worst wire.
+// The same data exist for the bounds: cables whose parts are glued, and cables whose parts slip without friction. There friction
+// has no effect. W is shifted so that at z = 0 it is the life of the bound's worst wire. A bound that was not computed at a slack
+// or a stiffness changes there as the job does.
 #pragma once
 
 #include <array>
@@ -89,29 +88,28 @@ class LifeSurface {
     std::size_t below = 0;
     double share = 0;
   };
-  /// W over friction and one other parameter, for one kind of slip.
-  struct Core {
-    std::size_t parameter = 0;            ///< the other one: slack or the hose's stiffness
-    std::vector<double> friction, other;  ///< z of the nodes, increasing
-    std::vector<std::size_t> grid;        ///< (friction, other) index of the point; empty: some combinations are unknown
-    double shift = 0;
+  /// W at all combinations of the crossed parameters, for one kind of slip.
+  struct Table {
+    std::vector<double> friction, slack, stiffness;  ///< z of the nodes, increasing
+    std::vector<double> worst;                       ///< (friction, slack, stiffness, strength, slope)
   };
   static Place place_among(const std::vector<double>& nodes, double z);
-  Core core_of(Inside inside, std::size_t parameter) const;
   bool depends_on_strain(std::size_t parameter) const;
-  double worst(std::size_t point, const Place& strength, const Place& slope) const;
-  double core(const Core& of, const ParameterPoint& z, const Place& strength, const Place& slope) const;
-  /// Returns W over friction, slack and the hose's stiffness.
-  double with_stiffness(const Core& of, const ParameterPoint& z, const Place& strength, const Place& slope) const;
+  /// Returns W at a point of a list (point, strength, slope).
+  double worst(const std::vector<double>& lives, std::size_t point, const Place& strength,
+               const Place& slope) const;
+  double crossed_worst(const Table& of, const ParameterPoint& z, const Place& strength,
+                       const Place& slope) const;
   /// Returns W for a point at which only this parameter has a z other than 0.
   double alone(std::size_t parameter, const ParameterPoint& z, const Place& strength,
                const Place& slope) const;
 
   const LifeResponse& response_;
-  std::array<std::vector<double>, strain_parameters> nodes_;        ///< (parameter, node) z of the points with as_is
-  std::array<std::vector<std::size_t>, strain_parameters> alone_;   ///< (parameter, node) point
-  std::array<Core, inside_count> cores_;
-  Core stiffness_;  ///< over friction and the hose's stiffness
+  // Of the parameters that are not crossed:
+  std::array<std::vector<double>, strain_parameters>
+      nodes_;  ///< (parameter, node) z of the points with as_is
+  std::array<std::vector<std::size_t>, strain_parameters> alone_;  ///< (parameter, node) point
+  std::array<Table, inside_count> tables_;
   double at_zero_ = 0;
 };
 

@@ -461,7 +461,7 @@ TEST_CASE("variations hold the strains that the same job has with the keys that 
   evaluate(scratch / "motion.h5", scratch / "no_room.h5", job({"uncertainty.enabled=true"}), no_room);
   CHECK(pipeline::bytes_of(scratch / "no_room.h5") == pipeline::bytes_of(scratch / "all.h5"));
   CHECK(scratch.entries() == 4);                 // the motion and three results; the temporary files are removed
-  constexpr std::size_t variations = 5 + 3 * 6;  // friction, its two bounds and slack crossed
+  constexpr std::size_t variations = 5 + 3 * 5;  // friction, its two bounds and slack crossed
   REQUIRE((ring ? z.size() >= variations * 5 : z.size() == variations * 5));  // and the rests of other starts
   const auto inside = all.read<std::int32_t>("/variation/inside");
   constexpr double third_harmonic = 1e-3;  // error of the waves of a layer (W13), share of the strain's range
@@ -505,7 +505,7 @@ TEST_CASE("variations hold the strains that the same job has with the keys that 
   }
 }
 
-TEST_CASE("the variations of a softer hose hold the strains that its motion has by itself, with each friction inside") {
+TEST_CASE("the variations of a softer hose hold the strains that its motion has by itself, with each friction inside and slack") {
   const Scratch scratch;
   write_motion(scratch / "both.h5", cycle, 0.04, turning, rate_at);
   write_motion(scratch / "softer.h5", cycle, 0.04, rate_at);
@@ -521,10 +521,13 @@ TEST_CASE("the variations of a softer hose hold the strains that its motion has 
     replace("helix_radius_mm: 18.45\n", "helix_radius_mm: 18.45\n      slack_percent: 3\n");
     replace("  damping_time_ms: 10\n", "  damping_time_ms: 10\n  inner_diameter_mm: 52\n");
   }
-  const auto job = [&](const std::string& enabled, double friction = 1) {
+  const auto job = [&](const std::string& enabled, double friction = 1, double slack = 1) {
     return pipeline::job_from(pipeline::parse_yaml(text, "job.yaml"),
-                              {"uncertainty.enabled=" + enabled, "strain.slip=[stick, friction]",
-                               "strain.friction_factor=" + std::to_string(friction)});
+                              {"uncertainty.enabled=" + enabled,
+                               loose ? "strain.slip=[free, friction]" : "strain.slip=[stick, friction]",
+                               "strain.cable_elements_per_segment=4",  // whatever the slack
+                               "strain.friction_factor=" + std::to_string(friction),
+                               "strain.slack_factor=" + std::to_string(slack)});
   };
   evaluate(scratch / "both.h5", scratch / "varied.h5", job("true"));
   evaluate(scratch / "both.h5", scratch / "known.h5", job("false"));
@@ -534,26 +537,35 @@ TEST_CASE("the variations of a softer hose hold the strains that its motion has 
   CHECK(pipeline::bytes_of(scratch / "no_room.h5") == pipeline::bytes_of(scratch / "varied.h5"));
   const FileReader varied(scratch / "varied.h5", pipeline::strain_format());
   const auto stiffness = varied.read<double>("/variation/stiffness"), z = varied.read<double>("/variation/z");
-  const std::vector<double> frictions{0, -1.5, -0.75, 1.5};
-  const std::size_t others = stiffness.size() - frictions.size(), in_row = z.size() / stiffness.size();
-  CHECK(std::ranges::count(stiffness, 0.0) == static_cast<std::ptrdiff_t>(others));
+  const auto inside = varied.read<std::int32_t>("/variation/inside");
+  const auto others = static_cast<std::size_t>(std::ranges::count(stiffness, 0.0));
+  const std::size_t in_row = z.size() / stiffness.size();
+  std::vector<std::pair<double, double>> expected{{0, 0}, {-1.5, 0}, {-0.75, 0}, {1.5, 0}};  // friction, slack
+  if (loose) expected.insert(expected.end(), {{0, -1.25}, {0, 1.5}});
   const auto variation = varied.read<std::uint32_t>("/variation/row/variation"),
              site = varied.read<std::uint32_t>("/variation/row/site"),
              turning_points = varied.read<std::uint32_t>("/variation/row/turning");
   const auto strain = varied.read<float>("/variation/strain");
   constexpr double third_harmonic = 1e-3;  // error of the waves of a layer (W13), share of the strain's range
   std::set<std::vector<float>> different;
-  for (std::size_t k = 0; k < frictions.size(); ++k) {
-    REQUIRE(stiffness[others + k] == -1.2);
-    REQUIRE(z[(others + k) * in_row] == frictions[k]);
-    evaluate(scratch / "softer.h5", scratch / "one.h5", job("false", std::pow(2.2, frictions[k])));
+  std::size_t next_expected = 0;
+  for (std::size_t k = others; k < stiffness.size(); ++k) {
+    REQUIRE(stiffness[k] == -1.2);
+    if (inside[k] != 0) continue;  // bounds
+    REQUIRE(next_expected < expected.size());
+    const double friction = expected[next_expected].first, slack = expected[next_expected].second;
+    CAPTURE(loose, friction, slack);
+    ++next_expected;
+    REQUIRE(z[k * in_row] == friction);
+    REQUIRE(z[k * in_row + 2] == slack);
+    evaluate(scratch / "softer.h5", scratch / "one.h5", job("false", std::pow(2.2, friction), std::pow(1.5, slack)));
     const FileReader one(scratch / "one.h5", pipeline::strain_format());
     const auto own = one.read<float>("/reversal/strain");
     const auto offset = one.read<std::uint64_t>("/reversal/offset");
     different.insert(own);
     std::size_t next = 0, compared = 0;
     for (std::size_t row = 0; row < site.size(); next += turning_points[row++]) {
-      if (variation[row] != others + k) continue;
+      if (variation[row] != k) continue;
       const auto [low, high] = std::minmax_element(strain.begin() + next, strain.begin() + next + turning_points[row]);
       const auto [own_low, own_high] =
           std::minmax_element(own.begin() + offset[site[row]], own.begin() + offset[site[row] + 1]);
@@ -564,5 +576,6 @@ TEST_CASE("the variations of a softer hose hold the strains that its motion has 
     }
     CHECK(compared >= segments);
   }
-  CHECK(different.size() == frictions.size());  // otherwise the friction is not tested
+  CHECK(next_expected == expected.size());
+  CHECK(different.size() == expected.size());  // otherwise friction or slack is not tested
 }

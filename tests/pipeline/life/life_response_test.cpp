@@ -174,31 +174,50 @@ TEST_CASE("a response has the values of its table at every combination of nodes"
     }
 }
 
-TEST_CASE("the hose's stiffness counts with the friction inside at which it was computed, and joins slack and play") {
+TEST_CASE("lives at another stiffness of the hose count as computed, and combine there with friction and slack") {
   constexpr std::size_t stiffness = index_of(Uncertain::hose_stiffness);
   RandomTable table;
   LifeResponse& of = table.response;
-  std::map<std::pair<double, double>, double> crossed;  // (friction, stiffness) W
-  for (const double k : {-1.65, 1.65})
-    for (const double f : table.nodes[friction]) {
-      of.points.push_back({}), of.inside.push_back(Inside::as_is);
-      of.points.back()[friction] = f, of.points.back()[stiffness] = k;
-      const double life = crossed[{f, k}] = table.random();
-      of.worst_life.insert(of.worst_life.end(), 12, life);
-    }
-  const double at_zero = table.worst(Inside::as_is, 0, 0, 0, 0, 0);
-  for (const double f : table.nodes[friction])
-    for (const double k : {-1.65, 1.65}) {
-      ParameterPoint z = at(friction, f);
-      z[stiffness] = k;
-      CHECK(of.change(z) == Approx(crossed[{f, k}] - at_zero).margin(rounding));
-      z[slack] = 1, z[play] = 2;
-      const double with_slack = together(table.worst(Inside::as_is, f, 0, 0, 0, 0),
-                                         std::array{table.worst(Inside::as_is, f, 1, 0, 0, 0), crossed[{f, k}]});
-      CHECK(of.change(z) ==
-            Approx(together(at_zero, std::array{with_slack, table.worst(Inside::as_is, 0, 0, 2, 0, 0)}) - at_zero)
-                .margin(rounding));
-    }
+  std::map<std::array<double, 3>, double> computed;  // (friction, slack, stiffness) W
+  const auto add = [&](Inside inside, double f, double s, double k) {
+    table.add(inside, f, s, 0);
+    of.points.back()[stiffness] = k;
+    const double life = table.random();
+    of.worst_life.insert(of.worst_life.end(), 12, life);
+    return life;
+  };
+  for (const double k : {-1.65, 1.65}) {
+    for (const double f : table.nodes[friction]) computed[{f, 0, k}] = add(Inside::as_is, f, 0, k);
+    computed[{0, -2, k}] = add(Inside::as_is, 0, -2, k);
+  }
+  const double glued = add(Inside::glued, 0, 0, 1.65);
+  const auto at_zero = [&](double f, double s) { return table.worst(Inside::as_is, f, s, 0, 0, 0); };
+  const auto change = [&](double f, double s, double k, Inside inside = Inside::as_is) {
+    ParameterPoint z = at(friction, f);
+    z[slack] = s, z[stiffness] = k;
+    return of.change(z, inside);
+  };
+  const auto is = [&](double life) { return Approx(life - at_zero(0, 0)).margin(rounding); };
+  for (const double k : {-1.65, 1.65}) {
+    for (const double f : table.nodes[friction]) CHECK(change(f, 0, k) == is(computed[{f, 0, k}]));
+    CHECK(change(0, -2, k) == is(computed[{0, -2, k}]));
+    // Without values for a combination, friction and slack combine at this stiffness, and slack with stiffness at the job's own.
+    const double loose = together(at_zero(0, 0), std::array{at_zero(0, 1), computed[{0, 0, k}]});
+    CHECK(change(0, 1, k) == is(loose));
+    for (const double f : {-1.5, 1.0, 2.5})
+      for (const auto& [s, slack_alone] : {std::pair(-2.0, computed[{0, -2, k}]), {1.0, loose}})
+        CHECK(change(f, s, k) == is(together(computed[{0, 0, k}], std::array{slack_alone, computed[{f, 0, k}]})));
+  }
+  ParameterPoint with_play = at(stiffness, 1.65);
+  with_play[play] = 2;
+  CHECK(of.change(with_play) == is(together(at_zero(0, 0), std::array{computed[{0, 0, 1.65}], table.worst(Inside::as_is, 0, 0, 2, 0, 0)})));
+  // A bound counts as computed, too. Elsewhere it changes with the stiffness as the job does.
+  const double shift = 3.7 - table.worst(Inside::glued, 0, 0, 0, 0, 0);
+  CHECK(change(0, 0, 1.65, Inside::glued) == is(glued + shift));
+  const double soft = 3.7 + computed[{0, 0, -1.65}] - at_zero(0, 0);
+  CHECK(change(0, 0, -1.65, Inside::glued) == is(soft));
+  CHECK(change(0, 1, -1.65, Inside::glued) ==
+        is(together(3.7, std::array{shift + table.worst(Inside::glued, 0, 1, 0, 0, 0), soft})));
 }
 
 TEST_CASE(
