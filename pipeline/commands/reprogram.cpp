@@ -109,6 +109,8 @@ std::string table_of(const std::string& job, const TriedWay& before, const std::
                         tried.outcome.feasible() ? "" : "; ", tried.outcome.words());
     if (!tried.file.empty()) text += fmt::format("  {:>24}patch: {}\n", "", tried.file.string());
   }
+  if (std::ranges::none_of(ways, [](const TriedWay& tried) { return tried.outcome.feasible(); }))
+    text += "  No way keeps all limits. Cure the job first: dresslife check names a remedy.\n";
   return text;
 }
 
