@@ -114,7 +114,8 @@ Variations::Variations(const pipeline::Job& job, double stiffness, const Spans& 
   std::vector<Friction> all = other_frictions(laid);
   all.insert(all.begin(), Friction{});
   add(laid, {}, all);
-  lay(job, build, Uncertain::slack, slacks_of_other_stiffness, {{}});
+  std::erase_if(all, [](const Friction& of) { return of.z != 0; });  // the job's own friction, glued and free
+  lay(job, build, Uncertain::slack, slacks_of_other_stiffness, all);
 }
 
 void Variations::lay(const pipeline::Job& job, const Build& build, Uncertain parameter,

@@ -2,7 +2,7 @@
 // influence of uncertain inputs on the life (pipeline/job/uncertainty.h).
 //
 // Lives depend on combinations of friction inside, slack and the hose's stiffness. At the job's own stiffness friction inside is
-// crossed with slack. At another stiffness each is varied one by one. The response combines the rest
+// crossed with slack. At another stiffness each is varied one by one, the bounds with each slack. The response combines the rest
 // (pipeline/life/life_response.h). Friction along the hose and grips are varied one by one. Friction inside is also set to zero and
 // to infinity (no slip at any pressure): the bounds of a cable. Play is not varied: in the shipped programs it changes lives by a
 // tenth of a decade and would cost as much as a slack. Places and forces of cables are computed again for each variation except

@@ -394,7 +394,7 @@ std::vector<FailureModes> coarser(const FailureModes& modes) {
   if (others)
     add([](const LifeResponse& mode) {
       return without_points(mode, [](const auto& point) {
-        return (point[of_friction] != 0) + (point[of_slack] != 0) + (point[of_stiffness] != 0) > 1;
+        return point[of_friction] != 0 && (point[of_slack] != 0 || point[of_stiffness] != 0);
       });
     });
   return all;

@@ -56,8 +56,8 @@ struct FirstFailures {
 ///                 because other intervals are as wide as the one without the node
 ///     other rests without one node of friction along the hose, play or grips, each in turn: the line through 0 and the node on
 ///                 the other side is extended. Their effect on lives is smaller than that of another rest of the cables
-///     together()  together() of friction, slack and stiffness instead of their computed combinations; counts if other
-///                 parameters are combined in this way
+///     together()  together() of friction with slack and with stiffness instead of their computed combinations; counts if other
+///                 parameters are combined in this way. Slack and stiffness, whose combinations change lives most, stay together
 /// Not included: errors beyond the outermost nodes of friction and slack (strain/measurements.md, response and full evaluations).
 /// log10_lives: first_failures() of the same arguments.
 LifePercentiles error_factors(const FailureModes& modes, const std::string& job, std::size_t samples,

@@ -548,10 +548,14 @@ TEST_CASE("the variations of a softer hose hold the strains that its motion has 
   const auto strain = varied.read<float>("/variation/strain");
   constexpr double third_harmonic = 1e-3;  // error of the waves of a layer (W13), share of the strain's range
   std::set<std::vector<float>> different;
+  std::set<std::pair<std::int32_t, double>> bounds;  // glued or free, slack
   std::size_t next_expected = 0;
   for (std::size_t k = others; k < stiffness.size(); ++k) {
     REQUIRE(stiffness[k] == -1.2);
-    if (inside[k] != 0) continue;  // bounds
+    if (inside[k] != 0) {
+      bounds.insert({inside[k], z[k * in_row + 2]});
+      continue;
+    }
     REQUIRE(next_expected < expected.size());
     const double friction = expected[next_expected].first, slack = expected[next_expected].second;
     CAPTURE(loose, friction, slack);
@@ -577,5 +581,6 @@ TEST_CASE("the variations of a softer hose hold the strains that its motion has 
     CHECK(compared >= segments);
   }
   CHECK(next_expected == expected.size());
+  CHECK(bounds.size() == (loose ? 6 : 2));
   CHECK(different.size() == expected.size());  // otherwise friction or slack is not tested
 }
