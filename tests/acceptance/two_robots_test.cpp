@@ -121,8 +121,8 @@ TEST_CASE("two robots, shipped study: the table and the first job of the README,
     const fs::path job = scratch / "runs/two_robots/hard";
     const std::string strain = inside + "_strain.h5", life = inside + "_life.h5";
     must_run(scratch, "dresslife-strain",
-             "'" + (job / "motion.h5").string() + "' --quiet --set uncertainty.enabled=false --set 'strain.slip=[friction, " +
-                 inside + ", " + inside + "]' -o " + strain);
+             "'" + (job / "motion.h5").string() + "' --quiet --set 'strain.slip=[friction, " + inside + ", " +
+                 inside + "]' -o " + strain);
     must_run(scratch, "dresslife-fatigue", strain + " --quiet -o " + life);
     REQUIRE(std::isfinite(hours_of(scratch / life, "life_hours")));
     CHECK(hours_of(job / "life.h5", "life_hours_all_" + inside) ==
