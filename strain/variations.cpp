@@ -27,8 +27,8 @@ bool rubs_on_hose(const pipeline::Component& part) {
 
 // z of the nodes
 constexpr std::array slacks{low_slack, -1.25, Variations::reach};
-constexpr std::array slacks_of_other_stiffness{-1.25, Variations::reach},
-    both_sides{-Variations::reach, Variations::reach};
+constexpr std::array slacks_of_other_stiffness{-1.25, Variations::reach};
+constexpr std::array both_sides{-Variations::reach, Variations::reach};
 
 /// Returns whether a change of a parameter other than friction inside changes any strain.
 bool matters(const pipeline::Job& job, const Variations::Spans& spans, Uncertain parameter) {
@@ -180,8 +180,8 @@ void Variations::evaluate(const std::vector<Evaluation::Site>& likely, std::size
   for (const Placement& placement : placements_) {
     Evaluation& placed = *(*placement.spans)[span];
     std::vector<Evaluation::Site> wires = likely;
-    if (placement.spans != &as_given_ ||
-        stiffness_ != 0)  // cables at other places can have other worst wires
+    const bool lie_elsewhere = placement.spans != &as_given_ || stiffness_ != 0;  // then other wires can be the worst
+    if (lie_elsewhere)
       wires = with_likely_of_bent(std::move(wires), placed, segment, history, row);
     std::vector<std::size_t> sites;
     for (const Evaluation::Site site : wires) sites.push_back(as_given_[span]->row_of(segment, site));

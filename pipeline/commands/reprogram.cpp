@@ -70,11 +70,12 @@ std::string spans_words(const OtherWay& way) {
   std::string next;  // the line after the last one of the present span
   for (const std::string& line : way.lines) {
     const std::size_t number = line.rfind(':') + 1;
+    const bool is_unnamed = line.find_first_not_of("0123456789", number) == std::string::npos;
     if (line == next)
       spans.lines.back() = spans.lines.back().substr(0, spans.lines.back().find("..", number)) + ".." + line.substr(number);
     else
       spans.lines.push_back(line);
-    next = line.substr(0, number) + std::to_string(std::atoi(line.c_str() + number) + 1);
+    next = is_unnamed ? line.substr(0, number) + std::to_string(std::atoi(line.c_str() + number) + 1) : "";
   }
   return lines_words(spans);
 }
@@ -109,7 +110,7 @@ std::string table_of(const std::string& job, const TriedWay& before, const std::
                         tried.outcome.feasible() ? "" : "; ", tried.outcome.words());
     if (!tried.file.empty()) text += fmt::format("  {:>24}patch: {}\n", "", tried.file.string());
   }
-  if (std::ranges::none_of(ways, [](const TriedWay& tried) { return tried.outcome.feasible(); }))
+  if (!ways.empty() && std::ranges::none_of(ways, [](const TriedWay& tried) { return tried.outcome.feasible(); }))
     text += "  No way keeps all limits. Cure the job first: dresslife check names a remedy.\n";
   return text;
 }

@@ -201,14 +201,14 @@ std::string shown_calendar(const RankingRow& row) {
 std::string uncapped_words(const RankingRow& row) {
   const auto& [tenth, half, most] = row.planned_hours;
   if (!row.planned() || !std::isfinite(tenth) || !(most > row.robot_life_hours)) return "";
-  std::string text = fmt::format("Hours beyond the robot's life ({} h) only compare jobs: 1 of 10 such dresspacks has failed after {} of motion ({})",
-                                 readable(row.robot_life_hours), hours_text(tenth), calendar_text(row.planned_months));
+  std::string text = fmt::format("By the model 1 of 10 such dresspacks has failed after {} of motion ({})", hours_text(tenth),
+                                 calendar_text(row.planned_months));
   if (std::isfinite(half)) text += ", half after " + hours_text(half);
   if (std::isfinite(most)) text += ", 90 % after " + hours_text(most);
   if (!std::isnan(row.glued_hours[0]))
     text += fmt::format("; with everything in the cables glued .. free, 1 of 10 after {}",
                         range_text(row.glued_hours[0], row.free_hours[0]));
-  return text + ".";
+  return text + fmt::format(". Hours beyond the robot's life ({} h) only compare jobs.", readable(row.robot_life_hours));
 }
 
 /// Returns a sentence if a life equals one of its bounds, for example with strain.slip free or stick. Empty: it lies between.

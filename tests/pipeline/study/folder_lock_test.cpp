@@ -16,7 +16,7 @@
 namespace dresslife::pipeline {
 
 TEST_CASE(
-    "folder lock: reports its owner in as many bytes whoever it is, as a full disk has no room for more") {
+    "folder lock: reports every owner in equally many bytes, because a full disk has no room for more") {
   const Scratch scratch;
   const std::filesystem::path folder = scratch / "study";
   { const FolderLock alone(folder); }

@@ -344,7 +344,7 @@ TEST_CASE("krl: bases and tools that only the user has") {
   }
 }
 
-TEST_CASE("krl: a target without a value is distinguished from one that nobody declares") {
+TEST_CASE("krl: a target without a value is distinguished from one without a declaration") {
   CHECK(run("DECL E6POS pa\nPTP pa").problem() ==
         "p.src:3:5: error: moves to 'pa', which has no value yet; assign it before the move, give the file "
         "that "
