@@ -802,6 +802,7 @@ TEST_CASE("ranking: a life beyond the robot's own is shown as such, with its hou
   CHECK_THAT(table, Catch::StartsWith("The evaluated parts last longer than the robot (40,000 h)."));
   CHECK_THAT(table, Catch::Contains("over 40,000  over 9.6 years      over 40,000      over 40,000          5,000 .. over 40,000"));
   CHECK_THAT(table, Catch::Contains("1 of 10 such dresspacks has failed after 50,000 h of motion (12 years), half after 75,000 h, 90 % after 125,000 h"));
+  CHECK_THAT(table, Catch::Contains("Hours beyond the robot's life (40,000 h) only compare jobs."));
   CHECK_THAT(ranking_csv(long_lived), Catch::Contains("50000"));
   CHECK_THAT(ranking_table(last_within, 200), Catch::StartsWith("Plan a replacement after 40,000 h"));
   CHECK_THAT(ranking_table(short_lived, 200), !Catch::Contains("over 40,000") && !Catch::Contains("only compare jobs"));
