@@ -603,12 +603,11 @@ std::vector<pipeline::UnvalidatedMode> write_hose(const Context& c, const std::v
 /// validated modes. tension: see corkscrew.h.
 std::string write_unvalidated(const Context& c, const std::vector<double>& lives,
                               const std::vector<std::vector<double>>& tension) {
-  std::vector<pipeline::UnvalidatedMode> modes = unvalidated_modes(c.strain, c.job, lives, tension);
-  const auto coils = std::ranges::count(modes, pipeline::UnvalidatedMode::corkscrew, &pipeline::UnvalidatedMode::mode);
+  auto [modes, left_out] = unvalidated_modes(c.strain, c.job, lives, tension);
   const auto wall = write_hose(c, lives);
   modes.insert(modes.end(), wall.begin(), wall.end());
   c.life.attribute("unvalidated_modes", pipeline::unvalidated_text(modes));
-  c.life.attribute("not_evaluated", not_evaluated(c.strain, c.job, coils == std::ssize(c.job.dresspacks)));
+  c.life.attribute("not_evaluated", left_out);
   std::string summary;
   for (const pipeline::UnvalidatedMode& mode : modes)
     if (!is_credible(mode))

@@ -119,6 +119,7 @@ struct Search {
   std::vector<std::int32_t> step = strain.read<std::int32_t>("/program/step");
   std::vector<std::string> text = strain.read<std::string>("/program/text");
   std::vector<UnvalidatedMode> modes = {};
+  std::vector<std::string> left_out = {};  ///< modes of some dresspack that are not evaluated
 
   UnvalidatedMode& add(const char* mode, std::size_t dresspack) {
     UnvalidatedMode& added = modes.emplace_back();
@@ -257,13 +258,24 @@ bool is_smooth_hose(const pipeline::Dresspack& dresspack) {
   return dresspack.inner_diameter && !dresspack.hose_corrugation;
 }
 
+bool has_shape(const pipeline::Link& link) {
+  return !link.capsules.empty() || !link.boxes.empty() || !link.meshes.empty();
+}
+
 /// Returns whether the simulation had every contact that wears a dresspack. Without shapes of the robot nothing would seem to rub.
 bool knows_contacts(const FileReader& strain, const pipeline::Job& job) {
-  const auto has_shape = [](const pipeline::Link& link) {
-    return !link.capsules.empty() || !link.boxes.empty() || !link.meshes.empty();
-  };
   return strain.has(table_of_work) && job.simulation.contact && job.simulation.self_contact &&
          (job.robot.links.empty() || std::ranges::any_of(job.robot.links, has_shape));
+}
+
+/// Returns the names of the links that must have a body and have no shape. A link whose two joints are near each other can lie
+/// within its neighbours. The last link can be a frame without a body.
+std::vector<std::string> links_without_shape(const pipeline::Robot& robot) {
+  constexpr double housing = 0.1;  // width of the housing of a small robot's axis [m]; ESTIMATE
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < std::min(robot.links.size(), robot.joints.size()); ++k)
+    if (!has_shape(robot.links[k]) && robot.joints[k].origin.norm() > housing) names.push_back(robot.links[k].name);
+  return names;
 }
 
 /// Abrasion of each dresspack whose contacts are known, and whose thickness and wear rates are known.
@@ -343,7 +355,11 @@ void find_ratings(Search& found) {
 void find_corkscrews(Search& found, const std::vector<std::vector<double>>& tension) {
   for (std::size_t d = 0; d < found.job.dresspacks.size(); ++d) {
     const std::optional<Corkscrew> worst = corkscrew(found.strain, found.job, d, tension);
-    if (!worst) continue;
+    if (!worst) {
+      found.left_out.push_back(UnvalidatedMode::corkscrew);
+      continue;
+    }
+    if (!worst->knows_turn) found.left_out.push_back("corkscrew after many repeats");
     UnvalidatedMode& mode = found.add(UnvalidatedMode::corkscrew, d);
     mode.place = cable_in_words(found.job, found.strain.read<std::string>("/cable/name")[worst->cable]);
     mode.time = found.time[worst->sample];
@@ -438,33 +454,8 @@ void find_kinks(Search& found) {
   }
 }
 
-}  // namespace
-
-void set_lives(UnvalidatedMode& mode, std::vector<double> own, const std::vector<double>& lives,
-               double repeat) {
-  std::vector<double> together(lives.size());
-  std::size_t first = 0;
-  for (std::size_t s = 0; s < lives.size(); ++s)
-    first += own[s] < lives[s], together[s] = std::min(own[s], lives[s]);
-  mode.first_share = static_cast<double>(first) / static_cast<double>(lives.size());
-  const auto repeats = pipeline::percentiles_of(std::move(own));
-  for (std::size_t i = 0; i < repeats.size(); ++i) mode.hours[i] = hours(repeats[i], repeat);
-  mode.together_p10 = hours(pipeline::percentiles_of(std::move(together))[0], repeat);
-}
-
-std::vector<UnvalidatedMode> unvalidated_modes(const FileReader& strain, const pipeline::Job& job,
-                                               const std::vector<double>& lives,
-                                               const std::vector<std::vector<double>>& tension) {
-  Search found{strain, job, lives};
-  find_abrasion(found);
-  find_jackets(found);
-  find_ratings(found);
-  find_corkscrews(found, tension);
-  find_kinks(found);
-  return std::move(found.modes);
-}
-
-std::string not_evaluated(const FileReader& strain, const pipeline::Job& job, bool corkscrew) {
+/// Returns the parts and modes of the job that have no life, in words. left_out: modes that this function does not determine.
+std::string not_evaluated(const FileReader& strain, const pipeline::Job& job, const std::vector<std::string>& left_out) {
   std::vector<std::string> names;
   const auto add = [&](const std::string& name) {
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
@@ -506,14 +497,42 @@ std::string not_evaluated(const FileReader& strain, const pipeline::Job& job, bo
                     std::all_of(job.dresspacks.begin(), job.dresspacks.end(),
                                 [](const auto& mounted) { return worn_of(mounted.dresspack).has_value(); });
   if (!worn) add(UnvalidatedMode::abrasion);
+  const auto bodiless = links_without_shape(job.robot);
+  if (worn && !bodiless.empty()) add(fmt::format("abrasion on {}", fmt::join(bodiless, " and ")));
   if (!bare.empty() && bare.size() == cables)
     add("jackets of the cables");
   else
     for (const std::string& cable : bare) add("jacket of " + cable);
   if (kinks) add("kinks of the hose");
-  if (!corkscrew) add(UnvalidatedMode::corkscrew);
+  for (const std::string& mode : left_out) add(mode);
   for (const char* always : {"fretting and grip at clamps", "connectors"}) add(always);
   return fmt::format("{}", fmt::join(names, ", "));
+}
+
+}  // namespace
+
+void set_lives(UnvalidatedMode& mode, std::vector<double> own, const std::vector<double>& lives,
+               double repeat) {
+  std::vector<double> together(lives.size());
+  std::size_t first = 0;
+  for (std::size_t s = 0; s < lives.size(); ++s)
+    first += own[s] < lives[s], together[s] = std::min(own[s], lives[s]);
+  mode.first_share = static_cast<double>(first) / static_cast<double>(lives.size());
+  const auto repeats = pipeline::percentiles_of(std::move(own));
+  for (std::size_t i = 0; i < repeats.size(); ++i) mode.hours[i] = hours(repeats[i], repeat);
+  mode.together_p10 = hours(pipeline::percentiles_of(std::move(together))[0], repeat);
+}
+
+Unvalidated unvalidated_modes(const FileReader& strain, const pipeline::Job& job, const std::vector<double>& lives,
+                              const std::vector<std::vector<double>>& tension) {
+  Search found{strain, job, lives};
+  find_abrasion(found);
+  find_jackets(found);
+  find_ratings(found);
+  find_corkscrews(found, tension);
+  find_kinks(found);
+  std::string rest = not_evaluated(strain, job, found.left_out);
+  return {std::move(found.modes), std::move(rest)};
 }
 
 }  // namespace dresslife::fatigue

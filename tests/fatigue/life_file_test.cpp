@@ -1089,6 +1089,13 @@ TEST_CASE("life.h5: abrasion stands beside the wires with its place, its time an
   CHECK_FALSE(is_known("no_shapes.h5"));
   job.robot.links[1].capsules.emplace_back();
   CHECK(is_known("shapes.h5"));
+  job.robot.links[0].name = "arm", job.robot.joints.resize(1);
+  job.robot.joints[0].origin = {0, 0, 0.05};  // a link of this length can lie within its neighbours
+  CHECK(is_known("wrist.h5"));
+  job.robot.joints[0].origin = {0, 0, 0.4};
+  const FileReader partial(run(folder, f, job, "partial.h5").file, pipeline::life_format());
+  CHECK(modes_of(partial).size() == 1);
+  CHECK_THAT(names_in(partial), Catch::Contains("abrasion on arm,"));
   job.simulation.self_contact = false;
   CHECK_FALSE(is_known("not_on_itself.h5"));
   job.simulation.self_contact = true, job.simulation.contact = false;
@@ -1134,10 +1141,13 @@ TEST_CASE("life.h5: a twist that every repeat leaves winds a loose cable into a 
   CHECK(coil_of("pulled.h5").first[0].note == "Neither its forces nor its twist would wind it.");
   f.cables[0].strain[0] = 0;
   f.twist = 0.5;
-  CHECK(std::isinf(coil_of("recorded.h5").first[0].hours[0]));  // without joints the twist that a repeat leaves is unknown
+  const auto [recorded, unknown] = coil_of("recorded.h5");  // without joints the twist that a repeat leaves is unknown
+  CHECK(std::isinf(recorded[0].hours[0]));
+  CHECK_THAT(unknown, Catch::Contains("corkscrew after many repeats"));
   for (std::size_t t = 0; t < samples; ++t) f.joints.push_back(2 * std::numbers::pi * static_cast<double>(t) / (samples - 1));
   const auto [wound, other] = coil_of("wound.h5");
   REQUIRE(wound.size() == 1);
+  CHECK_THAT(other, !Catch::Contains("corkscrew"));
   // Without a force: torque 4/3 E I q at the tight coil. The twist of the last sample is the twist that a repeat leaves.
   const double torsion = pipeline::pull_and_twist(dresspack, dresspack.components[0]).relaxed() +
                          pipeline::torsion_of_polymer * pipeline::polymer_bending(dresspack.components[0]);
