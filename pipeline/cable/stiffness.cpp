@@ -151,6 +151,43 @@ HoseStiffness stiffness_with(const Wires& wires, const Dresspack& dresspack, Sli
   return sum;
 }
 
+/// Returns the friction of a bend as elements. Their sum equals the friction's share of M(kappa) at the curvatures of the
+/// elements and is smaller between them. There are up to four. At the first curvature a third of all friction acts; if this is
+/// larger, it is the curvature at which the elements together are nine times as stiff as the sliding hose. At the others, 50, 85
+/// and 99.5 % of the remaining friction act. sliding: E I of the hose [N m2].
+std::vector<BendingFriction> friction_of(const Wires& wires, double sliding) {
+  constexpr double all = 1e4;           // [1/m]: nothing in a cable sticks up to this curvature
+  constexpr double stiffest = 9;        // with more, the implicit part of (S3) slows swings of 5 Hz by more than 10 % at 5 ms
+  constexpr double first_share = 0.33;
+  const double most = wires.friction(all);
+  if (!(most > 1e-9 * sliding)) return {};
+  // Finds a curvature: where the friction's moment reaches a share of all friction, or where its secant falls to a limit. Both
+  // are monotonic.
+  const auto where = [&](const auto& reached) {
+    double low = 1e-6, high = all;
+    for (int halving = 0; halving < 60; ++halving) {
+      const double middle = std::sqrt(low * high);
+      (reached(middle) ? high : low) = middle;
+    }
+    return high;
+  };
+  const auto holds = [&](double moment) { return where([&](double k) { return wires.friction(k) >= moment; }); };
+  std::vector<double> at{std::max(holds(first_share * most),
+                                  where([&](double k) { return wires.friction(k) <= stiffest * sliding * k; }))};
+  const double first = wires.friction(at.front());
+  for (const double share : {0.5, 0.85, 0.995}) at.push_back(holds(first + share * (most - first)));
+  std::vector<BendingFriction> elements;
+  double before = 0, moment_before = 0, slope_before = 0;
+  for (const double k : at) {
+    const double moment = wires.friction(k), slope = (moment - moment_before) / (k - before);
+    if (moment - moment_before < 1e-3 * most) continue;  // if a stiff element has almost all friction
+    if (!elements.empty()) elements.back().stiffness = slope_before - slope;
+    elements.push_back({slope, k});
+    before = k, moment_before = moment, slope_before = slope;
+  }
+  return elements;
+}
+
 std::string state_words(const Dresspack& dresspack) {
   const std::string state(word(dresspack.construction_state));
   return dresspack.construction_state == SlipState::friction
@@ -183,40 +220,6 @@ HoseStiffness stiffness_of_construction(const Dresspack& dresspack, SlipState st
   return stiffness_with(Wires(dresspack), dresspack, state, curvature);
 }
 
-std::vector<BendingFriction> friction_of_construction(const Dresspack& dresspack, double sliding) {
-  constexpr double all = 1e4;           // [1/m]: nothing in a cable sticks up to this curvature
-  constexpr double stiffest = 9;        // with more, the implicit part of (S3) slows swings of 5 Hz by more than 10 % at 5 ms
-  constexpr double first_share = 0.33;
-  const Wires wires(dresspack);
-  const double most = wires.friction(all);
-  if (!(most > 1e-9 * sliding)) return {};
-  // Finds a curvature: where the friction's moment reaches a share of all friction, or where its secant falls to a limit. Both
-  // are monotonic.
-  const auto where = [&](const auto& reached) {
-    double low = 1e-6, high = all;
-    for (int halving = 0; halving < 60; ++halving) {
-      const double middle = std::sqrt(low * high);
-      (reached(middle) ? high : low) = middle;
-    }
-    return high;
-  };
-  const auto holds = [&](double moment) { return where([&](double k) { return wires.friction(k) >= moment; }); };
-  std::vector<double> at{std::max(holds(first_share * most),
-                                  where([&](double k) { return wires.friction(k) <= stiffest * sliding * k; }))};
-  const double first = wires.friction(at.front());
-  for (const double share : {0.5, 0.85, 0.995}) at.push_back(holds(first + share * (most - first)));
-  std::vector<BendingFriction> elements;
-  double before = 0, moment_before = 0, slope_before = 0;
-  for (const double k : at) {
-    const double moment = wires.friction(k), slope = (moment - moment_before) / (k - before);
-    if (moment - moment_before < 1e-3 * most) continue;  // if a stiff element has almost all friction
-    if (!elements.empty()) elements.back().stiffness = slope_before - slope;
-    elements.push_back({slope, k});
-    before = k, moment_before = moment, slope_before = slope;
-  }
-  return elements;
-}
-
 std::vector<double> bending_moments(const Dresspack& dresspack, double friction, const std::vector<double>& curvature) {
   const Wires wires(dresspack);
   const double sliding = stiffness_with(wires, dresspack, SlipState::sliding, 1).bending;
@@ -241,8 +244,9 @@ std::vector<std::string> missing_in_construction(const Dresspack& dresspack) {
 void take_from_construction(Dresspack& dresspack) {
   if (!is_from_construction(dresspack)) return;
   if (dresspack.mass_from_construction) dresspack.mass_per_length = mass_of_construction(dresspack);
+  const Wires wires(dresspack);
   const HoseStiffness taken =
-      stiffness_of_construction(dresspack, dresspack.construction_state, dresspack.construction_curvature);
+      stiffness_with(wires, dresspack, dresspack.construction_state, dresspack.construction_curvature);
   const auto take = [&](bool wanted, const char* key, double value, double& to) {
     if (!wanted) return;
     if (!(value > 0))
@@ -258,8 +262,8 @@ void take_from_construction(Dresspack& dresspack) {
   if (dresspack.bending_from_construction) {
     dresspack.bending_friction.clear();
     if (dresspack.construction_state == SlipState::friction)
-      dresspack.bending_friction = friction_of_construction(
-          dresspack, stiffness_of_construction(dresspack, SlipState::sliding, 1).bending);
+      dresspack.bending_friction =
+          friction_of(wires, stiffness_with(wires, dresspack, SlipState::sliding, 1).bending);
   }
   take(dresspack.torsional_from_construction, "torsional_stiffness_Nm2", taken.torsional,
        dresspack.torsional_stiffness);

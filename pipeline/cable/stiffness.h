@@ -46,12 +46,6 @@ struct HoseStiffness {
 /// friction or pressure slide. Errors: InputError for a measured bending stiffness that no friction gives.
 HoseStiffness stiffness_of_construction(const Dresspack& dresspack, SlipState state, double curvature);
 
-/// Returns the friction of a bend as elements. Their sum equals the friction's share of M(kappa) at the curvatures of the
-/// elements and is smaller between them. There are up to four. At the first curvature a third of all friction acts; if this is
-/// larger, it is the curvature at which the elements together are nine times as stiff as the sliding hose. At the others, 50, 85
-/// and 99.5 % of the remaining friction act. sliding: E I of the hose [N m2].
-std::vector<BendingFriction> friction_of_construction(const Dresspack& dresspack, double sliding);
-
 /// Returns the moments that bend a straight hose for the first time [N m], (bend): E I without friction, plus `friction` times
 /// the friction. curvature: (bend) [1/m].
 std::vector<double> bending_moments(const Dresspack& dresspack, double friction, const std::vector<double>& curvature);

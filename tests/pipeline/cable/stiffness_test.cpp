@@ -196,7 +196,9 @@ TEST_CASE("stiffness: friction's elements follow the construction's own moment o
     const auto secant = [&](double bend) { return stiffness_of_construction(dresspack, SlipState::friction, bend).bending; };
     const double sliding = in_state(dresspack, SlipState::sliding).bending;
     const auto friction = [&](double bend) { return (secant(bend) - sliding) * bend; };
-    const std::vector<BendingFriction> elements = friction_of_construction(dresspack, sliding);
+    dresspack.bending_from_construction = true, dresspack.construction_state = SlipState::friction;
+    take_from_construction(dresspack);
+    const std::vector<BendingFriction>& elements = dresspack.bending_friction;
     const auto held = [&](double bend) {
       double sum = 0;
       for (const BendingFriction& element : elements) sum += element.stiffness * std::min(bend, element.slides_at);
