@@ -198,10 +198,12 @@ class QuickChecks {
     std::vector<double> all;
     if (robot_ && robot_->mounting_pose() != robot_->motion().position(0))
       for (int k = 0; k < mounting_moments; ++k) all.push_back(-1 + static_cast<double>(k) / mounting_moments);
+    all.push_back(0);
+    if (path_->duration() == 0) return all;
     const std::vector<MotionLoop> loops = robot_ ? loops_of(robot_->motion()) : std::vector<MotionLoop>{};
     double followed = path_->duration();
     for (const MotionLoop& loop : loops) followed -= left_out(loop);
-    for (int k = 0; k <= rest_moments; ++k) {
+    for (int k = 1; k <= rest_moments; ++k) {
       double time = followed * k / rest_moments;
       for (const MotionLoop& loop : loops)
         if (time > loop.end() - left_out(loop)) time += left_out(loop);
