@@ -28,7 +28,7 @@ constexpr int tried_poses = 8;
 /// steps are finer, 3 %.
 constexpr std::array<int, 4> tried_lengths{16, 8, 8, 8};
 constexpr double margin = 1.05;  // of a limit at rest and in a short run: the full program bends the hose more
-constexpr std::array<std::size_t, 4> most_tried{5, 3, 3, 3};  // (pair of directions) trials by the checks, one second each
+constexpr std::array<std::size_t, 4> most_tried{5, 3, 3, 3};  // (pair of directions) trials by the checks, up to two seconds each
 constexpr double most_work = 1e7;  // of all trials of one job, in the unit of World::work: ten seconds
 constexpr int most_segments = 32;  // of a trial: the bend radius has an error of a few percent
 
@@ -419,7 +419,8 @@ Cure bend_cure(const CheckedMotion& motion, const std::vector<Check>& checks, co
   if (remedy.empty() && swings)
     if (const double percent = slower(motion, checks, broken, k_rest); percent > 0)
       remedy = {{{"motion.acceleration_percent", fmt::format("{:.0f}", percent)}},
-                fmt::format(" (now {:.0f}; tried in a short run)", motion.setup.motion.acceleration_percent)};
+                fmt::format(" (now {:.0f}; tried in a short run), or other clamps with the present program: dresslife route",
+                            motion.setup.motion.acceleration_percent)};
   if (remedy.empty()) {
     double least = broken.value;  // a limit that both the checks at rest and the short run would keep
     for (const Check& check : checks)

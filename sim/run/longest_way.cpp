@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <unordered_set>
 
 #include "pipeline/job/setup.h"
+#include "sim/robot/loops.h"
 #include "sim/run/routing.h"
 
 namespace dresslife::sim {
@@ -16,29 +16,12 @@ using Eigen::VectorXd;
 constexpr double most_moments = 1e6;
 constexpr double rounding = 1e-9;  // [m]: of a way; far above the rounding error of a few metres
 
-struct SamePiece {
-  bool operator()(const MotionPiece* a, const MotionPiece* b) const {
-    const auto same = [](const VectorXd& x, const VectorXd& y) { return x.size() == y.size() && x == y; };
-    return a->duration == b->duration && a->ramp == b->ramp && same(a->position, b->position) &&
-           same(a->velocity_before, b->velocity_before) && same(a->velocity_change, b->velocity_change) &&
-           same(a->acceleration, b->acceleration) && same(a->jerk, b->jerk);
-  }
-};
-struct HashPiece {
-  std::size_t operator()(const MotionPiece* piece) const {
-    std::size_t hash = std::hash<double>{}(piece->duration);
-    for (const VectorXd* of : {&piece->position, &piece->velocity_before})
-      for (const double value : *of) hash = 31 * hash + std::hash<double>{}(value);
-    return hash;
-  }
-};
-
 /// Returns the pieces without those that are equal to an earlier one.
 std::vector<const MotionPiece*> different_pieces(const JointMotion& motion) {
-  std::unordered_set<const MotionPiece*, HashPiece, SamePiece> known;
+  const std::vector<std::size_t> first = first_equal_pieces(motion);
   std::vector<const MotionPiece*> pieces;
-  for (const MotionPiece& piece : motion.pieces())
-    if (known.insert(&piece).second) pieces.push_back(&piece);
+  for (std::size_t k = 0; k < first.size(); ++k)
+    if (first[k] == k) pieces.push_back(&motion.pieces()[k]);
   return pieces;
 }
 

@@ -68,7 +68,7 @@ std::vector<Warning> write_other_stiffnesses(const pipeline::Job& job, double ti
         RecordedMotion places;
         simulation.run({.take = [&](const Sample& sample) { places.add(sample); },
                         .begin = [&](int) { places = {}; },
-                        .places_only = true});
+                        .wanted = Wanted::places});
         places.write(file, std::string("/") + name);
         file.attribute(std::string(name) + "_z", z);
         problem.clear();

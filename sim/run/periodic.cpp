@@ -14,6 +14,21 @@ bool same(const Frame& a, const Frame& b) {
          rotation_vector(a.orientation.conjugate() * b.orientation).norm() < same_pose;
 }
 
+/// Returns the state at a share of the step between two states: what state_distance() compares, linear in time.
+RodState between(const RodState& from, const RodState& to, double share) {
+  RodState state = to;
+  for (std::size_t i = 0; i < to.position.size(); ++i) {
+    state.position[i] = (1 - share) * from.position[i] + share * to.position[i];
+    state.orientation[i] = from.orientation[i].slerp(share, to.orientation[i]);
+    state.velocity[i] = (1 - share) * from.velocity[i] + share * to.velocity[i];
+  }
+  for (std::size_t k = 0; k < to.travel.size(); ++k) {
+    state.travel[k].way = (1 - share) * from.travel[k].way + share * to.travel[k].way;
+    state.travel[k].speed = (1 - share) * from.travel[k].speed + share * to.travel[k].speed;
+  }
+  return state;
+}
+
 }  // namespace
 
 double state_distance(const Rod& rod, const RodState& a, const RodState& b) {
@@ -28,6 +43,33 @@ double state_distance(const Rod& rod, const RodState& a, const RodState& b) {
     largest = std::max(largest, std::abs(a.travel[k].way - b.travel[k].way) +
                                     sway_time * std::abs(a.travel[k].speed - b.travel[k].speed));
   return largest;
+}
+
+LeftOutRounds::LeftOutRounds(const Rod& rod, const ClampPath& path, double tolerance) : rod_(rod), tolerance_(tolerance) {
+  if (const auto* robot = dynamic_cast<const RobotPath*>(&path)) loops_ = loops_of(robot->motion());
+}
+
+double LeftOutRounds::see(double time, double step, const RodState& state) {
+  if (loop_ == loops_.size()) return 0;
+  const MotionLoop& loop = loops_[loop_];
+  const double begins = loop.begin + round_ * loop.round;
+  double left_out = 0;
+  if (time >= begins) {
+    RodState now = before_.position.empty() ? state : between(before_, state, 1 - (time - begins) / step);
+    if (at_begin_ && state_distance(rod_, *at_begin_, now) <= tolerance_) {
+      left_out = loop.end() - begins;
+      round_ = loop.rounds;
+    } else {
+      at_begin_ = std::move(now);
+      ++round_;
+    }
+    if (round_ == loop.rounds) {
+      ++loop_, round_ = 0;
+      at_begin_.reset();
+    }
+  }
+  before_ = state;
+  return left_out;
 }
 
 bool returns(const ClampPath& path) {

@@ -10,6 +10,10 @@
 // in the same way.
 #pragma once
 
+#include <optional>
+#include <vector>
+
+#include "sim/robot/loops.h"
 #include "sim/rod/rod.h"
 #include "sim/run/clamp_path.h"
 
@@ -18,6 +22,26 @@ namespace dresslife::sim {
 /// Returns the largest distance (R8) over the segments and retraction units [m]. Precondition: both states belong to this
 /// rod.
 double state_distance(const Rod& rod, const RodState& a, const RodState& b);
+
+/// Leaves out the remaining rounds of a loop when two successive rounds begin in the same state (R8).
+class LeftOutRounds {
+ public:
+  /// tolerance: largest distance of the same state [m]. Precondition: rod and path outlive this object.
+  LeftOutRounds(const Rod& rod, const ClampPath& path, double tolerance);
+
+  /// Sees the state at the next time of the motion. step: time since the previous state [s]. Returns the duration of the rounds that
+  /// can be left out now [s].
+  double see(double time, double step, const RodState& state);
+
+ private:
+  const Rod& rod_;
+  const double tolerance_;
+  std::vector<MotionLoop> loops_;
+  std::size_t loop_ = 0;
+  int round_ = 0;                     // the next one of this loop
+  RodState before_;                   // the previous state
+  std::optional<RodState> at_begin_;  // of the previous round of this loop
+};
 
 /// Returns whether the path ends at its begin, so that it can be repeated: joints within 1e-6 rad; without a robot
 /// clamps within 1e-6 m and rad.

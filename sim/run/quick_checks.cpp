@@ -12,6 +12,7 @@
 #include "pipeline/base/warning_words.h"
 #include "pipeline/files/check_names.h"
 #include "pipeline/job/setup.h"
+#include "sim/robot/loops.h"
 #include "sim/run/cures.h"
 #include "sim/run/equilibrium.h"
 #include "sim/run/routing.h"
@@ -32,6 +33,7 @@ constexpr double short_run_work =
     5e6;  // 2.4 s of processor time, measured: two repeats of three minutes, 64 segments without contact
 constexpr double lead_in_share = 0.5;  // share for the lead-in: a motion that takes longer runs once, from rest
 constexpr double same_radius = 0.05;  // relative error of a bend radius with few segments
+constexpr double coarse_radius = 0.1;  // ESTIMATE: relative error of a bend radius in a coarse run
 
 pipeline::Setup with_segments(pipeline::Setup setup, int most) {
   setup.simulation.segments = std::min(setup.simulation.segments, most);
@@ -66,7 +68,7 @@ class QuickChecks {
       return found;
     }
     found.run = short_run(setup_, short_run_segments);
-    add_rests(found);
+    add_rests(found, true);
     add_bends(found);
     if (found.run.stopped_at)
       found.notes.push_back(fmt::format("The short run of the checks ended after {:.3g} s of {:.6g} s, because the program is long "
@@ -82,17 +84,19 @@ class QuickChecks {
     add_slack(found.checks);
     const std::vector<Check> slack = found.checks;
     if (rejects(found)) return found;
-    double work = 0;
-    for (const int segments : {rest_segments, short_run_segments}) {
-      if (segments > rest_segments && setup_.simulation.segments <= rest_segments) break;  // it would be the same run
-      found.checks = slack;
-      found.run = short_run(setup_, segments, useless_below, dresspack);
-      found.run.work = work += found.run.work;
-      add_bends(found);
-      if (!found.run.refusal.empty() || rejects(found)) return found;
-    }
+    found.run = coarse_run(useless_below, dresspack);
+    const double work = found.run.work;
+    add_bends(found);
+    for (Check& check : found.checks)
+      if (check.name == check_name::bend_radius && check.value > (1 - coarse_radius) * check.limit) check.warning = false;
+    if (!found.run.refusal.empty() || rejects(found)) return found;
     found.checks = slack;
-    add_rests(found);
+    found.run = short_run(setup_, short_run_segments, useless_below, dresspack);
+    found.run.work += work;
+    add_bends(found);
+    if (!found.run.refusal.empty() || rejects(found)) return found;
+    found.checks = slack;
+    add_rests(found, false);
     add_bends(found);
     return found;
   }
@@ -117,6 +121,17 @@ class QuickChecks {
   }
 
  private:
+  /// Returns one repeat from rest with twice the step and few segments. It takes a sixth of the work of a short run.
+  ShortRun coarse_run(double useless_below, int dresspack) const {
+    pipeline::Setup coarse = setup_;
+    pipeline::SimulationSettings& settings = coarse.simulation;
+    if (settings.choose_time_step) settings.time_step = first_step(settings.sample_rate);
+    settings.choose_time_step = false;
+    settings.time_step *= 2;
+    settings.sample_rate /= 2;
+    settings.most_repeats = 1;
+    return short_run(std::move(coarse), rest_segments, (1 - coarse_radius) * useless_below, dresspack);
+  }
   static void add_bends(QuickFindings& found) {
     for (const Check& check : found.run.checks) {
       if (check.name != check_name::bend_radius) continue;
@@ -175,12 +190,25 @@ class QuickChecks {
     return {pose.clamps.end(static_cast<int>(2 * span)), pose.clamps.end(static_cast<int>(2 * span) + 1)};
   }
 
+  /// Returns the duration of all rounds of a loop but the first two: equilibria of equal poses are equal after one round [s].
+  static double left_out(const MotionLoop& loop) { return (loop.rounds - 2) * loop.round; }
+
   /// Returns the moments in order: the mounting pose, if it is not the program's first pose, and the program.
   std::vector<double> moments() const {
     std::vector<double> all;
     if (robot_ && robot_->mounting_pose() != robot_->motion().position(0))
       for (int k = 0; k < mounting_moments; ++k) all.push_back(-1 + static_cast<double>(k) / mounting_moments);
-    for (int k = 0; k <= rest_moments; ++k) all.push_back(static_cast<double>(k) / rest_moments);
+    all.push_back(0);
+    if (path_->duration() == 0) return all;
+    const std::vector<MotionLoop> loops = robot_ ? loops_of(robot_->motion()) : std::vector<MotionLoop>{};
+    double followed = path_->duration();
+    for (const MotionLoop& loop : loops) followed -= left_out(loop);
+    for (int k = 1; k <= rest_moments; ++k) {
+      double time = followed * k / rest_moments;
+      for (const MotionLoop& loop : loops)
+        if (time > loop.end() - left_out(loop)) time += left_out(loop);
+      all.push_back(time / path_->duration());
+    }
     return all;
   }
 
@@ -266,8 +294,9 @@ class QuickChecks {
     return result;
   }
 
-  /// Returns the equilibria for all shapes of a span; the first shape is the one nearest to the start of a run.
-  std::vector<Rests> all_rests(std::size_t span, double base_roll, const std::optional<RodState>& begin) const {
+  /// Returns the equilibria for the shapes of a span; the first shape is the one nearest to the start of a run. all_shapes: whether
+  /// the others are followed, too.
+  std::vector<Rests> all_rests(std::size_t span, double base_roll, const std::optional<RodState>& begin, bool all_shapes) const {
     const Span& of = rod_.spans()[span];
     const pipeline::MountedDresspack& mounted = setup_.dresspacks[static_cast<std::size_t>(of.dresspack)];
     const auto between = span - static_cast<std::size_t>(rod_.first_span(of.dresspack));
@@ -277,29 +306,35 @@ class QuickChecks {
     const Span &few = rest_rod_.spans()[span], &run = short_rod_.spans()[span];
     const Resting resting{few.properties, span, base_roll, last ? mounted.routing.pre_twist : 0, limits_of(mounted.dresspack)};
     const std::vector<double> all = moments();
+    const std::vector<double> mounting(all.begin(), std::find(all.begin(), all.end(), 0.0) + 1);
+    std::vector<TwistFreeClamp> shapes = rest_shapes(few.properties, rolled_clamps(resting, all.front(), 0), twist_free, rest_settings());
+    if (shapes.empty()) return {{{}, {}, 0, 0.0}};
+    if (begin && shapes.size() > 1) {
+      std::vector<double> distances;
+      for (const TwistFreeClamp& shape : shapes)
+        distances.push_back(shape_distance(rests(resting, shape, mounting).begin, few, *begin, run));
+      std::swap(shapes.front(), shapes[std::min_element(distances.begin(), distances.end()) - distances.begin()]);
+      if (!all_shapes) shapes.resize(1);
+    }
     std::vector<Rests> found;
-    for (const TwistFreeClamp& shape : rest_shapes(few.properties, rolled_clamps(resting, all.front(), 0), twist_free, rest_settings()))
-      found.push_back(rests(resting, shape, all));
-    if (found.empty()) found.push_back({{}, {}, 0, 0.0});
-    if (!begin) return found;
-    const auto from_begin = [&](const Rests& of_shape) {
-      double most = 0;
-      if (of_shape.begin.position.empty()) return std::numeric_limits<double>::infinity();
-      for (int i = 0; i < few.segments(); ++i) {
-        const int beside = static_cast<int>((i + 0.5) * run.segments() / few.segments());
-        most = std::max(most, (of_shape.begin.position[static_cast<std::size_t>(i)] -
-                               begin->position[static_cast<std::size_t>(run.first_segment + beside)]).norm());
-      }
-      return most;
-    };
-    std::swap(found.front(), *std::min_element(found.begin(), found.end(), [&](const Rests& a, const Rests& b) {
-                return from_begin(a) < from_begin(b);
-              }));
+    for (const TwistFreeClamp& shape : shapes) found.push_back(rests(resting, shape, all));
     return found;
   }
 
+  /// Returns the largest distance of the segments of a span at rest from those beside them in the state of a run [m]; infinite: no
+  /// shape.
+  static double shape_distance(const RodState& rest, const Span& few, const RodState& begin, const Span& run) {
+    if (rest.position.empty()) return std::numeric_limits<double>::infinity();
+    double most = 0;
+    for (int i = 0; i < few.segments(); ++i) {
+      const int beside = run.first_segment + static_cast<int>((i + 0.5) * run.segments() / few.segments());
+      most = std::max(most, (rest.position[static_cast<std::size_t>(i)] - begin.position[static_cast<std::size_t>(beside)]).norm());
+    }
+    return most;
+  }
+
   /// Adds the checks at rest of the worst spans of each dresspack. Spans with rings or a retraction unit are left to a run.
-  void add_rests(QuickFindings& result) {
+  void add_rests(QuickFindings& result, bool all_shapes) {
     const std::vector<RoutedRing> rings = routed_rings(setup_);
     for (int d = 0; d < rod_.dresspacks(); ++d) {
       std::optional<Check> bend, twist, net;
@@ -310,7 +345,7 @@ class QuickChecks {
         });
         const double base_roll = std::exchange(roll, 0);
         if (is_free(span) || ringed || properties(span).slider || longest_[span].way >= properties(span).length) continue;
-        const std::vector<Rests> shapes = all_rests(span, base_roll, result.run.begin);
+        const std::vector<Rests> shapes = all_rests(span, base_roll, result.run.begin, all_shapes);
         roll = shapes.front().roll;
         // If a short run has followed the motion, a missing equilibrium is no fault.
         if (shapes.front().unfound && !result.run.refusal.empty()) result.others.push_back(no_rest(d, *shapes.front().unfound));
@@ -396,6 +431,7 @@ ShortRun short_run(pipeline::Setup setup, int segments, double useless_below, in
     const Simulation simulation(with_segments(std::move(setup), segments));
     result.begin = simulation.start();
     RunSinks sinks{[](const Sample&) {}};
+    if (!simulation.setup().simulation.choose_time_step) sinks.wanted = Wanted::checks;  // a choice needs the error of the step
     sinks.goes_on = [&](double work, bool leads_in) {
       return (result.work += work) <= (leads_in ? lead_in_share : 1) * short_run_work;
     };

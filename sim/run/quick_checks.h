@@ -4,7 +4,8 @@
 // bend exceeds its limit; the shapes at rest give the reason.
 //
 // A hose that is clamped on a robot may have several shapes at rest. Each shape that is found is followed through the
-// program. The checks use the shape that is nearest to the start of a run.
+// program. The checks use the shape that is nearest to the start of a run. Rounds of a loop of the program are followed until two of
+// them are equal.
 #pragma once
 
 #include <functional>
@@ -52,8 +53,8 @@ struct QuickFindings {
 /// Returns the findings. Errors: InputError for a motion that the robot cannot run.
 QuickFindings quick_findings(const pipeline::Setup& setup);
 
-/// Returns the findings for a changed routing, in the order of their cost: slack, a run with rest_segments, the short run, shapes
-/// at rest. Ends before the next of them if `rejects` returns true for the findings so far; ends a run as in short_run().
+/// Returns the findings for a changed routing, in the order of their cost: slack, a coarse run, the short run, the shape at rest that
+/// is nearest to it. Ends before the next of them if `rejects` returns true for the findings so far; ends a run as in short_run().
 QuickFindings findings_unless(const pipeline::Setup& setup, const std::function<bool(const QuickFindings&)>& rejects,
                               double useless_below, int dresspack);
 

@@ -18,7 +18,7 @@ namespace {
 
 using pipeline::InputError;
 
-constexpr double same_step = 1e-9;  // [s]
+constexpr double same_step = 1e-9, rounding = 1e-9;  // [s]
 constexpr double exact_lead = 0.1;  // share of the lead-in repeat, at its end, that has the motion's own step
 
 /// Checks the size before memory or time is used. The acceleration of each step of a repeat is kept, 8 bytes each; each
@@ -172,27 +172,34 @@ struct Simulation::Repeat {
 std::unique_ptr<World> Simulation::led_in(const RunSinks& sinks) const {
   const double h = setup_.simulation.time_step;
   const int steps = (description_.samples - 1) * steps_per_sample(h);
-  const int coarse = static_cast<int>((1 - exact_lead) * steps / 2);
+  const int coarse = static_cast<int>((1 - exact_lead) * steps / 2) * 2;
   const int taut_steps = 2 * steps_per_sample(h);  // for both steps; a run with samples checks at the same distance
   std::unique_ptr<World> world = world_at(start_, path_->at(0), 2 * h);
   RodState before;
-  const auto advance = [&](int at) {
-    const Pose pose = path_->at(at * h);
-    if (at == 2 * coarse) before = world->state();
-    if (sinks.progress) sinks.progress(static_cast<double>(at) / steps);
+  LeftOutRounds rounds(rod_, *path_, setup_.simulation.periodic_tolerance);
+  double left_out = 0;  // [s]
+  int at = 0;
+  const auto time = [&] { return at * h + left_out; };
+  const auto advance = [&](int by) {
+    at += by;
+    const Pose pose = path_->at(time());
+    if (by == 2) before = world->state();
+    if (sinks.progress) sinks.progress(time() / (steps * h));
     const double before_step = world->work();
-    return world->advance(pose.clamps, pose.links).finite &&
-           (at % taut_steps != 0 || rod_.mean_elongation(world->state()) <= longest_elongation) &&
-           (!sinks.goes_on || sinks.goes_on(world->work() - before_step, true));
+    const bool goes_on = world->advance(pose.clamps, pose.links).finite &&
+                         (at % taut_steps != 0 || rod_.mean_elongation(world->state()) <= longest_elongation) &&
+                         (!sinks.goes_on || sinks.goes_on(world->work() - before_step, true));
+    if (goes_on && sinks.wanted == Wanted::checks) left_out += rounds.see(time(), by * h, world->state());
+    return goes_on;
   };
-  for (int k = 1; k <= coarse; ++k)
-    if (!advance(2 * k)) return nullptr;
-  if (coarse > 0)
-    world = world_at(with_half_step(world->state(), before), path_->at(2 * coarse * h), h);
+  while (time() + 2 * h <= coarse * h + rounding)
+    if (!advance(2)) return nullptr;
+  if (at > 0)
+    world = world_at(with_half_step(world->state(), before), path_->at(time()), h);
   else
     world = world_at(start_, path_->at(0), h);
-  for (int k = 2 * coarse + 1; k <= steps; ++k)
-    if (!advance(k)) return nullptr;
+  while (time() + h <= steps * h + rounding)
+    if (!advance(1)) return nullptr;
   return world;
 }
 
@@ -230,7 +237,7 @@ RunSummary Simulation::run(const RunSinks& sinks) const {
       }
     }
     if (summary.returns && !summary.periodic && summary.repeats < settings.most_repeats) continue;
-    if (!sinks.places_only) summary.curvature_error = repeat.error.estimate();
+    if (sinks.wanted == Wanted::everything) summary.curvature_error = repeat.error.estimate();
     summary.curvature = repeat.checks.curvature();
     summary.twist = repeat.checks.twist();
     summary.tension = repeat.checks.tension();
@@ -258,10 +265,9 @@ std::optional<double> Simulation::run_once(World& world, Repeat& repeat, const R
   StepReport since;
   Touch touch(rod_.segments(), description_.link_names, static_cast<int>(pose.rings.size()));
   Rubbing rubbing(rod_);
-  const auto hand_over = [&](int sample) {
-    const double time = sample / setup_.simulation.sample_rate;
+  const auto hand_over = [&](double time) {
     const RodState& state = world.state();
-    const bool all = !sinks.places_only;
+    const bool all = sinks.wanted == Wanted::everything;
     const std::vector<double> pull = all ? rod_.tensions(state) : std::vector<double>{};
     for (const Span& span : rod_.spans())
       for (int i = 0; all && i < span.segments(); ++i)
@@ -273,37 +279,45 @@ std::optional<double> Simulation::run_once(World& world, Repeat& repeat, const R
     since = {};
     touch.begin_sample();
     rubbing.end_sample(time);
-    if (sinks.progress) sinks.progress((sample + 1.0) / description_.samples);
   };
   const auto ways = [&] {
     return pose.rings.empty() ? std::vector<double>{}
                               : shortest_ways(setup_, rod_, world.state().clamps, pose.rings);
   };
-  if (!sinks.places_only) checks.see(world.state(), {}, 0, ways());
+  if (sinks.wanted != Wanted::places) checks.see(world.state(), {}, 0, ways());
   repeat.error.see(0, world.state());
   hand_over(0);
+  LeftOutRounds rounds(rod_, *path_, setup_.simulation.periodic_tolerance);
+  double left_out = 0;  // [s]
   for (int sample = 1; sample < description_.samples; ++sample) {  // (R6)
     const double before = world.work();
     for (int k = 1; k <= per_sample; ++k) {
       const int count = (sample - 1) * per_sample + k;
-      const double time = count * step;
+      const double time = count * step + left_out;
       pose = path_->at(time);
       const StepReport report = world.advance(pose.clamps, pose.links);
       check_step(report, time);
-      if (sinks.places_only) continue;
+      if (sinks.wanted == Wanted::places) continue;
       checks.see(world.state(), world.contacts(), time, ways());
+      if (sinks.wanted == Wanted::checks) {
+        left_out += rounds.see(time, step, world.state());
+        continue;
+      }
       touch.add(world.contacts(), step);
       rubbing.add(world.contacts(), world.state(), step);
       repeat.error.see(count, world.state());
       since.touching = std::max(since.touching, report.touching);
       since.max_depth = std::max(since.max_depth, report.max_depth);
     }
-    check_taut(world.state(), sample / setup_.simulation.sample_rate);
-    hand_over(sample);
-    if (sinks.goes_on && !sinks.goes_on(world.work() - before, false)) return sample / setup_.simulation.sample_rate;
-    if (last && sinks.still_of_use && !sinks.still_of_use(checks)) return sample / setup_.simulation.sample_rate;
+    const double time = sample / setup_.simulation.sample_rate + left_out;
+    check_taut(world.state(), time);
+    hand_over(time);
+    if (sinks.progress) sinks.progress((sample + 1.0) / description_.samples);
+    if (sinks.goes_on && !sinks.goes_on(world.work() - before, false)) return time;
+    if (last && sinks.still_of_use && !sinks.still_of_use(checks)) return time;
+    if (left_out > 0 && time >= path_->duration()) break;
   }
-  if (sinks.places_only) return {};
+  if (sinks.wanted != Wanted::everything) return {};
   repeat.rubbed = rubbing.patches(touch);
   repeat.obstacles = touch.obstacles();
   return {};

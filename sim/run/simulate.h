@@ -86,6 +86,15 @@ std::vector<pipeline::Warning> warnings_of(const Simulation& simulation, const R
 /// Returns a note with the number of repeats; empty: one repeat.
 std::string repeats_note(const RunSummary& summary);
 
+/// What a run computes beside states and clamps.
+enum class Wanted {
+  everything,
+  /// checks: a sample's energy, tension and touch, rubbing and the error of the step stay empty. Rounds of a loop are left out as
+  /// soon as two successive ones begin in the same state (R8): the remaining ones are equal to the last.
+  checks,
+  places,  ///< nothing: a sample's contacts and the checks stay empty, too
+};
+
 /// Callbacks for the results of a run; only `take` is required.
 struct RunSinks {
   std::function<void(const Sample&)> take;    ///< every sample of every repeat except the lead-in
@@ -95,9 +104,7 @@ struct RunSinks {
   std::function<bool(double, bool)> goes_on = {};
   /// Returns whether the evaluated repeat continues, given the checks of its samples so far.
   std::function<bool(const MotionChecks&)> still_of_use = {};
-  /// Only states and clamps are wanted: a sample's energy, tension, contacts and touch, checks, rubbing and the error of the
-  /// step stay empty.
-  bool places_only = false;
+  Wanted wanted = Wanted::everything;
 };
 
 class Simulation {

@@ -1,6 +1,7 @@
 // The remedies that warnings name: after each is applied, its warning disappears.
 #include "sim/run/cures.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <optional>
 
@@ -98,6 +99,14 @@ TEST_CASE("a changed routing is checked only until a limit decides") {
     CHECK(all.checks[k].value == found.checks[k].value);
     CHECK(all.checks[k].warning == found.checks[k].warning);
   }
+}
+
+TEST_CASE("a program of one pose is checked at rest in this pose") {
+  pipeline::Job job = simple_job();
+  job.motion.steps = {move_to(0)};
+  std::vector<std::string> names;
+  for (const Check& check : quick_findings(job).checks) names.push_back(check.name);
+  CHECK(std::find(names.begin(), names.end(), "smallest bend radius at rest") != names.end());
 }
 
 TEST_CASE("cures: a length that is too short or too long is cured by the length that is named") {
