@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <set>
 
 #include "pipeline/base/constants.h"
 #include "pipeline/base/order.h"
@@ -364,7 +365,33 @@ std::vector<double> nodes_of(const FailureModes& modes, std::size_t parameter) {
   return nodes;
 }
 
-/// Returns the modes with a coarser response, once for each item of error_factors().
+using StrainPoint = std::array<double, strain_parameters>;
+
+/// Returns z of a point without friction inside. Points with an equal result have the same motion of the cables.
+StrainPoint place_of(StrainPoint point) {
+  point[of_friction] = 0;
+  return point;
+}
+
+std::set<StrainPoint> places_of(const FailureModes& modes) {
+  std::set<StrainPoint> places;
+  for (const LifeResponse& mode : modes)
+    for (const StrainPoint& point : mode.points) places.insert(place_of(point));
+  return places;
+}
+
+/// Returns the response with longer lives at the points of one place. Those of the job's own place are in `planned`, too.
+LifeResponse with_longer_lives(LifeResponse response, const StrainPoint& place, double decades) {
+  const std::size_t of_point = response.strength.size() * response.slope.size();
+  for (std::size_t k = 0; k < response.worst_life.size(); ++k)
+    if (place_of(response.points[k / of_point]) == place) response.worst_life[k] += decades;
+  if (place == StrainPoint{})
+    for (auto& lives : response.planned)
+      for (double& life : lives) life += decades;
+  return response;
+}
+
+/// Returns the modes with a coarser response, once for each item of error_factors() that needs one.
 std::vector<FailureModes> coarser(const FailureModes& modes) {
   std::vector<FailureModes> all;
   const auto add = [&](const auto& change) {
@@ -385,11 +412,6 @@ std::vector<FailureModes> coarser(const FailureModes& modes) {
     std::vector<double> nodes = once(nodes_of(modes, p));
     std::erase(nodes, 0.0);
     others |= !nodes.empty();
-    if (p == rest_parameter || nodes.size() < 2) continue;
-    for (const double z : nodes)
-      add([&](const LifeResponse& mode) {
-        return without_points(mode, [&](const auto& point) { return point[p] == z; });
-      });
   }
   if (others)
     add([](const LifeResponse& mode) {
@@ -397,6 +419,10 @@ std::vector<FailureModes> coarser(const FailureModes& modes) {
         return point[of_friction] != 0 && (point[of_slack] != 0 || point[of_stiffness] != 0);
       });
     });
+  const std::set<StrainPoint> places = places_of(modes);
+  if (places.size() > 1)
+    for (const StrainPoint& place : places)
+      add([&](const LifeResponse& mode) { return with_longer_lives(mode, place, chance_decades); });
   return all;
 }
 
@@ -413,11 +439,18 @@ LifePercentiles error_factors(const FailureModes& modes, const std::string& job,
     const double rank = shares[i] * double(count) - 0.5, reach = std::sqrt(double(count) * shares[i] * (1 - shares[i]));
     squares[i] = std::pow((number_at(sorted, rank + reach) - number_at(sorted, rank - reach)) / 2, 2);
   }
-  const std::vector<Samples> samples = samples_of(modes, job, count);
-  for (const FailureModes& changed : coarser(modes)) {
-    const LifePercentiles other = percentiles_of(lives_of(surfaces_of(changed), samples, Inside::as_is));
+  const auto add = [&](const LifePercentiles& other) {
     for (std::size_t i = 0; i < shares.size(); ++i)
       squares[i] += std::pow(std::min(std::log10(other[i]), LifeResponse::endless) - std::log10(percentiles[i]), 2);
+  };
+  const std::vector<Samples> samples = samples_of(modes, job, count);
+  for (const FailureModes& changed : coarser(modes))
+    add(percentiles_of(lives_of(surfaces_of(changed), samples, Inside::as_is)));
+  if (places_of(modes).size() > 1) {
+    const std::vector<double> chance = standard_normals("chance/job " + job, count);
+    std::vector<double> lives = log10_lives;
+    for (std::size_t s = 0; s < count; ++s) lives[s] += chance_decades * chance[s];
+    add(percentiles_of(lives));
   }
   LifePercentiles factors{};
   for (std::size_t i = 0; i < shares.size(); ++i)

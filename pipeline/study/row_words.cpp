@@ -55,7 +55,10 @@ std::string error_words(const RankingRow& row) {
     if (std::isfinite(row.planned_errors[i]) && row.planned_errors[i] >= none)
       words += fmt::format("{}the {} % value by a factor of {}", words.empty() ? "" : ", ", shares[i], readable(row.planned_errors[i], 2));
   if (words.empty()) return "";
-  return fmt::format("These hours also have a numerical error: {}.", words);
+  return fmt::format(
+      "These hours also have a numerical error, because lives jump with stiffness, slack and friction, and only some of these are "
+      "computed: {}.",
+      words);
 }
 
 std::string joined_words(const std::vector<std::string>& sentences) {

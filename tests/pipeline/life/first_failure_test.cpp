@@ -161,9 +161,24 @@ TEST_CASE("what is known moves nothing, and what is known better moves less") {
   CHECK(std::log10(summary_of({response}, "job").percentiles[1]) == Approx(4.4).margin(0.01));
 }
 
+/// Returns the response with the points at which `keeps` is true.
+template <class Keeps>
+LifeResponse with_points(LifeResponse response, const Keeps& keeps) {
+  const LifeResponse all = response;
+  response.points.clear(), response.inside.clear(), response.worst_life.clear();
+  for (std::size_t k = 0; k < all.worst_life.size(); ++k) {
+    const std::size_t point = k / all.strength.size();
+    if (!keeps(all.points[point])) continue;
+    if (k % all.strength.size() == 0) response.points.push_back(all.points[point]), response.inside.push_back(all.inside[point]);
+    response.worst_life.push_back(all.worst_life[k]);
+  }
+  return response;
+}
+
 TEST_CASE("the error of a percentile is that of few samples where the response is straight, and grows where it bends") {
   const double a = 0.6;
-  LifeResponse response = straight(a, 0, 0);
+  // One place of the cables: their lives have no error by chance.
+  LifeResponse response = with_points(straight(a, 0, 0), [](const auto& point) { return point[slack] == 0; });
   for (const std::size_t p : {strength, model})
     response.knowledge.covariance(static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(p)) = 0;
   response.planned = {{5, 5, 5}};
@@ -178,12 +193,10 @@ TEST_CASE("the error of a percentile is that of few samples where the response i
   CHECK(std::log10(of_samples[0]) == Approx(a * 0.3 / density / std::sqrt(double(samples))).epsilon(0.05));
   // An additional node, whose life is 0.2 decades below the line. Without this node the life there is longer by 0.2.
   const double bend = 0.2, z = 0.75;
-  for (const double s : {0.0, -1.5, 1.5}) {
-    response.points.push_back({});
-    response.inside.push_back(Inside::as_is);
-    response.points.back()[friction] = z, response.points.back()[slack] = s;
-    for (std::size_t k = 0; k < response.strength.size(); ++k) response.worst_life.push_back(5 + 0.3 - a * z - bend);
-  }
+  response.points.push_back({});
+  response.inside.push_back(Inside::as_is);
+  response.points.back()[friction] = z;
+  for (std::size_t k = 0; k < response.strength.size(); ++k) response.worst_life.push_back(5 + 0.3 - a * z - bend);
   // 10 % fail first at z = 1.28, between this node and the one at 1.5. The median is at z = 0, where nothing changes.
   const LifePercentiles bent = errors(response);
   const double by_node = bend * (1.5 - decile) / (1.5 - z), slope = a - bend / (1.5 - z);
@@ -192,26 +205,22 @@ TEST_CASE("the error of a percentile is that of few samples where the response i
   CHECK(std::log10(bent[1]) < 2 * std::log10(of_samples[1]));
 }
 
-TEST_CASE("the error of a percentile contains what one node of the friction along the hose decides") {
-  // Lives fall by 0.2 z above 0 and are constant below. Without the node at 1.5 they do not fall above 0. Without the node at
-  // -1.5 they rise by 0.2 |z| below 0.
-  LifeResponse response = straight(0, 0, 0);
+TEST_CASE("the error of a percentile contains the chance of computed lives and of each dresspack's own") {
+  const double b = 0.6, node = 1.5;  // log10 life = 5 - b slack, from nodes at 0 and +-1.5
+  LifeResponse response = with_points(straight(0, b, 0), [](const auto& point) { return point[friction] == 0; });
   response.planned = {{5, 5, 5}};
-  for (const double z : {-1.5, 1.5}) {
-    response.points.push_back({});
-    response.inside.push_back(Inside::as_is);
-    response.points.back()[index_of(Uncertain::friction_hose)] = z;
-    for (std::size_t k = 0; k < response.strength.size(); ++k) response.worst_life.push_back(5.3 - (z > 0 ? 0.3 : 0));
-  }
-  for (Eigen::Index p = 0; p < response.knowledge.mean.size(); ++p)
-    if (p != static_cast<Eigen::Index>(index_of(Uncertain::friction_hose)))
-      response.knowledge.covariance(p, p) = 0;
+  response.knowledge.covariance.setZero();
+  response.knowledge.covariance(slack, slack) = 1;
   constexpr std::size_t samples = 10000;
-  const std::vector<double> lives = first_failures({response}, "job", samples);
-  const LifePercentiles error = error_factors({response}, "job", samples, lives);
-  // 10 % of lives are shorter than the life at z = 1.28, and 90 % are shorter than that at z = -1.28.
-  CHECK(std::log10(error[0]) == Approx(0.2 * decile).epsilon(0.05));
-  CHECK(std::log10(error[2]) == Approx(0.2 * decile).epsilon(0.05));
+  const LifePercentiles error =
+      error_factors({response}, "job", samples, first_failures({response}, "job", samples));
+  // p10 is at slack 1.28, and p90 at -1.28: a life at this node counts 1.28/1.5, the job's own the remainder. Each dresspack's
+  // chance widens the normal distribution of lives.
+  const double by_node = chance_decades * decile / node, by_own = chance_decades - by_node;
+  const double wider = decile * (std::hypot(b, chance_decades) - b);
+  for (const std::size_t end : {0, 2})
+    CHECK(std::log10(error[end]) == Approx(std::sqrt(by_node * by_node + by_own * by_own + wider * wider)).epsilon(0.02));
+  CHECK(std::log10(error[1]) == Approx(chance_decades).epsilon(0.02));  // the median is at the job's own slack
 }
 
 TEST_CASE("the best test is that of the cause that spreads most, and its range is that of what is left") {

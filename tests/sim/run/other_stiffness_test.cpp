@@ -95,4 +95,22 @@ TEST_CASE("other stiffnesses: none where the stiffness is known") {
   CHECK(written(job).factors.empty());
 }
 
+TEST_CASE("other stiffnesses: a hose too stiff for its clamps is recorded at half the change, or not at all, with a warning") {
+  pipeline::Job job = sagging();  // a hose 14 times as stiff pulls itself out of its clamps, which are not on one line
+  double& spread = job.uncertainty.spread[index_of(Uncertain::hose_stiffness)];
+  spread = 5;
+  const Written half = written(job);
+  REQUIRE(half.factors.size() == 2);
+  CHECK(half.factors[1] == Approx(std::pow(5.0, 1.65 / 2)));
+  REQUIRE(half.warnings.size() == 1);
+  CHECK_THAT(half.warnings[0].words, Catch::Contains("with 14 times the hose's bending stiffness the simulation is refused") &&
+                                         Catch::Contains("5 to 20 % of hoses are too stiff for this program") &&
+                                         Catch::Contains("through 1 and 3.8 times the stiffness"));
+  spread = 20;
+  const Written none = written(job);
+  CHECK(none.factors.size() == 1);
+  REQUIRE(none.warnings.size() == 1);
+  CHECK_THAT(none.warnings[0].words, Catch::Contains("a straight line through the other stiffness"));
+}
+
 }  // namespace dresslife::sim
