@@ -121,8 +121,8 @@ TEST_CASE("two robots, shipped study: the table and the first job of the README,
     const fs::path job = scratch / "runs/two_robots/hard";
     const std::string strain = inside + "_strain.h5", life = inside + "_life.h5";
     must_run(scratch, "dresslife-strain",
-             "'" + (job / "motion.h5").string() + "' --quiet --set 'strain.slip=[friction, " + inside + ", " +
-                 inside + "]' -o " + strain);
+             "'" + (job / "motion.h5").string() + "' --quiet --set uncertainty.enabled=false --set 'strain.slip=[friction, " +
+                 inside + ", " + inside + "]' -o " + strain);
     must_run(scratch, "dresslife-fatigue", strain + " --quiet -o " + life);
     REQUIRE(std::isfinite(hours_of(scratch / life, "life_hours")));
     CHECK(hours_of(job / "life.h5", "life_hours_all_" + inside) ==
@@ -134,9 +134,10 @@ TEST_CASE(
     "two robots with the thesis' settings: hours, robot 1 worse, aluminium worse than copper in the same "
     "place") {
   Scratch scratch;
-  // Lives at the jobs' own values. Other values of uncertain parameters are not needed.
-  auto rows = run_study(scratch, config + "studies/two_robots_thesis.yaml", "two_robots_thesis",
-                        " --set uncertainty.enabled=false");
+  // Lives at the jobs' own values, with the thesis' settings. Other values of uncertain parameters are not needed.
+  scratch.write("two_robots_thesis.yaml",
+                edited(content(config + "studies/two_robots_thesis.yaml"), "  defaults: {}\n", ""));
+  auto rows = run_study(scratch, "two_robots_thesis.yaml", "two_robots_thesis", " --set uncertainty.enabled=false");
   const Row copper_1 = rows["thesis-spot_robot_1-copper"], copper_2 = rows["thesis-spot_robot_2-copper"];
   const Row aluminium_1 = rows["thesis-spot_robot_1-aluminium_7070_t6"],
             aluminium_2 = rows["thesis-spot_robot_2-aluminium_7070_t6"];

@@ -145,14 +145,14 @@ TEST_CASE("improve states the worst life within the tolerance of a turned end, a
 TEST_CASE("a search that is killed ends where it would have ended") {
   Scratch scratch;
   write_small_study(scratch);
-  const std::string line = "improve better.yaml --trials 10 --quiet -j 2 -o ";
+  const std::string line = "improve better.yaml --trials 6 --quiet -j 2 -o ";
   must_run(scratch, "dresslife", line + "whole");
-  // Killed after the sixth trial, then restarted.
+  // Killed after the third trial, then restarted.
   const Outcome killed =
       run_shell(scratch, "'" DRESSLIFE_BIN_DIR "/dresslife' " + line +
                              "killed & pid=$!\n"
                              "for k in $(seq 600); do\n"
-                             "  [ -e killed/better_improve/trial_0006/.stage/fatigue.receipt ] && break\n"
+                             "  [ -e killed/better_improve/trial_0003/.stage/fatigue.receipt ] && break\n"
                              "  sleep 0.1\n"
                              "done\n"
                              "kill -9 $pid; wait $pid; echo $?");

@@ -153,7 +153,9 @@ TEST_CASE("new: clamps of which none runs are left to be filled in, without a pl
     parent = link;
   }
   scratch.write("arm.urdf", arm + "</robot>\n");
-  const Outcome made = make(scratch, "--robot arm.urdf --program hard --dresspack hose.yaml mine.yaml");
+  const std::string hard = content(fs::path(DRESSLIFE_SOURCE_DIR) / "config/programs/hard.yaml");
+  scratch.write("round.yaml", edited(hard, "repeat: 12", "repeat: 1"));
+  const Outcome made = make(scratch, "--robot arm.urdf --program round.yaml --dresspack hose.yaml mine.yaml");
   INFO(made.out << made.err);
   REQUIRE(made.status == 0);
   const std::string text = content(scratch / "mine.yaml");

@@ -54,10 +54,10 @@ const std::map<std::string, std::string> instead{
     {"dresslife check JOB.yaml", "dresslife check irb6640_spot_welding"},
     {"dresslife preview JOB.yaml", "dresslife preview irb6640_spot_welding"},
     {"dresslife route ROBOT_OR_JOB",
-     "dresslife route abb_irb4600_60_205 --scale 0.5 --tried 100 --rehearsals 40" + quick},
+     "dresslife route abb_irb4600_60_205 --scale 0.5 --tried 60 --rehearsals 20 --set uncertainty.enabled=false" + quick},
     {"dresslife run JOB.yaml", "dresslife run irb6640_spot_welding" + quick},
     {"dresslife improve JOB_OR_STUDY",
-     "dresslife improve side_panel --trials 2 --rehearsals 0 --off 0" + quick},
+     "dresslife improve side_panel --trials 2 --rehearsals 0 --off 0 --set uncertainty.enabled=false" + quick},
     {"dresslife duty FILE", "dresslife duty two_robots" + quick},
     {"dresslife duty DUTIES.yaml", "dresslife duty two_robots" + quick},
     {"dresslife plan FLEET.csv --duties DUTIES.yaml --windows 2027-07-12..2027-08-01", "not run"},  // as below
@@ -65,7 +65,7 @@ const std::map<std::string, std::string> instead{
      "dresslife plan CONFIG/duties/fleet.csv --duties two_robots --today 2026-11-23 --windows "
      "2027-07-12..2027-08-01,2027-12-20..2028-01-02" +
          quick},
-    {"dresslife reprogram JOB_OR_STUDY", "dresslife reprogram side_panel --lines 1" + quick},
+    {"dresslife reprogram JOB_OR_STUDY", "dresslife reprogram side_panel --lines 1 --set uncertainty.enabled=false" + quick},
     {"dresslife-sim JOB.yaml -o motion.h5",
      "dresslife-sim CONFIG/jobs/irb6640_spot_welding.yaml -o motion.h5" + quick},
     {"dresslife-strain motion.h5 -o strain.h5", "dresslife-strain motion.h5 -o strain.h5"},

@@ -24,8 +24,8 @@ TEST_CASE("route writes a job that runs, from a robot and a hose") {
   Scratch scratch;
   scratch.write("hose.yaml", thin_hose);
   const std::string line =
-      "route abb_irb2600_12_165 --dresspack ./hose.yaml --scale 1 --tried 150 --rehearsals 40 --off 0 --quiet "
-      "--set simulation.segments=16 --job found.yaml";
+      "route abb_irb2600_12_165 --dresspack ./hose.yaml --scale 1 --tried 60 --rehearsals 15 --off 0 --quiet "
+      "--set simulation.segments=16 --set uncertainty.enabled=false --job found.yaml";
   const Outcome told = must_run(scratch, "dresslife", line);
   INFO(told.err);
   CHECK(told.out.find("base_clamp: {link: link_3, ") == 0);
@@ -57,7 +57,7 @@ TEST_CASE("route finds clamps for a shipped hose that keep all limits in the who
   Scratch scratch;
   const Outcome told =
       run(scratch, "dresslife",
-          "route abb_irb4600_60_205 --scale 0.5 --tried 100 --rehearsals 40 --quiet --bracket 145 "
+          "route abb_irb4600_60_205 --scale 0.5 --tried 60 --rehearsals 20 --quiet --bracket 145 "
           "--set simulation.segments=20 --set strain.surface_fibres=0 --set uncertainty.enabled=false");
   INFO(told.err + told.out);
   CHECK(told.status == 0);
@@ -101,7 +101,7 @@ TEST_CASE("route and improve refuse a cable that no routing can give room, befor
       CHECK(results_in(scratch / folder) == 0);
   };
   const std::string quick =
-      " --scale 1 --tried 20 --rehearsals 4 --off 0 --quiet --set simulation.segments=12";
+      " --scale 1 --tried 20 --rehearsals 4 --off 0 --quiet --set simulation.segments=12 --set uncertainty.enabled=false";
   refused(
       run(scratch, "dresslife", "route abb_irb2600_12_165 --dresspack ./hose.yaml --job found.yaml" + quick));
   const std::string job = R"(robot: abb_irb2600_12_165
@@ -112,6 +112,7 @@ routing:
   tool_clamp: {link: link_6, position_m: [0.05, 0, 0.1], direction: [1, 0, 0]}
   free_length_m: 1.3
 simulation: {segments: 12}
+uncertainty: {enabled: false}
 )";
   scratch.write("job.yaml", job);
   refused(run(scratch, "dresslife", "improve job.yaml --trials 2 --rehearsals 0 --off 0 --quiet"));
@@ -143,8 +144,8 @@ TEST_CASE("a search that ends without a routing names the limit that decides, an
   const auto routed = [&](const std::string& radius) {
     return run(
         scratch, "dresslife",
-        "route abb_irb2600_12_165 --dresspack ./hose.yaml --scale 1 --tried 150 --rehearsals 40 --off 0 --quiet "
-        "--set simulation.segments=16 --job found.yaml --set dresspack.least_bend_radius_mm=" +
+        "route abb_irb2600_12_165 --dresspack ./hose.yaml --scale 1 --tried 60 --rehearsals 15 --off 0 --quiet "
+        "--set simulation.segments=16 --set uncertainty.enabled=false --job found.yaml --set dresspack.least_bend_radius_mm=" +
             radius);
   };
   const Outcome failed = routed("3000");

@@ -4,9 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+
+#include "pipeline/cable/excess.h"
+#include "pipeline/job/job.h"
+#include "pipeline/resolve/job_text.h"
 #include "tests/catch.h"
 #include "tests/cli/process.h"
 
+using namespace dresslife;
 using namespace dresslife::tests;
 using Catch::Contains;
 
@@ -575,7 +580,16 @@ TEST_CASE("a program is compared with the zero pose of a robot whose maker is no
 }
 
 TEST_CASE("plausible mistakes that make a job are warned of, with place, limit and remedy, the job as it is is not") {
-  const auto checked = [](const Doubtful* one) {
+  // Warnings of the description alone. `dresslife check` begins with them; then it moves the dresspack, which takes a second.
+  const auto described = [](const fs::path& file) {
+    const pipeline::Job job = pipeline::read_job(file);
+    std::string text;
+    for (const auto& warnings : {pipeline::construction_warnings(job.dresspacks[0].dresspack, true), job.motion.left_out})
+      for (const pipeline::Warning& warning : warnings) text += warning.line() + "\n";
+    return text;
+  };
+  int by_description = 0;
+  const auto checked = [&](const Doubtful* one) {
     const Scratch scratch;
     write_inputs(scratch);
     if (one) {
@@ -583,17 +597,23 @@ TEST_CASE("plausible mistakes that make a job are warned of, with place, limit a
       const std::size_t at = text.find(one->from);
       REQUIRE(at != std::string::npos);
       scratch.write(one->in, one->from.empty() ? one->to : text.replace(at, one->from.size(), one->to));
+      if (one->command == "check job.yaml") {
+        const std::string warnings = described(scratch / "job.yaml");
+        constexpr int every = 10;  // is nevertheless checked by the command
+        if (warnings.find(one->problem) != std::string::npos && by_description++ % every != 0) return warnings;
+      }
     }
-    return run(scratch, "dresslife", one ? one->command : "check job.yaml");
+    const Outcome outcome = run(scratch, "dresslife", one ? one->command : "check job.yaml");
+    return outcome.out + outcome.err;
   };
-  CHECK(checked(nullptr).out.find("warning: ") == std::string::npos);
+  CHECK(checked(nullptr).find("warning: ") == std::string::npos);
   const Doubtful unchanged{"nod.src", "END", "END", "", "", "", "check krl.yaml"};
-  CHECK(checked(&unchanged).out.find("warning: ") == std::string::npos);
+  CHECK(checked(&unchanged).find("warning: ") == std::string::npos);
   for (const Doubtful& one : doubtful) {
-    const Outcome outcome = checked(&one);
-    CAPTURE(one.in, one.to, outcome.out, outcome.err);
-    CHECK_THAT(outcome.out + outcome.err, Contains(one.place + (one.place.empty() ? "" : ": ") + "warning: ") && Contains(one.problem) &&
-                                Contains("Remedy: ") && Contains(one.remedy));
+    const std::string answer = checked(&one);
+    CAPTURE(one.in, one.to, answer);
+    CHECK_THAT(answer, Contains(one.place + (one.place.empty() ? "" : ": ") + "warning: ") && Contains(one.problem) &&
+                           Contains("Remedy: ") && Contains(one.remedy));
   }
 }
 

@@ -34,8 +34,8 @@ inline const char* name_of(sim::Language language) {
   return "p.json";
 }
 
-/// Reads `text` as a program. Returns the fault of the reader; empty: none.
-inline std::string fault_of_reading(sim::Language language, const std::string& text) {
+/// Reads `text` as a program. Returns the fault of the reader; empty: none. has_problems: receives whether it has problems.
+inline std::string fault_of_reading(sim::Language language, const std::string& text, bool* has_problems = nullptr) {
   std::deque<sim::SourceFile> files;
   files.emplace_back(name_of(language), text);
   if (language == sim::Language::fanuc) files.emplace_back("p.va", text);  // the same bytes as variables of a backup
@@ -48,6 +48,7 @@ inline std::string fault_of_reading(sim::Language language, const std::string& t
   options.assume["3"] = sim::Assumption::then_branch;
   sim::Problems problems;
   const sim::Program program = sim::read_program(language, std::move(files), options, {}, {}, problems);
+  if (has_problems) *has_problems = !problems.empty();
   for (const sim::Problem& problem : problems.list())
     if (problem.where.file.empty() || problem.what.empty()) return "a problem without a file or words";
   for (const sim::Instruction& instruction : program.instructions) {

@@ -164,11 +164,11 @@ TEST_CASE("import: mutated programs never break a reader") {
   for (int round = 0; round < 400; ++round)
     for (const auto& [language, seed] : samples()) {
       const std::string text = mutated(seed, random);
-      const std::string fault = tests::fault_of_reading(language, text);
+      bool has_problems = false;
+      const std::string fault = tests::fault_of_reading(language, text, &has_problems);
       INFO(text);
       REQUIRE(fault == "");
-      Reader reader{language};
-      refused += !reader({{"p", text}}).problems.empty();
+      refused += has_problems;
       ++runs;
     }
   CHECK(refused > runs / 4);  // many mutations cause errors
