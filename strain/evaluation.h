@@ -128,6 +128,7 @@ class Evaluation {
   std::size_t dresspack() const { return place_.dresspack; }
   /// See CablePaths. Call share_loose(), record_rubbing() and wind() before the first sample.
   void share_loose(const Evaluation& other) { cables_.share_loose(other.cables_); }
+  bool shares_loose(const Evaluation& other) const { return cables_.shares_loose(other.cables_); }
   void record_rubbing() { cables_.record_rubbing(); }
   /// Returns paths and forces of the cables. Precondition: end_first_pass() or evaluate(), which calls it.
   const CablePaths& cables() const { return cables_; }
@@ -223,6 +224,8 @@ class Evaluation {
     std::vector<SiteMeasures> seen;
   };
 
+  /// Returns the motion of a segment where its wires are evaluated; valid until the next call. Segments as in evaluate().
+  const SegmentMotion& motion_at_wires(std::size_t segment, const DeformationHistory& history, std::size_t row);
   /// Returns whether strains are composed wire by wire: in layers with friction, and in all layers when shear counts.
   bool mixed(const ClampMeans& means) const;
   void add_bends(const DeformationHistory& block);
@@ -312,6 +315,9 @@ class Evaluation {
   std::vector<std::vector<Site>> likely_of_bent_;  ///< (segment), where damage_of_bent() was called
   CablePaths cables_;
   CablePaths::Keeper keeper_;
+  CablePaths::Keeper keeper_at_wires_;
+  const SegmentMotion* at_wires_ = nullptr;  ///< null: none yet
+  std::size_t at_wires_segment_ = 0, at_wires_row_ = 0;
   /// Variance over the samples of a vector.
   struct Variance {
     std::array<double, 2> sum{};

@@ -174,14 +174,24 @@ std::vector<Evaluation*> Variations::placed(std::size_t span) const {
   return all;
 }
 
+bool Variations::lies_elsewhere(const Placement& placement, std::size_t span) const {
+  if (stiffness_ != 0) return true;
+  return placement.spans != &as_given_ && !(*placement.spans)[span]->shares_loose(*as_given_[span]);
+}
+
+void Variations::find_bent() const {
+  for (const Placement& placement : placements_)
+    for (std::size_t span = 0; span < placement.spans->size(); ++span)
+      if (lies_elsewhere(placement, span)) (*placement.spans)[span]->find_bent();
+}
+
 void Variations::evaluate(const std::vector<Evaluation::Site>& likely, std::size_t span, std::size_t segment,
                           const DeformationHistory& history, std::size_t row, const Put& put) const {
   if (likely.empty()) return;
   for (const Placement& placement : placements_) {
     Evaluation& placed = *(*placement.spans)[span];
     std::vector<Evaluation::Site> wires = likely;
-    const bool lie_elsewhere = placement.spans != &as_given_ || stiffness_ != 0;  // then other wires can be the worst
-    if (lie_elsewhere)
+    if (lies_elsewhere(placement, span))
       wires = with_likely_of_bent(std::move(wires), placed, segment, history, row);
     std::vector<std::size_t> sites;
     for (const Evaluation::Site site : wires) sites.push_back(as_given_[span]->row_of(segment, site));

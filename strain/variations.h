@@ -7,7 +7,7 @@
 // to infinity (no slip at any pressure): the bounds of a cable. Play is not varied: in the shipped programs it changes lives by a
 // tenth of a decade and would cost as much as a slack. Places and forces of cables are computed again for each variation except
 // friction inside. The wires are the likely worst ones of each segment and layer of the job itself. If cables lie elsewhere, the
-// likely worst wires of the cables that bend most there are added.
+// likely worst wires of the cables that bend most there are added. Friction along the hose and grips do not move them.
 #pragma once
 
 #include <array>
@@ -48,6 +48,8 @@ class Variations {
   /// Returns the evaluations of a span that need the motion in addition to the job's own.
   std::vector<Evaluation*> placed(std::size_t span) const;
 
+  /// Finds the cables that bend most, where they do not lie at the job's own places. Precondition: all samples were added.
+  void find_bent() const;
   /// Moves the cables of all variations to the present places of the job's own.
   void go_on() const;
   /// Adds the rests of starts as variations. Precondition: all samples were added.
@@ -73,6 +75,8 @@ class Variations {
     pipeline::Inside inside = pipeline::Inside::as_is;
     double factor() const;
   };
+  /// Returns whether the cables of a placement do not lie where those of the job itself lie. Then other wires can be the worst.
+  bool lies_elsewhere(const Placement& placement, std::size_t span) const;
   static std::vector<Friction> other_frictions(const Spans& spans);
   void add(const Spans& spans, Point z, const std::vector<Friction>& friction);
   /// Adds an evaluation with another value of a parameter than as_given_.
