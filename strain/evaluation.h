@@ -128,7 +128,6 @@ class Evaluation {
   std::size_t dresspack() const { return place_.dresspack; }
   /// See CablePaths. Call share_loose(), record_rubbing() and wind() before the first sample.
   void share_loose(const Evaluation& other) { cables_.share_loose(other.cables_); }
-  bool shares_loose(const Evaluation& other) const { return cables_.shares_loose(other.cables_); }
   void record_rubbing() { cables_.record_rubbing(); }
   /// Returns paths and forces of the cables. Precondition: end_first_pass() or evaluate(), which calls it.
   const CablePaths& cables() const { return cables_; }

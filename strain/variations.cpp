@@ -174,15 +174,15 @@ std::vector<Evaluation*> Variations::placed(std::size_t span) const {
   return all;
 }
 
-bool Variations::lies_elsewhere(const Placement& placement, std::size_t span) const {
-  if (stiffness_ != 0) return true;
-  return placement.spans != &as_given_ && !(*placement.spans)[span]->shares_loose(*as_given_[span]);
+bool Variations::lies_elsewhere(const Placement& placement) const {
+  return placement.spans != &as_given_ || stiffness_ != 0;
 }
 
 void Variations::find_bent() const {
-  for (const Placement& placement : placements_)
-    for (std::size_t span = 0; span < placement.spans->size(); ++span)
-      if (lies_elsewhere(placement, span)) (*placement.spans)[span]->find_bent();
+  for (const Placement& placement : placements_) {
+    if (!lies_elsewhere(placement)) continue;
+    for (const auto& evaluation : *placement.spans) evaluation->find_bent();
+  }
 }
 
 void Variations::evaluate(const std::vector<Evaluation::Site>& likely, std::size_t span, std::size_t segment,
@@ -191,7 +191,7 @@ void Variations::evaluate(const std::vector<Evaluation::Site>& likely, std::size
   for (const Placement& placement : placements_) {
     Evaluation& placed = *(*placement.spans)[span];
     std::vector<Evaluation::Site> wires = likely;
-    if (lies_elsewhere(placement, span))
+    if (lies_elsewhere(placement))
       wires = with_likely_of_bent(std::move(wires), placed, segment, history, row);
     std::vector<std::size_t> sites;
     for (const Evaluation::Site site : wires) sites.push_back(as_given_[span]->row_of(segment, site));

@@ -7,7 +7,7 @@
 // to infinity (no slip at any pressure): the bounds of a cable. Play is not varied: in the shipped programs it changes lives by a
 // tenth of a decade and would cost as much as a slack. Places and forces of cables are computed again for each variation except
 // friction inside. The wires are the likely worst ones of each segment and layer of the job itself. If cables lie elsewhere, the
-// likely worst wires of the cables that bend most there are added. Friction along the hose and grips do not move them.
+// likely worst wires of the cables that bend most there are added.
 #pragma once
 
 #include <array>
@@ -76,7 +76,7 @@ class Variations {
     double factor() const;
   };
   /// Returns whether the cables of a placement do not lie where those of the job itself lie. Then other wires can be the worst.
-  bool lies_elsewhere(const Placement& placement, std::size_t span) const;
+  bool lies_elsewhere(const Placement& placement) const;
   static std::vector<Friction> other_frictions(const Spans& spans);
   void add(const Spans& spans, Point z, const std::vector<Friction>& friction);
   /// Adds an evaluation with another value of a parameter than as_given_.
