@@ -12,6 +12,9 @@
 namespace dresslife::strain {
 namespace {
 
+// Strains of two groups, 8 kB, stay in the first-level cache between mixing and scanning, beside the waves of their layer.
+constexpr std::size_t mixed_at_once = 64;
+
 /// Returns the share of node `node` in the value at one angle of the waves through a layer's nodes: Dirichlet's kernel.
 double nodal_share(double angle, int node) {
   const double away = angle - 2 * pi * node / waves_per_layer;
@@ -44,6 +47,7 @@ MixedLanes BundleScan::mixed_lanes(const WireNode* nodes, const Fibre* fibres, c
   mixed.scales = !is_thesis(construction_.kinematics());
   mixed.with_shear = settings_.with_shear;
   mixed.on_axis = settings_.on_axis;
+  mixed.used = static_cast<int>(angles.size());
   mixed.rest.resize(1 + settings_.fibre_count);
   mixed.fibre_scale.resize(settings_.fibre_count);
   std::vector<double> at_rest;  // (kind, node)
@@ -136,25 +140,30 @@ void BundleScan::scan_waves(std::size_t count, Wanted wanted) {
 }
 
 void BundleScan::scan_mixed(std::size_t count, Wanted wanted) {
-  const int fibres = settings_.fibre_count, kinds = ingredients(fibres);
-  const auto scan = wanted == Wanted::turns ? kernels().scan_strains : kernels().rank_strains;
-  const std::size_t of_group = fibres * block_samples * lanes;
-  strains_.resize(2 * of_group);
+  const std::size_t of_layer = ingredients(settings_.fibre_count) * waves_per_layer * block_samples;
+  strains_.resize(2 * settings_.fibre_count * mixed_at_once * lanes);
   for (std::size_t g = 0; g < groups_.size();) {
     const std::size_t together = g + 1 < groups_.size() && groups_[g + 1].mirrors ? 2 : 1;
     const std::span<Group> here(groups_.data() + g, together);
-    const float* of_layer = waves_.data() + here[0].layer * kinds * waves_per_layer * block_samples;
-    kernels().mix(here[0].mixed, together == 2 ? &here[1].mixed : nullptr, of_layer, block_samples, count,
-                  fibres, strains_.data(), strains_.data() + of_group);
-    runs_.clear();
-    for (std::size_t k = 0; k < together; ++k)
-      for (int f = 0; f < fibres; ++f)
-        add_run(here[k], f, count, wanted).strain = strains_.data() + k * of_group + f * count * lanes;
-    scan(runs_.data(), runs_.size(), count);
-    for (Group& group : here)
-      for (int f = 0; wanted == Wanted::turns && f < fibres; ++f) group.scans[f].done(lists_of(group, f));
+    for (std::size_t first = 0; first < count; first += mixed_at_once)
+      scan_mixed_groups(here, waves_.data() + here[0].layer * of_layer + first, std::min(mixed_at_once, count - first), wanted);
     g += together;
   }
+}
+
+void BundleScan::scan_mixed_groups(std::span<Group> here, const float* waves, std::size_t count, Wanted wanted) {
+  const int fibres = settings_.fibre_count;
+  const auto scan = wanted == Wanted::turns ? kernels().scan_strains : kernels().rank_strains;
+  const std::size_t of_group = fibres * mixed_at_once * lanes;
+  kernels().mix(here[0].mixed, here.size() == 2 ? &here[1].mixed : nullptr, waves, block_samples, count, fibres,
+                strains_.data(), strains_.data() + of_group);
+  runs_.clear();
+  for (std::size_t k = 0; k < here.size(); ++k)
+    for (int f = 0; f < fibres; ++f)
+      add_run(here[k], f, count, wanted).strain = strains_.data() + k * of_group + f * count * lanes;
+  scan(runs_.data(), runs_.size(), count);
+  for (Group& group : here)
+    for (int f = 0; wanted == Wanted::turns && f < fibres; ++f) group.scans[f].done(lists_of(group, f));
 }
 
 void BundleScan::run_blocks(const BundlePointers& nesting, bool mixed, Wanted wanted,

@@ -73,6 +73,8 @@ class BundleScan {
   /// Scans the next `count` samples of all groups, from the waves of the block.
   void scan_waves(std::size_t count, Wanted wanted);
   void scan_mixed(std::size_t count, Wanted wanted);
+  /// here: the wires of one layer, and their images if it has any. waves: of the ingredients of the layer.
+  void scan_mixed_groups(std::span<Group> here, const float* waves, std::size_t count, Wanted wanted);
   LaneRun& add_run(Group& group, int fibre, std::size_t count, Wanted wanted);
 
   const Construction& construction_;

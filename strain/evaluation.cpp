@@ -249,6 +249,16 @@ void Evaluation::add_means(const DeformationHistory& block) {
   meant_ += block.samples();
 }
 
+const SegmentMotion& Evaluation::motion_at_wires(std::size_t segment, const DeformationHistory& history,
+                                                 std::size_t row) {
+  const DeformationColumns hose = history.columns(row);
+  const bool same_place = at_wires_segment_ == segment && at_wires_row_ == row;
+  if (at_wires_ && same_place && at_wires_->hose.curvature1 == hose.curvature1) return *at_wires_;
+  at_wires_segment_ = segment, at_wires_row_ = row;
+  at_wires_ = &keeper_at_wires_.of(cables_, segment, hose, 0, history.samples(), true);
+  return *at_wires_;
+}
+
 bool Evaluation::mixed(const ClampMeans& means) const {
   return scan_.with_shear || std::any_of(means.plan().begin(), means.plan().end(),
                                          [](const LayerSlip& slip) { return slip.friction; });
@@ -654,8 +664,7 @@ std::vector<Evaluation::Site> Evaluation::sites_to_probe(const std::vector<const
 void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history, std::size_t row,
                           const Sink& sink) {
   end_first_pass();
-  const SegmentMotion& motion =
-      keeper_.of(cables_, segment, history.columns(row), 0, history.samples(), true);
+  const SegmentMotion& motion = motion_at_wires(segment, history, row);
   for (Worker& worker : workers_) worker.held[0]->begin(places_[segment], motion);
   const std::vector<Worst> worst = worst_of(segment, means_, motion, sink.sites);
   for (Bound* bound : {&stick_, &free_}) {
@@ -689,8 +698,7 @@ std::vector<Evaluation::Worst> Evaluation::worst_of_bent(std::size_t segment,
   const std::vector<int> cables = cables_.bent_most(segment);
   if (cables.empty()) return worst;
   end_first_pass();
-  const SegmentMotion& motion =
-      keeper_.of(cables_, segment, history.columns(row), 0, history.samples(), true);
+  const SegmentMotion& motion = motion_at_wires(segment, history, row);
   Worker& worker = workers_[0];
   worker.held[0]->begin(places_[segment], motion);
   worker.parent_is = {};
@@ -798,8 +806,7 @@ std::vector<SiteRows> Evaluation::varied(const std::vector<Site>& sites, const s
                                          std::size_t segment, const DeformationHistory& history,
                                          std::size_t row) {
   end_first_pass();
-  const SegmentMotion& motion =
-      keeper_.of(cables_, segment, history.columns(row), 0, history.samples(), true);
+  const SegmentMotion& motion = motion_at_wires(segment, history, row);
   std::vector<const ClampMeans*> ways;
   for (const double factor : factors) ways.push_back(&means_rubbing(factor));
   for (Worker& worker : workers_)

@@ -223,6 +223,8 @@ class Evaluation {
     std::vector<SiteMeasures> seen;
   };
 
+  /// Returns the motion of a segment where its wires are evaluated; valid until the next call. Segments as in evaluate().
+  const SegmentMotion& motion_at_wires(std::size_t segment, const DeformationHistory& history, std::size_t row);
   /// Returns whether strains are composed wire by wire: in layers with friction, and in all layers when shear counts.
   bool mixed(const ClampMeans& means) const;
   void add_bends(const DeformationHistory& block);
@@ -312,6 +314,9 @@ class Evaluation {
   std::vector<std::vector<Site>> likely_of_bent_;  ///< (segment), where damage_of_bent() was called
   CablePaths cables_;
   CablePaths::Keeper keeper_;
+  CablePaths::Keeper keeper_at_wires_;
+  const SegmentMotion* at_wires_ = nullptr;  ///< null: none yet
+  std::size_t at_wires_segment_ = 0, at_wires_row_ = 0;
   /// Variance over the samples of a vector.
   struct Variance {
     std::array<double, 2> sum{};

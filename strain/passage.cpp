@@ -122,8 +122,10 @@ void Passage::refill(std::size_t first_segment) {
 
 void Passage::choose(double z) {
   if (starts_.rests() == 1) return;
-  for (std::size_t rest = 0; rest < starts_.rests(); ++rest)
+  const bool chosen = starts_.choose_by_number(z);
+  for (std::size_t rest = chosen ? 1 : 0; rest < starts_.rests(); ++rest)  // variations need the other rests
     for (const auto& evaluation : starts_.spans(rest)) evaluation->find_bent();
+  if (chosen) return;
   std::vector<double> damage(starts_.rests(), 0.0);
   each_segment([&](std::size_t span, std::size_t segment, std::size_t row) {
     for (std::size_t rest = 0; rest < starts_.rests(); ++rest)

@@ -63,18 +63,36 @@ void Starts::merge() {
     }
 }
 
+/// Returns the place of the quantile z among the starts, the most damaged one first. For an even number of starts z = 0 gives the
+/// more damaged one of the middle two.
+std::size_t Starts::place_of(double z) const {
+  const std::size_t starts = rest_of_.size();
+  const auto at = static_cast<std::size_t>(std::ceil(pipeline::normal_share(z) * static_cast<double>(starts)));
+  return std::clamp<std::size_t>(at, 1, starts) - 1;
+}
+
+bool Starts::choose_by_number(double z) {
+  for (std::size_t rest = 0; rest < rests() && !rest_of_.empty(); ++rest) {
+    const auto own = static_cast<std::size_t>(std::ranges::count(rest_of_, rest)), others = rest_of_.size() - own;
+    if (others > place_of(z) || place_of(z) >= own) continue;
+    make_own(rest);
+    return true;
+  }
+  return false;
+}
+
 void Starts::choose(double z, const std::vector<double>& damage) {
+  if (rest_of_.empty()) return;
   std::vector<std::size_t> starts = rest_of_;  // the largest damage first
-  if (starts.empty()) return;
   std::ranges::stable_sort(starts, std::ranges::greater(), [&](std::size_t rest) { return damage[rest]; });
-  // For an even number of starts z = 0 gives the more damaged one of the middle two.
-  const auto at =
-      static_cast<std::size_t>(std::ceil(pipeline::normal_share(z) * static_cast<double>(starts.size())));
-  const std::size_t chosen = starts[std::clamp<std::size_t>(at, 1, starts.size()) - 1];
-  if (chosen == 0) return;
-  std::ranges::swap_ranges(own_, *others_[chosen - 1]);
+  make_own(starts[place_of(z)]);
+}
+
+void Starts::make_own(std::size_t rest) {
+  if (rest == 0) return;
+  std::ranges::swap_ranges(own_, *others_[rest - 1]);
   for (std::size_t& of : rest_of_)
-    if (of == 0 || of == chosen) of = chosen - of;
+    if (of == 0 || of == rest) of = rest - of;
 }
 
 }  // namespace dresslife::strain

@@ -30,6 +30,9 @@ class Starts {
   std::vector<Evaluation*> placed(std::size_t span) const;
   /// Joins starts whose rings all lie at the same places into one rest. Call between two blocks of samples.
   void merge();
+  /// Makes the rest the job's own to which so many starts came that choose() takes it for any damages. Returns whether there is
+  /// such a rest.
+  bool choose_by_number(double z);
   /// Makes the rest at the standard normal quantile z of the starts the job's own; z = 0: the median. damage: (rest); large
   /// damage has a low z, like a short life. Precondition: all samples were added.
   void choose(double z, const std::vector<double>& damage);
@@ -42,6 +45,9 @@ class Starts {
   std::size_t rest_of_variations() const { return rest_of_.empty() ? 0 : rest_of_.front(); }
 
  private:
+  std::size_t place_of(double z) const;
+  void make_own(std::size_t rest);
+
   Spans& own_;
   std::vector<Spans*> others_;  ///< (rest - 1)
   std::vector<std::size_t> rest_of_;

@@ -512,12 +512,6 @@ class OwnResults {
 
 using LikelySites = std::vector<std::vector<Evaluation::Site>>;  ///< (segment)
 
-/// Finds the cables that bend most at the places of variations.
-void find_bent(const Variations& variations, std::size_t spans) {
-  for (std::size_t span = 0; span < spans; ++span)
-    for (Evaluation* const placed : variations.placed(span)) placed->find_bent();
-}
-
 /// Writes the variations in the motion of a hose with another stiffness.
 void write_other_motion(MotionReader& motion, Starts::Spans& laid, const Variations& variations,
                         HistoryWindow& window, std::size_t threads, const LikelySites& likely,
@@ -527,8 +521,7 @@ void write_other_motion(MotionReader& motion, Starts::Spans& laid, const Variati
   passage.take_along(variations);
   passage.rehearse(rehearsed_varied, 0);
   passage.run([](const MotionBlock&) {});
-  for (const auto& evaluation : laid) evaluation->find_bent();
-  find_bent(variations, laid.size());
+  variations.find_bent();
   std::size_t seen = 0;
   passage.each_segment([&](std::size_t span, std::size_t segment, std::size_t row) {
     variations.evaluate(likely[seen++], span, segment, window.history(), row, put);
@@ -581,7 +574,7 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
     work.first_pass(static_cast<double>(block.first) / static_cast<double>(samples));
   });
   passage.choose(job.strain.rest);
-  find_bent(variations, evaluations.size());
+  variations.find_bent();
   variations.add(starts);
   const std::vector<Warning> warnings =
       pipeline::joined(pipeline::joined(construction_warnings(job), evening_warnings(evaluations)),

@@ -174,14 +174,24 @@ std::vector<Evaluation*> Variations::placed(std::size_t span) const {
   return all;
 }
 
+bool Variations::lies_elsewhere(const Placement& placement) const {
+  return placement.spans != &as_given_ || stiffness_ != 0;
+}
+
+void Variations::find_bent() const {
+  for (const Placement& placement : placements_) {
+    if (!lies_elsewhere(placement)) continue;
+    for (const auto& evaluation : *placement.spans) evaluation->find_bent();
+  }
+}
+
 void Variations::evaluate(const std::vector<Evaluation::Site>& likely, std::size_t span, std::size_t segment,
                           const DeformationHistory& history, std::size_t row, const Put& put) const {
   if (likely.empty()) return;
   for (const Placement& placement : placements_) {
     Evaluation& placed = *(*placement.spans)[span];
     std::vector<Evaluation::Site> wires = likely;
-    const bool lie_elsewhere = placement.spans != &as_given_ || stiffness_ != 0;  // then other wires can be the worst
-    if (lie_elsewhere)
+    if (lies_elsewhere(placement))
       wires = with_likely_of_bent(std::move(wires), placed, segment, history, row);
     std::vector<std::size_t> sites;
     for (const Evaluation::Site site : wires) sites.push_back(as_given_[span]->row_of(segment, site));

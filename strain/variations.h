@@ -48,6 +48,8 @@ class Variations {
   /// Returns the evaluations of a span that need the motion in addition to the job's own.
   std::vector<Evaluation*> placed(std::size_t span) const;
 
+  /// Finds the cables that bend most, where they do not lie at the job's own places. Precondition: all samples were added.
+  void find_bent() const;
   /// Moves the cables of all variations to the present places of the job's own.
   void go_on() const;
   /// Adds the rests of starts as variations. Precondition: all samples were added.
@@ -73,6 +75,8 @@ class Variations {
     pipeline::Inside inside = pipeline::Inside::as_is;
     double factor() const;
   };
+  /// Returns whether the cables of a placement do not lie where those of the job itself lie. Then other wires can be the worst.
+  bool lies_elsewhere(const Placement& placement) const;
   static std::vector<Friction> other_frictions(const Spans& spans);
   void add(const Spans& spans, Point z, const std::vector<Friction>& friction);
   /// Adds an evaluation with another value of a parameter than as_given_.

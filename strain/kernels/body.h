@@ -201,6 +201,13 @@ inline void ingredients_of_node(const BundlePointers& nesting, const Descent& de
   }
 }
 
+/// Returns whether two nodes have the same mean over the pitch: the wires of one layer have it in common.
+inline bool same_over_pitch(const WireNode& a, const WireNode& b) {
+  return a.slide.sliding == Sliding::over_pitch && b.slide.sliding == Sliding::over_pitch &&
+         a.place.radius == b.place.radius && a.place.turn_rate == b.place.turn_rate &&
+         a.slide.mean_rest_rate == b.slide.mean_rest_rate && a.slide.radial_share == b.slide.radial_share;
+}
+
 void node_ingredients(const BundlePointers& nesting, const DeformationColumns& in, std::size_t first,
                       std::size_t count, double* out, std::size_t stride) {
   const int kinds = ingredients(nesting.fibre_count);
@@ -208,11 +215,12 @@ void node_ingredients(const BundlePointers& nesting, const DeformationColumns& i
   for (std::size_t t = 0; t < count; t += pack_size) {
     Descent descent;
     descend(nesting, in, first + t, descent);
+    Pack sliding{};
     for (int n = 0; n < nesting.node_count; ++n) {
       const WireNode& node = nesting.nodes[n];
-      ingredients_of_node(
-          nesting, descent, node,
-          free_strain(nesting, descent, nesting.step_count, node.place, node.slide, first + t), values);
+      if (n == 0 || !same_over_pitch(nesting.nodes[n - 1], node))
+        sliding = free_strain(nesting, descent, nesting.step_count, node.place, node.slide, first + t);
+      ingredients_of_node(nesting, descent, node, sliding, values);
       for (int k = 0; k < kinds; ++k)
         store(values[k], out + (static_cast<std::size_t>(n) * kinds + k) * stride + t);
     }
@@ -1113,7 +1121,7 @@ void mix(MixedLanes& state, MixedLanes* images, const float* waves, std::size_t 
   const bool plain = fibres == 1 && state.scales && !state.with_shear && !state.on_axis;
   MixedLanes* const states[] = {&state, images};
   float* const to[] = {out, images_out};
-  for (int lane = 0; lane < lanes; lane += float_pack_size) {
+  for (int lane = 0; lane < state.used; lane += float_pack_size) {  // a group has no more images than wires
     if (plain && images) {
       mix_plain<2>(states, lane, waves, stride, count, to);
     } else if (plain) {

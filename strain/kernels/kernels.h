@@ -212,6 +212,7 @@ struct MixedLanes {
   float inverse_radial_share = 1;  ///< (W31)
   bool scales = true;              ///< curvature and torsion per path length are constant (W11)
   bool with_shear = false, on_axis = false;
+  int used = lanes;  ///< number of wires; mix() leaves out packs without wires
 };
 
 /// Wires for settle(), and the waves of their layer.

@@ -1,0 +1,76 @@
+// The choice among rests of loose cables (W40).
+#include "strain/starts.h"
+
+#include <list>
+
+#include "pipeline/resolve/job_text.h"
+#include "pipeline/settings/document.h"
+#include "tests/catch.h"
+#include "tests/pipeline/sample_job.h"
+
+using namespace dresslife;
+using strain::Evaluation;
+using strain::Starts;
+
+namespace {
+
+constexpr std::size_t segments = 8, samples = 2;
+
+pipeline::Job ring_job() {
+  std::string text = pipeline::sample_job;
+  const auto replace = [&](const std::string& from, const std::string& to) { text.replace(text.find(from), from.size(), to); };
+  replace("helix_radius_mm: 18.45\n", "helix_radius_mm: 18.45\n      slack_percent: 2\n");
+  replace("  damping_time_ms: 10\n", "  damping_time_ms: 10\n  inner_diameter_mm: 52\n");
+  replace("slip: [stick, free]", "slip: free");
+  return pipeline::job_from(pipeline::parse_yaml(text, "job.yaml"), {});
+}
+
+/// Four starts of a ring, of which those with equal seeds come to one rest.
+struct FourStarts {
+  pipeline::Job job = ring_job();
+  strain::Construction construction{job.dresspacks[0].dresspack, job.strain.kinematics};
+  std::list<Starts::Spans> all;  // (start)
+  Starts starts;
+
+  explicit FourStarts(const std::vector<std::uint64_t>& seeds) : starts(build(), [&]() -> Starts::Spans& { return build(); }) {
+    strain::DeformationHistory history(segments, samples);
+    for (std::size_t segment = 0; segment < segments; ++segment)
+      for (std::size_t t = 0; t < samples; ++t) history.set(segment, t, {2, 0, 0, 0});
+    std::vector<Evaluation*> evaluations;
+    for (Starts::Spans& spans : all) evaluations.push_back(spans[0].get());
+    for (std::size_t start = 0; start < seeds.size(); ++start) evaluations[start]->wind(seeds[start]);
+    Evaluation::add(evaluations, {history});
+    starts.merge();
+  }
+  Starts::Spans& build() {
+    const std::vector<double> lengths(segments, 0.15);
+    all.emplace_back().push_back(std::make_unique<Evaluation>(construction, job.strain, lengths, samples));
+    return all.back();
+  }
+  const Evaluation* own() const { return starts.spans(0)[0].get(); }
+};
+
+}  // namespace
+
+TEST_CASE("a rest to which most starts came is the median one for any damages") {
+  for (const std::vector<std::uint64_t>& seeds : {std::vector<std::uint64_t>{1, 1, 2, 1}, {1, 2, 2, 2}}) {
+    const std::size_t frequent = seeds[1] == 2;
+    FourStarts by_number(seeds);
+    REQUIRE(by_number.starts.rests() == 2);
+    const Evaluation* const expected = by_number.starts.spans(frequent)[0].get();
+    CHECK_FALSE(by_number.starts.choose_by_number(-2));  // near the most damaged start the damages decide
+    CHECK_FALSE(by_number.starts.choose_by_number(2));
+    CHECK(by_number.starts.choose_by_number(0));
+    CHECK(by_number.own() == expected);
+    for (const std::vector<double>& damage : {std::vector<double>{1, 2}, {2, 1}}) {
+      FourStarts by_damage(seeds);
+      const Evaluation* const same = by_damage.starts.spans(frequent)[0].get();
+      by_damage.starts.choose(0, damage);
+      CHECK(by_damage.own() == same);
+      CHECK(by_damage.starts.rest_of() == by_number.starts.rest_of());
+    }
+  }
+  FourStarts even({1, 1, 2, 2});
+  REQUIRE(even.starts.rests() == 2);
+  CHECK_FALSE(even.starts.choose_by_number(0));
+}
