@@ -18,7 +18,7 @@ constexpr OfNode on_the_way[] = {{&LineBatch::slope, 2}, {&LineBatch::gained, 2}
 
 }  // namespace
 
-LineBench::LineBench(const HoseLine& hose, bool presses) {
+LineBench::LineBench(const HoseLine& hose) {
   bench_.nodes = hose.nodes();
   bench_.lanes = bench_lanes;
   bench_.length = hose.length;
@@ -31,7 +31,6 @@ LineBench::LineBench(const HoseLine& hose, bool presses) {
   for (const auto row : pulls) bench_.*row = room(1);
   for (const auto row : where_cables_are) bench_.*row = room(2 * bench_.nodes);
   for (const OfNode& of : on_the_way) bench_.*of.row = room(of.numbers * bench_.nodes);
-  if (presses) bench_.press = room(bench_.nodes);
 }
 
 void LineBench::relax(std::span<CableLines* const> lines, int most) {
@@ -39,7 +38,7 @@ void LineBench::relax(std::span<CableLines* const> lines, int most) {
   bench_.curvature = hose.curvature, bench_.pull = hose.pull, bench_.elongation = hose.elongation;
   waiting_.clear();
   for (CableLines* const of : lines) {
-    assert(of->batch().nodes == bench_.nodes && !of->batch().press == !bench_.press);
+    assert(of->batch().nodes == bench_.nodes);
     for (std::size_t k = 0; k < of->count(); ++k) waiting_.push_back({&of->batch(), k, &of->iterations()[k]});
   }
   std::ranges::stable_sort(waiting_, std::ranges::greater(),

@@ -12,7 +12,7 @@ namespace dresslife::strain {
 
 class LineBench {
  public:
-  LineBench(const HoseLine& hose, bool presses);
+  explicit LineBench(const HoseLine& hose);
   LineBench(LineBench&&) = default;  // the addresses of the rows are kept
 
   /// Moves all cables to the minimum of their energies, in at most `most` iterations. Precondition: lines of one hose, with
