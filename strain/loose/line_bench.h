@@ -1,5 +1,6 @@
 // Finds the rest of cables. A fixed number of cables are computed side by side; when one rests, the next one takes its lane. A
-// cable needs 2 to 60 iterations of Newton's method. Cables with the most iterations at the previous sample go first.
+// cable needs 2 to 60 iterations of Newton's method. Cables with the most iterations at the previous sample go first, in classes of
+// eight iterations.
 #pragma once
 
 #include <span>
