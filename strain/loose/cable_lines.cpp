@@ -15,6 +15,7 @@ CableLines::CableLines(const std::vector<LooseCable>& cables, const HoseLine& ho
   assert(!cables.empty());
   batch_.nodes = hose.nodes();
   batch_.lanes = (cables.size() + most_lanes - 1) / most_lanes * most_lanes;
+  batch_.cables = cables.size();
   batch_.length = hose.length;
   batch_.spacing = hose.spacing;
   lane_rows_.assign(OfLane::lane_rows, batch_.lanes);
@@ -181,6 +182,12 @@ void CableLines::tell(const HoseLine& hose, std::size_t k, CableState& state) co
 }
 
 void CableLines::end(const HoseLine& hose, double time, std::span<CableState> states) {
+  if (!states.empty() || std::ranges::any_of(tensions_, &CableTension::slips)) follow(hose, states);
+  loose_kernels().end(batch_, memory(), time);
+}
+
+/// Stores the slip of the cables, and their states. Cables that cannot slip have nothing to store without states.
+void CableLines::follow(const HoseLine& hose, std::span<CableState> states) {
   loose_kernels().follow(batch_, answer());
   if (!states.empty()) loose_kernels().tell(batch_, memory(), frame_of(hose), answer());
   for (std::size_t k = 0; k < count(); ++k) {
@@ -189,7 +196,6 @@ void CableLines::end(const HoseLine& hose, double time, std::span<CableState> st
     states[k].strain = settled;
     tell(hose, k, states[k]);
   }
-  loose_kernels().end(batch_, memory(), time);
 }
 
 }  // namespace dresslife::strain

@@ -86,6 +86,7 @@ class CableLines {
 
   void lay(std::size_t k);
   double laid_gain(std::size_t k) const;
+  void follow(const HoseLine& hose, std::span<CableState> states);
   void tell(const HoseLine& hose, std::size_t k, CableState& state) const;
   LineMemory memory();
   LineAnswer answer();

@@ -1,5 +1,6 @@
 // Finds the rest of cables. A fixed number of cables are computed side by side; when one rests, the next one takes its lane. A
-// cable needs 2 to 60 iterations of Newton's method. Cables with the most iterations at the previous sample go first.
+// cable needs 2 to 60 iterations of Newton's method. Cables with the most iterations at the previous sample go first, in classes of
+// eight iterations.
 #pragma once
 
 #include <span>
@@ -12,7 +13,7 @@ namespace dresslife::strain {
 
 class LineBench {
  public:
-  LineBench(const HoseLine& hose, bool presses);
+  explicit LineBench(const HoseLine& hose);
   LineBench(LineBench&&) = default;  // the addresses of the rows are kept
 
   /// Moves all cables to the minimum of their energies, in at most `most` iterations. Precondition: lines of one hose, with

@@ -33,7 +33,7 @@ LooseCables::LooseCables(const std::vector<LooseCable>& cables, const LooseSetti
     : settings_(settings),
       hose_(settings.length, settings.elements),
       lines_(cables, hose_, settings.rest_curvature, settings.presses),
-      bench_(hose_, settings.presses),
+      bench_(hose_),
       frames_(cables.size(), &hose_.turn),
       states_(cables.size()) {
   assert(settings.elements >= 4 && settings.length > 0);

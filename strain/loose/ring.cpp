@@ -35,6 +35,11 @@ std::size_t factor(std::vector<double>& bands, std::size_t rows) {
   return negative;
 }
 
+/// Returns the number of negative eigenvalues of a symmetric matrix, which is that of its negative pivots (Sylvester).
+std::size_t negative_eigenvalues(const Eigen::MatrixXd& matrix) {
+  return static_cast<std::size_t>((matrix.ldlt().vectorD().array() < 0).count());
+}
+
 void substitute(const std::vector<double>& bands, std::size_t rows, Eigen::VectorXd& right) {
   const auto at = [&](std::size_t i) -> double& { return right[static_cast<Eigen::Index>(i)]; };
   for (std::size_t i = 0; i < rows; ++i)
@@ -122,15 +127,12 @@ Eigen::VectorXd Ring::newton_turn() {
     Eigen::VectorXd turn = -Eigen::Map<const Eigen::VectorXd>(slope_.data(), static_cast<Eigen::Index>(rows));
     substitute(factors_, rows, turn);
     std::copy(gained_.data(), gained_.data() + rows * lanes, solved_.data());
-    loose_kernels().substitute_turn(factors_.data(), rows, lanes, solved_.data());
-    loose_kernels().products(gained_.data(), solved_.data(), rows, lanes, products_.data());
+    loose_kernels().substitute_turn(factors_.data(), rows, lines_.batch(), solved_.data());
+    loose_kernels().products(gained_.data(), solved_.data(), rows, lines_.batch(), products_.data());
     const Eigen::MatrixXd whole = Eigen::MatrixXd::Identity(count, count) +
                                   root.asDiagonal() * (soft + soft.transpose()) / 2 * root.asDiagonal();
     // The whole matrix is positive definite if the numbers of negative eigenvalues of the two are equal (Haynsworth).
-    const Eigen::VectorXd eigenvalues =
-        negative == 0 ? Eigen::VectorXd()
-                      : Eigen::VectorXd(whole.selfadjointView<Eigen::Lower>().eigenvalues());
-    if (static_cast<std::size_t>((eigenvalues.array() < 0).count()) != negative) continue;
+    if (negative > 0 && negative_eigenvalues(whole) != negative) continue;
     const Eigen::VectorXd pulled =
         root.cwiseProduct(whole.partialPivLu().solve(root.cwiseProduct(gained.transpose() * turn)));
     turn -= solved * pulled;

@@ -21,6 +21,9 @@ class CableTension {
   double slipped() const { return slipped_; }  ///< length through the clamps over the cable's length; > 0: let out
   double most_strain() const { return held_ ? without_limit : most_; }  ///< strain at the grip, pulled or pressed
 
+  /// Returns whether the cable can slip, or has slipped, through a clamp.
+  bool slips() const { return most_strain() < without_limit || slipped_ != 0; }
+
   /// Returns the strain of a path with the given mean gain, and stores the slip. Call once per sample, at its end.
   double settle(double mean_gain);
 

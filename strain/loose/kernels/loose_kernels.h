@@ -12,8 +12,9 @@ constexpr std::size_t most_lanes = 8;  ///< lanes of the widest register in doub
 
 /// Cables of one hose. Value i of cable k is at [i * lanes + k], component d of a node's vector at
 /// [(2 * node + d) * lanes + k]. Used for the storage from sample to sample, and for the bench on which cables are computed.
+/// Only registers that contain a cable are computed.
 struct LineBatch {
-  std::size_t nodes = 0, lanes = 0;
+  std::size_t nodes = 0, lanes = 0, cables = 0;
   double length = 0, spacing = 0;  ///< of the hose's axis, between nodes [m]
 
   // The hose, the same for all cables: (node, 2) K [1/m] and gravity minus acceleration [m/s2]; (node) elongation.
@@ -77,7 +78,7 @@ struct WaitingCable {
   std::int32_t* iterations;  ///< receives the number of iterations
 };
 
-constexpr std::size_t bench_lanes = 2 * most_lanes;  ///< lanes of the bench
+constexpr std::size_t bench_lanes = most_lanes;  ///< lanes of the bench
 
 /// The linear system of a ring's turn: bands (row, 3) and gains of each cable (row, lane); row: an inner node.
 struct RingSystem {
@@ -87,14 +88,15 @@ struct RingSystem {
 struct LooseKernels {
   /// Moves every cable to the minimum of its energy, in at most `most` iterations. The cables can belong to several batches of
   /// one hose at one sample. The first ones take the lanes of the bench; when one rests, the next takes its lane. Writes their
-  /// paths to their batches, and their contact forces if the batch has `press`.
+  /// paths to their batches.
   void (*relax)(const LineBatch& bench, const WaitingCable* cables, std::size_t count, int most);
   /// Starts the next sample: writes K0 and A0, and transforms the path from its frame to the untwisted one, `ahead` seconds
   /// later.
   void (*begin)(const LineBatch&, const LineMemory&, const HoseFrame&, double ahead);
   /// Computes curvature and gain from the batch's path and its `rest`.
   void (*follow)(const LineBatch&, const LineAnswer&);
-  /// Computes the positions in the hose's frame and the error by the distance of nodes. Precondition: follow().
+  /// Computes the positions in the hose's frame, the error by the distance of nodes, and the contact forces if the batch has
+  /// `press`. Precondition: follow().
   void (*tell)(const LineBatch&, const LineMemory&, const HoseFrame&, const LineAnswer&);
   /// Ends the sample: transforms the path back to its frame. Sets its velocity over `time` seconds; time 0: keeps the old
   /// velocity.
@@ -106,9 +108,9 @@ struct LooseKernels {
   /// Computes the slope of the sum of the energies (row).
   void (*slope_of_turn)(const LineBatch&, double* slope);
   /// Solves for several right-hand sides. bands: factors. table: (row, lane) right-hand sides, replaced by solutions.
-  void (*substitute_turn)(const double* bands, std::size_t rows, std::size_t lanes, double* table);
+  void (*substitute_turn)(const double* bands, std::size_t rows, const LineBatch&, double* table);
   /// Writes the sum over rows of a's column k times b's column j to product[k * lanes + j].
-  void (*products)(const double* a, const double* b, std::size_t rows, std::size_t lanes, double* product);
+  void (*products)(const double* a, const double* b, std::size_t rows, const LineBatch&, double* product);
 };
 
 /// Returns the functions for the instruction set that every hot loop uses (pipeline/base/instruction_set.h).

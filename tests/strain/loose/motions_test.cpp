@@ -156,6 +156,19 @@ TEST_CASE("a clamp that lets go keeps what it has let through, and takes energy"
   CHECK(work > -1e-3);  // [J] of one closed cycle: friction in the clamps only dissipates
 }
 
+TEST_CASE("a cable can slip if a grip limits its force, or if it has slipped") {
+  LooseCable cable = signal_cable(0.01);
+  CHECK_FALSE(CableTension(cable).slips());
+  cable.grip = 1e-3 * cable.axial_stiffness;
+  CableTension pulled(cable), other(signal_cable(0.01));
+  CHECK(pulled.slips());
+  CHECK(pulled.settle(0.02) == Approx(1e-3));
+  other.go_on_from(pulled);
+  CHECK(other.slips());
+  pulled.feed_in(0.5);  // installed by hand: clamps hold
+  CHECK_FALSE(pulled.slips());
+}
+
 TEST_CASE("a clamp that never has to let go changes nothing") {
   // While slack is fed in, the cable is too short for some time, and clamps with a grip let some of it slip through. This slip
   // must not remain.

@@ -31,7 +31,7 @@ std::array<Vector2d, 3> begun(const Vector2d& at, const Vector2d& way, const Vec
   };
   fill(laid_rows, laid), fill(frames, frame), fill(velocity, way / step), fill(path, at);
   LineBatch batch;
-  batch.nodes = nodes, batch.lanes = most_lanes;
+  batch.nodes = nodes, batch.lanes = batch.cables = most_lanes;
   batch.rest = rest.data(), batch.place = place.data(), batch.before = before.data(),
   batch.path = path.data();
   const std::array<double, 2 * nodes> straight{}, unturned{1, 0, 1, 0, 1, 0};
