@@ -115,7 +115,7 @@ TEST_CASE(
     "each write, sync, close and rename of the runner that fails is reported, and no old page stands as new") {
   Scratch scratch;
   write_small_job(scratch);
-  scratch.write("study.yaml", study_text);
+  scratch.write("study.yaml", edited(study_text, "[2, 3, 4]", "[2, 3]"));
   REQUIRE(run_study(scratch).status == 0);
   fs::copy(scratch / "runs", scratch / "last", fs::copy_options::recursive);
   const auto last = results(scratch / "last/study");
