@@ -100,11 +100,6 @@ double WornLayer::area(double depth, double arc) const {
          pitch;
 }
 
-double WornLayer::depth(double area, double arc) const {
-  constexpr int to_rounding = 60;
-  return pipeline::halved(0, radius, to_rounding, [&](double depth) { return this->area(depth, arc) < area; }).high;
-}
-
 std::optional<WornMaterial> worn_of(const pipeline::Dresspack& dresspack) {
   WornMaterial worn{};
   worn.layer.radius = dresspack.diameter / 2;

@@ -45,8 +45,6 @@ struct WornLayer {
 
   /// Returns A of (F28), (F29) [m2]. depth, arc: [m].
   double area(double depth, double arc) const;
-  /// Returns the depth at which area(depth, arc) has this value [m].
-  double depth(double area, double arc) const;
 };
 
 /// The layer of a dresspack that is worn first, and its material.

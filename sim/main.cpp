@@ -28,7 +28,7 @@ namespace {
 
 /// What the options of this stage ask for.
 struct Request {
-  bool duration = false, preview = false, rehearse = false, exercise = false;
+  bool duration = false, preview = false, by_short_runs = false, exercise = false;
   std::string screen;  ///< a list of changes; empty: not asked
   std::optional<int> propose;
   sim::ProposalSettings proposals;
@@ -52,7 +52,7 @@ bool written_without_run(const Request& request, const pipeline::StageCall& call
   if (request.preview) {
     sim::write_preview(job, file);
   } else if (!request.screen.empty()) {
-    sim::write_screening(job, request.screen, request.rehearse, file);
+    sim::write_screening(job, request.screen, request.by_short_runs, file);
   } else {
     sim::ProposalSettings settings = request.proposals;
     settings.count = *request.propose;
@@ -118,14 +118,15 @@ int main(int argc, char** argv) {
       .example = "dresslife-sim config/jobs/irb6640_spot_welding.yaml -o motion.h5",
       .input_is_job = true,
       .options =
-          {{"--duration", "", "write only the duration of one repeat of the motion [s] (YAML)", &request.duration},
+          {{"--duration", "", "write only the duration of one repeat of the motion [s] (YAML)",
+            &request.duration},
            {"--preview", "", "write only the geometry over the program and suitable lengths (preview.h5)",
             &request.preview},
            {"--screen", "LIST.yaml",
             "write only the geometric checks of the job with each of these changes (screening.h5)",
             &request.screen},
-           {"--rehearse", "", "with --screen: run each with few segments, and write the results",
-            &request.rehearse},
+           {"--by-short-runs", "", "with --screen: run each with few segments, and write the results",
+            &request.by_short_runs},
            {"--propose",
             "COUNT",
             "write only routings with clamps on the job's links that pass the geometric checks (screening.h5)",
@@ -137,10 +138,10 @@ int main(int argc, char** argv) {
             "with --propose: routings to check by geometry",
             &request.proposals.tried,
             {.range = {{1, 1'000'000}}}},
-           {"--rehearsals",
+           {"--short-runs",
             "COUNT",
             "with --propose: short runs that improve the routings",
-            &request.proposals.rehearsals,
+            &request.proposals.short_runs,
             {.range = {{0, 100'000}}}},
            {"--further",
             "COUNT",

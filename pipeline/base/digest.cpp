@@ -58,8 +58,6 @@ std::string digest_of(const PlainFile& bytes, Digest&& digest) {
 
 }  // namespace
 
-std::string sha256_of_file(const std::filesystem::path& file) { return digest_of(PlainFile(file), Sha256()); }
-
 DigestedFile digested_file(const std::filesystem::path& file, std::size_t head_bytes) {
   struct Both {
     std::size_t head_bytes;

@@ -12,8 +12,7 @@ namespace dresslife::pipeline {
 
 class PlainFile;
 
-std::string sha256(std::string_view bytes);                     ///< 64 hexadecimal digits
-std::string sha256_of_file(const std::filesystem::path& file);  ///< Errors: those of PlainFile
+std::string sha256(std::string_view bytes);  ///< 64 hexadecimal digits
 
 /// Results of one reading of a file.
 struct DigestedFile {

@@ -50,7 +50,7 @@ constexpr double least_torsion = 0.01,
 constexpr double largest_friction = 1.5;  // rubber on steel has 1
 constexpr double least_most_twist = 5, largest_most_twist = 3600;     // [deg/m]: makers allow 50 to 360
 constexpr double least_most_tension = 5, largest_most_tension = 1e5;  // [N]
-constexpr double least_slack = 5e-4;  // half a millimetre per metre: no cable is laid so accurately
+constexpr double least_slack = 5e-4;  // half a millimetre per metre: no cable is installed so accurately
 constexpr double least_grip = 1;                       // [N]: weight of a cable in half a metre of hose
 constexpr double largest_construction_curvature = 50;  // [1/m]: a radius of 20 mm
 constexpr double thinnest_sleeve = 0.05e-3, thickest_sleeve = 0.25;  // [m], and share of the diameter
@@ -97,7 +97,7 @@ class Judge {
   }
 
   void parts(const std::vector<Component>& components) {
-    double widest = 0;  // of all layers that are laid together: they have one lay length, so the innermost has a small angle
+    double widest = 0;  // of all layers that are stranded together: they have one lay length, so the innermost has a small angle
     for (const Component& of : components) widest = std::max(widest, 2 * (of.helix_radius + of.radius));
     for (std::size_t k = 0; k < components.size(); ++k) {
       const Component& of = components[k];

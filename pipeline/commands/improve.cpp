@@ -36,10 +36,10 @@ void show(Progress& progress, const Improvement& so_far, int trials) {
       best ? hours_text(so_far.trials[*best].worst.hours) : "none within the limits";
   const std::size_t done = so_far.trials.size();
   trials = std::max(trials, static_cast<int>(done));  // bend reliefs are tried after the requested trials
-  if (done <= 1 && so_far.rehearsals < so_far.most_rehearsals)
-    progress.show(static_cast<double>(so_far.rehearsals) / so_far.most_rehearsals,
-                  fmt::format("short run {} of about {} before the first of {} trials", so_far.rehearsals,
-                              so_far.most_rehearsals, trials));
+  if (done <= 1 && so_far.short_runs < so_far.most_short_runs)
+    progress.show(static_cast<double>(so_far.short_runs) / so_far.most_short_runs,
+                  fmt::format("short run {} of about {} before the first of {} trials", so_far.short_runs,
+                              so_far.most_short_runs, trials));
   else
     progress.show(static_cast<double>(done) / trials,
                   fmt::format("trial {} of {}, best {}", done, trials, best_words));
@@ -180,11 +180,11 @@ Command improve_command() {
              "start of the random numbers",
              &request.seed,
              {.range = {{0, 1'000'000'000}}}},
-            {"--rehearsals",
+            {"--short-runs",
              "COUNT",
              "short runs before the first trial, at most; each trial adds a few; 0: none; -1: 40 for each "
              "variable",
-             &request.rehearsals,
+             &request.short_runs,
              {.range = {{-1, 100'000}}}},
             choice_option("--method", "models of lives and limits, or random trials for comparison",
                           request.method, {SearchMethod::surrogate, SearchMethod::random}),

@@ -194,9 +194,18 @@ std::string draft_text(const Draft& draft, const fs::path& folder) {
 Choice proposed(const Draft& draft) {
   const PassingFile job("draft.yaml"), screening("screening.h5");
   write_text_if_changed(job.path(), with_mark(draft_text(draft, job.path().parent_path()), Mark::yaml));
-  std::vector<std::string> arguments{
-      job.path().string(),  "--propose", "1", "--tried", "300", "--rehearsals", "80", "--further", "16", "-o",
-      screening.path().string(), "--quiet"};
+  std::vector<std::string> arguments{job.path().string(),
+                                     "--propose",
+                                     "1",
+                                     "--tried",
+                                     "300",
+                                     "--short-runs",
+                                     "80",
+                                     "--further",
+                                     "16",
+                                     "-o",
+                                     screening.path().string(),
+                                     "--quiet"};
   if (draft.exercise) arguments.emplace_back("--exercise");
   if (run_stage_program("dresslife-sim", arguments) != 0)
     throw InputError({"dresslife new"}, "no routing can be proposed (see above), nothing was written",

@@ -26,7 +26,7 @@ int report(const StudyOptions& options) {
   const StudyRequest request = request_of(options);
   folder_of_results(request, options);  // refuses a study without any
   const StudyState standing = standing_study(request);
-  const auto& [study, places, states, remembered, looks, digests] = standing;
+  const auto& [study, places, states, remembered, look_ups, digests] = standing;
   std::vector<RankingRow> rows = ranking_of(study, places, states);
   add_relative_lives(study, places, nullptr, rows);
   print(options.json ? json_of_csv(ranking_csv(rows)).text + "\n" : shown(ranking_table(rows)));

@@ -53,7 +53,7 @@ struct RouteOptions : RunOptions {
   RouteRequest request;
   std::string ring, job, scale = "1";
   bool keep = false;
-  int tried = 400, rehearsals = 160, seed = 1;
+  int tried = 400, short_runs = 160, seed = 1;
   std::optional<double> off_mm, off_deg, bracket_mm;
 };
 
@@ -97,8 +97,8 @@ ScreenedList proposed(const Draft& draft, const RouteOptions& options, double fa
                                      std::to_string(trials),
                                      "--tried",
                                      std::to_string(options.tried),
-                                     "--rehearsals",
-                                     std::to_string(options.rehearsals),
+                                     "--short-runs",
+                                     std::to_string(options.short_runs),
                                      "--further",
                                      std::to_string(further),
                                      "--seed",
@@ -199,7 +199,7 @@ void write_job(const Trial& of, const Draft& draft, const RouteOptions& options,
                                        Mark::yaml));
 }
 
-/// Runs the proposals that kept all limits in their rehearsal, and the job's own routing. With a tolerance all of them are run,
+/// Runs the proposals that kept all limits in their short run, and the job's own routing. With a tolerance all of them are run,
 /// because the tolerance decides; else until one keeps all limits in the whole chain.
 Trial tried(const Draft& draft, const RouteOptions& options, double factor, const StudyPlaces& places,
             const FilesAtStart& files, const fs::path& job) {
@@ -238,11 +238,11 @@ Trial tried(const Draft& draft, const RouteOptions& options, double factor, cons
   return trial;
 }
 
-/// Returns, (limit), how far the best routing exceeds each limit, by its run, else by its rehearsal; empty: it cannot run.
+/// Returns, (limit), how far the best routing exceeds each limit, by its run, else by its short run; empty: it cannot run.
 std::vector<double> beyond(const Trial& trial) {
   if (trial.best) return trial.outcomes[*trial.best].beyond;
   const ScreenedCandidate& first = trial.proposals.candidates.front();
-  return limits_of_rehearsal(trial.proposals.limits, first.beyond);
+  return limits_of_short_run(trial.proposals.limits, first.beyond);
 }
 
 /// The limit that the best routing of a search exceeds most, and its remedy.
@@ -255,7 +255,7 @@ DecidingLimit decided(const Trial& trial, const Draft& draft) {
     if (!(g > 0)) g = 0;  // NaN: not known
   const auto most = static_cast<std::size_t>(std::max_element(passed.begin(), passed.end()) - passed.begin());
   const std::string other =
-      "another link (--from, --to), more --tried and --rehearsals, or a gentler program";
+      "another link (--from, --to), more --tried and --short-runs, or a gentler program";
   if (passed.empty() || passed[most] == 0) return {"no routing runs", other};
   const std::string& limit = outcome_limit_names()[most];
   if (limit != "bend radius") {
@@ -297,7 +297,7 @@ std::string obstacle(const Trial& trial) {
   return first.refusal.empty() ? trial.proposals.words(first) : first.refusal;
 }
 
-/// Returns the violation of the best routing by its rehearsal; infinite: it cannot run.
+/// Returns the violation of the best routing by its short run; infinite: it cannot run.
 double violation(const Trial& trial) {
   const ScreenedCandidate& first = trial.proposals.candidates.front();
   return first.refusal.empty() ? first.violation() : std::numeric_limits<double>::infinity();
@@ -378,9 +378,13 @@ int route(const RouteOptions& options) {
   const std::vector<double> factors = factors_of(options);
   // 45 s for the default numbers, measured on a busy machine with a job of 64 segments.
   if (!options.quiet)
-    tell(fmt::format("Checks {} routings by geometry and the best of them in {} short runs, for each size. This takes about a minute. "
-                     "Runs with their remaining time follow{}.\n", options.tried, options.rehearsals,
-                     tolerance_for(draft, options).none() ? "" : "; the best three run up to 24 times each with a clamp or length off, most often about 30 times in all (--off 0 leaves that out)"));
+    tell(fmt::format(
+        "Checks {} routings by geometry and the best of them in {} short runs, for each size. This takes about a minute. "
+        "Runs with their remaining time follow{}.\n",
+        options.tried, options.short_runs,
+        tolerance_for(draft, options).none()
+            ? ""
+            : "; the best three run up to 24 times each with a clamp or length off, most often about 30 times in all (--off 0 leaves that out)"));
   if (kind_of(options.request.of) == FileKind::file) claim_folder(places.folder, options.request.of);
   const FilesAtStart files({std::make_shared<const Job>(draft.job)});
   std::optional<Trial> chosen, nearest;
@@ -451,10 +455,10 @@ Command route_command() {
              "routings to check by geometry, for each size",
              &options->tried,
              {.range = {{1, 1'000'000}}}},
-            {"--rehearsals",
+            {"--short-runs",
              "COUNT",
              "short runs that improve the best of them, for each size",
-             &options->rehearsals,
+             &options->short_runs,
              {.range = {{1, 100'000}}}},
             {"--seed",
              "NUMBER",

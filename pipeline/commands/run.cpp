@@ -81,7 +81,7 @@ int run(const RunArguments& options) {
   if (!begun) look_again(standing);
   const int executed = make_rest(request, standing, options);
   report_changes(standing.study, standing.places, standing.states);
-  const auto& [study, places, states, remembered, looks, digests] = standing;
+  const auto& [study, places, states, remembered, look_ups, digests] = standing;
   const bool any = std::any_of(study.jobs.begin(), study.jobs.end(),
                                [](const StudyJob& job) { return job.failure.empty(); });
   if (!options.quiet && any)

@@ -570,7 +570,7 @@ Format make_screening_format() {
      "within the limit; 0 if it is no job"},
     {"/candidate/time",     f64,  "candidate, limit", "s",    always, "its time"},
     {"/candidate/bend",     f64,  "candidate, bend",  "1",    maybe,
-     "short runs: (V3) of each dresspack, part of the motion and part of the hose (sim/route/rehearsal.h); 0 if it "
+     "short runs: (V3) of each dresspack, part of the motion and part of the hose (sim/route/short_run.h); 0 if it "
      "does not run"},
   });
   add(format, {
@@ -643,8 +643,7 @@ const Format& ways_format() {
 
 std::string file_manual() {
   std::string text;
-  for (const Format* format :
-       {&motion_format(), &strain_format(), &life_format(), &preview_format(), &screening_format(), &ways_format()}) {
+  for (const Format* format : {&motion_format(), &strain_format(), &life_format()}) {
     text += fmt::format("### {} version {}: {} (written by {})\n\n", format->name, format->version,
                         format->purpose, format->made_by);
     text += "| dataset | type | shape | unit | meaning |\n|---|---|---|---|---|\n";

@@ -268,12 +268,6 @@ bool LifeSurface::depends_on_strain(std::size_t parameter) const {
   return false;
 }
 
-double LifeResponse::change(const ParameterPoint& z, Inside way) const { return LifeSurface(*this).change(z, way); }
-
-double LifeResponse::log10_life(const ParameterPoint& z, double u, Inside way) const {
-  return LifeSurface(*this).log10_life(z, u, way);
-}
-
 // ---- as text ----------------------------------------------------------------------------------------------
 
 namespace {

@@ -62,11 +62,6 @@ struct LifeResponse {
   std::vector<std::array<double, 3>> planned;  ///< (scatter) log10 repeats until 10, 50, 90 % have failed
   double scatter_shared = 1;  ///< share of u's variance that all modes of one dresspack have in common
 
-  /// Returns W(z) - W(0) plus log10 of the model's factor.
-  double change(const ParameterPoint& z, Inside inside = Inside::as_is) const;
-  /// Returns log10 of the life in repeats; infinity for an infinite life.
-  double log10_life(const ParameterPoint& z, double u, Inside inside = Inside::as_is) const;
-
   /// text returns the response as text for an attribute of a file; from_text reads it back. Errors: std::invalid_argument for any
   /// other text.
   std::string text() const;
@@ -78,8 +73,10 @@ class LifeSurface {
  public:
   /// Keeps a reference to the response.
   explicit LifeSurface(const LifeResponse& response);
-  double change(const ParameterPoint& z, Inside inside) const;
-  double log10_life(const ParameterPoint& z, double u, Inside inside) const;
+  /// Returns W(z) - W(0) plus log10 of the model's factor.
+  double change(const ParameterPoint& z, Inside inside = Inside::as_is) const;
+  /// Returns log10 of the life in repeats; infinity for an infinite life.
+  double log10_life(const ParameterPoint& z, double u, Inside inside = Inside::as_is) const;
   /// Returns whether a parameter has any effect.
   bool depends_on(std::size_t parameter) const;
 

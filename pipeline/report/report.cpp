@@ -441,11 +441,6 @@ std::vector<bool> detailed_jobs(const std::vector<RankingRow>& rows) {
   return detailed;
 }
 
-std::string report_page(const std::string& study, const std::vector<RankingRow>& rows) {
-  std::vector<ReportProblem> problems;
-  return report_page(study, rows, problems);
-}
-
 std::string report_page(const std::string& study, const std::vector<RankingRow>& rows,
                         std::vector<ReportProblem>& problems) {
   const std::vector<bool> detailed = detailed_jobs(rows);

@@ -18,7 +18,6 @@ struct ReportProblem {
 
 /// Returns the page as text. rows: result of read_ranking(), longest life first. A damaged life file is named in its section and
 /// in `problems`. The same files give the same bytes. Errors: DiskError.
-std::string report_page(const std::string& study, const std::vector<RankingRow>& rows);
 std::string report_page(const std::string& study, const std::vector<RankingRow>& rows,
                         std::vector<ReportProblem>& problems);
 

@@ -28,15 +28,15 @@ class Sources {
   /// is done without a Sources. "no": a text that cannot be read.
   static std::string found_at(Kind kind, const std::filesystem::path& path);
   /// Look-ups by kind and path, with the first result of each.
-  using Looks = std::map<std::pair<Kind, std::string>, std::string>;
-  Looks take() { return std::move(found_); }
+  using LookUps = std::map<std::pair<Kind, std::string>, std::string>;
+  LookUps take() { return std::move(found_); }
 
  private:
   friend Node read_document(const std::filesystem::path&);
   friend std::string read_source(const std::filesystem::path&);
   friend void note_source(Kind, const std::filesystem::path&, const std::string&);
   friend bool look(Kind, const std::filesystem::path&, bool (*)(const std::filesystem::path&));
-  Looks found_;
+  LookUps found_;
   std::map<std::string, std::shared_ptr<const Node>> documents_;
   Sources* outer_;
 };

@@ -664,11 +664,10 @@ std::string key_tables(const std::vector<KeyRow>& rows) {
   std::string text, map;
   for (const KeyRow& row : rows) {
     if (row.map != map)
-      text += fmt::format("{}### {}\n\n| key | unit | allowed | default | meaning |\n|---|---|---|---|---|\n",
+      text += fmt::format("{}### {}\n\n| key | allowed | default | meaning |\n|---|---|---|---|\n",
                           map.empty() ? "" : "\n", row.map);
     map = row.map;
-    text += fmt::format("| `{}` | {} | {} | {} | {} |\n", row.key, row.unit, cell(row.allowed), row.fallback,
-                        cell(row.meaning));
+    text += fmt::format("| `{}` | {} | {} | {} |\n", row.key, cell(row.allowed), row.fallback, cell(row.meaning));
   }
   return text;
 }

@@ -113,7 +113,7 @@ bool fits_a_line(const std::string& path) { return path.find('\n') == std::strin
 /// Returns the note of a study; std::nullopt if the note could not be read back exactly.
 std::optional<std::string> text_of(const StudyRequest& request, const StudyState& standing) {
   std::string text = digest_of(request) + '\n';
-  for (const auto& [look, found] : standing.looks) {
+  for (const auto& [look, found] : standing.look_ups) {
     if (!fits_a_line(look.second)) return std::nullopt;
     text += fmt::format("look {} {} {}\n", static_cast<int>(look.first), noted(found), look.second);
   }
@@ -171,7 +171,7 @@ StudyState expanded(const StudyRequest& request) {
   standing.study = read_study(request.file, request.sets);
   standing.places = {request.out / standing.study.name, request.programs};
   standing.states = states_of(standing.study, standing.places, standing.digests);
-  standing.looks = sources.take();
+  standing.look_ups = sources.take();
   return standing;
 }
 

@@ -30,7 +30,7 @@ struct StudyState {
   std::vector<JobState> states;
   bool remembered = false;  ///< from the note, not expanded: its jobs have names but no settings
   // Only of an expanded study:
-  Sources::Looks looks{};
+  Sources::LookUps look_ups{};
   Digests digests{};  ///< digests of the programs and of the files beside the jobs
 
   bool all_done() const;

@@ -13,7 +13,7 @@
 #include "pipeline/base/constants.h"
 #include "pipeline/base/threads.h"
 #include "sim/robot/robot.h"
-#include "sim/route/rehearsal.h"
+#include "sim/route/short_run.h"
 #include "sim/run/clamp_path.h"
 #include "sim/run/quick_checks.h"
 
@@ -38,7 +38,7 @@ constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double farthest =
     4;  // largest distance of a clamp from the link that carries it, if brackets reach so far [diameters]
 constexpr int drawn_places = 2000;  // number of places beside a link until one has a bracket: one second
-constexpr int side_by_side = 4;     // rehearsals at the same time, independent of the number of threads
+constexpr int side_by_side = 4;     // short runs at the same time, independent of the number of threads
 
 struct Candidate {
   std::array<Vector3, places>
@@ -48,9 +48,9 @@ struct Candidate {
   pipeline::Routing routing{};
   Screening screening{};
   double missing = 0;             // violation by geometry
-  Rehearsal rehearsal{};          // valid if it was rehearsed
-  double missing_in_run = never;  // violation in the rehearsal
-  bool whole = false;             // rehearsed with the job's own segments and repeats
+  RoutingRun short_run{};           // valid if it had a short run
+  double missing_in_run = never;  // violation in the short run
+  bool whole = false;             // run with the job's own segments and repeats
 };
 
 class Chance {
@@ -92,11 +92,11 @@ class Search {
 
   /// Runs one search per proposal, each with its own first candidates, so that they end at different places.
   std::vector<Proposal> run() {
-    if (settings_.rehearsals > 0) return proposals_of(rehearsed_search());
+    if (settings_.short_runs > 0) return proposals_of(search_by_short_runs());
     std::vector<Candidate> found;
     for (int k = 0; k < settings_.count; ++k) {
-      tell(static_cast<double>(k) / settings_.count,
-           fmt::format("geometry, search {} of {}", k + 1, settings_.count));
+      report_progress(static_cast<double>(k) / settings_.count,
+                      fmt::format("geometry, search {} of {}", k + 1, settings_.count));
       found.push_back(best_of(std::max(10, settings_.tried / settings_.count)));
     }
     std::stable_sort(found.begin(), found.end(),
@@ -108,35 +108,35 @@ class Search {
   static std::vector<Proposal> proposals_of(const std::vector<Candidate>& found) {
     std::vector<Proposal> proposals;
     for (const Candidate& candidate : found)
-      proposals.push_back({candidate.routing, candidate.screening, candidate.missing, candidate.rehearsal});
+      proposals.push_back({candidate.routing, candidate.screening, candidate.missing, candidate.short_run});
     return proposals;
   }
 
-  /// Rehearses the best candidates by geometry. Then changes the best rehearsed ones a little, many times; the size of the
-  /// changes adapts to their success. Of a few changes the best by geometry is rehearsed; its wished radius in the geometry is
+  /// Makes short runs of the best candidates by geometry. Then changes the best ones a little, many times; the size of the
+  /// changes adapts to their success. Of a few changes the best by geometry gets a short run; its wished radius in the geometry is
   /// increased by the radius that its parent lacked in its run.
-  std::vector<Candidate> rehearsed_search() {
+  std::vector<Candidate> search_by_short_runs() {
     constexpr int begun = 12;               // searches by geometry only
     constexpr double hopeless = 0.5;        // violation of the best of the first third at which the search ends
     constexpr std::size_t parents = 5;      // number of parents that are kept
     constexpr double geometry_share = 0.3;  // share of the time, approximately
     std::vector<Candidate> beginnings, kept;
     for (int k = 0; k < begun; ++k) {
-      tell(geometry_share * k / begun, fmt::format("geometry, search {} of {}", k + 1, begun));
+      report_progress(geometry_share * k / begun, fmt::format("geometry, search {} of {}", k + 1, begun));
       beginnings.push_back(best_of(std::max(10, settings_.tried / begun)));
     }
     if (std::all_of(beginnings.begin(), beginnings.end(),
                     [](const Candidate& of) { return of.screening.rejected(); }))
       return excluded(std::move(beginnings));
     double size = 1;
-    int left = settings_.rehearsals;
+    int left = settings_.short_runs;
     const auto whole_ones = [&] { return std::count_if(kept.begin(), kept.end(), is_found); };
     int further = settings_.further;
     while (left > 0 && (whole_ones() < settings_.count || further > 0)) {
-      const int done = settings_.rehearsals - left;
-      tell(geometry_share + (1 - geometry_share) * done / settings_.rehearsals,
-           fmt::format("short run {} of at most {}{}", done + 1, settings_.rehearsals,
-                       kept.empty() ? "" : nearest_words(kept.front())));
+      const int done = settings_.short_runs - left;
+      report_progress(geometry_share + (1 - geometry_share) * done / settings_.short_runs,
+                      fmt::format("short run {} of at most {}{}", done + 1, settings_.short_runs,
+                                  kept.empty() ? "" : nearest_words(kept.front())));
       std::vector<Candidate> next;
       const bool begins = !beginnings.empty();
       while (static_cast<int>(next.size()) < std::min(side_by_side, left)) {
@@ -146,13 +146,13 @@ class Search {
       }
       left -= static_cast<int>(next.size());
       if (whole_ones() >= settings_.count) further -= static_cast<int>(next.size());
-      rehearse(next, rehearsed_segments, rehearsed_repeats, wished_in_run);
+      make_short_runs(next, routing_run_segments, routing_run_repeats, wished_in_run);
       const std::pair<double, double> before = kept.empty() ? std::pair(never, never) : badness(kept.front());
       for (Candidate& candidate : next) keep(kept, std::move(candidate), parents);
       const bool better = badness(kept.front()) < before;
       if (!begins) size = std::clamp(size * (better ? 1.3 : 0.9), 0.05, 2.0);
       while (look_at_first_whole(kept)) --left;
-      if (3 * left < 2 * settings_.rehearsals && kept.front().missing_in_run > hopeless) break;
+      if (3 * left < 2 * settings_.short_runs && kept.front().missing_in_run > hopeless) break;
     }
     if (kept.size() > static_cast<std::size_t>(settings_.count)) kept.resize(settings_.count);
     return kept;
@@ -169,26 +169,27 @@ class Search {
         if (const double g = candidate.screening.beyond[k]; g > surely_beyond[k])
           limits += fmt::format("{}{} by {:.2f} at {:.3f} s", limits.empty() ? "" : ", ",
                                 word(static_cast<ScreenedLimit>(k)), g, candidate.screening.time[k]);
-      candidate.rehearsal.refusal =
-          fmt::format("geometry excludes all {} routings that were checked; the nearest is {}",
-                      settings_.tried, limits);
+      candidate.short_run.refusal = fmt::format(
+          "geometry excludes all {} routings that were checked; the nearest is {}", settings_.tried, limits);
     }
     return all;
   }
 
   static std::string nearest_words(const Candidate& nearest) {
     if (nearest.missing_in_run == 0) return ", one keeps all limits";
-    return nearest.rehearsal.refusal.empty()
+    return nearest.short_run.refusal.empty()
                ? fmt::format(", nearest misses its limits by {:.2f}", nearest.missing_in_run)
                : ", none runs";
   }
 
-  void tell(double share, const std::string& words) const {
+  void report_progress(double share, const std::string& words) const {
     if (settings_.progress) settings_.progress(share, words);
   }
 
-  /// Returns the order of a rehearsed candidate: limits first.
-  static std::pair<double, double> badness(const Candidate& of) { return {of.missing_in_run, of.rehearsal.swing}; }
+  /// Returns the order of a candidate after its short run: limits first.
+  static std::pair<double, double> badness(const Candidate& of) {
+    return {of.missing_in_run, of.short_run.swing};
+  }
 
   static bool is_found(const Candidate& candidate) {
     return candidate.whole && candidate.missing_in_run == 0;
@@ -202,7 +203,7 @@ class Search {
     if (kept.size() > most) kept.pop_back();
   }
 
-  /// Rehearses the first candidate that keeps all wishes and was not yet run as the job. Returns whether such a candidate
+  /// Runs the first candidate that keeps all wishes and was not yet run as the job. Returns whether such a candidate
   /// existed.
   bool look_at_first_whole(std::vector<Candidate>& kept) const {
     const auto wanted = kept.begin() + std::min<std::ptrdiff_t>(settings_.count, std::ssize(kept));
@@ -212,7 +213,7 @@ class Search {
     std::vector<Candidate> one{*first};
     kept.erase(first);
     constexpr int as_the_job = std::numeric_limits<int>::max();
-    rehearse(one, as_the_job, as_the_job, wished_of_whole);
+    make_short_runs(one, as_the_job, as_the_job, wished_of_whole);
     one.front().whole = true;
     if (one.front().missing_in_run == 0) one.front().missing_in_run = missing_in_checks(one.front());
     keep(kept, std::move(one.front()), kept.size() + 1);
@@ -231,20 +232,20 @@ class Search {
     return sum;
   }
 
-  void rehearse(std::vector<Candidate>& candidates, int segments, int repeats,
-                const std::array<double, screened_limits>& wishes) const {
+  void make_short_runs(std::vector<Candidate>& candidates, int segments, int repeats,
+                       const std::array<double, screened_limits>& wishes) const {
     const std::size_t threads = std::min(pipeline::thread_count(), candidates.size());
     pipeline::in_parallel(threads, [&](std::size_t part) {
       for (std::size_t k = part; k < candidates.size(); k += threads) {
         pipeline::Setup setup = setup_;
         setup.dresspacks.front().routing = candidates[k].routing;
-        candidates[k].rehearsal = rehearsed(std::move(setup), segments, repeats);
+        candidates[k].short_run = short_run_of(std::move(setup), segments, repeats);
       }
     });
     for (Candidate& candidate : candidates) {
       constexpr double refused = 3;  // larger than the violation of a candidate that runs
-      candidate.missing_in_run = candidate.rehearsal.refusal.empty()
-                                     ? missing(candidate.rehearsal.seen, wishes)
+      candidate.missing_in_run = candidate.short_run.refusal.empty()
+                                     ? missing(candidate.short_run.seen, wishes)
                                      : refused + candidate.missing;
     }
   }
@@ -254,7 +255,7 @@ class Search {
     const Candidate& parent = kept[chance_.below(std::min<std::size_t>(3, kept.size()))];
     const auto bend = static_cast<std::size_t>(ScreenedLimit::bend);
     const double lacked =
-        parent.rehearsal.refusal.empty() ? std::max(0.0, parent.rehearsal.seen.beyond[bend]) : 0;
+        parent.short_run.refusal.empty() ? std::max(0.0, parent.short_run.seen.beyond[bend]) : 0;
     Candidate best;
     best.missing = never;
     for (int k = 0; k < changes || !std::isfinite(best.missing); ++k) {

@@ -193,8 +193,6 @@ double distance_to_axis(const Vector3& point, const Vector3& from, const Vector3
   return (point - from - share * axis).norm();
 }
 
-double Screening::violation() const { return pipeline::sum_above_zero(beyond); }
-
 bool Screening::rejected() const {
   for (std::size_t k = 0; k < beyond.size(); ++k)
     if (beyond[k] > surely_beyond[k]) return true;

@@ -9,7 +9,7 @@
 // (V4) twist       g = |Phi|/(L t_limit) - 1       Phi: rotation about the tangent since mounting
 // (V5) overlap     g = (depth - d/2)/d             depth: in the links' capsules, the cell and the floor
 //                                                  d: diameter
-// (V6) tension     g = ln(F/F_limit)               F: largest tension, which only a run gives (rehearsal.h)
+// (V6) tension     g = ln(F/F_limit)               F: largest tension, which only a run gives (short_run.h)
 // (V7) bracket     bracket.h: whether brackets can carry the clamps and rings, at all moments of the program
 //
 // Phi counts full turns: the direction is transported from clamp to chord to clamp at every moment of the
@@ -54,8 +54,7 @@ struct Screening {
   std::array<double, screened_limits> beyond;  ///< (limit) g; the most negative number if the limit is not requested
   std::array<double, screened_limits> time;  ///< (limit) time of the decisive moment [s]
 
-  bool rejected() const;     ///< some limit is certainly exceeded
-  double violation() const;  ///< sum of the positive entries of `beyond`
+  bool rejected() const;  ///< some limit is certainly exceeded
 };
 
 class Screener {

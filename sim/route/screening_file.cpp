@@ -9,7 +9,7 @@
 #include "pipeline/resolve/catalogue.h"
 #include "pipeline/resolve/job_text.h"
 #include "sim/route/proposal.h"
-#include "sim/route/rehearsal.h"
+#include "sim/route/short_run.h"
 
 namespace dresslife::sim {
 namespace {
@@ -21,7 +21,7 @@ using pipeline::Node;
 struct Verdict {
   std::string changes, refusal;
   Screening screening;
-  std::vector<double> bends{};             // bends of its rehearsal (rehearsal.h)
+  std::vector<double> bends{};             // bends of its short run (short_run.h)
   std::optional<pipeline::Setup> setup{};  // present if it is a valid job
 };
 
@@ -133,16 +133,16 @@ Verdict verdict_of(Bench& bench, Node document, const Node& changes) {
   return verdict;
 }
 
-/// Rehearses the candidates in parallel. A candidate that does not run gets its geometric violation.
-void rehearse(std::vector<Verdict>& verdicts) {
+/// Makes short runs of the candidates in parallel. A candidate that does not run gets its geometric violation.
+void make_short_runs(std::vector<Verdict>& verdicts) {
   std::vector<Verdict*> left;
   for (Verdict& verdict : verdicts)
     if (verdict.setup) left.push_back(&verdict);
-  std::vector<Rehearsal> done(left.size());
+  std::vector<RoutingRun> done(left.size());
   const std::size_t threads = std::min(pipeline::thread_count(), left.size());
   pipeline::in_parallel(threads, [&](std::size_t part) {
     for (std::size_t k = part; k < left.size(); k += threads)
-      done[k] = rehearsed(*left[k]->setup, rehearsed_segments, rehearsed_repeats);
+      done[k] = short_run_of(*left[k]->setup, routing_run_segments, routing_run_repeats);
   });
   for (std::size_t k = 0; k < left.size(); ++k) {
     left[k]->refusal = done[k].refusal;
@@ -193,7 +193,7 @@ void write_screening(const pipeline::Job& job, const std::filesystem::path& cand
       throw InputError(changes.where, "is no map of key paths to values", "write {KEY.PATH: VALUE, ...}");
     verdicts.push_back(verdict_of(bench, document, changes));
   }
-  if (in_runs) rehearse(verdicts);
+  if (in_runs) make_short_runs(verdicts);
   Writer(file).write(verdicts);
   file.attribute("motion", "");
 }
@@ -201,9 +201,9 @@ void write_screening(const pipeline::Job& job, const std::filesystem::path& cand
 void write_proposals(const pipeline::Job& job, const ProposalSettings& settings, pipeline::FileWriter& file) {
   std::vector<Verdict> verdicts;
   for (const Proposal& proposal : propose(job, settings)) {
-    const bool rehearsed = settings.rehearsals > 0 && proposal.rehearsal.refusal.empty();
-    verdicts.push_back({routing_text(proposal.routing), proposal.rehearsal.refusal,
-                        rehearsed ? proposal.rehearsal.seen : proposal.screening});
+    const bool has_short_run = settings.short_runs > 0 && proposal.short_run.refusal.empty();
+    verdicts.push_back({routing_text(proposal.routing), proposal.short_run.refusal,
+                        has_short_run ? proposal.short_run.seen : proposal.screening});
   }
   Writer(file).write(verdicts);
   file.attribute("motion", pipeline::motion_text(job.motion));

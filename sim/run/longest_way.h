@@ -1,12 +1,6 @@
 // The largest straight way of each span over a motion: a shorter hose does not reach.
 //
-// On a robot few moments have to be computed:
-// - Equal pieces of a motion, as those of its repeats, are computed once.
-// - Within a piece no axis j is faster than v_j. It turns the one end of a straight line relative to the other, whose distance from
-//   the joint's origin is at most the sum r_j of the distances from joint to joint. So the way w of a span follows
-//       |w(t) - w(t_0)| <= |t - t_0| sum_j v_j r_j,
-//   and moments are left out in which w cannot be larger than the largest one so far.
-// The result is that of all moments.
+// Equal pieces of a robot's motion, as those of its repeats, are computed once.
 #pragma once
 
 #include <vector>

@@ -124,7 +124,7 @@ free:
 TEST_CASE("improve states the worst life within the tolerance of a turned end, as its neighbours live it") {
   Scratch scratch;
   write_turned_study(scratch);
-  const Outcome told = must_run(scratch, "dresslife", "improve turn.yaml --trials 3 --rehearsals 0 --off 0 --off-deg 10 --quiet");
+  const Outcome told = must_run(scratch, "dresslife", "improve turn.yaml --trials 3 --short-runs 0 --off 0 --off-deg 10 --quiet");
   INFO(told.out);
   std::smatch stated, turn;
   REQUIRE(std::regex_search(told.out, stated, std::regex("With an end turned by 10 deg the wires live at least ([0-9.]+) times as long")));
@@ -170,7 +170,7 @@ TEST_CASE("improve writes the best as drawn before it is verified, and a killed 
   scratch.write("job.yaml", job + "dresspack.least_bend_radius_mm: 30\ndresspack.most_twist_deg_per_m: 300\nstrain: {slip: free}\n"
                                   "fatigue: {robot_life_hours: 10000000}\n");
   const std::string line =
-      "improve job.yaml --free 'routing.pre_twist_deg=-40 .. 60' --trials 3 --rehearsals 0 --off 0 --off-deg 10 --quiet -j 1";
+      "improve job.yaml --free 'routing.pre_twist_deg=-40 .. 60' --trials 3 --short-runs 0 --off 0 --off-deg 10 --quiet -j 1";
   const Outcome killed = run_shell(scratch, "'" DRESSLIFE_BIN_DIR "/dresslife' " + line + " & pid=$!\n"
                                             "for k in $(seq 3000); do\n"
                                             "  grep -qs 'Not yet verified within the mounting tolerance' job_improved.yaml && break\n"
@@ -220,8 +220,8 @@ TEST_CASE("improve and route keep the results of jobs of one name in two folders
     scratch.write(std::string(folder) + "/job.yaml", "robot: abb_irb6640_185_280\ndresspack: sensor_cable\nmotion: easy\n");
   for (const std::string command : {"improve", "route"}) {
     const std::string few = command == "route" ? " --tried 1 --off 0" : "";
-    run(scratch, "dresslife", command + " a/job.yaml --quiet --rehearsals 1" + few);  // the result does not matter
-    const Outcome refused = run(scratch, "dresslife", command + " b/job.yaml --quiet --rehearsals 1" + few);
+    run(scratch, "dresslife", command + " a/job.yaml --quiet --short-runs 1" + few);  // the result does not matter
+    const Outcome refused = run(scratch, "dresslife", command + " b/job.yaml --quiet --short-runs 1" + few);
     CHECK(refused.status == 1);
     CHECK_THAT(refused.err, Catch::Contains("runs/job_" + command +
                                             ": error: holds the results of another file, a/job.yaml, not of b/job.yaml; choose another "
@@ -234,7 +234,7 @@ TEST_CASE("improve prints the Pareto front of two objectives, which may contain 
   write_small_study(scratch);
   const Outcome told =
       must_run(scratch, "dresslife",
-               "improve better.yaml --trials 4 --rehearsals 0 --second hose_length --off 0 --quiet");  // the fifth: 1 mm shorter, not worse
+               "improve better.yaml --trials 4 --short-runs 0 --second hose_length --off 0 --quiet");  // the fifth: 1 mm shorter, not worse
   INFO(told.out << told.err);
   CHECK(told.out.find("\nLongest lives for their hose_length:\n") != std::string::npos);
   CHECK(told.out.find("\n    as it is  ") != std::string::npos);
@@ -245,7 +245,7 @@ TEST_CASE("improve keeps trials whole where the study says so") {
   Scratch scratch;
   write_small_study(scratch);
   scratch.write("whole.yaml", content(scratch / "better.yaml") + "keep: all\n");
-  must_run(scratch, "dresslife", "improve whole.yaml --trials 3 --rehearsals 0 --off 0 --quiet");
+  must_run(scratch, "dresslife", "improve whole.yaml --trials 3 --short-runs 0 --off 0 --quiet");
   CHECK(results_of(scratch / "runs/whole_improve", "trial_").size() == 9);
 }
 
@@ -253,7 +253,7 @@ TEST_CASE("improve takes a job, and names of shipped ones") {
   Scratch scratch;
   write_small_job(scratch);
   // In a job that is moved by a recording only the length can change.
-  const Outcome job = run(scratch, "dresslife", "improve job.yaml --trials 2 --rehearsals 0 --off 0 --quiet");
+  const Outcome job = run(scratch, "dresslife", "improve job.yaml --trials 2 --short-runs 0 --off 0 --quiet");
   INFO(job.out << job.err);
   CHECK(content(scratch / "runs/job_improve/improve.csv").find(",routing.free_length_m\n") !=
         std::string::npos);
@@ -278,7 +278,7 @@ TEST_CASE("improve refuses what it cannot search") {
   // No trial keeps the limit, and the exit status states this. If it is exceeded by far, no trial is run.
   const auto improved = [&](const std::string& radius) {
     return run(scratch, "dresslife",
-               "improve better.yaml --trials 3 --rehearsals 20 --quiet --set dresspack.least_bend_radius_mm=" + radius);
+               "improve better.yaml --trials 3 --short-runs 20 --quiet --set dresspack.least_bend_radius_mm=" + radius);
   };
   const Outcome hopeless = improved("5000");
   CHECK(hopeless.status == 1);

@@ -54,10 +54,10 @@ const std::map<std::string, std::string> instead{
     {"dresslife check JOB.yaml", "dresslife check irb6640_spot_welding"},
     {"dresslife preview JOB.yaml", "dresslife preview irb6640_spot_welding"},
     {"dresslife route ROBOT_OR_JOB",
-     "dresslife route abb_irb4600_60_205 --scale 0.5 --tried 60 --rehearsals 20 --set uncertainty.enabled=false" + quick},
+     "dresslife route abb_irb4600_60_205 --scale 0.5 --tried 60 --short-runs 20 --set uncertainty.enabled=false" + quick},
     {"dresslife run JOB.yaml", "dresslife run irb6640_spot_welding" + quick},
     {"dresslife improve JOB_OR_STUDY",
-     "dresslife improve side_panel --trials 2 --rehearsals 0 --off 0 --set uncertainty.enabled=false" + quick},
+     "dresslife improve side_panel --trials 2 --short-runs 0 --off 0 --set uncertainty.enabled=false" + quick},
     {"dresslife duty FILE", "dresslife duty two_robots" + quick},
     {"dresslife duty DUTIES.yaml", "dresslife duty two_robots" + quick},
     {"dresslife plan FLEET.csv --duties DUTIES.yaml --windows 2027-07-12..2027-08-01", "not run"},  // as below

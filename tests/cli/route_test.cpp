@@ -24,7 +24,7 @@ TEST_CASE("route writes a job that runs, from a robot and a hose") {
   Scratch scratch;
   scratch.write("hose.yaml", thin_hose);
   const std::string line =
-      "route abb_irb2600_12_165 --dresspack ./hose.yaml --scale 1 --tried 60 --rehearsals 15 --off 0 --quiet "
+      "route abb_irb2600_12_165 --dresspack ./hose.yaml --scale 1 --tried 60 --short-runs 15 --off 0 --quiet "
       "--set simulation.segments=16 --set uncertainty.enabled=false --job found.yaml";
   const Outcome told = must_run(scratch, "dresslife", line);
   INFO(told.err);
@@ -57,7 +57,7 @@ TEST_CASE("route finds clamps for a shipped hose that keep all limits in the who
   Scratch scratch;
   const Outcome told =
       run(scratch, "dresslife",
-          "route abb_irb4600_60_205 --scale 0.5 --tried 60 --rehearsals 20 --quiet --bracket 145 "
+          "route abb_irb4600_60_205 --scale 0.5 --tried 60 --short-runs 20 --quiet --bracket 145 "
           "--set simulation.segments=20 --set strain.surface_fibres=0 --set uncertainty.enabled=false");
   INFO(told.err + told.out);
   CHECK(told.status == 0);
@@ -101,7 +101,7 @@ TEST_CASE("route and improve refuse a cable that no routing can give room, befor
       CHECK(results_in(scratch / folder) == 0);
   };
   const std::string quick =
-      " --scale 1 --tried 20 --rehearsals 4 --off 0 --quiet --set simulation.segments=12 --set uncertainty.enabled=false";
+      " --scale 1 --tried 20 --short-runs 4 --off 0 --quiet --set simulation.segments=12 --set uncertainty.enabled=false";
   refused(
       run(scratch, "dresslife", "route abb_irb2600_12_165 --dresspack ./hose.yaml --job found.yaml" + quick));
   const std::string job = R"(robot: abb_irb2600_12_165
@@ -115,11 +115,11 @@ simulation: {segments: 12}
 uncertainty: {enabled: false}
 )";
   scratch.write("job.yaml", job);
-  refused(run(scratch, "dresslife", "improve job.yaml --trials 2 --rehearsals 0 --off 0 --quiet"));
+  refused(run(scratch, "dresslife", "improve job.yaml --trials 2 --short-runs 0 --off 0 --quiet"));
 
   // If the slack itself is free, the search may correct it, so the fault is only a warning.
   const Outcome freed = run(scratch, "dresslife",
-                            "improve job.yaml --trials 2 --rehearsals 0 --off 0 --quiet --free "
+                            "improve job.yaml --trials 2 --short-runs 0 --off 0 --quiet --free "
                             "'dresspack.components.1.slack_percent=0.1 .. 6'");
   INFO(freed.out + freed.err);
   CHECK_THAT(freed.err, Catch::Contains("warning: 'cable' is compressed with "));
@@ -144,7 +144,7 @@ TEST_CASE("a search that ends without a routing names the limit that decides, an
   const auto routed = [&](const std::string& radius) {
     return run(
         scratch, "dresslife",
-        "route abb_irb2600_12_165 --dresspack ./hose.yaml --scale 1 --tried 60 --rehearsals 15 --off 0 --quiet "
+        "route abb_irb2600_12_165 --dresspack ./hose.yaml --scale 1 --tried 60 --short-runs 15 --off 0 --quiet "
         "--set simulation.segments=16 --set uncertainty.enabled=false --job found.yaml --set dresspack.least_bend_radius_mm=" +
             radius);
   };
@@ -191,7 +191,7 @@ TEST_CASE("screen grades every change of a job, and says which is no job") {
     return FileReader(scratch / "screening.h5", screening_format()).read<double>("/candidate/beyond");
   };
   const std::vector<double> by_geometry = beyond();
-  must_run(scratch, "dresslife-sim", "job.yaml --screen list.yaml --rehearse -o screening.h5 --quiet");
+  must_run(scratch, "dresslife-sim", "job.yaml --screen list.yaml --by-short-runs -o screening.h5 --quiet");
   const std::vector<double> in_a_run = beyond();
   REQUIRE(in_a_run.size() == by_geometry.size());
   constexpr std::size_t bend = 2, limits = 7;

@@ -992,7 +992,7 @@ TEST_CASE("uncertainty: the response equals the results of the stage with the ch
           pipeline::uncertain_parameters()[index_of(pipeline::Uncertain::slope)].value(slope);
       const FileReader again(run(folder, example(), moved, "moved.h5").file, pipeline::life_format());
       constexpr double digits = 1e-5;  // of the text, in decades
-      CHECK(response.change(z) ==
+      CHECK(pipeline::LifeSurface(response).change(z) ==
             Approx(std::log10(again.number_attribute("life_repeats") / life)).margin(digits));
     }
   pipeline::Job lasting = test_job();

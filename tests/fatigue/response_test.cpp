@@ -11,6 +11,7 @@ using namespace dresslife;
 using fatigue::VariedStrains;
 using pipeline::Inside;
 using pipeline::LifeResponse;
+using pipeline::LifeSurface;
 using pipeline::Uncertain;
 
 namespace {
@@ -48,14 +49,14 @@ TEST_CASE("rests: lives over all starts have the quantiles of the starts, whiche
   for (const auto& [share, life] : {std::pair(0.1, 5.0), {0.5, 6.0}, {0.9, 8.0}, {0.02, 5.0}, {0.98, 8.0}}) {
     pipeline::ParameterPoint z{};
     z[rest] = mean + pipeline::normal_quantile(share);
-    CHECK(of.log10_life(z, 0) == Approx(life).margin(rounding));
+    CHECK(LifeSurface(of).log10_life(z, 0) == Approx(life).margin(rounding));
   }
   const Rests worse(5, 5.5);  // the job's own rest has the longest life
   CHECK(worse.response.knowledge.mean[rest] == Approx(-pipeline::normal_quantile(0.7)));
   pipeline::ParameterPoint z{};
-  CHECK(worse.response.log10_life(z, 0) == Approx(6));
+  CHECK(LifeSurface(worse.response).log10_life(z, 0) == Approx(6));
   z[rest] = worse.response.knowledge.mean[rest] + pipeline::normal_quantile(0.3);
-  CHECK(worse.response.log10_life(z, 0) == Approx(5.5));
+  CHECK(LifeSurface(worse.response).log10_life(z, 0) == Approx(5.5));
 }
 
 TEST_CASE("rests: a variation that went on from another rest counts by what it changes there") {
@@ -65,18 +66,18 @@ TEST_CASE("rests: a variation that went on from another rest counts by what it c
   // From rest 2, life 1e8, to the job's own rest, life 1e6, the strain grows by f - 1. Friction along the hose multiplies it by
   // f or g.
   const double f = std::pow(10, 2. / 5), g = std::pow(10, -1. / 5);
-  CHECK(of.response.change(z) == Approx(2 - 5 * std::log10(f + f - 1)));
+  CHECK(LifeSurface(of.response).change(z) == Approx(2 - 5 * std::log10(f + f - 1)));
   z[hose] = 1.5;
-  CHECK(of.response.change(z) == Approx(2 - 5 * std::log10(f + g - 1)));
+  CHECK(LifeSurface(of.response).change(z) == Approx(2 - 5 * std::log10(f + g - 1)));
 }
 
 TEST_CASE("rests: at another slack a life stays as computed, whichever rest the cables went on from") {
   const Rests of(5, 8);
   pipeline::ParameterPoint z{};
   z[slack] = -1.5;
-  CHECK(of.response.log10_life(z, 0) == Approx(6));
+  CHECK(LifeSurface(of.response).log10_life(z, 0) == Approx(6));
   z[slack] = 1.5;
-  CHECK(of.response.log10_life(z, 0) == Approx(9));
+  CHECK(LifeSurface(of.response).log10_life(z, 0) == Approx(9));
 }
 
 TEST_CASE("rests: lives beyond anything physical shorten no other life") {
@@ -95,8 +96,8 @@ TEST_CASE("rests: lives beyond anything physical shorten no other life") {
   pipeline::ParameterPoint z{};
   for (const double at : {-3.0, -1.0, 0.0, 1.0, 3.0}) {
     z[rest] = at;
-    CHECK(response.log10_life(z, 0, Inside::glued) == Approx(4).margin(most));
-    CHECK(response.log10_life(z, 0) > 10);
+    CHECK(LifeSurface(response).log10_life(z, 0, Inside::glued) == Approx(4).margin(most));
+    CHECK(LifeSurface(response).log10_life(z, 0) > 10);
   }
 }
 

@@ -20,9 +20,9 @@ const std::vector<Command> commands{
     {"calibrate lives.yaml --quiet", "calibrate_lives"},
     {"duty duties.yaml --quiet", "job"},
     {"plan fleet.csv --duties duties.yaml --today 2026-11-23 --windows 2027-01-05 --quiet", "job"},
-    {"improve better.yaml --trials 2 --rehearsals 2 --off 0 --quiet", "better_improve"},
+    {"improve better.yaml --trials 2 --short-runs 2 --off 0 --quiet", "better_improve"},
     {"reprogram robot.yaml --lines 1 --quiet", "robot_reprogram"},
-    {"route abb_irb2600_12_165 --dresspack ./hose.yaml --tried 20 --rehearsals 2 --off 0 --quiet "
+    {"route abb_irb2600_12_165 --dresspack ./hose.yaml --tried 20 --short-runs 2 --off 0 --quiet "
      "--set simulation.segments=8 --job found.yaml",
      "abb_irb2600_12_165_route"}};
 
@@ -168,7 +168,7 @@ TEST_CASE("searches and comparisons under failing calls: each is right, or refus
 }
 
 TEST_CASE("a search takes no fault of the machine for a bad routing") {
-  const std::string search = "improve better.yaml --rehearsals 2 --off 0 --quiet --trials ";
+  const std::string search = "improve better.yaml --short-runs 2 --off 0 --quiet --trials ";
   Scratch undisturbed;
   write_inputs(undisturbed);
   must_run(undisturbed, "dresslife", search + "2");

@@ -189,7 +189,7 @@ TEST_CASE("a folder in the place of the poses is refused in every mode of the si
   fs::remove(scratch / "poses.csv");
   fs::create_directory(scratch / "poses.csv");
   scratch.write("list.yaml", "- {routing.free_length_m: 0.95}\n");
-  for (const std::string mode : {"", "--preview", "--screen list.yaml", "--screen list.yaml --rehearse"}) {
+  for (const std::string mode : {"", "--preview", "--screen list.yaml", "--screen list.yaml --by-short-runs"}) {
     const Outcome outcome = run(scratch, "dresslife-sim", "job.yaml -o out.h5 --quiet " + mode);
     INFO(mode << ": " << outcome.err);
     CHECK(outcome.status == 1);

@@ -114,7 +114,7 @@ class Improver {
       search->tell({candidate_of(as_it_is, *start)});
     }
     done_.trials.push_back(std::move(as_it_is));
-    makers_.tell(done_);
+    makers_.report(done_);
     bool stopped_early = false;
     try {
       try_others(*search);
@@ -129,7 +129,7 @@ class Improver {
       done_.obstacle.insert(
           done_.obstacle.begin(),
           fmt::format("The search stopped early: of {} short runs the nearest to the limits: {}",
-                      done_.rehearsals, nearest_words_));
+                      done_.short_runs, nearest_words_));
     return std::move(done_);
   }
 
@@ -146,7 +146,7 @@ class Improver {
         done_.trials.push_back(std::move(trial));
       }
       search.tell(candidates);
-      makers_.tell(done_);
+      makers_.report(done_);
     }
   }
 
@@ -174,7 +174,7 @@ class Improver {
       if (!trial.relief_refusal.empty()) trial.worst.failure = "its bend relief makes fail earlier: " + trial.relief_refusal;
       done_.trials.push_back(std::move(trial));
     }
-    makers_.tell(done_);
+    makers_.report(done_);
   }
 
   std::vector<std::vector<std::string>> sets_at(const std::vector<VectorXd>& places) const {
@@ -192,13 +192,13 @@ class Improver {
     SurrogateSettings settings;
     settings.seed = request_.seed;
     settings.aims = aims();
-    settings.rehearsals = std::max(0, request_.rehearsals);
-    done_.most_rehearsals =
-        request_.rehearsals > 0 ? request_.rehearsals : static_cast<int>(40 * freedom_.variables());
-    Rehearse rehearse;
-    if (request_.rehearsals != 0 && !screened_.empty())
-      rehearse = [this](const std::vector<VectorXd>& places) { return rehearsed(places); };
-    return std::make_unique<SurrogateSearch>(freedom_.variables(), settings, screen, rehearse);
+    settings.short_runs = std::max(0, request_.short_runs);
+    done_.most_short_runs =
+        request_.short_runs > 0 ? request_.short_runs : static_cast<int>(40 * freedom_.variables());
+    ShortRuns make_short_runs;
+    if (request_.short_runs != 0 && !screened_.empty())
+      make_short_runs = [this](const std::vector<VectorXd>& places) { return short_runs_of(places); };
+    return std::make_unique<SurrogateSearch>(freedom_.variables(), settings, screen, make_short_runs);
   }
 
   /// Checks that some values of the free keys give a valid job. Errors: InputError for a key that does not exist, or a range in
@@ -251,7 +251,7 @@ class Improver {
         worst[k].rejected = worst[k].rejected || of.rejected;
         if (of.refusal.empty())
           worst[k].bracket =
-              std::max(worst[k].bracket, limits_of_rehearsal(list.limits, of.beyond)[bracket_limit]);
+              std::max(worst[k].bracket, limits_of_short_run(list.limits, of.beyond)[bracket_limit]);
         if (violation > worst[k].violation)
           worst[k] = {violation, worst[k].rejected, of.beyond,
                       of.refusal.empty() ? list.words(of) : of.refusal, worst[k].bracket};
@@ -268,7 +268,7 @@ class Improver {
 
   /// Returns, (place), the worst of all jobs' short runs. A trial that does not run has its violation of the geometric limits
   /// (V1) to (V5).
-  std::vector<Candidate> rehearsed(const std::vector<VectorXd>& places) {
+  std::vector<Candidate> short_runs_of(const std::vector<VectorXd>& places) {
     const std::string candidates = list_of_changes(sets_at(places));
     std::vector<Candidate> results;
     for (const VectorXd& place : places) results.push_back({place, true, {}, {}});
@@ -279,7 +279,7 @@ class Improver {
       for (std::size_t k = 0; k < places.size(); ++k) {
         if (k >= list.candidates.size()) throw std::logic_error("a list of short runs is not whole");
         const ScreenedCandidate& of = list.candidates[k];
-        add_rehearsal(results[k], list, of);
+        add_short_run(results[k], list, of);
         const double violation = of.refusal.empty() ? of.violation() : HUGE_VAL;
         if (violation >= worst[k].first)
           worst[k] = {violation, of.refusal.empty() ? list.words(of) : of.refusal};
@@ -287,17 +287,18 @@ class Improver {
     }
     for (const auto& [violation, words] : worst)
       if (violation < nearest_ || nearest_words_.empty()) nearest_ = violation, nearest_words_ = words;
-    done_.rehearsals += static_cast<int>(places.size() * screened_.size());
-    makers_.tell(done_);
+    done_.short_runs += static_cast<int>(places.size() * screened_.size());
+    makers_.report(done_);
     return results;
   }
 
-  static void add_rehearsal(Candidate& candidate, const ScreenedList& list, const ScreenedCandidate& screened) {
+  static void add_short_run(Candidate& candidate, const ScreenedList& list,
+                            const ScreenedCandidate& screened) {
     const bool runs = screened.refusal.empty();
     if (!runs && candidate.ran) candidate = {candidate.place, false, {}, {}};
     if (runs != candidate.ran) return;
     const std::vector<double> beyond =
-        runs ? limits_of_rehearsal(list.limits, screened.beyond) : screened.beyond;
+        runs ? limits_of_short_run(list.limits, screened.beyond) : screened.beyond;
     if (runs) add_bends(candidate.pieces, screened.bends);
     if (candidate.beyond.empty()) candidate.beyond = beyond;
     for (std::size_t k = 0; k < beyond.size(); ++k) candidate.beyond[k] = std::max(candidate.beyond[k], beyond[k]);

@@ -42,7 +42,7 @@ struct ImproveRequest {
   SearchMethod method = SearchMethod::surrogate;
   SecondAim second = SecondAim::none;
   std::optional<double> longest_bracket{};  ///< replaces the jobs' value [m]
-  int rehearsals =
+  int short_runs =
       -1;  ///< largest number of short runs before the first trial; 0: none; -1: 40 times the number of variables
 };
 
@@ -71,8 +71,8 @@ struct Improvement {
   Keep keep_trials = Keep::lives, keep_finals = Keep::all;
   std::vector<Trial> trials;          ///< in their order, the original jobs first
   std::vector<std::size_t> front;     ///< indices of Pareto-optimal feasible trials, the best by merit first
-  int rehearsals = 0;                 ///< number of short runs
-  int most_rehearsals = 0;            ///< largest number of short runs before the first trial
+  int short_runs = 0;                 ///< number of short runs
+  int most_short_runs = 0;            ///< largest number of short runs before the first trial
   std::vector<std::string> obstacle;  ///< lines: reasons why no trial is feasible; empty: some are
   std::string ended;  ///< message that a file changed and ended the search early; empty: no file changed
   std::optional<std::size_t> best() const;  ///< best feasible trial by merit; absent: none is feasible
@@ -82,7 +82,7 @@ struct Improvement {
 
 struct TrialMakers {
   std::function<std::vector<RankingRow>(const Study&)> make_rows;
-  std::function<void(const Improvement&)> tell;  ///< called after every few trials and short runs
+  std::function<void(const Improvement&)> report;  ///< called after every few trials and short runs
 };
 
 /// Runs the search. places: folders of the study of trials. Errors: InputError for a key that cannot be free, or a study whose

@@ -193,7 +193,7 @@ std::string passed_text(const std::string& screened, double beyond) {
   return passed_text(found == limit_of_screened().end() ? bracket : found->second, beyond);
 }
 
-std::vector<double> limits_of_rehearsal(const std::vector<std::string>& names,
+std::vector<double> limits_of_short_run(const std::vector<std::string>& names,
                                         const std::vector<double>& beyond) {
   const std::map<std::string, Limit>& limit_of = limit_of_screened();
   std::vector<double> of(outcome_limits, std::numeric_limits<double>::quiet_NaN());

@@ -165,13 +165,6 @@ std::vector<double> SamePlace::at(const std::vector<double>& repeats_per_hour,
   return share;
 }
 
-DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
-                        const std::string& dresspack, std::size_t samples) {
-  std::vector<double> repeats;
-  for (const Rate& rate : rates) repeats.push_back(rate.repeats_per_hour);
-  return damage_under(programs, rates, SamePlace(programs).at(repeats), dresspack, samples);
-}
-
 RepeatDamage damage_of_repeat(const FailureModes& modes, const std::string& dresspack, std::size_t samples) {
   RepeatDamage damage = mode_lives(modes, dresspack, samples);
   for (std::vector<double>& of_mode : damage)

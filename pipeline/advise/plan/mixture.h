@@ -104,9 +104,8 @@ std::vector<double> first_mode_damage(const std::vector<EvaluatedProgram>& progr
                                       const std::function<const std::vector<double>&(const EvaluatedProgram&, double)>& factors_of);
 /// Returns the damage under one duty. dresspack: name for values that only this dresspack has (first_failures()).
 DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
-                        const std::vector<double>& share, const std::string& dresspack, std::size_t samples = life_samples);
-DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
-                        const std::string& dresspack, std::size_t samples = life_samples);
+                        const std::vector<double>& share, const std::string& dresspack,
+                        std::size_t samples = life_samples);
 
 /// Damage of a dresspack in the past: hours under a duty.
 struct PastDamage {

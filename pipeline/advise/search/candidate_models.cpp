@@ -14,12 +14,12 @@ using Shape = GaussianProcess::Shape;
 
 namespace {
 
-constexpr std::size_t most_rehearsals = 250;  // in a model: the cost grows with the cube of their number
+constexpr std::size_t most_short_runs = 250;  // in a model: the cost grows with the cube of their number
 constexpr Index most_for_shape = 120;         // for a fit of the shapes: the same growth of cost
 constexpr int shape_evaluations = 60;
 constexpr double same = 1e-9;  // values and places with a smaller difference are equal
 
-constexpr GaussianProcess::Scale missed_by_rehearsals{0.1, 3};
+constexpr GaussianProcess::Scale missed_by_short_runs{0.1, 3};
 
 enum ShapeOf : std::size_t { of_aim, of_failure, of_limits };
 
@@ -27,21 +27,21 @@ Shape& shape_of(CandidateModels::Shapes& shapes, std::size_t limit, bool differe
   return shapes[of_limits + 2 * limit + (difference ? 1 : 0)];
 }
 
-/// Returns the rehearsals at places of results first, then those nearest to the centre.
-std::vector<const Candidate*> chosen(const std::vector<Candidate>& rehearsals,
+/// Returns the short runs at places of results first, then those nearest to the centre.
+std::vector<const Candidate*> chosen(const std::vector<Candidate>& short_runs,
                                      const std::vector<Candidate>& evaluated, const VectorXd& centre) {
   std::vector<std::pair<double, const Candidate*>> some;
-  for (const Candidate& rehearsal : rehearsals) {
+  for (const Candidate& short_run : short_runs) {
     const auto is_here = [&](const Candidate& candidate) {
-      return (candidate.place - rehearsal.place).cwiseAbs().maxCoeff() < same;
+      return (candidate.place - short_run.place).cwiseAbs().maxCoeff() < same;
     };
     const bool is_evaluated = std::any_of(evaluated.begin(), evaluated.end(), is_here);
-    some.emplace_back(is_evaluated ? -1 : (rehearsal.place - centre).squaredNorm(), &rehearsal);
+    some.emplace_back(is_evaluated ? -1 : (short_run.place - centre).squaredNorm(), &short_run);
   }
   std::stable_sort(some.begin(), some.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  if (some.size() > most_rehearsals) some.resize(most_rehearsals);
+  if (some.size() > most_short_runs) some.resize(most_short_runs);
   std::vector<const Candidate*> of;
-  for (const auto& [distance, rehearsal] : some) of.push_back(rehearsal);
+  for (const auto& [distance, short_run] : some) of.push_back(short_run);
   return of;
 }
 
@@ -84,8 +84,8 @@ void CandidateModels::FunctionModel::build(const Shape& shape, const GaussianPro
 
 GaussianProcess::Prediction CandidateModels::Limit::at(const VectorXd& place, double deviations) const {
   GaussianProcess::Prediction predicted;
-  if (rehearsed.model) {
-    const GaussianProcess::Predictions each = rehearsed.model->of_each(place);
+  if (by_short_run.model) {
+    const GaussianProcess::Predictions each = by_short_run.model->of_each(place);
     Index largest = 0;
     (each.means + deviations * each.deviations).maxCoeff(&largest);
     predicted = {each.means[largest], each.deviations[largest]};
@@ -98,11 +98,11 @@ GaussianProcess::Prediction CandidateModels::Limit::at(const VectorXd& place, do
 }
 
 CandidateModels::CandidateModels(const std::vector<Candidate>& evaluated,
-                                 const std::vector<Candidate>& rehearsals, const VectorXd& centre,
+                                 const std::vector<Candidate>& short_runs, const VectorXd& centre,
                                  Shapes shapes)
     : shapes_(std::move(shapes)) {
   std::size_t limits = 0;
-  for (const std::vector<Candidate>* list : {&evaluated, &rehearsals})
+  for (const std::vector<Candidate>* list : {&evaluated, &short_runs})
     for (const Candidate& candidate : *list)
       if (candidate.ran) limits = candidate.beyond.size();
   limits_.resize(limits);
@@ -115,7 +115,7 @@ CandidateModels::CandidateModels(const std::vector<Candidate>& evaluated,
     aim_.add(candidate.place, candidate.aims.front());
     for (std::size_t k = 0; k < limits; ++k) limits_[k].evaluated.add(candidate.place, tamed(candidate.beyond[k]));
   }
-  for (const Candidate* rehearsal : chosen(rehearsals, evaluated, centre)) add_rehearsal(*rehearsal);
+  for (const Candidate* short_run : chosen(short_runs, evaluated, centre)) add_short_run(*short_run);
   build_all();
 }
 
@@ -125,15 +125,16 @@ bool CandidateModels::holds(const VectorXd& place) const {
   return false;
 }
 
-/// Adds a rehearsal. If the same place has a result, only the result determines whether the place runs.
-void CandidateModels::add_rehearsal(const Candidate& rehearsal) {
-  if (!holds(rehearsal.place)) {
-    failed_.add(rehearsal.place, failure_of(rehearsal));
-    any_failed_ = any_failed_ || !rehearsal.ran;
+/// Adds a short run. If the same place has a result, only the result determines whether the place runs.
+void CandidateModels::add_short_run(const Candidate& short_run) {
+  if (!holds(short_run.place)) {
+    failed_.add(short_run.place, failure_of(short_run));
+    any_failed_ = any_failed_ || !short_run.ran;
   }
-  if (!rehearsal.ran) return;
+  if (!short_run.ran) return;
   for (std::size_t k = 0; k < limits_.size(); ++k)
-    if (!std::isnan(rehearsal.beyond[k])) limits_[k].rehearsed.add(rehearsal.place, pieces_of(rehearsal, k));
+    if (!std::isnan(short_run.beyond[k]))
+      limits_[k].by_short_run.add(short_run.place, pieces_of(short_run, k));
 }
 
 void CandidateModels::fit() {
@@ -148,7 +149,7 @@ void CandidateModels::fit() {
   if (any_failed_) refit(shapes_[of_failure], failed_, std::max(evaluated, most_for_shape));
   for (std::size_t k = 0; k < limits_.size(); ++k) {
     if (!limits_[k].varies) continue;
-    refit(shape_of(shapes_, k, false), limits_[k].rehearsed, most_for_shape);
+    refit(shape_of(shapes_, k, false), limits_[k].by_short_run, most_for_shape);
     refit(shape_of(shapes_, k, true), limits_[k].difference, evaluated);
   }
   build_all();
@@ -159,7 +160,7 @@ void CandidateModels::build_all() {
   if (any_failed_) failed_.build(shapes_[of_failure]);
   for (Limit& limit : limits_) {
     double low = HUGE_VAL, high = -HUGE_VAL;
-    for (const FunctionModel* known : {&limit.rehearsed, &limit.evaluated})
+    for (const FunctionModel* known : {&limit.by_short_run, &limit.evaluated})
       if (known->places.rows() > 0) {
         const VectorXd largest = known->values.rowwise().maxCoeff();
         low = std::min(low, largest.minCoeff()), high = std::max(high, largest.maxCoeff());
@@ -173,15 +174,16 @@ void CandidateModels::build_limits() {
   for (std::size_t k = 0; k < limits_.size(); ++k) {
     Limit& limit = limits_[k];
     if (!limit.varies) continue;
-    limit.rehearsed.build(shape_of(shapes_, k, false));
+    limit.by_short_run.build(shape_of(shapes_, k, false));
     limit.difference = {limit.evaluated.places, limit.evaluated.values};
-    if (limit.rehearsed.model)
+    if (limit.by_short_run.model)
       for (Index i = 0; i < limit.difference.places.rows(); ++i) {
-        const auto rehearsed = limit.rehearsed.model->of_each(limit.evaluated.places.row(i).transpose());
-        limit.difference.values(i, 0) -= rehearsed.means.maxCoeff();
+        const auto by_short_run =
+            limit.by_short_run.model->of_each(limit.evaluated.places.row(i).transpose());
+        limit.difference.values(i, 0) -= by_short_run.means.maxCoeff();
       }
     limit.difference.build(shape_of(shapes_, k, true),
-                           limit.rehearsed.model ? missed_by_rehearsals : GaussianProcess::Scale{});
+                           limit.by_short_run.model ? missed_by_short_runs : GaussianProcess::Scale{});
   }
 }
 
@@ -193,16 +195,16 @@ void CandidateModels::believe(const VectorXd& place) {
   build_all();
 }
 
-void CandidateModels::believe_rehearsal(const VectorXd& place) {
+void CandidateModels::believe_short_run(const VectorXd& place) {
   for (Limit& limit : limits_)
-    if (limit.varies && limit.rehearsed.model)
-      limit.rehearsed.add(place, limit.rehearsed.model->of_each(place).means);
+    if (limit.varies && limit.by_short_run.model)
+      limit.by_short_run.add(place, limit.by_short_run.model->of_each(place).means);
   if (failed_.model) failed_.add(place, failed_.model->at(place).mean);
   build_all();
 }
 
-void CandidateModels::learn(const std::vector<Candidate>& rehearsals) {
-  for (const Candidate& rehearsal : rehearsals) add_rehearsal(rehearsal);
+void CandidateModels::learn(const std::vector<Candidate>& short_runs) {
+  for (const Candidate& short_run : short_runs) add_short_run(short_run);
   build_all();
 }
 

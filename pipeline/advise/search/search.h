@@ -36,7 +36,7 @@ using Screen = std::function<std::vector<double>(const std::vector<Eigen::Vector
 
 /// Returns, (place), the result of a low-fidelity evaluation: whether the candidate runs, and approximate constraints in the
 /// order of Candidate::beyond; NaN: unknown; no objectives. The same places give the same results.
-using Rehearse = std::function<std::vector<Candidate>(const std::vector<Eigen::VectorXd>&)>;
+using ShortRuns = std::function<std::vector<Candidate>(const std::vector<Eigen::VectorXd>&)>;
 
 class Search {
  public:

@@ -21,9 +21,10 @@ constexpr int candidate_count = 200, polish_evaluations = 150;
 constexpr double moved_at_once =
     6;  // mean number of variables in which a candidate differs from the best one
 constexpr std::size_t screened_at_once = 24;
-constexpr std::size_t rehearsed_for_a_look = 4;
-constexpr int rehearsed_together = 8;
-constexpr int rehearsed_again = 24;   // per evaluation while none is feasible; together they take about as long as an evaluation
+constexpr std::size_t short_runs_per_candidate = 4;
+constexpr int short_runs_together = 8;
+constexpr int short_runs_again =
+    24;  // per evaluation while none is feasible; together they take about as long as an evaluation
 // one of this number among the first evaluations is spread, because feasible places may have no common region
 constexpr int spread_share = 4;
 constexpr double cautious = 1;        // deviations of the constraints while no candidate is feasible
@@ -61,15 +62,15 @@ SearchBox around(const VectorXd& centre, double width) {
 }  // namespace
 
 SurrogateSearch::SurrogateSearch(Index variables, const SurrogateSettings& settings, Screen screen,
-                                 Rehearse rehearse)
+                                 ShortRuns make_short_runs)
     : variables_(variables),
       settings_(settings),
       screen_(std::move(screen)),
-      rehearse_(std::move(rehearse)),
+      make_short_runs_(std::move(make_short_runs)),
       numbers_(settings.seed),
       ahead_width_(first_width) {
-  if (settings_.first_looks == 0) settings_.first_looks = static_cast<int>(2 * variables + 2);
-  if (settings_.rehearsals == 0) settings_.rehearsals = static_cast<int>(40 * variables);
+  if (settings_.first_candidates == 0) settings_.first_candidates = static_cast<int>(2 * variables + 2);
+  if (settings_.short_runs == 0) settings_.short_runs = static_cast<int>(40 * variables);
   if (settings_.aims == 1)
     regions_ = {{1, first_width}};
   else
@@ -77,7 +78,7 @@ SurrogateSearch::SurrogateSearch(Index variables, const SurrogateSettings& setti
 }
 
 /// Returns a place far from all candidates, and not rejected by the screen if possible.
-VectorXd SurrogateSearch::first_look() {
+VectorXd SurrogateSearch::first_candidate() {
   constexpr int drawn = 40;
   std::vector<VectorXd> some;
   for (int k = 0; k < drawn; ++k) {
@@ -85,7 +86,7 @@ VectorXd SurrogateSearch::first_look() {
     for (double& u : place) u = numbers_.uniform();
     some.push_back(std::move(place));
   }
-  const std::vector<double> beyond = rehearse_ ? std::vector<double>(some.size(), 0.0) : screen_(some);
+  const std::vector<double> beyond = make_short_runs_ ? std::vector<double>(some.size(), 0.0) : screen_(some);
   std::size_t best = 0;
   for (std::size_t k = 1; k < some.size(); ++k)
     if (beyond[k] < beyond[best] ||
@@ -129,7 +130,7 @@ VectorXd SurrogateSearch::allowed(const std::vector<VectorXd>& by_merit) {
   std::vector<VectorXd> some;
   for (const VectorXd& place : by_merit)
     if (some.size() < screened_at_once && !is_known(place)) some.push_back(place);
-  if (some.empty()) return first_look();
+  if (some.empty()) return first_candidate();
   const std::vector<double> beyond = screen_(some);
   return some[static_cast<std::size_t>(std::min_element(beyond.begin(), beyond.end()) - beyond.begin())];
 }
@@ -166,138 +167,140 @@ std::vector<VectorXd> SurrogateSearch::ranked(const CandidateModels& models, con
   return by_merit;
 }
 
-bool SurrogateSearch::is_rehearsed(const VectorXd& place) const {
-  return std::any_of(rehearsals_.begin(), rehearsals_.end(),
+bool SurrogateSearch::has_short_run(const VectorXd& place) const {
+  return std::any_of(short_runs_.begin(), short_runs_.end(),
                      [&](const Candidate& one) { return (one.place - place).cwiseAbs().maxCoeff() < near; });
 }
 
-void SurrogateSearch::rehearse(const std::vector<VectorXd>& places) {
-  for (Candidate& rehearsed : rehearse_(places)) rehearsals_.push_back(std::move(rehearsed));
+void SurrogateSearch::make_short_runs(const std::vector<VectorXd>& places) {
+  for (Candidate& made : make_short_runs_(places)) short_runs_.push_back(std::move(made));
 }
 
-/// Rehearses candidates that were evaluated without a rehearsal, so that the difference is known at their places.
-void SurrogateSearch::rehearse_evaluated(const std::vector<Candidate>& candidates) {
+/// Makes short runs of candidates that were evaluated without one, so that the difference is known at their places.
+void SurrogateSearch::make_runs_of_evaluated(const std::vector<Candidate>& candidates) {
   std::vector<VectorXd> places;
   for (const Candidate& candidate : candidates)
-    if (!is_rehearsed(candidate.place)) places.push_back(candidate.place);
-  if (!places.empty()) rehearse(places);
+    if (!has_short_run(candidate.place)) places.push_back(candidate.place);
+  if (!places.empty()) make_short_runs(places);
 }
 
-/// Rehearses the first few places, then returns the best of all rehearsed places by the new models.
-VectorXd SurrogateSearch::rehearsed_pick(CandidateModels& models, const std::vector<VectorXd>& by_merit,
-                                         const Trust& trust) {
+/// Makes short runs at the first few places, then returns the best of all places with a short run by the new models.
+VectorXd SurrogateSearch::pick_by_short_runs(CandidateModels& models, const std::vector<VectorXd>& by_merit,
+                                             const Trust& trust) {
   std::vector<VectorXd> some;
   for (const VectorXd& place : by_merit)
-    if (some.size() < rehearsed_for_a_look && !is_known(place) && !is_rehearsed(place)) some.push_back(place);
-  const auto before = static_cast<std::ptrdiff_t>(rehearsals_.size());
-  rehearse(some);
-  models.learn({rehearsals_.begin() + before, rehearsals_.end()});
+    if (some.size() < short_runs_per_candidate && !is_known(place) && !has_short_run(place))
+      some.push_back(place);
+  const auto before = static_cast<std::ptrdiff_t>(short_runs_.size());
+  make_short_runs(some);
+  models.learn({short_runs_.begin() + before, short_runs_.end()});
   Merit least;
   const Candidate* best = nullptr;
-  for (const Candidate& rehearsal : rehearsals_) {
-    if (is_known(rehearsal.place) || !rehearsal.ran || !models.holds(rehearsal.place)) continue;
-    const Merit merit = models.any_feasible() ? Merit{models.excess(rehearsal.place, trust.of_limits),
-                                                      models.aim_at(rehearsal.place, trust.of_aim)}
-                                              : nearness(models, rehearsal.place);
-    if (!best || merit < least) least = merit, best = &rehearsal;
+  for (const Candidate& short_run : short_runs_) {
+    if (is_known(short_run.place) || !short_run.ran || !models.holds(short_run.place)) continue;
+    const Merit merit = models.any_feasible() ? Merit{models.excess(short_run.place, trust.of_limits),
+                                                      models.aim_at(short_run.place, trust.of_aim)}
+                                              : nearness(models, short_run.place);
+    if (!best || merit < least) least = merit, best = &short_run;
   }
-  return best ? best->place : first_look();
+  return best ? best->place : first_candidate();
 }
 
-/// Returns rehearsed places without a full evaluation, most likely feasible first.
+/// Returns places with a short run and without a full evaluation, most likely feasible first.
 std::vector<VectorXd> SurrogateSearch::promising(const CandidateModels& models) const {
   std::vector<VectorXd> places;
-  for (const Candidate& rehearsal : rehearsals_)
-    if (rehearsal.ran && !is_known(rehearsal.place) && models.holds(rehearsal.place) &&
-        models.excess(rehearsal.place, cautious) == 0)
-      places.push_back(rehearsal.place);
+  for (const Candidate& short_run : short_runs_)
+    if (short_run.ran && !is_known(short_run.place) && models.holds(short_run.place) &&
+        models.excess(short_run.place, cautious) == 0)
+      places.push_back(short_run.place);
   return places;
 }
 
-/// Returns the rehearsal from `first` on that runs and has the smallest predicted violation. Precondition: at least one ran.
-VectorXd SurrogateSearch::nearest_rehearsal(const CandidateModels& models, std::size_t first) const {
+/// Returns the short run from `first` on that runs and has the smallest predicted violation. Precondition: at least one ran.
+VectorXd SurrogateSearch::nearest_short_run(const CandidateModels& models, std::size_t first) const {
   Merit least;
   const Candidate* nearest = nullptr;
-  for (std::size_t k = first; k < rehearsals_.size(); ++k) {
-    const Candidate& rehearsal = rehearsals_[k];
-    if (!rehearsal.ran || !models.holds(rehearsal.place)) continue;
-    const Merit merit = nearness(models, rehearsal.place);
-    if (!nearest || merit < least) least = merit, nearest = &rehearsal;
+  for (std::size_t k = first; k < short_runs_.size(); ++k) {
+    const Candidate& short_run = short_runs_[k];
+    if (!short_run.ran || !models.holds(short_run.place)) continue;
+    const Merit merit = nearness(models, short_run.place);
+    if (!nearest || merit < least) least = merit, nearest = &short_run;
   }
   return nearest->place;
 }
 
-std::vector<Candidate> SurrogateSearch::rehearsals_from(std::size_t first) const {
-  return {rehearsals_.begin() + static_cast<std::ptrdiff_t>(first), rehearsals_.end()};
+std::vector<Candidate> SurrogateSearch::short_runs_from(std::size_t first) const {
+  return {short_runs_.begin() + static_cast<std::ptrdiff_t>(first), short_runs_.end()};
 }
 
-/// Makes `count` rehearsals, far from each other and from all candidates. The search starts at the best of them.
-void SurrogateSearch::rehearse_spread(int count) {
-  ahead_from_ = rehearsals_.size();
+/// Makes `count` short runs, far from each other and from all candidates. The search starts at the best of them.
+void SurrogateSearch::make_spread_runs(int count) {
+  ahead_from_ = short_runs_.size();
   ahead_width_ = first_width;
   std::vector<VectorXd> spread;
   while (static_cast<int>(spread.size()) < count) {
-    spread.push_back(first_look());
+    spread.push_back(first_candidate());
     pending_.push_back(spread.back());
   }
   pending_.clear();
-  rehearse(spread);
+  make_short_runs(spread);
 }
 
-/// Returns the next rehearsals, each at the smallest predicted violation, given the expected results of the earlier ones.
-std::vector<VectorXd> SurrogateSearch::next_rehearsals(CandidateModels& models, const VectorXd& centre,
+/// Returns the next short runs, each at the smallest predicted violation, given the expected results of the earlier ones.
+std::vector<VectorXd> SurrogateSearch::next_short_runs(CandidateModels& models, const VectorXd& centre,
                                                        std::size_t count) {
   static constexpr Trust trusts[] = {{0, 0, false}, {0, cautious, false}, {0, -1, false}, {0, 0, true}};
   std::vector<VectorXd> batch;
   while (batch.size() < count) {
     const std::vector<VectorXd> some =
         ranked(models, centre, ahead_width_, trusts[batch.size() % std::size(trusts)]);
-    const auto is_new = [&](const VectorXd& place) { return !is_known(place) && !is_rehearsed(place); };
+    const auto is_new = [&](const VectorXd& place) { return !is_known(place) && !has_short_run(place); };
     const auto found = std::find_if(some.begin(), some.end(), is_new);
-    batch.push_back(found == some.end() ? first_look() : *found);
-    models.believe_rehearsal(batch.back());
+    batch.push_back(found == some.end() ? first_candidate() : *found);
+    models.believe_short_run(batch.back());
   }
   return batch;
 }
 
-/// Returns whether no result is near feasibility after a third of the rehearsals before the first evaluation.
+/// Returns whether no result is near feasibility after a third of the short runs before the first evaluation.
 bool SurrogateSearch::is_hopeless() const {
   const auto misses = [](const Candidate& candidate) { return !candidate.ran || candidate.violation() > hopeless; };
   return asked_ == 0 &&
-         static_cast<int>(rehearsals_.size()) >= std::max(settings_.rehearsals / 3, settings_.first_looks) &&
-         std::all_of(rehearsals_.begin(), rehearsals_.end(), misses) &&
+         static_cast<int>(short_runs_.size()) >=
+             std::max(settings_.short_runs / 3, settings_.first_candidates) &&
+         std::all_of(short_runs_.begin(), short_runs_.end(), misses) &&
          std::all_of(evaluated_.begin(), evaluated_.end(), misses);
 }
 
-/// Makes rehearsals near feasibility by (Q6).
-void SurrogateSearch::rehearse_ahead(int wanted) {
-  int left = asked_ == 0 ? settings_.rehearsals : rehearsed_again * wanted;
+/// Makes short runs near feasibility by (Q6).
+void SurrogateSearch::make_runs_ahead(int wanted) {
+  int left = asked_ == 0 ? settings_.short_runs : short_runs_again * wanted;
   const auto spread = [&] {
-    const int count = std::min(settings_.first_looks, left);
-    rehearse_spread(count);
+    const int count = std::min(settings_.first_candidates, left);
+    make_spread_runs(count);
     left -= count;
   };
   if (asked_ == 0) spread();
-  while (asked_ == 0 && left > 0 && !any_ran(rehearsals_) && !is_hopeless()) spread();
+  while (asked_ == 0 && left > 0 && !any_ran(short_runs_) && !is_hopeless()) spread();
   Merit nearest;
   bool has_nearest = false;
-  while (left > 0 && any_ran(rehearsals_) && !is_hopeless()) {
-    if (ahead_width_ < least_ahead || !any_ran(rehearsals_from(ahead_from_))) {
+  while (left > 0 && any_ran(short_runs_) && !is_hopeless()) {
+    if (ahead_width_ < least_ahead || !any_ran(short_runs_from(ahead_from_))) {
       spread();
       has_nearest = false;
       continue;
     }
     CandidateModels models = models_of(evaluated_, ahead_from_);
     if (models.any_feasible() || static_cast<int>(promising(models).size()) >= wanted) return;
-    const VectorXd centre = nearest_rehearsal(models, ahead_from_);
+    const VectorXd centre = nearest_short_run(models, ahead_from_);
     const Merit now = nearness(models, centre);
     if (has_nearest)
       ahead_width_ =
           clearly_less(now, nearest) ? std::min(most_width, 1.5 * ahead_width_) : 0.7 * ahead_width_;
     nearest = now;
     has_nearest = true;
-    const int count = std::min(rehearsed_together, left);
-    rehearse(next_rehearsals(models, centre, static_cast<std::size_t>(count)));
+    const int count = std::min(short_runs_together, left);
+    make_short_runs(next_short_runs(models, centre, static_cast<std::size_t>(count)));
     left -= count;
   }
 }
@@ -327,13 +330,13 @@ std::vector<Candidate> SurrogateSearch::by_weight(double weight) const {
   return candidates;
 }
 
-/// Returns models of the results, and of the rehearsals from `first` on near the best known place. The shapes are fitted again
+/// Returns models of the results, and of the short runs from `first` on near the best known place. The shapes are fitted again
 /// after the number of data has grown by the factor much_more.
 CandidateModels SurrogateSearch::models_of(const std::vector<Candidate>& candidates, std::size_t first) {
-  const bool by_results = !any_ran(rehearsals_) || (!candidates.empty() && best_of(candidates).feasible());
-  const std::vector<Candidate> those = by_results ? candidates : rehearsals_from(first);
-  CandidateModels models(candidates, rehearsals_, best_of(those).place, shapes_);
-  const auto known = static_cast<double>(candidates.size() + rehearsals_.size());
+  const bool by_results = !any_ran(short_runs_) || (!candidates.empty() && best_of(candidates).feasible());
+  const std::vector<Candidate> those = by_results ? candidates : short_runs_from(first);
+  CandidateModels models(candidates, short_runs_, best_of(those).place, shapes_);
+  const auto known = static_cast<double>(candidates.size() + short_runs_.size());
   if (candidates.size() != shapes_of_evaluated_ || known > much_more * shapes_of_) {
     models.fit();
     shapes_ = models.shapes();
@@ -343,8 +346,8 @@ CandidateModels SurrogateSearch::models_of(const std::vector<Candidate>& candida
   return models;
 }
 
-/// Returns a promising place that is farthest from all candidates, for the first few evaluations of a search with rehearsals.
-std::optional<VectorXd> SurrogateSearch::spread_look(const CandidateModels& models) const {
+/// Returns a promising place that is farthest from all candidates, for the first few evaluations of a search with short runs.
+std::optional<VectorXd> SurrogateSearch::spread_candidate(const CandidateModels& models) const {
   std::optional<VectorXd> farthest;
   double most = -1;
   for (const VectorXd& place : promising(models))
@@ -360,27 +363,28 @@ std::vector<VectorXd> SurrogateSearch::ask(int count) {
     ++asked_;
   };
   const auto wanted = static_cast<std::size_t>(count);
-  if (rehearse_) rehearse_ahead(count);
-  if (rehearse_ && is_hopeless()) return {};
-  const bool can_model = any_ran(evaluated_) || any_ran(rehearsals_);
-  while (places.size() < wanted && (!can_model || (!rehearse_ && asked_ < settings_.first_looks)))
-    take(first_look());
+  if (make_short_runs_) make_runs_ahead(count);
+  if (make_short_runs_ && is_hopeless()) return {};
+  const bool can_model = any_ran(evaluated_) || any_ran(short_runs_);
+  while (places.size() < wanted && (!can_model || (!make_short_runs_ && asked_ < settings_.first_candidates)))
+    take(first_candidate());
   if (places.size() == wanted) return places;
 
   region_ = (region_ + 1) % regions_.size();
   const std::vector<Candidate> candidates = by_weight(regions_[region_].weight);
   CandidateModels models = models_of(candidates);
   for (const VectorXd& place : pending_) models.believe(place);
-  const bool by_results = models.any_feasible() || !any_ran(rehearsals_);
-  const VectorXd best = by_results ? best_of(candidates).place : nearest_rehearsal(models);
+  const bool by_results = models.any_feasible() || !any_ran(short_runs_);
+  const VectorXd best = by_results ? best_of(candidates).place : nearest_short_run(models);
   while (places.size() < wanted) {
     static constexpr Trust trusts[] = {{0, 0, false}, {1, 1, false}, {1, -1, false}, {2, 0, true}};
     std::optional<VectorXd> place;
-    if (rehearse_ && asked_ < settings_.first_looks / spread_share) place = spread_look(models);
+    if (make_short_runs_ && asked_ < settings_.first_candidates / spread_share)
+      place = spread_candidate(models);
     if (!place) {
       const Trust& trust = trusts[static_cast<std::size_t>(picks_++) % std::size(trusts)];
       const std::vector<VectorXd> by_merit = ranked(models, best, regions_[region_].width, trust);
-      place = rehearse_ ? rehearsed_pick(models, by_merit, trust) : allowed(by_merit);
+      place = make_short_runs_ ? pick_by_short_runs(models, by_merit, trust) : allowed(by_merit);
     }
     take(std::move(*place));
     if (places.size() < wanted) models.believe(places.back());
@@ -393,7 +397,7 @@ void SurrogateSearch::tell(const std::vector<Candidate>& candidates) {
   const std::size_t before = evaluated_.size();
   evaluated_.insert(evaluated_.end(), candidates.begin(), candidates.end());
   pending_.clear();
-  if (rehearse_) rehearse_evaluated(candidates);
+  if (make_short_runs_) make_runs_of_evaluated(candidates);
   if (picks_ == 0 || before == 0) return;
   const std::vector<Candidate> now = by_weight(region.weight);
   const auto old_end = now.begin() + static_cast<std::ptrdiff_t>(before);

@@ -352,7 +352,8 @@ void edit(const File& target, Choices choices) {
 /// Processes the file as the next stage does, with the seed's job. Settings of other jobs are not part of this test.
 void use(const std::string& name) {
   if (kind == Kind::life) {
-    pipeline::report_page("fuzz", pipeline::read_ranking({{"job", name, ""}}));
+    std::vector<pipeline::ReportProblem> problems;
+    pipeline::report_page("fuzz", pipeline::read_ranking({{"job", name, ""}}), problems);
     return;
   }
   const pipeline::FileReader file(name, format());

@@ -23,10 +23,10 @@ TEST_CASE("digest: the published examples of SHA-256") {
 
 TEST_CASE("digest: a file's is that of its bytes, also beyond one block") {
   const Scratch scratch;
-  CHECK(sha256_of_file(scratch.write("empty", "")) == digest_of_nothing);
-  CHECK(sha256_of_file(scratch.write("abc", "abc")) == digest_of_abc);
+  CHECK(digested_file(scratch.write("empty", ""), 0).sha256 == digest_of_nothing);
+  CHECK(digested_file(scratch.write("abc", "abc"), 0).sha256 == digest_of_abc);
   const std::string large(3'000'001, 'z');
-  CHECK(sha256_of_file(scratch.write("large", large)) == sha256(large));
+  CHECK(digested_file(scratch.write("large", large), 0).sha256 == sha256(large));
 }
 
 TEST_CASE("digest: a reading of a file with a checksum is held to that, in its first bytes and behind them") {
@@ -47,9 +47,9 @@ TEST_CASE("digest: a reading of a file with a checksum is held to that, in its f
 
 TEST_CASE("digest: what cannot be read has none") {
   const Scratch scratch;
-  CHECK(message_of([&] { sha256_of_file(scratch / "absent"); }) ==
+  CHECK(message_of([&] { digested_file(scratch / "absent", 0).sha256; }) ==
         (scratch / "absent").string() + ": error: cannot be read (No such file or directory); check the path");
-  CHECK(message_of([&] { sha256_of_file(scratch / "."); }) ==
+  CHECK(message_of([&] { digested_file(scratch / ".", 0).sha256; }) ==
         (scratch / ".").string() + ": error: is a folder, not a file; name a file");
 }
 

@@ -32,21 +32,21 @@ ParameterPoint at(std::size_t parameter, double z) {
 TEST_CASE("a straight response is straight between its points and beyond them") {
   const LifeResponse response = straight_response(0.6, 0.2, 0.4);
   for (const double z : {-2.5, -1.5, -0.4, 0.0, 0.9, 3.0}) {
-    CHECK(response.change(at(friction, z)) == Approx(-0.6 * z).margin(rounding));
-    CHECK(response.change(at(slack, z)) == Approx(-0.2 * z).margin(rounding));
-    CHECK(response.change(at(strength, z)) == Approx(0.4 * z).margin(rounding));
-    CHECK(response.change(at(model, z)) == Approx(model_decades * z).margin(rounding));
-    CHECK(response.change(at(scatter, z)) == 0);
+    CHECK(LifeSurface(response).change(at(friction, z)) == Approx(-0.6 * z).margin(rounding));
+    CHECK(LifeSurface(response).change(at(slack, z)) == Approx(-0.2 * z).margin(rounding));
+    CHECK(LifeSurface(response).change(at(strength, z)) == Approx(0.4 * z).margin(rounding));
+    CHECK(LifeSurface(response).change(at(model, z)) == Approx(model_decades * z).margin(rounding));
+    CHECK(LifeSurface(response).change(at(scatter, z)) == 0);
   }
-  CHECK(response.log10_life(at(friction, 1), 0) == Approx(4.4));
-  CHECK(response.log10_life({}, 1.2815515655446004) == Approx(5.1));
+  CHECK(LifeSurface(response).log10_life(at(friction, 1), 0) == Approx(4.4));
+  CHECK(LifeSurface(response).log10_life({}, 1.2815515655446004) == Approx(5.1));
 }
 
 TEST_CASE("each side of the median has the spread of its own percentile") {
   LifeResponse response = straight_response(0, 0, 0);
   response.planned = {{2, 3, 3.4}};
   for (const auto& [tenths, life] : {std::pair{-1, 2.0}, std::pair{0, 3.0}, std::pair{1, 3.4}})
-    CHECK(response.log10_life({}, tenths * 1.2815515655446004) == Approx(life));
+    CHECK(LifeSurface(response).log10_life({}, tenths * 1.2815515655446004) == Approx(life));
 }
 
 TEST_CASE("one cause changes a life as it does by itself, and the order of causes does not matter") {
@@ -83,7 +83,7 @@ TEST_CASE("a parameter by itself joins the crossed ones, whatever they are") {
   response.worst_life.insert(response.worst_life.end(), 3, 5.3 + 0.3);
   ParameterPoint z = at(friction, 1);
   z[slack] = -1, z[index_of(Uncertain::play)] = 0.5;
-  CHECK(response.change(z) == Approx(-5 * std::log10(std::pow(10, 0.4 / 5) + std::pow(10, -0.1 / 5) - 1)));
+  CHECK(LifeSurface(response).change(z) == Approx(-5 * std::log10(std::pow(10, 0.4 / 5) + std::pow(10, -0.1 / 5) - 1)));
 }
 
 namespace {
@@ -152,15 +152,15 @@ TEST_CASE("a response has the values of its table at every combination of nodes"
                  glued_at_zero = table.worst(Inside::glued, 0, 0, 0, 0, 0);
     const auto with_play = [&](double core) { return together(here, std::array{core, alone}) - at_zero; };
     const double change = with_play(worst(Inside::as_is, z[friction], z[slack], 0));
-    CHECK(of.change(z) == Approx(change).margin(rounding));
-    CHECK(of.change(z, Inside::glued) ==
+    CHECK(LifeSurface(of).change(z) == Approx(change).margin(rounding));
+    CHECK(LifeSurface(of).change(z, Inside::glued) ==
           Approx(with_play(3.7 + worst(Inside::glued, 0, z[slack], 0) - glued_at_zero)).margin(rounding));
     // Without values for no friction, the result is the job's own, shifted.
-    CHECK(of.change(z, Inside::free) ==
+    CHECK(LifeSurface(of).change(z, Inside::free) ==
           Approx(with_play(8 - at_zero + worst(Inside::as_is, 0, z[slack], 0))).margin(rounding));
     const auto scatter_at = std::size_t(z[scatter] < 0 ? 0 : z[scatter] > 0 ? 2 : 1);
     for (const int tenths : {-1, 0, 1})
-      CHECK(of.log10_life(z, tenths * 1.2815515655446004) ==
+      CHECK(LifeSurface(of).log10_life(z, tenths * 1.2815515655446004) ==
             Approx(of.planned[scatter_at][std::size_t(tenths + 1)] + change));
   }
   // Without values for combinations, friction and slack combine like other parameters.
@@ -169,8 +169,8 @@ TEST_CASE("a response has the values of its table at every combination of nodes"
     for (const double s : {-2.0, 1.0}) {
       ParameterPoint z = at(friction, f);
       z[slack] = s;
-      const std::array alone{apart.response.change(at(friction, f)), apart.response.change(at(slack, s))};
-      CHECK(apart.response.change(z) == Approx(together(0, alone)).margin(rounding));
+      const std::array alone{LifeSurface(apart.response).change(at(friction, f)), LifeSurface(apart.response).change(at(slack, s))};
+      CHECK(LifeSurface(apart.response).change(z) == Approx(together(0, alone)).margin(rounding));
     }
 }
 
@@ -195,7 +195,7 @@ TEST_CASE("lives at another stiffness of the hose count as computed, and combine
   const auto change = [&](double f, double s, double k, Inside inside = Inside::as_is) {
     ParameterPoint z = at(friction, f);
     z[slack] = s, z[stiffness] = k;
-    return of.change(z, inside);
+    return LifeSurface(of).change(z, inside);
   };
   const auto is = [&](double life) { return Approx(life - at_zero(0, 0)).margin(rounding); };
   for (const double k : {-1.65, 1.65}) {
@@ -210,7 +210,7 @@ TEST_CASE("lives at another stiffness of the hose count as computed, and combine
   }
   ParameterPoint with_play = at(stiffness, 1.65);
   with_play[play] = 2;
-  CHECK(of.change(with_play) == is(together(at_zero(0, 0), std::array{computed[{0, 0, 1.65}], table.worst(Inside::as_is, 0, 0, 2, 0, 0)})));
+  CHECK(LifeSurface(of).change(with_play) == is(together(at_zero(0, 0), std::array{computed[{0, 0, 1.65}], table.worst(Inside::as_is, 0, 0, 2, 0, 0)})));
   // A bound counts as computed, too. Elsewhere it changes with the stiffness as the job does.
   const double shift = 3.7 - table.worst(Inside::glued, 0, 0, 0, 0, 0);
   CHECK(change(0, 0, 1.65, Inside::glued) == is(glued + shift));
@@ -234,7 +234,7 @@ TEST_CASE(
       const auto life = [&, &parameter = parameter](double at) {
         ParameterPoint moved = z;
         moved[parameter] = at;
-        return of.log10_life(moved, 0);
+        return LifeSurface(of).log10_life(moved, 0);
       };
       for (std::size_t node = 0; node + 1 < values.size(); ++node) {
         const double low = values[node], high = values[node + 1];
@@ -276,8 +276,8 @@ TEST_CASE("what is never damaged lives without end, whatever the model's factor 
   LifeResponse response = straight_response(0.6, 0, 0);
   response.planned = {{LifeResponse::undamaged, LifeResponse::undamaged, LifeResponse::undamaged}};
   for (double& life : response.worst_life) life = LifeResponse::undamaged;
-  CHECK(std::isinf(response.log10_life({}, -2)));
-  CHECK(std::isinf(response.log10_life(at(model, -2), -2)));
+  CHECK(std::isinf(LifeSurface(response).log10_life({}, -2)));
+  CHECK(std::isinf(LifeSurface(response).log10_life(at(model, -2), -2)));
 }
 
 TEST_CASE("beyond the rests of all starts a life is that of the last one") {
@@ -290,7 +290,7 @@ TEST_CASE("beyond the rests of all starts a life is that of the last one") {
   }
   for (const auto& [z, change] :
        {std::pair(-3.0, -1.0), {-0.7, -1.0}, {-0.35, -0.5}, {0.0, 0.0}, {0.9, 1.0}, {3.0, 1.0}})
-    CHECK(response.change(at(rest, z)) == Approx(change).margin(rounding));
+    CHECK(LifeSurface(response).change(at(rest, z)) == Approx(change).margin(rounding));
 }
 
 TEST_CASE("a text from before there were rests, or the hose's stiffness, is read: the same lives") {
@@ -315,8 +315,8 @@ TEST_CASE("a text from before there were rests, or the hose's stiffness, is read
   REQUIRE(older.find(first == rest ? "point 0 0 -1.5 0 0 \n" : "point 0 0 -1.5 0 0 0 \n") != std::string::npos);
   const LifeResponse read = LifeResponse::from_text(older);
   for (const std::size_t parameter : {friction, slack, strength, model})
-    CHECK(read.change(at(parameter, 0.8)) ==
-          Approx(response.change(at(parameter, 0.8))).margin(1e-5));  // six digits
+    CHECK(LifeSurface(read).change(at(parameter, 0.8)) ==
+          Approx(LifeSurface(response).change(at(parameter, 0.8))).margin(1e-5));  // six digits
   CHECK(read.knowledge.covariance(stiffness + 1, stiffness + 1) == 1);
   CHECK(read.knowledge.covariance(stiffness, stiffness) == 0);
   CHECK(read.knowledge.covariance(rest, rest) == (first == rest ? 0 : 1));
@@ -326,8 +326,8 @@ TEST_CASE("a response and its text lead to each other, no other text is one") {
   const LifeResponse response = straight_response(0.6, 0.2, 0.4);
   const LifeResponse again = LifeResponse::from_text(response.text());
   CHECK(again.text() == response.text());
-  CHECK(again.log10_life(at(friction, 0.7), 0.3) ==
-        Approx(response.log10_life(at(friction, 0.7), 0.3)).margin(1e-4));  // six digits each
+  CHECK(LifeSurface(again).log10_life(at(friction, 0.7), 0.3) ==
+        Approx(LifeSurface(response).log10_life(at(friction, 0.7), 0.3)).margin(1e-4));  // six digits each
   CHECK(again.construction == "hose");
   const std::string text = response.text();
   for (const std::string& wrong :

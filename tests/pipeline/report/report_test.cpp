@@ -16,6 +16,11 @@
 namespace dresslife::pipeline {
 namespace {
 
+std::string page_of(const std::string& study, const std::vector<RankingRow>& rows) {
+  std::vector<ReportProblem> problems;
+  return report_page(study, rows, problems);
+}
+
 /// Upper bound of a job's section without its settings: charts of a history of any length.
 constexpr std::size_t largest_section = 150'000;
 
@@ -66,7 +71,7 @@ TEST_CASE("report: which joint and which clamp cost the life, and the hose besid
   life.hose_hours = 3400;
   write_sample_life(scratch / "one.h5", life);
   const auto rows = read_ranking({{"one", scratch / "one.h5", ""}});
-  const std::string page = report_page("causes", rows);
+  const std::string page = page_of("causes", rows);
   CHECK(page.find("What moved while the damage was done: a correlation") != std::string::npos);
   CHECK(page.find(" By the nearest clamp: base clamp 25 %; tool clamp 75 %.") != std::string::npos);
   CHECK(page.find("<td>hose&#39;s wall†</td><td class=\"number\">-</td><td class=\"number\">3,400</td>") != std::string::npos);
@@ -79,7 +84,7 @@ TEST_CASE("report: which joint and which clamp cost the life, and the hose besid
   life.causes = false;
   life.hose_hours = 0;
   write_sample_life(scratch / "old.h5", life);
-  const std::string old = report_page("old", read_ranking({{"old", scratch / "old.h5", ""}}));
+  const std::string old = page_of("old", read_ranking({{"old", scratch / "old.h5", ""}}));
   CHECK(old.find("What moved") == std::string::npos);
   CHECK(old.find("wall†") == std::string::npos);
 }
@@ -95,7 +100,7 @@ TEST_CASE("report: a wall's life that is not credible has no number, and the leg
   life.unvalidated = unvalidated_text({jacket, wall});
   write_sample_life(scratch / "one.h5", life);
   const auto rows = read_ranking({{"one", scratch / "one.h5", ""}});
-  const std::string page = report_page("wall", rows), csv = ranking_csv(rows);
+  const std::string page = page_of("wall", rows), csv = ranking_csv(rows);
   const std::string table = std::regex_replace(ranking_table(rows), std::regex("\n +"), " ");
   CHECK(page.find(">157<") == std::string::npos);
   CHECK(table.find("157") == std::string::npos);
@@ -110,7 +115,7 @@ TEST_CASE("report: a wall's life that is not credible has no number, and the leg
   life.unvalidated = unvalidated_text({jacket, wall});
   write_sample_life(scratch / "two.h5", life);
   const auto known = read_ranking({{"two", scratch / "two.h5", ""}});
-  CHECK(report_page("wall", known).find(">157</td>") != std::string::npos);
+  CHECK(page_of("wall", known).find(">157</td>") != std::string::npos);
   CHECK(ranking_csv(known).find(",157.25,") != std::string::npos);
 }
 
@@ -127,7 +132,7 @@ TEST_CASE("report: of several dresspacks each has its shortest life and the wors
             .find(",worst_dresspack,settings,largest_force_share,clamp_moment_share,force_ok") !=
         std::string::npos);
   CHECK(csv.find(",joint_5,0.8,sensor <cable>,,,,") != std::string::npos);
-  const std::string page = report_page("two", rows);
+  const std::string page = page_of("two", rows);
   check_page(page);
   CHECK(page.find("Life by dresspack</h3>") != std::string::npos);
   const auto cells = [&](const std::string& name, double repeats) {
@@ -147,7 +152,7 @@ TEST_CASE("report: of several dresspacks each has its shortest life and the wors
   // A job's only dresspack needs no table.
   life.dresspacks.clear();
   write_sample_life(scratch / "one.h5", life);
-  const std::string one = report_page("one", read_ranking({{"one", scratch / "one.h5", ""}}));
+  const std::string one = page_of("one", read_ranking({{"one", scratch / "one.h5", ""}}));
   CHECK(one.find("Life by dresspack") == std::string::npos);
   CHECK(one.find("Damage along the dresspack</h3>") != std::string::npos);
 }
@@ -162,7 +167,7 @@ TEST_CASE("report: a page for a study stands alone and is whole") {
                                   job_with(scratch, "robot_2", calm),
                                   job_with(scratch, "easy", easy),
                                   {"too_short", "", "job.yaml:12:3: error: 0.213 m too short; lengthen it"}});
-  const std::string page = report_page("two_robots", rows);
+  const std::string page = page_of("two_robots", rows);
   check_page(page);
   CHECK(page.find("3 of 4 jobs done") != std::string::npos);
   CHECK(page.find("job.yaml:12:3: error: 0.213 m too short; lengthen it") != std::string::npos);
@@ -174,14 +179,14 @@ TEST_CASE("report: a page for a study stands alone and is whole") {
   CHECK(page.find("Lives compared") != std::string::npos);
   for (std::size_t i = 1; i <= 3; ++i)
     CHECK(count_of(page, "job-" + std::to_string(i) + "\"") == 2);  // link and target
-  CHECK(report_page("two_robots", rows) == page);
+  CHECK(page_of("two_robots", rows) == page);
 }
 
 TEST_CASE("report: each kind of line that is drawn has a rule, as a path without one is not seen") {
   const Scratch scratch;
   SampleLife calm;
   calm.repeats = 1e9;
-  const std::string page = report_page(
+  const std::string page = page_of(
       "two", read_ranking({job_with(scratch, "robot_1", {}), job_with(scratch, "robot_2", calm)}));
   const std::string rules = page.substr(0, page.find("</style>")), begin = "<path class=\"";
   std::set<std::string> kinds;
@@ -205,7 +210,7 @@ TEST_CASE("report: words of jobs, wires, programs and settings are harmless") {
   hostile.job = "name: </pre><script>\n";
   const auto rows = read_ranking(
       {job_with(scratch, "a", hostile, "<i>job</i>"), {"<u>bad</u>", "", "<script>why</script>"}});
-  const std::string page = report_page("<study> & \"more\"", rows);
+  const std::string page = page_of("<study> & \"more\"", rows);
   check_page(page);
   CHECK(page.find("<i>") == std::string::npos);
   CHECK(page.find("<u>") == std::string::npos);
@@ -215,11 +220,11 @@ TEST_CASE("report: words of jobs, wires, programs and settings are harmless") {
 
 TEST_CASE("report: nothing to show is said, not drawn") {
   const Scratch scratch;
-  check_page(report_page("empty", {}));
-  CHECK(report_page("empty", {}).find("0 of 0 jobs done") != std::string::npos);
+  check_page(page_of("empty", {}));
+  CHECK(page_of("empty", {}).find("0 of 0 jobs done") != std::string::npos);
   SampleLife no_wires;
   no_wires.wires = false;
-  const std::string page = report_page("hose", read_ranking({job_with(scratch, "hose", no_wires)}));
+  const std::string page = page_of("hose", read_ranking({job_with(scratch, "hose", no_wires)}));
   check_page(page);
   CHECK(page.find("no wire is damaged") != std::string::npos);
   CHECK(page.find("Cycles of the worst wire") == std::string::npos);
@@ -236,14 +241,14 @@ TEST_CASE("report: extreme lives and tiny files keep the page whole") {
     life.samples = 3;
     jobs.push_back(job_with(scratch, fmt::format("job {}", jobs.size()), life));
   }
-  check_page(report_page("extremes", read_ranking(jobs)));
+  check_page(page_of("extremes", read_ranking(jobs)));
 }
 
 TEST_CASE("report: a life file that went away since the ranking says so in its place") {
   const Scratch scratch;
   const auto rows = read_ranking({job_with(scratch, "gone", {}), job_with(scratch, "here", {})});
   std::filesystem::remove(scratch / "gone.h5");
-  const std::string page = report_page("study", rows);
+  const std::string page = page_of("study", rows);
   check_page(page);
   CHECK(page.find((scratch / "gone.h5").string() + ": error: is not there") != std::string::npos);
   CHECK(count_of(page, "Cycles of the worst wire</h3>") == 1);
@@ -255,14 +260,14 @@ TEST_CASE("report: the page stays small for long motions and large studies") {
   lengthy.samples = 400'000;
   lengthy.lines = 3000;
   lengthy.segments = 10;
-  const std::string page = report_page("long", read_ranking({job_with(scratch, "long", lengthy)}));
+  const std::string page = page_of("long", read_ranking({job_with(scratch, "long", lengthy)}));
   check_page(page);
   CHECK(page.size() < largest_section);
 
   const JobResult one = job_with(scratch, "one", {});
   std::vector<JobResult> jobs;
   for (int k = 0; k < 200; ++k) jobs.push_back({fmt::format("job {:03}", k), one.life_file, ""});
-  const std::string large = report_page("large", read_ranking(jobs));
+  const std::string large = page_of("large", read_ranking(jobs));
   check_page(large);
   CHECK(count_of(large, "<section") == 40);
   CHECK(large.find("charts for the 20 best and the 20 worst of them") != std::string::npos);
@@ -274,12 +279,12 @@ TEST_CASE("report: of thousands of rows the first hundred are laid out, the othe
   const RankingRow row = read_ranking({job_with(scratch, "one", {})}).front();
   std::vector<RankingRow> rows(2000, row);
   for (std::size_t k = 0; k < rows.size(); ++k) rows[k].job = fmt::format("job {:04}", k);
-  const std::string page = report_page("many", rows);
+  const std::string page = page_of("many", rows);
   check_page(page);
   const std::size_t waiting = page.find("<template");
   CHECK(count_of(page.substr(0, waiting), "<tr data-rank") == 100);
   CHECK(count_of(page.substr(waiting, page.find("</template>") - waiting), "<tr data-rank") == 1900);
-  CHECK(report_page("few", {rows.begin(), rows.begin() + 100}).find("<template") == std::string::npos);
+  CHECK(page_of("few", {rows.begin(), rows.begin() + 100}).find("<template") == std::string::npos);
 }
 
 TEST_CASE(
@@ -296,7 +301,7 @@ TEST_CASE(
     }
   rows[1].failure = "too short";
   rows.erase(rows.begin() + 4);  // not all combinations of both keys
-  const std::string page = report_page("two keys", rows);
+  const std::string page = page_of("two keys", rows);
   check_page(page);
   const std::size_t begin = page.find("<table id=\"matrix\">");
   REQUIRE(begin != std::string::npos);
@@ -310,14 +315,14 @@ TEST_CASE(
   CHECK(count_of(matrix, "class=\"failed\"") == 1);
   CHECK(count_of(matrix, "<td>-</td>") == 1);
   CHECK(count_of(matrix, "</td>") == 6);
-  CHECK(report_page("one key", {rows.begin(), rows.begin() + 1}).find("id=\"matrix\"") == std::string::npos);
+  CHECK(page_of("one key", {rows.begin(), rows.begin() + 1}).find("id=\"matrix\"") == std::string::npos);
 }
 
 TEST_CASE("report: the file is left untouched when nothing changed") {
   const Scratch scratch;
   const auto rows = read_ranking({job_with(scratch, "one", {})});
   write_report(scratch / "report.html", "study", rows);
-  CHECK("<!DOCTYPE html>\n" + std::string(without_mark(bytes_of(scratch / "report.html"))) == report_page("study", rows));
+  CHECK("<!DOCTYPE html>\n" + std::string(without_mark(bytes_of(scratch / "report.html"))) == page_of("study", rows));
   const auto long_ago = std::filesystem::last_write_time(scratch / "report.html") - std::chrono::hours(1);
   std::filesystem::last_write_time(scratch / "report.html", long_ago);
   write_report(scratch / "report.html", "study", rows);
@@ -362,7 +367,7 @@ TEST_CASE("report: each fact of a job has the row's own number") {
   life.planned_hours = 44;
   write_sample_life(scratch / "planned.h5", life);
   std::vector<RankingRow> rows = read_ranking({{"planned", scratch / "planned.h5", ""}});
-  CHECK(report_page("planned", rows).find("<b>44.0</b></td>") != std::string::npos);
+  CHECK(page_of("planned", rows).find("<b>44.0</b></td>") != std::string::npos);
   RankingRow& row = rows[0];
   row.scatter_hours = {51, 52, 53}, row.life_shares = "strength 60 %", row.failing_mode_share = 0.75;
   row.planned_months = 6, row.life_hours = 71, row.life_repeats = 7100, row.repeat_seconds = 36, row.life_months = 7;
@@ -372,7 +377,7 @@ TEST_CASE("report: each fact of a job has the row's own number") {
   row.largest_force_share = 0.11, row.clamp_moment_share = 0.12, row.strain_relief_share = 0.13, row.loose_mesh_error = 0.014;
   row.first_wire_hours = {31, 32, 33}, row.conductor_hours = {41, 42, 43}, row.not_evaluated = "water hose";
   row.worst_shear_range = 0.015, row.worst_time = 16.5, row.worst_step = "weld";
-  const std::string page = report_page("planned", rows);
+  const std::string page = page_of("planned", rows);
   check_page(page);
   std::map<std::string, std::string> facts;
   const std::regex fact("<dt>([^<]*)</dt><dd>(.*)</dd>");
@@ -405,7 +410,7 @@ TEST_CASE("report: each fact of a job has the row's own number") {
     CHECK(facts[name] == text);
   }
   row.strain_relief_share = 1.1, row.clamp_moment_share = 0.21;
-  const std::string strained = report_page("planned", rows);
+  const std::string strained = page_of("planned", rows);
   for (const char* words : {"Check that the clamps hold the cables", "Above a fifth of either, the forces are unrealistic"})
     CHECK((page.find(words) == std::string::npos && strained.find(words) != std::string::npos));
 }
@@ -419,7 +424,7 @@ TEST_CASE("report: under what fails first stands the conductor that fails, not t
   write_sample_life(scratch / "one.h5", life);
   std::vector<RankingRow> rows = read_ranking({{"one", scratch / "one.h5", ""}});
   rows[0].worst_component = "power cable 1/wire 7";
-  const std::string page = report_page("places", rows);
+  const std::string page = page_of("places", rows);
   CHECK_THAT(page, Catch::Contains("wires of signal cable (75 %)<br>signal cable 3/conductor 2, 0.75 m from the tool</td><td><span "
                                    "class=\"soft\">worst wire:</span> power cable 1/wire 7<br>") &&
                        Catch::Contains("wires of signal cable, in 75 % of the samples, likeliest signal cable 3/conductor 2, 0.75 m from the tool"));

@@ -131,15 +131,15 @@ TEST_CASE(
                         Catch::Contains("inside the cell at"));
 }
 
-TEST_CASE("proposals that geometry surely excludes are not rehearsed") {
+TEST_CASE("proposals that geometry surely excludes have no short run") {
   pipeline::Job job = shipped_job();
   job.dresspacks.front().dresspack.least_bend_radius = 20;  // [m]
   ProposalSettings settings;
   settings.tried = 120;
-  settings.rehearsals = 1000;
+  settings.short_runs = 1000;
   const Proposal nearest = propose(job, settings).front();
-  CHECK(nearest.rehearsal.refusal.find("geometry excludes all 120 routings") == 0);
-  CHECK(nearest.rehearsal.refusal.find("bent too tightly by ") != std::string::npos);
+  CHECK(nearest.short_run.refusal.find("geometry excludes all 120 routings") == 0);
+  CHECK(nearest.short_run.refusal.find("bent too tightly by ") != std::string::npos);
 }
 
 TEST_CASE("proposals keep what the screening asks and are the same for the same seed") {

@@ -45,14 +45,20 @@ EvaluatedProgram program(const std::string& name, double median, const std::vect
 
 const std::vector<std::vector<double>> first_place{{3, 2, 1}, {0, 0, 0}}, second_place{{0, 0, 0}, {3, 2, 1}};
 
+DutyDamage damage_of(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates, std::size_t samples) {
+  std::vector<double> repeats;
+  for (const Rate& rate : rates) repeats.push_back(rate.repeats_per_hour);
+  return damage_under(programs, rates, SamePlace(programs).at(repeats), "", samples);
+}
+
 }  // namespace
 
 TEST_CASE("a program mixed with itself is itself, in any order and parts") {
   const EvaluatedProgram one = program("a", 5, first_place), same = program("b", 5, first_place);
-  const DutyLives whole = lives_under(damage_under({one}, {{30, 0}}, "", many));
-  const DutyDamage mixed = damage_under({one, same}, {{10, 0}, {20, 0}}, "", many);
+  const DutyLives whole = lives_under(damage_of({one}, {{30, 0}}, many));
+  const DutyDamage mixed = damage_of({one, same}, {{10, 0}, {20, 0}}, many);
   const DutyLives parts = lives_under(mixed);
-  const DutyLives nothing_more = lives_under(damage_under({one, same}, {{30, 0}, {0, 0}}, "", many));
+  const DutyLives nothing_more = lives_under(damage_of({one, same}, {{30, 0}, {0, 0}}, many));
   for (std::size_t p = 0; p < 3; ++p) {
     CHECK(parts.percentiles[p] == Approx(whole.percentiles[p]).epsilon(rounding));
     CHECK(nothing_more.percentiles[p] == Approx(whole.percentiles[p]).epsilon(rounding));
@@ -68,7 +74,7 @@ TEST_CASE("damage of programs adds up at one place, and not at two") {
   const EvaluatedProgram mild = program("mild", 6, {{0.3, 0.2, 0.1}, {0, 0, 0}});
   const EvaluatedProgram hard = program("hard", 5, first_place), elsewhere = program("elsewhere", 5, second_place);
   const std::vector<Rate> rates{{10, 0}, {10, 0}};
-  const DutyDamage same = damage_under({mild, hard}, rates, "", many), apart = damage_under({hard, elsewhere}, rates, "", many);
+  const DutyDamage same = damage_of({mild, hard}, rates, many), apart = damage_of({hard, elsewhere}, rates, many);
   CHECK(same.same_place[0] == Approx(1).epsilon(rounding));
   CHECK(apart.same_place[0] == Approx(0.5).epsilon(rounding));
   CHECK(lives_under(same).percentiles[1] == Approx(1 / (10 / 1e5 + 10 / 1e6)).epsilon(1e-4));
@@ -81,9 +87,9 @@ TEST_CASE("damage of programs adds up at one place, and not at two") {
   CHECK(lives_with(apart, {1, 3}, places.at({10, 30}))[1] == Approx(1e5 / 30).epsilon(1e-4));
   // The second wire of three determines the failure. Equal damage of one wire at each place is not the damage of the same place.
   const EvaluatedProgram another_wire = program("another wire", 5, {{1, 2, 3}, {0, 0, 0}});
-  CHECK(damage_under({hard, another_wire}, rates, "", many).same_place[0] == Approx(1).epsilon(rounding));  // 4, 4, 4
+  CHECK(damage_of({hard, another_wire}, rates, many).same_place[0] == Approx(1).epsilon(rounding));  // 4, 4, 4
   const EvaluatedProgram other_wires = program("other wires", 5, {{0, 2, 2}, {0, 0, 0}});
-  CHECK(damage_under({hard, other_wires}, rates, "", many).same_place[0] == Approx(3.0 / 4).epsilon(rounding));  // 3, 4, 3
+  CHECK(damage_of({hard, other_wires}, rates, many).same_place[0] == Approx(3.0 / 4).epsilon(rounding));  // 3, 4, 3
 }
 
 TEST_CASE("a program more makes no life longer, also where the samples differ from the medians") {
@@ -91,8 +97,8 @@ TEST_CASE("a program more makes no life longer, also where the samples differ fr
   const std::vector<Rate> rates{{10, 0}, {10, 100}};  // at the medians each does half of the damage, in samples one dominates
   const std::vector<EvaluatedProgram> both{hard, elsewhere};
   const SamePlace places(both);
-  const DutyDamage mixed = damage_under(both, rates, "", many);
-  const LifePercentiles lives = lives_under(mixed).percentiles, alone = lives_under(damage_under({hard}, {{10, 0}}, "", many)).percentiles;
+  const DutyDamage mixed = damage_of(both, rates, many);
+  const LifePercentiles lives = lives_under(mixed).percentiles, alone = lives_under(damage_of({hard}, {{10, 0}}, many)).percentiles;
   const LifePercentiles without = lives_with(mixed, {1, 0}, places.at({10, 0})), twice = lives_with(mixed, {1, 2}, places.at({10, 20}));
   for (std::size_t p = 0; p < 3; ++p) {
     CHECK(lives[p] <= alone[p] * (1 + rounding));
@@ -110,7 +116,7 @@ TEST_CASE("the first of two modes decides in each sample, and programs may wear 
                             std::make_shared<const WireDamage>(std::move(wires))};
   };
   const EvaluatedProgram first = with_modes("first", 5, 12), second = with_modes("second", 12, 4);
-  const DutyDamage duty = damage_under({first, second}, {{1, 0}, {1, 0}}, "", many);
+  const DutyDamage duty = damage_of({first, second}, {{1, 0}, {1, 0}}, many);
   const DutyLives lives = lives_under(duty);
   CHECK(lives.percentiles[1] == Approx(1e4).epsilon(1e-4));
   CHECK(lives.share[1] == Approx(1).epsilon(1e-6));  // a life of 1e12 has some damage
@@ -125,7 +131,7 @@ TEST_CASE("the damage of each mode is that at its own places") {
     return EvaluatedProgram{name, 60, std::make_shared<const FailureModes>(FailureModes{mode_of(7, "wires of one"), mode_of(5, "wires of other")}),
                             std::make_shared<const WireDamage>(std::move(wires))};
   };
-  const DutyDamage duty = damage_under({with_places("first", 1, 0), with_places("second", 0, 1)}, {{1, 0}, {1, 0}}, "", many);
+  const DutyDamage duty = damage_of({with_places("first", 1, 0), with_places("second", 0, 1)}, {{1, 0}, {1, 0}}, many);
   REQUIRE(duty.same_place[0] == Approx(1).epsilon(rounding));
   REQUIRE(duty.same_place[1] == Approx(0.5).epsilon(rounding));
   CHECK(lives_under(duty).percentiles[1] == Approx(1e5).epsilon(1e-4));
@@ -133,8 +139,8 @@ TEST_CASE("the damage of each mode is that at its own places") {
 }
 
 TEST_CASE("the remaining life is the life without the past, of the dresspacks that have survived it") {
-  const DutyDamage duty = damage_under({program("a", 5, first_place)}, {{10, 0}}, "", many);
-  const DutyDamage idle = damage_under({program("a", 5, first_place)}, {{0, 0}}, "", many);
+  const DutyDamage duty = damage_of({program("a", 5, first_place)}, {{10, 0}}, many);
+  const DutyDamage idle = damage_of({program("a", 5, first_place)}, {{0, 0}}, many);
   const DutyLives fresh = lives_under(duty), same = lives_under(duty, {{&idle, 5000}});
   CHECK(same.survived == 1);
   CHECK(same.remaining == fresh.percentiles);
@@ -153,8 +159,8 @@ TEST_CASE("the remaining life is the life without the past, of the dresspacks th
 
 TEST_CASE("uncertain numbers of repeats widen the lives and leave the median") {
   const EvaluatedProgram one = program("a", 5, first_place);
-  const DutyLives known = lives_under(damage_under({one}, {{10, 0}}, "", many));
-  const DutyLives uncertain = lives_under(damage_under({one}, {{10, 50}}, "", many));
+  const DutyLives known = lives_under(damage_of({one}, {{10, 0}}, many));
+  const DutyLives uncertain = lives_under(damage_of({one}, {{10, 50}}, many));
   CHECK(uncertain.percentiles[1] == Approx(known.percentiles[1]).epsilon(0.02));  // of 10,000 samples
   // Standard deviations of ln life add as squares: 0.1 decades at 10 % are 0.18; a spread of 50 % is sqrt(ln 1.25) = 0.47.
   const double decile = 1.2815515655446004, of_wires = 0.1 * std::log(10.0) / decile, of_repeats = std::sqrt(std::log(1.25));

@@ -22,7 +22,7 @@ struct Problem {
   std::function<std::vector<double>(const VectorXd&)> beyond;
 
   VectorXd at(const VectorXd& place) const { return low + place.cwiseProduct(high - low); }
-  Candidate look(const VectorXd& place) const {
+  Candidate candidate(const VectorXd& place) const {
     const VectorXd x = at(place);
     return {place, true, {aim(x)}, beyond(x)};
   }
@@ -110,7 +110,7 @@ Problem springs() {
 }
 
 /// Its low-fidelity evaluation: the first three limits, with a small error.
-Candidate rehearsal_of(const Problem& problem, const VectorXd& place) {
+Candidate short_run_of(const Problem& problem, const VectorXd& place) {
   std::vector<double> beyond = problem.beyond(problem.at(place));
   for (std::size_t k = 0; k < 3; ++k)
     beyond[k] += 0.03 * std::cos(5 * place[static_cast<Eigen::Index>(k)]) - 0.05;
@@ -118,9 +118,9 @@ Candidate rehearsal_of(const Problem& problem, const VectorXd& place) {
   return {place, true, {}, beyond};
 }
 
-const Rehearse rehearse_springs = [](const std::vector<VectorXd>& places) {
+const ShortRuns short_runs_of_springs = [](const std::vector<VectorXd>& places) {
   std::vector<Candidate> told;
-  for (const VectorXd& place : places) told.push_back(rehearsal_of(springs(), place));
+  for (const VectorXd& place : places) told.push_back(short_run_of(springs(), place));
   return told;
 };
 
@@ -128,19 +128,19 @@ const Screen nothing_rejected = [](const std::vector<VectorXd>& places) {
   return std::vector<double>(places.size(), 0.0);
 };
 
-std::vector<Candidate> searched(Search& search, const Problem& problem, int looks, int at_a_time) {
+std::vector<Candidate> searched(Search& search, const Problem& problem, int candidates, int at_a_time) {
   std::vector<Candidate> all;
-  while (static_cast<int>(all.size()) < looks) {
+  while (static_cast<int>(all.size()) < candidates) {
     std::vector<Candidate> told;
-    for (const VectorXd& place : search.ask(at_a_time)) told.push_back(problem.look(place));
+    for (const VectorXd& place : search.ask(at_a_time)) told.push_back(problem.candidate(place));
     search.tell(told);
     all.insert(all.end(), told.begin(), told.end());
   }
   return all;
 }
 
-Candidate best_of(const std::vector<Candidate>& looks) {
-  return *std::min_element(looks.begin(), looks.end(), better);
+Candidate best_of(const std::vector<Candidate>& candidates) {
+  return *std::min_element(candidates.begin(), candidates.end(), better);
 }
 
 SurrogateSearch surrogate(const Problem& problem, std::uint64_t seed) {
@@ -155,10 +155,10 @@ double found_by_cobyla(const Problem& problem, const VectorXd& start, int evalua
   double best = HUGE_VAL;
   int count = 0;
   const auto seen = [&](const VectorXd& place) {
-    const Candidate look = problem.look(place);
+    const Candidate candidate = problem.candidate(place);
     constexpr double kept = 1e-6;
-    if (++count <= evaluations && look.violation() <= kept) best = std::min(best, look.aims.front());
-    return look;
+    if (++count <= evaluations && candidate.violation() <= kept) best = std::min(best, candidate.aims.front());
+    return candidate;
   };
   LimitFunctions limits;
   limits.count = static_cast<int>(problem.beyond(problem.at(start)).size());
@@ -178,19 +178,19 @@ TEST_CASE("the surrogate search ends where the best places of known problems are
   constexpr double share = 1e-4;
   struct Asked {
     Problem problem;
-    int looks;
+    int candidates;
     double span;
   };
   for (const Asked& asked : {Asked{tutorial(), 100, 1.7}, Asked{g24(), 100, 7}, Asked{g04(), 100, 7000}})
     for (const std::uint64_t seed : {1, 2, 3}) {
       SurrogateSearch search = surrogate(asked.problem, seed);
-      const std::vector<Candidate> looks = searched(search, asked.problem, asked.looks, 2);
-      const Candidate best = best_of(looks);
+      const std::vector<Candidate> candidates = searched(search, asked.problem, asked.candidates, 2);
+      const Candidate best = best_of(candidates);
       INFO(asked.problem.name << ", seed " << seed);
       CHECK(best.feasible());
       CHECK(best.aims.front() >= asked.problem.least - share * asked.span);
       CHECK(best.aims.front() - asked.problem.least < share * asked.span);
-      const double cobyla = found_by_cobyla(asked.problem, looks.front().place, asked.looks);
+      const double cobyla = found_by_cobyla(asked.problem, candidates.front().place, asked.candidates);
       CHECK(best.aims.front() < cobyla + share * asked.span);
     }
 }
@@ -220,10 +220,10 @@ TEST_CASE("candidates that do not run lead the search to candidates that run") {
   while (all.size() < 80) {
     std::vector<Candidate> told;
     for (const VectorXd& place : search.ask(4)) {
-      Candidate look = problem.look(place);
+      Candidate candidate = problem.candidate(place);
       const double far = 0.5 - problem.at(place)[0];  // runs from x0 = 0.5 on
-      if (far > 0) look = {place, false, {}, {far}};
-      told.push_back(look);
+      if (far > 0) candidate = {place, false, {}, {far}};
+      told.push_back(candidate);
     }
     search.tell(told);
     all.insert(all.end(), told.begin(), told.end());
@@ -233,12 +233,12 @@ TEST_CASE("candidates that do not run lead the search to candidates that run") {
   CHECK(best.aims.front() == Approx(1.0).margin(0.02));  // there x1 >= (2 x0)^3 = 1
 }
 
-TEST_CASE("if a thousandth of the range is feasible, rehearsals lead there within a few evaluations") {
+TEST_CASE("if a thousandth of the range is feasible, short runs lead there within a few evaluations") {
   const Problem problem = springs();
   RandomSearch draws(6, 99, nothing_rejected);
   int kept = 0;
   constexpr int drawn = 200'000;
-  for (const VectorXd& place : draws.ask(drawn)) kept += problem.look(place).feasible();
+  for (const VectorXd& place : draws.ask(drawn)) kept += problem.candidate(place).feasible();
   INFO(kept << " of " << drawn);
   CHECK(kept > drawn / 2000);
   CHECK(kept < drawn / 700);
@@ -246,16 +246,16 @@ TEST_CASE("if a thousandth of the range is feasible, rehearsals lead there withi
     INFO("seed " << seed);
     SurrogateSettings settings;
     settings.seed = seed;
-    SurrogateSearch search(6, settings, nothing_rejected, rehearse_springs);
+    SurrogateSearch search(6, settings, nothing_rejected, short_runs_of_springs);
     RandomSearch chance(6, seed, nothing_rejected);
-    const std::vector<Candidate> looks = searched(search, problem, 20, 4);
+    const std::vector<Candidate> candidates = searched(search, problem, 20, 4);
     const auto first =
-        std::find_if(looks.begin(), looks.end(), [](const Candidate& look) { return look.feasible(); });
-    CHECK(first - looks.begin() < 8);
+        std::find_if(candidates.begin(), candidates.end(), [](const Candidate& candidate) { return candidate.feasible(); });
+    CHECK(first - candidates.begin() < 8);
     // At most the allowed number before the first candidate, and a few per candidate.
-    CHECK(search.rehearsals().size() <= 150 + 20 * 12);
+    CHECK(search.short_runs().size() <= 150 + 20 * 12);
     CHECK_FALSE(best_of(searched(chance, problem, 20, 4)).feasible());
-    // Without rehearsals it needs more candidates, but less than a thousand random ones.
+    // Without short runs it needs more candidates, but less than a thousand random ones.
     SurrogateSearch alone = surrogate(problem, seed);
     CHECK(best_of(searched(alone, problem, 60, 4)).feasible());
   }
@@ -278,9 +278,9 @@ TEST_CASE("where a limit is the largest of many, its pieces lead to where it is 
     const std::vector<double> g = pieces_at(place);
     return *std::max_element(g.begin(), g.end());
   };
-  const auto rehearsals_until_one_is_within = [&](bool in_pieces, std::uint64_t seed) {
+  const auto short_runs_until_one_is_within = [&](bool in_pieces, std::uint64_t seed) {
     int count = 0, first = 0;
-    const Rehearse rehearse = [&](const std::vector<VectorXd>& places) {
+    const ShortRuns make_short_runs = [&](const std::vector<VectorXd>& places) {
       std::vector<Candidate> told;
       for (const VectorXd& place : places) {
         told.push_back({place, true, {}, {largest_at(place)}});
@@ -292,14 +292,14 @@ TEST_CASE("where a limit is the largest of many, its pieces lead to where it is 
     };
     SurrogateSettings settings;
     settings.seed = seed;
-    settings.rehearsals = 200;
-    SurrogateSearch search(variables, settings, nothing_rejected, rehearse);
+    settings.short_runs = 200;
+    SurrogateSearch search(variables, settings, nothing_rejected, make_short_runs);
     search.ask(1);
     return first == 0 ? 1000 : first;
   };
   for (const std::uint64_t seed : {1, 2, 3}) {
-    const int whole = rehearsals_until_one_is_within(false, seed),
-              pieces = rehearsals_until_one_is_within(true, seed);
+    const int whole = short_runs_until_one_is_within(false, seed),
+              pieces = short_runs_until_one_is_within(true, seed);
     INFO("seed " << seed << ": after " << pieces << " in pieces, " << whole << " as a whole");
     CHECK(pieces <
           60);  // a plane over eight variables needs nine points, and has errors between for some batches of eight
@@ -310,57 +310,57 @@ TEST_CASE("where a limit is the largest of many, its pieces lead to where it is 
 TEST_CASE("a search is a function of its seed and of the results that it gets") {
   const Problem problem = g24();
   SurrogateSearch whole = surrogate(problem, 7), first = surrogate(problem, 7);
-  const std::vector<Candidate> looks = searched(whole, problem, 40, 4);
+  const std::vector<Candidate> candidates = searched(whole, problem, 40, 4);
   // A search that is killed after five results and restarted from its notes continues as if uninterrupted.
   SurrogateSearch again = surrogate(problem, 7);
-  for (std::size_t k = 0; k < looks.size(); k += 4) {
+  for (std::size_t k = 0; k < candidates.size(); k += 4) {
     const std::vector<VectorXd> places = again.ask(4);
-    for (std::size_t j = 0; j < 4; ++j) CHECK(places[j] == looks[k + j].place);
+    for (std::size_t j = 0; j < 4; ++j) CHECK(places[j] == candidates[k + j].place);
     again.tell(
-        {looks.begin() + static_cast<std::ptrdiff_t>(k), looks.begin() + static_cast<std::ptrdiff_t>(k + 4)});
+        {candidates.begin() + static_cast<std::ptrdiff_t>(k), candidates.begin() + static_cast<std::ptrdiff_t>(k + 4)});
   }
   SurrogateSearch other = surrogate(problem, 8);
   CHECK_FALSE(other.ask(1).front() == first.ask(1).front());
 }
 
-TEST_CASE("a search that rehearses goes on where it was killed, too") {
+TEST_CASE("a search with short runs goes on where it was killed, too") {
   SurrogateSettings settings;
-  SurrogateSearch whole(6, settings, nothing_rejected, rehearse_springs),
-      again(6, settings, nothing_rejected, rehearse_springs);
-  const std::vector<Candidate> looks = searched(whole, springs(), 12, 4);
-  for (std::size_t k = 0; k < looks.size(); k += 4) {
+  SurrogateSearch whole(6, settings, nothing_rejected, short_runs_of_springs),
+      again(6, settings, nothing_rejected, short_runs_of_springs);
+  const std::vector<Candidate> candidates = searched(whole, springs(), 12, 4);
+  for (std::size_t k = 0; k < candidates.size(); k += 4) {
     const std::vector<VectorXd> places = again.ask(4);
-    for (std::size_t j = 0; j < 4; ++j) CHECK(places[j] == looks[k + j].place);
+    for (std::size_t j = 0; j < 4; ++j) CHECK(places[j] == candidates[k + j].place);
     again.tell(
-        {looks.begin() + static_cast<std::ptrdiff_t>(k), looks.begin() + static_cast<std::ptrdiff_t>(k + 4)});
+        {candidates.begin() + static_cast<std::ptrdiff_t>(k), candidates.begin() + static_cast<std::ptrdiff_t>(k + 4)});
   }
 }
 
 TEST_CASE(
-    "of many rehearsals of which none keeps its limits the nearest are looked at, and none that the "
+    "of many short runs of which none keeps its limits the nearest are looked at, and none that the "
     "models forgot") {
-  // A narrow valley around one corner of a box of six variables, which never keeps the limit. Rehearsals are exact.
+  // A narrow valley around one corner of a box of six variables, which never keeps the limit. Short runs are exact.
   const auto beyond = [](const VectorXd& place) {
     return 0.1 + std::abs(std::log(((place.array() - 0.2).abs().maxCoeff() + 0.05) / 0.3));
   };
-  const Rehearse rehearse = [&](const std::vector<VectorXd>& places) {
+  const ShortRuns make_short_runs = [&](const std::vector<VectorXd>& places) {
     std::vector<Candidate> told;
     for (const VectorXd& place : places) told.push_back({place, true, {}, {beyond(place)}});
     return told;
   };
   SurrogateSettings settings;
-  settings.rehearsals = 480;  // twice as many as the models use
-  SurrogateSearch search(6, settings, nothing_rejected, rehearse);
+  settings.short_runs = 480;  // twice as many as the models use
+  SurrogateSearch search(6, settings, nothing_rejected, make_short_runs);
   const std::vector<VectorXd> asked = search.ask(4);
-  CHECK(search.rehearsals().size() >= 480);
+  CHECK(search.short_runs().size() >= 480);
   for (const VectorXd& place : asked) CHECK(beyond(place) < 0.15);  // 0.1 is the valley's floor, 1.9 its rim
 }
 
-TEST_CASE("rehearsals that do not run or give no information do not mislead the search") {
+TEST_CASE("short runs that do not run or give no information do not mislead the search") {
   // Runs only where x0 > 0.5. Elsewhere the limits are unknown.
   const Problem problem = g24();
   const auto runs = [](const VectorXd& place) { return place[0] > 0.5; };
-  const Rehearse rehearse = [&](const std::vector<VectorXd>& places) {
+  const ShortRuns make_short_runs = [&](const std::vector<VectorXd>& places) {
     std::vector<Candidate> told;
     for (const VectorXd& place : places)
       told.push_back(
@@ -370,12 +370,12 @@ TEST_CASE("rehearsals that do not run or give no information do not mislead the 
            runs(place) ? std::vector<double>(2, std::nan("")) : std::vector<double>{0.5 - place[0]}});
     return told;
   };
-  SurrogateSearch search(2, {}, nothing_rejected, rehearse);
+  SurrogateSearch search(2, {}, nothing_rejected, make_short_runs);
   std::vector<Candidate> all;
   while (all.size() < 40) {
     std::vector<Candidate> told;
     for (const VectorXd& place : search.ask(4))
-      told.push_back(runs(place) ? problem.look(place) : Candidate{place, false, {}, {0.5 - place[0]}});
+      told.push_back(runs(place) ? problem.candidate(place) : Candidate{place, false, {}, {0.5 - place[0]}});
     search.tell(told);
     all.insert(all.end(), told.begin(), told.end());
   }
@@ -384,13 +384,13 @@ TEST_CASE("rehearsals that do not run or give no information do not mislead the 
   CHECK(best.aims.front() - problem.least < 0.05);  // its best place, x0 = 2.33, runs
 }
 
-TEST_CASE("a search gives up after a third of its rehearsals where none runs or is near its limits") {
-  const auto rehearsed_until_it_asks = [](const Rehearse& rehearse, bool gives_up) {
+TEST_CASE("a search gives up after a third of its short runs where none runs or is near its limits") {
+  const auto short_runs_until_it_asks = [](const ShortRuns& make_short_runs, bool gives_up) {
     SurrogateSettings settings;
-    settings.rehearsals = 90;
-    SurrogateSearch search(2, settings, nothing_rejected, rehearse);
+    settings.short_runs = 90;
+    SurrogateSearch search(2, settings, nothing_rejected, make_short_runs);
     CHECK(search.ask(4).empty() == gives_up);
-    return search.rehearsals().size();
+    return search.short_runs().size();
   };
   const auto all = [](bool run, double least) {
     return [run, least](const std::vector<VectorXd>& places) {
@@ -401,11 +401,11 @@ TEST_CASE("a search gives up after a third of its rehearsals where none runs or 
   };
   constexpr std::size_t third = 30, together = 8;
   for (const bool run : {false, true}) {
-    const std::size_t count = rehearsed_until_it_asks(all(run, 1), true);
+    const std::size_t count = short_runs_until_it_asks(all(run, 1), true);
     CHECK(count >= third);
     CHECK(count < third + together);
   }
-  CHECK(rehearsed_until_it_asks(all(true, 0.5), false) > third + together);  // the limit is missed by less, so it continues
+  CHECK(short_runs_until_it_asks(all(true, 0.5), false) > third + together);  // the limit is missed by less, so it continues
 }
 
 TEST_CASE("places that are rejected beforehand are not asked for") {
@@ -419,7 +419,7 @@ TEST_CASE("places that are rejected beforehand are not asked for") {
   RandomSearch chance(2, 1, right_half);
   const Problem problem = g24();
   for (Search* of : {static_cast<Search*>(&search), static_cast<Search*>(&chance)})
-    for (const Candidate& look : searched(*of, problem, 40, 4)) CHECK(look.place[0] >= 0.5);
+    for (const Candidate& candidate : searched(*of, problem, 40, 4)) CHECK(candidate.place[0] >= 0.5);
 }
 
 TEST_CASE("two aims give the front between them") {
@@ -451,13 +451,13 @@ TEST_CASE("two aims give the front between them") {
 }
 
 TEST_CASE("what ran is better than what did not, what keeps its limits than what does not") {
-  const auto look = [](bool ran, double aim, double g) { return Candidate{vector_of({0}), ran, {aim}, {g}}; };
-  CHECK(better(look(true, 5, 1), look(false, 0, 0.1)));
-  CHECK(better(look(true, 5, -1), look(true, 0, 0.1)));
-  CHECK(better(look(true, 0, 0.1), look(true, 0, 0.2)));
-  CHECK(better(look(true, 0, -1), look(true, 1, -2)));
-  CHECK(better(look(false, 0, 0.1), look(false, 0, 0.2)));
-  CHECK(front({look(true, 1, 0), look(true, 0, 1), look(true, 2, 0)}) == std::vector<std::size_t>{0});
+  const auto candidate = [](bool ran, double aim, double g) { return Candidate{vector_of({0}), ran, {aim}, {g}}; };
+  CHECK(better(candidate(true, 5, 1), candidate(false, 0, 0.1)));
+  CHECK(better(candidate(true, 5, -1), candidate(true, 0, 0.1)));
+  CHECK(better(candidate(true, 0, 0.1), candidate(true, 0, 0.2)));
+  CHECK(better(candidate(true, 0, -1), candidate(true, 1, -2)));
+  CHECK(better(candidate(false, 0, 0.1), candidate(false, 0, 0.2)));
+  CHECK(front({candidate(true, 1, 0), candidate(true, 0, 1), candidate(true, 2, 0)}) == std::vector<std::size_t>{0});
 }
 
 TEST_CASE("functions of the same places are modelled as each by itself, with one shape") {

@@ -1,5 +1,5 @@
 // The limits of a short run for a search, against the full run; and proposed routings that keep their limits in it.
-#include "sim/route/rehearsal.h"
+#include "sim/route/short_run.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "pipeline/advise/improve/scaled.h"
+#include "pipeline/base/statistics.h"
 #include "pipeline/resolve/job_text.h"
 #include "sim/route/exercise.h"
 #include "sim/route/proposal.h"
@@ -19,8 +20,8 @@ namespace {
 
 constexpr int as_the_job = 1'000'000;
 
-double beyond(const Rehearsal& rehearsal, ScreenedLimit limit) {
-  return rehearsal.seen.beyond[static_cast<std::size_t>(limit)];
+double beyond(const RoutingRun& short_run, ScreenedLimit limit) {
+  return short_run.seen.beyond[static_cast<std::size_t>(limit)];
 }
 
 std::vector<Check> checks_of(const pipeline::Setup& setup) {
@@ -29,9 +30,9 @@ std::vector<Check> checks_of(const pipeline::Setup& setup) {
 
 }  // namespace
 
-TEST_CASE("a rehearsal grades what the run's checks saw") {
+TEST_CASE("a short run grades what the run's checks saw") {
   pipeline::Job job = simple_job();
-  const Rehearsal found = rehearsed(job, as_the_job, as_the_job);
+  const RoutingRun found = short_run_of(job, as_the_job, as_the_job);
   REQUIRE(found.refusal.empty());
   const std::vector<Check> checks = checks_of(job);
   const auto check = [&](const char* name) {
@@ -46,15 +47,15 @@ TEST_CASE("a rehearsal grades what the run's checks saw") {
   CHECK(beyond(found, ScreenedLimit::too_long) == Approx(2.0 / 3 - 0.9).margin(1e-9));
   job.dresspacks.front().dresspack.mass_per_length = 15;  // a heavy hose hangs like a chain
   job.dresspacks.front().dresspack.most_tension = 1;
-  CHECK(beyond(rehearsed(job, as_the_job, 1), ScreenedLimit::tension) > 1);
+  CHECK(beyond(short_run_of(job, as_the_job, 1), ScreenedLimit::tension) > 1);
   job.dresspacks.front().routing.free_length = 0.85;
-  CHECK(rehearsed(job, as_the_job, 1).refusal.find("too short") != std::string::npos);
+  CHECK(short_run_of(job, as_the_job, 1).refusal.find("too short") != std::string::npos);
 }
 
-TEST_CASE("bends of a rehearsal are reported by moment and stretch, and their largest is the run's sharpest") {
+TEST_CASE("bends of a short run are reported by moment and stretch, and their largest is the run's sharpest") {
   pipeline::Job job = simple_job();
   job.simulation.most_repeats = 1;
-  const Rehearsal found = rehearsed(job, as_the_job, 1);
+  const RoutingRun found = short_run_of(job, as_the_job, 1);
   REQUIRE(found.refusal.empty());
   REQUIRE(found.bends.size() == bend_moments * bend_stretches);
   // The samples and the ends of links are compared one by one.
@@ -85,7 +86,7 @@ TEST_CASE("bends of a rehearsal are reported by moment and stretch, and their la
   CHECK(largest > beyond(found, ScreenedLimit::bend) - between_samples);
 }
 
-TEST_CASE("proposals that were rehearsed keep all limits in the job's own run") {
+TEST_CASE("proposals with a short run keep all limits in the job's own run") {
   pipeline::Job job = pipeline::read_job(
       std::filesystem::path(DRESSLIFE_SOURCE_DIR) / "config/jobs/irb6640_spot_welding.yaml",
       {"robot=abb_irb2600_12_165", "dresspack=thesis_welding", "simulation.segments=20"});
@@ -93,10 +94,10 @@ TEST_CASE("proposals that were rehearsed keep all limits in the job's own run") 
   job.dresspacks.front().dresspack = pipeline::scaled(job.dresspacks.front().dresspack, 0.3);
   ProposalSettings settings;
   settings.tried = 120;
-  settings.rehearsals = 60;
+  settings.short_runs = 60;
   const Proposal found = propose(job, settings).front();
-  REQUIRE(found.rehearsal.refusal.empty());
-  CHECK(found.rehearsal.seen.violation() == 0);
+  REQUIRE(found.short_run.refusal.empty());
+  CHECK(pipeline::sum_above_zero(found.short_run.seen.beyond) == 0);
   job.dresspacks.front().routing = found.routing;
   for (const Check& check : checks_of(job)) {
     INFO(check.name << " " << check.value << " of " << check.limit);

@@ -1,6 +1,6 @@
 // The result of a routing in a short run, as numbers for a search: violation or margin of each limit.
 //
-// A rehearsal is a complete run of the motion with few segments and without output: a tenth of a second. It includes
+// A short run is a complete run of the motion with few segments and without output: a tenth of a second. It includes
 // effects that geometry (screening.h) does not: weight, speed, contact, and the twist that bends a clamped hose out
 // of its plane. Values as in screening.h: g <= 0 is the margin to the limit, g > 0 the violation.
 #pragma once
@@ -14,7 +14,7 @@
 
 namespace dresslife::sim {
 
-struct Rehearsal {
+struct RoutingRun {
   /// (V1) to (V4) and (V6) from the checks of the run; (V5) is -infinity, because the run itself includes the obstacles.
   Screening seen;
   std::string refusal;  ///< reason why it does not run; empty: it runs
@@ -34,10 +34,10 @@ struct Rehearsal {
 inline constexpr int bend_moments = 16, bend_stretches = 3;
 
 /// Values that a search uses.
-inline constexpr int rehearsed_segments = 24, rehearsed_repeats = 1;
+inline constexpr int routing_run_segments = 24, routing_run_repeats = 1;
 
 /// Returns the result of a short run. segments: of each dresspack, at most those of the job. repeats: of the motion, at most
 /// those of the job.
-Rehearsal rehearsed(pipeline::Setup setup, int segments, int repeats);
+RoutingRun short_run_of(pipeline::Setup setup, int segments, int repeats);
 
 }  // namespace dresslife::sim

@@ -1,4 +1,4 @@
-#include "sim/route/rehearsal.h"
+#include "sim/route/short_run.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,7 +32,7 @@ void see(Screening& seen, const Check& check) {
     see(seen, ScreenedLimit::tension, std::log(check.value / check.limit), check.time);
 }
 
-/// Collects the bends of a rehearsal: the largest curvatures of one repeat.
+/// Collects the bends of a short run: the largest curvatures of one repeat.
 class Bends {
  public:
   explicit Bends(const Simulation& simulation)
@@ -94,10 +94,10 @@ class Bends {
 
 }  // namespace
 
-Rehearsal rehearsed(pipeline::Setup setup, int segments, int repeats) {
-  Rehearsal rehearsal;
-  rehearsal.seen.beyond.fill(-std::numeric_limits<double>::infinity());
-  rehearsal.seen.time.fill(0);
+RoutingRun short_run_of(pipeline::Setup setup, int segments, int repeats) {
+  RoutingRun short_run;
+  short_run.seen.beyond.fill(-std::numeric_limits<double>::infinity());
+  short_run.seen.time.fill(0);
   setup.simulation.segments = std::min(setup.simulation.segments, segments);
   setup.simulation.most_repeats = std::min(setup.simulation.most_repeats, repeats);
   try {
@@ -105,13 +105,13 @@ Rehearsal rehearsed(pipeline::Setup setup, int segments, int repeats) {
     Bends bends(simulation);
     const RunSummary summary =
         simulation.run({[&](const Sample& sample) { bends.see(sample); }, [&](int) { bends.begin(); }});
-    rehearsal.bends = bends.beyond();
-    rehearsal.swing = bends.swing();
-    for (const Check& check : summary.checks) see(rehearsal.seen, check);
+    short_run.bends = bends.beyond();
+    short_run.swing = bends.swing();
+    for (const Check& check : summary.checks) see(short_run.seen, check);
   } catch (const pipeline::InputError& problem) {
-    rehearsal.refusal = problem.what();
+    short_run.refusal = problem.what();
   }
-  return rehearsal;
+  return short_run;
 }
 
 }  // namespace dresslife::sim
