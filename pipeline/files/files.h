@@ -58,7 +58,7 @@ const Format& preview_format();
 const Format& screening_format();
 const Format& ways_format();
 
-/// Returns all formats as Markdown.
+/// Returns the formats of motion.h5, strain.h5 and life.h5 as Markdown.
 std::string file_manual();
 
 class FileReader;
