@@ -298,7 +298,7 @@ int main(int argc, char** argv) {
         if (request.explain)
           for (const std::string& line : sim::explanation(program)) fmt::print("{}\n", line);
         if (!call.quiet)
-          for (const std::string& line : sim::skipped_lines(program)) pipeline::tell(line + "\n");
+          for (const std::string& line : sim::skipped_lines(program)) pipeline::write_stderr(line + "\n");
         if (call.output.empty()) return;
         pipeline::write_text_if_changed(
             call.output,

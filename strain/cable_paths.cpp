@@ -27,9 +27,9 @@ constexpr int most_repeats = 30;
 // leaves this share of the error.
 constexpr int most_attempts = 20;
 
-// Samples of a rehearsal that are one step, which costs a quarter. The lives of the programs hard and easy differ by 0.6 and
-// 0.8 % from those after a rehearsal of all samples, where both come to the same cycle.
-constexpr std::size_t rehearsed_at_once = 4;
+// Samples of a lead-in that are one step, which costs a quarter. The lives of the programs hard and easy differ by 0.6 and
+// 0.8 % from those after a lead-in of all samples, where both come to the same cycle.
+constexpr std::size_t lead_in_at_once = 4;
 // Time in which cables with another slack get this slack [s]. All of it at once would lie in short waves.
 constexpr double feeding = 15;
 // Only cables are evaluated whose sum of eighth powers of curvature is at least this share of the largest sum.
@@ -171,7 +171,7 @@ void CablePaths::go_on_from(const CablePaths& other) {
   fed_ = 0;
 }
 
-/// Feeds in the slack of one step of a rehearsal. step: [s].
+/// Feeds in the slack of one step of a lead-in. step: [s].
 void CablePaths::feed_slack(double step) {
   if (first_share_ == 1) return;
   fed_ += step;
@@ -280,7 +280,7 @@ void CablePaths::add_stuck(Cable& cable, std::size_t segment, const double* twis
   }
 }
 
-void CablePaths::rehearse(std::span<CablePaths* const> all, const SpanBlock& block) {
+void CablePaths::lead_in(std::span<CablePaths* const> all, const SpanBlock& block) {
   std::vector<CablePaths*> own;
   std::vector<LooseCables*> cables;
   for (CablePaths* const of : all)
@@ -290,8 +290,8 @@ void CablePaths::rehearse(std::span<CablePaths* const> all, const SpanBlock& blo
       of->add_hose(block);  // for its twist; add() overwrites it
     }
   const std::size_t samples = own.empty() ? 0 : block.deformation.samples();
-  for (std::size_t first = 0; first < samples; first += rehearsed_at_once) {
-    const std::size_t count = std::min(rehearsed_at_once, samples - first), t = first + count - 1;
+  for (std::size_t first = 0; first < samples; first += lead_in_at_once) {
+    const std::size_t count = std::min(lead_in_at_once, samples - first), t = first + count - 1;
     own.front()->find_nodes(block, t);
     for (CablePaths* const of : own) {
       of->shorten_loose(t);

@@ -72,7 +72,7 @@ class CablePaths {
   /// Starts the rings in a randomly wound shape. Call before the first sample.
   void wind(std::uint64_t seed) { loose_->wind(seed); }
   /// Moves the loose cables to the positions of `other`, which is the same span of the same dresspack with other factors. Their
-  /// own slack is fed in over the first `feeding` seconds. Call between samples of a rehearsal, before the first own sample.
+  /// own slack is fed in over the first `feeding` seconds. Call between samples of a lead-in, before the first own sample.
   void go_on_from(const CablePaths& other);
   /// Returns the distance between loose cables and the same cables from another start (LooseCables::apart()).
   double apart(const CablePaths& other) const { return loose_->apart(*other.loose_); }
@@ -90,7 +90,7 @@ class CablePaths {
   /// that of a separate call. Precondition: `all` contains every object that shares loose cables with one of `all`.
   static void add(std::span<CablePaths* const> all, const SpanBlock& block);
   /// Moves the loose cables through samples before the first one, to the places where a repeat of the motion leaves them.
-  static void rehearse(std::span<CablePaths* const> all, const SpanBlock& block);
+  static void lead_in(std::span<CablePaths* const> all, const SpanBlock& block);
   void finish();  ///< after the last sample; a second call changes nothing
 
   // ---- after finish()

@@ -201,10 +201,10 @@ void Evaluation::add(std::span<Evaluation* const> all, const SpanBlock& block) {
   }
 }
 
-void Evaluation::rehearse(std::span<Evaluation* const> all, const SpanBlock& block) {
+void Evaluation::lead_in(std::span<Evaluation* const> all, const SpanBlock& block) {
   std::vector<CablePaths*> cables;
   for (Evaluation* const of : all) cables.push_back(&of->cables_);
-  CablePaths::rehearse(cables, block);
+  CablePaths::lead_in(cables, block);
 }
 
 void Evaluation::add_bends(const DeformationHistory& block) {

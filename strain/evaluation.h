@@ -109,8 +109,8 @@ class Evaluation {
   /// Adds a block to several evaluations of one span and computes their loose cables side by side. Each result is that of a
   /// call with one evaluation. Precondition: `all` contains every evaluation that shares loose cables with one of `all`.
   static void add(std::span<Evaluation* const> all, const SpanBlock& block);
-  /// Moves the loose cables through samples before the first one (CablePaths::rehearse()).
-  static void rehearse(std::span<Evaluation* const> all, const SpanBlock& block);
+  /// Moves the loose cables through samples before the first one (CablePaths::lead_in()).
+  static void lead_in(std::span<Evaluation* const> all, const SpanBlock& block);
   /// Returns whether the strains of cables depend on the past through clamps and friction, and parts slide in these cables from
   /// clamp to clamp. Then all blocks must be given to add_again() after all have been given to add().
   bool wants_again() const {

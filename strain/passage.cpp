@@ -77,7 +77,7 @@ void Passage::each_span(const MotionBlock& block, const Use& use) const {
   }
 }
 
-void Passage::rehearse(double from, double until) {
+void Passage::lead_in(double from, double until) {
   const std::size_t samples = motion_.samples();
   if (!loose_ || samples < 2) return;
   const auto samples_of = [&](double seconds) { return static_cast<std::size_t>(std::ceil(seconds / motion_.step())); };
@@ -85,7 +85,7 @@ void Passage::rehearse(double from, double until) {
   for (std::size_t left = samples_of(from); left > end;) {
     const std::size_t first = (samples - left % samples) % samples, count = std::min(left - end, samples - first);
     const auto move = [&](const MotionBlock& block) {
-      each_span(block, Evaluation::rehearse);
+      each_span(block, Evaluation::lead_in);
       starts_.merge();
     };
     motion_.run(true, move, first, first + count);

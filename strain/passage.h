@@ -38,7 +38,7 @@ class Passage {
   bool any_loose() const { return loose_; }
   /// Moves loose cables through the time from `from` to `until` before the first sample [s]: the end of the motion, or whole
   /// repeats. Does nothing if no cable is loose.
-  void rehearse(double from, double until);
+  void lead_in(double from, double until);
   /// Records rubbing for every start, because each can become the job's own.
   void record_rubbing() const;
   /// First pass. put: receives every block before the evaluations.

@@ -37,10 +37,10 @@ constexpr double loose_pass_share = 0.5;  // first_pass_share with loose cables
 constexpr double own_work_share = 0.75;   // share of the work without other stiffnesses of the hose
 // Length of the end of the motion before the repeat that counts [s]. In it the first places of loose cables lose their influence
 // (W36). The last start of robot 1 comes to its rest after 160 s.
-constexpr double rehearsed = 180;
+constexpr double lead_in_time = 180;
 // Time before the first sample at which variations continue from the first start [s]. With 170 s the lives of robot 1 and hard
 // are the same. With 30 s one life of ten differs by 0.85 of a decade.
-constexpr double rehearsed_varied = 90;
+constexpr double lead_in_varied = 90;
 
 void append_deformation(FileWriter& file, std::span<const Deformation> block) {
   std::vector<double> curvature, twist, elongation;
@@ -519,7 +519,7 @@ void write_other_motion(MotionReader& motion, Starts::Spans& laid, const Variati
   Starts starts(laid);
   Passage passage(motion, starts, window, threads);
   passage.take_along(variations);
-  passage.rehearse(rehearsed_varied, 0);
+  passage.lead_in(lead_in_varied, 0);
   passage.run([](const MotionBlock&) {});
   variations.find_bent();
   std::size_t seen = 0;
@@ -564,10 +564,10 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
   HistoryWindow window(segments, samples, history_bytes - std::min(held_bytes, history_bytes));
   Passage passage(reader, starts, window, threads);
   const Work work(progress, passage.any_loose(), others.size());
-  passage.rehearse(rehearsed, rehearsed_varied);
+  passage.lead_in(lead_in_time, lead_in_varied);
   variations.go_on();
   passage.take_along(variations);
-  passage.rehearse(rehearsed_varied, 0);
+  passage.lead_in(lead_in_varied, 0);
   passage.record_rubbing();
   passage.run([&](const MotionBlock& block) {
     append_deformation(strain, block.deformation);

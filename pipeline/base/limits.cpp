@@ -138,7 +138,7 @@ std::string shown(const std::string& text) {
   return made;
 }
 
-void tell(const std::string& text) {
+void write_stderr(const std::string& text) {
   const std::string words = shown(text);
   std::fwrite(words.data(), 1, words.size(), stderr);
   std::fflush(stderr);

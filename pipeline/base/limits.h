@@ -31,6 +31,6 @@ std::uint64_t installed_memory_mb();
 std::string shown(const std::string& text);
 
 /// Writes to standard error. Throws nothing if standard error is full or closed.
-void tell(const std::string& text);
+void write_stderr(const std::string& text);
 
 }  // namespace dresslife::pipeline

@@ -55,7 +55,7 @@ void Progress::draw(const std::string& words) {
   if (!terminal_) {
     if (Clock::now() < log().next_line) return;
     log().next_line = Clock::now() + log().interval;
-    tell(fmt::format("{}: {}\n", label_, words));
+    write_stderr(fmt::format("{}: {}\n", label_, words));
     return;
   }
   std::fputs(fmt::format("\r\033[K{}  {}", shown(label_), shown(words)).c_str(), stderr);
@@ -66,7 +66,7 @@ void Progress::draw(const std::string& words) {
 void Progress::note(const std::string& line) {
   if (quiet_) return;
   clear();
-  tell(line + "\n");
+  write_stderr(line + "\n");
 }
 
 void Progress::clear() {

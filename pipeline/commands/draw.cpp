@@ -22,11 +22,11 @@ int draw(const DrawOptions& options) {
   const Dresspack dresspack = read_dresspack(named_file(options.dresspack, "dresspacks"), faults);
   if (!faults.empty()) {  // the picture marks the parts that do not fit
     if (!options.picture.empty()) write_picture(options.picture, cross_section_picture(dresspack));
-    tell(faults + "\n");
+    write_stderr(faults + "\n");
     return 1;
   }
   print(shown(construction_text(dresspack)));
-  for (const Warning& warning : construction_warnings(dresspack, true)) tell(warning.line() + "\n");
+  for (const Warning& warning : construction_warnings(dresspack, true)) write_stderr(warning.line() + "\n");
   if (!options.picture.empty()) write_picture(options.picture, cross_section_picture(dresspack));
   return 0;
 }

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 int duty(const RunOptions& options) {
   const fs::path name = named_file(options.study, "duties");
   const DutyFile file = read_duties(name);
-  for (const Warning& warning : doubtful_duties(file)) tell(shown(warning.line() + "\n"));
+  for (const Warning& warning : doubtful_duties(file)) write_stderr(shown(warning.line() + "\n"));
   const DutiesRun made = run_duties(file, options);
   const std::vector<DutyResult> results = evaluated(file, made.study, made.rows);
   const std::string csv = duty_csv(results);
@@ -31,7 +31,7 @@ int duty(const RunOptions& options) {
   write_text_if_changed(page, with_mark(duty_page(name.stem().string(), results, table.filename().string()), Mark::page));
   print(options.json ? json_of_csv(csv).text + "\n"
                      : shown(fmt::format("{}\nTable: {} (columns: comma, decimals: point)\nPage: {}\n", duty_words(results), table.string(), page.string())));
-  tell(warning_lines(rows_of(file, made.rows)));
+  write_stderr(warning_lines(rows_of(file, made.rows)));
   return 0;
 }
 

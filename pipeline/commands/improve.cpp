@@ -54,7 +54,7 @@ FilesAtStart files_of(const Study& study) {
 
 /// Ends a search whose files changed. Its trials so far belong to the old files.
 int end_early(const Improvement& found, const StudyPlaces& places) {
-  tell(shown(found.ended) + "\n");
+  write_stderr(shown(found.ended) + "\n");
   print(shown(unfinished_words(found)));
   print(shown(fmt::format("Trials: {}\n", (places.folder / "improve.csv").string())));
   return 1;
@@ -98,7 +98,7 @@ int judge_the_best(const ImproveOptions& options, const StudyPlaces& places, con
   if (!tolerance.none() && finals.of.size() > 1) {
     written = write_short_job(options.request, found, finals, job, false, false);
     if (!options.quiet)
-      tell(shown(fmt::format(
+      write_stderr(shown(fmt::format(
           "The trials are done. The jobs of the best are in {}{}. Next the best run again with {}: up to 24 runs each, most often about 30 in all. --off 0 leaves that out.\n",
           places.folder.string(),
           written ? fmt::format(", the best as drawn also in {}", job.string()) : "",

@@ -91,7 +91,7 @@ int build_rest(const Study& study, const StudyPlaces& places, const RunOptions& 
   });
   progress.clear();
   if (!built.words.empty())
-    tell(fmt::format("{}: error: {}; run again\n", places.folder.string(), built.words));
+    write_stderr(fmt::format("{}: error: {}; run again\n", places.folder.string(), built.words));
   close_run(study, places, built, states, before);
   return built.executed;
 }
@@ -195,7 +195,7 @@ void add_relative_lives(const Study& study, const StudyPlaces& of_study, const R
     return job.failure.empty() && job.job && has_ratings(*job.job);
   };
   if (study.keep == Keep::lives && std::any_of(study.jobs.begin(), study.jobs.end(), is_rated))
-    tell(
+    write_stderr(
         "note: no life in rated cycles, because keep: lives keeps no damage of single places. Remedy: "
         "keep: histories\n");
   const RatedStudy rated = rated_study(study);
@@ -203,7 +203,7 @@ void add_relative_lives(const Study& study, const StudyPlaces& of_study, const R
   const StudyPlaces places{of_study.folder / ".rigs", of_study.programs};
   const std::vector<RankingRow> rigs = to_run ? made_rows(rated.rigs, places, *to_run)
                                               : ranking_of(rated.rigs, places, states_of(rated.rigs, places));
-  for (const std::string& reason : relate(rated, rigs, rows)) tell(fmt::format("note: {}\n", reason));
+  for (const std::string& reason : relate(rated, rigs, rows)) write_stderr(fmt::format("note: {}\n", reason));
 }
 
 int count_failed(const std::vector<RankingRow>& rows) {
@@ -214,7 +214,7 @@ int count_failed(const std::vector<RankingRow>& rows) {
 int say_failures(const std::string& input, const std::vector<RankingRow>& rows) {
   const int failed = count_failed(rows);
   if (failed == 0) return 0;
-  tell(fmt::format("{}: error: {} of {} jobs failed (their reasons are in the table)\n", input, failed,
+  write_stderr(fmt::format("{}: error: {} of {} jobs failed (their reasons are in the table)\n", input, failed,
                    rows.size()));
   return 1;
 }

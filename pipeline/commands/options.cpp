@@ -77,7 +77,7 @@ fs::path file_or_entry(const std::string& name, const std::vector<std::string>& 
     const fs::path entry = fs::path(shelf) / name, shipped = shipped_file(entry);
     if (!shipped.empty()) {
       if (shelf == "jobs" && !shipped_file(fs::path("studies") / name).empty())
-        tell(fmt::format("{}: note: is a job and a study; the job is taken. The study is studies/{}\n", name,
+        write_stderr(fmt::format("{}: note: is a job and a study; the job is taken. The study is studies/{}\n", name,
                          name));
       return shipped;
     }

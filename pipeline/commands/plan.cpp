@@ -174,7 +174,7 @@ int plan(const PlanOptions& options) {
   need_duties(fleet);
   problems.finish(options.fleet);
   if (!fleet.unused.empty())
-    tell(shown(fmt::format("note: {}: a plan does not use the columns {}\n", options.fleet, joined(fleet.unused, ", "))));
+    write_stderr(shown(fmt::format("note: {}: a plan does not use the columns {}\n", options.fleet, joined(fleet.unused, ", "))));
   const std::set<std::string> planned = needed;
   bool has_changes = changed.has_value();  // whether the duty of a dresspack changes
   for (const Duty& duty : file.duties)
@@ -182,7 +182,7 @@ int plan(const PlanOptions& options) {
       if (planned.contains(duty.name)) needed.insert(past.duty), has_changes = true;
   for (const Warning& warning :
        joined(doubts_of(options.risk_percent), joined(doubtful_fleet(fleet, day), doubtful_duties(file))))
-    tell(shown(warning.line() + "\n"));
+    write_stderr(shown(warning.line() + "\n"));
   const DutiesRun made = run_duties(file, options);
   std::map<std::string, LifeTable> tables = life_tables(file, made.study, made.rows, needed, has_changes);
   for (const auto& [name, table] : tables)
@@ -193,7 +193,7 @@ int plan(const PlanOptions& options) {
           "no plan helps; see dresslife improve");
   const std::vector<DutyResult> duties = outlines(file, made.study, made.rows, planned);
   const auto add_past = [&](Fleet& of) {
-    for (const Warning& warning : add_histories(of, file, tables, day)) tell(shown(warning.line() + "\n"));
+    for (const Warning& warning : add_histories(of, file, tables, day)) write_stderr(shown(warning.line() + "\n"));
   };
   add_past(fleet);
   const PlanRule rule{options.risk_percent.value_or(10) / 100, fleet.has_costs && !options.risk_percent,
@@ -213,7 +213,7 @@ int plan(const PlanOptions& options) {
         fmt::format("the ages of these dresspacks contradict the model: {:.1f} of {} samples explain them",
                     found.effective_worlds, tables.begin()->second.worlds),
         "learn from them first: dresslife calibrate");
-  for (const Warning& warning : doubtful_ages(fleet, found)) tell(shown(warning.line() + "\n"));
+  for (const Warning& warning : doubtful_ages(fleet, found)) write_stderr(shown(warning.line() + "\n"));
   std::optional<Plan> other;
   std::string what_if;
   const std::string what_if_name = fs::path(options.what_if).stem().string() + (from > day ? " from " + day_text(from) : "");
@@ -272,7 +272,7 @@ int plan(const PlanOptions& options) {
                                          block(cautions(duties)), table.string(), weeks.string(),
                                          calendar.string(), page.string()) +
                              what_if));
-  tell(warning_lines(rows_of(file, made.rows)));
+  write_stderr(warning_lines(rows_of(file, made.rows)));
   return 0;
 }
 

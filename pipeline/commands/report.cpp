@@ -30,7 +30,7 @@ int report(const StudyOptions& options) {
   std::vector<RankingRow> rows = ranking_of(study, places, states);
   add_relative_lives(study, places, nullptr, rows);
   print(options.json ? json_of_csv(ranking_csv(rows)).text + "\n" : shown(ranking_table(rows)));
-  tell(shown(problem_words(study)) + warning_lines(rows));
+  write_stderr(shown(problem_words(study)) + warning_lines(rows));
   const auto open = std::count_if(states.begin(), states.end(), [](const JobState& state) {
     return !state.done() && !state.has_last && state.has_results && state.failure.empty();
   });
@@ -47,12 +47,12 @@ int report(const StudyOptions& options) {
     all_written = write_results(study, places, rows).empty();
     if (!options.json) print(shown(fmt::format("\nReport: {}\n", (places.folder / "report.html").string())));
   } else {
-    tell(fmt::format("{}: note: ranking.csv and report.html stay as the last run left them ({})\n",
+    write_stderr(fmt::format("{}: note: ranking.csv and report.html stay as the last run left them ({})\n",
                      places.folder.string(), kept));
   }
   const int failed = count_failed(rows);
   if (failed > 0)
-    tell(fmt::format("{}: error: {} of {} jobs have no current result (their reasons are in the table); make them with dresslife run\n",
+    write_stderr(fmt::format("{}: error: {} of {} jobs have no current result (their reasons are in the table); make them with dresslife run\n",
                      options.study, failed, study.jobs.size()));
   return failed > 0 || !all_written ? 1 : 0;
 }

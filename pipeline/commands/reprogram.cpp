@@ -149,7 +149,7 @@ std::vector<TriedWay> program_ways_of(const Job& job, const fs::path& life_file,
          {}});
   std::map<std::string, int> refused;
   for (const std::string& why : file.read<std::string>("/refusal/words")) ++refused[why];
-  for (const auto& [why, count] : refused) tell(fmt::format("{} ({} ways are not tried)\n", why, count));
+  for (const auto& [why, count] : refused) write_stderr(fmt::format("{} ({} ways are not tried)\n", why, count));
   return ways;
 }
 
@@ -220,7 +220,7 @@ int reprogram(const ReprogramOptions& options) {
         std::find_if(rows.begin(), rows.end(), [&](const RankingRow& of) { return of.job == job.name; });
     const TriedWay before = seen(*row, places);
     if (!before.outcome.failure.empty()) {
-      tell(fmt::format("{}: error: it does not run: {}\n", job.name, before.outcome.failure));
+      write_stderr(fmt::format("{}: error: it does not run: {}\n", job.name, before.outcome.failure));
       ++failed;
       continue;
     }

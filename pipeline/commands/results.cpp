@@ -63,7 +63,7 @@ std::vector<fs::path> refresh_previews(const Study& study, const StudyPlaces& pl
       try {
         shows = refresh_preview(places.job(job.name) / "job.yaml", page, states[k], job.name);
       } catch (const InputError& problem) {
-        tell(fmt::format("note: no preview of {}: {}\n", job.name, problem.what()));
+        write_stderr(fmt::format("note: no preview of {}: {}\n", job.name, problem.what()));
       }
     }
     if (shows)
@@ -91,7 +91,7 @@ bool taken(const std::string& job, const std::function<void()>& step) {
     step();
     return true;
   } catch (const InputError& problem) {
-    tell(fmt::format("no page of {}: {}\n", job, problem.what()));
+    write_stderr(fmt::format("no page of {}: {}\n", job, problem.what()));
     return false;
   }
 }
@@ -126,7 +126,7 @@ std::set<std::string> write_results(const Study& study, const StudyPlaces& place
   std::set<std::string> failed = refresh_pages(places, rows);
   write_text_if_changed(places.folder / "ranking.csv", ranking_csv(rows));
   for (const ReportProblem& problem : write_report(places.folder / "report.html", study.name, rows)) {
-    tell(fmt::format("report.html shows no charts of {}: {}\n", problem.job, problem.words));
+    write_stderr(fmt::format("report.html shows no charts of {}: {}\n", problem.job, problem.words));
     failed.insert(problem.job);
   }
   return failed;

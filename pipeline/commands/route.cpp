@@ -228,7 +228,7 @@ Trial tried(const Draft& draft, const RouteOptions& options, double factor, cons
     if (tolerance && trial.feasible()) {
       write_job(trial, draft, options, job, not_verified);
       if (!options.quiet)
-        tell(shown(fmt::format("The best routing so far is in {}, not yet verified within the mounting tolerance.\n",
+        write_stderr(shown(fmt::format("The best routing so far is in {}, not yet verified within the mounting tolerance.\n",
                                job.string())));
       judge(trial, draft, options, places, files);
     }
@@ -368,7 +368,7 @@ int route(const RouteOptions& options) {
   if (options.bracket_mm)
     request.sets.push_back(fmt::format("routing.longest_bracket_mm={:.6g}", *options.bracket_mm));
   const Draft draft = draft_of(request);
-  for (const Warning& fault : dresspack_faults(draft.job, true)) tell(fault.line() + "\n");
+  for (const Warning& fault : dresspack_faults(draft.job, true)) write_stderr(fault.line() + "\n");
   const fs::path job = options.job.empty() ? fs::path(draft.name + "_routed.yaml") : fs::path(options.job);
   const fs::path page = job.parent_path() / (job.stem().string() + "_preview.html");
   check_replaceable(job);
@@ -378,7 +378,7 @@ int route(const RouteOptions& options) {
   const std::vector<double> factors = factors_of(options);
   // 45 s for the default numbers, measured on a busy machine with a job of 64 segments.
   if (!options.quiet)
-    tell(fmt::format(
+    write_stderr(fmt::format(
         "Checks {} routings by geometry and the best of them in {} short runs, for each size. This takes about a minute. "
         "Runs with their remaining time follow{}.\n",
         options.tried, options.short_runs,
@@ -394,9 +394,9 @@ int route(const RouteOptions& options) {
     const bool feasible = trial.feasible();
     ended = trial.ended;
     if (!ended.empty())
-      tell(shown(ended) + "\n");
+      write_stderr(shown(ended) + "\n");
     else if (!feasible)
-      tell(fmt::format("note: at {:.0f} % of the dresspack's size: {}\n", 100 * factor, obstacle(trial)));
+      write_stderr(fmt::format("note: at {:.0f} % of the dresspack's size: {}\n", 100 * factor, obstacle(trial)));
     const bool nearer = !nearest || violation(trial) < violation(*nearest);
     if (trial.best &&
         (!chosen || better(trial.outcomes[*trial.best], chosen->outcomes[*chosen->best], chosen->as_it_is())))
@@ -411,7 +411,7 @@ int route(const RouteOptions& options) {
       run(*nearest, 0, "run of the nearest", draft, options, places, files);
     } catch (const FilesChanged& change) {
       ended = change.what();
-      tell(shown(ended) + "\n");
+      write_stderr(shown(ended) + "\n");
     }
     if (nearest->best) chosen = std::move(nearest);
   }

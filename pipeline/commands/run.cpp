@@ -38,7 +38,7 @@ int run_shard(const RunOptions& options) {
   look_again(standing);
   const int executed = make_rest(request, standing, options);
   if (!options.quiet)
-    tell(fmt::format("{} {}: {}\n", standing.study.name, options.shard, ran_words(executed)));
+    write_stderr(fmt::format("{} {}: {}\n", standing.study.name, options.shard, ran_words(executed)));
   return say_failures(options.study, ranking_of(standing.study, standing.places, standing.states));
 }
 
@@ -85,7 +85,7 @@ int run(const RunArguments& options) {
   const bool any = std::any_of(study.jobs.begin(), study.jobs.end(),
                                [](const StudyJob& job) { return job.failure.empty(); });
   if (!options.quiet && any)
-    tell(fmt::format("{}: {}\n", study.name, executed == 0 ? "nothing to do" : ran_words(executed)));
+    write_stderr(fmt::format("{}: {}\n", study.name, executed == 0 ? "nothing to do" : ran_words(executed)));
   std::vector<RankingRow> rows = ranking_of(study, places, states);
   add_relative_lives(study, places, &options, rows);
   const std::vector<fs::path> previews = refresh_previews(study, places, states);
@@ -94,15 +94,15 @@ int run(const RunArguments& options) {
   print(options.json ? json_of_csv(ranking_csv(rows)).text + "\n"
                      : shown(fmt::format("{}\nReport: {}\n", ranking_table(rows),
                                          (places.folder / "report.html").string())));
-  tell(warning_lines(rows));
+  write_stderr(warning_lines(rows));
   const int failed = count_failed(rows);
   if (failed == 0) return not_shown.empty() ? 0 : 1;
-  tell(shown(problem_words(study)));
-  tell(fmt::format(
+  write_stderr(shown(problem_words(study)));
+  write_stderr(fmt::format(
       "{}: error: {} of {} jobs failed (their reasons are in the table); see the log in each job's folder\n",
       options.study, failed, study.jobs.size()));
   for (const fs::path& page : previews)
-    tell(fmt::format(
+    write_stderr(fmt::format(
         "note: what the simulation refuses can be seen in {}; after a change: dresslife preview JOB.yaml\n",
         page.string()));
   return 1;

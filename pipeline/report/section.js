@@ -116,14 +116,14 @@ function showSection() {
     const size = canvas.getBoundingClientRect(), scale = 2.12 * view.radius / size.width;
     return [view.x + (event.clientX - size.left - size.width / 2) * scale, view.y - (event.clientY - size.top - size.height / 2) * scale];
   };
-  const tell = (canvas, view) => event => {
+  const describe = (canvas, view) => event => {
     const at = under(canvas, view(), event), wire = section.at(...at, section.wires), part = wire || section.at(...at, section.parts);
     const damage = wire ? damages[section.wires.indexOf(wire)] : 0;
     hint.textContent = wire ? `${wire.path}: ${damage ? `about ${readable(damage, 2)} per repeat` : `less than ${readable(sectionScale.low, 2)}`}` :
                               part ? part.path : '\u00a0';
   };
-  all.addEventListener('pointermove', tell(all, () => section.whole()));
-  near.addEventListener('pointermove', tell(near, () => larger));
+  all.addEventListener('pointermove', describe(all, () => section.whole()));
+  near.addEventListener('pointermove', describe(near, () => larger));
   all.addEventListener('click', event => {
     const part = section.at(...under(all, section.whole(), event), section.parts.filter(one => one.radius < .5 * section.of.radius && !one.plain));
     larger = part ? part.holders.find(one => one.radius < .5 * section.of.radius) || part : section.whole();

@@ -30,7 +30,7 @@ class Timeline {
     });
     this.canvas.addEventListener('pointermove', event => {
       if (dragging) this.onTime(timeOf(event));
-      else this.tell(timeOf(event));
+      else this.describe(timeOf(event));
     });
     this.canvas.addEventListener('pointerup', () => dragging = false);
     this.canvas.addEventListener('pointercancel', () => dragging = false);
@@ -57,7 +57,7 @@ class Timeline {
     if (time < this.from || time > this.to) this.zoom(time - (this.to - this.from) * .1, time + (this.to - this.from) * .9);
     else this.drawNow();
   }
-  tell(time) {
+  describe(time) {
     const words = this.panels.map(panel => panel.words && panel.words(time)).filter(Boolean);
     this.hint.textContent = `${time.toFixed(2)} s   ${words.join('   ')}`;
   }

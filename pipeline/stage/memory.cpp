@@ -133,7 +133,7 @@ void require_memory(const StageCall& call, const MemoryNeed& need, Progress& pro
       fmt::format("note: takes about {} of memory{}", shown_megabytes(megabytes),
                   need.largest().empty() ? "" : fmt::format(", {} of it", need.largest()));
   if (call.of_a_study)
-    tell(words + "\n");  // into the log of the stage
+    write_stderr(words + "\n");  // into the log of the stage
   else if (megabytes > worth_a_word * machine)
     progress.note(words);
   limit_memory(call.limits.megabytes);

@@ -132,7 +132,7 @@ Settings settings_of(const StageCall& call) {
 
 void say(const StageCall& call, Progress& progress, const Warning& warning) {
   if (call.of_a_study)
-    tell(warning.line() + "\n");
+    write_stderr(warning.line() + "\n");
   else
     progress.note(warning.line());
 }
@@ -258,7 +258,7 @@ int finish_output(int status) {
   if (errno != 0) note_failed_output(errno);
   // Libraries do not store the reason of a failed write; writing one more byte fails with the same reason.
   if (output_error == 0 && ::write(STDOUT_FILENO, "\n", 1) < 0) note_failed_output(errno);
-  tell(fmt::format("standard output: error: cannot be written{}; free space or name another place\n",
+  write_stderr(fmt::format("standard output: error: cannot be written{}; free space or name another place\n",
                    output_error == 0 ? "" : fmt::format(" ({})", std::strerror(output_error))));
   return std::max(status, 1);
 }
@@ -267,25 +267,25 @@ int guarded(const std::string& program, const std::function<int()>& body) {
   try {
     return body();
   } catch (const InputError& problem) {
-    tell(fmt::format("{}\n", problem.what()));
+    write_stderr(fmt::format("{}\n", problem.what()));
     return 1;
   } catch (const DiskError& problem) {
-    tell(fmt::format("{}\n", problem.what()));
+    write_stderr(fmt::format("{}\n", problem.what()));
     return 1;
   } catch (const std::filesystem::filesystem_error& problem) {
-    tell(fmt::format("{}: error: {}; check the folder and its permissions{}\n",
+    write_stderr(fmt::format("{}: error: {}; check the folder and its permissions{}\n",
                      problem.path1().empty() ? program : problem.path1().string(),
                      problem.code().message(), then_run_again));
     return 1;
   } catch (const std::bad_alloc&) {
-    tell(fmt::format("{}: {}", program, out_of_memory_words));
+    write_stderr(fmt::format("{}: {}", program, out_of_memory_words));
     return 1;
   } catch (const std::system_error& problem) {
-    tell(fmt::format("{}: error: the system refuses ({}); run fewer jobs at a time or raise its limits{}\n", program,
+    write_stderr(fmt::format("{}: error: the system refuses ({}); run fewer jobs at a time or raise its limits{}\n", program,
                      problem.what(), then_run_again));
     return 1;
   } catch (const std::exception& problem) {
-    tell(fmt::format("{}: error: internal fault ({}); please report it with the job\n", program,
+    write_stderr(fmt::format("{}: error: internal fault ({}); please report it with the job\n", program,
                      problem.what()));
     return 3;
   }

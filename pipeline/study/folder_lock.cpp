@@ -58,7 +58,7 @@ void take(int descriptor, const fs::path& folder, int how) {
     const LockState state = take_lock(descriptor, how);
     if (state == LockState::taken) return;
     if (state == LockState::not_known_here)
-      return tell(fmt::format(
+      return write_stderr(fmt::format(
           "note: {} lies on a file system without locks: let no two runs write there at a time\n", folder.string()));
     const long owner = owner_of(descriptor, folder / lock_name);
     if (lives(owner) || waited >= most)

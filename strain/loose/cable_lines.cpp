@@ -154,7 +154,7 @@ Vector2d bend_at_clamp(const Vector2d& at_clamp, const Vector2d& next, const Vec
   return at_clamp + per_r / (4 * (root + 1)) * (at_clamp - 2 * next + after_next);
 }
 
-void CableLines::tell(const HoseLine& hose, std::size_t k, CableState& state) const {
+void CableLines::put_state(const HoseLine& hose, std::size_t k, CableState& state) const {
   const std::size_t nodes = hose.nodes();
   state.gain.resize(nodes - 1);
   for (std::size_t i = 0; i + 1 < nodes; ++i) state.gain[i] = gain_[i * batch_.lanes + k];
@@ -189,12 +189,12 @@ void CableLines::end(const HoseLine& hose, double time, std::span<CableState> st
 /// Stores the slip of the cables, and their states. Cables that cannot slip have nothing to store without states.
 void CableLines::follow(const HoseLine& hose, std::span<CableState> states) {
   loose_kernels().follow(batch_, answer());
-  if (!states.empty()) loose_kernels().tell(batch_, memory(), frame_of(hose), answer());
+  if (!states.empty()) loose_kernels().put_states(batch_, memory(), frame_of(hose), answer());
   for (std::size_t k = 0; k < count(); ++k) {
     const double settled = tensions_[k].settle(of_lane(mean_gain, k));
     if (states.empty()) continue;
     states[k].strain = settled;
-    tell(hose, k, states[k]);
+    put_state(hose, k, states[k]);
   }
 }
 

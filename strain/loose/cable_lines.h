@@ -87,7 +87,7 @@ class CableLines {
   void lay(std::size_t k);
   double laid_gain(std::size_t k) const;
   void follow(const HoseLine& hose, std::span<CableState> states);
-  void tell(const HoseLine& hose, std::size_t k, CableState& state) const;
+  void put_state(const HoseLine& hose, std::size_t k, CableState& state) const;
   LineMemory memory();
   LineAnswer answer();
   double& of_lane(OfLane row, std::size_t k) { return lane_rows_[static_cast<std::size_t>(row) * batch_.lanes + k]; }

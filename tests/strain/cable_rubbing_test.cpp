@@ -50,7 +50,7 @@ struct Run {
   CablePaths paths;
 
   Run(const Dresspack& dresspack, std::size_t pieces, std::size_t samples, const Motion& motion,
-      std::size_t rehearsals = 1)
+      std::size_t lead_ins = 1)
       : construction(dresspack, Kinematics::exact),
         segments(pieces),
         paths(construction, plan_slip(construction, {Slip::friction, Slip::free}, length), {.rub = true},
@@ -60,7 +60,7 @@ struct Run {
       for (std::size_t i = 0; i < segments; ++i) history.set(i, t, motion(arcs()[i], t));
     paths.record_rubbing();
     CablePaths* const all = &paths;
-    for (std::size_t k = 0; k < rehearsals; ++k) CablePaths::rehearse({&all, 1}, {history});
+    for (std::size_t k = 0; k < lead_ins; ++k) CablePaths::lead_in({&all, 1}, {history});
     paths.add({history});
     paths.finish();
   }
@@ -109,14 +109,14 @@ TEST_CASE("a hose that does not move wears no jacket") {
   const auto still = [](double arc, std::size_t) { return Deformation{0.5 * arc, 0.8, 0.3, 1e-3}; };
   const Run held(drawn(10), 16, 40, still);
   CHECK(held.paths.rubbing(0)->patches().empty());
-  const auto largest = [&](std::size_t rehearsals) {
-    const Run run(hose(), 16, 40, still, rehearsals);
+  const auto largest = [&](std::size_t lead_ins) {
+    const Run run(hose(), 16, 40, still, lead_ins);
     double most = 0;
     for (std::size_t k = 0; k < run.paths.cables(); ++k)
       most = std::max(most, std::ranges::max(run.work_per_length(k)));
     return most;
   };
-  // Loose cables creep into equilibrium under their drag. A rehearsal lasts 1.6 s.
+  // Loose cables creep into equilibrium under their drag. A lead-in lasts 1.6 s.
   const double soon = largest(1);
   CHECK(largest(100) < 0.01 * soon);
 }

@@ -364,7 +364,7 @@ TEST_CASE(
       nearest = std::min(nearest, apart / std::ranges::max(one));
     }
   INFO("slack of " << slack << " %: " << nearest);
-  CHECK(nearest < 0.03f);  // the rehearsal goes in steps of four samples; 0.4 and 1.2 % remain
+  CHECK(nearest < 0.03f);  // the lead-in goes in steps of four samples; 0.4 and 1.2 % remain
 }
 
 TEST_CASE("each start of a ring of cables has a rest in the file, one cable has no starts") {

@@ -530,7 +530,7 @@ void follow(const LineBatch& batch, const LineAnswer& answer) {
   }
 }
 
-void tell(const LineBatch& batch, const LineMemory& memory, const HoseFrame& hose, const LineAnswer& answer) {
+void put_states(const LineBatch& batch, const LineMemory& memory, const HoseFrame& hose, const LineAnswer& answer) {
   const std::size_t last = batch.nodes - 1;
   for (std::size_t k = 0; k < batch.cables; k += pack_size) {
     const Lines lines{batch, k};
@@ -662,7 +662,7 @@ void products(const double* a, const double* b, std::size_t rows, const LineBatc
 }  // namespace
 
 extern const LooseKernels set;
-const LooseKernels set{relax, begin, follow, tell, end, place, assemble_turn, slope_of_turn, substitute_turn, products};
+const LooseKernels set{relax, begin, follow, put_states, end, place, assemble_turn, slope_of_turn, substitute_turn, products};
 
 }  // namespace DRESSLIFE_MACHINE_KERNELS
 }  // namespace dresslife::strain

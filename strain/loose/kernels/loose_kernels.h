@@ -97,7 +97,7 @@ struct LooseKernels {
   void (*follow)(const LineBatch&, const LineAnswer&);
   /// Computes the positions in the hose's frame, the error by the distance of nodes, and the contact forces if the batch has
   /// `press`. Precondition: follow().
-  void (*tell)(const LineBatch&, const LineMemory&, const HoseFrame&, const LineAnswer&);
+  void (*put_states)(const LineBatch&, const LineMemory&, const HoseFrame&, const LineAnswer&);
   /// Ends the sample: transforms the path back to its frame. Sets its velocity over `time` seconds; time 0: keeps the old
   /// velocity.
   void (*end)(const LineBatch&, const LineMemory&, double time);
