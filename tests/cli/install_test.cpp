@@ -153,6 +153,6 @@ TEST_CASE("bash completes commands, options and their words") {
   CHECK(completed("dresslife", "dresslife run --q") == "--quiet\n");
   CHECK(completed("dresslife", "dresslife manual ''") == "keys files ranking.csv man bash zsh\n");
   CHECK(completed("dresslife", "dresslife run ''") == "\n");  // then bash offers files
-  CHECK(completed("dresslife-sim", "dresslife-sim job.yaml --s") == "--set --screen --seed --same\n");
+  CHECK(completed("dresslife-sim", "dresslife-sim job.yaml --s") == "--set --screen --short-runs --seed --same\n");
   CHECK(completed("dresslife-sim", "dresslife-sim --manual b") == "bash\n");
 }
