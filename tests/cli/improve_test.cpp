@@ -314,7 +314,7 @@ routing:
   free_length_m: 2.035
 simulation: {segments: 20, sample_rate_Hz: 25}
 )");
-  const Outcome ways = must_run(scratch, "dresslife", "reprogram job.yaml --quiet --lines 1");
+  const Outcome ways = must_run(scratch, "dresslife", "reprogram job.yaml --quiet --lines 1 --set uncertainty.enabled=false");
   INFO(ways.out << ways.err);
   const std::string table = content(scratch / "runs/job_reprogram/as_it_is.csv");
   CHECK(table.find("lines,way,life_hours_p10,times_as_long,cycle_s,cycle_won_s,beyond,sets,patch\n") == 0);
