@@ -53,6 +53,13 @@ pipeline::Setup setup_with(const pipeline::Job& job, double factor, double time_
 
 double factor_of(double z) { return pipeline::uncertain_parameters()[index_of(Uncertain::hose_stiffness)].value(z); }
 
+/// Returns WHAT of a message "WHERE: error: WHAT; REMEDY": place and remedy are those of the changed job, which the user does not see.
+std::string problem_in(const std::string& message) {
+  const std::string mark = ": error: ";
+  const std::size_t at = message.find(mark), begin = at == std::string::npos ? 0 : at + mark.size();
+  return message.substr(begin, message.find("; ", begin) - begin);
+}
+
 /// Returns the warning of a refused simulation at the stiffness z. recorded: z of half the change, 0 if that is refused, too.
 Warning refused(const std::string& side, double z, double recorded, const std::string& problem) {
   // 5 % of hoses lie beyond z, and 20 % beyond half of it: see pipeline::other_stiffness()
@@ -93,7 +100,7 @@ std::vector<Warning> write_other_stiffnesses(const pipeline::Job& job, double ti
         recorded = z;
         break;
       } catch (const pipeline::InputError& refusal) {
-        if (problem.empty()) problem = refusal.what();
+        if (problem.empty()) problem = problem_in(refusal.what());
       }
     }
     if (!problem.empty()) warnings.push_back(refused(name, side, recorded, problem));
