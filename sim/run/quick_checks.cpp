@@ -121,7 +121,8 @@ class QuickChecks {
   }
 
  private:
-  /// Returns one repeat from rest with twice the step and few segments. It takes a sixth of the work of a short run.
+  /// Returns one repeat from rest with twice the step and few segments. Half of the segments, half of the steps and no
+  /// lead-in: about a sixth of the work of a short run.
   ShortRun coarse_run(double useless_below, int dresspack) const {
     pipeline::Setup coarse = setup_;
     pipeline::SimulationSettings& settings = coarse.simulation;

@@ -25,7 +25,7 @@ pipeline::Job ring_job() {
   return pipeline::job_from(pipeline::parse_yaml(text, "job.yaml"), {});
 }
 
-/// Four starts of a ring, of which those with equal seeds come to one rest.
+/// Four starts of a ring. Starts with equal seeds come to one rest.
 struct FourStarts {
   pipeline::Job job = ring_job();
   strain::Construction construction{job.dresspacks[0].dresspack, job.strain.kinematics};
