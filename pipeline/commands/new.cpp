@@ -309,7 +309,7 @@ std::string text_of(const NewOptions& options, const Draft& draft, const Choice&
   for (const Entry& key : choice.routing.entries) text += fmt::format("{}  {}: {}\n", off, key.key, set_text(key.value));
   for (const KeyValue& slack : choice.slacks)
     text += commented(off + slack.key, slack.value, "without it, dresslife check warns");
-  return text + commented("simulation", "{segments: 64}", "everything else has a default: config/README.md");
+  return text + commented("simulation", "{segments: 64}", "everything else has a default: config/keys.md");
 }
 
 int make(NewOptions options) {

@@ -6,11 +6,11 @@
 
 using namespace dresslife::tests;
 
-TEST_CASE("the key and file references in the READMEs are fresh") {
+TEST_CASE("the references of keys, files and columns are fresh") {
   Scratch scratch;
   const std::string marker = "<!-- generated below this line by scripts/manual: do not edit -->\n";
   for (const auto& [page, what] :
-       {std::pair{"config/README.md", "keys"}, std::pair{"pipeline/README.md", "files"}, std::pair{"pipeline/study/README.md", "ranking.csv"}}) {
+       {std::pair{"config/keys.md", "keys"}, std::pair{"pipeline/files/formats.md", "files"}, std::pair{"pipeline/study/ranking.md", "ranking.csv"}}) {
     const std::string text = content(fs::path(DRESSLIFE_SOURCE_DIR) / page);
     const std::size_t at = text.find(marker);
     REQUIRE(at != std::string::npos);
