@@ -78,13 +78,20 @@ std::optional<Choice> shipped_routing(const std::string& robot, const std::strin
   return found;
 }
 
+/// Returns the comment at the begin of a shipped file, up to its first full stop or colon.
+std::string first_comment(const fs::path& file) {
+  const std::string text = read_text(file);
+  const std::size_t begin = text.find_first_not_of("# ");
+  return text.substr(begin, text.find_first_of(".:\n", begin) - begin);
+}
+
 std::string listed(const char* shelf) {
   std::string text;
   for (const fs::path& file : shipped(shelf)) {
     const Node entry = read_document(file);
     const Node* const name = entry.find("name");
     const std::string stem = file.stem().string();
-    text += fmt::format("  {:<24}{}\n", stem, name && name->text != stem ? name->text : "");
+    text += fmt::format("  {:<24}{}\n", stem, name && name->text != stem ? name->text : first_comment(file));
   }
   return text;
 }

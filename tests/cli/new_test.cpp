@@ -28,6 +28,7 @@ TEST_CASE("new: without options it lists what can be chosen, and writes nothing"
   Scratch scratch;
   const Outcome listed = make(scratch, "");
   CHECK(listed.status == 0);
+  CHECK(has(listed.out, "  easy                    Gentle handling\n"));
   for (const char* shelf : {"robots", "programs", "dresspacks"})
     for (const auto& entry : fs::directory_iterator(fs::path(DRESSLIFE_SOURCE_DIR) / "config" / shelf))
       if (entry.path().extension() == ".yaml")
