@@ -64,7 +64,7 @@ std::vector<Cycle> count_half_cycles(std::span<const Reversal> reversals) {
     throw pipeline::InputError(
         {},
         fmt::format(
-            "reversal {} of a strain history goes on from {} to {} in the direction of the one before "
+            "reversal {} of a strain history continues from {} to {} in the direction of the one before "
             "(rises and falls must alternate)",
             bad, reversals[bad - 1].strain, reversals[bad].strain),
         "leave out what is no turn, or count the repeated history");

@@ -110,7 +110,7 @@ void SiteSet::check_alternating(std::size_t site, std::span<const float> strains
   if (bad == strains.size()) return;
   throw pipeline::InputError(
       file_.where(),
-      fmt::format("{}/reversal/strain goes on from {} to {} at turning point {} of site {} (rises and falls "
+      fmt::format("{}/reversal/strain continues from {} to {} at turning point {} of site {} (rises and falls "
                   "must alternate to be counted as half_cycles)",
                   group_, strains[bad - 1], strains[bad], bad, site),
       "make the file again with dresslife-strain, or set fatigue.counting to repeating");

@@ -76,7 +76,7 @@ fs::path shipped_catalogue() {
   }
   const fs::path own = shared_folder() / "config";
   if (kind_of(own) == FileKind::folder) return fs::canonical(own);
-  throw InputError({own.string()}, "is not there (the catalogue stands in share/ beside the programs' bin/)",
+  throw InputError({own.string()}, "does not exist (the catalogue is in share/, beside the programs' bin/)",
                    "move both together, or let DRESSLIFE_CONFIG name the catalogue");
 }
 

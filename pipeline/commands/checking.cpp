@@ -44,7 +44,7 @@ bool is_shipped(const Where& where) {
 }
 
 [[noreturn]] void fail_motion(const std::filesystem::path& file) {
-  throw StageFailed({file.string()}, "its motion cannot be computed (see above)", "correct what is named there");
+  throw StageFailed({file.string()}, "its motion cannot be computed (see above)", "correct the errors above");
 }
 
 /// Returns the warnings of a prescribed deformation, which needs no simulation: dresslife-sim writes it in less than a second.

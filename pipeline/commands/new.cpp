@@ -216,8 +216,8 @@ Choice proposed(const Draft& draft) {
   if (draft.exercise) arguments.emplace_back("--exercise");
   if (run_stage_program("dresslife-sim", arguments) != 0)
     throw InputError({"dresslife new"}, "no routing can be proposed (see above), nothing was written",
-                     draft.exercise ? "correct what is named there"
-                                    : "correct what is named there; what it calls motion.KEY belongs to a job: make one without "
+                     draft.exercise ? "correct the errors above"
+                                    : "correct the errors above; a key motion.KEY belongs to a job: make one without "
                                       "--program, and write motion: {program: FILE, KEY: VALUE} into it");
   const ScreenedList found = read_screening(screening.path());
   const ScreenedCandidate& best = found.candidates.front();

@@ -135,7 +135,7 @@ std::vector<TriedWay> program_ways_of(const Job& job, const fs::path& life_file,
                         {described.path().string(), "--ways", fs::absolute(life_file).string(), "--lines",
                          std::to_string(options.lines), "-o", noted.path().string(), "--quiet"}) != 0)
     throw InputError({job.motion.program.string()}, "has no other ways (see above)",
-                     "correct what stands there");
+                     "correct the errors above");
   const FileReader file(noted.path(), ways_format());
   const auto what = file.read<std::string>("/way/what"), lines = file.read<std::string>("/way/lines"),
              motions = file.read<std::string>("/way/motion"), patches = file.read<std::string>("/way/patch");

@@ -109,7 +109,7 @@ ScreenedList proposed(const Draft& draft, const RouteOptions& options, double fa
   if (draft.exercise) arguments.push_back("--exercise");
   if (!options.ring.empty()) arguments.insert(arguments.end(), {"--ring", options.ring});
   if (run_stage_program("dresslife-sim", arguments) != 0)
-    throw StageFailed({draft.name}, "no routing can be proposed (see above)", "correct what is named there");
+    throw StageFailed({draft.name}, "no routing can be proposed (see above)", "correct the errors above");
   return read_screening(passing.path());
 }
 

@@ -41,7 +41,7 @@ std::string script_of(const SubmitOptions& options, const Cluster& cluster, cons
   const auto memory = static_cast<long>(cluster.memory / megabyte);
   const auto whole = [](const fs::path& file) { return shell_word(fs::absolute(file).string()); };
   const fs::path log = standing.places.folder / "submit.log";
-  std::string text = "#!/bin/sh\n# Of dresslife submit; submitted again, it goes on where it was.\n";
+  std::string text = "#!/bin/sh\n# Written by dresslife submit. Submitted again, it continues the study.\n";
   text += fmt::format("#SBATCH --job-name={}\n", standing.study.name);
   text += fmt::format("#SBATCH --ntasks={} --cpus-per-task=1 --mem-per-cpu={}\n", tasks, memory);
   text += "#SBATCH --requeue --output=/dev/null\n";
@@ -103,7 +103,7 @@ int submit(const SubmitOptions& options) {
     last = submitted(cluster, " --dependency=afterany:" + last, script);
     message += fmt::format(" of {} shards, ranked by job {}", shards, last);
   }
-  print(shown(fmt::format("{}\nFollow it: dresslife status {}; what it says: {}\n", message, options.study,
+  print(shown(fmt::format("{}\nFollow it: dresslife status {}; its messages: {}\n", message, options.study,
                           (standing.places.folder / "submit.log").string())));
   return 0;
 }

@@ -103,7 +103,7 @@ void check_parameter(const Calibration& calibration, std::size_t i) {
   }
   for (std::size_t other = 0; other < i; ++other)
     if (calibration.parameters[other].name == parameter.name)
-      throw InputError(parameter.where, fmt::format("'{}' stands twice", parameter.name),
+      throw InputError(parameter.where, fmt::format("'{}' is listed twice", parameter.name),
                        "keep one of the two");
   if (parameter.covariance.size() != calibration.parameters.size())
     throw InputError(parameter.where,

@@ -181,7 +181,7 @@ void check_rings(const Routing& routing, double diameter, const Robot& robot, Pr
       problems.add(ring.where,
                    fmt::format("routing.{}.radius_mm is {} (the dresspack's own radius is {} mm)", name,
                                1e3 * ring.radius, 1e3 * diameter / 2),
-                   "give a ring that lets it through");
+                   "take a wider ring");
     if (!ring.at_length) continue;
     if (!(*ring.at_length > before && *ring.at_length < routing.free_length))
       problems.add(

@@ -39,7 +39,7 @@ constexpr GlossaryEntry entries[] = {
     {"p10, p50, p90", "of 100 equal dresspacks 10, 50, 90 have failed by then, over the scatter of wires and the "
                       "uncertain inputs; in tables: replace after, half failed, 90 % failed"},
     {"play, room", "how far a loose cable can leave its place, until it meets the wall, the core or a neighbour"},
-    {"prior, posterior", "what is known of a parameter before and after observations"},
+    {"prior, posterior", "the distribution of a parameter before and after observations"},
     {"rating", "cycles that a maker promises of a cable in a standard test rig"},
     {"repeat", "one run of the robot's program"},
     {"replace after", "the p10: by then 1 of 10 such dresspacks has failed; \"over 40,000\" is beyond fatigue.robot_life_hours"},
@@ -54,9 +54,9 @@ constexpr GlossaryEntry entries[] = {
               "(slack_percent)"},
     {"slip", "whether parts slide on each other: stick, free, or friction, the best estimate (strain.slip)"},
     {"strain", "change of length over length; 0.01 is one per cent"},
-    {"study", "many jobs that are run and compared: what varies stands in its YAML"},
+    {"study", "many jobs that are run and compared; its YAML file lists the keys that vary"},
     {"twist", "turn of the hose about its own axis per length"},
-    {"uncertainty", "what is not known of this dresspack: friction, slack, copper and others; each has a distribution"},
+    {"uncertainty", "the inputs of a dresspack that are not known exactly, such as friction, slack and copper; each has a distribution"},
     {"warning", "results stand, but a person should look before believing them; it names its cause and a remedy"},
 };
 

@@ -187,7 +187,7 @@ void doubt_single_targets(const std::vector<MotionStep>& steps, std::vector<Warn
             "all angles of this target are below {:.3g} deg (limit: those of other targets reach {:.0f} deg)",
             half_turn, widest / degree),
         "radians instead of degrees in one target",
-        fmt::format("[{}] if those were radians; leave it if the robot stands so near to its zero pose",
+        fmt::format("[{}] if those were radians; leave it if the robot's pose is this near to its zero pose",
                     fmt::join(meant, ", "))));
   }
   std::vector<double> reaches;
@@ -596,7 +596,7 @@ void doubt_mounting(const Routing& routing, const AddDoubt& add) {
       fmt::format("no angle of routing.mounting_pose_deg, [{}], is larger than {:.3g} deg (limit {:.3g} or more)",
                   fmt::join(written, ", "), largest, most_radians),
       "radians instead of degrees",
-      fmt::format("routing.mounting_pose_deg: [{}] if those were radians; leave it if the arm stood so near to its zero pose",
+      fmt::format("routing.mounting_pose_deg: [{}] if those were radians; leave it if the arm was this near to its zero pose",
                   fmt::join(meant, ", ")));
 }
 

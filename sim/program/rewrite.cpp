@@ -193,7 +193,7 @@ struct Writer {
 
   /// Replaces tokens first .. last. Errors: refuses the change if they are on several lines.
   void replace(std::size_t first, std::size_t last, const std::string& with, const LineChange& change) {
-    if (tokens[first].line != tokens[last].line) refuse(change, "what would change stands on several lines");
+    if (tokens[first].line != tokens[last].line) refuse(change, "the changed text is on several lines");
     const int line = tokens[first].line;
     std::string& now = lines.now(line);
     const std::string old(text(first, last));
@@ -517,7 +517,7 @@ void change_inform(Writer& w, const LineChange& change) {
     now.insert(std::min(behind, now.size()),
                fmt::format(" VJ={:.2f}", *read.speed.axis_percent * *change.speed));
   } else {
-    refuse(change, "its speed stands elsewhere");
+    refuse(change, "its speed is not on this line");
   }
   constexpr std::size_t longest = 32;  // characters of a comment
   if (comment == w.lines.at(change.where.line).size()) now += "  //" + change.reason.substr(0, longest);

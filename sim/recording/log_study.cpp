@@ -58,7 +58,7 @@ std::string duty_text(const std::string& name, const std::string& study, const C
     seconds += static_cast<double>(motion.count) * (motion.duration() + last_sample);
   seconds = std::max(seconds, course.log_seconds);
   std::string text = fmt::format(
-      "# hours_per_week: of hours as in the log, with stands and without gaps in which the robot moved ({}).\n"
+      "# hours_per_week: of hours as in the log, with standstill and without gaps in which the robot moved ({}).\n"
       "study: {}\nduties:\n  - name: {}\n    hours_per_week: 80\n    programs:\n",
       time_words(course.log_seconds), study, name);
   for (const LogMotion& motion : motions)
@@ -74,7 +74,7 @@ std::string estimate_words(const std::filesystem::path& file, const LogSize& siz
   if (size.seconds > 0) text += fmt::format(" in {}", time_words(size.seconds));
   text += fmt::format(". Reading takes about {}", time_words(std::ceil(size.rows * reading_per_row)));
   if (size.seconds > 0)
-    text += fmt::format("; the study at most {} of one core and {} MB, if nothing repeats or stands still",
+    text += fmt::format("; the study at most {} of one core and {} MB, if no cycle repeats and the robot never stops",
                         time_words(size.seconds * seconds_per_second),
                         pipeline::readable(size.seconds * megabytes_per_second, 2));
   return text;
@@ -161,7 +161,7 @@ std::vector<std::string> log_words(const Recording& log, const Course& course, c
                                 log.same_stamp));
   if (log.back > 0)
     lines.push_back(
-        fmt::format("{} rows with an earlier time than the row before, first line {}: time goes on from there", log.back,
+        fmt::format("{} rows with an earlier time than the row before, first line {}: time continues from there", log.back,
                     log.first_back));
   const auto lines_text = [](const std::vector<std::uint32_t>& of) {
     constexpr std::size_t most = 5;

@@ -167,8 +167,8 @@ class Layout {
     const bool lacks = step.external_axes.size() > axes_.size() - robot_.axes();
     const std::string remedy =
         lacks ? "check target, tool, work object and configuration; the step also names external axes that "
-                "robot.external_axes does not have: without them the robot stands elsewhere"
-              : "check target, tool, work object, configuration and where the robot stands";
+                "robot.external_axes does not have: without them the robot's base is elsewhere"
+              : "check target, tool, work object, configuration and the place of the robot's base";
     const std::string& group = of.empty() ? reason : of;
     const auto same = std::find_if(refused_.begin(), refused_.end(), [&](const Refused& other) {
       return other.group == group && other.remedy == remedy;

@@ -50,7 +50,7 @@ std::vector<pipeline::Warning> missing_external_axes(const pipeline::Motion& mot
     if (ways[i].second > ways[i].first)
       warnings.push_back(pipeline::warning_of(
           pipeline::WarningKind::program, "",
-          fmt::format("the program moves external axis {} from {:.6g} to {:.6g} (mm or deg), and it stands still here", i + 1,
+          fmt::format("the program moves external axis {} from {:.6g} to {:.6g} (mm or deg), and it does not move here", i + 1,
                       ways[i].first, ways[i].second),
           fmt::format("robot.external_axes has {} of them", robot.external_axes.size()),
           "add the entry that dresslife import proposes to robot.external_axes"));

@@ -135,7 +135,7 @@ class Reader {
   void add(const std::array<double, quantities>& value, const std::array<int, quantities>& at) {
     const bool same_time = !result_.times.empty() && value[time] == result_.times.back();
     if (same_time && !has_places_)
-      fail(at[time], fmt::format("time {} s stands twice", value[time]),
+      fail(at[time], fmt::format("time {} s is listed twice", value[time]),
            "drop a row, or give its place in a column position_m");
     if (!same_time) begin_time(value[time], at[time]);
     const std::size_t place = result_.states.size() - (result_.times.size() - 1) * places_;

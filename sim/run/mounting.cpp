@@ -103,7 +103,7 @@ class Mounting {
   [[noreturn]] void fail_in_the_way(const Piece& piece, const MountedPiece& held) const {
     const std::string what = held.through >= 0    ? pipeline::dresspack_words(setup_, held.through)
                              : held.obstacle >= 0 ? setup_.robot.links[held.obstacle].name
-                             : held.obstacle == cell_obstacle ? "what stands in its cell"
+                             : held.obstacle == cell_obstacle ? "an obstacle of the cell"
                                                               : "the floor";
     double before = 0;  // length before the piece, along the dresspack
     for (const Piece& hung : hung_pieces_)

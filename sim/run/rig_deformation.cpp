@@ -119,7 +119,7 @@ class Expansion {
     const double stiffness = pipeline::bending_stiffness(dresspack_);
     if (stiffness <= 0)
       throw InputError(rig_.where,
-                       "a swivel bends a cable without bending stiffness (nothing says how tightly)",
+                       "a swivel bends a cable without bending stiffness (its bend radius is not known)",
                        "give dresspack.bending_stiffness_Nm2, or the cable its wires");
     if (*rig_.weight == 0)
       throw InputError(rig_.where, "weight_kg is 0 (what pulls on a cable in a swivel bends it at the clip)",

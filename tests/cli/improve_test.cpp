@@ -291,7 +291,7 @@ TEST_CASE("improve refuses what it cannot search") {
   CHECK(none.out.find("\nNo trial keeps bend radius: the best violates it by ") != std::string::npos);
   CHECK(
       none.out.find(
-          "\nIt stands at the end of what may be changed: routing.free_length_m, at least 0.85; widen it\n") !=
+          "\nA free key is at the end of its range: routing.free_length_m, at least 0.85; widen it\n") !=
       std::string::npos);
 }
 

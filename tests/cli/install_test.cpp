@@ -128,7 +128,7 @@ TEST_CASE("programs without their catalogue say what is missing, unless the job 
   CHECK(without.status == 1);
   CHECK(without.err ==
         (scratch / "place/share/dresslife/config").string() +
-            ": error: is not there (the catalogue stands in share/ beside the programs' bin/); move both "
+            ": error: does not exist (the catalogue is in share/, beside the programs' bin/); move both "
             "together, or let DRESSLIFE_CONFIG name the catalogue\n");
   CHECK(shell(scratch, "DRESSLIFE_CONFIG=kept place/bin/dresslife show job.yaml").status == 0);
   fs::create_directories(scratch / "materials");

@@ -858,7 +858,7 @@ TEST_CASE("life.h5: strain files that contradict themselves are refused, and not
   pipeline::Job once = test_job();
   once.fatigue.counting = pipeline::Counting::half_cycles;
   CHECK_THROWS_WITH(run(folder, f, once),
-                    Catch::Contains("strain.h5: error: /reversal/strain goes on from 0.01 to 0.02 at turning "
+                    Catch::Contains("strain.h5: error: /reversal/strain continues from 0.01 to 0.02 at turning "
                                     "point 2 of site 3") &&
                         Catch::Contains("half_cycles"));
   CHECK_FALSE(std::filesystem::exists(folder.path / "life.h5"));

@@ -231,7 +231,7 @@ TEST_CASE("half cycles are refused where rises and falls do not alternate") {
   const std::vector<Reversal> rises_twice{{0, 0}, {1, 1}, {1, 2}, {3, 3}, {2, 4}};
   CHECK_THROWS_WITH(
       count_half_cycles(rises_twice),
-      Catch::Contains("reversal 3 of a strain history goes on from 1 to 3 in the direction of the "
+      Catch::Contains("reversal 3 of a strain history continues from 1 to 3 in the direction of the "
                       "one before"));
   const std::vector<Reversal> plateau{{0, 0}, {3, 1}, {3, 2}, {2, 3}};
   CHECK(count_half_cycles(plateau).size() == 2);

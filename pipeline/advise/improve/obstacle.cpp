@@ -64,10 +64,10 @@ std::vector<std::string> obstacle_words(const std::vector<Trial>& trials, const 
   if (nearest.place.size() == 0) return lines;
   const std::vector<std::string> ends = freedom.at_ends(nearest.place);
   for (const std::string& end : ends)
-    lines.push_back("It stands at the end of what may be changed: " + end + "; widen it");
+    lines.push_back("A free key is at the end of its range: " + end + "; widen it");
   if (ends.empty())
     lines.push_back(
-        "It stands inside of all that may be changed: more trials, other keys, or another dresspack");
+        "No free key is at an end of its range: allow more trials, free other keys, or take another dresspack");
   return lines;
 }
 

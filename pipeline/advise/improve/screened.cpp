@@ -59,7 +59,7 @@ ScreenedList screening_of(const Job& job, const std::string& candidates, Screene
     arguments.insert(arguments.end(), {"--bracket", fmt::format("{:.6g}", 1e3 * *longest_bracket)});
   if (by == ScreenedBy::short_runs) arguments.push_back("--by-short-runs");
   if (run_stage_program("dresslife-sim", arguments) != 0)
-    throw StageFailed({draft.string()}, "cannot be screened (see above)", "correct what is named there");
+    throw StageFailed({draft.string()}, "cannot be screened (see above)", "correct the errors above");
   return read_screening(screening.path());
 }
 

@@ -84,7 +84,7 @@ std::optional<FanucPosition> FanucRun::target_position(FanucCursor& at) {
   if (registered) doubt(*number);
   if (read && read->known() && read->form == FanucPosition::Form::unknown) {
     complain(
-        fmt::format("moves to {}, and nothing says whether its numbers are a pose or joint angles", name),
+        fmt::format("moves to {}, and its numbers can be a pose or joint angles", name),
         fmt::format("give --value '{}=X ... Y ... Z ... W ... P ... R ...' or '{}=J1 ... J2 ...'", name,
                     name));
     return {};
@@ -136,7 +136,7 @@ bool FanucRun::active(bool tool, int& number) {
       frame{tool ? Question::Kind::tool : Question::Kind::work_object, list, ""};
   missing(
       written,
-      fmt::format("moves in the active {}, and nothing says which that is ({})", tool ? "tool" : "user frame",
+      fmt::format("moves in the active {}, and no line chooses it ({})", tool ? "tool" : "user frame",
                   written),
       fmt::format(
           "give it with --value {}=1 (motion.values), its frame in motion.{} (--frames) with the name '{}', or "
@@ -402,7 +402,7 @@ bool FanucRun::skip_condition_comes(bool jumps) {
   } else if (!comes) {
     note(
         fmt::format(
-            "SKIP: the condition comes at the end of the move, and the program goes on with the next line (--assume "
+            "SKIP: the condition comes at the end of the move, and the program continues with the next line (--assume "
             "{}=else: it does not come)",
             line_name()),
         true);
@@ -579,7 +579,7 @@ void FanucRun::move(FanucCursor& at, Instruction::Kind kind) {
   move.target.external_axes = target->external_axes;
   const bool stood = last_ && last_->external_axes == target->external_axes;
   if (options.coordinated && !program_.instructions.empty() && !stood)
-    note("COORD: the tool follows a positioner that turns; read as if it stood still", true);
+    note("COORD: the tool follows a positioner that turns; read as if it did not move", true);
   emit(move);
   remember(move, *target);
   if (options.offset || options.tool_offset)

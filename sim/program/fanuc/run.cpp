@@ -373,7 +373,7 @@ void FanucRun::jump_to(std::size_t target, bool certain) {
   }
   if (!certain && target <= here && !looking && waits(target)) {
     note(
-        "waits in a loop that changes nothing, until what this branch depends on changes; the motion goes on behind it");
+        "waits in a loop that changes nothing, until the condition of this branch changes; the motion continues after it");
     return;
   }
   routine().at = target;  // the label, not the statement after it, which may be the jump itself
@@ -611,9 +611,9 @@ int FanucRun::guess(int ways) {
 bool FanucRun::no_matter(const FanucEffects& effects) {
   if (effects.moves || effects.leaves || exploration_.follows(line_name())) return false;
   if (effects.waits)
-    note("IF, SELECT, FOR: waits for a time on what is known only while the robot runs; left out", true);
+    note("IF, SELECT, FOR: waits on a condition that is known only while the robot runs; left out", true);
   else
-    note("IF, SELECT, FOR: a branch on what is known only while the robot runs, without moves");
+    note("IF, SELECT, FOR: a branch on a condition that is known only while the robot runs, without moves");
   FanucCauses why = values_.causes();
   for (FanucCause& cause : why) cause.line = line_name();
   if (why.empty()) why = {{"", line_name()}};

@@ -273,7 +273,7 @@ class Inform final : public Dialect {
         if (item.is_number() && item.number != 0) read.push_back(item.number);
     if (read.size() >= 4) return read;
     ask("pulses_per_degree", place,
-        "moves to a position in pulses, and no file says how many pulses a degree of each axis has",
+        "moves to a position in pulses, and no file contains the pulses per degree of each axis",
         "give --value 'pulses_per_degree=[S,L,U,R,B,T]' (motion.values), counts with their signs: two positions of "
         "the pendant, shown once in pulses and once in degrees, give them",
         "[S, L, U, R, B, T], counts of a degree with their signs");
@@ -291,7 +291,7 @@ class Inform final : public Dialect {
         joints.push_back(position.numbers[i] / per_degree[i] * degree);
       else if (position.numbers[i] != 0)
         return run_->complain(place, fmt::format("moves to a position of {} axes", position.numbers.size()),
-                              "only the robot's own axes are read; pulses_per_degree says how many they are"),
+                              "only the robot's own axes are read; pulses_per_degree has one value for each"),
                false;
     }
     if (joints.size() < per_degree.size() && position.type == "pulse")
@@ -386,7 +386,7 @@ class Inform final : public Dialect {
     } else if (shift_) {
       return run_->miss(
                  "SFTON", written->place,
-                 "shifts a position that is given in pulses (SFTON): where it lies is known only with the robot",
+                 "shifts a position that is given in pulses (SFTON): the place is known only with the robot",
                  "store the positions as BASE or USER (a relative job)"),
              false;
     } else if (!read_joints(*read, written->place, move.target.joints)) {
@@ -423,9 +423,9 @@ class Inform final : public Dialect {
       return run_->complain(
                  statement.place,
                  reached_
-                     ? "moves on from joint angles by a way in space (IMOV): where that leads is known only "
+                     ? "moves from joint angles by a distance in space (IMOV): the target is known only "
                        "with the robot"
-                     : "moves on from where the robot stands at the start (IMOV)",
+                     : "moves by a distance from the robot's start position (IMOV)",
                  "store the position before it as BASE or USER"),
              false;
     const auto moved = shifted(reached_->base, by, system ? system->text : "", statement.place);

@@ -124,7 +124,7 @@ Interpreter::Flow Interpreter::run_branch(const Statement& statement) {
       const Cause* cause = condition.first_cause();
       decision = problem_count() != problems  // the cause is reported already
                      ? guess(branch.place, 2) == 0
-                     : ask(branch.place, "branches on what is known only while the robot runs", condition,
+                     : ask(branch.place, "branches on a condition that is known only while the robot runs", condition,
                            "then or =else", 2, true,
                            form_within(branch.conditions[0], cause ? cause->asked() : "")) == 0;
     }
@@ -149,7 +149,7 @@ Interpreter::Flow Interpreter::run_choice(const Statement& statement) {
           return leave_out(statement, unknown);
         if (const Branch* way = waited_for(statement)) return go_on(*way, unknown);
         const int ways = static_cast<int>(statement.branches.size());
-        const int way = ask(statement.place, "chooses by what is known only while the robot runs", unknown,
+        const int way = ask(statement.place, "chooses by a value that is known only while the robot runs", unknown,
                             "VALUE, the value that it then has", ways + 1, true, form_of_cases(*this, statement));
         return way < ways ? execute(statement.branches[way].body) : Flow::next;
       }

@@ -118,7 +118,7 @@ std::string Interpreter::rivals(const Place& a, const Place& b) const {
 const Routine* Interpreter::rival_of(const Routine& routine) {
   const Routine* const rival = code_.rival(routine);
   if (!rival || !options_.first_file_counts || routine.place.file != 0 || rival->place.file == 0) return rival;
-  note(routine.place, fmt::format("'{}' stands in {} as well, which is not read", routine.written, where(rival->place).text()));
+  note(routine.place, fmt::format("'{}' is also in {}, which is not read", routine.written, where(rival->place).text()));
   return nullptr;
 }
 
@@ -128,7 +128,7 @@ const Routine* Interpreter::routine_named(const std::string& name, const Place& 
   if (!routine) return nullptr;
   if (const Routine* rival = rival_of(*routine))
     miss(rivals(routine->place, rival->place), place,
-         fmt::format("runs '{}', which stands both in {} and in {}", routine->written,
+         fmt::format("runs '{}', which is both in {} and in {}", routine->written,
                      where(routine->place).text(), where(rival->place).text()),
          "leave one of the two files out");
   return routine;

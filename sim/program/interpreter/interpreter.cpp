@@ -65,7 +65,7 @@ void Interpreter::start(const Routine& routine) {
   if (const Routine* rival = rival_of(routine))
     complain(
         routine.place,
-        fmt::format("holds '{}', which stands in {} as well", routine.written, where(rival->place).text()),
+        fmt::format("contains '{}', which is also in {}", routine.written, where(rival->place).text()),
         "leave one of the two out");
   const auto needed = [](const Parameter& parameter) { return !parameter.option; };
   const auto count = std::count_if(routine.parameters.begin(), routine.parameters.end(), needed);

@@ -133,7 +133,7 @@ Interpreter::Flow Interpreter::run_count(const Statement& statement) {
     if (!matters(statement) && !exploration_.follows(short_place(statement.place)))
       return leave_out(statement, unknown);
     decision = ask(statement.place,
-                   "counts to what is known only while the robot runs (then: one pass, else: none)", unknown,
+                   "counts to a number that is known only while the robot runs (then: one pass, else: none)", unknown,
                    "then or =else", 2, true, "a number") == 0;
     if (!*decision) return end_unknown();
   }
@@ -194,7 +194,7 @@ Interpreter::Flow Interpreter::run_while(const Statement& statement) {
         if (!matters(statement) && !exploration_.follows(short_place(statement.place)))
           return leave_out(statement, go_on);
         decision = ask(statement.place,
-                       "repeats while something holds that is known only while the robot runs (then: one "
+                       "repeats while a condition holds that is known only while the robot runs (then: one "
                        "pass, else: none)",
                        go_on, "then or =else", 2, compares_known(condition), "") == 0;
         if (!*decision) break;
@@ -218,7 +218,7 @@ Interpreter::Flow Interpreter::run_until(const Statement& statement) {
     const Value done = evaluate(statement.arguments[0]);
     if (!done.known()) {
       note(statement.place,
-           "a loop that ends when something holds that is known only while the robot runs, of which one pass "
+           "a loop that ends by a condition that is known only while the robot runs, of which one pass "
            "is "
            "taken" +
                because(done),
@@ -295,7 +295,7 @@ Interpreter::Flow Interpreter::run_endless(const Statement& statement) {
          could_move
              ? "an endless loop that makes none of its moves: what it depends on is written from outside; "
                "choose with --assume"
-             : "an endless loop: what stands behind it is never run",
+             : "an endless loop: the lines after it never run",
          could_move);
     throw Stop{};
   }

@@ -136,7 +136,7 @@ void Krl::ask_for_place_before(const Expression& written, bool axes, Interpreter
 /// the user may know these instead.
 Value Krl::place_here(bool axes, Interpreter& run) const {
   const Value here = unknown_value(run.name_here(axes ? "$axis_act" : "$pos_act"),
-                                   "is where the robot stands", form_of(axes ? "axis" : "frame"));
+                                   "is the robot's position", form_of(axes ? "axis" : "frame"));
   return lost_.cause ? unknown_value(lost_, here) : here;
 }
 
@@ -584,7 +584,7 @@ void Krl::move_now(Instruction::Kind kind, const Statement& statement, Interpret
     return;
   }
   if (stands_still(*target, run)) {
-    run.note(statement.place, "the robot stands there already: no move");
+    run.note(statement.place, "the robot is already there: no move");
     return;
   }
   const Frames frames = current_frames(run);

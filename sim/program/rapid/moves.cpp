@@ -421,12 +421,12 @@ Value Rapid::current_position(const Expression& call, Interpreter& run) {
   if (joints) {
     if (reached_ && reached_->by_joints) return reached_->target;
     return unknown_value(name, reached_ || lost ? "asks for the axes at a target that is a pose"
-                                                : "asks where the robot stands at the start", form);
+                                                : "reads the robot's position at the start", form);
   }
   const auto position = position_with(tool, work_object, run);
   if (!position)
     return unknown_value(name, reached_ || lost ? "asks for the pose at axis angles"
-                                                : "asks where the robot stands at the start", form);
+                                                : "reads the robot's position at the start", form);
   return call.text == "cpos" ? position->items[0] : *position;
 }
 
@@ -460,9 +460,9 @@ void Rapid::displace(const Statement& statement, Interpreter& run) {
   if (!executed && !to) to = run.given_here("crobt");
   if (to && to->type == nullptr && !run.shape(*to, code_.record("robtarget"))) to.reset();
   if (!executed && !to)
-    run.ask_for(reached_ || !lost_.cause ? unknown_value(run.name_here("crobt"), "is where the robot stands") : lost_,
+    run.ask_for(reached_ || !lost_.cause ? unknown_value(run.name_here("crobt"), "is the robot's position") : lost_,
                 statement.place,
-                "displaces by where the robot stands, which is known only with the robot "
+                "displaces by the robot's position, which is known only with the robot "
                 "(axis angles, or the start)",
                 "give the point as \\ExeP, write the displacement with PDispSet", form_of("robtarget"));
   const auto q = from ? rapid_orientation(from->items[1]) : std::nullopt;

@@ -148,7 +148,7 @@ void Rapid::settings(const Statement& statement, Interpreter& run) {
     if (percent > 0)
       override_ = percent / 100;
     else
-      run.note(statement.place, "SpeedRefresh 0: the robot stands until an interrupt lets it go on", true);
+      run.note(statement.place, "SpeedRefresh 0: the robot stops until an interrupt starts it", true);
   }
   if (statement.name == "velset") {
     speed_factor_ = needed(0, 0.1, 100) / 100;

@@ -149,7 +149,7 @@ const std::vector<std::string>& harmless_rapid_instructions() {
 const char* rapid_named_effect(const std::string& instruction) {
   static const std::map<std::string, const char*> effects{
       {unwritten_statement, "no statement is written in this place: the controller stops here"},
-      {"raise", "an error of the program's own: the motion goes on behind it, handlers are not followed"},
+      {"raise", "an error that the program raises: the motion continues after it, handlers are not followed"},
       {"syncmoveon", "several robots or positioners move together from here on (MultiMove), only this one is read"},
       {"syncmoveoff", "the end of moves of several robots together (MultiMove), of which only this one is read"},
       {"syncmoveundo", "the end of moves of several robots together (MultiMove), of which only this one is read"},
@@ -172,8 +172,8 @@ const char* rapid_named_effect(const std::string& instruction) {
       {"indcmove", "an external axis moves by itself"},
       {"inddmove", "an external axis moves by itself"},
       {"indrmove", "an external axis moves by itself"},
-      {"moveextj", "external axes move, the robot stands"},
-      {"searchextj", "external axes move, the robot stands"},
+      {"moveextj", "external axes move, the robot does not"},
+      {"searchextj", "external axes move, the robot does not"},
       {"fcact", "forces lead the robot"},
       {"fcpress1lstart", "forces lead the robot"},
       {"fcpressl", "forces lead the robot"}};

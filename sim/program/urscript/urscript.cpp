@@ -69,7 +69,7 @@ class Script final : public Dialect {
     if (begins_with_any(call.text, {"get_actual_joint_positions", "get_target_joint_positions"}) && axes_)
       return *axes_;
     if (begins_with_any(call.text, {"get_actual_", "get_target_"}))
-      return given_or_unknown(call, run, "asks where the robot stands");
+      return given_or_unknown(call, run, "reads the robot's position");
     return given_or_unknown(call, run, "is known only while the robot runs");
   }
 

@@ -105,7 +105,7 @@ TEST_CASE("calibration: bad files are refused at their place") {
   CHECK(refusal(two_learned()) == "");
   CHECK(refusal(edited(two_learned(), "strength,", "strenght,"))
             .starts_with("learned.yaml:4:5: error: 'strenght' is no uncertain"));
-  CHECK(refusal(edited(two_learned(), "friction_inside", "strength")).find("'strength' stands twice") !=
+  CHECK(refusal(edited(two_learned(), "friction_inside", "strength")).find("'strength' is listed twice") !=
         std::string::npos);
   CHECK(refusal(edited(two_learned(), "dresslife-calibration", "dresslife-life")).find("has the format") !=
         std::string::npos);

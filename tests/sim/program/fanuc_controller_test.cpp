@@ -304,7 +304,7 @@ TEST_CASE("fanuc values: components of position registers, with names and in sum
   const Reading unknown = run("   1:  PR[9,3]=50 ;\n   2:L PR[9] 100mm/sec FINE ;\n", known);
   CHECK(unknown.problems.at(0).what == "moves to PR[9], which is known only while the robot runs");
   CHECK(run("   1:L PR[1] 100mm/sec FINE ;\n", {.values = {{"PR[1]", "1,2,3,4,5,6"}}}).problems.at(0).what ==
-        "moves in the active user frame, and nothing says which that is (UFRAME_NUM)");
+        "moves in the active user frame, and no line chooses it (UFRAME_NUM)");
 }
 
 TEST_CASE("fanuc frames: a system variable's component is written, the others stay") {

@@ -235,7 +235,7 @@ TEST_CASE("inform: positions are computed with, moved on from and shifted") {
       run(pulses + "C00000=1,2,3,4,5,6\n" + base + "P00001=0,0,1,0,0,0\n",
           "MOVJ C00000 VJ=9\nIMOV P001 V=9 BF\nSFTON P001\nMOVJ C00000 VJ=9\n", given(counts));
   REQUIRE(joints.problems.size() == 2);
-  CHECK(joints.problem(0).find("moves on from joint angles by a way in space (IMOV)") != std::string::npos);
+  CHECK(joints.problem(0).find("moves from joint angles by a distance in space (IMOV)") != std::string::npos);
   CHECK(joints.problem(1).find("shifts a position that is given in pulses (SFTON)") != std::string::npos);
 }
 

@@ -112,7 +112,7 @@ TEST_CASE("krl: one program twice is refused where it runs, two values of one na
   const std::string sub = "DEF sub()\nPTP " + axes(1) + "\nEND\n";
   const Files twice{{"x/sub.src", sub}, {"y/sub.src", sub}};
   CHECK(run("PTP " + axes(0), "", twice).problems.empty());
-  CHECK(run("sub()", "", twice).problem().starts_with("p.src:2:1: error: runs 'sub', which stands both in"));
+  CHECK(run("sub()", "", twice).problem().starts_with("p.src:2:1: error: runs 'sub', which is both in"));
   const Files lists{{"$a.dat", "DEFDAT $A\nE6AXIS G=" + axes(1) + "\nENDDAT\n"},
                     {"$b.dat", "DEFDAT $B\nE6AXIS G=" + axes(2) + "\nENDDAT\n"}};
   CHECK(run("PTP " + axes(0), "", lists).problems.empty());
@@ -370,7 +370,7 @@ TEST_CASE("krl: a loop that only waits for an input goes on, outputs or not") {
   REQUIRE(r.problem() == "no such problem");
   CHECK(first_axes(r.program) == std::vector<double>{1});
   CHECK_THAT(run("DECL INT n\nn=0\n" + loop + "n=n+1\nENDLOOP").problem(),
-             Catch::Contains("branches on what is known"));
+             Catch::Contains("branches on a condition that is known"));
 }
 
 TEST_CASE("krl: frames of an undeclared FDAT are asked for by its name") {

@@ -57,7 +57,7 @@ TEST_CASE("rapid controller: one name for two global things is refused where it 
   const std::string twice =
       "MODULE m\nPROC main()\n" + go(1) + "ENDPROC\nPROC main()\n" + go(2) + "ENDPROC\nENDMODULE\n";
   CHECK_THAT(Reader{Language::rapid}({{"m.mod", twice}}).problem(),
-             Catch::Contains("holds 'main', which stands in m.mod"));
+             Catch::Contains("contains 'main', which is also in m.mod"));
   const auto data = [](double at) { return "MODULE d\nCONST jointtarget j:=" + axes(at) + ";\nENDMODULE\n"; };
   const std::pair<std::string, std::string> user{
       "m.mod", "MODULE m\nPROC main()\nMoveAbsJ j,v1000,fine,tool0;\nENDPROC\nENDMODULE\n"};
@@ -74,11 +74,11 @@ TEST_CASE("rapid controller: what an instruction that is left out writes is unkn
     CAPTURE(reads);
     const std::string declared = "VAR num k:=0;\nVAR bool found;\n";
     const Reading branch = run(declared + reads + std::string("\nIF k=1 THEN\n") + go(1) + "ENDIF\n" + go(2));
-    CHECK_THAT(branch.problem(), Catch::Contains("branches on what is known only while the robot runs: 'k'"));
+    CHECK_THAT(branch.problem(), Catch::Contains("branches on a condition that is known only while the robot runs: 'k'"));
     CHECK_THAT(branch.problem(), Catch::Contains("--value 'k=...'"));
     const Reading count =
         run(declared + reads + std::string("\nFOR i FROM 1 TO k DO\n") + go(1) + "ENDFOR\n" + go(2));
-    CHECK_THAT(count.problem(), Catch::Contains("counts to what is known only while the robot runs"));
+    CHECK_THAT(count.problem(), Catch::Contains("counts to a number that is known only while the robot runs"));
     CHECK(first_axes(run(declared + reads + std::string("\nFOR i FROM 1 TO k DO\n") + go(1) + "ENDFOR\n", "",
                          given({{"k", "3"}}))) == Angles{1, 1, 1});
   }
@@ -236,7 +236,7 @@ TEST_CASE("rapid controller: a loop that moves in one arm alone waits for it, as
   CHECK(first_axes(run(then + "ENDIF\n")) == Angles{1, 2});
   CHECK(first_axes(run("WHILE TRUE DO\nIF di1=1 GOTO on;\nENDWHILE\non:\n" + go(3))) == Angles{3});
   // The branch is a question if another arm or the rest of the loop moves, or if an idle pass changes data.
-  const std::string asks = "branches on what is known only while the robot runs";
+  const std::string asks = "branches on a condition that is known only while the robot runs";
   CHECK_THAT(loop(then + "ELSE\n" + go(3) + "ENDIF\n").problem(), Catch::Contains(asks));
   CHECK_THAT(loop(then + "ELSEIF di2=1 THEN\n" + go(3) + "ENDIF\n").problem(), Catch::Contains(asks));
   CHECK_THAT(loop(then + "ENDIF\n" + go(3)).problem(), Catch::Contains(asks));
@@ -517,7 +517,7 @@ TEST_CASE("rapid controller: main begins again at its end") {
   const std::string typed = "TPReadNum n,\"\";\nagain:=n>0;\n", data = "VAR bool again:=FALSE;\nVAR num n;\n";
   const Reading asks = run(next + go(3) + typed, data);
   CHECK(first_axes(asks) == Angles{1, 3});
-  CHECK(skips(asks, "its next cycle branches on what is known only while the robot runs", true));
+  CHECK(skips(asks, "its next cycle branches on a condition that is known only while the robot runs", true));
   // A motion with a single position is not accepted: the unknown value is a question.
   CHECK_THAT(run(next + typed, data).problem(), Catch::Contains("'n' may be written by tpreadnum"));
   // A routine other than main runs once.

@@ -137,7 +137,7 @@ TEST_CASE("rapid: a branch on an input is asked for, with its line, and all of t
   const Reading r = run(body);
   REQUIRE(r.problems.size() == 2);
   CHECK(r.problem(0) ==
-        "main.mod:3:1: error: branches on what is known only while the robot runs: 'di1' is a name that no "
+        "main.mod:3:1: error: branches on a condition that is known only while the robot runs: 'di1' is a name that no "
         "file "
         "read declares; choose with --assume main.mod:3=then or =else (motion.assume in a job), or give "
         "--value 'di1=...' (motion.values)");

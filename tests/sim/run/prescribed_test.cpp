@@ -253,7 +253,7 @@ TEST_CASE("deformation file: what is wrong is reported by line and column") {
     return text.substr(text.find("d.csv") == std::string::npos ? 0 : text.find("d.csv"));
   };
   CHECK(problem("t_s,kappa_1_1_per_m\n0,0\n1,2\n1,3\n") ==
-        "d.csv:4:1: error: time 1 s stands twice; drop a row, or give its place in a column position_m");
+        "d.csv:4:1: error: time 1 s is listed twice; drop a row, or give its place in a column position_m");
   CHECK(problem("t_s,kappa_1_per_m\n0,0\n").find("d.csv:1:5: error: 'kappa_1_per_m' is no column") == 0);
   CHECK(problem("t_s,twist_deg_per_m,twist_rad_per_m\n0,0,0\n")
             .find("d.csv:1:21: error: column twist_rad_per_m beside") == 0);

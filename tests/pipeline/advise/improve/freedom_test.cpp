@@ -91,11 +91,11 @@ TEST_CASE(
           "Nearest is trial 2: bend radius violated by 12 % (529 mm, at least 600 mm), twist violated by 25 %; it lives 0.75 times as long as "
           "the jobs as they are",
           "No trial keeps bend radius: the best violates it by 12 % (529 mm, at least 600 mm; trial 2)",
-          "It stands at the end of what may be changed: routing.free_length_m, at most 2.6; widen it"});
+          "A free key is at the end of its range: routing.free_length_m, at most 2.6; widen it"});
   CHECK(obstacle_words({trial(0.5, 0.5, 0.5, -0.1), trial(0.5, 0.5, -0.1, 0.75)}, freedom) ==
         Lines{"Nearest are the jobs as they are: bend radius violated by 39 %",
               "Each limit is kept by some trial, but not with the others: bend radius",
-              "It stands inside of all that may be changed: more trials, other keys, or another dresspack"});
+              "No free key is at an end of its range: allow more trials, free other keys, or take another dresspack"});
   CHECK(obstacle_words({failed}, freedom) == Lines{"No trial runs; the last: too short by 3 mm"});
 }
 
