@@ -111,6 +111,9 @@ class Evaluation {
   static void add(std::span<Evaluation* const> all, const SpanBlock& block);
   /// Moves the loose cables through samples before the first one (CablePaths::lead_in()).
   static void lead_in(std::span<Evaluation* const> all, const SpanBlock& block);
+  /// Takes a block that add() does not receive, because a part of the motion that is equal to it stands for it.
+  void leave_out(const SpanBlock& block) { add_bends(block.deformation); }
+  std::size_t samples() const { return samples_; }  ///< that add() receives
   /// Returns whether the strains of cables depend on the past through clamps and friction, and parts slide in these cables from
   /// clamp to clamp. Then all blocks must be given to add_again() after all have been given to add().
   bool wants_again() const {

@@ -12,14 +12,22 @@ HistoryWindow::HistoryWindow(std::size_t segments, std::size_t samples, std::siz
       size_(std::clamp<std::size_t>(bytes / (samples * sizeof(Deformation)), 1, segments)),
       history_(size_, samples) {}
 
-void HistoryWindow::keep(std::size_t first_segment, const MotionBlock& block) {
-  for (std::size_t k = 0; k < block.at_wires.size(); ++k)
-    if (const std::size_t segment = k % segments_; segment >= first_segment && segment < first_segment + size_)
-      history_.set(segment - first_segment, block.first + k / segments_, block.at_wires[k]);
+void HistoryWindow::begin(std::size_t samples, std::size_t bytes) {
+  if (samples == history_.samples()) return;
+  history_ = DeformationHistory(1, 1);  // frees its memory
+  *this = HistoryWindow(segments_, samples, bytes);
 }
 
-Passage::Passage(MotionReader& motion, Starts& starts, HistoryWindow& window, std::size_t threads)
+void HistoryWindow::keep(std::size_t first_segment, std::size_t sample, const MotionBlock& block) {
+  for (std::size_t k = 0; k < block.at_wires.size(); ++k)
+    if (const std::size_t segment = k % segments_; segment >= first_segment && segment < first_segment + size_)
+      history_.set(segment - first_segment, sample + k / segments_, block.at_wires[k]);
+}
+
+Passage::Passage(MotionReader& motion, const Shortening& shortening, Starts& starts, HistoryWindow& window,
+                 std::size_t threads)
     : motion_(motion),
+      shortening_(shortening),
       starts_(starts),
       window_(window),
       threads_(threads),
@@ -38,11 +46,16 @@ std::vector<Evaluation*> Passage::evaluated(std::size_t span) const {
   return all;
 }
 
+/// Returns whether a history of so many samples does not contain the piece.
+bool Passage::leaves_out(const Shortening::Piece& piece, std::size_t samples) const {
+  return piece.times == 0 && samples == shortening_.samples();
+}
+
 /// Returns the evaluations of each thread: (thread). Evaluations that share loose cables are in one thread.
-std::vector<std::vector<Evaluation*>> Passage::shared_out(std::size_t span) const {
+std::vector<std::vector<Evaluation*>> Passage::shared_out(const std::vector<Evaluation*>& all) const {
   std::vector<std::vector<Evaluation*>> of_thread(threads_);
   std::size_t next = 0;
-  for (Evaluation* const evaluation : evaluated(span)) {
+  for (Evaluation* const evaluation : all) {
     const auto found = std::ranges::find_if(of_thread, [&](const std::vector<Evaluation*>& own) {
       return std::ranges::any_of(
           own, [&](const Evaluation* other) { return other->cables().shares_loose(evaluation->cables()); });
@@ -52,8 +65,8 @@ std::vector<std::vector<Evaluation*>> Passage::shared_out(std::size_t span) cons
   return of_thread;
 }
 
-/// Calls use() with the evaluations of each span, for one block of the motion.
-void Passage::each_span(const MotionBlock& block, const Use& use) const {
+/// Calls use() with the evaluations of each span that do not leave the piece out, for one block of it.
+void Passage::each_span(const MotionBlock& block, const Shortening::Piece& piece, const Use& use) const {
   const std::size_t segments = motion_.lengths().size(), count = block.deformation.size() / segments;
   std::vector<double> pull;
   std::vector<Deformation> ends;
@@ -70,11 +83,29 @@ void Passage::each_span(const MotionBlock& block, const Use& use) const {
       pull.insert(pull.end(), own.begin(), own.end());
     }
     const SpanBlock span_block{of_span, pull, motion_.step(), ends};
-    const std::vector<std::vector<Evaluation*>> of_thread = shared_out(k);
+    std::vector<Evaluation*> all = evaluated(k);
+    const auto others = std::ranges::stable_partition(
+        all, [&](const Evaluation* of) { return !leaves_out(piece, of->samples()); });
+    for (Evaluation* const of : others) of->leave_out(span_block);
+    all.erase(others.begin(), others.end());
+    const std::vector<std::vector<Evaluation*>> of_thread = shared_out(all);
     pipeline::in_parallel(threads_, [&](std::size_t part) {
       if (!of_thread[part].empty()) use(of_thread[part], span_block);
     });
   }
+}
+
+/// Calls use() for blocks of each piece of the motion.
+void Passage::each_piece(bool with_pull,
+                         const std::function<void(const MotionBlock&, const Shortening::Piece&)>& use) const {
+  for (const Shortening::Piece& piece : shortening_.pieces())
+    motion_.run(with_pull, [&](const MotionBlock& block) { use(block, piece); }, piece.first, piece.end);
+}
+
+void Passage::keep(std::size_t first_segment, const MotionBlock& block, const Shortening::Piece& piece) const {
+  if (leaves_out(piece, window_.samples())) return;
+  const bool whole = window_.samples() == motion_.samples();
+  window_.keep(first_segment, whole ? block.first : piece.at + block.first - piece.first, block);
 }
 
 void Passage::lead_in(double from, double until) {
@@ -84,8 +115,9 @@ void Passage::lead_in(double from, double until) {
   const std::size_t end = samples_of(until);
   for (std::size_t left = samples_of(from); left > end;) {
     const std::size_t first = (samples - left % samples) % samples, count = std::min(left - end, samples - first);
+    const Shortening::Piece all{first, first + count, 0, 1};
     const auto move = [&](const MotionBlock& block) {
-      each_span(block, Evaluation::lead_in);
+      each_span(block, all, Evaluation::lead_in);
       starts_.merge();
     };
     motion_.run(true, move, first, first + count);
@@ -99,17 +131,18 @@ void Passage::record_rubbing() const {
 }
 
 void Passage::run(const std::function<void(const MotionBlock&)>& put) {
-  motion_.run(loose_, [&](const MotionBlock& block) {
+  each_piece(loose_, [&](const MotionBlock& block, const Shortening::Piece& piece) {
     put(block);
-    each_span(block, [](std::span<Evaluation* const> own, const SpanBlock& of_span) { Evaluation::add(own, of_span); });
+    each_span(block, piece,
+              [](std::span<Evaluation* const> own, const SpanBlock& of_span) { Evaluation::add(own, of_span); });
     starts_.merge();
-    window_.keep(0, block);
+    keep(0, block, piece);
   });
   for (std::size_t k = 0; k < motion_.spans().size(); ++k)
     for (Evaluation* const evaluation : evaluated(k)) evaluation->end_first_pass();
   if (std::ranges::none_of(starts_.spans(0), [](const auto& evaluation) { return evaluation->wants_again(); })) return;
-  motion_.run(false, [&](const MotionBlock& block) {
-    each_span(block, [](std::span<Evaluation* const> own, const SpanBlock& of_span) {
+  each_piece(false, [&](const MotionBlock& block, const Shortening::Piece& piece) {
+    each_span(block, piece, [](std::span<Evaluation* const> own, const SpanBlock& of_span) {
       for (Evaluation* const evaluation : own)
         if (evaluation->wants_again()) evaluation->add_again(of_span.deformation);
     });
@@ -117,7 +150,9 @@ void Passage::run(const std::function<void(const MotionBlock&)>& put) {
 }
 
 void Passage::refill(std::size_t first_segment) {
-  motion_.run(false, [&](const MotionBlock& block) { window_.keep(first_segment, block); });
+  each_piece(false, [&](const MotionBlock& block, const Shortening::Piece& piece) {
+    keep(first_segment, block, piece);
+  });
 }
 
 void Passage::choose(double z) {

@@ -8,6 +8,7 @@
 
 #include "strain/history.h"
 #include "strain/motion_reader.h"
+#include "strain/shortening.h"
 #include "strain/starts.h"
 #include "strain/variations.h"
 
@@ -18,10 +19,13 @@ class HistoryWindow {
  public:
   /// bytes: memory limit; one segment always fits.
   HistoryWindow(std::size_t segments, std::size_t samples, std::size_t bytes);
+  /// Makes it the window of another motion, of as many segments.
+  void begin(std::size_t samples, std::size_t bytes);
   std::size_t size() const { return size_; }  ///< number of segments in it
+  std::size_t samples() const { return history_.samples(); }
   const DeformationHistory& history() const { return history_; }
-  /// Copies the segments from first_segment on out of a block.
-  void keep(std::size_t first_segment, const MotionBlock& block);
+  /// Copies the segments from first_segment on out of a block. sample: number of its first sample in the window.
+  void keep(std::size_t first_segment, std::size_t sample, const MotionBlock& block);
 
  private:
   std::size_t segments_, size_;
@@ -30,8 +34,10 @@ class HistoryWindow {
 
 class Passage {
  public:
-  /// The caller owns all arguments. threads: does not change the result.
-  Passage(MotionReader& motion, Starts& starts, HistoryWindow& window, std::size_t threads);
+  /// The caller owns all arguments. An evaluation or window for as many samples as the shortened motion has follows that motion; each
+  /// other one follows the whole motion. threads: does not change the result.
+  Passage(MotionReader& motion, const Shortening& shortening, Starts& starts, HistoryWindow& window,
+          std::size_t threads);
   /// From now on the evaluations of `variations` also go through the motion.
   void take_along(const Variations& variations) { variations_ = &variations; }
 
@@ -53,11 +59,15 @@ class Passage {
   using Use = std::function<void(std::span<Evaluation* const>, const SpanBlock&)>;
   std::vector<Evaluation*> of_starts(std::size_t span) const;
   std::vector<Evaluation*> evaluated(std::size_t span) const;
-  std::vector<std::vector<Evaluation*>> shared_out(std::size_t span) const;
-  void each_span(const MotionBlock& block, const Use& use) const;
+  bool leaves_out(const Shortening::Piece& piece, std::size_t samples) const;
+  std::vector<std::vector<Evaluation*>> shared_out(const std::vector<Evaluation*>& all) const;
+  void each_span(const MotionBlock& block, const Shortening::Piece& piece, const Use& use) const;
+  void each_piece(bool with_pull, const std::function<void(const MotionBlock&, const Shortening::Piece&)>& use) const;
+  void keep(std::size_t first_segment, const MotionBlock& block, const Shortening::Piece& piece) const;
   void refill(std::size_t first_segment);
 
   MotionReader& motion_;
+  const Shortening& shortening_;
   Starts& starts_;
   HistoryWindow& window_;
   std::size_t threads_;

@@ -19,6 +19,7 @@
 #include "strain/evaluation.h"
 #include "strain/motion_reader.h"
 #include "strain/passage.h"
+#include "strain/shortening.h"
 #include "strain/starts.h"
 #include "strain/variations.h"
 
@@ -217,9 +218,9 @@ struct Evaluations {
   std::vector<std::unique_ptr<Evaluation>> of_span;  // refer to the constructions
   int levels = 0;                                    // level of the deepest wire
 
-  /// as_given: the same dresspacks without further factors. Loose cables get as many elements as those of as_given, so that both
-  /// can be computed side by side.
-  Evaluations(const pipeline::Job& job, const MotionReader& reader, std::size_t threads,
+  /// samples: of the whole or the shortened motion. as_given: the same dresspacks without further factors. Loose cables get as many
+  /// elements as those of as_given, so that both can be computed side by side.
+  Evaluations(const pipeline::Job& job, const MotionReader& reader, std::size_t samples, std::size_t threads,
               const pipeline::StrainFactors& factors, const Scratch& scratch,
               const Evaluations* as_given = nullptr) {
     for (const pipeline::MountedDresspack& mounted : job.dresspacks) {
@@ -254,7 +255,7 @@ struct Evaluations {
       pipeline::Strain settings = settings_of(job, d);
       if (as_given)
         settings.cable_elements = static_cast<int>(as_given->of_span[k]->cables().elements_per_segment());
-      of_span.push_back(std::make_unique<Evaluation>(constructions[d], settings, lengths, reader.samples(),
+      of_span.push_back(std::make_unique<Evaluation>(constructions[d], settings, lengths, samples,
                                                      threads, place, scratch));
       place.first_arc += std::accumulate(lengths.begin(), lengths.end(), 0.0);
     }
@@ -513,11 +514,11 @@ class OwnResults {
 using LikelySites = std::vector<std::vector<Evaluation::Site>>;  ///< (segment)
 
 /// Writes the variations in the motion of a hose with another stiffness.
-void write_other_motion(MotionReader& motion, Starts::Spans& laid, const Variations& variations,
-                        HistoryWindow& window, std::size_t threads, const LikelySites& likely,
-                        const Variations::Put& put) {
+void write_other_motion(MotionReader& motion, const Shortening& shortening, Starts::Spans& laid,
+                        const Variations& variations, HistoryWindow& window, std::size_t threads,
+                        const LikelySites& likely, const Variations::Put& put) {
   Starts starts(laid);
-  Passage passage(motion, starts, window, threads);
+  Passage passage(motion, shortening, starts, window, threads);
   passage.take_along(variations);
   passage.lead_in(lead_in_varied, 0);
   passage.run([](const MotionBlock&) {});
@@ -538,19 +539,21 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
   std::vector<OtherMotion> others = other_motions(motion, job);
   const std::size_t segments = reader.lengths().size(), samples = reader.samples();
   check_probes(job);
+  const Shortening shortening = shortening_of(motion, reader, job);
   // The other half of the limit is for the hose's deformation.
   const Scratch scratch{
       history_bytes / 2 / (reader.spans().size() * (1 + other_starts_at_most(job) + placements_at_most(job))),
       strain.final_name()};
-  Evaluations all(job, reader, threads, job.strain.factors, scratch);
+  Evaluations all(job, reader, samples, threads, job.strain.factors, scratch);
   const auto& evaluations = all.of_span;
   std::list<Evaluations> otherwise_laid;
   Variations variations(
-      job, evaluations, [&](const pipeline::StrainFactors& factors) -> const Variations::Spans& {
-        return otherwise_laid.emplace_back(job, reader, threads, factors, scratch, &all).of_span;
+      job, evaluations, shortening,
+      [&](const pipeline::StrainFactors& factors, std::size_t followed) -> const Variations::Spans& {
+        return otherwise_laid.emplace_back(job, reader, followed, threads, factors, scratch, &all).of_span;
       });
   Starts starts(all.of_span, [&]() -> Starts::Spans& {
-    return otherwise_laid.emplace_back(job, reader, threads, job.strain.factors, scratch, &all).of_span;
+    return otherwise_laid.emplace_back(job, reader, samples, threads, job.strain.factors, scratch, &all).of_span;
   });
   strain.set_axis("segment", segments);
   strain.set_axis("level", all.levels);
@@ -561,8 +564,9 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
 
   std::size_t held_bytes = 0;
   for (const auto& evaluation : evaluations) held_bytes += evaluation->held_bytes();
-  HistoryWindow window(segments, samples, history_bytes - std::min(held_bytes, history_bytes));
-  Passage passage(reader, starts, window, threads);
+  const std::size_t window_bytes = history_bytes - std::min(held_bytes, history_bytes);
+  HistoryWindow window(segments, samples, window_bytes);
+  Passage passage(reader, shortening, starts, window, threads);
   const Work work(progress, passage.any_loose(), others.size());
   passage.lead_in(lead_in_time, lead_in_varied);
   variations.go_on();
@@ -594,14 +598,16 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
   for (std::size_t other = 0; other < others.size(); ++other) {
     otherwise_laid.clear();  // frees its memory
     MotionReader& of = others[other].reader;
-    Evaluations laid(job, of, threads, job.strain.factors, scratch, &all);
+    const Shortening of_other = shortening_of(motion, of, job);
+    window.begin(of_other.samples(), window_bytes);
+    Evaluations laid(job, of, of_other.samples(), threads, job.strain.factors, scratch, &all);
     const Variations varied(
-        job, others[other].z, laid.of_span,
-        [&](const pipeline::StrainFactors& factors) -> const Variations::Spans& {
-          return otherwise_laid.emplace_back(job, of, threads, factors, scratch, &all).of_span;
+        job, others[other].z, laid.of_span, of_other,
+        [&](const pipeline::StrainFactors& factors, std::size_t followed) -> const Variations::Spans& {
+          return otherwise_laid.emplace_back(job, of, followed, threads, factors, scratch, &all).of_span;
         });
     VariationWriter rows(strain, varied, written);
-    write_other_motion(of, laid.of_span, varied, window, threads, likely, rows.put());
+    write_other_motion(of, of_other, laid.of_span, varied, window, threads, likely, rows.put());
     written += varied.points().size();
     work.other_motions(other + 1);
   }

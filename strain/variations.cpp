@@ -1,6 +1,7 @@
 #include "strain/variations.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace dresslife::strain {
 namespace {
@@ -96,8 +97,9 @@ std::vector<Variations::Friction> Variations::other_frictions(const Spans& spans
   return {{-reach}, {-reach / 2}, {reach}, {0, Inside::glued}, {0, Inside::free}};
 }
 
-Variations::Variations(const pipeline::Job& job, const Spans& as_given, const Build& build)
-    : enabled_(job.uncertainty.enabled), as_given_(as_given) {
+Variations::Variations(const pipeline::Job& job, const Spans& as_given, const Shortening& shortening,
+                       const Build& build)
+    : enabled_(job.uncertainty.enabled), as_given_(as_given), shortening_(shortening) {
   if (!job.uncertainty.enabled) return;
   std::vector<Friction> all = other_frictions(as_given);
   if (!all.empty()) add(as_given, {}, all);
@@ -109,8 +111,9 @@ Variations::Variations(const pipeline::Job& job, const Spans& as_given, const Bu
   lay(job, build, Uncertain::grip, both_sides, {{}});
 }
 
-Variations::Variations(const pipeline::Job& job, double stiffness, const Spans& laid, const Build& build)
-    : enabled_(job.uncertainty.enabled), as_given_(laid), stiffness_(stiffness) {
+Variations::Variations(const pipeline::Job& job, double stiffness, const Spans& laid, const Shortening& shortening,
+                       const Build& build)
+    : enabled_(job.uncertainty.enabled), as_given_(laid), shortening_(shortening), stiffness_(stiffness) {
   std::vector<Friction> all = other_frictions(laid);
   all.insert(all.begin(), Friction{});
   add(laid, {}, all);
@@ -124,8 +127,11 @@ void Variations::lay(const pipeline::Job& job, const Build& build, Uncertain par
   for (const double z : nodes) {
     Point point{};
     point[index_of(parameter)] = z;
-    const Spans& placed = build(moved(job.strain.factors, parameter, z));
-    for (std::size_t span = 0; span < placed.size(); ++span) placed[span]->share_loose(*as_given_[span]);
+    // Grips share the loose cables of as_given, which cost most, and so follow as many samples.
+    const Spans& placed = build(moved(job.strain.factors, parameter, z),
+                                parameter == Uncertain::grip ? as_given_.front()->samples() : shortening_.samples());
+    for (std::size_t span = 0; span < placed.size(); ++span)
+      if (placed[span]->samples() == as_given_[span]->samples()) placed[span]->share_loose(*as_given_[span]);
     add(placed, point, friction);
   }
 }
@@ -188,15 +194,20 @@ void Variations::find_bent() const {
 void Variations::evaluate(const std::vector<Evaluation::Site>& likely, std::size_t span, std::size_t segment,
                           const DeformationHistory& history, std::size_t row, const Put& put) const {
   if (likely.empty()) return;
+  std::optional<DeformationHistory> shortened;
+  if (history.samples() != shortening_.samples()) shortened = shortening_.shortened(history.columns(row));
   for (const Placement& placement : placements_) {
     Evaluation& placed = *(*placement.spans)[span];
+    const bool whole = placed.samples() != shortening_.samples();
+    const DeformationHistory& own = whole || !shortened ? history : *shortened;
+    const std::size_t own_row = &own == &history ? row : 0;
     std::vector<Evaluation::Site> wires = likely;
-    if (lies_elsewhere(placement))
-      wires = with_likely_of_bent(std::move(wires), placed, segment, history, row);
+    if (lies_elsewhere(placement)) wires = with_likely_of_bent(std::move(wires), placed, segment, own, own_row);
     std::vector<std::size_t> sites;
     for (const Evaluation::Site site : wires) sites.push_back(as_given_[span]->row_of(segment, site));
-    const std::vector<SiteRows> rows = placed.varied(wires, placement.factors, segment, history, row);
-    for (std::size_t k = 0; k < rows.size(); ++k) put(placement.variation[k], sites, rows[k]);
+    const std::vector<SiteRows> rows = placed.varied(wires, placement.factors, segment, own, own_row);
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      put(placement.variation[k], sites, shortening_.any() && !whole ? shortening_.whole(rows[k]) : rows[k]);
   }
 }
 

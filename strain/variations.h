@@ -18,6 +18,7 @@
 
 #include "pipeline/job/job.h"
 #include "pipeline/job/uncertainty.h"
+#include "strain/shortening.h"
 #include "strain/starts.h"
 
 namespace dresslife::strain {
@@ -31,14 +32,16 @@ class Variations {
   using Point =
       std::array<double, 5>;  ///< z of the strain parameters without rest, in the order of uncertain_parameters()
   using Spans = std::vector<std::unique_ptr<Evaluation>>;
-  /// Creates evaluations of all spans with other factors; the caller owns them.
-  using Build = std::function<const Spans&(const pipeline::StrainFactors&)>;
+  /// Creates evaluations of all spans with other factors and for this number of samples; the caller owns them.
+  using Build = std::function<const Spans&(const pipeline::StrainFactors&, std::size_t samples)>;
 
-  /// In the job's own motion. as_given: the job's own evaluations. Without variations if the job's uncertainty is off or no part
-  /// can slide.
-  Variations(const pipeline::Job& job, const Spans& as_given, const Build& build);
-  /// In the motion of a hose whose stiffness has this z; the first variation is that of the job's own factors. laid: with them.
-  Variations(const pipeline::Job& job, double stiffness, const Spans& laid, const Build& build);
+  /// In the job's own motion. as_given: the job's own evaluations, of the whole motion. Variations with other places of cables follow
+  /// the shortened motion, which must outlive this object. Without variations if the job's uncertainty is off or no part can slide.
+  Variations(const pipeline::Job& job, const Spans& as_given, const Shortening& shortening, const Build& build);
+  /// In the motion of a hose whose stiffness has this z; the first variation is that of the job's own factors. laid: with them. All
+  /// follow the shortened motion.
+  Variations(const pipeline::Job& job, double stiffness, const Spans& laid, const Shortening& shortening,
+             const Build& build);
 
   bool empty() const { return points_.empty(); }
   double stiffness() const { return stiffness_; }                          ///< z of the hose's stiffness
@@ -58,7 +61,8 @@ class Variations {
   /// Receives the results of a variation for some sites: their rows in the file and their turning points.
   using Put =
       std::function<void(std::size_t variation, const std::vector<std::size_t>& sites, const SiteRows& rows)>;
-  /// Evaluates one segment. likely: the likely worst wires of the job's own evaluation there.
+  /// Evaluates one segment. likely: the likely worst wires of the job's own evaluation there. history: of the whole motion in the
+  /// job's own motion, else of the shortened motion.
   void evaluate(const std::vector<Evaluation::Site>& likely, std::size_t span, std::size_t segment,
                 const DeformationHistory& history, std::size_t row, const Put& put) const;
 
@@ -85,6 +89,7 @@ class Variations {
 
   bool enabled_;
   const Spans& as_given_;
+  const Shortening& shortening_;
   double stiffness_ = 0;
   std::vector<Point> points_;
   std::vector<pipeline::Inside> inside_;

@@ -136,6 +136,9 @@ Format make_motion_format() {
     {"/program/step",          i32,  "sample",             "1",    always,
      "index of the program line being executed"},
     {"/program/text",          text, "line",               "1",    always, "the lines of the program"},
+    {"/program/loop",          f64,  "loop, 3",            "s, s, 1", maybe,
+     "loops of equal rounds in the program: begin of the first round, duration of a round, number of rounds (at least 3); absent: "
+     "none, or an older file"},
     {"/contact/count",         i32,  "sample",             "1",    always,
      "largest number of contacts of the dresspack since the sample before"},
     {"/contact/max_depth",     f64,  "sample",             "m",    always,

@@ -35,6 +35,8 @@ MotionFile::MotionFile(pipeline::FileWriter& file, const RunDescription& descrip
     file_.append("/clamp/segment", std::span<const std::int32_t>(description.clamp_segment.data(),
                                                                  description.clamp_segment.size()));
   file_.append("/program/text", std::span<const std::string>(description.step_texts));
+  for (const MotionLoop& loop : description.loops)
+    file_.append("/program/loop", std::array{loop.begin, loop.round, static_cast<double>(loop.rounds)});
 }
 
 void MotionFile::add(const Sample& sample) {

@@ -75,6 +75,7 @@ Simulation::Simulation(const pipeline::Setup& setup)
   description_.links = rod_.links();
   description_.joints = static_cast<int>(robot_ ? setup_.robot.axes() : 0);
   description_.step_texts = path_->step_texts();
+  if (robot_) description_.loops = loops_of(robot_->motion());
   if (robot_)
     for (const pipeline::Link& link : setup_.robot.links) description_.link_names.push_back(link.name);
   check_reach();

@@ -16,6 +16,7 @@
 #include "sim/contact/rubbing.h"
 #include "sim/contact/touch.h"
 #include "sim/contact/world.h"
+#include "sim/robot/loops.h"
 #include "sim/run/checks.h"
 #include "sim/run/clamp_path.h"
 #include "sim/run/step_choice.h"
@@ -37,6 +38,7 @@ struct RunDescription {
   int links = 0;                        ///< number of links of the chain
   int joints = 0;                       ///< number of joints of the robot
   std::vector<std::string> step_texts;  ///< (line) texts of the program
+  std::vector<MotionLoop> loops;        ///< equal rounds of the program
 };
 
 /// Adds the name and stiffnesses of the next dresspack.

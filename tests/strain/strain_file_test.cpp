@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <numbers>
 #include <set>
 #include <span>
@@ -15,6 +16,7 @@
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/settings/document.h"
+#include "strain/shortening.h"
 #include "strain/starts.h"
 #include "tests/catch.h"
 #include "tests/pipeline/sample_job.h"
@@ -41,9 +43,11 @@ Eigen::Vector3d rate_at(std::size_t t) {
 
 using RateAt = std::function<Eigen::Vector3d(std::size_t)>;
 
-/// Writes a motion.h5 of a uniformly bent and twisted dresspack. softer: rates of the softer hose; null: the file has none.
+/// Writes a motion.h5 of a uniformly bent and twisted dresspack. softer: rates of the softer hose; null: the file has none. loops: begin
+/// [s], round [s] and number of rounds of each loop of the program.
 void write_motion(const std::filesystem::path& name, std::size_t count = samples, double step = 0.04,
-                  const RateAt& rate_of = rate_at, const RateAt& softer = nullptr) {
+                  const RateAt& rate_of = rate_at, const RateAt& softer = nullptr,
+                  const std::vector<double>& loops = {}) {
   FileWriter file(name, pipeline::motion_format());
   file.set_axis("segment", segments);
   file.set_axis("clamp", 2);
@@ -93,6 +97,7 @@ void write_motion(const std::filesystem::path& name, std::size_t count = samples
     for (const char* dataset : {"/program/step", "/contact/count"})
       file.append(dataset, std::span<const std::int32_t>());
   if (softer) file.attribute("softer_z", -1.2);
+  if (!loops.empty()) file.append("/program/loop", loops);
   file.append("/segment/length", std::vector<double>(segments, l));
   file.append("/program/text", std::vector<std::string>{"nod", "rest", "nod", "rest", "nod", "home"});
   file.attribute("job", "");
@@ -583,4 +588,97 @@ TEST_CASE("the variations of a softer hose hold the strains that its motion has 
   CHECK(next_expected == expected.size());
   CHECK(bounds.size() == (loose ? 6 : 2));
   CHECK(different.size() == expected.size());  // otherwise friction or slack is not tested
+}
+
+namespace {
+
+constexpr std::size_t of_round = 50, loop_begin = 30, loop_rounds = 14, loop_end = loop_begin + loop_rounds * of_round,
+                      with_loop = loop_end + 40;
+
+/// Returns the rotation rate of a motion with a loop between other moves. change: of the bend in the rounds from `from` on.
+RateAt looping(double change = 0, std::size_t from = 0) {
+  return [=](std::size_t t) -> Eigen::Vector3d {
+    const double w = 2 * std::numbers::pi * static_cast<double>(t % of_round) / of_round;
+    const bool in_loop = t >= loop_begin && t < loop_end;
+    const double more = in_loop && t >= loop_begin + from * of_round ? 1 + change : 1;
+    return {1.5 + more * (in_loop ? 0.7 : 0.2) * std::sin(w), 0.8 * std::cos(w), (in_loop ? 3 : 1.2) * std::sin(2 * w)};
+  };
+}
+
+pipeline::Job job_of_loop(const std::string& uncertainty = "true") {
+  std::string text = pipeline::sample_job;
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    REQUIRE(text.find(from) != std::string::npos);
+    text.replace(text.find(from), from.size(), to);
+  };
+  replace("material: copper}", "material: copper, friction_coefficient: 0.3, radial_line_load_N_per_m: 400}");
+  replace("count: 3", "count: 1");
+  replace("helix_radius_mm: 18.45\n", "helix_radius_mm: 18.45\n      slack_percent: 3\n");
+  replace("  damping_time_ms: 10\n", "  damping_time_ms: 10\n  inner_diameter_mm: 52\n");
+  return pipeline::job_from(pipeline::parse_yaml(text, "job.yaml"),
+                            {"uncertainty.enabled=" + uncertainty, "strain.slip=[free, friction]"});
+}
+
+}  // namespace
+
+TEST_CASE("variations without equal rounds of a loop have the strains of the whole motion") {
+  const Scratch scratch;
+  const RateAt softer = [](std::size_t t) -> Eigen::Vector3d { return 1.3 * looping()(t); };
+  const std::vector<double> loop{0.04 * loop_begin, 0.04 * of_round, double(loop_rounds)};
+  write_motion(scratch / "plain.h5", with_loop, 0.04, looping(), softer);
+  write_motion(scratch / "loop.h5", with_loop, 0.04, looping(), softer, loop);
+  evaluate(scratch / "plain.h5", scratch / "whole.h5", job_of_loop());
+  evaluate(scratch / "loop.h5", scratch / "shortened.h5", job_of_loop());
+  constexpr std::size_t no_room = 1;  // segments are read one by one
+  evaluate(scratch / "loop.h5", scratch / "no_room.h5", job_of_loop(), no_room, 3);
+  CHECK(pipeline::bytes_of(scratch / "no_room.h5") == pipeline::bytes_of(scratch / "shortened.h5"));
+  const FileReader whole(scratch / "whole.h5", pipeline::strain_format()),
+      shortened(scratch / "shortened.h5", pipeline::strain_format());
+  CHECK(shortened.read<float>("/reversal/strain") == whole.read<float>("/reversal/strain"));
+  const auto rows_of = [](const FileReader& file) {
+    const auto variation = file.read<std::uint32_t>("/variation/row/variation"),
+               site = file.read<std::uint32_t>("/variation/row/site"),
+               turning_points = file.read<std::uint32_t>("/variation/row/turning");
+    const auto strain = file.read<float>("/variation/strain");
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<float>> rows;
+    auto next = strain.begin();
+    for (std::size_t row = 0; row < site.size(); next += turning_points[row++])
+      rows[{variation[row], site[row]}] = {next, next + turning_points[row]};
+    return rows;
+  };
+  const auto expected = rows_of(whole), rows = rows_of(shortened);
+  std::size_t common = 0;
+  for (const auto& [row, strains] : rows)
+    if (const auto of = expected.find(row); of != expected.end()) {
+      CHECK(strains == of->second);
+      ++common;
+    }
+  // A wire that is as bad as another one can be ranked behind it, because the sums of the ranking count a part once.
+  CHECK(common > 0.98 * static_cast<double>(expected.size()));
+}
+
+TEST_CASE("rounds of a loop are left out only if the hose moves equally in them") {
+  const Scratch scratch;
+  const pipeline::Job job = job_of_loop();
+  const auto left_out = [&](const RateAt& rate, const std::vector<double>& loops) {
+    write_motion(scratch / "motion.h5", with_loop, 0.04, rate, nullptr, loops);
+    const FileReader file(scratch / "motion.h5", pipeline::motion_format());
+    strain::MotionReader motion(file, job);
+    return with_loop - strain::shortening_of(file, motion, job).samples();
+  };
+  constexpr double begin = 0.04 * loop_begin, round = 0.04 * of_round;
+  const std::vector<double> loop{begin, round, double(loop_rounds)};
+  CHECK(left_out(looping(), loop) == 4 * of_round);  // of 14 rounds 8 lead in 15 s to the first part, one is the last
+  CHECK(left_out(looping(), {}) == 0);
+  CHECK(left_out(looping(0.05, 1), loop) == 4 * of_round);  // only the first round differs
+  CHECK(left_out(looping(0.05, 10), loop) == of_round);  // round 11 is as round 10, so 12 stands for 11
+  CHECK(left_out(looping(0.05, 12), loop) == 0);
+  CHECK(left_out(looping(), {begin, round, 1}) == 0);
+  CHECK(left_out(looping(), {begin, 0.04 * 47, 14}) == 0);  // not the length of a round
+  CHECK(left_out(looping(), {begin, round, 1000}) == 0);  // longer than the motion
+  CHECK(left_out(looping(), {-1, round, 14}) == 0);
+  // a loop at the begin and one at the end of the motion
+  const RateAt all = [](std::size_t t) { return turning(t * cycle / of_round); };
+  CHECK(left_out(all, {0, round, 15}) == 5 * of_round);
+  CHECK(left_out(all, {0.04 * (with_loop - 15 * of_round), round, 15}) == 5 * of_round);
 }

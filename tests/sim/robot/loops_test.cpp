@@ -47,6 +47,16 @@ TEST_CASE("loops: two loops, the second one with a loop inside") {
   CHECK(motion.duration() - loops[1].end() < loops[1].round);
 }
 
+TEST_CASE("loops: rounds that differ, or have different moves between them, are no loop") {
+  std::vector<pipeline::MotionStep> different{move_to(0)}, jogged{move_to(0)};
+  for (int round = 0; round < 8; ++round) {
+    different.insert(different.end(), {move_to(1 + 0.001 * round), move_to(0)});
+    jogged.insert(jogged.end(), {move_to(1), move_to(0), move_to(-0.1 - 0.01 * round), move_to(0)});
+  }
+  CHECK(loops_of(motion_of(different)).empty());
+  CHECK(loops_of(motion_of(jogged)).empty());
+}
+
 TEST_CASE("loops: a motion without three equal rounds has none") {
   CHECK(loops_of(motion_of({move_to(0), move_to(1), move_to(0.5), move_to(0)})).empty());
   CHECK(loops_of(motion_of({move_to(0), repeated(2, {move_to(1), move_to(0)})})).empty());

@@ -73,6 +73,31 @@ TEST_CASE("motion file: what the run hands over can be read back") {
   CHECK(values.front() == 1 / *std::max_element(curvature.begin(), curvature.end()));
   CHECK(check_steps.size() == names.size());
   CHECK(file.read<std::int32_t>("/check/warning").size() == names.size());
+  CHECK_FALSE(file.has("/program/loop"));
+}
+
+TEST_CASE("motion file: the loops of the program") {
+  pipeline::Job job = simple_job();
+  pipeline::MotionStep loop;
+  loop.repeat = 6;
+  loop.steps = {move_to(1), move_to(0)};
+  job.motion.steps = {move_to(0), loop};
+  const Simulation simulation(job);
+  const pipeline::Scratch scratch;
+  {
+    pipeline::FileWriter writer(scratch / "motion.h5", pipeline::motion_format());
+    MotionFile motion(writer, simulation.description());
+    const RunSummary summary = simulation.run({[&](const Sample& sample) { motion.add(sample); }});
+    motion.finish(summary, [&](double time) { return simulation.path().step(time); });
+    for (const char* name : {"job", "history", "input_sha256"}) writer.attribute(name, "");
+    writer.commit();
+  }
+  const auto kept = pipeline::FileReader(scratch / "motion.h5", pipeline::motion_format()).read<double>("/program/loop");
+  REQUIRE(kept.size() == 3);
+  CHECK(kept[2] >= 5);  // the first round begins with another move
+  for (int round = 0; round < static_cast<int>(kept[2]); ++round)
+    CHECK(simulation.path().at(kept[0] + round * kept[1]).joints[0] ==
+          Approx(simulation.path().at(kept[0]).joints[0]).margin(1e-9));
 }
 
 }  // namespace
