@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "pipeline/job/job.h"
+#include "strain/memory.h"
 
 namespace dresslife::strain {
 namespace {
@@ -41,7 +42,7 @@ std::vector<ProgramLoop> program_loops(const pipeline::FileReader& file, double 
   const auto rows = file.read<double>("/program/loop");
   for (std::size_t k = 0; k + 3 <= rows.size(); k += 3)
     loops.push_back(
-        {rows[k] / step, rows[k + 1] / step, static_cast<std::size_t>(std::max(0.0, rows[k + 2]))});
+        {rows[k] / step, rows[k + 1] / step, static_cast<std::size_t>(std::clamp(rows[k + 2], 0.0, most_numbered))});
   return loops;
 }
 

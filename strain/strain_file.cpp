@@ -539,7 +539,7 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
   std::vector<OtherMotion> others = other_motions(motion, job);
   const std::size_t segments = reader.lengths().size(), samples = reader.samples();
   check_probes(job);
-  const Shortening shortening = shortening_of(motion, reader, job);
+  const Shortening shortening = job.uncertainty.enabled ? shortening_of(motion, reader, job) : Shortening(samples);
   // The other half of the limit is for the hose's deformation.
   const Scratch scratch{
       history_bytes / 2 / (reader.spans().size() * (1 + other_starts_at_most(job) + placements_at_most(job))),

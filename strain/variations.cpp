@@ -193,7 +193,7 @@ void Variations::find_bent() const {
 
 void Variations::evaluate(const std::vector<Evaluation::Site>& likely, std::size_t span, std::size_t segment,
                           const DeformationHistory& history, std::size_t row, const Put& put) const {
-  if (likely.empty()) return;
+  if (likely.empty() || placements_.empty()) return;
   std::optional<DeformationHistory> shortened;
   if (history.samples() != shortening_.samples()) shortened = shortening_.shortened(history.columns(row));
   for (const Placement& placement : placements_) {

@@ -605,7 +605,7 @@ RateAt looping(double change = 0, std::size_t from = 0) {
   };
 }
 
-pipeline::Job job_of_loop(const std::string& uncertainty = "true") {
+pipeline::Job job_of_loop() {
   std::string text = pipeline::sample_job;
   const auto replace = [&](const std::string& from, const std::string& to) {
     REQUIRE(text.find(from) != std::string::npos);
@@ -616,7 +616,7 @@ pipeline::Job job_of_loop(const std::string& uncertainty = "true") {
   replace("helix_radius_mm: 18.45\n", "helix_radius_mm: 18.45\n      slack_percent: 3\n");
   replace("  damping_time_ms: 10\n", "  damping_time_ms: 10\n  inner_diameter_mm: 52\n");
   return pipeline::job_from(pipeline::parse_yaml(text, "job.yaml"),
-                            {"uncertainty.enabled=" + uncertainty, "strain.slip=[free, friction]"});
+                            {"uncertainty.enabled=true", "strain.slip=[free, friction]"});
 }
 
 }  // namespace
