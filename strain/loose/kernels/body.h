@@ -134,8 +134,7 @@ struct Lines::Touch {
   Pack press, by_neighbours, xx, xy, yy;  // by_neighbours: part of press
   Pair slope;
 
-  inline Touch()
-      : press(0.0), by_neighbours(0.0), xx(0.0), xy(0.0), yy(0.0), slope{Pack(0.0), Pack(0.0)} {}
+  inline Touch() : press(0.0), by_neighbours(0.0), xx(0.0), xy(0.0), yy(0.0), slope{Pack(0.0), Pack(0.0)} {}
 
   /// Adds friction along a direction. moved: from the point where the cable sticks. most: largest force.
   inline void add_friction(const Pair& direction, const Pack& moved, const Pack& stick, const Pack& most) {

@@ -44,8 +44,9 @@ std::vector<HoseNode> leaning(double gravity, double direction) {
 
 /// A cable in a straight hose while gravity swings to both sides. Its middle is a block in a round gutter.
 struct Swing {
-  double farthest = 0;        ///< angle of the cable [rad]
-  double work = 0, lost = 0;  ///< work of gravity in the last cycle, and that of friction by the closed form [J/m]
+  double farthest = 0;  ///< angle of the cable [rad]
+  double work = 0,
+         lost = 0;  ///< work of gravity in the last cycle, and that of friction by the closed form [J/m]
   std::vector<double> path{};  ///< angles in the last cycle
 };
 
@@ -63,7 +64,8 @@ Swing swing(LooseCable cable, double most, double seconds, int samples = 200) {
     const std::array now{offset[elements], offset[elements + 1]};
     if (t > 2 * samples) {
       const double middle = most * std::sin(2 * pi * (t - 0.5) / samples);
-      result.work += weight * (std::cos(middle) * (now[0] - before[0]) + std::sin(middle) * (now[1] - before[1]));
+      result.work +=
+          weight * (std::cos(middle) * (now[0] - before[0]) + std::sin(middle) * (now[1] - before[1]));
       result.farthest = std::max(result.farthest, std::abs(angle(cables)));
       result.path.push_back(angle(cables));
     }
@@ -84,20 +86,23 @@ TEST_CASE("a cable pressed around an arc stays below mu times N and slides above
   LooseCables cables({cable}, {length, elements});
   const auto push = [&](double sideways) {
     cables.advance(hose(elements,
-                        [&](double) { return HoseNode{.curvature2 = kappa, .pull = {0, sideways / cable.mass_per_length}}; }),
+                        [&](double) {
+                          return HoseNode{.curvature2 = kappa, .pull = {0, sideways / cable.mass_per_length}};
+                        }),
                    0.04);
   };
   for (int t = 0; t < 50; ++t) push(0);
   const double press = cables.state(0).press[elements / 2];
   CHECK(press == Approx(cables.state(0).tension[0] * kappa).epsilon(0.01));
   double pushed = 0;
-  const auto after = [&](double share) {  // of mu N; in small steps, as the direction of friction is that at the last sample
-    constexpr int steps = 100;
-    const double from = pushed;
-    for (int t = 1; t <= steps; ++t) push((from + (share - from) * t / steps) * friction * press);
-    pushed = share;
-    return angle(cables);
-  };
+  const auto after =
+      [&](double share) {  // of mu N; in small steps, as the direction of friction is that at the last sample
+        constexpr int steps = 100;
+        const double from = pushed;
+        for (int t = 1; t <= steps; ++t) push((from + (share - from) * t / steps) * friction * press);
+        pushed = share;
+        return angle(cables);
+      };
   const double start = angle(cables);
   CHECK(std::abs(after(0.9) - start) * room < 1.01 * elastic(0.9 * friction * press));
   CHECK(std::abs(after(-0.9) - start) * room < 1.01 * elastic(0.9 * friction * press));
@@ -107,7 +112,8 @@ TEST_CASE("a cable pressed around an arc stays below mu times N and slides above
   CHECK(after(0) - start == Approx(std::atan(friction)).epsilon(0.03));
 }
 
-TEST_CASE("gravity that swings moves a cable by the closed form of dry friction, at any rate, and its work is lost") {
+TEST_CASE(
+    "gravity that swings moves a cable by the closed form of dry friction, at any rate, and its work is lost") {
   constexpr double most = 0.9, room = 0.01;
   const double lag = std::atan(friction);
   LooseCable cable = lying(room);
@@ -116,10 +122,12 @@ TEST_CASE("gravity that swings moves a cable by the closed form of dry friction,
   CHECK(fast.farthest == Approx(most - lag).epsilon(0.01));
   CHECK(fast.work == Approx(fast.lost).epsilon(0.02));
   double apart = 0;
-  for (std::size_t t = 0; t < fast.path.size(); ++t) apart = std::max(apart, std::abs(fast.path[t] - slow.path[t]));
+  for (std::size_t t = 0; t < fast.path.size(); ++t)
+    apart = std::max(apart, std::abs(fast.path[t] - slow.path[t]));
   INFO(apart << " rad apart, " << fast.farthest << " " << most - lag << " " << fast.work << " " << fast.lost);
   // The drag that remains, at the largest speed of the gravity's direction.
-  const double speed = room * most * 2 * pi / 4, dragged = LooseCable::drag_beside_friction * cable.drag * speed;
+  const double speed = room * most * 2 * pi / 4,
+               dragged = LooseCable::drag_beside_friction * cable.drag * speed;
   CHECK(dragged < 0.02 * friction * weight);
   CHECK(apart < 2 * dragged / weight);
   // Below the angle of friction it moves elastically and comes back: no work is lost.
@@ -135,7 +143,8 @@ TEST_CASE("gravity that swings moves a cable by the closed form of dry friction,
   CHECK(apart > 0.04);
 }
 
-TEST_CASE("a ring turns with a twist that alternates only where its forces exceed the friction of its cables") {
+TEST_CASE(
+    "a ring turns with a twist that alternates only where its forces exceed the friction of its cables") {
   // Ten cables on a circle, pressed on the wall by their line load. A held ring has the tension T = E A R^2 t^2/4 of the twist
   // t sin(2 pi z/L), and the sideways force T R t 2 pi/L + E I R t (2 pi/L)^3 per cable at most.
   constexpr double radius = 0.01845, load = 5, hose_length = 2.035;
@@ -148,15 +157,18 @@ TEST_CASE("a ring turns with a twist that alternates only where its forces excee
   const double wave = 2 * pi / hose_length;
   const auto held_strain = [&](double twist) { return std::pow(radius * twist, 2) / 4; };
   const auto force = [&](double twist) {
-    return (cables[0].axial_stiffness * held_strain(twist) + cables[0].bending_stiffness * wave * wave) * radius * twist * wave;
+    return (cables[0].axial_stiffness * held_strain(twist) + cables[0].bending_stiffness * wave * wave) *
+           radius * twist * wave;
   };
-  const auto strains = [&](double twist, double cycle_time) {  // of the first cable, over the last of three cycles
+  const auto strains = [&](double twist,
+                           double cycle_time) {  // of the first cable, over the last of three cycles
     constexpr int cycle = 100;
     LooseCables loose(cables, {hose_length, 64});
     std::vector<double> all;
     for (int t = 0; t <= 3 * cycle; ++t) {
       const double now = twist * std::sin(2 * pi * t / cycle);
-      loose.advance(hose(64, [&](double z) { return HoseNode{.twist = now * std::sin(2 * pi * z)}; }), cycle_time / cycle);
+      loose.advance(hose(64, [&](double z) { return HoseNode{.twist = now * std::sin(2 * pi * z)}; }),
+                    cycle_time / cycle);
       if (t > 2 * cycle) all.push_back(loose.state(0).strain);
     }
     CHECK(loose.restless() == 0);
@@ -193,7 +205,8 @@ double range_of_curvature(double mu, double cycle_time, int samples) {
   constexpr int cycles = 6;
   std::vector<LooseCable> cables;
   for (int k = 0; k < 10; ++k) {
-    LooseCable& cable = cables.emplace_back(signal_cable(0.01845 * std::cos(2 * pi * k / 10), 0.01845 * std::sin(2 * pi * k / 10)));
+    LooseCable& cable = cables.emplace_back(
+        signal_cable(0.01845 * std::cos(2 * pi * k / 10), 0.01845 * std::sin(2 * pi * k / 10)));
     cable.bending_stiffness = 0.02, cable.slack = 0.01, cable.friction = mu, cable.line_load = 5;
   }
   fit_in_hose(cables, {0.0255, 0.013});
@@ -217,10 +230,12 @@ double range_of_curvature(double mu, double cycle_time, int samples) {
 
 }  // namespace
 
-TEST_CASE("a wound ring with dry friction bends its cables as much at half the rate, with a drag it does not") {
+TEST_CASE(
+    "a wound ring with dry friction bends its cables as much at half the rate, with a drag it does not") {
   const double range = range_of_curvature(friction, 4, 100);
   // The remaining drag is 2 % of the one that changes the range by a fifth.
   CHECK(range_of_curvature(friction, 8, 100) == Approx(range).epsilon(0.005));
-  CHECK(range_of_curvature(friction, 4, 200) == Approx(range).epsilon(0.03));  // friction is that of the previous sample
+  CHECK(range_of_curvature(friction, 4, 200) ==
+        Approx(range).epsilon(0.03));  // friction is that of the previous sample
   CHECK(std::abs(range_of_curvature(0, 8, 100) / range_of_curvature(0, 4, 100) - 1) > 0.1);
 }
