@@ -26,10 +26,18 @@ struct LooseCable {
   double slack = 0;               ///< length beyond its path at installation, over this path
   double wall_stiffness = 1e7;    ///< k_w of its contacts, force per length and depth [N/m2]
   double grip = without_limit;    ///< force at which a clamp lets the cable slip [N]
+  double friction = 0;            ///< coefficient of dry friction across the hose (W42); 0: only the drag
+  double line_load = 0;           ///< force per length that presses it on wall or core besides its contacts [N/m]
   /// Drag force per length and sideways speed [N s/m2] (W36): at 50 mm/s equal to the friction of 0.2 kg/m with the coefficient
   /// 0.3.
   double drag = 12;
   static constexpr double friction_of_drag = 0.3;  ///< of this drag, which is proportional to it
+  /// Share of the drag that remains beside dry friction: at 50 mm/s 2 % of the friction of its weight.
+  static constexpr double drag_beside_friction = 0.02;
+  /// Sideways force per length and displacement of a cable that dry friction holds [N/m2]. The cable rolls on its contact and
+  /// twists: G J q^2/r^2 with G J = 0.02 N m2, r = 5 mm is 2e3 to 1e5 for waves 2 pi/q of 4 to 0.5 m. The contact of the jacket
+  /// itself (10 MPa) is 100 times as stiff.
+  static constexpr double stick_stiffness = 1e4;
 
   // Limits of its movement; fit_in_hose() computes all except the first.
   double play = without_limit;      ///< c: greatest distance from its place, independent of other limits [m]

@@ -37,6 +37,8 @@ CableLines::CableLines(const std::vector<LooseCable>& cables, const HoseLine& ho
     of_lane(nearest, k) = cable.nearest;
     of_lane(gap, k) = cable.gap;
     of_lane(per_radius, k) = a0.norm() > 0 ? 1 / a0.norm() : 0;
+    of_lane(friction, k) = cable.friction;
+    of_lane(line_load, k) = cable.line_load;
     of_lane(counts, k) = k < count() ? 1 : 0;
     for (std::size_t i = 0; i < batch_.nodes; ++i) put(path, i, k, vector(laid, i, k));
   }
@@ -50,6 +52,8 @@ void CableLines::point_at_rows() {
   batch_.mass_per_length = lanes(mass_per_length), batch_.wall_stiffness = lanes(wall_stiffness);
   batch_.play = lanes(play), batch_.farthest = lanes(farthest), batch_.nearest = lanes(nearest);
   batch_.gap = lanes(gap), batch_.per_radius = lanes(per_radius), batch_.drag = lanes(drag);
+  batch_.friction = lanes(friction), batch_.line_load = lanes(line_load), batch_.stick = lanes(stick);
+  batch_.around = nodes(around), batch_.stretch = nodes(stretch), batch_.most_friction = nodes(most_friction);
   batch_.free_length_rate = lanes(free_length_rate), batch_.slipped = lanes(slipped);
   batch_.least_strain = lanes(least_strain), batch_.most_strain = lanes(most_strain),
   batch_.counts = lanes(counts);
@@ -100,7 +104,7 @@ double CableLines::laid_gain(std::size_t k) const {
 
 void CableLines::go_on_from(const CableLines& other) {
   assert(count() == other.count() && batch_.nodes == other.batch_.nodes);
-  for (const OfNode row : {path, velocity})
+  for (const OfNode row : {path, velocity, stretch, most_friction})
     std::copy_n(other.node_rows_[row].data(), 2 * batch_.nodes * batch_.lanes, node_rows_[row].data());
   for (std::size_t k = 0; k < count(); ++k) tensions_[k].go_on_from(other.tensions_[k]);
   iterations_ = other.iterations_;
@@ -125,15 +129,28 @@ LineAnswer CableLines::answer() {
           &of_lane(mean_gain, 0),   &of_lane(bent_sum, 0),         &of_lane(missed_sum, 0)};
 }
 
+void CableLines::carry(std::size_t k, const std::vector<double>& turned) {
+  const double radius = Vector2d(cables_[k].place[0], cables_[k].place[1]).norm();
+  for (std::size_t i = 0; i < batch_.nodes; ++i)
+    put(stretch, i, k, vector(stretch, i, k) + Vector2d(radius * turned[i], 0));
+}
+
+void CableLines::take_friction(std::size_t k, const CableLines& from, std::size_t number) {
+  for (const OfNode row : {stretch, most_friction})
+    for (std::size_t i = 0; i < batch_.nodes; ++i) put(row, i, k, from.vector(row, i, number));
+}
+
 void CableLines::begin(const HoseLine& hose, std::span<const Frame* const> frames, double time,
-                       bool goes_on) {
+                       bool goes_on, bool rubs) {
   batch_.curvature = hose.curvature.front().data();
   batch_.pull = hose.pull.front().data();
   batch_.elongation = hose.elongation.data();
   for (std::size_t k = 0; k < batch_.lanes; ++k) {
     const std::size_t cable = k < count() ? k : 0;
     const CableTension& pulled = tensions_[cable];
-    of_lane(drag, k) = cables_[cable].drag / time;
+    const bool dry = rubs && cables_[cable].friction > 0;
+    of_lane(drag, k) = (dry ? LooseCable::drag_beside_friction : 1) * cables_[cable].drag / time;
+    of_lane(stick, k) = dry ? LooseCable::stick_stiffness : 0;
     of_lane(free_length_rate, k) = pulled.free_length_rate();
     of_lane(slipped, k) = pulled.slipped();
     of_lane(most_strain, k) = pulled.most_strain();
@@ -183,6 +200,8 @@ void CableLines::put_state(const HoseLine& hose, std::size_t k, CableState& stat
 
 void CableLines::end(const HoseLine& hose, double time, std::span<CableState> states) {
   if (!states.empty() || std::ranges::any_of(tensions_, &CableTension::slips)) follow(hose, states);
+  const bool dry = std::ranges::any_of(cables_, [](const LooseCable& cable) { return cable.friction > 0; });
+  if (dry && !states.empty()) loose_kernels().rub(batch_);
   loose_kernels().end(batch_, memory(), time);
 }
 

@@ -7,6 +7,11 @@
 // sideways (W36). Contact is k_w depth^2 / 2 with the hose's wall, its core, and the limits of its place. At the clamps it stays
 // at its place A0 as it was laid, whatever the hose's twist (b = 0, A' = A0').
 //
+// Dry friction (W42) holds a cable by a spring that slides: in one direction the force per length is k u, at most mu N. u is the
+// displacement from the point where the cable sticks; where the force is mu N, this point follows. Around the hose N is the
+// force on wall and core plus the line load, outward it is the force on neighbours. N and the direction are those of the
+// previous sample, so the force has an energy, k u^2/2 or mu N |u| - (mu N)^2/(2 k), which is added to Pi.
+//
 // Newton's method: bending and tension connect a node with the next two, so the matrix has two bands of 2 x 2
 // blocks. The stretch of the free length adds a matrix of rank one (Sherman and Morrison). Cables do not depend on each other
 // here and are computed side by side in the lanes of a register (strain/loose/line_bench.h).
@@ -47,8 +52,13 @@ class CableLines {
   /// that of its ring.
   using Frame = std::vector<Eigen::Vector2d>;
   /// Starts the next sample. frames: (cable). step: since the previous sample [s]. goes_on: the cable starts with its velocity in
-  /// the frame at the previous sample, else at its previous position in the frame.
-  void begin(const HoseLine& hose, std::span<const Frame* const> frames, double step, bool goes_on);
+  /// the frame at the previous sample, else at its previous position in the frame. rubs: dry friction acts; false while the
+  /// cables are installed.
+  void begin(const HoseLine& hose, std::span<const Frame* const> frames, double step, bool goes_on, bool rubs);
+  /// Moves cable k with its frame over its support. turned: of the frame against the hose since the previous sample (node) [rad].
+  void carry(std::size_t k, const std::vector<double>& turned);
+  /// Takes over the friction of a cable of another object with the same number of nodes.
+  void take_friction(std::size_t k, const CableLines& from, std::size_t number);
   /// Returns the numbers of iterations to rest (cable), written by LineBench.
   std::span<std::int32_t> iterations() { return iterations_; }
   /// Moves the cables of a ring (strain/loose/ring.h) to their places in a frame. with_slope: see LooseKernels.
@@ -76,12 +86,13 @@ class CableLines {
   /// Rows with one value per lane.
   enum OfLane {
     bending_stiffness, axial_stiffness, mass_per_length, wall_stiffness, play, farthest, nearest, gap, per_radius, drag,
-    free_length_rate, slipped, least_strain, most_strain, counts, strain, tension, stiffness, mean_gain, bent_sum, missed_sum,
-    lane_rows
+    friction, line_load, stick, free_length_rate, slipped, least_strain, most_strain, counts, strain, tension, stiffness,
+    mean_gain, bent_sum, missed_sum, lane_rows
   };
   /// Rows with a vector per node, each (node, 2, lane): of LineBatch, LineMemory and LineAnswer.
   enum OfNode {
-    laid, laid_bent, rest, path, place_at, before, velocity, slope, gained, frame_at, bends, hose_bends, offset, node_rows
+    laid, laid_bent, rest, path, place_at, before, velocity, slope, gained, frame_at, bends, hose_bends, offset, around,
+    stretch, most_friction, node_rows
   };
 
   void lay(std::size_t k);

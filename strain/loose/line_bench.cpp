@@ -34,6 +34,7 @@ LineBench::LineBench(const HoseLine& hose) {
   for (const auto row : what_cables_are) bench_.*row = room(1);
   for (const auto row : pulls) bench_.*row = room(1);
   for (const auto row : where_cables_are) bench_.*row = room(2 * bench_.nodes);
+  for (const auto row : how_cables_rub) bench_.*row = room(2 * bench_.nodes);
   for (const OfNode& of : on_the_way) bench_.*of.row = room(of.numbers * bench_.nodes);
 }
 

@@ -155,8 +155,12 @@ void LooseCables::relax(std::span<LooseCables* const> all, double step) {
 
 void LooseCables::begin(double step) {
   rests_ = true;
+  for (std::size_t k = 0; k < cables(); ++k)
+    if (const auto& [ring, number] = in_ring_[k]; ring) ring->take_friction(number, lines_, k);
   for (Ring& ring : rings_) rests_ &= ring.advance(hose_, step, started_);
-  lines_.begin(hose_, frames_, step, started_);
+  for (std::size_t k = 0; k < cables(); ++k)
+    if (const Ring* const ring = in_ring_[k].first) lines_.carry(k, ring->last_turn());
+  lines_.begin(hose_, frames_, step, started_, started_);
 }
 
 void LooseCables::end(double step, int most) {

@@ -78,6 +78,8 @@ Ring::Ring(const std::vector<LooseCable>& cables, const HoseLine& hose, double r
     : lines_(cables, hose, rest_curvature, false),
       psi_(hose.nodes(), 0.0),
       velocity_(psi_),
+      before_(psi_),
+      turned_(psi_),
       frame_(hose.turn),
       bands_(3 * (hose.nodes() - 2)),
       slope_(hose.nodes() - 2) {
@@ -96,8 +98,9 @@ void Ring::go_on_from(const Ring& other) {
 void Ring::place(const HoseLine& hose, bool with_slope) {
   for (std::size_t i = 1; i + 1 < hose.nodes(); ++i)
     frame_[i] = turned(hose.turn[i], {std::cos(psi_[i]), std::sin(psi_[i])});
+  for (std::size_t i = 0; i < psi_.size(); ++i) turned_[i] = psi_[i] - before_[i];
   lines_.place(frame_, with_slope);
-  if (with_slope) loose_kernels().slope_of_turn(lines_.batch(), slope_.data());
+  if (with_slope) loose_kernels().slope_of_turn(lines_.batch(), turned_.data(), slope_.data());
 }
 
 /// Returns Newton's step to the minimum of the local quadratic, with a shift that makes it positive definite. Precondition:
@@ -105,7 +108,7 @@ void Ring::place(const HoseLine& hose, bool with_slope) {
 Eigen::VectorXd Ring::newton_turn() {
   const std::size_t rows = slope_.size(), lanes = lines_.batch().lanes;
   const auto count = static_cast<Eigen::Index>(lines_.count());
-  loose_kernels().assemble_turn(lines_.batch(), {bands_.data(), gained_.data()});
+  loose_kernels().assemble_turn(lines_.batch(), turned_.data(), {bands_.data(), gained_.data()});
   using Table = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const auto by_cable = [&](const LaneRows& of, std::size_t in_all) {
     return Eigen::Map<const Table, 0, Eigen::OuterStride<>>(
@@ -160,15 +163,15 @@ double Ring::step(const HoseLine& hose) {
 }
 
 bool Ring::advance(const HoseLine& hose, double time, bool goes_on) {
-  const std::vector<double> before = psi_;
+  before_ = psi_;
   const std::vector<const CableLines::Frame*> frames(lines_.count(), &hose.turn);
-  lines_.begin(hose, frames, time, false);
+  lines_.begin(hose, frames, time, false, goes_on);
   for (std::size_t i = 0; goes_on && i < psi_.size(); ++i) psi_[i] += time * velocity_[i];
   frame_ = hose.turn;
   place(hose, true);
   bool rests = false;
   for (int k = 0; k < most_iterations && !rests; ++k) rests = step(hose) < at_rest;
-  for (std::size_t i = 0; goes_on && i < psi_.size(); ++i) velocity_[i] = (psi_[i] - before[i]) / time;
+  for (std::size_t i = 0; goes_on && i < psi_.size(); ++i) velocity_[i] = (psi_[i] - before_[i]) / time;
   lines_.end(hose, 0, {});
   return rests;
 }

@@ -4,7 +4,8 @@
 // cables (strain/loose/cable_lines.h); psi = psi' = 0 at the clamps. A turn moves all cables, so contact between them does not
 // resist. With t = J A, the direction of a cable's movement when its ring turns, the slope of the sum is the sum of
 // slope . t. Its matrix is that of bending, tension and drag between these directions, minus slope . A on the diagonal, because
-// places move along circles. Each cable's stretch adds a matrix of rank one (Woodbury).
+// places move along circles. Each cable's stretch adds a matrix of rank one (Woodbury). The friction of all cables on wall and
+// core (W42) resists the turn; neighbours turn with it.
 #pragma once
 
 #include <Eigen/Core>
@@ -35,6 +36,12 @@ class Ring {
   /// Turns to the minimum at the next sample. time: since the previous sample [s]. goes_on: starts with the turning rate of the
   /// previous sample. Returns whether the ring has come to rest.
   bool advance(const HoseLine& hose, double time, bool goes_on);
+  /// Takes over the friction of cable `cable` of all, which is cable `number` of the ring. Call before advance().
+  void take_friction(std::size_t number, const CableLines& from, std::size_t cable) {
+    lines_.take_friction(number, from, cable);
+  }
+  /// Returns the turn against the hose in the last advance() (node) [rad].
+  const std::vector<double>& last_turn() const { return turned_; }
   /// Returns cosine and sine of phi + psi (node): the frame in which the places of its cables are constant.
   const std::vector<Eigen::Vector2d>& frame() const { return frame_; }
 
@@ -45,6 +52,7 @@ class Ring {
 
   CableLines lines_;                    ///< the cables, each at its place in the ring
   std::vector<double> psi_, velocity_;  ///< (node) turn against the hose [rad], [rad/s]
+  std::vector<double> before_, turned_;  ///< (node) psi_ at the previous sample, change since then
   std::vector<Eigen::Vector2d> frame_;
   std::vector<double> bands_, factors_;  ///< (row, 3) diagonal and its two neighbours; row: an inner node
   LaneRows gained_, solved_,

@@ -81,13 +81,17 @@ struct Lines {
   }
 
   void answer() const;
+  Pair sideways(const Pair& path, const Pair& offset) const;
   template <class Use>
   void walk(const Use& use) const;
   void slopes() const;
   struct Touch;
   void contacts(std::size_t node, Touch& touch) const;
+  void rub(std::size_t node, Touch& touch) const;
   void put_press() const;
+  void put_friction() const;
   struct Elimination;
+  struct TurnFriction;
   void eliminate(const Pack& shift, Pack& negative, Pack& there) const;
   void substitute() const;
   void judge(int most, const Pack& there, Progress& progress) const;
@@ -125,12 +129,22 @@ inline void Lines::answer() const {
   store(simd::select(equal(strain, tried), EA / rate, Pack(0.0)), of.stiffness + first);
 }
 
-/// Contributions of contact at one node, per length.
+/// Contributions of contact and friction at one node, per length.
 struct Lines::Touch {
-  Pack press, xx, xy, yy;
+  Pack press, by_neighbours, xx, xy, yy;  // by_neighbours: part of press
   Pair slope;
 
-  inline Touch() : press(0.0), xx(0.0), xy(0.0), yy(0.0), slope{Pack(0.0), Pack(0.0)} {}
+  inline Touch() : press(0.0), by_neighbours(0.0), xx(0.0), xy(0.0), yy(0.0), slope{Pack(0.0), Pack(0.0)} {}
+
+  /// Adds friction along a direction. moved: from the point where the cable sticks. most: largest force.
+  inline void add_friction(const Pair& direction, const Pack& moved, const Pack& stick, const Pack& most) {
+    const Pack held = stick * moved, force = smaller(larger(held, -most), most);
+    const Pack stiffness = simd::select(equal(held, force), stick, Pack(0.0));
+    slope = slope + force * direction;
+    xx += stiffness * direction.x * direction.x;
+    yy += stiffness * direction.y * direction.y;
+    xy += stiffness * direction.x * direction.y;
+  }
 
   /// Adds a contact in the lanes of `mask`. normal: out of the contact partner. depth > 0. across: stiffness across the normal
   /// over that along it.
@@ -172,7 +186,45 @@ inline void Lines::contacts(std::size_t node, Touch& touch) const {
   const Pack moved = dot(along, A), side = simd::select(greater(moved, zero), Pack(-1.0), Pack(1.0));
   const Pack depth = -(side * moved) - gap;
   const DoubleMask beside = greater(depth, zero);
-  if (bits(beside)) touch.add(beside, wall, side * along, depth, zero);
+  if (bits(beside)) {
+    const Pack others = touch.press;
+    touch.add(beside, wall, side * along, depth, zero);
+    touch.by_neighbours = touch.press - others;
+  }
+}
+
+/// Adds dry friction (W36).
+inline void Lines::rub(std::size_t node, Touch& touch) const {
+  const Pack stick = at(of.stick, first);
+  if (!bits(greater(stick, Pack(0.0)))) return;
+  const Pair around = pair(of.around, node), out{around.y, -around.x};
+  const Pair moved = pair(of.path, node) - pair(of.before, node);
+  const Pair stretch = pair(of.stretch, node), most = pair(of.most_friction, node);
+  touch.add_friction(around, stretch.x + dot(around, moved), stick, most.x);
+  touch.add_friction(out, stretch.y + dot(out, moved), stick, most.y);
+}
+
+/// Moves the points where cables stick: the displacement from them is at most that at the largest friction, before and now.
+inline void Lines::put_friction() const {
+  const Pack stick = at(of.stick, first), zero(0.0);
+  const Pack friction = at(of.friction, first), load = at(of.line_load, first);
+  const Pack soft = simd::select(greater(stick, zero), 1.0 / stick, zero);
+  for (std::size_t i = 1; i + 1 < of.nodes; ++i) {
+    Touch touch;
+    contacts(i, touch);
+    const Pair around = pair(of.around, i), out{around.y, -around.x};
+    const Pair moved = pair(of.path, i) - pair(of.before, i);
+    const Pair stretch = pair(of.stretch, i), before = pair(of.most_friction, i);
+    const Pair most{friction * (load + touch.press - touch.by_neighbours), friction * touch.by_neighbours};
+    const auto held = [&](const Pack& to, const Pack& one, const Pack& other) {
+      const Pack farthest = soft * smaller(one, other);
+      return smaller(larger(to, -farthest), farthest);
+    };
+    put({held(stretch.x + dot(around, moved), before.x, most.x),
+         held(stretch.y + dot(out, moved), before.y, most.y)},
+        of.stretch, i);
+    put(most, of.most_friction, i);
+  }
 }
 
 /// Stores the contact forces of cables at their present positions.
@@ -289,6 +341,7 @@ inline void Lines::eliminate(const Pack& shift, Pack& negative, Pack& there) con
   walk([&](std::size_t i, const Pair& gained, const Pair& without_contact) {
     Touch touch;
     contacts(i, touch);
+    rub(i, touch);
     const Pair slope = without_contact + h * touch.slope;
     put(gained, of.gained, i);
     put(slope, of.slope, i);
@@ -438,6 +491,9 @@ void to_bench(const WaitingCable& cable, const LineBatch& bench, std::size_t lan
   for (const auto row : what_cables_are) (bench.*row)[lane] = (kept.*row)[cable.lane];
   for (const auto row : where_cables_are)
     copy(kept.*row + cable.lane, kept.lanes, bench.*row + lane, bench.lanes, 2 * bench.nodes);
+  if (kept.stick[cable.lane] == 0) return;
+  for (const auto row : how_cables_rub)
+    copy(kept.*row + cable.lane, kept.lanes, bench.*row + lane, bench.lanes, 2 * bench.nodes);
 }
 
 void from_bench(const LineBatch& bench, std::size_t lane, const WaitingCable& cable) {
@@ -479,6 +535,14 @@ inline Pair turned(const Pair& of, const Pair& by) { return {of.x * by.x - of.y 
 inline Pair turned_back(const Pair& of, const Pair& by) { return {of.x * by.x + of.y * by.y, of.y * by.x - of.x * by.y}; }
 inline Pack length(const Pair& of) { return square_root(dot(of, of)); }
 
+/// Returns the direction in which a cable slides on its support: around the hose's axis, or around its place if its play limits it.
+inline Pair Lines::sideways(const Pair& path, const Pair& offset) const {
+  const Pack play = at(of.play, first), zero(0.0);
+  const Pair arm = select(greater(dot(offset, offset), play * play), offset, path);
+  const Pack reach = length(arm), per_reach = simd::select(greater(reach, zero), 1.0 / reach, zero);
+  return {-(per_reach * arm.y), per_reach * arm.x};
+}
+
 /// Returns the position after the same movement as in the previous sample. The distance from the hose's axis changes by the same
 /// amount as before, because on a straight line a cable that slides along a round wall would leave it.
 inline Pair gone_on(const Pair& at, const Pair& way) {
@@ -498,7 +562,9 @@ void begin(const LineBatch& batch, const LineMemory& memory, const HoseFrame& ho
       lines.put(Lines::same(hose.rest, i) + turned(lines.pair(memory.laid_bent, i), Lines::same(hose.turn, i)),
                 batch.rest, i);
       lines.put(place, batch.place, i);
-      lines.put(turned(at, frame), batch.before, i);
+      const Pair before = turned(at, frame), offset = before - place;
+      lines.put(before, batch.before, i);
+      lines.put(lines.sideways(before, offset), batch.around, i);
       const bool clamped = i == 0 || i == last;
       const Pair path = ahead == 0 ? at : gone_on(at, Pack(ahead) * lines.pair(memory.velocity, i));
       lines.put(clamped ? place : turned(path, frame), batch.path, i);
@@ -555,6 +621,10 @@ void put_states(const LineBatch& batch, const LineMemory& memory, const HoseFram
   }
 }
 
+void rub(const LineBatch& batch) {
+  for (std::size_t k = 0; k < batch.cables; k += pack_size) Lines{batch, k}.put_friction();
+}
+
 void end(const LineBatch& batch, const LineMemory& memory, double time) {
   for (std::size_t i = 0; i < batch.nodes; ++i)
     for (std::size_t k = 0; k < batch.cables; k += pack_size) {
@@ -584,18 +654,35 @@ void place(const LineBatch& batch, const double* laid, const double* frame, bool
 /// Returns the direction of a cable's movement when its ring turns.
 inline Pair across(const Pair& path) { return {-path.y, path.x}; }
 
-void slope_of_turn(const LineBatch& batch, double* slope) {
+/// Returns moment and stiffness of a cable's friction against its ring's turn, per length.
+struct Lines::TurnFriction {
+  Pack moment, stiffness;
+
+  inline TurnFriction(const Lines& lines, std::size_t node, double turned) {
+    const LineBatch& of = lines.of;
+    const Pack radius = length(lines.pair(of.path, node)), stick = at(of.stick, lines.first);
+    const Pack most = lines.pair(of.most_friction, node).x;
+    const Pack held = stick * (lines.pair(of.stretch, node).x + radius * Pack(turned));
+    const Pack force = smaller(larger(held, -most), most);
+    moment = radius * force;
+    stiffness = simd::select(equal(held, force), radius * radius * stick, Pack(0.0));
+  }
+};
+
+void slope_of_turn(const LineBatch& batch, const double* turned, double* slope) {
   for (std::size_t i = 1; i + 1 < batch.nodes; ++i) {
     Pack sum(0.0);
     for (std::size_t k = 0; k < batch.cables; k += pack_size) {
       const Lines lines{batch, k};
-      sum += at(batch.counts, k) * dot(lines.pair(batch.slope, i), across(lines.pair(batch.path, i)));
+      const Pack friction = Pack(batch.spacing) * Lines::TurnFriction(lines, i, turned[i]).moment;
+      sum += at(batch.counts, k) *
+             (dot(lines.pair(batch.slope, i), across(lines.pair(batch.path, i))) + friction);
     }
     slope[i - 1] = sum_of_lanes(sum);
   }
 }
 
-void assemble_turn(const LineBatch& batch, const RingSystem& system) {
+void assemble_turn(const LineBatch& batch, const double* turned, const RingSystem& system) {
   const std::size_t last = batch.nodes - 1, lanes = batch.lanes;
   const double h = batch.spacing;
   for (std::size_t i = 1; i < last; ++i) {
@@ -607,7 +694,8 @@ void assemble_turn(const LineBatch& batch, const RingSystem& system) {
       const Pack bending = at(batch.bending_stiffness, k) * Pack(1 / (h * h * h));
       const Pair A = lines.pair(batch.path, i), slope = lines.pair(batch.slope, i);
       const Pack diagonal = (at_clamp ? 7.0 : 6.0) * bending + 2.0 * pulled + Pack(h) * at(batch.drag, k);
-      own += counts * (diagonal * dot(A, A) - dot(slope, A));
+      const Pack friction = Pack(h) * Lines::TurnFriction(lines, i, turned[i]).stiffness;
+      own += counts * (diagonal * dot(A, A) - dot(slope, A) + friction);
       if (i + 1 < last) next += counts * (4.0 * bending + pulled) * dot(A, lines.pair(batch.path, i + 1));
       if (i + 2 < last) after += counts * bending * dot(A, lines.pair(batch.path, i + 2));
       store(Pack(counts * dot(lines.pair(batch.gained, i), across(A))),
@@ -662,7 +750,7 @@ void products(const double* a, const double* b, std::size_t rows, const LineBatc
 }  // namespace
 
 extern const LooseKernels set;
-const LooseKernels set{relax, begin, follow, put_states, end, place, assemble_turn, slope_of_turn, substitute_turn, products};
+const LooseKernels set{relax, begin, follow, put_states, rub, end, place, assemble_turn, slope_of_turn, substitute_turn, products};
 
 }  // namespace DRESSLIFE_MACHINE_KERNELS
 }  // namespace dresslife::strain

@@ -25,6 +25,8 @@ struct LineBatch {
   double *wall_stiffness = nullptr, *play = nullptr, *farthest = nullptr, *nearest = nullptr, *gap = nullptr;
   double* per_radius = nullptr;        ///< 1 / |a0|, 0 on the hose's axis [1/m]
   double* drag = nullptr;              ///< eta of this sample [N/m2]
+  double *friction = nullptr, *line_load = nullptr;
+  double* stick = nullptr;             ///< stiffness of friction that holds [N/m2]; 0: no friction at this sample
   double* free_length_rate = nullptr;  ///< free length over that of the hose
   double *slipped = nullptr, *least_strain = nullptr, *most_strain = nullptr;  ///< see CableTension
   double* counts = nullptr;            ///< 1: a cable, 0: a spare lane
@@ -32,6 +34,9 @@ struct LineBatch {
   double* rest = nullptr;                      ///< (node, 2, lane) K0 plus the curvature of its place in it [1/m]
   double *place = nullptr, *before = nullptr;  ///< (node, 2, lane) A0, A_before [m]
   double* path = nullptr;                      ///< (node, 2, lane) A [m]
+  /// Dry friction, (node, 2, lane): direction around the hose; displacement from the points where the cable sticks, around the
+  /// hose and outward, at A_before [m]; largest forces in these directions [N/m].
+  double *around = nullptr, *stretch = nullptr, *most_friction = nullptr;
 
   double *strain = nullptr, *tension = nullptr, *stiffness = nullptr;  ///< (lane) [1], [N], [N]
   double* press = nullptr;                                             ///< (node, lane) [N/m]; null: not needed
@@ -67,9 +72,11 @@ struct LineAnswer {
 constexpr double* LineBatch::*what_cables_are[] = {
     &LineBatch::bending_stiffness, &LineBatch::axial_stiffness, &LineBatch::mass_per_length, &LineBatch::wall_stiffness,
     &LineBatch::play, &LineBatch::farthest, &LineBatch::nearest, &LineBatch::gap, &LineBatch::per_radius, &LineBatch::drag,
-    &LineBatch::free_length_rate, &LineBatch::slipped, &LineBatch::least_strain, &LineBatch::most_strain};
+    &LineBatch::stick, &LineBatch::free_length_rate, &LineBatch::slipped, &LineBatch::least_strain, &LineBatch::most_strain};
 constexpr double* LineBatch::*where_cables_are[] = {&LineBatch::rest, &LineBatch::place, &LineBatch::before,
                                                     &LineBatch::path};
+constexpr double* LineBatch::*how_cables_rub[] = {&LineBatch::around, &LineBatch::stretch,
+                                                  &LineBatch::most_friction};  ///< (node, 2, lane), where `stick` is not 0
 
 /// A cable that waits for the bench.
 struct WaitingCable {
@@ -98,15 +105,18 @@ struct LooseKernels {
   /// Computes the positions in the hose's frame, the error by the distance of nodes, and the contact forces if the batch has
   /// `press`. Precondition: follow().
   void (*put_states)(const LineBatch&, const LineMemory&, const HoseFrame&, const LineAnswer&);
+  /// Moves the points where cables stick, and computes the largest friction from the contact forces at the present positions.
+  void (*rub)(const LineBatch&);
   /// Ends the sample: transforms the path back to its frame. Sets its velocity over `time` seconds; time 0: keeps the old
   /// velocity.
   void (*end)(const LineBatch&, const LineMemory&, double time);
   /// Moves every cable to its place in the ring's frame (node, 2), cosine and sine. laid: places in this frame (node, 2, lane).
   /// with_slope: also computes tension and slope, without contact.
   void (*place)(const LineBatch&, const double* laid, const double* frame, bool with_slope);
-  void (*assemble_turn)(const LineBatch&, const RingSystem&);
-  /// Computes the slope of the sum of the energies (row).
-  void (*slope_of_turn)(const LineBatch&, double* slope);
+  /// turned: since the previous sample (node) [rad].
+  void (*assemble_turn)(const LineBatch&, const double* turned, const RingSystem&);
+  /// Computes the slope of the sum of the energies (row). turned: see assemble_turn.
+  void (*slope_of_turn)(const LineBatch&, const double* turned, double* slope);
   /// Solves for several right-hand sides. bands: factors. table: (row, lane) right-hand sides, replaced by solutions.
   void (*substitute_turn)(const double* bands, std::size_t rows, const LineBatch&, double* table);
   /// Writes the sum over rows of a's column k times b's column j to product[k * lanes + j].

@@ -22,7 +22,7 @@ std::array<Vector2d, 3> begun(const Vector2d& at, const Vector2d& way, const Vec
                               const Vector2d& frame, bool goes_on = true) {
   constexpr std::size_t nodes = 3;
   constexpr double step = 0.04;
-  LaneRows zero, laid_rows, frames, velocity, rest, place, before, path;
+  LaneRows zero, laid_rows, frames, velocity, rest, place, before, path, play, around;
   for (LaneRows* const rows : {&zero, &laid_rows, &frames, &velocity, &rest, &place, &before, &path})
     rows->assign(2 * nodes, most_lanes);
   const auto fill = [](LaneRows& rows, const Vector2d& value) {
@@ -30,7 +30,9 @@ std::array<Vector2d, 3> begun(const Vector2d& at, const Vector2d& way, const Vec
       for (std::size_t k = 0; k < most_lanes; ++k) rows[row * most_lanes + k] = value[row % 2];
   };
   fill(laid_rows, laid), fill(frames, frame), fill(velocity, way / step), fill(path, at);
+  play.assign(1, most_lanes), around.assign(2 * nodes, most_lanes);
   LineBatch batch;
+  batch.play = play.data(), batch.around = around.data();
   batch.nodes = nodes, batch.lanes = batch.cables = most_lanes;
   batch.rest = rest.data(), batch.place = place.data(), batch.before = before.data(),
   batch.path = path.data();
