@@ -27,9 +27,6 @@ constexpr int most_repeats = 30;
 // leaves this share of the error.
 constexpr int most_attempts = 20;
 
-// Samples of a lead-in that are one step, which costs a quarter. The lives of the programs hard and easy differ by 0.6 and
-// 0.8 % from those after a lead-in of all samples, where both come to the same cycle.
-constexpr std::size_t lead_in_at_once = 4;
 // Time in which cables with another slack get this slack [s]. All of it at once would lie in short waves.
 constexpr double feeding = 15;
 // Only cables are evaluated whose sum of eighth powers of curvature is at least this share of the largest sum.
@@ -112,7 +109,11 @@ CablePaths::CablePaths(const Construction& construction, const std::vector<Layer
       lies.slack = cable.slack;
       lies.grip = std::min(cable.base_grip, cable.tool_grip);
       lies.play = layer.laying.play.value_or(without_limit);
-      if (job.rub && layer.friction > 0) lies.drag *= layer.friction / LooseCable::friction_of_drag;
+      if (job.rub && layer.friction > 0) {
+        lies.drag *= layer.friction / LooseCable::friction_of_drag;
+        lies.friction = layer.friction;
+        lies.line_load = layer.line_load;
+      }
       loosened_.push_back(cables_.size());
     } else {
       held.push_back({in.layer, in.number});
@@ -290,14 +291,13 @@ void CablePaths::lead_in(std::span<CablePaths* const> all, const SpanBlock& bloc
       of->add_hose(block);  // for its twist; add() overwrites it
     }
   const std::size_t samples = own.empty() ? 0 : block.deformation.samples();
-  for (std::size_t first = 0; first < samples; first += lead_in_at_once) {
-    const std::size_t count = std::min(lead_in_at_once, samples - first), t = first + count - 1;
+  for (std::size_t t = 0; t < samples; ++t) {
     own.front()->find_nodes(block, t);
     for (CablePaths* const of : own) {
       of->shorten_loose(t);
-      of->feed_slack(static_cast<double>(count) * block.step);
+      of->feed_slack(block.step);
     }
-    LooseCables::advance(cables, own.front()->nodes_, static_cast<double>(count) * block.step);
+    LooseCables::advance(cables, own.front()->nodes_, block.step);
   }
   for (LooseCables* const of : cables) of->forget_restless();
 }
