@@ -9,10 +9,11 @@ namespace dresslife::pipeline {
 struct Remedy {
   std::vector<KeyValue> values = {};  ///< that cure it together
   std::string words = {};             ///< what follows the values: " (now 0.5), or a longer hose"
+  std::string preferred = {};         ///< what precedes them, if it is better than the values: "other clamps; or "
 
-  /// Returns "KEY: VALUE and KEY: VALUE (now 0.5), or a longer hose".
+  /// Returns "other clamps; or KEY: VALUE and KEY: VALUE (now 0.5), or a longer hose".
   std::string text() const;
-  bool empty() const { return values.empty() && words.empty(); }
+  bool empty() const { return values.empty() && words.empty() && preferred.empty(); }
 };
 
 /// Returns a warning in the form of every stage: "WHAT. Likely cause: CAUSE. Remedy: REMEDY". what: the part, the value with its

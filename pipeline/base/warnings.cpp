@@ -119,7 +119,7 @@ std::string Warning::text() const { return where.empty() ? words : where + ": " 
 std::string Remedy::text() const {
   std::vector<std::string> pairs;
   for (const KeyValue& of : values) pairs.push_back(of.key + separator + of.value);
-  return joined(pairs, " and ") + words;
+  return preferred + joined(pairs, " and ") + words;
 }
 
 Warning warning_of(WarningKind kind, std::string where, const std::string& what, const std::string& cause,

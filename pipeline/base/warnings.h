@@ -44,7 +44,7 @@ struct Warning {
   WarningKind kind{};
   std::string where;  ///< "side_panel.mod:45"; empty: the whole job
   std::string words;  ///< problem and remedy; one line
-  /// The values with which the remedy begins (warning_words.h). All of them together cure the warning. Keys are paths in the job; in a
+  /// The values of the remedy (warning_words.h). All of them together cure the warning. Keys are paths in the job; in a
   /// warning about a file of a dresspack they count from its place. Empty: no value is known.
   std::vector<KeyValue> remedy = {};
   /// Returns "side_panel.mod:45: warning: skipped: ..."

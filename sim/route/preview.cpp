@@ -10,6 +10,7 @@
 #include "pipeline/job/setup.h"
 #include "sim/rod/start_curve.h"
 #include "sim/route/bracket.h"
+#include "sim/route/proposal.h"
 #include "sim/run/cures.h"
 #include "sim/run/longest_way.h"
 #include "sim/run/quick_checks.h"
@@ -31,6 +32,35 @@ struct ShownMoment {
   int step = 0;
   Pose pose;
 };
+
+/// Returns the values of a routing near the given one that keeps all limits; empty: none was found.
+pipeline::Remedy remedy_near(const pipeline::Setup& setup) {
+  if (setup.dresspacks.size() > 1) return {};
+  std::optional<pipeline::Routing> found;
+  try {
+    found = routing_near(setup);
+  } catch (const pipeline::InputError&) {  // the job's own errors are reported elsewhere
+  }
+  if (!found) return {};
+  const pipeline::Routing& now = setup.dresspacks.front().routing;
+  pipeline::Remedy remedy;
+  const auto add_clamp = [&](const std::string& key, const pipeline::Clamp& from, const pipeline::Clamp& to) {
+    const auto text = [](const Vector3& v, int digits) {
+      return fmt::format("[{:.{}f}, {:.{}f}, {:.{}f}]", v.x(), digits, v.y(), digits, v.z(), digits);
+    };
+    if (from.position != to.position) remedy.values.push_back({key + ".position_m", text(to.position, 3)});
+    if (from.direction != to.direction) remedy.values.push_back({key + ".direction", text(to.direction, 2)});
+  };
+  add_clamp("routing.base_clamp", *now.base_clamp, *found->base_clamp);
+  add_clamp("routing.tool_clamp", *now.tool_clamp, *found->tool_clamp);
+  if (now.free_length != found->free_length)
+    remedy.values.push_back({"routing.free_length_m", fmt::format("{:.3f}", found->free_length)});
+  remedy.words = fmt::format(
+      " (clamps {:.0f} and {:.0f} mm from their places, where a bracket can be built; keeps all limits in a run)",
+      1e3 * (found->base_clamp->position - now.base_clamp->position).norm(),
+      1e3 * (found->tool_clamp->position - now.tool_clamp->position).norm());
+  return remedy;
+}
 
 void put(std::vector<double>& row, const Vector3& v) { row.insert(row.end(), {v.x(), v.y(), v.z()}); }
 
@@ -65,7 +95,11 @@ class Previewer {
     }
     write_spans(file);
     write_scan(file);
-    QuickWarnings quick = quick_warnings(setup_, longest_);
+    std::optional<pipeline::Remedy> other_places;  // several warnings have the same remedy
+    QuickWarnings quick = quick_warnings(setup_, longest_, [&] {
+      if (!other_places) other_places = remedy_near(setup_);
+      return *other_places;
+    });
     if (robot_ && !robot_->note().empty()) quick.notes.push_back(robot_->note());
     if (robot_ && setup_.simulation.contact)
       if (std::string note = gripper_note(setup_, robot_->tools()); !note.empty())

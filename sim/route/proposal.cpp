@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <random>
+#include <tuple>
 #include <utility>
 
 #include "pipeline/base/constants.h"
@@ -33,11 +36,18 @@ constexpr std::array<double, screened_limits> wished_in_run{0.005, 0.005, 0.04, 
 /// Wished margins in the job's own run: its values are rounded when it is written.
 constexpr std::array<double, screened_limits> wished_of_whole{0.001, 0.001, 0.01, 0.01, 0, 0.001, 0};
 
+/// Margin to the least bend radius that a search prefers among routings that keep all limits. Another zone at the targets ($APO.CPTP)
+/// changed the least radius by 11 % in a program of a KR 16.
+constexpr double comfortable_bend = 0.15;
+
 constexpr double ring_radius = 0.75;  // of a guide ring [diameters]
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double farthest =
     4;  // largest distance of a clamp from the link that carries it, if brackets reach so far [diameters]
 constexpr int drawn_places = 2000;  // number of places beside a link until one has a bracket: one second
+constexpr double least_slack = 0.02, most_slack = 0.32;  // share of the length
+constexpr double most_work_of_further = 3e5;  // of each further short run on the average, in the unit of World::work: 0.15 s
+constexpr double most_work_near = 5e6;  // of short runs near a given routing, in the unit of World::work: 2.4 s of processor time
 constexpr int side_by_side = 4;     // short runs at the same time, independent of the number of threads
 
 struct Candidate {
@@ -87,11 +97,14 @@ class Search {
     for (int k = 0; k < used(); ++k) link_[k] = find_link(setup_.robot, links_[k], given.where);
     const std::unique_ptr<ClampPath> path = path_of(setup);
     start_ = path->at(0).links;
-    for (int k = 0; k < used(); ++k) beside(k);  // throws for a link without such a place
+    unchanged_.where = given.where;
+    unchanged_.mounting_pose = given.mounting_pose;
+    unchanged_.longest_bracket = given.longest_bracket;
   }
 
   /// Runs one search per proposal, each with its own first candidates, so that they end at different places.
   std::vector<Proposal> run() {
+    for (int k = 0; k < used(); ++k) beside(k);  // throws for a link without such a place
     if (settings_.short_runs > 0) return proposals_of(search_by_short_runs());
     std::vector<Candidate> found;
     for (int k = 0; k < settings_.count; ++k) {
@@ -104,7 +117,43 @@ class Search {
     return proposals_of(found);
   }
 
+  /// Changes the given routing a little until one keeps all limits.
+  std::optional<pipeline::Routing> near() {
+    constexpr std::size_t parents = 5;
+    constexpr double first_size = 0.5;
+    const pipeline::Routing given = setup_.dresspacks.front().routing;
+    unchanged_ = given;
+    Candidate own;
+    own.position = {given.base_clamp->position, given.tool_clamp->position};
+    own.direction = {given.base_clamp->direction.normalized(), given.tool_clamp->direction.normalized()};
+    const double way = screener_.longest_ways(setup_).front();
+    own.slack = std::clamp(1 - way / given.free_length, least_slack, most_slack);
+    evaluate(own, never);
+    std::vector<Candidate> kept;
+    double size = first_size, work = 0;
+    const auto run_all = [&](std::vector<Candidate>& all) {
+      make_short_runs(all, routing_run_segments, routing_run_repeats, wished_in_run, useless_bend(kept, parents, false));
+      for (const Candidate& one : all) work += one.short_run.work;
+    };
+    std::vector<Candidate> first{own};
+    run_all(first);
+    keep(kept, std::move(first.front()), parents);
+    for (int left = settings_.short_runs; left > 0 && work < most_work_near; left -= side_by_side) {
+      std::vector<Candidate> next;
+      while (static_cast<int>(next.size()) < side_by_side) next.push_back(child(kept, size));
+      run_all(next);
+      const Badness before = badness(kept.front());
+      for (Candidate& candidate : next) keep(kept, std::move(candidate), parents);
+      size = next_size(size, badness(kept.front()) < before);
+      while (look_at_first_whole(kept)) work += kept.front().short_run.work;
+      if (is_found(kept.front())) return kept.front().routing;
+    }
+    return {};
+  }
+
  private:
+  using Badness = std::tuple<double, double, double>;
+
   static std::vector<Proposal> proposals_of(const std::vector<Candidate>& found) {
     std::vector<Proposal> proposals;
     for (const Candidate& candidate : found)
@@ -130,9 +179,10 @@ class Search {
       return excluded(std::move(beginnings));
     double size = 1;
     int left = settings_.short_runs;
-    const auto whole_ones = [&] { return std::count_if(kept.begin(), kept.end(), is_found); };
     int further = settings_.further;
-    while (left > 0 && (whole_ones() < settings_.count || further > 0)) {
+    std::vector<Candidate> found;  // keep all limits as the job; the further ones are run as the job at the end
+    double further_work = 0;
+    while (left > 0 && (found.empty() || (further > 0 && further_work < settings_.further * most_work_of_further))) {
       const int done = settings_.short_runs - left;
       report_progress(geometry_share + (1 - geometry_share) * done / settings_.short_runs,
                       fmt::format("short run {} of at most {}{}", done + 1, settings_.short_runs,
@@ -145,18 +195,29 @@ class Search {
         if (begins) beginnings.pop_back();
       }
       left -= static_cast<int>(next.size());
-      if (whole_ones() >= settings_.count) further -= static_cast<int>(next.size());
-      make_short_runs(next, routing_run_segments, routing_run_repeats, wished_in_run);
-      const std::pair<double, double> before = kept.empty() ? std::pair(never, never) : badness(kept.front());
+      if (!found.empty()) further -= static_cast<int>(next.size());
+      make_short_runs(next, routing_run_segments, routing_run_repeats, wished_in_run,
+                      useless_bend(kept, parents, !found.empty()));
+      for (const Candidate& one : next) further_work += found.empty() ? 0 : one.short_run.work;
+      const Badness before = kept.empty() ? Badness(never, never, never) : badness(kept.front());
       for (Candidate& candidate : next) keep(kept, std::move(candidate), parents);
       const bool better = badness(kept.front()) < before;
-      if (!begins) size = std::clamp(size * (better ? 1.3 : 0.9), 0.05, 2.0);
-      while (look_at_first_whole(kept)) --left;
+      if (!begins) size = next_size(size, better);
+      while (found.empty() && look_at_first_whole(kept)) --left;
+      if (found.empty() && std::count_if(kept.begin(), kept.end(), is_found) >= settings_.count)
+        std::copy_if(kept.begin(), kept.end(), std::back_inserter(found), is_found);
       if (3 * left < 2 * settings_.short_runs && kept.front().missing_in_run > hopeless) break;
+    }
+    if (!found.empty()) {
+      std::erase_if(kept, is_found);
+      for (Candidate& candidate : found) keep(kept, std::move(candidate), kept.size() + 1);
+      while (look_at_first_whole(kept)) continue;
     }
     if (kept.size() > static_cast<std::size_t>(settings_.count)) kept.resize(settings_.count);
     return kept;
   }
+
+  static double next_size(double size, bool better) { return std::clamp(size * (better ? 1.3 : 0.9), 0.05, 2.0); }
 
   /// Returns the candidates with the smallest violation if none can run, with the reason.
   std::vector<Candidate> excluded(std::vector<Candidate> all) const {
@@ -186,9 +247,10 @@ class Search {
     if (settings_.progress) settings_.progress(share, words);
   }
 
-  /// Returns the order of a candidate after its short run: limits first.
-  static std::pair<double, double> badness(const Candidate& of) {
-    return {of.missing_in_run, of.short_run.swing};
+  /// Returns the order of a candidate after its short run: limits first, then the margin of its bend.
+  static Badness badness(const Candidate& of) {
+    const double bend = of.short_run.seen.beyond[static_cast<std::size_t>(ScreenedLimit::bend)];
+    return {of.missing_in_run, std::max(0.0, bend + comfortable_bend), of.short_run.swing};
   }
 
   static bool is_found(const Candidate& candidate) {
@@ -232,14 +294,22 @@ class Search {
     return sum;
   }
 
+  /// Returns the bend above which a candidate is not kept.
+  static double useless_bend(const std::vector<Candidate>& kept, std::size_t most, bool only_limits) {
+    constexpr auto bend = static_cast<std::size_t>(ScreenedLimit::bend);
+    const double worst = kept.size() < most ? never : kept.back().missing_in_run;
+    return (only_limits ? 0 : worst) - wished_in_run[bend];
+  }
+
+  /// useless_beyond: as in short_run_of().
   void make_short_runs(std::vector<Candidate>& candidates, int segments, int repeats,
-                       const std::array<double, screened_limits>& wishes) const {
+                       const std::array<double, screened_limits>& wishes, double useless_beyond = never) const {
     const std::size_t threads = std::min(pipeline::thread_count(), candidates.size());
     pipeline::in_parallel(threads, [&](std::size_t part) {
       for (std::size_t k = part; k < candidates.size(); k += threads) {
         pipeline::Setup setup = setup_;
         setup.dresspacks.front().routing = candidates[k].routing;
-        candidates[k].short_run = short_run_of(std::move(setup), segments, repeats);
+        candidates[k].short_run = short_run_of(std::move(setup), segments, repeats, false, useless_beyond);
       }
     });
     for (Candidate& candidate : candidates) {
@@ -378,7 +448,7 @@ class Search {
       if (chance_.below(2))
         candidate.direction[k] = (candidate.direction[k] + 0.4 * size * chance_.normal_vector()).normalized();
     }
-    candidate.slack = std::clamp(candidate.slack + 0.05 * size * chance_.normal(), 0.02, 0.32);
+    candidate.slack = std::clamp(candidate.slack + 0.05 * size * chance_.normal(), least_slack, most_slack);
     return candidate;
   }
 
@@ -386,12 +456,9 @@ class Search {
   void evaluate(Candidate& candidate, double to_beat,
                const std::array<double, screened_limits>& wishes = wished) {
     pipeline::Routing& routing = candidate.routing;
-    routing.where = setup_.dresspacks.front().routing.where;
-    routing.base_clamp = clamp(candidate, base);
-    routing.tool_clamp = clamp(candidate, tool);
-    routing.mounting_pose = setup_.dresspacks.front().routing.mounting_pose;
-    routing.longest_bracket = setup_.dresspacks.front().routing.longest_bracket;
-    routing.rings.clear();
+    routing = unchanged_;
+    routing.base_clamp = clamp(candidate, base, unchanged_.base_clamp);
+    routing.tool_clamp = clamp(candidate, tool, unchanged_.tool_clamp);
     if (used() > ring) {
       pipeline::GuideRing& guide = routing.rings.emplace_back();
       guide.link = links_[ring];
@@ -424,11 +491,16 @@ class Search {
   /// Returns a place or direction rounded as in a written job.
   static Vector3 rounded(const Vector3& v, double step) { return (v / step).array().round() * step; }
 
-  pipeline::Clamp clamp(const Candidate& candidate, int place) const {
-    return {links_[place], candidate.position[place], rounded(candidate.direction[place], 1e-2), {}, {}};
+  pipeline::Clamp clamp(const Candidate& candidate, int place, const std::optional<pipeline::Clamp>& given) const {
+    pipeline::Clamp made = given.value_or(pipeline::Clamp{});
+    made.link = links_[place];
+    made.position = candidate.position[place];
+    made.direction = rounded(candidate.direction[place], 1e-2);
+    return made;
   }
 
   pipeline::Setup setup_;  // with the routing that is evaluated
+  pipeline::Routing unchanged_;  // what every candidate has
   const ProposalSettings& settings_;
   const Screener screener_;
   Chance chance_;
@@ -442,6 +514,13 @@ class Search {
 
 std::vector<Proposal> propose(const pipeline::Setup& setup, const ProposalSettings& settings) {
   return Search(setup, settings).run();
+}
+
+std::optional<pipeline::Routing> routing_near(const pipeline::Setup& setup) {
+  constexpr int short_runs = 60;
+  ProposalSettings settings;
+  settings.short_runs = short_runs;
+  return Search(setup, settings).near();
 }
 
 }  // namespace dresslife::sim

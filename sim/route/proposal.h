@@ -6,13 +6,14 @@
 // distance of the clamps (V1). The best candidates are then changed a little, many times (an evolution strategy without
 // recombination; it needs no derivatives, which the screening does not have). The objective is the sum of the violations of a
 // wished margin to each limit, for the hose at rest under its weight. If wanted, the best candidates are then changed in the same
-// way by their results in short runs (short_run.h): first by their limits; among those that keep all limits by the smallest
-// changes of bend and twist, because no life is known here. Candidates that keep all limits are checked in the job's own run and
+// way by their results in short runs (short_run.h): first by their limits; among those that keep all limits by a
+// margin of the bend, then by the smallest changes of bend and twist, because no life is known here. Candidates that keep all limits are checked in the job's own run and
 // by the checks of `dresslife check`. Equal seeds give equal proposals.
 #pragma once
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,5 +49,10 @@ struct Proposal {
 /// place for a bracket. If geometry certainly excludes all tried routings, there are no short runs, and the short runs of the
 /// proposals contain the reason.
 std::vector<Proposal> propose(const pipeline::Setup& setup, const ProposalSettings& settings);
+
+/// Returns a routing near the given one, with clamps on the same links, that keeps all limits as propose() does; absent: none of
+/// some tens was found. Precondition: one dresspack with one span between two clamps of a robot, without rings and without a
+/// retraction unit. Errors: InputError as of Screener.
+std::optional<pipeline::Routing> routing_near(const pipeline::Setup& setup);
 
 }  // namespace dresslife::sim

@@ -7,6 +7,7 @@
 #include "pipeline/base/errors.h"
 #include "pipeline/files/check_names.h"
 #include "sim/run/simulate.h"
+#include "sim/run/step_choice.h"
 
 namespace dresslife::sim {
 namespace {
@@ -94,18 +95,35 @@ class Bends {
 
 }  // namespace
 
-RoutingRun short_run_of(pipeline::Setup setup, int segments, int repeats) {
+RoutingRun short_run_of(pipeline::Setup setup, int segments, int repeats, bool with_bends, double useless_beyond) {
   RoutingRun short_run;
   short_run.seen.beyond.fill(-std::numeric_limits<double>::infinity());
   short_run.seen.time.fill(0);
-  setup.simulation.segments = std::min(setup.simulation.segments, segments);
-  setup.simulation.most_repeats = std::min(setup.simulation.most_repeats, repeats);
+  pipeline::SimulationSettings& settings = setup.simulation;
+  if (settings.choose_time_step && segments < settings.segments) {  // few segments have a larger error than the first step
+    settings.choose_time_step = false;
+    settings.time_step = first_step(settings.sample_rate);
+  }
+  settings.segments = std::min(settings.segments, segments);
+  settings.most_repeats = std::min(settings.most_repeats, repeats);
   try {
     const Simulation simulation(setup);
     Bends bends(simulation);
-    const RunSummary summary =
-        simulation.run({[&](const Sample& sample) { bends.see(sample); }, [&](int) { bends.begin(); }});
-    short_run.bends = bends.beyond();
+    RunSinks sinks{[&](const Sample& sample) { bends.see(sample); }, [&](int) { bends.begin(); }};
+    // A choice needs the error of the step. Bends need every moment, also those of rounds that the checks leave out.
+    if (!settings.choose_time_step && !with_bends) sinks.wanted = Wanted::checks;
+    sinks.goes_on = [&](double work, bool) {
+      short_run.work += work;
+      return true;
+    };
+    const double sharpest = std::exp(useless_beyond) / limits_of(setup.dresspacks.front().dresspack).least_bend_radius;
+    sinks.still_of_use = [&](const MotionChecks& checks) {
+      for (int j = 0; j < simulation.rod().links(); ++j)
+        if (simulation.rod().span_of_link(j).dresspack == 0 && checks.curvature()[j].value > sharpest) return false;
+      return true;
+    };
+    const RunSummary summary = simulation.run(sinks);
+    if (with_bends) short_run.bends = bends.beyond();
     short_run.swing = bends.swing();
     for (const Check& check : summary.checks) see(short_run.seen, check);
   } catch (const pipeline::InputError& problem) {

@@ -26,6 +26,7 @@ struct RoutingRun {
   /// Largest change of a link's bend and twist over the last repeat, with which a life decreases: the root of the sum of the
   /// squared ranges of both curvatures and of the twist [1/m]. Infinite: it does not run.
   double swing = std::numeric_limits<double>::infinity();
+  double work = 0;  ///< in the unit of World::work
 };
 
 /// Few enough that all are modelled with one matrix (pipeline/advise/search), and enough that a part
@@ -37,7 +38,9 @@ inline constexpr int bend_moments = 16, bend_stretches = 3;
 inline constexpr int routing_run_segments = 24, routing_run_repeats = 1;
 
 /// Returns the result of a short run. segments: of each dresspack, at most those of the job. repeats: of the motion, at most
-/// those of the job.
-RoutingRun short_run_of(pipeline::Setup setup, int segments, int repeats);
+/// those of the job. with_bends: whether `bends` is evaluated; without them a motion with loops takes less time. useless_beyond:
+/// (V3) of the first dresspack above which the run ends.
+RoutingRun short_run_of(pipeline::Setup setup, int segments, int repeats, bool with_bends = true,
+                        double useless_beyond = std::numeric_limits<double>::infinity());
 
 }  // namespace dresslife::sim

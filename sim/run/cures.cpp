@@ -202,6 +202,7 @@ class RemedySearch {
   Remedy remedy() {
     Remedy& known = motion_.remedies[dresspack_];
     if (known.empty()) known = found();
+    if (known.empty() && motion_.other_places) known = motion_.other_places();
     return known;
   }
   /// Returns " (best of those tried: 1.250 m, bend radius 210.3 mm at rest, 187.2 mm in a short run; asked are 200.0 mm)": the
@@ -358,6 +359,13 @@ std::string relief_remark(const CheckedMotion& motion, const Check& broken) {
                      pipeline::relief_text(pipeline::first_relief(dresspack.diameter, dresspack.bending_stiffness, routing.free_length / motion.setup.simulation.segments)));
 }
 
+/// Returns "a repeat takes 12.3 s instead of 11.0 s" for another acceleration.
+std::string cycle_words(const CheckedMotion& motion, double percent) {
+  pipeline::Setup changed = motion.setup;
+  changed.motion.acceleration_percent = percent;
+  return fmt::format("a repeat takes {:.1f} s instead of {:.1f} s", path_of(changed)->duration(), motion.path->duration());
+}
+
 /// Returns the acceleration that keeps the limit; 0: none was found.
 double slower(const CheckedMotion& motion, const std::vector<Check>& checks, const Check& broken, double k_rest) {
   constexpr int most = 3;
@@ -391,8 +399,12 @@ Cure bend_cure(const CheckedMotion& motion, const std::vector<Check>& checks, co
   if (std::isinf(k_rest)) {
     cause = "its length and its clamps do not suit the motion; no shape at rest was found for the clamps as they are";
   } else if (at_rest) {
-    const bool turns = std::ranges::any_of(remedy.values, [](const pipeline::KeyValue& of) { return of.key.ends_with(".direction"); });
-    cause = remedy.empty() ? "distance and direction of the clamps" : turns ? "directions of the clamps" : "the free length";
+    const auto changes = [&](std::string_view key) {
+      return std::ranges::any_of(remedy.values, [&](const pipeline::KeyValue& of) { return of.key.ends_with(key); });
+    };
+    cause = remedy.empty() || changes(".position_m") ? "distance and direction of the clamps"
+            : changes(".direction")                  ? "directions of the clamps"
+                                                     : "the free length";
     // The warning of the check at rest already contains its own radius, with more segments and with twist.
     if (broken.name == check_name::bend_radius)
       cause += fmt::format(" (already at rest and without the robot its bend radius is {} over the program)", radius_words(k_rest));
@@ -419,8 +431,9 @@ Cure bend_cure(const CheckedMotion& motion, const std::vector<Check>& checks, co
   if (remedy.empty() && swings)
     if (const double percent = slower(motion, checks, broken, k_rest); percent > 0)
       remedy = {{{"motion.acceleration_percent", fmt::format("{:.0f}", percent)}},
-                fmt::format(" (now {:.0f}; tried in a short run), or other clamps with the present program: dresslife route",
-                            motion.setup.motion.acceleration_percent)};
+                fmt::format(" (now {:.0f}; tried in a short run; {})", motion.setup.motion.acceleration_percent,
+                            cycle_words(motion, percent)),
+                "other clamps for the present program, which `dresslife check` or `dresslife route` finds; or a slower program, "};
   if (remedy.empty()) {
     double least = broken.value;  // a limit that both the checks at rest and the short run would keep
     for (const Check& check : checks)
@@ -507,9 +520,10 @@ Cure tension_cure(const CheckedMotion& motion, const std::vector<Check>& checks,
     return {"it is pulled tight: " + longer.cause, longer.remedy};
   }
   const double percent = motion.setup.motion.acceleration_percent;
+  const double less = std::max(1.0, std::floor(percent * broken.limit / broken.value));
   return {"its weight and the acceleration of the program",
-          {{{"motion.acceleration_percent", fmt::format("{:.0f}", std::max(1.0, std::floor(percent * broken.limit / broken.value)))}},
-           fmt::format(" or less (now {:.0f}), or {}: {:.0f} if the maker allows it", percent,
+          {{{"motion.acceleration_percent", fmt::format("{:.0f}", less)}},
+           fmt::format(" or less (now {:.0f}; {}), or {}: {:.0f} if the maker allows it", percent, cycle_words(motion, less),
                        key_of(motion.setup, broken.dresspack, "dresspack.most_tension_N"), std::ceil(broken.value))}};
 }
 

@@ -6,7 +6,9 @@
 //     a = a_now (k_limit - k_rest) / (k - k_rest)        k: curvature
 // Lengths, directions of the clamps, pre-twists and accelerations are tried before they are proposed, with the checks of
 // quick_checks.h: with the remedy the job keeps its limits of bend and slack at rest and in a short run, and exceeds no
-// additional limit. If no tried value does so, the remedy states this and names the search for other clamps.
+// additional limit. If no length and no direction does so, clamps at other places of the same links are searched (sim/route), and
+// after these a slower program is tried, whose remedy states the longer repeat. If nothing is found, the remedy states this and
+// names the search for other clamps.
 #pragma once
 
 #include <functional>
@@ -28,6 +30,8 @@ struct CheckedMotion {
   std::function<std::string(double)> moment;  ///< "at 1.2 s, program step 3 'text'"
   const Rod* rod = nullptr;                   ///< null for a prescribed deformation
   const ClampPath* path = nullptr;            ///< null for a prescribed deformation
+  /// Returns a remedy with clamps at other places on their links, if no length and no direction is one; may be empty.
+  std::function<pipeline::Remedy()> other_places = {};
   mutable double work = 0;                    ///< work of the short runs that tried remedies, in the unit of World::work
   mutable std::map<int, pipeline::Remedy> remedies{};  ///< (dresspack) a routing that keeps its limits; empty: none was found
 };

@@ -101,9 +101,9 @@ class QuickChecks {
     return found;
   }
 
-  QuickWarnings warnings() {
+  QuickWarnings warnings(const std::function<pipeline::Remedy()>& other_places) {
     QuickFindings found = findings();
-    const CheckedMotion motion{setup_, [&](double time) { return moment(time); }, &rod_, path_.get()};
+    const CheckedMotion motion{setup_, [&](double time) { return moment(time); }, &rod_, path_.get(), other_places};
     std::vector<Check> said;  // a bend that exists at rest is not reported a second time for the motion
     for (const Check& check : found.checks)
       if (check.name != check_name::bend_radius ||
@@ -460,8 +460,9 @@ QuickFindings findings_unless(const pipeline::Setup& setup, const std::function<
                               double useless_below, int dresspack) {
   return QuickChecks(setup).findings_unless(rejects, useless_below, dresspack);
 }
-QuickWarnings quick_warnings(const pipeline::Setup& setup, std::vector<LongestWay> longest) {
-  return QuickChecks(setup, std::move(longest)).warnings();
+QuickWarnings quick_warnings(const pipeline::Setup& setup, std::vector<LongestWay> longest,
+                             const std::function<pipeline::Remedy()>& other_places) {
+  return QuickChecks(setup, std::move(longest)).warnings(other_places);
 }
 
 }  // namespace dresslife::sim

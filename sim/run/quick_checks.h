@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/base/warnings.h"
+#include "pipeline/base/warning_words.h"
 #include "sim/run/checks.h"
 #include "sim/run/longest_way.h"
 
@@ -63,7 +63,8 @@ struct QuickWarnings {
   std::vector<pipeline::Warning> warnings;
   std::vector<std::string> notes;
 };
-/// longest: longest_ways() with setup.simulation.time_step; empty: they are computed.
-QuickWarnings quick_warnings(const pipeline::Setup& setup, std::vector<LongestWay> longest = {});
+/// longest: longest_ways() with setup.simulation.time_step; empty: they are computed. other_places: see cures.h.
+QuickWarnings quick_warnings(const pipeline::Setup& setup, std::vector<LongestWay> longest = {},
+                             const std::function<pipeline::Remedy()>& other_places = {});
 
 }  // namespace dresslife::sim

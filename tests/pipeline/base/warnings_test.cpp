@@ -41,6 +41,9 @@ TEST_CASE("warnings say what is wrong, why, and what to do, with the values of t
   const Remedy remedy{{{"routing.pre_twist_deg", "-90"}, {"routing.free_length_m", "1.2"}}, ", or another clamp"};
   CHECK(twist(remedy).line() == begin + "routing.pre_twist_deg: -90 and routing.free_length_m: 1.2, or another clamp");
   CHECK(twist(remedy).remedy == remedy.values);
+  const Remedy last{{{"motion.acceleration_percent", "50"}}, " (now 100)", "other clamps; or "};
+  CHECK(twist(last).line() == begin + "other clamps; or motion.acceleration_percent: 50 (now 100)");
+  CHECK(twist(last).remedy == last.values);
   const std::string in_words = "routing.pre_twist_deg: -90";
   CHECK(twist(in_words).line() == begin + in_words);
   CHECK(twist(in_words).remedy.empty());

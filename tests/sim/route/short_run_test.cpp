@@ -1,16 +1,19 @@
 // The limits of a short run for a search, against the full run; and proposed routings that keep their limits in it.
 #include "sim/route/short_run.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <optional>
 
 #include "pipeline/advise/improve/scaled.h"
 #include "pipeline/base/statistics.h"
 #include "pipeline/resolve/job_text.h"
 #include "sim/route/exercise.h"
 #include "sim/route/proposal.h"
+#include "sim/run/quick_checks.h"
 #include "sim/run/simulate.h"
 #include "tests/catch.h"
 #include "tests/sim/simple_job.h"
@@ -103,6 +106,32 @@ TEST_CASE("proposals with a short run keep all limits in the job's own run") {
     INFO(check.name << " " << check.value << " of " << check.limit);
     CHECK_FALSE(check.warning);
   }
+
+  // A worse routing between the same links: a small change of it keeps the limits again.
+  const auto warns = [](const pipeline::Setup& setup) {
+    const QuickFindings quick = quick_findings(setup);
+    return !quick.run.refusal.empty() ||
+           std::any_of(quick.checks.begin(), quick.checks.end(), [](const Check& check) { return check.warning; });
+  };
+  CHECK_FALSE(warns(job));
+  pipeline::Routing& routing = job.dresspacks.front().routing;
+  const Vector3 along = routing.base_clamp->direction.normalized();
+  routing.base_clamp->direction = along + std::numbers::sqrt3 * along.unitOrthogonal();  // turned by 60 deg
+  routing.tool_clamp->bend_relief = pipeline::BendRelief{0.05, 1};
+  REQUIRE(warns(job));
+  const pipeline::Routing spoiled = routing;
+  const std::optional<pipeline::Routing> near = routing_near(job);
+  REQUIRE(near);
+  routing = *near;
+  CHECK_FALSE(warns(job));
+  CHECK(near->base_clamp->link == spoiled.base_clamp->link);
+  CHECK(near->tool_clamp->link == spoiled.tool_clamp->link);
+  CHECK(near->tool_clamp->bend_relief);  // what a routing has besides places, directions and length is kept
+  const double far = std::max((near->base_clamp->position - spoiled.base_clamp->position).norm(),
+                              (near->tool_clamp->position - spoiled.tool_clamp->position).norm());
+  CHECK(far < 0.2);
+  job.dresspacks.front().dresspack.least_bend_radius = 3;  // no link is so long
+  CHECK_FALSE(routing_near(job));
 }
 
 }  // namespace dresslife::sim

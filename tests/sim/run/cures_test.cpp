@@ -1,6 +1,8 @@
 // The remedies that warnings name: after each is applied, its warning disappears.
 #include "sim/run/cures.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <optional>
@@ -268,7 +270,14 @@ TEST_CASE("cures: a hose that is pulled tight is cured by its length, one that i
   job.dresspacks[0].routing.free_length = 1.2;
   job.dresspacks[0].dresspack.bending_stiffness = 0.02;  // it hangs; a stiffer hose would carry itself on its clamps
   job.dresspacks[0].dresspack.most_tension = 1;
-  CHECK_THAT(words_of(job, pipeline::WarningKind::tension), Catch::Contains("its weight and the acceleration"));
+  const std::string heavy = words_of(job, pipeline::WarningKind::tension);
+  CHECK_THAT(heavy, Catch::Contains("its weight and the acceleration"));
+  // A slower program has a price, which the warning states.
+  const double now = Simulation(job).path().duration();
+  job.motion.acceleration_percent = value_of(heavy, "motion.acceleration_percent");
+  const double then = Simulation(job).path().duration();
+  CHECK(then > now);
+  CHECK_THAT(heavy, Catch::Contains(fmt::format("a repeat takes {:.1f} s instead of {:.1f} s", then, now)));
 }
 
 /// Returns the number after a key of a remedy; std::nullopt: the remedy does not contain this key.
