@@ -12,6 +12,7 @@
 #include <span>
 #include <unordered_map>
 
+#include "pipeline/advise/plan/pooled_lives.h"
 #include "pipeline/advise/plan/rounds.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/base/readable.h"
@@ -682,16 +683,15 @@ std::map<std::string, LifeTable> life_tables(const DutyFile& file, const Study& 
       }
     }
   });
-  // From (draw, world) to (world, draw), rising in each world.
+  // From (draw, world) to (world, draw).
   in_parallel(threads, [&](std::size_t part) {
     for (std::size_t k = tasks.size() * part / threads; k < tasks.size() * (part + 1) / threads; ++k) {
-      std::vector<float> by_draw = tasks[k].table->hours;
-      for (std::size_t w = 0; w < worlds; ++w) {
-        float* const hours = tasks[k].table->hours.data() + w * draws;
-        for (std::size_t d = 0; d < draws; ++d) hours[d] = by_draw[d * worlds + w];
-        std::sort(hours, hours + draws);
-      }
-      if (keep_draws) tasks[k].table->of_draw = std::move(by_draw);
+      LifeTable& table = *tasks[k].table;
+      std::vector<float> by_draw = table.hours;
+      for (std::size_t w = 0; w < worlds; ++w)
+        for (std::size_t d = 0; d < draws; ++d) table.hours[w * draws + d] = by_draw[d * worlds + w];
+      if (keep_draws) table.of_draw = std::move(by_draw);
+      remove_chance(table);
     }
   });
   return tables;
