@@ -1,8 +1,12 @@
 #include "pipeline/advise/plan/pooled_lives.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <span>
+#include <utility>
 
 #include "pipeline/base/order.h"
 
@@ -13,6 +17,25 @@ constexpr std::size_t pooled = 8192;  // lives: the error of 1 - S = 1 % is 11 %
 
 std::span<const float> lives_in(const LifeTable& table, std::size_t world) {
   return {table.hours.data() + world * table.draws, table.draws};
+}
+
+/// Sorts numbers by their bits, 11 at a time (radix sort). For thousands of numbers it takes a fraction of the time of std::sort,
+/// which has half of its comparisons predicted wrong.
+void sort_by_bits(std::vector<float>& numbers) {
+  constexpr std::uint32_t sign = 0x80000000, digits = 11, values = 1u << digits;
+  std::vector<std::uint32_t> keys, sorted(numbers.size());  // in the order of the numbers
+  for (const float number : numbers) {
+    const auto bits = std::bit_cast<std::uint32_t>(number);
+    keys.push_back(bits & sign ? ~bits : bits | sign);
+  }
+  for (std::uint32_t shift = 0; shift < 32; shift += digits) {
+    std::array<std::uint32_t, values> place{};  // first the count of a digit, then its next place
+    for (const std::uint32_t key : keys) ++place[key >> shift & (values - 1)];
+    for (std::uint32_t next = 0; std::uint32_t & of_digit : place) next += std::exchange(of_digit, next);
+    for (const std::uint32_t key : keys) sorted[place[key >> shift & (values - 1)]++] = key;
+    keys.swap(sorted);
+  }
+  for (std::size_t k = 0; k < keys.size(); ++k) numbers[k] = std::bit_cast<float>(keys[k] & sign ? keys[k] ^ sign : ~keys[k]);
 }
 
 }  // namespace
@@ -41,12 +64,14 @@ PooledLives::PooledLives(const LifeTable& table) : draws_(table.draws), mean_(ta
   distance_.resize(pools);
   for (std::size_t p = 0; p <= pools; ++p) begin_.push_back(table.worlds * p / pools);
   for (std::size_t p = 0; p < pools; ++p) {
+    distance_[p].reserve((begin_[p + 1] - begin_[p]) * table.draws);
     for (std::size_t place = begin_[p]; place < begin_[p + 1]; ++place) {
       const std::size_t w = order_[place];
       pool_of_[w] = p;
-      for (std::size_t d = 0; d < table.draws; ++d) distance_[p].push_back(logs[w * table.draws + d] - static_cast<float>(mean_[w]));
+      const float* const of_world = logs.data() + w * table.draws;
+      for (std::size_t d = 0; d < table.draws; ++d) distance_[p].push_back(of_world[d] - static_cast<float>(mean_[w]));
     }
-    std::sort(distance_[p].begin(), distance_[p].end());
+    sort_by_bits(distance_[p]);
   }
 }
 
