@@ -12,6 +12,7 @@
 #include <span>
 #include <unordered_map>
 
+#include "pipeline/advise/plan/pooled_lives.h"
 #include "pipeline/advise/plan/rounds.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/base/readable.h"
@@ -66,24 +67,29 @@ std::map<std::string, std::string> beside_motion(const Job& job) {
   return sections;
 }
 
-/// Returns a text that is equal only if all sections except the motion are equal, so that their keys need no comparison.
+/// Returns the job as text without its motion. Equal texts have equal sections except the motion.
 std::string text_beside_motion(Job job) {
   job.motion = {};
   return job_text(job);
 }
 
-/// Returns a number for each different text_beside_motion() of the programs in a file; jobs with one result share one Job.
-std::map<const Job*, std::size_t> texts_of(const DutyFile& file, const Jobs& jobs) {
+/// Returns a number for each different beside_motion() of the programs in a file; jobs with one result share one Job. Jobs with
+/// equal texts are read once, because reading a job takes milliseconds.
+std::map<const Job*, std::size_t> sections_of(const DutyFile& file, const Jobs& jobs) {
   std::map<const Job*, std::size_t> numbers;
-  std::map<std::string, std::size_t> known;
+  std::map<std::string, std::size_t> texts;
+  std::map<std::map<std::string, std::string>, std::size_t> sections;
   for (const Duty& duty : file.duties)
     for (const DutyProgram& program : duty.programs)
-      if (const Job* const job = jobs.find(program.job); job && !numbers.contains(job))
-        numbers[job] = known.try_emplace(text_beside_motion(*job), known.size()).first->second;
+      if (const Job* const job = jobs.find(program.job); job && !numbers.contains(job)) {
+        const auto [text, is_new] = texts.try_emplace(text_beside_motion(*job), 0);
+        if (is_new) text->second = sections.try_emplace(beside_motion(*job), sections.size()).first->second;
+        numbers[job] = text->second;
+      }
   return numbers;
 }
 
-void check_same_dresspack(const DutyFile& file, const Duty& duty, const Jobs& jobs, const std::map<const Job*, std::size_t>& texts) {
+void check_same_dresspack(const DutyFile& file, const Duty& duty, const Jobs& jobs, const std::map<const Job*, std::size_t>& sections) {
   const StudyJob& first = jobs.of(duty.programs.front());
   if (!first.job) return;
   std::set<const Job*> known{first.job.get()};
@@ -94,7 +100,7 @@ void check_same_dresspack(const DutyFile& file, const Duty& duty, const Jobs& jo
   }
   for (const DutyProgram& program : programs) {
     const StudyJob& job = jobs.of(program);
-    if (!job.job || !known.insert(job.job.get()).second || texts.at(job.job.get()) == texts.at(first.job.get())) continue;
+    if (!job.job || !known.insert(job.job.get()).second || sections.at(job.job.get()) == sections.at(first.job.get())) continue;
     const auto expected = beside_motion(*first.job);
     for (const auto& [key, text] : beside_motion(*job.job)) {
       const auto found = expected.find(key);
@@ -469,11 +475,11 @@ void check_programs(const DutyFile& file, const Study& study) {
                      "keep: histories, or all, in the study");
   Problems problems;
   const Jobs jobs(study);
-  const std::map<const Job*, std::size_t> texts = texts_of(file, jobs);
+  const std::map<const Job*, std::size_t> sections = sections_of(file, jobs);
   for (const Duty& duty : file.duties)
     problems.attempt("", duty.where, [&] {
       for (const DutyProgram& program : duty.programs) jobs.of(program);
-      check_same_dresspack(file, duty, jobs, texts);
+      check_same_dresspack(file, duty, jobs, sections);
     });
   problems.finish(file.where.file);
 }
@@ -682,16 +688,15 @@ std::map<std::string, LifeTable> life_tables(const DutyFile& file, const Study& 
       }
     }
   });
-  // From (draw, world) to (world, draw), rising in each world.
+  // From (draw, world) to (world, draw).
   in_parallel(threads, [&](std::size_t part) {
     for (std::size_t k = tasks.size() * part / threads; k < tasks.size() * (part + 1) / threads; ++k) {
-      std::vector<float> by_draw = tasks[k].table->hours;
-      for (std::size_t w = 0; w < worlds; ++w) {
-        float* const hours = tasks[k].table->hours.data() + w * draws;
-        for (std::size_t d = 0; d < draws; ++d) hours[d] = by_draw[d * worlds + w];
-        std::sort(hours, hours + draws);
-      }
-      if (keep_draws) tasks[k].table->of_draw = std::move(by_draw);
+      LifeTable& table = *tasks[k].table;
+      std::vector<float> by_draw = table.hours;
+      for (std::size_t w = 0; w < worlds; ++w)
+        for (std::size_t d = 0; d < draws; ++d) table.hours[w * draws + d] = by_draw[d * worlds + w];
+      if (keep_draws) table.of_draw = std::move(by_draw);
+      remove_chance(table);
     }
   });
   return tables;

@@ -10,6 +10,7 @@
 
 #include "pipeline/base/constants.h"
 #include "pipeline/base/digest.h"
+#include "pipeline/base/order.h"
 #include "pipeline/files/files.h"
 #include "pipeline/life/planning.h"
 
@@ -129,7 +130,7 @@ WireDamage wire_damage(const std::filesystem::path& life_file, const FailureMode
     layout += fmt::format("{} {}\n", wires.wire[site],
                           wires.wire[site] == nothing ? nothing : wires.place[wires.wire[site]]);
   wires.layout = sha256(layout);
-  wires.worst = worst_places(wires, wires.damage, modes.size());
+  wires.summarize(modes.size());
   return wires;
 }
 
@@ -139,29 +140,68 @@ double DutyDamage::in_mode(std::size_t mode, std::size_t sample) const {
   return at_least_alone(sum, largest, same_place[mode]);
 }
 
+void WireDamage::summarize(std::size_t modes) {
+  worst = worst_places(*this, damage, modes);
+  largest.assign(mode.size(), 0.0);
+  std::vector<std::vector<std::uint32_t>> of_place(mode.size());
+  for (std::uint32_t site = 0; site < damage.size(); ++site) {
+    if (wire[site] == nothing) continue;
+    const std::uint32_t at = place[wire[site]];
+    of_place[at].push_back(site);
+    largest[at] = std::max(largest[at], damage[site]);
+  }
+  sites.clear(), sites_begin.assign(1, 0);
+  for (std::vector<std::uint32_t>& all : of_place) {
+    std::ranges::sort(all, {}, [this](std::uint32_t site) { return std::pair(wire[site], site); });  // at_place() needs wires together
+    sites.insert(sites.end(), all.begin(), all.end());
+    sites_begin.push_back(static_cast<std::uint32_t>(sites.size()));
+  }
+}
+
 SamePlace::SamePlace(const std::vector<EvaluatedProgram>& programs, const WireDamage* round)
-    : programs_(programs), round_(round) {
-  for (const EvaluatedProgram& program : programs)
-    alone_.push_back(program.wires->worst.empty()
-                         ? worst_places(*program.wires, program.wires->damage, program.modes->size())
-                         : program.wires->worst);
+    : modes_(programs.front().modes->size()), program_count_(programs.size()) {
+  const auto summarized = [this](const std::shared_ptr<const WireDamage>& wires) {
+    if (!wires->worst.empty()) return wires;
+    const auto copy = std::make_shared<WireDamage>(*wires);
+    copy->summarize(modes_);
+    return std::shared_ptr<const WireDamage>(copy);
+  };
+  for (const EvaluatedProgram& program : programs) programs_.push_back(summarized(program.wires));
+  if (round) programs_.push_back(summarized({std::shared_ptr<const WireDamage>(), round}));
+}
+
+/// Returns the damage of the wire whose break makes a place fail, per hour.
+double SamePlace::at_place(std::uint32_t place, const std::vector<double>& in_rounds) const {
+  const WireDamage& wires = *programs_.front();
+  std::vector<double> of_wire;
+  for (std::uint32_t k = wires.sites_begin[place], last = nothing; k < wires.sites_begin[place + 1]; ++k) {
+    const std::uint32_t site = wires.sites[k];
+    double damage = 0;
+    for (std::size_t p = 0; p < programs_.size(); ++p) damage += in_rounds[p] * programs_[p]->damage[site];
+    if (wires.wire[site] != last) of_wire.push_back(0), last = wires.wire[site];
+    of_wire.back() = std::max(of_wire.back(), damage);
+  }
+  const auto failing = of_wire.begin() + static_cast<std::ptrdiff_t>(wires.failing[place] - 1);
+  std::nth_element(of_wire.begin(), failing, of_wire.end(), std::greater<>());
+  return *failing;
 }
 
 std::vector<double> SamePlace::at(const std::vector<double>& repeats_per_hour,
                                   const std::vector<double>& in_rounds) const {
-  const WireDamage& wires = *programs_.front().wires;
-  const std::size_t modes = programs_.front().modes->size();
-  std::vector<double> all(wires.damage.size(), 0.0), apart(modes, 0.0);
-  for (std::size_t k = 0; k < programs_.size(); ++k) {
-    for (std::size_t site = 0; site < all.size(); ++site)
-      all[site] += in_rounds[k] * programs_[k].wires->damage[site];
-    for (std::size_t m = 0; m < modes; ++m) apart[m] += repeats_per_hour[k] * alone_[k][m];
-  }
-  if (round_ && in_rounds.size() > programs_.size())
-    for (std::size_t site = 0; site < all.size(); ++site)
-      all[site] += in_rounds.back() * round_->damage[site];
-  std::vector<double> share = worst_places(wires, all, modes);
-  for (std::size_t m = 0; m < modes; ++m) share[m] = apart[m] > 0 ? share[m] / apart[m] : 1;
+  const WireDamage& wires = *programs_.front();
+  std::vector<double> apart(modes_, 0.0), share(modes_, 0.0), rounds = in_rounds;
+  rounds.resize(programs_.size());  // a duty whose round is not counted has no rate of it
+  for (std::size_t k = 0; k < program_count_; ++k)
+    for (std::size_t m = 0; m < modes_; ++m) apart[m] += repeats_per_hour[k] * programs_[k]->worst[m];
+  // No wire of a place has more damage than the sum of the largest damages there. So few places need the sum over their wires.
+  std::vector<double> most(wires.mode.size(), 0.0);
+  for (std::size_t p = 0; p < programs_.size(); ++p)
+    for (std::size_t place = 0; place < most.size(); ++place) most[place] += rounds[p] * programs_[p]->largest[place];
+  constexpr double rounding = 1 + 1e-12;  // of sums over programs
+  for (const std::size_t place : largest_first(most))
+    if (double& worst = share[wires.mode[place]]; most[place] * rounding > worst)
+      worst = std::max(worst, at_place(static_cast<std::uint32_t>(place), rounds));
+  for (std::size_t m = 0; m < modes_; ++m) share[m] = apart[m] > 0 ? share[m] / apart[m] : 1;
   return share;
 }
 

@@ -33,7 +33,13 @@ struct WireDamage {
   std::vector<std::uint32_t> mode;     ///< (place) index of the mode
   std::vector<std::uint32_t> failing;  ///< (place) number of broken wires at which the place fails, at least 1
   std::string layout;                  ///< digest of sites and places: equal in all programs of one dresspack
-  std::vector<double> worst{};         ///< (mode) damage of the place that fails first; empty: not computed yet
+  // From summarize(); empty: not computed yet.
+  std::vector<double> worst{};               ///< (mode) damage of the place that fails first
+  std::vector<double> largest{};             ///< (place) largest damage of its wires
+  std::vector<std::uint32_t> sites{};        ///< sites of the first place, then those of the next one, ..
+  std::vector<std::uint32_t> sites_begin{};  ///< (place) its first element of `sites`; the last: end
+
+  void summarize(std::size_t modes);
 };
 /// Reads a life.h5. modes: modes of its life response. failed_percent: share of wires that a conductor may lose. Errors:
 /// InputError.
@@ -68,7 +74,7 @@ struct DutyDamage {
   std::vector<double> of_first_mode() const;
 };
 
-/// Computes c(m) of one duty at any rates. Keeps references to the programs and the round.
+/// Computes c(m) of one duty at any rates. Keeps a reference to the round.
 class SamePlace {
  public:
   /// round: damage of a round of the order; null: no order. Preconditions: one program or more, with equal modes and layout.
@@ -79,9 +85,11 @@ class SamePlace {
   std::vector<double> at(const std::vector<double>& repeats_per_hour, const std::vector<double>& in_rounds) const;
 
  private:
-  const std::vector<EvaluatedProgram>& programs_;
-  const WireDamage* round_;
-  std::vector<std::vector<double>> alone_;  ///< (program, mode) maximum of D_k(p) over the places p
+  double at_place(std::uint32_t place, const std::vector<double>& in_rounds) const;
+
+  std::size_t modes_;
+  std::vector<std::shared_ptr<const WireDamage>> programs_;  ///< (program, then the round)
+  std::size_t program_count_;
 };
 
 /// (mode, sample) damage of one repeat for one dresspack.

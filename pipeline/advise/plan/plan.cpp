@@ -8,8 +8,8 @@
 #include <span>
 #include <tuple>
 
+#include "pipeline/advise/plan/pooled_lives.h"
 #include "pipeline/base/constants.h"
-#include "pipeline/base/order.h"
 #include "pipeline/base/random.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/statistics.h"
@@ -39,9 +39,9 @@ class Worlds {
   }
   explicit Worlds(std::size_t count) : log_weight_(count, 0.0), weight_(count, 1.0 / static_cast<double>(count)) {}
 
-  /// Adds the evidence that a dresspack has survived (D3). alive: (world) S_w at its age.
-  void survived(const std::vector<double>& alive) {
-    for (std::size_t w = 0; w < log_weight_.size(); ++w) log_weight_[w] += std::log(alive[w]);
+  /// Adds ln of factors of the weights, (world).
+  void add(const std::vector<double>& log_factors) {
+    for (std::size_t w = 0; w < log_weight_.size(); ++w) log_weight_[w] += log_factors[w];
   }
   void weigh() {
     const double most = *std::max_element(log_weight_.begin(), log_weight_.end());
@@ -168,28 +168,13 @@ LifeTable lives_after(const std::vector<Installed::Spell>& before, const LifeTab
   return lives;
 }
 
-/// Returns S_w(age) of (D3), (world).
-std::vector<double> shares_alive(const LifeTable& table, double age) {
-  constexpr std::size_t most_pooled = 64;  // worlds: with 64 lives each, the error of 1 - S = 1 % is 16 %
-  constexpr double longest = 1e12;         // [h] so that the mean is finite
-  std::vector<double> typical(table.worlds);  // [h] geometric mean of the lives of a world
-  for (std::size_t w = 0; w < table.worlds; ++w) {
-    const std::span lives(table.hours.data() + w * table.draws, table.draws);
-    for (const float life : lives) typical[w] += std::log(std::min<double>(life, longest)) / double(table.draws);
-    typical[w] = std::exp(typical[w]);
-  }
-  const std::vector<std::size_t> order = largest_first(table.worlds, [&](std::size_t w) { return typical[w]; });
-  const std::size_t pooled = std::min(most_pooled, table.worlds);
-  const double lives = double(pooled * table.draws);
-  std::vector<double> shares(table.worlds);
-  for (std::size_t place = 0; place < order.size(); ++place) {
-    const std::size_t w = order[place], first = std::min(place - std::min(place, pooled / 2), order.size() - pooled);
-    double alive = 0;
-    for (std::size_t k = first; k < first + pooled; ++k) alive += table.alive(order[k], age * typical[order[k]] / typical[w]);
-    // If none of the lives is longer, half a life is assumed.
-    shares[w] = (alive * double(table.draws) + 0.5) / (lives + 0.5);
-  }
-  return shares;
+/// Returns ln of P(all dresspacks of these ages [h] have survived), (world), for (D3).
+std::vector<double> log_all_alive(const LifeTable& table, const std::vector<double>& at_ages) {
+  const PooledLives lives(table);
+  std::vector<double> sums(table.worlds);
+  for (std::size_t w = 0; w < table.worlds; ++w)
+    for (const double age : at_ages) sums[w] += std::log(lives.alive(w, age));
+  return sums;
 }
 
 Worlds worlds_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables, const std::vector<std::shared_ptr<const LifeTable>>& first, Day today,
@@ -197,12 +182,19 @@ Worlds worlds_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tab
   Worlds worlds(tables.begin()->second.worlds, rule.weights);
   if (!rule.weights.empty()) return worlds;
   if (!rule.knows_survivors) {
-    std::vector<std::vector<double>> alive(first.size());  // (row, world)
-    const std::size_t threads = std::min(thread_count(), first.size());
+    std::vector<std::pair<const LifeTable*, std::vector<double>>> all;  // lives, and the age of each dresspack that has them
+    std::map<const LifeTable*, std::size_t> known;
+    for (std::size_t i = 0; i < first.size(); ++i) {
+      const auto [at, is_new] = known.try_emplace(first[i].get(), all.size());
+      if (is_new) all.emplace_back(first[i].get(), std::vector<double>{});
+      all[at->second].second.push_back(run_of(fleet.rows[i], *first[i], today));
+    }
+    std::vector<std::vector<double>> evidence(all.size());  // (table, world)
+    const std::size_t threads = std::min(thread_count(), all.size());
     in_parallel(threads, [&](std::size_t part) {
-      for (std::size_t i = part; i < first.size(); i += threads) alive[i] = shares_alive(*first[i], run_of(fleet.rows[i], *first[i], today));
+      for (std::size_t k = part; k < all.size(); k += threads) evidence[k] = log_all_alive(*all[k].first, all[k].second);
     });
-    for (const std::vector<double>& of_row : alive) worlds.survived(of_row);
+    for (const std::vector<double>& of_table : evidence) worlds.add(of_table);
   }
   worlds.weigh();
   return worlds;
@@ -408,6 +400,12 @@ class Simulation {
   std::size_t years_ = 1, weeks_ = 1;
 };
 
+double middle_of(std::vector<float> all) {
+  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+  std::nth_element(all.begin(), middle, all.end());
+  return *middle;
+}
+
 }  // namespace
 
 double LifeTable::alive(std::size_t world, double age) const {
@@ -424,11 +422,12 @@ const float* LifeTable::first_after(std::size_t world, double age) const {
   return std::upper_bound(first, first + draws, static_cast<float>(age));
 }
 
-double LifeTable::median() const {
-  std::vector<float> all = hours;
-  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
-  std::nth_element(all.begin(), middle, all.end());
-  return *middle;
+double LifeTable::median() const { return middle_of(hours); }
+
+double LifeTable::finite_median() const {
+  std::vector<float> finite;
+  std::ranges::copy_if(hours, std::back_inserter(finite), [](float life) { return std::isfinite(life); });
+  return finite.empty() ? 0 : middle_of(std::move(finite));
 }
 
 double LifeTable::running(std::size_t world, double from, double to) const {
@@ -575,7 +574,7 @@ Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
     const LifeTable &table = *of_row[i], &lives = *row.lives;
     const auto age_at = [&](double day) { return row.age_hours + paces[i].hours(day); };
     std::vector<double> weeks;
-    for (std::size_t week = 1; week <= weeks_until(times.back()); ++week) weeks.push_back(age_at(7.0 * double(week)));
+    for (std::size_t week = 1; week <= weeks_until(times.back()); ++week) weeks.push_back(age_at(std::min(7.0 * double(week), times.back())));
     row.fails_in_week = worlds.fails_in(lives, row.age_hours, weeks);
     row.fails_before_first = worlds.fails(lives, row.age_hours, row.age_hours, age_at(times.front()));
     double failed = row.fails_before_first;

@@ -7,8 +7,8 @@
 // A calibration with a maintenance system's table includes this evidence already: then all worlds have the same weight.
 // S_w,i(a): share of dresspacks under i's duty that reach the age a in the world w. So one dresspack informs about the others,
 // and the uncertainty does not shrink with the size of the fleet.
-// Few lives of a world are known, and the product would mainly depend on their chance. So in (D3) S_w is that of the 64 worlds with
-// the nearest geometric means of lives, whose lives are multiplied by the ratio of these means.
+// Few lives of a world are known, and the product would mainly depend on their chance. So S_w comes from the lives of similar
+// worlds together (pooled_lives.h, D11).
 //
 // At a window a dresspack has the age a, and the next window is one interval later. It is replaced in the first window with
 //     P(failure in the interval | it lives) > risk, and a new dresspack has less                               (D4)
@@ -64,6 +64,8 @@ struct LifeTable {
   double alive(std::size_t world, double age) const;
   /// Returns the median over all worlds [h].
   double median() const;
+  /// Returns the median of the finite lives [h]; 0: none is.
+  double finite_median() const;
   /// Returns the integral of S_w from one age to another [h].
   double running(std::size_t world, double from, double to) const;
 };

@@ -2,7 +2,9 @@
 #include "pipeline/advise/plan/mixture.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <random>
 
 #include "tests/catch.h"
 
@@ -136,6 +138,67 @@ TEST_CASE("the damage of each mode is that at its own places") {
   REQUIRE(duty.same_place[1] == Approx(0.5).epsilon(rounding));
   CHECK(lives_under(duty).percentiles[1] == Approx(1e5).epsilon(1e-4));
   CHECK(lives_with(duty, {1, 1}, duty.same_place)[1] == Approx(1e5).epsilon(1e-4));
+}
+
+TEST_CASE("the worst place of a duty is that of a search through all sites") {
+  constexpr std::size_t places = 60, wires_each = 7, sites_each = 3, programs = 5;
+  std::mt19937 random(1);
+  const auto number = [&](std::size_t below) { return static_cast<std::uint32_t>(std::uniform_int_distribution<std::size_t>(0, below - 1)(random)); };
+  WireDamage layout;
+  for (std::uint32_t place = 0; place < places; ++place) {
+    layout.mode.push_back(place % 2), layout.failing.push_back(1 + number(wires_each));
+    for (std::size_t k = 0; k < wires_each; ++k) layout.place.push_back(place);
+  }
+  for (std::uint32_t wire = 0; wire < places * wires_each; ++wire)
+    for (std::size_t k = 0; k < sites_each; ++k) layout.wire.push_back(wire);
+  for (int site = 0; site < 50; ++site) layout.wire.push_back(0xffffffff);  // of the hose's wall
+  std::shuffle(layout.wire.begin(), layout.wire.end(), random);
+  const auto modes = std::make_shared<const FailureModes>(FailureModes{mode_of(7, "wires of one"), mode_of(5, "wires of other")});
+  const auto damaged = [&](double decades) {
+    WireDamage wires = layout;
+    for (std::size_t site = 0; site < wires.wire.size(); ++site) wires.damage.push_back(std::pow(10, std::uniform_real_distribution(-decades, 0.0)(random)));
+    return wires;
+  };
+  for (const double decades : {0.1, 1.0, 6.0}) {
+    std::vector<EvaluatedProgram> all;
+    std::vector<double> rates;
+    for (std::size_t k = 0; k < programs; ++k)
+      all.push_back({"p", 60, modes, std::make_shared<const WireDamage>(damaged(decades))}), rates.push_back(1 + number(40));
+    const WireDamage round = damaged(decades);
+    std::vector<double> in_rounds = rates;
+    in_rounds.push_back(3);
+    const auto worst = [&](const std::vector<const WireDamage*>& of, const std::vector<double>& times) {
+      std::array<double, 2> most{};
+      for (std::uint32_t place = 0; place < places; ++place) {
+        std::vector<double> of_wire(wires_each, 0.0);
+        for (std::size_t site = 0; site < layout.wire.size(); ++site) {
+          if (layout.wire[site] == 0xffffffff || layout.place[layout.wire[site]] != place) continue;
+          double damage = 0;
+          for (std::size_t k = 0; k < of.size(); ++k) damage += times[k] * of[k]->damage[site];
+          double& largest = of_wire[layout.wire[site] % wires_each];
+          largest = std::max(largest, damage);
+        }
+        std::sort(of_wire.rbegin(), of_wire.rend());
+        most[layout.mode[place]] = std::max(most[layout.mode[place]], of_wire[layout.failing[place] - 1]);
+      }
+      return most;
+    };
+    std::array<double, 2> apart{};
+    std::vector<const WireDamage*> of;
+    for (std::size_t k = 0; k < programs; ++k) {
+      of.push_back(all[k].wires.get());
+      const auto alone = worst({of.back()}, {rates[k]});
+      for (std::size_t m = 0; m < 2; ++m) apart[m] += alone[m];
+    }
+    const auto together = worst(of, rates);
+    of.push_back(&round);
+    const auto with_round = worst(of, in_rounds);
+    const SamePlace places_of(all, &round);
+    for (std::size_t m = 0; m < 2; ++m) {
+      CHECK(places_of.at(rates)[m] == Approx(together[m] / apart[m]).epsilon(rounding));
+      CHECK(places_of.at(rates, in_rounds)[m] == Approx(with_round[m] / apart[m]).epsilon(rounding));
+    }
+  }
 }
 
 TEST_CASE("the remaining life is the life without the past, of the dresspacks that have survived it") {
