@@ -299,7 +299,7 @@ void CablePaths::lead_in(std::span<CablePaths* const> all, const SpanBlock& bloc
     }
     LooseCables::advance(cables, own.front()->nodes_, block.step);
   }
-  for (LooseCables* const of : cables) of->forget_restless();
+  for (LooseCables* const of : cables) of->begin_repeat();
 }
 
 void CablePaths::add_loose(std::span<CablePaths* const> all, const SpanBlock& block) {

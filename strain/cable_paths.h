@@ -139,6 +139,8 @@ class CablePaths {
   double mesh_error() const { return loose_ ? loose_->mesh_error() : 0; }
   /// Returns the number of samples at which a loose cable did not come to rest.
   std::size_t restless() const { return loose_ ? loose_->restless() : 0; }
+  /// Returns the change of curvature of loose cables in the repeat (LooseCables::changed()).
+  double changed() const { return loose_ ? loose_->changed() : 0; }
 
  private:
   struct Cable {

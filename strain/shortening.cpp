@@ -10,7 +10,7 @@
 namespace dresslife::strain {
 namespace {
 
-// Time in a loop before its first part, in which loose cables lose most of the influence of the motion before (W36) [s]. With 60 s the
+// Time in a loop before its first part, in which loose cables lose most of the influence of the motion before (W42) [s]. With 60 s the
 // p10 of the program hard changes by 1e-3, as the rounds of cables with little slack differ by themselves.
 constexpr double forgetting = 15;
 // Largest difference between a part and its whole rounds [samples]. A smooth peak of strain between two samples is missed by its second

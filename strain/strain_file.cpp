@@ -37,7 +37,7 @@ constexpr double believable_mesh_error = 0.02;
 constexpr double loose_pass_share = 0.5;  // first_pass_share with loose cables
 constexpr double own_work_share = 0.75;   // share of the work without other stiffnesses of the hose
 // Length of the end of the motion before the repeat that counts [s]. In it the first places of loose cables lose their influence
-// (W36). The last start of robot 1 comes to its rest after 160 s.
+// (W42). The last start of robot 1 comes to its rest after 160 s.
 constexpr double lead_in_time = 180;
 // Time before the first sample at which variations continue from the first start [s]. With 170 s the lives of robot 1 and hard
 // are the same. With 30 s one life of ten differs by 0.85 of a decade.
@@ -284,6 +284,20 @@ std::vector<Warning> restless_warnings(std::size_t samples, double sample_rate) 
       "the hose moves too far from one sample to the next", fmt::format("simulation.sample_rate_Hz: {:g}", 2 * sample_rate))};
 }
 
+/// changed: see LooseCables::changed().
+std::vector<Warning> cycle_warnings(double changed) {
+  // A tenth of the strain is a factor of two in life (slope 7 of copper), as much as the stated numerical errors of good jobs.
+  constexpr double most = 0.1;
+  if (!(changed > most)) return {};
+  return {pipeline::warning_of(
+      WarningKind::periodic, "",
+      fmt::format("loose cables do not end the repeat where they began it: their curvature changes by {:.0f} % (limit {:.0f} %), and the "
+                  "life counts this change in each repeat",
+                  100 * changed, 100 * most),
+      fmt::format("the cables have not reached a cycle in the {:.0f} s of motion before the repeat", lead_in_time),
+      "cables with less slack, slack_percent in dresspack.components; no value was tried")};
+}
+
 /// Data from which the forces of all cables are computed: component, strains, and places at the clamps.
 class CableRows {
  public:
@@ -373,7 +387,7 @@ std::vector<Warning> write_cables(FileWriter& file, const pipeline::SimulationSe
   CableRows rows;
   RubbingRows rubbing;
   std::vector<const std::vector<double>*> hose_moment;  // (span with cables)
-  double mesh_error = 0;
+  double mesh_error = 0, changed = 0;
   std::size_t pieces = 0, restless = 0;
   for (const auto& evaluation : evaluations) {
     if (!evaluation->any_cables()) continue;
@@ -381,6 +395,7 @@ std::vector<Warning> write_cables(FileWriter& file, const pipeline::SimulationSe
     rows.add(static_cast<std::int32_t>(hose_moment.size()), *evaluation);
     hose_moment.push_back(&evaluation->cables().hose_moment());
     restless += evaluation->cables().restless();
+    changed = std::max(changed, evaluation->cables().changed());
     if (const double error = evaluation->cables().mesh_error(); error > mesh_error)
       mesh_error = error, pieces = evaluation->cables().elements_per_segment();
   }
@@ -395,8 +410,9 @@ std::vector<Warning> write_cables(FileWriter& file, const pipeline::SimulationSe
   file.append("/cable_span/hose_moment", moments);
   if (mesh_error > 0) file.attribute("loose_mesh_error", mesh_error);
   const std::vector<Warning> warnings =
-      pipeline::joined(mesh_warnings(mesh_error, pieces, settings.segments),
-                       restless_warnings(restless, settings.sample_rate));
+      pipeline::joined(pipeline::joined(mesh_warnings(mesh_error, pieces, settings.segments),
+                                        restless_warnings(restless, settings.sample_rate)),
+                       cycle_warnings(changed));
   if (evaluations.size() != 1 || !evaluations[0]->any_loose()) return warnings;
   const CablePaths& cables = evaluations[0]->cables();
   const std::vector<std::uint32_t> offset_samples(cables.offset_samples().begin(),

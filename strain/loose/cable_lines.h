@@ -4,7 +4,7 @@
 //     Pi = L W(mean g) + int E I |K - K0 + A'' - A0''|^2 / 2 - w . A + eta |A - A_before|^2 / 2 + contact ds,
 //     g = e - K . A + |A'|^2 / 2,
 // W is the energy of its tension (strain/loose/tension.h), w weight and inertia per length, eta |..| the drag that holds it
-// sideways (W36). Contact is k_w depth^2 / 2 with the hose's wall, its core, and the limits of its place. At the clamps it stays
+// sideways (W36, W42). Contact is k_w depth^2 / 2 with the hose's wall, its core, and the limits of its place. At the clamps it stays
 // at its place A0 as it was laid, whatever the hose's twist (b = 0, A' = A0').
 //
 // Dry friction (W42) holds a cable by a spring that slides: in one direction the force per length is k u, at most mu N. u is the

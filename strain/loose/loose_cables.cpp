@@ -91,14 +91,41 @@ void LooseCables::feed_in(double share) {
   lines_.feed_in(share);
 }
 
-double LooseCables::apart(const LooseCables& other) const {
+namespace {
+
+/// Returns the difference of two curvatures (node) of each cable over the first: root mean squares over cables and nodes. at: (cable).
+double relative_difference(std::size_t cables, const auto& one_at, const auto& other_at) {
   double difference = 0, bent = 0;
-  for (std::size_t k = 0; k < cables(); ++k)
-    for (std::size_t i = 0; i < states_[k].curvature.size(); ++i) {
-      difference += std::pow(states_[k].curvature[i] - other.states_[k].curvature[i], 2);
-      bent += std::pow(states_[k].curvature[i], 2);
+  for (std::size_t k = 0; k < cables; ++k) {
+    const std::vector<double> &one = one_at(k), &other = other_at(k);
+    for (std::size_t i = 0; i < one.size(); ++i) {
+      difference += std::pow(one[i] - other[i], 2);
+      bent += std::pow(one[i], 2);
     }
+  }
   return bent > 0 ? std::sqrt(difference / bent) : 0;
+}
+
+}  // namespace
+
+double LooseCables::apart(const LooseCables& other) const {
+  const auto of = [](const LooseCables& all) {
+    return [&all](std::size_t k) -> const std::vector<double>& { return all.states_[k].curvature; };
+  };
+  return relative_difference(cables(), of(*this), of(other));
+}
+
+void LooseCables::begin_repeat() {
+  restless_ = 0;
+  begun_.clear();
+  for (const CableState& state : states_) begun_.push_back(state.curvature);
+}
+
+double LooseCables::changed() const {
+  if (begun_.empty()) return 0;
+  return relative_difference(
+      cables(), [this](std::size_t k) -> const std::vector<double>& { return states_[k].curvature; },
+      [this](std::size_t k) -> const std::vector<double>& { return begun_[k]; });
 }
 
 void LooseCables::shorten(std::size_t cable, double share) {

@@ -71,9 +71,13 @@ class LooseCables {
   static void advance(std::span<LooseCables* const> all, std::span<const HoseNode> hose, double step);
 
   const CableState& state(std::size_t cable) const { return states_[cable]; }
-  /// Returns the number of samples since forget_restless() at which a ring or a cable did not converge in the allowed iterations.
+  /// Begins the repeat that counts. Call at the end of a lead-in.
+  void begin_repeat();
+  /// Returns the number of samples since begin_repeat() at which a ring or a cable did not converge in the allowed iterations.
   std::size_t restless() const { return restless_; }
-  void forget_restless() { restless_ = 0; }
+  /// Returns the change of curvature since begin_repeat(), over the curvature: root mean squares over cables and nodes. 0 without
+  /// begin_repeat().
+  double changed() const;
   std::size_t iterations() const { return iterations_; }  ///< sum over all cables and samples
   /// Returns the share of the curvature that the distance of nodes misses, as a ratio of root mean squares over nodes and
   /// samples; the largest of all cables.
@@ -93,6 +97,7 @@ class LooseCables {
   std::vector<const CableLines::Frame*> frames_;        ///< (cable) of its place
   std::vector<std::pair<Ring*, std::size_t>> in_ring_;  ///< (cable) its ring and its number there; null: no ring
   std::vector<CableState> states_;
+  std::vector<std::vector<double>> begun_;  ///< (cable, node) curvature at begin_repeat() [1/m]
   std::size_t restless_ = 0, iterations_ = 0;
   bool started_ = false, rests_ = true, wound_ = false;
 };

@@ -193,7 +193,7 @@ inline void Lines::contacts(std::size_t node, Touch& touch) const {
   }
 }
 
-/// Adds dry friction (W36).
+/// Adds dry friction (W42).
 inline void Lines::rub(std::size_t node, Touch& touch) const {
   const Pack stick = at(of.stick, first);
   if (!bits(greater(stick, Pack(0.0)))) return;

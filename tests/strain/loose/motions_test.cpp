@@ -242,6 +242,24 @@ TEST_CASE("a ring turns out of a twist that alternates, and what strain is left 
   CHECK(left[2] < left[1] / 5);
 }
 
+TEST_CASE("the change of a repeat is that of the cables between its begin and its end") {
+  constexpr int cycle = 100;
+  LooseCables loose(ring_of_ten(0), {2.035, 64});
+  const auto move = [&](int from, int end) {
+    for (int t = from; t < end; ++t)
+      loose.advance(hose(64, [&](double z) { return HoseNode{.curvature1 = 1.5 * std::sin(2 * pi * t / cycle) * std::sin(pi * z)}; }), step);
+  };
+  move(0, 2 * cycle + 1);
+  CHECK(loose.changed() == 0);  // no repeat has begun
+  move(1, cycle + 1);
+  loose.begin_repeat();
+  CHECK(loose.changed() == 0);
+  move(1, cycle + 1);
+  CHECK(loose.changed() < 0.1);  // below the limit of the warning
+  move(1, cycle / 4 + 1);  // the hose is bent now, which it was not at the begin
+  CHECK(loose.changed() > 0.5);
+}
+
 TEST_CASE("a ring that snaps over comes to rest within the sample") {
   // From one bend and twist to any other in one step, with 1 % of slack: the winding moves to other places.
   std::vector<LooseCable> cables = ring_of_ten(0.01);
