@@ -125,13 +125,14 @@ TEST_CASE("strains of wires move smoothly with every key of loose and held cable
   // (4 E I delta / c^2). The turn of a lay follows the square of its angle. Friction from a measured stiffness follows that
   // stiffness minus the polymer's (0.05 / 0.02), and each of these changes friction again. A law with a switch would exceed this.
   constexpr double steepest = 3;
-  // Excess length can rest in several shapes, and small differences select one of them: at 8 mm of play a cable lies 3 mm
-  // elsewhere at one sample between stiffnesses 0.1 % apart. This changes back and forth and does not add up. The effect of a
-  // law with a switch would add up.
-  constexpr double other_way = 0.015;
+  // Excess length can rest in several shapes, in which dry friction holds it (W42). Small differences select one of them: the strain goes
+  // back and forth between them by up to 23 % in one of twenty comparisons, and this does not add up. The effect of a law with a switch
+  // would be there whatever the other keys are, so the median over them shows it.
+  constexpr double other_shape = 0.3;
   for (const Position position : {Position::loose, Position::held}) {
     const std::vector<Key> all = keys(position);
-    const double allowed = steepest * step + (position == Position::loose ? other_way : 0);
+    const double allowed = position == Position::loose ? other_shape : steepest * step;
+    std::vector<std::vector<double>> changes(all.size());  // (key, values of the others)
     for (std::size_t a = 0; a < all.size(); ++a)
       for (std::size_t b = 0; b < a; ++b)
         for (const bool high_a : {false, true})
@@ -143,11 +144,18 @@ TEST_CASE("strains of wires move smoothly with every key of loose and held cable
               all[b].set(dresspack.components[0], by_b * at_b);
               return largest_range(dresspack);
             };
-            const double here = range(1, 1);
+            const double here = range(1, 1), by_a = range(1 + step, 1), by_b = range(1, 1 + step);
             INFO(all[a].name << " " << at_a << ", " << all[b].name << " " << at_b);
             INFO((position == Position::held ? "held" : "loose"));
-            CHECK(range(1 + step, 1) == Approx(here).epsilon(allowed));
-            CHECK(range(1, 1 + step) == Approx(here).epsilon(allowed));
+            CHECK(by_a == Approx(here).epsilon(allowed));
+            CHECK(by_b == Approx(here).epsilon(allowed));
+            changes[a].push_back(std::abs(by_a / here - 1));
+            changes[b].push_back(std::abs(by_b / here - 1));
           }
+    for (std::size_t key = 0; key < all.size(); ++key) {
+      std::ranges::sort(changes[key]);
+      INFO(all[key].name);
+      CHECK(changes[key][changes[key].size() / 2] < steepest * step);
+    }
   }
 }
