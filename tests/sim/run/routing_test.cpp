@@ -427,8 +427,7 @@ TEST_CASE("routing: what cannot be is refused with its place and a remedy") {
        "list the "
        "clamps in their order along the dresspack"},
       {ends + "  rings: [{" + ring + ", radius_mm: 20}]\n",
-       "routing.rings[1].radius_mm is 20 (the dresspack's own radius is 20 mm); give a ring that lets it "
-       "through"},
+       "routing.rings[1].radius_mm is 20 (the dresspack's own radius is 20 mm); take a wider ring"},
       {ends + "  rings: [{" + ring + ", radius_mm: 25, at_length_m: 2}]\n",
        "routing.rings[1].at_length_m is 2"},
       {ends + "  rings: [{link: bench, position_m: [500, 0, 1000], direction: [1, 0, 0], radius_mm: 25}]\n",
