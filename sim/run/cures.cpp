@@ -202,9 +202,10 @@ class RemedySearch {
   Remedy remedy() {
     Remedy& known = motion_.remedies[dresspack_];
     if (known.empty()) known = found();
-    if (known.empty() && motion_.other_places) known = motion_.other_places();
     return known;
   }
+  /// Returns a routing with clamps at other places of their links; empty: none was found.
+  Remedy elsewhere() const { return motion_.other_places ? motion_.other_places() : Remedy{}; }
   /// Returns " (best of those tried: 1.250 m, bend radius 210.3 mm at rest, 187.2 mm in a short run; asked are 200.0 mm)": the
   /// routing with the least bend of those that ran; if none ran, at rest. now: smallest bend radius of the job [m]. Empty: none
   /// has an equilibrium.
@@ -399,12 +400,8 @@ Cure bend_cure(const CheckedMotion& motion, const std::vector<Check>& checks, co
   if (std::isinf(k_rest)) {
     cause = "its length and its clamps do not suit the motion; no shape at rest was found for the clamps as they are";
   } else if (at_rest) {
-    const auto changes = [&](std::string_view key) {
-      return std::ranges::any_of(remedy.values, [&](const pipeline::KeyValue& of) { return of.key.ends_with(key); });
-    };
-    cause = remedy.empty() || changes(".position_m") ? "distance and direction of the clamps"
-            : changes(".direction")                  ? "directions of the clamps"
-                                                     : "the free length";
+    const bool turns = std::ranges::any_of(remedy.values, [](const pipeline::KeyValue& of) { return of.key.ends_with(".direction"); });
+    cause = remedy.empty() ? "distance and direction of the clamps" : turns ? "directions of the clamps" : "the free length";
     // The warning of the check at rest already contains its own radius, with more segments and with twist.
     if (broken.name == check_name::bend_radius)
       cause += fmt::format(" (already at rest and without the robot its bend radius is {} over the program)", radius_words(k_rest));
@@ -428,6 +425,7 @@ Cure bend_cure(const CheckedMotion& motion, const std::vector<Check>& checks, co
     remedy = {{{key_of(motion.setup, broken.dresspack, key + ".direction"), vector_words(direction)}},
               fmt::format(" if so (bend radius at rest {})", radius_words(reversed))};
   }
+  if (remedy.empty()) remedy = search.elsewhere();
   if (remedy.empty() && swings)
     if (const double percent = slower(motion, checks, broken, k_rest); percent > 0)
       remedy = {{{"motion.acceleration_percent", fmt::format("{:.0f}", percent)}},
@@ -506,7 +504,9 @@ Cure slack_cure(const CheckedMotion& motion, const std::vector<Check>& checks, c
   Remedy alone = other_length(motion, broken, wanted);
   if (!can_be_tried(motion, broken.dresspack)) return {cause, alone};
   const RestTrials trials(motion, broken);
-  const Remedy remedy = RemedySearch(motion, checks, trials, broken.dresspack).remedy();
+  RemedySearch search(motion, checks, trials, broken.dresspack);
+  Remedy remedy = search.remedy();
+  if (remedy.empty()) remedy = search.elsewhere();
   if (!remedy.empty()) return {cause, remedy};
   alone.words += " for the slack alone; " + no_other_words(motion, " of the bend radius");
   return {cause, alone};
@@ -554,7 +554,9 @@ Remedy remedy_for(const CheckedMotion& motion, int dresspack, double time, const
   refused.dresspack = dresspack;
   const RestTrials trials(motion, refused);
   const std::vector<Check> none;
-  const Remedy remedy = RemedySearch(motion, none, trials, dresspack).remedy();
+  RemedySearch search(motion, none, trials, dresspack);
+  Remedy remedy = search.remedy();
+  if (remedy.empty()) remedy = search.elsewhere();
   return remedy.empty() ? Remedy{{}, untried + "; " + no_other_words(motion, "s")} : remedy;
 }
 
