@@ -1,4 +1,4 @@
-// Equal rounds of a program's loop, of which some are followed and stand for the others ((W43) in strain/theory.md).
+// Equal rounds of a program's loop. Some of them are followed and stand for the others ((W43) in strain/theory.md).
 #pragma once
 
 #include <cstddef>

@@ -431,7 +431,7 @@ Cure bend_cure(const CheckedMotion& motion, const std::vector<Check>& checks, co
       remedy = {{{"motion.acceleration_percent", fmt::format("{:.0f}", percent)}},
                 fmt::format(" (now {:.0f}; tried in a short run; {})", motion.setup.motion.acceleration_percent,
                             cycle_words(motion, percent)),
-                "other clamps for the present program, which `dresslife check` or `dresslife route` finds; or a slower program, "};
+                "other clamps for the present program, which dresslife route searches; or a slower program, "};
   if (remedy.empty()) {
     double least = broken.value;  // a limit that both the checks at rest and the short run would keep
     for (const Check& check : checks)

@@ -10,6 +10,7 @@
 
 using namespace dresslife;
 using namespace dresslife::strain;
+using dresslife::strain::test::arm;
 using dresslife::strain::test::hose;
 using dresslife::strain::test::signal_cable;
 
@@ -188,16 +189,6 @@ TEST_CASE(
 }
 
 namespace {
-
-/// Returns a node of a hose on a robot's arm. turn: of the cycle.
-HoseNode arm(double z, double turn) {
-  const double w = 2 * pi * turn;
-  return {(1.5 + 0.5 * std::sin(w)) * std::sin(pi * z),
-          0.8 * std::cos(w) * std::cos(2 * pi * z),
-          1.2 * std::sin(w),
-          1e-4 * std::cos(w),
-          {9.81 * std::sin(pi * z), -9.81 * std::cos(pi * z)}};
-}
 
 /// Returns the largest range of curvature in the last of six cycles, of ten cables with slack on a ring [1/m].
 double range_of_curvature(double mu, double cycle_time, int samples) {

@@ -1,9 +1,11 @@
 // Hoses for tests: the nodes of one sample.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <vector>
 
+#include "pipeline/base/constants.h"
 #include "strain/loose/loose_cables.h"
 
 namespace dresslife::strain::test {
@@ -25,6 +27,16 @@ inline LooseCable signal_cable(double place1, double place2 = 0) {
   cable.bending_stiffness = 0.2;
   cable.mass_per_length = 0.19;
   return cable;
+}
+
+/// Returns a node of a hose on a robot's arm, an arch that leans over and twists. z: share of the length; turn: of the cycle.
+inline HoseNode arm(double z, double turn) {
+  const double w = 2 * pi * turn;
+  return {(1.5 + 0.5 * std::sin(w)) * std::sin(pi * z),
+          0.8 * std::cos(w) * std::cos(2 * pi * z),
+          1.2 * std::sin(w),
+          1e-4 * std::cos(w),
+          {9.81 * std::sin(pi * z), -9.81 * std::cos(pi * z)}};
 }
 
 }  // namespace dresslife::strain::test

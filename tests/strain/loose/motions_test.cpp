@@ -11,22 +11,13 @@
 
 using namespace dresslife;
 using namespace dresslife::strain;
+using dresslife::strain::test::arm;
 using dresslife::strain::test::hose;
 using dresslife::strain::test::signal_cable;
 
 namespace {
 
 constexpr double step = 0.04;  // between samples [s]
-
-/// Returns a node of a hose on a robot's arm, an arch that leans over and twists. z: share of the length; turn: of the cycle.
-HoseNode arm(double z, double turn) {
-  const double w = 2 * pi * turn;
-  return {(1.5 + 0.5 * std::sin(w)) * std::sin(pi * z),
-          0.8 * std::cos(w) * std::cos(2 * pi * z),
-          1.2 * std::sin(w),
-          1e-4 * std::cos(w),
-          {9.81 * std::sin(pi * z), -9.81 * std::cos(pi * z)}};
-}
 
 std::vector<LooseCable> ring_of_ten(double slack) {
   std::vector<LooseCable> cables;
