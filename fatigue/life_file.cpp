@@ -495,10 +495,10 @@ void put_attributes(FileWriter& life, const Worst& worst, const std::string& bef
   life.attribute(place + "step", worst.step);
 }
 
-/// Copies the curvature error of the mesh of loose cables, for the ranking.
-void copy_mesh_error(const Context& c) {
-  constexpr const char* name = "loose_mesh_error";
-  if (c.strain.has_attribute(name)) c.life.attribute(name, c.strain.number_attribute(name));
+/// Copies the numerical errors of loose cables.
+void copy_loose_errors(const Context& c) {
+  for (const char* name : {"loose_mesh_error", "moving_places"})
+    if (c.strain.has_attribute(name)) c.life.attribute(name, c.strain.number_attribute(name));
 }
 
 /// Returns "uncertainty.ratings typical (strength x 1.2, model x 1.3)"; empty: no typical ratings.
@@ -549,7 +549,7 @@ std::string write_worst(const Context& c, const std::vector<DamagingCycle>& cycl
   c.life.attribute("repeat_seconds", c.repeat_seconds());
   c.life.attribute("worst_site", c.worst == no_site ? -1 : double(c.worst));
   write_mean_stress(c);
-  copy_mesh_error(c);
+  copy_loose_errors(c);
   write_estimates(c);
   if (c.worst == no_site) return "no wire was evaluated";
   if (worst.damage == 0) return "no wire is damaged";

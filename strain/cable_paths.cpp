@@ -550,6 +550,18 @@ bool CablePaths::remembers() const {
   return std::any_of(cables_.begin(), cables_.end(), [](const Cable& cable) { return cable.remembers; });
 }
 
+void CablePaths::repeat() {
+  assert(!finished_);
+  next_ = 0;
+  for (Cable& cable : cables_)
+    if (cable.rubbing) cable.rubbing.emplace(lengths_.size(), all_);
+  offset_samples_.clear();
+  offsets_.clear();
+  if (!loose_) return;
+  loose_->begin_repeat();
+  curvature_->clear();
+}
+
 void CablePaths::finish() {
   if (finished_) return;
   finished_ = true;

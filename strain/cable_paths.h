@@ -91,6 +91,9 @@ class CablePaths {
   static void add(std::span<CablePaths* const> all, const SpanBlock& block);
   /// Moves the loose cables through samples before the first one, to the places where a repeat of the motion leaves them.
   static void lead_in(std::span<CablePaths* const> all, const SpanBlock& block);
+  /// Forgets the samples but not where the loose cables are, so that the motion can follow once more. Call it instead of finish()
+  /// after the last sample, for all objects that share loose cables.
+  void repeat();
   void finish();  ///< after the last sample; a second call changes nothing
 
   // ---- after finish()
@@ -141,6 +144,8 @@ class CablePaths {
   std::size_t restless() const { return loose_ ? loose_->restless() : 0; }
   /// Returns the change of curvature of loose cables in the repeat (LooseCables::changed()).
   double changed() const { return loose_ ? loose_->changed() : 0; }
+  /// Returns whether the repeat leaves the loose cables where it found them.
+  bool closes() const { return !(changed() > LooseCables::most_change); }
 
  private:
   struct Cable {

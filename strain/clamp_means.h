@@ -22,6 +22,7 @@ class ClampMeans {
   /// Adds the next samples of one segment. Call for each segment, then next_block(). motion: of these samples.
   void add(std::size_t segment, const SegmentMotion& motion);
   void next_block();
+  void repeat() { next_ = 0; }  ///< the next block is the first one again
 
   const std::vector<LayerSlip>& plan() const { return plan_; }
   /// Limits the length over which friction gathers (shortened()). Returns the longest evening length of the plan.

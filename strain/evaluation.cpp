@@ -207,6 +207,12 @@ void Evaluation::lead_in(std::span<Evaluation* const> all, const SpanBlock& bloc
   CablePaths::lead_in(cables, block);
 }
 
+void Evaluation::repeat() {
+  cables_.repeat();
+  for (ClampMeans* means : {&means_, &stick_.means, &free_.means}) means->repeat();
+  meant_ = 0;
+}
+
 void Evaluation::add_bends(const DeformationHistory& block) {
   bends_.resize(2 * lengths_.size());
   for (std::size_t i = 0; i < lengths_.size(); ++i) {

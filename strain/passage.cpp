@@ -6,6 +6,11 @@
 #include "pipeline/base/threads.h"
 
 namespace dresslife::strain {
+namespace {
+
+void add(std::span<Evaluation* const> all, const SpanBlock& block) { Evaluation::add(all, block); }
+
+}  // namespace
 
 HistoryWindow::HistoryWindow(std::size_t segments, std::size_t samples, std::size_t bytes)
     : segments_(segments),
@@ -65,8 +70,9 @@ std::vector<std::vector<Evaluation*>> Passage::shared_out(const std::vector<Eval
   return of_thread;
 }
 
-/// Calls use() with the evaluations of each span that do not leave the piece out, for one block of it.
-void Passage::each_span(const MotionBlock& block, const Shortening::Piece& piece, const Use& use) const {
+/// Calls use() with those of the evaluations of each span that do not leave the piece out, for one block of it.
+void Passage::each_span(const MotionBlock& block, const Shortening::Piece& piece, const OfSpan& evaluations,
+                        const Use& use) const {
   const std::size_t segments = motion_.lengths().size(), count = block.deformation.size() / segments;
   std::vector<double> pull;
   std::vector<Deformation> ends;
@@ -83,7 +89,7 @@ void Passage::each_span(const MotionBlock& block, const Shortening::Piece& piece
       pull.insert(pull.end(), own.begin(), own.end());
     }
     const SpanBlock span_block{of_span, pull, motion_.step(), ends};
-    std::vector<Evaluation*> all = evaluated(k);
+    std::vector<Evaluation*> all = evaluations(k);
     const auto others = std::ranges::stable_partition(
         all, [&](const Evaluation* of) { return !leaves_out(piece, of->samples()); });
     for (Evaluation* const of : others) of->leave_out(span_block);
@@ -117,7 +123,7 @@ void Passage::lead_in(double from, double until) {
     const std::size_t first = (samples - left % samples) % samples, count = std::min(left - end, samples - first);
     const Shortening::Piece all{first, first + count, 0, 1};
     const auto move = [&](const MotionBlock& block) {
-      each_span(block, all, Evaluation::lead_in);
+      each_span(block, all, [&](std::size_t span) { return evaluated(span); }, Evaluation::lead_in);
       starts_.merge();
     };
     motion_.run(true, move, first, first + count);
@@ -130,22 +136,44 @@ void Passage::record_rubbing() const {
     for (Evaluation* const evaluation : of_starts(k)) evaluation->record_rubbing();
 }
 
+std::vector<Evaluation*> Passage::open(std::size_t span) const {
+  std::vector<Evaluation*> all = evaluated(span);
+  std::erase_if(all, [](const Evaluation* of) { return of->cables().closes(); });
+  return all;
+}
+
+/// Cables that snap in the motion did not reach a cycle in the lead-in. A repeat later they usually have.
+void Passage::close_cycles() {
+  for (int repeat = 0; repeat < most_closing_repeats; ++repeat) {
+    std::vector<std::vector<Evaluation*>> all;  // (span)
+    for (std::size_t k = 0; k < motion_.spans().size(); ++k) all.push_back(open(k));
+    if (std::ranges::all_of(all, &std::vector<Evaluation*>::empty)) return;
+    for (const std::vector<Evaluation*>& of_span : all)
+      for (Evaluation* const evaluation : of_span) evaluation->repeat();
+    each_piece(true, [&](const MotionBlock& block, const Shortening::Piece& piece) {
+      each_span(block, piece, [&](std::size_t span) { return all[span]; }, add);
+    });
+    starts_.merge();
+  }
+}
+
 void Passage::run(const std::function<void(const MotionBlock&)>& put) {
   each_piece(loose_, [&](const MotionBlock& block, const Shortening::Piece& piece) {
     put(block);
-    each_span(block, piece,
-              [](std::span<Evaluation* const> own, const SpanBlock& of_span) { Evaluation::add(own, of_span); });
+    each_span(block, piece, [&](std::size_t span) { return evaluated(span); }, add);
     starts_.merge();
     keep(0, block, piece);
   });
+  close_cycles();
   for (std::size_t k = 0; k < motion_.spans().size(); ++k)
     for (Evaluation* const evaluation : evaluated(k)) evaluation->end_first_pass();
   if (std::ranges::none_of(starts_.spans(0), [](const auto& evaluation) { return evaluation->wants_again(); })) return;
   each_piece(false, [&](const MotionBlock& block, const Shortening::Piece& piece) {
-    each_span(block, piece, [](std::span<Evaluation* const> own, const SpanBlock& of_span) {
-      for (Evaluation* const evaluation : own)
-        if (evaluation->wants_again()) evaluation->add_again(of_span.deformation);
-    });
+    each_span(block, piece, [&](std::size_t span) { return evaluated(span); },
+              [](std::span<Evaluation* const> own, const SpanBlock& of_span) {
+                for (Evaluation* const evaluation : own)
+                  if (evaluation->wants_again()) evaluation->add_again(of_span.deformation);
+              });
   });
 }
 

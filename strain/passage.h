@@ -47,10 +47,16 @@ class Passage {
   void lead_in(double from, double until);
   /// Records rubbing for every start, because each can become the job's own.
   void record_rubbing() const;
-  /// First pass. put: receives every block before the evaluations.
+  /// First pass. put: receives every block before the evaluations. Evaluations whose loose cables do not end the motion where they
+  /// began it (CablePaths::closes()) follow it again, up to most_closing_repeats times.
   void run(const std::function<void(const MotionBlock&)>& put);
+  static constexpr int most_closing_repeats = 3;
+  /// Returns the evaluations whose loose cables still do not close after run().
+  std::vector<Evaluation*> open(std::size_t span) const;
   /// The rest at the standard normal quantile z becomes the job's own (Starts::choose()).
   void choose(double z);
+  /// Returns all evaluations of a span, the job's own first.
+  std::vector<Evaluation*> evaluated(std::size_t span) const;
   /// Calls use() for every segment: its span, its number in the span, its row in the window. Precondition: the window contains
   /// the first segments.
   void each_segment(const std::function<void(std::size_t span, std::size_t segment, std::size_t row)>& use);
@@ -58,10 +64,11 @@ class Passage {
  private:
   using Use = std::function<void(std::span<Evaluation* const>, const SpanBlock&)>;
   std::vector<Evaluation*> of_starts(std::size_t span) const;
-  std::vector<Evaluation*> evaluated(std::size_t span) const;
   bool leaves_out(const Shortening::Piece& piece, std::size_t samples) const;
   std::vector<std::vector<Evaluation*>> shared_out(const std::vector<Evaluation*>& all) const;
-  void each_span(const MotionBlock& block, const Shortening::Piece& piece, const Use& use) const;
+  using OfSpan = std::function<std::vector<Evaluation*>(std::size_t span)>;
+  void each_span(const MotionBlock& block, const Shortening::Piece& piece, const OfSpan& evaluations, const Use& use) const;
+  void close_cycles();
   void each_piece(bool with_pull, const std::function<void(const MotionBlock&, const Shortening::Piece&)>& use) const;
   void keep(std::size_t first_segment, const MotionBlock& block, const Shortening::Piece& piece) const;
   void refill(std::size_t first_segment);

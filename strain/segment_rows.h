@@ -23,7 +23,8 @@ class SegmentRows {
   /// rows: per segment. Errors: InputError when the temporary file cannot be created.
   SegmentRows(std::size_t segments, std::size_t rows, std::size_t samples, const Scratch& scratch);
 
-  void begin(std::size_t samples);  ///< the next block
+  void clear() { blocks_.clear(); }  ///< the next block is the first one again
+  void begin(std::size_t samples);   ///< the next block
   float& at(std::size_t segment, std::size_t row, std::size_t sample_of_block) {
     return block_[(sample_of_block * segments_ + segment) * rows_ + row];
   }

@@ -286,16 +286,43 @@ std::vector<Warning> restless_warnings(std::size_t samples, double sample_rate) 
 
 /// changed: see LooseCables::changed().
 std::vector<Warning> cycle_warnings(double changed) {
-  // A tenth of the strain is a factor of two in life (slope 7 of copper), as much as the stated numerical errors of good jobs.
-  constexpr double most = 0.1;
+  constexpr double most = LooseCables::most_change;
   if (!(changed > most)) return {};
   return {pipeline::warning_of(
       WarningKind::periodic, "",
       fmt::format("loose cables do not end the repeat where they began it: their curvature changes by {:.0f} % (limit {:.0f} %), and the "
                   "life counts this change in each repeat",
                   100 * changed, 100 * most),
-      fmt::format("the cables have not reached a cycle in the {:.0f} s of motion before the repeat", lead_in_time),
+      fmt::format("the cables have not reached a cycle in {:.0f} s of motion and {} further repeats", lead_in_time,
+                  Passage::most_closing_repeats),
       "cables with less slack, slack_percent in dresspack.components; no value was tried")};
+}
+
+/// Places of loose cables besides the job's own: of other starts and of variations.
+struct OtherPlaces {
+  std::size_t all = 0, moving = 0;  ///< moving: they do not end the repeat where they began it
+  /// own: the job's own evaluations, which do not count; empty: in another motion.
+  void add(const Passage& passage, std::size_t spans, const std::vector<std::unique_ptr<Evaluation>>& own) {
+    for (std::size_t span = 0; span < spans; ++span) {
+      const auto counts = [&](const Evaluation* of) {
+        return of->any_loose() && (own.empty() || !of->cables().shares_loose(own[span]->cables()));
+      };
+      all += static_cast<std::size_t>(std::ranges::count_if(passage.evaluated(span), counts));
+      moving += static_cast<std::size_t>(std::ranges::count_if(passage.open(span), counts));
+    }
+  }
+};
+
+std::vector<Warning> places_warnings(const OtherPlaces& places) {
+  if (places.moving == 0) return {};
+  return {pipeline::warning_of(
+      WarningKind::mesh, "",
+      fmt::format("at {} of {} other places of loose cables (starts, slack, friction, stiffness) the cables do not end the repeat where "
+                  "they began it, and the percentiles count this change in each repeat",
+                  places.moving, places.all),
+      fmt::format("there they have not reached a cycle in {:.0f} s of motion and {} further repeats", lead_in_varied,
+                  Passage::most_closing_repeats),
+      "percentiles with a greater numerical error than the stated one; no value was tried")};
 }
 
 /// Data from which the forces of all cables are computed: component, strains, and places at the clamps.
@@ -532,12 +559,13 @@ using LikelySites = std::vector<std::vector<Evaluation::Site>>;  ///< (segment)
 /// Writes the variations in the motion of a hose with another stiffness.
 void write_other_motion(MotionReader& motion, const Shortening& shortening, Starts::Spans& laid,
                         const Variations& variations, HistoryWindow& window, std::size_t threads,
-                        const LikelySites& likely, const Variations::Put& put) {
+                        const LikelySites& likely, OtherPlaces& places, const Variations::Put& put) {
   Starts starts(laid);
   Passage passage(motion, shortening, starts, window, threads);
   passage.take_along(variations);
   passage.lead_in(lead_in_varied, 0);
   passage.run([](const MotionBlock&) {});
+  places.add(passage, laid.size(), {});
   variations.find_bent();
   std::size_t seen = 0;
   passage.each_segment([&](std::size_t span, std::size_t segment, std::size_t row) {
@@ -594,6 +622,8 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
     work.first_pass(static_cast<double>(block.first) / static_cast<double>(samples));
   });
   passage.choose(job.strain.rest);
+  OtherPlaces places;
+  places.add(passage, evaluations.size(), evaluations);
   variations.find_bent();
   variations.add(starts);
   const std::vector<Warning> warnings =
@@ -623,14 +653,15 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
           return otherwise_laid.emplace_back(job, of, followed, threads, factors, scratch, &all).of_span;
         });
     VariationWriter rows(strain, varied, written);
-    write_other_motion(of, of_other, laid.of_span, varied, window, threads, likely, rows.put());
+    write_other_motion(of, of_other, laid.of_span, varied, window, threads, likely, places, rows.put());
     written += varied.points().size();
     work.other_motions(other + 1);
   }
+  if (places.all > 0) strain.attribute("moving_places", static_cast<double>(places.moving));
   const auto worst =
       std::max_element(evaluations.begin(), evaluations.end(),
                        [](const auto& a, const auto& b) { return a->worst_range() < b->worst_range(); });
-  return {warnings, (*worst)->summary(evaluations.back()->sites_so_far())};
+  return {pipeline::joined(warnings, places_warnings(places)), (*worst)->summary(evaluations.back()->sites_so_far())};
 }
 
 }  // namespace dresslife::strain

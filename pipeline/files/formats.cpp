@@ -309,6 +309,9 @@ Format make_strain_format() {
     {"loose_mesh_error", f64, maybe,
      "estimated share of the curvature of loose cables that their mesh misses (strain.cable_elements_per_segment): "
      "rms over the motion, of the worst cable; absent: no loose cable"},
+    {"moving_places", f64, maybe,
+     "number of places of loose cables besides the job's own (starts, variations) at which the cables do not end the repeat where "
+     "they began it (strain/theory.md, W42); absent: no other places"},
     {"warnings", text, maybe, "as in the motion file, then those of this stage"},
   });
   return format;
@@ -422,6 +425,7 @@ Format make_life_format() {
      "largest pull of a cable at a clamp over what EN 50262 asks a strain relief of type A to hold (fatigue/strain_relief.h); "
      "a check, no life"},
     {"loose_mesh_error", f64, maybe, "as in the strain file"},
+    {"moving_places", f64, maybe, "as in the strain file"},
     {"worst_site", f64, always, "index of the worst site"},
     {"worst_segment_from_tool", f64, always, "its segment, counted from the tool, 1 first"},
     {"worst_position_from_tool", f64, always, "its distance from the tool clamp along the dresspack, m"},

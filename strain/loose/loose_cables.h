@@ -78,6 +78,9 @@ class LooseCables {
   /// Returns the change of curvature since begin_repeat(), over the curvature: root mean squares over cables and nodes. 0 without
   /// begin_repeat().
   double changed() const;
+  /// Limit of changed() beyond which cables have not reached a cycle. A tenth of the strain is a factor of two in life (slope 7 of
+  /// copper), as much as the stated numerical errors of good jobs.
+  static constexpr double most_change = 0.1;
   std::size_t iterations() const { return iterations_; }  ///< sum over all cables and samples
   /// Returns the share of the curvature that the distance of nodes misses, as a ratio of root mean squares over nodes and
   /// samples; the largest of all cables.

@@ -1,8 +1,10 @@
 // The choice among rests of loose cables (W40).
 #include "strain/starts.h"
 
+#include <cmath>
 #include <list>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/settings/document.h"
 #include "tests/catch.h"
@@ -73,4 +75,47 @@ TEST_CASE("a rest to which most starts came is the median one for any damages") 
   FourStarts even({1, 1, 2, 2});
   REQUIRE(even.starts.rests() == 2);
   CHECK_FALSE(even.starts.choose_by_number(0));
+}
+
+TEST_CASE("an evaluation that follows the motion again has the strains of one that followed it before as a lead-in") {
+  constexpr std::size_t cycle = 40;
+  pipeline::Job job = ring_job();
+  const strain::Construction construction(job.dresspacks[0].dresspack, job.strain.kinematics);
+  strain::DeformationHistory history(segments, cycle);
+  for (std::size_t segment = 0; segment < segments; ++segment)
+    for (std::size_t t = 0; t < cycle; ++t) {
+      const double w = 2 * dresslife::pi * static_cast<double>(t) / cycle;
+      history.set(segment, t, {1.5 + 0.5 * std::sin(w), 0.8 * std::cos(w), 1.2 * std::sin(w), 0});
+    }
+  for (const pipeline::Slip slip : {pipeline::Slip::free, pipeline::Slip::friction}) {
+    job.strain.slip = {slip};
+    std::vector<std::vector<float>> strains;  // (evaluation)
+    std::vector<double> changed;
+    for (const bool again : {false, true}) {
+      Evaluation evaluation(construction, job.strain, std::vector<double>(segments, 0.15), cycle);
+      Evaluation* const alone = &evaluation;
+      evaluation.wind(3);
+      evaluation.record_rubbing();
+      if (again) {
+        evaluation.add({history});
+        evaluation.repeat();
+      } else {
+        Evaluation::lead_in({&alone, 1}, {history});
+      }
+      evaluation.add({history});
+      evaluation.end_first_pass();
+      if (evaluation.wants_again()) evaluation.add_again(history);
+      changed.push_back(evaluation.cables().changed());
+      std::vector<float>& own = strains.emplace_back();
+      strain::Sink sink;
+      sink.sites = [&](const strain::SiteRows& rows) { own.insert(own.end(), rows.strain.begin(), rows.strain.end()); };
+      sink.bound_stick = sink.bound_free = [](const strain::SiteRows&) {};
+      sink.probe = [](const strain::Probe&) {};
+      for (std::size_t segment = 0; segment < segments; ++segment) evaluation.evaluate(segment, history, segment, sink);
+    }
+    CHECK(strains[0].size() > 500);
+    CHECK(strains[0] == strains[1]);
+    CHECK(changed[0] == changed[1]);
+    CHECK(changed[0] > 0);
+  }
 }

@@ -412,6 +412,26 @@ TEST_CASE("each start of a ring of cables has a rest in the file, one cable has 
   for (const std::int32_t rest : one.read<std::int32_t>("/variation/rest")) CHECK(rest == 0);
 }
 
+TEST_CASE("starts that do not close the first repeat after the lead-in follow the motion again until they do") {
+  // The lead-in of 180 s is shorter than the motion, so each start has been through a part of it only. At such a step a start moved by
+  // half of its curvature in the first repeat.
+  const Scratch scratch;
+  std::string text = pipeline::sample_job;
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+  };
+  replace("helix_radius_mm: 18.45\n", "helix_radius_mm: 18.45\n      slack_percent: 2\n");
+  replace("  damping_time_ms: 10\n", "  damping_time_ms: 10\n  inner_diameter_mm: 52\n");
+  write_motion(scratch / "motion.h5", cycle, 6, turning);
+  for (const char* const slip : {"free", "friction"}) {
+    evaluate(scratch / "motion.h5", scratch / "strain.h5",
+             pipeline::job_from(pipeline::parse_yaml(text, "job.yaml"),
+                                {fmt::format("strain.slip={}", slip), "uncertainty.enabled=false"}));
+    const FileReader file(scratch / "strain.h5", pipeline::strain_format());
+    CHECK(file.number_attribute("moving_places") == 0);
+  }
+}
+
 TEST_CASE("a motion without samples or a dresspack without wires is refused in words") {
   const Scratch scratch;
   write_motion(scratch / "motion.h5", 0);
