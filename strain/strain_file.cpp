@@ -322,7 +322,8 @@ std::vector<Warning> places_warnings(const OtherPlaces& places) {
                   places.moving, places.all),
       fmt::format("there they have not reached a cycle in {:.0f} s of motion and {} further repeats", lead_in_varied,
                   Passage::most_closing_repeats),
-      "percentiles with a greater numerical error than the stated one; no value was tried")};
+      "slack and stiffness of the hose as measured, with smaller values of uncertainty.slack and uncertainty.hose_stiffness, if they leave "
+      "out these places; without that the numerical error of the percentiles is greater than stated")};
 }
 
 /// Data from which the forces of all cables are computed: component, strains, and places at the clamps.
