@@ -1,6 +1,7 @@
 // Strains of wires are smooth functions of the keys of their cables: no jump between neighbouring values of any key, at any
 // value of the others. Wires of two cables with two conductors each, through the whole evaluation.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 
@@ -127,12 +128,13 @@ TEST_CASE("strains of wires move smoothly with every key of loose and held cable
   constexpr double steepest = 3;
   // Excess length can rest in several shapes, in which dry friction holds it (W42). Small differences select one of them: the strain goes
   // back and forth between them by up to 23 % in one of twenty comparisons, and this does not add up. The effect of a law with a switch
-  // would be there whatever the other keys are, so the median over them shows it.
+  // would be there whatever the other keys are, so the median over them at each value of the key shows it: twice the friction above 0.6
+  // gives 5.4 % there, and 0.6 % in the median over both values.
   constexpr double other_shape = 0.3;
   for (const Position position : {Position::loose, Position::held}) {
     const std::vector<Key> all = keys(position);
     const double allowed = position == Position::loose ? other_shape : steepest * step;
-    std::vector<std::vector<double>> changes(all.size());  // (key, values of the others)
+    std::vector<std::array<std::vector<double>, 2>> changes(all.size());  // (key, low or high, values of the others)
     for (std::size_t a = 0; a < all.size(); ++a)
       for (std::size_t b = 0; b < a; ++b)
         for (const bool high_a : {false, true})
@@ -149,13 +151,15 @@ TEST_CASE("strains of wires move smoothly with every key of loose and held cable
             INFO((position == Position::held ? "held" : "loose"));
             CHECK(by_a == Approx(here).epsilon(allowed));
             CHECK(by_b == Approx(here).epsilon(allowed));
-            changes[a].push_back(std::abs(by_a / here - 1));
-            changes[b].push_back(std::abs(by_b / here - 1));
+            changes[a][high_a].push_back(std::abs(by_a / here - 1));
+            changes[b][high_b].push_back(std::abs(by_b / here - 1));
           }
-    for (std::size_t key = 0; key < all.size(); ++key) {
-      std::ranges::sort(changes[key]);
-      INFO(all[key].name);
-      CHECK(changes[key][changes[key].size() / 2] < steepest * step);
-    }
+    for (std::size_t key = 0; key < all.size(); ++key)
+      for (const bool high : {false, true}) {
+        std::vector<double>& of = changes[key][high];
+        std::ranges::sort(of);
+        INFO(all[key].name << " " << (high ? all[key].high : all[key].low));
+        CHECK(of[of.size() / 2] < steepest * step);
+      }
   }
 }
