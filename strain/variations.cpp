@@ -106,7 +106,8 @@ Variations::Variations(const pipeline::Job& job, const Spans& as_given, const Sh
   std::erase_if(all, [](const Friction& of) { return of.z == -reach / 2; });
   all.insert(all.begin(), Friction{});
   lay(job, build, Uncertain::slack, slacks, all);
-  // With less friction along the hose log10 of a life continues the straight line to within half a decade.
+  // With less friction on the hose log10 of a life continues the straight line: to within 0.1 decade in spot_robot_1, 0.9 decades too long
+  // in hard (strain/measurements.md, dry friction).
   lay(job, build, Uncertain::friction_hose, std::array{reach}, {{}});
   lay(job, build, Uncertain::grip, both_sides, {{}});
 }
