@@ -413,8 +413,8 @@ TEST_CASE("each start of a ring of cables has a rest in the file, one cable has 
 }
 
 TEST_CASE("starts that do not close the first repeat after the lead-in follow the motion again until they do") {
-  // The lead-in of 180 s is shorter than the motion, so each start has been through a part of it only. At such a step a start moved by
-  // half of its curvature in the first repeat.
+  // The lead-in of 180 s is shorter than the motion, so each start has been through a part of it only. Without further repeats one start
+  // changes by more than LooseCables::most_change.
   const Scratch scratch;
   std::string text = pipeline::sample_job;
   const auto replace = [&](const std::string& from, const std::string& to) {
