@@ -199,7 +199,7 @@ std::string dresspacks_table(const Fleet& fleet, const Plan& plan, const std::st
     const RowPlan& row = plan.rows[i];
     const auto percent = [](double share) { return number_cell(share, percent_text(share)); };
     std::string cells = fmt::format(
-        "<tr data-rank=\"{0}\"><td class=\"number\" data-value=\"{0}\">{0}</td><td>{1}</td><td>{2}</td><td style=\"white-space: nowrap\">{3}</td>{4}{5}<td>{6}</td>{7}", rows.size() + 1,
+        "<tr data-rank=\"{0}\"><td class=\"number\" data-value=\"{0}\">{0}</td><td>{1}</td><td>{2}</td><td style=\"white-space: nowrap\">{3}</td>{4}{5}<td style=\"white-space: nowrap\">{6}</td>{7}", rows.size() + 1,
         escaped(fleet.rows[i].name), escaped(fleet.rows[i].duty), day_text(fleet.rows[i].since), number_cell(row.age_hours, printed(row.age_hours)),
         percent(row.fails_before_first), row.window ? day_text(plan.windows[*row.window].first) : "in no window", percent(row.fails_before));
     for (const double share : row.fails_until_next) cells += percent(share);
