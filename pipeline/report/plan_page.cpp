@@ -219,7 +219,7 @@ std::string plan_page(const std::string& name, const Fleet& fleet, const Plan& p
   for (const std::string& doubt : notes.doubts) body += "<p><b>" + escaped(doubt) + "</b></p>\n";
   body += "<p>" + escaped(expected_words(plan)) + "</p>\n" + (notes.beside.empty() ? "" : beside_table(notes)) + windows_table(fleet, plan);
   if (const std::string kept = kept_words(fleet, plan); !kept.empty()) body += "<p class=\"soft\">" + escaped("In no window. " + kept) + "</p>\n";
-  if (!notes.values.empty()) body += "<p style=\"white-space: pre-line\">" + escaped(notes.values) + "</p>\n";
+  if (!notes.values.empty()) body += "<p style=\"white-space: pre-wrap\">" + escaped(notes.values) + "</p>\n";
   for (const std::string& note : notes.paragraphs) body += "<p class=\"soft\">" + escaped(note) + "</p>\n";
   body += fmt::format(
       "<h3>Calendar</h3>\n<p class=\"soft\">Above: expected failures of all dresspacks in a week; those of dresspacks that are put in later are counted in simulated plants. Below: {}. Colour: the probability that today's dresspack "
