@@ -635,7 +635,9 @@ class SharedValues {
  private:
   static void add(const std::vector<SharedValue>& more, std::vector<SharedValue>& values) {
     for (const SharedValue& value : more)
-      if (std::ranges::none_of(values, [&](const SharedValue& one) { return one.parameter == value.parameter && one.of == value.of; }))
+      if (std::ranges::none_of(values, [&](const SharedValue& one) {
+            return one.parameter == value.parameter && one.of == value.of;
+          }))
         values.push_back(value);
   }
   std::vector<SharedValue> of(const FailureModes& modes) const {
@@ -645,7 +647,8 @@ class SharedValues {
       for (std::size_t p = 0; p < uncertain_count; ++p) {
         const SharedBy by = uncertain_parameters()[p].shared;
         const auto at = static_cast<Eigen::Index>(p);
-        if (by == SharedBy::installation || !(mode.knowledge.covariance(at, at) > 0) || !life.depends_on(p)) continue;
+        if (by == SharedBy::installation || !(mode.knowledge.covariance(at, at) > 0) || !life.depends_on(p))
+          continue;
         const std::string of = by == SharedBy::construction ? mode.construction
                                : by == SharedBy::material   ? mode.material
                                                             : "";

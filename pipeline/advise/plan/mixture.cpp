@@ -82,7 +82,8 @@ double log10_life(double damage) { return damage > 0 ? -std::log10(damage) : inf
 WireDamage without_damage(const WireSites& sites) {
   WireDamage wires;
   std::unordered_map<std::string, std::uint32_t> conductors;
-  for (const std::string& path : sites.conductors) conductors.emplace(path, static_cast<std::uint32_t>(conductors.size()));
+  for (const std::string& path : sites.conductors)
+    conductors.emplace(path, static_cast<std::uint32_t>(conductors.size()));
   std::vector<std::uint32_t> mode_of(conductors.size(), nothing);
   for (const auto& [path, index] : conductors)
     for (std::size_t m = 0; m < sites.modes.size(); ++m)
@@ -102,7 +103,8 @@ WireDamage without_damage(const WireSites& sites) {
       found->second = {conductor_of(sites.component[site], conductors),
                        static_cast<std::uint32_t>(known.size() - 1)};
     const Wire& wire = found->second;
-    if (wire.conductor == nothing || mode_of[wire.conductor] == nothing) continue;  // a site of the hose's wall
+    if (wire.conductor == nothing || mode_of[wire.conductor] == nothing)
+      continue;  // a site of the hose's wall
     const std::int32_t segment = sites.segment[site];
     const std::uint64_t key = std::uint64_t{wire.index} << 32 | static_cast<std::uint32_t>(segment);
     const auto [at, first_site] = wire_at.try_emplace(key, static_cast<std::uint32_t>(wires.place.size()));
@@ -127,9 +129,14 @@ WireDamage without_damage(const WireSites& sites) {
 
 }  // namespace
 
-WireDamage WireDamages::read(const std::filesystem::path& life_file, const FailureModes& modes, double failed_percent) {
+WireDamage WireDamages::read(const std::filesystem::path& life_file, const FailureModes& modes,
+                             double failed_percent) {
   const FileReader file(life_file, life_format());
-  WireSites sites{file.read<std::int32_t>("/site/segment"), file.read<std::string>("/site/component"), file.read<std::string>("/conductor/component"), {}, failed_percent};
+  WireSites sites{file.read<std::int32_t>("/site/segment"),
+                  file.read<std::string>("/site/component"),
+                  file.read<std::string>("/conductor/component"),
+                  {},
+                  failed_percent};
   for (const LifeResponse& mode : modes) sites.modes.push_back({mode.mode, mode.dresspack});
   if (sites != sites_) {
     without_damage_ = without_damage(sites);
