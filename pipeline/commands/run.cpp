@@ -44,7 +44,8 @@ int run_shard(const RunOptions& options) {
 
 /// Prints the stages that a run would start, without starting them.
 int dry_run(const RunOptions& options) {
-  const StudyState standing = standing_study(request_of(options));
+  StudyState standing = standing_study(request_of(options));
+  if (!options.shard.empty()) keep_shard(standing, shard_from(options.shard, "--shard"));
   std::size_t to_make = 0, refused = 0;
   JobList jobs(options.json);
   for (std::size_t k = 0; k < standing.states.size(); ++k) {

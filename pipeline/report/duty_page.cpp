@@ -100,7 +100,7 @@ std::string programs_table(const std::vector<DutyResult>& results, const std::st
 
 std::string duty_page(const std::string& name, const std::vector<DutyResult>& results, const std::string& table) {
   std::string body =
-      "<style>.pairs { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 26rem), 1fr)); gap: 0 1rem; } .pairs figure { margin: .4rem 0; } "
+      "<style>.pairs { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 26rem), 1fr)); gap: 0 1rem; } .pairs figure { margin: .4rem 0; } "
       "@media print { figure { break-inside: avoid; } .pairs { grid-template-columns: 1fr 1fr; } }</style>\n"
       "<p class=\"soft\">p10: 1 of 10 new dresspacks has failed by then. A click on a head sorts.</p>\n" +
       programs_table(results, table);

@@ -25,7 +25,7 @@ constexpr std::array shades{std::pair(1e-4, "p1"), std::pair(1e-3, "p2"), std::p
 constexpr const char* shade_rules =
     "<style>svg .p1 { fill: var(--hot); fill-opacity: .12; } svg .p2 { fill: var(--hot); fill-opacity: .3; } "
     "svg .p3 { fill: var(--hot); fill-opacity: .6; } svg .p4 { fill: var(--hot); } "
-    "svg .window { fill: var(--blue); fill-opacity: .16; } svg .new { fill: var(--band); }</style>\n";
+    "svg .window { fill: var(--blue); fill-opacity: .16; } svg .new { fill: var(--band); } svg .under { fill: var(--page); }</style>\n";
 
 const char* shade_of(double probability) {
   const char* shade = nullptr;
@@ -76,8 +76,10 @@ class Calendar {
   void failures(Picture& picture) const {
     std::vector<double> by_plan, without;
     for (std::size_t k = 0; k < plan_.failures_in_week.size(); ++k) {
-      by_plan.push_back(plan_.failures_in_week[k]);
-      without.push_back(plan_.failures_in_week_without_windows[k]);
+      // The last week may be shorter: 1 day or, with a year of 365.2425 days behind the window, less.
+      const double part = std::max(1.0, double((std::min(plan_.end, week(k + 1)) - week(k)).count())) / 7;
+      by_plan.push_back(plan_.failures_in_week[k] / part);
+      without.push_back(plan_.failures_in_week_without_windows[k] / part);
     }
     const double most = std::max(*std::max_element(by_plan.begin(), by_plan.end()), *std::max_element(without.begin(), without.end()));
     if (!(most > 0)) return;
@@ -103,6 +105,8 @@ class Calendar {
     const std::string& name = fleet_.rows[i].name;
     picture.text(plan_names - 8, y + row_height - 4, name, "name", Picture::Anchor::end, plan_names - 12);
     const Day end = plan.window ? plan_.windows[*plan.window].first : plan_.end;
+    // The shades are translucent. Without this box they would look darker in a window.
+    picture.box(x(plan_.today), y + 1, x(end) - x(plan_.today), row_height - 2, "under", name);
     for (std::size_t k = 0; k < plan.fails_in_week.size() && week(k) < end; k += weeks_per_cell_) {
       double fails = 0;
       const std::size_t behind = std::min(k + weeks_per_cell_, plan.fails_in_week.size());
@@ -195,7 +199,7 @@ std::string dresspacks_table(const Fleet& fleet, const Plan& plan, const std::st
     const RowPlan& row = plan.rows[i];
     const auto percent = [](double share) { return number_cell(share, percent_text(share)); };
     std::string cells = fmt::format(
-        "<tr data-rank=\"{0}\"><td class=\"number\" data-value=\"{0}\">{0}</td><td>{1}</td><td>{2}</td><td style=\"white-space: nowrap\">{3}</td>{4}{5}<td>{6}</td>{7}", rows.size() + 1,
+        "<tr data-rank=\"{0}\"><td class=\"number\" data-value=\"{0}\">{0}</td><td>{1}</td><td>{2}</td><td style=\"white-space: nowrap\">{3}</td>{4}{5}<td style=\"white-space: nowrap\">{6}</td>{7}", rows.size() + 1,
         escaped(fleet.rows[i].name), escaped(fleet.rows[i].duty), day_text(fleet.rows[i].since), number_cell(row.age_hours, printed(row.age_hours)),
         percent(row.fails_before_first), row.window ? day_text(plan.windows[*row.window].first) : "in no window", percent(row.fails_before));
     for (const double share : row.fails_until_next) cells += percent(share);
@@ -215,7 +219,7 @@ std::string plan_page(const std::string& name, const Fleet& fleet, const Plan& p
   for (const std::string& doubt : notes.doubts) body += "<p><b>" + escaped(doubt) + "</b></p>\n";
   body += "<p>" + escaped(expected_words(plan)) + "</p>\n" + (notes.beside.empty() ? "" : beside_table(notes)) + windows_table(fleet, plan);
   if (const std::string kept = kept_words(fleet, plan); !kept.empty()) body += "<p class=\"soft\">" + escaped("In no window. " + kept) + "</p>\n";
-  if (!notes.values.empty()) body += "<p style=\"white-space: pre-line\">" + escaped(notes.values) + "</p>\n";
+  if (!notes.values.empty()) body += "<p style=\"white-space: pre-wrap\">" + escaped(notes.values) + "</p>\n";
   for (const std::string& note : notes.paragraphs) body += "<p class=\"soft\">" + escaped(note) + "</p>\n";
   body += fmt::format(
       "<h3>Calendar</h3>\n<p class=\"soft\">Above: expected failures of all dresspacks in a week; those of dresspacks that are put in later are counted in simulated plants. Below: {}. Colour: the probability that today's dresspack "

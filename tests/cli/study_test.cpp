@@ -86,6 +86,7 @@ TEST_CASE("a dry run of a new study makes nothing") {
   const Outcome dry = run(scratch, "dresslife", "run -n study.yaml");
   CHECK(dry.status == 0);
   CHECK(dry.out.find("2 of 2 jobs to make; nothing was run\n") != std::string::npos);
+  CHECK(run(scratch, "dresslife", "run -n --shard 2/2 study.yaml").out.find("1 of 1 jobs to make") != std::string::npos);
   CHECK_FALSE(fs::exists(scratch / "runs"));
 }
 

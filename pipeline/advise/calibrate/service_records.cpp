@@ -119,8 +119,10 @@ std::optional<End> end_in(const std::string& text) {
                         "verschrott", "planificad", "programad",  "mantenimiento", "inspecci",   "colisi",
                         "choque",     "modificaci"}))
     return End::removed;
-  if (letters.empty() || has_any(letters, {"alive", "inuse", "inservice", "running", "imbetrieb", "imeinsatz",
-                                           "enuso", "enservicio", "enfuncionamiento"}))
+  // "Inbetriebnahme" (start of operation) does not say that the dresspack is in use.
+  if (letters.empty() || letters == "inbetrieb" ||
+      has_any(letters, {"alive", "inuse", "inservice", "running", "imbetrieb", "imeinsatz", "enuso",
+                        "enservicio", "enfuncionamiento"}))
     return End::in_use;
   return std::nullopt;
 }

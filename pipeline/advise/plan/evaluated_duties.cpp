@@ -219,10 +219,10 @@ class Programs {
     return all;
   }
   /// Returns the damage of the round of a duty's order, at the medians of the uncertain parameters; empty: no order.
-  std::optional<WireDamage> round_of(const Duty& duty, const EvaluatedProgram& first) const {
+  std::optional<WireDamage> round_of(const Duty& duty, const EvaluatedProgram& first) {
     if (duty.order.empty()) return std::nullopt;
     const DutyProgram round = program_of_round(duty);
-    WireDamage wires = wire_damage(row(round).life_file, *first.modes, failed_wires_percent(round));
+    WireDamage wires = damages_.read(row(round).life_file, *first.modes, failed_wires_percent(round));
     check_layout(duty, first, round.job, wires);
     return wires;
   }
@@ -270,7 +270,7 @@ class Programs {
     if (!modes) {
       modes = std::make_shared<const FailureModes>(modes_from_text(of.life_response));
       wires = std::make_shared<const WireDamage>(
-          wire_damage(of.life_file, *modes, failed_wires_percent(program)));
+          damages_.read(of.life_file, *modes, failed_wires_percent(program)));
     }
     return {of.job, of.repeat_seconds, modes, wires};
   }
@@ -280,6 +280,7 @@ class Programs {
   std::map<std::pair<std::uint64_t, std::int64_t>,
            std::pair<std::shared_ptr<const FailureModes>, std::shared_ptr<const WireDamage>>>
       lives_;  ///< key: inode and time of change
+  WireDamages damages_;
 };
 
 constexpr std::size_t draws = 64;  // dresspacks in each world: the error of a probability of 10 % in one world is 3.8 %
@@ -616,29 +617,50 @@ std::vector<DutyResult> evaluated(const DutyFile& file, const Study& study,
 
 namespace {
 
-/// Returns the values on which the lives of these programs depend and that dresspacks share, each once.
-std::vector<SharedValue> shared_values(const std::vector<EvaluatedProgram>& programs, std::size_t worlds) {
-  std::vector<SharedValue> values;
-  std::set<const FailureModes*> seen;
-  for (const EvaluatedProgram& program : programs) {
-    if (!seen.insert(program.modes.get()).second) continue;
-    for (const LifeResponse& mode : *program.modes)
+/// Values on which the lives of programs depend and that dresspacks share. Those of a result are computed once for all duties.
+class SharedValues {
+ public:
+  explicit SharedValues(std::size_t worlds) : worlds_(worlds) {}
+  /// Returns each value once.
+  std::vector<SharedValue> of(const std::vector<EvaluatedProgram>& programs) {
+    std::vector<SharedValue> values;
+    for (const EvaluatedProgram& program : programs) {
+      const auto [known, is_new] = of_result_.try_emplace(program.modes.get());
+      if (is_new) known->second = of(*program.modes);
+      add(known->second, values);
+    }
+    return values;
+  }
+
+ private:
+  static void add(const std::vector<SharedValue>& more, std::vector<SharedValue>& values) {
+    for (const SharedValue& value : more)
+      if (std::ranges::none_of(values, [&](const SharedValue& one) {
+            return one.parameter == value.parameter && one.of == value.of;
+          }))
+        values.push_back(value);
+  }
+  std::vector<SharedValue> of(const FailureModes& modes) const {
+    std::vector<SharedValue> values;
+    for (const LifeResponse& mode : modes) {
+      const LifeSurface life(mode);
       for (std::size_t p = 0; p < uncertain_count; ++p) {
         const SharedBy by = uncertain_parameters()[p].shared;
         const auto at = static_cast<Eigen::Index>(p);
-        if (by == SharedBy::installation || !(mode.knowledge.covariance(at, at) > 0) ||
-            !LifeSurface(mode).depends_on(p))
+        if (by == SharedBy::installation || !(mode.knowledge.covariance(at, at) > 0) || !life.depends_on(p))
           continue;
         const std::string of = by == SharedBy::construction ? mode.construction
                                : by == SharedBy::material   ? mode.material
                                                             : "";
-        if (std::none_of(values.begin(), values.end(),
-                         [&](const SharedValue& known) { return known.parameter == p && known.of == of; }))
-          values.push_back({p, of, shared_samples(mode, p, worlds)});
+        add({{p, of, shared_samples(mode, p, worlds_)}}, values);
       }
+    }
+    return values;
   }
-  return values;
-}
+
+  std::size_t worlds_;
+  std::map<const FailureModes*, std::vector<SharedValue>> of_result_;
+};
 
 }  // namespace
 
@@ -657,6 +679,7 @@ std::map<std::string, LifeTable> life_tables(const DutyFile& file, const Study& 
     std::vector<double> share;
   };
   std::vector<Task> tasks;  // (duty)
+  SharedValues shared(worlds);
   for (std::size_t k = 0; k < duties.size(); ++k) {
     const Duty& duty = *duties[k];
     const std::vector<EvaluatedProgram>& evaluated = all[k];
@@ -669,7 +692,7 @@ std::map<std::string, LifeTable> life_tables(const DutyFile& file, const Study& 
     LifeTable& table = tables[duty.name];
     table.worlds = worlds, table.draws = draws, table.hours.resize(worlds * draws);
     table.hours_per_week = duty.hours_per_week;
-    table.shared = shared_values(evaluated, worlds);
+    table.shared = shared.of(evaluated);
     table.robot_life_hours = programs.row(duty.programs.front()).robot_life_hours;
     tasks.push_back({&table, std::move(rates), std::move(share)});
   }

@@ -28,7 +28,7 @@ std::string_view without_number(std::string_view name) {
 }
 
 /// Returns whether the wires of a conductor with this path belong to a mode ("wires of signal cable", fatigue/failure_modes.h).
-bool is_in_mode(std::string_view conductor, const LifeResponse& mode) {
+bool is_in_mode(std::string_view conductor, const WireSites::Mode& mode) {
   std::string name = mode.dresspack;
   if (!name.empty()) {
     if (!conductor.starts_with(name)) return false;
@@ -36,7 +36,7 @@ bool is_in_mode(std::string_view conductor, const LifeResponse& mode) {
   }
   const std::string_view cable = without_number(conductor.substr(0, conductor.find('/')));
   if (!cable.empty()) name += (name.empty() ? "" : "/") + std::string(cable);
-  return mode.mode == (name.empty() ? "wires" : "wires of " + name);
+  return mode.name == (name.empty() ? "wires" : "wires of " + name);
 }
 
 /// Returns the conductor that contains a wire: the conductor with the longest path that is a prefix of the wire's path.
@@ -79,22 +79,15 @@ double at_least_alone(double sum, double largest, double c) { return c > 0 ? std
 
 double log10_life(double damage) { return damage > 0 ? -std::log10(damage) : infinity; }
 
-}  // namespace
-
-WireDamage wire_damage(const std::filesystem::path& life_file, const FailureModes& modes,
-                       double failed_percent) {
-  const FileReader file(life_file, life_format());
+WireDamage without_damage(const WireSites& sites) {
   WireDamage wires;
-  wires.damage = file.read<double>("/damage");
-  const auto segment = file.read<std::int32_t>("/site/segment");
-  const auto component = file.read<std::string>("/site/component");
   std::unordered_map<std::string, std::uint32_t> conductors;
-  for (const std::string& path : file.read<std::string>("/conductor/component"))
+  for (const std::string& path : sites.conductors)
     conductors.emplace(path, static_cast<std::uint32_t>(conductors.size()));
   std::vector<std::uint32_t> mode_of(conductors.size(), nothing);
   for (const auto& [path, index] : conductors)
-    for (std::size_t m = 0; m < modes.size(); ++m)
-      if (is_in_mode(path, modes[m])) mode_of[index] = static_cast<std::uint32_t>(m);
+    for (std::size_t m = 0; m < sites.modes.size(); ++m)
+      if (is_in_mode(path, sites.modes[m])) mode_of[index] = static_cast<std::uint32_t>(m);
 
   struct Wire {
     std::uint32_t conductor = nothing, index = 0;
@@ -103,33 +96,54 @@ WireDamage wire_damage(const std::filesystem::path& life_file, const FailureMode
   std::map<std::pair<std::uint32_t, std::int32_t>, std::uint32_t> places;  // (conductor, segment)
   std::unordered_map<std::uint64_t, std::uint32_t> wire_at;                // (wire, segment)
   std::vector<std::uint32_t> wires_of_place;
-  wires.wire.assign(wires.damage.size(), nothing);
-  for (std::size_t site = 0; site < wires.damage.size(); ++site) {
-    const auto [found, is_new] = known.try_emplace(component[site]);
+  wires.wire.assign(sites.segment.size(), nothing);
+  for (std::size_t site = 0; site < sites.segment.size(); ++site) {
+    const auto [found, is_new] = known.try_emplace(sites.component[site]);
     if (is_new)
-      found->second = {conductor_of(component[site], conductors),
+      found->second = {conductor_of(sites.component[site], conductors),
                        static_cast<std::uint32_t>(known.size() - 1)};
     const Wire& wire = found->second;
-    if (wire.conductor == nothing || mode_of[wire.conductor] == nothing) continue;  // a site of the hose's wall
-    const std::uint64_t key = std::uint64_t{wire.index} << 32 | static_cast<std::uint32_t>(segment[site]);
+    if (wire.conductor == nothing || mode_of[wire.conductor] == nothing)
+      continue;  // a site of the hose's wall
+    const std::int32_t segment = sites.segment[site];
+    const std::uint64_t key = std::uint64_t{wire.index} << 32 | static_cast<std::uint32_t>(segment);
     const auto [at, first_site] = wire_at.try_emplace(key, static_cast<std::uint32_t>(wires.place.size()));
     wires.wire[site] = at->second;
     if (!first_site) continue;
     const auto [place, first_wire] =
-        places.try_emplace({wire.conductor, segment[site]}, static_cast<std::uint32_t>(wires.mode.size()));
+        places.try_emplace({wire.conductor, segment}, static_cast<std::uint32_t>(wires.mode.size()));
     if (first_wire) wires.mode.push_back(mode_of[wire.conductor]), wires_of_place.push_back(0);
     wires.place.push_back(place->second);
     ++wires_of_place[place->second];
   }
   for (const std::uint32_t count : wires_of_place)
-    wires.failing.push_back(static_cast<std::uint32_t>(wires_of_share(failed_percent, count)));
+    wires.failing.push_back(static_cast<std::uint32_t>(wires_of_share(sites.failed_percent, count)));
   std::string layout;
   for (const auto& [path, wire] : std::map<std::string, std::uint32_t>(conductors.begin(), conductors.end()))
     layout += path + '\n';
-  for (std::size_t site = 0; site < wires.damage.size(); ++site)
-    layout += fmt::format("{} {}\n", wires.wire[site],
-                          wires.wire[site] == nothing ? nothing : wires.place[wires.wire[site]]);
+  for (const std::vector<std::uint32_t>* const of : {&wires.wire, &wires.place})
+    layout.append(reinterpret_cast<const char*>(of->data()), of->size() * sizeof(std::uint32_t));
   wires.layout = sha256(layout);
+  return wires;
+}
+
+}  // namespace
+
+WireDamage WireDamages::read(const std::filesystem::path& life_file, const FailureModes& modes,
+                             double failed_percent) {
+  const FileReader file(life_file, life_format());
+  WireSites sites{file.read<std::int32_t>("/site/segment"),
+                  file.read<std::string>("/site/component"),
+                  file.read<std::string>("/conductor/component"),
+                  {},
+                  failed_percent};
+  for (const LifeResponse& mode : modes) sites.modes.push_back({mode.mode, mode.dresspack});
+  if (sites != sites_) {
+    without_damage_ = without_damage(sites);
+    sites_ = std::move(sites);
+  }
+  WireDamage wires = without_damage_;
+  wires.damage = file.read<double>("/damage");
   wires.summarize(modes.size());
   return wires;
 }
@@ -156,6 +170,8 @@ void WireDamage::summarize(std::size_t modes) {
     sites.insert(sites.end(), all.begin(), all.end());
     sites_begin.push_back(static_cast<std::uint32_t>(sites.size()));
   }
+  in_order.resize(sites.size());
+  std::ranges::transform(sites, in_order.begin(), [this](std::uint32_t site) { return damage[site]; });
 }
 
 SamePlace::SamePlace(const std::vector<EvaluatedProgram>& programs, const WireDamage* round)
@@ -173,13 +189,17 @@ SamePlace::SamePlace(const std::vector<EvaluatedProgram>& programs, const WireDa
 /// Returns the damage of the wire whose break makes a place fail, per hour.
 double SamePlace::at_place(std::uint32_t place, const std::vector<double>& in_rounds) const {
   const WireDamage& wires = *programs_.front();
-  std::vector<double> of_wire;
-  for (std::uint32_t k = wires.sites_begin[place], last = nothing; k < wires.sites_begin[place + 1]; ++k) {
-    const std::uint32_t site = wires.sites[k];
-    double damage = 0;
-    for (std::size_t p = 0; p < programs_.size(); ++p) damage += in_rounds[p] * programs_[p]->damage[site];
-    if (wires.wire[site] != last) of_wire.push_back(0), last = wires.wire[site];
-    of_wire.back() = std::max(of_wire.back(), damage);
+  const std::size_t begin = wires.sites_begin[place], count = wires.sites_begin[place + 1] - begin;
+  std::vector<double> sums(count, 0.0), of_wire;
+  for (std::size_t p = 0; p < programs_.size(); ++p) {
+    const double* const damage = programs_[p]->in_order.data() + begin;
+    for (std::size_t k = 0; k < count; ++k) sums[k] += in_rounds[p] * damage[k];
+  }
+  std::uint32_t last = nothing;
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::uint32_t wire = wires.wire[wires.sites[begin + k]];
+    if (wire != last) of_wire.push_back(0), last = wire;
+    of_wire.back() = std::max(of_wire.back(), sums[k]);
   }
   const auto failing = of_wire.begin() + static_cast<std::ptrdiff_t>(wires.failing[place] - 1);
   std::nth_element(of_wire.begin(), failing, of_wire.end(), std::greater<>());

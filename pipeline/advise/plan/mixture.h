@@ -38,12 +38,34 @@ struct WireDamage {
   std::vector<double> largest{};             ///< (place) largest damage of its wires
   std::vector<std::uint32_t> sites{};        ///< sites of the first place, then those of the next one, ..
   std::vector<std::uint32_t> sites_begin{};  ///< (place) its first element of `sites`; the last: end
+  std::vector<double> in_order{};            ///< (element of `sites`) damage
 
   void summarize(std::size_t modes);
 };
-/// Reads a life.h5. modes: modes of its life response. failed_percent: share of wires that a conductor may lose. Errors:
-/// InputError.
-WireDamage wire_damage(const std::filesystem::path& life_file, const FailureModes& modes, double failed_percent);
+
+/// What a life.h5 states about its sites, and what divides them into places.
+struct WireSites {
+  struct Mode {
+    std::string name, dresspack;
+    bool operator==(const Mode&) const = default;
+  };
+  std::vector<std::int32_t> segment;                ///< (site)
+  std::vector<std::string> component, conductors;  ///< (site), (conductor)
+  std::vector<Mode> modes;
+  double failed_percent = 0;  ///< share of wires that a conductor may lose
+  bool operator==(const WireSites&) const = default;
+};
+
+/// Reads life.h5 files. The programs of a plant mostly have equal sites, whose places are searched once.
+class WireDamages {
+ public:
+  /// modes: modes of the file's life response. Errors: InputError.
+  WireDamage read(const std::filesystem::path& life_file, const FailureModes& modes, double failed_percent);
+
+ private:
+  WireSites sites_;  ///< of the previous file
+  WireDamage without_damage_;
+};
 
 /// A program with its results. Programs with the same result share modes and wires.
 struct EvaluatedProgram {

@@ -449,7 +449,7 @@ AgeRates age_rates(const LifeTable& table, double planned_cost, double unplanned
   AgeRates rates{Eigen::MatrixXd(Eigen::Index(ages), Eigen::Index(table.worlds))};
   std::vector<double> at;
   for (std::size_t k = 0; k < ages; ++k) at.push_back(first * std::pow(last / first, double(k) / double(ages - 1)));
-  const auto all = double(table.draws);
+  const double of_draw = 1 / double(table.draws);
   for (std::size_t w = 0; w < table.worlds; ++w) {
     // Ages and lives are rising, so one pass through both is enough.
     const float *life = table.hours.data() + w * table.draws, *const end = life + table.draws;
@@ -457,7 +457,7 @@ AgeRates age_rates(const LifeTable& table, double planned_cost, double unplanned
     for (std::size_t k = 0; k < ages; ++k) {
       for (; life != end && *life <= static_cast<float>(at[k]); ++life) ended += *life;
       const auto alive = double(end - life);
-      const double lives = alive / all, running = (ended + alive * at[k]) / all;
+      const double lives = alive * of_draw, running = (ended + alive * at[k]) * of_draw;
       rates.rate(Eigen::Index(k), Eigen::Index(w)) = (planned_cost * lives + unplanned_cost * (1 - lives)) / std::max(running, first);
     }
   }

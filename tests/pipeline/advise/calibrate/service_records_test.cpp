@@ -57,7 +57,7 @@ TEST_CASE("service records: the same plant in English with commas and in German 
       "R2,a,2022-05-02,2025-04-28,preventive,\nR3,a,2022-05-02,,,40.5\n";
   const std::string german =
       "Bemerkung;Roboter;Schlauchpaket;Einbaudatum;Ausbaudatum;Grund;Stunden pro Woche\n"
-      "x;R1;a;01.01.2024;30.12.2024 14:05;Kabelbruch;70\n;R1;a;30.12.2024;;;70\n"
+      "x;R1;a;01.01.2024;30.12.2024 14:05;Kabelbruch;70\n;R1;a;30.12.2024;in Betrieb;;70\n"
       ";R2;a;2.5.2022;28.04.2025;vorbeugend;\n;R3;a;02.05.2022;;;40,5\n";
   for (const std::string& table : {english, german}) {
     const ServiceTests plant = read(table, "2023-05-01");
