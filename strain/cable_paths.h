@@ -141,6 +141,8 @@ class CablePaths {
   std::size_t restless() const { return loose_ ? loose_->restless() : 0; }
   /// Returns the change of curvature of loose cables in the repeat (LooseCables::changed()).
   double changed() const { return loose_ ? loose_->changed() : 0; }
+  /// Returns where it changed most: the cable, and the place from the base end of the span. Precondition: changed() > 0.
+  ChangedPlace most_changed() const;
 
  private:
   struct Cable {

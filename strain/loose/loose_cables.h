@@ -13,6 +13,12 @@
 
 namespace dresslife::strain {
 
+/// Place of the largest change of curvature in a repeat.
+struct ChangedPlace {
+  std::size_t cable = 0;
+  double arc = 0;  ///< from the base end of the hose's axis [m]
+};
+
 struct LooseSettings {
   double length = 0;          ///< of the hose's axis between the clamps [m]
   std::size_t elements = 64;  ///< of equal length
@@ -78,6 +84,9 @@ class LooseCables {
   /// Returns the change of curvature since begin_repeat(), over the curvature: root mean squares over cables and nodes. 0 without
   /// begin_repeat().
   double changed() const;
+  /// Returns the cable whose curvature changed most since begin_repeat(), and the node with its largest change. Precondition:
+  /// changed() > 0.
+  ChangedPlace most_changed() const;
   std::size_t iterations() const { return iterations_; }  ///< sum over all cables and samples
   /// Returns the share of the curvature that the distance of nodes misses, as a ratio of root mean squares over nodes and
   /// samples; the largest of all cables.
