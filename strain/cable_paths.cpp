@@ -150,6 +150,11 @@ int CablePaths::component(std::size_t cable) const {
   return construction_.layers()[construction_.parts()[cables_[cable].part].layer].component;
 }
 
+ChangedPlace CablePaths::most_changed() const {
+  const ChangedPlace most = loose_->most_changed();
+  return {loosened_[most.cable], most.arc};
+}
+
 void CablePaths::record_rubbing() {
   assert(next_ == 0);
   for (Cable& cable : cables_)

@@ -146,6 +146,8 @@ class CablePaths {
   double changed() const { return loose_ ? loose_->changed() : 0; }
   /// Returns whether the repeat leaves the loose cables where it found them.
   bool closes() const { return !(changed() > LooseCables::most_change); }
+  /// Returns where it changed most: the cable, and the place from the base end of the span. Precondition: changed() > 0.
+  ChangedPlace most_changed() const;
 
  private:
   struct Cable {

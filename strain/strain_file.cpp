@@ -284,18 +284,12 @@ std::vector<Warning> restless_warnings(std::size_t samples, double sample_rate) 
       "the hose moves too far from one sample to the next", fmt::format("simulation.sample_rate_Hz: {:g}", 2 * sample_rate))};
 }
 
-/// changed: see LooseCables::changed().
-std::vector<Warning> cycle_warnings(double changed) {
-  constexpr double most = LooseCables::most_change;
-  if (!(changed > most)) return {};
-  return {pipeline::warning_of(
-      WarningKind::periodic, "",
-      fmt::format("loose cables do not end the repeat where they began it: their curvature changes by {:.0f} % (limit {:.0f} %), and the "
-                  "life counts this change in each repeat",
-                  100 * changed, 100 * most),
-      fmt::format("the cables have not reached a cycle in {:.0f} s of motion and {} further repeats", lead_in_time,
-                  Passage::most_closing_repeats),
-      "cables with less slack, slack_percent in dresspack.components; no value was tried")};
+RepeatChange change_of(const Evaluation& evaluation) {
+  const CablePaths& cables = evaluation.cables();
+  if (!(cables.changed() > 0)) return {};
+  const ChangedPlace most = cables.most_changed();
+  return {cables.changed(), evaluation.dresspack(), static_cast<std::size_t>(cables.component(most.cable)),
+          evaluation.name_of_cable(most.cable), evaluation.arcs().front() - evaluation.lengths().front() / 2 + most.arc};
 }
 
 /// Places of loose cables besides the job's own: of other starts and of variations.
@@ -410,12 +404,13 @@ class RubbingRows {
 
 /// Writes the data of all cables from which their forces follow. Writes nothing if there is no cable. Returns warnings: elements
 /// that are too long, and samples without rest.
-std::vector<Warning> write_cables(FileWriter& file, const pipeline::SimulationSettings& settings,
+std::vector<Warning> write_cables(FileWriter& file, const pipeline::Job& job,
                                   const std::vector<std::unique_ptr<Evaluation>>& evaluations) {
   CableRows rows;
   RubbingRows rubbing;
   std::vector<const std::vector<double>*> hose_moment;  // (span with cables)
-  double mesh_error = 0, changed = 0;
+  std::vector<Warning> warnings;
+  double mesh_error = 0;
   std::size_t pieces = 0, restless = 0;
   for (const auto& evaluation : evaluations) {
     if (!evaluation->any_cables()) continue;
@@ -423,7 +418,7 @@ std::vector<Warning> write_cables(FileWriter& file, const pipeline::SimulationSe
     rows.add(static_cast<std::int32_t>(hose_moment.size()), *evaluation);
     hose_moment.push_back(&evaluation->cables().hose_moment());
     restless += evaluation->cables().restless();
-    changed = std::max(changed, evaluation->cables().changed());
+    warnings = pipeline::joined(std::move(warnings), cycle_warnings(job, change_of(*evaluation)));
     if (const double error = evaluation->cables().mesh_error(); error > mesh_error)
       mesh_error = error, pieces = evaluation->cables().elements_per_segment();
   }
@@ -437,10 +432,9 @@ std::vector<Warning> write_cables(FileWriter& file, const pipeline::SimulationSe
     for (const std::vector<double>* of : hose_moment) moments.push_back((*of)[t]);
   file.append("/cable_span/hose_moment", moments);
   if (mesh_error > 0) file.attribute("loose_mesh_error", mesh_error);
-  const std::vector<Warning> warnings =
-      pipeline::joined(pipeline::joined(mesh_warnings(mesh_error, pieces, settings.segments),
-                                        restless_warnings(restless, settings.sample_rate)),
-                       cycle_warnings(changed));
+  warnings = pipeline::joined(pipeline::joined(mesh_warnings(mesh_error, pieces, job.simulation.segments),
+                                               restless_warnings(restless, job.simulation.sample_rate)),
+                              warnings);
   if (evaluations.size() != 1 || !evaluations[0]->any_loose()) return warnings;
   const CablePaths& cables = evaluations[0]->cables();
   const std::vector<std::uint32_t> offset_samples(cables.offset_samples().begin(),
@@ -576,6 +570,29 @@ void write_other_motion(MotionReader& motion, const Shortening& shortening, Star
 
 }  // namespace
 
+std::vector<Warning> cycle_warnings(const pipeline::Job& job, const RepeatChange& change) {
+  constexpr double most = LooseCables::most_change;
+  if (!(change.share > most)) return {};
+  const pipeline::MountedDresspack& mounted = job.dresspacks[change.dresspack];
+  const pipeline::Component& component = mounted.dresspack.components[change.component];
+  const double now = component.laying.slack / 100;
+  // Below half of the slack of one turn, bends of the hose pull the cable (pipeline/cable/excess.h).
+  const double less = std::max(now / 2, pipeline::winding_slack(mounted, component) / 2);
+  pipeline::Remedy remedy{{}, "another free length or other clamps, which `dresslife route` finds: less slack would let bends pull this cable"};
+  if (less < now)
+    remedy = {{{fmt::format("{}.components.{}.slack_percent", line_key(job, change.dresspack, "dresspack"), change.component + 1),
+                pipeline::percent_above(less)}},
+              fmt::format(" (now {:.3g}; a shorter excess length has fewer places to rest; not tried)", component.laying.slack)};
+  return {pipeline::warning_of(
+      WarningKind::periodic, "",
+      fmt::format("loose cables do not end the repeat where they began it: their curvature changes by {:.0f} % (limit {:.0f} %), that of "
+                  "'{}' most, {:.2f} m from the base clamp, and the life counts this change in each repeat",
+                  100 * change.share, 100 * most, change.cable, change.arc),
+      fmt::format("the cables have not reached a cycle in {:.0f} s of motion and {} further repeats", lead_in_time,
+                  Passage::most_closing_repeats),
+      remedy)};
+}
+
 Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWriter& strain,
                    std::size_t threads, const std::function<void(double)>& progress,
                    std::size_t history_bytes) {
@@ -629,7 +646,7 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
   variations.add(starts);
   const std::vector<Warning> warnings =
       pipeline::joined(pipeline::joined(construction_warnings(job), evening_warnings(evaluations)),
-                       write_cables(strain, job.simulation, evaluations));
+                       write_cables(strain, job, evaluations));
   write_bending(strain, job);
   write_rests(strain, starts);
   VariationWriter variation_rows(strain, variations, 0);

@@ -25,6 +25,16 @@ struct Notes {
   std::string summary;  ///< one line on the worst site
 };
 
+/// Change of the loose cables of a span in the repeat that counts.
+struct RepeatChange {
+  double share = 0;  ///< of curvature (LooseCables::changed()); the rest is valid if it is above 0
+  std::size_t dresspack = 0, component = 0;  ///< of the cable that changes most
+  std::string cable{};                       ///< its name
+  double arc = 0;                            ///< place of its largest change, from the base clamp [m]
+};
+/// Returns a warning if loose cables end the repeat with another curvature than they began it.
+std::vector<pipeline::Warning> cycle_warnings(const pipeline::Job& job, const RepeatChange& change);
+
 /// Writes every dataset of strain.h5. threads: does not change the file. progress: receives the share of work done. Errors:
 /// InputError for a motion without samples and for a dresspack without wires, and the errors of Construction and Evaluation.
 Notes write_strain(const pipeline::FileReader& motion, const pipeline::Job& job, pipeline::FileWriter& strain,

@@ -84,8 +84,7 @@ JobCheck check_of(const std::filesystem::path& file, const std::vector<std::stri
     return check;
   }
   check.limits =
-      "The dresspack was checked at rest and in a short run. A run may also warn of tension, and of strains and forces of its "
-      "cables.";
+      "The dresspack was checked at rest and in a short run. A run may also warn of strains and forces of its cables.";
   if (print_preview(file, sets, {}, preview_file) != 0) fail_motion(file);
   try {
     check.refusal = refusal_of(preview_file);

@@ -55,10 +55,12 @@ pipeline::Remedy remedy_near(const pipeline::Setup& setup) {
   add_clamp("routing.tool_clamp", *now.tool_clamp, *found->tool_clamp);
   if (now.free_length != found->free_length)
     remedy.values.push_back({"routing.free_length_m", fmt::format("{:.3f}", found->free_length)});
-  remedy.words = fmt::format(
-      " (clamps {:.0f} and {:.0f} mm from their places, where a bracket can be built; keeps all limits in a run)",
-      1e3 * (found->base_clamp->position - now.base_clamp->position).norm(),
-      1e3 * (found->tool_clamp->position - now.tool_clamp->position).norm());
+  const double base = (found->base_clamp->position - now.base_clamp->position).norm(),
+               tool = (found->tool_clamp->position - now.tool_clamp->position).norm();
+  const std::string places =
+      base + tool > 0 ? fmt::format("clamps {:.0f} and {:.0f} mm from their places, where a bracket can be built", 1e3 * base, 1e3 * tool)
+                      : "clamps at their places";
+  remedy.words = fmt::format(" ({}; keeps all limits in a run)", places);
   return remedy;
 }
 

@@ -18,6 +18,7 @@
 #include "sim/robot/robot.h"
 #include "sim/route/short_run.h"
 #include "sim/run/clamp_path.h"
+#include "sim/run/cures.h"
 #include "sim/run/quick_checks.h"
 
 namespace dresslife::sim {
@@ -125,6 +126,7 @@ class Search {
     unchanged_ = given;
     Candidate own;
     own.position = {given.base_clamp->position, given.tool_clamp->position};
+    given_places_ = own.position;
     own.direction = {given.base_clamp->direction.normalized(), given.tool_clamp->direction.normalized()};
     const double way = screener_.longest_ways(setup_).front();
     own.slack = std::clamp(1 - way / given.free_length, least_slack, most_slack);
@@ -443,13 +445,17 @@ class Search {
       if (chance_.below(2)) {
         const Vector3 place =
             rounded(candidate.position[k] + size * diameter_ * chance_.normal_vector(), millimetre);
-        if (bracket(k, place).beyond(longest_bracket(), diameter_) <= 0) candidate.position[k] = place;
+        if (is_same_place(k, place) && bracket(k, place).beyond(longest_bracket(), diameter_) <= 0) candidate.position[k] = place;
       }
       if (chance_.below(2))
         candidate.direction[k] = (candidate.direction[k] + 0.4 * size * chance_.normal_vector()).normalized();
     }
     candidate.slack = std::clamp(candidate.slack + 0.05 * size * chance_.normal(), least_slack, most_slack);
     return candidate;
+  }
+
+  bool is_same_place(int place, const Vector3& position) const {
+    return !given_places_ || (position - (*given_places_)[place]).norm() <= same_place;
   }
 
   /// to_beat: a larger violation need not be computed exactly.
@@ -496,11 +502,13 @@ class Search {
     made.link = links_[place];
     made.position = candidate.position[place];
     made.direction = rounded(candidate.direction[place], 1e-2);
+    if (given && rounded(given->direction.normalized(), 1e-2) == made.direction) made.direction = given->direction;
     return made;
   }
 
   pipeline::Setup setup_;  // with the routing that is evaluated
   pipeline::Routing unchanged_;  // what every candidate has
+  std::optional<std::array<Vector3, places>> given_places_;  // places from which clamps move by same_place at most; absent: no limit
   const ProposalSettings& settings_;
   const Screener screener_;
   Chance chance_;

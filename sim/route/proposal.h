@@ -50,8 +50,8 @@ struct Proposal {
 /// proposals contain the reason.
 std::vector<Proposal> propose(const pipeline::Setup& setup, const ProposalSettings& settings);
 
-/// Returns a routing near the given one, with clamps on the same links, that keeps all limits as propose() does; absent: none of
-/// some tens was found. Precondition: one dresspack with one span between two clamps of a robot, without rings and without a
+/// Returns a routing near the given one, with clamps on the same links within same_place of theirs (sim/run/cures.h), that keeps all limits as
+/// propose() does; absent: none of some tens was found. Precondition: one dresspack with one span between two clamps of a robot, without rings and without a
 /// retraction unit. Errors: InputError as of Screener.
 std::optional<pipeline::Routing> routing_near(const pipeline::Setup& setup);
 

@@ -129,8 +129,8 @@ std::string radius_words(double curvature) { return in_words(1 / curvature, "m")
 
 std::string no_other_words(const CheckedMotion& motion, const std::string& limit) {
   return fmt::format(
-      "`dresslife route` finds other clamps: no length and no direction of these two clamps that was tried{} keeps the "
-      "limit{}",
+      "`dresslife route` finds other clamps: no length and no direction of these two clamps{} that was tried{} keeps the limit{}",
+      motion.other_places ? fmt::format(", and no place within {:.0f} mm of theirs", 1e3 * same_place) : "",
       motion.work > most_work ? " in the time of a check" : "", limit);
 }
 
@@ -192,15 +192,16 @@ struct Change {
   Trial trial{};
 };
 
-/// Searches for a routing that keeps the limits of bend and slack.
+/// Searches for a routing that keeps the limits of some kinds.
 class RemedySearch {
  public:
-  RemedySearch(const CheckedMotion& motion, const std::vector<Check>& checks, const RestTrials& trials, int dresspack)
-      : motion_(motion), checks_(checks), trials_(trials), dresspack_(dresspack) {}
+  RemedySearch(const CheckedMotion& motion, const std::vector<Check>& checks, const RestTrials& trials, int dresspack,
+               Kinds kinds = {WarningKind::bend_radius, WarningKind::slack})
+      : motion_(motion), checks_(checks), trials_(trials), dresspack_(dresspack), kinds_(std::move(kinds)) {}
 
   /// Returns the first routing that keeps them; empty: no tried routing does. All warnings of a dresspack name the same one.
   Remedy remedy() {
-    Remedy& known = motion_.remedies[dresspack_];
+    Remedy& known = motion_.remedies[{dresspack_, kinds_}];
     if (known.empty()) known = found();
     return known;
   }
@@ -297,7 +298,7 @@ class RemedySearch {
     to.pre_twist = change.pre_twist;
     if (change.turned[0]) to.base_clamp->direction = direction(0);
     if (change.turned[1]) to.tool_clamp->direction = direction(1);
-    return trial_of(motion_, changed, {WarningKind::bend_radius, WarningKind::slack}, dresspack_, checks_, best_.trial.radius);
+    return trial_of(motion_, changed, kinds_, dresspack_, checks_, best_.trial.radius);
   }
 
   Remedy remedy_of(const Change& change) const {
@@ -322,6 +323,7 @@ class RemedySearch {
   const std::vector<Check>& checks_;
   const RestTrials& trials_;
   int dresspack_;
+  Kinds kinds_;
   Change best_;
 };
 
@@ -367,18 +369,20 @@ std::string cycle_words(const CheckedMotion& motion, double percent) {
   return fmt::format("a repeat takes {:.1f} s instead of {:.1f} s", path_of(changed)->duration(), motion.path->duration());
 }
 
-/// Returns the acceleration that keeps the limit; 0: none was found.
-double slower(const CheckedMotion& motion, const std::vector<Check>& checks, const Check& broken, double k_rest) {
+/// Returns a slower program that keeps the limit, with the longer repeat; empty: none was found. first: acceleration to try first [%].
+Remedy slower(const CheckedMotion& motion, const std::vector<Check>& checks, const Check& broken, double first) {
   constexpr int most = 3;
   constexpr double less = 0.8;  // ratio to the previous acceleration
-  const double percent = motion.setup.motion.acceleration_percent;
-  double next = std::floor(percent * (1 / broken.limit - k_rest) / (1 / broken.value - k_rest));
+  double next = std::floor(first);
   for (int k = 0; k < most && next >= 1; ++k, next = std::floor(less * next)) {
     pipeline::Setup changed = motion.setup;
     changed.motion.acceleration_percent = next;
-    if (cures(motion, changed, {WarningKind::bend_radius}, broken.dresspack, checks)) return next;
+    if (!cures(motion, changed, {*broken.kind}, broken.dresspack, checks)) continue;
+    return {{{"motion.acceleration_percent", fmt::format("{:.0f}", next)}},
+            fmt::format(" (now {:.0f}; tried in a short run; {})", motion.setup.motion.acceleration_percent, cycle_words(motion, next)),
+            "other clamps for the present program, which dresslife route searches; or a slower program, "};
   }
-  return 0;
+  return {};
 }
 
 Cure bend_cure(const CheckedMotion& motion, const std::vector<Check>& checks, const Check& broken) {
@@ -427,11 +431,8 @@ Cure bend_cure(const CheckedMotion& motion, const std::vector<Check>& checks, co
   }
   if (remedy.empty()) remedy = search.elsewhere();
   if (remedy.empty() && swings)
-    if (const double percent = slower(motion, checks, broken, k_rest); percent > 0)
-      remedy = {{{"motion.acceleration_percent", fmt::format("{:.0f}", percent)}},
-                fmt::format(" (now {:.0f}; tried in a short run; {})", motion.setup.motion.acceleration_percent,
-                            cycle_words(motion, percent)),
-                "other clamps for the present program, which dresslife route searches; or a slower program, "};
+    remedy = slower(motion, checks, broken,
+                    motion.setup.motion.acceleration_percent * (1 / broken.limit - k_rest) / (1 / broken.value - k_rest));
   if (remedy.empty()) {
     double least = broken.value;  // a limit that both the checks at rest and the short run would keep
     for (const Check& check : checks)
@@ -519,12 +520,18 @@ Cure tension_cure(const CheckedMotion& motion, const std::vector<Check>& checks,
     const Cure longer = slack_cure(motion, checks, *slack);
     return {"it is pulled tight: " + longer.cause, longer.remedy};
   }
-  const double percent = motion.setup.motion.acceleration_percent;
-  const double less = std::max(1.0, std::floor(percent * broken.limit / broken.value));
-  return {"its weight and the acceleration of the program",
-          {{{"motion.acceleration_percent", fmt::format("{:.0f}", less)}},
-           fmt::format(" or less (now {:.0f}; {}), or {}: {:.0f} if the maker allows it", percent, cycle_words(motion, less),
-                       key_of(motion.setup, broken.dresspack, "dresspack.most_tension_N"), std::ceil(broken.value))}};
+  Remedy remedy;
+  if (can_be_tried(motion, broken.dresspack)) {
+    const RestTrials trials(motion, broken);
+    RemedySearch search(motion, checks, trials, broken.dresspack, {WarningKind::tension, WarningKind::bend_radius, WarningKind::slack});
+    remedy = search.remedy();
+    if (remedy.empty()) remedy = search.elsewhere();
+  }
+  if (remedy.empty()) remedy = slower(motion, checks, broken, motion.setup.motion.acceleration_percent * broken.limit / broken.value);
+  if (remedy.empty()) remedy.words = "other clamps, which `dresslife route` searches: no length, direction or slower program that was tried keeps the limit";
+  remedy.words += fmt::format("; or {}: {:.0f} if the maker allows it",
+                              key_of(motion.setup, broken.dresspack, "dresspack.most_tension_N"), std::ceil(broken.value));
+  return {"its weight and the acceleration of the program", remedy};
 }
 
 Cure travel_cure(const CheckedMotion& motion, const Check& broken) {

@@ -6,7 +6,7 @@
 //     a = a_now (k_limit - k_rest) / (k - k_rest)        k: curvature
 // Lengths, directions of the clamps, pre-twists and accelerations are tried before they are proposed, with the checks of
 // quick_checks.h: with the remedy the job keeps its limits of bend and slack at rest and in a short run, and exceeds no
-// additional limit. If no length and no direction does so, clamps at other places of the same links are searched (sim/route), and
+// additional limit. If no length and no direction does so, clamps within same_place of theirs are searched (sim/route), and
 // after these a slower program is tried, whose remedy states the longer repeat. If nothing is found, the remedy states this and
 // names the search for other clamps.
 #pragma once
@@ -14,6 +14,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "pipeline/base/warning_words.h"
@@ -24,16 +25,21 @@
 
 namespace dresslife::sim {
 
+/// Distance within which a clamp counts as at the same place [m]. ESTIMATE: the foot of a dresspack's bracket is about this long, so
+/// that an adapter plate on the same screws carries the moved clamp. Beyond it a fitter drills and taps other holes.
+inline constexpr double same_place = 0.1;
+
 /// A motion whose checks are known.
 struct CheckedMotion {
   const pipeline::Setup& setup;
   std::function<std::string(double)> moment;  ///< "at 1.2 s, program step 3 'text'"
   const Rod* rod = nullptr;                   ///< null for a prescribed deformation
   const ClampPath* path = nullptr;            ///< null for a prescribed deformation
-  /// Returns a remedy with clamps at other places on their links, if no length and no direction is one; may be empty.
+  /// Returns a remedy with clamps within same_place of theirs, if no length and no direction is one; may be empty.
   std::function<pipeline::Remedy()> other_places = {};
   mutable double work = 0;                    ///< work of the short runs that tried remedies, in the unit of World::work
-  mutable std::map<int, pipeline::Remedy> remedies{};  ///< (dresspack) a routing that keeps its limits; empty: none was found
+  /// (dresspack, kinds of limits) a routing that keeps these; empty: none was found
+  mutable std::map<std::pair<int, std::vector<pipeline::WarningKind>>, pipeline::Remedy> remedies{};
 };
 
 struct Cure {

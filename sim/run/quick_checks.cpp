@@ -69,7 +69,7 @@ class QuickChecks {
     }
     found.run = short_run(setup_, short_run_segments);
     add_rests(found, true);
-    add_bends(found);
+    add_run(found);
     if (found.run.stopped_at)
       found.notes.push_back(fmt::format("The short run of the checks ended after {:.3g} s of {:.6g} s, because the program is long "
                                         "or the dresspack touches much. `dresslife run` checks all of it",
@@ -86,18 +86,19 @@ class QuickChecks {
     if (rejects(found)) return found;
     found.run = coarse_run(useless_below, dresspack);
     const double work = found.run.work;
-    add_bends(found);
+    add_run(found);
     for (Check& check : found.checks)
-      if (check.name == check_name::bend_radius && check.value > (1 - coarse_radius) * check.limit) check.warning = false;
+      if (check.name == check_name::tension || (check.name == check_name::bend_radius && check.value > (1 - coarse_radius) * check.limit))
+        check.warning = false;
     if (!found.run.refusal.empty() || rejects(found)) return found;
     found.checks = slack;
     found.run = short_run(setup_, short_run_segments, useless_below, dresspack);
     found.run.work += work;
-    add_bends(found);
+    add_run(found);
     if (!found.run.refusal.empty() || rejects(found)) return found;
     found.checks = slack;
     add_rests(found, false);
-    add_bends(found);
+    add_run(found);
     return found;
   }
 
@@ -133,8 +134,10 @@ class QuickChecks {
     settings.most_repeats = 1;
     return short_run(std::move(coarse), rest_segments, (1 - coarse_radius) * useless_below, dresspack);
   }
-  static void add_bends(QuickFindings& found) {
+  /// Adds bend radius and tension of the short run.
+  static void add_run(QuickFindings& found) {
     for (const Check& check : found.run.checks) {
+      if (check.name == check_name::tension) found.checks.push_back(check);
       if (check.name != check_name::bend_radius) continue;
       // At rest the hose hangs without contact to the robot, on which it may lie in reality. So a bend that the short run does
       // not have is not reported.

@@ -1,6 +1,6 @@
 // Checks of a job that take seconds: slack over the whole program, as in a run; bend radius and twist of the
-// dresspack at rest without contact, in one pose of the program after the other; its bend radius in one short run among the
-// robot's links; clamps on one link; axes that wind up the dresspack before the program begins. The short run decides whether a
+// dresspack at rest without contact, in one pose of the program after the other; its bend radius and tension in one short run among
+// the robot's links; clamps on one link; axes that wind up the dresspack before the program begins. The short run decides whether a
 // bend exceeds its limit; the shapes at rest give the reason.
 //
 // A hose that is clamped on a robot may have several shapes at rest. Each shape that is found is followed through the
@@ -43,7 +43,7 @@ inline constexpr int rest_segments = 32, short_run_segments = 64;
 ShortRun short_run(pipeline::Setup setup, int segments, double useless_below = 0, int of = 0);
 
 struct QuickFindings {
-  /// checks with limits: at rest, except "smallest bend radius", which comes from the short run
+  /// checks with limits: at rest, except "smallest bend radius" and "largest tension", which come from the short run
   std::vector<Check> checks;
   std::vector<pipeline::Warning> others;  ///< warnings that no other routing between these links cures
   std::vector<std::string> notes;         ///< notes about several shapes at rest

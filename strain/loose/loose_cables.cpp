@@ -128,6 +128,25 @@ double LooseCables::changed() const {
       [this](std::size_t k) -> const std::vector<double>& { return begun_[k]; });
 }
 
+ChangedPlace LooseCables::most_changed() const {
+  ChangedPlace most;
+  double most_sum = 0;
+  for (std::size_t k = 0; k < cables(); ++k) {
+    const std::vector<double> &end = states_[k].curvature, &begin = begun_[k];
+    double sum = 0, largest = 0;
+    std::size_t node = 0;
+    for (std::size_t i = 0; i < end.size(); ++i) {
+      const double change = std::abs(end[i] - begin[i]);
+      sum += change * change;
+      if (change > largest) largest = change, node = i;
+    }
+    if (sum <= most_sum) continue;
+    most_sum = sum;
+    most = {k, length() * static_cast<double>(node / 2) / static_cast<double>(nodes() - 1)};
+  }
+  return most;
+}
+
 void LooseCables::shorten(std::size_t cable, double share) {
   lines_.shorten(cable, share);
   if (const auto& [ring, number] = in_ring_[cable]; ring) ring->shorten(number, share);

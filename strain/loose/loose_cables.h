@@ -13,6 +13,12 @@
 
 namespace dresslife::strain {
 
+/// Place of the largest change of curvature in a repeat.
+struct ChangedPlace {
+  std::size_t cable = 0;
+  double arc = 0;  ///< from the base end of the hose's axis [m]
+};
+
 struct LooseSettings {
   double length = 0;          ///< of the hose's axis between the clamps [m]
   std::size_t elements = 64;  ///< of equal length
@@ -81,6 +87,9 @@ class LooseCables {
   /// Limit of changed() beyond which cables have not reached a cycle. A tenth of the strain is a factor of two in life (slope 7 of
   /// copper), as much as the stated numerical errors of good jobs.
   static constexpr double most_change = 0.1;
+  /// Returns the cable whose curvature changed most since begin_repeat(), and the node with its largest change. Precondition:
+  /// changed() > 0.
+  ChangedPlace most_changed() const;
   std::size_t iterations() const { return iterations_; }  ///< sum over all cables and samples
   /// Returns the share of the curvature that the distance of nodes misses, as a ratio of root mean squares over nodes and
   /// samples; the largest of all cables.

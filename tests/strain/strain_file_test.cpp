@@ -13,6 +13,7 @@
 #include <span>
 
 #include "fatigue/life_file.h"
+#include "pipeline/cable/excess.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/settings/document.h"
@@ -707,4 +708,33 @@ TEST_CASE("rounds of a loop are left out only if the hose moves equally in them"
   const RateAt all = [](std::size_t t) { return turning(t * cycle / of_round); };
   CHECK(left_out(all, {0, round, 15}) == 5 * of_round);
   CHECK(left_out(all, {0.04 * (with_loop - 15 * of_round), round, 15}) == 5 * of_round);
+}
+
+TEST_CASE("cables that do not return are named with place, limit and a slack that the job accepts") {
+  const std::string file = DRESSLIFE_SOURCE_DIR "/config/jobs/irb6640_spot_welding.yaml";
+  const pipeline::Job job = pipeline::read_job(file);
+  const std::vector<pipeline::Component>& components = job.dresspacks.front().dresspack.components;
+  const auto cable = std::find_if(components.begin(), components.end(), [](const auto& of) { return of.name == "signal cable"; });
+  REQUIRE(cable != components.end());
+  const auto number = static_cast<std::size_t>(cable - components.begin());
+  CHECK(strain::cycle_warnings(job, {}).empty());
+  CHECK(strain::cycle_warnings(job, {0.1, 0, number, "signal cable 4", 0.43}).empty());
+  const std::vector<pipeline::Warning> warnings = strain::cycle_warnings(job, {0.25, 0, number, "signal cable 4", 0.43});
+  REQUIRE(warnings.size() == 1);
+  INFO(warnings[0].words);
+  CHECK(warnings[0].kind == pipeline::WarningKind::periodic);
+  CHECK_THAT(warnings[0].words, Catch::Contains("changes by 25 % (limit 10 %), that of 'signal cable 4' most, 0.43 m from the base clamp"));
+  // The slack is half as large, and the job takes it without a warning of too little slack.
+  REQUIRE(warnings[0].remedy.size() == 1);
+  const pipeline::KeyValue& value = warnings[0].remedy[0];
+  const pipeline::Job cured = pipeline::read_job(file, {value.key + "=" + value.value});
+  const pipeline::MountedDresspack& mounted = cured.dresspacks.front();
+  CHECK(mounted.dresspack.components[number].laying.slack == Approx(cable->laying.slack / 2).epsilon(0.01));
+  CHECK(pipeline::tight_warnings("dresspack", mounted).empty());
+  // A cable with less slack than half a turn needs is not made shorter.
+  const std::vector<pipeline::Warning> tight =
+      strain::cycle_warnings(pipeline::read_job(file, {value.key + "=0.01"}), {0.25, 0, number, "signal cable 4", 0.43});
+  REQUIRE(tight.size() == 1);
+  CHECK(tight[0].remedy.empty());
+  CHECK_THAT(tight[0].words, Catch::Contains("dresslife route"));
 }

@@ -1,8 +1,13 @@
 #include "sim/route/preview.h"
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 
+#include "pipeline/base/warnings.h"
 #include "pipeline/files/files.h"
+#include "pipeline/resolve/job_text.h"
+#include "sim/run/cures.h"
 #include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
 #include "sim/run/checks.h"
@@ -84,6 +89,40 @@ TEST_CASE("preview: a mounting pose of its own comes before the program") {
   CHECK(file.read<double>("/time").front() == -1);
   CHECK(file.read<double>("/time")[1] == 0);
   CHECK(file.read<double>("/robot/joint_position").front() == 1);
+}
+
+/// Returns the warnings of `dresslife check` on the motion of a job.
+std::vector<pipeline::Warning> warnings_in(const pipeline::Job& job) {
+  const pipeline::Scratch scratch;
+  return pipeline::warnings_from(preview_of(scratch, job).text_attribute("warnings"));
+}
+
+TEST_CASE("remedies of check are applied and checked again: no warning is left, and clamps stay at their places") {
+  const std::filesystem::path file = std::filesystem::path(DRESSLIFE_SOURCE_DIR) / "config/jobs/irb6640_spot_welding.yaml";
+  int cured = 0, searched = 0;
+  for (const std::string spoiled : {"dresspack.least_bend_radius_mm=375", "routing.free_length_m=1.86"}) {
+    std::vector<std::string> sets{"simulation.segments=24", spoiled};
+    CAPTURE(spoiled);
+    const pipeline::Job before = pipeline::read_job(file, sets);
+    std::vector<pipeline::Warning> warnings = warnings_in(before);
+    REQUIRE_FALSE(warnings.empty());
+    std::string words;
+    for (const pipeline::Warning& warning : warnings) {
+      words += warning.words + "\n";
+      for (const pipeline::KeyValue& value : warning.remedy) sets.push_back(value.key + "=" + value.value);
+    }
+    INFO(words);
+    const pipeline::Job after = pipeline::read_job(file, sets);
+    CHECK(warnings_in(after).empty());
+    ++cured;
+    const pipeline::Routing &from = before.dresspacks.front().routing, &to = after.dresspacks.front().routing;
+    const double base = (to.base_clamp->position - from.base_clamp->position).norm(),
+                 tool = (to.tool_clamp->position - from.tool_clamp->position).norm();
+    CHECK(std::max(base, tool) <= same_place + 1e-9);
+    searched += words.find("keeps all limits in a run") != std::string::npos;  // the search for other places
+  }
+  CHECK(cured == 2);
+  CHECK(searched == 1);
 }
 
 }  // namespace

@@ -244,11 +244,28 @@ TEST_CASE("the change of a repeat is that of the cables between its begin and it
   CHECK(loose.changed() == 0);  // no repeat has begun
   move(1, cycle + 1);
   loose.begin_repeat();
+  std::vector<std::vector<double>> begun;
+  for (std::size_t k = 0; k < loose.cables(); ++k) begun.push_back(loose.state(k).curvature);
   CHECK(loose.changed() == 0);
   move(1, cycle + 1);
   CHECK(loose.changed() < 0.1);  // below the limit of the warning
   move(1, cycle / 4 + 1);  // the hose is bent now, which it was not at the begin
   CHECK(loose.changed() > 0.5);
+  const ChangedPlace most = loose.most_changed();
+  std::vector<double> changes;  // (cable) sum of squares
+  for (std::size_t k = 0; k < loose.cables(); ++k) {
+    double sum = 0;
+    for (std::size_t i = 0; i < begun[k].size(); ++i) sum += std::pow(loose.state(k).curvature[i] - begun[k][i], 2);
+    changes.push_back(sum);
+  }
+  CHECK(changes[most.cable] == *std::max_element(changes.begin(), changes.end()));
+  const auto node = static_cast<std::size_t>(std::lround(most.arc / loose.length() * 64));
+  const auto change_at = [&](std::size_t of) {
+    double larger = 0;
+    for (const std::size_t d : {0, 1}) larger = std::max(larger, std::abs(loose.state(most.cable).curvature[2 * of + d] - begun[most.cable][2 * of + d]));
+    return larger;
+  };
+  for (std::size_t other = 0; other <= 64; ++other) CHECK(change_at(other) <= change_at(node));
 }
 
 TEST_CASE("a ring that snaps over comes to rest within the sample") {
