@@ -168,7 +168,8 @@ struct Simulation::Repeat {
 };
 
 // (R8) Errors that a repeat forgets are allowed: the first repeat of a motion that ends at its begin only leads into the
-// cycle and has twice the step, except for its last tenth. The result is judged like that of any two repeats.
+// cycle. It has twice the step, except for its last tenth, and leaves out equal rounds of loops. The result is judged like that
+// of any two repeats.
 // Returns null if it broke down, pulled the dresspack taut or was stopped; then the motion runs from rest, which finds the place.
 std::unique_ptr<World> Simulation::led_in(const RunSinks& sinks) const {
   const double h = setup_.simulation.time_step;
@@ -190,7 +191,7 @@ std::unique_ptr<World> Simulation::led_in(const RunSinks& sinks) const {
     const bool goes_on = world->advance(pose.clamps, pose.links).finite &&
                          (at % taut_steps != 0 || rod_.mean_elongation(world->state()) <= longest_elongation) &&
                          (!sinks.goes_on || sinks.goes_on(world->work() - before_step, true));
-    if (goes_on && sinks.wanted == Wanted::checks) left_out += rounds.see(time(), by * h, world->state());
+    if (goes_on) left_out += rounds.see(time(), by * h, world->state());
     return goes_on;
   };
   while (time() + 2 * h <= coarse * h + rounding)

@@ -184,18 +184,45 @@ TEST_CASE("periodic: the same bits alone and beside other jobs in other threads"
   CHECK(beside.end.velocity == alone.end.velocity);
 }
 
-TEST_CASE("periodic: checks without the later rounds of a loop are those of all rounds") {
+/// Returns a job whose hose swings in a loop of twenty rounds.
+pipeline::Job job_of_loop() {
   pipeline::Job job = simple_job();
   pipeline::MotionStep loop;
   loop.repeat = 20;
   loop.steps = {move_to(2, "turn"), move_to(-1), move_to(1)};
   job.motion.steps = {move_to(0, "start"), loop, move_to(-2), move_to(0)};
   job.dresspacks[0].dresspack.damping_time = 0.1;
-  job.robot.joints[0].axis = {0, 0, 1};  // the hose swings
+  job.robot.joints[0].axis = {0, 0, 1};
   job.robot.joints[0].origin = {0.05, 0, 1};
   job.dresspacks[0].routing.free_length = 1.3;
   job.simulation.most_repeats = 2;
-  const Simulation simulation(job);
+  return job;
+}
+
+TEST_CASE("periodic: a lead-in without the later rounds of a loop ends where all rounds end") {
+  pipeline::Job job = job_of_loop();
+  const double tolerance = job.simulation.periodic_tolerance;
+  std::vector<RodState> begin;  // of the repeat after the lead-in
+  std::vector<int> steps;       // of the lead-in
+  for (const double same : {tolerance, 1e-12}) {  // of the second no round is left out
+    job.simulation.periodic_tolerance = same;
+    steps.push_back(0);
+    RunSinks sinks{[&](const Sample& sample) {
+      if (sample.time == 0) begin.push_back(sample.state);
+    }};
+    sinks.goes_on = [&](double, bool leads_in) {
+      steps.back() += leads_in ? 1 : 0;
+      return true;
+    };
+    Simulation(job).run(sinks);
+  }
+  REQUIRE(begin.size() == 2);
+  CHECK(steps[0] < steps[1] / 3);
+  CHECK(state_distance(Simulation(job).rod(), begin[0], begin[1]) < tolerance);
+}
+
+TEST_CASE("periodic: checks without the later rounds of a loop are those of all rounds") {
+  const Simulation simulation(job_of_loop());
   std::vector<std::vector<Check>> checks;
   std::vector<int> samples;
   for (const Wanted wanted : {Wanted::everything, Wanted::checks}) {
