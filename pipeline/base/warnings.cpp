@@ -94,7 +94,7 @@ const char* title(WarningKind kind) {
     case WarningKind::overlap:
       return "overlapping parts";
     case WarningKind::mesh:
-      return "long segments";
+      return "numerical error";
     case WarningKind::force:
       return "forces";
     case WarningKind::material:

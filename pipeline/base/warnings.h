@@ -16,7 +16,7 @@ enum class WarningKind {
   slack,        ///< the dresspack or the travel of its retraction unit is too short or too long
   periodic,     ///< the motion did not become periodic
   overlap,      ///< parts of the dresspack overlap
-  mesh,         ///< segments are too long for an evaluated quantity
+  mesh,         ///< segments are too long for an evaluated quantity, or cables do not reach a cycle
   force,        ///< strains need larger forces than a real cable has
   material,     ///< constants of a material contradict each other
   strain,       ///< strains are beyond the use of any wire
