@@ -50,7 +50,7 @@ class Passage {
   /// First pass. put: receives every block before the evaluations. Evaluations whose loose cables do not end the motion where they
   /// began it (CablePaths::closes()) follow it again, up to most_closing_repeats times.
   void run(const std::function<void(const MotionBlock&)>& put);
-  static constexpr int most_closing_repeats = 3;
+  static constexpr int most_closing_repeats = 2;
   /// Returns the evaluations whose loose cables still do not close after run().
   std::vector<Evaluation*> open(std::size_t span) const;
   /// The rest at the standard normal quantile z becomes the job's own (Starts::choose()).

@@ -307,19 +307,6 @@ struct OtherPlaces {
   }
 };
 
-std::vector<Warning> places_warnings(const OtherPlaces& places) {
-  if (places.moving == 0) return {};
-  return {pipeline::warning_of(
-      WarningKind::mesh, "",
-      fmt::format("at {} of {} other places of loose cables (starts, slack, friction, stiffness) the cables do not end the repeat where "
-                  "they began it, and the percentiles count this change in each repeat",
-                  places.moving, places.all),
-      fmt::format("there they have not reached a cycle in {:.0f} s of motion and {} further repeats", lead_in_varied,
-                  Passage::most_closing_repeats),
-      "slack and stiffness of the hose as measured, with smaller values of uncertainty.slack and uncertainty.hose_stiffness, if they leave "
-      "out these places; without that the numerical error of the percentiles is greater than stated")};
-}
-
 /// Data from which the forces of all cables are computed: component, strains, and places at the clamps.
 class CableRows {
  public:
@@ -679,7 +666,7 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
   const auto worst =
       std::max_element(evaluations.begin(), evaluations.end(),
                        [](const auto& a, const auto& b) { return a->worst_range() < b->worst_range(); });
-  return {pipeline::joined(warnings, places_warnings(places)), (*worst)->summary(evaluations.back()->sites_so_far())};
+  return {warnings, (*worst)->summary(evaluations.back()->sites_so_far())};
 }
 
 }  // namespace dresslife::strain

@@ -160,6 +160,7 @@ RankingRow read_row(const JobResult& result) {
       row.clamp_moment_share = file.number_attribute("clamp_moment_share");
     }
     if (file.has_attribute("strain_relief_share")) row.strain_relief_share = file.number_attribute("strain_relief_share");
+    if (file.has_attribute("moving_places")) row.moving_places = file.number_attribute("moving_places");
     if (file.has_attribute("loose_mesh_error")) row.loose_mesh_error = file.number_attribute("loose_mesh_error");
     if (file.has_attribute("life_hours_mean_stress_kept")) {
       row.hours_mean_stress_kept = file.number_attribute("life_hours_mean_stress_kept");

@@ -100,6 +100,7 @@ struct RankingRow {
   std::optional<double> strain_relief_share;
   std::optional<double>
       loose_mesh_error;  ///< share of the curvature of loose cables that their mesh misses; absent: no cable lies loose
+  double moving_places = 0;  ///< places of loose cables at which they do not end the repeat where they began it
   std::string estimates;  ///< keys that the dresspacks leave out, with their estimated values; empty: none, or not known
   /// Hours of the worst wire if its mean stress never relaxed, and without mean stress; absent: not known.
   std::optional<double> hours_mean_stress_kept, hours_without_mean_stress;

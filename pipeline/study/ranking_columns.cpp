@@ -89,6 +89,9 @@ class Table {
     for (const auto& [end, share, i] : {std::tuple{"p10", "10", 0u}, std::tuple{"p90", "90", 2u}})
       add(of_mode(fmt::format("hose_life_hours_{}", end), "h", fmt::format("hose_life_hours until {} % have cracked", share), UnvalidatedMode::wall,
                   [i = i](const UnvalidatedMode& mode) { return is_credible(mode) ? mode.hours[i] : UnvalidatedMode::unknown; }));
+    add(of("moving_places", "1",
+           "computed places of loose cables, besides the job's own, at which they do not end the repeat where they began it",
+           &RankingRow::moving_places));
   }
   std::vector<RankingColumn> columns;
 

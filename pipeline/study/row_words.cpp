@@ -55,10 +55,16 @@ std::string error_words(const RankingRow& row) {
     if (std::isfinite(row.planned_errors[i]) && row.planned_errors[i] >= none)
       words += fmt::format("{}the {} % value by a factor of {}", words.empty() ? "" : ", ", shares[i], readable(row.planned_errors[i], 2));
   if (words.empty()) return "";
-  return fmt::format(
+  words = fmt::format(
       "These hours also have a numerical error, because lives jump with stiffness, slack and friction, and only some of these are "
       "computed: {}.",
       words);
+  if (row.moving_places > 0)
+    words += fmt::format(
+        " The factors do not contain that loose cables do not come to a cycle at {:.0f} of the computed values of stiffness, slack and "
+        "starts, so that a repeat there includes a change of their places.",
+        row.moving_places);
+  return words;
 }
 
 std::string joined_words(const std::vector<std::string>& sentences) {

@@ -312,7 +312,7 @@ routing:
   base_clamp: {link: link_3, position_m: [-0.1, 0, 0.45], direction: [1, 0, 0.45]}
   tool_clamp: {link: link_6, position_m: [0.15, 0, 0.18], direction: [1, 0, -0.35]}
   free_length_m: 2.035
-simulation: {segments: 20, sample_rate_Hz: 25}
+simulation: {segments: 12, sample_rate_Hz: 25, most_repeats: 2}
 )");
   const Outcome ways = must_run(scratch, "dresslife", "reprogram job.yaml --quiet --lines 1 --set uncertainty.enabled=false");
   INFO(ways.out << ways.err);
@@ -347,12 +347,12 @@ routing:
   base_clamp: {link: link_3, position_m: [-0.1, 0, 0.45], direction: [1, 0, 0.45]}
   tool_clamp: {link: link_6, position_m: [0.15, 0, 0.18], direction: [1, 0, -0.35]}
   free_length_m: 2.5
-simulation: {segments: 20, sample_rate_Hz: 25}
+simulation: {segments: 12, sample_rate_Hz: 25, most_repeats: 2}
 )");
   const std::string program = content(scratch / "short.mod");
   const Outcome ways = must_run(
       scratch, "dresslife",
-      "reprogram job.yaml --quiet --lines 2 --set dresspack.least_bend_radius_mm=100 --set uncertainty.enabled=false");
+      "reprogram job.yaml --quiet --lines 1 --set dresspack.least_bend_radius_mm=100 --set uncertainty.enabled=false");
   INFO(ways.out << ways.err);
   CHECK(content(scratch / "short.mod") == program);
   const std::string table = content(scratch / "runs/job_reprogram/as_it_is.csv");

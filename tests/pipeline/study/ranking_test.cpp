@@ -786,6 +786,9 @@ TEST_CASE("ranking: what the calculation leaves uncertain stands beside the caus
   CHECK_THAT(uncertainty_words(row),
              Catch::Contains("numerical error, because lives jump with stiffness, slack and friction, and only some of these are computed: "
                              "the 10 % value by a factor of 5.8, the 90 % value by a factor of 58.") && !Catch::Contains("50 % value"));
+  CHECK_THAT(uncertainty_words(row), !Catch::Contains("come to a cycle"));
+  row.moving_places = 3;
+  CHECK_THAT(uncertainty_words(row), Catch::Contains("loose cables do not come to a cycle at 3 of the computed values"));
   row.planned_errors.fill(std::nan(""));
   CHECK_THAT(uncertainty_words(row), !Catch::Contains("by a factor of"));
 }
