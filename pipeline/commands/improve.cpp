@@ -99,7 +99,7 @@ int judge_the_best(const ImproveOptions& options, const StudyPlaces& places, con
     written = write_short_job(options.request, found, finals, job, false, false);
     if (!options.quiet)
       write_stderr(shown(fmt::format(
-          "The trials are done. The jobs of the best are in {}{}. Next the best run again with {}: up to 24 runs each, most often about 30 in all, mostly in half the time of a full run. --off 0 leaves that out.\n",
+          "The trials are done. The jobs of the best are in {}{}. Next the best run again with {}: up to 24 runs each, most often about 30 in all. --off 0 leaves that out.\n",
           places.folder.string(),
           written ? fmt::format(", the best as drawn also in {}", job.string()) : "",
           tolerance_text(tolerance))));

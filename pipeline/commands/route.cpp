@@ -147,17 +147,16 @@ void judge(Trial& trial, const Draft& draft, const RouteOptions& options, const 
   for (const std::size_t k : best_first) {
     const Node document =
         routed(draft, trial.proposals.candidates[k].changes, trial.proposals.motion, trial.factor);
-    const std::vector<StudyJob> drawn{{"place", std::make_shared<const Job>(job_from(document)), ""}};
-    const std::vector<Nudge> nudges = nudges_of(drawn, tolerance_for(draft, options));
-    const auto run = [&, k, document, nudges](const std::vector<std::size_t>& numbers,
-                                              const std::vector<std::string>& settings) {
+    Finalist finalist{trial.outcomes[k],
+                      nudges_of({{"place", std::make_shared<const Job>(job_from(document)), ""}},
+                                tolerance_for(draft, options)),
+                      {}};
+    finalist.run = [&, k, document, nudges = finalist.nudges](const std::vector<std::size_t>& numbers) {
       Study study{draft.name, {}, Keep::lives};
       for (const std::size_t j : numbers) {
         Node off = document;
-        for (const std::string& set : settings) apply_set(off, set);
-        if (j < nudges.size())
-          for (const std::string& set : nudges[j].sets) apply_set(off, set);
-        study.jobs.push_back({off_name(trial.rows[k].job + "_off", j, settings),
+        for (const std::string& set : nudges[j].sets) apply_set(off, set);
+        study.jobs.push_back({fmt::format("{}_off_{:02}", trial.rows[k].job, j + 1),
                               std::make_shared<const Job>(job_from(off)), ""});
       }
       const std::vector<RankingRow> rows = made_rows(study, places, runs.options(), files);
@@ -167,7 +166,7 @@ void judge(Trial& trial, const Draft& draft, const RouteOptions& options, const 
           if (row.job == job.name) outcomes.push_back(outcome_of(row, places.job(row.job)));
       return outcomes;
     };
-    finalists.push_back(finalist_of(trial.outcomes[k], nudges, drawn, run));
+    finalists.push_back(std::move(finalist));
   }
   const std::vector<WithinTolerance> judged = within_tolerance(
       finalists, as_it_is, [&](const ToleranceCount& count) { runs.begin(count); });
@@ -385,7 +384,7 @@ int route(const RouteOptions& options) {
         options.tried, options.short_runs,
         tolerance_for(draft, options).none()
             ? ""
-            : "; the best three run up to 24 times each with a clamp or length off, most often about 30 times in all, mostly in half the time of a full run (--off 0 leaves that out)"));
+            : "; the best three run up to 24 times each with a clamp or length off, most often about 30 times in all (--off 0 leaves that out)"));
   if (kind_of(options.request.of) == FileKind::file) claim_folder(places.folder, options.request.of);
   const FilesAtStart files({std::make_shared<const Job>(draft.job)});
   std::optional<Trial> chosen, nearest;

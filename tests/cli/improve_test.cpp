@@ -70,7 +70,7 @@ TEST_CASE("improve finds a job that lives longer, and says by what") {
   const std::string page = content(scratch / "runs/better_improve/improve.html");
   CHECK(page.find("<iframe src=\"before/page.html\"") != std::string::npos);
   CHECK(page.find("<td><code>routing.free_length_m</code></td><td>0.9</td><td>0.9") != std::string::npos);
-  CHECK(std::regex_search(page, std::regex("<tr><td>length, \\+ 10 mm</td><td class=\"number\">(about )?× ")));
+  CHECK(page.find("<tr><td>length, + 10 mm</td><td class=\"number\">× ") != std::string::npos);
 
   // Trials keep only their receipts; the best few keep all files.
   CHECK(results_of(scratch / "runs/better_improve", "trial_").empty());

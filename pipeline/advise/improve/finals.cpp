@@ -108,19 +108,17 @@ void judge(Finals& finals, const Improvement& found, const ImproveRequest& reque
   std::vector<Finalist> finalists;
   const auto finalist_of = [&](const Final* of) {
     const std::vector<std::string>& sets = found.trials[of->trial].sets;
-    const std::vector<StudyJob> drawn = changed_jobs(request, sets, "place");
-    const std::vector<Nudge> nudges = nudges_of(drawn, tolerance);
-    const auto run = [&, of, sets, nudges](const std::vector<std::size_t>& numbers,
-                                           const std::vector<std::string>& settings) {
+    Finalist finalist{
+        found.trials[of->trial].worst, nudges_of(changed_jobs(request, sets, "place"), tolerance), {}};
+    finalist.run = [&, of, sets, nudges = finalist.nudges](const std::vector<std::size_t>& numbers) {
       Study study{found.name, {}, found.keep_trials};
       std::vector<std::vector<std::string>> jobs(numbers.size());
       for (std::size_t k = 0; k < numbers.size(); ++k) {
+        const std::vector<std::string>& off = nudges[numbers[k]].sets;
         std::vector<std::string> all = sets;
-        all.insert(all.end(), settings.begin(), settings.end());
-        if (numbers[k] < nudges.size())
-          all.insert(all.end(), nudges[numbers[k]].sets.begin(), nudges[numbers[k]].sets.end());
-        const std::string name = off_name(fmt::format("off_{:04}", of->trial), numbers[k], settings);
-        for (StudyJob& job : changed_jobs(request, all, name)) {
+        all.insert(all.end(), off.begin(), off.end());
+        for (StudyJob& job :
+             changed_jobs(request, all, fmt::format("off_{:04}_{:02}", of->trial, numbers[k] + 1))) {
           jobs[k].push_back(job.name);
           study.jobs.push_back(std::move(job));
         }
@@ -135,7 +133,7 @@ void judge(Finals& finals, const Improvement& found, const ImproveRequest& reque
       }
       return worst;
     };
-    return pipeline::finalist_of(found.trials[of->trial].worst, nudges, drawn, run);
+    return finalist;
   };
   for (const Final* of : best_first) finalists.push_back(finalist_of(of));
   const std::vector<WithinTolerance> judged = within_tolerance(finalists, as_it_is, progress);

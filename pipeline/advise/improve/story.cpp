@@ -41,11 +41,8 @@ std::string other_words(const Improvement& found, const Finals& finals) {
   const Final &best = *finals.best(), &drawn = *finals.best_drawn();
   if (best.trial == drawn.trial || !drawn.tolerance) return "";
   const Outcome& worst = drawn.tolerance->worst_outcome;
-  const bool by_quick_runs =
-      !drawn.tolerance->whole &&
-      std::ranges::any_of(drawn.tolerance->nudges, &ImprovementStory::Nudge::estimated);
-  return fmt::format("Trial {} is better as drawn ({}), but worse within that tolerance ({}{})\n", drawn.trial,
-                     outcome_words(found.trials[drawn.trial].worst, drawn.hours), by_quick_runs ? "about " : "",
+  return fmt::format("Trial {} is better as drawn ({}), but worse within that tolerance ({})\n", drawn.trial,
+                     outcome_words(found.trials[drawn.trial].worst, drawn.hours),
                      outcome_words(worst, worst.hours));
 }
 

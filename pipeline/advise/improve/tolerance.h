@@ -6,10 +6,6 @@
 // The merits m_i so far are upper bounds of m_w. The finalist with the largest bound is evaluated next, until all its m_i are
 // known: then no other finalist can have a larger m_w. Three finalists are compared, and more as long as each of them has an m_i
 // that does not run. Cases in which another finalist lost most are evaluated first. Both rules save runs with the same result.
-//
-// A finalist may have quick runs, whose lives are estimates. Then all its m_i are estimated first. Then the cases with the least
-// merit, the shortest life and the earliest first mode are run in full, until all three are full runs. Reports state these results.
-// The estimates decide only which other cases are not run in full.
 #pragma once
 
 #include <functional>
@@ -27,31 +23,13 @@ struct Finalist {
   std::vector<Nudge> nudges;
   /// Runs the nudges with these indices. Returns the outcomes in the same order.
   std::function<std::vector<Outcome>(const std::vector<std::size_t>&)> run;
-  /// Does the same with the job's own settings; empty: `run` does so.
-  std::function<std::vector<Outcome>(const std::vector<std::size_t>&)> run_fully{};
 };
-
-/// Settings of quick runs ("KEY=VALUE"): without variations of slack and of friction on the hose
-/// (pipeline/advise/improve/measurements.md, quick runs).
-std::vector<std::string> quick_settings();
-
-/// Runs nudges with these indices; the index after the last nudge is the job as drawn. sets: further settings.
-using NudgeRuns = std::function<std::vector<Outcome>(const std::vector<std::size_t>& numbers,
-                                                     const std::vector<std::string>& sets)>;
-
-/// Returns the name of a nudge's job: "PREFIX_03", of a quick run "PREFIX_03_quick".
-std::string off_name(const std::string& prefix, std::size_t number, const std::vector<std::string>& settings);
-
-/// Returns a finalist with quick runs. The estimated life is the life of the quick run times the ratio of full and quick run of
-/// the job as drawn. drawn: by a full run. jobs: as drawn; without uncertain parameters all runs are full.
-Finalist finalist_of(const Outcome& drawn, const std::vector<Nudge>& nudges, const std::vector<StudyJob>& jobs,
-                     const NudgeRuns& run);
 
 /// Nudges of one step. The first are the lengths and the turn of the end, which show a narrow optimum soonest.
 inline constexpr std::size_t tolerance_runs_at_once = 4;
 
 /// State before the next runs. likely: all runs if the leading finalist stays the best; most: all runs if every finalist must be
-/// evaluated completely. Full runs after estimates count only as far as they are known to follow.
+/// evaluated completely.
 struct ToleranceCount {
   std::size_t done = 0, likely = 0, most = 0;
 };
@@ -62,9 +40,7 @@ struct WithinTolerance {
   std::vector<std::size_t> numbers;             ///< (evaluated) index in Finalist::nudges, rising
   Merit worst;                                  ///< upper bound of m_w; equal to m_w if `whole`
   Outcome worst_outcome;                        ///< outcome with this merit
-  bool whole = false;                           ///< whether all nudges were evaluated, and the worst in full
-  std::vector<Outcome> outcomes{};              ///< (evaluated)
-  std::size_t full_runs = 0;                    ///< number of full runs after an estimate
+  bool whole = false;                           ///< whether all nudges were evaluated
 };
 
 /// Evaluates the nudges of one finalist until `enough` returns true for the worst merit so far. others: finalists of the same

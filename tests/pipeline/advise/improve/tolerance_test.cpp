@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <random>
 
-#include "pipeline/job/job.h"
 #include "tests/catch.h"
 
 namespace dresslife::pipeline {
@@ -109,77 +107,6 @@ TEST_CASE("tolerance: one that falls behind is given up, and one that does not r
   CHECK(judged[1].worst.kept == Kept::nothing);
   CHECK(judged[1].nudges[1].words == "too short");
   CHECK(best_within(judged) == 0);
-}
-
-/// Returns a job, with or without uncertain parameters.
-std::vector<StudyJob> job_of(bool uncertain) {
-  auto job = std::make_shared<Job>();
-  job->uncertainty.enabled = uncertain;
-  return {{"job", std::move(job), ""}};
-}
-
-TEST_CASE("tolerance: what is stated is a full run, also where quick runs order the nudges wrongly") {
-  std::mt19937 random(3);
-  std::lognormal_distribution<double> spread(0, 0.5), error(0, 0.4);
-  int saved = 0;
-  for (int round = 0; round < 200; ++round) {
-    constexpr std::size_t count = 24;
-    constexpr double drawn = 1000, bias = 3;  // quick runs promise longer lives
-    std::vector<double> full(count), quick(count);
-    for (std::size_t k = 0; k < count; ++k) {
-      full[k] = drawn * spread(random);
-      quick[k] = bias * full[k] * error(random);
-    }
-    std::vector<int> full_runs(count), quick_runs(count + 1);
-    const auto run = [&](const std::vector<std::size_t>& numbers, const std::vector<std::string>& settings) {
-      std::vector<Outcome> outcomes;
-      for (const std::size_t k : numbers) {
-        ++(settings.empty() ? full_runs : quick_runs)[k];
-        outcomes.push_back(outcome(!settings.empty() ? (k == count ? bias * drawn : quick[k]) : full[k]));
-      }
-      return outcomes;
-    };
-    const std::vector<WithinTolerance> judged =
-        within_tolerance({finalist_of(outcome(drawn), std::vector<Nudge>(count), job_of(true), run)}, outcome(1));
-    REQUIRE(judged.size() == 1);
-    REQUIRE(judged[0].whole);
-    CHECK(quick_runs == std::vector<int>(count + 1, 1));
-    // The worst is a full run, and no estimate is worse.
-    double least = drawn;
-    for (std::size_t k = 0; k < count; ++k) {
-      CHECK(judged[0].nudges[k].estimated == (full_runs[k] == 0));
-      const double hours = full_runs[k] > 0 ? full[k] : quick[k] / bias;
-      CHECK(judged[0].nudges[k].share == Approx(hours / drawn));
-      if (full_runs[k] > 0) least = std::min(least, full[k]);
-      saved += full_runs[k] == 0;
-    }
-    CHECK(judged[0].worst.hours == least);
-    for (std::size_t k = 0; k < count; ++k) CHECK((full_runs[k] > 0 || quick[k] / bias >= least));
-  }
-  CHECK(saved > 200 * 16);  // two of three
-  // A comparison that ends early ends with a full run, too.
-  const auto by_number = [](const std::vector<std::size_t>& numbers, const std::vector<std::string>& settings) {
-    std::vector<Outcome> outcomes;
-    for (const std::size_t k : numbers) outcomes.push_back(outcome(settings.empty() ? 900 : k == 2 ? 100 : 1000));
-    return outcomes;
-  };
-  const WithinTolerance early =
-      within_tolerance(finalist_of(outcome(1000), std::vector<Nudge>(12), job_of(true), by_number), outcome(1),
-                       [](const Merit& worst) { return worst.hours < 700; }, {}, {});
-  CHECK(early.numbers.size() == 12);  // the estimate of 100 h was wrong
-  CHECK(early.worst.hours == 900);
-  // Without uncertain parameters all runs are full.
-  int runs = 0;
-  const auto run = [&](const std::vector<std::size_t>& numbers, const std::vector<std::string>& settings) {
-    CHECK(settings.empty());
-    runs += static_cast<int>(numbers.size());
-    return std::vector<Outcome>(numbers.size(), outcome(900));
-  };
-  const std::vector<WithinTolerance> certain =
-      within_tolerance({finalist_of(outcome(1000), std::vector<Nudge>(6), job_of(false), run)}, outcome(1));
-  CHECK(certain.front().whole);
-  CHECK(runs == 6);
-  CHECK_FALSE(certain.front().nudges.front().estimated);
 }
 
 /// A search over one angle: p10 rises toward a cliff, beyond which no job runs, and has a lower plateau on the other side.
