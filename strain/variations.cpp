@@ -31,10 +31,11 @@ constexpr std::array slacks{low_slack, -1.25, Variations::reach};
 constexpr std::array slacks_of_other_stiffness{-1.25, Variations::reach};
 constexpr std::array both_sides{-Variations::reach, Variations::reach};
 
-/// Returns whether a change of a parameter other than friction inside changes any strain.
-bool matters(const pipeline::Job& job, const Variations::Spans& spans, Uncertain parameter) {
-  const auto any = [&](auto does) { return std::any_of(spans.begin(), spans.end(), does); };
-  if (!any([](const auto& evaluation) { return evaluation->any_cables(); })) return false;
+/// Returns whether a parameter other than friction inside is unknown, and the job has parts whose places depend on it.
+bool is_varied(const pipeline::Job& job, Uncertain parameter) {
+  if (!job.uncertainty.enabled) return false;
+  const std::size_t index = index_of(parameter);
+  if (pipeline::uncertain_parameters()[index].z_of(job.uncertainty.spread[index]) == 0) return false;
   if (parameter == Uncertain::slack) return any_component(job, has_slack);
   if (parameter == Uncertain::grip) return any_component(job, has_grip);
   return rubs(job.strain.slip.front()) && any_component(job, rubs_on_hose);
@@ -84,10 +85,9 @@ std::vector<Evaluation::Site> with_likely_of_bent(std::vector<Evaluation::Site> 
 }  // namespace
 
 std::size_t placements_at_most(const pipeline::Job& job) {
-  if (!job.uncertainty.enabled) return 0;
-  return (any_component(job, has_slack) ? slacks.size() : 0) +
-         (any_component(job, has_grip) ? both_sides.size() : 0) +
-         (rubs(job.strain.slip.front()) && any_component(job, rubs_on_hose) ? 1 : 0);
+  return (is_varied(job, Uncertain::slack) ? slacks.size() : 0) +
+         (is_varied(job, Uncertain::grip) ? both_sides.size() : 0) +
+         (is_varied(job, Uncertain::friction_hose) ? 1 : 0);
 }
 
 std::vector<Variations::Friction> Variations::other_frictions(const Spans& spans) {
@@ -124,7 +124,8 @@ Variations::Variations(const pipeline::Job& job, double stiffness, const Spans& 
 
 void Variations::lay(const pipeline::Job& job, const Build& build, Uncertain parameter,
                      std::span<const double> nodes, const std::vector<Friction>& friction) {
-  if (!matters(job, as_given_, parameter)) return;
+  const bool any_cables = std::ranges::any_of(as_given_, [](const auto& evaluation) { return evaluation->any_cables(); });
+  if (!any_cables || !is_varied(job, parameter)) return;
   for (const double z : nodes) {
     Point point{};
     point[index_of(parameter)] = z;

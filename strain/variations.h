@@ -7,7 +7,7 @@
 // to infinity (no slip at any pressure): the bounds of a cable. Play is not varied: in the shipped programs it changes lives by a
 // tenth of a decade and would cost as much as a slack. Places and forces of cables are computed again for each variation except
 // friction inside. The wires are the likely worst ones of each segment and layer of the job itself. If cables lie elsewhere, the
-// likely worst wires of the cables that bend most there are added.
+// likely worst wires of the cables that bend most there are added. A parameter whose spread is 1 is known and has no variations.
 #pragma once
 
 #include <array>

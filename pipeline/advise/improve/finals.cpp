@@ -9,7 +9,8 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr std::size_t most_finalists = 6;  // number of finalists with pages
+// Three are compared within the tolerance, the fourth only if none of them runs in all its cases. Each costs a full run.
+constexpr std::size_t most_finalists = 4;
 
 /// Returns the best candidates; with two objectives the whole front. The original jobs are left out, because they are always
 /// included.

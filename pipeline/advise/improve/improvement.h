@@ -36,7 +36,9 @@ struct ImproveRequest {
   std::filesystem::path file;      ///< a job, or a study with the optional sections `free` and `limits`
   std::vector<std::string> sets;   ///< `--set` for every job
   std::vector<std::string> frees;  ///< "KEY.PATH=RANGE", in addition to those of the study
-  int trials = 200;
+  /// Default: more trials change lives by less than their numerical error (pipeline/advise/improve/measurements.md, number of
+  /// trials).
+  int trials = 12;
   int at_a_time = 4;  ///< number of trials that are proposed together; the search depends on it
   std::uint64_t seed = 1;
   SearchMethod method = SearchMethod::surrogate;
