@@ -373,15 +373,19 @@ TEST_CASE(
   CHECK(nearest < 0.03f);  // the lead-in goes in steps of four samples; 0.4 and 1.2 % remain
 }
 
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  return text.replace(text.find(from), from.size(), to);
+}
+
+/// Returns a job with a ring of three loose cables.
+std::string loose_ring_job() {
+  return replaced(replaced(pipeline::sample_job, "helix_radius_mm: 18.45\n", "helix_radius_mm: 18.45\n      slack_percent: 2\n"),
+                  "  damping_time_ms: 10\n", "  damping_time_ms: 10\n  inner_diameter_mm: 52\n");
+}
+
 TEST_CASE("each start of a ring of cables has a rest in the file, one cable has no starts") {
   const Scratch scratch;
-  std::string text = pipeline::sample_job;
-  const auto replace = [&](const std::string& from, const std::string& to) {
-    text.replace(text.find(from), from.size(), to);
-  };
-  replace("helix_radius_mm: 18.45\n", "helix_radius_mm: 18.45\n      slack_percent: 2\n");
-  replace("  damping_time_ms: 10\n", "  damping_time_ms: 10\n  inner_diameter_mm: 52\n");
-  replace("slip: [stick, free]", "slip: free");
+  std::string text = replaced(loose_ring_job(), "slip: [stick, free]", "slip: free");
   write_motion(scratch / "motion.h5");
   const auto evaluated = [&](std::vector<std::string> sets) {
     evaluate(scratch / "motion.h5", scratch / "strain.h5",
@@ -407,7 +411,7 @@ TEST_CASE("each start of a ring of cables has a rest in the file, one cable has 
     CHECK(off.read<float>("/reversal/strain") == strain);
     CHECK(off.has("/start/rest"));
   }
-  replace("count: 3", "count: 1");
+  text = replaced(text, "count: 3", "count: 1");
   const FileReader one = evaluated({"uncertainty.enabled=true"});
   CHECK_FALSE(one.has("/start/rest"));
   for (const std::int32_t rest : one.read<std::int32_t>("/variation/rest")) CHECK(rest == 0);
@@ -417,12 +421,7 @@ TEST_CASE("starts that do not close the first repeat after the lead-in follow th
   // The lead-in of 180 s is shorter than the motion, so each start has been through a part of it only. Without further repeats one start
   // changes by more than LooseCables::most_change.
   const Scratch scratch;
-  std::string text = pipeline::sample_job;
-  const auto replace = [&](const std::string& from, const std::string& to) {
-    text.replace(text.find(from), from.size(), to);
-  };
-  replace("helix_radius_mm: 18.45\n", "helix_radius_mm: 18.45\n      slack_percent: 2\n");
-  replace("  damping_time_ms: 10\n", "  damping_time_ms: 10\n  inner_diameter_mm: 52\n");
+  const std::string text = loose_ring_job();
   write_motion(scratch / "motion.h5", cycle, 6, turning);
   for (const char* const slip : {"free", "friction"}) {
     evaluate(scratch / "motion.h5", scratch / "strain.h5",
