@@ -373,6 +373,8 @@ TEST_CASE(
   CHECK(nearest < 0.03f);  // the lead-in goes in steps of four samples; 0.4 and 1.2 % remain
 }
 
+namespace {
+
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   return text.replace(text.find(from), from.size(), to);
 }
@@ -382,6 +384,8 @@ std::string loose_ring_job() {
   return replaced(replaced(pipeline::sample_job, "helix_radius_mm: 18.45\n", "helix_radius_mm: 18.45\n      slack_percent: 2\n"),
                   "  damping_time_ms: 10\n", "  damping_time_ms: 10\n  inner_diameter_mm: 52\n");
 }
+
+}  // namespace
 
 TEST_CASE("each start of a ring of cables has a rest in the file, one cable has no starts") {
   const Scratch scratch;
