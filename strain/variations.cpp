@@ -87,7 +87,7 @@ std::vector<Evaluation::Site> with_likely_of_bent(std::vector<Evaluation::Site> 
 std::size_t placements_at_most(const pipeline::Job& job) {
   return (is_varied(job, Uncertain::slack) ? slacks.size() : 0) +
          (is_varied(job, Uncertain::grip) ? both_sides.size() : 0) +
-         (is_varied(job, Uncertain::friction_hose) ? 1 : 0);
+         (is_varied(job, Uncertain::friction_hose) ? both_sides.size() : 0);
 }
 
 std::vector<Variations::Friction> Variations::other_frictions(const Spans& spans) {
@@ -106,9 +106,7 @@ Variations::Variations(const pipeline::Job& job, const Spans& as_given, const Sh
   std::erase_if(all, [](const Friction& of) { return of.z == -reach / 2; });
   all.insert(all.begin(), Friction{});
   lay(job, build, Uncertain::slack, slacks, all);
-  // With less friction on the hose log10 of a life continues the straight line: to within 0.1 decade in spot_robot_1, 0.9 decades too long
-  // in hard (strain/measurements.md, dry friction).
-  lay(job, build, Uncertain::friction_hose, std::array{reach}, {{}});
+  lay(job, build, Uncertain::friction_hose, both_sides, {{}});
   lay(job, build, Uncertain::grip, both_sides, {{}});
 }
 

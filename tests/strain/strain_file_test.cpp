@@ -454,6 +454,64 @@ TEST_CASE("a motion without samples or a dresspack without wires is refused in w
   CHECK(scratch.entries() == 1);  // no partial output remains
 }
 
+TEST_CASE("less and more friction on the hose are variations, whose strains are nearer to a job with that friction than to their own job") {
+  const Scratch scratch;
+  write_motion(scratch / "motion.h5");
+  std::string text = replaced(pipeline::sample_job, "helix_radius_mm: 18.45\n",
+                              "helix_radius_mm: 18.45\n      slack_percent: 3\n      friction_coefficient: 0.3\n"
+                              "      radial_line_load_N_per_m: 60\n");
+  text = replaced(text, "count: 3", "count: 1");  // one cable has no other starts
+  text = replaced(text, "  damping_time_ms: 10\n", "  damping_time_ms: 10\n  inner_diameter_mm: 52\n");
+  text = replaced(text, "slip: [stick, free]", "slip: [friction, free], cable_elements_per_segment: 4");
+  const auto evaluated = [&](const std::vector<std::string>& sets) {
+    evaluate(scratch / "motion.h5", scratch / "strain.h5", pipeline::job_from(pipeline::parse_yaml(text, "job.yaml"), sets));
+    return FileReader(scratch / "strain.h5", pipeline::strain_format());
+  };
+  /// Returns the range of strain of each site of a job without variations.
+  const auto ranges_of = [&](std::vector<std::string> sets) {
+    sets.push_back("uncertainty.enabled=false");
+    const FileReader file = evaluated(sets);
+    const auto offset = file.read<std::uint64_t>("/reversal/offset");
+    const auto strain = file.read<float>("/reversal/strain");
+    std::vector<double> ranges;
+    for (std::size_t site = 0; site + 1 < offset.size(); ++site) {
+      const auto [low, high] = std::minmax_element(strain.begin() + offset[site], strain.begin() + offset[site + 1]);
+      ranges.push_back(*high - *low);
+    }
+    return ranges;
+  };
+  std::map<double, std::map<std::uint32_t, double>> varied;  // (z, site) range of strain
+  {
+    const FileReader file = evaluated({"uncertainty.enabled=true", "uncertainty.slack=1"});
+    const auto z = file.read<double>("/variation/z");
+    const auto variation = file.read<std::uint32_t>("/variation/row/variation"), site = file.read<std::uint32_t>("/variation/row/site"),
+               turning = file.read<std::uint32_t>("/variation/row/turning");
+    const auto strain = file.read<float>("/variation/strain");
+    for (std::size_t row = 0, next = 0; row < site.size(); next += turning[row++]) {
+      const double at = z[variation[row] * 5 + index_of(pipeline::Uncertain::friction_hose)];
+      const auto [low, high] = std::minmax_element(strain.begin() + next, strain.begin() + next + turning[row]);
+      if (at != 0) varied[at][site[row]] = *high - *low;
+    }
+  }
+  REQUIRE(varied.size() == 2);
+  CHECK(varied.begin()->first == -varied.rbegin()->first);
+  const std::vector<double> own = ranges_of({});
+  for (const auto& [z, sites] : varied) {
+    std::array<double, pipeline::uncertain_count> at{};
+    at[index_of(pipeline::Uncertain::friction_hose)] = z;
+    const std::vector<double> same = ranges_of(pipeline::sets_at(at));
+    // Friction holds the cable at one of many places. That of a variation depends on where the job's own friction held it.
+    double to_same = 0, to_own = 0;  // means over sites of the logarithm of a ratio
+    for (const auto& [site, range] : sites) {
+      to_same += std::log(range / same[site]) / static_cast<double>(sites.size());
+      to_own += std::log(range / own[site]) / static_cast<double>(sites.size());
+    }
+    CAPTURE(z, to_same, to_own, sites.size());
+    CHECK(std::abs(to_same) < 0.2 * std::abs(to_own));
+    CHECK((to_own > 0) == (z > 0));  // more friction, more strain
+  }
+}
+
 TEST_CASE("variations hold the strains that the same job has with the keys that they stand for") {
   const Scratch scratch;
   // Variations of the slack of a ring continue from the first start and may come to another rest than a job with that slack.
