@@ -304,7 +304,18 @@ void CablePaths::lead_in(std::span<CablePaths* const> all, const SpanBlock& bloc
     }
     LooseCables::advance(cables, own.front()->nodes_, block.step);
   }
-  for (LooseCables* const of : cables) of->begin_repeat();
+}
+
+void CablePaths::end_repeat(std::span<CablePaths* const> all, double further) {
+  std::vector<LooseCables*> cables;
+  for (CablePaths* const of : all) {
+    if (!of->loose_ || std::ranges::find(cables, of->loose_.get()) != cables.end()) continue;
+    cables.push_back(of->loose_.get());
+    if (of->first_share_ == 1)
+      of->loose_->end_repeat(further);
+    else
+      of->loose_->begin_repeat();
+  }
 }
 
 void CablePaths::add_loose(std::span<CablePaths* const> all, const SpanBlock& block) {

@@ -91,6 +91,10 @@ class CablePaths {
   static void add(std::span<CablePaths* const> all, const SpanBlock& block);
   /// Moves the loose cables through samples before the first one, to the places where a repeat of the motion leaves them.
   static void lead_in(std::span<CablePaths* const> all, const SpanBlock& block);
+  /// Ends a repeat of a lead-in and begins the next one, or the one that counts. further: see LooseCables::end_repeat().
+  static void end_repeat(std::span<CablePaths* const> all, double further);
+  /// Returns whether the loose cables have all of their slack and have reached a cycle (LooseCables::in_cycle()).
+  bool in_cycle() const { return loose_ && loose_->in_cycle(); }
   /// Forgets the samples but not where the loose cables are, so that the motion can follow once more. Call it instead of finish()
   /// after the last sample, for all objects that share loose cables.
   void repeat();

@@ -207,6 +207,12 @@ void Evaluation::lead_in(std::span<Evaluation* const> all, const SpanBlock& bloc
   CablePaths::lead_in(cables, block);
 }
 
+void Evaluation::end_repeat(std::span<Evaluation* const> all, double further) {
+  std::vector<CablePaths*> cables;
+  for (Evaluation* const of : all) cables.push_back(&of->cables_);
+  CablePaths::end_repeat(cables, further);
+}
+
 void Evaluation::repeat() {
   cables_.repeat();
   for (ClampMeans* means : {&means_, &stick_.means, &free_.means}) means->repeat();

@@ -111,6 +111,7 @@ class Evaluation {
   static void add(std::span<Evaluation* const> all, const SpanBlock& block);
   /// Moves the loose cables through samples before the first one (CablePaths::lead_in()).
   static void lead_in(std::span<Evaluation* const> all, const SpanBlock& block);
+  static void end_repeat(std::span<Evaluation* const> all, double further);  ///< see CablePaths
   /// Forgets the samples of add() but not where the loose cables are (CablePaths::repeat()).
   void repeat();
   /// Takes a block that add() does not receive, because a part of the motion that is equal to it stands for it.

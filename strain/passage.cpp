@@ -8,6 +8,10 @@
 namespace dresslife::strain {
 namespace {
 
+// Longest motion whose lead-in can end early [s]. A cycle shows after two repeats, and 90 s before the first sample must contain
+// more than that, or nothing is gained.
+constexpr double longest_short = 22;
+
 void add(std::span<Evaluation* const> all, const SpanBlock& block) { Evaluation::add(all, block); }
 
 }  // namespace
@@ -114,20 +118,42 @@ void Passage::keep(std::size_t first_segment, const MotionBlock& block, const Sh
   window_.keep(first_segment, whole ? block.first : piece.at + block.first - piece.first, block);
 }
 
-void Passage::lead_in(double from, double until) {
-  const std::size_t samples = motion_.samples();
+std::size_t Passage::samples_in(double time) const { return static_cast<std::size_t>(std::ceil(time / motion_.step())); }
+
+/// Returns whether cables can stop early in the lead-in.
+bool Passage::is_short() const { return motion_.samples() <= samples_in(longest_short); }
+
+std::size_t Passage::repeats_in(double time) const {
+  const std::size_t count = samples_in(time), samples = motion_.samples();
+  return is_short() ? (count + samples - 1) / samples * samples : count;
+}
+
+/// Returns the evaluations of a span whose loose cables have not reached a cycle in the lead-in.
+std::vector<Evaluation*> Passage::still_moving(std::size_t span) const {
+  std::vector<Evaluation*> all = evaluated(span);
+  std::erase_if(all, [](const Evaluation* of) { return of->cables().in_cycle(); });
+  return all;
+}
+
+void Passage::lead_in(std::size_t from, std::size_t until) {
+  const std::size_t samples = motion_.samples(), spans = motion_.spans().size();
   if (!loose_ || samples < 2) return;
-  const auto samples_of = [&](double seconds) { return static_cast<std::size_t>(std::ceil(seconds / motion_.step())); };
-  const std::size_t end = samples_of(until);
-  for (std::size_t left = samples_of(from); left > end;) {
-    const std::size_t first = (samples - left % samples) % samples, count = std::min(left - end, samples - first);
-    const Shortening::Piece all{first, first + count, 0, 1};
+  for (std::size_t left = from; left > until;) {
+    std::size_t moving = 0, all_of_them = 0;
+    for (std::size_t k = 0; k < spans; ++k) moving += still_moving(k).size(), all_of_them += evaluated(k).size();
+    if (moving == 0) return;
+    const std::size_t first = (samples - left % samples) % samples, count = std::min(left - until, samples - first);
+    const Shortening::Piece piece{first, first + count, 0, 1};
     const auto move = [&](const MotionBlock& block) {
-      each_span(block, all, [&](std::size_t span) { return evaluated(span); }, Evaluation::lead_in);
-      starts_.merge();
+      each_span(block, piece, [&](std::size_t span) { return still_moving(span); }, Evaluation::lead_in);
+      if (moving == all_of_them) starts_.merge();  // else some starts are at the end of a repeat
     };
     motion_.run(true, move, first, first + count);
     left -= count;
+    if (left % samples > 0) continue;
+    const auto further = static_cast<double>(left) / static_cast<double>(samples);
+    for (std::size_t k = 0; k < spans; ++k) Evaluation::end_repeat(still_moving(k), is_short() ? further : HUGE_VAL);
+    starts_.merge();
   }
 }
 

@@ -42,9 +42,14 @@ class Passage {
   void take_along(const Variations& variations) { variations_ = &variations; }
 
   bool any_loose() const { return loose_; }
-  /// Moves loose cables through the time from `from` to `until` before the first sample [s]: the end of the motion, or whole
-  /// repeats. Does nothing if no cable is loose.
-  void lead_in(double from, double until);
+  /// Moves loose cables through the samples from `from` to `until` before the first one: the end of the motion, or whole repeats.
+  /// In a short motion cables that have reached a cycle (LooseCables::in_cycle()) stop at the end of a repeat; `until` must then be
+  /// whole repeats. Does nothing if no cable is loose.
+  void lead_in(std::size_t from, std::size_t until);
+  /// Returns the number of samples in this time [s].
+  std::size_t samples_in(double time) const;
+  /// The same, in a short motion rounded up to whole repeats.
+  std::size_t repeats_in(double time) const;
   /// Records rubbing for every start, because each can become the job's own.
   void record_rubbing() const;
   /// First pass. put: receives every block before the evaluations. Evaluations whose loose cables do not end the motion where they
@@ -65,6 +70,8 @@ class Passage {
   using Use = std::function<void(std::span<Evaluation* const>, const SpanBlock&)>;
   std::vector<Evaluation*> of_starts(std::size_t span) const;
   bool leaves_out(const Shortening::Piece& piece, std::size_t samples) const;
+  bool is_short() const;
+  std::vector<Evaluation*> still_moving(std::size_t span) const;
   std::vector<std::vector<Evaluation*>> shared_out(const std::vector<Evaluation*>& all) const;
   using OfSpan = std::function<std::vector<Evaluation*>(std::size_t span)>;
   void each_span(const MotionBlock& block, const Shortening::Piece& piece, const OfSpan& evaluations, const Use& use) const;

@@ -37,7 +37,7 @@ constexpr double believable_mesh_error = 0.02;
 constexpr double loose_pass_share = 0.5;  // first_pass_share with loose cables
 constexpr double own_work_share = 0.75;   // share of the work without other stiffnesses of the hose
 // Length of the end of the motion before the repeat that counts [s]. In it the first places of loose cables lose their influence
-// (W42). The last start of robot 1 comes to its rest after 160 s.
+// (W42). The last start of robot 1 comes to its rest after 160 s. Cables of short programs that reach a cycle earlier stop.
 constexpr double lead_in_time = 180;
 // Time before the first sample at which variations continue from the first start [s]. With 170 s the lives of robot 1 and hard
 // are the same. With 30 s one life of ten differs by 0.85 of a decade.
@@ -545,7 +545,7 @@ void write_other_motion(MotionReader& motion, const Shortening& shortening, Star
   Starts starts(laid);
   Passage passage(motion, shortening, starts, window, threads);
   passage.take_along(variations);
-  passage.lead_in(lead_in_varied, 0);
+  passage.lead_in(passage.samples_in(lead_in_varied), 0);
   passage.run([](const MotionBlock&) {});
   places.add(passage, laid.size(), {});
   variations.find_bent();
@@ -617,10 +617,11 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
   HistoryWindow window(segments, samples, window_bytes);
   Passage passage(reader, shortening, starts, window, threads);
   const Work work(progress, passage.any_loose(), others.size());
-  passage.lead_in(lead_in_time, lead_in_varied);
+  const std::size_t lead_in_of_variations = passage.repeats_in(lead_in_varied);
+  passage.lead_in(passage.samples_in(lead_in_time), lead_in_of_variations);
   variations.go_on();
   passage.take_along(variations);
-  passage.lead_in(lead_in_varied, 0);
+  passage.lead_in(lead_in_of_variations, 0);
   passage.record_rubbing();
   passage.run([&](const MotionBlock& block) {
     append_deformation(strain, block.deformation);

@@ -79,6 +79,11 @@ class LooseCables {
   const CableState& state(std::size_t cable) const { return states_[cable]; }
   /// Begins the repeat that counts. Call at the end of a lead-in.
   void begin_repeat();
+  /// Ends a repeat of a lead-in and begins the next one. further: number of repeats of the lead-in that follow.
+  void end_repeat(double further);
+  /// Returns whether the cables had reached a cycle at end_repeat(): the change of curvature in this repeat times the number of
+  /// further repeats was below 1 %.
+  bool in_cycle() const { return in_cycle_; }
   /// Returns the number of samples since begin_repeat() at which a ring or a cable did not converge in the allowed iterations.
   std::size_t restless() const { return restless_; }
   /// Returns the change of curvature since begin_repeat(), over the curvature: root mean squares over cables and nodes. 0 without
@@ -111,7 +116,7 @@ class LooseCables {
   std::vector<CableState> states_;
   std::vector<std::vector<double>> begun_;  ///< (cable, node) curvature at begin_repeat() [1/m]
   std::size_t restless_ = 0, iterations_ = 0;
-  bool started_ = false, rests_ = true, wound_ = false;
+  bool started_ = false, rests_ = true, wound_ = false, in_cycle_ = false;
 };
 
 }  // namespace dresslife::strain

@@ -1,6 +1,7 @@
 // The choice among rests of loose cables (W40).
 #include "strain/starts.h"
 
+#include <algorithm>
 #include <cmath>
 #include <list>
 
@@ -77,16 +78,82 @@ TEST_CASE("a rest to which most starts came is the median one for any damages") 
   CHECK_FALSE(even.starts.choose_by_number(0));
 }
 
-TEST_CASE("an evaluation that follows the motion again has the strains of one that followed it before as a lead-in") {
-  constexpr std::size_t cycle = 40;
-  pipeline::Job job = ring_job();
-  const strain::Construction construction(job.dresspacks[0].dresspack, job.strain.kinematics);
+namespace {
+
+constexpr std::size_t cycle = 40;  // samples
+
+/// Returns a repeat of a motion that moves all segments alike.
+strain::DeformationHistory one_repeat() {
   strain::DeformationHistory history(segments, cycle);
   for (std::size_t segment = 0; segment < segments; ++segment)
     for (std::size_t t = 0; t < cycle; ++t) {
       const double w = 2 * dresslife::pi * static_cast<double>(t) / cycle;
       history.set(segment, t, {1.5 + 0.5 * std::sin(w), 0.8 * std::cos(w), 1.2 * std::sin(w), 0});
     }
+  return history;
+}
+
+}  // namespace
+
+TEST_CASE("cables stop in a lead-in when the rest of it would change them by less than 1 %") {
+  constexpr int repeats = 60;
+  pipeline::Job job = ring_job();
+  const strain::Construction construction(job.dresspacks[0].dresspack, job.strain.kinematics);
+  const strain::DeformationHistory history = one_repeat();
+  const auto build = [&] { return Evaluation(construction, job.strain, std::vector<double>(segments, 0.15), cycle); };
+  const auto repeat = [&](Evaluation& evaluation, double further) {
+    Evaluation* const alone = &evaluation;
+    Evaluation::lead_in({&alone, 1}, {history});
+    Evaluation::end_repeat({&alone, 1}, further);
+    return evaluation.cables().in_cycle();
+  };
+  double after_one = 0;  // distance from the cycle after one repeat, the largest of all seeds
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    Evaluation once = build(), stops = build(), goes_on = build();
+    for (Evaluation* const evaluation : {&once, &stops, &goes_on}) evaluation->wind(seed);
+    CHECK_FALSE(repeat(once, 0));  // no repeat before to compare with
+    int done = 1;
+    while (!repeat(stops, repeats - done)) ++done;
+    for (int k = 0; k < repeats; ++k) CHECK_FALSE(repeat(goes_on, HUGE_VAL));
+    INFO("seed " << seed << ": " << done << " repeats");
+    CHECK(done < 10);
+    CHECK(stops.cables().apart(goes_on.cables()) < 1e-2);
+    after_one = std::max(after_one, once.cables().apart(goes_on.cables()));
+  }
+  CHECK(after_one > 1e-2);
+}
+
+TEST_CASE("cables into which slack is fed do not stop in a lead-in") {
+  pipeline::Job job = ring_job();
+  const strain::Construction construction(job.dresspacks[0].dresspack, job.strain.kinematics);
+  pipeline::StrainFactors more;
+  more.slack = 1.5;
+  const strain::Construction longer(job.dresspacks[0].dresspack, job.strain.kinematics, more);
+  job.strain.cable_elements = 4;  // of both
+  const strain::DeformationHistory history = one_repeat();
+  const std::vector<double> lengths(segments, 0.15);
+  Evaluation own(construction, job.strain, lengths, cycle), fed(longer, job.strain, lengths, cycle);
+  own.wind(3);
+  const auto in_cycle_after = [&](Evaluation& evaluation, int repeats) {
+    Evaluation* const alone = &evaluation;
+    for (int k = 0; k < repeats; ++k) {
+      Evaluation::lead_in({&alone, 1}, {history});
+      Evaluation::end_repeat({&alone, 1}, 0);
+    }
+    return evaluation.cables().in_cycle();
+  };
+  REQUIRE(in_cycle_after(own, 2));
+  fed.go_on_from(own);
+  constexpr double of_repeat = cycle * 0.04;               // [s]
+  constexpr int while_fed = static_cast<int>(15 / of_repeat);  // slack is fed in over 15 s
+  CHECK_FALSE(in_cycle_after(fed, while_fed));
+  CHECK(in_cycle_after(fed, 2));
+}
+
+TEST_CASE("an evaluation that follows the motion again has the strains of one that followed it before as a lead-in") {
+  pipeline::Job job = ring_job();
+  const strain::Construction construction(job.dresspacks[0].dresspack, job.strain.kinematics);
+  const strain::DeformationHistory history = one_repeat();
   for (const pipeline::Slip slip : {pipeline::Slip::free, pipeline::Slip::friction}) {
     job.strain.slip = {slip};
     std::vector<std::vector<float>> strains;  // (evaluation)
@@ -101,6 +168,7 @@ TEST_CASE("an evaluation that follows the motion again has the strains of one th
         evaluation.repeat();
       } else {
         Evaluation::lead_in({&alone, 1}, {history});
+        Evaluation::end_repeat({&alone, 1}, 0);
       }
       evaluation.add({history});
       evaluation.end_first_pass();
