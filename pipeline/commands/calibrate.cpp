@@ -66,7 +66,7 @@ Command calibrate_command() {
           "narrow the uncertain parameters by observed lives or by a maintenance system's table of dresspacks; "
           "a job names the result as its calibration",
           joined({{{"observations", "", "OBSERVATIONS.yaml or RECORDS.csv", &options->study, {.required = true}},
-                   {"--job", "JOB.yaml", "of the dresspacks in the table, unless its column job names one", &options->job},
+                   {"--job", "JOB.yaml", "of the dresspacks in the table, unless its column job names one; default: the only job in its folder", &options->job},
                    {"--records-since", "DATE",
                     "the first day from which the table has every removal; default: that of its first removal, which does not count then",
                     &options->since},

@@ -27,13 +27,11 @@ std::string ran_words(int stages) {
 
 /// Runs the jobs of one shard beside the runs of other shards. A run of the whole study writes ranking and report.
 int run_shard(const RunOptions& options) {
-  const Shard shard = shard_from(options.shard, "--shard");
   const StudyRequest request = request_of(options);
-  StudyState standing = expanded(request);
+  StudyState standing = expanded(request, shard_from(options.shard, "--shard"));
   const fs::path& folder = standing.places.folder;
   const FolderLock beside(folder, FolderLock::Mode::with_shards);
   claim_folder(folder, request.file);
-  keep_shard(standing, shard);
   const FolderLock lock(folder / standing.places.notes());
   look_again(standing);
   const int executed = make_rest(request, standing, options);
@@ -44,8 +42,15 @@ int run_shard(const RunOptions& options) {
 
 /// Prints the stages that a run would start, without starting them.
 int dry_run(const RunOptions& options) {
-  StudyState standing = standing_study(request_of(options));
-  if (!options.shard.empty()) keep_shard(standing, shard_from(options.shard, "--shard"));
+  const StudyRequest request = request_of(options);
+  StudyState standing;
+  if (options.shard.empty()) {
+    standing = standing_study(request);
+  } else {
+    check_source(request.out / study_name(request.file), request.file);
+    standing = expanded(request, shard_from(options.shard, "--shard"));
+    report_changes(standing.study, standing.places, standing.states);
+  }
   std::size_t to_make = 0, refused = 0;
   JobList jobs(options.json);
   for (std::size_t k = 0; k < standing.states.size(); ++k) {

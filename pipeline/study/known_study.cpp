@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <functional>
 #include <optional>
 #include <string_view>
 #include <thread>
@@ -18,6 +19,7 @@
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/study/relative_life.h"
+#include "pipeline/study/shards.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -165,14 +167,27 @@ void read_jobs(StudyState& standing) {
   }
 }
 
-StudyState expanded(const StudyRequest& request) {
+namespace {
+
+/// read: returns the jobs. shard: name of the shard; empty for all jobs.
+StudyState expanded_from(const StudyRequest& request, const std::function<Study()>& read, const std::string& shard) {
   Sources sources;
   StudyState standing;
-  standing.study = read_study(request.file, request.sets);
-  standing.places = {request.out / standing.study.name, request.programs};
+  standing.study = read();
+  standing.places = {request.out / standing.study.name, request.programs, shard};
   standing.states = states_of(standing.study, standing.places, standing.digests);
   standing.look_ups = sources.take();
   return standing;
+}
+
+}  // namespace
+
+StudyState expanded(const StudyRequest& request) {
+  return expanded_from(request, [&] { return read_study(request.file, request.sets); }, "");
+}
+
+StudyState expanded(const StudyRequest& request, const Shard& shard) {
+  return expanded_from(request, [&] { return read_study(request.file, request.sets, shard); }, shard.name());
 }
 
 StudyState standing_of(const StudyRequest& request) {

@@ -48,12 +48,7 @@ std::string test_words(const RankingRow& row) {
 }
 
 std::string error_words(const RankingRow& row) {
-  constexpr std::array shares{10, 50, 90};
-  constexpr double none = 1.05;  // a smaller factor would be printed as 1
-  std::string words;
-  for (std::size_t i = 0; i < shares.size(); ++i)
-    if (std::isfinite(row.planned_errors[i]) && row.planned_errors[i] >= none)
-      words += fmt::format("{}the {} % value by a factor of {}", words.empty() ? "" : ", ", shares[i], readable(row.planned_errors[i], 2));
+  std::string words = factor_words(row.planned_errors);
   if (words.empty()) return "";
   words = fmt::format(
       "These hours also have a numerical error, because lives jump with stiffness, slack and friction, and only some of these are "
@@ -258,6 +253,16 @@ std::string action_words(const RankingRow& row) {
                          bound, row.not_evaluated.empty() ? "" : fmt::format("Not evaluated: {}.", row.not_evaluated)});
   return joined_words({fmt::format("Plan a replacement after {} of motion ({}).", hours_text(hours), calendar_text(row.headline_months())),
                        inspection, bound});
+}
+
+std::string factor_words(const std::array<double, 3>& errors) {
+  constexpr std::array shares{10, 50, 90};
+  constexpr double none = 1.05;  // a smaller factor would be printed as 1
+  std::string words;
+  for (std::size_t i = 0; i < shares.size(); ++i)
+    if (std::isfinite(errors[i]) && errors[i] >= none)
+      words += fmt::format("{}the {} % value by a factor of {}", words.empty() ? "" : ", ", shares[i], readable(errors[i], 2));
+  return words;
 }
 
 std::string uncertainty_words(const RankingRow& row) {

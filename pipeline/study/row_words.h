@@ -2,6 +2,7 @@
 // part and the cause.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -56,6 +57,10 @@ std::string failure_words(const RankingRow& row);
 /// Returns the hours by which a first wire breaks with the job's own values, by the scatter of wires alone. Adds the factor
 /// between the median of the samples and this life if it is more than a decade. Empty: not known, or no wire breaks.
 std::string own_values_words(const RankingRow& row);
+
+/// Returns "the 10 % value by a factor of 2.1, the 50 % value by a factor of 2" of standard errors of the percentiles
+/// (RankingRow::planned_errors). Factors below 1.05 and unknown ones are left out. Empty: none is left.
+std::string factor_words(const std::array<double, 3>& errors);
 
 /// Returns a warning that a joint is held, so that the job does not perform its program. Empty: no joint is held.
 std::string held_words(const RankingRow& row);

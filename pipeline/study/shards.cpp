@@ -10,6 +10,19 @@
 #include "pipeline/base/order.h"
 
 namespace dresslife::pipeline {
+namespace {
+
+/// Returns the changes that may change a variant's simulation, as text.
+std::string simulated_changes(const Variant& variant) {
+  std::string text;
+  for (const Change& change : variant.changes) {
+    const std::string section = change.path.substr(0, change.path.find('.'));
+    if (section != "strain" && section != "fatigue") text += fmt::format("{}: {}\n", change.path, to_yaml(change.value));
+  }
+  return text;
+}
+
+}  // namespace
 
 std::string Shard::name() const { return fmt::format("{}_of_{}", index, count); }
 
@@ -38,28 +51,18 @@ int shards_needed(const StudyState& standing, int most_stages) {
   return left <= most ? 1 : static_cast<int>((jobs + jobs_each - 1) / jobs_each);
 }
 
-void keep_shard(StudyState& standing, const Shard& shard) {
-  const std::size_t jobs = standing.states.size();
-  std::unordered_map<std::string, std::size_t> firsts;  // (simulation) index of its first job
-  std::vector<std::size_t> group(jobs);
-  for (std::size_t k = 0; k < jobs; ++k)
-    group[k] = firsts.emplace(standing.states[k].recipes[0], k).first->second;
-  const std::vector<std::size_t> order = smallest_first(jobs, [&](std::size_t k) { return group[k]; });
+std::vector<std::size_t> part_of(const std::vector<Variant>& variants, const Shard& shard) {
+  const std::size_t count = variants.size();
+  std::unordered_map<std::string, std::size_t> firsts;  // (changes of the simulation) index of the first variant
+  std::vector<std::size_t> group(count);
+  for (std::size_t k = 0; k < count; ++k) group[k] = firsts.emplace(simulated_changes(variants[k]), k).first->second;
+  const std::vector<std::size_t> order = smallest_first(count, [&](std::size_t k) { return group[k]; });
   const auto begin_of = [&](int index) {
-    return jobs * static_cast<std::size_t>(index - 1) / static_cast<std::size_t>(shard.count);
+    return static_cast<std::ptrdiff_t>(count * static_cast<std::size_t>(index - 1) / static_cast<std::size_t>(shard.count));
   };
-  std::vector<std::size_t> kept(order.begin() + static_cast<std::ptrdiff_t>(begin_of(shard.index)),
-                                order.begin() + static_cast<std::ptrdiff_t>(begin_of(shard.index + 1)));
-  std::sort(kept.begin(), kept.end());
-  Study study{standing.study.name, {}, standing.study.keep};
-  std::vector<JobState> states;
-  for (const std::size_t k : kept) {
-    study.jobs.push_back(std::move(standing.study.jobs[k]));
-    states.push_back(std::move(standing.states[k]));
-  }
-  standing.study = std::move(study);
-  standing.states = std::move(states);
-  standing.places.shard = shard.name();
+  std::vector<std::size_t> part(order.begin() + begin_of(shard.index), order.begin() + begin_of(shard.index + 1));
+  std::sort(part.begin(), part.end());
+  return part;
 }
 
 }  // namespace dresslife::pipeline

@@ -1,9 +1,12 @@
 // Shards of a study: parts for parallel runs, for the case that one run cannot start all stages (an allocation of Slurm).
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include "pipeline/study/known_study.h"
+#include "pipeline/study/variant.h"
 
 namespace dresslife::pipeline {
 
@@ -21,8 +24,13 @@ Shard shard_from(const std::string& text, const std::string& where);
 /// that are not up to date fit into one run.
 int shards_needed(const StudyState& standing, int most_stages);
 
-/// Removes the jobs of other shards. Every job belongs to one shard, independent of finished jobs; jobs with the same
-/// simulation belong to the same or neighbouring shards.
-void keep_shard(StudyState& standing, const Shard& shard);
+/// Returns the indices of the shard's variants, in increasing order. Every variant belongs to one shard, independent of finished
+/// jobs. Variants that differ only in keys of `strain` and `fatigue` belong to the same or neighbouring shards, because they
+/// have the same simulation.
+std::vector<std::size_t> part_of(const std::vector<Variant>& variants, const Shard& shard);
+
+/// Read and expand only the jobs of a shard. The rest is as in read_study() and expanded() of the whole study.
+Study read_study(const std::filesystem::path& file, const std::vector<std::string>& sets, const Shard& shard);
+StudyState expanded(const StudyRequest& request, const Shard& shard);
 
 }  // namespace dresslife::pipeline

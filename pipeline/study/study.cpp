@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "pipeline/base/order.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/catalogue.h"
 #include "pipeline/resolve/document_kind.h"
@@ -11,6 +12,7 @@
 #include "pipeline/settings/fields.h"
 #include "pipeline/study/fleet_table.h"
 #include "pipeline/study/sampling.h"
+#include "pipeline/study/shards.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -122,10 +124,9 @@ std::vector<std::string> varied_of(const Node& study) {
 /// Longest name of a job's folder. File systems allow 255 letters, and files of a job have longer names than its folder.
 constexpr std::size_t longest_name = 200;
 
-StudyJob make_job(const Node& base, const Variant& variant, const std::string& fallback_name,
-                  const std::vector<std::string>& sets) {
+StudyJob make_job(const Node& base, const std::string& name, const Variant& variant, const std::vector<std::string>& sets) {
   StudyJob made;
-  made.name = folder_name(variant.name.empty() ? fallback_name : variant.name);
+  made.name = name;
   made.values = variant.values;
   try {
     if (made.name.size() > longest_name)
@@ -211,13 +212,17 @@ std::string study_name(const std::filesystem::path& file) {
   return is_job(document) ? folder_name(file.stem().string()) : name_of(document, file);
 }
 
-Study read_study(const std::filesystem::path& file, const std::vector<std::string>& sets) {
+namespace {
+
+/// shard: null for all jobs.
+Study read_jobs_of(const std::filesystem::path& file, const std::vector<std::string>& sets, const Shard* shard) {
   const Node document = read_document(file);
   Study study;
   if (is_job(document)) {
     study.name = folder_name(file.stem().string());
     check_name(study.name, document.where);
-    study.jobs.push_back(make_job(document, Variant{}, study.name, sets));
+    if (!shard || !part_of({Variant{}}, *shard).empty())
+      study.jobs.push_back(make_job(document, study.name, Variant{}, sets));
     return study;
   }
   check_keys(document);
@@ -226,15 +231,29 @@ Study read_study(const std::filesystem::path& file, const std::vector<std::strin
   study.varied = varied_of(document);
 
   const Node base = base_of(document);
-  std::set<std::string> names;
-  for (const Variant& variant : variants_of(document)) {
-    study.jobs.push_back(make_job(base, variant, study.name, sets));
-    check_name(study.jobs.back().name, document.where);
-    if (!names.insert(study.jobs.back().name).second)
-      throw InputError(document.where, fmt::format("two jobs are named '{}'", study.jobs.back().name),
+  const std::vector<Variant> variants = variants_of(document);
+  std::vector<std::string> names;
+  std::set<std::string> seen;
+  for (const Variant& variant : variants) {
+    names.push_back(folder_name(variant.name.empty() ? study.name : variant.name));
+    check_name(names.back(), document.where);
+    if (!seen.insert(names.back()).second)
+      throw InputError(document.where, fmt::format("two jobs are named '{}'", names.back()),
                        "give each combination another name");
   }
+  for (const std::size_t k : shard ? part_of(variants, *shard) : indices_of(variants.size()))
+    study.jobs.push_back(make_job(base, names[k], variants[k], sets));
   return study;
+}
+
+}  // namespace
+
+Study read_study(const std::filesystem::path& file, const std::vector<std::string>& sets) {
+  return read_jobs_of(file, sets, nullptr);
+}
+
+Study read_study(const std::filesystem::path& file, const std::vector<std::string>& sets, const Shard& shard) {
+  return read_jobs_of(file, sets, &shard);
 }
 
 std::vector<KeyRow> study_keys() {

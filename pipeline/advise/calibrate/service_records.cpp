@@ -16,7 +16,9 @@
 #include "pipeline/base/warning_words.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/catalogue.h"
+#include "pipeline/resolve/document_kind.h"
 #include "pipeline/resolve/job_text.h"
+#include "pipeline/resolve/sources.h"
 #include "pipeline/settings/problems.h"
 
 namespace dresslife::pipeline {
@@ -148,10 +150,23 @@ struct Row {
   Where job_where;
 };
 
+/// Returns the names of the jobs in a table's folder.
+std::vector<std::string> jobs_beside(const std::filesystem::path& table) {
+  std::vector<std::string> jobs;
+  for (const std::filesystem::path& file : entries_of(std::filesystem::absolute(table).parent_path())) {
+    if (file.extension() != ".yaml" && file.extension() != ".yml") continue;
+    try {
+      if (kind_of_document(read_document(file)) == DocumentKind::job) jobs.push_back(file.filename().string());
+    } catch (const InputError&) {  // a file that is no document is no job
+    }
+  }
+  return jobs;
+}
+
 class Export {
  public:
   explicit Export(const ServiceRequest& request)
-      : request_(request), reader_(read_text(request.file), request.file.string(), ";\t,") {
+      : request_(request), job_(request.job), reader_(read_text(request.file), request.file.string(), ";\t,") {
     titles_ = reader_.next();
     if (titles_.empty()) refuse_file("holds no table");
     find_columns();
@@ -174,6 +189,8 @@ class Export {
       if (at_[c]) words.push_back(fmt::format("{} = '{}'", columns()[c].name, titles_[*at_[c]].text));
     return joined(words, ", ");
   }
+  /// Returns a line that names the job if neither the table nor the request does.
+  const std::string& job_words() const { return job_words_; }
 
  private:
   [[noreturn]] void refuse_file(const std::string& what) const {
@@ -207,8 +224,18 @@ class Export {
             reader_.where(titles_.front()),
             fmt::format("the table has no column '{}'", columns()[needed].name),
             fmt::format("name one of its columns so ({})", joined(columns()[needed].titles, ", ")));
-    if (!at_[job] && request_.job.empty())
-      throw InputError(reader_.where(titles_.front()), "it is not known which job these dresspacks do", "give --job JOB.yaml, or a column job");
+    if (!at_[job] && job_.empty()) find_job();
+  }
+
+  /// Takes the only job beside the table.
+  void find_job() {
+    const std::vector<std::string> jobs = jobs_beside(request_.file);
+    if (jobs.size() != 1)
+      throw InputError(reader_.where(titles_.front()), "it is not known which job these dresspacks do",
+                       fmt::format("give --job JOB.yaml, or a column job{}",
+                                   jobs.empty() ? "" : ". Jobs beside the table: " + joined(jobs, ", ")));
+    job_ = (std::filesystem::absolute(request_.file).parent_path() / jobs.front()).string();
+    job_words_ = fmt::format("Job: {}, the only job beside the table.\n", jobs.front());
   }
 
   const CsvCell* cell(const CsvRow& cells, Column column) const {
@@ -255,7 +282,7 @@ class Export {
     }
     row.job = text(cells, job),
     row.job_where = row.job.empty() ? Where{"--job"} : reader_.where(*cell(cells, job));
-    if (row.job.empty()) row.job = request_.job;
+    if (row.job.empty()) row.job = job_;
     if (row.job.empty())
       throw InputError(row.where, "it is not known which job this dresspack does",
                        "give --job JOB.yaml, or a column job");
@@ -311,6 +338,7 @@ class Export {
   }
 
   const ServiceRequest& request_;
+  std::string job_, job_words_;  ///< of the rows without a job
   CsvReader reader_;
   CsvRow titles_;
   std::array<std::optional<std::size_t>, column_count> at_{};
@@ -428,7 +456,7 @@ ServiceTests read_service_tests(const ServiceRequest& request) {
   for (ObservedTest& test : read.tests)
     for (const ObservedTest::Variant& program : test.variants)
       test.text += (program.share_of_time < 1 ? fmt::format("{} ", program.share_of_time) : "") + to_yaml(program.job);
-  read.words = fmt::format("Columns: {}.\n", table.column_words());
+  read.words = fmt::format("Columns: {}.\n{}", table.column_words(), table.job_words());
   read.words += fmt::format("{} dresspacks: {} failed, {} were removed before, {} are in use on {}.\n",
                             failed + removed + in_use, failed, removed, in_use, day_text(request.today));
   read.words += fmt::format(

@@ -12,6 +12,7 @@
 #include "pipeline/base/readable.h"
 #include "pipeline/life/planning.h"
 #include "pipeline/settings/units.h"
+#include "pipeline/study/row_words.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -166,6 +167,11 @@ std::string recording_words(const DutyResult& duty) {
 std::string mixture_words(const DutyResult& duty) {
   constexpr double worth_a_word = 0.01, worth_a_place = 0.05;
   std::string text = recording_words(duty);
+  if (const std::string factors = factor_words(duty.errors); !factors.empty())
+    text += wrapped(fmt::format("The hours of a new dresspack have the numerical error of the programs' lives: {}. With loose cables one motion of the whole "
+                                "log or of the whole order may differ from the duty by about as much, because friction holds the cables at other places.",
+                                factors),
+                    118, "  ");
   std::vector<std::string> larger;
   for (std::size_t m = 0; m < duty.modes.size(); ++m) {
     const double apart = duty.damage.same_place[m] / duty.changes[m];
@@ -181,8 +187,7 @@ std::string mixture_words(const DutyResult& duty) {
                     118, "  ");
   // Measured pairs: README. Strain: damage is proportional to strain to the power 1/0.112 (copper.yaml).
   if (duty.has_order)
-    text += wrapped(fmt::format("The order runs {} times per hour. For three pairs of programs its damage differed by 2 % from that of one long motion of both, "
-                                "which is 0.2 % of strain. For gentle programs, whose lives are far beyond the robot's, it differed by factors. Abrasion between the programs is not counted.{}",
+    text += wrapped(fmt::format("The order runs {} times per hour. Abrasion between the programs is not counted.{}",
                                 readable(duty.rounds_per_hour),
                                 duty.outside.empty() ? ""
                                                      : fmt::format(" The order has room for fewer repeats than the duty: these shares of them count without changes "
@@ -224,7 +229,7 @@ std::string duty_words(const std::vector<DutyResult>& results) {
 std::string duty_csv(const std::vector<DutyResult>& results) {
   std::string text =
       "duty,job,repeats_per_hour,share_of_time,share_of_damage,life_hours_p10,life_hours_p50,life_hours_p90,past_hours,"
-      "survived,remaining_hours_p10,remaining_hours_p50,remaining_hours_p90,life_hours_p10_without,life_hours_p10_twice\n";
+      "survived,remaining_hours_p10,remaining_hours_p50,remaining_hours_p90,life_hours_p10_without,life_hours_p10_twice,life_error_p10,life_error_p50,life_error_p90\n";
   for (const DutyResult& duty : results)
     for (std::size_t k = 0; k < duty.parts.size(); ++k) {
       const DutyLives& lives = duty.lives;
@@ -237,6 +242,7 @@ std::string duty_csv(const std::vector<DutyResult>& results) {
       for (const double value : lives.remaining) cells.push_back(remains ? shortest_text(value) : "");
       for (const double value : {duty.parts[k].without[0], duty.parts[k].as_twice[0]})
         cells.push_back(shortest_text(value));
+      for (const double factor : duty.errors) cells.push_back(std::isfinite(factor) ? shortest_text(factor) : "");
       text += fmt::format("{}\n", fmt::join(cells, ","));
     }
   return text;

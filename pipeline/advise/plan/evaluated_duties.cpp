@@ -553,6 +553,18 @@ DutyResult outline_of(const Duty& duty, Programs& programs, std::vector<Rate>& r
   return result;
 }
 
+/// Returns DutyResult::errors. share: (program) share of the damage.
+std::array<double, 3> errors_under(const Duty& duty, const std::vector<double>& share, Programs& programs) {
+  std::array<double, 3> errors{};
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    double logarithm = 0;
+    for (std::size_t k = 0; k < share.size(); ++k)
+      if (share[k] > 0) logarithm += share[k] * std::log(programs.row(duty.programs[k]).planned_errors[i]);
+    errors[i] = std::exp(logarithm);
+  }
+  return errors;
+}
+
 }  // namespace
 
 std::vector<DutyResult> outlines(const DutyFile& file, const Study& study,
@@ -603,6 +615,7 @@ std::vector<DutyResult> evaluated(const DutyFile& file, const Study& study,
                       hours_text(results[d].past_hours), hours_text(results[d].robot_life_hours)),
           "give hours of operation, or a larger fatigue.robot_life_hours");
     results[d].lives = lives_under(results[d].damage, history);
+    results[d].errors = errors_under(file.duties[d], results[d].lives.share, programs);
     if (results[d].past_hours > 0 && results[d].lives.survived < fewest_survivors)
       throw InputError(
           file.duties[d].where,

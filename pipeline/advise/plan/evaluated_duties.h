@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <map>
 #include <set>
 #include <string>
@@ -53,6 +54,9 @@ struct DutyResult {
   std::vector<double> changes;
   DutyDamage damage;
   DutyLives lives;
+  /// standard error of each of lives.percentiles, as a factor: RankingRow::planned_errors of the programs, weighted in the
+  /// logarithm by their shares of the damage, as if all erred in the same direction; NaN: not known
+  std::array<double, 3> errors{NAN, NAN, NAN};
   bool has_order = false;       ///< whether changes between the programs are counted
   double rounds_per_hour = 0;   ///< rounds of its order per hour
   std::vector<std::string> outside{};  ///< "hard (25 %)": programs with the share of their repeats that belongs to no round

@@ -2,52 +2,75 @@
 
 #include <set>
 
+#include "pipeline/job/job.h"
+#include "pipeline/resolve/job_text.h"
 #include "tests/catch.h"
+#include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
 
 namespace dresslife::pipeline {
 namespace {
 
-/// Returns jobs with three different simulations in turn. The last job cannot run.
-StudyState standing_of_jobs(std::size_t count) {
-  StudyState standing;
-  standing.study.name = "study";
-  standing.study.keep = Keep::lives;
+/// Returns variants with three different simulations in turn, each with another metal.
+std::vector<Variant> variants_of(std::size_t count) {
+  std::vector<Variant> variants;
   for (std::size_t k = 0; k < count; ++k) {
-    standing.study.jobs.push_back({fmt::format("job{}", k), nullptr, k + 1 == count ? "cannot run" : ""});
-    JobState state;
-    state.recipes[0] = fmt::format("sim{}", k % 3);
-    standing.states.push_back(state);
+    const auto change = [](const std::string& path, std::size_t value) { return Change{path, scalar(std::to_string(value)), {}}; };
+    variants.push_back({fmt::format("job{}", k), {change("routing.free_length_m", k % 3), change("fatigue.scale", k)}, {}});
   }
-  return standing;
+  return variants;
 }
 
-TEST_CASE("shards: together they have every job once, whatever is done, with like simulations side by side") {
+TEST_CASE("shards: together they have every job once, with like simulations side by side") {
   for (const std::size_t jobs : {1u, 2u, 7u, 30u})
     for (const int count : {1, 2, 3, 5, 8}) {
-      std::set<std::string> seen;
+      std::set<std::size_t> seen;
       std::size_t sum = 0, simulations = 0, most = 0;
       for (int index = 1; index <= count; ++index) {
-        StudyState standing = standing_of_jobs(jobs);
-        if (index % 2 == 0) standing.states[0].next = stage_count;
-        keep_shard(standing, {index, count});
-        CHECK(standing.places.shard == fmt::format("{}_of_{}", index, count));
-        CHECK(standing.study.keep == Keep::lives);
-        REQUIRE(standing.study.jobs.size() == standing.states.size());
-        std::set<std::string> here;
-        for (std::size_t k = 0; k < standing.states.size(); ++k) {
-          seen.insert(standing.study.jobs[k].name);
-          here.insert(standing.states[k].recipes[0]);
-        }
-        sum += standing.states.size();
+        const std::vector<std::size_t> part = part_of(variants_of(jobs), {index, count});
+        CHECK(std::is_sorted(part.begin(), part.end()));
+        std::set<std::size_t> here;
+        for (const std::size_t k : part) seen.insert(k), here.insert(k % 3);
+        sum += part.size();
         simulations += here.size();
-        most = std::max(most, standing.states.size());
+        most = std::max(most, part.size());
       }
       CHECK(seen.size() == jobs);
       CHECK(sum == jobs);
       CHECK(simulations <= 3 + static_cast<std::size_t>(count) - 1);  // a cut splits at most one
       CHECK(most == (jobs + static_cast<std::size_t>(count) - 1) / static_cast<std::size_t>(count));
     }
+}
+
+TEST_CASE("shards: only the jobs of a shard are read, as in the whole study") {
+  Scratch scratch;
+  scratch.write("job.yaml", sample_job);
+  scratch.write("study.yaml", "base: job.yaml\njobs: {soft: {}, hard: {dresspack.bending_stiffness_Nm2: none}}\n"
+                              "vary: {strain.slip: [free, stick]}\n");
+  const Study whole = read_study(scratch / "study.yaml");
+  REQUIRE(whole.jobs.size() == 4);
+  std::size_t k = 0;
+  for (const int index : {1, 2, 3})
+    for (const StudyJob& job : read_study(scratch / "study.yaml", {}, Shard{index, 3}).jobs) {
+      const StudyJob& same = whole.jobs.at(k++);
+      CHECK(job.name == same.name);
+      CHECK(job.values == same.values);
+      CHECK(job.failure == same.failure);
+      REQUIRE((job.job == nullptr) == (same.job == nullptr));
+      if (job.job) CHECK(job_text(*job.job) == job_text(*same.job));
+    }
+  CHECK(k == whole.jobs.size());
+  scratch.write("study.yaml", "base: job.yaml\njobs: {a b: {}, c: {}, a_b: {}}\n");
+  CHECK_THROWS_WITH(read_study(scratch / "study.yaml", {}, Shard{2, 3}), Catch::Contains("two jobs are named 'a_b'"));
+}
+
+/// Returns jobs of which the last cannot run.
+StudyState standing_of_jobs(std::size_t count) {
+  StudyState standing;
+  for (std::size_t k = 0; k < count; ++k)
+    standing.study.jobs.push_back({fmt::format("job{}", k), nullptr, k + 1 == count ? "cannot run" : ""});
+  standing.states.resize(count);
+  return standing;
 }
 
 TEST_CASE("shards: as many as keep each within what may be started, of the jobs that can run") {

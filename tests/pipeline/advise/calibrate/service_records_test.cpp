@@ -7,6 +7,7 @@
 
 #include "pipeline/base/errors.h"
 #include "tests/catch.h"
+#include "tests/pipeline/scratch.h"
 
 using namespace dresslife::pipeline;
 using Catch::Contains;
@@ -26,21 +27,26 @@ struct File {
 
 const Day today = *day_from("2026-11-23");
 
-/// Reads a table. since: empty: none. The job has 80 h per week.
-ServiceTests read(const std::string& table, const std::string& since = "", bool with_job = true) {
-  const File job(
-      "job.yaml",
-      "motion: {rig: {kind: axial, elongation_percent: 0.2}}\ndresspack: {cable: {name: wire, source: test, radius_mm: "
-      "0.1, components: [{name: strand, radius_mm: 0.1, helix_radius_mm: 0, material: copper_halved}]}}\n");
+/// A job with 80 h per week.
+constexpr const char* wire_job =
+    "motion: {rig: {kind: axial, elongation_percent: 0.2}}\ndresspack: {cable: {name: wire, source: test, radius_mm: "
+    "0.1, components: [{name: strand, radius_mm: 0.1, helix_radius_mm: 0, material: copper_halved}]}}\n";
+
+/// Reads a table. since: empty: none. The job is wire_job.
+ServiceTests read(const std::string& table, const std::string& since = "") {
+  const File job("job.yaml", wire_job);
   const File file("plant.csv", table);
   std::optional<Day> day;
   if (!since.empty()) day = day_from(since);
-  return read_service_tests({file.path, with_job ? job.path.string() : "", day, today, {}});
+  return read_service_tests({file.path, job.path.string(), day, today, {}});
 }
 
-std::string refusal(const std::string& table, const std::string& since = "", bool with_job = true) {
+/// Reads a table for which no job is named.
+ServiceTests read_without_job(const std::filesystem::path& file) { return read_service_tests({file, "", {}, today, {}}); }
+
+std::string refusal(const std::string& table, const std::string& since = "") {
   try {
-    read(table, since, with_job);
+    read(table, since);
   } catch (const InputError& error) {
     const std::string words = error.what(), name = "plant.csv";
     return words.substr(words.find(name) == words.npos ? 0 : words.find(name));
@@ -136,8 +142,6 @@ TEST_CASE("service records: what cannot be used is refused at its place, with a 
     const std::string words = refusal(table);
     CHECK_THAT(words, Contains(problem) && Contains(remedy));
   }
-  CHECK_THAT(refusal(titles + "A,a,2024-02-03,,\n", "", false),
-             Contains("plant.csv:1:1: error: it is not known which job") && Contains("--job"));
   // All rows' at once.
   CHECK_THAT(refusal(titles + "A,a,2027-02-03,,\nB,a,2024-02-03,2024-01-03,failed\nC,a,2024-02-03,,\n"),
              Contains("plant.csv:2:5: error: 2027-02-03 is after") && Contains("plant.csv:3:16: error: replaced on"));
@@ -145,6 +149,22 @@ TEST_CASE("service records: what cannot be used is refused at its place, with a 
              Contains("plant.csv:2:32"));
   CHECK_THAT(refusal(titles + "A,a,2024-01-01,2025-01-06,failed\n", "2025-06-01"),
              Contains("no dresspack was in use after 2025-06-01"));
+}
+
+TEST_CASE("service records: without a job the only one beside the table is meant") {
+  Scratch scratch;
+  const std::filesystem::path file =
+      scratch.write("plant.csv", "robot,installed,replaced,reason\nA,2024-01-01,2025-01-06,failed\nB,2024-01-01,,\n");
+  scratch.write("study.yaml", "base: irb6640_spot_welding\n");
+  scratch.write("broken.yaml", "a: [\n");
+  CHECK_THROWS_WITH(read_without_job(file), Contains("plant.csv:1:1: error: it is not known which job") &&
+                                                Contains("give --job JOB.yaml, or a column job") && !Contains("beside"));
+  scratch.write("one.yaml", wire_job);
+  const ServiceTests tests = read_without_job(file);
+  CHECK_THAT(tests.words, Contains("Job: one.yaml, the only job beside the table."));
+  CHECK(tests.tests.front().observation.name == "one");
+  scratch.write("two.yaml", wire_job);
+  CHECK_THROWS_WITH(read_without_job(file), Contains("Jobs beside the table: one.yaml, two.yaml"));
 }
 
 TEST_CASE("service records: reasons in German, and reasons that two readings explain") {

@@ -127,6 +127,9 @@ TEST_CASE("a duty states how much the damages of a cycle's recordings differ") {
   // Shares of 0.4 and 0.6: 0.4 x 2 + 0.6 x 4 = 3.2 and 0.4 x 0.5 + 0.6 x 0.25 = 0.35 times; exp(hypot(ln 3.2, ln 1.6)) = 3.5.
   duty.parts[0].at_other_rests = {2, 0.5}, duty.parts[1].at_other_rests = {4, 0.25};
   CHECK_THAT(in_one_line(mixture_words(duty)), Catch::Contains("it is 0.35 to 3.2 times as large. Together the mean is known within a factor of 3.5."));
+  CHECK_THAT(in_one_line(mixture_words(duty)), !Catch::Contains("numerical error"));
+  duty.errors = {2.14, 1.02, 3};
+  CHECK_THAT(in_one_line(mixture_words(duty)), Catch::Contains("numerical error of the programs' lives: the 10 % value by a factor of 2.1, the 90 % value by a factor of 3.0. With loose"));
 }
 
 TEST_CASE("a duty states by how much its programs damage different places, from 5 % on, and what changes add, from 1 % on") {

@@ -95,7 +95,8 @@ void check_lives(const LifePercentiles& lives, double median) {
 }  // namespace
 
 TEST_CASE("duties: every number of an evaluation follows from the damage at each place") {
-  const Case of;
+  Case of;
+  for (std::size_t k = 0; k < 3; ++k) of.rows[k].planned_errors = {std::pow(10, 0.1 * double(k)), 1.01, k == 1 ? NAN : 2};
   const auto [files, rates] = std::pair(
       of.file("  - name: d\n    hours_per_week: 100\n    programs: [{job: a, repeats_per_hour: 20}, {job: b, repeats_per_hour: 30}, {job: c, "
               "percent_of_time: 5}]\n    history: [{duty: e, hours: 300}, {duty: d, hours: 400}]\n"
@@ -140,6 +141,10 @@ TEST_CASE("duties: every number of an evaluation follows from the damage at each
       check_lives(part.over_share[i].hours, hours_at((share + idle) * double(i) / 10 / share));
     }
   }
+  CHECK(duty.errors[0] == Approx(std::pow(10, 0.1 * duty.lives.share[1] + 0.2 * duty.lives.share[2])));
+  CHECK(std::isnan(duty.errors[2]));
+  CHECK(results[1].errors[0] == Approx(std::pow(10, 0.2)));
+  CHECK(results[1].errors[2] == Approx(2));  // the program without a number does not run there
   // Before, bus had 300 h under e and 400 h under d. All survive; the rest of each life is that of its sample.
   CHECK(duty.lives.survived == 1);
   for (std::size_t p = 0; p < 3; ++p) {
