@@ -14,11 +14,10 @@ namespace dresslife::sim {
 namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
-// Processor seconds per second of motion, with the samples of the uncertainty; cycles are simulated until they are periodic.
-// Measured on a log of 8 h with 25 motions and on one of a day with 31 (gripper hose with three cables): 0.48 and 0.47. Other
-// dresspacks differ by factors.
-constexpr double seconds_per_second = 0.5;
-constexpr double megabytes_per_second = 0.5;  // 399 MB for 834 s of motion of that day
+// Processor seconds and size of files per second of motion, with the samples of the uncertainty. Measured on a day's log with 40
+// motions, 730 s together (ten loose cables, 64 segments): 1,400 s and 930 MB. A hose with three cables took a quarter.
+constexpr double seconds_per_second = 2;
+constexpr double megabytes_per_second = 1.3;
 constexpr double reading_per_row = 8e-6;  // [s] of one core: a day at 10 Hz in 5.8 s, 8 h in 2.2 s
 constexpr double last_sample = 0.2;  // [s] by which a simulated motion may be longer, because it ends at a sample
 
