@@ -301,7 +301,7 @@ Format make_strain_format() {
     {"/variation/row/site",      u32,  "variation_row",      "1",    maybe, "its site"},
     {"/variation/row/turning",   u32,  "variation_row",      "1",    maybe,
      "its number of turning points in /variation/strain, which holds one row after the other"},
-    {"/variation/strain",        f32,  "variation_turn",     "1",    maybe, "strain at its turning points"},
+    {"/variation/strain",        f32,  "variation_turn",     "1",    maybe | decimals_7, "strain at its turning points, kept to 5e-8"},
   });
   add(format, {
     {"largest_force_share", f64, maybe, "as in the life file, in files without /cable/strain"},

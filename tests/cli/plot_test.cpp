@@ -58,7 +58,8 @@ TEST_CASE("plot draws the moment over curvature of a hose and its cable") {
   CHECK(run(scratch, "dresslife", plot).err.find("strain.h5: error: comes from a job without friction in its cables (strain.slip); set") !=
         std::string::npos);
   scratch.write("dresspacks/thin.yaml", thin_hose);
-  must_run(scratch, "dresslife", "run job.yaml --quiet --set strain.slip=friction --set dresspack=thin --set uncertainty.enabled=false");
+  must_run(scratch, "dresslife", "run job.yaml --quiet --set strain.slip=friction --set dresspack=thin --set uncertainty.enabled=false "
+                                  "--set simulation.sample_rate_Hz=20");
   must_run(scratch, "dresslife", plot);
   // E I without friction: the polymer, and six wires of copper, each about its own axis on a lay of 15 degrees (within 1 % of
   // the sum). Held wires have E A R^2/2 in addition.
