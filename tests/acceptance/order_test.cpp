@@ -127,7 +127,7 @@ TEST_CASE("the certainty of an order contains that the hose is twice as stiff") 
   std::string study = "base: " + base_job + "\njobs:\n";
   for (const auto& [job, keys] : jobs)
     for (const std::string factor : {"", "2"})
-      study += "  " + job + factor + ": {" + keys + ", simulation.segments: 16, simulation.most_repeats: 2" +
+      study += "  " + job + factor + ": {" + keys + ", simulation.segments: 16, simulation.sample_rate_Hz: 12.5, simulation.most_repeats: 2" +
                (factor.empty() ? "" : ", uncertainty.hose_stiffness: 1, simulation.stiffness_factor: " + factor) + "}\n";
   Scratch scratch;
   must_run(scratch, "dresslife", "run '" + scratch.write("stiffness.yaml", study).string() + "'");
