@@ -14,7 +14,7 @@ bool is_buckling(const UnvalidatedMode& mode) {
   return mode.mode == UnvalidatedMode::corkscrew || mode.mode == UnvalidatedMode::kink;
 }
 
-/// Returns the life by a mode as text; "none" for a corkscrew or kink that does not occur.
+/// Returns the life by a mode as text; "none" for a corkscrew or kink that so many dresspacks do not have.
 std::string mode_life(const RankingRow& row, const UnvalidatedMode& mode, double hours) {
   if (std::isnan(hours) || !is_credible(mode)) return "-";
   return std::isinf(hours) && is_buckling(mode) ? "none" : shown_life(row, hours);
@@ -40,6 +40,13 @@ std::string mode_note(const UnvalidatedMode& mode) {
   return words.substr(0, words.find_last_not_of(' ') + 1);
 }
 
+/// Returns "57 %" or "0.5 %". A share above zero is never "0 %", because even half a per cent changes the 10 % value.
+std::string share_text(double share) {
+  const double percent = 100 * share;
+  if (percent > 0 && percent < 0.05) return "under 0.1 %";
+  return fmt::format("{:.{}f} %", percent, percent > 0 && percent < 0.95 ? 1 : 0);
+}
+
 ModeLine line_of(const RankingRow& row, const UnvalidatedMode& mode) {
   ModeLine line;
   line.mode = mode_name(mode);
@@ -49,7 +56,7 @@ ModeLine line_of(const RankingRow& row, const UnvalidatedMode& mode) {
     if (mode.mode != UnvalidatedMode::wall) line.hours.fill("none");
     return line;
   }
-  if (!std::isnan(mode.first_share)) line.before_wires = fmt::format("{:.0f} %", 100 * mode.first_share);
+  if (!std::isnan(mode.first_share)) line.before_wires = share_text(mode.first_share);
   if (!std::isnan(mode.together_p10)) line.with_it = shown_life(row, mode.together_p10);
   line.from_tool = fmt::format("{:.2f}", mode.position_from_tool);
   if (mode.mode != UnvalidatedMode::wall) line.time = fmt::format("{:.1f}", mode.time);
@@ -64,7 +71,7 @@ std::string cell_legend(const std::vector<ModeLine>& lines) {
   bool unknown = false, none = false;
   for (const ModeLine& line : lines)
     for (const std::string& cell : line.hours) unknown = unknown || cell == "-", none = none || cell == "none";
-  return std::string(none ? " none: it does not occur." : "") + (unknown ? " -: not predicted." : "");
+  return std::string(none ? " none: fewer dresspacks fail by this mode." : "") + (unknown ? " -: not predicted." : "");
 }
 
 std::vector<ModeLine> mode_lines(const RankingRow& row) {

@@ -15,7 +15,7 @@ struct ModeLine {
   std::string mode;                  ///< "wires of signal cable 7", "abrasion* on link_4"; *: not included in the headline
   /// hours by which 10, 50, 90 % have failed by this mode; "over 40,000" beyond the robot's life
   std::array<std::string, 3> hours;
-  /// "57 %": share of the samples in which the mode comes before the wires; empty for the wires
+  /// "57 %", below 1 % "0.5 %": share of the samples in which the mode comes before the wires; empty for the wires
   std::string before_wires;
   std::string with_it;               ///< 'replace after' if this mode were included
   std::string from_tool;             ///< "0.40": place of the mode, from the tool clamp [m]; empty: not known

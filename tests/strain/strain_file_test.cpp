@@ -729,8 +729,14 @@ TEST_CASE("variations without equal rounds of a loop have the strains of the who
     return rows;
   };
   const auto expected = rows_of(whole), rows = rows_of(shortened);
-  for (const auto& [row, strains] : rows)
-    if (const auto of = expected.find(row); of != expected.end()) CHECK(strains == of->second);
+  // The file keeps strains to 5e-8, counted from the smallest number of a chunk. The chunks of the two files differ.
+  constexpr double kept = 2 * 5e-8 + 1e-9;
+  for (const auto& [row, strains] : rows) {
+    const auto of = expected.find(row);
+    if (of == expected.end()) continue;
+    REQUIRE(strains.size() == of->second.size());
+    for (std::size_t k = 0; k < strains.size(); ++k) REQUIRE(std::abs(double(strains[k]) - of->second[k]) <= kept);
+  }
   // Of wires that are nearly as bad one can be ranked behind the other, because the sums of the ranking count a part once. The worst
   // wire of each variation must be there.
   const auto worst_of = [](const auto& of) {
@@ -741,8 +747,10 @@ TEST_CASE("variations without equal rounds of a loop have the strains of the who
     }
     return ranges;
   };
-  CHECK(worst_of(rows).size() > 5);
-  CHECK(worst_of(rows) == worst_of(expected));
+  const auto ranges = worst_of(rows), of_whole = worst_of(expected);
+  CHECK(ranges.size() > 5);
+  REQUIRE(ranges.size() == of_whole.size());
+  for (const auto& [variation, range] : ranges) CHECK(std::abs(double(range) - of_whole.at(variation)) <= 2 * kept);
 }
 
 TEST_CASE("rounds of a loop are left out only if the hose moves equally in them") {

@@ -864,14 +864,26 @@ TEST_CASE("ranking: jobs whose repeats differ by more than 2 % are compared by r
   CHECK(different_repeats_words({row_with(10), failed}).empty());
 }
 
+TEST_CASE("ranking: a small share of samples in which a mode comes first is not printed as zero") {
+  UnvalidatedMode mode;
+  mode.mode = UnvalidatedMode::corkscrew;
+  mode.place = "signal cable 3";
+  for (const auto& [share, text] : {std::pair{0.0, "0 %"}, {0.0004, "under 0.1 %"}, {0.005, "0.5 %"}, {0.0096, "1 %"}, {0.574, "57 %"}}) {
+    mode.first_share = share;
+    RankingRow row;
+    row.unvalidated = {mode};
+    CHECK(mode_lines(row).back().before_wires == text);
+  }
+}
+
 TEST_CASE("ranking: the legend explains none and - where a line has them") {
   ModeLine line;
   line.hours = {"300", "over 40,000", "over 40,000"};
   CHECK(cell_legend({line}).empty());
   line.hours[2] = "none";
-  CHECK(cell_legend({line}) == " none: it does not occur.");
+  CHECK(cell_legend({line}) == " none: fewer dresspacks fail by this mode.");
   line.hours[0] = "-";
-  CHECK(cell_legend({line}) == " none: it does not occur. -: not predicted.");
+  CHECK(cell_legend({line}) == " none: fewer dresspacks fail by this mode. -: not predicted.");
 }
 
 }  // namespace
