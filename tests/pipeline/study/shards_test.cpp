@@ -64,7 +64,7 @@ TEST_CASE("shards: only the jobs of a shard are read, as in the whole study") {
   CHECK_THROWS_WITH(read_study(scratch / "study.yaml", {}, Shard{2, 3}), Catch::Contains("two jobs are named 'a_b'"));
 }
 
-/// Returns jobs of which the last cannot run.
+/// Returns jobs; the last one cannot run.
 StudyState standing_of_jobs(std::size_t count) {
   StudyState standing;
   for (std::size_t k = 0; k < count; ++k)
