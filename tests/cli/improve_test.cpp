@@ -347,7 +347,8 @@ routing:
   base_clamp: {link: link_3, position_m: [-0.1, 0, 0.45], direction: [1, 0, 0.45]}
   tool_clamp: {link: link_6, position_m: [0.15, 0, 0.18], direction: [1, 0, -0.35]}
   free_length_m: 2.5
-simulation: {segments: 12, sample_rate_Hz: 25, most_repeats: 2}
+simulation: {segments: 12, sample_rate_Hz: 12.5, most_repeats: 2}
+strain: {cable_elements_per_segment: 1, surface_fibres: 0}
 )");
   const std::string program = content(scratch / "short.mod");
   const Outcome ways = must_run(
