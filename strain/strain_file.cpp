@@ -451,16 +451,6 @@ std::vector<Warning> evening_warnings(const std::vector<std::unique_ptr<Evaluati
   return all;
 }
 
-/// Returns warnings on the descriptions of dresspacks, independent of the motion: parts that overlap, a stiffness that does not
-/// agree with the parts.
-std::vector<Warning> construction_warnings(const pipeline::Job& job) {
-  std::vector<Warning> all;
-  for (std::size_t d = 0; d < job.dresspacks.size(); ++d)
-    all = pipeline::joined(std::move(all), pipeline::construction_warnings_at(line_key(job, d, "dresspack"), job.dresspacks[d].dresspack,
-                                                                              slides(job.strain.slip.front())));
-  return all;
-}
-
 /// Writes the moment of a cable by itself, from the curvature of a hanging cable to that of a wire around a finger.
 void write_bending(FileWriter& file, const pipeline::Job& job) {
   const pipeline::Dresspack& dresspack = job.dresspacks.front().dresspack;
@@ -633,8 +623,7 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
   variations.find_bent();
   variations.add(starts);
   const std::vector<Warning> warnings =
-      pipeline::joined(pipeline::joined(construction_warnings(job), evening_warnings(evaluations)),
-                       write_cables(strain, job, evaluations));
+      pipeline::joined(evening_warnings(evaluations), write_cables(strain, job, evaluations));
   write_bending(strain, job);
   write_rests(strain, starts);
   VariationWriter variation_rows(strain, variations, 0);

@@ -14,6 +14,7 @@
 #include "pipeline/job/line_key.h"
 #include "pipeline/report/preview_page.h"
 #include "pipeline/resolve/job_text.h"
+#include "pipeline/resolve/plausible_job.h"
 #include "pipeline/study/stage_program.h"
 
 namespace dresslife::pipeline {
@@ -74,6 +75,7 @@ JobCheck check_of(const std::filesystem::path& file, const std::vector<std::stri
     if (may_slide && job.motion.needs_robot())
       check.warnings = joined(std::move(check.warnings), tight_warnings(line_key(job, d, "dresspack"), job.dresspacks[d]));
   }
+  check.warnings = joined(std::move(check.warnings), plausibility_of_lives(job));
   add_slip(job, check.notes);
   for (std::size_t d = 0; d < job.dresspacks.size(); ++d)
     if (const std::string& estimates = job.dresspacks[d].dresspack.estimates; !estimates.empty())

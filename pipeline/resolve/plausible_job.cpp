@@ -768,49 +768,24 @@ void doubt_spreads(const Job& job, const AddDoubt& add) {
                       1 + job.uncertainty.spread[p] / 100));
 }
 
-std::vector<Warning> plausibility_of_settings(const Job& job) {
+Warning beyond_limit(WarningKind kind, const char* key, double value, const std::string& limit, const std::string& cause,
+                     const std::string& remedy) {
+  return warning_of(kind, "", fmt::format("{} is {:.6g} (limit {})", key, value, limit), cause, remedy);
+}
+
+AddDoubt adding_to(std::vector<Warning>& warnings) {
+  return [&](const Where& where, const std::string& what, const std::string& cause, const std::string& remedy) {
+    warnings.push_back(warning_of(WarningKind::motion, where.text(), what, cause, remedy));
+  };
+}
+
+std::vector<Warning> doubts_of_motion(const Job& job) {
   std::vector<Warning> warnings;
   const auto add = [&](WarningKind kind, const char* key, double value, const std::string& limit, const std::string& cause,
                        const std::string& remedy) {
-    warnings.push_back(warning_of(kind, "", fmt::format("{} is {:.6g} (limit {})", key, value, limit), cause, remedy));
+    warnings.push_back(beyond_limit(kind, key, value, limit, cause, remedy));
   };
-  const Fatigue& fatigue = job.fatigue;
-  if (fatigue.failed_wires_percent > 0 && fatigue.failed_wires_percent < 1)
-    add(WarningKind::material, "fatigue.failed_wires_percent", fatigue.failed_wires_percent, "0, or 1 or more",
-        "a share instead of per cent", fmt::format("fatigue.failed_wires_percent: {:g}", 100 * fatigue.failed_wires_percent));
-  if (fatigue.robot_life_hours < least_robot_life)
-    add(WarningKind::material, "fatigue.robot_life_hours", fatigue.robot_life_hours, fmt::format("{:g} or more", least_robot_life),
-        "years instead of hours", "fatigue.robot_life_hours: 40000, or leave the key out");
-  if (fatigue.operating_hours_per_week < least_week)
-    add(WarningKind::material, "fatigue.operating_hours_per_week", fatigue.operating_hours_per_week,
-        fmt::format("{:g} or more", least_week), "a share of the week, or another unit",
-        "fatigue.operating_hours_per_week: 80, or the hours of motion in a week");
-  else if (fatigue.operating_hours_per_week <= hours_of_day)
-    add(WarningKind::material, "fatigue.operating_hours_per_week", fatigue.operating_hours_per_week,
-        fmt::format("more than {:g}", hours_of_day), "hours of a day",
-        fmt::format("fatigue.operating_hours_per_week: {:g} if that was per working day; leave it if the robot moves so little",
-                    5 * fatigue.operating_hours_per_week));
-  if (fatigue.endurance_strain > largest_endurance)
-    add(WarningKind::material, "fatigue.endurance_strain", fatigue.endurance_strain, fmt::format("{:g} or less", largest_endurance),
-        "per cent instead of a share", fmt::format("fatigue.endurance_strain: {:g} if that was per cent", fatigue.endurance_strain / 100));
-  const std::pair<const char*, double> factors[] = {{"fatigue.strength_factor", fatigue.strength_factor},
-                                                    {"fatigue.model_factor", fatigue.model_factor},
-                                                    {"fatigue.motion_factor", fatigue.motion_factor},
-                                                    {"strain.friction_factor", job.strain.factors.friction},
-                                                    {"strain.hose_friction_factor", job.strain.factors.hose_friction},
-                                                    {"strain.slack_factor", job.strain.factors.slack},
-                                                    {"strain.play_factor", job.strain.factors.play},
-                                                    {"strain.grip_factor", job.strain.factors.grip}};
-  for (const auto& [key, value] : factors)
-    if ((!job.calibration || job.calibration->typical) && (value > largest_factor || value < 1 / largest_factor))
-      add(WarningKind::material, key, value, fmt::format("{:.2g} .. {:g}", 1 / largest_factor, largest_factor),
-          "per cent instead of a factor, or a factor for a trial",
-          value > 1 ? fmt::format("{}: {:g} if that was per cent", key, value / 100) : fmt::format("{}: 1", key));
-  const AddDoubt doubt = [&](const Where& where, const std::string& what, const std::string& cause,
-                             const std::string& remedy) {
-    warnings.push_back(warning_of(WarningKind::motion, where.text(), what, cause, remedy));
-  };
-  doubt_spreads(job, doubt);
+  const AddDoubt doubt = adding_to(warnings);
   if (job.motion.is_prescribed()) return warnings;
   doubt_robot(job.robot, doubt);
   doubt_cell(job.cell, job.simulation, doubt);
@@ -821,7 +796,6 @@ std::vector<Warning> plausibility_of_settings(const Job& job) {
   warnings = joined(std::move(warnings), radians_in(echo_fields(job.cell), "cell"));
   for (const MountedDresspack& mounted : job.dresspacks) {
     warnings = joined(std::move(warnings), radians_in(echo_fields(mounted.routing), "routing"));
-    warnings = joined(std::move(warnings), radians_in(echo_fields(mounted.dresspack), "dresspack"));
   }
   if (job.simulation.most_repeats > repeats_to_steady)
     add(WarningKind::periodic, "simulation.most_repeats", job.simulation.most_repeats,
@@ -888,9 +862,59 @@ void doubt_bend_reliefs(const MountedDresspack& mounted, int segments, std::vect
 
 }  // namespace
 
-std::vector<Warning> plausibility_warnings(const Job& job) {
+std::vector<Warning> plausibility_of_lives(const Job& job) {
+  std::vector<Warning> warnings;
+  const auto add = [&](const char* key, double value, const std::string& limit, const std::string& cause, const std::string& remedy) {
+    warnings.push_back(beyond_limit(WarningKind::material, key, value, limit, cause, remedy));
+  };
+  const Fatigue& fatigue = job.fatigue;
+  if (fatigue.failed_wires_percent > 0 && fatigue.failed_wires_percent < 1)
+    add("fatigue.failed_wires_percent", fatigue.failed_wires_percent, "0, or 1 or more",
+        "a share instead of per cent", fmt::format("fatigue.failed_wires_percent: {:g}", 100 * fatigue.failed_wires_percent));
+  if (fatigue.robot_life_hours < least_robot_life)
+    add("fatigue.robot_life_hours", fatigue.robot_life_hours, fmt::format("{:g} or more", least_robot_life),
+        "years instead of hours", "fatigue.robot_life_hours: 40000, or leave the key out");
+  if (fatigue.operating_hours_per_week < least_week)
+    add("fatigue.operating_hours_per_week", fatigue.operating_hours_per_week,
+        fmt::format("{:g} or more", least_week), "a share of the week, or another unit",
+        "fatigue.operating_hours_per_week: 80, or the hours of motion in a week");
+  else if (fatigue.operating_hours_per_week <= hours_of_day)
+    add("fatigue.operating_hours_per_week", fatigue.operating_hours_per_week,
+        fmt::format("more than {:g}", hours_of_day), "hours of a day",
+        fmt::format("fatigue.operating_hours_per_week: {:g} if that was per working day; leave it if the robot moves so little",
+                    5 * fatigue.operating_hours_per_week));
+  if (fatigue.endurance_strain > largest_endurance)
+    add("fatigue.endurance_strain", fatigue.endurance_strain, fmt::format("{:g} or less", largest_endurance),
+        "per cent instead of a share", fmt::format("fatigue.endurance_strain: {:g} if that was per cent", fatigue.endurance_strain / 100));
+  const std::pair<const char*, double> factors[] = {{"fatigue.strength_factor", fatigue.strength_factor},
+                                                    {"fatigue.model_factor", fatigue.model_factor},
+                                                    {"fatigue.motion_factor", fatigue.motion_factor},
+                                                    {"strain.friction_factor", job.strain.factors.friction},
+                                                    {"strain.hose_friction_factor", job.strain.factors.hose_friction},
+                                                    {"strain.slack_factor", job.strain.factors.slack},
+                                                    {"strain.play_factor", job.strain.factors.play},
+                                                    {"strain.grip_factor", job.strain.factors.grip}};
+  for (const auto& [key, value] : factors)
+    if ((!job.calibration || job.calibration->typical) && (value > largest_factor || value < 1 / largest_factor))
+      add(key, value, fmt::format("{:.2g} .. {:g}", 1 / largest_factor, largest_factor),
+          "per cent instead of a factor, or a factor for a trial",
+          value > 1 ? fmt::format("{}: {:g} if that was per cent", key, value / 100) : fmt::format("{}: 1", key));
+  doubt_spreads(job, adding_to(warnings));
+  for (const MountedDresspack& mounted : job.dresspacks)
+    if (!job.motion.is_prescribed()) warnings = joined(std::move(warnings), radians_in(echo_fields(mounted.dresspack), "dresspack"));
+  if (job.strain.gate > largest_gate)
+    warnings.push_back(
+        warning_of(WarningKind::strain, "",
+                   fmt::format("strain.gate is {:g} (limit {:g} or less): cycles below it are left out",
+                               job.strain.gate, largest_gate),
+                   "per cent instead of a share",
+                   fmt::format("strain.gate: {:g} if that was per cent, or no key", job.strain.gate / 100)));
+  return warnings;
+}
+
+std::vector<Warning> plausibility_of_motion(const Job& job) {
   const Motion& motion = job.motion;
-  std::vector<Warning> warnings = plausibility_of_settings(job);
+  std::vector<Warning> warnings = doubts_of_motion(job);
   if (!motion.is_prescribed() && job.simulation.sample_rate < least_rate)
     warnings.push_back(warning_of(WarningKind::mesh, "",
                                   fmt::format("simulation.sample_rate_Hz is {:g} (limit {:g} or more)",
@@ -904,13 +928,6 @@ std::vector<Warning> plausibility_warnings(const Job& job) {
                                   "a digit too many; larger steps were not tested", "simulation.time_step_ms: 5, or auto"));
   if (!motion.is_prescribed())
     for (const MountedDresspack& mounted : job.dresspacks) doubt_bend_reliefs(mounted, job.simulation.segments, warnings);
-  if (job.strain.gate > largest_gate)
-    warnings.push_back(
-        warning_of(WarningKind::strain, "",
-                   fmt::format("strain.gate is {:g} (limit {:g} or less): cycles below it are left out",
-                               job.strain.gate, largest_gate),
-                   "per cent instead of a share",
-                   fmt::format("strain.gate: {:g} if that was per cent, or no key", job.strain.gate / 100)));
   return motion.program.empty() ? joined(std::move(warnings), plausibility_of_steps(motion)) : warnings;
 }
 

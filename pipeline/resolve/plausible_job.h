@@ -6,10 +6,14 @@
 
 namespace dresslife::pipeline {
 
-/// Checks for: gravity that is not downward or not that of the earth; settings of strain and fatigue in another unit; a sample
-/// rate that misses the swing; a strain gate that drops cycles which break wires; limits, speeds and accelerations of the robot's
-/// axes in another unit or order; clamps in the air; and the steps of a motion without a program.
-std::vector<Warning> plausibility_warnings(const Job& job);
+/// Checks of keys that decide the motion (JobPart::sim): gravity that is not downward or not that of the earth; a sample rate that
+/// misses the swing; limits, speeds and accelerations of the robot's axes in another unit or order; clamps in the air; and the
+/// steps of a motion without a program. Motion::left_out contains these warnings.
+std::vector<Warning> plausibility_of_motion(const Job& job);
+
+/// Checks of other settings: those of strain and fatigue in another unit, angles of the dresspack in radians, and a strain gate
+/// that drops cycles which break wires. dresslife-fatigue makes these checks, because it runs again if a key of any stage changes.
+std::vector<Warning> plausibility_of_lives(const Job& job);
 
 /// Checks for: a motion in which no axis moves; joint angles that are all radians; single targets in radians or in metres; times
 /// in milliseconds; speeds that are shares or in another unit; dwells in milliseconds. Returns one warning per kind, at its first

@@ -80,6 +80,27 @@ std::set<std::string> lines_in(const std::string& warnings) {
 
 }  // namespace
 
+TEST_CASE("a warning on a setting appears when only this setting changes, and goes with it") {
+  Scratch scratch;
+  write_small_job(scratch);
+  must_run(scratch, "dresslife", "run job.yaml");
+  const auto warned = [&](const std::string& sets, const std::string& words) {
+    must_run(scratch, "dresslife", "run job.yaml" + sets);
+    for (const Warning& warning : warnings_in(scratch / "runs/job/job/life.h5"))
+      if (warning.words.find(words) != std::string::npos) return true;
+    return false;
+  };
+  for (const auto& [set, words] : {std::pair<std::string, std::string>{"strain.gate=0.0003", "strain.gate is 0.0003"},
+                                   {"fatigue.endurance_strain=0.03", "fatigue.endurance_strain is 0.03"},
+                                   {"uncertainty.slack=80", "uncertainty.slack is 80"},
+                                   {"'dresspack.sleeve={thickness_mm: 0.001, material: polyurethane}'", "thickness_mm of the sleeve"}}) {
+    CAPTURE(set);
+    CHECK_FALSE(warned("", words));
+    CHECK(warned(" --set " + set, words));
+  }
+  CHECK_FALSE(warned("", "thickness_mm of the sleeve"));
+}
+
 TEST_CASE("a remedy is a line that the job takes: of a shipped dresspack, of one of several, of a part of a cable") {
   const Scratch scratch;
   write_jobs(scratch);

@@ -8,6 +8,7 @@
 #include "pipeline/cable/excess.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
+#include "pipeline/resolve/plausible_job.h"
 #include "tests/catch.h"
 #include "tests/cli/process.h"
 
@@ -584,7 +585,8 @@ TEST_CASE("plausible mistakes that make a job are warned of, with place, limit a
   const auto described = [](const fs::path& file) {
     const pipeline::Job job = pipeline::read_job(file);
     std::string text;
-    for (const auto& warnings : {pipeline::construction_warnings(job.dresspacks[0].dresspack, true), job.motion.left_out})
+    for (const auto& warnings : {pipeline::construction_warnings(job.dresspacks[0].dresspack, true), job.motion.left_out,
+                                 pipeline::plausibility_of_lives(job)})
       for (const pipeline::Warning& warning : warnings) text += warning.line() + "\n";
     return text;
   };

@@ -19,6 +19,10 @@ MotionStep move_to(std::vector<double> degrees) {
   return step;
 }
 
+std::vector<Warning> plausibility_warnings(const Job& job) {
+  return joined(plausibility_of_motion(job), plausibility_of_lives(job));
+}
+
 std::size_t doubts(std::vector<MotionStep> steps) {
   Motion motion;
   motion.steps = std::move(steps);
