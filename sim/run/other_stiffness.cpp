@@ -104,7 +104,7 @@ Warning beyond_warning(const pipeline::Job& job, const OtherRun& at, const Check
   const CheckedMotion motion{simulation.setup(), [&](double time) { return simulation.moment(time); }, &simulation.rod(),
                              &simulation.path()};
   Cure cure = cure_of(motion, at.checks, broken);
-  cure.remedy.words += " (tried with this stiffness); or, " + pipeline::measurement_words(stiffness());
+  cure.remedy.words += "; routings were tried with this stiffness; or, " + pipeline::measurement_words(stiffness());
   return pipeline::warning_of(
       pipeline::WarningKind::other_values, "",
       fmt::format("with {} {}; about {} of such dresspacks exceed this limit, by straight lines between the computed values and the "
