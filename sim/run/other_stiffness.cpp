@@ -88,7 +88,7 @@ Warning refused(const std::string& side, double z, double recorded, const std::s
 struct OtherRun {
   double z;
   std::unique_ptr<Simulation> simulation;
-  std::vector<Check> checks;
+  RunSummary summary;
 };
 
 /// Returns the quantity over its limit, or the limit over a least value; 0: no limit, or the geometry of the clamps alone decides.
@@ -103,7 +103,7 @@ Warning beyond_warning(const pipeline::Job& job, const OtherRun& at, const Check
   const Simulation& simulation = *at.simulation;
   const CheckedMotion motion{simulation.setup(), [&](double time) { return simulation.moment(time); }, &simulation.rod(),
                              &simulation.path()};
-  Cure cure = cure_of(motion, at.checks, broken);
+  Cure cure = cure_of(motion, at.summary.checks, broken);
   cure.remedy.words += "; routings were tried with this stiffness; or, " + pipeline::measurement_words(stiffness());
   return pipeline::warning_of(
       pipeline::WarningKind::other_values, "",
@@ -123,13 +123,32 @@ std::vector<Warning> beyond_warnings(const pipeline::Job& job, const std::vector
     std::vector<pipeline::LoadNode> nodes{{0, load_of(own[k])}};
     const OtherRun* worst = nullptr;
     for (const OtherRun& other : others) {
-      const double load = load_of(other.checks[k]);
+      const double load = load_of(other.summary.checks[k]);
       nodes.push_back({other.z, load});
-      if (load > 1 && (!worst || load > load_of(worst->checks[k]))) worst = &other;
+      if (load > 1 && (!worst || load > load_of(worst->summary.checks[k]))) worst = &other;
     }
     if (!worst) continue;
     const double share = pipeline::share_beyond(nodes, 0, deviation);
-    if (share >= pipeline::least_share_beyond) warnings.push_back(beyond_warning(job, *worst, worst->checks[k], share));
+    if (share >= pipeline::least_share_beyond) warnings.push_back(beyond_warning(job, *worst, worst->summary.checks[k], share));
+  }
+  return warnings;
+}
+
+/// Returns a warning if a motion is not periodic with a stiffness, and periodic with the job's own.
+std::vector<Warning> periodic_warnings(const pipeline::Job& job, const RunSummary& own, const std::vector<OtherRun>& others) {
+  std::vector<Warning> warnings;
+  for (const OtherRun& other : others) {
+    const RunSummary& run = other.summary;
+    if (!own.periodic || run.periodic) continue;
+    warnings.push_back(pipeline::warning_of(
+        pipeline::WarningKind::other_values, "",
+        fmt::format("with {} the motion begins its last repeat {:.1f} mm from where it ends it (limit simulation.periodic_tolerance_mm "
+                    "{:.3g}), and the lives of such dresspacks count this change in each repeat; with the job's own stiffness it does not",
+                    pipeline::value_words(stiffness(), other.z, job.simulation.stiffness_factor), 1e3 * run.distance,
+                    1e3 * job.simulation.periodic_tolerance),
+        "friction and contact leave the dresspack several resting places",
+        fmt::format("simulation.periodic_tolerance_mm: {:g} if repeats may differ so; or, {}", std::ceil(2e4 * run.distance) / 10,
+                    pipeline::measurement_words(stiffness()))));
   }
   return warnings;
 }
@@ -154,7 +173,7 @@ std::vector<Warning> write_other_stiffnesses(const pipeline::Job& job, const Run
         places.write(file, std::string("/") + name);
         file.attribute(std::string(name) + "_z", z);
         recorded = z;
-        others.push_back({z, std::move(simulation), std::move(summary.checks)});
+        others.push_back({z, std::move(simulation), std::move(summary)});
         break;
       } catch (const pipeline::InputError& refusal) {
         if (problem.empty()) problem = problem_in(refusal.what());
@@ -162,7 +181,8 @@ std::vector<Warning> write_other_stiffnesses(const pipeline::Job& job, const Run
     }
     if (!problem.empty()) warnings.push_back(refused(name, side, recorded, problem));
   }
-  return pipeline::joined(std::move(warnings), beyond_warnings(job, own.checks, others));
+  warnings = pipeline::joined(std::move(warnings), beyond_warnings(job, own.checks, others));
+  return pipeline::joined(std::move(warnings), periodic_warnings(job, own, others));
 }
 
 }  // namespace dresslife::sim

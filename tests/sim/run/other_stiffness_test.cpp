@@ -112,6 +112,28 @@ TEST_CASE("other stiffnesses: a bend radius that only the softer hose breaks is 
   CHECK(written(job).warnings.empty());
 }
 
+TEST_CASE("other stiffnesses: a motion that is periodic only with the job's own stiffness causes a warning for each other one") {
+  pipeline::Job job = sagging();
+  job.simulation.most_repeats = 2;
+  const auto distance_with = [&](double factor) {
+    pipeline::Job of = job;
+    of.simulation.stiffness_factor = factor;
+    return Simulation(of).run({[](const Sample&) {}}).distance;
+  };
+  const double own = distance_with(1), soft = distance_with(0.397), stiff = distance_with(2.518);
+  CAPTURE(own, soft, stiff);
+  for (const double tolerance : {own / 2, own * 1.01, 2 * std::max({own, soft, stiff})}) {
+    job.simulation.periodic_tolerance = tolerance;
+    std::size_t expected = 0;
+    for (const double distance : {soft, stiff}) expected += own <= tolerance && distance > tolerance;
+    const Written result = written(job);
+    CHECK(result.warnings.size() == expected);
+    for (const pipeline::Warning& warning : result.warnings)
+      CHECK_THAT(warning.words, Catch::Contains("times the stiffness of the hose") && Catch::Contains("the motion begins its last repeat"));
+  }
+  CHECK(std::max(soft, stiff) > 1.01 * own);  // otherwise no warning was tested
+}
+
 TEST_CASE("other stiffnesses: none where the stiffness is known") {
   pipeline::Job job = sagging();
   job.uncertainty.spread[index_of(Uncertain::hose_stiffness)] = 1;
