@@ -134,23 +134,26 @@ std::vector<Warning> beyond_warnings(const pipeline::Job& job, const std::vector
   return warnings;
 }
 
-/// Returns a warning if a motion is not periodic with a stiffness, and periodic with the job's own.
+/// Returns a warning if the motion is periodic with the job's own stiffness, and not with another one.
 std::vector<Warning> periodic_warnings(const pipeline::Job& job, const RunSummary& own, const std::vector<OtherRun>& others) {
-  std::vector<Warning> warnings;
+  if (!own.periodic) return {};
+  std::string words;
+  double farthest = 0;
   for (const OtherRun& other : others) {
-    const RunSummary& run = other.summary;
-    if (!own.periodic || run.periodic) continue;
-    warnings.push_back(pipeline::warning_of(
-        pipeline::WarningKind::other_values, "",
-        fmt::format("with {} the motion begins its last repeat {:.1f} mm from where it ends it (limit simulation.periodic_tolerance_mm "
-                    "{:.3g}), and the lives of such dresspacks count this change in each repeat; with the job's own stiffness it does not",
-                    pipeline::value_words(stiffness(), other.z, job.simulation.stiffness_factor), 1e3 * run.distance,
-                    1e3 * job.simulation.periodic_tolerance),
-        "friction and contact leave the dresspack several resting places",
-        fmt::format("simulation.periodic_tolerance_mm: {:g} if repeats may differ so; or, {}", std::ceil(2e4 * run.distance) / 10,
-                    pipeline::measurement_words(stiffness()))));
+    if (other.summary.periodic) continue;
+    words += fmt::format("{}{:.1f} mm with {}", words.empty() ? "" : ", and ", 1e3 * other.summary.distance,
+                         pipeline::value_words(stiffness(), other.z, job.simulation.stiffness_factor));
+    farthest = std::max(farthest, other.summary.distance);
   }
-  return warnings;
+  if (words.empty()) return {};
+  return {pipeline::warning_of(
+      pipeline::WarningKind::other_values, "",
+      fmt::format("the motion begins its last repeat {} from where it ends it (limit simulation.periodic_tolerance_mm {:.3g}), and the "
+                  "lives of such dresspacks count this change in each repeat; with the job's own stiffness it keeps the limit",
+                  words, 1e3 * job.simulation.periodic_tolerance),
+      "friction and contact leave the dresspack several resting places",
+      fmt::format("simulation.periodic_tolerance_mm: {:g} if repeats may differ so; or, {}", std::ceil(2e4 * farthest) / 10,
+                  pipeline::measurement_words(stiffness())))};
 }
 
 }  // namespace

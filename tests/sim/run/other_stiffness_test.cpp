@@ -112,7 +112,7 @@ TEST_CASE("other stiffnesses: a bend radius that only the softer hose breaks is 
   CHECK(written(job).warnings.empty());
 }
 
-TEST_CASE("other stiffnesses: a motion that is periodic only with the job's own stiffness causes a warning for each other one") {
+TEST_CASE("other stiffnesses: a motion that is periodic only with the job's own stiffness causes one warning with the distances of the others") {
   pipeline::Job job = sagging();
   job.simulation.most_repeats = 2;
   const auto distance_with = [&](double factor) {
@@ -127,9 +127,11 @@ TEST_CASE("other stiffnesses: a motion that is periodic only with the job's own 
     std::size_t expected = 0;
     for (const double distance : {soft, stiff}) expected += own <= tolerance && distance > tolerance;
     const Written result = written(job);
-    CHECK(result.warnings.size() == expected);
-    for (const pipeline::Warning& warning : result.warnings)
-      CHECK_THAT(warning.words, Catch::Contains("times the stiffness of the hose") && Catch::Contains("the motion begins its last repeat"));
+    REQUIRE(result.warnings.size() == (expected > 0 ? 1 : 0));
+    if (expected == 0) continue;
+    CHECK_THAT(result.warnings[0].words, Catch::Contains("the motion begins its last repeat "));
+    for (const double distance : {soft, stiff})
+      CHECK((result.warnings[0].words.find(fmt::format("{:.1f} mm with ", 1e3 * distance)) != std::string::npos) == (distance > tolerance));
   }
   CHECK(std::max(soft, stiff) > 1.01 * own);  // otherwise no warning was tested
 }
