@@ -55,7 +55,7 @@ class Modes {
     response.dresspack = pipeline::name_among(in_.job, list_.dresspack(mode));
     response.construction = in_.job.dresspacks[list_.dresspack(mode)].dresspack.name;
     response.scatter_shared = neighbours(mode) > 1 ? in_.job.fatigue.scatter_shared : 1;
-    response.knowledge = knowledge();
+    response.knowledge = knowledge_of_job(in_.job);
     const VariedStrains own = likely_worst(mode);
     if (!own.site.empty())
       response.material = pipeline::material_of(in_.job, in_.sites.material()[worst_of(mode)]).name;
@@ -79,18 +79,6 @@ class Modes {
     for (std::size_t other = 0; other < list_.size(); ++other)
       count += list_.dresspack(other) == list_.dresspack(mode);
     return count;
-  }
-
-  pipeline::ParameterKnowledge knowledge() const {
-    pipeline::ParameterKnowledge known = pipeline::knowledge_of(in_.job);
-    if (in_.job.calibration)  // z counts from the job itself, whose keys contain the calibration's medians
-      for (const pipeline::LearnedParameter& learned : in_.job.calibration->parameters)
-        for (std::size_t p = 0; p < pipeline::uncertain_count; ++p)
-          if (pipeline::uncertain_parameters()[p].name == learned.name &&
-              p != index_of(pipeline::Uncertain::rest))  // see fill_response()
-            known.mean(static_cast<Eigen::Index>(p)) -= learned.median;
-    if (!in_.job.uncertainty.enabled) known.mean.setZero(), known.covariance.setZero();
-    return known;
   }
 
   std::size_t worst_of(std::size_t mode) const {
@@ -197,6 +185,18 @@ std::vector<std::size_t> ModeList::of(const TextColumn& component) const {
   std::vector<std::size_t> modes;
   for (const std::string& path : component.values) modes.push_back(of(path));
   return modes;
+}
+
+pipeline::ParameterKnowledge knowledge_of_job(const pipeline::Job& job) {
+  pipeline::ParameterKnowledge known = pipeline::knowledge_of(job);
+  if (job.calibration)  // z counts from the job itself, whose keys contain the calibration's medians
+    for (const pipeline::LearnedParameter& learned : job.calibration->parameters)
+      for (std::size_t p = 0; p < pipeline::uncertain_count; ++p)
+        if (pipeline::uncertain_parameters()[p].name == learned.name &&
+            p != index_of(pipeline::Uncertain::rest))  // see fill_response()
+          known.mean(static_cast<Eigen::Index>(p)) -= learned.median;
+  if (!job.uncertainty.enabled) known.mean.setZero(), known.covariance.setZero();
+  return known;
 }
 
 pipeline::FailureModes failure_modes(const ModeList& modes, const ModeInputs& inputs) {

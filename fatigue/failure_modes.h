@@ -53,6 +53,10 @@ struct ModeInputs {
   Percentiles planned;  ///< of all modes together, over the scatter of wires [repeats]
 };
 
+/// Returns what is known of the uncertain parameters: the prior, or the posterior of the job's calibration. z counts from the job's
+/// own values.
+pipeline::ParameterKnowledge knowledge_of_job(const pipeline::Job& job);
+
 /// Returns at least one mode. Without job.uncertainty only the scatter of wires is uncertain.
 pipeline::FailureModes failure_modes(const ModeList& modes, const ModeInputs& inputs);
 

@@ -74,13 +74,9 @@ bool is_rest(const VariedStrains& at) {
 
 }  // namespace
 
-std::vector<VariedStrains> read_variations(const pipeline::FileReader& strain, std::size_t sites) {
+std::vector<VariedStrains> read_variation_points(const pipeline::FileReader& strain) {
   if (!strain.has("/variation/z")) return {};
   const auto z = strain.read<double>("/variation/z");
-  const auto of_row = strain.read<std::uint32_t>("/variation/row/variation");
-  const auto site = strain.read<std::uint32_t>("/variation/row/site");
-  const auto turning = strain.read<std::uint32_t>("/variation/row/turning");
-  const auto strains = strain.read<float>("/variation/strain");
   constexpr std::size_t in_row = pipeline::index_of(pipeline::Uncertain::rest);  // rest has its own list
   std::vector<VariedStrains> all(z.size() / in_row);
   for (std::size_t v = 0; v < all.size(); ++v)
@@ -109,6 +105,16 @@ std::vector<VariedStrains> read_variations(const pipeline::FileReader& strain, s
     const auto stiffness = strain.read<double>("/variation/stiffness");
     for (std::size_t v = 0; v < all.size(); ++v) all[v].z[index_of(pipeline::Uncertain::hose_stiffness)] = stiffness[v];
   }
+  return all;
+}
+
+std::vector<VariedStrains> read_variations(const pipeline::FileReader& strain, std::size_t sites) {
+  std::vector<VariedStrains> all = read_variation_points(strain);
+  if (all.empty()) return all;
+  const auto of_row = strain.read<std::uint32_t>("/variation/row/variation");
+  const auto site = strain.read<std::uint32_t>("/variation/row/site");
+  const auto turning = strain.read<std::uint32_t>("/variation/row/turning");
+  const auto strains = strain.read<float>("/variation/strain");
   std::size_t next = 0;
   for (std::size_t row = 0; row < of_row.size(); ++row) {
     if (of_row[row] >= all.size() || site[row] >= sites || turning[row] > strains.size() - next)

@@ -20,6 +20,9 @@ struct VariedStrains {
   std::vector<std::size_t> site;            ///< (wire) number among the job's own sites, which gives the material
 };
 
+/// Reads the points of /variation of strain.h5 without their strains; empty if the strain stage computed none.
+std::vector<VariedStrains> read_variation_points(const pipeline::FileReader& strain);
+
 /// Reads /variation of strain.h5; empty if the strain stage computed none.
 std::vector<VariedStrains> read_variations(const pipeline::FileReader& strain, std::size_t sites);
 

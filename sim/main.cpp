@@ -97,7 +97,7 @@ void simulate(const pipeline::StageCall& call, const pipeline::Job& job, pipelin
   const sim::RunSummary summary = simulation.run({[&](const sim::Sample& sample) { motion->add(sample); },
                                                   begin, [&](double share) { progress.show(share); }});
   motion->finish(summary, [&](double time) { return simulation.path().step(time); });
-  const std::vector<pipeline::Warning> refused = sim::write_other_stiffnesses(job, summary.time_step, *file);
+  const std::vector<pipeline::Warning> refused = sim::write_other_stiffnesses(job, summary, *file);
   for (const std::string& note : {sim::repeats_note(summary), simulation.program_note()})
     if (!note.empty()) progress.note(note);
   pipeline::note_warnings(*file, call, progress,

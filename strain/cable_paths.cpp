@@ -61,7 +61,8 @@ CablePaths::CablePaths(const Construction& construction, const std::vector<Layer
       stride_(padded(samples) + padding),
       all_(samples),
       known_ends_(job.known_ends),
-      relief_stiffness_(job.relief_stiffness) {
+      relief_stiffness_(job.relief_stiffness),
+      stiffness_factor_(job.stiffness_factor) {
   const std::size_t segments = lengths_.size();
   std::vector<LooseCable> loose;
   std::vector<PathMember> held;
@@ -691,9 +692,21 @@ void CablePaths::ask_for_forces() {
   for (int clamp = 0; clamp < 2; ++clamp)
     for (std::size_t t = 0; t < next_; ++t) {
       const float* const bent = hose_curvature_.data() + 2 * clamp * all_ + t;
-      hose_moment_[t] = std::max(hose_moment_[t], (construction_.hose_bending_stiffness() + relief_stiffness_[clamp]) *
-                                                      std::hypot(bent[0], bent[all_]));
+      hose_moment_[t] = std::max(hose_moment_[t], 
+                                 (stiffness_factor_ * construction_.hose_bending_stiffness() + relief_stiffness_[clamp]) *
+                                     std::hypot(bent[0], bent[all_]));
     }
+}
+
+double CablePaths::place_of_force(std::size_t cable, std::size_t sample) const {
+  const Cable& of = cables_[cable];
+  if (!of.rubs) return -1;
+  const double by_twist = pulled_by_twist(of, hose_twist_[sample]);
+  double largest = -1, place = 0, begin = 0;
+  for (std::size_t i = 0; i < lengths_.size(); begin += lengths_[i++])
+    if (const double strain = std::abs(of.along[along_at(i, sample)] + by_twist); strain > largest)
+      largest = strain, place = begin + lengths_[i] / 2;
+  return place;
 }
 
 const SegmentMotion& CablePaths::Keeper::of(const CablePaths& paths, std::size_t segment,

@@ -47,6 +47,7 @@ struct CablesInJob {
   std::size_t elements_per_segment = 0;  ///< elements of loose cables; 0: the number follows from the length of their waves
   KnownEnds known_ends{};
   std::array<double, 2> relief_stiffness{};  ///< of the bend reliefs at base and tool end, which bend with the hose [N m2]
+  double stiffness_factor = 1;               ///< of the hose in this motion, on its bending stiffness
 };
 
 class CablePaths {
@@ -120,6 +121,8 @@ class CablePaths {
   const std::string& name(std::size_t cable) const;
   /// Returns the law of the cable's force and its places at the clamps.
   const pipeline::PulledCable& pulled(std::size_t cable) const { return cables_[cable].pulled; }
+  /// Returns where the cable's force is largest at a sample, from the base end of the span [m]; -1: it is the same along the cable.
+  double place_of_force(std::size_t cable, std::size_t sample) const;
   /// Returns the index among the dresspack's components.
   int component(std::size_t cable) const;
   /// Returns the sliding distance in both directions together in one repeat of the motion, at base and tool clamp [m].
@@ -210,6 +213,7 @@ class CablePaths {
   std::shared_ptr<LooseCables> loose_;  ///< null: no cable is loose
   KnownEnds known_ends_;
   std::array<double, 2> relief_stiffness_;
+  double stiffness_factor_;
   /// (segment, base end, tool end; loose cable x 2; sample) curvature of their paths [1/m], shared like loose_
   std::shared_ptr<SegmentRows> curvature_;
   double first_share_ = 1, fed_ = 0;  ///< share of the slack at go_on_from(), and time since then [s]

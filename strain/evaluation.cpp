@@ -114,7 +114,8 @@ Evaluation::Evaluation(const Construction& construction, const pipeline::Strain&
             slips_only(settings, pipeline::Slip::free)},
       cables_(construction, free_.means.plan(),
               {rubs(settings.slip.front()), !slides(settings.slip.front()), place.free_tool_end,
-               static_cast<std::size_t>(settings.cable_elements), place.known_ends, place.relief_stiffness},
+               static_cast<std::size_t>(settings.cable_elements), place.known_ends, place.relief_stiffness,
+               place.stiffness_factor},
               lengths_, arcs_, samples, scratch) {
   if (place_.segments_in_all == 0) place_.segments_in_all = lengths_.size();
   place_.levels = std::max(place_.levels, construction.levels());

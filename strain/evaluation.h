@@ -62,6 +62,7 @@ struct SpanPlace {
   bool free_tool_end = false;       ///< no clamp holds the tool end
   KnownEnds known_ends{};
   std::array<double, 2> relief_stiffness{};  ///< see CablesInJob
+  double stiffness_factor = 1;               ///< see CablesInJob
   // Sums over the dresspacks before this one in the file:
   std::size_t segments_before = 0, sites_before = 0;
   std::size_t dresspack = 0;

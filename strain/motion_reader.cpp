@@ -13,11 +13,20 @@ double step_of(const pipeline::FileReader& file, const pipeline::Job& job) {
   return two[1] - two[0];
 }
 
+/// Returns the factor on the bending stiffness of the hose in a group of motion.h5.
+double factor_in(const pipeline::FileReader& file, const pipeline::Job& job, const std::string& group) {
+  const double own = job.simulation.stiffness_factor;
+  if (group.empty()) return own;
+  const auto& stiffness = pipeline::uncertain_parameters()[index_of(pipeline::Uncertain::hose_stiffness)];
+  return own * stiffness.value(file.number_attribute(group.substr(1) + "_z"));
+}
+
 }  // namespace
 
 MotionReader::MotionReader(const pipeline::FileReader& file, const pipeline::Job& job, std::string group)
     : file_(file),
       group_(std::move(group)),
+      stiffness_factor_(factor_in(file, job, group_)),
       lengths_(file.read<double>("/segment/length")),
       samples_(file.rows("/time")),
       step_(step_of(file, job)),

@@ -35,6 +35,8 @@ class MotionReader {
   const std::vector<double>& lengths() const { return lengths_; }  ///< (segment) [m]
   const std::vector<pipeline::MotionSpan>& spans() const { return spans_; }
   std::vector<double> lengths_of(const pipeline::MotionSpan& span) const;
+  /// Returns the factor on the bending stiffness of the hose in this motion.
+  double stiffness_factor() const { return stiffness_factor_; }
   KnownEnds known_ends(std::size_t span) const { return gauges_[span].knows_ends(); }
   /// Returns whether no clamp holds the tool end of span k.
   bool ends_freely(const pipeline::Job& job, std::size_t k) const;
@@ -50,6 +52,7 @@ class MotionReader {
 
   const pipeline::FileReader& file_;
   std::string group_;
+  double stiffness_factor_;
   std::vector<double> lengths_;
   std::size_t samples_;
   double step_;

@@ -167,6 +167,12 @@ Shortening::Shortening(std::size_t samples, const std::vector<EqualParts>& parts
   add(from, samples, 1);
 }
 
+std::size_t Shortening::in_motion(std::size_t sample) const {
+  for (const Piece& piece : pieces_)
+    if (piece.times > 0 && sample < piece.at + (piece.end - piece.first)) return piece.first + sample - piece.at;
+  return sample;
+}
+
 DeformationHistory Shortening::shortened(const DeformationColumns& whole) const {
   DeformationHistory history(1, samples_);
   for (const Piece& piece : pieces_)

@@ -47,6 +47,8 @@ class Shortening {
   bool any() const { return pieces_.size() > 1; }
   const std::vector<Piece>& pieces() const { return pieces_; }  ///< they cover the motion
   std::size_t samples() const { return samples_; }              ///< of the shortened motion
+  /// Returns the number of a sample of the shortened motion in the whole motion.
+  std::size_t in_motion(std::size_t sample) const;
   /// Returns the history of a segment in the shortened motion, from that in the whole motion.
   DeformationHistory shortened(const DeformationColumns& whole) const;
   /// Returns the turning points of the whole motion from those of the shortened motion; only strain, sample and turning. Rises and

@@ -127,6 +127,19 @@ class VariationWriter {
     file.append("/variation/stiffness", std::vector<double>(inside.size(), variations.stiffness()));
   }
 
+  /// Precondition: all samples were added to the variations.
+  void write_pulls(const Variations& variations) {
+    for (const VariedPulls& of : variations.pulls()) {
+      if (of.tension.empty()) continue;
+      file_.append("/variation/tension", of.tension);
+      file_.append("/variation/tension_sample", of.sample);
+      file_.append("/variation/tension_place", of.place);
+      file_.append("/variation/clamp_moment", of.moment);
+      file_.append("/variation/clamp_moment_place", of.moment_place);
+      file_.append("/variation/clamp_moment_tension", of.moment_tension);
+    }
+  }
+
   Variations::Put put() {
     return [this](std::size_t variation, const std::vector<std::size_t>& sites, const SiteRows& rows) {
       file_.append("/variation/row/variation",
@@ -231,6 +244,7 @@ struct Evaluations {
     SpanPlace place;
     std::size_t first = 0;  // first span of the dresspack
     place.levels = levels;
+    place.stiffness_factor = reader.stiffness_factor();
     for (std::size_t k = 0; k < spans.size(); ++k) {
       const std::size_t d = spans[k].dresspack;
       if (k == 0 || d != spans[k - 1].dresspack) {
@@ -627,6 +641,7 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
   write_bending(strain, job);
   write_rests(strain, starts);
   VariationWriter variation_rows(strain, variations, 0);
+  variation_rows.write_pulls(variations);
   const Variations::Put put = variation_rows.put();
   LikelySites likely;
   passage.each_segment([&](std::size_t span, std::size_t segment, std::size_t row) {
@@ -649,6 +664,7 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
         });
     VariationWriter rows(strain, varied, written);
     write_other_motion(of, of_other, laid.of_span, varied, window, threads, likely, places, rows.put());
+    rows.write_pulls(varied);
     written += varied.points().size();
     work.other_motions(other + 1);
   }

@@ -191,6 +191,15 @@ void Variations::find_bent() const {
   }
 }
 
+std::vector<VariedPulls> Variations::pulls() const {
+  std::vector<VariedPulls> all(points_.size());
+  for (const Placement& placement : placements_) {
+    const VariedPulls of = varied_pulls(*placement.spans, shortening_);
+    for (const std::size_t variation : placement.variation) all[variation] = of;
+  }
+  return all;
+}
+
 void Variations::evaluate(const std::vector<Evaluation::Site>& likely, std::size_t span, std::size_t segment,
                           const DeformationHistory& history, std::size_t row, const Put& put) const {
   if (likely.empty() || placements_.empty()) return;

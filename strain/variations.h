@@ -20,6 +20,7 @@
 #include "pipeline/job/uncertainty.h"
 #include "strain/shortening.h"
 #include "strain/starts.h"
+#include "strain/varied_pulls.h"
 
 namespace dresslife::strain {
 
@@ -57,6 +58,9 @@ class Variations {
   void go_on() const;
   /// Adds the rests of starts as variations. Precondition: all samples were added.
   void add(const Starts& starts);
+
+  /// Returns the forces of the cables, (variation). Precondition: all samples were added.
+  std::vector<VariedPulls> pulls() const;
 
   /// Receives the results of a variation for some sites: their rows in the file and their turning points.
   using Put =

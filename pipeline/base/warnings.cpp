@@ -58,6 +58,8 @@ const char* word(WarningKind kind) {
       return "calibration";
     case WarningKind::motion:
       return "motion";
+    case WarningKind::other_values:
+      return "other_values";
   }
   return "";
 }
@@ -78,6 +80,7 @@ bool spoils_plan(WarningKind kind) {
     case WarningKind::mesh:         // a numerical error, whose size the message states
     case WarningKind::material:     // the constants may be right
     case WarningKind::calibration:  // the uncertainty of the prior applies
+    case WarningKind::other_values:  // the message states the share of such dresspacks and the measurement that rules them out
       return false;
   }
   return false;
@@ -101,6 +104,8 @@ const char* title(WarningKind kind) {
       return "material, stiffness";
     case WarningKind::motion:
       return "unusual motion";
+    case WarningKind::other_values:
+      return "limits at other values";
     case WarningKind::twist:
     case WarningKind::tension:
     case WarningKind::slack:

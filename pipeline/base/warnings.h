@@ -21,9 +21,10 @@ enum class WarningKind {
   material,     ///< constants of a material contradict each other
   strain,       ///< strains are beyond the use of any wire
   calibration,  ///< the job is outside of the tests of its calibration
-  motion        ///< a speed, a wait or an angle may be in another unit
+  motion,       ///< a speed, a wait or an angle may be in another unit
+  other_values  ///< a limit is exceeded with other values of uncertain parameters, not with the job's own (pipeline/job/beyond_limit.h)
 };
-inline constexpr int warning_kinds_count = static_cast<int>(WarningKind::motion) + 1;
+inline constexpr int warning_kinds_count = static_cast<int>(WarningKind::other_values) + 1;
 
 /// Returns whether a plan must not use the hours of a job with such a warning. Then the dresspack exceeds a limit beyond which it
 /// fails in ways that no stage evaluates, or motion or strains differ from those of the plant.

@@ -41,6 +41,10 @@ RankingColumn of_mode(std::string name, std::string unit, std::string meaning, c
             return found ? cell(std::invoke(value, *found)) : std::string();
           }};
 }
+bool has_warning(const RankingRow& row, WarningKind kind) {
+  return row.warnings && std::any_of(row.warnings->begin(), row.warnings->end(),
+                                     [&](const Warning& warning) { return warning.kind == kind; });
+}
 bool has_rating(const RankingRow& row) { return row.relative.has_value(); }
 
 using Lives = std::array<double, 3>;
@@ -92,6 +96,7 @@ class Table {
     add(of("moving_places", "1",
            "computed places of loose cables, besides the job's own, at which they do not end the repeat where they began it",
            &RankingRow::moving_places));
+    add_kind(WarningKind::other_values);
   }
   std::vector<RankingColumn> columns;
 
@@ -293,16 +298,17 @@ class Table {
     }));
     for (int k = 0; k < warning_kinds_count; ++k) {
       const auto kind = static_cast<WarningKind>(k);
-      if (kind == WarningKind::force) continue;  // the column force_ok contains it
-      add(where(
-          fmt::format("{}_ok", word(kind)), "yes or no",
-          fmt::format("no: it has a warning of kind {}", title(kind)), known, [kind](const RankingRow& row) {
-            const auto& all = *row.warnings;
-            const bool warned =
-                std::any_of(all.begin(), all.end(), [kind](const Warning& one) { return one.kind == kind; });
-            return std::string(warned ? "no" : "yes");
-          }));
+      if (kind == WarningKind::force) continue;         // the column force_ok contains it
+      if (kind == WarningKind::other_values) continue;  // one of the last columns
+      add_kind(kind);
     }
+  }
+
+  void add_kind(WarningKind kind) {
+    add(where(
+        fmt::format("{}_ok", word(kind)), "yes or no", fmt::format("no: it has a warning of kind {}", title(kind)),
+        [](const RankingRow& row) { return row.warnings.has_value(); },
+        [kind](const RankingRow& row) { return std::string(has_warning(row, kind) ? "no" : "yes"); }));
   }
 
   void add_rank() {

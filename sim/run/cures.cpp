@@ -591,18 +591,18 @@ std::string refusal_remedy(const pipeline::Setup& setup, const RoutingRefusal& r
       .text();
 }
 
+std::string check_words(const CheckedMotion& motion, const Check& check) {
+  const std::string name = pipeline::name_among(motion.setup, static_cast<std::size_t>(check.dresspack));
+  return fmt::format("{}{}{}: {} (limit {}{}){} {}", name, name.empty() ? "" : ", ", check.name, in_words(check.value, check.unit),
+                     in_words(check.limit, check.unit), hand_words(check), place_words(motion, check), motion.moment(check.time));
+}
+
 std::vector<pipeline::Warning> check_warnings(const CheckedMotion& motion, const std::vector<Check>& checks) {
   std::vector<pipeline::Warning> warnings;
   for (const Check& check : checks) {
     if (!check.warning) continue;
-    const std::string name = pipeline::name_among(motion.setup, static_cast<std::size_t>(check.dresspack));
     const Cure cure = cure_of(motion, checks, check);
-    warnings.push_back(pipeline::warning_of(
-        *check.kind, "",
-        fmt::format("{}{}{}: {} (limit {}{}){} {}", name, name.empty() ? "" : ", ", check.name,
-                    in_words(check.value, check.unit), in_words(check.limit, check.unit), hand_words(check),
-                    place_words(motion, check), motion.moment(check.time)),
-        cure.cause, cure.remedy));
+    warnings.push_back(pipeline::warning_of(*check.kind, "", check_words(motion, check), cure.cause, cure.remedy));
   }
   return warnings;
 }

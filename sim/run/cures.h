@@ -56,6 +56,9 @@ pipeline::Warning taut_warning(const CheckedMotion& motion, const ShortRun& run)
 /// Returns a remedy with which a refused job would run.
 std::string refusal_remedy(const pipeline::Setup& setup, const RoutingRefusal& refusal);
 
+/// Returns value, limit, place and time of a check: "smallest bend radius: 187 mm (limit 200 mm), 0.50 m from the base clamp ..".
+std::string check_words(const CheckedMotion& motion, const Check& check);
+
 /// Returns warnings for the checks with exceeded limits: value, limit, place, time, cause and remedy.
 std::vector<pipeline::Warning> check_warnings(const CheckedMotion& motion, const std::vector<Check>& checks);
 

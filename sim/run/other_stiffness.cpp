@@ -3,11 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
 #include <utility>
 
 #include "pipeline/base/warning_words.h"
+#include "pipeline/files/check_names.h"
+#include "pipeline/job/beyond_limit.h"
 #include "pipeline/job/uncertainty.h"
-#include "sim/run/simulate.h"
+#include "sim/run/cures.h"
 
 namespace dresslife::sim {
 namespace {
@@ -51,7 +56,8 @@ pipeline::Setup setup_with(const pipeline::Job& job, double factor, double time_
   return setup;
 }
 
-double factor_of(double z) { return pipeline::uncertain_parameters()[index_of(Uncertain::hose_stiffness)].value(z); }
+const pipeline::UncertainParameter& stiffness() { return pipeline::uncertain_parameters()[index_of(Uncertain::hose_stiffness)]; }
+double factor_of(double z) { return stiffness().value(z); }
 
 /// Returns WHAT of a message "WHERE: error: WHAT; REMEDY": place and remedy are those of the changed job, which the user does not see.
 std::string problem_in(const std::string& message) {
@@ -78,26 +84,99 @@ Warning refused(const std::string& side, double z, double recorded, const std::s
       "more free length; or measure the hose, and give bending_stiffness_Nm2 and a smaller uncertainty.hose_stiffness");
 }
 
+/// The run at another stiffness.
+struct OtherRun {
+  double z;
+  std::unique_ptr<Simulation> simulation;
+  RunSummary summary;
+};
+
+/// Returns the quantity over its limit, or the limit over a least value; 0: no limit, or the geometry of the clamps alone decides.
+double load_of(const Check& check) {
+  if (!check.kind || !std::isfinite(check.limit)) return 0;
+  if (check.kind == pipeline::WarningKind::bend_radius) return check.limit / check.value;
+  if (check.kind == pipeline::WarningKind::slack && check.name != pipeline::check_name::travel) return 0;
+  return std::abs(check.value) / check.limit;
+}
+
+Warning beyond_warning(const pipeline::Job& job, const OtherRun& at, const Check& broken, double share) {
+  const Simulation& simulation = *at.simulation;
+  const CheckedMotion motion{simulation.setup(), [&](double time) { return simulation.moment(time); }, &simulation.rod(),
+                             &simulation.path()};
+  Cure cure = cure_of(motion, at.summary.checks, broken);
+  cure.remedy.words += "; routings were tried with this stiffness; or, " + pipeline::measurement_words(stiffness());
+  return pipeline::warning_of(
+      pipeline::WarningKind::other_values, "",
+      fmt::format("with {} {}; about {} of such dresspacks exceed this limit, by straight lines between the computed values and the "
+                  "prior of the stiffness; with the job's own stiffness none does",
+                  pipeline::value_words(stiffness(), at.z, job.simulation.stiffness_factor), check_words(motion, broken),
+                  pipeline::share_words(share)),
+      cure.cause, cure.remedy);
+}
+
+/// Returns a warning for each limit that a run exceeds and the job's own run keeps. own: checks of the job's own run.
+std::vector<Warning> beyond_warnings(const pipeline::Job& job, const std::vector<Check>& own, const std::vector<OtherRun>& others) {
+  std::vector<Warning> warnings;
+  const double deviation = stiffness().z_of(job.uncertainty.spread[index_of(Uncertain::hose_stiffness)]);
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    if (own[k].warning) continue;
+    std::vector<pipeline::LoadNode> nodes{{0, load_of(own[k])}};
+    const OtherRun* worst = nullptr;
+    for (const OtherRun& other : others) {
+      const double load = load_of(other.summary.checks[k]);
+      nodes.push_back({other.z, load});
+      if (load > 1 && (!worst || load > load_of(worst->summary.checks[k]))) worst = &other;
+    }
+    if (!worst) continue;
+    const double share = pipeline::share_beyond(nodes, 0, deviation);
+    if (share >= pipeline::least_share_beyond) warnings.push_back(beyond_warning(job, *worst, worst->summary.checks[k], share));
+  }
+  return warnings;
+}
+
+/// Returns a warning if the motion is periodic with the job's own stiffness, and not with another one.
+std::vector<Warning> periodic_warnings(const pipeline::Job& job, const RunSummary& own, const std::vector<OtherRun>& others) {
+  if (!own.periodic) return {};
+  std::string words;
+  double farthest = 0;
+  for (const OtherRun& other : others) {
+    if (other.summary.periodic) continue;
+    words += fmt::format("{}{:.1f} mm with {}", words.empty() ? "" : ", and ", 1e3 * other.summary.distance,
+                         pipeline::value_words(stiffness(), other.z, job.simulation.stiffness_factor));
+    farthest = std::max(farthest, other.summary.distance);
+  }
+  if (words.empty()) return {};
+  return {pipeline::warning_of(
+      pipeline::WarningKind::other_values, "",
+      fmt::format("the motion begins its last repeat {} from where it ends it (limit simulation.periodic_tolerance_mm {:.3g}), and the "
+                  "lives of such dresspacks count this change in each repeat; with the job's own stiffness it keeps the limit",
+                  words, 1e3 * job.simulation.periodic_tolerance),
+      "friction and contact leave the dresspack several resting places",
+      fmt::format("simulation.periodic_tolerance_mm: {:g} if repeats may differ so; or, {}", std::ceil(2e4 * farthest) / 10,
+                  pipeline::measurement_words(stiffness())))};
+}
+
 }  // namespace
 
-std::vector<Warning> write_other_stiffnesses(const pipeline::Job& job, double time_step,
-                                             pipeline::FileWriter& file) {
+std::vector<Warning> write_other_stiffnesses(const pipeline::Job& job, const RunSummary& own, pipeline::FileWriter& file) {
   const double reach = pipeline::other_stiffness(job.uncertainty);
   std::vector<Warning> warnings;
+  std::vector<OtherRun> others;
   if (reach == 0) return warnings;
   for (const auto& [name, side] : {std::pair("softer", -reach), std::pair("stiffer", reach)}) {
     std::string problem;
     double recorded = 0;
     for (const double z : {side, side / 2}) {  // a smaller change if the routing does not allow the larger one
       try {
-        const Simulation simulation(setup_with(job, factor_of(z), time_step));
+        auto simulation = std::make_unique<Simulation>(setup_with(job, factor_of(z), own.time_step));
         RecordedMotion places;
-        simulation.run({.take = [&](const Sample& sample) { places.add(sample); },
-                        .begin = [&](int) { places = {}; },
-                        .wanted = Wanted::places});
+        RunSummary summary = simulation->run({.take = [&](const Sample& sample) { places.add(sample); },
+                                              .begin = [&](int) { places = {}; },
+                                              .wanted = Wanted::places_and_checks});
         places.write(file, std::string("/") + name);
         file.attribute(std::string(name) + "_z", z);
         recorded = z;
+        others.push_back({z, std::move(simulation), std::move(summary)});
         break;
       } catch (const pipeline::InputError& refusal) {
         if (problem.empty()) problem = problem_in(refusal.what());
@@ -105,7 +184,8 @@ std::vector<Warning> write_other_stiffnesses(const pipeline::Job& job, double ti
     }
     if (!problem.empty()) warnings.push_back(refused(name, side, recorded, problem));
   }
-  return warnings;
+  warnings = pipeline::joined(std::move(warnings), beyond_warnings(job, own.checks, others));
+  return pipeline::joined(std::move(warnings), periodic_warnings(job, own, others));
 }
 
 }  // namespace dresslife::sim

@@ -1,4 +1,5 @@
 // The same motion with a softer and a stiffer hose. From them dresslife-strain computes how lives depend on the hose's stiffness.
+// Limits that only these hoses exceed cause warnings (pipeline/job/beyond_limit.h).
 #pragma once
 
 #include <vector>
@@ -6,14 +7,15 @@
 #include "pipeline/base/warnings.h"
 #include "pipeline/files/files.h"
 #include "pipeline/job/job.h"
+#include "sim/run/simulate.h"
 
 namespace dresslife::sim {
 
 /// Writes /softer and /stiffer of motion.h5, each from one repeat of the motion after one lead-in repeat. Writes nothing if the
-/// job's uncertainty does not need them. time_step: step of the job's own run [s]. With twice this step the life of `hard` at
-/// 0.7 times the stiffness was a hundredth. Returns a warning for each side whose simulation is refused. It is then recorded
-/// at half the change; if that is refused, too, its group is absent.
-std::vector<pipeline::Warning> write_other_stiffnesses(const pipeline::Job& job, double time_step,
-                                                       pipeline::FileWriter& file);
+/// job's uncertainty does not need them. own: the job's own run, whose time step they have. With twice this step the life of
+/// `hard` at 0.7 times the stiffness was a hundredth. Returns a warning for each side whose simulation is refused. It is then
+/// recorded at half the change; if that is refused, too, its group is absent. Returns a warning for each limit that a side exceeds
+/// and the job's own run keeps, also that of the distance between repeats.
+std::vector<pipeline::Warning> write_other_stiffnesses(const pipeline::Job& job, const RunSummary& own, pipeline::FileWriter& file);
 
 }  // namespace dresslife::sim

@@ -286,7 +286,7 @@ std::optional<double> Simulation::run_once(World& world, Repeat& repeat, const R
     return pose.rings.empty() ? std::vector<double>{}
                               : shortest_ways(setup_, rod_, world.state().clamps, pose.rings);
   };
-  if (sinks.wanted != Wanted::places) checks.see(world.state(), {}, 0, ways());
+  checks.see(world.state(), {}, 0, ways());
   repeat.error.see(0, world.state());
   hand_over(0);
   LeftOutRounds rounds(rod_, *path_, setup_.simulation.periodic_tolerance);
@@ -299,8 +299,8 @@ std::optional<double> Simulation::run_once(World& world, Repeat& repeat, const R
       pose = path_->at(time);
       const StepReport report = world.advance(pose.clamps, pose.links);
       check_step(report, time);
-      if (sinks.wanted == Wanted::places) continue;
       checks.see(world.state(), world.contacts(), time, ways());
+      if (sinks.wanted == Wanted::places_and_checks) continue;
       if (sinks.wanted == Wanted::checks) {
         left_out += rounds.see(time, step, world.state());
         continue;

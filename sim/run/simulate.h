@@ -94,7 +94,7 @@ enum class Wanted {
   /// checks: a sample's energy, tension and touch, rubbing and the error of the step stay empty. Rounds of a loop are left out as
   /// soon as two successive ones begin in the same state (R8): the remaining ones are equal to the last.
   checks,
-  places,  ///< nothing: a sample's contacts and the checks stay empty, too
+  places_and_checks,  ///< as checks, but all rounds are there
 };
 
 /// Callbacks for the results of a run; only `take` is required.

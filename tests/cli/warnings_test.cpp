@@ -171,6 +171,8 @@ TEST_CASE("every warning of a stage reaches its log, the terminal, ranking.csv a
       {"cable", "", "overlap", "the 66 parts 'wire' are 0.1839 mm apart"},
       {"robot", "", "force", "that is unrealistic: do not plan with the hours"},
       {"cable", "", "material", "material odd: K' 100 MPa"},
+      // the softer hose bends to 134 mm, the job's own to 142 mm
+      {"cable", "--set dresspack.least_bend_radius_mm=138", "other_values", "with 0.397 times the stiffness of the hose"},
   };
   const Scratch scratch;
   write_jobs(scratch);

@@ -13,7 +13,9 @@
 #include <span>
 
 #include "fatigue/life_file.h"
+#include "pipeline/cable/cable_force.h"
 #include "pipeline/cable/excess.h"
+#include "pipeline/job/beyond_limit.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/settings/document.h"
@@ -590,6 +592,71 @@ TEST_CASE("variations hold the strains that the same job has with the keys that 
     }
     CHECK(nearest < third_harmonic);
   }
+}
+
+TEST_CASE("a force that exceeds its limit only with another slack causes a warning with this slack, the share of dresspacks and a remedy") {
+  const Scratch scratch;
+  write_motion(scratch / "motion.h5");
+  std::string text = replaced(pipeline::sample_job, "helix_radius_mm: 18.45\n", "helix_radius_mm: 18.45\n      slack_percent: 1\n");
+  text = replaced(text, "count: 3", "count: 1");  // one cable has no other starts
+  text = replaced(text, "  damping_time_ms: 10\n", "  damping_time_ms: 10\n  inner_diameter_mm: 52\n");
+  text = replaced(text, "slip: [stick, free]", "slip: [free, free], cable_elements_per_segment: 4");
+  double tensile_strength = 230e6;  // [Pa]
+  const auto job = [&](const std::vector<std::string>& sets) {
+    pipeline::Job of = pipeline::job_from(pipeline::parse_yaml(text, "job.yaml"), sets);
+    for (pipeline::Material& material : of.dresspacks[0].dresspack.materials) material.tensile_strength = tensile_strength;
+    return of;
+  };
+  /// Returns the force of the cable of largest size, with its sign, in a job without variations.
+  const auto force_with = [&](std::vector<std::string> sets) {
+    sets.push_back("uncertainty.enabled=false");
+    evaluate(scratch / "motion.h5", scratch / "one.h5", job(sets));
+    judge(FileReader(scratch / "one.h5", pipeline::strain_format()), job(sets), scratch / "one_life.h5");
+    const auto tension = FileReader(scratch / "one_life.h5", pipeline::life_format()).read<double>("/cable/tension");
+    return *std::ranges::max_element(tension, [](double a, double b) { return std::abs(a) < std::abs(b); });
+  };
+  const std::vector<std::string> varied{"uncertainty.enabled=true"};
+  evaluate(scratch / "motion.h5", scratch / "all.h5", job(varied));
+  const FileReader all(scratch / "all.h5", pipeline::strain_format());
+  const auto z = all.read<double>("/variation/z"), tension = all.read<double>("/variation/tension");
+  REQUIRE(tension.size() == z.size() / 5);
+  constexpr std::size_t of_slack = index_of(pipeline::Uncertain::slack);
+  std::map<double, double> forces;  // (z of slack)
+  for (std::size_t v = 0; v < tension.size(); ++v) forces[z[5 * v + of_slack]] = tension[v];
+  const double own = force_with({});
+  forces[0] = own;
+  REQUIRE(forces.size() == 4);
+  for (const auto& [at, force] : forces) {
+    std::array<double, pipeline::uncertain_count> point{};
+    point[of_slack] = at;
+    INFO(at);
+    constexpr double same_place = 1e-3;  // cables come to rest within this share of their curvature
+    CHECK(force == Approx(force_with(pipeline::sets_at(point))).epsilon(same_place));
+  }
+  const double most = forces.begin()->second;  // with the least slack
+  INFO(fmt::format("{} N; {} N", own, most));
+  REQUIRE(std::abs(most) > 2 * std::abs(own));  // otherwise no limit separates them
+  const auto warnings_with_limit = [&](double limit) {
+    const pipeline::Job before = job(varied);
+    const pipeline::Dresspack& dresspack = before.dresspacks[0].dresspack;
+    tensile_strength *= limit / 0.2 / pipeline::CableForce(dresspack, dresspack.components[0]).strength();
+    return judge(all, job(varied), scratch / "life.h5");
+  };
+  const double limit = std::sqrt(std::abs(own * most));
+  const std::string between = warnings_with_limit(limit);
+  std::vector<pipeline::LoadNode> nodes;
+  for (const auto& [at, force] : forces) nodes.push_back({at, std::abs(force) / limit});
+  CHECK_THAT(between, Catch::Contains("times the excess length of the cables in the hose (strain.slack_factor: ") &&
+                          Catch::Contains("'cable 1' is pulled with ") && Catch::Contains(" N (limit 20 %), over its whole length, at ") &&
+                          Catch::Contains(fmt::format("about {} of such dresspacks exceed this limit",
+                                                      pipeline::share_words(pipeline::share_beyond(nodes, 0, 1)))) &&
+                          Catch::Contains("Likely cause: ") && Catch::Contains("Remedy: dresspack.components.1.slack_percent: ") &&
+                          Catch::Contains("uncertainty.slack: 1.16: The length of each cable measured"));
+  CHECK_THAT(warnings_with_limit(2 * std::abs(most)), !Catch::Contains("breaking force"));
+  const std::string of_own = warnings_with_limit(std::abs(own) / 2);
+  const std::string line = of_own.substr(0, of_own.find('\n'));
+  CHECK_THAT(line, Catch::Contains("'cable 1' is ") && Catch::Contains("breaking force") && !Catch::Contains("slack_factor"));
+  CHECK(of_own.find("breaking force", line.size()) == std::string::npos);
 }
 
 TEST_CASE("the variations of a softer hose hold the strains that its motion has by itself, with each friction inside and slack") {

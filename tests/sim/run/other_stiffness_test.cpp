@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "pipeline/job/uncertainty.h"
+#include "pipeline/job/beyond_limit.h"
 #include "sim/run/motion_file.h"
 #include "sim/run/simulate.h"
 #include "tests/catch.h"
@@ -29,7 +29,7 @@ Written written(const pipeline::Job& job) {
     MotionFile motion(file, simulation.description());
     const RunSummary summary = simulation.run({[&](const Sample& sample) { motion.add(sample); }});
     motion.finish(summary, [&](double time) { return simulation.path().step(time); });
-    result.warnings = write_other_stiffnesses(job, summary.time_step, file);
+    result.warnings = write_other_stiffnesses(job, summary, file);
     for (const char* attribute : {"job", "history", "input_sha256"}) file.attribute(attribute, "");
     file.commit();
   }
@@ -84,6 +84,56 @@ TEST_CASE("other stiffnesses: the places are those of jobs whose hose is softer 
   pipeline::Job stiff = job;
   stiff.dresspacks[0].dresspack.bending_stiffness *= both.factors[1];
   CHECK(largest_difference(both.stiffer, positions_with(stiff, 1)) < kept);
+}
+
+TEST_CASE("other stiffnesses: a bend radius that only the softer hose breaks is a warning with its stiffness, value and share") {
+  pipeline::Job job = sagging();
+  const auto radius_with = [&](double factor) {
+    pipeline::Job of = job;
+    of.simulation.stiffness_factor = factor;
+    return Simulation(of).run({[](const Sample&) {}}).checks.front().value;
+  };
+  const double own = radius_with(1), soft = radius_with(0.397), stiff = radius_with(2.518);
+  REQUIRE(soft < 0.95 * own);
+  double& limit = job.dresspacks[0].dresspack.least_bend_radius.emplace((soft + own) / 2);
+  const Written between = written(job);
+  REQUIRE(between.warnings.size() == 1);
+  CHECK(between.warnings[0].kind == pipeline::WarningKind::other_values);
+  const double share = pipeline::share_beyond({{-1.65, limit / soft}, {0, limit / own}, {1.65, limit / stiff}}, 0, 1);
+  CHECK_THAT(between.warnings[0].words,
+             Catch::Contains("with 0.397 times the stiffness of the hose (simulation.stiffness_factor: 0.397)") &&
+                 Catch::Contains(fmt::format("smallest bend radius: {:.1f} mm (limit {:.1f} mm)", 1e3 * soft, 1e3 * limit)) &&
+                 Catch::Contains(fmt::format("about {} of such dresspacks exceed this limit", pipeline::share_words(share))) &&
+                 Catch::Contains("from the base clamp") && Catch::Contains("Likely cause: ") && Catch::Contains("Remedy: ") &&
+                 Catch::Contains("uncertainty.hose_stiffness: 1.16"));
+  limit = 1.05 * own;  // the job's own run breaks it and has its own warning
+  CHECK(written(job).warnings.empty());
+  limit = 0.95 * soft;
+  CHECK(written(job).warnings.empty());
+}
+
+TEST_CASE("other stiffnesses: a motion that is periodic only with the job's own stiffness causes one warning with the distances of the others") {
+  pipeline::Job job = sagging();
+  job.simulation.most_repeats = 2;
+  const auto distance_with = [&](double factor) {
+    pipeline::Job of = job;
+    of.simulation.stiffness_factor = factor;
+    return Simulation(of).run({[](const Sample&) {}}).distance;
+  };
+  const double own = distance_with(1), soft = distance_with(0.397), stiff = distance_with(2.518);
+  CAPTURE(own, soft, stiff);
+  for (const double tolerance : {own / 2, own * 1.01, 2 * std::max({own, soft, stiff})}) {
+    job.simulation.periodic_tolerance = tolerance;
+    std::size_t expected = 0;
+    for (const double distance : {soft, stiff}) expected += own <= tolerance && distance > tolerance;
+    const Written result = written(job);
+    REQUIRE(result.warnings.size() == (expected > 0 ? 1 : 0));
+    if (expected == 0) continue;
+    CHECK_THAT(result.warnings[0].words, Catch::Contains("the motion begins its last repeat "));
+    for (const double distance : {soft, stiff})
+      CHECK((result.warnings[0].words.find(fmt::format("{:.1f} mm with ", 1e3 * distance)) != std::string::npos) == (distance > tolerance));
+  }
+  CHECK(std::max(soft, stiff) > 1.01 * own);  // otherwise no warning was tested
 }
 
 TEST_CASE("other stiffnesses: none where the stiffness is known") {
