@@ -33,9 +33,7 @@ constexpr std::array both_sides{-Variations::reach, Variations::reach};
 
 /// Returns whether a parameter other than friction inside is unknown, and the job has parts whose places depend on it.
 bool is_varied(const pipeline::Job& job, Uncertain parameter) {
-  if (!job.uncertainty.enabled) return false;
-  const std::size_t index = index_of(parameter);
-  if (pipeline::uncertain_parameters()[index].z_of(job.uncertainty.spread[index]) == 0) return false;
+  if (!job.uncertainty.enabled || pipeline::is_known(job.uncertainty, parameter)) return false;
   if (parameter == Uncertain::slack) return any_component(job, has_slack);
   if (parameter == Uncertain::grip) return any_component(job, has_grip);
   return rubs(job.strain.slip.front()) && any_component(job, rubs_on_hose);

@@ -130,6 +130,11 @@ void describe(Fields& f, Uncertainty& uncertainty) {
   }
 }
 
+bool is_known(const Uncertainty& uncertainty, Uncertain parameter) {
+  const std::size_t index = index_of(parameter);
+  return uncertain_parameters()[index].z_of(uncertainty.spread[index]) == 0;
+}
+
 double other_stiffness(const Uncertainty& uncertainty) {
   // standard deviations: 90 % of hoses are in this range. Lives beyond it are extrapolated (sim/measurements.md has the error
   // with 1.25)

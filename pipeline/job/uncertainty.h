@@ -88,6 +88,8 @@ struct Uncertainty {
   static std::array<double, uncertain_count> default_spread();
 };
 void describe(Fields& f, Uncertainty& uncertainty);
+/// Returns whether the job states that it knows a parameter: its spread has no effect.
+bool is_known(const Uncertainty& uncertainty, Uncertain parameter);
 
 /// Joint knowledge about all parameters: a normal distribution of z. It is the prior of a job or the posterior of a calibration.
 struct ParameterKnowledge {

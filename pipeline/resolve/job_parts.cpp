@@ -216,6 +216,10 @@ void describe_strain(Fields& echo, Job copy) {
   double clamped = clamped_length(copy);  // of the cable in a rig
   echo.number("clamped_length_m", clamped, Need::optional, any_number(), "");
   echo.boolean("uncertain", copy.uncertainty.enabled, Need::optional, "");
+  bool known = true;  // dresslife-strain leaves out the variations of these parameters
+  for (const Uncertain parameter : {Uncertain::friction_hose, Uncertain::slack, Uncertain::grip})
+    if (is_known(copy.uncertainty, parameter))
+      echo.boolean("known_" + std::string(uncertain_parameters()[index_of(parameter)].name), known, Need::optional, "");
 }
 
 void describe_fatigue(Fields& echo, Job copy) {

@@ -312,6 +312,14 @@ TEST_CASE("job: joints that follow and external axes") {
   refused(edited(following, "ratio: -1", "ratio: -1, lower_deg: 3"), "unknown key");
 }
 
+TEST_CASE("job: strains depend on whether slack, friction on the hose and grips are known, not on their spreads") {
+  const std::string any = part_text(job_of_text(sample_job), JobPart::strain);
+  for (const std::string key : {"slack", "friction_hose", "grip"}) {
+    CHECK(part_text(job_of_text(sample_job, {"uncertainty." + key + "=1"}), JobPart::strain) != any);
+    CHECK(part_text(job_of_text(sample_job, {"uncertainty." + key + "=1.5"}), JobPart::strain) == any);
+  }
+}
+
 TEST_CASE("job: a sleeve has a material with wear rates, which wires and the hose's wall cannot be of") {
   const auto with = [&](const std::string& keys) {
     return edited(sample_job, "  damping_source: guessed\n", "  damping_source: guessed\n" + keys);
