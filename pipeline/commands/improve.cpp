@@ -54,6 +54,7 @@ FilesAtStart files_of(const Study& study) {
 
 /// Ends a search whose files changed. Its trials so far belong to the old files.
 int end_early(const Improvement& found, const StudyPlaces& places) {
+  remove_trial_files(found, places, false);
   write_stderr(shown(found.ended) + "\n");
   print(shown(unfinished_words(found)));
   print(shown(fmt::format("Trials: {}\n", (places.folder / "improve.csv").string())));
@@ -92,6 +93,8 @@ int judge_the_best(const ImproveOptions& options, const StudyPlaces& places, con
   Finals finals = finals_of(found, options.request, [&](const Study& study) {
     return made_rows(study, places, options, files);
   });
+  remove_trial_files(found, places, false);
+  renew_receipts(finals.study, places, states_of(finals.study, places));  // removed links changed the times of the files
   const bool all_written = write_results(finals.study, places, finals.rows).empty();
   const MountingTolerance tolerance = tolerance_of(options.off_mm, options.off_deg);
   bool written = false;
@@ -135,7 +138,10 @@ int improve_study(ImproveOptions options) {
   const FilesAtStart files = files_of(read_study(options.request.file, options.sets));
   const TrialMakers makers{
       [&](const Study& study) { return made_rows(study, places, quiet, files); },
-      [&](const Improvement& so_far) { show(progress, so_far, options.request.trials); }};
+      [&](const Improvement& so_far) {
+        show(progress, so_far, options.request.trials);
+        remove_trial_files(so_far, places, true);
+      }};
   Improvement found = improve(options.request, places, makers);
   progress.clear();
   write_text_if_changed(places.folder / "improve.csv", improvement_csv(found));

@@ -34,7 +34,7 @@ class Unkept {
  public:
   Unkept(const Study& study, const StudyPlaces& places, const std::vector<JobState>& states)
       : study_(study), places_(places), states_(states) {
-    if (study.keep == Keep::all) return;
+    if (study.keep == Keep::all || !study.removes_unkept) return;
     const std::vector<Makers> makers = makers_of(study, states);
     for (std::size_t k = 0; k < states.size(); ++k) {
       if (!study.jobs[k].failure.empty() || states[k].done()) continue;
@@ -149,7 +149,8 @@ std::vector<RankingRow> made_rows(const Study& study, const StudyPlaces& places,
   share_stages(study, places, states);
   Progress progress(study.name, options.quiet);
   for (std::size_t k = 0; k < states.size(); ++k)
-    if (study.jobs[k].failure.empty()) remove_unkept(states[k], places.job(study.jobs[k].name));
+    if (study.removes_unkept && study.jobs[k].failure.empty())
+      remove_unkept(states[k], places.job(study.jobs[k].name));
   write_build_graph(study, places, states, options.limits, options.launcher);
   if (const std::size_t left = count_left(study, states); left > 0)
     build_rest(study, places, options, left, states, before, progress);

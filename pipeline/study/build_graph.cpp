@@ -541,7 +541,7 @@ void close_run(const Study& study, const StudyPlaces& places, const BuildResult&
        // in a second loop, after all states are known, because removing a hard link changes the times of the other links
        unfinished) {
     const fs::path folder = places.job(study.jobs[k].name);
-    remove_unkept(states[k], folder);
+    if (study.removes_unkept) remove_unkept(states[k], folder);
     if (states[k].done()) continue;
     states[k].failure = reason_of(states[k], folder, result, before);
     write_text_if_changed(folder / failure_file, failure_key(states[k]) + "\n" + states[k].failure + "\n",

@@ -45,6 +45,7 @@ struct Study {
   std::string name;
   std::vector<StudyJob> jobs;  ///< jobs in the order of the file
   Keep keep = Keep::all;
+  bool removes_unkept = true;  ///< false: files that `keep` does not name stay until the caller removes them
   /// "jobs", "table", the keys of vary, "sample"; in the order in which they form the jobs' names
   std::vector<std::string> varied{};
 };

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "pipeline/base/ownership.h"
+
 namespace dresslife::pipeline {
 namespace {
 
@@ -73,6 +75,17 @@ const RankingRow* Finals::worst_row(const Final& one) const {
     if (is_of(row, one.jobs) && row.done() && (!worst || row.headline_hours() < worst->headline_hours()))
       worst = &row;
   return worst;
+}
+
+void remove_trial_files(const Improvement& found, const StudyPlaces& places, bool during_search) {
+  const std::vector<std::size_t> finalists = finalists_of(found);
+  for (std::size_t k = 0; k < found.trials.size(); ++k) {
+    const Trial& trial = found.trials[k];
+    if (during_search && (k == 0 || std::ranges::count(finalists, k) > 0)) continue;
+    for (std::size_t j = 0; j < trial.jobs.size(); ++j)
+      for (std::size_t stage = 0; trial.outcomes[j].failure.empty() && stage < stage_count; ++stage)
+        if (may_lack(found.keep_trials, stage)) remove_ours(places.job(trial.jobs[j]) / files_of_stage(stage).output);
+  }
 }
 
 Finals finals_of(const Improvement& found, const ImproveRequest& request, const MakeRows& make_rows) {

@@ -45,8 +45,12 @@ struct Finals {
   std::pair<Merit, Merit> compared(const Final& candidate) const;
 };
 
-/// Runs the finalists and the original jobs: with two objectives the whole Pareto front, with one objective the best few.
+/// Runs the finalists and the original jobs: with two objectives the whole Pareto front, with one objective the best few. Takes
+/// the motions and strains of their trials.
 Finals finals_of(const Improvement& found, const ImproveRequest& request, const MakeRows& make_rows);
+
+/// Removes the files of trials that the search does not keep. during_search: except those that finals_of() may take.
+void remove_trial_files(const Improvement& found, const StudyPlaces& places, bool during_search);
 
 /// Evaluates the finalists within the mounting tolerance (T1), and the original jobs if they may be better within it. With two
 /// objectives evaluates only the best by merit.

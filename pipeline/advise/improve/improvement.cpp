@@ -315,7 +315,7 @@ class Improver {
 
   std::vector<Trial> tried(const std::vector<std::vector<std::string>>& sets) {
     std::vector<Trial> trials(sets.size());
-    Study study{done_.name, {}, done_.keep_trials};
+    Study study{done_.name, {}, done_.keep_trials, false};  // finals.h removes files
     std::map<std::string, std::pair<std::size_t, std::size_t>> trial_of;  // (job) its trial, and its index among the trial's jobs
     std::map<std::string, std::shared_ptr<const Job>> study_job_of;
     for (std::size_t k = 0; k < sets.size(); ++k) {
