@@ -675,9 +675,21 @@ void doubt_direction(const char* key, const Clamp& clamp, const AddDoubt& add) {
                   unit.x(), unit.y(), unit.z()));
 }
 
+/// Warns of a base clamp on a link beyond that of the tool clamp. The links of a robot are a chain from its base.
+void doubt_order_of_clamps(const Routing& routing, const Robot& robot, const AddDoubt& add) {
+  if (!routing.base_clamp || !routing.tool_clamp) return;
+  const auto link_of = [&](const Clamp& clamp) { return std::ranges::find(robot.links, clamp.link, &Link::name); };
+  const auto base = link_of(*routing.base_clamp), tool = link_of(*routing.tool_clamp);
+  if (base != robot.links.end() && base > tool)
+    add(routing.base_clamp->where,
+        fmt::format("routing.base_clamp is on {}, and routing.tool_clamp on {}, which is nearer to the robot's base", base->name, tool->name),
+        "exchanged clamps, or exchanged links", "exchange base_clamp and tool_clamp, or their links");
+}
+
 void doubt_routing(const Routing& routing, const Dresspack& dresspack, const Robot& robot, int segments,
                    const AddDoubt& add) {
   doubt_mounting(routing, add);
+  doubt_order_of_clamps(routing, robot, add);
   if (const double length = routing.free_length; length > longest_hose)
     add(routing.where, fmt::format("routing.free_length_m is {:.6g} (limit {:g})", length, longest_hose),
         length < shortest_in_mm ? "centimetres instead of metres" : "millimetres instead of metres",

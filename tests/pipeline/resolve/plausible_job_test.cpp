@@ -147,6 +147,24 @@ TEST_CASE("plausible jobs: angles in radians, obstacles without contact, repeats
   }
 }
 
+TEST_CASE("plausible jobs: the base clamp is not on a link beyond that of the tool clamp") {
+  const auto words_of = [](const std::string& base, const std::string& tool) {
+    Job job;
+    for (const char* const name : {"base_link", "link_3", "link_6"}) job.robot.links.emplace_back().name = name;
+    Routing& routing = job.dresspacks[0].routing;
+    routing.free_length = 2;
+    routing.base_clamp.emplace().link = base, routing.tool_clamp.emplace().link = tool;
+    std::string words;
+    for (const Warning& warning : plausibility_of_motion(job))
+      if (warning.words.find("nearer to the robot's base") != std::string::npos) words += warning.words;
+    return words;
+  };
+  CHECK(words_of("link_3", "link_6") == "");
+  CHECK(words_of("link_3", "link_3") == "");
+  CHECK_THAT(words_of("link_6", "link_3"), Catch::Contains("routing.base_clamp is on link_6, and routing.tool_clamp on link_3") &&
+                                               Catch::Contains("exchange base_clamp and tool_clamp"));
+}
+
 TEST_CASE("plausible jobs: a sample rate that misses the swing, a gate that hides cycles") {
   const auto doubts_of = [](double rate, double gate, bool prescribed) {
     Job job;
