@@ -23,9 +23,9 @@ namespace dresslife::fatigue {
 namespace {
 
 using pipeline::Uncertain;
-using Parameters = std::vector<std::size_t>;  // indices of uncertain_parameters(); of_rest alone: another rest of the cables
+using Parameters = std::vector<std::size_t>;  // indices of uncertain_parameters(); starts_parameter alone: another rest of the cables
 
-constexpr std::size_t of_rest = index_of(Uncertain::rest);
+constexpr std::size_t starts_parameter = index_of(Uncertain::rest);
 
 /// Forces of the cables at one variation. Forces do not depend on the friction inside cables.
 struct VariedForces {
@@ -38,7 +38,7 @@ struct VariedForces {
     Parameters changed;
     for (std::size_t p = 0; p < z.size(); ++p)
       if (z[p] != 0) changed.push_back(p);
-    if (changed.empty() && rest > 0) changed.push_back(of_rest);
+    if (changed.empty() && rest > 0) changed.push_back(starts_parameter);
     return changed;
   }
 };
@@ -115,7 +115,7 @@ std::string words_of(const pipeline::Job& job, const VariedForces& at) {
   std::vector<std::string> words;
   for (const std::size_t p : at.parameters()) {
     const pipeline::UncertainParameter& parameter = pipeline::uncertain_parameters()[p];
-    words.push_back(p == of_rest ? "another of the places at which the loose cables come to rest"
+    words.push_back(p == starts_parameter ? "another of the places at which the loose cables come to rest"
                                  : pipeline::value_words(parameter, at.z[p], own_value(job, p)));
   }
   return pipeline::joined(words, " and ");
@@ -164,7 +164,7 @@ class VariedLimit {
     }
     if (!worst) return;
     double share = 0;
-    if (parameters.front() == of_rest)
+    if (parameters.front() == starts_parameter)
       share = share_of_rests(variations);
     else if (parameters.size() == 1)
       share = share_of(parameters.front(), variations);
@@ -259,7 +259,7 @@ pipeline::Warning warning_at(const pipeline::Job& job, const FileCables& cables,
   const Cure cure = cure_at(job, at, cables.facts[cable], cables.force[cable], tension);
   std::string remedy = cure.remedy;
   for (const std::size_t p : cause.parameters)
-    if (p != of_rest) remedy += "; or, " + pipeline::measurement_words(pipeline::uncertain_parameters()[p]);
+    if (p != starts_parameter) remedy += "; or, " + pipeline::measurement_words(pipeline::uncertain_parameters()[p]);
   return pipeline::warning_of(pipeline::WarningKind::other_values, "",
                               fmt::format("with {} {}{}", words_of(job, at), what, share_text(job, limit, all)), cure.cause, remedy);
 }

@@ -114,8 +114,10 @@ std::string first_inspection_words(const RankingRow& row) {
     return fmt::format("The maker's rating of {} covers only {} (10 .. 90 %, not validated): test or replace it by then.", mode->place,
                        range_text(mode->hours[0], mode->hours[2]));
   if (mode->mode == UnvalidatedMode::corkscrew)
-    return fmt::format("Twist may wind {} into a corkscrew in the hose, {}, after {} (not validated): inspect it there.", mode->place,
-                       place, range_text(mode->hours[0], mode->hours[2]));
+    return fmt::format("Twist may wind {} into a corkscrew in the hose, {}, {}: inspect it there.", mode->place, place,
+                       std::isfinite(mode->hours[2])
+                           ? fmt::format("after {} (10 .. 90 %, not validated)", range_text(mode->hours[0], mode->hours[2]))
+                           : fmt::format("in 1 of 10 dresspacks after {}, and in some never (not validated)", hours_text(mode->hours[0])));
   if (mode->mode == UnvalidatedMode::kink)
     return fmt::format("{}, {}. {} Enlarge the bend radius there, or take a tube with a thicker wall.",
                        mode->place == "the hose" ? std::string("The hose may kink") : fmt::format("The {} may kink in the hose", mode->place), place,

@@ -455,10 +455,14 @@ TEST_CASE("ranking: a corkscrew has words and columns, also if none occurs") {
   life.planned_hours = 1e5, life.robot_life_hours = 40000, life.unvalidated = unvalidated_text({coil});
   const auto rows = read_ranking({job_with(scratch, "coiled", life)});
   CHECK_THAT(action_words(rows[0]), Catch::Contains("Twist may wind signal cable 2 into a corkscrew in the hose, 0.40 m from the tool, "
-                                                    "after 300 .. 1,200 h (not validated): inspect it there."));
+                                                    "after 300 .. 1,200 h (10 .. 90 %, not validated): inspect it there."));
   CHECK(line_of(coil).mode == "corkscrew† of signal cable 2");
   CHECK(line_of(coil).hours == std::array<std::string, 3>{"300", "600", "1,200"});
   CHECK(line_of(coil).note == "A repeat leaves 10 degrees of twist.");
+  coil.hours[2] = std::numeric_limits<double>::infinity();
+  life.unvalidated = unvalidated_text({coil});
+  CHECK_THAT(action_words(read_ranking({job_with(scratch, "some", life)})[0]),
+             Catch::Contains("0.40 m from the tool, in 1 of 10 dresspacks after 300 h, and in some never (not validated): inspect it there."));
   const auto table = read_csv(ranking_csv(rows));
   const auto column = std::find(table[0].begin(), table[0].end(), "corkscrew_life_hours_p10");
   REQUIRE(column != table[0].end());
