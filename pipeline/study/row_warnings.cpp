@@ -46,7 +46,7 @@ std::string warning_kinds(const RankingRow& row) {
   std::vector<std::string> words;
   for (int k = 0; k < warning_kinds_count; ++k) {
     const auto kind = static_cast<WarningKind>(k);
-    if (const std::size_t count = count_of(warnings, kind); count > 0)
+    if (const std::size_t count = count_of(warnings, kind); count > 0 && kind != WarningKind::other_values)
       words.push_back(count == 1 ? std::string(title(kind)) : fmt::format("{} x{}", title(kind), count));
   }
   return joined(words, ", ");
@@ -54,16 +54,24 @@ std::string warning_kinds(const RankingRow& row) {
 
 std::string warning_lines(const std::vector<RankingRow>& rows) {
   constexpr std::size_t most_lines = 12;
-  std::size_t count = 0;
+  const char* const places = "in ranking.csv, in the report and in the jobs' logs";
+  std::size_t count = 0, at_other_values = 0;
   std::string text;
   for (const RankingRow& row : rows)
     for (const Warning& warning : warnings_of(row))
-      if (++count <= most_lines) text += line_of(row, warning);
-  if (count <= most_lines) return text;
-  text.clear();
-  for (int k = 0; k < warning_kinds_count; ++k) text += line_of_kind(rows, static_cast<WarningKind>(k));
-  return text +
-         fmt::format("{} warnings in all: in ranking.csv, in the report and in the jobs' logs\n", count);
+      if (warning.kind == WarningKind::other_values)
+        ++at_other_values;
+      else if (++count <= most_lines)
+        text += line_of(row, warning);
+  if (count > most_lines) {
+    text.clear();
+    for (int k = 0; k < warning_kinds_count; ++k) text += line_of_kind(rows, static_cast<WarningKind>(k));
+    return text + fmt::format("{} warnings in all: {}\n", count + at_other_values, places);
+  }
+  // A job's own values keep these limits, so the first warning is enough here.
+  text += line_of_kind(rows, WarningKind::other_values);
+  if (at_other_values > 1) text += fmt::format("{} warnings on limits at other values: {}\n", at_other_values, places);
+  return text;
 }
 
 }  // namespace dresslife::pipeline

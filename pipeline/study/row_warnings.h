@@ -11,11 +11,12 @@ namespace dresslife::pipeline {
 /// Returns the warnings of a row; for an older file without warnings the warning about its forces.
 std::vector<Warning> warnings_of(const RankingRow& row);
 
-/// Returns the kinds of the warnings: "bend radius, program x3"; empty: none, or not known.
+/// Returns the kinds of the warnings: "bend radius, program x3", without limits at other values, which the job's own values keep;
+/// empty: none, or not known.
 std::string warning_kinds(const RankingRow& row);
 
-/// Returns every warning with its job, one per line. For more than a dozen: the first warning of each kind, the number of jobs,
-/// and the file with the other warnings. Empty: none.
+/// Returns every warning with its job, one per line. For more than a dozen, and for limits at other values: the first warning of
+/// each kind, the number of jobs, and the files with the other warnings. Empty: none.
 std::string warning_lines(const std::vector<RankingRow>& rows);
 
 }  // namespace dresslife::pipeline

@@ -936,6 +936,13 @@ TEST_CASE("ranking: warnings are counted, told in full, and each kind says wheth
   CHECK_THAT(warning_lines(two), Catch::StartsWith("2 jobs, skipped instructions: ") && Catch::Contains("\n2 jobs, twist: "));
   two[1].warnings.emplace();
   CHECK_THAT(warning_lines(two), Catch::StartsWith("warned: ") && Catch::Contains("\nwarned: "));
+
+  std::vector<RankingRow> other(2, rows[0]);
+  for (RankingRow& row : other) row.warnings = {{WarningKind::other_values, "", "twist with half the slack"}};
+  CHECK(warning_kinds(other[0]).empty());
+  CHECK(warning_lines(other) ==
+        "2 jobs, limits at other values: warned: warning: twist with half the slack\n"
+        "2 warnings on limits at other values: in ranking.csv, in the report and in the jobs' logs\n");
 }
 
 }  // namespace dresslife::pipeline
