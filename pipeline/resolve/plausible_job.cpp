@@ -619,19 +619,21 @@ std::optional<double> distance_to(const Robot& robot, const std::string& name, c
   return std::isfinite(nearest) ? std::optional(std::max(0.0, nearest)) : std::nullopt;
 }
 
-/// Warns of a clamp that is farther from its link than a bracket or a tool is long.
-void doubt_place(const char* key, const Clamp& clamp, const Routing& routing, const Robot& robot,
+/// Warns of a clamp that is farther from its link than a bracket or a tool is long. radius: of the dresspack; a bracket ends at its
+/// surface.
+void doubt_place(const char* key, const Clamp& clamp, const Routing& routing, double radius, const Robot& robot,
                  const AddDoubt& add) {
   const double bracket = routing.longest_bracket.value_or(0), limit = std::max(longest_tool, bracket);
+  const double near_limit = std::max(near_bracket, bracket) + radius;
   const auto away = distance_to(robot, clamp.link, clamp.position);
   if (!away) return;
   for (const auto& [one, other] : {std::pair{0, 2}, {0, 1}, {1, 2}}) {
     Vector3d exchanged = clamp.position;
     std::swap(exchanged[one], exchanged[other]);
     const double then = *distance_to(robot, clamp.link, exchanged);
-    if (*away <= std::max(near_bracket, bracket) || then > *away / (*away > near_link ? 2 : 4) || then == 0) continue;  // inside of the link
+    if (*away <= near_limit || then > *away / (*away > near_link ? 2 : 4) || then == 0) continue;  // inside of the link
     return add(clamp.where,
-               fmt::format("routing.{}.position_m lies {:.3g} m from all shapes of {} (limit {:g})", key, *away, clamp.link, std::max(near_bracket, bracket)),
+               fmt::format("routing.{}.position_m lies {:.3g} m from all shapes of {} (limit {:.3g})", key, *away, clamp.link, near_limit),
                "exchanged coordinates",
                fmt::format("position_m: [{:g}, {:g}, {:g}] if so, or routing.longest_bracket_mm: {:.0f} if a bracket is so long", exchanged.x(),
                            exchanged.y(), exchanged.z(), std::ceil(1e2 * *away) * 10));
@@ -705,7 +707,7 @@ void doubt_routing(const Routing& routing, const Dresspack& dresspack, const Rob
           fmt::format("position_m: [{:g}, {:g}, {:g}] if those were centimetres", at.x() / 100, at.y() / 100,
                       at.z() / 100));
     } else if (*clamp) {
-      doubt_place(key, **clamp, routing, robot, add);
+      doubt_place(key, **clamp, routing, dresspack.diameter / 2, robot, add);
     }
   }
   if (const double limit = least_bend_radius(dresspack), segment = routing.free_length / segments;
