@@ -22,13 +22,10 @@
 #include "pipeline/base/readable.h"
 #include "pipeline/base/threads.h"
 #include "pipeline/base/warning_words.h"
-#include "pipeline/cable/excess.h"
 #include "pipeline/files/motion_layout.h"
 #include "pipeline/job/job.h"
-#include "pipeline/job/line_key.h"
 #include "pipeline/job/wall_strength.h"
 #include "pipeline/life/planning.h"
-#include "pipeline/resolve/plausible_job.h"
 
 namespace dresslife::fatigue {
 namespace {
@@ -787,16 +784,6 @@ std::vector<pipeline::Warning> beyond_calibration(const Context& c) {
   return warnings;
 }
 
-/// Returns warnings on the descriptions of the dresspacks and on settings, independent of the motion. They belong to this stage,
-/// because it runs again if a key of any stage changes; in the file of an earlier stage they would become outdated.
-std::vector<pipeline::Warning> description_warnings(const pipeline::Job& job) {
-  std::vector<pipeline::Warning> all = pipeline::plausibility_of_lives(job);
-  for (std::size_t d = 0; d < job.dresspacks.size(); ++d)
-    all = pipeline::joined(std::move(all), pipeline::construction_warnings_at(line_key(job, d, "dresspack"), job.dresspacks[d].dresspack,
-                                                                              slides(job.strain.slip.front())));
-  return all;
-}
-
 std::vector<pipeline::Warning> warnings_of(const Context& c, const std::vector<DamagingCycle>& worst_cycles) {
   std::map<std::string, pipeline::Warning> contradictions;  // sorted, without duplicates
   for (const std::string& name : c.sites.material().values) {
@@ -871,7 +858,7 @@ Notes write_life(const FileReader& strain, const pipeline::Job& job, FileWriter&
   write_causes(c, cycles, write_worst_strain(c));
   const std::string summary = write_worst(c, cycles, p10_repeats);
   const CableForces forces = write_cable_forces(strain, job, life);
-  return {pipeline::joined(description_warnings(c.job), pipeline::joined(forces.warnings, warnings_of(c, cycles))), summary + write_unvalidated(c, first.log10_life, forces.tension)};
+  return {pipeline::joined(forces.warnings, warnings_of(c, cycles)), summary + write_unvalidated(c, first.log10_life, forces.tension)};
 }
 
 }  // namespace dresslife::fatigue
