@@ -50,10 +50,12 @@ std::vector<T> row_of(const pipeline::FileReader& file, const std::string& name,
   return values;
 }
 
-std::vector<VariedForces> read_forces(const pipeline::FileReader& strain) {
+/// Errors: InputError for a sample or a cable that the file does not have.
+std::vector<VariedForces> read_forces(const pipeline::FileReader& strain, std::size_t cables) {
   std::vector<VariedForces> all;
   if (!strain.has("/variation/tension")) return all;
   const std::vector<VariedStrains> varied = read_variation_points(strain);
+  const std::size_t samples = strain.rows("/time");
   for (std::size_t v = 0; v < varied.size(); ++v) {
     if (varied[v].inside != pipeline::Inside::as_is || varied[v].z[index_of(Uncertain::friction_inside)] != 0) continue;
     VariedForces& of = all.emplace_back();
@@ -65,6 +67,11 @@ std::vector<VariedForces> read_forces(const pipeline::FileReader& strain) {
     of.moment = row_of<double>(strain, "/variation/clamp_moment", v);
     of.moment_place = row_of<std::uint32_t>(strain, "/variation/clamp_moment_place", v);
     of.moment_tension = row_of<double>(strain, "/variation/clamp_moment_tension", v);
+    bool known = std::ranges::all_of(of.sample, [&](std::uint32_t sample) { return sample < samples; });
+    for (std::size_t k = 0; k < of.moment_place.size(); ++k) known = known && of.moment_place[k] < (k % 2 == 0 ? samples : cables);
+    if (!known)
+      throw pipeline::InputError(strain.where(), fmt::format("/variation/tension_sample or clamp_moment_place of variation {} has a sample or a cable that is not in the file", v + 1),
+                                 "make the file again with dresslife-strain");
   }
   return all;
 }
@@ -116,7 +123,7 @@ std::string words_of(const pipeline::Job& job, const VariedForces& at) {
   for (const std::size_t p : at.parameters()) {
     const pipeline::UncertainParameter& parameter = pipeline::uncertain_parameters()[p];
     words.push_back(p == starts_parameter ? "another of the places at which the loose cables come to rest"
-                                 : pipeline::value_words(parameter, at.z[p], own_value(job, p)));
+                                          : pipeline::value_words(parameter, at.z[p], own_value(job, p)));
   }
   return pipeline::joined(words, " and ");
 }
@@ -214,13 +221,13 @@ class VariedLimit {
 std::string share_text(const pipeline::Job& job, const VariedLimit& limit, const std::vector<VariedForces>& all) {
   std::vector<std::string> others;
   for (std::size_t k = 1; k < limit.causes().size(); ++k)
-    others.push_back(fmt::format("{} with {}", pipeline::share_words(limit.causes()[k].share), words_of(job, all[limit.causes()[k].at])));
+    others.push_back(fmt::format("{} with {}", pipeline::percent_words(limit.causes()[k].share), words_of(job, all[limit.causes()[k].at])));
   return fmt::format(
       "; about {} of such dresspacks exceed this limit{}, by straight lines between the computed values and the distribution of the "
       "uncertain parameters; with the job's own values none does",
-      pipeline::share_words(limit.share()),
+      pipeline::percent_words(limit.share()),
       others.empty() ? ""
-                     : fmt::format(" ({} by this parameter, {})", pipeline::share_words(limit.causes().front().share),
+                     : fmt::format(" ({} by this parameter, {})", pipeline::percent_words(limit.causes().front().share),
                                    pipeline::joined(others, ", ")));
 }
 
@@ -274,7 +281,7 @@ std::vector<pipeline::Warning> varied_force_warnings(const pipeline::FileReader&
                                                      const FileCables& cables, const ForceShares& own) {
   std::vector<pipeline::Warning> warnings;
   if (!job.uncertainty.enabled) return warnings;
-  const std::vector<VariedForces> all = read_forces(strain);
+  const std::vector<VariedForces> all = read_forces(strain, cables.force.size());
   const auto loads_by = [&](Load (*load)(const VariedForces&, const FileCables&)) {
     std::vector<Load> loads;
     for (const VariedForces& at : all) loads.push_back(load(at, cables));

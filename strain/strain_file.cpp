@@ -16,6 +16,7 @@
 #include "pipeline/cable/stiffness.h"
 #include "pipeline/job/job.h"
 #include "pipeline/job/line_key.h"
+#include "pipeline/resolve/plausible_job.h"
 #include "strain/evaluation.h"
 #include "strain/motion_reader.h"
 #include "strain/passage.h"
@@ -465,13 +466,6 @@ std::vector<Warning> evening_warnings(const std::vector<std::unique_ptr<Evaluati
   return all;
 }
 
-/// Refuses a dresspack whose parts lie in each other. dresslife-fatigue writes the warnings.
-void check_descriptions(const pipeline::Job& job) {
-  for (std::size_t d = 0; d < job.dresspacks.size(); ++d)
-    static_cast<void>(pipeline::construction_warnings_at(line_key(job, d, "dresspack"), job.dresspacks[d].dresspack,
-                                                         slides(job.strain.slip.front())));
-}
-
 /// Writes the moment of a cable by itself, from the curvature of a hanging cable to that of a wire around a finger.
 void write_bending(FileWriter& file, const pipeline::Job& job) {
   const pipeline::Dresspack& dresspack = job.dresspacks.front().dresspack;
@@ -643,7 +637,7 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
   places.add(passage, evaluations.size(), evaluations);
   variations.find_bent();
   variations.add(starts);
-  check_descriptions(job);
+  static_cast<void>(pipeline::warnings_of_descriptions(job));  // for its errors; dresslife-fatigue writes the warnings
   const std::vector<Warning> warnings =
       pipeline::joined(evening_warnings(evaluations), write_cables(strain, job, evaluations));
   write_bending(strain, job);

@@ -48,9 +48,8 @@ std::string value_words(const UncertainParameter& parameter, double z, double ow
   return fmt::format("{:.3g} times {} ({}: {:.3g})", by, parameter.cause, parameter.key, own * by);
 }
 
-std::string share_words(double share) {
-  return share < least_share_beyond ? fmt::format("less than {:.0f} %", 100 * least_share_beyond)
-                                    : fmt::format("{:.0f} %", 100 * share);
+std::string percent_words(double share) {
+  return fmt::format("{:.0f} %", 100 * share);
 }
 
 std::string measurement_words(const UncertainParameter& parameter) {

@@ -24,8 +24,8 @@ double share_beyond(std::vector<LoadNode> nodes, double mean, double deviation);
 inline constexpr double least_share_beyond = 0.01;
 /// Returns "2.83 times the friction of the cables on their hose (strain.hose_friction_factor: 2.83)". own: the job's value of the key.
 std::string value_words(const UncertainParameter& parameter, double z, double own);
-/// Returns "19 %", or "less than 1 %".
-std::string share_words(double share);
+/// Returns "19 %".
+std::string percent_words(double share);
 
 /// Returns a remedy by knowledge: the measurement, and the spread of the parameter after it.
 std::string measurement_words(const UncertainParameter& parameter);

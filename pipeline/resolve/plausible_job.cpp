@@ -12,6 +12,8 @@
 #include "pipeline/base/constants.h"
 #include "pipeline/base/warning_words.h"
 #include "pipeline/cable/bend_limit.h"
+#include "pipeline/cable/excess.h"
+#include "pipeline/job/line_key.h"
 #include "pipeline/resolve/radians.h"
 #include "pipeline/settings/fields.h"
 
@@ -924,6 +926,14 @@ std::vector<Warning> plausibility_of_lives(const Job& job) {
                    "per cent instead of a share",
                    fmt::format("strain.gate: {:g} if that was per cent, or no key", job.strain.gate / 100)));
   return warnings;
+}
+
+std::vector<Warning> warnings_of_descriptions(const Job& job) {
+  std::vector<Warning> all;
+  for (std::size_t d = 0; d < job.dresspacks.size(); ++d)
+    all = joined(std::move(all), construction_warnings_at(line_key(job, d, "dresspack"), job.dresspacks[d].dresspack,
+                                                          slides(job.strain.slip.front())));
+  return all;
 }
 
 std::vector<Warning> plausibility_of_motion(const Job& job) {

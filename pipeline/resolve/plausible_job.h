@@ -15,6 +15,9 @@ std::vector<Warning> plausibility_of_motion(const Job& job);
 /// that drops cycles which break wires. dresslife-fatigue makes these checks, because it runs again if a key of any stage changes.
 std::vector<Warning> plausibility_of_lives(const Job& job);
 
+/// Returns construction_warnings_at() (pipeline/cable/excess.h) of all dresspacks. Errors: InputError if parts lie in each other.
+std::vector<Warning> warnings_of_descriptions(const Job& job);
+
 /// Checks for: a motion in which no axis moves; joint angles that are all radians; single targets in radians or in metres; times
 /// in milliseconds; speeds that are shares or in another unit; dwells in milliseconds. Returns one warning per kind, at its first
 /// step, with the number of further ones.

@@ -110,7 +110,7 @@ Warning beyond_warning(const pipeline::Job& job, const OtherRun& at, const Check
       fmt::format("with {} {}; about {} of such dresspacks exceed this limit, by straight lines between the computed values and the "
                   "prior of the stiffness; with the job's own stiffness none does",
                   pipeline::value_words(stiffness(), at.z, job.simulation.stiffness_factor), check_words(motion, broken),
-                  pipeline::share_words(share)),
+                  pipeline::percent_words(share)),
       cure.cause, cure.remedy);
 }
 

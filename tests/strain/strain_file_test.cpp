@@ -649,7 +649,7 @@ TEST_CASE("a force that exceeds its limit only with another slack causes a warni
   CHECK_THAT(between, Catch::Contains("times the excess length of the cables in the hose (strain.slack_factor: ") &&
                           Catch::Contains("'cable 1' is pulled with ") && Catch::Contains(" N (limit 20 %), over its whole length, at ") &&
                           Catch::Contains(fmt::format("about {} of such dresspacks exceed this limit",
-                                                      pipeline::share_words(pipeline::share_beyond(nodes, 0, 1)))) &&
+                                                      pipeline::percent_words(pipeline::share_beyond(nodes, 0, 1)))) &&
                           Catch::Contains("Likely cause: ") && Catch::Contains("Remedy: dresspack.components.1.slack_percent: ") &&
                           Catch::Contains("uncertainty.slack: 1.16: The length of each cable measured"));
   CHECK_THAT(warnings_with_limit(2 * std::abs(most)), !Catch::Contains("breaking force"));

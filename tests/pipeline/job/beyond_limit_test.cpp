@@ -23,8 +23,7 @@ TEST_CASE("values of uncertain parameters are named with factor, meaning, key an
   const auto& friction = uncertain_parameters()[index_of(Uncertain::friction_hose)];
   CHECK(value_words(friction, 1.5, 1) == "2.83 times the friction of the cables on their hose (strain.hose_friction_factor: 2.83)");
   CHECK(value_words(friction, -1, 3) == "0.5 times the friction of the cables on their hose (strain.hose_friction_factor: 1.5)");
-  CHECK(share_words(0.004) == "less than 1 %");
-  CHECK(share_words(0.184) == "18 %");
+  CHECK(percent_words(0.184) == "18 %");
   CHECK(measurement_words(friction) ==
         "if the following confirms the job's value, uncertainty.friction_hose: 1.22: One cable pulled through its hose with a spring "
         "scale (one hour)");
