@@ -83,6 +83,8 @@ struct StrainFile {
   double room = 0;              // of each cable [m]; 0: no table
   double twist = 0;             // of all segments at the last sample, with linear rise [rad/m]
   std::vector<double> hose_moment;  // (span) at the last sample, as the strains
+  double varied_force = 0;          // of each cable at another friction on the hose [N]; 0: no variation
+  std::uint32_t varied_sample = 40;
   double curvature = 0;        // about d1 at sample 20 and, in the other direction, 60; otherwise 0 [1/m]
   double curvature_d2 = 0;     // with curvature about d1, of the first segment alone, at sample 20 [1/m]
   std::vector<Rubbed> rubbed;  // by link_4, 5 mm long, in one sector of 5 degrees; empty: no table
@@ -204,6 +206,19 @@ void write_strain(const std::filesystem::path& path, const StrainFile& f) {
     }
     file.append("/cable/strain", std::span<const double>(strains));
     file.append("/cable_span/hose_moment", std::span<const double>(moments));
+    if (f.varied_force != 0) {
+      file.append("/variation/z", std::vector<double>{0, 1.5, 0, 0, 0});
+      file.append("/variation/row/variation", std::vector<std::uint32_t>{0});
+      file.append("/variation/row/site", std::vector<std::uint32_t>{0});
+      file.append("/variation/row/turning", std::vector<std::uint32_t>{4});
+      file.append("/variation/strain", std::vector<float>{0, 0.004f, -0.004f, 0});
+      file.append("/variation/tension", std::vector<double>(f.cables.size(), f.varied_force));
+      file.append("/variation/tension_sample", std::vector<std::uint32_t>(f.cables.size(), f.varied_sample));
+      file.append("/variation/tension_place", std::vector<double>(f.cables.size(), 0.25));
+      file.append("/variation/clamp_moment", std::vector<double>(2 * f.hose_moment.size(), 0));
+      file.append("/variation/clamp_moment_place", std::vector<std::uint32_t>(2 * f.hose_moment.size(), 0));
+      file.append("/variation/clamp_moment_tension", std::vector<double>(f.hose_moment.size(), 0));
+    }
   }
   file.attribute("job", "made by a test");
   file.attribute("history", "");
@@ -400,7 +415,23 @@ TEST_CASE("life.h5: forces of the cables by span, and the span where they ask mo
     CHECK(warns(in_first ? "'cable 2' presses most" : "'cable 3' pulls most") ==
           (life.number_attribute("clamp_moment_share") > pipeline::believable_share));
   }
-  f.cables[1].span = 2;
+  const auto of_others = [&] {
+    std::string words;
+    for (const pipeline::Warning& warning : run(folder, f, job).notes.warnings)
+      if (warning.kind == pipeline::WarningKind::other_values) words += warning.line();
+    return words;
+  };
+  for (StrainFile::Cable& cable : f.cables) cable.strain = {};
+  job.uncertainty.enabled = true;
+  f.varied_force = 0.9 * pipeline::believable_share * force.strength();
+  CHECK(of_others() == "");
+  f.varied_force = 0.5 * force.strength();
+  CHECK_THAT(of_others(), Catch::Contains("with 2.83 times the friction of the cables on their hose (strain.hose_friction_factor: 2.83) "
+                                          "'cable 1' is pulled with 50 % of its breaking force") &&
+                              Catch::Contains(", 0.25 m from the base clamp, "));
+  f.varied_sample = samples;
+  CHECK_THROWS_WITH(of_others(), Catch::Contains("/variation/tension_sample or clamp_moment_place of variation 1"));
+  f.varied_sample = 40, f.cables[1].span = 2;
   CHECK_THROWS_AS(run(folder, f, job), pipeline::InputError);
 }
 
