@@ -103,7 +103,7 @@ TEST_CASE("other stiffnesses: a bend radius that only the softer hose breaks is 
   CHECK_THAT(between.warnings[0].words,
              Catch::Contains("with 0.397 times the stiffness of the hose (simulation.stiffness_factor: 0.397)") &&
                  Catch::Contains(fmt::format("smallest bend radius: {:.1f} mm (limit {:.1f} mm)", 1e3 * soft, 1e3 * limit)) &&
-                 Catch::Contains(fmt::format("about {} of such dresspacks exceed this limit", pipeline::share_words(share))) &&
+                 Catch::Contains(fmt::format("about {} of such dresspacks exceed this limit", pipeline::percent_words(share))) &&
                  Catch::Contains("from the base clamp") && Catch::Contains("Likely cause: ") && Catch::Contains("Remedy: ") &&
                  Catch::Contains("uncertainty.hose_stiffness: 1.16"));
   limit = 1.05 * own;  // the job's own run breaks it and has its own warning
