@@ -69,9 +69,7 @@ constexpr double heaviest_filling =
 constexpr double least_grams = 50;  // [kg/m]: a larger number is in g/m; a smaller one may be the mass of a whole dresspack
 constexpr double lightest_part =
     50;  // [kg/m3] over the cross-section of a part without wires: foam; an air hose of 8/5.5 mm has 630
-// Bore / outer diameter: tubes for air and water have 0.5 (4 x 2 mm) to 0.8 (16 x 13 mm), hydraulic hoses with two steel braids
-// 0.43. A tube of 10 x 8 mm has 0.40 if a radius is given instead of the diameter.
-constexpr double narrowest_bore = 0.42, widest_bore = 0.92, usual_bore = 0.45;
+constexpr double usual_bore = 0.45;
 // In units of a usual jacket, 1 mm + 0.035 bundle diameters (pipeline/resolve/cable_rules.h): two sheaths with a screen between
 // them have 1.9.
 constexpr double thickest_jacket = 2, jacket_base = 1e-3, jacket_slope = 0.035;

@@ -63,7 +63,8 @@ std::vector<Warning> warnings_of_prescribed(const std::filesystem::path& file,
 
 JobCheck check_of(const std::filesystem::path& file, const std::vector<std::string>& sets,
                   const std::filesystem::path& preview_file) {
-  const Job job = read_job(file, sets);
+  Node document;
+  const Job job = read_job(file, sets, document);
   JobCheck check;
   for (std::size_t d = 0; d < job.dresspacks.size(); ++d) {
     const Dresspack& dresspack = job.dresspacks[d].dresspack;
@@ -82,7 +83,7 @@ JobCheck check_of(const std::filesystem::path& file, const std::vector<std::stri
       check.estimates.push_back(estimate_line(name_among(job, d), estimates));
   if (job.motion.is_prescribed()) {
     check.limits = "Not checked: strains and forces of the cables. A run may also warn of them.";
-    check.warnings = joined(std::move(check.warnings), warnings_of_prescribed(file, sets));
+    check.warnings = located(joined(std::move(check.warnings), warnings_of_prescribed(file, sets)), document);
     return check;
   }
   check.limits =
@@ -91,7 +92,7 @@ JobCheck check_of(const std::filesystem::path& file, const std::vector<std::stri
   try {
     check.refusal = refusal_of(preview_file);
     const FileReader preview(preview_file, preview_format(), FileReader::Scope::attributes);
-    check.warnings = joined(std::move(check.warnings), warnings_from(preview.text_attribute("warnings")));
+    check.warnings = located(joined(std::move(check.warnings), warnings_from(preview.text_attribute("warnings"))), document);
     for (std::string& words : length_words(preview_file)) check.notes.push_back(std::move(words));
     std::istringstream notes(preview.text_attribute("notes"));
     for (std::string note; std::getline(notes, note);) {

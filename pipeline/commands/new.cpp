@@ -287,11 +287,11 @@ std::string text_of(const NewOptions& options, const Draft& draft, const Choice&
       job);
   if (!accelerations.empty())
     text += fmt::format(
-        "# FILL IN beside urdf: accelerations_deg_per_s2: [{0} numbers] (those of config/robots have {1})\n"
-        "# If you do not know them, an ESTIMATE: the speeds of the URDF times the accelerations over the speeds of config/robots:\n"
-        "# robot: {{urdf: {2}, accelerations_deg_per_s2: [{3:g}]}}\n"
-        "robot: {{urdf: {2}}}\n",
-        accelerations.size(), shipped_accelerations, entry(options.robot), fmt::join(accelerations, ", "));
+        "# A URDF has no accelerations. These are an ESTIMATE: its speeds times the accelerations over the speeds of config/robots "
+        "(which\n"
+        "# have {0}). Replace them by those of your robot's data sheet or controller.\n"
+        "robot: {{urdf: {1}, accelerations_deg_per_s2: [{2:g}]}}\n",
+        shipped_accelerations, entry(options.robot), fmt::join(accelerations, ", "));
   else
     text += commented("robot", entry(options.robot), "a name of config/robots, or {urdf: FILE}");
   if (draft.exercise)
@@ -351,7 +351,7 @@ int make(NewOptions options) {
   for (const std::string& estimate : choice.estimates) print(shown(estimate + "\n"));
   if (options.dresspack_is_example)
     print(fmt::format("Its dresspack {} is an example for a large robot: name yours.\n", default_dresspack));
-  if (!accelerations.empty()) print("Fill in the accelerations of its axes. The job holds a proposal.\n");
+  if (!accelerations.empty()) print("ESTIMATE: the accelerations of its axes. Replace them by those of your robot.\n");
   if (draft.exercise) print("Fill in its motion.\n");
   if (choice.refused)
     print(shown(fmt::format("Fill in its clamps, or let dresslife route {} search: no routing that was tried runs. {}\n", options.job,

@@ -41,7 +41,7 @@ void describe(Fields& f, MotionStep& step) {
                  "The highest speed of the tool's rotation on a path.");
   f.maybe_number("duration_s", step.duration, above(0),
                  "The duration of the whole move, instead of a speed.");
-  f.maybe_number("acceleration_percent", step.acceleration_percent, between(1, 150),
+  f.maybe_number("acceleration_percent", step.acceleration_percent, between(0.1, 150),
                  "The acceleration of this move. It multiplies the one of the program.");
   f.maybe_number("jerk_percent", step.jerk_percent, between(1, 100),
                  "The rate at which the acceleration of this move builds up, as the second argument of "

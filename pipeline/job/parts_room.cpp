@@ -72,6 +72,16 @@ std::string wider_bore(const Dresspack& dresspack, double radius) {
 
 std::string thickness(const Component& part) { return fmt::format("'{}' ({:.4g} mm)", part.name, 2e3 * part.radius); }
 
+/// Returns "radius_mm: 4 of 'air hose' if 8 is its outer diameter; or " for a hose whose bore is too narrow for its width, but
+/// not for half of it; else an empty text.
+std::string half_of(const Component& part) {
+  const double bore = part.plain ? part.plain->bore.value_or(0) : 0;  // diameter
+  return bore > 0 && bore < narrowest_bore * 2 * part.radius && bore < widest_bore * part.radius
+             ? fmt::format("give radius_mm: {:.4g} of '{}' if {:.4g} is its outer diameter; or ", 5e2 * part.radius, part.name,
+                           1e3 * part.radius)
+             : "";
+}
+
 /// Returns the conflict if `other` does not fit beside `middle`, which lies in the middle of the bore or must lie there.
 std::optional<Crowd> crowd_around(const Dresspack& dresspack, double bore, const Component& middle, const Component& other) {
   const double gap = bore - middle.radius;
@@ -83,11 +93,13 @@ std::optional<Crowd> crowd_around(const Dresspack& dresspack, double bore, const
       2e3 * bore, beside ? " as they lie" : fmt::format("; a part wider than {:.4g} mm lies in the middle here", 1e3 * bore), middle.name,
       1e3 * gap);
   const std::string together = "place: auto for both instead of helix_radius_mm and phase_deg";
-  return Crowd{middle.where, what,
-               beside ? "write " + together
-                      : fmt::format("take a hose with {} and {}, or beside '{}' only parts of {:.3g} mm and less",
-                                    wider_bore(dresspack, (1 + touching) * std::min(middle.radius + 2 * other.radius, 2 * thickest)), together,
-                                    middle.name, 1e3 * gap)};
+  return Crowd{
+      middle.where, what,
+      half_of(middle) + half_of(other) +
+          (beside ? "write " + together
+                  : fmt::format("take a hose with {} and {}, or beside '{}' only parts of {:.3g} mm and less",
+                                wider_bore(dresspack, (1 + touching) * std::min(middle.radius + 2 * other.radius, 2 * thickest)),
+                                together, middle.name, 1e3 * gap))};
 }
 
 }  // namespace
@@ -97,10 +109,10 @@ std::optional<Crowd> crowd_in(const Dresspack& dresspack) {
   if (!inner_radius(dresspack) || room.estimated || !(room.bore > 0) || room.core >= room.bore) return std::nullopt;
   for (const Component& part : dresspack.components)
     if (part.radius > room.bore)
-      return Crowd{part.where,
-                   fmt::format("'{}' is {:.4g} mm thick (the hose is {:.4g} mm wide inside)", part.name, 2e3 * part.radius,
-                               2e3 * room.bore),
-                   fmt::format("check the diameters of both, or take a hose with {}", wider_bore(dresspack, part.radius))};
+      return Crowd{
+          part.where,
+          fmt::format("'{}' is {:.4g} mm thick (the hose is {:.4g} mm wide inside)", part.name, 2e3 * part.radius, 2e3 * room.bore),
+          half_of(part) + fmt::format("check the diameters of both, or take a hose with {}", wider_bore(dresspack, part.radius))};
   const auto too_thick = [](const Component& part, double gap) { return 2 * part.radius * (1 - caliper_error) > gap; };
   if (room.core > 0) {
     for (const Component& part : dresspack.components)

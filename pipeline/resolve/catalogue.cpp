@@ -351,6 +351,17 @@ Node catalogue_entry(const std::string& folder, const std::string& name, const W
   for (const fs::path& place : folders_beside(folder, named_at, job))
     if (const fs::path file = found_in(place); !file.empty()) return read_document(file);
   if (const fs::path file = found_in(shipped_catalogue() / folder); !file.empty()) return read_document(file);
+  const fs::path beside_it = fs::path(beside).concat(".yaml");
+  if (is_file(beside_it))
+    throw InputError(named_at, fmt::format("'{}' is not in the catalogue (config/{})", name, folder),
+                     fmt::format("write '{}.yaml' for the file beside the job", name));
+  if (fs::is_directory(beside, failure)) {
+    const std::vector<fs::path> inside = entries_of(beside);
+    const auto file = std::ranges::find(inside, ".yaml", [](const fs::path& entry) { return entry.extension().string(); });
+    throw InputError(
+        named_at, fmt::format("'{}' is a folder", name),
+        fmt::format("name a file in it, such as '{}/{}'", name, file == inside.end() ? "NAME.yaml" : file->filename().string()));
+  }
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
   const std::string near = nearest_entry(name, names);

@@ -61,6 +61,15 @@ double fullness(const CoreRing& outer, double diameter) {
 
 double lay_angle_at(double radius, double lay_length) { return std::atan(2 * pi * radius / lay_length); }
 
+/// Returns "give a longer lay, or 68.2 mm if 12 is the lay angle in degrees".
+std::string longer_lay(double radius, double lay_length) {
+  constexpr double least = 5, most = 45;  // [deg] of cores in cables
+  const double number = 1e3 * lay_length;
+  return number >= least && number <= most ? fmt::format("give a longer lay, or {:.3g} mm if {:.4g} is the lay angle in degrees",
+                                                         1e3 * 2 * pi * radius / std::tan(number * pi / 180), number)
+                                           : "give a longer lay";
+}
+
 /// Widens a ring until its parts fit beside each other with their lay.
 void widen(CoreRing& ring, double diameter, double lay_length, const Where& where) {
   ring.lay_angle = lay_angle_at(ring.radius, lay_length);
@@ -72,18 +81,17 @@ void widen(CoreRing& ring, double diameter, double lay_length, const Where& wher
     const double largest = std::tan(steepest) * lay_length / (2 * pi);
     if (largest <= ring.radius || !fits(largest))
       throw InputError(where,
-                       fmt::format("{} parts of {:.4g} mm do not lie beside each other on a lay of {:.4g} mm",
-                                   ring.count, 1e3 * diameter, 1e3 * lay_length),
-                       "give a longer lay");
+                       fmt::format("{} parts of {:.4g} mm do not lie beside each other on a lay of {:.4g} mm", ring.count,
+                                   1e3 * diameter, 1e3 * lay_length),
+                       longer_lay(ring.radius, lay_length));
     ring.radius = halved(ring.radius, largest, 50, [&](double radius) { return !fits(radius); }).high;
     ring.lay_angle = lay_angle_at(ring.radius, lay_length);
   }
   if (ring.lay_angle > steepest)
-    throw InputError(
-        where,
-        fmt::format("a lay of {:.4g} mm winds parts {:.4g} mm off the axis by {:.0f} deg (at most 60)",
-                    1e3 * lay_length, 1e3 * ring.radius, ring.lay_angle * 180 / pi),
-        "give a longer lay");
+    throw InputError(where,
+                     fmt::format("a lay of {:.4g} mm winds parts {:.4g} mm off the axis by {:.0f} deg (at most 60)",
+                                 1e3 * lay_length, 1e3 * ring.radius, ring.lay_angle * 180 / pi),
+                     longer_lay(ring.radius, lay_length));
 }
 
 /// Builds the layers of a sheet, from the wire outwards.
@@ -296,12 +304,11 @@ class Expansion {
 
   void check_conductor() const {
     if (conductor_ > core_diameter_ * (1 + touching))
-      throw InputError(
-          sheet_.where,
-          fmt::format("{} wires of {:.4g} mm are a conductor {:.4g} mm wide (the core has {:.4g} mm)",
-                      wire_count(), 1e3 * wire_, 1e3 * conductor_, 1e3 * core_diameter_),
-          (fitting_gauge().empty() ? fitting_diameter() : fitting_gauge()) +
-              "check cross_section_mm2, of one core, the jacket's thickness and the diameters");
+      throw InputError(sheet_.where,
+                       fmt::format("{} wires of {:.4g} mm are a conductor {:.4g} mm wide (the core has {:.4g} mm)", wire_count(),
+                                   1e3 * wire_, 1e3 * conductor_, 1e3 * core_diameter_),
+                       (fitting_gauge().empty() ? fitting_section() + fitting_diameter() : fitting_gauge()) +
+                           "check cross_section_mm2, of one core, the jacket's thickness and the diameters");
     if (core_diameter_ < conductor_ + 2 * thinnest_insulation)
       throw InputError(
           sheet_.where,
@@ -358,6 +365,16 @@ class Expansion {
                ? fmt::format("give cross_section_mm2: {:.3g} if {:g} is a wire gauge (AWG); ",
                              square_mm_of_awg(number), number)
                : "";
+  }
+
+  /// Returns "give cross_section_mm2: 0.25 if a decimal point was lost; " if a tenth or a hundredth of the section fits the core;
+  /// otherwise an empty text.
+  std::string fitting_section() const {
+    for (const double share : {0.1, 0.01})
+      if (const double conductor = conductor_ * std::sqrt(share);
+          conductor < core_diameter_ && core_diameter_ <= thickest_insulation * conductor)
+        return fmt::format("give cross_section_mm2: {:.4g} if a decimal point was lost; ", 1e6 * share * sheet_.cross_section);
+    return "";
   }
 
   /// Returns the largest diameter of a core in this width. The bundle's width increases with it, almost in proportion.
@@ -585,6 +602,13 @@ std::vector<std::pair<const char*, std::string>> keys_of_phrase(const std::strin
   if (meant.empty() && std::regex_match(phrase, found, two_kinds))
     meant = fmt::format("a data sheet has one kind of cores: write '{} mm2' alone, or describe the cable by its components",
                         std::string(found[1]).substr(0, found[1].str().find(" mm")));
+  static const std::regex angle(R"((?:(pair|group|wire) )?lay angle *:? *([\d.]+) *(?:deg(?:rees?)?|°)?)");
+  if (meant.empty() && std::regex_match(phrase, found, angle))
+    meant = fmt::format(
+        "write '{0}lay length LENGTH mm' with the circumference of the layer's middle over the tangent of the angle, or '{0}lay "
+        "length {1} mm' "
+        "if that was the length",
+        found[1].matched ? found[1].str() + " " : "", found[2].str());
   const std::string other = other_key(phrase);
   throw InputError(
       where, fmt::format("'{}' of a data sheet is not understood", phrase),

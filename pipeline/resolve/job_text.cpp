@@ -43,9 +43,8 @@ void check_forms(Node& document, Problems& problems) {
   std::erase_if(document.entries, [](const Entry& e) { return e.key == "dresspack" || e.key == "routing"; });
 }
 
-}  // namespace
-
-Job job_from(Node document, const std::vector<std::string>& sets) {
+/// Reads a job. Resolves the names in the document.
+Job resolved_job(Node& document, const std::vector<std::string>& sets) {
   if (!document.is_map())
     throw InputError(document.where, "holds no job", "write robot, motion, dresspack, routing");
   if (!document.find("robot") && !document.find("motion")) refuse_other_kind(document, DocumentKind::job);
@@ -75,8 +74,17 @@ Job job_from(Node document, const std::vector<std::string>& sets) {
   return job;
 }
 
+}  // namespace
+
+Job job_from(Node document, const std::vector<std::string>& sets) { return resolved_job(document, sets); }
+
 Job read_job(const std::filesystem::path& file, const std::vector<std::string>& sets) {
   return job_from(read_document(file), sets);
+}
+
+Job read_job(const std::filesystem::path& file, const std::vector<std::string>& sets, Node& document) {
+  document = read_document(file);
+  return resolved_job(document, sets);
 }
 
 Setup setup_from(Node document) { return job_from(std::move(document)); }

@@ -19,6 +19,8 @@ struct Setup;
 /// Reads a job: looks up its catalogue entries, applies `--set key.path=value` in their order, and checks everything that can be
 /// checked without a run. Errors: InputError.
 Job read_job(const std::filesystem::path& file, const std::vector<std::string>& sets = {});
+/// document: receives the job with its names resolved, for the places of keys.
+Job read_job(const std::filesystem::path& file, const std::vector<std::string>& sets, Node& document);
 
 /// Reads a job from a tree: that of a study, or of the `job` attribute of a file.
 Job job_from(Node document, const std::vector<std::string>& sets = {});

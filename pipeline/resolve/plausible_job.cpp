@@ -8,6 +8,7 @@
 #include <functional>
 #include <numbers>
 #include <optional>
+#include <regex>
 
 #include "pipeline/base/constants.h"
 #include "pipeline/base/warning_words.h"
@@ -33,6 +34,8 @@ constexpr double least_metres = 0.05e-3, most_metres = 5e-3, far_place = 0.05;  
 constexpr double least_step = 0.02e-3, most_step = 1e-3;  // [m]
 constexpr double least_percent = 1;    // a hundredth of an axis' speed: no program of a plant is so slow
 constexpr double fastest_tool = 10;     // [m/s]: the fastest controllers allow 5 to 7
+constexpr double fastest_of_kuka = 3;   // [m/s]: $VEL_MA.CP in the machine data of KUKA's robots; $VEL.CP must not exceed it
+constexpr double surely_millimetres = 50;  // [m/s]: a tenth of smaller numbers is a speed of robots
 constexpr double longest_dwell = 100;  // [s]: cycles of production lines are shorter
 
 constexpr double largest_step = 10e-3;  // [s]: the largest step that an automatic choice takes; larger ones were not tried
@@ -90,15 +93,15 @@ constexpr double longest_stroke = 5, largest_pull = 2000, stiffest_spring = 1e4,
 struct Doubted {
   const MotionStep* first = nullptr;
   int more = 0;
-  void add(const MotionStep& step) {
+  Where line = {};  ///< of the first step, or of what gives it the doubted value
+  void add(const MotionStep& step, const Where& of = {}) {
     if (first)
       ++more;
     else
-      first = &step;
+      first = &step, line = of.line > 0 ? of : step.where;
   }
   Warning warning(const std::string& what, const std::string& cause, const std::string& remedy) const {
-    return warning_of(WarningKind::motion, first->where.text(), what + (more ? fmt::format(" (and {} more)", more) : ""),
-                      cause, remedy);
+    return warning_of(WarningKind::motion, line.text(), what + (more ? fmt::format(" (and {} more)", more) : ""), cause, remedy);
   }
 };
 
@@ -116,15 +119,17 @@ struct Seen {
   bool only_timed = true;    ///< all moves are joint moves, and all except the first have durations
 };
 
+double fastest_tool_of(const MotionStep& step) { return step.where.file.ends_with(".src") ? fastest_of_kuka : fastest_tool; }
+
 void add_steps(const std::vector<MotionStep>& steps, Seen& seen) {
   for (const MotionStep& step : steps) {
     add_steps(step.steps, seen);
-    if (step.speed_percent && *step.speed_percent < least_percent) seen.slow.add(step);
-    if (step.acceleration_percent.value_or(100) <= least_percent) seen.lazy.add(step);
+    if (step.speed_percent && *step.speed_percent < least_percent) seen.slow.add(step, step.speed_where);
+    if (step.acceleration_percent.value_or(100) <= least_percent) seen.lazy.add(step, step.acceleration_where);
     if (step.tool_zone.value_or(0) > widest_path_zone) seen.wide.add(step);
-    if (step.tool_speed.value_or(0) > fastest_tool) seen.fast.add(step);
+    if (step.tool_speed.value_or(0) > fastest_tool_of(step)) seen.fast.add(step, step.speed_where);
     if (step.repeat > most_repeats) seen.repeats.add(step);
-    if (step.tool_speed.value_or(1) < slowest_tool) seen.creeping.add(step);
+    if (step.tool_speed.value_or(1) < slowest_tool) seen.creeping.add(step, step.speed_where);
     if (step.speed.value_or(1) < slowest_move) seen.turning.add(step);
     if (step.dwell > longest_dwell) seen.waits.add(step);
     seen.moves += step.is_move();
@@ -166,6 +171,40 @@ std::ptrdiff_t nonzero(const std::vector<double>& numbers) {
   return std::ranges::count_if(numbers, [](double x) { return x != 0; });
 }
 
+/// Warns of one axis of one target in radians: at all other targets the axis is far from 0 on the same side, and the number in
+/// radians lies near to them.
+void doubt_single_axes(const std::vector<const MotionStep*>& joints, std::vector<Warning>& warnings) {
+  constexpr std::size_t fewest = 3;           // other targets: two are no pattern
+  constexpr double neighbours = 30 * degree;  // ESTIMATE: from the angles of the axis at other targets
+  for (std::size_t k = 0; !joints.empty() && k < joints.front()->joints.size(); ++k) {
+    const MotionStep* odd = nullptr;  // may be the target of several moves
+    std::vector<double> others;
+    bool one = true;
+    for (const MotionStep* step : joints) {
+      const double angle = k < step->joints.size() ? step->joints[k] : 0;
+      if (std::abs(angle) >= wide_targets)
+        others.push_back(angle);
+      else if (!odd)
+        odd = step;
+      else
+        one &= odd->joints[k] == angle;
+    }
+    if (!odd || !one || others.size() < fewest) continue;
+    const double number = odd->joints[k] / degree;  // also the angle that was meant [rad]
+    if (std::abs(number) <= small_turn || std::abs(number) > half_turn || std::abs(std::remainder(number, 0.5)) < 1e-9 ||
+        largest_of(odd->joints) / degree <= half_turn)
+      continue;
+    const auto [low, high] = std::ranges::minmax(others);
+    if (low * number < 0 || high * number < 0 || number < low - neighbours || number > high + neighbours) continue;
+    warnings.push_back(warning_of(
+        WarningKind::motion, odd->where.text(),
+        fmt::format("axis {} of this target is at {:.4g} deg (limit: at the other targets it is at {:.4g} .. {:.4g} deg)", k + 1,
+                    number, low / degree, high / degree),
+        "radians instead of degrees in one number",
+        fmt::format("{:.4g} if that was radians; leave it if the axis moves so far here", number / degree)));
+  }
+}
+
 /// Warns of few targets in radians among others in degrees, and of few positions in metres among others in millimetres.
 void doubt_single_targets(const std::vector<MotionStep>& steps, std::vector<Warning>& warnings) {
   std::vector<const MotionStep*> joints, places;
@@ -192,6 +231,7 @@ void doubt_single_targets(const std::vector<MotionStep>& steps, std::vector<Warn
         fmt::format("[{}] if those were radians; leave it if the robot's pose is this near to its zero pose",
                     fmt::join(meant, ", "))));
   }
+  doubt_single_axes(joints, warnings);
   std::vector<double> reaches;
   for (const MotionStep* step : places) reaches.push_back(largest_of(step->position));
   if (reaches.empty()) return;
@@ -280,13 +320,17 @@ std::vector<Warning> plausibility_of_steps(const Motion& motion) {
         fmt::format("{}{:g}{} if that was a share", key("speed_percent: ", "", *step), 100 * *step->speed_percent, key("", " %", *step))));
   if (const MotionStep* step = seen.fast.first)
     warnings.push_back(seen.fast.warning(
-        fmt::format("the tool's speed is {:g} m/s (limit {:g} or less)", *step->tool_speed, fastest_tool),
-        "a speed in another unit, such as mm/s instead of m/s",
-        fmt::format("{:g} m/s if that was mm/s, in the program's unit", 1e-3 * *step->tool_speed)));
+        fmt::format("the tool's speed is {:g} m/s (limit {:g} or less)", *step->tool_speed, fastest_tool_of(*step)),
+        *step->tool_speed < surely_millimetres ? "a slip of the decimal point"
+                                               : "a speed in another unit, such as mm/s instead of m/s",
+        *step->tool_speed < surely_millimetres
+            ? fmt::format("{:g} m/s if the decimal point slipped, in the program's unit", 0.1 * *step->tool_speed)
+            : fmt::format("{:g} m/s if that was mm/s, in the program's unit", 1e-3 * *step->tool_speed)));
   if (const MotionStep* step = seen.lazy.first)
     warnings.push_back(seen.lazy.warning(
         fmt::format("the acceleration is {:g} % (limit more than {:g})", *step->acceleration_percent, least_percent),
-        "a share instead of a percentage", "the acceleration in per cent: 80 instead of 0.8"));
+        "a share instead of a percentage",
+        fmt::format("the acceleration in per cent: {:g} if that was a share", 100 * *step->acceleration_percent)));
   if (const MotionStep* step = seen.wide.first)
     warnings.push_back(seen.wide.warning(
         fmt::format("the zone is {:g} mm (limit {:g} or less)", 1e3 * *step->tool_zone, 1e3 * widest_path_zone),
@@ -500,6 +544,39 @@ void doubt_quick(const std::vector<const Joint*>& driven, const AddDoubt& add) {
                   has_list(first) ? fmt::format("[{}]", fmt::join(numbers, ", ")) : fmt::format("{}", fmt::join(numbers, ", "))));
 }
 
+/// Warns of an acceleration with which one axis takes much more or less time to its full speed than the axes beside it. Makers
+/// choose drives and gears in proportion: on the measured IRB 6640 these times differ by a factor of 2.1 in the arm and of 1.1 in
+/// the wrist.
+void doubt_digits(const std::vector<const Joint*>& driven, const AddDoubt& add) {
+  constexpr double most_apart = 3;  // a lost or extra digit is a factor of 10, mostly 5 and more beyond its neighbours
+  constexpr std::size_t arm = 3, axes = 6;
+  if (driven.size() != axes) return;
+  const auto ramp = [](const Joint& of) { return of.speed / of.acceleration; };
+  for (const Joint* joint : driven)
+    if (!(joint->acceleration > 0) || !(ramp(*joint) >= shortest_ramp) || ramp(*joint) > longest_ramp) return;
+  for (std::size_t k = 0; k < axes; ++k) {
+    const std::size_t begin = k / arm * arm;
+    const Joint &joint = *driven[k], &one = *driven[begin + (k + 1) % arm], &other = *driven[begin + (k + 2) % arm];
+    const auto [low, high] = std::minmax({ramp(one), ramp(other)});
+    const bool slow = ramp(joint) > most_apart * high;
+    if (high > most_apart * low || (!slow && ramp(joint) >= low / most_apart)) continue;
+    const double number = joint.acceleration / degree, ten_times = slow ? 10 * number : number / 10;
+    const double like_beside = 10 * std::round(joint.speed / std::sqrt(low * high) / degree / 10);
+    std::vector<std::string> numbers;
+    for (const Joint* of : driven) numbers.push_back(fmt::format("{:.5g}", of == &joint ? ten_times : of->acceleration / degree));
+    const bool list = has_list(joint);
+    add(joint.acceleration_where,
+        fmt::format("{} takes {:.3g} s from rest to its full speed by acceleration_deg_per_s2 {:.5g}, the axes beside it {:.3g} "
+                    "and {:.3g} s (limit: {:g} times as much or as little)",
+                    joint.name, ramp(joint), number, ramp(one), ramp(other), most_apart),
+        slow ? "a missing or exchanged digit" : "an extra or exchanged digit",
+        fmt::format("{}: {} if a digit is {}; about {:g} is in proportion to the axes beside it",
+                    list ? "accelerations_deg_per_s2" : "acceleration_deg_per_s2",
+                    list ? fmt::format("[{}]", fmt::join(numbers, ", ")) : fmt::format("{:.5g}", ten_times),
+                    slow ? "missing" : "too many", like_beside));
+  }
+}
+
 void doubt_robot(const Robot& robot, const AddDoubt& add) {
   if (const double far = robot.base_position.norm(); far > farthest)
     add({}, fmt::format("robot.base_position_m lies {:.4g} m from the origin (limit {:g})", far, farthest),
@@ -513,6 +590,7 @@ void doubt_robot(const Robot& robot, const AddDoubt& add) {
   doubt_ranges(driven, add);
   doubt_order(driven, add);
   doubt_quick(driven, add);
+  doubt_digits(driven, add);
   for (const Joint* joint : driven) doubt_speed(*joint, add);
   const auto ramps = [](const Joint* joint) {
     return joint->speed >= slowest_axis && joint->speed <= fastest_axis && joint->acceleration > 0;
@@ -621,6 +699,49 @@ std::optional<double> distance_to(const Robot& robot, const std::string& name, c
   return std::isfinite(nearest) ? std::optional(std::max(0.0, nearest)) : std::nullopt;
 }
 
+/// Returns those of the two links beside `name` in the chain to whose shapes the point in their frame is nearer than `most` [m]:
+/// "link_1 or link_3"; empty: none.
+std::string links_beside(const Robot& robot, const std::string& name, const Vector3d& point, double most) {
+  std::vector<std::string> names;
+  const auto at = std::ranges::find(robot.links, name, &Link::name);
+  for (auto other = at == robot.links.begin() ? at : at - 1; other != robot.links.end() && other <= at + 1; ++other)
+    if (other != at && distance_to(robot, other->name, point).value_or(most) < most) names.push_back(other->name);
+  return fmt::format("{}", fmt::join(names, " or "));
+}
+
+/// Warns of a clamp on the last link that lies far behind the flange, while the same numbers in the frame of the flange are before
+/// it. A bracket that reaches back half of the way to the centre of the wrist is in the way of axis 5.
+void doubt_flange_frame(const char* key, const Clamp& clamp, const Robot& robot, const AddDoubt& add) {
+  constexpr double least = 0.05;  // [m]: brackets of the tool reach back so far
+  if (robot.links.empty() || clamp.link != robot.links.back().name || robot.joints.empty()) return;
+  const Eigen::Quaterniond flange = from_roll_pitch_yaw(robot.flange_orientation);
+  const double behind = -(flange.conjugate() * (clamp.position - robot.flange_position)).z();
+  const double wrist = robot.flange_position.norm() + robot.joints.back().origin.norm();
+  if (behind <= std::max(least, wrist / 2) || clamp.position.z() < 0) return;
+  const Vector3d meant = robot.flange_position + flange * clamp.position, to = flange * clamp.direction;
+  add(clamp.where,
+      fmt::format("routing.{}.position_m lies {:.3g} m behind the flange (limit {:.3g}, half of the way to the wrist's centre)",
+                  key, behind, std::max(least, wrist / 2)),
+      "a place in the frame of the flange (tool0) instead of that of " + clamp.link,
+      fmt::format("position_m: [{:.4g}, {:.4g}, {:.4g}] and direction: [{:.3g}, {:.3g}, {:.3g}] if so; leave it if the bracket "
+                  "reaches back so far",
+                  meant.x(), meant.y(), meant.z(), to.x(), to.y(), to.z()));
+}
+
+/// Warns of a clamp at the origin of its link's frame, on the axis of a joint. At a flange it may be a hose through the tool.
+bool doubt_origin(const char* key, const Clamp& clamp, const Robot& robot, const AddDoubt& add) {
+  const bool at_flange = !robot.links.empty() && clamp.link == robot.links.back().name && robot.flange_position.isZero();
+  if (!clamp.position.isZero() || at_flange) return false;
+  add(clamp.where,
+      fmt::format("routing.{}.position_m is [0, 0, 0], the origin of {}: inside of the robot, on the axis of a joint", key,
+                  clamp.link),
+      "a place that was not filled in",
+      fmt::format("routing.{}.position_m of the bracket, in metres in the frame of {}: dresslife preview shows it by a "
+                  "click on the link",
+                  key, clamp.link));
+  return true;
+}
+
 /// Warns of a clamp that is farther from its link than a bracket or a tool is long. radius: of the dresspack; a bracket ends at its
 /// surface.
 void doubt_place(const char* key, const Clamp& clamp, const Routing& routing, double radius, const Robot& robot,
@@ -628,19 +749,25 @@ void doubt_place(const char* key, const Clamp& clamp, const Routing& routing, do
   const double bracket = routing.longest_bracket.value_or(0), limit = std::max(longest_tool, bracket);
   const double near_limit = std::max(near_bracket, bracket) + radius;
   const auto away = distance_to(robot, clamp.link, clamp.position);
-  if (!away) return;
+  if (!away || doubt_origin(key, clamp, robot, add)) return;
+  doubt_flange_frame(key, clamp, robot, add);
+  const bool on_tool = clamp.link == robot.links.back().name;
+  const std::string beside = on_tool || *away <= near_link ? "" : links_beside(robot, clamp.link, clamp.position, near_limit);
   for (const auto& [one, other] : {std::pair{0, 2}, {0, 1}, {1, 2}}) {
     Vector3d exchanged = clamp.position;
     std::swap(exchanged[one], exchanged[other]);
     const double then = *distance_to(robot, clamp.link, exchanged);
     if (*away <= near_limit || then > *away / (*away > near_link ? 2 : 4) || then == 0) continue;  // inside of the link
-    return add(clamp.where,
-               fmt::format("routing.{}.position_m lies {:.3g} m from all shapes of {} (limit {:.3g})", key, *away, clamp.link, near_limit),
-               "exchanged coordinates",
-               fmt::format("position_m: [{:g}, {:g}, {:g}] if so, or routing.longest_bracket_mm: {:.0f} if a bracket is so long", exchanged.x(),
-                           exchanged.y(), exchanged.z(), std::ceil(1e2 * *away) * 10));
+    return add(
+        clamp.where,
+        fmt::format("routing.{}.position_m lies {:.3g} m from all shapes of {} (limit {:.3g})", key, *away, clamp.link, near_limit),
+        beside.empty() ? "exchanged coordinates" : fmt::format("a place on {}, or exchanged coordinates", beside),
+        (beside.empty() ? "" : fmt::format("link: {} if it is there; ", beside)) +
+            fmt::format("position_m: [{:g}, {:g}, {:g}] if coordinates are exchanged, or routing.longest_bracket_mm: {:.0f} if a "
+                        "bracket is so long",
+                        exchanged.x(), exchanged.y(), exchanged.z(), std::ceil(1e2 * *away) * 10));
   }
-  if (*away <= limit) return;
+  if (*away <= limit && (beside.empty() || *away <= bracket)) return;
   // Tries wrong decimal points in one, then two, then three numbers: the first combination near to the link is proposed.
   Vector3d best = clamp.position;
   double nearest = *away;
@@ -650,20 +777,18 @@ void doubt_place(const char* key, const Clamp& clamp, const Routing& routing, do
       if (which & (1 << i)) other[i] /= 10;
     if (nearest > near_link) best = other, nearest = *distance_to(robot, clamp.link, other);
   }
-  const bool on_tool = clamp.link == robot.links.back().name;
   add(clamp.where,
-      fmt::format(
-          "routing.{}.position_m lies {:.3g} m from all shapes of {} (limit {:g}): the clamp is in the air",
-          key, *away, clamp.link, limit),
-      "a decimal point at another place, another link or a place in another frame",
-      (nearest <= near_link ? fmt::format("position_m: [{:g}, {:g}, {:g}] if a decimal point slipped; ",
-                                          best.x(), best.y(), best.z())
-                            : std::string("position_m in the frame of the link; ")) +
-          (on_tool ? fmt::format(
-                         "or the shape of the tool as robot.links.{}.boxes, if it is clamped to a large tool",
-                         robot.links.size())
-                   : fmt::format("or routing.longest_bracket_mm: {:.0f} if a bracket is so long",
-                                 std::ceil(1e2 * *away) * 10)));
+      fmt::format("routing.{}.position_m lies {:.3g} m from all shapes of {} (limit {:g}): the clamp is in the air", key, *away,
+                  clamp.link, std::min(limit, *away <= limit ? near_limit : limit)),
+      beside.empty() ? "a decimal point at another place, another link or a place in another frame"
+                     : fmt::format("a place on {}", beside),
+      (beside.empty() ? "" : fmt::format("link: {} if it is there; ", beside)) +
+          (nearest <= near_link
+               ? fmt::format("position_m: [{:g}, {:g}, {:g}] if a decimal point slipped; ", best.x(), best.y(), best.z())
+               : std::string("position_m in the frame of the link; ")) +
+          (on_tool ? fmt::format("or the shape of the tool as robot.links.{}.boxes, if it is clamped to a large tool",
+                                 robot.links.size())
+                   : fmt::format("or routing.longest_bracket_mm: {:.0f} if a bracket is so long", std::ceil(1e2 * *away) * 10)));
 }
 
 /// Warns of angles about the axes, in the form of controllers, instead of a direction.
@@ -684,10 +809,17 @@ void doubt_order_of_clamps(const Routing& routing, const Robot& robot, const Add
   if (!routing.base_clamp || !routing.tool_clamp) return;
   const auto link_of = [&](const Clamp& clamp) { return std::ranges::find(robot.links, clamp.link, &Link::name); };
   const auto base = link_of(*routing.base_clamp), tool = link_of(*routing.tool_clamp);
-  if (base != robot.links.end() && base > tool)
-    add(routing.base_clamp->where,
-        fmt::format("routing.base_clamp is on {}, and routing.tool_clamp on {}, which is nearer to the robot's base", base->name, tool->name),
-        "exchanged clamps, or exchanged links", "exchange base_clamp and tool_clamp, or their links");
+  if (base == robot.links.end() || base <= tool) return;
+  const auto away = [&](const Link& link, const Clamp& clamp) { return distance_to(robot, link.name, clamp.position).value_or(0); };
+  const bool links = away(*tool, *routing.base_clamp) + away(*base, *routing.tool_clamp) <
+                     away(*base, *routing.base_clamp) + away(*tool, *routing.tool_clamp);
+  add(routing.base_clamp->where,
+      fmt::format("routing.base_clamp is on {}, and routing.tool_clamp on {}, which is nearer to the robot's base", base->name,
+                  tool->name),
+      exchanged_clamps,
+      links ? fmt::format("routing.base_clamp.link: {} and routing.tool_clamp.link: {}: then both places are nearer to their links",
+                          tool->name, base->name)
+            : std::string("exchange base_clamp and tool_clamp"));
 }
 
 void doubt_routing(const Routing& routing, const Dresspack& dresspack, const Robot& robot, int segments,
@@ -925,6 +1057,33 @@ std::vector<Warning> plausibility_of_lives(const Job& job) {
                                job.strain.gate, largest_gate),
                    "per cent instead of a share",
                    fmt::format("strain.gate: {:g} if that was per cent, or no key", job.strain.gate / 100)));
+  return warnings;
+}
+
+std::vector<Warning> located(std::vector<Warning> warnings, const Node& document) {
+  static const std::regex key_words(R"([a-z_]+((\.|\[)[A-Za-z0-9_]+\]?)+)");
+  for (Warning& warning : warnings) {
+    std::smatch found;
+    const std::string problem = warning.words.substr(0, warning.words.find(". Likely cause: "));
+    if (!warning.where.empty() || !std::regex_search(problem, found, key_words)) continue;
+    const Node* node = &document;
+    bool whole = true;
+    const std::string path = found.str();
+    for (std::size_t begin = 0; whole && begin < path.size();) {
+      const std::size_t end = std::min(path.find_first_of(".[]", begin), path.size());
+      const std::string part = path.substr(begin, end - begin);
+      begin = end + 1 + (path.substr(end, 2) == "].");
+      const Node* next = node->is_map() ? node->find(part) : nullptr;
+      if (const std::size_t item = node->is_list() ? std::strtoul(part.c_str(), nullptr, 10) : 0;
+          item > 0 && item <= node->items.size())
+        next = &node->items[item - 1];
+      if (next)
+        node = next;
+      else
+        whole = false;
+    }
+    if (whole) warning.where = node->where.text();
+  }
   return warnings;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "pipeline/base/joined.h"
 #include "pipeline/base/text.h"
@@ -55,6 +56,21 @@ std::string gauge_words(const std::string& text, Fields::Key key) {
                                                : std::nullopt;
   return gauge ? fmt::format("write {:.4g} for AWG {:g}; ", square_mm_of_awg(*gauge), *gauge) : "";
 }
+
+/// A word that data sheets and other programs use for what a key gives.
+struct OtherWord {
+  std::string_view word, key;
+  double factor;  ///< of the value; 0: the value follows from other numbers, too
+};
+constexpr OtherWord other_words[] = {{"hose_bore_mm", "inner_diameter_mm", 1},
+                                     {"bore_mm", "inner_diameter_mm", 1},
+                                     {"bore_diameter_mm", "inner_diameter_mm", 1},
+                                     {"outer_diameter_mm", "diameter_mm", 1},
+                                     {"diameter_mm", "radius_mm", 0.5},
+                                     {"outer_diameter_mm", "radius_mm", 0.5},
+                                     {"helix_diameter_mm", "helix_radius_mm", 0.5},
+                                     {"lay_length_mm", "lay_angle_deg", 0},
+                                     {"lay_angle_deg", "lay_length_mm", 0}};
 
 std::string unit_note(Fields::Key key) {
   const Unit& unit = unit_of_key(key);
@@ -347,6 +363,21 @@ class FieldReader final : public Fields {
       if (const std::string converted = value ? converted_text(unknown.key, *value, known) : "";
           !converted.empty()) {
         remedy = fmt::format("its unit is {}, write '{}'", unit_of_key(known).name, converted);
+        return known;
+      }
+    for (const OtherWord& other : other_words)
+      if (const std::string known(other.key);
+          other.word == unknown.key && std::find(level.known.begin(), level.known.end(), known) != level.known.end()) {
+        const Node* const radius = level.map->find("helix_radius_mm");
+        const std::optional<double> helix = radius ? parse_number(radius->text) : std::nullopt;
+        remedy = fmt::format("did you mean '{}'?", known);
+        if (value && other.factor > 0)
+          remedy += fmt::format(" Then write '{}: {:.4g}'", known, *value * other.factor);
+        else if (value && helix && *value > 0 && known == "lay_angle_deg")  // the helix unrolled is a triangle
+          remedy += fmt::format(" A lay length of {:g} mm is '{}: {:.3g}' at this helix_radius_mm", *value, known,
+                                std::atan(2 * std::numbers::pi * *helix / *value) * 180 / std::numbers::pi);
+        else if (other.factor == 0)
+          remedy += " The tangent of the lay angle is the circumference of the layer's middle over the lay length";
         return known;
       }
     for (const std::string& known : level.known) {

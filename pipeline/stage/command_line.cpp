@@ -129,6 +129,11 @@ std::string meant_option(const Command& program, int argc, char** argv) {
     if (!option) continue;
     const bool is_flag = std::holds_alternative<bool*>(option->target);
     if (is_flag && number_in(argv[k])) return fmt::format("'{}' takes no number ({}); leave out '{}'\n", argv[k - 1], option->meaning, argv[k]);
+    const std::string word = argv[k], next = k + 1 < argc ? argv[k + 1] : "";
+    if (option->value.find('=') != std::string::npos && !next.empty() &&
+        (word.ends_with('=') || (word.find('=') == std::string::npos && next[0] == '=')))
+      return fmt::format("'{}' needs {} without spaces: write {}{}\n", argv[k - 1], option->value, word + next,
+                         next == "=" && k + 2 < argc ? argv[k + 2] : "");
     if (!is_flag && option_named(command, argv[k])) return fmt::format("'{}' needs {} before '{}'\n", argv[k - 1], option->value, argv[k]);
   }
   return "";

@@ -68,6 +68,10 @@ pipeline::MotionStep step_of(const Instruction& instruction, const Program& prog
   pipeline::MotionStep step;
   step.text = step_text(instruction);
   step.where = instruction.where;
+  for (const Origin& origin : instruction.origins) {
+    if (std::string_view(origin.part) == "speed") step.speed_where = origin.where;
+    if (std::string_view(origin.part) == "acceleration") step.acceleration_where = origin.where;
+  }
   if (instruction.kind == Instruction::Kind::dwell) {
     step.dwell = instruction.dwell;
     return step;

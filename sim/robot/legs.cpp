@@ -57,9 +57,10 @@ class Layout {
     number(motion_.steps, "");
     for (const auto& [axis, fault] : beyond_)
       problems_.add(fault.where,
-                    fault.targets == 1 ? fault.worst.what
-                                       : fmt::format("{}, the farthest of {} targets outside of its limits", fault.worst.what, fault.targets),
-                    fault.worst.remedy);
+                    fault.targets == 1
+                        ? fault.worst.what
+                        : fmt::format("{}, the farthest of {} targets outside of its limits", fault.worst.what, fault.targets),
+                    fault.targets == 1 ? fault.worst.remedy : fault.worst.remedy + ", or name the robot of the program");
     throw_if_any();
     int first = 0;
     expand(motion_.steps, first);
@@ -166,9 +167,10 @@ class Layout {
   bool refuse(const MotionStep& step, int line, const std::string& reason, const std::string& of = "", double excess = 0) {
     const bool lacks = step.external_axes.size() > axes_.size() - robot_.axes();
     const std::string remedy =
-        lacks ? "check target, tool, work object and configuration; the step also names external axes that "
-                "robot.external_axes does not have: without them the robot's base is elsewhere"
-              : "check target, tool, work object, configuration and the place of the robot's base";
+        lacks
+            ? "check target, tool, work object and configuration; the step also names external axes that "
+              "robot.external_axes does not have: without them the robot's base is elsewhere"
+            : "check target, tool, work object, configuration and the place of the robot's base; or name the robot of the program";
     const std::string& group = of.empty() ? reason : of;
     const auto same = std::find_if(refused_.begin(), refused_.end(), [&](const Refused& other) {
       return other.group == group && other.remedy == remedy;

@@ -125,6 +125,40 @@ struct TooFast {
   const pipeline::MotionStep* worst = nullptr;
 };
 
+void add_places(const std::vector<pipeline::MotionStep>& steps, const pipeline::Motion& motion, std::vector<Vector3>& places) {
+  for (const pipeline::MotionStep& step : steps) {
+    add_places(step.steps, motion, places);
+    if (step.position.size() != 3) continue;
+    const Vector3 at(step.position[0], step.position[1], step.position[2]);
+    const auto object = std::ranges::find(motion.work_objects, step.work_object, &pipeline::MotionFrame::name);
+    if (object == motion.work_objects.end()) {
+      places.push_back(at);
+      continue;
+    }
+    const auto& q = object->quaternion;
+    places.push_back(object->position + Quaternion(q[0], q[1], q[2], q[3]).normalized() * at);
+  }
+}
+
+/// Returns a warning for a program whose positions all lie in the robot's foot: in centimetres they are at most a tenth of its
+/// reach from its base.
+std::vector<pipeline::Warning> in_the_foot(const pipeline::Motion& motion, const pipeline::Robot& robot) {
+  std::vector<Vector3> places;
+  add_places(motion.steps, motion, places);
+  const bool tools_stand = std::ranges::any_of(motion.tools, &pipeline::MotionFrame::stationary);
+  double reach = robot.flange_position.norm(), farthest = 0;
+  for (std::size_t k = 1; k < robot.joints.size(); ++k) reach += robot.joints[k].origin.norm();
+  for (const Vector3& place : places) farthest = std::max(farthest, place.norm());
+  constexpr double of_reach = 0.1;
+  if (places.size() < 2 || tools_stand || !robot.external_axes.empty() || farthest > of_reach * reach) return {};
+  return {pipeline::warning_of(pipeline::WarningKind::motion, motion.where.text(),
+                               fmt::format("all positions of the program lie within {:.3g} mm of the origin of the robot's base "
+                                           "(limit {:.3g} mm: a tenth of its reach)",
+                                           1e3 * farthest, 1e3 * of_reach * reach),
+                               "centimetres instead of millimetres, or work objects that are not given",
+                               "positions in millimetres, 10 times these numbers if those were centimetres")};
+}
+
 /// before: the previous step; null: none. time: begin of the steps [s]. Returns the time at their end.
 double add_too_fast(const std::vector<pipeline::MotionStep>& steps, const std::vector<Axis>& axes,
                     const pipeline::MotionStep*& before, double time, TooFast& found) {
@@ -229,7 +263,9 @@ JointMotion motion_in_time(const RunMotion& run, const pipeline::Setup& setup) {
     return {run.motion, setup.robot};
   } catch (const pipeline::InputError& error) {
     std::string words = error.what();
-    const auto doubts = pipeline::joined(other_maker(setup.motion, setup.robot), pipeline::plausibility_of_steps(run.motion));
+    const auto doubts =
+        pipeline::joined(pipeline::joined(other_maker(setup.motion, setup.robot), in_the_foot(run.motion, setup.robot)),
+                         pipeline::plausibility_of_steps(run.motion));
     if (doubts.empty()) throw;
     for (const pipeline::Warning& doubt : doubts) words += "\n" + doubt.line();
     throw pipeline::InputError(words);
@@ -251,9 +287,9 @@ RobotPath::RobotPath(const pipeline::Setup& setup, const RunMotion& run)
       doubts_(pipeline::joined(
           pipeline::joined(
               pipeline::joined(run.motion.left_out, missing_external_axes(run.motion, setup.robot)),
-              pipeline::joined(other_maker(setup.motion, setup.robot), too_fast(run.motion, setup.robot))),
-          setup.motion.program.empty() ? std::vector<pipeline::Warning>{}
-                                       : pipeline::plausibility_of_steps(run.motion))),
+              pipeline::joined(pipeline::joined(other_maker(setup.motion, setup.robot), in_the_foot(run.motion, setup.robot)),
+                               too_fast(run.motion, setup.robot))),
+          setup.motion.program.empty() ? std::vector<pipeline::Warning>{} : pipeline::plausibility_of_steps(run.motion))),
       note_(note_of(run, motion_.duration())),
       tools_(tool_points(run.motion)) {
   hold_joint(setup);

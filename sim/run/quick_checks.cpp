@@ -12,6 +12,7 @@
 #include "pipeline/base/warning_words.h"
 #include "pipeline/files/check_names.h"
 #include "pipeline/job/setup.h"
+#include "pipeline/resolve/plausible_job.h"
 #include "sim/robot/loops.h"
 #include "sim/run/cures.h"
 #include "sim/run/equilibrium.h"
@@ -63,6 +64,17 @@ class QuickChecks {
     QuickFindings found;
     add_slack(found.checks);
     if (robot_) found.others = robot_->doubts();
+    const std::vector<pipeline::Warning> one_link = one_link_warnings(setup_);
+    found.others = pipeline::joined(one_link, found.others);
+    if (std::ranges::any_of(
+            found.others,
+            [](const pipeline::Warning& other) { return other.words.find(pipeline::exchanged_clamps) != std::string::npos; }) ||
+        (!one_link.empty() && std::ranges::any_of(found.checks, [](const Check& check) { return check.warning; }))) {
+      found.checks.clear();
+      found.notes.push_back(
+          "The short run of the checks was left out. Correct the links of the clamps first: the other limits follow from them");
+      return found;
+    }
     if (std::ranges::any_of(found.checks, [](const Check& check) { return check.name == check_name::too_long && check.value > 2 * check.limit; })) {
       found.notes.push_back("The short run of the checks was left out, because the hose is far too long. Correct the length first");
       return found;
@@ -75,7 +87,7 @@ class QuickChecks {
                                         "or the dresspack touches much. `dresslife run` checks all of it",
                                         *found.run.stopped_at, path_->duration()));
     add_winding(found.others);
-    found.others = pipeline::joined(std::move(found.others), one_link_warnings(setup_));
+    add_zero_pose(found.notes);
     return found;
   }
 
@@ -407,15 +419,24 @@ class QuickChecks {
     const Eigen::VectorXd start = robot_->motion().position(0), mounting = robot_->mounting_pose();
     for (std::size_t axis = 0; axis < setup_.robot.joints.size() && static_cast<long>(axis) < start.size(); ++axis) {
       const double turn = start[static_cast<long>(axis)] - mounting[static_cast<long>(axis)];
-      if (std::abs(turn) <= 180 * degree) continue;
+      if (std::abs(turn) < 179.99 * degree) continue;  // half a turn that is rounded
       all.push_back(pipeline::warning_of(
           WarningKind::twist, "",
-          fmt::format("{} turns by {:.0f} deg (limit 180 deg) from routing.mounting_pose_deg to the first target of the program",
-                      setup_.robot.joints[axis].name, turn / degree),
+          fmt::format(
+              "{} turns by {:.0f} deg (limit less than 180 deg) from routing.mounting_pose_deg to the first target of the program",
+              setup_.robot.joints[axis].name, turn / degree),
           "the pose in which the dresspack was clamped is a turn away from the program",
           fmt::format("routing.mounting_pose_deg with {:.1f} for {}, or leave it out: then the first target counts",
                       start[static_cast<long>(axis)] / degree, setup_.robot.joints[axis].name)));
     }
+  }
+
+  /// Adds a question for a mounting pose of zeros, which may be a placeholder. The dresspack may also have been clamped there.
+  void add_zero_pose(std::vector<std::string>& notes) const {
+    if (!robot_ || !robot_->mounting_pose().isZero() || robot_->motion().position(0).isZero()) return;
+    notes.push_back(
+        "routing.mounting_pose_deg is 0 for all axes: the dresspack counts as clamped without twist in that pose. If the zeros are "
+        "no pose of the robot in which it was clamped, leave the key out: then the first target counts");
   }
 
   const pipeline::Setup& setup_;

@@ -162,7 +162,7 @@ std::vector<pipeline::Warning> one_link_warnings(const pipeline::Setup& setup) {
         !std::all_of(routing.clamps.begin(), routing.clamps.end(), [&](const auto& of) { return is_there(of.clamp); }))
       continue;
     warnings.push_back(pipeline::warning_of(
-        pipeline::WarningKind::motion, "",
+        pipeline::WarningKind::motion, routing.tool_clamp->where.text(),
         fmt::format("both clamps of {} are on {}, so that no axis bends it: its life is that of its swing alone",
                     pipeline::dresspack_words(setup, d), link),
         "one of the clamps names another link than it is mounted on",

@@ -90,7 +90,10 @@ void Cursor::need_sign(std::string_view sign) {
 Place Cursor::place(int ahead) const { return {file_, peek(ahead).line, peek(ahead).column}; }
 
 void Cursor::fail(const std::string& what, const std::string& remedy) const {
-  throw SyntaxError{place(), what, remedy};
+  const bool between_digits =
+      at_ > 0 && at_sign(",") && tokens_[at_ - 1].kind == Token::Kind::number && peek(1).kind == Token::Kind::number;
+  throw SyntaxError{place(), what,
+                    between_digits ? fmt::format("write {}.{} with a decimal point", tokens_[at_ - 1].text, peek(1).text) : remedy};
 }
 
 std::string Cursor::seen() const {

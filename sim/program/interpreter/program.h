@@ -77,7 +77,7 @@ struct MoveZone {
 
 /// The place where a part of an instruction last got its value.
 struct Origin {
-  const char* part = "";  ///< "target", "tool", "work object", "speed", "zone", "via"
+  const char* part = "";  ///< "target", "tool", "work object", "speed", "acceleration", "zone", "via"
   std::string written;    ///< the part's text in the instruction: "p20", "Offs(p20, 0, 0, 10)"
   pipeline::Where where;  ///< place of the declaration or of the last assignment; line 0: not in the files
 };

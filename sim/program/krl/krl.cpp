@@ -334,7 +334,7 @@ bool Krl::read_axis_speed(const Statement& statement, Instruction& move, Interpr
   const auto speed = slowest("$vel_axis"), acceleration = slowest("$acc_axis");
   if (!speed || !acceleration) return false;
   move.speed.axis_percent = *speed;
-  move.acceleration_percent = std::max(1.0, *acceleration);
+  move.acceleration_percent = std::max(0.1, *acceleration);  // least of a step in YAML
   const Value* jerks = run.variable("$gear_jerk");
   for (std::size_t axis = 0; is_spline(statement) && jerks && axis < 6 && axis < jerks->items.size(); ++axis)
     if (const Value& jerk = jerks->items[axis]; jerk.is_number() && jerk.number > 0)
@@ -459,6 +459,7 @@ void Krl::add_origins(const Expression& target, const Frames& frames, Instructio
   if (move.work_object >= 0)
     add("work object", frames.stationary ? frames.tool_name : frames.base_name, name_at("$base", {}));
   add("speed", joint ? "$VEL_AXIS" : "$VEL.CP", name_at(joint ? "$vel_axis" : "$vel", {}));
+  add("acceleration", joint ? "$ACC_AXIS" : "$ACC.CP", name_at(joint ? "$acc_axis" : "$acc", {}));
   if (move.zone.distance > 0 || move.zone.percent > 0) add("zone", "$APO", name_at("$apo", {}));
 }
 
