@@ -761,11 +761,10 @@ void doubt_place(const char* key, const Clamp& clamp, const Routing& routing, do
     return add(
         clamp.where,
         fmt::format("routing.{}.position_m lies {:.3g} m from all shapes of {} (limit {:.3g})", key, *away, clamp.link, near_limit),
-        beside.empty() ? "exchanged coordinates" : fmt::format("a place on {}, or exchanged coordinates", beside),
-        (beside.empty() ? "" : fmt::format("link: {} if it is there; ", beside)) +
-            fmt::format("position_m: [{:g}, {:g}, {:g}] if coordinates are exchanged, or routing.longest_bracket_mm: {:.0f} if a "
-                        "bracket is so long",
-                        exchanged.x(), exchanged.y(), exchanged.z(), std::ceil(1e2 * *away) * 10));
+        beside.empty() ? "exchanged coordinates" : fmt::format("exchanged coordinates, or a place on {}", beside),
+        fmt::format("position_m: [{:g}, {:g}, {:g}] if coordinates are exchanged, ", exchanged.x(), exchanged.y(), exchanged.z()) +
+            (beside.empty() ? "" : fmt::format("link: {} if it is there, ", beside)) +
+            fmt::format("or routing.longest_bracket_mm: {:.0f} if a bracket is so long", std::ceil(1e2 * *away) * 10));
   }
   if (*away <= limit && (beside.empty() || *away <= bracket)) return;
   // Tries wrong decimal points in one, then two, then three numbers: the first combination near to the link is proposed.
