@@ -17,10 +17,10 @@ struct PartsRoom {
   bool estimated = false;
 };
 PartsRoom room_of_parts(const Dresspack& dresspack);
-/// Bore / diameter of commercial corrugated conduits: 17 / 21.2, 23 / 28.5, 29 / 34.5, 36 / 42.5, 48 / 54.5 mm. ESTIMATE.
 /// Bore / outer diameter of a part that is a hose: tubes for air and water have 0.5 (4 x 2 mm) to 0.8 (16 x 13 mm), hydraulic hoses
 /// with two steel braids 0.43. A tube of 10 x 8 mm has 0.40 if a radius is given instead of the diameter.
 inline constexpr double narrowest_bore = 0.42, widest_bore = 0.92;
+/// Bore / diameter of commercial corrugated conduits: 17 / 21.2, 23 / 28.5, 29 / 34.5, 36 / 42.5, 48 / 54.5 mm. ESTIMATE.
 inline constexpr double usual_bore_share = 0.85;
 
 /// Returns the profile of a conduit with the diameter and (if known) the bore of the dresspack, in the proportions of

@@ -412,7 +412,7 @@ class QuickChecks {
                     setup_.dresspacks.size() > 1 ? "free length" : "routing.free_length_m"));
   }
 
-  /// Adds a warning for a rotation of an axis by more than 180 deg between the mounting pose and the program's first pose,
+  /// Adds a warning for a rotation of an axis by 180 deg or more between the mounting pose and the program's first pose,
   /// because the dresspack keeps this rotation for the whole program.
   void add_winding(std::vector<pipeline::Warning>& all) const {
     if (!robot_) return;
