@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <map>
 
 #include "pipeline/base/errors.h"
 #include "pipeline/base/order.h"
@@ -17,10 +15,6 @@ namespace dresslife::fatigue {
 namespace {
 
 using pipeline::LifeResponse;
-using StrainPoint = std::array<double, pipeline::strain_parameters>;
-
-constexpr std::size_t of_rest = index_of(pipeline::Uncertain::rest), of_slack = index_of(pipeline::Uncertain::slack);
-constexpr double least_score = 1e-6;  // distance from a score of 0, which has another meaning at another slack
 
 constexpr std::size_t likely_wires =
     24;  // at each point, selected by the job's material and evaluated for all its constants
@@ -70,6 +64,7 @@ double worst_life(const VariedStrains& at, const std::vector<std::size_t>& wires
   return log10_of_life(worst);
 }
 
+constexpr std::size_t of_rest = index_of(pipeline::Uncertain::rest), of_slack = index_of(pipeline::Uncertain::slack);
 
 /// Returns whether a variation differs from the job only by the rest.
 bool is_rest(const VariedStrains& at) {
@@ -86,7 +81,6 @@ std::vector<VariedStrains> read_variation_points(const pipeline::FileReader& str
   std::vector<VariedStrains> all(z.size() / in_row);
   for (std::size_t v = 0; v < all.size(); ++v)
     std::copy_n(z.begin() + static_cast<std::ptrdiff_t>(v * in_row), in_row, all[v].z.begin());
-  const std::size_t started = strain.has("/start/rest") ? strain.rows("/start/rest") : 0;
   if (strain.has("/variation/inside")) {
     const auto inside = strain.read<std::int32_t>("/variation/inside");
     for (std::size_t v = 0; v < all.size(); ++v) {
@@ -100,21 +94,11 @@ std::vector<VariedStrains> read_variation_points(const pipeline::FileReader& str
     const auto rest = strain.read<std::int32_t>("/variation/rest");
     const auto rests = static_cast<std::int32_t>(read_rests(strain).size());
     for (std::size_t v = 0; v < all.size(); ++v) {
-      const std::int32_t at_slack = all[v].z[of_slack] == 0 ? rests : static_cast<std::int32_t>(started);
-      if (rest[v] < 0 || rest[v] >= std::max(1, at_slack))
+      if (rest[v] < 0 || rest[v] >= std::max(1, rests))
         throw pipeline::InputError(strain.where(),
                                    fmt::format("/variation/rest is {}, which no start came to", rest[v]),
                                    "make the file again with dresslife-strain");
       all[v].rest = static_cast<std::size_t>(rest[v]);
-    }
-  }
-  if (strain.has("/variation/starts")) {
-    const auto starts = strain.read<std::int32_t>("/variation/starts");
-    for (std::size_t v = 0; v < all.size(); ++v) {
-      if (starts[v] < 1 || starts[v] > std::max<std::int32_t>(1, static_cast<std::int32_t>(started)))
-        throw pipeline::InputError(strain.where(), fmt::format("/variation/starts is {} (there are {} starts)", starts[v], started),
-                                   "make the file again with dresslife-strain");
-      all[v].starts = static_cast<std::size_t>(starts[v]);
     }
   }
   if (strain.has("/variation/stiffness")) {
@@ -164,51 +148,12 @@ std::vector<VariedStrains> only(const std::vector<VariedStrains>& varied, const 
   std::vector<VariedStrains> some;
   for (const VariedStrains& all : varied) {
     VariedStrains& kept = some.emplace_back();
-    kept.z = all.z, kept.inside = all.inside, kept.rest = all.rest, kept.starts = all.starts;
+    kept.z = all.z, kept.inside = all.inside, kept.rest = all.rest;
     for (std::size_t k = 0; k < all.site.size(); ++k)
       if (counts[all.site[k]]) kept.site.push_back(all.site[k]), kept.strains.push_back(all.strains[k]);
   }
   return some;
 }
-
-namespace {
-
-/// A rest among those of the starts at one slack.
-struct RestPoint {
-  std::size_t point;  ///< of the response
-  std::size_t starts;
-};
-
-/// Returns the normal score of the middle of each rest's starts, (rest). The shortest life has the lowest score. life: (point).
-std::vector<double> scores_of(const std::vector<RestPoint>& rests, const std::function<double(std::size_t)>& life) {
-  std::vector<std::size_t> order = pipeline::indices_of(rests.size());
-  std::ranges::stable_sort(order, {}, [&](std::size_t rest) { return life(rests[rest].point); });
-  double all = 0, before = 0;
-  for (const RestPoint& rest : rests) all += static_cast<double>(rest.starts);
-  std::vector<double> scores(rests.size());
-  for (const std::size_t rest : order) {
-    const auto count = static_cast<double>(rests[rest].starts);
-    scores[rest] = pipeline::normal_quantile((before + count / 2) / all);
-    before += count;
-  }
-  return scores;
-}
-
-/// Returns the rests at each other slack at which more than one start went through the motion.
-std::map<double, std::vector<RestPoint>> rests_at_slacks(std::span<const VariedStrains> varied) {
-  std::map<double, std::vector<RestPoint>> all;
-  for (std::size_t v = 0; v < varied.size(); ++v) {
-    const VariedStrains& at = varied[v];
-    StrainPoint slack_alone{};
-    slack_alone[of_slack] = at.z[of_slack];
-    if (at.z[of_slack] != 0 && at.z == slack_alone && at.inside == pipeline::Inside::as_is)
-      all[at.z[of_slack]].push_back({v + 1, at.starts});
-  }
-  std::erase_if(all, [](const auto& of) { return of.second.size() == 1 && of.second.front().starts == 1; });
-  return all;
-}
-
-}  // namespace
 
 void put_rests(pipeline::LifeResponse& response, std::span<const VariedStrains> varied,
                const std::vector<std::size_t>& starts) {
@@ -217,16 +162,26 @@ void put_rests(pipeline::LifeResponse& response, std::span<const VariedStrains> 
   };
   const std::size_t nodes = response.strength.size() * response.slope.size(),
                     middle = zero_of(response.strength) * response.slope.size() + zero_of(response.slope);
-  std::vector<std::size_t> point(starts.size(), 0);  // (rest)
-  std::vector<RestPoint> own{{0, starts.front()}};
+  std::vector<std::size_t> point(starts.size(), 0), order;  // (rest)
   for (std::size_t v = 0; v < varied.size(); ++v)
-    if (is_rest(varied[v])) point[varied[v].rest] = v + 1, own.push_back({v + 1, starts[varied[v].rest]});
+    if (is_rest(varied[v])) point[varied[v].rest] = v + 1;
   const auto life = [&](std::size_t at, std::size_t node) -> double& {
     return response.worst_life[at * nodes + node];
   };
-  const auto middle_life = [&](std::size_t at) { return life(at, middle); };
-  const std::vector<double> score = scores_of(own, middle_life);
-  for (std::size_t rest = 0; rest < own.size(); ++rest) response.points[own[rest].point][of_rest] = score[rest] - score[0];
+  for (std::size_t rest = 0; rest < starts.size(); ++rest)
+    if (rest == 0 || point[rest] > 0) order.push_back(rest);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return life(point[a], middle) < life(point[b], middle);
+  });
+  double all = 0, before = 0;
+  for (const std::size_t rest : order) all += static_cast<double>(starts[rest]);
+  std::vector<double> score(starts.size());
+  for (const std::size_t rest : order) {
+    const auto count = static_cast<double>(starts[rest]);
+    score[rest] = pipeline::normal_quantile((before + count / 2) / all);
+    before += count;
+  }
+  for (const std::size_t rest : order) response.points[point[rest]][of_rest] = score[rest] - score[0];
   response.knowledge.mean(static_cast<Eigen::Index>(of_rest)) -= score[0];
   for (std::size_t v = 0; v < varied.size(); ++v) {
     if (varied[v].rest == 0 || varied[v].z[of_slack] != 0 || is_rest(varied[v])) continue;
@@ -234,22 +189,6 @@ void put_rests(pipeline::LifeResponse& response, std::span<const VariedStrains> 
       double& of = life(v + 1, node);
       const double there = life(point[varied[v].rest], node), here = life(0, node);
       of = std::min(LifeResponse::undamaged, pipeline::together(there, std::array{of, here}));
-    }
-  }
-  for (const auto& [slack, rests] : rests_at_slacks(varied)) {
-    const std::vector<double> at_slack = scores_of(rests, middle_life);
-    for (std::size_t rest = 0; rest < rests.size(); ++rest) {
-      StrainPoint z{};
-      z[of_slack] = slack, z[of_rest] = at_slack[rest] - score[0];
-      if (z[of_rest] == 0) z[of_rest] = least_score;
-      // The first start has a point with rest 0, too, from which the other parameters are varied.
-      const std::size_t at = rests[rest].point;
-      if (varied[at - 1].rest > 0) {
-        response.points[at] = z;
-        continue;
-      }
-      response.points.push_back(z), response.inside.push_back(pipeline::Inside::as_is);
-      for (std::size_t node = 0; node < nodes; ++node) response.worst_life.push_back(life(at, node));
     }
   }
 }
@@ -290,7 +229,7 @@ void fill_response(pipeline::LifeResponse& response, const VariedStrains& own,
         response.worst_life[k * nodes + node] = worst_life(*points[k], likely[k], counters, workspace);
     }
   });
-  if (!starts.empty()) put_rests(response, varied, starts);
+  if (starts.size() > 1) put_rests(response, varied, starts);
 }
 
 }  // namespace dresslife::fatigue

@@ -14,8 +14,7 @@ namespace dresslife::fatigue {
 /// Histories of the likely worst wires at one point of the strain parameters.
 struct VariedStrains {
   std::array<double, pipeline::strain_parameters> z{};  ///< 0 for rest
-  std::size_t rest = 0;    ///< rest of the loose cables among those at this slack; at the job's own slack 0 is the job's own
-  std::size_t starts = 1;  ///< number of starts that came to this rest
+  std::size_t rest = 0;                                 ///< rest of the loose cables; 0: the job's own
   pipeline::Inside inside = pipeline::Inside::as_is;
   std::vector<std::vector<float>> strains;  ///< (wire) strains of its reversals
   std::vector<std::size_t> site;            ///< (wire) number among the job's own sites, which gives the material
@@ -43,8 +42,7 @@ void fill_response(pipeline::LifeResponse& response, const VariedStrains& own,
 /// (W40) Makes the lives at the rests of loose cables a parameter of the response. The z of a rest is the normal score of its
 /// life among those of all starts, minus the score of the job's own rest. The mean of the prior is reduced by the same score. The
 /// effect of a variation that starts from another rest is used for the job's own rest, too (pipeline::together()). At another
-/// slack lives stay as computed, because cables leave their rest there (strain/measurements.md). Rests of starts at another slack
-/// get their own scores there, and z counts from the same score of the job. For this they are added as further points.
+/// slack lives stay as computed, because cables leave their rest there (strain/measurements.md).
 /// response: at 0 and at the points of varied. starts: (rest); varied contains all rests except the first.
 void put_rests(pipeline::LifeResponse& response, std::span<const VariedStrains> varied,
                const std::vector<std::size_t>& starts);

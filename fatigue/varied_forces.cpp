@@ -30,7 +30,7 @@ constexpr std::size_t starts_parameter = index_of(Uncertain::rest);
 /// Forces of the cables at one variation. Forces do not depend on the friction inside cables.
 struct VariedForces {
   std::array<double, pipeline::strain_parameters> z{};
-  std::size_t rest = 0, starts = 1;  ///< starts that came to this rest
+  std::size_t rest = 0;
   std::vector<double> tension, place, moment, moment_tension;
   std::vector<std::uint32_t> sample, moment_place;
 
@@ -60,7 +60,7 @@ std::vector<VariedForces> read_forces(const pipeline::FileReader& strain, std::s
     if (varied[v].inside != pipeline::Inside::as_is || varied[v].z[index_of(Uncertain::friction_inside)] != 0) continue;
     VariedForces& of = all.emplace_back();
     of.z = varied[v].z;
-    of.rest = varied[v].rest, of.starts = varied[v].starts;
+    of.rest = varied[v].rest;
     of.tension = row_of<double>(strain, "/variation/tension", v);
     of.place = row_of<double>(strain, "/variation/tension_place", v);
     of.sample = row_of<std::uint32_t>(strain, "/variation/tension_sample", v);
@@ -192,24 +192,10 @@ class VariedLimit {
       if (loads_[v].load > 1) beyond += static_cast<double>(starts_[all_[v].rest]);
     return beyond / all;
   }
-  /// The mean over starts. At each value of the parameter they are in the order of their loads.
   double share_of(std::size_t p, const std::vector<std::size_t>& variations) const {
-    if (!(deviation(p) > 0)) return 0;
-    std::map<double, std::vector<double>> loads;  // (z, start)
-    std::size_t starts = 1;
-    for (const std::size_t v : variations) {
-      std::vector<double>& at = loads[all_[v].z[p]];
-      at.insert(at.end(), all_[v].starts, loads_[v].load);
-      starts = std::max(starts, at.size());
-    }
-    for (auto& [z, at] : loads) std::ranges::sort(at);
-    double share = 0;
-    for (std::size_t start = 0; start < starts; ++start) {
-      std::vector<pipeline::LoadNode> nodes{{0, own_}};
-      for (const auto& [z, at] : loads) nodes.push_back({z, at[start * at.size() / starts]});
-      share += pipeline::share_beyond(nodes, mean(p), deviation(p)) / static_cast<double>(starts);
-    }
-    return share;
+    std::vector<pipeline::LoadNode> nodes{{0, own_}};
+    for (const std::size_t v : variations) nodes.push_back({all_[v].z[p], loads_[v].load});
+    return deviation(p) > 0 ? pipeline::share_beyond(nodes, mean(p), deviation(p)) : 0;
   }
   /// Returns the share beyond the place between the job and the variation at which the load becomes 1, in both parameters.
   double share_of_pair(std::size_t v) const {

@@ -33,11 +33,6 @@ void HistoryWindow::keep(std::size_t first_segment, std::size_t sample, const Mo
       history_.set(segment - first_segment, sample + k / segments_, block.at_wires[k]);
 }
 
-std::size_t same_pose(std::size_t from, std::size_t least, std::size_t repeat) {
-  const std::size_t repeats = (from - std::min(from, least)) / repeat;
-  return repeats > 0 ? from - repeats * repeat : least;
-}
-
 Passage::Passage(MotionReader& motion, const Shortening& shortening, Starts& starts, HistoryWindow& window,
                  std::size_t threads)
     : motion_(motion),
@@ -140,11 +135,6 @@ std::vector<Evaluation*> Passage::still_moving(std::size_t span) const {
   return all;
 }
 
-void Passage::merge() {
-  starts_.merge();
-  if (variations_) variations_->merge();
-}
-
 void Passage::lead_in(std::size_t from, std::size_t until) {
   const std::size_t samples = motion_.samples(), spans = motion_.spans().size();
   if (!loose_ || samples < 2) return;
@@ -156,14 +146,14 @@ void Passage::lead_in(std::size_t from, std::size_t until) {
     const Shortening::Piece piece{first, first + count, 0, 1};
     const auto move = [&](const MotionBlock& block) {
       each_span(block, piece, [&](std::size_t span) { return still_moving(span); }, Evaluation::lead_in);
-      if (moving == all_of_them) merge();  // else some starts are at the end of a repeat
+      if (moving == all_of_them) starts_.merge();  // else some starts are at the end of a repeat
     };
     motion_.run(true, move, first, first + count);
     left -= count;
     if (left % samples > 0) continue;
     const auto further = static_cast<double>(left) / static_cast<double>(samples);
     for (std::size_t k = 0; k < spans; ++k) Evaluation::end_repeat(still_moving(k), is_short() ? further : HUGE_VAL);
-    merge();
+    starts_.merge();
   }
 }
 
@@ -189,7 +179,7 @@ void Passage::close_cycles() {
     each_piece(true, [&](const MotionBlock& block, const Shortening::Piece& piece) {
       each_span(block, piece, [&](std::size_t span) { return all[span]; }, add);
     });
-    merge();
+    starts_.merge();
   }
 }
 
@@ -197,7 +187,7 @@ void Passage::run(const std::function<void(const MotionBlock&)>& put) {
   each_piece(loose_, [&](const MotionBlock& block, const Shortening::Piece& piece) {
     put(block);
     each_span(block, piece, [&](std::size_t span) { return evaluated(span); }, add);
-    merge();
+    starts_.merge();
     keep(0, block, piece);
   });
   close_cycles();

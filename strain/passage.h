@@ -32,10 +32,6 @@ class HistoryWindow {
   DeformationHistory history_;
 };
 
-/// Returns how many samples before its first one a repeated motion has the pose that it has `from` samples before: the least such
-/// number of at least `least`; `least` itself if `from` is less than a repeat more. repeat: [samples].
-std::size_t same_pose(std::size_t from, std::size_t least, std::size_t repeat);
-
 class Passage {
  public:
   /// The caller owns all arguments. An evaluation or window for as many samples as the shortened motion has follows that motion; each
@@ -43,7 +39,7 @@ class Passage {
   Passage(MotionReader& motion, const Shortening& shortening, Starts& starts, HistoryWindow& window,
           std::size_t threads);
   /// From now on the evaluations of `variations` also go through the motion.
-  void take_along(Variations& variations) { variations_ = &variations; }
+  void take_along(const Variations& variations) { variations_ = &variations; }
 
   bool any_loose() const { return loose_; }
   /// Moves loose cables through the samples from `from` to `until` before the first one: the end of the motion, or whole repeats.
@@ -80,7 +76,6 @@ class Passage {
   using OfSpan = std::function<std::vector<Evaluation*>(std::size_t span)>;
   void each_span(const MotionBlock& block, const Shortening::Piece& piece, const OfSpan& evaluations, const Use& use) const;
   void close_cycles();
-  void merge();
   void each_piece(bool with_pull, const std::function<void(const MotionBlock&, const Shortening::Piece&)>& use) const;
   void keep(std::size_t first_segment, const MotionBlock& block, const Shortening::Piece& piece) const;
   void refill(std::size_t first_segment);
@@ -90,7 +85,7 @@ class Passage {
   Starts& starts_;
   HistoryWindow& window_;
   std::size_t threads_;
-  Variations* variations_ = nullptr;
+  const Variations* variations_ = nullptr;
   bool loose_;
 };
 

@@ -25,13 +25,13 @@ std::size_t other_starts_at_most(const pipeline::Job& job) {
   return 0;
 }
 
-Starts::Starts(Spans& own, const std::function<Spans&()>& build, std::size_t number) : own_(own) {
+Starts::Starts(Spans& own, const std::function<Spans&()>& build) : own_(own) {
   const auto ring = [](const auto& evaluation) { return evaluation->cables().any_ring(); };
   if (std::ranges::none_of(own, ring)) return;
-  rest_of_.resize(number);
+  rest_of_.resize(count);
   std::iota(rest_of_.begin(), rest_of_.end(), 0);
   std::uint64_t seed = 0;
-  for (std::size_t start = 1; start < number; ++start) {
+  for (std::size_t start = 1; start < count; ++start) {
     others_.push_back(&build());
     for (const auto& evaluation : *others_.back())
       if (evaluation->any_loose()) evaluation->wind(pipeline::mixed(seed++));
@@ -63,10 +63,6 @@ void Starts::merge() {
     }
 }
 
-std::int32_t Starts::starts_at(std::size_t rest) const {
-  return static_cast<std::int32_t>(std::ranges::count(rest_of_, rest));
-}
-
 /// Returns the place of the quantile z among the starts, the most damaged one first. For an even number of starts z = 0 gives the
 /// more damaged one of the middle two.
 std::size_t Starts::place_of(double z) const {
@@ -77,7 +73,7 @@ std::size_t Starts::place_of(double z) const {
 
 bool Starts::choose_by_number(double z) {
   for (std::size_t rest = 0; rest < rests() && !rest_of_.empty(); ++rest) {
-    const auto own = static_cast<std::size_t>(starts_at(rest)), others = rest_of_.size() - own;
+    const auto own = static_cast<std::size_t>(std::ranges::count(rest_of_, rest)), others = rest_of_.size() - own;
     if (others > place_of(z) || place_of(z) >= own) continue;
     make_own(rest);
     return true;

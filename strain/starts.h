@@ -1,9 +1,8 @@
 // Rings of loose cables have several rests (W40). Which one is found depends on the start of the ring. Several starts go
 // through the motion side by side. Starts that come to the same places are one rest from then on. The rest with the
-// median damage is the job's own; the others are variations (strain/variations.h). Variations of the slack have their own starts.
+// median damage is the job's own; the others are variations (strain/variations.h).
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -22,8 +21,8 @@ class Starts {
   static constexpr std::size_t count = 4;
 
   /// own: the first start; after choose() the start of the job. build: creates another start. The caller owns both. Without a
-  /// ring only the first start exists. number: of starts.
-  Starts(Spans& own, const std::function<Spans&()>& build, std::size_t number = count);
+  /// ring only the first start exists.
+  Starts(Spans& own, const std::function<Spans&()>& build);
   /// Only the first start.
   explicit Starts(Spans& own) : own_(own) {}
 
@@ -41,8 +40,7 @@ class Starts {
   std::size_t rests() const { return 1 + others_.size(); }
   /// Rest 0 is the job's own.
   const Spans& spans(std::size_t rest) const { return rest == 0 ? own_ : *others_[rest - 1]; }
-  std::int32_t starts_at(std::size_t rest) const;  ///< number of starts that came to a rest
-  /// (start) number of its rest; empty: there is no ring. The cables of other variations continue from the first start.
+  /// (start) number of its rest; empty: there is no ring. The cables of variations continue from the first start.
   const std::vector<std::size_t>& rest_of() const { return rest_of_; }
   std::size_t rest_of_variations() const { return rest_of_.empty() ? 0 : rest_of_.front(); }
 

@@ -41,8 +41,7 @@ constexpr double own_work_share = 0.75;   // share of the work without other sti
 // (W42). The last start of robot 1 comes to its rest after 160 s. Cables of short programs that reach a cycle earlier stop.
 constexpr double lead_in_time = 180;
 // Time before the first sample at which variations continue from the first start [s]. With 170 s the lives of robot 1 and hard
-// are the same. With 30 s one life of ten differs by 0.85 of a decade. Starts at another slack begin as late or somewhat earlier:
-// in the pose of the robot in which those of the job began, because other poses lead to other rests.
+// are the same. With 30 s one life of ten differs by 0.85 of a decade.
 constexpr double lead_in_varied = 90;
 
 void append_deformation(FileWriter& file, std::span<const Deformation> block) {
@@ -126,7 +125,6 @@ class VariationWriter {
     for (const pipeline::Inside one : variations.inside()) inside.push_back(static_cast<std::int32_t>(one));
     file.append("/variation/inside", inside);
     file.append("/variation/rest", variations.rests());
-    file.append("/variation/starts", variations.starts());
     file.append("/variation/stiffness", std::vector<double>(inside.size(), variations.stiffness()));
   }
 
@@ -547,7 +545,7 @@ using LikelySites = std::vector<std::vector<Evaluation::Site>>;  ///< (segment)
 
 /// Writes the variations in the motion of a hose with another stiffness.
 void write_other_motion(MotionReader& motion, const Shortening& shortening, Starts::Spans& laid,
-                        Variations& variations, HistoryWindow& window, std::size_t threads,
+                        const Variations& variations, HistoryWindow& window, std::size_t threads,
                         const LikelySites& likely, OtherPlaces& places, const Variations::Put& put) {
   Starts starts(laid);
   Passage passage(motion, shortening, starts, window, threads);
@@ -605,7 +603,7 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
   std::list<Evaluations> otherwise_laid;
   Variations variations(
       job, evaluations, shortening,
-      [&](const pipeline::StrainFactors& factors, std::size_t followed) -> Variations::Spans& {
+      [&](const pipeline::StrainFactors& factors, std::size_t followed) -> const Variations::Spans& {
         return otherwise_laid.emplace_back(job, reader, followed, threads, factors, scratch, &all).of_span;
       });
   Starts starts(all.of_span, [&]() -> Starts::Spans& {
@@ -625,12 +623,9 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
   Passage passage(reader, shortening, starts, window, threads);
   const Work work(progress, passage.any_loose(), others.size());
   const std::size_t lead_in_of_variations = passage.repeats_in(lead_in_varied);
-  const std::size_t begin = passage.samples_in(lead_in_time);
-  const std::size_t of_starts = same_pose(begin, lead_in_of_variations, samples);
-  passage.lead_in(begin, of_starts);
-  passage.take_along(variations);
-  passage.lead_in(of_starts, lead_in_of_variations);
+  passage.lead_in(passage.samples_in(lead_in_time), lead_in_of_variations);
   variations.go_on();
+  passage.take_along(variations);
   passage.lead_in(lead_in_of_variations, 0);
   passage.record_rubbing();
   passage.run([&](const MotionBlock& block) {
@@ -664,9 +659,9 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
     const Shortening of_other = shortening_of(motion, of, job);
     window.begin(of_other.samples(), window_bytes);
     Evaluations laid(job, of, of_other.samples(), threads, job.strain.factors, scratch, &all);
-    Variations varied(
+    const Variations varied(
         job, others[other].z, laid.of_span, of_other,
-        [&](const pipeline::StrainFactors& factors, std::size_t followed) -> Variations::Spans& {
+        [&](const pipeline::StrainFactors& factors, std::size_t followed) -> const Variations::Spans& {
           return otherwise_laid.emplace_back(job, of, followed, threads, factors, scratch, &all).of_span;
         });
     VariationWriter rows(strain, varied, written);

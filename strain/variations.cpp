@@ -11,9 +11,7 @@ using pipeline::Uncertain;
 
 // With little slack cables become tight, and lives fall by decades from one tenth of a per cent of slack to the next. How much
 // slack they need depends on the hose's stiffness.
-constexpr double low_slack = -2.25, little_slack = -1.25;
-/// Starts of a ring at another slack. A start costs as much as a variation. The p10 depends most on little_slack.
-constexpr std::size_t starts_at(double slack) { return slack == little_slack ? Starts::count : 2; }
+constexpr double low_slack = -2.25;
 
 bool any_component(const pipeline::Job& job, const std::function<bool(const pipeline::Component&)>& holds) {
   return std::any_of(
@@ -29,8 +27,8 @@ bool rubs_on_hose(const pipeline::Component& part) {
 }
 
 // z of the nodes
-constexpr std::array slacks{low_slack, little_slack, Variations::reach};
-constexpr std::array slacks_of_other_stiffness{little_slack, Variations::reach};
+constexpr std::array slacks{low_slack, -1.25, Variations::reach};
+constexpr std::array slacks_of_other_stiffness{-1.25, Variations::reach};
 constexpr std::array both_sides{-Variations::reach, Variations::reach};
 
 /// Returns whether a parameter other than friction inside is unknown, and the job has parts whose places depend on it.
@@ -82,17 +80,10 @@ std::vector<Evaluation::Site> with_likely_of_bent(std::vector<Evaluation::Site> 
   return likely;
 }
 
-std::size_t places_at_slacks(const pipeline::Job& job) {
-  if (other_starts_at_most(job) == 0) return slacks.size();
-  std::size_t all = 0;
-  for (const double slack : slacks) all += starts_at(slack);
-  return all;
-}
-
 }  // namespace
 
 std::size_t placements_at_most(const pipeline::Job& job) {
-  return (is_varied(job, Uncertain::slack) ? places_at_slacks(job) : 0) +
+  return (is_varied(job, Uncertain::slack) ? slacks.size() : 0) +
          (is_varied(job, Uncertain::grip) ? both_sides.size() : 0) +
          (is_varied(job, Uncertain::friction_hose) ? both_sides.size() : 0);
 }
@@ -119,7 +110,7 @@ Variations::Variations(const pipeline::Job& job, const Spans& as_given, const Sh
 
 Variations::Variations(const pipeline::Job& job, double stiffness, const Spans& laid, const Shortening& shortening,
                        const Build& build)
-    : enabled_(job.uncertainty.enabled), gone_on_(true), as_given_(laid), shortening_(shortening), stiffness_(stiffness) {
+    : enabled_(job.uncertainty.enabled), as_given_(laid), shortening_(shortening), stiffness_(stiffness) {
   std::vector<Friction> all = other_frictions(laid);
   all.insert(all.begin(), Friction{});
   add(laid, {}, all);
@@ -135,53 +126,30 @@ void Variations::lay(const pipeline::Job& job, const Build& build, Uncertain par
     Point point{};
     point[index_of(parameter)] = z;
     // Grips share the loose cables of as_given, which cost most, and so follow as many samples.
-    const auto another = [&]() -> Spans& {
-      return build(moved(job.strain.factors, parameter, z),
-                   parameter == Uncertain::grip ? as_given_.front()->samples() : shortening_.samples());
-    };
-    Spans& placed = another();
+    const Spans& placed = build(moved(job.strain.factors, parameter, z),
+                                parameter == Uncertain::grip ? as_given_.front()->samples() : shortening_.samples());
     for (std::size_t span = 0; span < placed.size(); ++span)
       if (placed[span]->samples() == as_given_[span]->samples()) placed[span]->share_loose(*as_given_[span]);
     add(placed, point, friction);
-    if (parameter != Uncertain::slack || stiffness_ != 0) continue;
-    Starts starts(placed, another, starts_at(z));
-    if (starts.rest_of().empty()) continue;
-    placements_.back().at_slack = at_slack_.size();
-    at_slack_.push_back({point, std::move(starts)});
   }
 }
 
-void Variations::go_on() {
-  gone_on_ = true;
+void Variations::go_on() const {
   for (const Placement& placement : placements_)
     for (std::size_t span = 0; span < placement.spans->size(); ++span)
-      if (placement.spans != &as_given_ && !placement.at_slack) (*placement.spans)[span]->go_on_from(*as_given_[span]);
-}
-
-void Variations::merge() {
-  for (AtSlack& of : at_slack_) of.starts.merge();
+      if (placement.spans != &as_given_) (*placement.spans)[span]->go_on_from(*as_given_[span]);
 }
 
 void Variations::add(const Starts& starts) {
   if (!enabled_) return;
-  for (const Placement& placement : placements_)
-    for (const std::size_t variation : placement.variation)
-      if (placement.at_slack)
-        starts_[variation] = at_slack_[*placement.at_slack].starts.starts_at(0);
-      else if (placement.spans != &as_given_)
+  for (Placement& placement : placements_)
+    if (placement.spans != &as_given_)
+      for (const std::size_t variation : placement.variation)
         rests_[variation] = static_cast<std::int32_t>(starts.rest_of_variations());
-  for (std::size_t rest = 1; rest < starts.rests(); ++rest) add_rest(starts, {}, rest);
-  for (const AtSlack& of : at_slack_)
-    for (std::size_t rest = 1; rest < of.starts.rests(); ++rest) {
-      for (const auto& evaluation : of.starts.spans(rest)) evaluation->find_bent();
-      add_rest(of.starts, of.z, rest);
-    }
-}
-
-void Variations::add_rest(const Starts& starts, Point z, std::size_t rest) {
-  add(starts.spans(rest), z, {{}});
-  rests_.back() = static_cast<std::int32_t>(rest);
-  starts_.back() = starts.starts_at(rest);
+  for (std::size_t rest = 1; rest < starts.rests(); ++rest) {
+    add(starts.spans(rest), {}, {{}});
+    rests_.back() = static_cast<std::int32_t>(rest);
+  }
 }
 
 double Variations::Friction::factor() const {
@@ -191,7 +159,7 @@ double Variations::Friction::factor() const {
 }
 
 void Variations::add(const Spans& spans, Point z, const std::vector<Friction>& friction) {
-  Placement placement{&spans, {}, {}, {}};
+  Placement placement{&spans, {}, {}};
   for (const Friction& of : friction) {
     placement.factors.push_back(of.factor());
     placement.variation.push_back(points_.size());
@@ -199,7 +167,6 @@ void Variations::add(const Spans& spans, Point z, const std::vector<Friction>& f
     points_.push_back(z);
     inside_.push_back(of.inside);
     rests_.push_back(0);
-    starts_.push_back(1);
   }
   placements_.push_back(std::move(placement));
 }
@@ -207,11 +174,7 @@ void Variations::add(const Spans& spans, Point z, const std::vector<Friction>& f
 std::vector<Evaluation*> Variations::placed(std::size_t span) const {
   std::vector<Evaluation*> all;
   for (const Placement& placement : placements_)
-    if (placement.spans != &as_given_ && (gone_on_ || placement.at_slack)) all.push_back((*placement.spans)[span].get());
-  for (const AtSlack& of : at_slack_) {
-    const std::vector<Evaluation*> others = of.starts.placed(span);
-    all.insert(all.end(), others.begin(), others.end());
-  }
+    if (placement.spans != &as_given_) all.push_back((*placement.spans)[span].get());
   return all;
 }
 

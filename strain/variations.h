@@ -3,8 +3,7 @@
 //
 // Lives depend on combinations of friction inside, slack and the hose's stiffness. At the job's own stiffness friction inside is
 // crossed with slack. At another stiffness each is varied one by one, the bounds with each slack. The response combines the rest
-// (pipeline/life/life_response.h). Friction along the hose and grips are varied one by one. A ring of loose cables has other rests at
-// each slack, so several starts (strain/starts.h) go through the motion at each slack of the job's own stiffness. Friction inside is also set to zero and
+// (pipeline/life/life_response.h). Friction along the hose and grips are varied one by one. Friction inside is also set to zero and
 // to infinity (no slip at any pressure): the bounds of a cable. Play is not varied: in the shipped programs it changes lives by a
 // tenth of a decade and would cost as much as a slack. Places and forces of cables are computed again for each variation except
 // friction inside. The wires are the likely worst ones of each segment and layer of the job itself. If cables lie elsewhere, the
@@ -14,7 +13,6 @@
 #include <array>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,7 +34,7 @@ class Variations {
       std::array<double, 5>;  ///< z of the strain parameters without rest, in the order of uncertain_parameters()
   using Spans = std::vector<std::unique_ptr<Evaluation>>;
   /// Creates evaluations of all spans with other factors and for this number of samples; the caller owns them.
-  using Build = std::function<Spans&(const pipeline::StrainFactors&, std::size_t samples)>;
+  using Build = std::function<const Spans&(const pipeline::StrainFactors&, std::size_t samples)>;
 
   /// In the job's own motion. as_given: the job's own evaluations, of the whole motion. Variations with other places of cables follow
   /// the shortened motion, which must outlive this object. Without variations if the job's uncertainty is off or no part can slide.
@@ -50,20 +48,15 @@ class Variations {
   double stiffness() const { return stiffness_; }                          ///< z of the hose's stiffness
   const std::vector<Point>& points() const { return points_; }             ///< (variation)
   const std::vector<pipeline::Inside>& inside() const { return inside_; }  ///< (variation)
-  const std::vector<std::int32_t>& rests() const { return rests_; }        ///< (variation) rest of the starts at its slack
-  const std::vector<std::int32_t>& starts() const { return starts_; }      ///< (variation) number of starts that came to this rest
+  const std::vector<std::int32_t>& rests() const { return rests_; }        ///< (variation) rest of the starts
   /// Returns the evaluations of a span that need the motion in addition to the job's own.
   std::vector<Evaluation*> placed(std::size_t span) const;
 
   /// Finds the cables that bend most, where they do not lie at the job's own places. Precondition: all samples were added.
   void find_bent() const;
-  /// Moves the cables of all variations without own starts to the present places of the job's own. Before it placed() returns
-  /// only the evaluations of starts at another slack.
-  void go_on();
-  /// Joins starts at another slack (Starts::merge()).
-  void merge();
-  /// Adds the rests of starts, those of the job and those at each slack, as variations. Precondition: all samples were added, and
-  /// find_bent().
+  /// Moves the cables of all variations to the present places of the job's own.
+  void go_on() const;
+  /// Adds the rests of starts as variations. Precondition: all samples were added.
   void add(const Starts& starts);
 
   /// Returns the forces of the cables, (variation). Precondition: all samples were added.
@@ -83,12 +76,6 @@ class Variations {
     const Spans* spans;
     std::vector<double> factors;
     std::vector<std::size_t> variation;
-    std::optional<std::size_t> at_slack{};  ///< number of its starts among at_slack_
-  };
-  /// The starts at another slack.
-  struct AtSlack {
-    Point z;
-    Starts starts;
   };
   /// Friction inside: at z, or of a bound.
   struct Friction {
@@ -100,20 +87,18 @@ class Variations {
   bool lies_elsewhere(const Placement& placement) const;
   static std::vector<Friction> other_frictions(const Spans& spans);
   void add(const Spans& spans, Point z, const std::vector<Friction>& friction);
-  void add_rest(const Starts& starts, Point z, std::size_t rest);
   /// Adds an evaluation with another value of a parameter than as_given_.
   void lay(const pipeline::Job& job, const Build& build, pipeline::Uncertain parameter,
            std::span<const double> nodes, const std::vector<Friction>& friction);
 
-  bool enabled_, gone_on_ = false;
+  bool enabled_;
   const Spans& as_given_;
   const Shortening& shortening_;
   double stiffness_ = 0;
   std::vector<Point> points_;
   std::vector<pipeline::Inside> inside_;
-  std::vector<std::int32_t> rests_, starts_;
+  std::vector<std::int32_t> rests_;
   std::vector<Placement> placements_;
-  std::vector<AtSlack> at_slack_;
 };
 
 }  // namespace dresslife::strain

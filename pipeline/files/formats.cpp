@@ -291,10 +291,7 @@ Format make_strain_format() {
     {"/variation/inside",        i32,  "variation",          "1",    maybe,
      "slip inside the cables: 0 with that friction, 1 none (glued), 2 free"},
     {"/variation/rest",          i32,  "variation",          "1",    maybe,
-     "rest of its loose cables among those of the starts at its slack; with the job's own slack a number of /start/rest; absent in "
-     "older files"},
-    {"/variation/starts",        i32,  "variation",          "1",    maybe,
-     "number of starts that came to this rest at its slack; absent in older files: 1"},
+     "rest of its loose cables, a number of /start/rest; absent in older files"},
     {"/variation/stiffness",     f64,  "variation",          "1",    maybe,
      "standardised value of hose_stiffness; absent: 0 in all"},
     {"/variation/tension",       f64,  "variation, cable",   "N",    maybe,

@@ -132,7 +132,7 @@ LifeSurface::LifeSurface(const LifeResponse& response) : response_(response) {
   for (std::size_t k = 0; k < response.points.size(); ++k)
     if (response.inside[k] == Inside::as_is) index[response.points[k]] = k;
   for (std::size_t p = 0; p < strain_parameters; ++p) {
-    if (is_crossed(p) || p == of_rest) continue;
+    if (is_crossed(p)) continue;
     for (const auto& [point, k] : index)
       if (is_zero_but(point, {p})) nodes_[p].push_back(point[p]), alone_[p].push_back(k);
   }
@@ -152,7 +152,6 @@ LifeSurface::LifeSurface(const LifeResponse& response) : response_(response) {
           of.worst.insert(of.worst.end(), here.begin(), here.end());
         }
   }
-  find_rests();
   at_zero_ = worst(response.worst_life, 0, place_among(response.strength, 0), place_among(response.slope, 0));
 }
 
@@ -198,56 +197,10 @@ double LifeSurface::crossed_worst(const Table& of, const ParameterPoint& z, cons
 
 double LifeSurface::alone(std::size_t p, const ParameterPoint& z, const Place& strength,
                           const Place& slope) const {
-  return between(place_among(nodes_[p], z[p]),
+  // Rest positions beyond those of the computed starts are unknown.
+  const double at = p == of_rest ? std::clamp(z[p], nodes_[p].front(), nodes_[p].back()) : z[p];
+  return between(place_among(nodes_[p], at),
                  [&](std::size_t k) { return worst(response_.worst_life, alone_[p][k], strength, slope); });
-}
-
-void LifeSurface::find_rests() {
-  const Table& table = tables_[number_of(Inside::as_is)];
-  const std::size_t materials = response_.strength.size() * response_.slope.size();
-  std::map<double, std::map<double, std::size_t>> points;  // (slack, rest)
-  for (std::size_t k = 0; k < response_.points.size(); ++k)
-    if (response_.inside[k] == Inside::as_is && is_zero_but(response_.points[k], {slack, of_rest}))
-      points[response_.points[k][slack]].emplace(response_.points[k][of_rest], k);
-  if (std::ranges::all_of(points, [](const auto& of) { return of.second.size() < 2; })) return;
-  const auto zero_of = [](const std::vector<double>& nodes) {
-    return static_cast<std::size_t>(std::ranges::find(nodes, 0.0) - nodes.begin());
-  };
-  const auto rests_at = [&](std::size_t s) {
-    Rests rests;
-    const std::size_t at = (zero_of(table.friction) * table.slack.size() + s) * table.stiffness.size() + zero_of(table.stiffness);
-    const auto first = table.worst.begin() + static_cast<std::ptrdiff_t>(at * materials);
-    rests.at_first.assign(first, first + static_cast<std::ptrdiff_t>(materials));
-    for (const auto& [z, point] : points[table.slack[s]]) {
-      if (z == 0 && table.slack[s] != 0) continue;
-      const auto begin = response_.worst_life.begin() + static_cast<std::ptrdiff_t>(point * materials);
-      rests.z.push_back(z), rests.worst.insert(rests.worst.end(), begin, begin + static_cast<std::ptrdiff_t>(materials));
-    }
-    return rests;
-  };
-  const Rests own = rests_at(zero_of(table.slack));
-  for (std::size_t s = 0; s < table.slack.size(); ++s) {
-    Rests& rests = rests_.emplace_back(rests_at(s));
-    if (!rests.z.empty()) continue;
-    rests.z = own.z;
-    for (std::size_t k = 0; k < own.worst.size(); ++k)
-      rests.worst.push_back(
-          together(own.at_first[k % materials], std::array{rests.at_first[k % materials], own.worst[k]}));
-  }
-}
-
-/// Returns a life at the crossed parameters, which is that of the first rest, for the rest at z.
-double LifeSurface::with_rest(double crossed, const ParameterPoint& z, const Place& strength, const Place& slope) const {
-  if (rests_.empty()) return crossed;
-  const Place at = place_among(tables_[number_of(Inside::as_is)].slack, z[slack]);
-  const double first = between(at, [&](std::size_t s) { return worst(rests_[s].at_first, 0, strength, slope); });
-  const double here = between(at, [&](std::size_t s) {
-    const Rests& of = rests_[s];
-    // Rests beyond those of the computed starts are unknown.
-    return between(place_among(of.z, std::clamp(z[of_rest], of.z.front(), of.z.back())),
-                   [&](std::size_t k) { return worst(of.worst, k, strength, slope); });
-  });
-  return together(first, std::array{crossed, here});
 }
 
 double LifeSurface::change(const ParameterPoint& far, Inside inside) const {
@@ -256,8 +209,7 @@ double LifeSurface::change(const ParameterPoint& far, Inside inside) const {
   if (inside != Inside::as_is) z[friction] = 0;
   const Place strength = place_among(response_.strength, z[index_of(Uncertain::strength)]);
   const Place slope = place_among(response_.slope, z[index_of(Uncertain::slope)]);
-  std::array<double, strain_parameters> lives{
-      with_rest(crossed_worst(tables_[number_of(inside)], z, strength, slope), z, strength, slope)};
+  std::array<double, strain_parameters> lives{crossed_worst(tables_[number_of(inside)], z, strength, slope)};
   std::size_t count = 1;
   for (std::size_t p = 0; p < strain_parameters; ++p)
     if (nodes_[p].size() > 1) lives[count++] = alone(p, z, strength, slope);

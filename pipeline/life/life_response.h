@@ -5,11 +5,9 @@
 // P is the life over the scatter of wires, interpolated linearly between its percentiles. W is log10 of the worst wire's life,
 // computed at some points of z, and at each of them for strength and slope of the material. Friction inside, slack and the hose's
 // stiffness have one table with all combinations of their nodes. Combinations that were not computed follow from together():
-// friction and slack combine at the stiffness of the combination, slack and stiffness at the job's own friction. The rest of loose
-// cables is computed at each slack, with own nodes there. together() adds its change to those of friction and stiffness at the
-// same slack. A slack without own rests has the change of the job's own slack. Every other parameter of the strain side is computed
-// alone, and together() adds its change. W is interpolated linearly along each axis and extrapolated with the same slope, along
-// the rest with none. A life above `endless` counts as infinite.
+// friction and slack combine at the stiffness of the combination, slack and stiffness at the job's own friction. Every other
+// parameter of the strain side is computed alone, and together() adds its change. W is interpolated linearly along each axis and
+// extrapolated with the same slope. A life above `endless` counts as infinite.
 //
 // The same data exist for the bounds: cables whose parts are glued, and cables whose parts slip without friction. There friction
 // has no effect. W is shifted so that at z = 0 it is the life of the bound's worst wire. A bound that was not computed at a slack
@@ -53,8 +51,7 @@ struct LifeResponse {
   /// Names in which a deviation is shared with other jobs (SharedBy).
   std::string construction, material;
   ParameterKnowledge knowledge;
-  /// z on the strain side of each point, (point); the first point is 0. At another slack rest 0 is that of the first start. The
-  /// same place has a further point with its own z of rest.
+  /// z on the strain side of each point, (point); the first point is 0.
   std::vector<std::array<double, strain_parameters>> points{{}};
   std::vector<Inside> inside{Inside::as_is};  ///< (point); the first is as_is
   std::vector<double> strength{0}, slope{0};  ///< z of the nodes of W, increasing, including 0
@@ -103,13 +100,6 @@ class LifeSurface {
   /// Returns W for a point at which only this parameter has a z other than 0.
   double alone(std::size_t parameter, const ParameterPoint& z, const Place& strength,
                const Place& slope) const;
-  /// Rests at one slack. at_first: W at the rest from which the other parameters are varied.
-  struct Rests {
-    std::vector<double> z;                ///< of the nodes, increasing
-    std::vector<double> worst, at_first;  ///< (node, strength, slope), (strength, slope)
-  };
-  void find_rests();
-  double with_rest(double crossed, const ParameterPoint& z, const Place& strength, const Place& slope) const;
 
   const LifeResponse& response_;
   // Of the parameters that are not crossed:
@@ -117,7 +107,6 @@ class LifeSurface {
       nodes_;  ///< (parameter, node) z of the points with as_is
   std::array<std::vector<std::size_t>, strain_parameters> alone_;  ///< (parameter, node) point
   std::array<Table, inside_count> tables_;
-  std::vector<Rests> rests_;  ///< (slack of the table); empty: the rest has no effect
   double at_zero_ = 0;
 };
 

@@ -80,42 +80,6 @@ TEST_CASE("rests: at another slack a life stays as computed, whichever rest the 
   CHECK(LifeSurface(of.response).log10_life(z, 0) == Approx(9));
 }
 
-TEST_CASE("rests: at another slack lives have the quantiles of the starts there, whatever the rests of the job are") {
-  constexpr double digits = 1e-5;  // of the text: six
-  const bool job_has_rests = GENERATE(true, false);
-  std::vector<VariedStrains> varied(6);
-  // With less slack three of four starts come to the rest of the first one, which is varied further, and one to another.
-  for (std::size_t v = 0; v < 3; ++v) varied[v].z[slack] = -1.25;
-  varied[0].starts = varied[1].starts = 3, varied[1].z[index_of(Uncertain::friction_inside)] = 1.5, varied[2].rest = 1;
-  varied[3].z[slack] = 1.5, varied[3].starts = 2;  // both starts come to one rest
-  varied[4].z[index_of(Uncertain::friction_inside)] = 1.5;
-  varied[5].rest = 1;
-  if (!job_has_rests) varied.pop_back();
-  LifeResponse response;
-  response.knowledge = pipeline::prior_of({});
-  response.planned = {{7, 7, 7}};
-  response.worst_life = {7, 4.5, 4, 6.3, 8, 6.5};
-  if (job_has_rests) response.worst_life.push_back(7.5);
-  for (const VariedStrains& at : varied) response.points.push_back(at.z), response.inside.push_back(at.inside);
-  fatigue::put_rests(response, varied, job_has_rests ? std::vector<std::size_t>{2, 2} : std::vector<std::size_t>{4});
-  const LifeResponse read = LifeResponse::from_text(response.text());
-  const LifeSurface surface(read);
-  const double mean = response.knowledge.mean[rest];
-  const auto life = [&](double at, double share, double friction = 0) {
-    pipeline::ParameterPoint z{};
-    z[slack] = at, z[rest] = mean + pipeline::normal_quantile(share), z[index_of(Uncertain::friction_inside)] = friction;
-    return surface.log10_life(z, 0);
-  };
-  CHECK(life(-1.25, 3 / 8.) == Approx(4.5).margin(digits));
-  CHECK(life(-1.25, 7 / 8.) == Approx(6.3).margin(digits));
-  CHECK(life(-1.25, 0.01) == Approx(4.5).margin(digits));
-  for (const double share : {0.1, 0.5, 0.9}) CHECK(life(1.5, share) == Approx(8).margin(digits));
-  for (const double share : {0.25, 0.75}) CHECK(life(0, share) == Approx(job_has_rests && share > 0.5 ? 7.5 : 7).margin(digits));
-  // Friction multiplies the strain of the first rest by g. At the other rest it adds the same.
-  const double g = std::pow(10, 0.5 / 5), other = std::pow(10, -1.8 / 5);
-  CHECK(life(-1.25, 7 / 8., 1.5) == Approx(4.5 - 5 * std::log10(other + g - 1)).margin(digits));
-}
-
 TEST_CASE("rests: lives beyond anything physical shorten no other life") {
   // Like a job of two_robots: little damage at two of its three rests, and 1e4 repeats if everything is glued.
   std::vector<VariedStrains> varied(3);

@@ -8,7 +8,6 @@
 #include "pipeline/base/constants.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/settings/document.h"
-#include "strain/passage.h"
 #include "tests/catch.h"
 #include "tests/pipeline/sample_job.h"
 
@@ -77,14 +76,6 @@ TEST_CASE("a rest to which most starts came is the median one for any damages") 
   FourStarts even({1, 1, 2, 2});
   REQUIRE(even.starts.rests() == 2);
   CHECK_FALSE(even.starts.choose_by_number(0));
-}
-
-TEST_CASE("starts at another slack begin in the pose in which those of the job began") {
-  constexpr std::size_t repeat = 36;
-  CHECK(strain::same_pose(2250, 1152, repeat) == 1170);  // 30 repeats later
-  CHECK(strain::same_pose(2250, 1170, repeat) == 1170);
-  CHECK(strain::same_pose(2250, 1152, 2000) == 1152);  // the motion does not have this pose again
-  CHECK(strain::same_pose(1000, 1152, repeat) == 1152);
 }
 
 namespace {
