@@ -45,12 +45,14 @@ double least_helix_radius(const Component& of) {
 /// Returns keys with values, each of which is a remedy by itself.
 std::string what_fits(Component of) {
   constexpr double steepest = 30 * pi / 180;  // cores of moved cables have 8 to 25 deg
-  if (const double number = of.lay_angle * 180 / pi; of.lay_angle > steepest) {
-    of.lay_angle = std::atan(2 * pi * of.helix_radius / (1e-3 * number));
-    const std::string meant =
-        fmt::format("lay_angle_deg: {:.3g} if {:.4g} is the lay length in mm, or the angle of the cable (8 to 25)",
-                    of.lay_angle * 180 / pi, number);
-    return fits(of, of.lay_angle, of.count, allowed) ? meant : meant + "; with it " + what_fits(std::move(of));
+  if (of.lay_angle > steepest) {
+    const double number = of.lay_angle * 180 / pi, meant = std::atan(2 * pi * of.helix_radius / (1e-3 * number));
+    const std::string angle = (meant <= steepest ? fmt::format("lay_angle_deg: {:.3g} if {:.4g} is the lay length in mm, or ",
+                                                               meant * 180 / pi, number)
+                                                 : std::string("lay_angle_deg: ")) +
+                              "the angle of the cable (8 to 25)";
+    of.lay_angle = std::min(meant, steepest);
+    return fits(of, of.lay_angle, of.count, allowed) ? angle : angle + "; with it " + what_fits(std::move(of));
   }
   std::string keys = fmt::format("count: {} or less", largest_count(of));
   if (of.lay_angle > 0 && fits(of, 0, of.count))

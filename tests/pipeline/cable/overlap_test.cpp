@@ -77,6 +77,19 @@ TEST_CASE("parts that can only be a mistake are refused") {
   CHECK_NOTHROW(overlap_warnings(dresspack_of(25, 1.175, 5.8, 0)));
 }
 
+TEST_CASE("a steep lay angle may be a lay length; the remedy ends where no length makes it flat") {
+  const auto remedy = [](const Dresspack& dresspack) {
+    const std::vector<Warning> warnings = overlap_warnings(dresspack);
+    REQUIRE(warnings.size() == 1);
+    return warnings[0].line();
+  };
+  // tan = 2 pi 2.825 / 45: 21.5 deg, where seven parts of 2.3 mm fit
+  CHECK_THAT(remedy(dresspack_of(7, 1.15, 2.825, 45)), Catch::Contains("lay_angle_deg: 21.5 if 45 is the lay length in mm"));
+  // 25 mm off the axis a lay of 60 mm is 69 deg.
+  const std::string far = remedy(dresspack_of(9, 6, 25, 60));
+  CHECK_THAT(far, Catch::Contains("lay_angle_deg: the angle of the cable (8 to 25)") && !Catch::Contains("is the lay length"));
+}
+
 TEST_CASE("parts of two components that would lie in each other are warned of, those that touch are not") {
   Dresspack dresspack = dresspack_of(1, 1, 0, 0);
   std::vector<Component>& parts = dresspack.components[0].components;
