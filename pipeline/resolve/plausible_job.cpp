@@ -34,7 +34,7 @@ constexpr double least_metres = 0.05e-3, most_metres = 5e-3, far_place = 0.05;  
 constexpr double least_step = 0.02e-3, most_step = 1e-3;  // [m]
 constexpr double least_percent = 1;    // a hundredth of an axis' speed: no program of a plant is so slow
 constexpr double fastest_tool = 10;     // [m/s]: the fastest controllers allow 5 to 7
-constexpr double fastest_of_kuka = 3;   // [m/s]: $VEL_MA.CP in the machine data of KUKA's robots; $VEL.CP must not exceed it
+constexpr double fastest_of_kuka = 3;   // [m/s]: ESTIMATE of $VEL_MA.CP, the upper bound of $VEL.CP in the machine data of a robot
 constexpr double surely_millimetres = 50;  // [m/s]: a tenth of smaller numbers is a speed of robots
 constexpr double longest_dwell = 100;  // [s]: cycles of production lines are shorter
 
