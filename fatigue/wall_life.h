@@ -1,8 +1,7 @@
 // Distribution of the life of a hose's wall over uncertain parameters. It is reported besides the headline.
 //
-// The place of the wall with the largest damage lives for W repeats. If the strain amplitudes of its
-// life curve are multiplied by f, it lives for W(f) repeats by a new count. With z, y, u standard normal and m, s the job's
-// uncertainty.motion and scatter of lives,
+// The place of the wall with the largest damage lives for W repeats. If the strain amplitudes of its life curve are multiplied by f,
+// it lives for W(f) repeats by a new count. With z, y, u standard normal and m, s the job's uncertainty.motion and scatter of lives,
 //     log10 life = log10 W(1.4^z) + y log10 m + u s                                                          (F37)
 // z: strength of the wall's material (pipeline/job/wall_strength.h). It is common to hoses of one material, and
 // `dresslife calibrate` learns it from dresspacks in service. y: the motion in the wires' samples. s: scatter of the wires, an

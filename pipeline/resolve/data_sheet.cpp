@@ -605,9 +605,8 @@ std::vector<std::pair<const char*, std::string>> keys_of_phrase(const std::strin
   static const std::regex angle(R"((?:(pair|group|wire) )?lay angle *:? *([\d.]+) *(?:deg(?:rees?)?|°)?)");
   if (meant.empty() && std::regex_match(phrase, found, angle))
     meant = fmt::format(
-        "write '{0}lay length LENGTH mm' with the circumference of the layer's middle over the tangent of the angle, or '{0}lay "
-        "length {1} mm' "
-        "if that was the length",
+        "write '{0}lay length LENGTH mm' with the circumference of the layer's middle over the tangent of the angle, or "
+        "'{0}lay length {1} mm' if that was the length",
         found[1].matched ? found[1].str() + " " : "", found[2].str());
   const std::string other = other_key(phrase);
   throw InputError(

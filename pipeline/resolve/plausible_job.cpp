@@ -95,10 +95,12 @@ struct Doubted {
   int more = 0;
   Where line = {};  ///< of the first step, or of what gives it the doubted value
   void add(const MotionStep& step, const Where& of = {}) {
-    if (first)
+    if (first) {
       ++more;
-    else
-      first = &step, line = of.line > 0 ? of : step.where;
+      return;
+    }
+    first = &step;
+    line = of.line > 0 ? of : step.where;
   }
   Warning warning(const std::string& what, const std::string& cause, const std::string& remedy) const {
     return warning_of(WarningKind::motion, line.text(), what + (more ? fmt::format(" (and {} more)", more) : ""), cause, remedy);
@@ -548,7 +550,7 @@ void doubt_quick(const std::vector<const Joint*>& driven, const AddDoubt& add) {
 /// choose drives and gears in proportion: on the measured IRB 6640 these times differ by a factor of 2.1 in the arm and of 1.1 in
 /// the wrist.
 void doubt_digits(const std::vector<const Joint*>& driven, const AddDoubt& add) {
-  constexpr double most_apart = 3;  // a lost or extra digit is a factor of 10, mostly 5 and more beyond its neighbours
+  constexpr double most_apart = 3;  // between the measured 2.1 and the factor of 10 of a lost digit
   constexpr std::size_t arm = 3, axes = 6;
   if (driven.size() != axes) return;
   const auto ramp = [](const Joint& of) { return of.speed / of.acceleration; };
@@ -803,19 +805,18 @@ void doubt_direction(const char* key, const Clamp& clamp, const AddDoubt& add) {
                   unit.x(), unit.y(), unit.z()));
 }
 
-/// Warns of a base clamp on a link beyond that of the tool clamp. The links of a robot are a chain from its base.
+auto link_of(const Robot& robot, const Clamp& clamp) { return std::ranges::find(robot.links, clamp.link, &Link::name); }
+
 void doubt_order_of_clamps(const Routing& routing, const Robot& robot, const AddDoubt& add) {
-  if (!routing.base_clamp || !routing.tool_clamp) return;
-  const auto link_of = [&](const Clamp& clamp) { return std::ranges::find(robot.links, clamp.link, &Link::name); };
-  const auto base = link_of(*routing.base_clamp), tool = link_of(*routing.tool_clamp);
-  if (base == robot.links.end() || base <= tool) return;
+  if (!clamps_exchanged(routing, robot)) return;
+  const auto base = link_of(robot, *routing.base_clamp), tool = link_of(robot, *routing.tool_clamp);
   const auto away = [&](const Link& link, const Clamp& clamp) { return distance_to(robot, link.name, clamp.position).value_or(0); };
   const bool links = away(*tool, *routing.base_clamp) + away(*base, *routing.tool_clamp) <
                      away(*base, *routing.base_clamp) + away(*tool, *routing.tool_clamp);
   add(routing.base_clamp->where,
       fmt::format("routing.base_clamp is on {}, and routing.tool_clamp on {}, which is nearer to the robot's base", base->name,
                   tool->name),
-      exchanged_clamps,
+      "exchanged clamps, or exchanged links",
       links ? fmt::format("routing.base_clamp.link: {} and routing.tool_clamp.link: {}: then both places are nearer to their links",
                           tool->name, base->name)
             : std::string("exchange base_clamp and tool_clamp"));
@@ -1057,6 +1058,12 @@ std::vector<Warning> plausibility_of_lives(const Job& job) {
                    "per cent instead of a share",
                    fmt::format("strain.gate: {:g} if that was per cent, or no key", job.strain.gate / 100)));
   return warnings;
+}
+
+bool clamps_exchanged(const Routing& routing, const Robot& robot) {
+  if (!routing.base_clamp || !routing.tool_clamp) return false;
+  const auto base = link_of(robot, *routing.base_clamp);  // the links of a robot are a chain from its base
+  return base != robot.links.end() && base > link_of(robot, *routing.tool_clamp);
 }
 
 std::vector<Warning> located(std::vector<Warning> warnings, const Node& document) {

@@ -15,8 +15,9 @@ std::vector<Warning> plausibility_of_motion(const Job& job);
 /// that drops cycles which break wires. dresslife-fatigue makes these checks, because it runs again if a key of any stage changes.
 std::vector<Warning> plausibility_of_lives(const Job& job);
 
-/// Cause of the warning on a base clamp beyond the tool clamp. Other limits of such a job say nothing.
-inline constexpr const char* exchanged_clamps = "exchanged clamps, or exchanged links";
+/// Returns whether the base clamp is on a link beyond that of the tool clamp, counted from the robot's base. plausibility_of_motion()
+/// warns of it. Other limits of such a job say nothing.
+bool clamps_exchanged(const Routing& routing, const Robot& robot);
 
 /// Gives each warning without a place the place in the document of the first key in its problem, such as "strain.gate".
 std::vector<Warning> located(std::vector<Warning> warnings, const Node& document);

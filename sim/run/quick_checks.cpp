@@ -66,9 +66,8 @@ class QuickChecks {
     if (robot_) found.others = robot_->doubts();
     const std::vector<pipeline::Warning> one_link = one_link_warnings(setup_);
     found.others = pipeline::joined(one_link, found.others);
-    if (std::ranges::any_of(
-            found.others,
-            [](const pipeline::Warning& other) { return other.words.find(pipeline::exchanged_clamps) != std::string::npos; }) ||
+    if (std::ranges::any_of(setup_.dresspacks,
+                            [&](const auto& of) { return pipeline::clamps_exchanged(of.routing, setup_.robot); }) ||
         (!one_link.empty() && std::ranges::any_of(found.checks, [](const Check& check) { return check.warning; }))) {
       found.checks.clear();
       found.notes.push_back(
