@@ -77,7 +77,7 @@ TEST_CASE("parts that can only be a mistake are refused") {
   CHECK_NOTHROW(overlap_warnings(dresspack_of(25, 1.175, 5.8, 0)));
 }
 
-TEST_CASE("a steep lay angle may be a lay length; the remedy ends where no length makes it flat") {
+TEST_CASE("a steep lay angle may be a lay length, and the remedy ends where no length makes it flat") {
   const auto remedy = [](const Dresspack& dresspack) {
     const std::vector<Warning> warnings = overlap_warnings(dresspack);
     REQUIRE(warnings.size() == 1);
