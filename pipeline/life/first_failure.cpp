@@ -19,7 +19,7 @@ namespace dresslife::pipeline {
 namespace {
 
 constexpr std::size_t cause_count = uncertain_count + 1;  // the last: scatter of wires
-constexpr std::size_t of_wires = uncertain_count;
+constexpr std::size_t of_wires = uncertain_count, of_residual = uncertain_count + 1;
 
 // ---- samples ----------------------------------------------------------------------------------------------
 
@@ -98,7 +98,23 @@ Eigen::MatrixXd divided(const Eigen::MatrixXd& numbers, const Eigen::MatrixXd& c
 struct Samples {
   std::vector<ParameterPoint> z;
   std::vector<double> u;
+  std::vector<double> residual;  ///< [decades]; empty: the response has no other places (F27b)
 };
+
+using StrainPoint = std::array<double, strain_parameters>;
+
+/// Returns z of a point without friction inside. Points with an equal result have the same motion of the cables.
+StrainPoint place_of(StrainPoint point) {
+  point[index_of(Uncertain::friction_inside)] = 0;
+  return point;
+}
+
+std::set<StrainPoint> places_of(const FailureModes& modes) {
+  std::set<StrainPoint> places;
+  for (const LifeResponse& mode : modes)
+    for (const StrainPoint& point : mode.points) places.insert(place_of(point));
+  return places;
+}
 
 /// again: returns another, independent set of samples.
 Samples samples_of(const LifeResponse& response, const std::string& job, std::size_t count, bool again = false) {
@@ -108,7 +124,11 @@ Samples samples_of(const LifeResponse& response, const std::string& job, std::si
     return uncertain_parameters()[p].shared != SharedBy::installation;
   });
   const Eigen::MatrixXd factor = factor_of(response.knowledge.covariance, order);
-  Samples samples{std::vector<ParameterPoint>(count), normals("scatter of wires/" + own_name(response, job))};
+  Samples samples{std::vector<ParameterPoint>(count), normals("scatter of wires/" + own_name(response, job)), {}};
+  if (residual_of({response}) > 0) {
+    samples.residual = normals("residual/" + own_name(response, job));
+    for (double& decades : samples.residual) decades *= residual_decades;
+  }
   if (response.scatter_shared < 1) {  // modes of one dresspack share a part of their scatter
     const std::vector<double> own = normals("scatter of wires/" + own_name(response, job) + "/" + response.mode);
     const double common = std::sqrt(response.scatter_shared), alone = std::sqrt(1 - response.scatter_shared);
@@ -150,7 +170,8 @@ std::vector<double> lives_of(const std::vector<LifeSurface>& surfaces, const std
   for (std::size_t s = 0; s < lives.size(); ++s) {
     std::size_t mode = 0;
     for (std::size_t m = 0; m < surfaces.size(); ++m) {
-      const double life = surfaces[m].log10_life(samples[m].z[s], samples[m].u[s], inside);
+      double life = surfaces[m].log10_life(samples[m].z[s], samples[m].u[s], inside);
+      if (!samples[m].residual.empty()) life += samples[m].residual[s];
       if (life < lives[s]) lives[s] = life, mode = m;
     }
     if (first && std::isfinite(lives[s])) ++(*first)[mode];
@@ -240,18 +261,26 @@ double covariance_of(const std::vector<double>& a, const std::vector<double>& b)
   return sum / count;
 }
 
-std::array<double, cause_count> shares_of(const FailureModes& modes, const std::vector<LifeSurface>& surfaces,
-                                          const std::string& job) {
+// The residual adds to all lives and is independent of the other causes. So its Shapley effect is the variance that it adds (for
+// several dresspacks on one robot approximately), and the other causes need no sets with it.
+CauseShares shares_of(const FailureModes& modes, const std::vector<LifeSurface>& surfaces, const std::string& job) {
   std::vector<std::size_t> causes;
   for (std::size_t cause = 0; cause < cause_count; ++cause)
     if (is_active(modes, surfaces, cause)) causes.push_back(cause);
-  std::array<double, cause_count> share{};
-  if (causes.empty()) return share;
+  CauseShares share{};
+  const bool residual = residual_of(modes) > 0;
+  if (causes.empty()) {
+    share[of_residual] = residual ? 1 : 0;
+    return share;
+  }
   // Half a million lives take about 0.1 s. With 4000 samples, 1 to 2 % of the variance is random.
   constexpr std::size_t lives_in_all = 500'000, most_samples = 4000, fewest_samples = 500;
   const std::size_t sets = std::size_t{1} << causes.size();
   const std::size_t count = std::clamp(lives_in_all / sets, fewest_samples, most_samples);
-  const std::vector<Samples> one = samples_of(modes, job, count), other = samples_of(modes, job, count, true);
+  std::vector<Samples> one = samples_of(modes, job, count), other = samples_of(modes, job, count, true);
+  const std::vector<double> whole = capped(lives_of(surfaces, one, Inside::as_is));
+  for (auto* samples : {&one, &other})
+    for (Samples& of_mode : *samples) of_mode.residual.clear();
   const Mixed mixture(one, other, modes.front().knowledge.covariance);
   const std::vector<double> lives = capped(lives_of(surfaces, one, Inside::as_is));
   std::vector<double> explained(sets, 0.0);  // V(S), index: set of causes as bits
@@ -263,14 +292,16 @@ std::array<double, cause_count> shares_of(const FailureModes& modes, const std::
     explained[set] =
         covariance_of(lives, all ? lives : capped(lives_of(surfaces, mixture.keeping(kept), Inside::as_is)));
   }
-  if (!(explained.back() > 0)) return share;
+  const double variance = residual ? std::max(covariance_of(whole, whole), explained.back()) : explained.back();
+  if (!(variance > 0)) return share;
+  share[of_residual] = 1 - explained.back() / variance;
   const double d = double(causes.size());
   for (std::size_t set = 0; set < sets; ++set) {
     const double size = double(__builtin_popcountll(set));
     const double weight = std::exp(std::lgamma(size + 1) + std::lgamma(d - size) - std::lgamma(d + 1));
     for (std::size_t c = 0; c < causes.size(); ++c)
       if (!(set >> c & 1))
-        share[causes[c]] += weight * (explained[set | std::size_t{1} << c] - explained[set]) / explained.back();
+        share[causes[c]] += weight * (explained[set | std::size_t{1} << c] - explained[set]) / variance;
   }
   return share;
 }
@@ -365,21 +396,6 @@ std::vector<double> nodes_of(const FailureModes& modes, std::size_t parameter) {
   return nodes;
 }
 
-using StrainPoint = std::array<double, strain_parameters>;
-
-/// Returns z of a point without friction inside. Points with an equal result have the same motion of the cables.
-StrainPoint place_of(StrainPoint point) {
-  point[of_friction] = 0;
-  return point;
-}
-
-std::set<StrainPoint> places_of(const FailureModes& modes) {
-  std::set<StrainPoint> places;
-  for (const LifeResponse& mode : modes)
-    for (const StrainPoint& point : mode.points) places.insert(place_of(point));
-  return places;
-}
-
 /// Returns the response with longer lives at the points of one place. Those of the job's own place are in `planned`, too.
 LifeResponse with_longer_lives(LifeResponse response, const StrainPoint& place, double decades) {
   const std::size_t of_point = response.strength.size() * response.slope.size();
@@ -422,11 +438,13 @@ std::vector<FailureModes> coarser(const FailureModes& modes) {
   const std::set<StrainPoint> places = places_of(modes);
   if (places.size() > 1)
     for (const StrainPoint& place : places)
-      add([&](const LifeResponse& mode) { return with_longer_lives(mode, place, chance_decades); });
+      add([&](const LifeResponse& mode) { return with_longer_lives(mode, place, residual_decades); });
   return all;
 }
 
 }  // namespace
+
+double residual_of(const FailureModes& modes) { return places_of(modes).size() > 1 ? residual_decades : 0; }
 
 LifePercentiles error_factors(const FailureModes& modes, const std::string& job, std::size_t count,
                               const std::vector<double>& log10_lives) {
@@ -446,12 +464,6 @@ LifePercentiles error_factors(const FailureModes& modes, const std::string& job,
   const std::vector<Samples> samples = samples_of(modes, job, count);
   for (const FailureModes& changed : coarser(modes))
     add(percentiles_of(lives_of(surfaces_of(changed), samples, Inside::as_is)));
-  if (places_of(modes).size() > 1) {
-    const std::vector<double> chance = standard_normals("chance/job " + job, count);
-    std::vector<double> lives = log10_lives;
-    for (std::size_t s = 0; s < count; ++s) lives[s] += chance_decades * chance[s];
-    add(percentiles_of(lives));
-  }
   LifePercentiles factors{};
   for (std::size_t i = 0; i < shares.size(); ++i)
     factors[i] = std::isfinite(percentiles[i]) ? std::pow(10.0, std::sqrt(squares[i])) : std::nan("");
@@ -555,13 +567,16 @@ double share_outliving(const std::vector<double>& one, const std::vector<double>
 }
 
 // The integers are rounded by largest remainders.
-std::string share_words(const std::array<double, uncertain_count + 1>& share) {
+std::string share_words(const CauseShares& share) {
   std::vector<std::pair<std::string, double>> parts;
   double other = 0, all = 0;
   for (std::size_t p = 0; p < share.size(); ++p) {
     all += share[p];
     if (share[p] >= 0.01)
-      parts.emplace_back(p == of_wires ? "scatter of wires" : uncertain_parameters()[p].name, 100 * share[p]);
+      parts.emplace_back(p == of_wires      ? "scatter of wires"
+                         : p == of_residual ? "numerical error"
+                                            : uncertain_parameters()[p].name,
+                         100 * share[p]);
     else
       other += 100 * share[p];
   }
@@ -581,8 +596,8 @@ std::string share_words(const std::array<double, uncertain_count + 1>& share) {
   return words;
 }
 
-std::size_t largest_share(const std::array<double, uncertain_count + 1>& share) {
-  return static_cast<std::size_t>(std::max_element(share.begin(), share.end()) - share.begin());
+std::size_t largest_share(const CauseShares& share) {
+  return static_cast<std::size_t>(std::max_element(share.begin(), share.begin() + of_residual) - share.begin());
 }
 
 }  // namespace dresslife::pipeline

@@ -29,19 +29,23 @@ std::string modes_text(const FailureModes& modes);
 FailureModes modes_from_text(const std::string& text);
 
 constexpr std::size_t life_samples = 10000;
-/// Root mean square difference of log10 lives of the worst wire, response less full chain: 0.66 in `hard`, 0.58 in `side_panel`
-/// (sim/measurements.md, other stiffnesses of the hose).
-constexpr double chance_decades = 0.6;
+/// Standard deviation of log10 lives of the full chain from the response, at values of the parameters that differ from the nodes.
+/// Lives are no smooth function of the hose's stiffness and the cables' slack: after a change the ring of cables comes to another
+/// rest, or the hose to another side of the robot. Measured: 0.66 in `hard`, 0.58 in `side_panel` (sim/measurements.md, other
+/// stiffnesses of the hose). If a response has nodes of other stiffnesses or slacks, a normal number with this deviation is added
+/// to each sample, one for each dresspack of a job.
+constexpr double residual_decades = 0.6;
 
 using LifePercentiles = std::array<double, 3>;  ///< repeats until 10, 50, 90 % have failed
+/// Shares of the variance of log10 life: of each parameter, of the scatter of wires, and of the residual. All 0: no variance.
+using CauseShares = std::array<double, uncertain_count + 2>;
 
 /// Lives of a job.
 struct FirstFailures {
   std::vector<double> log10_life;  ///< (sample) repeats; infinite: no mode fails
   LifePercentiles percentiles{}, glued{}, free{};
   std::vector<double> first;  ///< (mode) share of the samples with a failure in which this mode is the first
-  /// Share of the variance of log10 life, (parameter); the last is that of the scatter of wires. All 0: no variance.
-  std::array<double, uncertain_count + 1> share{};
+  CauseShares share{};
   /// Parameter whose test (UncertainParameter::test) reduces the range of 10 .. 90 % most; std::nullopt: no test reduces it.
   std::optional<std::size_t> best_test;
   LifePercentiles after_test{};  ///< if the result of that test is the present median of the parameter
@@ -57,10 +61,8 @@ struct FirstFailures {
 ///     nodes       without one node of friction, slack or strength, each in turn. The error of a linear interpolation grows with
 ///                 the square of the distance of nodes, so this is three times the error there. It counts in full,
 ///                 because other intervals are as wide as the one without the node
-///     chance      lives are no smooth function of the hose's stiffness and the cables' slack: after a small change the ring of
-///                 cables comes to another rest, or the hose to another side of the robot. A computed life and the life of one
-///                 dresspack differ from the smooth function by chance_decades. Lives at each place of the cables are longer by
-///                 this, each in turn, and those of all samples differ by independent normal numbers with this deviation
+///     places      computed lives have the error residual_decades, too: lives at each place of the cables are longer by this, each
+///                 in turn
 ///     together()  together() of friction with slack and with stiffness instead of their computed combinations; counts if other
 ///                 parameters are combined in this way. Slack and stiffness, whose combinations change lives most, stay together
 /// Not included: errors beyond the outermost nodes of friction, slack and stiffness (strain/measurements.md, response and full
@@ -77,6 +79,9 @@ std::vector<double> first_failures(const FailureModes& modes, const std::string&
 FirstFailures summary_of(const FailureModes& modes, const std::string& job,
                          std::size_t samples = life_samples);
 
+/// Returns the standard deviation of the residual of these modes: residual_decades, or 0 if the response has no other stiffness
+/// or slack.
+double residual_of(const FailureModes& modes);
 /// Returns the log10 lives of each mode by itself, (mode, sample).
 std::vector<std::vector<double>> mode_lives(const FailureModes& modes, const std::string& job,
                                             std::size_t samples = life_samples);
@@ -100,8 +105,8 @@ double share_outliving(const std::vector<double>& one, const std::vector<double>
 
 /// Returns "friction_inside 41 %; model 30 %; ...", largest first; the last is "other", the sum of all below 1 %. The numbers are
 /// integers and add up to 100. Empty: no variance.
-std::string share_words(const std::array<double, uncertain_count + 1>& share);
-/// Returns the index of the cause with the largest share; uncertain_count: the wires' scatter.
-std::size_t largest_share(const std::array<double, uncertain_count + 1>& share);
+std::string share_words(const CauseShares& share);
+/// Returns the index of the cause with the largest share, without the residual; uncertain_count: the wires' scatter.
+std::size_t largest_share(const CauseShares& share);
 
 }  // namespace dresslife::pipeline

@@ -45,7 +45,8 @@ LifeOverParameters::LifeOverParameters(std::vector<ProgramModes> programs, const
 LifeAt LifeOverParameters::at(const VectorXd& beside, const OwnValues* own) const {
   const ParameterPoint z = point(beside, own);
   const double early = first(z, -normal_decile, own), median = first(z, 0, own), late = first(z, normal_decile, own);
-  return {median, std::max(std::exp(least_log_spread), (late - early) / (2 * normal_decile))};
+  const double by_wires = (late - early) / (2 * normal_decile), residual = residual_of(modes()) * std::numbers::ln10;
+  return {median, std::max(std::exp(least_log_spread), std::hypot(by_wires, residual))};
 }
 
 double LifeOverParameters::log_median_at(const VectorXd& beside) const {
