@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <numeric>
 #include <set>
 
@@ -98,7 +99,7 @@ Eigen::MatrixXd divided(const Eigen::MatrixXd& numbers, const Eigen::MatrixXd& c
 struct Samples {
   std::vector<ParameterPoint> z;
   std::vector<double> u;
-  std::vector<double> residual;  ///< [decades]; empty: the response has no other places (F27b)
+  std::vector<double> residual;  ///< [decades]; empty: lives do not depend on the place of the cables
 };
 
 using StrainPoint = std::array<double, strain_parameters>;
@@ -107,6 +108,24 @@ using StrainPoint = std::array<double, strain_parameters>;
 StrainPoint place_of(StrainPoint point) {
   point[index_of(Uncertain::friction_inside)] = 0;
   return point;
+}
+
+/// Returns whether the worst wire has other lives at other places of the cables, with equal friction inside.
+bool depends_on_place(const LifeResponse& response) {
+  const auto of_point = static_cast<std::ptrdiff_t>(response.strength.size() * response.slope.size());
+  const auto lives = [&](std::size_t k) { return response.worst_life.begin() + static_cast<std::ptrdiff_t>(k) * of_point; };
+  // Equal strains give lives that differ by rounding: a response as text has six digits, at lives of up to 1e25.
+  const auto alike = [](double one, double other) { return std::abs(one - other) < 1e-3; };
+  std::map<double, std::size_t> own;  // point at the job's own place, by friction
+  for (std::size_t k = 0; k < response.points.size(); ++k)
+    if (response.inside[k] == Inside::as_is && place_of(response.points[k]) == StrainPoint{})
+      own[response.points[k][index_of(Uncertain::friction_inside)]] = k;
+  for (std::size_t k = 0; k < response.points.size(); ++k) {
+    if (response.inside[k] != Inside::as_is) continue;
+    const auto found = own.find(response.points[k][index_of(Uncertain::friction_inside)]);
+    if (found != own.end() && !std::equal(lives(k), lives(k) + of_point, lives(found->second), alike)) return true;
+  }
+  return false;
 }
 
 std::set<StrainPoint> places_of(const FailureModes& modes) {
@@ -125,7 +144,7 @@ Samples samples_of(const LifeResponse& response, const std::string& job, std::si
   });
   const Eigen::MatrixXd factor = factor_of(response.knowledge.covariance, order);
   Samples samples{std::vector<ParameterPoint>(count), normals("scatter of wires/" + own_name(response, job)), {}};
-  if (residual_of({response}) > 0) {
+  if (depends_on_place(response)) {
     samples.residual = normals("residual/" + own_name(response, job));
     for (double& decades : samples.residual) decades *= residual_decades;
   }
@@ -435,16 +454,15 @@ std::vector<FailureModes> coarser(const FailureModes& modes) {
         return point[of_friction] != 0 && (point[of_slack] != 0 || point[of_stiffness] != 0);
       });
     });
-  const std::set<StrainPoint> places = places_of(modes);
-  if (places.size() > 1)
-    for (const StrainPoint& place : places)
+  if (residual_of(modes) > 0)
+    for (const StrainPoint& place : places_of(modes))
       add([&](const LifeResponse& mode) { return with_longer_lives(mode, place, residual_decades); });
   return all;
 }
 
 }  // namespace
 
-double residual_of(const FailureModes& modes) { return places_of(modes).size() > 1 ? residual_decades : 0; }
+double residual_of(const FailureModes& modes) { return std::ranges::any_of(modes, depends_on_place) ? residual_decades : 0; }
 
 LifePercentiles error_factors(const FailureModes& modes, const std::string& job, std::size_t count,
                               const std::vector<double>& log10_lives) {

@@ -32,8 +32,8 @@ constexpr std::size_t life_samples = 10000;
 /// Standard deviation of log10 lives of the full chain from the response, at values of the parameters that differ from the nodes.
 /// Lives are no smooth function of the hose's stiffness and the cables' slack: after a change the ring of cables comes to another
 /// rest, or the hose to another side of the robot. Measured: 0.66 in `hard`, 0.58 in `side_panel` (sim/measurements.md, other
-/// stiffnesses of the hose). If a response has nodes of other stiffnesses or slacks, a normal number with this deviation is added
-/// to each sample, one for each dresspack of a job.
+/// stiffnesses of the hose). If lives depend on stiffness, slack or another parameter that moves the cables, a normal number with
+/// this deviation is added to each sample, one for each dresspack of a job.
 constexpr double residual_decades = 0.6;
 
 using LifePercentiles = std::array<double, 3>;  ///< repeats until 10, 50, 90 % have failed
@@ -79,8 +79,8 @@ std::vector<double> first_failures(const FailureModes& modes, const std::string&
 FirstFailures summary_of(const FailureModes& modes, const std::string& job,
                          std::size_t samples = life_samples);
 
-/// Returns the standard deviation of the residual of these modes: residual_decades, or 0 if the response has no other stiffness
-/// or slack.
+/// Returns the standard deviation of the residual of these modes: residual_decades, or 0 if no life depends on the place of the
+/// cables.
 double residual_of(const FailureModes& modes);
 /// Returns the log10 lives of each mode by itself, (mode, sample).
 std::vector<std::vector<double>> mode_lives(const FailureModes& modes, const std::string& job,

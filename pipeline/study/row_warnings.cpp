@@ -18,18 +18,20 @@ std::string line_of(const RankingRow& row, const Warning& warning) {
   return fmt::format("{}: warning: {}\n", row.job, warning.text());
 }
 
-/// Returns the first warning of a kind, with the number of jobs that have such a warning.
+/// Returns the warning of a kind of the last job that has one, and the number of these jobs. The last job of a ranking has the
+/// shortest life.
 std::string line_of_kind(const std::vector<RankingRow>& rows, WarningKind kind) {
-  std::string first;
+  std::string last;
   std::size_t jobs = 0;
   for (const RankingRow& row : rows) {
     const std::vector<Warning> warnings = warnings_of(row);
     const auto found = std::find_if(warnings.begin(), warnings.end(),
                                     [&](const Warning& warning) { return warning.kind == kind; });
     if (found == warnings.end()) continue;
-    if (++jobs == 1) first = line_of(row, *found);
+    last = line_of(row, *found);
+    ++jobs;
   }
-  return jobs < 2 ? first : fmt::format("{} jobs, {}: {}", jobs, title(kind), first);
+  return jobs < 2 ? last : fmt::format("{} jobs, {}: {}", jobs, title(kind), last);
 }
 
 }  // namespace

@@ -15,8 +15,8 @@ std::vector<Warning> warnings_of(const RankingRow& row);
 /// empty: none, or not known.
 std::string warning_kinds(const RankingRow& row);
 
-/// Returns every warning with its job, one per line. For more than a dozen, and for limits at other values: the first warning of
-/// each kind, the number of jobs, and the files with the other warnings. Empty: none.
+/// Returns every warning with its job, one per line. For more than a dozen, and for limits at other values: one warning of each kind,
+/// of the last row that has it, the number of jobs, and the files with the other warnings. Empty: none.
 std::string warning_lines(const std::vector<RankingRow>& rows);
 
 }  // namespace dresslife::pipeline

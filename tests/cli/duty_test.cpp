@@ -195,6 +195,8 @@ TEST_CASE("duties that cannot be added up are refused before anything runs") {
 TEST_CASE("a plan names what to replace in a window, writes a table and a calendar, and refuses what it does not know") {
   const Scratch scratch;
   write_study(scratch);
+  // With a known stiffness lives have no residual, so that old dresspacks fail more often than new ones.
+  scratch.write("job.yaml", content(scratch / "job.yaml") + "uncertainty: {hose_stiffness: 1}\n");
   scratch.write("duties.yaml", "study: study.yaml\nduties: [{name: d, programs: [{job: one, percent_of_time: 0.1}]}]\n");
   scratch.write("fleet.csv", "name,duty,installed\nnew one,d,\nold one,d,2026-11-22\n");
   const std::string plan = "plan fleet.csv --duties duties.yaml --today 2026-11-23 --quiet --windows ";

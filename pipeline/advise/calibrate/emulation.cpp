@@ -313,7 +313,7 @@ class RoundEmulation {
       const double between =
           typical ? deviation_between_cables([&](const VectorXd& beside) { return life->log_median_at(beside); }, moves, z - at) : 0;
       return LifeAt{std::min(endless_log_life, centre.median + here.log_median - modelled.log_median),
-                    std::exp(centre.spread) * here.spread / modelled.spread, between};
+                    std::exp(centre.spread) * here.spread / modelled.spread, between, life->residual()};
     };
   }
 

@@ -12,7 +12,6 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-
 }  // namespace
 
 std::vector<OwnValues> own_values(const FailureModes& modes, const std::array<bool, uncertain_count>& own,
@@ -45,9 +44,11 @@ LifeOverParameters::LifeOverParameters(std::vector<ProgramModes> programs, const
 LifeAt LifeOverParameters::at(const VectorXd& beside, const OwnValues* own) const {
   const ParameterPoint z = point(beside, own);
   const double early = first(z, -normal_decile, own), median = first(z, 0, own), late = first(z, normal_decile, own);
-  const double by_wires = (late - early) / (2 * normal_decile), residual = residual_of(modes()) * std::numbers::ln10;
-  return {median, std::max(std::exp(least_log_spread), std::hypot(by_wires, residual))};
+  const double by_wires = (late - early) / (2 * normal_decile);
+  return {median, std::max(std::exp(least_log_spread), own ? std::hypot(by_wires, residual()) : by_wires)};
 }
+
+double LifeOverParameters::residual() const { return residual_of(modes()) * std::numbers::ln10; }
 
 double LifeOverParameters::log_median_at(const VectorXd& beside) const {
   return first(point(beside, nullptr), 0, nullptr);

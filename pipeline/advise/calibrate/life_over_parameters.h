@@ -44,10 +44,12 @@ class LifeOverParameters {
   const FailureModes& modes() const { return programs_.front().modes; }
 
   /// Returns the life in repeats, or in hours of operation. beside: (parameter) z relative to the job's keys. own: values of one
-  /// dresspack; null: median values, with a scatter of wires that is common to all modes. A life without end gives
-  /// endless_log_life.
+  /// dresspack, with its residual; null: median values, with a scatter of wires that is common to all modes and without residual. A
+  /// life without end gives endless_log_life.
   LifeAt at(const Eigen::VectorXd& beside, const OwnValues* own = nullptr) const;
   double log_median_at(const Eigen::VectorXd& beside) const;
+  /// Returns the standard deviation of the residual of ln life (residual_of()).
+  double residual() const;
 
  private:
   ParameterPoint point(const Eigen::VectorXd& beside, const OwnValues* own) const;

@@ -28,9 +28,10 @@ double log_all_within(double margin, double common, double own, int specimens) {
 }
 
 double log_likelihood(const ObservedLife& observed, const LifeVariant& variant, const Eigen::VectorXd& z) {
-  const auto [median, spread, between] = variant(z);
+  const auto [median, spread, between, residual] = variant(z);
   const double margin = median - observed.log_life;
-  const double common = std::hypot(std::sqrt(observed.common_share) * spread, observed.unshared_spread, between);
+  const double common =
+      std::hypot(std::hypot(std::sqrt(observed.common_share) * spread, observed.unshared_spread), std::hypot(between, residual));
   const double own = std::sqrt(1 - observed.common_share) * spread, all = std::hypot(common, own);
   const int n = observed.specimens;
   if (observed.end == LifeEnd::broken) return log_density(margin, std::hypot(common, own / std::sqrt(n)));

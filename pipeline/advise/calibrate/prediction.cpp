@@ -44,7 +44,7 @@ PredictedDeciles predicted_deciles(const ObservedLife& life, const Eigen::Matrix
     std::size_t chosen = 0;
     while (chosen + 1 < weight.size() && left > weight[chosen]) left -= weight[chosen++];
     const LifeAt at = life.variants[chosen](z);
-    lives.push_back(at.log_median + std::hypot(at.spread, life.unshared_spread) * numbers.normal());
+    lives.push_back(at.log_median + std::hypot(at.spread, life.unshared_spread, at.residual) * numbers.normal());
   }
   PredictedDeciles deciles = quantiles(lives);
   for (double& one : deciles) one = one >= endless_log_life - 3 ? HUGE_VAL : std::exp(one);

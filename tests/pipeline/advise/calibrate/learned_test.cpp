@@ -151,7 +151,9 @@ TEST_CASE("learned: of straight responses the posterior, and what each test says
   made.tests.push_back(other);
   // ln life = ln 500 + k z, and its deviation with what each test has of its own, of both tests.
   constexpr std::array<double, 2> scatter{0.5, 0.7}, of_strength{0.3, 0.15};
-  const std::array<double, 2> spread{std::hypot(0.5, 0.2 * std::log(10.0)), std::hypot(0.7, 0.2 * std::log(10.0))};
+  // The second test's life depends on slack, so it has the residual of the response.
+  const std::array<double, 2> spread{std::hypot(0.5, 0.2 * std::log(10.0)),
+                                     std::hypot(0.7, 0.2 * std::log(10.0), residual_decades * std::log(10.0))};
   const auto place = [](Uncertain parameter) { return Eigen::Index(index_of(parameter)); };
   std::array<Eigen::VectorXd, 2> k;
   for (const std::size_t t : {0u, 1u}) {
