@@ -44,7 +44,7 @@ void describe(Fields& f, Component& component) {
             "The number of equal parts in the layer (K).");
   f.number("radius_mm", component.radius, Need::required, above(0), "The radius of the part.");
   f.number("helix_radius_mm", component.helix_radius, Need::required, at_least(0),
-           "The distance from the parent's axis to the part's axis (R).");
+           "The distance from the parent's axis to the part's axis (R); a part that lies in the hose can have 'place: auto' instead.");
   f.number("lay_angle_deg", component.lay_angle, Need::optional, between(0, 60),
            "The angle between the part and the parent's axis (alpha).");
   f.choice("hand", component.hand, "The direction of the helix: right (Z) or left (S).");
