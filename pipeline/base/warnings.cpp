@@ -7,12 +7,14 @@
 #include <sstream>
 
 #include "pipeline/base/joined.h"
+#include "pipeline/base/readable.h"
 #include "pipeline/base/warning_words.h"
 
 namespace dresslife::pipeline {
 namespace {
 
 constexpr std::size_t most_bytes = 60'000;  // HDF5 allows 64 kB in an attribute
+constexpr std::string_view cause_mark = ". Likely cause: ", remedy_mark = ". Remedy: ";
 constexpr const char* separator = ": ";     // between key and value
 
 std::optional<WarningKind> kind_named(std::string_view name) {
@@ -119,6 +121,16 @@ const char* title(WarningKind kind) {
 std::string Warning::line() const {
   return where.empty() ? "warning: " + words : where + ": warning: " + words;
 }
+std::string Warning::paragraph() const {
+  constexpr std::size_t columns = 120;
+  std::string rest = line(), text;
+  for (const std::string_view begin : {cause_mark, remedy_mark})
+    if (const std::size_t at = rest.find(begin); at != std::string::npos) {
+      text += wrapped(rest.substr(0, at + 1), columns, text.empty() ? "" : "    ");
+      rest.erase(0, at + 2);
+    }
+  return text + wrapped(rest, columns, text.empty() ? "" : "    ");
+}
 std::string Warning::text() const { return where.empty() ? words : where + ": " + words; }
 
 std::string Remedy::text() const {
@@ -129,7 +141,7 @@ std::string Remedy::text() const {
 
 Warning warning_of(WarningKind kind, std::string where, const std::string& what, const std::string& cause,
                    const Remedy& remedy) {
-  return {kind, std::move(where), fmt::format("{}. Likely cause: {}. Remedy: {}", what, cause, remedy.text()), remedy.values};
+  return {kind, std::move(where), what + std::string(cause_mark) + cause + std::string(remedy_mark) + remedy.text(), remedy.values};
 }
 Warning warning_of(WarningKind kind, std::string where, const std::string& what, const std::string& cause,
                    const std::string& remedy) {

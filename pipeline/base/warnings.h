@@ -50,6 +50,9 @@ struct Warning {
   std::vector<KeyValue> remedy = {};
   /// Returns "side_panel.mod:45: warning: skipped: ..."
   std::string line() const;
+  /// Returns the line for a terminal: wrapped at 120 columns, with the likely cause and the remedy on lines of their own. Ends with
+  /// a line feed.
+  std::string paragraph() const;
   /// Returns the line without the word "warning", for a table of warnings.
   std::string text() const;
   bool operator==(const Warning&) const = default;

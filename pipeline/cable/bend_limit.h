@@ -24,4 +24,16 @@ inline double least_bend_radius(const Dresspack& dresspack) {
   return least;
 }
 
+/// Smallest bend radii that makers state for moved hoses and for moved cables, in diameters.
+inline constexpr double tightest_hose = 3, tightest_cable = 4.5;
+
+/// Returns the smallest bend radius that a maker may allow in motion [m].
+inline double tightest_bend_radius(const Dresspack& dresspack) {
+  if (dresspack.cable_alone) return tightest_cable * dresspack.diameter;
+  double least = tightest_hose * dresspack.diameter;
+  for (const Component& part : dresspack.components)
+    least = std::max(least, (part.plain ? tightest_hose : tightest_cable) * 2 * part.radius + part.helix_radius);
+  return least;
+}
+
 }  // namespace dresslife::pipeline

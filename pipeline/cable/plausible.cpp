@@ -8,6 +8,7 @@
 #include "pipeline/base/constants.h"
 #include "pipeline/base/joined.h"
 #include "pipeline/cable/believable.h"
+#include "pipeline/cable/bend_limit.h"
 #include "pipeline/base/warning_words.h"
 #include "pipeline/cable/stiffness.h"
 #include "pipeline/job/parts_room.h"
@@ -44,7 +45,7 @@ constexpr double same_height =
 constexpr double largest_bend_radius = 40;  // diameters: makers' limits are 3 to 15
 constexpr double tight_bend = 1.3;          // diameters: the limit of corrugated hoses that do not move
 // In diameters, for moving parts, from makers: hoses have 3 to 10, cables 5 to 15. For fixed cables, makers give 3 to 4.
-constexpr double tightest_hose = 3, widest_hose_bend = 10, tightest_cable = 4.5, widest_cable_bend = 15;
+constexpr double widest_hose_bend = 10, widest_cable_bend = 15;
 constexpr double least_torsion = 0.01,
                  most_torsion = 100;      // G J / E I: a solid bar has 0.77, corrugated hoses up to 10
 constexpr double largest_friction = 1.5;  // rubber on steel has 1

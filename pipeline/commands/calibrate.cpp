@@ -42,7 +42,7 @@ ServiceTests tests_of(const CalibrateOptions& options, const fs::path& file) {
 int calibrate(const CalibrateOptions& options) {
   const fs::path file = named_file(options.study, "observations");
   const auto [tests, words] = tests_of(options, file);
-  for (const Warning& warning : doubtful_rows(tests)) write_stderr(shown(warning.line() + "\n"));
+  for (const Warning& warning : doubtful_rows(tests)) write_stderr(shown(warning.paragraph()));
   if (!words.empty()) write_stderr(words);  // printed before hours of computation
   const OwnFolder own(options, "calibrate_" + file.stem().string(), file);
   const StudyPlaces& places = own.places;

@@ -87,7 +87,8 @@ JobCheck check_of(const std::filesystem::path& file, const std::vector<std::stri
     return check;
   }
   check.limits =
-      "The dresspack was checked at rest and in a short run. A run may also warn of strains and forces of its cables.";
+      "The dresspack was checked at rest and in short runs, also with a softer and a stiffer hose. A run may also warn of strains and "
+      "forces of its cables, and of limits at other values of slack and friction.";
   if (print_preview(file, sets, {}, preview_file) != 0) fail_motion(file);
   try {
     check.refusal = refusal_of(preview_file);
@@ -110,7 +111,7 @@ JobCheck check_of(const std::filesystem::path& file, const std::vector<std::stri
 }
 
 void print_check(const JobCheck& check) {
-  for (const Warning& warning : check.warnings) print(shown(warning.line() + "\n"));
+  for (const Warning& warning : check.warnings) print(shown(warning.paragraph()));
   for (const std::string& note : check.notes) print(shown(note + "\n"));
   for (const std::string& estimate : check.estimates) print(shown(estimate + "\n"));
   if (!check.refusal.empty()) print(shown("The simulation refuses the job: " + check.refusal + "\n"));

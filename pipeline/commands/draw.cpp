@@ -26,7 +26,7 @@ int draw(const DrawOptions& options) {
     return 1;
   }
   print(shown(construction_text(dresspack)));
-  for (const Warning& warning : construction_warnings(dresspack, true)) write_stderr(warning.line() + "\n");
+  for (const Warning& warning : construction_warnings(dresspack, true)) write_stderr(warning.paragraph());
   if (!options.picture.empty()) write_picture(options.picture, cross_section_picture(dresspack));
   return 0;
 }

@@ -87,11 +87,11 @@ DutiesRun run_duties(const DutyFile& file, const RunOptions& options) {
   else if (standing.remembered)
     standing = expanded(request);
   if (begun) check_before_run(file, standing);
-  for (const Warning& warning : mounting_warnings(file, standing.study, nullptr)) write_stderr(shown(warning.line() + "\n"));
+  for (const Warning& warning : mounting_warnings(file, standing.study, nullptr)) write_stderr(shown(warning.paragraph()));
   if (!begun) look_again(standing);
   make_rest(request, standing, options);
   std::vector<RankingRow> rows = results_of(standing.study, standing.places, standing.states);
-  for (const Warning& warning : mounting_warnings(file, standing.study, &rows)) write_stderr(shown(warning.line() + "\n"));
+  for (const Warning& warning : mounting_warnings(file, standing.study, &rows)) write_stderr(shown(warning.paragraph()));
   add_rounds(file, options, standing.study, standing.places, rows);
   return {std::move(standing.study), std::move(standing.places), std::move(rows)};
 }

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 int duty(const RunOptions& options) {
   const fs::path name = named_file(options.study, "duties");
   const DutyFile file = read_duties(name);
-  for (const Warning& warning : doubtful_duties(file)) write_stderr(shown(warning.line() + "\n"));
+  for (const Warning& warning : doubtful_duties(file)) write_stderr(shown(warning.paragraph()));
   const DutiesRun made = run_duties(file, options);
   const std::vector<DutyResult> results = evaluated(file, made.study, made.rows);
   const std::string csv = duty_csv(results);

@@ -182,7 +182,7 @@ int plan(const PlanOptions& options) {
       if (planned.contains(duty.name)) needed.insert(past.duty), has_changes = true;
   for (const Warning& warning :
        joined(doubts_of(options.risk_percent), joined(doubtful_fleet(fleet, day), doubtful_duties(file))))
-    write_stderr(shown(warning.line() + "\n"));
+    write_stderr(shown(warning.paragraph()));
   const DutiesRun made = run_duties(file, options);
   std::map<std::string, LifeTable> tables = life_tables(file, made.study, made.rows, needed, has_changes);
   for (const auto& [name, table] : tables)
@@ -193,7 +193,7 @@ int plan(const PlanOptions& options) {
           "no plan helps; see dresslife improve");
   const std::vector<DutyResult> duties = outlines(file, made.study, made.rows, planned);
   const auto add_past = [&](Fleet& of) {
-    for (const Warning& warning : add_histories(of, file, tables, day)) write_stderr(shown(warning.line() + "\n"));
+    for (const Warning& warning : add_histories(of, file, tables, day)) write_stderr(shown(warning.paragraph()));
   };
   add_past(fleet);
   const PlanRule rule{options.risk_percent.value_or(10) / 100, fleet.has_costs && !options.risk_percent,
@@ -213,7 +213,7 @@ int plan(const PlanOptions& options) {
         fmt::format("the ages of these dresspacks contradict the model: {:.1f} of {} samples explain them",
                     found.effective_worlds, tables.begin()->second.worlds),
         "learn from them first: dresslife calibrate");
-  for (const Warning& warning : doubtful_ages(fleet, found)) write_stderr(shown(warning.line() + "\n"));
+  for (const Warning& warning : doubtful_ages(fleet, found)) write_stderr(shown(warning.paragraph()));
   std::optional<Plan> other;
   std::string what_if;
   const std::string what_if_name = fs::path(options.what_if).stem().string() + (from > day ? " from " + day_text(from) : "");

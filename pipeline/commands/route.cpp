@@ -68,6 +68,8 @@ struct Trial {
       best;
   std::vector<ImprovementStory::Nudge> nudges{};  // runs of the best proposal within the tolerance
   std::optional<std::size_t> start{};             // the job's own routing, if it has one
+  std::optional<std::size_t> found{};             // the best other routing, if the job's own one ran, too
+  std::vector<ImprovementStory::Nudge> own_nudges{};  // runs of the job's own routing within the tolerance
   std::string ended{};  // message that a file changed and the search ended; empty: no file changed
 
   bool feasible() const { return best && outcomes[*best].feasible(); }
@@ -168,11 +170,28 @@ void judge(Trial& trial, const Draft& draft, const RouteOptions& options, const 
     };
     finalists.push_back(std::move(finalist));
   }
-  const std::vector<WithinTolerance> judged = within_tolerance(
-      finalists, as_it_is, [&](const ToleranceCount& count) { runs.begin(count); });
+  const auto progress = [&](const ToleranceCount& count) { runs.begin(count); };
+  std::vector<WithinTolerance> judged = within_tolerance(finalists, as_it_is, progress);
   const std::size_t best = best_within(judged);
-  trial.best = best_first[best];
-  trial.nudges = judged[best].nudges;
+  std::optional<std::size_t> own;
+  for (std::size_t k = 0; k < judged.size(); ++k)
+    if (best_first[k] == trial.start) own = k;
+  // The bound of a routing that keeps all limits so far may be too high.
+  if (own && judged[*own].worst.kept >= Kept::limits)
+    judged[*own] = within_tolerance(finalists[*own], as_it_is, [&](const Merit& worst) { return clearly_better(judged[best].worst, worst); },
+                                    {judged[best]}, progress);
+  const std::size_t chosen = best_within(judged, own);
+  trial.best = best_first[chosen];
+  trial.nudges = judged[chosen].nudges;
+  if (own && best != *own) trial.found = best_first[best], trial.own_nudges = judged[*own].nudges;
+}
+
+/// Takes the job's own routing if the best one is not clearly better than it.
+void prefer_own(Trial& trial) {
+  if (!trial.start || trial.best == trial.start || trial.rows[*trial.start].job.empty()) return;
+  const Outcome& own = trial.outcomes[*trial.start];
+  trial.found = trial.best;
+  if (own.feasible() && !clearly_better(merit_of(trial.outcomes[*trial.best], own), merit_of(own, own))) trial.best = trial.start;
 }
 
 /// Returns the routing of the given job as YAML; absent: the job has no complete routing.
@@ -231,6 +250,8 @@ Trial tried(const Draft& draft, const RouteOptions& options, double factor, cons
         write_stderr(shown(fmt::format("The best routing so far is in {}, not yet verified within the mounting tolerance.\n",
                                job.string())));
       judge(trial, draft, options, places, files);
+    } else if (trial.feasible()) {
+      prefer_own(trial);
     }
   } catch (const FilesChanged& change) {
     trial.ended = change.what();
@@ -319,16 +340,26 @@ void write_page(const fs::path& job, const fs::path& page) {
     write_text_if_changed(page, preview_page(passing.path(), job.stem().string(), xxh3(shell_digest())));
 }
 
+/// Returns "p10 347,000 h; jacket wear from 24,400 h; keeps all limits".
+std::string outcome_words(const Outcome& outcome) {
+  const std::string modes = mode_words(outcome);
+  return fmt::format("p10 {}; {}{}", hours_text(outcome.hours), modes.empty() ? "" : modes + "; ",
+                     outcome.feasible() ? "keeps all limits" : outcome.words());
+}
+
 /// Returns a comparison of the best routing with the job's own routing.
-std::string comparison_words(const Trial& trial) {
+std::string comparison_words(const Trial& trial, const MountingTolerance& tolerance) {
   if (!trial.start || trial.rows[*trial.start].job.empty())
     return "";  // no own routing, or the search ended early
-  const Outcome &own = trial.outcomes[*trial.start], &best = trial.outcomes[*trial.best];
-  if (*trial.best == *trial.start) return "It is the job's own routing: none that was found is better.\n";
+  const Outcome& own = trial.outcomes[*trial.start];
   if (!own.failure.empty()) return fmt::format("The job's own routing does not run: {}\n", own.failure);
-  const std::string limits = own.feasible() ? "keeps all limits" : own.words();
-  return fmt::format("p10: {} (job's own routing: {}; {})\n", hours_text(best.hours), hours_text(own.hours),
-                     limits);
+  if (trial.best == trial.start && !trial.found) return "It is the job's own routing: none that was found is better.\n";
+  const Outcome& other = trial.outcomes[trial.found.value_or(*trial.best)];
+  const std::string both = fmt::format("the best of the others: {}\n  the job's own: {}\n", outcome_words(other), outcome_words(own));
+  if (trial.best == trial.start) return "It is the job's own routing, because no other is better in life, limits and modes together.\n  " + both;
+  std::string text = "It is better than the job's own routing.\n  " + both;
+  if (!trial.own_nudges.empty()) text += "  The job's own: " + tolerance_words(trial.own_nudges, tolerance);
+  return text;
 }
 
 std::string words_of(const Trial& trial, const Draft& draft, const MountingTolerance& tolerance) {
@@ -349,7 +380,7 @@ std::string words_of(const Trial& trial, const Draft& draft, const MountingToler
     text += fmt::format("It runs, but no routing was found that keeps all limits ({}): {}. Remedy: {}\n",
                         best.words(), by.by, by.remedy);
   }
-  text += comparison_words(trial) + tolerance_words(trial.nudges, tolerance);
+  text += comparison_words(trial, tolerance) + tolerance_words(trial.nudges, tolerance);
   const RankingRow& row = trial.rows[*trial.best];
   for (const std::string& words :
        {action_words(row), uncertainty_words(row), failure_words(row)})
@@ -368,7 +399,7 @@ int route(const RouteOptions& options) {
   if (options.bracket_mm)
     request.sets.push_back(fmt::format("routing.longest_bracket_mm={:.6g}", *options.bracket_mm));
   const Draft draft = draft_of(request);
-  for (const Warning& fault : dresspack_faults(draft.job, true)) write_stderr(fault.line() + "\n");
+  for (const Warning& fault : dresspack_faults(draft.job, true)) write_stderr(fault.paragraph());
   const fs::path job = options.job.empty() ? fs::path(draft.name + "_routed.yaml") : fs::path(options.job);
   const fs::path page = job.parent_path() / (job.stem().string() + "_preview.html");
   check_replaceable(job);

@@ -29,7 +29,7 @@ int validate(const RunOptions& options) {
   const fs::path file = named_file(options.study, "observations");
   if (holds_law_tests(file)) return validate_laws(file, options);
   const ValidationStudy validation = read_observations(file, options.sets);
-  for (const Warning& warning : validation.doubts) write_stderr(shown(warning.line() + "\n"));
+  for (const Warning& warning : validation.doubts) write_stderr(shown(warning.paragraph()));
   const OwnFolder own(options, validation.study.name, file);
   const StudyPlaces& places = own.places;
   const std::vector<RankingRow> rows = made_rows(validation.study, places, options);

@@ -70,12 +70,13 @@ std::string page_link(const RankingRow& row, const std::string& page, const std:
 
 /// Returns the kinds of the warnings, and on request each warning in full.
 std::string warning_cell(const RankingRow& row) {
-  const std::string kinds = warning_kinds(row);
+  constexpr bool with_other_values = true;
+  const std::string kinds = warning_kinds(row, with_other_values);
   if (kinds.empty()) return row.warnings ? "" : "<span class=\"soft\">not known</span>";
   std::string list;
   for (const Warning& warning : warnings_of(row)) list += fmt::format("<li>{}</li>", escaped(warning.text()));
-  return fmt::format("<details><summary class=\"failed\">{}</summary><ul>{}</ul></details>", escaped(kinds),
-                     list);
+  return fmt::format("<details><summary class=\"{}\">{}</summary><ul>{}</ul></details>", warning_kinds(row).empty() ? "soft" : "failed",
+                     escaped(kinds), list);
 }
 
 /// Returns the begin of a table row, with data for sorting and comparing.

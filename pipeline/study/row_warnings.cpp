@@ -14,13 +14,14 @@ std::size_t count_of(const std::vector<Warning>& warnings, WarningKind kind) {
       warnings.begin(), warnings.end(), [&](const Warning& warning) { return warning.kind == kind; }));
 }
 
-std::string line_of(const RankingRow& row, const Warning& warning) {
-  return fmt::format("{}: warning: {}\n", row.job, warning.text());
+/// jobs: words that precede the name of the job; may be empty.
+std::string lines_of(const RankingRow& row, const Warning& warning, const std::string& jobs = "") {
+  return Warning{warning.kind, jobs + row.job, warning.text()}.paragraph();
 }
 
 /// Returns the warning of a kind of the last job that has one, and the number of these jobs. The last job of a ranking has the
 /// shortest life.
-std::string line_of_kind(const std::vector<RankingRow>& rows, WarningKind kind) {
+std::string lines_of_kind(const std::vector<RankingRow>& rows, WarningKind kind) {
   std::string last;
   std::size_t jobs = 0;
   for (const RankingRow& row : rows) {
@@ -28,10 +29,10 @@ std::string line_of_kind(const std::vector<RankingRow>& rows, WarningKind kind) 
     const auto found = std::find_if(warnings.begin(), warnings.end(),
                                     [&](const Warning& warning) { return warning.kind == kind; });
     if (found == warnings.end()) continue;
-    last = line_of(row, *found);
     ++jobs;
+    last = lines_of(row, *found, jobs < 2 ? "" : fmt::format("{} jobs, {}: ", jobs, title(kind)));
   }
-  return jobs < 2 ? last : fmt::format("{} jobs, {}: {}", jobs, title(kind), last);
+  return last;
 }
 
 }  // namespace
@@ -43,12 +44,12 @@ std::vector<Warning> warnings_of(const RankingRow& row) {
   return {{WarningKind::force, "", force_words(row)}};
 }
 
-std::string warning_kinds(const RankingRow& row) {
+std::string warning_kinds(const RankingRow& row, bool with_other_values) {
   const std::vector<Warning> warnings = warnings_of(row);
   std::vector<std::string> words;
   for (int k = 0; k < warning_kinds_count; ++k) {
     const auto kind = static_cast<WarningKind>(k);
-    if (const std::size_t count = count_of(warnings, kind); count > 0 && kind != WarningKind::other_values)
+    if (const std::size_t count = count_of(warnings, kind); count > 0 && (with_other_values || kind != WarningKind::other_values))
       words.push_back(count == 1 ? std::string(title(kind)) : fmt::format("{} x{}", title(kind), count));
   }
   return joined(words, ", ");
@@ -64,14 +65,14 @@ std::string warning_lines(const std::vector<RankingRow>& rows) {
       if (warning.kind == WarningKind::other_values)
         ++at_other_values;
       else if (++count <= most_lines)
-        text += line_of(row, warning);
+        text += lines_of(row, warning);
   if (count > most_lines) {
     text.clear();
-    for (int k = 0; k < warning_kinds_count; ++k) text += line_of_kind(rows, static_cast<WarningKind>(k));
+    for (int k = 0; k < warning_kinds_count; ++k) text += lines_of_kind(rows, static_cast<WarningKind>(k));
     return text + fmt::format("{} warnings in all: {}\n", count + at_other_values, places);
   }
   // A job's own values keep these limits, so the first warning is enough here.
-  text += line_of_kind(rows, WarningKind::other_values);
+  text += lines_of_kind(rows, WarningKind::other_values);
   if (at_other_values > 1) text += fmt::format("{} warnings on limits at other values: {}\n", at_other_values, places);
   return text;
 }

@@ -11,9 +11,9 @@ namespace dresslife::pipeline {
 /// Returns the warnings of a row; for an older file without warnings the warning about its forces.
 std::vector<Warning> warnings_of(const RankingRow& row);
 
-/// Returns the kinds of the warnings: "bend radius, program x3", without limits at other values, which the job's own values keep;
-/// empty: none, or not known.
-std::string warning_kinds(const RankingRow& row);
+/// Returns the kinds of the warnings: "bend radius, program x3"; empty: none, or not known. with_other_values: also those of limits
+/// at other values, which the job's own values keep.
+std::string warning_kinds(const RankingRow& row, bool with_other_values = false);
 
 /// Returns every warning with its job, one per line. For more than a dozen, and for limits at other values: one warning of each kind,
 /// of the last row that has it, the number of jobs, and the files with the other warnings. Empty: none.

@@ -13,6 +13,7 @@
 #include "sim/route/proposal.h"
 #include "sim/run/cures.h"
 #include "sim/run/longest_way.h"
+#include "sim/run/other_stiffness.h"
 #include "sim/run/quick_checks.h"
 #include "sim/run/routing.h"
 #include "sim/run/simulate.h"
@@ -68,12 +69,13 @@ void put(std::vector<double>& row, const Vector3& v) { row.insert(row.end(), {v.
 
 class Previewer {
  public:
-  explicit Previewer(const pipeline::Setup& setup)
-      : setup_(setup),
-        rod_(rod_of(setup)),
-        path_(path_of(setup)),
+  explicit Previewer(const pipeline::Job& job)
+      : job_(job),
+        setup_(job),
+        rod_(rod_of(job)),
+        path_(path_of(job)),
         robot_(dynamic_cast<const RobotPath*>(path_.get())),
-        longest_(longest_ways(setup, rod_, *path_, setup.simulation.time_step)) {
+        longest_(longest_ways(job, rod_, *path_, job.simulation.time_step)) {
     if (robot_ && robot_->mounting_pose() != robot_->motion().position(0))
       moments_.push_back({before_the_program, 0, robot_->pose(robot_->mounting_pose())});
     const double duration = path_->duration();
@@ -102,6 +104,9 @@ class Previewer {
       if (!other_places) other_places = remedy_near(setup_);
       return *other_places;
     });
+    // Without other limits to cure first: a run finds the same, after minutes.
+    if (!quick.run.checks.empty() && std::ranges::none_of(quick.run.checks, [](const Check& check) { return check.warning; }))
+      quick.warnings = pipeline::joined(std::move(quick.warnings), other_stiffness_warnings(job_, quick.run));
     if (robot_ && !robot_->note().empty()) quick.notes.push_back(robot_->note());
     if (robot_ && setup_.simulation.contact)
       if (std::string note = gripper_note(setup_, robot_->tools()); !note.empty())
@@ -308,6 +313,7 @@ class Previewer {
     if (when) file.attribute("refusal_time", *when);
   }
 
+  const pipeline::Job& job_;
   const pipeline::Setup& setup_;
   Rod rod_;
   std::unique_ptr<ClampPath> path_;
@@ -319,6 +325,6 @@ class Previewer {
 
 }  // namespace
 
-void write_preview(const pipeline::Setup& setup, pipeline::FileWriter& file) { Previewer(setup).write(file); }
+void write_preview(const pipeline::Job& job, pipeline::FileWriter& file) { Previewer(job).write(file); }
 
 }  // namespace dresslife::sim

@@ -5,7 +5,7 @@
 #include "pipeline/files/files.h"
 
 namespace dresslife::pipeline {
-struct Setup;
+struct Job;
 }
 
 namespace dresslife::sim {
@@ -13,6 +13,6 @@ namespace dresslife::sim {
 /// Writes all of preview_format() except the stamp. If the mounting pose is not the program's first pose, it is the first sample,
 /// at -1 s. Errors: InputError for a motion that the robot cannot run; a refusal by the
 /// simulation is written to the file.
-void write_preview(const pipeline::Setup& setup, pipeline::FileWriter& file);
+void write_preview(const pipeline::Job& job, pipeline::FileWriter& file);
 
 }  // namespace dresslife::sim

@@ -15,6 +15,11 @@
 
 namespace dresslife::sim {
 
+std::string ClampPath::moment(double time) const {
+  const int of = step(time);
+  return fmt::format("at {:.3f} s, program step {} '{}'", time, of + 1, step_texts()[static_cast<std::size_t>(of)]);
+}
+
 Frame clamp_frame(const pipeline::Clamp& clamp) {
   constexpr double nearly_parallel = 0.99;  // cos 8 deg
   const Vector3 z = clamp.direction.normalized();

@@ -46,6 +46,7 @@ class ClampPath {
   virtual Pose at(double time) const = 0;
   virtual int step(double time) const = 0;  ///< program line, index into step_texts()
   virtual const std::vector<std::string>& step_texts() const = 0;
+  std::string moment(double time) const;  ///< "at 1.2 s, program step 3 'text'"
 };
 
 struct RunMotion;  // sim/program/import.h

@@ -11,6 +11,7 @@
 
 #include "pipeline/base/constants.h"
 #include "pipeline/base/warning_words.h"
+#include "pipeline/cable/bend_limit.h"
 #include "pipeline/files/check_names.h"
 #include "pipeline/job/line_key.h"
 #include "sim/run/equilibrium.h"
@@ -129,8 +130,8 @@ std::string radius_words(double curvature) { return in_words(1 / curvature, "m")
 
 std::string no_other_words(const CheckedMotion& motion, const std::string& limit) {
   return fmt::format(
-      "`dresslife route` finds other clamps: no length and no direction of these two clamps{} that was tried{} keeps the limit{}",
-      motion.other_places ? fmt::format(", and no place within {:.0f} mm of theirs", 1e3 * same_place) : "",
+      "other clamps, which `dresslife route` searches: no length, no direction{} of these two clamps that was tried{} keeps the limit{}",
+      motion.other_places ? fmt::format(" and no place within {:.0f} mm", 1e3 * same_place) : "",
       motion.work > most_work ? " in the time of a check" : "", limit);
 }
 
@@ -438,9 +439,10 @@ Cure bend_cure(const CheckedMotion& motion, const std::vector<Check>& checks, co
     for (const Check& check : checks)
       if (check.kind == WarningKind::bend_radius && check.dresspack == broken.dresspack)
         least = std::min(least, check.value);
-    remedy.words = fmt::format(
-        "{}; or {}: {:.0f} if the maker allows it", no_other_words(motion, search.best_words(least)),
-        key_of(motion.setup, broken.dresspack, "dresspack.least_bend_radius_mm"), std::floor(1e3 * least));
+    remedy.words = no_other_words(motion, search.best_words(least));
+    if (least >= pipeline::tightest_bend_radius(mounted_of(motion, broken).dresspack))
+      remedy.words += fmt::format("; or {}: {:.0f} if the maker allows it",
+                                  key_of(motion.setup, broken.dresspack, "dresspack.least_bend_radius_mm"), std::floor(1e3 * least));
   }
   remedy.words += remark;
   return {cause, remedy};

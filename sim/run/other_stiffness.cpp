@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <utility>
 
+#include "pipeline/base/errors.h"
 #include "pipeline/base/warning_words.h"
 #include "pipeline/files/check_names.h"
 #include "pipeline/job/beyond_limit.h"
@@ -87,8 +90,8 @@ Warning refused(const std::string& side, double z, double recorded, const std::s
 /// The run at another stiffness.
 struct OtherRun {
   double z;
-  std::unique_ptr<Simulation> simulation;
-  RunSummary summary;
+  pipeline::Setup setup;
+  std::vector<Check> checks;
 };
 
 /// Returns the quantity over its limit, or the limit over a least value; 0: no limit, or the geometry of the clamps alone decides.
@@ -100,11 +103,12 @@ double load_of(const Check& check) {
 }
 
 Warning beyond_warning(const pipeline::Job& job, const OtherRun& at, const Check& broken, double share) {
-  const Simulation& simulation = *at.simulation;
-  const CheckedMotion motion{simulation.setup(), [&](double time) { return simulation.moment(time); }, &simulation.rod(),
-                             &simulation.path()};
-  Cure cure = cure_of(motion, at.summary.checks, broken);
-  cure.remedy.words += "; routings were tried with this stiffness; or, " + pipeline::measurement_words(stiffness());
+  const Rod rod = rod_of(at.setup);
+  const std::unique_ptr<ClampPath> path = path_of(at.setup);
+  const CheckedMotion motion{at.setup, [&](double time) { return path->moment(time); }, &rod, path.get()};
+  Cure cure = cure_of(motion, at.checks, broken);
+  cure.cause += "; all radii here are with this stiffness";
+  cure.remedy.words += "; or, " + pipeline::measurement_words(stiffness());
   return pipeline::warning_of(
       pipeline::WarningKind::other_values, "",
       fmt::format("with {} {}; about {} of such dresspacks exceed this limit, by straight lines between the computed values and the "
@@ -123,27 +127,27 @@ std::vector<Warning> beyond_warnings(const pipeline::Job& job, const std::vector
     std::vector<pipeline::LoadNode> nodes{{0, load_of(own[k])}};
     const OtherRun* worst = nullptr;
     for (const OtherRun& other : others) {
-      const double load = load_of(other.summary.checks[k]);
+      const double load = load_of(other.checks[k]);
       nodes.push_back({other.z, load});
-      if (load > 1 && (!worst || load > load_of(worst->summary.checks[k]))) worst = &other;
+      if (load > 1 && (!worst || load > load_of(worst->checks[k]))) worst = &other;
     }
     if (!worst) continue;
     const double share = pipeline::share_beyond(nodes, 0, deviation);
-    if (share >= pipeline::least_share_beyond) warnings.push_back(beyond_warning(job, *worst, worst->summary.checks[k], share));
+    if (share >= pipeline::least_share_beyond) warnings.push_back(beyond_warning(job, *worst, worst->checks[k], share));
   }
   return warnings;
 }
 
 /// Returns a warning if the motion is periodic with the job's own stiffness, and not with another one.
-std::vector<Warning> periodic_warnings(const pipeline::Job& job, const RunSummary& own, const std::vector<OtherRun>& others) {
+std::vector<Warning> periodic_warnings(const pipeline::Job& job, const RunSummary& own, const std::map<double, RunSummary>& others) {
   if (!own.periodic) return {};
   std::string words;
   double farthest = 0;
-  for (const OtherRun& other : others) {
-    if (other.summary.periodic) continue;
-    words += fmt::format("{}{:.1f} mm with {}", words.empty() ? "" : ", and ", 1e3 * other.summary.distance,
-                         pipeline::value_words(stiffness(), other.z, job.simulation.stiffness_factor));
-    farthest = std::max(farthest, other.summary.distance);
+  for (const auto& [z, other] : others) {
+    if (other.periodic) continue;
+    words += fmt::format("{}{:.1f} mm with {}", words.empty() ? "" : ", and ", 1e3 * other.distance,
+                         pipeline::value_words(stiffness(), z, job.simulation.stiffness_factor));
+    farthest = std::max(farthest, other.distance);
   }
   if (words.empty()) return {};
   return {pipeline::warning_of(
@@ -156,9 +160,13 @@ std::vector<Warning> periodic_warnings(const pipeline::Job& job, const RunSummar
                   pipeline::measurement_words(stiffness())))};
 }
 
-}  // namespace
+/// Returns the checks of the job with another stiffness. name: "softer" or "stiffer". Errors: InputError for a job that does not run
+/// with it.
+using Runner = std::function<std::vector<Check>(const pipeline::Setup& setup, const char* name, double z)>;
 
-std::vector<Warning> write_other_stiffnesses(const pipeline::Job& job, const RunSummary& own, pipeline::FileWriter& file) {
+/// Returns a warning for each limit that the job keeps with its own stiffness and exceeds with another one, and for each side that does
+/// not run.
+std::vector<Warning> warnings_of_others(const pipeline::Job& job, const std::vector<Check>& own, double time_step, const Runner& run) {
   const double reach = pipeline::other_stiffness(job.uncertainty);
   std::vector<Warning> warnings;
   std::vector<OtherRun> others;
@@ -168,15 +176,10 @@ std::vector<Warning> write_other_stiffnesses(const pipeline::Job& job, const Run
     double recorded = 0;
     for (const double z : {side, side / 2}) {  // a smaller change if the routing does not allow the larger one
       try {
-        auto simulation = std::make_unique<Simulation>(setup_with(job, factor_of(z), own.time_step));
-        RecordedMotion places;
-        RunSummary summary = simulation->run({.take = [&](const Sample& sample) { places.add(sample); },
-                                              .begin = [&](int) { places = {}; },
-                                              .wanted = Wanted::places_and_checks});
-        places.write(file, std::string("/") + name);
-        file.attribute(std::string(name) + "_z", z);
+        pipeline::Setup setup = setup_with(job, factor_of(z), time_step);
+        std::vector<Check> checks = run(setup, name, z);
         recorded = z;
-        others.push_back({z, std::move(simulation), std::move(summary)});
+        others.push_back({z, std::move(setup), std::move(checks)});
         break;
       } catch (const pipeline::InputError& refusal) {
         if (problem.empty()) problem = problem_in(refusal.what());
@@ -184,8 +187,32 @@ std::vector<Warning> write_other_stiffnesses(const pipeline::Job& job, const Run
     }
     if (!problem.empty()) warnings.push_back(refused(name, side, recorded, problem));
   }
-  warnings = pipeline::joined(std::move(warnings), beyond_warnings(job, own.checks, others));
-  return pipeline::joined(std::move(warnings), periodic_warnings(job, own, others));
+  return pipeline::joined(std::move(warnings), beyond_warnings(job, own, others));
+}
+
+}  // namespace
+
+std::vector<Warning> write_other_stiffnesses(const pipeline::Job& job, const RunSummary& own, pipeline::FileWriter& file) {
+  std::map<double, RunSummary> summaries;
+  std::vector<Warning> warnings =
+      warnings_of_others(job, own.checks, own.time_step, [&](const pipeline::Setup& setup, const char* name, double z) {
+        RecordedMotion places;
+        RunSummary summary = Simulation(setup).run({.take = [&](const Sample& sample) { places.add(sample); },
+                                                    .begin = [&](int) { places = {}; },
+                                                    .wanted = Wanted::places_and_checks});
+        places.write(file, std::string("/") + name);
+        file.attribute(std::string(name) + "_z", z);
+        return summaries.emplace(z, std::move(summary)).first->second.checks;
+      });
+  return pipeline::joined(std::move(warnings), periodic_warnings(job, own, summaries));
+}
+
+std::vector<Warning> other_stiffness_warnings(const pipeline::Job& job, const ShortRun& own) {
+  return warnings_of_others(job, own.checks, own.time_step, [](const pipeline::Setup& setup, const char*, double) {
+    ShortRun run = short_run(setup, short_run_segments);
+    if (!run.refusal.empty()) throw pipeline::InputError({}, run.refusal, "");
+    return std::move(run.checks);
+  });
 }
 
 }  // namespace dresslife::sim

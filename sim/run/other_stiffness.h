@@ -7,6 +7,7 @@
 #include "pipeline/base/warnings.h"
 #include "pipeline/files/files.h"
 #include "pipeline/job/job.h"
+#include "sim/run/quick_checks.h"
 #include "sim/run/simulate.h"
 
 namespace dresslife::sim {
@@ -17,5 +18,8 @@ namespace dresslife::sim {
 /// recorded at half the change; if that is refused, too, its group is absent. Returns a warning for each limit that a side exceeds
 /// and the job's own run keeps, also that of the distance between repeats.
 std::vector<pipeline::Warning> write_other_stiffnesses(const pipeline::Job& job, const RunSummary& own, pipeline::FileWriter& file);
+
+/// Returns the warnings of limits and refusals that short runs with a softer and a stiffer hose find. own: the job's own short run; it ran.
+std::vector<pipeline::Warning> other_stiffness_warnings(const pipeline::Job& job, const ShortRun& own);
 
 }  // namespace dresslife::sim

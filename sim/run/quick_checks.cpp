@@ -129,7 +129,7 @@ class QuickChecks {
           return other.words.find(" instead of ") != std::string::npos;
         }))
       found.notes.push_back("Correct the doubtful numbers of the program first: the limits that the dresspack passes may follow from them");
-    return {pipeline::joined(std::move(found.others), cured), std::move(found.notes)};
+    return {pipeline::joined(std::move(found.others), cured), std::move(found.notes), std::move(found.run)};
   }
 
  private:
@@ -158,11 +158,7 @@ class QuickChecks {
       found.checks.push_back(check);
     }
   }
-  std::string moment(double time) const {
-    const int step = path_->step(time);
-    return fmt::format("at {:.3f} s, program step {} '{}'", time, step + 1,
-                       path_->step_texts()[static_cast<std::size_t>(step)]);
-  }
+  std::string moment(double time) const { return path_->moment(time); }
   const RodProperties& properties(std::size_t span) const { return rod_.spans()[span].properties; }
   bool is_free(std::size_t span) const { return properties(span).tool_end == End::free; }
   /// Returns the middle of a span; -1 if it is the only one.
@@ -467,6 +463,7 @@ ShortRun short_run(pipeline::Setup setup, int segments, double useless_below, in
     RunSummary summary = simulation.run(sinks);
     result.checks = std::move(summary.checks);
     result.stopped_at = summary.stopped_at;
+    result.time_step = summary.time_step;
   } catch (const RoutingRefusal& refusal) {
     result.refusal = refusal.problem;
     result.dresspack = refusal.dresspack;

@@ -30,6 +30,7 @@ struct ShortRun {
   std::optional<double> taut_at;     ///< time at which a dresspack is pulled taut [s]; absent: it is not
   std::optional<double> stopped_at;  ///< time at which the run was stopped because of its duration [s]; absent: it was not
   double work = 0;                   ///< in the unit of World::work
+  double time_step = 0;              ///< [s]
   int dresspack = 0;                 ///< index of the refused dresspack
   std::optional<RodState> begin;     ///< state at the begin; absent: the run did not begin
 };
@@ -62,6 +63,7 @@ QuickFindings findings_unless(const pipeline::Setup& setup, const std::function<
 struct QuickWarnings {
   std::vector<pipeline::Warning> warnings;
   std::vector<std::string> notes;
+  ShortRun run;  ///< without checks if it was left out
 };
 /// longest: longest_ways() with setup.simulation.time_step; empty: they are computed. other_places: see cures.h.
 QuickWarnings quick_warnings(const pipeline::Setup& setup, std::vector<LongestWay> longest = {},

@@ -90,11 +90,6 @@ std::vector<pipeline::Warning> Simulation::doubts() const {
 
 std::string Simulation::program_note() const { return robot_ ? robot_->note() : ""; }
 
-std::string Simulation::moment(double time) const {
-  const int step = path_->step(time);
-  return fmt::format("at {:.3f} s, program step {} '{}'", time, step + 1, path_->step_texts()[step]);
-}
-
 /// Checks that the free length reaches the distance between the ends of each span at every moment; reports the worst
 /// moment.
 void Simulation::check_reach() const {

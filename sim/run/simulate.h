@@ -126,7 +126,7 @@ class Simulation {
   std::string program_note() const;  ///< note of a run about the program; empty: none
   /// Returns the given setup; its simulation.time_step is the first step of the run.
   const pipeline::Setup& setup() const { return setup_; }
-  std::string moment(double time) const;  ///< "at 1.2 s, program step 3 'text'"
+  std::string moment(double time) const { return path_->moment(time); }
 
   /// Runs the motion, with as many repeats as necessary. Throws InputError when the dresspack is pulled taut or the state
   /// is no longer finite.

@@ -19,7 +19,7 @@ TEST_CASE("check: a job without faults, one whose slip is a bound, one that is t
   INFO(bound.out << bound.err);
   CHECK(bound.status == 0);
   CHECK(bound.out.find("strain.slip is stick") != std::string::npos);
-  CHECK(bound.out.find("The dresspack was checked at rest and in a short run. A run may also warn of strains") != std::string::npos);
+  CHECK(bound.out.find("The dresspack was checked at rest and in short runs, also with a softer and a stiffer hose. A run may also warn of strains") != std::string::npos);
   const Outcome too_short = run(scratch, "dresslife", "check job.yaml --set routing.free_length_m=0.7");
   CHECK(too_short.status == 1);
   CHECK(too_short.out.find("The simulation refuses the job: ") != std::string::npos);

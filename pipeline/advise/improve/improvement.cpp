@@ -101,7 +101,7 @@ class Improver {
     for (const auto& job : jobs_)
       for (const Warning& fault : dresspack_faults(*job, !frees_dresspack))
         faults_ = joined(std::move(faults_), {fault});
-    for (const Warning& fault : faults_) pipeline::write_stderr(fault.line() + "\n");
+    for (const Warning& fault : faults_) pipeline::write_stderr(fault.paragraph());
     find_screened();
   }
 

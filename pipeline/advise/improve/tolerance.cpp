@@ -104,10 +104,11 @@ std::vector<WithinTolerance> within_tolerance(const std::vector<Finalist>& best_
   return all;
 }
 
-std::size_t best_within(const std::vector<WithinTolerance>& judged) {
+std::size_t best_within(const std::vector<WithinTolerance>& judged, std::optional<std::size_t> own) {
   const auto best = std::max_element(judged.begin(), judged.end(), [](const auto& a, const auto& b) {
     return std::pair(a.whole, a.worst) < std::pair(b.whole, b.worst);
   });
+  if (own && !clearly_better(best->worst, judged[*own].worst)) return *own;
   return static_cast<std::size_t>(best - judged.begin());
 }
 

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -56,8 +57,9 @@ std::vector<WithinTolerance> within_tolerance(const std::vector<Finalist>& best_
                                               const Outcome& as_it_is,
                                               const ToleranceProgress& progress = {});
 
-/// Returns the index of the largest m_w among the whole results. Precondition: at least one is whole.
-std::size_t best_within(const std::vector<WithinTolerance>& judged);
+/// Returns the index of the largest m_w among the whole results. own: index of the original job. It stays the choice if no other
+/// result is clearly better than its bound (merit.h). Precondition: at least one is whole.
+std::size_t best_within(const std::vector<WithinTolerance>& judged, std::optional<std::size_t> own = {});
 
 /// Returns a line: "With a clamp or length off by 10 mm, .. or an end turned by 10 deg the wires live at least 0.7 times as long,
 /// ..."; empty without nudges.

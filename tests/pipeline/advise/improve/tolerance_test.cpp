@@ -43,6 +43,24 @@ TEST_CASE("tolerance: the longest life in the worst place wins, not the longest 
   CHECK(judged[1].nudges[0].share == Approx(650.0 / 700));
 }
 
+TEST_CASE("tolerance: the job's own routing stays, unless another one is clearly better in lives and modes") {
+  Outcome own = outcome(1e5), other = outcome(2e5);
+  own.robot_life = other.robot_life = 40'000;
+  own.modes = {{"jacket wear", 24'400}, {"abrasion", 18'700}};
+  other.modes = {{"jacket wear", 6'850}};
+  int runs = 0;
+  const auto chosen = [&](const Outcome& with) {
+    std::vector<Finalist> finalists{finalist(1e5, {}, runs), finalist(2e5, {}, runs)};
+    finalists[0].drawn = with, finalists[1].drawn = own;
+    return best_within(within_tolerance(finalists, own), 1);
+  };
+  CHECK(chosen(other) == 1);  // the jackets wear through earlier than anything of the own routing
+  other.modes = {{"jacket wear", 23'000}};
+  CHECK(chosen(other) == 0);  // 23,000 h to the first mode instead of 18,700 h
+  other.modes = {{"jacket wear", 24'400}, {"abrasion", 19'000}};
+  CHECK(chosen(other) == 1);  // 2 % is no difference
+}
+
 TEST_CASE("tolerance: of random finalists the winner is that of a whole evaluation, with fewer runs") {
   std::mt19937 random(7);
   std::lognormal_distribution<double> spread(0, 0.7);
