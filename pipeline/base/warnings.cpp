@@ -121,15 +121,16 @@ const char* title(WarningKind kind) {
 std::string Warning::line() const {
   return where.empty() ? "warning: " + words : where + ": warning: " + words;
 }
-std::string Warning::paragraph() const {
+std::string paragraph(const std::string& of) {
   constexpr std::size_t columns = 120;
-  std::string rest = line(), text;
+  const std::string indent = "    ";
+  std::string rest = of, text;
   for (const std::string_view begin : {cause_mark, remedy_mark})
     if (const std::size_t at = rest.find(begin); at != std::string::npos) {
-      text += wrapped(rest.substr(0, at + 1), columns, text.empty() ? "" : "    ");
+      text += wrapped(rest.substr(0, at + 1), columns, indent);
       rest.erase(0, at + 2);
     }
-  return text + wrapped(rest, columns, text.empty() ? "" : "    ");
+  return (text + wrapped(rest, columns, indent)).substr(indent.size());
 }
 std::string Warning::text() const { return where.empty() ? words : where + ": " + words; }
 

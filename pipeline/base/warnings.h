@@ -41,6 +41,10 @@ struct KeyValue {
   bool operator==(const KeyValue&) const = default;
 };
 
+/// Returns a line of a warning for a terminal: wrapped at 120 columns, with the likely cause and the remedy on lines of their own. All
+/// lines but the first are indented by four spaces. Ends with a line feed.
+std::string paragraph(const std::string& line);
+
 struct Warning {
   WarningKind kind{};
   std::string where;  ///< "side_panel.mod:45"; empty: the whole job
@@ -50,9 +54,7 @@ struct Warning {
   std::vector<KeyValue> remedy = {};
   /// Returns "side_panel.mod:45: warning: skipped: ..."
   std::string line() const;
-  /// Returns the line for a terminal: wrapped at 120 columns, with the likely cause and the remedy on lines of their own. Ends with
-  /// a line feed.
-  std::string paragraph() const;
+  std::string paragraph() const { return pipeline::paragraph(line()); }
   /// Returns the line without the word "warning", for a table of warnings.
   std::string text() const;
   bool operator==(const Warning&) const = default;

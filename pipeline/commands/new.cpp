@@ -347,7 +347,7 @@ int make(NewOptions options) {
     fs::create_directories(folder);
   write_text_if_changed(options.job, with_mark(text_of(options, draft, choice, accelerations), Mark::yaml));
   print(shown(fmt::format("Job: {}\n", options.job)));
-  for (const std::string& doubt : choice.doubts) print(shown(doubt + "\n"));
+  for (const std::string& doubt : choice.doubts) print(shown(paragraph(doubt)));
   for (const std::string& estimate : choice.estimates) print(shown(estimate + "\n"));
   if (options.dresspack_is_example)
     print(fmt::format("Its dresspack {} is an example for a large robot: name yours.\n", default_dresspack));
@@ -357,7 +357,7 @@ int make(NewOptions options) {
     print(shown(fmt::format("Fill in its clamps, or let dresslife route {} search: no routing that was tried runs. {}\n", options.job,
                             choice.faults.front())));
   else if (!choice.faults.empty()) {
-    for (const std::string& fault : choice.faults) print(shown(fault + "\n"));
+    for (const std::string& fault : choice.faults) print(shown(paragraph(fault)));
     print(shown(fmt::format("No routing of those that were tried keeps all limits. Use a remedy above, or dresslife route {0}, which "
                             "searches longer.\n", options.job)));
   }

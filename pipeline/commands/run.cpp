@@ -9,6 +9,8 @@
 #include "pipeline/commands/making.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/commands/results.h"
+#include "pipeline/resolve/plausible_job.h"
+#include "pipeline/resolve/sources.h"
 #include "pipeline/study/changes.h"
 #include "pipeline/study/folder_lock.h"
 #include "pipeline/study/folder_source.h"
@@ -72,6 +74,13 @@ struct RunArguments : RunOptions {
   bool dry_run = false;
 };
 
+/// Adds file and line to the warnings about settings of a job that is no study.
+void locate(std::vector<RankingRow>& rows, const fs::path& file) {
+  const Node document = read_document(file);
+  if (rows.size() == 1 && rows.front().warnings && !document.find("base"))
+    rows.front().warnings = located(*std::move(rows.front().warnings), document);
+}
+
 int run(const RunArguments& options) {
   if (options.dry_run) return dry_run(options);
   if (!options.shard.empty()) return run_shard(options);
@@ -100,6 +109,7 @@ int run(const RunArguments& options) {
   print(options.json ? json_of_csv(ranking_csv(rows)).text + "\n"
                      : shown(fmt::format("{}\nReport: {}\n", ranking_table(rows),
                                          (places.folder / "report.html").string())));
+  locate(rows, request.file);
   write_stderr(warning_lines(rows));
   const int failed = count_failed(rows);
   if (failed == 0) return not_shown.empty() ? 0 : 1;

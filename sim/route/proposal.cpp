@@ -61,6 +61,7 @@ struct Candidate {
   double missing = 0;             // violation by geometry
   RoutingRun short_run{};           // valid if it had a short run
   double missing_in_run = never;  // violation in the short run
+  double missing_softer = 0;      // violation with the softer hose; 0 also if the job's own hose violates a limit
   bool whole = false;             // run with the job's own segments and repeats
 };
 
@@ -154,7 +155,7 @@ class Search {
   }
 
  private:
-  using Badness = std::tuple<double, double, double>;
+  using Badness = std::tuple<double, double, double, double>;
 
   static std::vector<Proposal> proposals_of(const std::vector<Candidate>& found) {
     std::vector<Proposal> proposals;
@@ -181,38 +182,50 @@ class Search {
       return excluded(std::move(beginnings));
     double size = 1;
     int left = settings_.short_runs;
-    int further = settings_.further;
+    // A search that begins with a violation by the softer hose ended after 60 to 100 further runs, of three robots.
+    constexpr int times_for_softer = 6;
+    int further = 0;
     std::vector<Candidate> found;  // keep all limits as the job; the further ones are run as the job at the end
     double further_work = 0;
-    while (left > 0 && (found.empty() || (further > 0 && further_work < settings_.further * most_work_of_further))) {
+    const auto goes_on = [&] {
+      if (found.empty()) return left > 0;
+      const bool done = kept.front().whole && kept.front().missing_softer == 0;
+      const int most = settings_.further * (done || settings_.softer == 1 ? 1 : times_for_softer);
+      return further < most && further_work < most * most_work_of_further;
+    };
+    while (goes_on()) {
       const int done = settings_.short_runs - left;
       report_progress(geometry_share + (1 - geometry_share) * done / settings_.short_runs,
                       fmt::format("short run {} of at most {}{}", done + 1, settings_.short_runs,
                                   kept.empty() ? "" : nearest_words(kept.front())));
       std::vector<Candidate> next;
       const bool begins = !beginnings.empty();
-      while (static_cast<int>(next.size()) < std::min(side_by_side, left)) {
+      while (static_cast<int>(next.size()) < (found.empty() ? std::min(side_by_side, left) : side_by_side)) {
         if (begins && beginnings.empty()) break;
         next.push_back(begins ? beginnings.back() : child(kept, size));
         if (begins) beginnings.pop_back();
       }
-      left -= static_cast<int>(next.size());
-      if (!found.empty()) further -= static_cast<int>(next.size());
+      if (found.empty())
+        left -= static_cast<int>(next.size());
+      else
+        further += static_cast<int>(next.size());
       make_short_runs(next, routing_run_segments, routing_run_repeats, wished_in_run,
                       useless_bend(kept, parents, !found.empty()));
       for (const Candidate& one : next) further_work += found.empty() ? 0 : one.short_run.work;
-      const Badness before = kept.empty() ? Badness(never, never, never) : badness(kept.front());
+      const Badness before = kept.empty() ? Badness(never, never, never, never) : badness(kept.front());
       for (Candidate& candidate : next) keep(kept, std::move(candidate), parents);
       const bool better = badness(kept.front()) < before;
       if (!begins) size = next_size(size, better);
       while (found.empty() && look_at_first_whole(kept)) --left;
+      if (!found.empty() && kept.front().missing_softer == 0) look_at_first_whole(kept);
       if (found.empty() && std::count_if(kept.begin(), kept.end(), is_found) >= settings_.count)
         std::copy_if(kept.begin(), kept.end(), std::back_inserter(found), is_found);
       if (3 * left < 2 * settings_.short_runs && kept.front().missing_in_run > hopeless) break;
     }
     if (!found.empty()) {
-      std::erase_if(kept, is_found);
-      for (Candidate& candidate : found) keep(kept, std::move(candidate), kept.size() + 1);
+      for (Candidate& candidate : found)
+        if (std::ranges::none_of(kept, [&](const Candidate& one) { return has_same_routing(one, candidate); }))
+          keep(kept, std::move(candidate), kept.size() + 1);
       while (look_at_first_whole(kept)) continue;
     }
     if (kept.size() > static_cast<std::size_t>(settings_.count)) kept.resize(settings_.count);
@@ -249,14 +262,18 @@ class Search {
     if (settings_.progress) settings_.progress(share, words);
   }
 
-  /// Returns the order of a candidate after its short run: limits first, then the margin of its bend.
+  /// Returns the order of a candidate after its short run: limits first, then those with the softer hose, then the margin of its bend.
   static Badness badness(const Candidate& of) {
     const double bend = of.short_run.seen.beyond[static_cast<std::size_t>(ScreenedLimit::bend)];
-    return {of.missing_in_run, std::max(0.0, bend + comfortable_bend), of.short_run.swing};
+    return {of.missing_in_run, of.missing_softer, std::max(0.0, bend + comfortable_bend), of.short_run.swing};
   }
 
   static bool is_found(const Candidate& candidate) {
     return candidate.whole && candidate.missing_in_run == 0;
+  }
+
+  static bool has_same_routing(const Candidate& a, const Candidate& b) {
+    return a.position == b.position && a.direction == b.direction && a.slack == b.slack;
   }
 
   static void keep(std::vector<Candidate>& kept, Candidate&& next, std::size_t most) {
@@ -310,16 +327,20 @@ class Search {
     pipeline::in_parallel(threads, [&](std::size_t part) {
       for (std::size_t k = part; k < candidates.size(); k += threads) {
         pipeline::Setup setup = setup_;
-        setup.dresspacks.front().routing = candidates[k].routing;
-        candidates[k].short_run = short_run_of(std::move(setup), segments, repeats, false, useless_beyond);
+        Candidate& candidate = candidates[k];
+        setup.dresspacks.front().routing = candidate.routing;
+        candidate.short_run = short_run_of(setup, segments, repeats, false, useless_beyond);
+        constexpr double refused = 3;  // larger than the violation of a candidate that runs
+        candidate.missing_in_run = candidate.short_run.refusal.empty() ? missing(candidate.short_run.seen, wishes)
+                                                                       : refused + candidate.missing;
+        candidate.missing_softer = 0;
+        if (candidate.missing_in_run > 0 || settings_.softer == 1) continue;
+        setup.simulation.stiffness_factor *= settings_.softer;
+        const RoutingRun softer = short_run_of(std::move(setup), segments, repeats, false);
+        candidate.missing_softer = softer.refusal.empty() ? missing(softer.seen, wishes) : refused;
+        candidate.short_run.work += softer.work;
       }
     });
-    for (Candidate& candidate : candidates) {
-      constexpr double refused = 3;  // larger than the violation of a candidate that runs
-      candidate.missing_in_run = candidate.short_run.refusal.empty()
-                                     ? missing(candidate.short_run.seen, wishes)
-                                     : refused + candidate.missing;
-    }
   }
 
   Candidate child(const std::vector<Candidate>& kept, double size) {
@@ -327,7 +348,7 @@ class Search {
     const Candidate& parent = kept[chance_.below(std::min<std::size_t>(3, kept.size()))];
     const auto bend = static_cast<std::size_t>(ScreenedLimit::bend);
     const double lacked =
-        parent.short_run.refusal.empty() ? std::max(0.0, parent.short_run.seen.beyond[bend]) : 0;
+        parent.short_run.refusal.empty() ? std::max(0.0, parent.short_run.seen.beyond[bend]) + parent.missing_softer : 0;
     Candidate best;
     best.missing = never;
     for (int k = 0; k < changes || !std::isfinite(best.missing); ++k) {

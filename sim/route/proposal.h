@@ -6,8 +6,8 @@
 // distance of the clamps (V1). The best candidates are then changed a little, many times (an evolution strategy without
 // recombination; it needs no derivatives, which the screening does not have). The objective is the sum of the violations of a
 // wished margin to each limit, for the hose at rest under its weight. If wanted, the best candidates are then changed in the same
-// way by their results in short runs (short_run.h): first by their limits; among those that keep all limits by a
-// margin of the bend, then by the smallest changes of bend and twist, because no life is known here. Candidates that keep all limits are checked in the job's own run and
+// way by their results in short runs (short_run.h): first by their limits; among those that keep all limits by those
+// of a softer hose, by a margin of the bend, then by the smallest changes of bend and twist, because no life is known here. Candidates that keep all limits are checked in the job's own run and
 // by the checks of `dresslife check`. Equal seeds give equal proposals.
 #pragma once
 
@@ -31,6 +31,7 @@ struct ProposalSettings {
       0;  ///< number of runs with few segments, a tenth of a second each, that test and improve the best candidates; 0: none
   int further =
       0;  ///< number of short runs after `count` proposals keep all limits: they search for less bend and twist
+  double softer = 1;  ///< stiffness of a softer hose that should keep the limits, too, as a share of the job's; 1: none
   std::uint64_t seed = 1;
   std::string ring_link;  ///< link with a guide ring; empty: none
   /// Called with the finished share of the largest possible work, and the present task; may be empty.

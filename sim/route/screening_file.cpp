@@ -10,6 +10,7 @@
 #include "pipeline/resolve/job_text.h"
 #include "sim/route/proposal.h"
 #include "sim/route/short_run.h"
+#include "sim/run/other_stiffness.h"
 
 namespace dresslife::sim {
 namespace {
@@ -198,8 +199,9 @@ void write_screening(const pipeline::Job& job, const std::filesystem::path& cand
   file.attribute("motion", "");
 }
 
-void write_proposals(const pipeline::Job& job, const ProposalSettings& settings, pipeline::FileWriter& file) {
+void write_proposals(const pipeline::Job& job, ProposalSettings settings, pipeline::FileWriter& file) {
   std::vector<Verdict> verdicts;
+  settings.softer = softer_hose(job.uncertainty);
   for (const Proposal& proposal : propose(job, settings)) {
     const bool has_short_run = settings.short_runs > 0 && proposal.short_run.refusal.empty();
     verdicts.push_back({routing_text(proposal.routing), proposal.short_run.refusal,

@@ -22,7 +22,7 @@ struct ProposalSettings;
 void write_screening(const pipeline::Job& job, const std::filesystem::path& candidates, bool in_runs,
                      pipeline::FileWriter& file);
 
-/// Writes proposals (proposal.h) in this format, best first.
-void write_proposals(const pipeline::Job& job, const ProposalSettings& settings, pipeline::FileWriter& file);
+/// Writes proposals (proposal.h) in this format, best first. The softer hose is that of the job's uncertainty.
+void write_proposals(const pipeline::Job& job, ProposalSettings settings, pipeline::FileWriter& file);
 
 }  // namespace dresslife::sim

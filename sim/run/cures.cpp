@@ -171,6 +171,13 @@ Trial trial_of(const CheckedMotion& motion, const pipeline::Setup& changed, cons
     trial.radius = bend->value;
   trial.until = found.run.stopped_at;
   trial.keeps = !rejects(found);
+  if (trial.keeps && motion.own_stiffness != 1) {
+    pipeline::Setup own = changed;
+    own.simulation.stiffness_factor *= motion.own_stiffness;
+    const QuickFindings as_it_is = findings_unless(own, rejects, limit, dresspack);
+    motion.work += as_it_is.run.work;
+    trial.keeps = as_it_is.run.refusal.empty() && !rejects(as_it_is);
+  }
   trial.cured = trial.keeps && std::none_of(found.checks.begin(), found.checks.end(), [&](const Check& check) {
     return check.dresspack == dresspack && is_among(kinds, check) && check.name == check_name::bend_radius &&
            check.value < margin * check.limit;

@@ -105,7 +105,8 @@ double load_of(const Check& check) {
 Warning beyond_warning(const pipeline::Job& job, const OtherRun& at, const Check& broken, double share) {
   const Rod rod = rod_of(at.setup);
   const std::unique_ptr<ClampPath> path = path_of(at.setup);
-  const CheckedMotion motion{at.setup, [&](double time) { return path->moment(time); }, &rod, path.get()};
+  const CheckedMotion motion{at.setup, [&](double time) { return path->moment(time); }, &rod, path.get(), {},
+                             1 / factor_of(at.z)};
   Cure cure = cure_of(motion, at.checks, broken);
   cure.cause += "; all radii here are with this stiffness";
   cure.remedy.words += "; or, " + pipeline::measurement_words(stiffness());
@@ -206,6 +207,8 @@ std::vector<Warning> write_other_stiffnesses(const pipeline::Job& job, const Run
       });
   return pipeline::joined(std::move(warnings), periodic_warnings(job, own, summaries));
 }
+
+double softer_hose(const pipeline::Uncertainty& uncertainty) { return factor_of(-pipeline::other_stiffness(uncertainty)); }
 
 std::vector<Warning> other_stiffness_warnings(const pipeline::Job& job, const ShortRun& own) {
   return warnings_of_others(job, own.checks, own.time_step, [](const pipeline::Setup& setup, const char*, double) {

@@ -19,6 +19,9 @@ namespace dresslife::sim {
 /// and the job's own run keeps, also that of the distance between repeats.
 std::vector<pipeline::Warning> write_other_stiffnesses(const pipeline::Job& job, const RunSummary& own, pipeline::FileWriter& file);
 
+/// Returns the stiffness of the softer hose as a share of the job's; 1: the job's uncertainty needs none.
+double softer_hose(const pipeline::Uncertainty& uncertainty);
+
 /// Returns the warnings of limits and refusals that short runs with a softer and a stiffer hose find. own: the job's own short run; it ran.
 std::vector<pipeline::Warning> other_stiffness_warnings(const pipeline::Job& job, const ShortRun& own);
 

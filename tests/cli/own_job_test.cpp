@@ -155,7 +155,7 @@ TEST_CASE("wrong inputs in an own job of a URDF, a KRL program and data sheets: 
   CHECK_THAT(right.out, Contains("job.yaml: no warnings") && !Contains("routing.mounting_pose_deg"));
   for (const Row& row : rows) {
     const Outcome answer = answer_to(row);
-    const std::string text = answer.out + answer.err;
+    const std::string text = unwrapped(answer.out + answer.err);
     CAPTURE(row.file, row.from, row.to, text);
     CHECK((answer.status == 0) == (row.answer != Answer::refused));
     if (row.answer == Answer::warned) CHECK_THAT(text, Contains(row.place) && Contains(": warning: ") && Contains("Likely cause: "));

@@ -38,6 +38,9 @@ Outcome run(const Scratch& scratch, const std::string& program, const std::strin
 /// Runs `program arguments` as run() does and requires exit status 0. Otherwise the test fails and prints the output.
 Outcome must_run(const Scratch& scratch, const std::string& program, const std::string& arguments);
 
+/// Returns the output with each warning in one line.
+inline std::string unwrapped(const std::string& output) { return replaced_all(output, "\n    ", " "); }
+
 /// Number of repetitions of a random test: `times`, multiplied by DRESSLIFE_FAULTS if it is set (scripts/faults).
 inline int rounds(int times) {
   const char* const factor = std::getenv("DRESSLIFE_FAULTS");

@@ -101,6 +101,13 @@ TEST_CASE("a warning on a setting appears when only this setting changes, and go
   CHECK_FALSE(warned("", "thickness_mm of the sleeve"));
 }
 
+TEST_CASE("run names file, line and column of a setting that causes a warning") {
+  Scratch scratch;
+  write_small_job(scratch);
+  scratch.write("job.yaml", replaced_all(content(scratch / "job.yaml"), "strain: {slip: stick}", "strain: {slip: stick, gate: 0.0003}"));
+  CHECK_THAT(must_run(scratch, "dresslife", "run job.yaml").err, Contains("job: warning: job.yaml:24:29: strain.gate is 0.0003"));
+}
+
 TEST_CASE("a remedy is a line that the job takes: of a shipped dresspack, of one of several, of a part of a cable") {
   const Scratch scratch;
   write_jobs(scratch);
@@ -188,7 +195,7 @@ TEST_CASE("every warning of a stage reaches its log, the terminal, ranking.csv a
     REQUIRE_THAT(text, Contains(one.words));
     CHECK_THAT(text, Contains(". Likely cause: ") && Contains(". Remedy: ") && !Contains("..."));
     CHECK_THAT(content(folder / one.job / "log"), Contains("warning: ") && Contains(one.words));
-    CHECK_THAT(outcome.err, Contains(fmt::format("{}: warning: {}\n", one.job, text)));
+    CHECK_THAT(unwrapped(outcome.err), Contains(fmt::format("{}: warning: {}\n", one.job, text)));
     CHECK_THAT(outcome.out, Contains("\n   WARNING: "));
     CHECK_THAT(content(folder / "report.html"), Contains(one.words.substr(0, one.words.find('\''))));
     const std::string csv = content(folder / "ranking.csv");

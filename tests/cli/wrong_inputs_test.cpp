@@ -346,7 +346,8 @@ TEST_CASE("wrong inputs: a relative move behind axis angles is none, its place f
   CHECK(relative.status == 0);
   // The same motion to the pose of the robot at these axis angles.
   scratch.write("nod.src", edited(krl, "PTP {X 900,Y -350,Z 600,A 0,B 180,C 0,S 2,T 2}\nLIN_REL {Z -120} C_DIS\n", "PTP $POS_ACT\nLIN_REL {Z -120} C_DIS\n"));
-  CHECK(run(scratch, "dresslife", "check krl.yaml").out == relative.out);
+  const std::string absolute = unwrapped(run(scratch, "dresslife", "check krl.yaml").out);
+  CHECK(replaced_all(absolute, "nod.src:10", "nod.src:9") == unwrapped(relative.out));
   scratch.write("nod.src", edited(krl, "VEL_PTP,60", "VEL_PTP"));
   CHECK(count_of(run(scratch, "dresslife", "check krl.yaml").err, "error: ") == 1);
 }

@@ -44,6 +44,11 @@ TEST_CASE("warnings say what is wrong, why, and what to do, with the values of t
   const Remedy last{{{"motion.acceleration_percent", "50"}}, " (now 100)", "other clamps; or "};
   CHECK(twist(last).line() == begin + "other clamps; or motion.acceleration_percent: 50 (now 100)");
   CHECK(twist(last).remedy == last.values);
+  CHECK(twist(last).paragraph() ==
+        "hose: warning: twist: 200 deg/m (limit 180 deg/m).\n    Likely cause: the clamps turn it.\n"
+        "    Remedy: other clamps; or motion.acceleration_percent: 50 (now 100)\n");
+  CHECK(Warning{WarningKind::twist, "hose", std::string(60, 'a') + " " + std::string(60, 'b')}.paragraph() ==
+        "hose: warning: " + std::string(60, 'a') + "\n    " + std::string(60, 'b') + "\n");
   const std::string in_words = "routing.pre_twist_deg: -90";
   CHECK(twist(in_words).line() == begin + in_words);
   CHECK(twist(in_words).remedy.empty());

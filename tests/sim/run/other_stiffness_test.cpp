@@ -106,6 +106,7 @@ TEST_CASE("other stiffnesses: a bend radius that only the softer hose breaks is 
                  Catch::Contains(fmt::format("about {} of such dresspacks exceed this limit", pipeline::percent_words(share))) &&
                  Catch::Contains("from the base clamp") && Catch::Contains("Likely cause: ") && Catch::Contains("Remedy: ") &&
                  Catch::Contains("uncertainty.hose_stiffness: 1.16"));
+  CHECK(other_stiffness_warnings(job, short_run(job, short_run_segments)) == between.warnings);  // check agrees with run
   limit = 1.05 * own;  // the job's own run breaks it and has its own warning
   CHECK(written(job).warnings.empty());
   limit = 0.95 * soft;
