@@ -189,9 +189,9 @@ class Search {
     double further_work = 0;
     const auto goes_on = [&] {
       if (found.empty()) return left > 0;
-      const bool done = kept.front().whole && kept.front().missing_softer == 0;
-      const int most = settings_.further * (done || settings_.softer == 1 ? 1 : times_for_softer);
-      return further < most && further_work < most * most_work_of_further;
+      const bool softer_breaks = settings_.softer != 1 && !(kept.front().whole && kept.front().missing_softer == 0);
+      const int most = settings_.further * (softer_breaks ? times_for_softer : 1);
+      return (left > 0 || softer_breaks) && further < most && further_work < most * most_work_of_further;
     };
     while (goes_on()) {
       const int done = settings_.short_runs - left;
@@ -200,15 +200,13 @@ class Search {
                                   kept.empty() ? "" : nearest_words(kept.front())));
       std::vector<Candidate> next;
       const bool begins = !beginnings.empty();
-      while (static_cast<int>(next.size()) < (found.empty() ? std::min(side_by_side, left) : side_by_side)) {
+      while (static_cast<int>(next.size()) < (left > 0 ? std::min(side_by_side, left) : side_by_side)) {
         if (begins && beginnings.empty()) break;
         next.push_back(begins ? beginnings.back() : child(kept, size));
         if (begins) beginnings.pop_back();
       }
-      if (found.empty())
-        left -= static_cast<int>(next.size());
-      else
-        further += static_cast<int>(next.size());
+      left -= static_cast<int>(next.size());
+      if (!found.empty()) further += static_cast<int>(next.size());
       make_short_runs(next, routing_run_segments, routing_run_repeats, wished_in_run,
                       useless_bend(kept, parents, !found.empty()));
       for (const Candidate& one : next) further_work += found.empty() ? 0 : one.short_run.work;
@@ -217,7 +215,7 @@ class Search {
       const bool better = badness(kept.front()) < before;
       if (!begins) size = next_size(size, better);
       while (found.empty() && look_at_first_whole(kept)) --left;
-      if (!found.empty() && kept.front().missing_softer == 0) look_at_first_whole(kept);
+      if (!found.empty() && settings_.softer != 1 && kept.front().missing_softer == 0) look_at_first_whole(kept);
       if (found.empty() && std::count_if(kept.begin(), kept.end(), is_found) >= settings_.count)
         std::copy_if(kept.begin(), kept.end(), std::back_inserter(found), is_found);
       if (3 * left < 2 * settings_.short_runs && kept.front().missing_in_run > hopeless) break;
