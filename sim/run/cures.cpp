@@ -339,9 +339,8 @@ bool can_be_tried(const CheckedMotion& motion, int dresspack) {
 std::string limit_remark(const CheckedMotion& motion, const Check& broken) {
   const pipeline::Dresspack& dresspack = mounted_of(motion, broken).dresspack;
   if (dresspack.least_bend_radius) return "";
-  return fmt::format("; {} is not given, so that ten diameters{} count: give the maker's radius",
-                     key_of(motion.setup, broken.dresspack, "dresspack.least_bend_radius_mm"),
-                     dresspack.hose_corrugation && !dresspack.components.empty() ? " of the parts in the hose" : "");
+  return fmt::format("; {} is not given, so that {}: give the maker's radius",
+                     key_of(motion.setup, broken.dresspack, "dresspack.least_bend_radius_mm"), pipeline::bend_rule(dresspack));
 }
 
 /// Returns a remark if the bend is near a clamp without a relief.
