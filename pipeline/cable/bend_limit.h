@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <string>
 
 #include "pipeline/job/dresspack.h"
 
@@ -15,14 +16,10 @@ inline constexpr double least_bend_diameters = 10;
 /// parts in it: a part on the inner side of the bend is nearer to the centre by its helix radius and must still satisfy the rule;
 /// the core counts as one part on the axis. Any other dresspack must satisfy the rule with its own diameter. The limit of the
 /// folds is unknown here; least_bend_radius_mm is the key for it.
-inline double least_bend_radius(const Dresspack& dresspack) {
-  if (dresspack.least_bend_radius) return *dresspack.least_bend_radius;
-  if (!dresspack.hose_corrugation || dresspack.components.empty()) return least_bend_diameters * dresspack.diameter;
-  double least = least_bend_diameters * dresspack.core_diameter;
-  for (const Component& part : dresspack.components)
-    least = std::max(least, least_bend_diameters * 2 * part.radius + part.helix_radius);
-  return least;
-}
+double least_bend_radius(const Dresspack& dresspack);
+
+/// Returns why this is the least bend radius if its maker gives none: "ten diameters of the hose (58 mm) count, because ...".
+std::string bend_rule(const Dresspack& dresspack);
 
 /// Smallest bend radii that makers state for moved hoses and for moved cables, in diameters.
 inline constexpr double tightest_hose = 3, tightest_cable = 4.5;

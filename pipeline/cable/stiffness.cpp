@@ -229,6 +229,15 @@ std::vector<double> bending_moments(const Dresspack& dresspack, double friction,
   return moments;
 }
 
+std::string missing_wall(const Dresspack& dresspack) {
+  const bool hose = is_hose(dresspack);
+  if (!dresspack.bending_from_construction || (hose && !dresspack.hose_material.empty() && knows_wall(dresspack))) return "";
+  if (!hose && !room_of_parts(dresspack).estimated) return "";
+  const std::string profile = dresspack.hose_corrugation ? "" : corrugation_line(usual_corrugation(dresspack));
+  const std::string material = dresspack.hose_material.empty() ? "hose_material: hose_polyamide" : "";
+  return material + (material.empty() || profile.empty() ? "" : " and ") + profile;
+}
+
 std::vector<std::string> missing_in_construction(const Dresspack& dresspack) {
   std::vector<std::string> missing;
   if (dresspack.core_diameter > 0 && !dresspack.core_bending_stiffness)
@@ -324,7 +333,7 @@ std::optional<Warning> too_stiff_wall(const Dresspack& dresspack) {
           "the smooth wall of the hose ({:.4g} mm outside, {:.4g} mm inside) has E I {:.3g} N m2; to bend it to {:.4g} mm ({}) takes "
           "{:.3g} N m (limit {:g}: two hands, 100 N each, 0.1 m apart) and strains its surface by {:.2g} %",
           1e3 * dresspack.diameter, 1e3 * *dresspack.inner_diameter, wall, 1e3 * radius,
-          dresspack.least_bend_radius ? "least_bend_radius_mm" : "ten diameters", wall / radius, by_hand,
+          dresspack.least_bend_radius ? "least_bend_radius_mm" : "ten diameters of the hose", wall / radius, by_hand,
           100 * dresspack.diameter / 2 / radius),
       "a corrugated hose without hose_corrugation: inner_diameter_mm alone means a smooth pipe",
       fmt::format(

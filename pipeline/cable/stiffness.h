@@ -50,6 +50,10 @@ HoseStiffness stiffness_of_construction(const Dresspack& dresspack, SlipState st
 /// the friction. curvature: (bend) [1/m].
 std::vector<double> bending_moments(const Dresspack& dresspack, double friction, const std::vector<double>& curvature);
 
+/// Returns the keys of a hose's wall, with usual values, if E I from the construction lacks this wall: "hose_material:
+/// hose_polyamide and hose_corrugation: {...}". Empty: nothing is missing, or the dresspack is a cable.
+std::string missing_wall(const Dresspack& dresspack);
+
 /// Returns the parts of the construction that are missing in these numbers, in words: "what fills its core (...)". Empty: none.
 std::vector<std::string> missing_in_construction(const Dresspack& dresspack);
 

@@ -9,6 +9,7 @@
 #include "pipeline/commands/options.h"
 #include "pipeline/files/files.h"
 #include "pipeline/job/cluster.h"
+#include "pipeline/resolve/data_sheet.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/settings/fields.h"
 #include "pipeline/settings/problems.h"
@@ -96,8 +97,10 @@ std::vector<KeyRow> keys_of(const std::string& wanted) {
 
 std::string keys_text(const std::string& wanted) {
   std::string text;
-  for (const KeyRow& row : keys_of(wanted))
-    text += fmt::format("{}{}\n  {}\n  allowed: {}{}\n  default: {}\n", text.empty() ? "" : "\n", path_of(row), row.meaning,
+  const std::vector<KeyRow> rows = keys_of(wanted);
+  if (rows.size() > 1 && rows.front().map.ends_with(".data_sheet")) text = sheet_syntax();
+  for (const KeyRow& row : rows)
+    text += fmt::format("{}{}\n  {}\n  allowed: {}{}\n  default: {}\n", &row == &rows.front() ? "" : "\n", path_of(row), row.meaning,
                         row.allowed, row.unit.empty() ? "" : ", unit " + row.unit, row.fallback);
   return text;
 }

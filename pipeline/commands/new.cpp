@@ -17,6 +17,7 @@
 #include "pipeline/base/installation.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/base/whole_file.h"
+#include "pipeline/cable/stiffness.h"
 #include "pipeline/commands/checking.h"
 #include "pipeline/commands/command.h"
 #include "pipeline/commands/options.h"
@@ -342,6 +343,14 @@ int make(NewOptions options) {
       !accelerations.empty()
           ? draft_of({.of = of_urdf.path().string()})
           : draft_of({.of = options.robot, .dresspack = options.dresspack, .motion = options.program});
+  if (const Dresspack& dresspack = draft.job.dresspacks.front().dresspack; !missing_wall(dresspack).empty())
+    throw InputError(dresspack.where,
+                     fmt::format("the wall of the hose is not known: bending_stiffness_Nm2 from the construction, {:.3g}, lacks it (nothing was "
+                                 "written)",
+                                 dresspack.bending_stiffness),
+                     fmt::format("give {} (ESTIMATE) for a corrugated hose, hose_material and inner_diameter_mm for a smooth one, or "
+                                 "bending_stiffness_Nm2 as measured",
+                                 missing_wall(dresspack)));
   const Choice choice = routing_for(draft, options);
   if (const fs::path folder = fs::path(options.job).parent_path(); !folder.empty())
     fs::create_directories(folder);

@@ -4,6 +4,7 @@
 
 #include "pipeline/job/parts_room.h"
 #include "pipeline/settings/fields.h"
+#include "pipeline/settings/units.h"
 
 namespace dresslife::pipeline {
 
@@ -174,6 +175,7 @@ void describe(Fields& f, Dresspack& dresspack) {
   f.maybe_number("least_bend_radius_mm", dresspack.least_bend_radius, above(0),
                  "The smallest bend radius that the maker allows in motion. A smaller one causes a warning. "
                  "Default: ten diameters, in a corrugated hose those of its parts.");
+  f.place_of("least_bend_radius_mm", dresspack.least_bend_radius_where);
   f.maybe_number("most_twist_deg_per_m", dresspack.most_twist, above(0),
                  "The largest twist that the maker allows in motion. More causes a warning. Default: 180.");
   f.maybe_number(
@@ -308,15 +310,18 @@ void check_hose(const Dresspack& dresspack) {
   if (dresspack.hose_strain_factor)
     throw InputError(c.where, "both hose_strain_factor and hose_corrugation are given",
                      "keep one of the two");
-  const auto refuse = [&](const char* key, double value, const char* bound, double limit, const char* why, const char* remedy) {
+  const auto refuse = [&](const char* key, double value, const char* bound, double limit, const char* why, const std::string& remedy) {
     throw InputError(c.where, fmt::format("{} of hose_corrugation is {:.4g} (must be {} {:.4g} mm: {})", key, 1e3 * value, bound,
                                           1e3 * limit, why),
                      remedy);
   };
-  const char* const measure = "measure the profile, or give hose_strain_factor instead";
-  if (c.wall > c.pitch / 4) refuse("wall_mm", c.wall, "at most", c.pitch / 4, "a quarter of the pitch; wall_mm is the thickness of the plastic", measure);
-  if (c.height > dresspack.diameter / 2)
-    refuse("height_mm", c.height, "at most", dresspack.diameter / 2, "half of the hose's diameter_mm", measure);
+  const auto refuse_more = [&](const char* key, double value, double limit, const char* why) {
+    if (value <= limit) return;
+    const std::string slip = value <= 10 * limit ? fmt::format("give {}: {:.4g} if a decimal point was lost; or ", key, 1e2 * value) : "";
+    refuse(key, value, "at most", limit, why, slip + "measure the profile, or give hose_strain_factor instead");
+  };
+  refuse_more("wall_mm", c.wall, c.pitch / 4, "a quarter of the pitch; wall_mm is the thickness of the plastic");
+  refuse_more("height_mm", c.height, dresspack.diameter / 2, "half of the hose's diameter_mm");
   if (c.height - c.wall < c.pitch / 2)
     refuse("height_mm", c.height, "at least", c.pitch / 2 + c.wall, "wall_mm plus half of the pitch; height_mm is that of a crest over a root",
            "measure the profile, or give hose_strain_factor and inner_diameter_mm instead: a shallow profile is not evaluated");
@@ -353,6 +358,17 @@ void check_laying(const Dresspack& dresspack, const Component& component, bool f
     throw InputError(component.where,
                      fmt::format("'{}' is loose (how much room it has is not known)", component.name),
                      "give dresspack.inner_diameter_mm or its play_mm");
+}
+
+/// Checks that a bend of the least radius exists: at half the diameter, its inner side has the length 0.
+void check_bend_radius(const Dresspack& dresspack) {
+  const double radius = dresspack.least_bend_radius.value_or(dresspack.diameter), diameter = dresspack.diameter;
+  if (!(diameter > 0) || radius >= diameter / 2) return;
+  constexpr double low = 1, high = 40;  // in diameters: limits of makers
+  const Meant meant = meant_length("least_bend_radius_mm", 1e3 * radius, 1e3 * low * diameter, 1e3 * high * diameter);
+  throw InputError(dresspack.least_bend_radius_where,
+                   fmt::format("least_bend_radius_mm is {:.4g} (must be at least {:.4g} mm: half of diameter_mm)", 1e3 * radius, 5e2 * diameter),
+                   meant.remedy.empty() ? "give the radius of the axis that the maker allows in motion, or check diameter_mm" : "give " + meant.remedy);
 }
 
 /// Checks that the parts fit into the hose.
@@ -518,6 +534,7 @@ int check_dresspack(const Dresspack& dresspack, const std::vector<Slip>& slip) {
   for (const Component& component : dresspack.components)
     depth = std::max(depth, check_component(component, nullptr, problems));
   attempt(dresspack.where, [&] { check_hose(dresspack); });
+  attempt(dresspack.where, [&] { check_bend_radius(dresspack); });
   attempt(dresspack.where, [&] { check_bending_friction(dresspack); });
   attempt(dresspack.where, [&] { check_room(dresspack); });
   attempt(dresspack.where, [&] { check_bore(dresspack); });

@@ -120,6 +120,7 @@ struct Dresspack {
   std::string damping_source;                      ///< source of the damping: a measurement, or the reason of an estimate
   double friction = 0;                             ///< Coulomb coefficient, hose against robot
   std::optional<double> least_bend_radius;         ///< allowed in motion [m]; absent: pipeline/cable/bend_limit.h
+  Where least_bend_radius_where = {};              ///< of its key
   std::optional<double> most_twist;                ///< allowed in motion [rad/m]; absent: 180 deg/m
   std::optional<double> most_tension;              ///< of the hose, allowed in motion [N]; absent: no limit
   std::string hose_material;                       ///< of the hose's wall; empty: the strain of the wall is not evaluated

@@ -60,7 +60,7 @@ struct MotionStep {
   std::vector<MotionStep> steps;  ///< of a block
   std::string text;               ///< description of the step for reports
   Where where;
-  Where speed_where, acceleration_where;  ///< of the lines of a program that assign them; line 0: not known
+  Where speed_where, acceleration_where, tool_where, object_where;  ///< of the lines of a program that assign them; line 0: not known
 
   bool is_move() const { return !joints.empty() || !position.empty(); }
 };

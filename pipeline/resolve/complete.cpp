@@ -44,7 +44,9 @@ void complete_job(Job& job, const Node& document, Problems& problems) {
                        [&] { take_stiffnesses(mounted.dresspack, job.strain.slip); });
   }
   if (problems.touch("motion")) return;
-  job.motion.left_out = joined(std::move(job.motion.left_out), plausibility_of_motion(job));
+  if (!problems.attempt("motion", job.motion.where,
+                        [&] { job.motion.left_out = joined(std::move(job.motion.left_out), plausibility_of_motion(job)); }))
+    return;
   if (!job.motion.rig) return;
   problems.attempt("motion", job.motion.where, [&] { check_rig(*job.motion.rig); });
   const Node* strain = document.find("strain");

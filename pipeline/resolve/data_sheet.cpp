@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <limits>
@@ -307,7 +308,7 @@ class Expansion {
       throw InputError(sheet_.where,
                        fmt::format("{} wires of {:.4g} mm are a conductor {:.4g} mm wide (the core has {:.4g} mm)", wire_count(),
                                    1e3 * wire_, 1e3 * conductor_, 1e3 * core_diameter_),
-                       (fitting_gauge().empty() ? fitting_section() + fitting_diameter() : fitting_gauge()) +
+                       contradiction() + (fitting_gauge().empty() ? fitting_section() + fitting_diameter() : fitting_gauge()) +
                            "check cross_section_mm2, of one core, the jacket's thickness and the diameters");
     if (core_diameter_ < conductor_ + 2 * thinnest_insulation)
       throw InputError(
@@ -325,6 +326,22 @@ class Expansion {
           fmt::format(
               "{}check outer_diameter_mm: {:.4g} and cross_section_mm2, of one core, or give core_diameter_mm if the rest is filler",
               fitting_diameter(), 1e3 * outer_));
+  }
+
+  /// Returns "4 cores of 10 mm2 need a cable 16 mm wide by EN 50525, and outer_diameter_mm is 11.5: correct one of the three numbers; ";
+  /// empty if the diameters of the sheet do not follow from the outer diameter.
+  std::string contradiction() const {
+    if (!sheet_.outer_diameter || sheet_.core_diameter) return "";
+    double bundle = 0;
+    try {
+      bundle = cabled_width(conductor_ + 2 * usual_insulation(sheet_.cross_section));
+    } catch (const InputError&) {  // such cores do not fit with the given lay
+      return "";
+    }
+    return fmt::format("{} cores of {:.4g} mm2 need a cable about {:.3g} mm wide by EN 50525, and outer_diameter_mm is {:.4g}: correct one "
+                       "of the three numbers; ",
+                       sheet_.cores * sheet_.cores_per_group, 1e6 * sheet_.cross_section,
+                       1e3 * (bundle + 2 * sheet_.jacket_thickness.value_or(usual_jacket(bundle))), 1e3 * outer_);
   }
 
   /// Returns "give outer_diameter_mm: 8.2 if the decimal point was lost; " for 82 or 0.82, and for 0.0082 in metres: the diameter
@@ -359,7 +376,9 @@ class Expansion {
   std::string fitting_gauge() const {
     const double number = 1e6 * sheet_.cross_section;  // [mm2]
     constexpr double coarsest = 4, finest = 36;        // gauges of cables
-    if (number != std::floor(number) || number < coarsest || number > finest) return "";
+    constexpr std::array metric{4.0, 6.0, 10.0, 16.0, 25.0, 35.0};  // [mm2] of IEC 60228, which are no gauges
+    if (number != std::floor(number) || number < coarsest || number > finest || std::ranges::find(metric, number) != metric.end())
+      return "";
     const double share = square_mm_of_awg(number) / number, conductor = conductor_ * std::sqrt(share);
     return conductor < core_diameter_ && core_diameter_ <= thickest_insulation * conductor
                ? fmt::format("give cross_section_mm2: {:.3g} if {:g} is a wire gauge (AWG); ",
@@ -442,6 +461,9 @@ void expand(Node& component, LeftOut& left_out) {
   std::string estimated = expansion.estimated_keys();
   if (!keys.find("material")) estimated += (estimated.empty() ? "" : ", ") + ("material " + sheet.material);
   if (!sheet.unused.empty()) estimated += (estimated.empty() ? "" : ", ") + ("without effect: " + sheet.unused);
+  if (!sheet.shield.empty())
+    estimated += fmt::format("{}{}: the shield's wires are not evaluated, and its thickness counts as that of the jacket",
+                             estimated.empty() ? "" : ", ", sheet.shield);
   if (!estimated.empty()) left_out.keys.push_back(fmt::format("data_sheet of {}: {}", name, estimated));
   Node made = echo_fields(Layers{expansion.components(), component.find("jacket") ? std::nullopt : expansion.jacket()});
   made["radius_mm"] = scalar(text_in_unit(expansion.radius(), unit_of_key("radius_mm")));
@@ -514,10 +536,27 @@ std::string with_points(const std::string& text) {
   return std::regex_replace(text, comma, "$1$2.$3");
 }
 
-/// Returns whether a phrase of shops and standards has no effect on a life. The thickness of a screen is part of the jacket's.
+/// Words for a shield.
+const std::string shield_words =
+    R"((?:(?:with |and )?(?:(?:braid|braided|copper|cu|overall|foil|tinned|aluminium|al)[ -]*)*(?:shield|screen|braid)(?:ed|ing)?|\(c\)))";
+
+bool is_shield(const std::string& phrase) {
+  static const std::regex words(shield_words + ".*");
+  return std::regex_match(phrase, words);
+}
+
+/// Divides "4 x 2 x 0.25 mm2 shielded" into its two phrases.
+std::vector<std::string> phrases_of(const std::string& phrase) {
+  static const std::regex at_end("(.*?[^ ]) +(un(?:shielded|screened)|" + shield_words + ")");
+  std::smatch found;
+  if (is_shield(phrase) || !std::regex_match(phrase, found, at_end)) return {phrase};
+  return {found[1], found[2]};
+}
+
+/// Returns whether a phrase of shops and standards has no effect on a life.
 bool changes_nothing(const std::string& phrase) {
   static const std::vector<std::regex> words{
-      std::regex(R"((un)?(shielded|screened)|(braid|braided|copper|cu|overall|foil|tinned|aluminium|al)?[ -]*(shield|screen|braid)(ed|ing)?.*)"),
+      std::regex(R"(un(shielded|screened))"),
       std::regex(R"((highly |extra |extremely |very |super )?flex(ible)?( cable)?|stranded|fine wire|tinned( copper)?|bare copper|copper|cu)"),
       std::regex(R"((for )?(drag|energy|cable)[ -]?(chains?|tracks?|carriers?)( (cable|suitable|rated))?|robot(ic|ics)?( cable)?|torsion( cable)?|chainflex.*)"),
       std::regex(R"((ul|csa|cul|vde|ce|din|iec|en|awm|dnv|rohs|reach)([ /-].*)?)"),
@@ -592,6 +631,7 @@ std::vector<std::pair<const char*, std::string>> keys_of_phrase(const std::strin
     return {{material.empty() ? "unused" : "jacket_material", material.empty() ? phrase : material}};
   }
   if (changes_nothing(phrase)) return {{"unused", phrase}};
+  if (is_shield(phrase)) return {{"shield", phrase}};
   static const std::regex without_unit(R"(([a-z][a-z -]*?) *([\d.]+))");
   std::string meant = meant_section(phrase);
   if (meant.empty() && std::regex_match(phrase, found, without_unit) &&
@@ -627,24 +667,44 @@ Node sheet_from_line(const Node& line) {
   Problems problems;
   while (!rest.empty()) {
     const std::size_t end = std::min(rest.find(','), rest.size());
-    const std::string phrase = plain(std::string(rest.substr(0, end)));
+    const std::vector<std::string> phrases = phrases_of(plain(std::string(rest.substr(0, end))));
     rest.remove_prefix(std::min(end + 1, rest.size()));
-    problems.attempt("", line.where, [&] {
-      for (const auto& [key, value] : keys_of_phrase(phrase, line.where)) {
-        if (key == std::string_view("unused") && sheet.find(key)) {
-          sheet[key].text += ", " + value;
-          continue;
+    for (const std::string& phrase : phrases)
+      problems.attempt("", line.where, [&] {
+        for (const auto& [key, value] : keys_of_phrase(phrase, line.where)) {
+          if ((key == std::string_view("unused") || key == std::string_view("shield")) && sheet.find(key)) {
+            sheet[key].text += ", " + value;
+            continue;
+          }
+          if (sheet.find(key))
+            throw InputError(line.where, fmt::format("'{}' gives {} a second time", phrase, key),
+                             "keep one of the two");
+          sheet[key] = scalar(value);
         }
-        if (sheet.find(key))
-          throw InputError(line.where, fmt::format("'{}' gives {} a second time", phrase, key),
-                           "keep one of the two");
-        sheet[key] = scalar(value);
-      }
-    });
+      });
   }
   problems.finish();
   place_at(sheet, line.where);
   return sheet;
+}
+
+std::string sheet_syntax() {
+  return fmt::format(
+      "dresspack.components[].data_sheet\n"
+      "  A cable's data sheet: a text, or a map of the keys below. The text has phrases in any order with commas between them:\n"
+      "    CORES x N mm2              required: cores and cross_section_mm2; also 4G2.5, with the protective conductor\n"
+      "    GROUPS x CORES x N mm2     cores that are first twisted together: cores and cores_per_group\n"
+      "    class N                    conductor_class\n"
+      "    wire N mm                  wire_diameter_mm\n"
+      "    core diameter N mm         core_diameter_mm\n"
+      "    outer diameter N mm        outer_diameter_mm; also OD\n"
+      "    jacket PUR N mm            jacket_material (PUR, PVC or TPE) and jacket_thickness_mm, or one of them\n"
+      "    lay length N mm            lay_length_mm; also pair lay length and wire lay length\n"
+      "    shielded, screened, (C)    a shield, also without a comma: its wires are not evaluated, and its thickness belongs to N of the jacket\n"
+      "  Lengths that are missing follow from class or wire. `dresslife draw DRESSPACK.yaml` shows the result. Examples:\n"
+      "    data_sheet: {}\n"
+      "    data_sheet: 4 x 2 x 0.25 mm2 shielded, class 6, pair lay length 30 mm, jacket PUR\n\n",
+      example_line);
 }
 
 void describe(Fields& f, DataSheet& sheet) {
@@ -683,6 +743,7 @@ void describe(Fields& f, DataSheet& sheet) {
          "The material of the wires: a name of config/materials.");
   f.maybe_number("friction_coefficient", sheet.friction, between(0, 1e6),
                  "The Coulomb friction of cores and wires. Default: 0.3, an ESTIMATE.");
+  f.text("shield", sheet.shield, Need::written, "The words of the sheet's line for a shield.");
   f.text("unused", sheet.unused, Need::written, "The words of the sheet's line that change no result.");
   f.maybe_number("jacket_pressure_MPa", sheet.jacket_pressure, at_least(0),
                  "The pressure of the jacket on cores and wires. Default: 0.17, an ESTIMATE by the friction "

@@ -41,6 +41,7 @@ struct DataSheet {
   std::string material = "copper_halved";  ///< of the wires
   std::optional<double> friction;          ///< Coulomb coefficient of cores and wires; absent: an ESTIMATE (estimates.h)
   std::optional<double> jacket_pressure;   ///< on cores and wires [Pa]; absent: an ESTIMATE
+  std::string shield;                      ///< words of a sheet's line for a shield; its wires are not evaluated
   std::string unused;                      ///< words of a sheet's line that do not affect results
   Where where;
 };
@@ -51,11 +52,15 @@ void describe(Fields& f, DataSheet& sheet);
 /// Returns the keys of a data sheet for a line such as "7 x 0.5 mm2, class 6, wire 0.1 mm, lay length 60 mm, outer diameter 8.2
 /// mm, jacket PUR 1.1 mm". For pairs: "4 x 2 x 0.25 mm2", "pair lay length 20 mm". Further phrases: "core diameter 1.4 mm", "wire
 /// lay length 18 mm". The class may replace the lengths. A jacket's material determines its wear rates (PUR, TPU, PVC, TPE;
-/// others have none). A jacket's material alone ("jacket PUR") gets its thickness from the rules. Words without effect
-/// ("shielded", "UL 20276", "drag chain") are stored under the key `unused`. Without wire and class, class 6 is used. With the
+/// others have none). A jacket's material alone ("jacket PUR") gets its thickness from the rules. Words for a shield ("shielded",
+/// "(C)", "copper braid"), also beside another phrase without a comma, are stored under the key `shield`, words without effect ("UL
+/// 20276", "drag chain") under `unused`. Without wire and class, class 6 is used. With the
 /// wire alone, the jacket or the core is required. Decimal commas are accepted. Errors: InputErrors at the line, one for each
 /// unknown phrase, with the key that it probably means.
 Node sheet_from_line(const Node& line);
+
+/// Returns the phrases of a sheet's line with two examples, for the manual.
+std::string sheet_syntax();
 
 enum class Fillers { none, allowed };
 

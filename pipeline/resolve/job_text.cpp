@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "pipeline/base/joined.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/cable/overlap.h"
 #include "pipeline/cable/stiffness.h"
@@ -108,12 +109,19 @@ Dresspack read_dresspack(const std::filesystem::path& file) {
 }
 
 Dresspack read_dresspack(const std::filesystem::path& file, std::string& faults) {
-  Node job;
-  job["dresspack"] = read_yaml(file);
+  Node job, whole = read_yaml(file);
+  if (!whole.is_map()) throw InputError({file.string()}, "holds no dresspack", "name a file of the keys of job.dresspack, or a job");
+  if (const Node* const list = whole.find("dresspacks"); list && list->is_list()) {
+    std::vector<std::string> names;
+    for (const Node& item : list->items)
+      if (const Node* const of = item.is_map() ? item.find("dresspack") : nullptr; of && of->is_scalar()) names.push_back(of->text);
+    throw InputError(list->where, fmt::format("is a job with {} dresspacks (one is drawn)", list->items.size()),
+                     names.empty() ? "write one of them into a file of its own, and name that" : "name one of them: " + joined(names, ", "));
+  }
+  const bool is_job = whole.find("dresspack");
+  if (is_job) apply_lines(whole);
+  job["dresspack"] = is_job ? *whole.find("dresspack") : std::move(whole);
   job.where = {file.string()};
-  const Node& written = *job.find("dresspack");
-  if (!written.is_map() || written.find("dresspack") || written.find("dresspacks"))
-    throw InputError({file.string()}, "holds no dresspack", "name a file of the keys of job.dresspack");
   resolve_job(job);
   Dresspack dresspack;
   read_fields(*job.find("dresspack"), dresspack);

@@ -9,6 +9,7 @@
 #include "pipeline/base/constants.h"
 #include "pipeline/base/halving.h"
 #include "pipeline/base/order.h"
+#include "pipeline/job/parts_room.h"
 #include "pipeline/settings/units.h"
 
 namespace dresslife::pipeline {
@@ -208,9 +209,16 @@ void expand_places(Node& dresspack, const std::string& path, Problems& problems)
   double core = number_of(dresspack, "core_diameter_mm") / 2e3;
   const double bore = bore_of(dresspack) / 2e3;
   const std::vector<AutoPart> parts = auto_parts(*components, path, core, own);
-  if (!(bore > 0))
+  if (!(bore > 0)) {
+    Dresspack hose;
+    hose.diameter = number_of(dresspack, "diameter_mm") / 1e3;
     own.add(where, "place: auto is given, and the hose's bore is not (how much room there is is not known)",
-            "give inner_diameter_mm or hose_corrugation of the dresspack", path);
+            fmt::format("give inner_diameter_mm or hose_corrugation of the dresspack{}",
+                        hose.diameter > 0 ? fmt::format(", of {:g} mm usually hose_material: hose_polyamide and {} (ESTIMATE)",
+                                                        1e3 * hose.diameter, corrugation_line(usual_corrugation(hose)))
+                                          : ""),
+            path);
+  }
   if (!problems.attempt(path + ".components", where, [&] { own.finish(); })) return;
   if (std::any_of(components->items.begin(), components->items.end(),
                   [](const Node& of) { return of.is_map() && of.find("data_sheet"); })) {

@@ -35,7 +35,8 @@ constexpr double least_step = 0.02e-3, most_step = 1e-3;  // [m]
 constexpr double least_percent = 1;    // a hundredth of an axis' speed: no program of a plant is so slow
 constexpr double fastest_tool = 10;     // [m/s]: the fastest controllers allow 5 to 7
 constexpr double fastest_of_kuka = 3;   // [m/s]: ESTIMATE of $VEL_MA.CP, the upper bound of $VEL.CP in the machine data of a robot
-constexpr double surely_millimetres = 50;  // [m/s]: a tenth of smaller numbers is a speed of robots
+// [m/s]: the sum over all axes of speed times reach is 10 to 30 for robots in plants, so none moves its tool faster.
+constexpr double impossible_tool = 50;
 constexpr double longest_dwell = 100;  // [s]: cycles of production lines are shorter
 
 constexpr double largest_step = 10e-3;  // [s]: the largest step that an automatic choice takes; larger ones were not tried
@@ -129,6 +130,11 @@ void add_steps(const std::vector<MotionStep>& steps, Seen& seen) {
     if (step.speed_percent && *step.speed_percent < least_percent) seen.slow.add(step, step.speed_where);
     if (step.acceleration_percent.value_or(100) <= least_percent) seen.lazy.add(step, step.acceleration_where);
     if (step.tool_zone.value_or(0) > widest_path_zone) seen.wide.add(step);
+    if (step.tool_speed.value_or(0) > impossible_tool)
+      throw InputError(step.speed_where.line > 0 ? step.speed_where : step.where,
+                       fmt::format("the tool's speed is {:g} m/s (limit {:g}: no robot moves its tool so fast)", *step.tool_speed,
+                                   impossible_tool),
+                       fmt::format("{:g} m/s if that was mm/s, in the program's unit", 1e-3 * *step.tool_speed));
     if (step.tool_speed.value_or(0) > fastest_tool_of(step)) seen.fast.add(step, step.speed_where);
     if (step.repeat > most_repeats) seen.repeats.add(step);
     if (step.tool_speed.value_or(1) < slowest_tool) seen.creeping.add(step, step.speed_where);
@@ -283,9 +289,19 @@ void doubt_small_steps(const std::vector<MotionStep>& steps, std::vector<Warning
       "an offset in metres instead of millimetres", fmt::format("{:.4g} mm in the program if that was metres", 1e6 * way)));
 }
 
+/// Returns the place of the line in a program that assigns this tool or work object; line 0: none.
+Where assigned_at(const std::vector<MotionStep>& steps, const std::string& name) {
+  for (const MotionStep& step : steps) {
+    const Where where = step.tool == name ? step.tool_where : step.work_object == name ? step.object_where : assigned_at(step.steps, name);
+    if (where.line > 0) return where;
+  }
+  return {};
+}
+
 /// Warns of tools and work objects that are close to their reference frame, but not equal to it.
-void doubt_frames(const std::vector<MotionFrame>& frames, const char* kind, const Where& where, std::vector<Warning>& warnings) {
+void doubt_frames(const std::vector<MotionFrame>& frames, const char* kind, const Motion& motion, std::vector<Warning>& warnings) {
   for (const MotionFrame& frame : frames) {
+    const Where assigned = assigned_at(motion.steps, frame.name), &where = assigned.line > 0 ? assigned : motion.where;
     const Vector3d& at = frame.position;
     if (std::string_view(kind) == "tool" && !frame.stationary && at.z() < -std::max(tool_behind, std::hypot(at.x(), at.y())))
       warnings.push_back(warning_of(
@@ -321,13 +337,10 @@ std::vector<Warning> plausibility_of_steps(const Motion& motion) {
         "a share instead of a percentage",
         fmt::format("{}{:g}{} if that was a share", key("speed_percent: ", "", *step), 100 * *step->speed_percent, key("", " %", *step))));
   if (const MotionStep* step = seen.fast.first)
-    warnings.push_back(seen.fast.warning(
-        fmt::format("the tool's speed is {:g} m/s (limit {:g} or less)", *step->tool_speed, fastest_tool_of(*step)),
-        *step->tool_speed < surely_millimetres ? "a slip of the decimal point"
-                                               : "a speed in another unit, such as mm/s instead of m/s",
-        *step->tool_speed < surely_millimetres
-            ? fmt::format("{:g} m/s if the decimal point slipped, in the program's unit", 0.1 * *step->tool_speed)
-            : fmt::format("{:g} m/s if that was mm/s, in the program's unit", 1e-3 * *step->tool_speed)));
+    warnings.push_back(
+        seen.fast.warning(fmt::format("the tool's speed is {:g} m/s (limit {:g} or less)", *step->tool_speed, fastest_tool_of(*step)),
+                          "a slip of the decimal point",
+                          fmt::format("{:g} m/s if the decimal point slipped, in the program's unit", 0.1 * *step->tool_speed)));
   if (const MotionStep* step = seen.lazy.first)
     warnings.push_back(seen.lazy.warning(
         fmt::format("the acceleration is {:g} % (limit more than {:g})", *step->acceleration_percent, least_percent),
@@ -373,8 +386,8 @@ std::vector<Warning> plausibility_of_steps(const Motion& motion) {
                                   "a share instead of a percentage", fmt::format("motion.override_percent: {:g}", 100 * motion.override_percent)));
   doubt_single_targets(motion.steps, warnings);
   doubt_small_steps(motion.steps, warnings);
-  doubt_frames(motion.tools, "tool", motion.where, warnings);
-  doubt_frames(motion.work_objects, "work object", motion.where, warnings);
+  doubt_frames(motion.tools, "tool", motion, warnings);
+  doubt_frames(motion.work_objects, "work object", motion, warnings);
   if (!seen.first) return warnings;
   double largest = 0, way = 0;  // [deg]
   for (std::size_t k = 0; k < seen.low.size(); ++k) {
@@ -682,25 +695,6 @@ void doubt_mounting(const Routing& routing, const AddDoubt& add) {
                   fmt::join(meant, ", ")));
 }
 
-/// Returns the distance from a point in the frame of a link to its capsules and boxes, on the last link also to the flange [m];
-/// std::nullopt: the link has meshes or no shapes.
-std::optional<double> distance_to(const Robot& robot, const std::string& name, const Vector3d& point) {
-  const auto link = std::ranges::find(robot.links, name, &Link::name);
-  if (link == robot.links.end() || !link->meshes.empty()) return {};
-  double nearest = &*link == &robot.links.back() ? (point - robot.flange_position).norm() : HUGE_VAL;
-  for (const Capsule& capsule : link->capsules) {
-    const Vector3d along = capsule.to - capsule.from;
-    const double square = along.squaredNorm();
-    const double share = square > 0 ? std::clamp((point - capsule.from).dot(along) / square, 0.0, 1.0) : 0;
-    nearest = std::min(nearest, (point - capsule.from - share * along).norm() - capsule.radius);
-  }
-  for (const Box& box : link->boxes) {
-    const Vector3d inside = from_roll_pitch_yaw(box.orientation).conjugate() * (point - box.position);
-    nearest = std::min(nearest, (inside.cwiseAbs() - box.sides / 2).cwiseMax(0).norm());
-  }
-  return std::isfinite(nearest) ? std::optional(std::max(0.0, nearest)) : std::nullopt;
-}
-
 /// Returns those of the two links beside `name` in the chain to whose shapes the point in their frame is nearer than `most` [m]:
 /// "link_1 or link_3"; empty: none.
 std::string links_beside(const Robot& robot, const std::string& name, const Vector3d& point, double most) {
@@ -744,12 +738,10 @@ bool doubt_origin(const char* key, const Clamp& clamp, const Robot& robot, const
   return true;
 }
 
-/// Warns of a clamp that is farther from its link than a bracket or a tool is long. radius: of the dresspack; a bracket ends at its
-/// surface.
-void doubt_place(const char* key, const Clamp& clamp, const Routing& routing, double radius, const Robot& robot,
+/// Warns of a clamp that is farther from its link than a bracket or a tool is long. near_limit: usual_distance().
+void doubt_place(const char* key, const Clamp& clamp, const Routing& routing, double near_limit, const Robot& robot,
                  const AddDoubt& add) {
   const double bracket = routing.longest_bracket.value_or(0), limit = std::max(longest_tool, bracket);
-  const double near_limit = std::max(near_bracket, bracket) + radius;
   const auto away = distance_to(robot, clamp.link, clamp.position);
   if (!away || doubt_origin(key, clamp, robot, add)) return;
   doubt_flange_frame(key, clamp, robot, add);
@@ -840,8 +832,8 @@ void doubt_routing(const Routing& routing, const Dresspack& dresspack, const Rob
           "centimetres instead of metres, or a place in the world",
           fmt::format("position_m: [{:g}, {:g}, {:g}] if those were centimetres", at.x() / 100, at.y() / 100,
                       at.z() / 100));
-    } else if (*clamp) {
-      doubt_place(key, **clamp, routing, dresspack.diameter / 2, robot, add);
+    } else if (*clamp && &**clamp != clamp_on_wrong_link(routing, robot)) {
+      doubt_place(key, **clamp, routing, usual_distance(routing, dresspack), robot, add);
     }
   }
   if (const double limit = least_bend_radius(dresspack), segment = routing.free_length / segments;
@@ -1058,6 +1050,44 @@ std::vector<Warning> plausibility_of_lives(const Job& job) {
                    "per cent instead of a share",
                    fmt::format("strain.gate: {:g} if that was per cent, or no key", job.strain.gate / 100)));
   return warnings;
+}
+
+std::optional<double> distance_to(const Robot& robot, const std::string& name, const Vector3d& point) {
+  const auto link = std::ranges::find(robot.links, name, &Link::name);
+  if (link == robot.links.end() || !link->meshes.empty()) return {};
+  double nearest = &*link == &robot.links.back() ? (point - robot.flange_position).norm() : HUGE_VAL;
+  for (const Capsule& capsule : link->capsules) {
+    const Vector3d along = capsule.to - capsule.from;
+    const double square = along.squaredNorm();
+    const double share = square > 0 ? std::clamp((point - capsule.from).dot(along) / square, 0.0, 1.0) : 0;
+    nearest = std::min(nearest, (point - capsule.from - share * along).norm() - capsule.radius);
+  }
+  for (const Box& box : link->boxes) {
+    const Vector3d inside = from_roll_pitch_yaw(box.orientation).conjugate() * (point - box.position);
+    nearest = std::min(nearest, (inside.cwiseAbs() - box.sides / 2).cwiseMax(0).norm());
+  }
+  return std::isfinite(nearest) ? std::optional(std::max(0.0, nearest)) : std::nullopt;
+}
+
+double usual_distance(const Routing& routing, const Dresspack& dresspack) {
+  return std::max(near_bracket, routing.longest_bracket.value_or(0)) + dresspack.diameter / 2;
+}
+
+const Clamp* clamp_on_wrong_link(const Routing& routing, const Robot& robot) {
+  if (robot.links.empty() || !routing.base_clamp || !routing.tool_clamp || routing.base_clamp->link != routing.tool_clamp->link)
+    return nullptr;
+  return robot.links.back().name == routing.base_clamp->link ? &*routing.base_clamp : &*routing.tool_clamp;
+}
+
+std::string probable_link(const Clamp& clamp, const Robot& robot) {
+  if (clamp.link != robot.links.back().name) return robot.links.back().name;
+  const Link* best = &robot.links[robot.links.size() / 2];  // the elbow of a robot with six axes
+  double nearest = near_link;
+  for (const Link& link : robot.links) {
+    const double away = link.name == clamp.link ? 0 : distance_to(robot, link.name, clamp.position).value_or(0);
+    if (away > 0 && away < nearest) best = &link, nearest = away;
+  }
+  return best->name;
 }
 
 bool clamps_exchanged(const Routing& routing, const Robot& robot) {

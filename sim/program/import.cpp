@@ -71,6 +71,8 @@ pipeline::MotionStep step_of(const Instruction& instruction, const Program& prog
   for (const Origin& origin : instruction.origins) {
     if (std::string_view(origin.part) == "speed") step.speed_where = origin.where;
     if (std::string_view(origin.part) == "acceleration") step.acceleration_where = origin.where;
+    if (std::string_view(origin.part) == "tool") step.tool_where = origin.where;
+    if (std::string_view(origin.part) == "work object") step.object_where = origin.where;
   }
   if (instruction.kind == Instruction::Kind::dwell) {
     step.dwell = instruction.dwell;

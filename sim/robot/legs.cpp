@@ -60,7 +60,8 @@ class Layout {
                     fault.targets == 1
                         ? fault.worst.what
                         : fmt::format("{}, the farthest of {} targets outside of its limits", fault.worst.what, fault.targets),
-                    fault.targets == 1 ? fault.worst.remedy : fault.worst.remedy + ", or name the robot of the program");
+                    fault.targets == 1 ? fault.worst.remedy
+                                       : "the program may be one of another robot: name that robot, or " + fault.worst.remedy);
     throw_if_any();
     int first = 0;
     expand(motion_.steps, first);

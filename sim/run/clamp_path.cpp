@@ -268,10 +268,9 @@ JointMotion motion_in_time(const RunMotion& run, const pipeline::Setup& setup) {
     return {run.motion, setup.robot};
   } catch (const pipeline::InputError& error) {
     std::string words = error.what();
-    const auto doubts =
-        pipeline::joined(pipeline::joined(other_maker(setup.motion, setup.robot), in_the_foot(run.motion, setup.robot)),
-                         pipeline::plausibility_of_steps(run.motion));
-    if (doubts.empty()) throw;
+    for (const pipeline::Warning& cause : other_maker(setup.motion, setup.robot))  // of the errors that follow
+      words = fmt::format("{}: error: {}\n{}", cause.where, cause.words, words);
+    const auto doubts = pipeline::joined(in_the_foot(run.motion, setup.robot), pipeline::plausibility_of_steps(run.motion));
     for (const pipeline::Warning& doubt : doubts) words += "\n" + doubt.line();
     throw pipeline::InputError(words);
   }
@@ -307,6 +306,32 @@ RobotPath::RobotPath(const pipeline::Setup& setup, const RunMotion& run)
     const auto axes = static_cast<long>(routing.mounting_pose.size());
     mounting_pose_.head(axes) =  // external axes have their value at the start
         Eigen::Map<const Eigen::VectorXd>(routing.mounting_pose.data(), axes);
+  }
+  for (const pipeline::MountedDresspack& mounted : setup.dresspacks)
+    for (const auto& [key, clamp] : {std::pair{"base_clamp", &mounted.routing.base_clamp}, {"tool_clamp", &mounted.routing.tool_clamp}})
+      if (*clamp) doubt_frame(setup.robot, key, **clamp, pipeline::usual_distance(mounted.routing, mounted.dresspack));
+}
+
+void RobotPath::doubt_frame(const pipeline::Robot& robot, const std::string& key, const pipeline::Clamp& clamp, double usual) {
+  const auto away = pipeline::distance_to(robot, clamp.link, clamp.position);
+  if (!away || *away <= usual) return;
+  for (const auto& [joints, words] : {std::pair<Eigen::VectorXd, const char*>{mounting_pose_, "in the mounting pose"},
+                                      {Eigen::VectorXd::Zero(mounting_pose_.size()), "where all axes are at 0"}}) {
+    const Frame world = inverse(pose(joints).links[find_link(robot, clamp.link, clamp.where)]);
+    const Vector3 at = world.point(clamp.position), to = world.orientation * clamp.direction;
+    if (*pipeline::distance_to(robot, clamp.link, at) > usual) continue;
+    std::erase_if(doubts_, [&](const pipeline::Warning& doubt) {  // of the same number, with other causes
+      return doubt.where == clamp.where.text() && doubt.words.find(key + ".position_m lies ") != std::string::npos;
+    });
+    doubts_.push_back(pipeline::warning_of(
+        pipeline::WarningKind::motion, clamp.where.text(),
+        fmt::format("routing.{}.position_m lies {:.3g} m from all shapes of {} (limit {:.3g}), and beside them as a place in the world {}",
+                    key, *away, clamp.link, usual, words),
+        "a place in the frame of the world instead of that of the link",
+        fmt::format("position_m: [{:.3f}, {:.3f}, {:.3f}] and direction: [{:.2f}, {:.2f}, {:.2f}], both in the frame of {}", at.x(), at.y(),
+                    at.z(), to.x(), to.y(), to.z(), clamp.link)));
+    clamps_in_world_ = true;
+    return;
   }
 }
 

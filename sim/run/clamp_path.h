@@ -65,6 +65,8 @@ class RobotPath final : public ClampPath {
   const JointMotion& motion() const { return motion_; }
   /// Returns warnings about the robot program (Motion::left_out, external axes that the robot does not have) and unusual steps.
   const std::vector<pipeline::Warning>& doubts() const { return doubts_; }
+  /// Returns whether the place of a clamp is probably in the frame of the world; doubts() contains the warning.
+  bool clamps_in_world() const { return clamps_in_world_; }
   const std::string& note() const { return note_; }  ///< note of a run about its program; empty: none
   /// Origins of the motion's tools in the flange's frame [m].
   const std::vector<Vector3>& tools() const { return tools_; }
@@ -84,6 +86,8 @@ class RobotPath final : public ClampPath {
  private:
   RobotPath(const pipeline::Setup& setup, const RunMotion& run);
   void hold_joint(const pipeline::Setup& setup);
+  /// Warns of a clamp farther from its link than `usual` [m] that is beside it if the numbers are a place in the world.
+  void doubt_frame(const pipeline::Robot& robot, const std::string& key, const pipeline::Clamp& clamp, double usual);
   void add_dresspack(const pipeline::Setup& setup, const pipeline::Routing& routing);
 
   RobotKinematics kinematics_;
@@ -96,6 +100,7 @@ class RobotPath final : public ClampPath {
   std::vector<int> clamp_links_;
   std::vector<Frame> clamps_, rings_;  // in their links' frames (R2)
   Eigen::VectorXd mounting_pose_;
+  bool clamps_in_world_ = false;
 };
 
 /// Clamp poses recorded by another program, columns t [s], x y z [m], qw qx qy qz of the base clamp, then of

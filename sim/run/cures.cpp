@@ -14,6 +14,7 @@
 #include "pipeline/cable/bend_limit.h"
 #include "pipeline/files/check_names.h"
 #include "pipeline/job/line_key.h"
+#include "pipeline/resolve/plausible_job.h"
 #include "sim/run/equilibrium.h"
 
 namespace dresslife::sim {
@@ -346,9 +347,8 @@ bool can_be_tried(const CheckedMotion& motion, int dresspack) {
 std::string limit_remark(const CheckedMotion& motion, const Check& broken) {
   const pipeline::Dresspack& dresspack = mounted_of(motion, broken).dresspack;
   if (dresspack.least_bend_radius) return "";
-  return fmt::format("; {} is not given, so that ten diameters{} count: give the maker's radius",
-                     key_of(motion.setup, broken.dresspack, "dresspack.least_bend_radius_mm"),
-                     dresspack.hose_corrugation && !dresspack.components.empty() ? " of the parts in the hose" : "");
+  return fmt::format("; {} is not given, so that {}: give the maker's radius",
+                     key_of(motion.setup, broken.dresspack, "dresspack.least_bend_radius_mm"), pipeline::bend_rule(dresspack));
 }
 
 /// Returns a remark if the bend is near a clamp without a relief.
@@ -595,6 +595,12 @@ pipeline::Warning taut_warning(const CheckedMotion& motion, const ShortRun& run)
 std::string refusal_remedy(const pipeline::Setup& setup, const RoutingRefusal& refusal) {
   const Rod rod = rod_of(setup);
   const std::unique_ptr<ClampPath> path = path_of(setup);
+  const pipeline::Routing& routing = setup.dresspacks[static_cast<std::size_t>(refusal.dresspack)].routing;
+  if (pipeline::clamps_exchanged(routing, setup.robot))
+    return fmt::format("the links of the clamps may be exchanged: routing.base_clamp.link: {} and routing.tool_clamp.link: {} if so",
+                       routing.tool_clamp->link, routing.base_clamp->link);
+  if (const auto* robot = dynamic_cast<const RobotPath*>(path.get()); robot && robot->clamps_in_world())
+    return "give the places of the clamps in the frames of their links (dresslife check computes them)";
   return remedy_for({setup, {}, &rod, path.get()}, refusal.dresspack, refusal.time.value_or(0),
                     refusal.remedy)
       .text();

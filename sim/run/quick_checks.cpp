@@ -68,10 +68,11 @@ class QuickChecks {
     found.others = pipeline::joined(one_link, found.others);
     if (std::ranges::any_of(setup_.dresspacks,
                             [&](const auto& of) { return pipeline::clamps_exchanged(of.routing, setup_.robot); }) ||
+        (robot_ && robot_->clamps_in_world()) ||
         (!one_link.empty() && std::ranges::any_of(found.checks, [](const Check& check) { return check.warning; }))) {
       found.checks.clear();
       found.notes.push_back(
-          "The short run of the checks was left out. Correct the links of the clamps first: the other limits follow from them");
+          "The short run of the checks was left out. Correct the clamps first: the other limits follow from them");
       return found;
     }
     if (std::ranges::any_of(found.checks, [](const Check& check) { return check.name == check_name::too_long && check.value > 2 * check.limit; })) {

@@ -6,6 +6,7 @@
 #include "pipeline/base/warning_words.h"
 #include "pipeline/cable/plain_properties.h"
 #include "pipeline/job/setup.h"
+#include "pipeline/resolve/plausible_job.h"
 
 namespace dresslife::sim {
 namespace {
@@ -155,20 +156,22 @@ std::vector<pipeline::Warning> one_link_warnings(const pipeline::Setup& setup) {
   std::vector<pipeline::Warning> warnings;
   for (std::size_t d = 0; d < setup.dresspacks.size(); ++d) {
     const pipeline::Routing& routing = setup.dresspacks[d].routing;
-    if (!routing.base_clamp || !routing.tool_clamp) continue;
-    const std::string& link = routing.base_clamp->link;
+    const pipeline::Clamp* const wrong = pipeline::clamp_on_wrong_link(routing, setup.robot);
+    if (!wrong) continue;
+    const std::string& link = wrong->link;
+    const bool base = wrong == &*routing.base_clamp;
     const auto is_there = [&](const auto& place) { return place.link == link; };
-    if (!is_there(*routing.tool_clamp) || !std::all_of(routing.rings.begin(), routing.rings.end(), is_there) ||
+    if (!std::all_of(routing.rings.begin(), routing.rings.end(), is_there) ||
         !std::all_of(routing.clamps.begin(), routing.clamps.end(), [&](const auto& of) { return is_there(of.clamp); }))
       continue;
     warnings.push_back(pipeline::warning_of(
-        pipeline::WarningKind::motion, routing.tool_clamp->where.text(),
+        pipeline::WarningKind::motion, wrong->where.text(),
         fmt::format("both clamps of {} are on {}, so that no axis bends it: its life is that of its swing alone",
                     pipeline::dresspack_words(setup, d), link),
         "one of the clamps names another link than it is mounted on",
-        fmt::format("{}.link with a link beyond the axes that bend the dresspack, for example {}",
-                    setup.dresspacks[d].name.empty() ? "routing.tool_clamp" : "routing.tool_clamp of this dresspack",
-                    setup.robot.links.back().name != link ? setup.robot.links.back().name : setup.robot.links.front().name)));
+        fmt::format("routing.{}.link{} with a link {} the axes that bend the dresspack, for example {}",
+                    base ? "base_clamp" : "tool_clamp", setup.dresspacks[d].name.empty() ? "" : " of this dresspack",
+                    base ? "before" : "beyond", pipeline::probable_link(*wrong, setup.robot))));
   }
   return warnings;
 }

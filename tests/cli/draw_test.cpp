@@ -117,3 +117,16 @@ TEST_CASE("a job by itself runs as a study of one") {
   CHECK(ran.out.find("Report: runs/job/report.html") != std::string::npos);
   CHECK(run(scratch, "dresslife", "status job.yaml").out.find("1 of 1 jobs done") != std::string::npos);
 }
+
+TEST_CASE("draw: the dresspack of a job, of a job with several none, with their names") {
+  const Scratch scratch;
+  scratch.write("hose.yaml", content(fs::path(DRESSLIFE_SOURCE_DIR) / "config/dresspacks/handling.yaml"));
+  scratch.write("job.yaml", "motion: hard\ndresspack: hose.yaml\n");
+  CHECK(must_run(scratch, "dresslife", "draw job.yaml").out == must_run(scratch, "dresslife", "draw hose.yaml").out);
+  scratch.write("one_key.yaml", "dresspack: hose.yaml\ndresspack.components.3.count: 1\n");
+  CHECK(must_run(scratch, "dresslife", "draw one_key.yaml").out.find("     1 air hose ") != std::string::npos);
+  scratch.write("two.yaml", "dresspacks:\n  - {name: a, dresspack: hose.yaml}\n  - {name: b, dresspack: control_cable}\n");
+  const Outcome two = run(scratch, "dresslife", "draw two.yaml");
+  CHECK(two.status == 1);
+  CHECK(two.err == "two.yaml:2:3: error: is a job with 2 dresspacks (one is drawn); name one of them: hose.yaml, control_cable\n");
+}

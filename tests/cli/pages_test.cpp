@@ -89,6 +89,8 @@ const std::map<std::string, std::string> instead{
     {"dresslife calibrate plant.csv", "not run"},  // tests/cli/calibrate_test
     {"dresslife run job.yaml --set calibration=runs/calibrate_plant/calibration.yaml", "not run"},
     {"dresslife manual KEY", "dresslife manual slack_percent"},
+    {"dresslife manual data_sheet", "dresslife manual data_sheet"},
+    {"dresslife check own_hose.yaml", "dresslife check own_hose.yaml"},
     {"dresslife rate sensor_cable", "dresslife rate sensor_cable"},
     {"dresslife preview irb6640_spot_welding --set routing.free_length_m=1.6 -o short.html",
      "dresslife preview irb6640_spot_welding --set routing.free_length_m=1.6 -o short.html"},

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "pipeline/base/constants.h"
+#include "pipeline/base/text.h"
 #include "pipeline/cable/overlap.h"
 #include "pipeline/job/dresspack.h"
 #include "pipeline/settings/fields.h"
@@ -174,8 +175,28 @@ TEST_CASE("a sheet's line is what its keys are") {
       "pack.yaml");
   expand_data_sheets(shop);
   CHECK_THAT(shop.find("estimates")->text,
-             Catch::EndsWith(", without effect: shielded, highly flexible, ul 20276, 300 v, drag chain, halogen-free, copper braid 85 %, "
-                             "-40 to 80 c, jacket rubber"));
+             Catch::EndsWith(", without effect: highly flexible, ul 20276, 300 v, drag chain, halogen-free, -40 to 80 c, jacket rubber, shielded, "
+                             "copper braid 85 %: the shield's wires are not evaluated, and its thickness counts as that of the jacket"));
+  // A shield without a comma.
+  const auto estimates_of = [](const std::string& sheet) {
+    Node pack = parse_yaml("components:\n  - {name: lead, helix_radius_mm: 0, data_sheet: '" + sheet + "'}\n", "pack.yaml");
+    expand_data_sheets(pack);
+    return pack.find("estimates")->text;
+  };
+  for (const char* words : {"shielded", "screened", "(C)", "with copper braid", "tinned copper braided", "overall foil screen"}) {
+    const std::string beside = estimates_of(std::string("4x2x0.25 mm2 ") + words + ", jacket PUR");
+    CHECK_THAT(beside, Catch::Contains(lower_case(words) + ": the shield's wires are not evaluated"));
+    CHECK(beside == estimates_of(std::string("4x2x0.25 mm2, ") + words + ", jacket PUR"));
+  }
+  CHECK_THAT(estimates_of("4x2x0.25 mm2 unshielded"), Catch::EndsWith("without effect: unshielded"));
+  // The examples of the manual.
+  const std::string syntax = sheet_syntax();
+  int examples = 0;
+  for (std::size_t at = 0; (at = syntax.find("data_sheet: ", at)) != std::string::npos; ++examples) {
+    at += std::string_view("data_sheet: ").size();
+    CHECK_NOTHROW(expanded(syntax.substr(at, syntax.find('\n', at) - at)));
+  }
+  CHECK(examples == 2);
   // Words that belong to other keys.
   CHECK_THAT(refusal("7 x 0.5 mm2, min. bending radius 82 mm"), Catch::Contains("give the dresspack least_bend_radius_mm: 82 "));
   CHECK_THAT(refusal("7 x 0.5 mm2, bend radius 10 x d"), Catch::Contains("give the dresspack least_bend_radius_mm in mm"));

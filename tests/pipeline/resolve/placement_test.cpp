@@ -138,7 +138,8 @@ TEST_CASE("placement: what cannot be placed is refused with what would do") {
   CHECK(refusal(hose_text(fmt::format("inner_diameter_mm: {}\n", enough), cable("lead", 12, 5))) == "");
   CHECK_THAT(
       refusal(hose_text("", cable("lead", 3, 5))),
-      Contains("place: auto is given, and the hose's bore is not") && Contains("give inner_diameter_mm"));
+      Contains("place: auto is given, and the hose's bore is not") && Contains("give inner_diameter_mm") &&
+          Contains("of 60 mm usually hose_material: hose_polyamide and hose_corrugation: {pitch_mm: 5.06, "));
   CHECK_THAT(refusal(hose_text("inner_diameter_mm: 70\n", cable("lead", 3, 5))),
              Contains("inner_diameter_mm is 70 (diameter_mm is 60)"));
   const std::string wide_core = "inner_diameter_mm: 50\ncore_diameter_mm: 52\n";

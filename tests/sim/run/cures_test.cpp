@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "pipeline/base/constants.h"
+#include "pipeline/cable/bend_limit.h"
 #include "sim/run/quick_checks.h"
 #include "sim/run/simulate.h"
 #include "tests/catch.h"
@@ -248,7 +249,14 @@ TEST_CASE("cures: ten diameters count where no bend radius is given, and the war
   pipeline::Job job = swinging_job(1.3);
   job.dresspacks[0].routing.tool_clamp->direction = {0, 1, 0};
   CHECK_THAT(words_of(job, pipeline::WarningKind::bend_radius),
-             Catch::Contains("dresspack.least_bend_radius_mm is not given, so that ten diameters count"));
+             Catch::Contains("dresspack.least_bend_radius_mm is not given, so that ten diameters of the hose (40 mm) count, because"));
+  pipeline::Dresspack& dresspack = job.dresspacks[0].dresspack;
+  dresspack.hose_corrugation = pipeline::Corrugation{};
+  dresspack.components.assign(2, {});
+  dresspack.components[0].radius = 0.002, dresspack.components[1].radius = 0.006, dresspack.components[1].helix_radius = 0.01;
+  dresspack.components[1].name = "power";
+  CHECK(pipeline::least_bend_radius(dresspack) == Approx(0.13));
+  CHECK_THAT(pipeline::bend_rule(dresspack), Catch::Contains("ten diameters of 'power' (12 mm) in the hose, 10 mm off its axis, count"));
 }
 
 TEST_CASE("cures: a bend beside a clamp names its bend relief, unless it has one or the bend is far from it") {

@@ -1,0 +1,38 @@
+#include "pipeline/cable/bend_limit.h"
+
+#include <fmt/format.h>
+
+namespace dresslife::pipeline {
+namespace {
+
+/// Returns whether the rule applies to the parts in the dresspack instead of the dresspack itself.
+bool bends_by_folds(const Dresspack& dresspack) { return dresspack.hose_corrugation && !dresspack.components.empty(); }
+
+double limit_of(const Component& part) { return least_bend_diameters * 2 * part.radius + part.helix_radius; }
+
+/// Precondition: the dresspack has components.
+const Component& stiffest_part(const Dresspack& dresspack) {
+  return *std::ranges::max_element(dresspack.components, {}, limit_of);
+}
+
+}  // namespace
+
+double least_bend_radius(const Dresspack& dresspack) {
+  if (dresspack.least_bend_radius) return *dresspack.least_bend_radius;
+  if (!bends_by_folds(dresspack)) return least_bend_diameters * dresspack.diameter;
+  return std::max(least_bend_diameters * dresspack.core_diameter, limit_of(stiffest_part(dresspack)));
+}
+
+std::string bend_rule(const Dresspack& dresspack) {
+  if (!bends_by_folds(dresspack))
+    return fmt::format("ten diameters of the {} ({:.4g} mm) count{}", dresspack.cable_alone ? "cable" : "hose", 1e3 * dresspack.diameter,
+                       dresspack.cable_alone ? "" : ", because it has no hose_corrugation that bends by its folds");
+  const Component& part = stiffest_part(dresspack);
+  return fmt::format("ten diameters of {} count, because a corrugated hose itself bends by its folds",
+                     least_bend_diameters * dresspack.core_diameter > limit_of(part)
+                         ? fmt::format("its core ({:.4g} mm)", 1e3 * dresspack.core_diameter)
+                         : fmt::format("'{}' ({:.4g} mm) in the hose, {:.4g} mm off its axis,", part.name, 2e3 * part.radius,
+                                       1e3 * part.helix_radius));
+}
+
+}  // namespace dresslife::pipeline
