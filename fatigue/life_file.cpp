@@ -780,7 +780,8 @@ std::vector<pipeline::Warning> beyond_calibration(const Context& c) {
     warnings.push_back(pipeline::warning_of(
         pipeline::WarningKind::calibration, "", "the job goes beyond the tests of its calibration: " + words,
         "no observation of the calibration strains a cable like this job",
-        "add an observation that does to the list for dresslife calibrate, or leave out the key calibration"));
+        "add such an observation to the list of dresslife calibrate, or this job to the column Job of a maintenance system's "
+        "table; or leave out the key calibration"));
   return warnings;
 }
 

@@ -90,7 +90,7 @@ strain: {slip: stick}
   CHECK(errors(one).find("mounted without twist") == std::string::npos);
   CHECK(errors(one + ", " + same).find("mounted without twist") == std::string::npos);
   const std::string warned = errors(one + ", " + same + ", " + away);
-  CHECK(warned.find(mounted + " and again in that of 'away' (an axis differs by more than 20 deg)") != std::string::npos);
+  CHECK(warned.find(mounted + " and again in that of 'away' (an\naxis differs by more than 20 deg)") != std::string::npos);
   CHECK(warned.find("mounted without twist") == warned.rfind("mounted without twist"));
 }
 

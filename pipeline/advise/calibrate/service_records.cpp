@@ -400,7 +400,7 @@ ServiceTests read_service_tests(const ServiceRequest& request) {
   std::map<std::string, std::size_t> known;  // (job) index of its test
   std::set<std::string> names;
   std::map<std::string, double> hours_per_week;
-  std::size_t failed = 0, removed = 0, in_use = 0, before = 0, early = 0;
+  std::size_t failed = 0, removed = 0, in_use = 0, before = 0, early = 0, early_failed = 0;
   std::vector<std::string> hoses;  // one line per failure whose reason names a hose
   Where first_hose;
   const Row* short_week = nullptr;
@@ -428,6 +428,7 @@ ServiceTests read_service_tests(const ServiceRequest& request) {
     const bool too_early = row.to < *since || (!request.since && row.end != End::in_use && row.to == *since);
     if (too_early) {
       ++early;
+      early_failed += row.end == End::failed;
       continue;
     }
     constexpr double day = 24;  // [h]: robots of plants run 40 h a week and more
@@ -460,13 +461,13 @@ ServiceTests read_service_tests(const ServiceRequest& request) {
   read.words += fmt::format("{} dresspacks: {} failed, {} were removed before, {} are in use on {}.\n",
                             failed + removed + in_use, failed, removed, in_use, day_text(request.today));
   read.words += fmt::format(
-      "Records begin on {}{}. {} dresspacks were put in before, and count from their age on that day.\n",
+      "Records begin on {}{}. Put in before: {}; these count from their age on that day.\n",
       day_text(*since), request.since ? "" : ", the day of the first removal", before);
   if (early > 0)
     read.words += fmt::format(
-        "{} removed {} do not count{}.\n", early, request.since ? "before" : "on that day",
+        "Removed {}, not counted: {}, of these failed: {}{}.\n", request.since ? "before" : "on that day", early, early_failed,
         request.since ? ""
-                      : ": --records-since DATE gives an earlier day from which the records are complete");
+                      : ". --records-since DATE gives an earlier day from which the records are complete");
   if (short_week)
     read.words += warning_of(WarningKind::calibration, short_week->where.text(),
                              fmt::format("hours_per_week of '{}' is {:g} (limit more than 24)", short_week->name, *short_week->hours_per_week),

@@ -53,6 +53,25 @@ TEST_CASE("study: named changes are varied, too") {
   CHECK(study.jobs[2].job->dresspacks[0].dresspack.bending_stiffness == 5);
 }
 
+TEST_CASE("study: each job has the stiffness of its own construction, in any order of the jobs") {
+  const Scratch scratch;
+  const Study study = study_of(scratch,
+                               "base: irb6640_spot_welding\njobs:\n  usual: {}\n  also: {simulation.segments: 32}\n"
+                               "  warm: {cell.temperature_C: 60}\n  full: {dresspack.core_bending_stiffness_Nm2: 20}\n  again: {}\n");
+  for (const StudyJob& job : study.jobs) REQUIRE(job.failure == "");
+  const auto hose = [&](std::size_t k) { return study.jobs[k].job->dresspacks[0].dresspack; };
+  for (const std::size_t k : {1, 4}) {
+    CHECK(hose(k).mass_per_length == hose(0).mass_per_length);
+    CHECK(hose(k).bending_stiffness == hose(0).bending_stiffness);
+    CHECK(hose(k).torsional_stiffness == hose(0).torsional_stiffness);
+    CHECK(hose(k).axial_stiffness == hose(0).axial_stiffness);
+    CHECK(hose(k).bending_friction.size() == hose(0).bending_friction.size());
+  }
+  CHECK_FALSE(hose(0).bending_friction.empty());
+  CHECK(hose(2).bending_stiffness < hose(0).bending_stiffness);
+  CHECK(hose(3).bending_stiffness > hose(0).bending_stiffness + 1);
+}
+
 TEST_CASE("study: a varied section keeps the keys that a named change sets in it") {
   const Scratch scratch;
   const Study study = study_of(scratch,
