@@ -35,8 +35,7 @@ constexpr double least_step = 0.02e-3, most_step = 1e-3;  // [m]
 constexpr double least_percent = 1;    // a hundredth of an axis' speed: no program of a plant is so slow
 constexpr double fastest_tool = 10;     // [m/s]: the fastest controllers allow 5 to 7
 constexpr double fastest_of_kuka = 3;   // [m/s]: ESTIMATE of $VEL_MA.CP, the upper bound of $VEL.CP in the machine data of a robot
-// [m/s]: the sum over all axes of speed times reach is 10 to 30 for robots in plants, so none moves its tool faster.
-constexpr double impossible_tool = 50;
+constexpr double surely_millimetres = 50;  // [m/s]: a tenth of smaller numbers is a speed of robots
 constexpr double longest_dwell = 100;  // [s]: cycles of production lines are shorter
 
 constexpr double largest_step = 10e-3;  // [s]: the largest step that an automatic choice takes; larger ones were not tried
@@ -130,11 +129,6 @@ void add_steps(const std::vector<MotionStep>& steps, Seen& seen) {
     if (step.speed_percent && *step.speed_percent < least_percent) seen.slow.add(step, step.speed_where);
     if (step.acceleration_percent.value_or(100) <= least_percent) seen.lazy.add(step, step.acceleration_where);
     if (step.tool_zone.value_or(0) > widest_path_zone) seen.wide.add(step);
-    if (step.tool_speed.value_or(0) > impossible_tool)
-      throw InputError(step.speed_where.line > 0 ? step.speed_where : step.where,
-                       fmt::format("the tool's speed is {:g} m/s (limit {:g}: no robot moves its tool so fast)", *step.tool_speed,
-                                   impossible_tool),
-                       fmt::format("{:g} m/s if that was mm/s, in the program's unit", 1e-3 * *step.tool_speed));
     if (step.tool_speed.value_or(0) > fastest_tool_of(step)) seen.fast.add(step, step.speed_where);
     if (step.repeat > most_repeats) seen.repeats.add(step);
     if (step.tool_speed.value_or(1) < slowest_tool) seen.creeping.add(step, step.speed_where);
@@ -337,10 +331,13 @@ std::vector<Warning> plausibility_of_steps(const Motion& motion) {
         "a share instead of a percentage",
         fmt::format("{}{:g}{} if that was a share", key("speed_percent: ", "", *step), 100 * *step->speed_percent, key("", " %", *step))));
   if (const MotionStep* step = seen.fast.first)
-    warnings.push_back(
-        seen.fast.warning(fmt::format("the tool's speed is {:g} m/s (limit {:g} or less)", *step->tool_speed, fastest_tool_of(*step)),
-                          "a slip of the decimal point",
-                          fmt::format("{:g} m/s if the decimal point slipped, in the program's unit", 0.1 * *step->tool_speed)));
+    warnings.push_back(seen.fast.warning(
+        fmt::format("the tool's speed is {:g} m/s (limit {:g} or less)", *step->tool_speed, fastest_tool_of(*step)),
+        *step->tool_speed < surely_millimetres ? "a slip of the decimal point"
+                                               : "a speed in another unit, such as mm/s instead of m/s",
+        *step->tool_speed < surely_millimetres
+            ? fmt::format("{:g} m/s if the decimal point slipped, in the program's unit", 0.1 * *step->tool_speed)
+            : fmt::format("{:g} m/s if that was mm/s, in the program's unit", 1e-3 * *step->tool_speed)));
   if (const MotionStep* step = seen.lazy.first)
     warnings.push_back(seen.lazy.warning(
         fmt::format("the acceleration is {:g} % (limit more than {:g})", *step->acceleration_percent, least_percent),

@@ -45,7 +45,7 @@ std::vector<Warning> warnings_of_descriptions(const Job& job);
 
 /// Checks for: a motion in which no axis moves; joint angles that are all radians; single targets in radians or in metres; times
 /// in milliseconds; speeds that are shares or in another unit; dwells in milliseconds. Returns one warning per kind, at its first
-/// step, with the number of further ones. Errors: InputError for a speed of the tool that no robot reaches.
+/// step, with the number of further ones.
 std::vector<Warning> plausibility_of_steps(const Motion& motion);
 
 }  // namespace dresslife::pipeline

@@ -2,7 +2,6 @@
 // warns of it or asks, with its place, the value and a remedy.
 #include <fmt/format.h>
 
-#include <regex>
 
 #include "tests/catch.h"
 #include "tests/cli/process.h"
@@ -99,7 +98,7 @@ const Row rows[] = {
     {"job.yaml", "{urdf: arm.urdf, accelerations_deg_per_s2: [670, 500, 1050, 4720, 4980, 9350]}", "fanuc_m20ia", Answer::refused, "nod.src:", "the program nod.src is one of KUKA, and the robot is Fanuc", "robot: the one for which the program was written"},
     // The program
     {"nod.src", "CP=0.25", "CP=5", Answer::warned, "nod.src:6:5", "the tool's speed is 5 m/s (limit 3 or less)", "0.5 m/s if the decimal point slipped"},
-    {"nod.src", "CP=0.25", "CP=250", Answer::refused, "nod.src:6:5", "the tool's speed is 250 m/s (limit 50: no robot moves its tool so fast)", "0.25 m/s if that was mm/s"},
+    {"nod.src", "CP=0.25", "CP=250", Answer::warned, "nod.src:6:5", "the tool's speed is 250 m/s", "0.25 m/s if that was mm/s"},
     {"nod.src", "CP=0.25", "CP=0.0025", Answer::warned, "nod.src:6:5", "the tool's speed is 2.5 mm/s (limit 3 or more)", "if the decimal point slipped"},
     {"nod.src", "CP=0.25", "CP=0,25", Answer::refused, "nod.src:6:10", "has ',' behind the end of the statement", "write 0.25 with a decimal point"},
     {"nod.src", "ACC_PTP,80", "ACC_PTP,0.4", Answer::warned, "nod.src:3:1", "the acceleration is 0.4 % (limit more than 1)", "in per cent: 40 if that was a share"},
@@ -175,7 +174,6 @@ TEST_CASE("wrong inputs in an own job of a URDF, a KRL program and data sheets: 
     if (row.answer == Answer::warned) CHECK_THAT(text, Contains(row.place) && Contains(": warning: ") && Contains("Likely cause: "));
     if (row.answer == Answer::refused && !row.place.empty()) CHECK_THAT(text, Catch::StartsWith(row.place) && Contains(": error: "));
     if (row.answer == Answer::asked) CHECK_THAT(text, Contains("note: "));
-    const std::string one_line = std::regex_replace(text, std::regex("\n *"), " ");  // warnings are paragraphs of several lines
-    CHECK_THAT(one_line, Contains(row.problem) && Contains(row.remedy));
+    CHECK_THAT(text, Contains(row.problem) && Contains(row.remedy));
   }
 }

@@ -32,6 +32,7 @@ routing:
   tool_clamp: {link: link_6, position_m: [0.15, 0, 0.18], direction: [1, 0, -0.35]}
   free_length_m: 2.035
 simulation: {segments: 24, contact: false}
+uncertainty: {hose_stiffness: 1}
 )";
 
 const std::string hose = R"(name: hose
@@ -67,7 +68,7 @@ const std::string krl_job =
     "robot: kuka_kr16_2\nmotion: nod.src\ndresspack: control_cable\nrouting:\n"
     "  base_clamp: {link: link_3, position_m: [-0.199, 0.133, -0.163], direction: [0.84, -0.29, -0.46]}\n"
     "  tool_clamp: {link: link_6, position_m: [0.167, -0.016, 0.02], direction: [-0.21, -0.11, 0.97]}\n"
-    "  free_length_m: 1.135\nsimulation: {segments: 24, contact: false}\n";
+    "  free_length_m: 1.135\nsimulation: {segments: 24, contact: false}\nuncertainty: {hose_stiffness: 1}\n";
 
 const std::string study = "base: job.yaml\nvary:\n  routing.free_length_m: [2.0, 2.1]\n";
 
@@ -547,7 +548,7 @@ TEST_CASE("a program is compared with the zero pose of a robot whose maker is no
     const Outcome outcome =
         run(scratch, "dresslife",
             fmt::format("check job.yaml --set robot={} --set robot.name=own --set motion={}", robot, file));
-    return outcome.out + outcome.err;
+    return unwrapped(outcome.out + outcome.err);
   };
   const char *upright = "abb_irb6640_185_280", *flat = "kuka_kr16_2";
   CHECK_THAT(
@@ -593,7 +594,7 @@ TEST_CASE("plausible mistakes that make a job are warned of, with place, limit a
       }
     }
     const Outcome outcome = run(scratch, "dresslife", one ? one->command : "check job.yaml");
-    return outcome.out + outcome.err;
+    return unwrapped(outcome.out + outcome.err);
   };
   CHECK(checked(nullptr).find("warning: ") == std::string::npos);
   const Doubtful unchanged{"nod.src", "END", "END", "", "", "", "check krl.yaml"};

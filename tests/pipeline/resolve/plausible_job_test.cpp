@@ -84,10 +84,7 @@ TEST_CASE("plausible steps: speeds that are shares or in mm/s, dwells in ms, tol
   CHECK(doubts({with(0.99, {}, 0)}) == 1);
   CHECK(doubts({with({}, 10.1, 0)}) == 1);
   CHECK(doubts({with({}, {}, 101)}) == 1);
-  CHECK(doubts({with(0.5, 50, 2000)}) == 3);
-  Motion impossible;
-  impossible.steps = {with({}, 500, 0)};
-  CHECK_THROWS_WITH(plausibility_of_steps(impossible), Catch::Contains("the tool's speed is 500 m/s (limit 50") && Catch::Contains("0.5 m/s if"));
+  CHECK(doubts({with(0.5, 500, 2000)}) == 3);
   Motion motion;
   motion.steps = {move_to({0, 0}), with(0.5, {}, 0), with(0.6, {}, 0), with(0.7, {}, 0)};
   const std::vector<Warning> warnings = plausibility_of_steps(motion);
