@@ -86,6 +86,16 @@ std::vector<std::string> doubts(const std::vector<DutyResult>& duties) {
   return lines;
 }
 
+/// Returns the doubts with the first warnings behind them, each once, for the page.
+std::vector<std::string> doubts_with_warnings(const std::vector<DutyResult>& duties) {
+  std::vector<std::string> lines = doubts(duties);
+  const std::size_t all = lines.size() + most_named;
+  for (const DutyResult& duty : duties)
+    for (const std::string& warning : duty.warnings)
+      if (lines.size() < all && std::find(lines.begin(), lines.end(), warning) == lines.end()) lines.push_back(warning);
+  return lines;
+}
+
 /// Returns the cautions about the duties with the earliest modes that no test validates.
 std::vector<std::string> cautions(const std::vector<DutyResult>& duties) {
   std::vector<std::pair<double, const DutyResult*>> order;
@@ -243,7 +253,7 @@ int plan(const PlanOptions& options) {
                  page = made.places.folder / (stem + ".html");
   write_text_if_changed(table, csv);
   write_text_if_changed(weeks, plan_weeks_csv(fleet, found));
-  const PlanNotes notes{doubts(duties), tests, cautions(duties)};
+  const PlanNotes notes{doubts_with_warnings(duties), tests, cautions(duties)};
   write_text_if_changed(page, with_mark(plan_page(fs::path(options.fleet).stem().string(), fleet, found,
                                                   notes, table.filename().string()),
                                         Mark::page));

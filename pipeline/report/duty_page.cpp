@@ -67,6 +67,7 @@ std::string life_chart(const DutyResult& duty, const DutyPart& part) {
 
 std::string section(const DutyResult& duty) {
   std::string text = fmt::format("<h3>{}</h3>\n<p><b>{}</b> {}</p>\n", escaped(duty.name), escaped(duty_action(duty)), escaped(percentile_words(duty)));
+  for (const std::string& warning : duty.warnings) text += "<p class=\"failed\">" + escaped(warning) + "</p>\n";
   text += chart_in_page(shares_chart(duty));
   std::string charts;
   for (const DutyPart& part : duty.parts)

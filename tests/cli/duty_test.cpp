@@ -90,8 +90,12 @@ strain: {slip: stick}
   CHECK(errors(one).find("mounted without twist") == std::string::npos);
   CHECK(errors(one + ", " + same).find("mounted without twist") == std::string::npos);
   const std::string warned = errors(one + ", " + same + ", " + away);
-  CHECK(warned.find(mounted + " and again in that of 'away' (an\naxis differs by more than 20 deg)") != std::string::npos);
+  CHECK(warned.find(mounted + " and again in that of 'away' (an axis differs by more than 20 deg)") != std::string::npos);
   CHECK(warned.find("mounted without twist") == warned.rfind("mounted without twist"));
+  // The page contains the warnings for which it says not to plan.
+  scratch.write("job.yaml", content(scratch / "job.yaml") + "dresspack.least_bend_radius_mm: 590\n");
+  errors(one);
+  CHECK(content(scratch / "runs/study/duty_duties.html").find("<p class=\"failed\">one: smallest bend radius: ") != std::string::npos);
 }
 
 TEST_CASE("a duty of one program in all of the time has the life of its job, and so have two equal programs") {

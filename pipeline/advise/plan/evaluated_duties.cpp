@@ -546,8 +546,11 @@ DutyResult outline_of(const Duty& duty, Programs& programs, std::vector<Rate>& r
     if (result.parts[k].repeats_per_hour > 0) all.push_back(duty.programs[k]);
   if (!duty.order.empty()) all.push_back(program_of_round(duty));
   for (const DutyProgram& program : all)
-    if (const RankingRow& row = programs.row(program); !is_believable(row))
+    if (const RankingRow& row = programs.row(program); !is_believable(row)) {
       result.doubtful.push_back(fmt::format("{} ({})", row.job, warning_kinds(row)));
+      for (const Warning& warning : warnings_of(row))
+        if (spoils_plan(warning.kind)) result.warnings.push_back(row.job + ": " + warning.text());
+    }
   result.robot_life_hours = programs.row(duty.programs.front()).robot_life_hours;
   if (const Job* const job = programs.job(duty.programs.front())) result.inspection = job->inspection;
   return result;

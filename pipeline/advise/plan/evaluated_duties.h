@@ -64,6 +64,7 @@ struct DutyResult {
   std::vector<DutyMode> others;       ///< modes that are not included in the hours above
   std::string not_evaluated;          ///< parts and modes without a life
   Inspection inspection;              ///< checks of its jobs
+  std::vector<std::string> warnings;  ///< "hard: smallest bend radius: ...": the warnings of these programs that make it unreliable
   std::vector<std::string> doubtful;  ///< "hard (bend radius)": programs with warnings that make a plan unreliable
 };
 
