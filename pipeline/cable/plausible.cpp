@@ -23,6 +23,7 @@ constexpr double copper = 8960,
 // swing. Steel ropes without friction between their wires have 0.005.
 constexpr double swing_frequency = 1.8, least_ratio = 0.005, most_ratio = 1;
 constexpr double stiffest = 115e9, shear = 45e9;  // moduli of copper [Pa]: no dresspack is a solid copper bar
+constexpr double stiffest_polymer = 15e9;         // [Pa]: polyamide with 50 % of glass fibres; hoses without fibres have 0.1 to 3
 constexpr double most_stretch = 0.02;             // strain by the weight of a metre; a simulation stops at this strain
 constexpr double strongest_jacket = 10e6;         // [Pa]: pressure at which soft jackets (PVC, PUR) yield
 constexpr double thinnest = 0.01e-3;              // radius of a wire [m]: the finest strands have a diameter of 0.03 mm
@@ -472,6 +473,11 @@ std::vector<Warning> plausibility_warnings(const Dresspack& dresspack) {
             : "hose_material and inner_diameter_mm of the hose, or axial_stiffness_N as measured");
   plausible_size(dresspack, judge);
   plausible_limits(dresspack, judge);
+  if (const Material* const wall = find_material(dresspack, dresspack.hose_material); wall && wall->youngs_modulus > stiffest_polymer)
+    judge.add(dresspack.where,
+              fmt::format("hose_material '{}' has youngs_modulus_GPa {:.3g} (limit {:g} or less: polymers)", wall->name, 1e-9 * wall->youngs_modulus,
+                          1e-9 * stiffest_polymer),
+              "the material of a wire", "hose_material: hose_polyamide, or the hose's own material");
   for (const Material& of : dresspack.materials)
     for (const WearRate& wear : of.wear)
       if (wear.rate < least_wear || wear.rate > most_wear)

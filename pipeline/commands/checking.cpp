@@ -88,7 +88,7 @@ JobCheck check_of(const std::filesystem::path& file, const std::vector<std::stri
   }
   check.limits =
       "The dresspack was checked at rest and in short runs, also with a softer and a stiffer hose. A run may also warn of strains and "
-      "forces of its cables, and of limits at other values of slack and friction.";
+      "forces of its cables, of limits at other values of slack and friction, of repeats that differ, and of modes by contact (abrasion).";
   if (print_preview(file, sets, {}, preview_file) != 0) fail_motion(file);
   try {
     check.refusal = refusal_of(preview_file);

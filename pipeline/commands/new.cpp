@@ -53,6 +53,7 @@ struct Choice {
   std::string source;
   std::vector<std::string> faults = {};  ///< faults that dresslife check reports
   std::vector<std::string> estimates = {};  ///< estimated keys of the dresspack
+  std::vector<std::string> notes = {};      ///< notes of dresslife check
   std::vector<std::string> doubts = {};  ///< faults of program and dresspack that do not depend on the routing
   bool refused = false;
   std::vector<KeyValue> remedies = {};  ///< of the faults: values of the routing, and slacks of the dresspack's cables
@@ -160,6 +161,8 @@ void judge(const Draft& draft, const std::string& motion, Choice& choice) {
   const JobCheck check = check_of(file.path(), {});
   choice.refused = !check.refusal.empty();
   choice.estimates = check.estimates;
+  choice.notes.clear();
+  std::ranges::copy_if(check.notes, std::back_inserter(choice.notes), [](const std::string& note) { return note.starts_with("note: "); });
   if (choice.refused) choice.faults.push_back(without_place(check.refusal, file.path()));
   for (const Warning& warning : check.warnings) {
     const bool of_routing = warning.kind != WarningKind::program && warning.kind != WarningKind::motion &&
@@ -357,6 +360,7 @@ int make(NewOptions options) {
   write_text_if_changed(options.job, with_mark(text_of(options, draft, choice, accelerations), Mark::yaml));
   print(shown(fmt::format("Job: {}\n", options.job)));
   for (const std::string& doubt : choice.doubts) print(shown(paragraph(doubt)));
+  for (const std::string& note : choice.notes) print(shown(paragraph(note)));
   for (const std::string& estimate : choice.estimates) print(shown(estimate + "\n"));
   if (options.dresspack_is_example)
     print(fmt::format("Its dresspack {} is an example for a large robot: name yours.\n", default_dresspack));

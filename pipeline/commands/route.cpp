@@ -353,7 +353,7 @@ std::string comparison_words(const Trial& trial, const MountingTolerance& tolera
     return "";  // no own routing, or the search ended early
   const Outcome& own = trial.outcomes[*trial.start];
   if (!own.failure.empty()) return fmt::format("The job's own routing does not run: {}\n", own.failure);
-  if (trial.best == trial.start && !trial.found) return "It is the job's own routing: none that was found is better.\n";
+  if (trial.best == trial.start && !trial.found) return "It is the job's own routing: none that was found is better in limits, modes and life.\n";
   const Outcome& other = trial.outcomes[trial.found.value_or(*trial.best)];
   const std::string both = fmt::format("the best of the others: {}\n  the job's own: {}\n", outcome_words(other), outcome_words(own));
   if (trial.best == trial.start) return "It is the job's own routing, because no other is better in life, limits and modes together.\n  " + both;

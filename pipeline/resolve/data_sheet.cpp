@@ -624,7 +624,7 @@ std::vector<std::pair<const char*, std::string>> keys_of_phrase(const std::strin
         }
         return keys;
       }
-  static const std::regex jacket(R"((outer |outside )?(jacket|sheath)( material)? *:? *[a-z -]+|[a-z-]+ (outer )?(jacket|sheath))");
+  static const std::regex jacket(R"((outer |outside )?(jacket|sheath)( material)? *:? *[a-z -]+|[a-z-]+ (outer )?(jacket|sheath)|pur|tpu|polyurethane|pvc|tpe)");
   if (std::regex_match(phrase, jacket)) {
     const std::string material = jacket_material(phrase);
     if (material.empty()) refuse_unknown_material(phrase, where);

@@ -213,15 +213,19 @@ void doubt_single_targets(const std::vector<MotionStep>& steps, std::vector<Warn
   gather(steps, joints, places);
   Doubted radians, metres;
   double widest = 0;  // [rad]
-  for (const MotionStep* step : joints) widest = std::max(widest, largest_of(step->joints));
-  for (const MotionStep* step : joints)
+  std::vector<const MotionStep*> different;  // a program may come back to one target many times
+  for (const MotionStep* step : joints) {
+    widest = std::max(widest, largest_of(step->joints));
+    if (std::ranges::none_of(different, [&](const MotionStep* other) { return other->joints == step->joints; })) different.push_back(step);
+  }
+  for (const MotionStep* step : different)
     if (const double largest = largest_of(step->joints) / degree;
         largest > small_turn && largest <= half_turn && widest > wide_targets && nonzero(step->joints) >= 3)
       radians.add(*step);
   const auto few = [](const Doubted& found, std::size_t all) {
     return found.first && 3 * (static_cast<std::size_t>(found.more) + 1) <= all + 1;
   };
-  if (few(radians, joints.size())) {
+  if (few(radians, different.size())) {
     std::vector<std::string> meant;
     for (const double angle : radians.first->joints)
       meant.push_back(fmt::format("{:.4g}", angle / degree / degree));

@@ -131,8 +131,8 @@ std::string radius_words(double curvature) { return in_words(1 / curvature, "m")
 
 std::string no_other_words(const CheckedMotion& motion, const std::string& limit) {
   return fmt::format(
-      "other clamps, which `dresslife route` searches: no length, no direction{} of these two clamps that was tried{} keeps the limit{}",
-      motion.other_places ? fmt::format(" and no place within {:.0f} mm", 1e3 * same_place) : "",
+      "other clamps, which `dresslife route` searches: with these two clamps{} no length and no direction that was tried{} keeps the limit{}",
+      motion.other_places ? fmt::format(", also if they are moved by up to {:.0f} mm,", 1e3 * same_place) : "",
       motion.work > most_work ? " in the time of a check" : "", limit);
 }
 

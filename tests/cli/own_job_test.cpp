@@ -108,6 +108,7 @@ const Row rows[] = {
     {"nod.src", "{A1 10,A2 -80,A3 95,A4 20,A5 45,A6 30}", "{A1 0.17,A2 -1.4,A3 1.66,A4 0.35,A5 0.79,A6 0.52}", Answer::warned, "nod.src:10:1", "all angles of this target are below 3.15 deg", "if those were radians"},
     {"nod.src", "X 900,Y -350,Z 600,A 0,B 180,C 0,S 2,T 2}\nLIN_REL {X 100}", "X 90,Y -35,Z 60,A 0,B 180,C 0,S 2,T 2}\nLIN_REL {X 10}", Answer::refused, "nod.src:8:1", "all positions of the program lie within ", "10 times these numbers if those were centimetres"},
     {"nod.src", "Z 150", "Z -150", Answer::warned, "nod.src:5:", "lies 150 mm behind the flange, in the arm", "[0, 0, 150] in its declaration"},
+    {"pack.yaml", "hose_material: hose_polyamide", "hose_material: copper", Answer::warned, "pack.yaml:1:1", "hose_material 'copper' has youngs_modulus_GPa 117 (limit 15 or less: polymers)", "hose_material: hose_polyamide"},
     {"nod.src", "Z 150", "Z 0.15", Answer::warned, "nod.src:5:", "tool '$TOOL' lies 0.15 mm from the frame in which it is given", "[0, 0, 150] in its declaration"},
     {"job.yaml", "motion: nod.src", "motion: " DRESSLIFE_SOURCE_DIR "/config/programs/side_panel.mod", Answer::refused, "side_panel.mod: error: the program side_panel.mod is one of ABB", "the robot is own, whose lower arm lies flat", "robot: the one for which the program was written"},
     {"job.yaml", "motion: nod.src", "motion: spot_robot_1", Answer::refused, "", "the farthest of ", "the program may be one of another robot: name that robot, or turn it"},

@@ -167,7 +167,7 @@ TEST_CASE("a sheet's line is what its keys are") {
              Catch::Contains("'sausage' of a data sheet is not understood") && Catch::Contains("dresslife manual data_sheet"));
   // A jacket's material without its thickness, and words without effect.
   const std::string by_rules = expanded("{cores: 7, cross_section_mm2: 0.5, outer_diameter_mm: 8.2, jacket_material: polyurethane}");
-  for (const char* jacket : {"jacket PUR", "PUR jacket", "outer sheath PUR"})
+  for (const char* jacket : {"jacket PUR", "PUR jacket", "outer sheath PUR", "PUR"})
     CHECK(expanded(std::string("7 x 0.5 mm2, OD 8.2 mm, ") + jacket) == by_rules);
   Node shop = parse_yaml(
       "components:\n  - {name: lead, helix_radius_mm: 0, data_sheet: '7 x 0.5 mm2, shielded, highly flexible, OD 8.2 mm, jacket PUR, "
