@@ -71,7 +71,6 @@ class Previewer {
  public:
   explicit Previewer(const pipeline::Job& job)
       : job_(job),
-        setup_(job),
         rod_(rod_of(job)),
         path_(path_of(job)),
         robot_(dynamic_cast<const RobotPath*>(path_.get())),
@@ -94,22 +93,22 @@ class Previewer {
     for (std::size_t k = 0; k < moments_.size(); ++k) write_moment(file, k);
     if (robot_) {
       std::vector<std::string> names;
-      for (const pipeline::Link& link : setup_.robot.links) names.push_back(link.name);
+      for (const pipeline::Link& link : job_.robot.links) names.push_back(link.name);
       file.dataset_attribute("/robot/link_pose", "links", pipeline::joined(names, ","));
     }
     write_spans(file);
     write_scan(file);
     std::optional<pipeline::Remedy> other_places;  // several warnings have the same remedy
-    QuickWarnings quick = quick_warnings(setup_, longest_, [&] {
-      if (!other_places) other_places = remedy_near(setup_);
+    QuickWarnings quick = quick_warnings(job_, longest_, [&] {
+      if (!other_places) other_places = remedy_near(job_);
       return *other_places;
     });
     // Without other limits to cure first: a run finds the same, after minutes.
     if (!quick.run.checks.empty() && std::ranges::none_of(quick.run.checks, [](const Check& check) { return check.warning; }))
       quick.warnings = pipeline::joined(std::move(quick.warnings), other_stiffness_warnings(job_, quick.run));
     if (robot_ && !robot_->note().empty()) quick.notes.push_back(robot_->note());
-    if (robot_ && setup_.simulation.contact)
-      if (std::string note = gripper_note(setup_, robot_->tools()); !note.empty())
+    if (robot_ && job_.simulation.contact)
+      if (std::string note = gripper_note(job_, robot_->tools()); !note.empty())
         quick.notes.push_back(std::move(note));
     write_refusal(quick.warnings, file);
     file.attribute("warnings", pipeline::warnings_text(quick.warnings));
@@ -125,7 +124,7 @@ class Previewer {
 
   void find_ways() {
     for (const ShownMoment& moment : moments_) {
-      const std::vector<double> ways = shortest_ways(setup_, rod_, moment.pose.clamps, moment.pose.rings);
+      const std::vector<double> ways = shortest_ways(job_, rod_, moment.pose.clamps, moment.pose.rings);
       for (std::size_t span = 0; span < ways.size(); ++span) ways_.push_back(is_free(span) ? 0 : ways[span]);
     }
   }
@@ -139,14 +138,14 @@ class Previewer {
       lengths.push_back(rod_.span_of(i).segment_length);
       dresspacks.push_back(rod_.span_of(i).dresspack);
     }
-    for (const pipeline::MountedDresspack& mounted : setup_.dresspacks) names.push_back(mounted.name);
+    for (const pipeline::MountedDresspack& mounted : job_.dresspacks) names.push_back(mounted.name);
     file.set_axis("segment", lengths.size());
     file.set_axis("clamp", before.size());
     file.set_axis("dresspack", names.size());
     file.set_axis("span", rod_.spans().size());
     if (robot_) {
-      file.set_axis("joint", setup_.robot.axes());
-      file.set_axis("link", setup_.robot.links.size());
+      file.set_axis("joint", job_.robot.axes());
+      file.set_axis("link", job_.robot.links.size());
     }
     file.append("/segment/length", std::span<const double>(lengths));
     file.append("/segment/dresspack", std::span<const std::int32_t>(dresspacks));
@@ -161,7 +160,7 @@ class Previewer {
   std::vector<Vector3> curve(std::size_t span, const Pose& pose) const {
     const Span& of = rod_.spans()[span];
     std::vector<Frame> ends{pose.clamps.end(static_cast<int>(2 * span))};
-    const std::vector<RoutedRing> routed = routed_rings(setup_);
+    const std::vector<RoutedRing> routed = routed_rings(job_);
     for (std::size_t r = 0; r < pose.rings.size(); ++r)
       if (routed[r].span == static_cast<int>(span)) ends.push_back(pose.rings[r]);
     ends.push_back(pose.clamps.end(static_cast<int>(2 * span) + 1));
@@ -216,7 +215,7 @@ class Previewer {
                    {link.orientation.w(), link.orientation.x(), link.orientation.y(), link.orientation.z()});
     }
     file.append("/robot/link_pose", std::span<const double>(links));
-    file.append("/robot/joint_position", std::span<const double>(pose.joints.data(), setup_.robot.axes()));
+    file.append("/robot/joint_position", std::span<const double>(pose.joints.data(), job_.robot.axes()));
   }
 
   void write_spans(pipeline::FileWriter& file) const {
@@ -259,7 +258,7 @@ class Previewer {
     std::vector<std::int32_t> spans;
     std::vector<double> lengths, radii;
     for (std::size_t span = 0; span < rod_.spans().size(); ++span) {
-      const std::vector<RoutedRing> rings = routed_rings(setup_);
+      const std::vector<RoutedRing> rings = routed_rings(job_);
       const bool ringed = std::any_of(rings.begin(), rings.end(), [&](const RoutedRing& ring) {
         return ring.span == static_cast<int>(span);
       });
@@ -294,10 +293,10 @@ class Previewer {
     });
     std::string refusal;
     try {
-      const Simulation simulation(setup_);
+      const Simulation simulation(job_);
     } catch (const RoutingRefusal& problem) {
       refusal = pipeline::InputError(problem.where, problem.problem,
-                                     warns_of_slack ? "see the remedy of the warning" : refusal_remedy(setup_, problem))
+                                     warns_of_slack ? "see the remedy of the warning" : refusal_remedy(job_, problem))
                     .what();
     } catch (const pipeline::InputError& problem) {
       refusal = problem.what();
@@ -314,7 +313,6 @@ class Previewer {
   }
 
   const pipeline::Job& job_;
-  const pipeline::Setup& setup_;
   Rod rod_;
   std::unique_ptr<ClampPath> path_;
   const RobotPath* robot_;
