@@ -177,7 +177,7 @@ void judge(Trial& trial, const Draft& draft, const RouteOptions& options, const 
   for (std::size_t k = 0; k < judged.size(); ++k)
     if (best_first[k] == trial.start) own = k;
   // The bound of a routing that keeps all limits so far may be too high.
-  if (own && judged[*own].worst.kept >= Kept::limits)
+  if (own && best != *own && !judged[*own].whole && judged[*own].worst.kept >= Kept::limits)
     judged[*own] = within_tolerance(finalists[*own], as_it_is, [&](const Merit& worst) { return clearly_better(judged[best].worst, worst); },
                                     {judged[best]}, progress);
   const std::size_t chosen = best_within(judged, own);
