@@ -57,10 +57,6 @@ bool written_without_run(const Request& request, const pipeline::StageCall& call
     sim::ProposalSettings settings = request.proposals;
     settings.count = *request.propose;
     settings.progress = [&](double share, const std::string& words) { progress.show(share, words); };
-    if (const auto path = sim::path_of(job);
-        const auto* const robot = dynamic_cast<const sim::RobotPath*>(path.get()))
-      if (const std::string note = sim::gripper_note(job, robot->tools()); !note.empty())
-        progress.note("note: " + note);
     sim::write_proposals(job, settings, file);
   }
   pipeline::stamp(file, call, job, "");
@@ -70,8 +66,13 @@ bool written_without_run(const Request& request, const pipeline::StageCall& call
 
 void write_duration(const pipeline::StageCall& call, const pipeline::Job& job) {
   if (job.motion.is_prescribed()) throw pipeline::InputError(job.motion.where, "a prescribed deformation has no path whose duration is computed", "run it");
-  const double rate = job.simulation.sample_rate, seconds = sim::intervals(sim::path_of(job)->duration(), rate) / rate;
-  pipeline::write_text_if_changed(call.output, pipeline::with_mark(fmt::format("repeat_seconds: {}\n", seconds), pipeline::Mark::yaml));
+  const auto path = sim::path_of(job);
+  const double rate = job.simulation.sample_rate, seconds = sim::intervals(path->duration(), rate) / rate;
+  std::string text = fmt::format("repeat_seconds: {}\n", seconds);
+  if (const auto* const robot = dynamic_cast<const sim::RobotPath*>(path.get()))
+    if (const auto space = sim::unknown_tool_space(job, robot->tools()); space && !space->line.key.empty())
+      text += fmt::format("tool_space:\n  {}: {}\n", space->line.key, space->line.value);
+  pipeline::write_text_if_changed(call.output, pipeline::with_mark(text, pipeline::Mark::yaml));
 }
 
 void prescribe(const pipeline::StageCall& call, const pipeline::Job& job, pipeline::Progress& progress) {
@@ -118,7 +119,7 @@ int main(int argc, char** argv) {
       .example = "dresslife-sim config/jobs/irb6640_spot_welding.yaml -o motion.h5",
       .input_is_job = true,
       .options =
-          {{"--duration", "", "write only the duration of one repeat of the motion [s] (YAML)",
+          {{"--duration", "", "write only the duration of one repeat of the motion [s], and a shape for the space of a tool if it is not known (YAML)",
             &request.duration},
            {"--preview", "", "write only the geometry over the program and suitable lengths (preview.h5)",
             &request.preview},

@@ -7,7 +7,7 @@ Outcome run_shell(const Scratch& scratch, const std::string& line) {
   const std::string command = "cd '" + scratch.folder().string() + "' && { " + line + "\n} >'" +
                               out.string() + "' 2>'" + err.string() + "' </dev/null";
   const int status = std::system(command.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(out), content(err)};
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(out), unwrapped(content(err))};
 }
 
 Outcome run(const Scratch& scratch, const std::string& program, const std::string& arguments) {

@@ -73,7 +73,8 @@ std::string as_in_manual(const std::string& key) {
   return path.starts_with("job.") ? path.substr(4) : path;
 }
 
-/// Returns the key with this path; else all keys whose path ends with it; else all keys with its last name.
+/// Returns the key with this path; else all keys whose path ends with it; else all keys with its last name; else the keys of a map; else
+/// the keys whose meaning mentions it as a short form.
 /// Errors: InputError with the nearest name if no key is found.
 std::vector<KeyRow> keys_of(const std::string& wanted) {
   const std::vector<KeyRow> all = every_key();
@@ -87,6 +88,10 @@ std::vector<KeyRow> keys_of(const std::string& wanted) {
   take([&](const KeyRow& row) { return ("." + path_of(row)).ends_with("." + path); });
   take([&](const KeyRow& row) { return row.key == last; });
   take([&](const KeyRow& row) { return ("." + row.map).ends_with("." + path); });  // all keys of a map that is not a key itself
+  // a short form that stands for other keys, such as `place: auto`
+  take([&](const KeyRow& row) {
+    return row.meaning.find("`" + last + ":") != std::string::npos || row.meaning.find("'" + last + ":") != std::string::npos;
+  });
   if (!found.empty()) return found;
   std::vector<std::string> names;
   for (const KeyRow& row : all) names.push_back(row.key);

@@ -320,6 +320,9 @@ std::string text_of(const NewOptions& options, const Draft& draft, const Choice&
   for (const Entry& key : choice.routing.entries) text += fmt::format("{}  {}: {}\n", off, key.key, set_text(key.value));
   for (const KeyValue& slack : choice.slacks)
     text += commented(off + slack.key, slack.value, "without it, dresslife check warns");
+  if (draft.tool_space)
+    text += "# ESTIMATE: the space of the tool, whose shape is not known. Replace it by the shape of yours.\n" +
+            fmt::format("{}: {}\n", draft.tool_space->key, set_text(parse_yaml(draft.tool_space->value, "tool_space")));
   return text + commented("simulation", "{segments: 64}", "everything else has a default: config/keys.md");
 }
 
@@ -342,7 +345,7 @@ int make(NewOptions options) {
   check_replaceable(options.job);
   const PassingFile of_urdf("request.yaml");
   if (!accelerations.empty()) write_text_if_changed(of_urdf.path(), job_of_urdf(options, accelerations));
-  const Draft draft =
+  Draft draft =
       !accelerations.empty()
           ? draft_of({.of = of_urdf.path().string()})
           : draft_of({.of = options.robot, .dresspack = options.dresspack, .motion = options.program});
@@ -354,6 +357,7 @@ int make(NewOptions options) {
                      fmt::format("give {} (ESTIMATE) for a corrugated hose, hose_material and inner_diameter_mm for a smooth one, or "
                                  "bending_stiffness_Nm2 as measured",
                                  missing_wall(dresspack)));
+  fill_tool_space(draft);
   const Choice choice = routing_for(draft, options);
   if (const fs::path folder = fs::path(options.job).parent_path(); !folder.empty())
     fs::create_directories(folder);
@@ -362,6 +366,7 @@ int make(NewOptions options) {
   for (const std::string& doubt : choice.doubts) print(shown(paragraph(doubt)));
   for (const std::string& note : choice.notes) print(shown(paragraph(note)));
   for (const std::string& estimate : choice.estimates) print(shown(estimate + "\n"));
+  if (draft.tool_space) print(shown(paragraph(tool_space_words(draft) + ".")));
   if (options.dresspack_is_example)
     print(fmt::format("Its dresspack {} is an example for a large robot: name yours.\n", default_dresspack));
   if (!accelerations.empty()) print("ESTIMATE: the accelerations of its axes. Replace them by those of your robot.\n");

@@ -213,8 +213,9 @@ void write_job(const Trial& of, const Draft& draft, const RouteOptions& options,
   const Node document =
       routed(draft, of.proposals.candidates[of.best.value_or(0)].changes, of.proposals.motion, of.factor,
              job.has_parent_path() ? job.parent_path() : fs::path("."));
-  write_text_if_changed(job, with_mark(fmt::format("# Proposed by dresslife route {}\n{}{}",
-                                                   shown(options.request.of), head, to_yaml(document)),
+  const std::string of_tool = tool_space_words(draft);
+  write_text_if_changed(job, with_mark(fmt::format("# Proposed by dresslife route {}\n{}{}{}", shown(options.request.of), head,
+                                                   of_tool.empty() ? "" : "# " + of_tool + ".\n", to_yaml(document)),
                                        Mark::yaml));
 }
 
@@ -398,8 +399,10 @@ int route(const RouteOptions& options) {
   RouteRequest request = options.request;
   if (options.bracket_mm)
     request.sets.push_back(fmt::format("routing.longest_bracket_mm={:.6g}", *options.bracket_mm));
-  const Draft draft = draft_of(request);
+  Draft draft = draft_of(request);
   for (const Warning& fault : dresspack_faults(draft.job, true)) write_stderr(fault.paragraph());
+  fill_tool_space(draft);
+  if (draft.tool_space && !options.quiet) write_stderr(shown(paragraph(tool_space_words(draft) + ".")));
   const fs::path job = options.job.empty() ? fs::path(draft.name + "_routed.yaml") : fs::path(options.job);
   const fs::path page = job.parent_path() / (job.stem().string() + "_preview.html");
   check_replaceable(job);

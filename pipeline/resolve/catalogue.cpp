@@ -11,6 +11,7 @@
 #include "pipeline/resolve/beds.h"
 #include "pipeline/resolve/cable_alone.h"
 #include "pipeline/resolve/data_sheet.h"
+#include "pipeline/resolve/document_kind.h"
 #include "pipeline/resolve/estimates.h"
 #include "pipeline/resolve/placement.h"
 #include "pipeline/resolve/sources.h"
@@ -27,8 +28,11 @@ namespace fs = std::filesystem;
 struct Shelf {
   const char* key;     ///< of the job
   const char* folder;  ///< of the catalogue
+  DocumentKind kind;   ///< of its entries
 };
-constexpr Shelf shelves[] = {{"robot", "robots"}, {"motion", "programs"}, {"dresspack", "dresspacks"}};
+constexpr Shelf shelves[] = {{"robot", "robots", DocumentKind::robot},
+                             {"motion", "programs", DocumentKind::motion},
+                             {"dresspack", "dresspacks", DocumentKind::dresspack}};
 
 /// Returns the folders beside the naming file and beside the job, and their parent folders.
 std::vector<fs::path> folders_beside(const std::string& folder, const Where& named_at, const Where& job) {
@@ -171,6 +175,8 @@ void resolve(Node& entry, const std::string& folder, const Where& job, int depth
   if (depth > 16) throw InputError(entry.where, "'from' goes in a circle", "let one entry stand alone");
   if (entry.is_scalar()) {
     entry = catalogue_entry(folder, entry.text, entry.where, job);
+    for (const Shelf& shelf : shelves)
+      if (folder == shelf.folder) refuse_other_kind(entry, shelf.kind);
     resolve(entry, folder, job, depth + 1);
     return;
   }

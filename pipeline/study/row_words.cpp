@@ -108,13 +108,13 @@ std::string first_inspection_words(const RankingRow& row) {
     return fmt::format("{} may wear through on {}, {}, after {} (10 .. 90 %, not validated): inspect it there.", of, mode->place, place,
                        range_text(mode->hours[0], mode->hours[2]));
   if (mode->mode == UnvalidatedMode::jacket)
-    return fmt::format("The jacket of {} may wear through in the hose, {}, after {} (10 .. 90 %, not validated): inspect it there.", mode->place,
+    return fmt::format("The jacket of {} may wear through in the hose, {}, after {} (10 .. 90 %, not validated): open the hose there.", mode->place,
                        place, range_text(mode->hours[0], mode->hours[2]));
   if (mode->mode == UnvalidatedMode::rating)
     return fmt::format("The maker's rating of {} covers only {} (10 .. 90 %, not validated): test or replace it by then.", mode->place,
                        range_text(mode->hours[0], mode->hours[2]));
   if (mode->mode == UnvalidatedMode::corkscrew)
-    return fmt::format("Twist may wind {} into a corkscrew in the hose, {}, {}: inspect it there.", mode->place, place,
+    return fmt::format("Twist may wind {} into a corkscrew in the hose, {}, {}: open the hose there.", mode->place, place,
                        std::isfinite(mode->hours[2])
                            ? fmt::format("after {} (10 .. 90 %, not validated)", range_text(mode->hours[0], mode->hours[2]))
                            : fmt::format("in 1 of 10 dresspacks after {}, and in some never (not validated)", hours_text(mode->hours[0])));

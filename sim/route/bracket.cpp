@@ -108,36 +108,48 @@ BracketFit fit_of(const BracketPlace& place, const Surfaces& surfaces, std::span
   return fit;
 }
 
-std::string gripper_note(const pipeline::Setup& setup, const std::vector<Vector3>& tools) {
+std::optional<ToolSpace> unknown_tool_space(const pipeline::Setup& setup, const std::vector<Vector3>& tools) {
   constexpr double short_tool = 0.1;  // [m]: measuring tips and suction cups; a hose bends with a larger radius
-  if (setup.robot.links.empty()) return "";
+  // ESTIMATE: half of the width of a gripper or gun, mm; the shape begins behind the adapter plate and ends before the tip, where
+  // fingers and electrodes are thinner
+  constexpr double half_width = 60, begin = 0.1, end = 0.8;
+  if (setup.robot.links.empty() || !setup.simulation.contact) return {};
   const pipeline::Robot& robot = setup.robot;
   const Eigen::Quaterniond turn = pipeline::from_roll_pitch_yaw(robot.flange_orientation);
   std::optional<Surfaces> surfaces;
-  double longest = 0;
+  Vector3 longest = Vector3::Zero();
   for (const Vector3& tool : tools) {
     const double reach = tool.norm();
-    if (reach <= std::max(short_tool, longest)) continue;
+    if (reach <= std::max(short_tool, longest.norm())) continue;
     if (!surfaces) surfaces.emplace(setup);
     const int last = static_cast<int>(robot.links.size()) - 1;
-    if (surfaces->of_link(last, robot.flange_position + turn * tool, reach) > reach / 2) longest = reach;
+    if (surfaces->of_link(last, robot.flange_position + turn * tool, reach) > reach / 2) longest = tool;
   }
-  if (longest == 0) return "";
+  if (longest.isZero()) return {};
   const pipeline::Link& last = robot.links.back();
-  const auto point = [&](double along) {
+  const auto point = [&](double share) {
     const Vector3 at =
-        (1e3 * (robot.flange_position + turn * Vector3(0, 0, along))).array().round() / 1e3 + 0.0;  // + 0.0 avoids -0
+        (1e3 * (robot.flange_position + turn * (share * longest))).array().round() / 1e3 + 0.0;  // + 0.0 avoids -0
     return fmt::format("[{:g}, {:g}, {:g}]", at.x(), at.y(), at.z());
   };
-  const std::string shape =  // the kind of shape that the link does not have, because a list replaces the existing one
-      last.capsules.empty()
-          ? fmt::format("capsules: [{{from_m: {}, to_m: {}, radius_mm: 60}}]", point(0.1 * longest),
-                        point(0.8 * longest))
-          : fmt::format("boxes: [{{position_m: {}, sides_m: [0.1, 0.1, 0.1]}}]", point(0.6 * longest));
+  ToolSpace space{longest.norm(), last.name, {}};
+  const std::string shapes = fmt::format("robot.links.{}.", robot.links.size());
+  if (last.capsules.empty())  // a list replaces the existing one
+    space.line = {shapes + "capsules", fmt::format("[{{from_m: {}, to_m: {}, radius_mm: {}}}]", point(begin), point(end), half_width)};
+  else if (last.boxes.empty())
+    space.line = {shapes + "boxes", fmt::format("[{{position_m: {}, sides_m: [{}, {}, {}]}}]", point((begin + end) / 2), 2e-3 * half_width,
+                                                2e-3 * half_width, 2e-3 * half_width)};
+  return space;
+}
+
+std::string tool_space_note(const std::optional<ToolSpace>& space) {
+  if (!space) return "";
   return fmt::format(
       "The space of the tool is not known: it works {:.0f} mm from the flange, and {} has no shape there. The hose may "
-      "pass through the tool. A line such as robot.links.{}.{} gives it one (sizes: those of your tool)",
-      1e3 * longest, last.name, robot.links.size(), shape);
+      "pass through the tool{}",
+      1e3 * space->reach, space->link,
+      space->line.key.empty() ? ". Add the shape of your tool to those of this link"
+                              : fmt::format(". A line such as {}: {} gives it one (sizes: those of your tool)", space->line.key, space->line.value));
 }
 
 }  // namespace dresslife::sim

@@ -8,9 +8,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "pipeline/base/warnings.h"
 #include "pipeline/job/setup.h"
 #include "sim/rod/rotation.h"
 
@@ -34,10 +37,19 @@ class Surfaces {
   std::unique_ptr<Parts> parts_;
 };
 
-/// Returns a note that the shape of the gripper or gun is not known, if a tool's tip is farther from the shapes of the last
-/// link than half of its distance from the flange. tools: origins of the motion's tools in the flange's frame [m]. Empty: no
-/// such tool.
-std::string gripper_note(const pipeline::Setup& setup, const std::vector<Vector3>& tools);
+/// The space of a tool whose shape is not known.
+struct ToolSpace {
+  double reach = 0;         ///< distance of the tool's tip from the flange [m]
+  std::string link;         ///< name of the last link
+  pipeline::KeyValue line;  ///< key of a job and YAML of a shape between flange and tip (ESTIMATE); empty: the link has all kinds of shapes
+};
+
+/// Returns the space of the longest tool with a tip that is farther from the shapes of the last link than half of its distance from
+/// the flange; absent: no such tool, or no contact with the robot. tools: origins of the motion's tools in the flange's frame [m].
+std::optional<ToolSpace> unknown_tool_space(const pipeline::Setup& setup, const std::vector<Vector3>& tools);
+
+/// Returns a note about this space; empty: absent.
+std::string tool_space_note(const std::optional<ToolSpace>& space);
 
 /// A clamp or ring on its link.
 struct BracketPlace {

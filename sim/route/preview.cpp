@@ -107,8 +107,8 @@ class Previewer {
     if (!quick.run.checks.empty() && std::ranges::none_of(quick.run.checks, [](const Check& check) { return check.warning; }))
       quick.warnings = pipeline::joined(std::move(quick.warnings), other_stiffness_warnings(job_, quick.run));
     if (robot_ && !robot_->note().empty()) quick.notes.push_back(robot_->note());
-    if (robot_ && job_.simulation.contact)
-      if (std::string note = gripper_note(job_, robot_->tools()); !note.empty())
+    if (robot_)
+      if (std::string note = tool_space_note(unknown_tool_space(job_, robot_->tools())); !note.empty())
         quick.notes.push_back(std::move(note));
     write_refusal(quick.warnings, file);
     file.attribute("warnings", pipeline::warnings_text(quick.warnings));

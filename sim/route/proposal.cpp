@@ -15,6 +15,7 @@
 
 #include "pipeline/base/constants.h"
 #include "pipeline/base/threads.h"
+#include "sim/contact/rubbing.h"
 #include "sim/robot/robot.h"
 #include "sim/route/short_run.h"
 #include "sim/run/clamp_path.h"
@@ -184,21 +185,22 @@ class Search {
     int left = settings_.short_runs;
     // With 1 the proposals for two robots exceeded the bend limit with the softer hose; with 100 further runs, 6 times those of
     // `new`, they kept it.
-    constexpr int times_for_softer = 6;
+    constexpr int times_for_more = 6;
     int further = 0;
     std::vector<Candidate> found;  // keep all limits as the job; the further ones are run as the job at the end
     double further_work = 0;
     const auto goes_on = [&] {
       if (found.empty()) return left > 0;
       const bool softer_breaks = settings_.softer != 1 && !(kept.front().whole && kept.front().missing_softer == 0);
-      const int most = settings_.further * (softer_breaks ? times_for_softer : 1);
-      return (left > 0 || softer_breaks) && further < most && further_work < most * most_work_of_further;
+      const bool go_on = softer_breaks || rubs(kept.front());
+      const int most = settings_.further * (go_on ? times_for_more : 1);
+      return (left > 0 || go_on) && further < most && further_work < most * most_work_of_further;
     };
     while (goes_on()) {
       const int done = settings_.short_runs - left;
       report_progress(geometry_share + (1 - geometry_share) * std::min(1.0, static_cast<double>(done) / settings_.short_runs),
                       fmt::format("short run {} of at most {}{}", done + 1,
-                                  settings_.short_runs + (found.empty() ? 0 : settings_.further * times_for_softer),
+                                  settings_.short_runs + (found.empty() ? 0 : settings_.further * times_for_more),
                                   kept.empty() ? "" : nearest_words(kept.front())));
       std::vector<Candidate> next;
       const bool begins = !beginnings.empty();
@@ -262,11 +264,18 @@ class Search {
     if (settings_.progress) settings_.progress(share, words);
   }
 
-  /// Returns the order of a candidate after its short run: limits first, then those with the softer hose, then the margin of its bend.
+  /// Returns the order of a candidate after its short run: limits first, then those with the softer hose, then the margin of its bend,
+  /// then its swing and rubbing.
   static Badness badness(const Candidate& of) {
     const double bend = of.short_run.seen.beyond[static_cast<std::size_t>(ScreenedLimit::bend)];
-    return {of.missing_in_run, of.missing_softer, std::max(0.0, bend + comfortable_bend), of.short_run.swing};
+    // ESTIMATE: the life of wires decreases with about the fifth power of the swing. The hours until the hose is worn through decrease
+    // with the first power of the rubbing.
+    constexpr double power = 5;
+    const double wear = std::pow(1 + of.short_run.rubbing / least_rubbing_power, 1 / power);
+    return {of.missing_in_run, of.missing_softer, std::max(0.0, bend + comfortable_bend), of.short_run.swing * wear};
   }
+
+  static bool rubs(const Candidate& of) { return of.short_run.rubbing > least_rubbing_power; }
 
   static bool is_found(const Candidate& candidate) {
     return candidate.whole && candidate.missing_in_run == 0;

@@ -26,7 +26,8 @@ struct RoutingRun {
   /// Largest change of a link's bend and twist over the last repeat, with which a life decreases: the root of the sum of the
   /// squared ranges of both curvatures and of the twist [1/m]. Infinite: it does not run.
   double swing = std::numeric_limits<double>::infinity();
-  double work = 0;  ///< in the unit of World::work
+  double rubbing = 0;  ///< mean power of rubbing [W] (RunSummary::rubbing_power)
+  double work = 0;     ///< in the unit of World::work
 };
 
 /// Few enough that all are modelled with one matrix (pipeline/advise/search), and enough that a part

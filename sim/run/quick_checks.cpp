@@ -86,6 +86,7 @@ class QuickChecks {
       found.notes.push_back(fmt::format("The short run of the checks ended after {:.3g} s of {:.6g} s, because the program is long "
                                         "or the dresspack touches much. `dresslife run` checks all of it",
                                         *found.run.stopped_at, path_->duration()));
+    add_rubbing(found.run, found.notes);
     add_winding(found.others);
     add_zero_pose(found.notes);
     return found;
@@ -427,6 +428,27 @@ class QuickChecks {
     }
   }
 
+  /// Adds a note for each dresspack that rubs, with the obstacle on which it rubs most.
+  void add_rubbing(const ShortRun& run, std::vector<std::string>& notes) const {
+    for (int d = 0; d < rod_.dresspacks() && run.seconds > 0; ++d) {
+      std::vector<double> work(run.obstacles.size());
+      const RubbedPatch* most = nullptr;
+      for (const RubbedPatch& patch : run.rubbed)
+        if (patch.dresspack == d) work[patch.obstacle] += patch.work;
+      const auto worst = static_cast<std::size_t>(std::ranges::max_element(work) - work.begin());
+      if (worst == work.size() || work[worst] < least_rubbing_power * run.seconds) continue;
+      for (const RubbedPatch& patch : run.rubbed)
+        if (patch.dresspack == d && patch.obstacle == worst && (!most || patch.work > most->work)) most = &patch;
+      const std::string& name = run.obstacles[worst];
+      const std::string on = name == "cell" || name == "floor" ? "the " + name : name == "dresspack" ? "a dresspack" : name;
+      notes.push_back(fmt::format(
+          "In the short run {} rubs on {} with {:.2g} W (mean of normal force times sliding speed), most {:.0f} mm from the base clamp, {}. "
+          "`dresslife run` predicts the hours until the hose is worn through, which may be the shortest life. A routing without "
+          "this contact avoids the wear",
+          pipeline::dresspack_words(setup_, d), on, work[worst] / run.seconds, 1e3 * most->position, moment(most->time)));
+    }
+  }
+
   /// Adds a question for a mounting pose of zeros, which may be a placeholder. The dresspack may also have been clamped there.
   void add_zero_pose(std::vector<std::string>& notes) const {
     if (!robot_ || !robot_->mounting_pose().isZero() || robot_->motion().position(0).isZero()) return;
@@ -463,6 +485,9 @@ ShortRun short_run(pipeline::Setup setup, int segments, double useless_below, in
     };
     RunSummary summary = simulation.run(sinks);
     result.checks = std::move(summary.checks);
+    result.rubbed = std::move(summary.rubbed);
+    result.obstacles = std::move(summary.obstacles);
+    result.seconds = summary.seconds;
     result.stopped_at = summary.stopped_at;
     result.time_step = summary.time_step;
   } catch (const RoutingRefusal& refusal) {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "pipeline/base/warning_words.h"
+#include "sim/contact/rubbing.h"
 #include "sim/run/checks.h"
 #include "sim/run/longest_way.h"
 
@@ -26,6 +27,9 @@ namespace dresslife::sim {
 /// One run of a motion: with the start of a full run, and at most two repeats.
 struct ShortRun {
   std::vector<Check> checks;
+  std::vector<RubbedPatch> rubbed;     ///< as in RunSummary
+  std::vector<std::string> obstacles;  ///< names, indexed by RubbedPatch::obstacle
+  double seconds = 0;                  ///< as in RunSummary [s]
   std::string refusal;               ///< reason why it does not run; empty: it runs
   std::optional<double> taut_at;     ///< time at which a dresspack is pulled taut [s]; absent: it is not
   std::optional<double> stopped_at;  ///< time at which the run was stopped because of its duration [s]; absent: it was not

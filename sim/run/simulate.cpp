@@ -160,7 +160,14 @@ struct Simulation::Repeat {
   StepError error;
   std::vector<RubbedPatch> rubbed;
   std::vector<std::string> obstacles;
+  double seconds = 0;
 };
+
+double RunSummary::rubbing_power() const {
+  double work = 0;
+  for (const RubbedPatch& patch : rubbed) work += patch.work;
+  return seconds > 0 ? work / seconds : 0;
+}
 
 // (R8) Errors that a repeat forgets are allowed: the first repeat of a motion that ends at its begin only leads into the
 // cycle. It has twice the step, except for its last tenth, and leaves out equal rounds of loops. The result is judged like that
@@ -240,6 +247,7 @@ RunSummary Simulation::run(const RunSinks& sinks) const {
     summary.tension = repeat.checks.tension();
     summary.rubbed = std::move(repeat.rubbed);
     summary.obstacles = std::move(repeat.obstacles);
+    summary.seconds = repeat.seconds;
     return summary;
   }
 }
@@ -286,38 +294,44 @@ std::optional<double> Simulation::run_once(World& world, Repeat& repeat, const R
   hand_over(0);
   LeftOutRounds rounds(rod_, *path_, setup_.simulation.periodic_tolerance);
   double left_out = 0;  // [s]
+  const auto ended = [&](double time, bool stopped) -> std::optional<double> {
+    if (sinks.wanted != Wanted::places_and_checks) {
+      repeat.rubbed = rubbing.patches(touch);
+      repeat.obstacles = touch.obstacles();
+    }
+    repeat.seconds = time - left_out;
+    return stopped ? std::optional(time) : std::nullopt;
+  };
+  double time = 0;
   for (int sample = 1; sample < description_.samples; ++sample) {  // (R6)
     const double before = world.work();
     for (int k = 1; k <= per_sample; ++k) {
       const int count = (sample - 1) * per_sample + k;
-      const double time = count * step + left_out;
+      time = count * step + left_out;
       pose = path_->at(time);
       const StepReport report = world.advance(pose.clamps, pose.links);
       check_step(report, time);
       checks.see(world.state(), world.contacts(), time, ways());
       if (sinks.wanted == Wanted::places_and_checks) continue;
+      touch.add(world.contacts(), step);
+      rubbing.add(world.contacts(), world.state(), step);
       if (sinks.wanted == Wanted::checks) {
         left_out += rounds.see(time, step, world.state());
         continue;
       }
-      touch.add(world.contacts(), step);
-      rubbing.add(world.contacts(), world.state(), step);
       repeat.error.see(count, world.state());
       since.touching = std::max(since.touching, report.touching);
       since.max_depth = std::max(since.max_depth, report.max_depth);
     }
-    const double time = sample / setup_.simulation.sample_rate + left_out;
+    time = sample / setup_.simulation.sample_rate + left_out;
     check_taut(world.state(), time);
     hand_over(time);
     if (sinks.progress) sinks.progress((sample + 1.0) / description_.samples);
-    if (sinks.goes_on && !sinks.goes_on(world.work() - before, false)) return time;
-    if (last && sinks.still_of_use && !sinks.still_of_use(checks)) return time;
+    if (sinks.goes_on && !sinks.goes_on(world.work() - before, false)) return ended(time, true);
+    if (last && sinks.still_of_use && !sinks.still_of_use(checks)) return ended(time, true);
     if (left_out > 0 && time >= path_->duration()) break;
   }
-  if (sinks.wanted != Wanted::everything) return {};
-  repeat.rubbed = rubbing.patches(touch);
-  repeat.obstacles = touch.obstacles();
-  return {};
+  return ended(time, false);
 }
 
 std::vector<pipeline::Warning> warnings_of(const Simulation& simulation, const RunSummary& summary) {

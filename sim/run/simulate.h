@@ -77,8 +77,12 @@ struct RunSummary {
   double curvature_error = 0;
   std::vector<Extreme> curvature, twist, tension;  ///< (link) of the last repeat, as in MotionChecks
   std::vector<Check> checks;                       ///< of the last repeat
-  std::vector<RubbedPatch> rubbed;                 ///< of the last repeat
+  std::vector<RubbedPatch> rubbed;                 ///< of the last repeat without the rounds that were left out
   std::vector<std::string> obstacles;              ///< names, indexed by RubbedPatch::obstacle
+  double seconds = 0;                              ///< duration of what was simulated of the last repeat [s]
+
+  /// Returns the mean power of rubbing, normal force times sliding speed (S23) [W].
+  double rubbing_power() const;
 };
 
 /// Returns the warnings of a run: skipped lines of its program, repeats that do not converge, and
@@ -91,10 +95,10 @@ std::string repeats_note(const RunSummary& summary);
 /// What a run computes beside states and clamps.
 enum class Wanted {
   everything,
-  /// checks: a sample's energy, tension and touch, rubbing and the error of the step stay empty. Rounds of a loop are left out as
-  /// soon as two successive ones begin in the same state (R8): the remaining ones are equal to the last.
+  /// checks: a sample's energy and tension and the error of the step stay empty. Rounds of a loop are left out as soon as two
+  /// successive ones begin in the same state (R8): the remaining ones are equal to the last.
   checks,
-  places_and_checks,  ///< as checks, but all rounds are there
+  places_and_checks,  ///< as checks, but all rounds are there, and rubbing stays empty
 };
 
 /// Callbacks for the results of a run; only `take` is required.

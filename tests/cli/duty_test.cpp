@@ -83,7 +83,7 @@ strain: {slip: stick}
   scratch.write("study.yaml", "base: job.yaml\njobs:\n  one: {}\n  same: {motion: same.mod}\n  away: {motion: away.mod}\n");
   const auto errors = [&](const std::string& programs) {
     scratch.write("duties.yaml", "study: study.yaml\nduties:\n  - {name: d, programs: [" + programs + "]}\n");
-    return unwrapped(must_run(scratch, "dresslife", "duty duties.yaml --quiet").err);
+    return must_run(scratch, "dresslife", "duty duties.yaml --quiet").err;
   };
   const std::string one = "{job: one, percent_of_time: 40}", same = "{job: same, percent_of_time: 30}",
                     away = "{job: away, percent_of_time: 30}", mounted = "is mounted without twist in the first pose of 'one'";

@@ -32,7 +32,7 @@ assert json.load(open("states.json")) == [{"job": row["job"], "state": "done"} f
                    " run study.yaml --json --quiet >ranking.json; " + program + " run study.yaml --json --quiet -n >nothing.json; " + program +
                    " show job.yaml --json >job.json; " + program + " status study.yaml --json >states.json; python3 compare.py");
   // No progress. Warnings remain, because they concern the validity of the result.
-  std::istringstream lines(unwrapped(outcome.err));
+  std::istringstream lines(outcome.err);
   for (std::string line; std::getline(lines, line);) CHECK(line.find(": warning: ") != std::string::npos);
   CHECK(outcome.status == 0);
 }

@@ -40,6 +40,7 @@ TEST_CASE("manual prints one key, by its path, the end of its path or its name")
         "routing.free_length_m\n  The free length of the dresspack between the clamps.\n  allowed: > 0, unit m\n  default: "
         "required\n");
   CHECK(run(scratch, "dresslife", "manual data_sheet").out.find("Examples:\n    data_sheet: 7 x 0.5 mm2,") != std::string::npos);
+  CHECK(run(scratch, "dresslife", "manual place").out.find("'place: auto'") != std::string::npos);  // a short form of keys
   const Outcome unknown = run(scratch, "dresslife", "manual slack_procent");
   CHECK(unknown.status == 1);
   CHECK(unknown.err.find("did you mean 'slack_percent'?") != std::string::npos);

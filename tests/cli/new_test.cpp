@@ -75,6 +75,32 @@ TEST_CASE("new: proposed clamps pass check, and files are named from the job's f
   CHECK(has(check.out, "no warnings"));
 }
 
+TEST_CASE("new: the space of a tool without a shape is kept clear, as a line of the job") {
+  Scratch scratch;
+  scratch.write("mine.mod", R"(MODULE mine
+PERS tooldata gun := [TRUE,[[0,0,250],[1,0,0,0]],[3,[0,0,50],[1,0,0,0],0,0,0]];
+CONST jointtarget a := [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+CONST jointtarget b := [[30,10,5,0,40,20],[9E9,9E9,9E9,9E9,9E9,9E9]];
+PROC main()
+MoveAbsJ a,v500,fine,gun;
+MoveAbsJ b,v500,fine,gun;
+MoveAbsJ a,v500,fine,gun;
+ENDPROC
+ENDMODULE
+)");
+  const Outcome made = make(scratch, "--robot abb_irb2600_12_165 --program mine.mod --dresspack handling job.yaml");
+  INFO(made.out << made.err);
+  REQUIRE(made.status == 0);
+  CHECK(has(unwrapped(made.out), "ESTIMATE: the shape of the tool, robot.links.7."));
+  const std::string job = content(scratch / "job.yaml");
+  CHECK(has(job, "\n# ESTIMATE: the space of the tool"));
+  CHECK(has(job, "\nrobot.links.7."));
+  const Outcome check = run(scratch, "dresslife", "check job.yaml");
+  INFO(check.out << check.err);
+  CHECK(check.status == 0);
+  CHECK_FALSE(has(check.out, "The space of the tool is not known"));
+}
+
 TEST_CASE("new and check say of a dresspack what no routing cures, and list what its data sheet leaves out") {
   Scratch scratch;
   scratch.write("hose.yaml",

@@ -19,7 +19,8 @@ namespace fs = std::filesystem;
 
 struct Outcome {
   int status = -1;
-  std::string out, err;
+  std::string out;
+  std::string err;  ///< each warning in one line: where it is wrapped depends on the length of a path in it
 };
 
 using pipeline::count_of;

@@ -178,6 +178,8 @@ const Wrong wrong[] = {
     {"study.yaml", "[2.0, 2.1]", "2.0 .. 2.1", "study.yaml:3:26: error: ", "vary.routing.free_length_m must be a list of values", "write [A, B, ...]", run_study},
     {"study.yaml", "[2.0, 2.1]", "[2.0, 2.0]", "study.yaml:1:1: error: ", "two jobs are named 'free_length_m=2.0'", "give each combination another name", run_study},
     // A file of another kind
+    {"job.yaml", "dresspack: hose.yaml", "dresspack: study.yaml", "study.yaml:1:1: error: ", "is a study (it has the key 'base'), no dresspack", "give it to dresslife run"},
+    {"job.yaml", "robot: abb_irb6640_185_280", "robot: hose.yaml", "hose.yaml:1:1: error: ", "is a dresspack (it has the key 'components'), no robot", "after 'dresspack:'"},
     {"", "", "", "study.yaml:1:1: error: ", "is a study (it has the key 'base'), no job", "give it to dresslife run", "dresslife check study.yaml"},
     {"", "", "", "study.yaml:1:1: error: ", "is a study (it has the key 'base'), no job", "give it to dresslife run", "dresslife-sim study.yaml -o out.h5"},
     {"", "", "", "hose.yaml:1:1: error: ", "is a dresspack (it has the key 'components'), no job", "after 'dresspack:'", "dresslife preview hose.yaml"},

@@ -6,14 +6,18 @@
 #include <filesystem>
 
 #include "pipeline/advise/improve/scaled.h"
+#include "pipeline/advise/improve/set_text.h"
 #include "pipeline/base/constants.h"
 #include "pipeline/base/installation.h"
+#include "pipeline/base/ownership.h"
 #include "pipeline/base/plain_file.h"
+#include "pipeline/base/whole_file.h"
 #include "pipeline/resolve/catalogue.h"
 #include "pipeline/resolve/document_kind.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/resolve/sources.h"
 #include "pipeline/settings/fields.h"
+#include "pipeline/study/stage_program.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -165,6 +169,30 @@ Draft draft_of(const RouteRequest& request) {
   return draft;
 }
 
+void fill_tool_space(Draft& draft) {
+  if (draft.exercise || draft.job.motion.is_prescribed()) return;
+  const PassingFile described("job.yaml"), written("duration.yaml");
+  write_text_if_changed(described.path(), with_mark(job_text(draft.job), Mark::yaml), Sync::never);
+  if (run_stage_program("dresslife-sim", {described.path().string(), "--duration", "-o", written.path().string(), "--quiet"},
+                        StageWords::dropped) != 0)
+    return;  // the search states the reason
+  const Node found = read_yaml(written.path());
+  const Node* const space = found.find("tool_space");
+  if (!space) return;
+  const Entry& line = space->entries.front();
+  draft.tool_space = KeyValue{line.key, to_yaml(line.value)};
+  Node whole = read_yaml(described.path());
+  set_value(whole, line.key, line.value, line.where);
+  draft.job.robot = job_from(std::move(whole)).robot;
+}
+
+std::string tool_space_words(const Draft& draft) {
+  if (!draft.tool_space) return "";
+  return fmt::format(
+      "ESTIMATE: the shape of the tool, {}: {}. The hose keeps clear of it. Replace it by the shape of your tool",
+      draft.tool_space->key, set_text(parse_yaml(draft.tool_space->value, std::string(command_line))));
+}
+
 Node routed(const Draft& draft, const std::string& routing, const std::string& motion, double factor,
             const std::optional<fs::path>& folder) {
   Node document = draft.document;
@@ -188,6 +216,7 @@ Node routed(const Draft& draft, const std::string& routing, const std::string& m
   Node found = parse_yaml(routing, std::string(command_line));
   keep_settings(found, document.find("routing"));
   document["routing"] = std::move(found);
+  if (draft.tool_space) document[draft.tool_space->key] = parse_yaml(draft.tool_space->value, std::string(command_line));
   return document;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/base/warnings.h"
 #include "pipeline/job/job.h"
 #include "pipeline/settings/document.h"
 
@@ -25,10 +26,19 @@ struct Draft {
   Node document;          ///< document as it was written
   Job job;                ///< only the links of its routing are valid
   bool exercise = false;  ///< true: the motion is a placeholder for a standard exercise
+  /// Line of a job with an estimated shape for the space of the program's tool; absent: its shape is known, or no tool is named.
+  std::optional<KeyValue> tool_space{};
 };
 
 /// Makes a draft. Errors: InputError for a name that is neither job nor robot; unknown links; more than one dresspack.
 Draft draft_of(const RouteRequest& request);
+
+/// Gives the last link of the draft's robot an estimated shape if the program names a tool whose shape is not known, so that a search
+/// places no hose through the tool. Errors: InputError when dresslife-sim cannot be started.
+void fill_tool_space(Draft& draft);
+
+/// Returns words about the estimated shape; empty: there is none.
+std::string tool_space_words(const Draft& draft);
 
 /// Returns the draft's document with a routing and the other changes. routing, motion: YAML; motion may be empty. factor: scale
 /// of the dresspack's size, 1: unchanged. folder: folder from which the document can be read; absent: any folder. Entries of the

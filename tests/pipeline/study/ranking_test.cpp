@@ -409,7 +409,7 @@ TEST_CASE("ranking: jacket wear has words and columns, and the first action name
   const auto rows = read_ranking({job_with(scratch, "rubs", rubs)});
   CHECK(action_words(rows[0]) ==
         "The jacket of signal cable 3 may wear through in the hose, 0.13 m from the tool, after 300 .. 51,000 h (10 .. 90 %, not "
-        "validated): inspect it there. The wires last longer than the robot (40,000 h). Not evaluated: water hose, kinks.");
+        "validated): open the hose there. The wires last longer than the robot (40,000 h). Not evaluated: water hose, kinks.");
   UnvalidatedMode abraded = worn;
   abraded.mode = UnvalidatedMode::abrasion, abraded.place = "link_4", abraded.hours = {25000, 90000, 1e6};
   UnvalidatedMode late = worn;
@@ -417,7 +417,7 @@ TEST_CASE("ranking: jacket wear has words and columns, and the first action name
   SampleLife both = rubs;
   both.unvalidated = unvalidated_text({abraded, worn, late});
   const auto listed = read_ranking({job_with(scratch, "both", both)});
-  CHECK_THAT(action_words(listed[0]), Catch::Contains("51,000 h (10 .. 90 %, not validated): inspect it there. Inspect also for: abrasion: from "
+  CHECK_THAT(action_words(listed[0]), Catch::Contains("51,000 h (10 .. 90 %, not validated): open the hose there. Inspect also for: abrasion: from "
                                                       "25,000 h. The wires last longer"));
   CHECK(marks_note(listed) ==
         "* Plan with this number, and inspect for modes that are not validated. jacket wear: from 300 h, abrasion: from 25,000 h.");
@@ -455,14 +455,14 @@ TEST_CASE("ranking: a corkscrew has words and columns, also if none occurs") {
   life.planned_hours = 1e5, life.robot_life_hours = 40000, life.unvalidated = unvalidated_text({coil});
   const auto rows = read_ranking({job_with(scratch, "coiled", life)});
   CHECK_THAT(action_words(rows[0]), Catch::Contains("Twist may wind signal cable 2 into a corkscrew in the hose, 0.40 m from the tool, "
-                                                    "after 300 .. 1,200 h (10 .. 90 %, not validated): inspect it there."));
+                                                    "after 300 .. 1,200 h (10 .. 90 %, not validated): open the hose there."));
   CHECK(line_of(coil).mode == "corkscrew† of signal cable 2");
   CHECK(line_of(coil).hours == std::array<std::string, 3>{"300", "600", "1,200"});
   CHECK(line_of(coil).note == "A repeat leaves 10 degrees of twist.");
   coil.hours[2] = std::numeric_limits<double>::infinity();
   life.unvalidated = unvalidated_text({coil});
   CHECK_THAT(action_words(read_ranking({job_with(scratch, "some", life)})[0]),
-             Catch::Contains("0.40 m from the tool, in 1 of 10 dresspacks after 300 h, and in some never (not validated): inspect it there."));
+             Catch::Contains("0.40 m from the tool, in 1 of 10 dresspacks after 300 h, and in some never (not validated): open the hose there."));
   const auto table = read_csv(ranking_csv(rows));
   const auto column = std::find(table[0].begin(), table[0].end(), "corkscrew_life_hours_p10");
   REQUIRE(column != table[0].end());

@@ -63,16 +63,26 @@ TEST_CASE("bracket: the space of a tool without a shape is not known, and the pr
   pipeline::Job job = two_links();
   job.robot.flange_orientation = {0, EIGEN_PI / 2, 0};  // its z along x of the link
   job.robot.flange_position = {0.1, 0, 0};
-  CHECK(gripper_note(job, {}).empty());
-  CHECK(gripper_note(job, {{0, 0, 0.1}}).empty());  // a measuring tip
-  const std::string note = gripper_note(job, {{0, 0, 0.05}, {0, 0, 0.4}});
-  CHECK_THAT(note, Catch::Contains("it works 400 mm from the flange, and spindle has no shape there") &&
-                       Catch::Contains("robot.links.2.capsules: [{from_m: [0.14, 0, "));
+  job.simulation.contact = true;
+  job.robot.links[1].boxes.clear();
+  const auto space = [&](const std::vector<Vector3>& tools) { return unknown_tool_space(job, tools); };
+  CHECK_FALSE(space({}));
+  CHECK_FALSE(space({{0, 0, 0.1}}));  // a measuring tip
+  CHECK_THAT(tool_space_note(space({{0, 0, 0.05}, {0, 0, 0.4}})),
+             Catch::Contains("it works 400 mm from the flange, and spindle has no shape there") &&
+                 Catch::Contains("robot.links.2.capsules: [{from_m: [0.14, 0, "));
+  CHECK(space({{0, 0.3, 0.4}})->line.value.starts_with("[{from_m: [0.14, 0.03, "));  // a tool at an angle
   job.robot.links[1].capsules = {{{0.14, 0, 0}, {0.42, 0, 0}, 0.06}};
-  CHECK(gripper_note(job, {{0, 0, 0.4}}).empty());
-  CHECK_THAT(gripper_note(job, {{0, 0, 2}}), Catch::Contains("robot.links.2.boxes: "));
+  CHECK_FALSE(space({{0, 0, 0.4}}));
+  CHECK(space({{0, 0, 2}})->line.key == "robot.links.2.boxes");
+  job.robot.links[1].boxes = {{{0.14, 0, 0}, {0, 0, 0}, {0.1, 0.1, 0.1}}};
+  CHECK(space({{0, 0, 2}})->line.key.empty());
+  CHECK_THAT(tool_space_note(space({{0, 0, 2}})), Catch::Contains("Add the shape of your tool to those of this link"));
+  job.simulation.contact = false;
+  CHECK_FALSE(space({{0, 0, 2}}));
+  job.simulation.contact = true;
   job.robot.links.clear();
-  CHECK(gripper_note(job, {{0, 0, 0.4}}).empty());
+  CHECK_FALSE(space({{0, 0, 0.4}}));
 }
 
 }  // namespace

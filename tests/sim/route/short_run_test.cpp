@@ -90,6 +90,28 @@ TEST_CASE("bends of a short run are reported by moment and stretch, and their la
   CHECK(largest > beyond(found, ScreenedLimit::bend) - between_samples);
 }
 
+TEST_CASE("a short run measures the rubbing of a hose on a table as a full run does, and check names table and place") {
+  pipeline::Job job = simple_job();  // the clamp turns by 2 rad, so the hose rolls on the table
+  job.cell.boxes = {{{0.45, 0, 0.85}, {0, 0, 0}, {0.4, 0.4, 0.1}}};
+  const RunSummary full = Simulation(job).run({[](const Sample&) {}});
+  double work = 0;  // (S23) of one repeat
+  for (const RubbedPatch& patch : full.rubbed) work += patch.work;
+  REQUIRE(work > 0);
+  const double duration = path_of(job)->duration();
+  CHECK(full.rubbing_power() == Approx(work / duration).epsilon(0.02));  // the last sample may end after the motion
+  for (const bool with_bends : {true, false})  // with all results, and with checks alone
+    CHECK(short_run_of(job, as_the_job, as_the_job, with_bends).rubbing == Approx(full.rubbing_power()).epsilon(1e-9));
+  const auto notes = [&] {
+    std::string text;
+    for (const std::string& note : quick_warnings(job).notes) text += note + "\n";
+    return text;
+  };
+  CHECK_THAT(notes(), Catch::Contains("rubs on the cell with ") && Catch::Contains(" mm from the base clamp, "));
+  job.cell.boxes.front().position.z() = 0.5;
+  CHECK_THAT(notes(), !Catch::Contains("rubs on"));
+  CHECK(short_run_of(job, as_the_job, 1).rubbing == 0);
+}
+
 TEST_CASE("proposals with a short run keep all limits in the job's own run") {
   pipeline::Job job = pipeline::read_job(
       std::filesystem::path(DRESSLIFE_SOURCE_DIR) / "config/jobs/irb6640_spot_welding.yaml",
