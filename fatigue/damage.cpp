@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <stdexcept>
+#include <type_traits>
 
 #include "fatigue/log_table.h"
 #include "fatigue/relaxation.h"
@@ -232,6 +233,13 @@ struct Walker {  // (F12): by (s_a/s_max)^(-(1-gamma)/b); for copper the room al
   static double damage(const MetalTables& metal, double amplitude, double stress_max, double stress_mean);
 };
 
+template <class Rule>
+struct WithoutCompression {  // (F38)
+  static constexpr double life_room = Rule::life_room;
+  static bool read(const MetalTables& metal, LockstepTables& to);
+  static double damage(const MetalTables& metal, double amplitude, double stress_max, double stress_mean);
+};
+
 /// Calls use(rule). Each value of MeanStress in pipeline/job/fatigue.h must have a case, else this does not compile.
 template <class Use>
 auto with_rule(MeanStress rule, const Use& use) {
@@ -246,6 +254,13 @@ auto with_rule(MeanStress rule, const Use& use) {
       return use(Walker{});
   }
   throw std::logic_error("no such rule of mean stress");
+}
+
+template <class Use>
+auto with_rule(MeanStress rule, Compression compression, const Use& use) {
+  return with_rule(rule, [&](auto of) {
+    return compression == Compression::by_rule ? use(of) : use(WithoutCompression<decltype(of)>{});
+  });
 }
 
 /// Tables of the loop for a metal.
@@ -303,6 +318,16 @@ double Morrow::damage(const MetalTables& metal, double amplitude, double, double
   if (stress_mean >= metal.life.fatigue_strength()) return 2 / fewest_reversals;
   const StrainLife::MorrowScale scale = metal.life.morrow_scale(stress_mean);  // (F8)
   return within_lives(metal.strain_damage(amplitude / scale.strain) / scale.life, metal.life.longest());
+}
+
+template <class Rule>
+bool WithoutCompression<Rule>::read(const MetalTables& metal, LockstepTables& to) {
+  return std::is_same_v<Rule, WithoutMeanStress> && Rule::read(metal, to);
+}
+template <class Rule>
+double WithoutCompression<Rule>::damage(const MetalTables& metal, double amplitude, double stress_max, double stress_mean) {
+  const double compressive = std::min(stress_mean, 0.0);
+  return Rule::damage(metal, amplitude, stress_max - compressive, stress_mean - compressive);
 }
 
 /// Returns whether rises and falls alternate strictly, as dresslife-strain writes them. Uses integers and no branch, so that the
@@ -400,8 +425,8 @@ struct OuterLoop {
 
 struct DamageCounter::Tables {
   Tables(const pipeline::Material& m, const pipeline::Fatigue& f, pipeline::InstructionSet set,
-         double longest)
-      : material(m), settings(f), relaxation(m, f), lockstep(lockstep_for(set)) {
+         double longest, Compression of_compression)
+      : material(m), settings(f), compression(of_compression), relaxation(m, f), lockstep(lockstep_for(set)) {
     if (m.strain_life_table.empty()) {
       metal.emplace(m, f, longest);
     } else {
@@ -422,6 +447,7 @@ struct DamageCounter::Tables {
 
   pipeline::Material material;
   pipeline::Fatigue settings;
+  Compression compression;
   Relaxation relaxation;
   std::optional<MetalTables> metal;  // one of the two has a value
   std::optional<StrainLifeTable> measured;
@@ -430,8 +456,8 @@ struct DamageCounter::Tables {
 };
 
 DamageCounter::DamageCounter(const pipeline::Material& material, const pipeline::Fatigue& settings,
-                             pipeline::InstructionSet set, double longest)
-    : tables_(std::make_unique<Tables>(material, settings, set, longest)) {}
+                             pipeline::InstructionSet set, double longest, Compression compression)
+    : tables_(std::make_unique<Tables>(material, settings, set, longest, compression)) {}
 DamageCounter::~DamageCounter() = default;
 DamageCounter::DamageCounter(DamageCounter&&) noexcept = default;
 
@@ -447,7 +473,7 @@ auto DamageCounter::Tables::with_functions(const Use& use) const {
     };
     if (measured)
       return lasting([&](double amplitude, double, double) { return measured->damage(amplitude); });
-    return with_rule(settings.mean_stress, [&](auto rule) {
+    return with_rule(settings.mean_stress, compression, [&](auto rule) {
       return lasting([&](double amplitude, double max, double mean) {
         return rule.damage(*metal, amplitude, max, mean);
       });
@@ -503,7 +529,7 @@ void DamageCounter::Tables::fill_side_by_side() {
     };
     return;
   }
-  with_rule(settings.mean_stress, [&](auto rule) {
+  with_rule(settings.mean_stress, compression, [&](auto rule) {
     if (!relaxation.never())
       to.first_stress = [](const void* self, double largest, double range, double share) {
         return static_cast<const Tables*>(self)->first_stress<decltype(rule)>(largest, range, share);

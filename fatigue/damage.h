@@ -56,13 +56,20 @@ std::vector<double> damage_over_time(std::span<const DamagingCycle> cycles, std:
 std::vector<double> damage_by_step(std::span<const double> damage, std::span<const std::int32_t> step,
                                    std::size_t steps);
 
+/// Effect of a compressive mean stress: by the rule of the job, or that of zero mean stress, (F38):
+///     s_m < 0:  s_max is replaced by s_max - s_m, then s_m by 0.
+/// (F38) is for the bound of glued cables. Glued wires keep a compressive mean stress that slip removes. With its effect a glued
+/// life can exceed the life with friction, so a lower bound must not contain it.
+enum class Compression { by_rule, without_effect };
+
 /// Damage of histories of one material. Built once, then only read.
 class DamageCounter {
  public:
   /// set: instructions for counting. longest: a cycle with a longer life [reversals] does no damage.
   /// @throws pipeline::InputError as pipeline::instruction_set().
   DamageCounter(const pipeline::Material& material, const pipeline::Fatigue& settings,
-                pipeline::InstructionSet set = pipeline::instruction_set(), double longest = most_reversals);
+                pipeline::InstructionSet set = pipeline::instruction_set(), double longest = most_reversals,
+                Compression compression = Compression::by_rule);
   ~DamageCounter();
   DamageCounter(DamageCounter&&) noexcept;
 

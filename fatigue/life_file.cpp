@@ -636,9 +636,10 @@ bool is_own_slip(const pipeline::Job& job, pipeline::Slip slip) {
                      [&](pipeline::Slip own) { return own == slip; });
 }
 
-SiteDamage damage_of_bound(const Context& c, const SiteSet& sites, const TextColumn& component,
+SiteDamage damage_of_bound(const Context& c, const SiteSet& sites, const TextColumn& component, pipeline::Slip slip,
                            const std::function<void(double)>& progress) {
-  const SiteCounters counters(sites, component, c.job);
+  const SiteCounters counters(sites, component, c.job, most_reversals,
+                              slip == pipeline::Slip::stick ? Compression::without_effect : Compression::by_rule);
   SiteDamage damage = damage_of(sites, counters, c.threads, progress);
   const SettledGroups group_of(c, sites, component);
   settle(
@@ -657,7 +658,7 @@ std::vector<double> write_bound(const Context& c, const ModeList& modes, const s
   }
   const TextColumn component = read_column(c.strain, "/bound_" + name + "/site/component");
   const SiteDamage damage =
-      is_own_slip(c.job, slip) ? c.damage : damage_of_bound(c, sites, component, progress);
+      is_own_slip(c.job, slip) ? c.damage : damage_of_bound(c, sites, component, slip, progress);
   const std::size_t worst = damage.worst_wire();
   const double repeats = life_in_repeats(worst == no_site ? 0 : damage.damage[worst]);
   c.life.attribute("life_repeats_all_" + name, repeats);

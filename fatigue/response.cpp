@@ -23,6 +23,16 @@ const std::vector<double> strength_nodes{-2, -1, 0, 1, 2}, slope_nodes{-1.5, 0, 
 
 const double longest = 2 * std::pow(10, LifeResponse::undamaged);  // reversals of one cycle
 
+/// Counters of the points of a response: those of a glued cable have (F38).
+struct PointCounters {
+  PointCounters(const SiteSet& sites, const TextColumn& component, const pipeline::Job& job)
+      : own(sites, component, job, longest), glued(sites, component, job, longest, Compression::without_effect) {}
+  const SiteCounters& at(const VariedStrains& point) const {
+    return point.inside == pipeline::Inside::glued ? glued : own;
+  }
+  SiteCounters own, glued;
+};
+
 double log10_of_life(double damage) {
   return damage > 0 ? std::min(-std::log10(damage), LifeResponse::undamaged) : LifeResponse::undamaged;
 }
@@ -208,11 +218,11 @@ void fill_response(pipeline::LifeResponse& response, const VariedStrains& own,
   response.worst_life.assign(points.size() * nodes, LifeResponse::undamaged);
   std::vector<std::vector<std::size_t>> likely;  // (point)
   {
-    const SiteCounters counters(sites, component, job, longest);
+    const PointCounters counters(sites, component, job);
     DamageCounter::Workspace workspace;
     for (const VariedStrains* at : points) {
       const std::vector<std::size_t> all = pipeline::indices_of(at->strains.size());
-      likely.push_back(worst_of(all, damage_of(*at, all, counters, workspace), likely_wires));
+      likely.push_back(worst_of(all, damage_of(*at, all, counters.at(*at), workspace), likely_wires));
     }
   }
   const auto& parameters = pipeline::uncertain_parameters();
@@ -224,9 +234,9 @@ void fill_response(pipeline::LifeResponse& response, const VariedStrains& own,
           parameters[index_of(pipeline::Uncertain::strength)].value(strength_nodes[node / slopes]);
       moved.fatigue.slope_change +=
           parameters[index_of(pipeline::Uncertain::slope)].value(slope_nodes[node % slopes]);
-      const SiteCounters counters(sites, component, moved, longest);
+      const PointCounters counters(sites, component, moved);
       for (std::size_t k = 0; k < points.size(); ++k)
-        response.worst_life[k * nodes + node] = worst_life(*points[k], likely[k], counters, workspace);
+        response.worst_life[k * nodes + node] = worst_life(*points[k], likely[k], counters.at(*points[k]), workspace);
     }
   });
   if (starts.size() > 1) put_rests(response, varied, starts);

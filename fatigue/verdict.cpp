@@ -57,7 +57,7 @@ std::size_t SiteDamage::worst_wall() const {
 }
 
 SiteCounters::SiteCounters(const SiteSet& sites, const TextColumn& component, const pipeline::Job& job,
-                           double longest)
+                           double longest, Compression compression)
     : component_(component.index), material_(sites.material().index) {
   sites.check_materials(job);
   std::vector<int> wall_of_dresspack;
@@ -66,7 +66,7 @@ SiteCounters::SiteCounters(const SiteSet& sites, const TextColumn& component, co
     wall_of_dresspack.push_back(walled ? static_cast<int>(wall_.size()) : -1);
     if (walled)
       wall_.emplace_back(pipeline::hose_material_of(job, mounted.dresspack), job.fatigue,
-                         pipeline::instruction_set(), longest);
+                         pipeline::instruction_set(), longest, compression);
   }
   for (const std::string& path : component.values) {
     const PathInJob place = path_in_job(job, path);
@@ -75,7 +75,7 @@ SiteCounters::SiteCounters(const SiteSet& sites, const TextColumn& component, co
   }
   for (const std::string& name : sites.material().values)
     by_material_.emplace_back(pipeline::material_of(job, name), job.fatigue, pipeline::instruction_set(),
-                              longest);
+                              longest, compression);
 }
 
 const DamageCounter& SiteCounters::of(std::size_t site) const {

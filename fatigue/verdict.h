@@ -38,9 +38,9 @@ struct SiteDamage {
 /// each hose. The wall keeps its material when the job replaces that of all wires.
 class SiteCounters {
  public:
-  /// longest: see DamageCounter.
+  /// longest, compression: see DamageCounter.
   SiteCounters(const SiteSet& sites, const TextColumn& component, const pipeline::Job& job,
-               double longest = most_reversals);
+               double longest = most_reversals, Compression compression = Compression::by_rule);
   const DamageCounter& of(std::size_t site) const;
   bool is_wall(std::size_t site) const { return wall_of_component_[component_[site]] >= 0; }
   bool settle() const;  ///< whether any counter of the wires' materials does (DamageCounter::settles)

@@ -422,7 +422,7 @@ Format make_life_format() {
     {"damage_per_repeat", f64, always, "of the worst site"},
     {"repeat_seconds", f64, always, "duration of one repeat"},
     {"life_repeats_all_stick", f64, always,
-     "bound: everything in the cables glued; cables themselves as in the job, which may glue them, too"},
+     "bound: everything in the cables glued, compression without effect (F38); cables themselves as in the job, which may glue them, too"},
     {"life_repeats_all_free", f64, always,
      "bound: everything in the cables slipping freely; cables themselves as in the job"},
     {"life_hours_all_stick", f64, always, "the bound in hours of motion"},

@@ -201,7 +201,7 @@ class Table {
     add(of("damage_per_repeat", "1", "of the worst wire", &RankingRow::damage_per_repeat));
     add(of("life_months", "months", "life_hours at the job's operating hours per week",
            &RankingRow::life_months));
-    add(of("life_repeats_all_stick", "1", "life_repeats if nothing in the cables slipped",
+    add(of("life_repeats_all_stick", "1", "life_repeats if nothing in the cables slipped and compression lengthened no life (F38)",
            &RankingRow::life_repeats_all_stick));
     add(of("life_repeats_all_free", "1", "life_repeats if everything in the cables slipped without friction",
            &RankingRow::life_repeats_all_free));

@@ -220,6 +220,35 @@ TEST_CASE("tables agree with the exact evaluation for every combination of setti
   CHECK(worst < DamageCounter::table_error);
 }
 
+TEST_CASE("without the effect of compression each cycle has at least the damage of zero mean stress") {
+  std::mt19937 random(43);
+  DamageCounter::Workspace workspace;
+  for (const auto mean_stress : {MeanStress::none, MeanStress::morrow, MeanStress::swt, MeanStress::walker})
+    for (const auto counting : {Counting::repeating, Counting::half_cycles}) {
+      pipeline::Fatigue settings;
+      settings.mean_stress = mean_stress, settings.counting = counting;
+      const DamageCounter by_rule(copper(), settings);
+      const DamageCounter safe(copper(), settings, pipeline::instruction_set(), most_reversals, Compression::without_effect);
+      const StrainLife life(copper(), mean_stress);
+      int larger = 0;
+      for (int trial = 0; trial < 60; ++trial) {
+        const double size = std::pow(10, -4 + 2.5 * (trial % 20) / 20.0);  // 1e-4 to 0.03
+        const auto history = random_history(random, 3 + 5 * trial, size, trial % 2 == 0 ? -3 * size : 0);
+        double exact = 0;
+        for (const DamagingCycle& of : evaluate_cycles(history, copper(), settings)) {
+          const double compressive = std::min(of.stress_mean, 0.0);
+          exact += of.cycle.count *
+                   life.damage({of.cycle.range() / 2, of.stress_max - compressive, of.stress_mean - compressive});
+        }
+        const double fast = safe(strains_of(history), workspace);
+        CHECK(fast == Approx(exact).epsilon(DamageCounter::table_error).margin(0));
+        CHECK(sum_of_damage(safe.cycles(history)) == Approx(fast).epsilon(same_sum).margin(0));
+        larger += fast > 1.01 * by_rule(strains_of(history), workspace);
+      }
+      CHECK((larger > 10) == (mean_stress != MeanStress::none));
+    }
+}
+
 TEST_CASE("histories counted together have each the damage they have alone on every instruction set") {
   std::mt19937 random(37);
   std::vector<std::vector<float>> histories;

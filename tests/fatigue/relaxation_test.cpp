@@ -285,6 +285,23 @@ TEST_CASE("relaxation: the settled life against one that is added up by exact cy
     }
 }
 
+TEST_CASE("relaxation: without the effect of compression a compressed wire lives as long as one without mean stress") {
+  DamageCounter::Workspace memory;
+  for (const MeanStress rule : rules)
+    for (const float range : {4e-4f, 8e-3f}) {  // below and above the threshold
+      const DamageCounter by_rule(soft_copper(), with(rule));
+      const DamageCounter safe(soft_copper(), with(rule), pipeline::instruction_set(), most_reversals, Compression::without_effect);
+      const std::vector<float> compressed{0, -range}, pulled{0, range}, symmetric{range / 2, -range / 2};
+      INFO(int(rule) << " " << range);
+      CHECK(safe.settled_damage(compressed, memory) == Approx(by_rule.settled_damage(symmetric, memory)).epsilon(promised));
+      CHECK(safe(compressed, memory) == Approx(by_rule(symmetric, memory)).epsilon(promised));
+      CHECK(safe.settled_damage(pulled, memory) == Approx(by_rule.settled_damage(pulled, memory)).epsilon(promised));
+      if (range < 1e-3f)  // the mean stress stays
+        CHECK((by_rule.settled_damage(compressed, memory) < 0.9 * by_rule.settled_damage(symmetric, memory)) ==
+              (rule != MeanStress::none));
+    }
+}
+
 TEST_CASE("relaxation: lives are continuous in the offset, the amplitude and the exponent") {
   DamageCounter::Workspace memory;
   const auto life_of = [&](const pipeline::Material& metal, double amplitude, double offset) {
