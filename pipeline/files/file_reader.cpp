@@ -205,8 +205,8 @@ void FileReader::Impl::check_finite(const Open& from, std::size_t first, const s
   }
 }
 
-FileReader::FileReader(const std::filesystem::path& file, const Format& format, Scope scope)
-    : impl_(std::make_unique<Impl>()) {
+/// Opens a file and checks its checksum, if requested, and its format.
+void FileReader::open(const std::filesystem::path& file, const Format& format, bool checks_bytes) {
   silence_library();
   impl_->name = file;
   impl_->format = &format;
@@ -217,16 +217,29 @@ FileReader::FileReader(const std::filesystem::path& file, const Format& format, 
   impl_->input = InputBytes(file);
   impl_->bytes = impl_->input.size();
   impl_->checksum = impl_->input.read_checksum(remedy);
-  if (scope == Scope::everything) impl_->input.check(impl_->checksum, remedy);
+  if (checks_bytes) impl_->input.check(impl_->checksum, remedy);
   const Handle access(access_for_reading(impl_->input), H5Pclose);
   impl_->file = Handle(H5Fopen(file.c_str(), H5F_ACC_RDONLY, access), H5Fclose);
   if (!impl_->file.valid()) impl_->fail("is not an HDF5 file, or is cut off");
   impl_->check_format();
+}
+
+FileReader::FileReader(const std::filesystem::path& file, const Format& format, Scope scope)
+    : impl_(std::make_unique<Impl>()) {
+  open(file, format, scope == Scope::everything);
   if (scope == Scope::everything)
     for (const Dataset& description : format.datasets) impl_->open_dataset(description);
   for (const AttributeInfo& attribute : format.attributes)
     if (!attribute.may_be_absent && H5Aexists(impl_->file, attribute.name.c_str()) <= 0)
       impl_->fail(fmt::format("attribute '{}' is missing", attribute.name));
+  impl_->input.check_reads();
+}
+
+FileReader::FileReader(const std::filesystem::path& file, const Format& format, std::initializer_list<std::string_view> datasets)
+    : impl_(std::make_unique<Impl>()) {
+  open(file, format, true);
+  for (const Dataset& description : format.datasets)
+    if (std::ranges::find(datasets, description.path) != datasets.end()) impl_->open_dataset(description);
   impl_->input.check_reads();
 }
 
@@ -292,6 +305,8 @@ void FileReader::read_rows(const std::string& d, std::size_t first, std::size_t 
     out[i].assign(begin, std::find(begin, begin + width, '\0'));
   }
 }
+
+std::string FileReader::stored(const std::string& dataset) const { return impl_->stored(impl_->dataset(dataset)); }
 
 std::string FileReader::text_attribute(const std::string& name) const {
   return impl_->text_of(impl_->file, name);

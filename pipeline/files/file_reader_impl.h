@@ -62,6 +62,10 @@ struct FileReader::Impl {
   void check_chunks(const Open& made) const;
   /// Reads a chunk as it is stored. Precondition: it went through all filters of the dataset.
   void read_chunk(const Open& from, const hsize_t* at, std::vector<char>& packed) const;
+  /// Calls use(packed) for each chunk as it is stored.
+  template <class Use>
+  void for_each_chunk(const Open& from, const Use& use) const;
+  std::string stored(const Open& from) const;  ///< as FileReader::stored()
   [[noreturn]] void fail_at_chunk(const Open& from) const;
   /// Unpacks rows [first, first + count) of packed numbers. unpack(chunk, numbers) returns false for a damaged chunk.
   template <class T, class Unpack>

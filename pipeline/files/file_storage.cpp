@@ -144,22 +144,46 @@ void FileReader::Impl::fail_at_chunk(const Open& from) const {
                    from.description->path));
 }
 
+template <class Use>
+void FileReader::Impl::for_each_chunk(const Open& from, const Use& use) const {
+  std::vector<char> packed;
+  std::vector<hsize_t> at(from.chunk.size(), 0);
+  while (at[0] < from.lengths[0]) {
+    read_chunk(from, at.data(), packed);
+    use(packed);
+    std::size_t axis = at.size() - 1;
+    for (at[axis] += from.chunk[axis]; axis > 0 && at[axis] >= from.lengths[axis];
+         at[axis] += from.chunk[axis])
+      at[axis--] = 0;
+  }
+}
+
 void FileReader::Impl::check_chunks(const Open& made) const {
   const Handle type(H5Dget_type(made.id), H5Tclose);
   std::size_t bytes_of_one = H5Tget_size(type);
   for (const hsize_t along : made.chunk) bytes_of_one *= along;
   Inflater inflater;
-  std::vector<char> packed, unpacked(bytes_of_one);
-  std::vector<hsize_t> at(made.chunk.size(), 0);
-  while (at[0] < made.lengths[0]) {
-    read_chunk(made, at.data(), packed);
+  std::vector<char> unpacked(bytes_of_one);
+  for_each_chunk(made, [&](const std::vector<char>& packed) {
     if (!inflater.unpack(packed, unpacked)) fail_at_chunk(made);
-    std::size_t axis = at.size() - 1;
-    for (at[axis] += made.chunk[axis]; axis > 0 && at[axis] >= made.lengths[axis];
-         at[axis] += made.chunk[axis])
-      at[axis--] = 0;
-  }
+  });
   made.chunks_to_be_checked = false;
+}
+
+std::string FileReader::Impl::stored(const Open& from) const {
+  const Handle type(H5Dget_type(from.id), H5Tclose), creation(H5Dget_create_plist(from.id), H5Pclose);
+  if (from.chunk.empty() || H5Tis_variable_str(type) > 0) return "";
+  std::size_t length = 0;
+  H5Tencode(type, nullptr, &length);
+  std::string all(length, '\0');
+  if (length == 0 || H5Tencode(type, all.data(), &length) < 0) return "";
+  for (const H5Z_filter_t filter : filters_of(creation)) all += fmt::format(" {}", filter);
+  for (std::size_t axis = 0; axis < from.chunk.size(); ++axis) all += fmt::format(" {}/{}", from.lengths[axis], from.chunk[axis]);
+  for_each_chunk(from, [&](const std::vector<char>& packed) {
+    all += fmt::format(" {}:", packed.size());
+    all.append(packed.begin(), packed.end());
+  });
+  return all;
 }
 
 template <class T, class Unpack>

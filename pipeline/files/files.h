@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <span>
@@ -112,6 +113,9 @@ class FileReader {
   /// attributes: does not open the datasets and does not check the checksum over all bytes, to read a few numbers from many
   /// files. The library has its own checksums of attributes.
   FileReader(const std::filesystem::path& file, const Format& format, Scope scope = Scope::everything);
+  /// Opens only these datasets, to read a few from many files. Every byte is checked; attributes are not required. has() is false
+  /// for the other datasets.
+  FileReader(const std::filesystem::path& file, const Format& format, std::initializer_list<std::string_view> datasets);
   ~FileReader();
   FileReader(const FileReader&) = delete;
   FileReader& operator=(const FileReader&) = delete;
@@ -141,6 +145,10 @@ class FileReader {
   void read_rows(const std::string& dataset, std::size_t first, std::size_t count,
                  std::vector<std::string>& out) const;
 
+  /// Returns the bytes of a dataset as they are stored, with its type, lengths and filters. Equal results mean equal values.
+  /// Unequal ones may be the same values, packed by another program. Empty: not known (no chunks, texts of any length).
+  std::string stored(const std::string& dataset) const;
+
   std::string text_attribute(const std::string& name) const;
   double number_attribute(const std::string& name) const;
   std::string dataset_attribute(const std::string& dataset, const std::string& name) const;
@@ -151,6 +159,7 @@ class FileReader {
  private:
   friend class FileWriter;
   struct Impl;
+  void open(const std::filesystem::path& file, const Format& format, bool checks_bytes);
   std::unique_ptr<Impl> impl_;
 };
 

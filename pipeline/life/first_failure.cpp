@@ -135,8 +135,8 @@ std::set<StrainPoint> places_of(const FailureModes& modes) {
   return places;
 }
 
-/// again: returns another, independent set of samples.
-Samples samples_of(const LifeResponse& response, const std::string& job, std::size_t count, bool again = false) {
+/// has_residual: depends_on_place(response). again: returns another, independent set of samples.
+Samples samples_of(const LifeResponse& response, bool has_residual, const std::string& job, std::size_t count, bool again) {
   const auto normals = [&](const std::string& name) { return standard_normals(again ? name + " again" : name, count); };
   std::vector<std::size_t> order = indices_of(uncertain_count);
   std::stable_partition(order.begin(), order.end(), [](std::size_t p) {
@@ -144,7 +144,7 @@ Samples samples_of(const LifeResponse& response, const std::string& job, std::si
   });
   const Eigen::MatrixXd factor = factor_of(response.knowledge.covariance, order);
   Samples samples{std::vector<ParameterPoint>(count), normals("scatter of wires/" + own_name(response, job)), {}};
-  if (depends_on_place(response)) {
+  if (has_residual) {
     samples.residual = normals("residual/" + own_name(response, job));
     for (double& decades : samples.residual) decades *= residual_decades;
   }
@@ -166,6 +166,17 @@ Samples samples_of(const LifeResponse& response, const std::string& job, std::si
     }
   }
   return samples;
+}
+
+Samples samples_of(const LifeResponse& response, const std::string& job, std::size_t count, bool again = false) {
+  return samples_of(response, depends_on_place(response), job, count, again);
+}
+
+/// Returns whether two modes have equal samples, if both have a residual or none has.
+bool share_samples(const LifeResponse& one, const LifeResponse& other) {
+  return one.construction == other.construction && one.material == other.material && one.dresspack == other.dresspack &&
+         one.scatter_shared == other.scatter_shared && (one.scatter_shared == 1 || one.mode == other.mode) &&
+         one.knowledge.mean == other.knowledge.mean && one.knowledge.covariance == other.knowledge.covariance;
 }
 
 std::vector<Samples> samples_of(const FailureModes& modes, const std::string& job, std::size_t count,
@@ -522,6 +533,47 @@ std::vector<double> first_failures(const FailureModes& modes, const std::string&
 std::vector<std::vector<double>> mode_lives(const FailureModes& modes, const std::string& job, std::size_t samples) {
   std::vector<std::vector<double>> lives;
   for (const LifeResponse& mode : modes) lives.push_back(first_failures({mode}, job, samples));
+  return lives;
+}
+
+PreparedModes::PreparedModes(const FailureModes& of) : modes(of), surfaces(surfaces_of(of)) {
+  for (const LifeResponse& mode : modes) has_residual.push_back(depends_on_place(mode));
+}
+
+struct ModeLives::Known {
+  LifeResponse mode;  ///< with the fields that share_samples() compares
+  bool has_residual;
+  Samples samples;
+  std::vector<LifeSurface::Factors> factors;  ///< (sample)
+};
+
+ModeLives::ModeLives(std::string job, std::size_t samples) : job_(std::move(job)), samples_(samples) {}
+ModeLives::~ModeLives() = default;
+
+const ModeLives::Known& ModeLives::samples_for(const LifeResponse& mode, bool has_residual) {
+  for (const auto& one : known_)
+    if (one->has_residual == has_residual && share_samples(one->mode, mode)) return *one;
+  constexpr std::size_t most = 32;  // of 4,000 samples: 18 MB
+  if (known_.size() == most) known_.erase(known_.begin());
+  Known& made = *known_.emplace_back(std::make_unique<Known>());
+  made.mode.mode = mode.mode, made.mode.dresspack = mode.dresspack, made.mode.construction = mode.construction;
+  made.mode.material = mode.material, made.mode.knowledge = mode.knowledge, made.mode.scatter_shared = mode.scatter_shared;
+  made.has_residual = has_residual;
+  made.samples = samples_of(mode, has_residual, job_, samples_, false);
+  for (const ParameterPoint& z : made.samples.z) made.factors.push_back(LifeSurface::factors_at(z));
+  return made;
+}
+
+std::vector<std::vector<double>> ModeLives::of(const PreparedModes& prepared) {
+  std::vector<std::vector<double>> lives;
+  for (std::size_t m = 0; m < prepared.modes.size(); ++m) {
+    const auto& [mode, has_residual, samples, factors] = samples_for(prepared.modes[m], prepared.has_residual[m]);
+    std::vector<double>& of_mode = lives.emplace_back(samples_);
+    for (std::size_t s = 0; s < samples_; ++s) {
+      of_mode[s] = prepared.surfaces[m].log10_life(samples.z[s], samples.u[s], factors[s]);
+      if (has_residual) of_mode[s] += samples.residual[s];
+    }
+  }
   return lives;
 }
 

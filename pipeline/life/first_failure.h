@@ -12,6 +12,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -85,6 +86,36 @@ double residual_of(const FailureModes& modes);
 /// Returns the log10 lives of each mode by itself, (mode, sample).
 std::vector<std::vector<double>> mode_lives(const FailureModes& modes, const std::string& job,
                                             std::size_t samples = life_samples);
+
+/// The modes of a job, prepared for many sets of samples.
+struct PreparedModes {
+  explicit PreparedModes(const FailureModes& modes);  ///< keeps a reference
+
+  const FailureModes& modes;
+  std::vector<LifeSurface> surfaces;      ///< (mode)
+  std::vector<char> has_residual;         ///< (mode) whether its lives depend on the place of the cables
+};
+
+/// Computes mode_lives() of many programs under one name. Modes with equal knowledge, construction and material have equal samples,
+/// which are computed once.
+class ModeLives {
+ public:
+  ModeLives(std::string job, std::size_t samples);
+  ~ModeLives();
+  ModeLives(const ModeLives&) = delete;
+  ModeLives& operator=(const ModeLives&) = delete;
+  /// Returns mode_lives() of the modes.
+  std::vector<std::vector<double>> of(const PreparedModes& prepared);
+
+ private:
+  struct Known;
+  const Known& samples_for(const LifeResponse& mode, bool has_residual);
+
+  std::string job_;
+  std::size_t samples_;
+  std::vector<std::unique_ptr<Known>> known_;
+};
+
 /// Returns standard normal numbers, (sample): one from every stratum, in an order that depends on the name.
 std::vector<double> standard_normals(const std::string& name, std::size_t samples);
 /// Returns f of the numbers of standard_normals(name), (sample). f is computed once per stratum. values: f(standard_strata()).

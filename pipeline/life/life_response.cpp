@@ -203,7 +203,12 @@ double LifeSurface::alone(std::size_t p, const ParameterPoint& z, const Place& s
                  [&](std::size_t k) { return worst(response_.worst_life, alone_[p][k], strength, slope); });
 }
 
-double LifeSurface::change(const ParameterPoint& far, Inside inside) const {
+LifeSurface::Factors LifeSurface::factors_at(const ParameterPoint& z) {
+  const auto of = [&](Uncertain parameter) { return std::log10(uncertain_parameters()[index_of(parameter)].value(z[index_of(parameter)])); };
+  return {of(Uncertain::model), of(Uncertain::motion)};
+}
+
+double LifeSurface::change(const ParameterPoint& far, const Factors& factors, Inside inside) const {
   ParameterPoint z = far;
   for (double& one : z) one = std::clamp(one, -farthest, farthest);
   if (inside != Inside::as_is) z[friction] = 0;
@@ -215,19 +220,18 @@ double LifeSurface::change(const ParameterPoint& far, Inside inside) const {
     if (nodes_[p].size() > 1) lives[count++] = alone(p, z, strength, slope);
   double sum =
       together(worst(response_.worst_life, 0, strength, slope), std::span(lives).first(count)) - at_zero_;
-  for (const Uncertain of_lives : {Uncertain::model, Uncertain::motion})
-    sum += std::log10(uncertain_parameters()[index_of(of_lives)].value(far[index_of(of_lives)]));
+  for (const double factor : factors) sum += factor;
   return sum;
 }
 
-double LifeSurface::log10_life(const ParameterPoint& z, double u, Inside inside) const {
+double LifeSurface::log10_life(const ParameterPoint& z, double u, const Factors& factors, Inside inside) const {
   const Place scatter = place_among(response_.scatter, z[index_of(Uncertain::scatter)]);
   const auto at = [&](std::size_t share) {
     return between(scatter, [&](std::size_t k) { return response_.planned[k][share]; });
   };
   const double median = at(1);
   const double planned = u < 0 ? median + u / normal_decile * (median - at(0)) : median + u / normal_decile * (at(2) - median);
-  const double life = planned + change(z, inside);
+  const double life = planned + change(z, factors, inside);
   return life < LifeResponse::endless ? life : infinity;
 }
 

@@ -71,12 +71,18 @@ struct LifeResponse {
 /// A response prepared for many evaluations.
 class LifeSurface {
  public:
+  /// log10 of the factors of lives that do not depend on the response: of the model, and of the motion.
+  using Factors = std::array<double, 2>;
+  static Factors factors_at(const ParameterPoint& z);
+
   /// Keeps a reference to the response.
   explicit LifeSurface(const LifeResponse& response);
   /// Returns W(z) - W(0) plus log10 of the model's factor.
-  double change(const ParameterPoint& z, Inside inside = Inside::as_is) const;
+  double change(const ParameterPoint& z, Inside inside = Inside::as_is) const { return change(z, factors_at(z), inside); }
   /// Returns log10 of the life in repeats; infinity for an infinite life.
-  double log10_life(const ParameterPoint& z, double u, Inside inside = Inside::as_is) const;
+  double log10_life(const ParameterPoint& z, double u, Inside inside = Inside::as_is) const { return log10_life(z, u, factors_at(z), inside); }
+  /// factors: factors_at(z), which many responses share.
+  double log10_life(const ParameterPoint& z, double u, const Factors& factors, Inside inside = Inside::as_is) const;
   /// Returns whether a parameter has any effect.
   bool depends_on(std::size_t parameter) const;
 
@@ -90,6 +96,7 @@ class LifeSurface {
     std::vector<double> friction, slack, stiffness;  ///< z of the nodes, increasing
     std::vector<double> worst;                       ///< (friction, slack, stiffness, strength, slope)
   };
+  double change(const ParameterPoint& z, const Factors& factors, Inside inside) const;
   static Place place_among(const std::vector<double>& nodes, double z);
   bool depends_on_strain(std::size_t parameter) const;
   /// Returns W at a point of a list (point, strength, slope).

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "pipeline/base/digest.h"
 #include "pipeline/base/joined.h"
+#include "pipeline/base/ownership.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/cable/overlap.h"
 #include "pipeline/cable/stiffness.h"
@@ -13,6 +15,7 @@
 #include "pipeline/resolve/complete.h"
 #include "pipeline/resolve/data_sheet.h"
 #include "pipeline/resolve/document_kind.h"
+#include "pipeline/resolve/plausible_job.h"
 #include "pipeline/resolve/sources.h"
 #include "pipeline/resolve/urdf_request.h"
 #include "pipeline/settings/fields.h"
@@ -44,6 +47,12 @@ void check_forms(Node& document, Problems& problems) {
   std::erase_if(document.entries, [](const Entry& e) { return e.key == "dresspack" || e.key == "routing"; });
 }
 
+void take_length_of_rig(Job& job) {
+  if (job.motion.rig)
+    job.dresspacks.front().routing.free_length =
+        rig_length(*job.motion.rig, job.dresspacks.front().dresspack.diameter);
+}
+
 /// Reads a job. Resolves the names in the document.
 Job resolved_job(Node& document, const std::vector<std::string>& sets) {
   if (!document.is_map())
@@ -69,10 +78,28 @@ Job resolved_job(Node& document, const std::vector<std::string>& sets) {
   complete_job(job, document, problems);
   check_job(job, document, problems);
   problems.finish(document.where.file);
-  if (job.motion.rig)
-    job.dresspacks.front().routing.free_length =
-        rig_length(*job.motion.rig, job.dresspacks.front().dresspack.diameter);
+  take_length_of_rig(job);
   return job;
+}
+
+/// A job's text in two parts.
+struct DividedText {
+  std::string motion;  ///< the section `motion`, behind as many empty lines as the text has before it
+  std::string beside;  ///< the other lines, without comments before the first key
+};
+
+/// Returns std::nullopt if the text does not look like one by stored_job_text().
+std::optional<DividedText> divided(const std::string& text) {
+  constexpr std::string_view key = "\nmotion:\n";
+  const std::size_t before = text.find(key);
+  if (before == std::string::npos) return std::nullopt;
+  std::size_t end = before + key.size() - 1;
+  while (end != std::string::npos && end + 1 < text.size() && text[end + 1] == ' ') end = text.find('\n', end + 1);
+  if (end == std::string::npos || end + 1 >= text.size()) return std::nullopt;
+  const std::size_t comment = text.starts_with('#') ? text.find('\n') : 0;
+  return DividedText{std::string(static_cast<std::size_t>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(before) + 1, '\n')), '\n') +
+                         text.substr(before + 1, end - before),
+                     text.substr(comment, before + 1 - comment) + text.substr(end + 1)};
 }
 
 }  // namespace
@@ -87,6 +114,33 @@ Job read_job(const std::filesystem::path& file, const std::vector<std::string>& 
   document = read_document(file);
   return resolved_job(document, sets);
 }
+
+struct StoredJobs::Known {
+  std::string beside;  ///< digest of DividedText::beside
+  std::shared_ptr<const Job> job;
+};
+
+StoredJobs::StoredJobs() = default;
+StoredJobs::~StoredJobs() = default;
+
+std::shared_ptr<const Job> StoredJobs::read(const std::filesystem::path& file) {
+  const std::optional<DividedText> text = divided(read_text(file));
+  const std::string beside = text ? xxh3(text->beside) : "";
+  const auto same = std::ranges::find_if(known_, [&](const auto& one) { return text && one->beside == beside; });
+  if (same == known_.end()) {
+    last_ = known_.size();
+    return known_.emplace_back(std::make_unique<Known>(Known{beside, std::make_shared<const Job>(read_job(file))}))->job;
+  }
+  note_input(file);
+  last_ = static_cast<std::size_t>(same - known_.begin());
+  Job job = *(*same)->job;
+  job.motion = motion_from(*parse_yaml(text->motion, file.string()).find("motion"));
+  job.motion.left_out = joined(std::move(job.motion.left_out), plausibility_of_motion(job));
+  take_length_of_rig(job);
+  return std::make_shared<const Job>(std::move(job));
+}
+
+std::size_t StoredJobs::beside_motion() const { return last_ + 1; }
 
 Setup setup_from(Node document) { return job_from(std::move(document)); }
 

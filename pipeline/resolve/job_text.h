@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,23 @@ struct Setup;
 Job read_job(const std::filesystem::path& file, const std::vector<std::string>& sets = {});
 /// document: receives the job with its names resolved, for the places of keys.
 Job read_job(const std::filesystem::path& file, const std::vector<std::string>& sets, Node& document);
+
+/// Reads files by stored_job_text() of one study's jobs, which mostly differ only in their motion. Then the other sections, which
+/// take most of the time, are read once.
+class StoredJobs {
+ public:
+  StoredJobs();
+  ~StoredJobs();
+  /// Precondition: the file is unchanged since it was written, so its job is valid. Errors: InputError.
+  std::shared_ptr<const Job> read(const std::filesystem::path& file);
+  /// Returns a number other than 0 of the sections beside the motion of the last job; equal numbers mean equal text.
+  std::size_t beside_motion() const;
+
+ private:
+  struct Known;
+  std::vector<std::unique_ptr<Known>> known_;
+  std::size_t last_ = 0;
+};
 
 /// Reads a job from a tree: that of a study, or of the `job` attribute of a file.
 Job job_from(Node document, const std::vector<std::string>& sets = {});

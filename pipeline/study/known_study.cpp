@@ -158,12 +158,13 @@ void look_again(StudyState& standing) {
 }
 
 void read_jobs(StudyState& standing) {
-  std::map<std::array<std::string, stage_count>, std::shared_ptr<const Job>> known;
+  StoredJobs stored;
+  std::map<std::array<std::string, stage_count>, std::pair<std::shared_ptr<const Job>, std::size_t>> known;
   for (std::size_t k = 0; k < standing.states.size(); ++k) {
     StudyJob& job = standing.study.jobs[k];
-    std::shared_ptr<const Job>& same = known[standing.states[k].recipes];
-    if (!same) same = std::make_shared<const Job>(read_job(settings_of(standing.places, job.name)));
-    job.job = same;
+    auto& [same, beside_motion] = known[standing.states[k].recipes];
+    if (!same) same = stored.read(settings_of(standing.places, job.name)), beside_motion = stored.beside_motion();
+    job.job = same, job.beside_motion = beside_motion;
   }
 }
 

@@ -31,6 +31,8 @@ struct StudyJob {
   std::shared_ptr<const Job> job;     ///< only of a valid job in an expanded study
   std::string failure;                ///< reasons why the job is invalid, one line per problem; empty: it is valid
   std::vector<std::string> values{};  ///< (varied) values of the varied keys, as in the name
+  /// Jobs of a study with one number other than 0 differ only in their motion. 0: not known.
+  std::size_t beside_motion = 0;
 };
 
 /// Files of a finished job that stay on the disk.

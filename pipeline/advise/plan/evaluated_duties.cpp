@@ -38,9 +38,9 @@ class Jobs {
     for (const StudyJob& job : study.jobs) by_name_.emplace(job.name, &job);
   }
   /// Returns null if no such job exists or it was not expanded.
-  const Job* find(const std::string& name) const {
+  const StudyJob* find(const std::string& name) const {
     const auto found = by_name_.find(name);
-    return found == by_name_.end() ? nullptr : found->second->job.get();
+    return found == by_name_.end() || !found->second->job ? nullptr : found->second;
   }
   /// Errors: InputError if the program is not a job of the study.
   const StudyJob& of(const DutyProgram& program) const {
@@ -78,13 +78,20 @@ std::string text_beside_motion(Job job) {
 std::map<const Job*, std::size_t> sections_of(const DutyFile& file, const Jobs& jobs) {
   std::map<const Job*, std::size_t> numbers;
   std::map<std::string, std::size_t> texts;
+  std::map<std::size_t, std::size_t> known;  // (StudyJob::beside_motion)
   std::map<std::map<std::string, std::string>, std::size_t> sections;
   for (const Duty& duty : file.duties)
     for (const DutyProgram& program : duty.programs)
-      if (const Job* const job = jobs.find(program.job); job && !numbers.contains(job)) {
+      if (const StudyJob* const of = jobs.find(program.job); of && !numbers.contains(of->job.get())) {
+        const Job* const job = of->job.get();
+        if (const auto same = known.find(of->beside_motion); of->beside_motion != 0 && same != known.end()) {
+          numbers[job] = same->second;
+          continue;
+        }
         const auto [text, is_new] = texts.try_emplace(text_beside_motion(*job), 0);
         if (is_new) text->second = sections.try_emplace(beside_motion(*job), sections.size()).first->second;
         numbers[job] = text->second;
+        known.emplace(of->beside_motion, text->second);
       }
   return numbers;
 }
@@ -248,7 +255,7 @@ class Programs {
  private:
   static void check_layout(const Duty& duty, const EvaluatedProgram& first, const std::string& job,
                            const WireDamage& wires) {
-    if (wires.layout != first.wires->layout)
+    if (wires.layout != first.wires->layout && wires.layout->digest != first.wires->layout->digest)
       throw InputError(duty.where,
                        fmt::format("the results of '{}' and '{}' have different wires", first.job, job),
                        "make the results again with dresslife run");
@@ -289,6 +296,7 @@ constexpr std::size_t draws = 64;  // dresspacks in each world: the error of a p
 struct Shares {
   std::vector<std::vector<std::size_t>> result, job;  ///< (duty, program) number of the result, number of the job
   std::vector<std::size_t> programs_of_result, programs_of_job;
+  std::vector<const FailureModes*> modes_of_result;
 
   explicit Shares(std::span<const std::vector<EvaluatedProgram>> duties) {
     std::unordered_map<const FailureModes*, std::size_t> results;
@@ -303,6 +311,7 @@ struct Shares {
       result.emplace_back(), job.emplace_back();
       for (const EvaluatedProgram& program : duty) {
         result.back().push_back(number_in(results, program.modes.get(), programs_of_result));
+        if (modes_of_result.size() < programs_of_result.size()) modes_of_result.push_back(program.modes.get());
         job.back().push_back(number_in(jobs, std::string_view(program.job), programs_of_job));
       }
     }
@@ -313,8 +322,9 @@ struct Shares {
 /// duties with one program share it, too.
 class DrawDamage {
  public:
-  DrawDamage(const Shares& shares, std::size_t draw, std::size_t worlds)
-      : dresspack_(fmt::format("dresspack {}", draw)), worlds_(worlds), shares_(shares), damage_(shares.programs_of_result.size()), factors_(shares.programs_of_job.size()) {
+  /// prepared: (result).
+  DrawDamage(const Shares& shares, const std::vector<PreparedModes>& prepared, std::size_t draw, std::size_t worlds)
+      : dresspack_(fmt::format("dresspack {}", draw)), worlds_(worlds), shares_(shares), prepared_(prepared), lives_(dresspack_, worlds), damage_(shares.programs_of_result.size()), factors_(shares.programs_of_job.size()) {
     for (std::size_t k = 0; k < damage_.size(); ++k) damage_[k].programs = shares.programs_of_result[k];
     for (std::size_t k = 0; k < factors_.size(); ++k) factors_[k].programs = shares.programs_of_job[k];
   }
@@ -325,8 +335,9 @@ class DrawDamage {
     std::vector<double> damage = first_mode_damage(
         programs, rates, share,
         [&](const EvaluatedProgram& program) -> const RepeatDamage& {
-          RepeatDamage& of_repeat = damage_[shares_.result[duty][number(program)]].value;
-          if (of_repeat.empty()) of_repeat = damage_of_repeat(*program.modes, dresspack_, worlds_);
+          const std::size_t result = shares_.result[duty][number(program)];
+          RepeatDamage& of_repeat = damage_[result].value;
+          if (of_repeat.empty()) of_repeat = damage_of_lives(lives_.of(prepared_[result]));
           return of_repeat;
         },
         [&](const EvaluatedProgram& program, double deviation_percent) -> const std::vector<double>& {
@@ -354,6 +365,8 @@ class DrawDamage {
   std::string dresspack_;
   std::size_t worlds_;
   const Shares& shares_;
+  const std::vector<PreparedModes>& prepared_;
+  ModeLives lives_;
   std::vector<Shared<RepeatDamage>> damage_;
   std::vector<Shared<std::pair<double, std::vector<double>>>> factors_;
 };
@@ -715,10 +728,12 @@ std::map<std::string, LifeTable> life_tables(const DutyFile& file, const Study& 
   // The lives of a draw do not depend on other draws, so the number of threads does not change the result. The loop runs over
   // draws and inside over duties, so that the data of one draw stay in the processor's cache.
   const Shares shares(all);
+  std::vector<PreparedModes> prepared;
+  for (const FailureModes* const modes : shares.modes_of_result) prepared.emplace_back(*modes);
   const std::size_t threads = std::min(thread_count(), draws);
   in_parallel(threads, [&](std::size_t part) {
     for (std::size_t d = draws * part / threads; d < draws * (part + 1) / threads; ++d) {
-      DrawDamage plant(shares, d, worlds);
+      DrawDamage plant(shares, prepared, d, worlds);
       for (std::size_t k = 0; k < tasks.size(); ++k) {
         const std::vector<double> damage = plant.under(k, all[k], tasks[k].rates, tasks[k].share);
         float* const hours = tasks[k].table->hours.data() + d * worlds;

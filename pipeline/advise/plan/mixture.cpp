@@ -50,27 +50,6 @@ std::uint32_t conductor_of(const std::string& wire,
   return whole == conductors.end() ? nothing : whole->second;
 }
 
-/// Returns, (mode), the damage of the place that fails first. damage: (site).
-std::vector<double> worst_places(const WireDamage& wires, const std::vector<double>& damage,
-                                 std::size_t modes) {
-  std::vector<double> of_wire(wires.place.size(), 0.0);
-  for (std::size_t site = 0; site < damage.size(); ++site)
-    if (wires.wire[site] != nothing)
-      of_wire[wires.wire[site]] = std::max(of_wire[wires.wire[site]], damage[site]);
-  std::vector<std::vector<double>> at_place(wires.mode.size());
-  for (std::size_t wire = 0; wire < of_wire.size(); ++wire)
-    at_place[wires.place[wire]].push_back(of_wire[wire]);
-  std::vector<double> worst(modes, 0.0);
-  for (std::size_t place = 0; place < at_place.size(); ++place) {
-    std::vector<double>& all = at_place[place];
-    const auto failing = all.begin() + static_cast<std::ptrdiff_t>(wires.failing[place] - 1);
-    std::nth_element(all.begin(), failing, all.end(), std::greater<>());
-    double& of_mode = worst[wires.mode[place]];
-    of_mode = std::max(of_mode, *failing);
-  }
-  return worst;
-}
-
 /// Returns the standard deviation of ln of a number with this relative standard deviation.
 double log_deviation(double percent) { return std::sqrt(std::log1p(percent * percent / 1e4)); }
 
@@ -79,8 +58,8 @@ double at_least_alone(double sum, double largest, double c) { return c > 0 ? std
 
 double log10_life(double damage) { return damage > 0 ? -std::log10(damage) : infinity; }
 
-WireDamage without_damage(const WireSites& sites) {
-  WireDamage wires;
+WireLayout layout_of(const WireSites& sites) {
+  WireLayout wires;
   std::unordered_map<std::string, std::uint32_t> conductors;
   for (const std::string& path : sites.conductors)
     conductors.emplace(path, static_cast<std::uint32_t>(conductors.size()));
@@ -123,7 +102,8 @@ WireDamage without_damage(const WireSites& sites) {
     layout += path + '\n';
   for (const std::vector<std::uint32_t>* const of : {&wires.wire, &wires.place})
     layout.append(reinterpret_cast<const char*>(of->data()), of->size() * sizeof(std::uint32_t));
-  wires.layout = sha256(layout);
+  wires.digest = sha256(layout);
+  wires.sort_sites();
   return wires;
 }
 
@@ -131,21 +111,17 @@ WireDamage without_damage(const WireSites& sites) {
 
 WireDamage WireDamages::read(const std::filesystem::path& life_file, const FailureModes& modes,
                              double failed_percent) {
-  const FileReader file(life_file, life_format());
-  WireSites sites{file.read<std::int32_t>("/site/segment"),
-                  file.read<std::string>("/site/component"),
-                  file.read<std::string>("/conductor/component"),
-                  {},
-                  failed_percent};
+  const FileReader file(life_file, life_format(), {"/site/segment", "/site/component", "/conductor/component", "/damage"});
+  WireSites sites{file.read<std::int32_t>("/site/segment"), {}, file.read<std::string>("/conductor/component"), {}, failed_percent};
   for (const LifeResponse& mode : modes) sites.modes.push_back({mode.mode, mode.dresspack});
-  if (sites != sites_) {
-    without_damage_ = without_damage(sites);
-    sites_ = std::move(sites);
+  std::string names = file.stored("/site/component");
+  if (!layout_ || sites != sites_ || names.empty() || names != stored_names_) {
+    sites_ = sites;
+    sites.component = file.read<std::string>("/site/component");
+    layout_ = std::make_shared<const WireLayout>(layout_of(sites));
+    stored_names_ = std::move(names);
   }
-  WireDamage wires = without_damage_;
-  wires.damage = file.read<double>("/damage");
-  wires.summarize(modes.size());
-  return wires;
+  return {layout_, file.read<double>("/damage"), modes.size()};
 }
 
 double DutyDamage::in_mode(std::size_t mode, std::size_t sample) const {
@@ -154,82 +130,89 @@ double DutyDamage::in_mode(std::size_t mode, std::size_t sample) const {
   return at_least_alone(sum, largest, same_place[mode]);
 }
 
-void WireDamage::summarize(std::size_t modes) {
-  worst = worst_places(*this, damage, modes);
-  largest.assign(mode.size(), 0.0);
+void WireLayout::sort_sites() {
   std::vector<std::vector<std::uint32_t>> of_place(mode.size());
-  for (std::uint32_t site = 0; site < damage.size(); ++site) {
-    if (wire[site] == nothing) continue;
-    const std::uint32_t at = place[wire[site]];
-    of_place[at].push_back(site);
-    largest[at] = std::max(largest[at], damage[site]);
-  }
+  for (std::uint32_t site = 0; site < wire.size(); ++site)
+    if (wire[site] != nothing) of_place[place[wire[site]]].push_back(site);
   sites.clear(), sites_begin.assign(1, 0);
   for (std::vector<std::uint32_t>& all : of_place) {
-    std::ranges::sort(all, {}, [this](std::uint32_t site) { return std::pair(wire[site], site); });  // at_place() needs wires together
+    std::ranges::sort(all, {}, [this](std::uint32_t site) { return std::pair(wire[site], site); });  // of_place() needs wires together
     sites.insert(sites.end(), all.begin(), all.end());
     sites_begin.push_back(static_cast<std::uint32_t>(sites.size()));
   }
-  in_order.resize(sites.size());
-  std::ranges::transform(sites, in_order.begin(), [this](std::uint32_t site) { return damage[site]; });
 }
 
-SamePlace::SamePlace(const std::vector<EvaluatedProgram>& programs, const WireDamage* round)
-    : modes_(programs.front().modes->size()), program_count_(programs.size()) {
-  const auto summarized = [this](const std::shared_ptr<const WireDamage>& wires) {
-    if (!wires->worst.empty()) return wires;
-    const auto copy = std::make_shared<WireDamage>(*wires);
-    copy->summarize(modes_);
-    return std::shared_ptr<const WireDamage>(copy);
-  };
-  for (const EvaluatedProgram& program : programs) programs_.push_back(summarized(program.wires));
-  if (round) programs_.push_back(summarized({std::shared_ptr<const WireDamage>(), round}));
-}
-
-/// Returns the damage of the wire whose break makes a place fail, per hour.
-double SamePlace::at_place(std::uint32_t place, const std::vector<double>& in_rounds) const {
-  const WireDamage& wires = *programs_.front();
-  const std::size_t begin = wires.sites_begin[place], count = wires.sites_begin[place + 1] - begin;
-  std::vector<double> sums(count, 0.0), of_wire;
-  for (std::size_t p = 0; p < programs_.size(); ++p) {
-    const double* const damage = programs_[p]->in_order.data() + begin;
-    for (std::size_t k = 0; k < count; ++k) sums[k] += in_rounds[p] * damage[k];
-  }
+double WireDamage::of_place(const WireLayout& layout, std::size_t place, const double* damage) {
+  thread_local std::vector<double> of_wire;
+  of_wire.clear();
   std::uint32_t last = nothing;
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::uint32_t wire = wires.wire[wires.sites[begin + k]];
+  for (std::size_t at = layout.sites_begin[place]; at < layout.sites_begin[place + 1]; ++at, ++damage) {
+    const std::uint32_t wire = layout.wire[layout.sites[at]];
     if (wire != last) of_wire.push_back(0), last = wire;
-    of_wire.back() = std::max(of_wire.back(), sums[k]);
+    of_wire.back() = std::max(of_wire.back(), *damage);
   }
-  const auto failing = of_wire.begin() + static_cast<std::ptrdiff_t>(wires.failing[place] - 1);
+  const auto failing = of_wire.begin() + static_cast<std::ptrdiff_t>(layout.failing[place] - 1);
   std::nth_element(of_wire.begin(), failing, of_wire.end(), std::greater<>());
   return *failing;
 }
 
+WireDamage::WireDamage(std::shared_ptr<const WireLayout> of, const std::vector<double>& damage, std::size_t modes)
+    : layout(std::move(of)), in_order(layout->sites.size()), worst(modes, 0.0), largest(layout->mode.size(), 0.0) {
+  std::ranges::transform(layout->sites, in_order.begin(), [&](std::uint32_t site) { return damage[site]; });
+  for (std::size_t place = 0; place < largest.size(); ++place) {
+    const double* const begin = in_order.data() + layout->sites_begin[place];
+    for (const double* one = begin; one < in_order.data() + layout->sites_begin[place + 1]; ++one)
+      largest[place] = std::max(largest[place], *one);
+    if (double& of_mode = worst[layout->mode[place]]; largest[place] > of_mode)
+      of_mode = std::max(of_mode, of_place(*layout, place, begin));
+  }
+}
+
+SamePlace::SamePlace(const std::vector<EvaluatedProgram>& programs, const WireDamage* round)
+    : modes_(programs.front().modes->size()), program_count_(programs.size()) {
+  for (const EvaluatedProgram& program : programs) programs_.push_back(program.wires.get());
+  if (round) programs_.push_back(round);
+}
+
+/// Returns the damage of the wire whose break makes a place fail, per hour.
+double SamePlace::at_place(std::uint32_t place, const std::vector<double>& in_rounds) const {
+  const WireLayout& layout = *programs_.front()->layout;
+  const std::size_t begin = layout.sites_begin[place], count = layout.sites_begin[place + 1] - begin;
+  std::vector<double> sums(count, 0.0);
+  for (std::size_t p = 0; p < programs_.size(); ++p) {
+    const double* const damage = programs_[p]->in_order.data() + begin;
+    for (std::size_t k = 0; k < count; ++k) sums[k] += in_rounds[p] * damage[k];
+  }
+  return WireDamage::of_place(layout, place, sums.data());
+}
+
 std::vector<double> SamePlace::at(const std::vector<double>& repeats_per_hour,
                                   const std::vector<double>& in_rounds) const {
-  const WireDamage& wires = *programs_.front();
+  const WireLayout& layout = *programs_.front()->layout;
   std::vector<double> apart(modes_, 0.0), share(modes_, 0.0), rounds = in_rounds;
   rounds.resize(programs_.size());  // a duty whose round is not counted has no rate of it
   for (std::size_t k = 0; k < program_count_; ++k)
     for (std::size_t m = 0; m < modes_; ++m) apart[m] += repeats_per_hour[k] * programs_[k]->worst[m];
   // No wire of a place has more damage than the sum of the largest damages there. So few places need the sum over their wires.
-  std::vector<double> most(wires.mode.size(), 0.0);
+  std::vector<double> most(layout.mode.size(), 0.0);
   for (std::size_t p = 0; p < programs_.size(); ++p)
     for (std::size_t place = 0; place < most.size(); ++place) most[place] += rounds[p] * programs_[p]->largest[place];
   constexpr double rounding = 1 + 1e-12;  // of sums over programs
   for (const std::size_t place : largest_first(most))
-    if (double& worst = share[wires.mode[place]]; most[place] * rounding > worst)
+    if (double& worst = share[layout.mode[place]]; most[place] * rounding > worst)
       worst = std::max(worst, at_place(static_cast<std::uint32_t>(place), rounds));
   for (std::size_t m = 0; m < modes_; ++m) share[m] = apart[m] > 0 ? share[m] / apart[m] : 1;
   return share;
 }
 
 RepeatDamage damage_of_repeat(const FailureModes& modes, const std::string& dresspack, std::size_t samples) {
-  RepeatDamage damage = mode_lives(modes, dresspack, samples);
-  for (std::vector<double>& of_mode : damage)
+  return damage_of_lives(mode_lives(modes, dresspack, samples));
+}
+
+RepeatDamage damage_of_lives(std::vector<std::vector<double>> log10_lives) {
+  for (std::vector<double>& of_mode : log10_lives)
     for (double& life : of_mode) life = std::pow(10.0, -life);
-  return damage;
+  return log10_lives;
 }
 
 std::vector<double> repeat_factors(const std::string& job, double deviation_percent,

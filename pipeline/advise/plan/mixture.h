@@ -25,22 +25,32 @@
 
 namespace dresslife::pipeline {
 
-/// Damage of all wires under one program.
-struct WireDamage {
-  std::vector<double> damage;          ///< (site) damage per repeat
+/// Division of a dresspack's sites into wires and places.
+struct WireLayout {
   std::vector<std::uint32_t> wire;     ///< (site) index of the wire; a wire at a segment has several sites around its surface
   std::vector<std::uint32_t> place;    ///< (wire) index of the place
   std::vector<std::uint32_t> mode;     ///< (place) index of the mode
   std::vector<std::uint32_t> failing;  ///< (place) number of broken wires at which the place fails, at least 1
-  std::string layout;                  ///< digest of sites and places: equal in all programs of one dresspack
-  // From summarize(); empty: not computed yet.
-  std::vector<double> worst{};               ///< (mode) damage of the place that fails first
-  std::vector<double> largest{};             ///< (place) largest damage of its wires
+  std::string digest{};                ///< of sites and places: equal in all programs of one dresspack
+  // From sort_sites():
   std::vector<std::uint32_t> sites{};        ///< sites of the first place, then those of the next one, ..
   std::vector<std::uint32_t> sites_begin{};  ///< (place) its first element of `sites`; the last: end
-  std::vector<double> in_order{};            ///< (element of `sites`) damage
 
-  void summarize(std::size_t modes);
+  void sort_sites();
+};
+
+/// Damage of all wires under one program.
+struct WireDamage {
+  /// layout: after sort_sites(). damage: (site) damage per repeat. modes: number of modes.
+  WireDamage(std::shared_ptr<const WireLayout> layout, const std::vector<double>& damage, std::size_t modes);
+  /// Returns the damage of the wire whose break makes a place fail, if each site of the place has this damage. damage: (element of
+  /// WireLayout::sites, from the place's first one).
+  static double of_place(const WireLayout& layout, std::size_t place, const double* damage);
+
+  std::shared_ptr<const WireLayout> layout;  ///< programs with equal sites share it
+  std::vector<double> in_order;              ///< (element of WireLayout::sites) damage per repeat
+  std::vector<double> worst;                 ///< (mode) damage of the place that fails first
+  std::vector<double> largest;               ///< (place) largest damage of its wires
 };
 
 /// What a life.h5 states about its sites, and what divides them into places.
@@ -56,15 +66,17 @@ struct WireSites {
   bool operator==(const WireSites&) const = default;
 };
 
-/// Reads life.h5 files. The programs of a plant mostly have equal sites, whose places are searched once.
+/// Reads life.h5 files. The programs of a plant mostly have equal sites, which are read and divided into places once.
 class WireDamages {
  public:
   /// modes: modes of the file's life response. Errors: InputError.
   WireDamage read(const std::filesystem::path& life_file, const FailureModes& modes, double failed_percent);
 
  private:
-  WireSites sites_;  ///< of the previous file
-  WireDamage without_damage_;
+  // Of the previous file:
+  WireSites sites_;           ///< without `component`
+  std::string stored_names_;  ///< FileReader::stored() of `component`
+  std::shared_ptr<const WireLayout> layout_;
 };
 
 /// A program with its results. Programs with the same result share modes and wires.
@@ -96,7 +108,7 @@ struct DutyDamage {
   std::vector<double> of_first_mode() const;
 };
 
-/// Computes c(m) of one duty at any rates. Keeps a reference to the round.
+/// Computes c(m) of one duty at any rates. Keeps references to the damage of the programs and of the round.
 class SamePlace {
  public:
   /// round: damage of a round of the order; null: no order. Preconditions: one program or more, with equal modes and layout.
@@ -110,12 +122,13 @@ class SamePlace {
   double at_place(std::uint32_t place, const std::vector<double>& in_rounds) const;
 
   std::size_t modes_;
-  std::vector<std::shared_ptr<const WireDamage>> programs_;  ///< (program, then the round)
+  std::vector<const WireDamage*> programs_;  ///< (program, then the round)
   std::size_t program_count_;
 };
 
 /// (mode, sample) damage of one repeat for one dresspack.
 using RepeatDamage = std::vector<std::vector<double>>;
+RepeatDamage damage_of_lives(std::vector<std::vector<double>> log10_lives);  ///< log10_lives: (mode, sample)
 RepeatDamage damage_of_repeat(const FailureModes& modes, const std::string& dresspack, std::size_t samples);
 
 /// Returns r_k(s) over its median, (sample), for one dresspack.

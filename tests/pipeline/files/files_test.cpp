@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <random>
 
@@ -640,6 +641,41 @@ TEST_CASE("files: the manual lists every dataset of every format") {
       CHECK_FALSE(dataset.meaning.empty());
       CHECK_FALSE(dataset.unit.empty());
     }
+}
+
+TEST_CASE("a reader of a few datasets has only these, and reads no damaged file") {
+  const Scratch scratch;
+  const fs::path file = scratch / "f.h5";
+  write_sample(file, sample_format());
+  {
+    const FileReader reader(file, sample_format(), {"/deep/er/field", "/word"});
+    CHECK(reader.read<std::string>("/word") == words);
+    CHECK(reader.read<double>("/deep/er/field") == Content().field);
+    CHECK_FALSE(reader.has("/time"));
+  }
+  std::fstream(file, std::ios::in | std::ios::out).seekp(-1, std::ios::end).put('x');
+  CHECK(message_of([&] { FileReader(file, sample_format(), {"/word"}); }).find("is damaged") != std::string::npos);
+}
+
+TEST_CASE("stored bytes are equal for equal values, and differ for other values, lengths and types") {
+  const Scratch scratch;
+  const auto stored = [&](const std::vector<std::string>& texts) {
+    Format format{"dresslife-sample", 2, "dresslife-maker", "tests", {}, {}};
+    format.datasets = {{"/word", Type::text, {"line"}, "1", "text"}, {"/life", Type::f64, {"line"}, "1", "numbers"}};
+    format.datasets[0].deflate = true;
+    FileWriter writer(scratch / "f.h5", format);
+    writer.append("/word", std::span<const std::string>(texts));
+    writer.append("/life", std::span<const double>(std::vector<double>(texts.size(), 1.5)));
+    writer.commit();
+    return FileReader(scratch / "f.h5", format, {"/word"}).stored("/word");
+  };
+  const std::vector<std::string> texts(1000, "signal cable");
+  std::vector<std::string> other = texts, longer = texts, wider = texts;
+  other[700] = "signal cablf", longer.push_back(""), wider[700] = "signal cable 3";
+  const std::string bytes = stored(texts);
+  CHECK_FALSE(bytes.empty());
+  CHECK(stored(texts) == bytes);
+  for (const auto& others : {other, longer, wider}) CHECK(stored(others) != bytes);
 }
 
 }  // namespace

@@ -425,3 +425,19 @@ TEST_CASE("shares as words are whole per cents that add up to 100") {
   share[uncertain_count] = 0.9, share[uncertain_count + 1] = 0.1;
   CHECK(share_words(share) == "scatter of wires 90 %; numerical error 10 %");
 }
+
+TEST_CASE("lives of many programs with common samples are those of each program alone") {
+  std::vector<FailureModes> programs;
+  for (const double b : {0.0, 0.2, 0.5}) programs.push_back({straight(0.6, b, 0.4), straight(0.1, b, 0.3, 6)});
+  programs[1][0].mode = "another", programs[1][0].scatter_shared = programs[2][0].scatter_shared = 0.5;
+  programs[2][1].construction = "other hose";
+  programs[2][0].knowledge.mean(strength) = 1;
+  programs.push_back(programs[0]);
+  programs[3][1].knowledge.covariance(friction, friction) = 0.25;
+  programs.push_back(programs[0]);
+  programs[4][0].material = "aluminium", programs[4][1].dresspack = "second";
+  constexpr std::size_t count = 200;
+  ModeLives lives("plant", count);
+  for (const FailureModes& modes : programs) CHECK(lives.of(PreparedModes(modes)) == mode_lives(modes, "plant", count));
+  for (const FailureModes& modes : programs) CHECK(lives.of(PreparedModes(modes)) == mode_lives(modes, "plant", count));
+}

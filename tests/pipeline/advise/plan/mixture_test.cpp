@@ -27,22 +27,26 @@ LifeResponse mode_of(double median, const std::string& name = "wires of cable") 
   return response;
 }
 
-/// Two places with three wires each; a conductor fails with its second wire. damage: (place, wire).
-WireDamage wires_of(const std::vector<std::vector<double>>& damage) {
-  WireDamage wires;
+/// Places with wires of one site each. damage: (place, wire). modes, failing: (place).
+std::shared_ptr<const WireDamage> wires_of(const std::vector<std::vector<double>>& damage, const std::vector<std::uint32_t>& modes,
+                                           std::uint32_t failing) {
+  WireLayout layout;
+  std::vector<double> of_sites;
   for (std::size_t place = 0; place < damage.size(); ++place) {
     for (const double of_wire : damage[place]) {
-      wires.damage.push_back(of_wire);
-      wires.wire.push_back(static_cast<std::uint32_t>(wires.place.size()));
-      wires.place.push_back(static_cast<std::uint32_t>(place));
+      of_sites.push_back(of_wire);
+      layout.wire.push_back(static_cast<std::uint32_t>(layout.place.size()));
+      layout.place.push_back(static_cast<std::uint32_t>(place));
     }
-    wires.mode.push_back(0), wires.failing.push_back(2);
+    layout.mode.push_back(modes[place]), layout.failing.push_back(failing);
   }
-  return wires;
+  layout.sort_sites();
+  return std::make_shared<const WireDamage>(std::make_shared<const WireLayout>(layout), of_sites, std::ranges::max(modes) + 1);
 }
 
+/// A program with two places with three wires each; a conductor fails with its second wire.
 EvaluatedProgram program(const std::string& name, double median, const std::vector<std::vector<double>>& damage) {
-  return {name, 60, std::make_shared<const FailureModes>(FailureModes{mode_of(median)}), std::make_shared<const WireDamage>(wires_of(damage))};
+  return {name, 60, std::make_shared<const FailureModes>(FailureModes{mode_of(median)}), wires_of(damage, {0, 0}, 2)};
 }
 
 const std::vector<std::vector<double>> first_place{{3, 2, 1}, {0, 0, 0}}, second_place{{0, 0, 0}, {3, 2, 1}};
@@ -112,10 +116,8 @@ TEST_CASE("a program more makes no life longer, also where the samples differ fr
 
 TEST_CASE("the first of two modes decides in each sample, and programs may wear different modes") {
   const auto with_modes = [](const std::string& name, double one, double other) {
-    WireDamage wires = wires_of({{1}, {1}});
-    wires.mode = {0, 1}, wires.failing = {1, 1};
     return EvaluatedProgram{name, 60, std::make_shared<const FailureModes>(FailureModes{mode_of(one, "wires of one"), mode_of(other, "wires of other")}),
-                            std::make_shared<const WireDamage>(std::move(wires))};
+                            wires_of({{1}, {1}}, {0, 1}, 1)};
   };
   const EvaluatedProgram first = with_modes("first", 5, 12), second = with_modes("second", 12, 4);
   const DutyDamage duty = damage_of({first, second}, {{1, 0}, {1, 0}}, many);
@@ -128,10 +130,8 @@ TEST_CASE("the first of two modes decides in each sample, and programs may wear 
 TEST_CASE("the damage of each mode is that at its own places") {
   // Both programs damage one place of the first mode. Each damages its own place of the second mode, which fails first.
   const auto with_places = [](const std::string& name, double one, double other) {
-    WireDamage wires = wires_of({{1}, {one}, {other}});
-    wires.mode = {0, 1, 1}, wires.failing = {1, 1, 1};
     return EvaluatedProgram{name, 60, std::make_shared<const FailureModes>(FailureModes{mode_of(7, "wires of one"), mode_of(5, "wires of other")}),
-                            std::make_shared<const WireDamage>(std::move(wires))};
+                            wires_of({{1}, {one}, {other}}, {0, 1, 1}, 1)};
   };
   const DutyDamage duty = damage_of({with_places("first", 1, 0), with_places("second", 0, 1)}, {{1, 0}, {1, 0}}, many);
   REQUIRE(duty.same_place[0] == Approx(1).epsilon(rounding));
@@ -144,7 +144,7 @@ TEST_CASE("the worst place of a duty is that of a search through all sites") {
   constexpr std::size_t places = 60, wires_each = 7, sites_each = 3, programs = 5;
   std::mt19937 random(1);
   const auto number = [&](std::size_t below) { return static_cast<std::uint32_t>(std::uniform_int_distribution<std::size_t>(0, below - 1)(random)); };
-  WireDamage layout;
+  WireLayout layout;
   for (std::uint32_t place = 0; place < places; ++place) {
     layout.mode.push_back(place % 2), layout.failing.push_back(1 + number(wires_each));
     for (std::size_t k = 0; k < wires_each; ++k) layout.place.push_back(place);
@@ -154,27 +154,34 @@ TEST_CASE("the worst place of a duty is that of a search through all sites") {
   for (int site = 0; site < 50; ++site) layout.wire.push_back(0xffffffff);  // of the hose's wall
   std::shuffle(layout.wire.begin(), layout.wire.end(), random);
   const auto modes = std::make_shared<const FailureModes>(FailureModes{mode_of(7, "wires of one"), mode_of(5, "wires of other")});
+  layout.sort_sites();
+  const auto shared = std::make_shared<const WireLayout>(layout);
+  using Damage = std::vector<double>;  // (site)
   const auto damaged = [&](double decades) {
-    WireDamage wires = layout;
-    for (std::size_t site = 0; site < wires.wire.size(); ++site) wires.damage.push_back(std::pow(10, std::uniform_real_distribution(-decades, 0.0)(random)));
-    return wires;
+    Damage damage;
+    for (std::size_t site = 0; site < layout.wire.size(); ++site) damage.push_back(std::pow(10, std::uniform_real_distribution(-decades, 0.0)(random)));
+    return damage;
   };
   for (const double decades : {0.1, 1.0, 6.0}) {
     std::vector<EvaluatedProgram> all;
     std::vector<double> rates;
-    for (std::size_t k = 0; k < programs; ++k)
-      all.push_back({"p", 60, modes, std::make_shared<const WireDamage>(damaged(decades))}), rates.push_back(1 + number(40));
-    const WireDamage round = damaged(decades);
+    std::vector<Damage> of;
+    for (std::size_t k = 0; k < programs; ++k) {
+      of.push_back(damaged(decades)), rates.push_back(1 + number(40));
+      all.push_back({"p", 60, modes, std::make_shared<const WireDamage>(shared, of.back(), 2)});
+    }
+    const Damage of_round = damaged(decades);
+    const WireDamage round(shared, of_round, 2);
     std::vector<double> in_rounds = rates;
     in_rounds.push_back(3);
-    const auto worst = [&](const std::vector<const WireDamage*>& of, const std::vector<double>& times) {
+    const auto worst = [&](const std::vector<Damage>& of, const std::vector<double>& times) {
       std::array<double, 2> most{};
       for (std::uint32_t place = 0; place < places; ++place) {
         std::vector<double> of_wire(wires_each, 0.0);
         for (std::size_t site = 0; site < layout.wire.size(); ++site) {
           if (layout.wire[site] == 0xffffffff || layout.place[layout.wire[site]] != place) continue;
           double damage = 0;
-          for (std::size_t k = 0; k < of.size(); ++k) damage += times[k] * of[k]->damage[site];
+          for (std::size_t k = 0; k < of.size(); ++k) damage += times[k] * of[k][site];
           double& largest = of_wire[layout.wire[site] % wires_each];
           largest = std::max(largest, damage);
         }
@@ -184,14 +191,12 @@ TEST_CASE("the worst place of a duty is that of a search through all sites") {
       return most;
     };
     std::array<double, 2> apart{};
-    std::vector<const WireDamage*> of;
     for (std::size_t k = 0; k < programs; ++k) {
-      of.push_back(all[k].wires.get());
-      const auto alone = worst({of.back()}, {rates[k]});
+      const auto alone = worst({of[k]}, {rates[k]});
       for (std::size_t m = 0; m < 2; ++m) apart[m] += alone[m];
     }
     const auto together = worst(of, rates);
-    of.push_back(&round);
+    of.push_back(of_round);
     const auto with_round = worst(of, in_rounds);
     const SamePlace places_of(all, &round);
     for (std::size_t m = 0; m < 2; ++m) {
