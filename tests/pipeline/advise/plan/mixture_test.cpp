@@ -174,14 +174,14 @@ TEST_CASE("the worst place of a duty is that of a search through all sites") {
     const WireDamage round(shared, of_round, 2);
     std::vector<double> in_rounds = rates;
     in_rounds.push_back(3);
-    const auto worst = [&](const std::vector<Damage>& of, const std::vector<double>& times) {
+    const auto worst = [&](const std::vector<Damage>& damages, const std::vector<double>& times) {
       std::array<double, 2> most{};
       for (std::uint32_t place = 0; place < places; ++place) {
         std::vector<double> of_wire(wires_each, 0.0);
         for (std::size_t site = 0; site < layout.wire.size(); ++site) {
           if (layout.wire[site] == 0xffffffff || layout.place[layout.wire[site]] != place) continue;
           double damage = 0;
-          for (std::size_t k = 0; k < of.size(); ++k) damage += times[k] * of[k][site];
+          for (std::size_t k = 0; k < damages.size(); ++k) damage += times[k] * damages[k][site];
           double& largest = of_wire[layout.wire[site] % wires_each];
           largest = std::max(largest, damage);
         }
