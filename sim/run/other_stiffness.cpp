@@ -139,16 +139,16 @@ std::vector<Warning> beyond_warnings(const pipeline::Job& job, const std::vector
   return warnings;
 }
 
-/// Returns a warning if the motion is periodic with the job's own stiffness, and not with another one.
-std::vector<Warning> periodic_warnings(const pipeline::Job& job, const RunSummary& own, const std::map<double, RunSummary>& others) {
-  if (!own.periodic) return {};
+/// Returns a warning if the motion is periodic with the job's own stiffness, and not with another one. distances: (z of such a stiffness)
+/// RunSummary::distance [m].
+std::vector<Warning> periodic_warnings(const pipeline::Job& job, bool own_is_periodic, const std::map<double, double>& distances) {
+  if (!own_is_periodic) return {};
   std::string words;
   double farthest = 0;
-  for (const auto& [z, other] : others) {
-    if (other.periodic) continue;
-    words += fmt::format("{}{:.1f} mm with {}", words.empty() ? "" : ", and ", 1e3 * other.distance,
+  for (const auto& [z, distance] : distances) {
+    words += fmt::format("{}{:.1f} mm with {}", words.empty() ? "" : ", and ", 1e3 * distance,
                          pipeline::value_words(stiffness(), z, job.simulation.stiffness_factor));
-    farthest = std::max(farthest, other.distance);
+    farthest = std::max(farthest, distance);
   }
   if (words.empty()) return {};
   return {pipeline::warning_of(
@@ -194,7 +194,7 @@ std::vector<Warning> warnings_of_others(const pipeline::Job& job, const std::vec
 }  // namespace
 
 std::vector<Warning> write_other_stiffnesses(const pipeline::Job& job, const RunSummary& own, pipeline::FileWriter& file) {
-  std::map<double, RunSummary> summaries;
+  std::map<double, double> distances;
   std::vector<Warning> warnings =
       warnings_of_others(job, own.checks, own.time_step, [&](const pipeline::Setup& setup, const char* name, double z) {
         RecordedMotion places;
@@ -203,19 +203,24 @@ std::vector<Warning> write_other_stiffnesses(const pipeline::Job& job, const Run
                                                     .wanted = Wanted::places_and_checks});
         places.write(file, std::string("/") + name);
         file.attribute(std::string(name) + "_z", z);
-        return summaries.emplace(z, std::move(summary)).first->second.checks;
+        if (!summary.periodic) distances[z] = summary.distance;
+        return std::move(summary.checks);
       });
-  return pipeline::joined(std::move(warnings), periodic_warnings(job, own, summaries));
+  return pipeline::joined(std::move(warnings), periodic_warnings(job, own.periodic, distances));
 }
 
 double softer_hose(const pipeline::Uncertainty& uncertainty) { return factor_of(-pipeline::other_stiffness(uncertainty)); }
 
 std::vector<Warning> other_stiffness_warnings(const pipeline::Job& job, const ShortRun& own) {
-  return warnings_of_others(job, own.checks, own.time_step, [](const pipeline::Setup& setup, const char*, double) {
-    ShortRun run = short_run(setup, short_run_segments);
-    if (!run.refusal.empty()) throw pipeline::InputError({}, run.refusal, "");
-    return std::move(run.checks);
-  });
+  std::map<double, double> distances;
+  std::vector<Warning> warnings =
+      warnings_of_others(job, own.checks, own.time_step, [&](const pipeline::Setup& setup, const char*, double z) {
+        ShortRun run = short_run(setup, short_run_segments);
+        if (!run.refusal.empty()) throw pipeline::InputError({}, run.refusal, "");
+        if (!run.periodic && !run.stopped_at) distances[z] = run.distance;
+        return std::move(run.checks);
+      });
+  return pipeline::joined(std::move(warnings), periodic_warnings(job, own.periodic, distances));
 }
 
 }  // namespace dresslife::sim

@@ -489,6 +489,8 @@ ShortRun short_run(pipeline::Setup setup, int segments, double useless_below, in
     result.obstacles = std::move(summary.obstacles);
     result.seconds = summary.seconds;
     result.stopped_at = summary.stopped_at;
+    result.periodic = !summary.returns || summary.periodic;
+    result.distance = summary.distance;
     result.time_step = summary.time_step;
   } catch (const RoutingRefusal& refusal) {
     result.refusal = refusal.problem;

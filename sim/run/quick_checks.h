@@ -27,6 +27,8 @@ namespace dresslife::sim {
 /// One run of a motion: with the start of a full run, and at most two repeats.
 struct ShortRun {
   std::vector<Check> checks;
+  bool periodic = false;               ///< the motion does not return, or its last repeat began and ended in the same state
+  double distance = 0;                 ///< as in RunSummary [m]
   std::vector<RubbedPatch> rubbed;     ///< as in RunSummary
   std::vector<std::string> obstacles;  ///< names, indexed by RubbedPatch::obstacle
   double seconds = 0;                  ///< as in RunSummary [s]

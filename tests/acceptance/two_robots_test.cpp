@@ -130,9 +130,16 @@ jobs:
     must_run(scratch, "dresslife-strain",
              "'" + (job / "motion.h5").string() + "' --quiet --set 'strain.slip=[friction, " + inside + ", " + inside + "]' -o " + strain);
     must_run(scratch, "dresslife-fatigue", strain + " --quiet -o " + life);
-    REQUIRE(std::isfinite(hours_of(scratch / life, "life_hours")));
-    CHECK(hours_of(job / "life.h5", "life_hours_all_" + inside) ==
-          Approx(hours_of(scratch / life, "life_hours")).epsilon(stated));
+    double bound = hours_of(job / "life.h5", "life_hours_all_" + inside), hours = hours_of(scratch / life, "life_hours");
+    REQUIRE(std::isfinite(hours));
+    if (inside == "stick") {  // compression lengthens no life of this bound (F38), so it is that of the run only without mean stress
+      CHECK(bound <= (1 + stated) * hours);
+      const std::string without = " --set fatigue.mean_stress=none --quiet -o ";
+      must_run(scratch, "dresslife-fatigue", "'" + (job / "strain.h5").string() + "'" + without + "bound.h5");
+      must_run(scratch, "dresslife-fatigue", strain + without + life);
+      bound = hours_of(scratch / "bound.h5", "life_hours_all_stick"), hours = hours_of(scratch / life, "life_hours");
+    }
+    CHECK(bound == Approx(hours).epsilon(stated));
   }
 }
 

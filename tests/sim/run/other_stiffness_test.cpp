@@ -129,6 +129,7 @@ TEST_CASE("other stiffnesses: a motion that is periodic only with the job's own 
     for (const double distance : {soft, stiff}) expected += own <= tolerance && distance > tolerance;
     const Written result = written(job);
     REQUIRE(result.warnings.size() == (expected > 0 ? 1 : 0));
+    CHECK(other_stiffness_warnings(job, short_run(job, short_run_segments)) == result.warnings);  // check agrees with run
     if (expected == 0) continue;
     CHECK_THAT(result.warnings[0].words, Catch::Contains("the motion begins its last repeat "));
     for (const double distance : {soft, stiff})
