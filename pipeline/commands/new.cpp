@@ -39,6 +39,7 @@ struct NewOptions {
 };
 
 constexpr const char* default_dresspack = "spot_welding";
+constexpr int segments = 64;  ///< of a new job, and of the checks of its routings, which otherwise differ from `dresslife check`
 
 /// Returns the YAML files of a folder of the shipped catalogue, sorted.
 std::vector<fs::path> shipped(const char* shelf) {
@@ -323,7 +324,7 @@ std::string text_of(const NewOptions& options, const Draft& draft, const Choice&
   if (draft.tool_space)
     text += "# ESTIMATE: the space of the tool, whose shape is not known. Replace it by the shape of yours.\n" +
             fmt::format("{}: {}\n", draft.tool_space->key, set_text(parse_yaml(draft.tool_space->value, "tool_space")));
-  return text + commented("simulation", "{segments: 64}", "everything else has a default: config/keys.md");
+  return text + commented("simulation", fmt::format("{{segments: {}}}", segments), "everything else has a default: config/keys.md");
 }
 
 int make(NewOptions options) {
@@ -345,10 +346,13 @@ int make(NewOptions options) {
   check_replaceable(options.job);
   const PassingFile of_urdf("request.yaml");
   if (!accelerations.empty()) write_text_if_changed(of_urdf.path(), job_of_urdf(options, accelerations));
-  Draft draft =
-      !accelerations.empty()
-          ? draft_of({.of = of_urdf.path().string()})
-          : draft_of({.of = options.robot, .dresspack = options.dresspack, .motion = options.program});
+  RouteRequest request;
+  request.sets = {fmt::format("simulation.segments={}", segments)};
+  if (accelerations.empty())
+    request.of = options.robot, request.dresspack = options.dresspack, request.motion = options.program;
+  else
+    request.of = of_urdf.path().string();
+  Draft draft = draft_of(request);
   if (const Dresspack& dresspack = draft.job.dresspacks.front().dresspack; !missing_wall(dresspack).empty())
     throw InputError(dresspack.where,
                      fmt::format("the wall of the hose is not known: bending_stiffness_Nm2 from the construction, {:.3g}, lacks it (nothing was "

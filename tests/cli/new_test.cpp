@@ -1,5 +1,6 @@
 // dresslife new: a user's first job, which `check` accepts or which lists the entries to fill in.
 #include <algorithm>
+#include <sstream>
 
 #include "tests/catch.h"
 #include "tests/cli/process.h"
@@ -50,6 +51,9 @@ TEST_CASE("new: the clamps of a shipped job, and a job that is the user's once i
   const Outcome check = run(scratch, "dresslife", "check job.yaml");
   INFO(check.out << check.err);
   CHECK(check.status == 0);
+  std::istringstream lines(unwrapped(check.out));
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with("warning: ")) CHECK(has(text, "# " + line + "\n"));
   CHECK(make(scratch, options).status == 0);
   scratch.write("job.yaml", text + "# mine\n");
   const Outcome edited = make(scratch, options);
