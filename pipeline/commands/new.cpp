@@ -323,7 +323,7 @@ std::string text_of(const NewOptions& options, const Draft& draft, const Choice&
     text += commented(off + slack.key, slack.value, "without it, dresslife check warns");
   if (draft.tool_space)
     text += "# ESTIMATE: the space of the tool, whose shape is not known. Replace it by the shape of yours.\n" +
-            fmt::format("{}: {}\n", draft.tool_space->key, set_text(parse_yaml(draft.tool_space->value, "tool_space")));
+            fmt::format("{}: {}\n", draft.tool_space->key, set_text(draft.tool_space->value));
   return text + commented("simulation", fmt::format("{{segments: {}}}", segments), "everything else has a default: config/keys.md");
 }
 
@@ -370,7 +370,7 @@ int make(NewOptions options) {
   for (const std::string& doubt : choice.doubts) print(shown(paragraph(doubt)));
   for (const std::string& note : choice.notes) print(shown(paragraph(note)));
   for (const std::string& estimate : choice.estimates) print(shown(estimate + "\n"));
-  if (draft.tool_space) print(shown(paragraph(tool_space_words(draft) + ".")));
+  if (draft.tool_space) print(shown(paragraph(tool_space_words(draft))));
   if (options.dresspack_is_example)
     print(fmt::format("Its dresspack {} is an example for a large robot: name yours.\n", default_dresspack));
   if (!accelerations.empty()) print("ESTIMATE: the accelerations of its axes. Replace them by those of your robot.\n");

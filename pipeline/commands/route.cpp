@@ -215,7 +215,7 @@ void write_job(const Trial& of, const Draft& draft, const RouteOptions& options,
              job.has_parent_path() ? job.parent_path() : fs::path("."));
   const std::string of_tool = tool_space_words(draft);
   write_text_if_changed(job, with_mark(fmt::format("# Proposed by dresslife route {}\n{}{}{}", shown(options.request.of), head,
-                                                   of_tool.empty() ? "" : "# " + of_tool + ".\n", to_yaml(document)),
+                                                   of_tool.empty() ? "" : "# " + of_tool + "\n", to_yaml(document)),
                                        Mark::yaml));
 }
 
@@ -402,7 +402,7 @@ int route(const RouteOptions& options) {
   Draft draft = draft_of(request);
   for (const Warning& fault : dresspack_faults(draft.job, true)) write_stderr(fault.paragraph());
   fill_tool_space(draft);
-  if (draft.tool_space && !options.quiet) write_stderr(shown(paragraph(tool_space_words(draft) + ".")));
+  if (draft.tool_space && !options.quiet) write_stderr(shown(paragraph(tool_space_words(draft))));
   const fs::path job = options.job.empty() ? fs::path(draft.name + "_routed.yaml") : fs::path(options.job);
   const fs::path page = job.parent_path() / (job.stem().string() + "_preview.html");
   check_replaceable(job);

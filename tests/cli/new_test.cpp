@@ -40,7 +40,7 @@ TEST_CASE("new: without options it lists what can be chosen, and writes nothing"
   CHECK(!fs::exists(scratch / "job.yaml"));
 }
 
-TEST_CASE("new: the clamps of a shipped job, and a job that is the user's once it is edited") {
+TEST_CASE("new: the clamps of a shipped job, with the warnings of check in the job") {
   Scratch scratch;
   const std::string options = "--robot abb_irb6640_185_280 --program spot_robot_1 job.yaml";
   REQUIRE(make(scratch, options).status == 0);
@@ -51,9 +51,22 @@ TEST_CASE("new: the clamps of a shipped job, and a job that is the user's once i
   const Outcome check = run(scratch, "dresslife", "check job.yaml");
   INFO(check.out << check.err);
   CHECK(check.status == 0);
+  int warnings = 0;
   std::istringstream lines(unwrapped(check.out));
-  for (std::string line; std::getline(lines, line);)
-    if (line.starts_with("warning: ")) CHECK(has(text, "# " + line + "\n"));
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("warning: ")) continue;
+    ++warnings;
+    CHECK(has(text, "# " + line + "\n"));
+  }
+  CHECK(warnings == 1);  // of the softer hose
+}
+
+TEST_CASE("new: a job is the user's once it is edited") {
+  Scratch scratch;
+  write_short_program(scratch);
+  const std::string options = "--robot abb_irb6640_185_280 --program mine.yaml job.yaml";
+  REQUIRE(make(scratch, options).status == 0);
+  const std::string text = content(scratch / "job.yaml");
   CHECK(make(scratch, options).status == 0);
   scratch.write("job.yaml", text + "# mine\n");
   const Outcome edited = make(scratch, options);

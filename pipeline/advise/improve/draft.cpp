@@ -179,18 +179,16 @@ void fill_tool_space(Draft& draft) {
   const Node found = read_yaml(written.path());
   const Node* const space = found.find("tool_space");
   if (!space) return;
-  const Entry& line = space->entries.front();
-  draft.tool_space = KeyValue{line.key, to_yaml(line.value)};
+  draft.tool_space = space->entries.front();
   Node whole = read_yaml(described.path());
-  set_value(whole, line.key, line.value, line.where);
+  set_value(whole, draft.tool_space->key, draft.tool_space->value, draft.tool_space->where);
   draft.job.robot = job_from(std::move(whole)).robot;
 }
 
 std::string tool_space_words(const Draft& draft) {
   if (!draft.tool_space) return "";
-  return fmt::format(
-      "ESTIMATE: the shape of the tool, {}: {}. The hose keeps clear of it. Replace it by the shape of your tool",
-      draft.tool_space->key, set_text(parse_yaml(draft.tool_space->value, std::string(command_line))));
+  return fmt::format("ESTIMATE: the shape of the tool, {}: {}. The hose keeps clear of it. Replace it by the shape of your tool.",
+                     draft.tool_space->key, set_text(draft.tool_space->value));
 }
 
 Node routed(const Draft& draft, const std::string& routing, const std::string& motion, double factor,
@@ -216,7 +214,7 @@ Node routed(const Draft& draft, const std::string& routing, const std::string& m
   Node found = parse_yaml(routing, std::string(command_line));
   keep_settings(found, document.find("routing"));
   document["routing"] = std::move(found);
-  if (draft.tool_space) document[draft.tool_space->key] = parse_yaml(draft.tool_space->value, std::string(command_line));
+  if (draft.tool_space) document[draft.tool_space->key] = draft.tool_space->value;
   return document;
 }
 

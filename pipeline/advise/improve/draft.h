@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/base/warnings.h"
 #include "pipeline/job/job.h"
 #include "pipeline/settings/document.h"
 
@@ -27,7 +26,7 @@ struct Draft {
   Job job;                ///< only the links of its routing are valid
   bool exercise = false;  ///< true: the motion is a placeholder for a standard exercise
   /// Line of a job with an estimated shape for the space of the program's tool; absent: its shape is known, or no tool is named.
-  std::optional<KeyValue> tool_space{};
+  std::optional<Entry> tool_space{};
 };
 
 /// Makes a draft. Errors: InputError for a name that is neither job nor robot; unknown links; more than one dresspack.
@@ -37,7 +36,7 @@ Draft draft_of(const RouteRequest& request);
 /// places no hose through the tool. Errors: InputError when dresslife-sim cannot be started.
 void fill_tool_space(Draft& draft);
 
-/// Returns words about the estimated shape; empty: there is none.
+/// Returns sentences about the estimated shape; empty: there is none.
 std::string tool_space_words(const Draft& draft);
 
 /// Returns the draft's document with a routing and the other changes. routing, motion: YAML; motion may be empty. factor: scale
