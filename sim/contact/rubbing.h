@@ -27,9 +27,9 @@ struct RubbedPatch {
   double time = 0;                  ///< end of the sample with the largest work of this obstacle on this cell [s]
 };
 
-/// Mean power of rubbing below which wear is not reported before a run [W]: 0.1 kJ in 30 h, so in the 30,000 h of a robot 0.1 MJ. That
-/// wears 1 mm3 of polyamide on a robot (1e-5 mm3/(N m), config/materials); the crest of a corrugated hose has 3 to 5 mm3 until it has a
-/// hole, and a rate may be 5 times as large.
+/// Mean power of rubbing [W] below which a short run reports no rubbing. 1 mW is 0.1 MJ in the 30,000 h of a robot. It wears 1 mm3 of
+/// polyamide (1e-5 mm3/(N m), config/materials). ESTIMATE: a hole in the crest of a corrugated hose takes 3 to 5 mm3. A wear rate may
+/// be 5 times as large.
 inline constexpr double least_rubbing_power = 1e-3;
 
 class Rubbing {

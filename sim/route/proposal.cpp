@@ -184,7 +184,7 @@ class Search {
     double size = 1;
     int left = settings_.short_runs;
     // With 1 the proposals for two robots exceeded the bend limit with the softer hose; with 100 further runs, 6 times those of
-    // `new`, they kept it.
+    // `new`, they kept it. The same number applies while the best candidate rubs.
     constexpr int times_for_more = 6;
     int further = 0;
     std::vector<Candidate> found;  // keep all limits as the job; the further ones are run as the job at the end

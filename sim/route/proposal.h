@@ -7,7 +7,9 @@
 // recombination; it needs no derivatives, which the screening does not have). The objective is the sum of the violations of a
 // wished margin to each limit, for the hose at rest under its weight. If wanted, the best candidates are then changed in the same
 // way by their results in short runs (short_run.h): first by their limits; among those that keep all limits by the limits with a
-// softer hose, then by a margin of the bend, then by the smallest changes of bend and twist, because no life is known here.
+// softer hose, then by a margin of the bend, then by the smallest changes of bend and twist, multiplied by a factor for rubbing, because
+// no life is known here.
+//
 // Candidates that keep all limits are checked in the job's own run and by the checks of `dresslife check`. Equal seeds give equal
 // proposals.
 #pragma once
