@@ -76,6 +76,10 @@ constexpr double usual_bore = 0.45;
 // them have 1.9.
 constexpr double thickest_jacket = 2, jacket_base = 1e-3, jacket_slope = 0.035;
 constexpr double shortest_pitch = 0.3e-3;  // [m]: the finest corrugated hoses have 1 mm
+// Pitch over height: the two shipped profiles have 1.1, wide ones 2; a pitch that is exchanged with the height has less than 1. ESTIMATE.
+constexpr double shortest_fold = 0.8;
+// Height over outer diameter. Conduits of polyamide of 13 to 106 mm have 0.06 to 0.12. Conduits of JIS C 8411 have up to 0.19.
+constexpr double lowest_fold = 0.05, highest_fold = 0.2;
 constexpr double largest_grip = 1e5;       // [N]: ten times the breaking force of a power cable
 
 /// Returns the mass of all wires per metre of the part along their lays, with the density of aluminium [kg/m].
@@ -329,6 +333,21 @@ void plausible_size(const Dresspack& dresspack, Judge& judge) {
                           1e3 * shortest_pitch),
               "metres instead of millimetres",
               fmt::format("pitch_mm: {:.3g} if that was metres", 1e6 * dresspack.hose_corrugation->pitch));
+  if (const auto& profile = dresspack.hose_corrugation; profile && profile->pitch >= shortest_pitch) {
+    if (profile->pitch < shortest_fold * profile->height)
+      judge.add(profile->where,
+                fmt::format("pitch_mm is {:.3g} and height_mm {:.3g} (limit {:g} or more of the height)", 1e3 * profile->pitch,
+                            1e3 * profile->height, shortest_fold),
+                "the two exchanged", fmt::format("pitch_mm: {:.3g} and height_mm: {:.3g} if they were exchanged", 1e3 * profile->height,
+                                                 1e3 * profile->pitch));
+    else if (const double share = profile->height / diameter; diameter <= widest_hose && (share < lowest_fold || share > highest_fold))
+      judge.add(profile->where,
+                fmt::format("height_mm is {:.3g}, {:.2g} times diameter_mm {:.4g} (limits {:g} .. {:g})", 1e3 * profile->height, share,
+                            1e3 * diameter, lowest_fold, highest_fold),
+                "the corrugation or the diameter of another hose",
+                fmt::format("diameter_mm {:.3g} .. {:.3g} with this corrugation, or height_mm as a caliper finds it", 1e3 * profile->height / 0.12,
+                            1e3 * profile->height / 0.06));
+  }
   if (const auto& profile = dresspack.hose_corrugation; profile && dresspack.inner_diameter) {
     const double height = (diameter - *dresspack.inner_diameter) / 2;
     if (std::abs(profile->height - height) > same_height * height)

@@ -209,7 +209,11 @@ void expand_places(Node& dresspack, const std::string& path, Problems& problems)
   double core = number_of(dresspack, "core_diameter_mm") / 2e3;
   const double bore = bore_of(dresspack) / 2e3;
   const std::vector<AutoPart> parts = auto_parts(*components, path, core, own);
-  if (!(bore > 0)) {
+  if (bore < 0) {
+    own.add(where, fmt::format("place: auto is given, and hose_corrugation leaves no bore in the hose (diameter_mm is {:g})",
+                               number_of(dresspack, "diameter_mm")),
+            "check diameter_mm (a lost zero?) and height_mm of hose_corrugation: both folds and the bore make up the diameter", path);
+  } else if (!(bore > 0)) {
     Dresspack hose;
     hose.diameter = number_of(dresspack, "diameter_mm") / 1e3;
     own.add(where, "place: auto is given, and the hose's bore is not (how much room there is is not known)",
