@@ -12,17 +12,17 @@ namespace dresslife::pipeline {
 /// DressPack (3HAC055424) requires ten diameters of a cable or hose.
 inline constexpr double least_bend_diameters = 10;
 
+/// Smallest bend radii that makers state for moved hoses and for moved cables, in diameters.
+inline constexpr double tightest_hose = 3, tightest_cable = 4.5;
+
 /// Returns the least bend radius at the dresspack's axis [m]. A corrugated hose bends by its folds, so the rule applies to the
 /// parts in it: a part on the inner side of the bend is nearer to the centre by its helix radius and must still satisfy the rule;
-/// the core counts as one part on the axis. Any other dresspack must satisfy the rule with its own diameter. The limit of the
-/// folds is unknown here; least_bend_radius_mm is the key for it.
+/// the core counts as one part on the axis. The limit of the folds is unknown without least_bend_radius_mm, and at least
+/// tightest_hose. Any other dresspack must satisfy the rule with its own diameter.
 double least_bend_radius(const Dresspack& dresspack);
 
 /// Returns why this is the least bend radius if its maker gives none: "ten diameters of the hose (58 mm) count, because ...".
 std::string bend_rule(const Dresspack& dresspack);
-
-/// Smallest bend radii that makers state for moved hoses and for moved cables, in diameters.
-inline constexpr double tightest_hose = 3, tightest_cable = 4.5;
 
 /// Returns the smallest bend radius that a maker may allow in motion [m].
 inline double tightest_bend_radius(const Dresspack& dresspack) {

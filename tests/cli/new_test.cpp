@@ -40,25 +40,13 @@ TEST_CASE("new: without options it lists what can be chosen, and writes nothing"
   CHECK(!fs::exists(scratch / "job.yaml"));
 }
 
-TEST_CASE("new: the clamps of a shipped job, with the warnings of check in the job") {
+TEST_CASE("new: the clamps of a shipped job") {
   Scratch scratch;
-  const std::string options = "--robot abb_irb6640_185_280 --program spot_robot_1 job.yaml";
-  REQUIRE(make(scratch, options).status == 0);
+  REQUIRE(make(scratch, "--robot abb_irb6640_185_280 --program spot_robot_1 job.yaml").status == 0);
   const std::string text = content(scratch / "job.yaml");
   CHECK(has(text, "# Clamps: as in config/jobs/irb6640_spot_welding.yaml."));
   CHECK(has(text, "position_m: [0.144, 0, 0.174]"));
   CHECK(std::count(text.begin(), text.end(), '\n') <= 15);
-  const Outcome check = run(scratch, "dresslife", "check job.yaml");
-  INFO(check.out << check.err);
-  CHECK(check.status == 0);
-  int warnings = 0;
-  std::istringstream lines(unwrapped(check.out));
-  for (std::string line; std::getline(lines, line);) {
-    if (!line.starts_with("warning: ")) continue;
-    ++warnings;
-    CHECK(has(text, "# " + line + "\n"));
-  }
-  CHECK(warnings == 1);  // of the softer hose
 }
 
 TEST_CASE("new: a job is the user's once it is edited") {
@@ -138,24 +126,25 @@ TEST_CASE("new and check say of a dresspack what no routing cures, and list what
   CHECK(has(check.out, estimate));
 }
 
-TEST_CASE("new: where no routing keeps all limits, the warning that remains stands on the terminal and in the job, as check gives it") {
+TEST_CASE("new: where no routing keeps all limits, the warnings that remain stand on the terminal and in the job, as check gives them") {
   Scratch scratch;
-  // Links 1 m long cannot lead a hose in bends of 700 mm.
-  scratch.write("hose.yaml",
-                "name: hose\nsource: a catalogue\ndiameter_mm: 29\ninner_diameter_mm: 23\nhose_material: hose_polyamide\n"
-                "least_bend_radius_mm: 700\ncomponents:\n"
-                "  - {name: lead, helix_radius_mm: 0, data_sheet: '7 x 0.5 mm2, outer diameter 8.2 mm'}\n");
   write_short_program(scratch);
-  const Outcome made = make(scratch, "--robot kuka_kr16_2 --program mine.yaml --dresspack hose.yaml job.yaml");
+  std::string hose = content(fs::path(DRESSLIFE_SOURCE_DIR) / "config/dresspacks/spot_welding.yaml");
+  hose.insert(hose.find("\ndiameter_mm:"), "\nleast_bend_radius_mm: 400");  // more than a swinging hose keeps; at rest there are routings
+  scratch.write("hose.yaml", hose);
+  const Outcome made = make(scratch, "--robot abb_irb6640_185_280 --program mine.yaml --dresspack hose.yaml job.yaml");
   INFO(made.out << made.err);
   REQUIRE(made.status == 0);
   CHECK(has(made.out, "Use a remedy above, or dresslife route job.yaml, which searches longer."));
-  const std::string checked = unwrapped(run(scratch, "dresslife", "check job.yaml").out);
-  const std::size_t begin = checked.find("warning: smallest bend radius at rest");
-  REQUIRE(begin != std::string::npos);
-  const std::string warning = checked.substr(begin, checked.find('\n', begin) - begin);
-  CHECK(has(unwrapped(made.out), warning + "\n"));
-  CHECK(has(content(scratch / "job.yaml"), "# " + warning + "\n"));
+  int warnings = 0;
+  std::istringstream lines(unwrapped(run(scratch, "dresslife", "check job.yaml").out));
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("warning: ")) continue;
+    ++warnings;
+    CHECK(has(unwrapped(made.out), line + "\n"));
+    CHECK(has(content(scratch / "job.yaml"), "# " + line + "\n"));
+  }
+  CHECK(warnings > 0);  // of a short run, whose radius depends on the number of segments
 }
 
 TEST_CASE("new: a slack that check proposes stands in the job, and check of the job has no warnings") {

@@ -257,6 +257,9 @@ TEST_CASE("cures: ten diameters count where no bend radius is given, and the war
   dresspack.components[1].name = "power";
   CHECK(pipeline::least_bend_radius(dresspack) == Approx(0.13));
   CHECK_THAT(pipeline::bend_rule(dresspack), Catch::Contains("ten diameters of 'power' (12 mm) in the hose, 10 mm off its axis, count"));
+  dresspack.diameter = 0.05;
+  CHECK(pipeline::least_bend_radius(dresspack) == Approx(0.15));
+  CHECK_THAT(pipeline::bend_rule(dresspack), Catch::Contains("3 diameters of the hose (50 mm) count"));
 }
 
 TEST_CASE("cures: a bend beside a clamp names its bend relief, unless it has one or the bend is far from it") {
