@@ -14,8 +14,8 @@ inline constexpr char twist_left[] = "net twist left by a repeat";
 inline constexpr char tension[] = "largest tension";
 inline constexpr char contact_depth[] = "deepest contact";
 inline constexpr char contact_force[] = "largest contact force";
-inline constexpr char too_short[] = "least slack: too short below";
-inline constexpr char too_long[] = "least slack: too long above";
+inline constexpr char too_short[] = "least slack, length too short";
+inline constexpr char too_long[] = "least slack, length too long";
 inline constexpr char most_slack[] = "most slack";
 inline constexpr char travel[] = "travel of the retraction unit";
 

@@ -25,7 +25,7 @@ TEST_CASE("check: a job without faults, one whose slip is a bound, one that is t
   CHECK(too_short.out.find("The simulation refuses the job: ") != std::string::npos);
   CHECK(too_short.out.find("too short") != std::string::npos);
   const Outcome far_too_long = run(scratch, "dresslife", "check job.yaml --set routing.free_length_m=9");
-  CHECK(far_too_long.out.find("least slack: too long above") != std::string::npos);
+  CHECK(far_too_long.out.find("least slack, length too long") != std::string::npos);
   CHECK(far_too_long.out.find("note: The short run of the checks was left out") != std::string::npos);
   CHECK(far_too_long.out.find("The motion of the dresspack was not checked") != std::string::npos);
   const Outcome misspelt = run(scratch, "dresslife", "check job.yaml --set routing.free_lenght_m=0.7");

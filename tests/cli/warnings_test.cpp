@@ -172,7 +172,7 @@ TEST_CASE("every warning of a stage reaches its log, the terminal, ranking.csv a
       {"cable", "--set dresspack.most_twist_deg_per_m=0.01", "twist", "(limit 0.01 deg/m, "},
       {"cable", "--set dresspack.most_tension_N=0.01 --set dresspack.bending_stiffness_Nm2=0.02", "tension",
        "largest tension: "},
-      {"cable", "--set routing.free_length_m=1.3", "slack", "least slack: too long above"},
+      {"cable", "--set routing.free_length_m=1.3", "slack", "least slack, length too long"},
       {"cable", "--set simulation.periodic_tolerance_mm=1e-9", "periodic",
        "after 2 repeats the motion still begins"},
       {"cable", "", "overlap", "the 66 parts 'wire' are 0.1839 mm apart"},

@@ -35,7 +35,7 @@ TEST_CASE("checks: a receipt reports those of its motion, bit for bit, when the 
   constexpr double endless = std::numeric_limits<double>::infinity();
   const std::vector<CheckedValue> checks{{"smallest bend radius", endless, 0.6},
                                          {"largest net twist", -1.0 / 3, endless},
-                                         {"least slack: too short below", 0.1 + 0.2, 1e-300}};
+                                         {"least slack, length too short", 0.1 + 0.2, 1e-300}};
   write_motion(motion, checks);
   write_receipt(note, {"recipe", "-", "output", {}, results_of_checks(motion)}, motion);
   std::filesystem::remove(motion);

@@ -97,10 +97,10 @@ TEST_CASE("checks: too short and too long are reported with their moment") {
   job.dresspacks[0].dresspack.least_bend_radius = 0.03;  // far below the radius that occurs: the only warning is about slack
   const Simulation simulation(job);
   const RunSummary summary = simulation.run({[](const Sample&) {}});
-  const Check& little = find(summary.checks, "least slack: too short below");
+  const Check& little = find(summary.checks, "least slack, length too short");
   CHECK(little.value == Approx(0.01).epsilon(0.01));  // one step is 1e-5 m
   CHECK(little.warning);
-  CHECK_FALSE(find(summary.checks, "least slack: too long above").warning);
+  CHECK_FALSE(find(summary.checks, "least slack, length too long").warning);
   CHECK(find(summary.checks, "most slack").value == Approx(0.96 - std::hypot(0.05, 0.9)));
   bool told = false;
   std::string lines;
@@ -108,7 +108,7 @@ TEST_CASE("checks: too short and too long are reported with their moment") {
     const std::string line = warning.line();
     lines += line + "\n";
     told |= warning.kind == pipeline::WarningKind::slack &&
-            line.starts_with("warning: least slack: too short below: 10.0 mm (limit 19.2 mm) at ") &&
+            line.starts_with("warning: least slack, length too short: 10.0 mm (limit 19.2 mm) at ") &&
             line.find("'sweep'. Likely cause: the clamps are 0.950 m apart") != std::string::npos &&
             line.find("Remedy: routing.free_length_m: 0.970 (bend radius at rest ") != std::string::npos;  // 0.95 / 0.98
   }
@@ -117,7 +117,7 @@ TEST_CASE("checks: too short and too long are reported with their moment") {
 
   job.dresspacks[0].routing.free_length = 1.6;
   job.simulation.floor = false;
-  CHECK(find(Simulation(job).run({[](const Sample&) {}}).checks, "least slack: too long above").warning);
+  CHECK(find(Simulation(job).run({[](const Sample&) {}}).checks, "least slack, length too long").warning);
 }
 
 }  // namespace

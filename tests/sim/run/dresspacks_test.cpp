@@ -269,7 +269,7 @@ TEST_CASE("messages and warnings name the dresspack among several") {
   for (const pipeline::Warning& warning : warnings_of(*both.simulation, both.summary))
     told += warning.line() + "\n";
   CHECK_THAT(told, Catch::Contains("warning: dress cable, smallest bend radius: ") &&
-                       Catch::Contains("warning: dress cable, least slack: too long above: ") &&
+                       Catch::Contains("warning: dress cable, least slack, length too long: ") &&
                        !Catch::Contains("warning: hose, least slack"));
 }
 
