@@ -129,7 +129,7 @@ class Reader {
       fail(column,
            fmt::format("curvature and twist turn a segment of {:.4g} mm by {:.4g} deg (at most 120)",
                        1e3 * segment_, angle * 180 / EIGEN_PI),
-           "check the units, or raise simulation.segments");
+           fmt::format("check the units, or give simulation.segments: {:.0f}", std::ceil(length_ / segment_ * angle / most_turn)));
   }
 
   void add(const std::array<double, quantities>& value, const std::array<int, quantities>& at) {

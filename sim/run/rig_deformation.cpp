@@ -139,6 +139,9 @@ class Expansion {
     });
   }
 
+  /// Returns the number of segments if segments are too long by this factor.
+  int segments_for(double factor) const { return static_cast<int>(segments_ * factor) + 1; }
+
   /// Sets places at half the distance of the chain's links.
   void places() {
     result_.positions.clear();
@@ -164,7 +167,7 @@ class Expansion {
           fmt::format("travel_m is {:.4g} (too short to bend or straighten any cable wholly, {:.4g} m of "
                       "cable pass the bend's edge, {} segments follow {:.4g})",
                       *rig_.travel, way_.sweep, segments_, edge_),
-          "raise simulation.segments, or give more travel");
+          fmt::format("give simulation.segments: {} or more travel", segments_for(edge_ / way_.sweep)));
     places();
     const int steps = static_cast<int>(std::ceil(way_.sweep / (segment_ / 2)));
     for (int way = 0; way < 2; ++way) {
@@ -200,7 +203,7 @@ class Expansion {
     if (way_.bend < 2 * edge_)
       throw InputError(rig_.where,
                        fmt::format("{} segments cannot follow the cable onto the mandrel", segments_),
-                       "raise simulation.segments");
+                       fmt::format("give simulation.segments: {}", segments_for(2 * edge_ / way_.bend)));
     const double radius = this->radius();
     places();
     to_either_side(fmt::format("{:.4g} deg", *rig_.angle * degrees), "", [&](double level) {
@@ -225,7 +228,7 @@ class Expansion {
       throw InputError(rig_.where,
                        fmt::format("the rig turns a segment of {:.4g} mm by {:.4g} deg (at most 120)",
                                    1e3 * segment_, worst * degrees),
-                       "check the rig's twist, angle and weight, or raise simulation.segments");
+                       fmt::format("check the rig's twist, angle and weight, or give simulation.segments: {}", segments_for(worst / most_turn)));
   }
 
   const Rig& rig_;

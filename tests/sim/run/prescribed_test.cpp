@@ -219,7 +219,7 @@ TEST_CASE("prescribed: a rig that cannot be is refused with what to do") {
   CHECK(
       refused("kind: torsion, twist_deg_per_m: 90000") ==
       "job.yaml:1:15: error: the rig turns a segment of 20 mm by 1800 deg (at most 120); check the rig's twist, angle and "
-      "weight, or raise simulation.segments");
+      "weight, or give simulation.segments: 751");
   CHECK(refused("kind: swivel, angle_deg: 5, weight_kg: 0").find("weight_kg is 0") != std::string::npos);
   const std::string twist = "kind: torsion, twist_deg_per_m: 90";
   CHECK(refused(twist, "robot: abb_irb2600_12_165\n").find("robot is given beside motion.rig") !=
