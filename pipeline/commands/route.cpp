@@ -299,17 +299,19 @@ DecidingLimit decided(const Trial& trial, const Draft& draft) {
   }
   // The limit shrinks with the hose, but a thinner hose is also bent more: abb_irb2600_12_165 with `hard` exceeds the limit by
   // 0.14 at 100 % and by 0.033 at 78 %, and keeps all limits at 70 %. Short runs give a bend to some percent.
-  constexpr double margin = 0.95, smallest = 0.05;
-  const double least = least_bend_radius(draft.job.dresspacks.front().dresspack) * trial.factor,
-               share = std::exp(-passed[most]);
-  const double scale = std::floor(100 * trial.factor * share * share * margin) / 100;
+  constexpr double margin = 0.95, smallest = 0.5;  // of half the size, cables have a quarter of the copper: other cables
+  const Dresspack& dresspack = draft.job.dresspacks.front().dresspack;
+  const double least = least_bend_radius(dresspack) * trial.factor, share = std::exp(-passed[most]);
+  const double scale = std::floor(100 * trial.factor * share * share * margin) / 100, allowed = least * share * margin;
   const std::string smaller =
       scale < smallest ? ""
                        : fmt::format("--scale {:.2g} (a dresspack of the same make in that size), ", scale);
+  const std::string tighter = allowed < tightest_bend_radius(dresspack) * trial.factor
+                                  ? ""
+                                  : fmt::format(", or dresspack.least_bend_radius_mm: {:.0f} if its maker allows it", std::floor(1e3 * allowed));
   return {fmt::format("the limit that decides: bend radius, {:.0f} mm of at least {:.0f} mm",
                       1e3 * least * share, 1e3 * least),
-          fmt::format("{}{}, or dresspack.least_bend_radius_mm: {:.0f} if its maker allows it", smaller,
-                      other, std::floor(1e3 * least * share * margin))};
+          smaller + other + tighter};
 }
 
 /// Returns the reason why the best routing of a search is not feasible.
