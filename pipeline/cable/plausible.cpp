@@ -73,8 +73,8 @@ constexpr double lightest_part =
     50;  // [kg/m3] over the cross-section of a part without wires: foam; an air hose of 8/5.5 mm has 630
 constexpr double usual_bore = 0.45;
 // In units of a usual jacket, 1 mm + 0.035 bundle diameters (pipeline/resolve/cable_rules.h): two sheaths with a screen between
-// them have 1.9.
-constexpr double thickest_jacket = 2, jacket_base = 1e-3, jacket_slope = 0.035;
+// them have 1.9. Below 0.25 it is the insulation of a core; pairs and cores narrower than 4 mm have such sheaths. ESTIMATE.
+constexpr double thickest_jacket = 2, thinnest_jacket = 0.25, narrow_part = 4e-3, jacket_base = 1e-3, jacket_slope = 0.035;
 constexpr double shortest_pitch = 0.3e-3;  // [m]: the finest corrugated hoses have 1 mm
 // Pitch over height: the two shipped profiles have 1.1, wide ones 2; a pitch that is exchanged with the height has less than 1. ESTIMATE.
 constexpr double shortest_fold = 0.8;
@@ -141,6 +141,12 @@ class Judge {
                         1e3 * of.jacket->thickness, 1e3 * thickest_jacket * usual, thickest_jacket),
             "the added diameter instead of one wall, or another unit",
             fmt::format("jacket {:.3g} mm if that was both walls, or {:.2g} mm, a usual one", 5e2 * of.jacket->thickness, 1e3 * usual));
+      else if (of.jacket && 2 * of.radius >= narrow_part && of.jacket->thickness >= thinnest_sleeve &&
+               of.jacket->thickness < thinnest_jacket * usual)
+        add(of.where,
+            fmt::format("the jacket of '{}' is {:.3g} mm thick (limit {:.2g} or more: {:g} times a usual one)", of.name,
+                        1e3 * of.jacket->thickness, 1e3 * thinnest_jacket * usual, thinnest_jacket),
+            "the insulation of a core, or a lost digit", fmt::format("jacket {:.2g} mm, a usual one, or no jacket if none is known", 1e3 * usual));
       if (of.jacket && of.jacket->thickness < thinnest_sleeve)
         add(of.where,
             fmt::format("the jacket of '{}' is {:.3g} mm thick (limit {:g} or more)", of.name, 1e3 * of.jacket->thickness, 1e3 * thinnest_sleeve),

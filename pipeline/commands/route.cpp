@@ -377,7 +377,10 @@ std::string words_of(const Trial& trial, const Draft& draft, const MountingToler
     text += fmt::format("No program was given: the wrist was only moved about{}. Look again with yours.\n",
                         tolerance.none() ? ", and no mounting tolerance was tried" : "");
   if (best.feasible()) {
-    text += "It keeps all limits in a run.\n";
+    const auto at_other_values = std::ranges::count(warnings_of(trial.rows[*trial.best]), WarningKind::other_values, &Warning::kind);
+    text += at_other_values > 0 ? "It keeps all limits in a run with its own values. At other values of stiffness, slack or friction it does not: "
+                                  "dresslife check names them.\n"
+                                : "It keeps all limits in a run.\n";
   } else {
     const DecidingLimit by = decided(trial, draft);
     text += fmt::format("It runs, but no routing was found that keeps all limits ({}): {}. Remedy: {}\n",

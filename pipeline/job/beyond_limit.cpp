@@ -53,7 +53,7 @@ std::string percent_words(double share) {
 }
 
 std::string measurement_words(const UncertainParameter& parameter) {
-  return fmt::format("if the following confirms the job's value, uncertainty.{}: {:.3g}: {}", parameter.name,
+  return fmt::format("uncertainty.{}: {:.3g}, if this measurement confirms the job's value: {}", parameter.name,
                      std::exp(parameter.test_deviation), parameter.test);
 }
 

@@ -216,7 +216,7 @@ class RemedySearch {
   }
   /// Returns a routing with clamps at other places of their links; empty: none was found.
   Remedy elsewhere() const { return motion_.other_places ? motion_.other_places() : Remedy{}; }
-  /// Returns " (best of those tried: 1.250 m, bend radius 210.3 mm at rest, 187.2 mm in a short run; asked are 200.0 mm)": the
+  /// Returns " (best of those tried: 1.250 m, bend radius 210.3 mm at rest, 187.2 mm in a short run; required: 200.0 mm)": the
   /// routing with the least bend of those that ran; if none ran, at rest. now: smallest bend radius of the job [m]. Empty: none
   /// has an equilibrium.
   std::string best_words(double now) const {
@@ -229,7 +229,7 @@ class RemedySearch {
                                : !trial.refusal.empty() ? "and its short run ends: " + trial.refusal
                                : best_.curvature * limit() > 1 ? "too little for a short run"
                                                                : "not tried in a short run";
-    return fmt::format(" (best of those tried: {} m{}, bend radius {} at rest, {}; asked are {}{})",
+    return fmt::format(" (best of those tried: {} m{}, bend radius {} at rest, {}; required: {}{})",
                        at_least_metres(best_.length),
                        best_.turned[0] || best_.turned[1] ? " with another direction of a clamp" : "",
                        radius_words(best_.curvature), in_run, in_words(limit(), "m"),
@@ -365,9 +365,12 @@ std::string relief_remark(const CheckedMotion& motion, const Check& broken) {
   add(routing.tool_clamp, routing.free_length, "routing.tool_clamp");
   if (broken.position < 0 || bare.empty()) return "";
   const pipeline::Dresspack& dresspack = mounted_of(motion, broken).dresspack;
-  return fmt::format("; a sleeve or spring beside the clamp may spread the bend, which dresslife improve tries: {}.bend_relief={}",
+  const pipeline::BendRelief relief = pipeline::first_relief(dresspack.diameter, dresspack.bending_stiffness, 0);
+  const double segments = std::ceil(pipeline::fewest_relief_segments * routing.free_length / relief.length);
+  return fmt::format("; a sleeve or spring beside the clamp may spread the bend, which dresslife improve tries: {}.bend_relief={}{}",
                      key_of(motion.setup, broken.dresspack, std::min_element(bare.begin(), bare.end())->second),
-                     pipeline::relief_text(pipeline::first_relief(dresspack.diameter, dresspack.bending_stiffness, routing.free_length / motion.setup.simulation.segments)));
+                     pipeline::relief_text(relief),
+                     segments > motion.setup.simulation.segments ? fmt::format(" and simulation.segments={:.0f}", segments) : "");
 }
 
 /// Returns "a repeat takes 12.3 s instead of 11.0 s" for another acceleration.

@@ -109,11 +109,11 @@ Warning beyond_warning(const pipeline::Job& job, const OtherRun& at, const Check
                              1 / factor_of(at.z)};
   Cure cure = cure_of(motion, at.checks, broken);
   cure.cause += "; all radii here are with this stiffness";
-  cure.remedy.words += "; or, " + pipeline::measurement_words(stiffness());
+  cure.remedy.words += "; or " + pipeline::measurement_words(stiffness());
   return pipeline::warning_of(
       pipeline::WarningKind::other_values, "",
-      fmt::format("with {} {}; about {} of such dresspacks exceed this limit, by straight lines between the computed values and the "
-                  "prior of the stiffness; with the job's own stiffness none does",
+      fmt::format("with {} {}; about {} of such dresspacks exceed this limit (interpolated linearly in the prior of the "
+                  "stiffness); with the job's own stiffness none does",
                   pipeline::value_words(stiffness(), at.z, job.simulation.stiffness_factor), check_words(motion, broken),
                   pipeline::percent_words(share)),
       cure.cause, cure.remedy);
@@ -157,7 +157,7 @@ std::vector<Warning> periodic_warnings(const pipeline::Job& job, bool own_is_per
                   "lives of such dresspacks count this change in each repeat; with the job's own stiffness it keeps the limit",
                   words, 1e3 * job.simulation.periodic_tolerance),
       "friction and contact leave the dresspack several resting places",
-      fmt::format("simulation.periodic_tolerance_mm: {:g} if repeats may differ so; or, {}", std::ceil(2e4 * farthest) / 10,
+      fmt::format("simulation.periodic_tolerance_mm: {:g} if repeats may differ so; or {}", std::ceil(2e4 * farthest) / 10,
                   pipeline::measurement_words(stiffness())))};
 }
 

@@ -285,12 +285,12 @@ TEST_CASE("improve refuses what it cannot search") {
   };
   const Outcome hopeless = improved("5000");
   CHECK(hopeless.status == 1);
-  CHECK(hopeless.out.find("No feasible job was found in 1 trial and ") != std::string::npos);
+  CHECK(hopeless.out.find("No other job that keeps all limits was found in 1 trial and ") != std::string::npos);
   CHECK(hopeless.out.find("\nThe search stopped early: of ") != std::string::npos);
   const Outcome none = improved("250");
   CHECK(none.status == 1);
   INFO(none.out);
-  CHECK(none.out.find("No feasible job was found in 3 trials and ") != std::string::npos);
+  CHECK(none.out.find("No other job that keeps all limits was found in 3 trials and ") != std::string::npos);
   CHECK(none.out.find("\nNo trial keeps bend radius: the best violates it by ") != std::string::npos);
   CHECK(
       none.out.find(

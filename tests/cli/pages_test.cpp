@@ -234,9 +234,9 @@ void try_command(const Scratch& scratch, const std::string& command) {
   INFO(line);
   INFO(outcome.out);
   INFO(outcome.err);
-  // A routing with fast settings may exceed a limit. Then `improve` ends with 1 and reports that no feasible job was found.
+  // A routing with fast settings may exceed a limit. Then `improve` ends with 1 and reports that no other job keeps them.
   CHECK((outcome.status == 0 || (outcome.status == 1 && command.find("improve") != std::string::npos &&
-                                 outcome.out.find("No feasible job was found") != std::string::npos)));
+                                 outcome.out.find("No other job that keeps all limits was found") != std::string::npos)));
 }
 
 }  // namespace

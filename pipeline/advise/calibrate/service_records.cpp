@@ -33,7 +33,7 @@ struct ColumnWords {
 const std::array<ColumnWords, column_count>& columns() {
   static const std::array<ColumnWords, column_count> all{{
       {"robot",
-       {"robot", "robotname", "roboter", "machine", "maschine", "station", "asset", "equipment", "maquina",
+       {"robot", "robotname", "roboter", "machine", "maschine", "anlage", "station", "asset", "equipment", "maquina",
         "mquina", "estacion", "estacin", "equipo"}},
       {"dresspack",
        {"dresspack", "cable", "cablepackage", "cabledress", "umbilical", "component", "schlauchpaket",
@@ -72,7 +72,7 @@ const std::array<ColumnWords, column_count>& columns() {
         "fechadesustitucin", "cambiado",      "cambiadoel",      "fechadecambio",    "fechacambio",
         "retirado",          "retiradoel",    "fechaderetirada", "desmontado",       "fechadedesmontaje"}},
       {"reason",
-       {"reason", "removalreason", "replacementreason", "cause", "grund", "ausbaugrund", "ursache", "motivo",
+       {"reason", "removalreason", "replacementreason", "cause", "grund", "ausbaugrund", "ausfallgrund", "ausfallursache", "ursache", "motivo",
         "causa", "razon", "razn"}},
       {"hours_per_week",
        {"hoursperweek", "hperweek", "operatinghoursperweek", "stundenprowoche", "betriebsstundenprowoche",
@@ -305,7 +305,7 @@ class Export {
     row.of_hose = names_hose(why);
     if (is_date && row.end == End::in_use)
       refuse(cells, at_[reason] ? reason : replaced, "a dresspack was removed and no reason is given",
-             "write failed or preventive as its reason");
+             at_[reason] ? "write failed or preventive as its reason" : "name the column of reasons 'reason', and write failed or preventive into it");
     if (!is_date && row.end == End::failed)
       refuse(cells, replaced, fmt::format("the dresspack has a reason ('{}') and no date", why),
              "write when it was replaced, or no reason");

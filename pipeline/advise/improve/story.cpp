@@ -205,7 +205,7 @@ std::string improvement_words(const Improvement& found, const Finals& finals, co
   const Outcome& was = found.trials.front().worst;
   std::string text = fmt::format("As it is: {}\n", outcome_words(was, finals.of.front().hours));
   if (finals.of.size() == 1) {
-    text += fmt::format("No feasible job was found in {} trial{} and {} short runs.\n", found.trials.size(),
+    text += fmt::format("No other job that keeps all limits was found in {} trial{} and {} short runs.\n", found.trials.size(),
                         found.trials.size() == 1 ? "" : "s", found.short_runs);
     for (const std::string& line : found.obstacle) text += line + "\n";
     return text + relief_words(found);

@@ -25,6 +25,6 @@ TEST_CASE("values of uncertain parameters are named with factor, meaning, key an
   CHECK(value_words(friction, -1, 3) == "0.5 times the friction of the cables on their hose (strain.hose_friction_factor: 1.5)");
   CHECK(percent_words(0.184) == "18 %");
   CHECK(measurement_words(friction) ==
-        "if the following confirms the job's value, uncertainty.friction_hose: 1.22: One cable pulled through its hose with a spring "
+        "uncertainty.friction_hose: 1.22, if this measurement confirms the job's value: One cable pulled through its hose with a spring "
         "scale (one hour)");
 }

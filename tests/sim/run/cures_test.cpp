@@ -192,7 +192,7 @@ TEST_CASE("cures: a limit that no length and no direction keeps says so, with th
   const std::string words = words_of(job, pipeline::WarningKind::bend_radius);
   CHECK_THAT(words, Catch::Contains("with these two clamps no length and no direction that was tried") &&
                         Catch::Contains("Remedy: other clamps, which `dresslife route` searches") &&
-                        Catch::Contains(" mm at rest, too little for a short run; asked are 30000.0 mm"));
+                        Catch::Contains(" mm at rest, too little for a short run; required: 30000.0 mm"));
   job.dresspacks[0].dresspack.least_bend_radius = value_of(words, "dresspack.least_bend_radius_mm") / 1000;
   CHECK(words_of(job, pipeline::WarningKind::bend_radius) == "");
 }
@@ -211,7 +211,7 @@ TEST_CASE("cures: a limit that a length keeps at rest and none keeps in a run is
     const double rest = std::stod(words.substr(at + 16));
     const std::size_t run = words.find(" mm at rest, ");
     REQUIRE(run != std::string::npos);
-    if (words.find(" mm in a short run; asked are ") == std::string::npos) continue;
+    if (words.find(" mm in a short run; required: ") == std::string::npos) continue;
     CHECK(std::stod(words.substr(run + 13)) < 1e3 * limit);
     both += rest > 1e3 * limit;
   }
