@@ -3,6 +3,8 @@
 #include <initializer_list>
 #include <stdexcept>
 
+#include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/files/files.h"
 
 namespace dresslife::pipeline {
@@ -610,12 +612,6 @@ Format make_ways_format() {
 
 // clang-format on
 
-std::string shape_text(const Dataset& dataset) {
-  std::string text;
-  for (const std::string& axis : dataset.shape) text += (text.empty() ? "" : ", ") + axis;
-  return text;
-}
-
 const char* type_text(Type type) {
   constexpr const char* texts[] = {"float64", "float32", "int32", "uint32", "uint64", "text"};
   return texts[static_cast<int>(type)];
@@ -624,10 +620,8 @@ const char* type_text(Type type) {
 }  // namespace
 
 const Dataset& Format::find(std::string_view path) const {
-  const auto found =
-      std::find_if(datasets.begin(), datasets.end(), [&](const Dataset& d) { return d.path == path; });
-  if (found == datasets.end()) throw std::logic_error(fmt::format("{} has no dataset {}", name, path));
-  return *found;
+  if (const Dataset* const found = find_in(datasets, &Dataset::path, path)) return *found;
+  throw std::logic_error(fmt::format("{} has no dataset {}", name, path));
 }
 
 const Format& motion_format() {
@@ -667,7 +661,7 @@ std::string file_manual() {
     for (const Dataset& dataset : format->datasets) {
       if (dataset.path.starts_with("/bound_")) continue;  // the text below the table describes them
       text += fmt::format("| `{}` | {}{} | {} | {} | {} |\n", dataset.path, type_text(dataset.type),
-                          dataset.may_be_absent ? ", optional" : "", shape_text(dataset), dataset.unit,
+                          dataset.may_be_absent ? ", optional" : "", joined(dataset.shape, ", "), dataset.unit,
                           dataset.meaning);
     }
     if (format == &strain_format())

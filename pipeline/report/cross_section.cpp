@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "pipeline/base/constants.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/cable/overlap.h"
 #include "pipeline/cable/plain_properties.h"
 #include "pipeline/cable/stiffness.h"
@@ -50,22 +51,16 @@ std::string plain_words(const Component& part) {
 double section_of_wires(const Component& part) {
   if (part.plain) return 0;
   if (part.components.empty()) return pi * part.radius * part.radius;
-  double area = 0;
-  for (const Component& inner : part.components) area += inner.count * section_of_wires(inner);
-  return area;
+  return sum_of(part.components, [](const Component& inner) { return inner.count * section_of_wires(inner); });
 }
 
 double wires_of(const Component& part) {
   if (is_wire(part)) return 1;
-  double wires = 0;
-  for (const Component& inner : part.components) wires += inner.count * wires_of(inner);
-  return wires;
+  return sum_of(part.components, [](const Component& inner) { return inner.count * wires_of(inner); });
 }
 
 int depth_of(const std::vector<Component>& components) {
-  int depth = 0;
-  for (const Component& component : components) depth = std::max(depth, 1 + depth_of(component.components));
-  return depth;
+  return largest_of(components, 0, [](const Component& component) { return 1 + depth_of(component.components); });
 }
 
 /// Stiffness of one part: E A, and E I about its own axis.

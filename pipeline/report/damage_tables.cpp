@@ -24,7 +24,7 @@ std::string meter(double share, double largest) {
 }
 
 /// Returns the indices of the largest values above 0.
-std::vector<std::size_t> largest_of(const std::vector<double>& values, std::size_t most) {
+std::vector<std::size_t> largest_above_zero(const std::vector<double>& values, std::size_t most) {
   std::vector<std::size_t> order = largest_first(values);
   std::erase_if(order, [&](std::size_t i) { return !(values[i] > 0); });
   if (order.size() > most) order.resize(most);
@@ -40,7 +40,7 @@ std::string main_causes(const LifeSummary& life, std::size_t line) {
   const auto first = life.line_cause_damage.begin() + static_cast<std::ptrdiff_t>(line * causes);
   const std::vector<double> of_line(first, first + static_cast<std::ptrdiff_t>(causes));
   std::string text;
-  for (const std::size_t cause : largest_of(of_line, most_named)) {
+  for (const std::size_t cause : largest_above_zero(of_line, most_named)) {
     const double share = of_line[cause] / life.step_damage[line];
     if (share < least_named && !text.empty()) break;
     text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", escaped(life.cause[cause]), 100 * share);
@@ -108,7 +108,7 @@ std::string program_table(const LifeSummary& life) {
   };
   std::string rows;
   double largest = 0;
-  for (const std::size_t line : largest_of(damage, listed_lines)) {
+  for (const std::size_t line : largest_above_zero(damage, listed_lines)) {
     largest = std::max(largest, damage[line]);
     if (damage[line] < least_listed * total) break;
     const LineRuns of = runs_of(line, runs);
@@ -132,7 +132,7 @@ std::string program_table(const LifeSummary& life) {
 
 std::string layer_table(const LifeSummary& life, const RankingRow& row) {
   std::string rows;
-  for (const std::size_t i : largest_of(life.layer_damage, listed_layers)) {
+  for (const std::size_t i : largest_above_zero(life.layer_damage, listed_layers)) {
     const double repeats = 1 / life.layer_damage[i];
     rows += fmt::format(
         "<tr><td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td><td "

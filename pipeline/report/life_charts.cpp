@@ -9,6 +9,7 @@
 #include <numeric>
 #include <optional>
 
+#include "pipeline/base/lists.h"
 #include "pipeline/base/order.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/base/readable.h"
@@ -162,15 +163,7 @@ std::vector<Bin> bins_of(const std::vector<WorstCycle>& cycles) {
     bin.count += cycle.count;
     bin.damage += cycle.damage;
   }
-  std::vector<Bin> list;
-  for (const auto& [index, bin] : bins) list.push_back(bin);
-  return list;
-}
-
-std::vector<double> column(const std::vector<Bin>& bins, double Bin::*member) {
-  std::vector<double> values;
-  for (const Bin& bin : bins) values.push_back(bin.*member);
-  return values;
+  return mapped(bins, &std::pair<const int, Bin>::second);
 }
 
 /// Returns the axis over all ranges, with margins for the outer bins.
@@ -360,8 +353,8 @@ double nearly_worst_share(const LifeSummary& life) {
 std::string cycle_chart(const LifeSummary& life) {
   const std::vector<Bin> bins = bins_of(life.cycles);
   if (bins.empty()) return "";
-  const std::vector<double> counts = column(bins, &Bin::count);
-  std::vector<double> shares = column(bins, &Bin::damage);
+  const std::vector<double> counts = mapped(bins, &Bin::count);
+  std::vector<double> shares = mapped(bins, &Bin::damage);
   const double total = sum(shares);
   for (double& share : shares) share *= total > 0 ? in_percent / total : 0;
   const PlotAxis x = range_axis(bins);

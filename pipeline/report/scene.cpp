@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "pipeline/base/constants.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/files/files.h"
 #include "pipeline/job/setup.h"
 #include "pipeline/report/hose_line.h"
@@ -102,9 +103,7 @@ std::vector<std::vector<Vector3d>> hose_points(const FileReader& file, std::size
   std::vector<double> clamps, centres;
   file.read_rows("/clamp/position", sample, 1, clamps);
   file.read_rows("/segment/position", sample, 1, centres);
-  std::vector<std::vector<Vector3d>> points;
-  for (const DresspackLine& line : hose_lines(file)) points.push_back(line.in(clamps, centres));
-  return points;
+  return mapped(hose_lines(file), [&](const DresspackLine& line) { return line.in(clamps, centres); });
 }
 
 /// Adds a dresspack. Segment i extends half way to its neighbours.

@@ -12,6 +12,8 @@
 #include "pipeline/advise/calibrate/life_over_parameters.h"
 #include "pipeline/advise/calibrate/measured_bending.h"
 #include "pipeline/advise/calibrate/typical_cables.h"
+#include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/statistics.h"
 #include "pipeline/files/files.h"
@@ -222,9 +224,7 @@ class RoundEmulation {
                                                   readable(std::exp(change), 2)));
     }
     std::sort(factors.begin(), factors.end());
-    std::string words;
-    for (const auto& [change, text] : factors) words += (words.empty() ? "" : ", ") + text;
-    return words;
+    return joined(mapped(factors, [](const auto& factor) { return factor.second; }), ", ");
   }
 
   const RankingRow& row_of(const ObservedTest& test, std::size_t job) const {
@@ -335,9 +335,7 @@ class RoundEmulation {
 
 double EmulatedTest::log_likelihood_at(const VectorXd& z) const {
   if (life) return log_likelihood(*life, z);
-  std::vector<double> terms;
-  for (const Measurement& variant : bending) terms.push_back(log_likelihood(variant, z));
-  return log_mean(terms);
+  return log_mean(mapped(bending, [&](const Measurement& variant) { return log_likelihood(variant, z); }));
 }
 
 std::vector<EmulatedTest> emulate(const std::vector<ObservedTest>& tests, const RoundOfJobs& round,

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipeline/base/lists.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/statistics.h"
 #include "pipeline/job/uncertainty.h"
@@ -133,8 +134,7 @@ std::string learned_table(const Learned& learned) {
     text += fmt::format("\n{}, not validated, from hoses that had not cracked: x {} ({} .. {}), before x 1 ({} .. {})\n", wall.name,
                         factor(wall.median), factor(wall.low), factor(wall.high), factor(-normal_decile), factor(normal_decile));
   }
-  std::size_t name = 22;
-  for (const LearnedTest& test : learned.tests) name = std::max(name, columns_of(test.observation.name));
+  const std::size_t name = largest_of(learned.tests, std::size_t{22}, [](const LearnedTest& test) { return columns_of(test.observation.name); });
   constexpr const char* columns = "{:<{}} {:>20} {:>31} {:>31} {:>31}  {}\n";
   text += "\n" + fmt::format(fmt::runtime(columns), "observation", name, "observed", "predicted before", "predicted by the others",
                              "predicted after", "fails first");

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "pipeline/base/errors.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/statistics.h"
 #include "pipeline/cable/believable.h"
@@ -89,12 +90,10 @@ void see_modes(Outcome& outcome, const RankingRow& row, const AskedLimits& asked
 
 /// Keeps the shortest life by each mode of each dresspack.
 void see_lives(std::vector<ModeLife>& lives, const ModeLife& of) {
-  const auto same =
-      std::find_if(lives.begin(), lives.end(), [&](const ModeLife& one) { return one.mode == of.mode; });
-  if (same == lives.end())
-    lives.push_back(of);
-  else
+  if (ModeLife* const same = find_in(lives, &ModeLife::mode, of.mode))
     same->hours = std::min(same->hours, of.hours);
+  else
+    lives.push_back(of);
 }
 
 /// Adds the violation of the required slack, as a share of the length. The limit is also a share of the length, which gives the

@@ -10,6 +10,7 @@
 
 #include "pipeline/base/constants.h"
 #include "pipeline/base/digest.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/order.h"
 #include "pipeline/files/files.h"
 #include "pipeline/life/planning.h"
@@ -318,8 +319,7 @@ DutyLives lives_under(const DutyDamage& duty, const std::vector<PastDamage>& his
   for (std::size_t s = 0; s < samples; ++s) {
     double left = infinity;
     for (std::size_t m = 0; m < duty.modes(); ++m) {
-      double used = 0;
-      for (const PastDamage& past : history) used += past.hours * past.duty->in_mode(m, s);
+      const double used = sum_of(history, [&](const PastDamage& past) { return past.hours * past.duty->in_mode(m, s); });
       const double rate = duty.in_mode(m, s);
       left = std::min(left, used >= 1 ? 0 : rate > 0 ? (1 - used) / rate : infinity);
     }

@@ -11,6 +11,7 @@
 #include "pipeline/base/csv_rows.h"
 #include "pipeline/base/digest.h"
 #include "pipeline/base/limits.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/job/uncertainty.h"
 #include "pipeline/settings/units.h"
@@ -70,8 +71,7 @@ std::string window_text(const Window& window) {
 std::string percent_text(double share) { return readable(100 * share, 2) + " %"; }
 
 std::string expected_words(const Plan& plan) {
-  double before = 0;
-  for (const RowPlan& row : plan.rows) before += row.fails_before_first;
+  const double before = sum_of(plan.rows, &RowPlan::fails_before_first);
   constexpr double surprising = 0.023;  // one-sided probability of more than two standard deviations
   std::string alive;
   if (plan.all_alive < surprising)
@@ -130,8 +130,7 @@ std::string plan_words(const Fleet& fleet, const Plan& plan) {
     return plan.rows[a].fails_before > plan.rows[b].fails_before;
   });
   risky.resize(std::min<std::size_t>(risky.size(), 10));
-  std::size_t wide = 9;
-  for (const std::size_t i : risky) wide = std::max(wide, columns_of(fleet.rows[i].name));
+  const std::size_t wide = largest_of(risky, std::size_t{9}, [&](std::size_t i) { return columns_of(fleet.rows[i].name); });
   text += fmt::format("\n{:<{}}  {:>9}  {:>26}  {:>25}  {}\n", "most risk", wide, "age [h]",
                       "fails before first window", "fails before replacement", "replace");
   for (const std::size_t i : risky) {
@@ -302,10 +301,8 @@ std::string what_if_words(const std::string& name, const Fleet& fleet, const Pla
   };
   std::vector<std::string> changes;
   for (std::size_t i = 0; i < changed.rows.size(); ++i) {
-    const auto old = std::find_if(fleet.rows.begin(), fleet.rows.end(),
-                                  [&](const Installed& row) { return row.name == changed.rows[i].name; });
-    const std::string now =
-        old == fleet.rows.end() ? "new" : when(plan, static_cast<std::size_t>(old - fleet.rows.begin()));
+    const Installed* const old = find_in(fleet.rows, &Installed::name, changed.rows[i].name);
+    const std::string now = old ? when(plan, static_cast<std::size_t>(old - fleet.rows.data())) : "new";
     if (now != when(other, i))
       changes.push_back(fmt::format("{}: {} ({})", changed.rows[i].name, when(other, i), now));
   }

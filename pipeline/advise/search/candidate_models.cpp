@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "pipeline/base/lists.h"
+
 namespace dresslife::pipeline {
 
 using Eigen::Index;
@@ -40,9 +42,7 @@ std::vector<const Candidate*> chosen(const std::vector<Candidate>& short_runs,
   }
   std::stable_sort(some.begin(), some.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   if (some.size() > most_short_runs) some.resize(most_short_runs);
-  std::vector<const Candidate*> of;
-  for (const auto& [distance, short_run] : some) of.push_back(short_run);
-  return of;
+  return mapped(some, &std::pair<double, const Candidate*>::second);
 }
 
 VectorXd pieces_of(const Candidate& candidate, std::size_t limit) {
