@@ -245,22 +245,17 @@ struct FileWriter::Impl {
     };
     switch (target.description->type) {
       case Type::f64:
-        convert(double{});
-        break;
+        return convert(double{});
       case Type::f32:
-        convert(float{});
-        break;
+        return convert(float{});
       case Type::i32:
-        convert(std::int32_t{});
-        break;
+        return convert(std::int32_t{});
       case Type::u32:
-        convert(std::uint32_t{});
-        break;
+        return convert(std::uint32_t{});
       case Type::u64:
-        convert(std::uint64_t{});
-        break;
+        return convert(std::uint64_t{});
       case Type::text:
-        break;
+        return;
     }
   }
 

@@ -617,6 +617,12 @@ const char* type_text(Type type) {
   return texts[static_cast<int>(type)];
 }
 
+template <Format (*make)()>
+const Format& made() {
+  static const Format format = make();
+  return format;
+}
+
 }  // namespace
 
 const Dataset& Format::find(std::string_view path) const {
@@ -624,33 +630,12 @@ const Dataset& Format::find(std::string_view path) const {
   throw std::logic_error(fmt::format("{} has no dataset {}", name, path));
 }
 
-const Format& motion_format() {
-  static const Format format = make_motion_format();
-  return format;
-}
-const Format& strain_format() {
-  static const Format format = make_strain_format();
-  return format;
-}
-const Format& life_format() {
-  static const Format format = make_life_format();
-  return format;
-}
-
-const Format& preview_format() {
-  static const Format format = make_preview_format();
-  return format;
-}
-
-const Format& screening_format() {
-  static const Format format = make_screening_format();
-  return format;
-}
-
-const Format& ways_format() {
-  static const Format format = make_ways_format();
-  return format;
-}
+const Format& motion_format() { return made<make_motion_format>(); }
+const Format& strain_format() { return made<make_strain_format>(); }
+const Format& life_format() { return made<make_life_format>(); }
+const Format& preview_format() { return made<make_preview_format>(); }
+const Format& screening_format() { return made<make_screening_format>(); }
+const Format& ways_format() { return made<make_ways_format>(); }
 
 std::string file_manual() {
   std::string text;

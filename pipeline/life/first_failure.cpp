@@ -40,22 +40,18 @@ std::string own_name(const LifeResponse& response, const std::string& job) {
 
 std::string stream_of(const LifeResponse& response, std::size_t parameter, const std::string& job) {
   const UncertainParameter& of = uncertain_parameters()[parameter];
-  std::string shared;
+  const std::string name = std::string(of.name) + "/";
   switch (of.shared) {
     case SharedBy::construction:
-      shared = "construction " + response.construction;
-      break;
+      return name + "construction " + response.construction;
     case SharedBy::material:
-      shared = "material " + response.material;
-      break;
+      return name + "material " + response.material;
     case SharedBy::everything:
-      shared = "everything";
-      break;
+      return name + "everything";
     case SharedBy::installation:
-      shared = own_name(response, job);
       break;
   }
-  return std::string(of.name) + "/" + shared;
+  return name + own_name(response, job);
 }
 
 /// Returns the lower triangle L with L L^T = covariance; a known parameter has a row of zeros. Shared parameters come before

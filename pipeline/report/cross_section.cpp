@@ -255,6 +255,18 @@ Component whole(const Dresspack& dresspack) {
   return all;
 }
 
+/// Returns the bending stiffness of all wires [N m2], (levels + 1). Entry 0: each wire bends about its own axis. Next entries:
+/// the parts that contain wires are solid, then the parts that contain these parts, and so on. Last entry: no part slides.
+///     E A(part) = sum over its layers of K E A(inner) cos^3(alpha),
+///     E I(part) = sum over its layers of K (E I(inner) + E A(inner) cos^3(alpha) R^2 / 2),
+/// with the last term for solid parts only. Wires of unknown material have stiffness 0. Precondition: there are parts.
+std::vector<double> bending_stiffnesses(const Dresspack& dresspack, const Component& all) {
+  std::vector<double> stiffness;
+  for (int solid_from = depth_of(dresspack.components); solid_from >= 0; --solid_from)
+    stiffness.push_back(stiffness_of(dresspack, all, 0, solid_from).bending);
+  return stiffness;
+}
+
 }  // namespace
 
 std::string cross_section_picture(const Dresspack& dresspack, LayerLines layers) {
@@ -267,16 +279,6 @@ std::vector<std::string> wire_paths(const Dresspack& dresspack) {
   return paths;
 }
 
-std::vector<double> bending_stiffnesses(const Dresspack& dresspack) {
-  std::vector<double> stiffness;
-  const int levels = depth_of(dresspack.components);
-  if (levels == 0) return stiffness;
-  const Component all = whole(dresspack);
-  for (int solid_from = levels; solid_from >= 0; --solid_from)
-    stiffness.push_back(stiffness_of(dresspack, all, 0, solid_from).bending);
-  return stiffness;
-}
-
 std::string construction_text(const Dresspack& dresspack) {
   std::string text =
       fmt::format("{}: {:.4g} mm, {:.4g} kg/m, E I {:.4g} N m2, G J {:.4g} N m2, E A {:.4g} N\n",
@@ -286,7 +288,7 @@ std::string construction_text(const Dresspack& dresspack) {
   const Component all = whole(dresspack);
   if (dresspack.components.empty())
     return text + "no parts: its motion can be simulated, no wire has a life\n";
-  const std::vector<double> bending = bending_stiffnesses(dresspack);
+  const std::vector<double> bending = bending_stiffnesses(dresspack, all);
   text += fmt::format("{:.0f} wires of {:.4g} mm2, E A {:.4g} N\n", wires_of(all),
                       1e6 * section_of_wires(all), stiffness_of(dresspack, all, 0, 0).axial);
   text += fmt::format("E I of the wires [N m2]: {:.3g} when all slide", bending.front());

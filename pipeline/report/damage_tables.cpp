@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 
+#include "pipeline/base/lists.h"
 #include "pipeline/base/order.h"
 #include "pipeline/report/chart_style.h"
 #include "pipeline/report/page_shell.h"
@@ -50,7 +50,7 @@ std::string main_causes(const LifeSummary& life, std::size_t line) {
 
 /// Returns the table of the joints that moved between opening and closing of the worst wire's cycles.
 std::string cause_table(const LifeSummary& life) {
-  const double total = std::accumulate(life.cause_damage.begin(), life.cause_damage.end(), 0.0);
+  const double total = sum_of(life.cause_damage);
   if (!(total > 0)) return "";
   const double largest = *std::max_element(life.cause_damage.begin(), life.cause_damage.end());
   std::string rows;
@@ -82,26 +82,10 @@ std::vector<double> damage_of_lines(const LifeSummary& life) {
   return damage;
 }
 
-/// The number of runs of a line, and its run in which most damage is completed.
-struct LineRuns {
-  std::size_t times = 0;
-  const ProgramRun* costliest = nullptr;
-};
-
-LineRuns runs_of(std::size_t line, const std::vector<ProgramRun>& runs) {
-  LineRuns of;
-  for (const ProgramRun& run : runs) {
-    if (run.step != static_cast<std::int32_t>(line)) continue;
-    ++of.times;
-    if (!of.costliest || run.damage > of.costliest->damage) of.costliest = &run;
-  }
-  return of;
-}
-
 std::string program_table(const LifeSummary& life) {
   constexpr double least_listed = 5e-4;  // share of the damage that rounds to 0.1 %
   const std::vector<double> damage = damage_of_lines(life);
-  const double total = std::accumulate(damage.begin(), damage.end(), 0.0);
+  const double total = sum_of(damage);
   const std::vector<ProgramRun> runs = program_runs(life);
   const auto share = [&](const std::vector<double>& of, std::size_t line) {
     return of.empty() ? "" : fmt::format("{:.1f} %", 100 * of[line] / total);
@@ -153,7 +137,7 @@ std::string place_remark(const LifeSummary& life) {
         "to clamp: "
         "do not expect the break in one place.",
         100 * share);
-  const double total = std::accumulate(life.clamp_damage.begin(), life.clamp_damage.end(), 0.0);
+  const double total = sum_of(life.clamp_damage);
   std::string shares;
   for (std::size_t k = 0; total > 0 && k < life.clamps.size(); ++k)
     shares += fmt::format("{}{} {:.0f} %", shares.empty() ? " By the nearest clamp: " : "; ",

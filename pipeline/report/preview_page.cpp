@@ -152,23 +152,19 @@ Json ways_data(const FileReader& file, const std::vector<SpanPreview>& spans) {
   return {{"time", mapped(times, [&](double time) { return time - times[0]; })}, {"spans", rows}};
 }
 
-/// Returns the time in a message of the simulation, "... at 151.040 s, program step 9 ..."; NaN: the message contains none.
-double time_in(const std::string& failure) {
-  const std::size_t end = failure.find(" s, program step "),
-                    begin = end == std::string::npos ? end : failure.rfind(" at ", end);
-  double time = std::numeric_limits<double>::quiet_NaN();
-  if (begin != std::string::npos) std::from_chars(failure.data() + begin + 4, failure.data() + end, time);
-  return time;
+/// Returns the number between two phrases of a message; NaN: the message does not contain them.
+double number_between(std::string_view before, std::string_view after, const std::string& message) {
+  const std::size_t end = message.find(after), begin = end == std::string::npos ? end : message.rfind(before, end - 1);
+  double number = std::numeric_limits<double>::quiet_NaN();
+  if (begin != std::string::npos) std::from_chars(message.data() + begin + before.size(), message.data() + end, number);
+  return number;
 }
 
+/// Returns the time in a message of the simulation, "... at 151.040 s, program step 9 ..."; NaN: the message contains none.
+double time_in(const std::string& failure) { return number_between(" at ", " s, program step ", failure); }
+
 /// Returns the place along a dresspack in a message of the simulation, "... 0.42 m from its base clamp" [m]; NaN: none.
-double place_in(const std::string& refusal) {
-  const std::size_t end = refusal.find(" m from its base clamp"),
-                    begin = end == std::string::npos ? end : refusal.rfind(' ', end - 1);
-  double place = std::numeric_limits<double>::quiet_NaN();
-  if (begin != std::string::npos) std::from_chars(refusal.data() + begin + 1, refusal.data() + end, place);
-  return place;
-}
+double place_in(const std::string& refusal) { return number_between(" ", " m from its base clamp", refusal); }
 
 }  // namespace
 

@@ -292,12 +292,8 @@ std::vector<std::string> paragraphs(const RankingRow& row) {
   if (!row.has_result()) return all;
   if (row.done())
     if (const std::string kinds = warning_kinds(row); !kinds.empty()) all.push_back("WARNING: " + kinds);
-  all.push_back(held_words(row));
-  all.push_back(uncapped_words(row));
-  all.push_back(repeat_words(row));
-  all.push_back(uncertainty_words(row));
-  all.push_back(failure_words(row));
-  all.push_back(own_values_words(row));
+  all.insert(all.end(), {held_words(row), uncapped_words(row), repeat_words(row), uncertainty_words(row), failure_words(row),
+                         own_values_words(row)});
   if (!row.not_evaluated.empty() && action_words(row).find(row.not_evaluated) == std::string::npos)
     all.push_back(fmt::format("Not evaluated: {}.", row.not_evaluated));
   if (row.done() && row.relative) all.push_back(relative_words(*row.relative));
@@ -351,9 +347,8 @@ std::vector<RankingRow> results_of(const Study& study, const StudyPlaces& places
   std::vector<JobResult> results;
   for (std::size_t k = 0; k < states.size(); ++k) {
     const StudyJob& job = study.jobs[k];
-    JobResult result{job.name, places.life(job.name), first_problem(job), states[k].settings, states[k].results};
-    result.stale = states[k].has_last;
-    result.changed = states[k].changed;
+    JobResult result{job.name,          places.life(job.name), first_problem(job), states[k].settings,
+                     states[k].results, states[k].has_last,    states[k].changed};
     const bool found = states[k].done() || states[k].has_last;
     if (found && states[k].keep == Keep::lives && !state_of(result.life_file).exists()) result.life_file.clear();
     if (job.failure.empty() && !states[k].done())

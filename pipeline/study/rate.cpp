@@ -30,6 +30,15 @@ bool tells_friction(const Node& component) {
   });
 }
 
+/// Returns strain.slip for a job of this cable alone: "free", then "friction" if all its parts have its keys, else "free".
+std::string slip_of_cable(const Node& alone) {
+  const Node& cable = alone.find("components")->items.front();
+  const bool rubs = tells_friction(cable);
+  std::vector<std::string> words{"free"};
+  for (int level = 1; level < levels_of(cable); ++level) words.push_back(rubs ? "friction" : "free");
+  return fmt::format("[{}]", joined(words, ", "));
+}
+
 std::string fit_for_a_folder(std::string text) {
   for (char& letter : text)
     if (!std::isalnum(static_cast<unsigned char>(letter)) && letter != '-') letter = '_';
@@ -133,20 +142,10 @@ int levels_of(const Node& component) {
   return 1 + (parts ? largest_of(parts->items, 0, levels_of) : 0);
 }
 
-std::string slip_of_cable(const Node& alone) {
-  const Node& cable = alone.find("components")->items.front();
-  const bool rubs = tells_friction(cable);
-  std::vector<std::string> words{"free"};
-  for (int level = 1; level < levels_of(cable); ++level) words.push_back(rubs ? "friction" : "free");
-  return fmt::format("[{}]", joined(words, ", "));
-}
-
 std::string rig_words(const Rig& rig) {
   const Node keys = echo_fields(rig);
-  std::vector<std::string> words;
-  for (const Entry& entry : keys.entries)
-    if (entry.key != "kind" && entry.key != "cycles_per_minute")
-      words.push_back(entry.key + " " + entry.value.text);
+  const auto has_unit = [](const Entry& entry) { return entry.key != "kind" && entry.key != "cycles_per_minute"; };
+  const auto words = mapped(filtered(keys.entries, has_unit), [](const Entry& entry) { return entry.key + " " + entry.value.text; });
   return fmt::format("{}: {}", word(rig.kind), joined(words, ", "));
 }
 

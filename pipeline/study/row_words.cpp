@@ -61,10 +61,6 @@ std::string joined_words(const std::vector<std::string>& sentences) {
   return joined(filtered(sentences, [](const std::string& sentence) { return !sentence.empty(); }), " ");
 }
 
-}  // namespace
-
-namespace {
-
 /// Returns "2,000 .. 90,000 h (10 .. 90 %, not validated)". Old files contain only the median.
 std::string wall_life(const UnvalidatedMode& mode) {
   if (!std::isfinite(mode.hours[0])) return hours_text(mode.hours[1]) + " (not validated)";

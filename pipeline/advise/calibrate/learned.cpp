@@ -47,9 +47,7 @@ void add_service_doubts(const LearnedTest& test, double surprising, Learned& lea
         name, before.few < before.many ? "fewer" : "more", seen, readable(1 / std::max(chance, 1e-12), 2), before.few < before.many ? "few" : "many",
         life_text(test.before[1], 2), life_text(test.after[1], 2)));
   if (after.reach < usual_reach) {
-    std::vector<double> ages;
-    for (const ServiceRecord& one : test.observation.service)
-      if (one.entry_hours > 0) ages.push_back(one.entry_hours);
+    const auto ages = filtered(mapped(test.observation.service, &ServiceRecord::entry_hours), [](double age) { return age > 0; });
     learned.warnings.push_back(fmt::format(
         "'{}': {} dresspacks were in use when the records begin, half of them {} old or older. By this calibration {} of new ones reach such "
         "ages (before: {}), half of them live {}. The hours before the records do not count, because the table may lack dresspacks that were "

@@ -185,10 +185,7 @@ class Improver {
     const Screen screen = [this](const std::vector<VectorXd>& places) { return surely_beyond(places); };
     if (request_.method == SearchMethod::random)
       return std::make_unique<RandomSearch>(freedom_.variables(), request_.seed, screen);
-    SurrogateSettings settings;
-    settings.seed = request_.seed;
-    settings.aims = aims();
-    settings.short_runs = std::max(0, request_.short_runs);
+    const SurrogateSettings settings{.seed = request_.seed, .aims = aims(), .short_runs = std::max(0, request_.short_runs)};
     done_.most_short_runs =
         request_.short_runs > 0 ? request_.short_runs : static_cast<int>(40 * freedom_.variables());
     ShortRuns make_short_runs;

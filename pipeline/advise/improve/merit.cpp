@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "pipeline/base/joined.h"
 #include "pipeline/base/lists.h"
 #include "pipeline/base/readable.h"
 
@@ -88,11 +89,9 @@ bool clearly_better(const Merit& one, const Merit& other) {
 }
 
 std::string mode_words(const Outcome& outcome) {
-  std::string text;
-  for (const ModeLife& mode : earliest_first(outcome.modes))
-    if (mode.hours < outcome.robot_life)
-      text += fmt::format("{}{} from {}", text.empty() ? "" : ", ", mode.mode, hours_text(mode.hours));
-  return text;
+  const auto matters = [&](const ModeLife& mode) { return mode.hours < outcome.robot_life; };
+  const auto words = [](const ModeLife& mode) { return fmt::format("{} from {}", mode.mode, hours_text(mode.hours)); };
+  return joined(mapped(filtered(earliest_first(outcome.modes), matters), words), ", ");
 }
 
 }  // namespace dresslife::pipeline

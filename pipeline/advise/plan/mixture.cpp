@@ -206,10 +206,6 @@ std::vector<double> SamePlace::at(const std::vector<double>& repeats_per_hour,
   return share;
 }
 
-RepeatDamage damage_of_repeat(const FailureModes& modes, const std::string& dresspack, std::size_t samples) {
-  return damage_of_lives(mode_lives(modes, dresspack, samples));
-}
-
 RepeatDamage damage_of_lives(std::vector<std::vector<double>> log10_lives) {
   for (std::vector<double>& of_mode : log10_lives)
     for (double& life : of_mode) life = std::pow(10.0, -life);
@@ -236,7 +232,7 @@ DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std
   return damage_under(
       programs, rates, share,
       [&](const EvaluatedProgram& program) -> const RepeatDamage& {
-        return damage = damage_of_repeat(*program.modes, dresspack, samples);
+        return damage = damage_of_lives(mode_lives(*program.modes, dresspack, samples));
       },
       [&](const EvaluatedProgram& program, double deviation_percent) -> const std::vector<double>& {
         return factors = repeat_factors(program.job, deviation_percent, dresspack, samples);

@@ -21,6 +21,13 @@ constexpr Index most_for_shape = 120;         // for a fit of the shapes: the sa
 constexpr int shape_evaluations = 60;
 constexpr double same = 1e-9;  // values and places with a smaller difference are equal
 
+/// Returns (Q3) sign(g) ln(1 + |g|). NaN stays NaN.
+double tamed(double g) {
+  constexpr double far_kept = -1, far_beyond = 20;
+  const double bounded = std::clamp(g, far_kept, far_beyond);
+  return std::copysign(std::log1p(std::abs(bounded)), bounded);
+}
+
 constexpr GaussianProcess::Scale missed_by_short_runs{0.1, 3};
 
 enum ShapeOf : std::size_t { of_aim, of_failure, of_limits };
@@ -57,12 +64,6 @@ VectorXd pieces_of(const Candidate& candidate, std::size_t limit) {
 double failure_of(const Candidate& candidate) { return candidate.ran ? -1 : 1 + tamed(candidate.violation()); }
 
 }  // namespace
-
-double tamed(double g) {
-  constexpr double far_kept = -1, far_beyond = 20;
-  const double bounded = std::clamp(g, far_kept, far_beyond);
-  return std::copysign(std::log1p(std::abs(bounded)), bounded);
-}
 
 void CandidateModels::FunctionModel::add(const VectorXd& place, const VectorXd& pieces) {
   const Index row = places.rows();
