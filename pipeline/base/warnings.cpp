@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/warning_words.h"
 
@@ -135,9 +136,7 @@ std::string paragraph(const std::string& of) {
 std::string Warning::text() const { return where.empty() ? words : where + ": " + words; }
 
 std::string Remedy::text() const {
-  std::vector<std::string> pairs;
-  for (const KeyValue& of : values) pairs.push_back(of.key + separator + of.value);
-  return preferred + joined(pairs, " and ") + words;
+  return preferred + joined(mapped(values, [](const KeyValue& of) { return of.key + separator + of.value; }), " and ") + words;
 }
 
 Warning warning_of(WarningKind kind, std::string where, const std::string& what, const std::string& cause,

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "pipeline/base/constants.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/cable/plain_properties.h"
 #include "pipeline/cable/polymer.h"
 #include "pipeline/cable/shares.h"
@@ -92,9 +93,7 @@ void descend(const Dresspack& dresspack, const Component& layer, const BentPart&
 
 /// Returns the number of levels of parts in a part, at least one. Each level needs one order (series.h).
 int levels_in(const Component& part) {
-  int levels = 0;
-  for (const Component& inner : part.components) levels = std::max(levels, levels_in(inner) + 1);
-  return levels;
+  return largest_of(part.components, 0, [](const Component& inner) { return levels_in(inner) + 1; });
 }
 
 /// Returns a uniformly deformed cable with enough orders for its deepest wires.
@@ -142,11 +141,10 @@ double axial_stiffness(const Dresspack& dresspack, const Component& part) {
     const Material* const material = find_material(dresspack, part.material);
     return material ? material->youngs_modulus * pi * part.radius * part.radius : 0;
   }
-  double sum = 0;
-  for (const Component& inner : part.components)
-    sum += inner.count * axial_stiffness(dresspack, inner) * std::pow(std::cos(inner.lay_angle), 3) *
+  return sum_of(part.components, [&](const Component& inner) {
+    return inner.count * axial_stiffness(dresspack, inner) * std::pow(std::cos(inner.lay_angle), 3) *
            left_by_bed(dresspack, inner);
-  return sum;
+  });
 }
 
 double left_by_bed(const Dresspack& dresspack, const Component& part) {
@@ -192,16 +190,14 @@ double CableBending::moment(double curvature, double friction_level) const {
 }
 
 double CableBending::free_stiffness() const {
-  double sum = own_stiffness_;
-  for (const HeldLayer& of : held_) sum += of.elastic * of.share * of.glued;
-  return sum;
+  return sum_of(held_, [](const HeldLayer& of) { return of.elastic * of.share * of.glued; }, own_stiffness_);
 }
 
 double CableBending::stuck_stiffness(int levels) const {
-  double sum = own_stiffness_;
-  for (const HeldLayer& of : held_)
-    sum += of.share * of.glued * (levels == 0 || of.depth > depth_ - levels ? 1 : of.elastic);
-  return sum;
+  const auto stiffness = [&](const HeldLayer& of) {
+    return of.share * of.glued * (levels == 0 || of.depth > depth_ - levels ? 1 : of.elastic);
+  };
+  return sum_of(held_, stiffness, own_stiffness_);
 }
 
 double PullAndTwist::relaxed() const {
@@ -265,9 +261,7 @@ std::vector<double> bending_moments(const Dresspack& dresspack, Component cable,
   const double level = cable.measured_bending_stiffness ? friction_level(dresspack, cable) : 1;
   scale_friction(cable.components, friction);
   const CableBending bending(dresspack, cable);
-  std::vector<double> moments;
-  for (const double k : curvature) moments.push_back(polymer_bending(cable) * k + bending.moment(k, level));
-  return moments;
+  return mapped(curvature, [&](double k) { return polymer_bending(cable) * k + bending.moment(k, level); });
 }
 
 }  // namespace dresslife::pipeline

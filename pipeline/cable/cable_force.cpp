@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "pipeline/base/constants.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/cable/cable_bending.h"
 #include "pipeline/cable/cyclic_curve.h"
 #include "pipeline/cable/plain_properties.h"
@@ -69,9 +70,7 @@ double CableForce::Wires::stress(double strain) const {
 }
 
 double CableForce::force(double strain) const {
-  double sum = 0;
-  for (const Wires& wires : wires_) sum += wires.area * wires.stress(wires.share * strain);
-  return sum;
+  return sum_of(wires_, [&](const Wires& wires) { return wires.area * wires.stress(wires.share * strain); });
 }
 
 double CableForce::strain_at(double wanted) const {

@@ -7,6 +7,7 @@
 
 #include "pipeline/base/constants.h"
 #include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/cable/believable.h"
 #include "pipeline/cable/bend_limit.h"
 #include "pipeline/base/warning_words.h"
@@ -101,8 +102,8 @@ class Judge {
   }
 
   void parts(const std::vector<Component>& components) {
-    double widest = 0;  // of all layers that are stranded together: they have one lay length, so the innermost has a small angle
-    for (const Component& of : components) widest = std::max(widest, 2 * (of.helix_radius + of.radius));
+    // of all layers that are stranded together: they have one lay length, so the innermost has a small angle
+    const double widest = largest_of(components, 0.0, [](const Component& of) { return 2 * (of.helix_radius + of.radius); });
     for (std::size_t k = 0; k < components.size(); ++k) {
       const Component& of = components[k];
       if (is_wire(of) && of.radius < thinnest)

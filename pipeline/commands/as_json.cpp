@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "pipeline/base/csv_rows.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/settings/document.h"
 
@@ -46,11 +47,8 @@ Json json_of(const Node& document) {
       if (document.quoted) return document.text;
       if (document.text == "true" || document.text == "false") return document.text == "true";
       return json_of_cell(document.text);
-    case Node::Kind::list: {
-      std::vector<Json> items;
-      for (const Node& item : document.items) items.push_back(json_of(item));
-      return items;
-    }
+    case Node::Kind::list:
+      return mapped(document.items, json_of);
     case Node::Kind::map:
       break;
   }

@@ -9,6 +9,8 @@
 #include "pipeline/advise/improve/finals.h"
 #include "pipeline/advise/improve/improvement.h"
 #include "pipeline/advise/improve/story.h"
+#include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/progress.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/whole_file.h"
@@ -46,10 +48,7 @@ void show(Progress& progress, const Improvement& so_far, int trials) {
 }
 
 FilesAtStart files_of(const Study& study) {
-  std::vector<std::shared_ptr<const Job>> jobs;
-  for (const StudyJob& job : study.jobs)
-    if (job.job) jobs.push_back(job.job);
-  return FilesAtStart(std::move(jobs));
+  return FilesAtStart(filtered(mapped(study.jobs, &StudyJob::job), [](const auto& job) { return job != nullptr; }));
 }
 
 /// Ends a search whose files changed. Its trials so far belong to the old files.

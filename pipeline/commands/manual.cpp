@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "pipeline/advise/plan/duty.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/commands/command.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/files/files.h"
@@ -93,9 +94,7 @@ std::vector<KeyRow> keys_of(const std::string& wanted) {
     return row.meaning.find("`" + last + ":") != std::string::npos || row.meaning.find("'" + last + ":") != std::string::npos;
   });
   if (!found.empty()) return found;
-  std::vector<std::string> names;
-  for (const KeyRow& row : all) names.push_back(row.key);
-  const std::string near = nearest_word(last, names);
+  const std::string near = nearest_word(last, mapped(all, &KeyRow::key));
   throw InputError({"dresslife manual"}, fmt::format("there is no key '{}'", wanted),
                    near.empty() ? "see 'dresslife manual keys'" : fmt::format("did you mean '{}'?", near));
 }

@@ -16,6 +16,7 @@
 #include "pipeline/advise/plan/value_of_checks.h"
 #include "pipeline/base/exported.h"
 #include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/warning_words.h"
 #include "pipeline/base/whole_file.h"
@@ -100,8 +101,7 @@ std::vector<std::string> doubts_with_warnings(const std::vector<DutyResult>& dut
 std::vector<std::string> cautions(const std::vector<DutyResult>& duties) {
   std::vector<std::pair<double, const DutyResult*>> order;
   for (const DutyResult& duty : duties) {
-    double first = std::numeric_limits<double>::infinity();
-    for (const DutyMode& mode : duty.others) first = std::min(first, mode.hours);
+    const double first = smallest_of(duty.others, std::numeric_limits<double>::infinity(), &DutyMode::hours);
     if (!caution_words(duty).empty()) order.emplace_back(first, &duty);
   }
   const std::size_t named = std::min(order.size(), most_named);

@@ -13,6 +13,7 @@
 #include "pipeline/base/csv_rows.h"
 #include "pipeline/base/errors.h"
 #include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/whole_file.h"
 #include "pipeline/commands/command.h"
@@ -216,9 +217,7 @@ int reprogram(const ReprogramOptions& options) {
   const std::vector<RankingRow> rows = made_rows(study, places, options);
   for (std::size_t k = 0; k < study.jobs.size(); ++k) {
     const StudyJob& job = study.jobs[k];
-    const auto row =
-        std::find_if(rows.begin(), rows.end(), [&](const RankingRow& of) { return of.job == job.name; });
-    const TriedWay before = seen(*row, places);
+    const TriedWay before = seen(*find_in(rows, &RankingRow::job, job.name), places);
     if (!before.outcome.failure.empty()) {
       write_stderr(fmt::format("{}: error: it does not run: {}\n", job.name, before.outcome.failure));
       ++failed;

@@ -19,12 +19,10 @@ struct ShowOptions {
 };
 
 int show(const ShowOptions& options) {
-  if (kind_of(options.file) == FileKind::folder) {
-    print(shown(file_summary(job_files(options.file).life)));
-    return 0;
-  }
-  if (is_dresslife_file(options.file)) {
-    print(shown(file_summary(options.file)));
+  const std::filesystem::path file =
+      kind_of(options.file) == FileKind::folder ? job_files(options.file).life : std::filesystem::path(options.file);
+  if (file != options.file || is_dresslife_file(file)) {
+    print(shown(file_summary(file)));
     return 0;
   }
   const std::string text = job_text(named_file(options.file, "jobs"), options.sets);

@@ -42,9 +42,9 @@ std::string script_of(const SubmitOptions& options, const Cluster& cluster, cons
   const auto whole = [](const fs::path& file) { return shell_word(fs::absolute(file).string()); };
   const fs::path log = standing.places.folder / "submit.log";
   std::string text = "#!/bin/sh\n# Written by dresslife submit. Submitted again, it continues the study.\n";
-  text += fmt::format("#SBATCH --job-name={}\n", standing.study.name);
-  text += fmt::format("#SBATCH --ntasks={} --cpus-per-task=1 --mem-per-cpu={}\n", tasks, memory);
-  text += "#SBATCH --requeue --output=/dev/null\n";
+  text += fmt::format(
+      "#SBATCH --job-name={}\n#SBATCH --ntasks={} --cpus-per-task=1 --mem-per-cpu={}\n#SBATCH --requeue --output=/dev/null\n",
+      standing.study.name, tasks, memory);
   if (!cluster.options.empty()) text += fmt::format("#SBATCH {}\n", cluster.options);
   text +=
       fmt::format("cd {} && exec >>{} 2>&1 || exit 1\n", shell_word(fs::current_path().string()), whole(log));

@@ -2,6 +2,7 @@
 #include <cstring>
 #include <utility>
 
+#include "pipeline/base/lists.h"
 #include "pipeline/base/whole_file.h"
 #include "pipeline/files/checksum.h"
 #include "pipeline/files/file_driver.h"
@@ -244,28 +245,22 @@ struct FileWriter::Impl {
     };
     switch (target.description->type) {
       case Type::f64:
-        convert(double{});
-        break;
+        return convert(double{});
       case Type::f32:
-        convert(float{});
-        break;
+        return convert(float{});
       case Type::i32:
-        convert(std::int32_t{});
-        break;
+        return convert(std::int32_t{});
       case Type::u32:
-        convert(std::uint32_t{});
-        break;
+        return convert(std::uint32_t{});
       case Type::u64:
-        convert(std::uint64_t{});
-        break;
+        return convert(std::uint64_t{});
       case Type::text:
-        break;
+        return;
     }
   }
 
   void append_text(const std::string& path, std::span<const std::string> values) {
-    std::size_t longest = 0;
-    for (const std::string& value : values) longest = std::max(longest, value.size());
+    const std::size_t longest = largest_of(values, std::size_t{0}, [](const std::string& value) { return value.size(); });
     Open& target = dataset(path, longest);
     if (longest > target.value_bytes) throw std::logic_error("text of " + path + " is longer than its width");
     std::vector<char> bytes(values.size() * target.value_bytes, '\0');

@@ -3,6 +3,8 @@
 #include <initializer_list>
 #include <stdexcept>
 
+#include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/files/files.h"
 
 namespace dresslife::pipeline {
@@ -610,53 +612,30 @@ Format make_ways_format() {
 
 // clang-format on
 
-std::string shape_text(const Dataset& dataset) {
-  std::string text;
-  for (const std::string& axis : dataset.shape) text += (text.empty() ? "" : ", ") + axis;
-  return text;
-}
-
 const char* type_text(Type type) {
   constexpr const char* texts[] = {"float64", "float32", "int32", "uint32", "uint64", "text"};
   return texts[static_cast<int>(type)];
 }
 
+template <Format (*make)()>
+const Format& made() {
+  static const Format format = make();
+  return format;
+}
+
 }  // namespace
 
 const Dataset& Format::find(std::string_view path) const {
-  const auto found =
-      std::find_if(datasets.begin(), datasets.end(), [&](const Dataset& d) { return d.path == path; });
-  if (found == datasets.end()) throw std::logic_error(fmt::format("{} has no dataset {}", name, path));
-  return *found;
+  if (const Dataset* const found = find_in(datasets, &Dataset::path, path)) return *found;
+  throw std::logic_error(fmt::format("{} has no dataset {}", name, path));
 }
 
-const Format& motion_format() {
-  static const Format format = make_motion_format();
-  return format;
-}
-const Format& strain_format() {
-  static const Format format = make_strain_format();
-  return format;
-}
-const Format& life_format() {
-  static const Format format = make_life_format();
-  return format;
-}
-
-const Format& preview_format() {
-  static const Format format = make_preview_format();
-  return format;
-}
-
-const Format& screening_format() {
-  static const Format format = make_screening_format();
-  return format;
-}
-
-const Format& ways_format() {
-  static const Format format = make_ways_format();
-  return format;
-}
+const Format& motion_format() { return made<make_motion_format>(); }
+const Format& strain_format() { return made<make_strain_format>(); }
+const Format& life_format() { return made<make_life_format>(); }
+const Format& preview_format() { return made<make_preview_format>(); }
+const Format& screening_format() { return made<make_screening_format>(); }
+const Format& ways_format() { return made<make_ways_format>(); }
 
 std::string file_manual() {
   std::string text;
@@ -667,7 +646,7 @@ std::string file_manual() {
     for (const Dataset& dataset : format->datasets) {
       if (dataset.path.starts_with("/bound_")) continue;  // the text below the table describes them
       text += fmt::format("| `{}` | {}{} | {} | {} | {} |\n", dataset.path, type_text(dataset.type),
-                          dataset.may_be_absent ? ", optional" : "", shape_text(dataset), dataset.unit,
+                          dataset.may_be_absent ? ", optional" : "", joined(dataset.shape, ", "), dataset.unit,
                           dataset.meaning);
     }
     if (format == &strain_format())

@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 
 #include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/job/wall_strength.h"
 #include "pipeline/settings/fields.h"
@@ -96,10 +97,8 @@ namespace {
 void check_parameter(const Calibration& calibration, std::size_t i) {
   const LearnedParameter& parameter = calibration.parameters[i];
   if (index_of(parameter.name) == uncertain_count && !is_wall_strength(parameter.name)) {
-    std::vector<std::string> names;
-    for (const UncertainParameter& one : uncertain_parameters()) names.emplace_back(one.name);
     throw InputError(parameter.where, fmt::format("'{}' is no uncertain parameter", parameter.name),
-                     fmt::format("one of: {}", joined(names, ", ")));
+                     fmt::format("one of: {}", joined(mapped(uncertain_parameters(), &UncertainParameter::name), ", ")));
   }
   for (std::size_t other = 0; other < i; ++other)
     if (calibration.parameters[other].name == parameter.name)

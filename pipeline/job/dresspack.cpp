@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "pipeline/base/lists.h"
 #include "pipeline/job/parts_room.h"
 #include "pipeline/settings/fields.h"
 #include "pipeline/settings/units.h"
@@ -240,9 +241,7 @@ bool lies_loose(const Dresspack& dresspack, const Component& component) {
 }
 
 const Material* find_material(const Dresspack& dresspack, std::string_view name) {
-  const auto found = std::find_if(dresspack.materials.begin(), dresspack.materials.end(),
-                                  [&](const Material& material) { return material.name == name; });
-  return found == dresspack.materials.end() ? nullptr : &*found;
+  return find_in(dresspack.materials, &Material::name, name);
 }
 
 bool is_hose_wall(const Dresspack& dresspack, std::string_view component) {
@@ -297,10 +296,7 @@ int check_component(const Component& component, const Component* parent, Problem
                              component.name, 1e3 * reach, parent->name, 1e3 * (reach - parent->radius),
                              1e3 * parent->radius),
                  "check helix_radius_mm and radius_mm");
-  int depth = 0;
-  for (const Component& inner : component.components)
-    depth = std::max(depth, check_component(inner, &component, problems));
-  return depth + 1;
+  return 1 + largest_of(component.components, 0, [&](const Component& inner) { return check_component(inner, &component, problems); });
 }
 
 /// Checks that a thin wall with round crests and roots fits the profile (corrugation.h).
@@ -530,9 +526,7 @@ void drop_ratings(Dresspack& dresspack) {
 int check_dresspack(const Dresspack& dresspack, const std::vector<Slip>& slip) {
   Problems problems;
   const auto attempt = [&](const Where& where, const auto& check) { problems.attempt("", where, check); };
-  int depth = 0;
-  for (const Component& component : dresspack.components)
-    depth = std::max(depth, check_component(component, nullptr, problems));
+  const int depth = largest_of(dresspack.components, 0, [&](const Component& component) { return check_component(component, nullptr, problems); });
   attempt(dresspack.where, [&] { check_hose(dresspack); });
   attempt(dresspack.where, [&] { check_bend_radius(dresspack); });
   attempt(dresspack.where, [&] { check_bending_friction(dresspack); });

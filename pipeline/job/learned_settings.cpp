@@ -7,6 +7,7 @@
 
 #include "pipeline/base/digest.h"
 #include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/settings/fields.h"
 #include "pipeline/settings/problems.h"
 
@@ -37,9 +38,7 @@ void add_once(std::vector<T>& all, T one) {
 }
 
 std::size_t levels_of(const std::vector<Component>& parts) {
-  std::size_t levels = 0;
-  for (const Component& part : parts) levels = std::max(levels, 1 + levels_of(part.components));
-  return levels;
+  return largest_of(parts, std::size_t{0}, [](const Component& part) { return 1 + levels_of(part.components); });
 }
 
 /// Returns one word per level, outermost first. The first word is "any" if the dresspack is a single cable.
@@ -176,9 +175,7 @@ void add_job(const Job& job, LearnedUnder& under) {
 /// Returns the words of `of` that are not in `beside`.
 std::string different(const std::string& of, const std::string& beside) {
   const std::vector<std::string> all = split(of), others = split(beside);
-  std::vector<std::string> left;
-  for (const std::string& one : all)
-    if (std::find(others.begin(), others.end(), one) == others.end()) left.push_back(one);
+  const auto left = filtered(all, [&](const std::string& one) { return std::ranges::find(others, one) == others.end(); });
   return left.empty() ? "none" : listed(left);
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/settings/fields.h"
 
 namespace dresslife::pipeline {
@@ -228,11 +229,9 @@ void check_held_joint(const Motion& motion, const Robot& robot) {
   if (motion.hold_joint.empty()) return;
   if (!motion.needs_robot())
     throw InputError(motion.where, "hold_joint is given, and no robot moves", "leave hold_joint out");
-  std::vector<std::string> names;
-  for (const Joint& joint : robot.joints) names.push_back(joint.name);
-  if (std::find(names.begin(), names.end(), motion.hold_joint) == names.end())
+  if (!find_in(robot.joints, &Joint::name, motion.hold_joint))
     throw InputError(motion.where, fmt::format("hold_joint: the robot has no joint '{}'", motion.hold_joint),
-                     fmt::format("name one of {}", joined(names, ", ")));
+                     fmt::format("name one of {}", joined(mapped(robot.joints, &Joint::name), ", ")));
 }
 
 }  // namespace

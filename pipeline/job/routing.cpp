@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/settings/fields.h"
 
 namespace dresslife::pipeline {
@@ -140,12 +141,10 @@ void check_place(const Place& place, const std::string& name, const Robot& robot
                      fmt::format("routing.{}.position_m is {:.4g} m away from the frame of {} (at most {:g})", name,
                                  place.position.norm(), place.link, farthest),
                      "give it in metres, in the link's frame");
-  std::vector<std::string> names;
-  for (const Link& of_robot : robot.links) names.push_back(of_robot.name);
-  if (std::find(names.begin(), names.end(), place.link) == names.end())
+  if (!find_in(robot.links, &Link::name, place.link))
     throw InputError(place.where,
                      fmt::format("routing.{}.link '{}' is not a link of the robot", name, place.link),
-                     fmt::format("one of: {}", joined(names, ", ")));
+                     fmt::format("one of: {}", joined(mapped(robot.links, &Link::name), ", ")));
 }
 
 void check_clamp(const std::optional<Clamp>& clamp, const std::string& name, const Routing& routing,

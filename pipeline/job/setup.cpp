@@ -1,5 +1,6 @@
 #include "pipeline/job/setup.h"
 
+#include "pipeline/base/lists.h"
 #include "pipeline/settings/fields.h"
 
 namespace dresslife::pipeline {
@@ -13,9 +14,7 @@ void describe(Fields& f, MountedDresspack& mounted) {
 }
 
 std::vector<double> free_lengths(const Setup& setup) {
-  std::vector<double> lengths;
-  for (const MountedDresspack& mounted : setup.dresspacks) lengths.push_back(mounted.routing.free_length);
-  return lengths;
+  return mapped(setup.dresspacks, [](const MountedDresspack& mounted) { return mounted.routing.free_length; });
 }
 
 double clamped_length(const Setup& setup) {

@@ -12,6 +12,8 @@
 #include <set>
 
 #include "pipeline/base/constants.h"
+#include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/order.h"
 #include "pipeline/base/random.h"
 #include "pipeline/base/statistics.h"
@@ -38,22 +40,18 @@ std::string own_name(const LifeResponse& response, const std::string& job) {
 
 std::string stream_of(const LifeResponse& response, std::size_t parameter, const std::string& job) {
   const UncertainParameter& of = uncertain_parameters()[parameter];
-  std::string shared;
+  const std::string name = std::string(of.name) + "/";
   switch (of.shared) {
     case SharedBy::construction:
-      shared = "construction " + response.construction;
-      break;
+      return name + "construction " + response.construction;
     case SharedBy::material:
-      shared = "material " + response.material;
-      break;
+      return name + "material " + response.material;
     case SharedBy::everything:
-      shared = "everything";
-      break;
+      return name + "everything";
     case SharedBy::installation:
-      shared = own_name(response, job);
       break;
   }
-  return std::string(of.name) + "/" + shared;
+  return name + own_name(response, job);
 }
 
 /// Returns the lower triangle L with L L^T = covariance; a known parameter has a row of zeros. Shared parameters come before
@@ -181,15 +179,11 @@ bool share_samples(const LifeResponse& one, const LifeResponse& other) {
 
 std::vector<Samples> samples_of(const FailureModes& modes, const std::string& job, std::size_t count,
                                 bool again = false) {
-  std::vector<Samples> samples;
-  for (const LifeResponse& mode : modes) samples.push_back(samples_of(mode, job, count, again));
-  return samples;
+  return mapped(modes, [&](const LifeResponse& mode) { return samples_of(mode, job, count, again); });
 }
 
 std::vector<LifeSurface> surfaces_of(const FailureModes& modes) {
-  std::vector<LifeSurface> surfaces;
-  for (const LifeResponse& mode : modes) surfaces.emplace_back(mode);
-  return surfaces;
+  return mapped(modes, [](const LifeResponse& mode) { return LifeSurface(mode); });
 }
 
 /// Returns the life of the first failing mode, (sample). first: number of samples in which each mode is the first, (mode).
@@ -500,9 +494,7 @@ LifePercentiles error_factors(const FailureModes& modes, const std::string& job,
 }
 
 std::string modes_text(const FailureModes& modes) {
-  std::string text;
-  for (const LifeResponse& mode : modes) text += mode.text();
-  return text;
+  return joined(mapped(modes, &LifeResponse::text), "");
 }
 
 FailureModes modes_from_text(const std::string& text) {
@@ -579,9 +571,7 @@ std::vector<std::vector<double>> ModeLives::of(const PreparedModes& prepared) {
 
 std::vector<double> shared_samples(const LifeResponse& mode, std::size_t parameter, std::size_t count) {
   assert(uncertain_parameters()[parameter].shared != SharedBy::installation);
-  std::vector<double> z;
-  for (const ParameterPoint& point : samples_of(mode, "", count).z) z.push_back(point[parameter]);
-  return z;
+  return mapped(samples_of(mode, "", count).z, [&](const ParameterPoint& point) { return point[parameter]; });
 }
 
 const std::vector<double>& standard_strata(std::size_t samples) {

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "pipeline/base/constants.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/statistics.h"
 
 namespace dresslife::pipeline {
@@ -75,8 +76,7 @@ class CrossedLives {
   }
 
   std::vector<double> nodes_of(std::size_t parameter) const {
-    std::vector<double> nodes;
-    for (const auto& [point, k] : computed_) nodes.push_back(point[parameter]);
+    std::vector<double> nodes = mapped(computed_, [&](const auto& computed) { return computed.first[parameter]; });
     sort_once(nodes);
     return nodes;
   }

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "pipeline/base/lists.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/statistics.h"
 #include "pipeline/cable/cable_bending.h"
@@ -87,10 +88,8 @@ void draw(Picture& picture, const Panel& panel, const Law& law, const std::array
 
 Law law_of_hose(const Dresspack& dresspack, double largest) {
   const auto simulated = [&dresspack](double curvature) {
-    double moment = elastic_bending_stiffness(dresspack) * curvature;
-    for (const BendingFriction& element : dresspack.bending_friction)
-      moment += element.stiffness * std::min(curvature, element.slides_at);
-    return moment;
+    const auto held = [&](const BendingFriction& of) { return of.stiffness * std::min(curvature, of.slides_at); };
+    return sum_of(dresspack.bending_friction, held, elastic_bending_stiffness(dresspack) * curvature);
   };
   return {inner_radius(dresspack) ? "hose with all in it" : dresspack.name, largest,
           [&dresspack](double friction, const Curve& at) { return bending_moments(dresspack, friction, at); },

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "pipeline/base/constants.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/cable/overlap.h"
 #include "pipeline/cable/plain_properties.h"
 #include "pipeline/cable/stiffness.h"
@@ -50,22 +51,16 @@ std::string plain_words(const Component& part) {
 double section_of_wires(const Component& part) {
   if (part.plain) return 0;
   if (part.components.empty()) return pi * part.radius * part.radius;
-  double area = 0;
-  for (const Component& inner : part.components) area += inner.count * section_of_wires(inner);
-  return area;
+  return sum_of(part.components, [](const Component& inner) { return inner.count * section_of_wires(inner); });
 }
 
 double wires_of(const Component& part) {
   if (is_wire(part)) return 1;
-  double wires = 0;
-  for (const Component& inner : part.components) wires += inner.count * wires_of(inner);
-  return wires;
+  return sum_of(part.components, [](const Component& inner) { return inner.count * wires_of(inner); });
 }
 
 int depth_of(const std::vector<Component>& components) {
-  int depth = 0;
-  for (const Component& component : components) depth = std::max(depth, 1 + depth_of(component.components));
-  return depth;
+  return largest_of(components, 0, [](const Component& component) { return 1 + depth_of(component.components); });
 }
 
 /// Stiffness of one part: E A, and E I about its own axis.
@@ -260,6 +255,18 @@ Component whole(const Dresspack& dresspack) {
   return all;
 }
 
+/// Returns the bending stiffness of all wires [N m2], (levels + 1). Entry 0: each wire bends about its own axis. Next entries:
+/// the parts that contain wires are solid, then the parts that contain these parts, and so on. Last entry: no part slides.
+///     E A(part) = sum over its layers of K E A(inner) cos^3(alpha),
+///     E I(part) = sum over its layers of K (E I(inner) + E A(inner) cos^3(alpha) R^2 / 2),
+/// with the last term for solid parts only. Wires of unknown material have stiffness 0. Precondition: there are parts.
+std::vector<double> bending_stiffnesses(const Dresspack& dresspack, const Component& all) {
+  std::vector<double> stiffness;
+  for (int solid_from = depth_of(dresspack.components); solid_from >= 0; --solid_from)
+    stiffness.push_back(stiffness_of(dresspack, all, 0, solid_from).bending);
+  return stiffness;
+}
+
 }  // namespace
 
 std::string cross_section_picture(const Dresspack& dresspack, LayerLines layers) {
@@ -272,16 +279,6 @@ std::vector<std::string> wire_paths(const Dresspack& dresspack) {
   return paths;
 }
 
-std::vector<double> bending_stiffnesses(const Dresspack& dresspack) {
-  std::vector<double> stiffness;
-  const int levels = depth_of(dresspack.components);
-  if (levels == 0) return stiffness;
-  const Component all = whole(dresspack);
-  for (int solid_from = levels; solid_from >= 0; --solid_from)
-    stiffness.push_back(stiffness_of(dresspack, all, 0, solid_from).bending);
-  return stiffness;
-}
-
 std::string construction_text(const Dresspack& dresspack) {
   std::string text =
       fmt::format("{}: {:.4g} mm, {:.4g} kg/m, E I {:.4g} N m2, G J {:.4g} N m2, E A {:.4g} N\n",
@@ -291,7 +288,7 @@ std::string construction_text(const Dresspack& dresspack) {
   const Component all = whole(dresspack);
   if (dresspack.components.empty())
     return text + "no parts: its motion can be simulated, no wire has a life\n";
-  const std::vector<double> bending = bending_stiffnesses(dresspack);
+  const std::vector<double> bending = bending_stiffnesses(dresspack, all);
   text += fmt::format("{:.0f} wires of {:.4g} mm2, E A {:.4g} N\n", wires_of(all),
                       1e6 * section_of_wires(all), stiffness_of(dresspack, all, 0, 0).axial);
   text += fmt::format("E I of the wires [N m2]: {:.3g} when all slide", bending.front());

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 
+#include "pipeline/base/lists.h"
 #include "pipeline/base/order.h"
 #include "pipeline/report/chart_style.h"
 #include "pipeline/report/page_shell.h"
@@ -24,7 +24,7 @@ std::string meter(double share, double largest) {
 }
 
 /// Returns the indices of the largest values above 0.
-std::vector<std::size_t> largest_of(const std::vector<double>& values, std::size_t most) {
+std::vector<std::size_t> largest_above_zero(const std::vector<double>& values, std::size_t most) {
   std::vector<std::size_t> order = largest_first(values);
   std::erase_if(order, [&](std::size_t i) { return !(values[i] > 0); });
   if (order.size() > most) order.resize(most);
@@ -40,7 +40,7 @@ std::string main_causes(const LifeSummary& life, std::size_t line) {
   const auto first = life.line_cause_damage.begin() + static_cast<std::ptrdiff_t>(line * causes);
   const std::vector<double> of_line(first, first + static_cast<std::ptrdiff_t>(causes));
   std::string text;
-  for (const std::size_t cause : largest_of(of_line, most_named)) {
+  for (const std::size_t cause : largest_above_zero(of_line, most_named)) {
     const double share = of_line[cause] / life.step_damage[line];
     if (share < least_named && !text.empty()) break;
     text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", escaped(life.cause[cause]), 100 * share);
@@ -50,7 +50,7 @@ std::string main_causes(const LifeSummary& life, std::size_t line) {
 
 /// Returns the table of the joints that moved between opening and closing of the worst wire's cycles.
 std::string cause_table(const LifeSummary& life) {
-  const double total = std::accumulate(life.cause_damage.begin(), life.cause_damage.end(), 0.0);
+  const double total = sum_of(life.cause_damage);
   if (!(total > 0)) return "";
   const double largest = *std::max_element(life.cause_damage.begin(), life.cause_damage.end());
   std::string rows;
@@ -82,33 +82,17 @@ std::vector<double> damage_of_lines(const LifeSummary& life) {
   return damage;
 }
 
-/// The number of runs of a line, and its run in which most damage is completed.
-struct LineRuns {
-  std::size_t times = 0;
-  const ProgramRun* costliest = nullptr;
-};
-
-LineRuns runs_of(std::size_t line, const std::vector<ProgramRun>& runs) {
-  LineRuns of;
-  for (const ProgramRun& run : runs) {
-    if (run.step != static_cast<std::int32_t>(line)) continue;
-    ++of.times;
-    if (!of.costliest || run.damage > of.costliest->damage) of.costliest = &run;
-  }
-  return of;
-}
-
 std::string program_table(const LifeSummary& life) {
   constexpr double least_listed = 5e-4;  // share of the damage that rounds to 0.1 %
   const std::vector<double> damage = damage_of_lines(life);
-  const double total = std::accumulate(damage.begin(), damage.end(), 0.0);
+  const double total = sum_of(damage);
   const std::vector<ProgramRun> runs = program_runs(life);
   const auto share = [&](const std::vector<double>& of, std::size_t line) {
     return of.empty() ? "" : fmt::format("{:.1f} %", 100 * of[line] / total);
   };
   std::string rows;
   double largest = 0;
-  for (const std::size_t line : largest_of(damage, listed_lines)) {
+  for (const std::size_t line : largest_above_zero(damage, listed_lines)) {
     largest = std::max(largest, damage[line]);
     if (damage[line] < least_listed * total) break;
     const LineRuns of = runs_of(line, runs);
@@ -132,7 +116,7 @@ std::string program_table(const LifeSummary& life) {
 
 std::string layer_table(const LifeSummary& life, const RankingRow& row) {
   std::string rows;
-  for (const std::size_t i : largest_of(life.layer_damage, listed_layers)) {
+  for (const std::size_t i : largest_above_zero(life.layer_damage, listed_layers)) {
     const double repeats = 1 / life.layer_damage[i];
     rows += fmt::format(
         "<tr><td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td><td "
@@ -153,7 +137,7 @@ std::string place_remark(const LifeSummary& life) {
         "to clamp: "
         "do not expect the break in one place.",
         100 * share);
-  const double total = std::accumulate(life.clamp_damage.begin(), life.clamp_damage.end(), 0.0);
+  const double total = sum_of(life.clamp_damage);
   std::string shares;
   for (std::size_t k = 0; total > 0 && k < life.clamps.size(); ++k)
     shares += fmt::format("{}{} {:.0f} %", shares.empty() ? " By the nearest clamp: " : "; ",

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "pipeline/base/lists.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/files/files.h"
 #include "pipeline/files/motion_layout.h"
@@ -90,9 +91,7 @@ std::array<Along, 3> deformation_at(const FileReader& strain, std::size_t sample
 std::string deformation_chart(const std::array<Along, 3>& all, const std::vector<double>& lengths,
                               const std::string& title) {
   constexpr double height = 120, gap = 18, heading = 26;
-  double whole = 0;
-  for (const double length : lengths) whole += length;
-  const PlotAxis x{"base clamp   \u2192   along the dresspack [m]   \u2192   tool clamp", 0, whole};
+  const PlotAxis x{"base clamp   \u2192   along the dresspack [m]   \u2192   tool clamp", 0, sum_of(lengths)};
   Picture picture(chart_width, heading + 3 * (height + gap) + x_axis_height, title, title);
   picture.text(chart_left, 15, title, "note");
   for (std::size_t p = 0; p < all.size(); ++p) {

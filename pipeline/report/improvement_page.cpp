@@ -148,10 +148,7 @@ std::string front_charts(const ImprovementStory& story) {
     least = std::min(least, second), most = std::max(most, second);
   }
   if (!(high > 0) || !(least < most)) return "";
-  PlotAxis across;
-  across.title = story.second_title;
-  across.low = least;
-  across.high = most;
+  const PlotAxis across{story.second_title, least, most};
   return "<h2>Between the two aims</h2>\n" + at_both_widths([&](double width) {
            const Panel panel =
                panel_of(width, across, decades_axis("life of the worst job, p10 [h]", low, high));

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <numeric>
 #include <optional>
 
+#include "pipeline/base/lists.h"
 #include "pipeline/base/order.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/base/readable.h"
@@ -28,8 +28,6 @@ constexpr double smallest_cell = 0.5;  // narrower stretches of the program are 
 constexpr double nearly_worst = 0.8;
 constexpr std::size_t named_lines = 4;
 constexpr double named_share = 0.03;  // smallest share of the damage with which a line is named
-
-double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
 std::string line_name(const LifeSummary& life, std::int32_t step) {
   if (step < 0 || step >= static_cast<std::int32_t>(life.step_text.size())) return "no program line";
@@ -59,14 +57,11 @@ struct Label {
 /// Returns the most damaging program lines, each at the time of its largest damage, in the order of time.
 std::vector<Label> costly_lines(const LifeSummary& life, const std::vector<ProgramRun>& runs,
                                 const Panel& panel) {
-  const double total = sum(life.step_damage);
+  const double total = sum_of(life.step_damage);
   std::vector<Label> labels;
   for (const std::size_t line : largest_first(life.step_damage)) {
     if (labels.size() == named_lines || !(life.step_damage[line] > named_share * total)) break;
-    const ProgramRun* costliest = nullptr;
-    for (const ProgramRun& run : runs)
-      if (run.step == static_cast<std::int32_t>(line) && (!costliest || run.damage > costliest->damage))
-        costliest = &run;
+    const ProgramRun* const costliest = runs_of(line, runs).costliest;
     if (!costliest) continue;
     labels.push_back({panel.across((costliest->begin + costliest->end) / 2),
                       fmt::format("{:.0f} %: line {}, {}", in_percent * life.step_damage[line] / total, line + 1,
@@ -99,7 +94,7 @@ void draw_labels(Picture& picture, const Panel& panel, const std::vector<Label>&
 /// Draws one cell per stretch of the program, alternately light and dark. Stretches with much damage are marked.
 void draw_program(Picture& picture, const LifeSummary& life, const std::vector<ProgramRun>& runs,
                   const Panel& panel, double top, double height) {
-  const double total = sum(life.damage_rate);
+  const double total = sum_of(life.damage_rate);
   bool dark = false;
   for (const ProgramRun& run : runs) {
     const double from = panel.across(run.begin), to = panel.across(run.end);
@@ -162,15 +157,7 @@ std::vector<Bin> bins_of(const std::vector<WorstCycle>& cycles) {
     bin.count += cycle.count;
     bin.damage += cycle.damage;
   }
-  std::vector<Bin> list;
-  for (const auto& [index, bin] : bins) list.push_back(bin);
-  return list;
-}
-
-std::vector<double> column(const std::vector<Bin>& bins, double Bin::*member) {
-  std::vector<double> values;
-  for (const Bin& bin : bins) values.push_back(bin.*member);
-  return values;
+  return mapped(bins, &std::pair<const int, Bin>::second);
 }
 
 /// Returns the axis over all ranges, with margins for the outer bins.
@@ -180,10 +167,6 @@ PlotAxis range_axis(const std::vector<Bin>& bins) {
   if (axis.high < 8 * axis.low) axis = decades_axis(axis.title, axis.low, axis.high);
   return axis;
 }
-
-}  // namespace
-
-namespace {
 
 struct PlaceInFile {
   std::size_t dresspack = 0, first_segment = 0;
@@ -273,6 +256,16 @@ std::vector<ProgramRun> program_runs(const LifeSummary& life) {
   return runs;
 }
 
+LineRuns runs_of(std::size_t line, const std::vector<ProgramRun>& runs) {
+  LineRuns of;
+  for (const ProgramRun& run : runs) {
+    if (run.step != static_cast<std::int32_t>(line)) continue;
+    ++of.times;
+    if (!of.costliest || run.damage > of.costliest->damage) of.costliest = &run;
+  }
+  return of;
+}
+
 std::string strain_chart(const LifeSummary& life) {
   if (life.time.size() < 2) return "";
   constexpr double label_row = 17, strain_height = 230, strip_height = 17, share_height = 76, gap = 7;
@@ -286,7 +279,7 @@ std::string strain_chart(const LifeSummary& life) {
   const double strip = strain.bottom() + gap;
   const Panel share{chart_left, strip + strip_height + gap, chart_panel, share_height,
                     time,        {"share [%]", 0, 100}};
-  const bool damaged = sum(life.damage_rate) > 0;
+  const bool damaged = sum_of(life.damage_rate) > 0;
   const double bottom = damaged ? share.bottom() : strip + strip_height;
   Picture picture(chart_width, bottom + x_axis_height, "Strain of the worst wire over time",
                   fmt::format("Strain between {:.3g} and {:.3g} percent over {:.0f} seconds.", in_percent * *low,
@@ -319,16 +312,16 @@ std::string strain_chart(const LifeSummary& life) {
 
 std::string segment_chart(const LifeSummary& life, int worst_from_tool) {
   const std::size_t segments = life.segment_damage.size();
-  if (segments == 0 || !(sum(life.segment_damage) > 0)) return "";
+  if (segments == 0 || !(sum_of(life.segment_damage) > 0)) return "";
   PlotAxis x{"base clamp   \u2190   distance to the tool clamp along the dresspack [m]   \u2192   tool clamp",
-             0, sum(life.segment_length)};
+             0, sum_of(life.segment_length)};
   x.reversed = true;
   const Panel panel{chart_left, 26, chart_panel,
                     180,         x,  axis_of_amounts("damage per repeat", life.segment_damage)};
   Picture picture(chart_width, panel.bottom() + x_axis_height, "Damage along the dresspack",
                   fmt::format("The worst segment is number {} from the tool.", worst_from_tool));
   panel.draw_axes(picture);
-  double to_tool = sum(life.segment_length);
+  double to_tool = sum_of(life.segment_length);
   for (std::size_t k = 0; k < segments; ++k) {
     const double from = panel.across(to_tool), to = panel.across(to_tool -= life.segment_length[k]);
     const int from_tool = static_cast<int>(segments - k);
@@ -354,15 +347,15 @@ double nearly_worst_share(const LifeSummary& life) {
   for (const double damage : life.segment_damage) most = std::max(most, damage);
   for (std::size_t k = 0; k < life.segment_damage.size(); ++k)
     if (life.segment_damage[k] >= nearly_worst * most) nearly += life.segment_length[k];
-  return most > 0 ? nearly / sum(life.segment_length) : 0;
+  return most > 0 ? nearly / sum_of(life.segment_length) : 0;
 }
 
 std::string cycle_chart(const LifeSummary& life) {
   const std::vector<Bin> bins = bins_of(life.cycles);
   if (bins.empty()) return "";
-  const std::vector<double> counts = column(bins, &Bin::count);
-  std::vector<double> shares = column(bins, &Bin::damage);
-  const double total = sum(shares);
+  const std::vector<double> counts = mapped(bins, &Bin::count);
+  std::vector<double> shares = mapped(bins, &Bin::damage);
+  const double total = sum_of(shares);
   for (double& share : shares) share *= total > 0 ? in_percent / total : 0;
   const PlotAxis x = range_axis(bins);
   const Panel count{chart_left, 10, chart_panel, 130, x, axis_of_amounts("cycles per repeat", counts)};
@@ -371,7 +364,7 @@ std::string cycle_chart(const LifeSummary& life) {
       chart_panel, 130,
       x,           linear_axis("share of damage [%]", 0, *std::max_element(shares.begin(), shares.end()), 5)};
   Picture picture(chart_width, share.bottom() + x_axis_height, "Cycles of the worst wire",
-                  fmt::format("{} cycles per repeat.", printed(sum(counts))));
+                  fmt::format("{} cycles per repeat.", printed(sum_of(counts))));
   count.draw_axes(picture, false);
   share.draw_axes(picture);
   for (std::size_t k = 0; k < bins.size(); ++k) {

@@ -51,6 +51,13 @@ struct ProgramRun {
 };
 std::vector<ProgramRun> program_runs(const LifeSummary& life);
 
+/// The number of runs of a line, and its run in which most damage is completed.
+struct LineRuns {
+  std::size_t times = 0;
+  const ProgramRun* costliest = nullptr;
+};
+LineRuns runs_of(std::size_t line, const std::vector<ProgramRun>& runs);
+
 /// Returns a chart of the strain of the worst wire over time, the program below it, and the sum of the damage. The most damaging
 /// program lines are named above.
 std::string strain_chart(const LifeSummary& life);

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 
+#include "pipeline/base/lists.h"
 #include "pipeline/base/order.h"
 #include "pipeline/files/motion_layout.h"
 #include "pipeline/report/json.h"
@@ -50,9 +51,7 @@ class Thinning {
     return samples;
   }
   static std::vector<double> at(const std::vector<double>& history, const std::vector<std::size_t>& samples) {
-    std::vector<double> values;
-    for (const std::size_t sample : samples) values.push_back(history[sample]);
-    return values;
+    return mapped(samples, [&](std::size_t sample) { return history[sample]; });
   }
   std::vector<float> times(const std::vector<double>& time) const {
     std::vector<float> thin;
@@ -206,10 +205,10 @@ class Data {
     strain_->read_rows("/reversal/offset", worst_site_[segment], 2, range);
     strain_->read_rows("/reversal/strain", range[0], range[1] - range[0], strain);
     strain_->read_rows("/reversal/sample", range[0], range[1] - range[0], sample);
-    std::vector<float> times;
-    for (const std::uint32_t at : sample)
-      times.push_back(static_cast<float>(time_.at(std::min<std::size_t>(at, time_.size() - 1)) - time_[0]));
-    return {times, strain};
+    const auto since_begin = [&](std::uint32_t at) {
+      return static_cast<float>(time_.at(std::min<std::size_t>(at, time_.size() - 1)) - time_[0]);
+    };
+    return {mapped(sample, since_begin), strain};
   }
 
   /// Returns the history of one wire per segment: of the most damaged wire with a complete history; else the turning points of
@@ -326,8 +325,7 @@ class Data {
     if (!worst_ || !life_.has("/worst/stress")) return {};
     const auto strain = life_.read<double>("/worst/strain"), stress = life_.read<double>("/worst/stress");
     const std::vector<std::size_t> kept = thinning_.kept(strain);
-    std::vector<float> times;
-    for (const std::size_t sample : kept) times.push_back(static_cast<float>(time_[sample] - time_[0]));
+    const auto times = mapped(kept, [&](std::size_t sample) { return static_cast<float>(time_[sample] - time_[0]); });
     return Json{{"rule", stress_rule()},
                 {"time", base64_of(times)},
                 {"strain", packed(Thinning::at(strain, kept))},
@@ -350,9 +348,9 @@ class Data {
   static Json packed(const std::vector<double>& values) {
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
     const Steps steps(*low, *high);
-    std::vector<std::uint16_t> numbers;
-    for (const double value : values) numbers.push_back(steps.of(value));
-    return {{"low", steps.low}, {"step", steps.step}, {"numbers", base64_of(numbers)}};
+    return {{"low", steps.low},
+            {"step", steps.step},
+            {"numbers", base64_of(mapped(values, [&](double value) { return steps.of(value); }))}};
   }
 
   const FileReader& life_;

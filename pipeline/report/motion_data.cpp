@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "pipeline/base/lists.h"
 #include "pipeline/report/hose_line.h"
 #include "pipeline/report/json.h"
 #include "pipeline/report/key_samples.h"
@@ -54,12 +55,6 @@ double reach(const Link& link) {
   return link.meshes.empty() ? farthest : std::max(farthest, 1.0);
 }
 
-double largest(const std::vector<double>& values) {
-  double most = 0;
-  for (const double value : values) most = std::max(most, std::abs(value));
-  return most;
-}
-
 /// Returns the segments of a line whose centres are included: evenly spread, with the first and the last.
 std::vector<std::size_t> kept_centres(const DresspackLine& line) {
   const std::size_t pieces = std::min(line.segments, most_points) - 1;
@@ -101,9 +96,7 @@ class Player {
   }
 
   std::size_t row_bytes() const {
-    std::size_t bytes = sizeof(float);
-    for (const Group& group : groups_) bytes += group.size * (group.narrow ? 1 : 2);
-    return bytes;
+    return sum_of(groups_, [](const Group& group) { return group.size * (group.narrow ? 1 : 2); }, sizeof(float));
   }
 
   /// Reads the points of each dresspack: base clamp, segment centres, tool clamp.
@@ -159,7 +152,7 @@ class Player {
     for (std::size_t i = 0; i + 1 < pairs.size(); i += 2)
       curvature.push_back(std::hypot(pairs[i], pairs[i + 1]));
     const auto weight = [](const std::vector<double>& values) {
-      return 1 / (shape_miss * std::max(largest(values), 1e-9));
+      return 1 / (shape_miss * largest_of(values, 1e-9, [](double value) { return std::abs(value); }));
     };
     const double of_curvature = weight(curvature), of_twist = weight(twist);
     add("curvature", std::move(curvature), of_curvature, true);
@@ -218,9 +211,8 @@ class Player {
                               {"narrow", group.narrow},
                               {"numbers", numbers(group, steps, keys)}});
     }
-    std::vector<float> times;
-    for (const std::size_t key : keys)
-      times.push_back(static_cast<float>(histories_.time[key] - histories_.time[0]));
+    const auto times =
+        mapped(keys, [&](std::size_t key) { return static_cast<float>(histories_.time[key] - histories_.time[0]); });
     return {{"begin", histories_.time.front()},
             {"end", histories_.time.back()},
             {"keys", keys.size()},

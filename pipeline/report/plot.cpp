@@ -103,26 +103,13 @@ double share_of(const PlotAxis& axis, double value) {
 }  // namespace
 
 std::string escaped(const std::string& text) {
+  constexpr std::string_view special = "&<>\"'";
+  constexpr std::array entities{"&amp;", "&lt;", "&gt;", "&quot;", "&#39;"};
   std::string out;
-  for (const char letter : shown(text)) switch (letter) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\'':
-        out += "&#39;";
-        break;
-      default:
-        out += letter;
-    }
+  for (const char letter : shown(text)) {
+    const std::size_t at = special.find(letter);
+    out += at == special.npos ? std::string(1, letter) : entities[at];
+  }
   return out;
 }
 

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <limits>
 
+#include "pipeline/base/lists.h"
 #include "pipeline/base/warnings.h"
 #include "pipeline/cable/bend_limit.h"
 #include "pipeline/files/files.h"
@@ -148,42 +149,29 @@ Json ways_data(const FileReader& file, const std::vector<SpanPreview>& spans) {
     for (std::size_t at = k; at < ways.size(); at += spans.size()) own.push_back(ways[at]);
     rows.push_back({{"name", spans[k].subject}, {"length", spans[k].length}, {"ways", own}});
   }
-  std::vector<double> since;
-  for (const double time : times) since.push_back(time - times[0]);
-  return {{"time", since}, {"spans", rows}};
+  return {{"time", mapped(times, [&](double time) { return time - times[0]; })}, {"spans", rows}};
+}
+
+/// Returns the number between two phrases of a message; NaN: the message does not contain them.
+double number_between(std::string_view before, std::string_view after, const std::string& message) {
+  const std::size_t end = message.find(after), begin = end == std::string::npos ? end : message.rfind(before, end - 1);
+  double number = std::numeric_limits<double>::quiet_NaN();
+  if (begin != std::string::npos) std::from_chars(message.data() + begin + before.size(), message.data() + end, number);
+  return number;
 }
 
 /// Returns the time in a message of the simulation, "... at 151.040 s, program step 9 ..."; NaN: the message contains none.
-double time_in(const std::string& failure) {
-  const std::size_t end = failure.find(" s, program step "),
-                    begin = end == std::string::npos ? end : failure.rfind(" at ", end);
-  double time = std::numeric_limits<double>::quiet_NaN();
-  if (begin != std::string::npos) std::from_chars(failure.data() + begin + 4, failure.data() + end, time);
-  return time;
-}
-
-double length_of(const std::vector<SpanPreview>& spans) {
-  double length = 0;
-  for (const SpanPreview& span : spans) length += span.length;
-  return length;
-}
+double time_in(const std::string& failure) { return number_between(" at ", " s, program step ", failure); }
 
 /// Returns the place along a dresspack in a message of the simulation, "... 0.42 m from its base clamp" [m]; NaN: none.
-double place_in(const std::string& refusal) {
-  const std::size_t end = refusal.find(" m from its base clamp"),
-                    begin = end == std::string::npos ? end : refusal.rfind(' ', end - 1);
-  double place = std::numeric_limits<double>::quiet_NaN();
-  if (begin != std::string::npos) std::from_chars(refusal.data() + begin + 1, refusal.data() + end, place);
-  return place;
-}
+double place_in(const std::string& refusal) { return number_between(" ", " m from its base clamp", refusal); }
 
 }  // namespace
 
 std::vector<std::string> length_words(const std::filesystem::path& preview_file) {
   const FileReader file(preview_file, preview_format());
-  std::vector<std::string> lines;
-  for (const SpanPreview& span : spans_of(file, setup_from(stored_job(file)))) lines.push_back(words(span, warns_of_bends(file)));
-  return lines;
+  const bool bends = warns_of_bends(file);
+  return mapped(spans_of(file, setup_from(stored_job(file))), [&](const SpanPreview& span) { return words(span, bends); });
 }
 
 std::string refusal_of(const std::filesystem::path& preview_file) {
@@ -210,7 +198,7 @@ std::string preview_page(const std::filesystem::path& preview_file, const std::s
                   {"program", program_data(file)},
                   {"preview", Json{{"refusal", refusal},
                                    {"refusal_time", refusal_time},
-                                   {"refusal_share", place_in(refusal) / length_of(spans)},
+                                   {"refusal_share", place_in(refusal) / sum_of(spans, &SpanPreview::length)},
                                    {"ways", ways_data(file, spans)}}}};
   std::string body = fmt::format("<h1>{}: before the run</h1>\n", escaped(name));
   body += refusal.empty() ? "<p>The simulation takes this job.</p>\n"

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "pipeline/base/constants.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/files/files.h"
 #include "pipeline/job/setup.h"
 #include "pipeline/report/hose_line.h"
@@ -52,35 +53,40 @@ void add_in_pieces(std::vector<Stroke>& strokes, const Stroke& whole) {
   }
 }
 
-void add_robot(std::vector<Stroke>& strokes, const FileReader& file, const Robot& robot, std::size_t sample) {
-  if (!file.has("/robot/link_pose")) return;
-  std::vector<double> pose;
-  file.read_rows("/robot/link_pose", sample, 1, pose);
-  for (std::size_t link = 0; link < robot.links.size() && 7 * link + 6 < pose.size(); ++link) {
-    const double* p = &pose[7 * link];
-    const Vector3d origin(p[0], p[1], p[2]);
-    const Eigen::Quaterniond turn(p[3], p[4], p[5], p[6]);
-    for (const Capsule& capsule : robot.links[link].capsules)
-      add_in_pieces(strokes, {origin + turn * capsule.from, origin + turn * capsule.to, capsule.radius,
-                              link % 2 ? "arm" : "arm-2"});
+/// Position and orientation of a link's frame in the world.
+struct Frame {
+  Vector3d origin;
+  Eigen::Quaterniond turn;
+  Vector3d operator()(const Vector3d& place) const { return origin + turn * place; }
+};
+
+/// Returns, (link), the frames at a sample; empty: no robot moves.
+std::vector<Frame> frames_at(const FileReader& file, std::size_t sample) {
+  std::vector<double> poses;
+  if (file.has("/robot/link_pose")) file.read_rows("/robot/link_pose", sample, 1, poses);
+  std::vector<Frame> frames;
+  for (std::size_t at = 0; at + 6 < poses.size(); at += 7) {
+    const double* p = &poses[at];
+    frames.push_back({{p[0], p[1], p[2]}, {p[3], p[4], p[5], p[6]}});
   }
+  return frames;
+}
+
+void add_robot(std::vector<Stroke>& strokes, const std::vector<Frame>& frames, const Robot& robot) {
+  for (std::size_t link = 0; link < std::min(robot.links.size(), frames.size()); ++link)
+    for (const Capsule& capsule : robot.links[link].capsules)
+      add_in_pieces(strokes, {frames[link](capsule.from), frames[link](capsule.to), capsule.radius, link % 2 ? "arm" : "arm-2"});
 }
 
 /// Adds guide rings and intermediate clamps, as circles of short strokes around the hose.
-void add_rings(std::vector<Stroke>& strokes, const FileReader& file, const Setup& setup, std::size_t sample) {
-  if (!file.has("/robot/link_pose")) return;
+void add_rings(std::vector<Stroke>& strokes, const std::vector<Frame>& frames, const Setup& setup) {
   constexpr int corners = 20;
   constexpr double thick = 0.006;  // [m]
-  std::vector<double> pose;
-  file.read_rows("/robot/link_pose", sample, 1, pose);
   const auto circle = [&](const std::string& name, const Vector3d& centre, const Vector3d& axis,
                           double radius) {
-    std::size_t link = 0;
-    while (link < setup.robot.links.size() && setup.robot.links[link].name != name) ++link;
-    if (7 * link + 6 >= pose.size()) return;
-    const double* p = &pose[7 * link];
-    const Eigen::Quaterniond turn(p[3], p[4], p[5], p[6]);
-    const Vector3d middle = Vector3d(p[0], p[1], p[2]) + turn * centre, z = turn * axis.normalized();
+    const auto link = static_cast<std::size_t>(std::ranges::find(setup.robot.links, name, &Link::name) - setup.robot.links.begin());
+    if (link >= frames.size()) return;
+    const Vector3d middle = frames[link](centre), z = frames[link].turn * axis.normalized();
     const Vector3d x = z.unitOrthogonal(), y = z.cross(x);
     const auto corner = [&](int k) {
       const double angle = 2 * std::numbers::pi * k / corners;
@@ -102,9 +108,7 @@ std::vector<std::vector<Vector3d>> hose_points(const FileReader& file, std::size
   std::vector<double> clamps, centres;
   file.read_rows("/clamp/position", sample, 1, clamps);
   file.read_rows("/segment/position", sample, 1, centres);
-  std::vector<std::vector<Vector3d>> points;
-  for (const DresspackLine& line : hose_lines(file)) points.push_back(line.in(clamps, centres));
-  return points;
+  return mapped(hose_lines(file), [&](const DresspackLine& line) { return line.in(clamps, centres); });
 }
 
 /// Adds a dresspack. Segment i extends half way to its neighbours.
@@ -172,8 +176,9 @@ std::string scene_picture(const std::filesystem::path& motion_file, double time,
   const Setup setup = setup_from(stored_job(file));
   const std::size_t sample = nearest_sample(file.read<double>("/time"), time);
   std::vector<Stroke> strokes;
-  add_robot(strokes, file, setup.robot, sample);
-  add_rings(strokes, file, setup, sample);
+  const std::vector<Frame> frames = frames_at(file, sample);
+  add_robot(strokes, frames, setup.robot);
+  add_rings(strokes, frames, setup);
   const std::vector<std::vector<Vector3d>> hoses = hose_points(file, sample);
   for (std::size_t d = 0; d < std::min(hoses.size(), setup.dresspacks.size()); ++d)
     add_hose(strokes, hoses[d], setup.dresspacks[d].dresspack.diameter / 2,

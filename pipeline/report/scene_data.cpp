@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "pipeline/base/lists.h"
 #include "pipeline/report/json.h"
 #include "pipeline/report/simple_mesh.h"
 
@@ -57,9 +58,7 @@ class Scene {
     }
     for (const MountingPoint& point : setup_.robot.mounting_points)
       points.push_back(Json{{"name", point.name}}.add(place(point.link, point.position, point.direction)));
-    std::vector<std::string> joints;
-    for (const Joint& joint : setup_.robot.joints) joints.push_back(joint.name);
-    return {{"joints", joints},
+    return {{"joints", mapped(setup_.robot.joints, &Joint::name)},
             {"links", links},
             {"cell", shapes(setup_.cell)},
             {"floor", setup_.simulation.floor},
@@ -72,9 +71,7 @@ class Scene {
  private:
   Json place(const std::string& link, const Vector3d& position, const Vector3d& direction) const {
     const auto& links = setup_.robot.links;
-    const auto found =
-        std::find_if(links.begin(), links.end(), [&](const Link& one) { return one.name == link; });
-    return {{"link", found - links.begin()},
+    return {{"link", std::ranges::find(links, link, &Link::name) - links.begin()},
             {"position", position},
             {"direction", Vector3d(direction.normalized())}};
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "pipeline/base/lists.h"
 #include "pipeline/resolve/data_sheet.h"
 #include "pipeline/settings/units.h"
 
@@ -106,17 +107,13 @@ Node expanded(Node dresspack) {
 }  // namespace
 
 bool is_hose(const Node& dresspack) {
-  for (const char* key : {"inner_diameter_mm", "hose_corrugation", "hose_material"})
-    if (dresspack.find(key)) return true;
-  return false;
+  return dresspack.find("inner_diameter_mm") || dresspack.find("hose_corrugation") || dresspack.find("hose_material");
 }
 
 std::vector<std::string> cables_of(const Node& written) {
   const Node dresspack = expanded(written);
   if (!is_hose(dresspack)) return {name_of(dresspack)};
-  std::vector<std::string> names;
-  for (const Node* part : parts_with_parts(dresspack)) names.push_back(name_of(*part));
-  return names;
+  return mapped(parts_with_parts(dresspack), [](const Node* part) { return name_of(*part); });
 }
 
 Node cable_alone(const Node& written, const std::string& part, const Where& asked) {

@@ -111,11 +111,8 @@ void check_accelerations(const Node& robot, const UrdfRequest& request, const Wh
 /// Reads `urdf: FILE` with the keys that belong to it. All other keys of the entry replace those of the robot.
 void read_urdf(Node& entry) {
   Node about = entry, over = entry;
-  const auto is_about = [](const Entry& e) {
-    for (const char* key : {"urdf", "tip", "package_folder", "collision", "accelerations_deg_per_s2"})
-      if (e.key == key) return true;
-    return false;
-  };
+  constexpr std::array<std::string_view, 5> keys{"urdf", "tip", "package_folder", "collision", "accelerations_deg_per_s2"};
+  const auto is_about = [&](const Entry& e) { return std::ranges::find(keys, e.key) != keys.end(); };
   std::erase_if(about.entries, [&](const Entry& e) { return !is_about(e); });
   std::erase_if(over.entries, is_about);
   UrdfRequest request;

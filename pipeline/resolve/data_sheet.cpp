@@ -12,6 +12,7 @@
 
 #include "pipeline/base/constants.h"
 #include "pipeline/base/halving.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/text.h"
 #include "pipeline/cable/overlap.h"
 #include "pipeline/resolve/cable_rules.h"
@@ -411,11 +412,7 @@ class Expansion {
     return core;
   }
 
-  int wire_count() const {
-    int count = 0;
-    for (const CoreRing& ring : wire_rings_) count += ring.count;
-    return count;
-  }
+  int wire_count() const { return sum_of(wire_rings_, &CoreRing::count, 0); }
 
   static constexpr double infinite = std::numeric_limits<double>::infinity();
   static constexpr double slack_of_a_caliper = 0.02;  // tolerance of a fit of a part into its parent

@@ -8,6 +8,7 @@
 
 #include "pipeline/base/constants.h"
 #include "pipeline/base/halving.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/order.h"
 #include "pipeline/job/parts_room.h"
 #include "pipeline/settings/units.h"
@@ -58,9 +59,7 @@ std::optional<double> circle_of(const std::vector<double>& radii, double bore, d
 }
 
 std::vector<double> chosen(const std::vector<double>& radii, const std::vector<std::size_t>& parts) {
-  std::vector<double> of;
-  for (const std::size_t part : parts) of.push_back(radii[part]);
-  return of;
+  return mapped(parts, [&](std::size_t part) { return radii[part]; });
 }
 
 void place_on(double circle, const std::vector<double>& radii, const std::vector<std::size_t>& order,
@@ -102,8 +101,7 @@ bool fill(const std::vector<double>& radii, std::vector<std::size_t> parts, doub
     // A ring at the wall leaves the largest space inside. Afterwards the ring moves to the circle that its own parts need.
     if (asked(ring, bore - thickest) > 2 * pi * (1 + touching_of_radius)) continue;
     if (!fill(radii, within, bore - 2 * thickest, core, places)) continue;
-    double taken = core;
-    for (const std::size_t part : within) taken = std::max(taken, places[part].helix_radius + radii[part]);
+    const double taken = largest_of(within, core, [&](std::size_t part) { return places[part].helix_radius + radii[part]; });
     if (const auto circle = circle_of(ring, bore, taken)) return place_on(*circle, radii, order, places), true;
   }
   return false;
@@ -231,8 +229,8 @@ void expand_places(Node& dresspack, const std::string& path, Problems& problems)
         set_place(component, {});  // their places depend on the cable whose data sheet was refused
     return;
   }
-  std::vector<double> radii;
-  for (const AutoPart& part : parts) radii.push_back(number_of(components->items[part.component], "radius_mm") / 1e3);
+  const std::vector<double> radii =
+      mapped(parts, [&](const AutoPart& part) { return number_of(components->items[part.component], "radius_mm") / 1e3; });
   const auto places = pack_in_bore(radii, bore, core);
   if (!places) {
     double enough = 2 * bore;

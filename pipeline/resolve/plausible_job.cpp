@@ -11,6 +11,8 @@
 #include <regex>
 
 #include "pipeline/base/constants.h"
+#include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/warning_words.h"
 #include "pipeline/cable/bend_limit.h"
 #include "pipeline/cable/excess.h"
@@ -164,10 +166,8 @@ void gather(const std::vector<MotionStep>& steps, std::vector<const MotionStep*>
   }
 }
 
-double largest_of(const std::vector<double>& numbers) {
-  double largest = 0;
-  for (const double number : numbers) largest = std::max(largest, std::abs(number));
-  return largest;
+double largest_size(const std::vector<double>& numbers) {
+  return largest_of(numbers, 0.0, [](double number) { return std::abs(number); });
 }
 std::ptrdiff_t nonzero(const std::vector<double>& numbers) {
   return std::ranges::count_if(numbers, [](double x) { return x != 0; });
@@ -194,7 +194,7 @@ void doubt_single_axes(const std::vector<const MotionStep*>& joints, std::vector
     if (!odd || !one || others.size() < fewest) continue;
     const double number = odd->joints[k] / degree;  // also the angle that was meant [rad]
     if (std::abs(number) <= small_turn || std::abs(number) > half_turn || std::abs(std::remainder(number, 0.5)) < 1e-9 ||
-        largest_of(odd->joints) / degree <= half_turn)
+        largest_size(odd->joints) / degree <= half_turn)
       continue;
     const auto [low, high] = std::ranges::minmax(others);
     if (low * number < 0 || high * number < 0 || number < low - neighbours || number > high + neighbours) continue;
@@ -215,20 +215,18 @@ void doubt_single_targets(const std::vector<MotionStep>& steps, std::vector<Warn
   double widest = 0;  // [rad]
   std::vector<const MotionStep*> different;  // a program may come back to one target many times
   for (const MotionStep* step : joints) {
-    widest = std::max(widest, largest_of(step->joints));
+    widest = std::max(widest, largest_size(step->joints));
     if (std::ranges::none_of(different, [&](const MotionStep* other) { return other->joints == step->joints; })) different.push_back(step);
   }
   for (const MotionStep* step : different)
-    if (const double largest = largest_of(step->joints) / degree;
+    if (const double largest = largest_size(step->joints) / degree;
         largest > small_turn && largest <= half_turn && widest > wide_targets && nonzero(step->joints) >= 3)
       radians.add(*step);
   const auto few = [](const Doubted& found, std::size_t all) {
     return found.first && 3 * (static_cast<std::size_t>(found.more) + 1) <= all + 1;
   };
   if (few(radians, different.size())) {
-    std::vector<std::string> meant;
-    for (const double angle : radians.first->joints)
-      meant.push_back(fmt::format("{:.4g}", angle / degree / degree));
+    const auto meant = mapped(radians.first->joints, [](double angle) { return fmt::format("{:.4g}", angle / degree / degree); });
     warnings.push_back(radians.warning(
         fmt::format(
             "all angles of this target are below {:.3g} deg (limit: those of other targets reach {:.0f} deg)",
@@ -238,8 +236,7 @@ void doubt_single_targets(const std::vector<MotionStep>& steps, std::vector<Warn
                     fmt::join(meant, ", "))));
   }
   doubt_single_axes(joints, warnings);
-  std::vector<double> reaches;
-  for (const MotionStep* step : places) reaches.push_back(largest_of(step->position));
+  const std::vector<double> reaches = mapped(places, [](const MotionStep* step) { return largest_size(step->position); });
   if (reaches.empty()) return;
   const double farthest_place = *std::max_element(reaches.begin(), reaches.end());
   for (std::size_t k = 0; k < places.size(); ++k)
@@ -248,7 +245,7 @@ void doubt_single_targets(const std::vector<MotionStep>& steps, std::vector<Warn
         reach >= least_metres && reach <= most_metres && farthest_place >= far_place &&
         nonzero(places[k]->position) >= 2 &&
         std::any_of(places.begin(), places.end(), [&](const MotionStep* other) {
-          return other->work_object == places[k]->work_object && largest_of(other->position) >= far_place;
+          return other->work_object == places[k]->work_object && largest_size(other->position) >= far_place;
         }))
       metres.add(*places[k]);
   if (few(metres, places.size())) {
@@ -256,7 +253,7 @@ void doubt_single_targets(const std::vector<MotionStep>& steps, std::vector<Warn
     warnings.push_back(metres.warning(
         fmt::format(
             "this target lies {:.3g} mm from the origin of its frame (limit: others lie up to {:.0f} mm from theirs)",
-            1e3 * largest_of(at), 1e3 * farthest_place),
+            1e3 * largest_size(at), 1e3 * farthest_place),
         "metres instead of millimetres in one target",
         fmt::format(
             "[{:.4g}, {:.4g}, {:.4g}] if those were metres; leave it if it is a place at the origin of the work object",
@@ -452,9 +449,9 @@ void doubt_limits(const Joint& joint, const AddDoubt& add) {
 
 /// Warns if all axes have ranges that are less than a turn in radians.
 void doubt_ranges(const std::vector<const Joint*>& driven, const AddDoubt& add) {
-  double largest = 0;  // [deg]
-  for (const Joint* joint : driven)
-    largest = std::max({largest, std::abs(joint->lower) / degree, std::abs(joint->upper) / degree});
+  const double largest = largest_of(driven, 0.0, [](const Joint* joint) {  // [deg]
+    return std::max(std::abs(joint->lower) / degree, std::abs(joint->upper) / degree);
+  });
   if (driven.empty() || largest == 0 || largest > most_radians) return;
   const Joint& first = *driven.front();
   add(first.where,
@@ -474,15 +471,13 @@ void doubt_ranges(const std::vector<const Joint*>& driven, const AddDoubt& add) 
 void doubt_order(const std::vector<const Joint*>& driven, const AddDoubt& add) {
   constexpr std::size_t arm = 3, axes = 6;
   if (driven.size() != axes) return;
-  std::vector<double> numbers;
-  for (const Joint* joint : driven) numbers.push_back(joint->acceleration / degree);
+  std::vector<double> numbers = mapped(driven, [](const Joint* joint) { return joint->acceleration / degree; });
   const double least = *std::min_element(numbers.begin(), numbers.begin() + arm),
                most = *std::max_element(numbers.begin() + arm, numbers.end());
   const Joint& first = *driven.front();
   if (!(least > most) || !(most > 0)) return;
   std::reverse(numbers.begin(), numbers.end());
-  std::vector<std::string> words;
-  for (const double number : numbers) words.push_back(fmt::format("{:.5g}", number));
+  const auto words = mapped(numbers, [](double number) { return fmt::format("{:.5g}", number); });
   add(first.acceleration_where,
       fmt::format(
           "axes 1 to 3 accelerate by {:.4g} deg/s2 and more, and the wrist by {:.4g} at most (limit: the arm has the most inertia "
@@ -534,8 +529,7 @@ bool doubt_ramp(const Joint& joint, const std::vector<const Joint*>& driven, con
         fmt::format("acceleration_deg_per_s2: {}{}", meant(joint), why));
     return false;
   }
-  std::vector<std::string> numbers;
-  for (const Joint* of : driven) numbers.push_back(meant(*of));
+  const auto numbers = mapped(driven, [&](const Joint* of) { return meant(*of); });
   add(joint.acceleration_where, what, cause,
       fmt::format("accelerations_deg_per_s2: [{}]{}", fmt::join(numbers, ", "), why));
   return true;
@@ -578,8 +572,8 @@ void doubt_digits(const std::vector<const Joint*>& driven, const AddDoubt& add) 
     if (high > most_apart * low || (!slow && ramp(joint) >= low / most_apart)) continue;
     const double number = joint.acceleration / degree, ten_times = slow ? 10 * number : number / 10;
     const double like_beside = 10 * std::round(joint.speed / std::sqrt(low * high) / degree / 10);
-    std::vector<std::string> numbers;
-    for (const Joint* of : driven) numbers.push_back(fmt::format("{:.5g}", of == &joint ? ten_times : of->acceleration / degree));
+    const auto numbers = mapped(
+        driven, [&](const Joint* of) { return fmt::format("{:.5g}", of == &joint ? ten_times : of->acceleration / degree); });
     const bool list = has_list(joint);
     add(joint.acceleration_where,
         fmt::format("{} takes {:.3g} s from rest to its full speed by acceleration_deg_per_s2 {:.5g}, the axes beside it {:.3g} "

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/text.h"
 #include "pipeline/settings/units.h"
 
@@ -472,9 +473,7 @@ class FieldEcho final : public Fields {
 
   void numbers(Key key, std::vector<double>& values, Need, std::string_view) override {
     if (values.empty()) return;
-    std::vector<Node> items;
-    for (double value : values) items.push_back(scalar(text_in_unit(value, unit_of_key(key))));
-    put(key, list_of(std::move(items)));
+    put(key, list_of(mapped(values, [&](double value) { return scalar(text_in_unit(value, unit_of_key(key))); })));
   }
 
   void path(Key key, std::filesystem::path& value, Need, std::string_view) override {
@@ -491,9 +490,8 @@ class FieldEcho final : public Fields {
 
   void choose_some(Key key, std::vector<int>& indices, const Words& words, std::string_view) override {
     if (indices.empty()) return;
-    std::vector<Node> items;
-    for (int index : indices) items.push_back(scalar(std::string(words[index])));
-    put(key, items.size() == 1 ? items[0] : list_of(std::move(items)));
+    const auto items = mapped(indices, [&](int index) { return scalar(std::string(words[index])); });
+    put(key, items.size() == 1 ? items[0] : list_of(items));
   }
 
   bool enter(Key key, Need, bool present, std::string_view, const char*) override {
@@ -636,8 +634,8 @@ class KeyLister final : public Fields {
 
   /// Returns the path of the map that lists the keys of this type; empty if no map lists them yet.
   std::string map_of(const std::string& type) const {
-    const auto found = std::find_if(maps_.begin(), maps_.end(), [&](const Map& map) { return map.type == type; });
-    return found == maps_.end() ? "" : found->path;
+    const Map* const found = find_in(maps_, &Map::type, type);
+    return found ? found->path : "";
   }
 
   std::string reference(const char* type) const {

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <tuple>
 
+#include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
+
 namespace dresslife::pipeline {
 namespace {
 
@@ -10,9 +13,7 @@ namespace {
 constexpr std::size_t most_problems = 100;
 
 std::string lines_of(const std::vector<Problem>& problems) {
-  std::string text;
-  for (const Problem& problem : problems) text += (text.empty() ? "" : "\n") + problem.line;
-  return text;
+  return joined(mapped(problems, &Problem::line), "\n");
 }
 
 /// Returns whether the path `inner` is equal to `outer` or inside of it: "routing.rings[2]" is inside of "routing".

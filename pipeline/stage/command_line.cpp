@@ -12,6 +12,7 @@
 #include "pipeline/base/errors.h"
 #include "pipeline/base/installation.h"
 #include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/settings/fields.h"
 #include "pipeline/stage/program_manual.h"
 #include "pipeline/stage/stage.h"
@@ -92,8 +93,7 @@ void add_manual(CLI::App& app, const Command& program, const Option& manual) {
 /// no name is near.
 std::string meant_command(const Command& program, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return "";
-  std::vector<std::string> names;
-  for (const Command& command : program.commands) names.push_back(command.name);
+  const std::vector<std::string> names = mapped(program.commands, &Command::name);
   if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return "";
   return nearest_word(argv[1], names);
 }

@@ -9,6 +9,7 @@
 
 #include "pipeline/base/errors.h"
 #include "pipeline/base/limits.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/progress.h"
 #include "pipeline/files/files.h"
 #include "pipeline/stage/stage.h"
@@ -68,9 +69,7 @@ void MemoryNeed::add(double bytes, std::string what, std::string remedy) {
 }
 
 double MemoryNeed::bytes() const {
-  double sum = 0;
-  for (const Share& share : shares_) sum += share.bytes;
-  return sum;
+  return sum_of(shares_, &Share::bytes);
 }
 
 const MemoryNeed::Share* MemoryNeed::most() const {

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/files/files.h"
@@ -30,10 +31,8 @@ std::string value_words(const Node* value) {
                                          : fmt::format("a text of {} letters", value->text.size());
   if (value->is_map()) return fmt::format("{} keys", value->entries.size());
   if (!is_plain(*value)) return fmt::format("{} entries", value->items.size());
-  std::vector<std::string> items;
-  for (const Node& item : value->items) items.push_back(item.text);
-  const std::string list = fmt::format("[{}]", joined(items, ", "));
-  return list.size() <= longest ? list : fmt::format("a list of {}", items.size());
+  const std::string list = fmt::format("[{}]", joined(mapped(value->items, &Node::text), ", "));
+  return list.size() <= longest ? list : fmt::format("a list of {}", value->items.size());
 }
 
 class Comparison {

@@ -13,6 +13,7 @@
 #include "pipeline/base/csv_rows.h"
 #include "pipeline/base/joined.h"
 #include "pipeline/base/limits.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/order.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/cable/believable.h"
@@ -50,9 +51,7 @@ class LifeRoot {
 
  private:
   const ResultValue* find(const std::string& name) const {
-    const auto found = std::find_if(result_.results.begin(), result_.results.end(),
-                                    [&](const ResultValue& one) { return one.name == name; });
-    return found == result_.results.end() ? nullptr : &*found;
+    return find_in(result_.results, &ResultValue::name, name);
   }
   const ResultValue& stored(const std::string& name) const {
     if (const ResultValue* const found = find(name)) return *found;
@@ -244,8 +243,7 @@ void report_orders(std::vector<RankingRow>& rows) {
   for (std::size_t k = 0; k < rows.size(); ++k) rows[k].rank = rows[k].done() ? k + 1 : 0;
   if (rows.empty() || rows.size() > most) return;
   const std::size_t samples = std::clamp(samples_in_all / rows.size(), fewest, life_samples);
-  std::vector<std::vector<double>> lives;
-  for (RankingRow& row : rows) lives.push_back(lives_of(row, samples));
+  std::vector<std::vector<double>> lives = mapped(rows, [&](RankingRow& row) { return lives_of(row, samples); });
   order_beyond_robot(rows, lives);
   const std::vector<double>*before = nullptr, *leader = nullptr;
   std::size_t rank = 0;
@@ -269,9 +267,7 @@ bool better(const RankingRow& one, const RankingRow& other) {
 }
 
 std::vector<RankingRow> sorted_rows(const std::vector<JobResult>& results) {
-  std::vector<RankingRow> rows;
-  rows.reserve(results.size());
-  for (const JobResult& result : results) rows.push_back(read_row(result));
+  std::vector<RankingRow> rows = mapped(results, read_row);
   std::stable_sort(rows.begin(), rows.end(), better);
   return rows;
 }
@@ -296,12 +292,8 @@ std::vector<std::string> paragraphs(const RankingRow& row) {
   if (!row.has_result()) return all;
   if (row.done())
     if (const std::string kinds = warning_kinds(row); !kinds.empty()) all.push_back("WARNING: " + kinds);
-  all.push_back(held_words(row));
-  all.push_back(uncapped_words(row));
-  all.push_back(repeat_words(row));
-  all.push_back(uncertainty_words(row));
-  all.push_back(failure_words(row));
-  all.push_back(own_values_words(row));
+  all.insert(all.end(), {held_words(row), uncapped_words(row), repeat_words(row), uncertainty_words(row), failure_words(row),
+                         own_values_words(row)});
   if (!row.not_evaluated.empty() && action_words(row).find(row.not_evaluated) == std::string::npos)
     all.push_back(fmt::format("Not evaluated: {}.", row.not_evaluated));
   if (row.done() && row.relative) all.push_back(relative_words(*row.relative));
@@ -355,9 +347,8 @@ std::vector<RankingRow> results_of(const Study& study, const StudyPlaces& places
   std::vector<JobResult> results;
   for (std::size_t k = 0; k < states.size(); ++k) {
     const StudyJob& job = study.jobs[k];
-    JobResult result{job.name, places.life(job.name), first_problem(job), states[k].settings, states[k].results};
-    result.stale = states[k].has_last;
-    result.changed = states[k].changed;
+    JobResult result{job.name,          places.life(job.name), first_problem(job), states[k].settings,
+                     states[k].results, states[k].has_last,    states[k].changed};
     const bool found = states[k].done() || states[k].has_last;
     if (found && states[k].keep == Keep::lives && !state_of(result.life_file).exists()) result.life_file.clear();
     if (job.failure.empty() && !states[k].done())
@@ -397,9 +388,7 @@ std::string force_words(const RankingRow& row) {
 }
 
 std::string ranking_csv(const std::vector<RankingRow>& rows) {
-  std::vector<std::string> names;
-  for (const RankingColumn& column : ranking_columns()) names.push_back(column.name);
-  std::string text = fmt::format("{}\n", joined(names, ","));
+  std::string text = joined(mapped(ranking_columns(), &RankingColumn::name), ",") + '\n';
   for (const RankingRow& row : rows) {
     const std::map<std::string_view, std::string> without_result{
         {"job", row.job},

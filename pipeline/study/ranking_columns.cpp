@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/settings/units.h"
 
 namespace dresslife::pipeline {
@@ -292,9 +293,7 @@ class Table {
     add(where("warnings", "1", "how many warnings the job has", known,
               [](const RankingRow& row) { return static_cast<int>(row.warnings->size()); }));
     add(where("warning_words", "text", "all warnings", known, [](const RankingRow& row) {
-      std::vector<std::string> words;
-      for (const Warning& warning : *row.warnings) words.push_back(warning.text());
-      return joined(words, "; ");
+      return joined(mapped(*row.warnings, &Warning::text), "; ");
     }));
     for (int k = 0; k < warning_kinds_count; ++k) {
       const auto kind = static_cast<WarningKind>(k);

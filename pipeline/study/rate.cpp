@@ -8,6 +8,7 @@
 
 #include "pipeline/base/csv_rows.h"
 #include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/job/job.h"
@@ -27,6 +28,15 @@ bool tells_friction(const Node& component) {
   return !parts || std::all_of(parts->items.begin(), parts->items.end(), [](const Node& part) {
     return part.find("friction_coefficient") && part.find("radial_line_load_N_per_m") && tells_friction(part);
   });
+}
+
+/// Returns strain.slip for a job of this cable alone: "free", then "friction" if all its parts have its keys, else "free".
+std::string slip_of_cable(const Node& alone) {
+  const Node& cable = alone.find("components")->items.front();
+  const bool rubs = tells_friction(cable);
+  std::vector<std::string> words{"free"};
+  for (int level = 1; level < levels_of(cable); ++level) words.push_back(rubs ? "friction" : "free");
+  return fmt::format("[{}]", joined(words, ", "));
 }
 
 std::string fit_for_a_folder(std::string text) {
@@ -118,12 +128,6 @@ class RatedStudyMaker {
   RateStudy made_;
 };
 
-const RankingRow* row_of(const std::vector<RankingRow>& rows, const std::string& job) {
-  const auto found =
-      std::find_if(rows.begin(), rows.end(), [&](const RankingRow& row) { return row.job == job; });
-  return found == rows.end() ? nullptr : &*found;
-}
-
 /// Returns "respected" if half of such cables reach the maker's rating.
 std::string verdict(double rated, double predicted) {
   if (rated == 0 || std::isnan(predicted)) return "";
@@ -134,26 +138,14 @@ std::string verdict(double rated, double predicted) {
 }  // namespace
 
 int levels_of(const Node& component) {
-  int depth = 0;
-  if (const Node* parts = component.find("components"))
-    for (const Node& part : parts->items) depth = std::max(depth, levels_of(part));
-  return depth + 1;
-}
-
-std::string slip_of_cable(const Node& alone) {
-  const Node& cable = alone.find("components")->items.front();
-  const bool rubs = tells_friction(cable);
-  std::vector<std::string> words{"free"};
-  for (int level = 1; level < levels_of(cable); ++level) words.push_back(rubs ? "friction" : "free");
-  return fmt::format("[{}]", joined(words, ", "));
+  const Node* const parts = component.find("components");
+  return 1 + (parts ? largest_of(parts->items, 0, levels_of) : 0);
 }
 
 std::string rig_words(const Rig& rig) {
   const Node keys = echo_fields(rig);
-  std::vector<std::string> words;
-  for (const Entry& entry : keys.entries)
-    if (entry.key != "kind" && entry.key != "cycles_per_minute")
-      words.push_back(entry.key + " " + entry.value.text);
+  const auto has_unit = [](const Entry& entry) { return entry.key != "kind" && entry.key != "cycles_per_minute"; };
+  const auto words = mapped(filtered(keys.entries, has_unit), [](const Entry& entry) { return entry.key + " " + entry.value.text; });
   return fmt::format("{}: {}", word(rig.kind), joined(words, ", "));
 }
 
@@ -174,15 +166,14 @@ CycleLives cycles_of(const RankingRow& row) {
 
 std::string rate_table(const RateStudy& rated, const std::vector<RankingRow>& rows) {
   std::string text, cable;
-  std::size_t wide = 46;
-  for (const RatedTest& test : rated.tests) wide = std::max(wide, columns_of(test.rig));
+  const std::size_t wide = largest_of(rated.tests, std::size_t{46}, [](const RatedTest& test) { return columns_of(test.rig); });
   for (const RatedTest& test : rated.tests) {
     if (test.cable != cable) text += fmt::format("{}{}\n", text.empty() ? "" : "\n", test.cable);
     if (test.cable != cable)
       text += fmt::format("  {:<{}} {:>12} {:>27} {:>27}  {}\n", "rig", wide, "cycles", "10 .. 90 %",
                           "inside glued .. free", "maker");
     cable = test.cable;
-    const RankingRow* row = row_of(rows, test.job);
+    const RankingRow* row = find_in(rows, &RankingRow::job, test.job);
     if (!row || !row->done()) {
       text += fmt::format("  {:<{}} {}\n", test.rig, wide, row ? row->failure : "not computed");
       continue;
@@ -210,7 +201,7 @@ std::string rate_csv(const RateStudy& rated, const std::vector<RankingRow>& rows
       "cable,job,rig,status,cycles_p10,cycles_p50,cycles_p90,worst_wire_cycles,cycles_all_stick,cycles_all_free,"
       "rated_cycles,source\n";
   for (const RatedTest& test : rated.tests) {
-    const RankingRow* row = row_of(rows, test.job);
+    const RankingRow* row = find_in(rows, &RankingRow::job, test.job);
     const bool done = row && row->done();
     std::vector<std::string> cells{csv_cell(test.cable), csv_cell(test.job), csv_cell(test.rig),
                                    done ? "done" : csv_cell(row ? row->failure : "to do")};

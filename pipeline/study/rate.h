@@ -46,9 +46,6 @@ CycleLives cycles_of(const RankingRow& row);
 std::string rate_table(const RateStudy& rated, const std::vector<RankingRow>& rows);
 std::string rate_csv(const RateStudy& rated, const std::vector<RankingRow>& rows);
 
-/// Returns strain.slip for a job of this cable alone: "free", then "friction" if all its parts have its keys, else "free".
-std::string slip_of_cable(const Node& cable_alone);
-
 /// Returns the number of levels of parts in a component, including itself.
 int levels_of(const Node& component);
 

@@ -10,6 +10,7 @@
 
 #include "pipeline/base/digest.h"
 #include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/files/files.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/cable_alone.h"
@@ -28,9 +29,7 @@ std::string slip_alone(const Job& job, const Node& alone, bool is_part, bool was
   if (!is_part && !was_alone)
     slip.insert(slip.begin(), Slip::free);  // the cable's jacket is now a separate level
   slip.resize(levels, slip.back());
-  std::vector<std::string> words;
-  for (const Slip one : slip) words.emplace_back(word(one));
-  return fmt::format("[{}]", joined(words, ", "));
+  return fmt::format("[{}]", joined(mapped(slip, [](Slip one) { return word(one); }), ", "));
 }
 
 class CableStudyMaker {
@@ -122,12 +121,6 @@ double place_life(const std::filesystem::path& life, const RatedCable& where) {
   return shortest;
 }
 
-RankingRow* row_of(std::vector<RankingRow>& rows, const std::string& job) {
-  const auto found =
-      std::find_if(rows.begin(), rows.end(), [&](const RankingRow& row) { return row.job == job; });
-  return found == rows.end() ? nullptr : &*found;
-}
-
 /// Sets the relative life of a row. Returns the reason if this is not possible; else empty.
 std::string relate_one(const RatedCable& rated, const RankingRow& rig, RankingRow& row) {
   if (!rig.done()) return rig.failure;
@@ -165,11 +158,10 @@ std::vector<std::string> relate(const RatedStudy& rated, const std::vector<Ranki
                                 std::vector<RankingRow>& rows) {
   std::vector<std::string> silent;
   for (const RatedCable& cable : rated.cables) {
-    RankingRow* const row = row_of(rows, cable.job);
+    RankingRow* const row = find_in(rows, &RankingRow::job, cable.job);
     if (!row || !row->done()) continue;
-    const auto rig = std::find_if(rigs.begin(), rigs.end(),
-                                  [&](const RankingRow& one) { return one.job == cable.rig_job; });
-    const std::string reason = rig == rigs.end() ? "its rig has not run" : relate_one(cable, *rig, *row);
+    const RankingRow* const rig = find_in(rigs, &RankingRow::job, cable.rig_job);
+    const std::string reason = rig ? relate_one(cable, *rig, *row) : "its rig has not run";
     if (!reason.empty())
       silent.push_back(
           fmt::format("{}: no relative life of {} ({}): {}", cable.job, cable.name, cable.rig, reason));

@@ -1,6 +1,7 @@
 #include "pipeline/study/row_warnings.h"
 
 #include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
 
 #include <fmt/format.h>
 
@@ -8,11 +9,6 @@
 
 namespace dresslife::pipeline {
 namespace {
-
-std::size_t count_of(const std::vector<Warning>& warnings, WarningKind kind) {
-  return static_cast<std::size_t>(std::count_if(
-      warnings.begin(), warnings.end(), [&](const Warning& warning) { return warning.kind == kind; }));
-}
 
 /// jobs: words that precede the name of the job; may be empty.
 std::string lines_of(const RankingRow& row, const Warning& warning, const std::string& jobs = "") {
@@ -26,9 +22,8 @@ std::string lines_of_kind(const std::vector<RankingRow>& rows, WarningKind kind)
   std::size_t jobs = 0;
   for (const RankingRow& row : rows) {
     const std::vector<Warning> warnings = warnings_of(row);
-    const auto found = std::find_if(warnings.begin(), warnings.end(),
-                                    [&](const Warning& warning) { return warning.kind == kind; });
-    if (found == warnings.end()) continue;
+    const Warning* const found = find_in(warnings, &Warning::kind, kind);
+    if (!found) continue;
     ++jobs;
     last = lines_of(row, *found, jobs < 2 ? "" : fmt::format("{} jobs, {}: ", jobs, title(kind)));
   }
@@ -49,7 +44,7 @@ std::string warning_kinds(const RankingRow& row, bool with_other_values) {
   std::vector<std::string> words;
   for (int k = 0; k < warning_kinds_count; ++k) {
     const auto kind = static_cast<WarningKind>(k);
-    if (const std::size_t count = count_of(warnings, kind); count > 0 && (with_other_values || kind != WarningKind::other_values))
+    if (const auto count = std::ranges::count(warnings, kind, &Warning::kind); count > 0 && (with_other_values || kind != WarningKind::other_values))
       words.push_back(count == 1 ? std::string(title(kind)) : fmt::format("{} x{}", title(kind), count));
   }
   return joined(words, ", ");

@@ -9,18 +9,13 @@
 #include <map>
 
 #include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/job/uncertainty.h"
 #include "pipeline/study/row_warnings.h"
 
 namespace dresslife::pipeline {
 namespace {
-
-const UncertainParameter* parameter_of(const std::string& name) {
-  for (const UncertainParameter& parameter : uncertain_parameters())
-    if (parameter.name == name) return &parameter;
-  return nullptr;
-}
 
 bool outlives_robot(const RankingRow& row, double hours) {
   return std::isfinite(hours) && hours > row.robot_life_hours;
@@ -30,7 +25,7 @@ bool is_damaged(const RankingRow& row) { return !row.worst_component.empty() && 
 
 std::string cause_words(const RankingRow& row) {
   if (!(row.measure_next_share > 0)) return "";
-  const UncertainParameter* const cause = parameter_of(row.measure_next);
+  const UncertainParameter* const cause = find_in(uncertain_parameters(), &UncertainParameter::name, row.measure_next);
   // Prefer the number in life_shares, which is rounded so that all shares add up to 100 %.
   const std::size_t listed = ("; " + row.life_shares).find("; " + row.measure_next + " ");
   const double percent = listed == std::string::npos ? 100 * row.measure_next_share
@@ -40,7 +35,7 @@ std::string cause_words(const RankingRow& row) {
 
 std::string test_words(const RankingRow& row) {
   if (row.life_response.empty() || std::isinf(row.planned_hours[0])) return "";
-  const UncertainParameter* const test = parameter_of(row.best_test);
+  const UncertainParameter* const test = find_in(uncertain_parameters(), &UncertainParameter::name, row.best_test);
   if (!test) return "No single test would narrow the range much.";
   return fmt::format("{} would narrow the range from {} to about {}, if it confirms today's estimate.",
                      test->test, range_text(row.planned_hours[0], row.planned_hours[2]),
@@ -63,15 +58,8 @@ std::string error_words(const RankingRow& row) {
 }
 
 std::string joined_words(const std::vector<std::string>& sentences) {
-  std::string text;
-  for (const std::string& sentence : sentences)
-    if (!sentence.empty()) text += (text.empty() ? "" : " ") + sentence;
-  return text;
+  return joined(filtered(sentences, [](const std::string& sentence) { return !sentence.empty(); }), " ");
 }
-
-}  // namespace
-
-namespace {
 
 /// Returns "2,000 .. 90,000 h (10 .. 90 %, not validated)". Old files contain only the median.
 std::string wall_life(const UnvalidatedMode& mode) {
@@ -362,11 +350,10 @@ std::vector<std::string> estimate_words(const std::vector<RankingRow>& rows) {
   std::vector<std::pair<std::string, std::size_t>> all;
   for (const RankingRow& row : rows) {
     if (!row.done() || row.estimates.empty()) continue;
-    const auto same = std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.first == row.estimates; });
-    if (same == all.end())
-      all.emplace_back(row.estimates, 1);
-    else
+    if (auto* const same = find_in(all, &std::pair<std::string, std::size_t>::first, row.estimates))
       ++same->second;
+    else
+      all.emplace_back(row.estimates, 1);
   }
   std::vector<std::string> lines;
   for (const auto& [estimates, jobs] : all)

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/base/lists.h"
 #include "pipeline/base/readable.h"
 
 namespace dresslife::pipeline {
@@ -14,11 +15,7 @@ struct Column {
   bool to_the_right = false;
   std::vector<std::string> cells;
 
-  std::size_t width() const {
-    std::size_t widest = columns_of(title);
-    for (const std::string& cell : cells) widest = std::max(widest, columns_of(cell));
-    return widest;
-  }
+  std::size_t width() const { return largest_of(cells, columns_of(title), columns_of); }
   std::string padded(const std::string& cell) const {
     const std::string space(width() - columns_of(cell), ' ');
     return to_the_right ? space + cell : cell + space;

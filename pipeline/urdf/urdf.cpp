@@ -14,6 +14,7 @@
 #include <sstream>
 
 #include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/resolve/sources.h"
 
 namespace dresslife::pipeline {
@@ -278,9 +279,7 @@ class Chain {
     std::vector<Node> joints;
     for (std::size_t k = 0; k < moved_.size(); ++k) joints.push_back(joint_node(k));
     robot.put("joints", list_of(std::move(joints)));
-    std::vector<Node> links;
-    for (const Carrier& carrier : carriers_) links.push_back(link_node(carrier));
-    robot.put("links", list_of(std::move(links)));
+    robot.put("links", list_of(mapped(carriers_, [&](const Carrier& carrier) { return link_node(carrier); })));
     return robot.done();
   }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "pipeline/advise/calibrate/measured_bending.h"
+#include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/warning_words.h"
 
 namespace dresslife::pipeline {
@@ -135,9 +137,7 @@ class Doubts {
   }
 
   static std::string jobs_of(const ObservedTest& test) {
-    std::string text;
-    for (const ObservedTest::Variant& variant : test.variants) text += to_yaml(variant.job);
-    return text;
+    return joined(mapped(test.variants, [](const ObservedTest::Variant& variant) { return to_yaml(variant.job); }), "");
   }
   static bool same_test(const ObservedTest& a, const ObservedTest& b) {
     return a.observation.criterion == b.observation.criterion && jobs_of(a) == jobs_of(b);

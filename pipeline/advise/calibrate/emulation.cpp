@@ -12,6 +12,8 @@
 #include "pipeline/advise/calibrate/life_over_parameters.h"
 #include "pipeline/advise/calibrate/measured_bending.h"
 #include "pipeline/advise/calibrate/typical_cables.h"
+#include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/statistics.h"
 #include "pipeline/files/files.h"
@@ -26,25 +28,6 @@ using Eigen::VectorXd;
 
 // samples of the individual values of a dresspack: the error of a share of failures is 3 % or less
 constexpr std::size_t draws = 64;
-
-class RowsByJob {
- public:
-  RowsByJob(const Study& study, const std::vector<RankingRow>& rows) : study_(study) {
-    for (const RankingRow& row : rows) by_name_[row.job] = &row;
-  }
-  const RankingRow* done(std::size_t job) const {
-    const auto found = by_name_.find(study_.jobs[job].name);
-    return found != by_name_.end() && found->second->done() ? found->second : nullptr;
-  }
-  std::string failure(std::size_t job) const {
-    const auto found = by_name_.find(study_.jobs[job].name);
-    return found == by_name_.end() ? "it was not computed" : found->second->failure;
-  }
-
- private:
-  const Study& study_;
-  std::map<std::string, const RankingRow*> by_name_;
-};
 
 struct LogLife {
   double median, spread;  ///< ln of the median life, and ln of the standard deviation of ln life
@@ -71,7 +54,8 @@ class RoundEmulation {
  public:
   RoundEmulation(const std::vector<ObservedTest>& tests, const RoundOfJobs& round,
                  const std::vector<RankingRow>& rows, const StudyPlaces& places)
-      : round_(round), rows_(round.study(), rows), places_(places) {
+      : round_(round), places_(places) {
+    for (const RankingRow& row : rows) rows_[row.job] = &row;
     for (std::size_t t = 0; t < tests.size(); ++t) {
       const std::vector<RoundOfJobs::Runs>& runs = round.runs()[t];
       if (!tests[t].observation.is_life()) {
@@ -222,15 +206,15 @@ class RoundEmulation {
                                                   readable(std::exp(change), 2)));
     }
     std::sort(factors.begin(), factors.end());
-    std::string words;
-    for (const auto& [change, text] : factors) words += (words.empty() ? "" : ", ") + text;
-    return words;
+    return joined(mapped(factors, [](const auto& factor) { return factor.second; }), ", ");
   }
 
   const RankingRow& row_of(const ObservedTest& test, std::size_t job) const {
-    if (const RankingRow* const row = rows_.done(job)) return *row;
+    const auto row = rows_.find(round_.study().jobs[job].name);
+    if (row != rows_.end() && row->second->done()) return *row->second;
     throw InputError(test.where,
-                     fmt::format("'{}': its job failed: {}", test.observation.name, rows_.failure(job)),
+                     fmt::format("'{}': its job failed: {}", test.observation.name,
+                                 row == rows_.end() ? "it was not computed" : row->second->failure),
                      "correct it, or leave the row out");
   }
 
@@ -326,7 +310,7 @@ class RoundEmulation {
   }
 
   const RoundOfJobs& round_;
-  RowsByJob rows_;
+  std::map<std::string, const RankingRow*> rows_;
   const StudyPlaces& places_;
   std::vector<EmulatedTest> made_;
 };
@@ -335,9 +319,7 @@ class RoundEmulation {
 
 double EmulatedTest::log_likelihood_at(const VectorXd& z) const {
   if (life) return log_likelihood(*life, z);
-  std::vector<double> terms;
-  for (const Measurement& variant : bending) terms.push_back(log_likelihood(variant, z));
-  return log_mean(terms);
+  return log_mean(mapped(bending, [&](const Measurement& variant) { return log_likelihood(variant, z); }));
 }
 
 std::vector<EmulatedTest> emulate(const std::vector<ObservedTest>& tests, const RoundOfJobs& round,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/base/lists.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/statistics.h"
 #include "pipeline/cable/cable_bending.h"
@@ -97,9 +98,8 @@ LawPrediction predicted(const WearTest& test, const Where& where) {
   Material material;
   const Node entry = catalogue_entry("materials", test.material, where, where);
   read_fields(entry, material);
-  const auto rate = std::find_if(material.wear.begin(), material.wear.end(),
-                                 [&](const WearRate& one) { return one.against == test.against; });
-  if (rate == material.wear.end())
+  const WearRate* const rate = find_in(material.wear, &WearRate::against, test.against);
+  if (!rate)
     throw InputError(
         where, fmt::format("material '{}' has no wear rate against {}", test.material, word(test.against)),
         "give a pair that the material lists under wear");

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipeline/base/lists.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/statistics.h"
 #include "pipeline/job/uncertainty.h"
@@ -46,9 +47,7 @@ void add_service_doubts(const LearnedTest& test, double surprising, Learned& lea
         name, before.few < before.many ? "fewer" : "more", seen, readable(1 / std::max(chance, 1e-12), 2), before.few < before.many ? "few" : "many",
         life_text(test.before[1], 2), life_text(test.after[1], 2)));
   if (after.reach < usual_reach) {
-    std::vector<double> ages;
-    for (const ServiceRecord& one : test.observation.service)
-      if (one.entry_hours > 0) ages.push_back(one.entry_hours);
+    const auto ages = filtered(mapped(test.observation.service, &ServiceRecord::entry_hours), [](double age) { return age > 0; });
     learned.warnings.push_back(fmt::format(
         "'{}': {} dresspacks were in use when the records begin, half of them {} old or older. By this calibration {} of new ones reach such "
         "ages (before: {}), half of them live {}. The hours before the records do not count, because the table may lack dresspacks that were "
@@ -133,8 +132,7 @@ std::string learned_table(const Learned& learned) {
     text += fmt::format("\n{}, not validated, from hoses that had not cracked: x {} ({} .. {}), before x 1 ({} .. {})\n", wall.name,
                         factor(wall.median), factor(wall.low), factor(wall.high), factor(-normal_decile), factor(normal_decile));
   }
-  std::size_t name = 22;
-  for (const LearnedTest& test : learned.tests) name = std::max(name, columns_of(test.observation.name));
+  const std::size_t name = largest_of(learned.tests, std::size_t{22}, [](const LearnedTest& test) { return columns_of(test.observation.name); });
   constexpr const char* columns = "{:<{}} {:>20} {:>31} {:>31} {:>31}  {}\n";
   text += "\n" + fmt::format(fmt::runtime(columns), "observation", name, "observed", "predicted before", "predicted by the others",
                              "predicted after", "fails first");

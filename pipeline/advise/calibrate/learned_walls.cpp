@@ -4,6 +4,7 @@
 #include <map>
 #include <numeric>
 
+#include "pipeline/base/lists.h"
 #include "pipeline/job/uncertainty.h"
 
 namespace dresslife::pipeline {
@@ -41,9 +42,7 @@ std::vector<LearnedWall> learned_walls(const std::vector<EmulatedTest>& tests) {
   std::map<std::string, std::vector<const ObservedLife*>> observed;
   for (const EmulatedTest& test : tests)
     for (const auto& [name, life] : test.walls) observed[name].push_back(&life);
-  std::vector<LearnedWall> walls;
-  for (const auto& [name, lives] : observed) walls.push_back(learned_from(name, lives));
-  return walls;
+  return mapped(observed, [](const auto& wall) { return learned_from(wall.first, wall.second); });
 }
 
 }  // namespace dresslife::pipeline

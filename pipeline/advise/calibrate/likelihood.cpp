@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "pipeline/base/lists.h"
 #include "pipeline/base/statistics.h"
 
 namespace dresslife::pipeline {
@@ -100,29 +101,21 @@ class ServiceLikelihood {
 double log_mean(const std::vector<double>& terms) {
   const double most = *std::max_element(terms.begin(), terms.end());
   if (std::isinf(most)) return most;
-  double sum = 0;
-  for (const double term : terms) sum += std::exp(term - most);
+  const double sum = sum_of(terms, [&](double term) { return std::exp(term - most); });
   return most + std::log(sum / static_cast<double>(terms.size()));
 }
 
 double log_likelihood(const ObservedLife& observed, const Eigen::VectorXd& z) {
   assert(!observed.variants.empty());
-  if (!observed.service.empty()) {
-    const ServiceLikelihood of(observed.variants, z);
-    double sum = 0;
-    for (const ServiceFactor& one : observed.service) sum += of(one);
-    return sum;
-  }
-  std::vector<double> terms;
-  for (const LifeVariant& variant : observed.variants) terms.push_back(log_likelihood(observed, variant, z));
-  return log_mean(terms);
+  if (!observed.service.empty()) return sum_of(observed.service, ServiceLikelihood(observed.variants, z));
+  return log_mean(mapped(observed.variants, [&](const LifeVariant& variant) { return log_likelihood(observed, variant, z); }));
 }
 
 double said_by_model(const Measurement& measurement, const MeasuredNumber& number, const Eigen::VectorXd& z) {
-  double sum = 0;
-  for (const auto& [quantity, factor] : number.parts)
-    sum += factor * std::exp(measurement.log_quantities[quantity](z));
-  return sum;
+  return sum_of(number.parts, [&](const auto& part) {
+    const auto& [quantity, factor] = part;
+    return factor * std::exp(measurement.log_quantities[quantity](z));
+  });
 }
 
 double log_likelihood(const Measurement& measurement, const Eigen::VectorXd& z) {

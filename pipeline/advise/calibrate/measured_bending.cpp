@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "pipeline/base/csv_rows.h"
+#include "pipeline/base/lists.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -131,8 +132,7 @@ std::vector<BendingPoint> read_bending(const std::filesystem::path& file) {
 }
 
 BendingNumbers bending_numbers(const std::vector<BendingPoint>& points, double noise) {
-  double most = 0;
-  for (const BendingPoint& point : points) most = std::max(most, std::abs(point.moment));
+  const double most = largest_of(points, 0.0, [](const BendingPoint& point) { return std::abs(point.moment); });
   BendingNumbers made;
   std::map<double, std::size_t> places;
   Path path;

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "pipeline/advise/calibrate/doubtful_rows.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/job/job.h"
 #include "pipeline/job/learned_settings.h"
@@ -272,12 +273,10 @@ Prediction predicted(const Observation& observation, const Study& study,
   prediction.low = prediction.stuck = endless;
   std::vector<double> medians;
   for (const std::size_t index : observation.jobs) {
-    const std::string& name = study.jobs[index].name;
-    const auto row =
-        std::find_if(rows.begin(), rows.end(), [&](const RankingRow& r) { return r.job == name; });
+    const RankingRow* const row = find_in(rows, &RankingRow::job, study.jobs[index].name);
     ++prediction.variants;
-    if (row == rows.end() || !row->done()) {
-      if (prediction.failure.empty()) prediction.failure = row == rows.end() ? "not computed" : row->failure;
+    if (!row || !row->done()) {
+      if (prediction.failure.empty()) prediction.failure = row ? row->failure : "not computed";
       ++prediction.failed;
       continue;
     }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/base/lists.h"
 #include "pipeline/base/random.h"
 #include "pipeline/base/statistics.h"
 
@@ -153,9 +154,7 @@ void summarise(Posterior& posterior) {
 }
 
 double log_posterior(const std::vector<LogLikelihood>& terms, const VectorXd& z) {
-  double sum = -z.squaredNorm() / 2;
-  for (const LogLikelihood& term : terms) sum += term(z);
-  return sum;
+  return sum_of(terms, [&](const LogLikelihood& term) { return term(z); }, -z.squaredNorm() / 2);
 }
 
 Laplace laplace_of(const std::vector<LogLikelihood>& terms, const VectorXd& start) {

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "pipeline/advise/calibrate/life_over_parameters.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/random.h"
 #include "pipeline/base/statistics.h"
 
@@ -65,8 +66,7 @@ PredictedDeciles predicted_deciles(const EmulatedTest& test, const Eigen::Matrix
 }
 
 ServiceChance service_chance(const ObservedLife& life, const std::vector<ServiceRecord>& records, const Eigen::MatrixXd& draws) {
-  int failures = 0;
-  for (const ServiceFactor& one : life.service) failures += one.failed ? one.count : 0;
+  const int failures = sum_of(life.service, [](const ServiceFactor& one) { return one.failed ? one.count : 0; }, 0);
   std::map<long, int> entries;  // (age) number of dresspacks; ages within 5 % are one age
   int begun = 0;
   for (const ServiceRecord& one : records)
@@ -74,15 +74,12 @@ ServiceChance service_chance(const ObservedLife& life, const std::vector<Service
   ServiceChance chance{0, 0, begun > 0 ? 0.0 : 1.0};
   const auto all = static_cast<double>(draws.rows());
   for (Index k = 0; k < draws.rows(); ++k) {
-    std::vector<LifeAt> lives;
-    for (const LifeVariant& variant : life.variants) lives.push_back(variant(draws.row(k).transpose()));
+    const std::vector<LifeAt> lives =
+        mapped(life.variants, [&](const LifeVariant& variant) { return variant(draws.row(k).transpose()); });
     const auto log_alive = [&](double log_age) {
-      std::vector<double> terms;
-      for (const LifeAt& at : lives) terms.push_back(log_normal_share((at.log_median - log_age) / at.spread));
-      return log_mean(terms);
+      return log_mean(mapped(lives, [&](const LifeAt& at) { return log_normal_share((at.log_median - log_age) / at.spread); }));
     };
-    double mean = 0;
-    for (const ServiceFactor& one : life.service) mean -= one.count * log_alive(one.log_age);
+    const double mean = -sum_of(life.service, [&](const ServiceFactor& one) { return one.count * log_alive(one.log_age); });
     double below = 0, term = std::exp(-mean);  // probability of fewer failures; probability of exactly this number
     for (int n = 1; n <= failures; ++n) below += term, term *= mean / n;
     chance.few += (below + term) / all, chance.many += (1 - below) / all;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "pipeline/base/lists.h"
 #include "pipeline/base/ownership.h"
 
 namespace dresslife::pipeline {
@@ -17,12 +18,8 @@ constexpr std::size_t most_finalists = 4;
 /// Returns the best candidates; with two objectives the whole front. The original jobs are left out, because they are always
 /// included.
 std::vector<std::size_t> finalists_of(const Improvement& found) {
+  if (found.front.size() > 1) return filtered(found.front, [](std::size_t k) { return k > 0; });
   std::vector<std::size_t> best;
-  if (found.front.size() > 1) {
-    std::copy_if(found.front.begin(), found.front.end(), std::back_inserter(best),
-                 [](std::size_t k) { return k > 0; });
-    return best;
-  }
   for (std::size_t k = 1; k < found.trials.size(); ++k)
     if (found.trials[k].worst.feasible()) best.push_back(k);
   std::stable_sort(best.begin(), best.end(),
@@ -31,11 +28,12 @@ std::vector<std::size_t> finalists_of(const Improvement& found) {
   return best;
 }
 
-}  // namespace
-
+/// Returns whether a row belongs to one of these jobs.
 bool is_of(const RankingRow& row, const std::vector<std::string>& jobs) {
   return std::find(jobs.begin(), jobs.end(), row.job) != jobs.end();
 }
+
+}  // namespace
 
 const Final* Finals::best() const {
   const Final* found = nullptr;
@@ -139,10 +137,9 @@ void judge(Finals& finals, const Improvement& found, const ImproveRequest& reque
       const std::vector<RankingRow> rows = make_rows(study);
       std::vector<Outcome> worst;
       for (const std::vector<std::string>& names : jobs) {
-        std::vector<Outcome> outcomes;
-        for (const RankingRow& row : rows)
-          if (is_of(row, names)) outcomes.push_back(outcome_of(row, places.job(row.job), found.limits));
-        worst.push_back(worst_of(outcomes));
+        const auto its_rows = filtered(rows, [&](const RankingRow& row) { return is_of(row, names); });
+        worst.push_back(worst_of(mapped(
+            its_rows, [&](const RankingRow& row) { return outcome_of(row, places.job(row.job), found.limits); })));
       }
       return worst;
     };

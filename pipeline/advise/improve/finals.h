@@ -62,7 +62,4 @@ void judge(Finals& finals, const Improvement& found, const ImproveRequest& reque
 /// absent if no input is uncertain.
 std::optional<double> share_longer(const Finals& finals, const Final& best, const StudyPlaces& places);
 
-/// Returns whether a row belongs to one of these jobs.
-bool is_of(const RankingRow& row, const std::vector<std::string>& jobs);
-
 }  // namespace dresslife::pipeline

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "pipeline/advise/improve/set_text.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/base/text.h"
 #include "pipeline/job/job.h"
@@ -334,8 +335,7 @@ void free_place(Node& free, const std::string& path) {
 Freedom Freedom::from(const Node& free, const std::vector<std::shared_ptr<const Job>>& jobs) {
   if (!free.is_map() || free.entries.empty())
     throw InputError(free.where, "free must be a map from keys to what they may be", ways);
-  std::vector<Node> documents;
-  for (const auto& job : jobs) documents.push_back(parse_yaml(job_text(*job), "job"));
+  const std::vector<Node> documents = mapped(jobs, [](const auto& job) { return parse_yaml(job_text(*job), "job"); });
   Freedom freedom;
   std::vector<VectorXd> places;
   for (const Entry& entry : free.entries) {
@@ -387,9 +387,7 @@ Node Freedom::usual(const Job& job) {
 }
 
 Index Freedom::variables() const {
-  Index sum = 0;
-  for (const FreeVariable& freed : keys_) sum += freed.key->variables();
-  return sum;
+  return sum_of(keys_, [](const FreeVariable& freed) { return freed.key->variables(); }, Index{0});
 }
 
 std::vector<std::string> Freedom::at_ends(const VectorXd& place) const {

@@ -13,7 +13,9 @@
 #include "pipeline/advise/search/random_search.h"
 #include "pipeline/advise/search/surrogate_search.h"
 #include "pipeline/base/csv_rows.h"
+#include "pipeline/base/joined.h"
 #include "pipeline/base/limits.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/sources.h"
@@ -54,12 +56,8 @@ AskedLimits limits_of(const Node& document) {
 
 /// Returns "{KEY.PATH: VALUE, ...}" for "KEY.PATH=VALUE".
 std::string changes_of(const std::vector<std::string>& sets) {
-  std::string text;
-  for (const std::string& set : sets) {
-    const std::size_t equals = set.find('=');
-    text += (text.empty() ? "" : ", ") + set.substr(0, equals) + ": " + set.substr(equals + 1);
-  }
-  return "{" + text + "}";
+  const auto change = [](const std::string& set) { return set.substr(0, set.find('=')) + ": " + set.substr(set.find('=') + 1); };
+  return "{" + joined(mapped(sets, change), ", ") + "}";
 }
 
 double longest_hose(const std::vector<StudyJob>& jobs) {
@@ -178,9 +176,7 @@ class Improver {
   }
 
   std::vector<std::vector<std::string>> sets_at(const std::vector<VectorXd>& places) const {
-    std::vector<std::vector<std::string>> sets;
-    for (const VectorXd& place : places) sets.push_back(freedom_.sets_at(place));
-    return sets;
+    return mapped(places, [&](const VectorXd& place) { return freedom_.sets_at(place); });
   }
 
   std::size_t aims() const { return request_.second == SecondAim::none ? 1 : 2; }
@@ -189,10 +185,7 @@ class Improver {
     const Screen screen = [this](const std::vector<VectorXd>& places) { return surely_beyond(places); };
     if (request_.method == SearchMethod::random)
       return std::make_unique<RandomSearch>(freedom_.variables(), request_.seed, screen);
-    SurrogateSettings settings;
-    settings.seed = request_.seed;
-    settings.aims = aims();
-    settings.short_runs = std::max(0, request_.short_runs);
+    const SurrogateSettings settings{.seed = request_.seed, .aims = aims(), .short_runs = std::max(0, request_.short_runs)};
     done_.most_short_runs =
         request_.short_runs > 0 ? request_.short_runs : static_cast<int>(40 * freedom_.variables());
     ShortRuns make_short_runs;
@@ -261,17 +254,14 @@ class Improver {
   }
 
   static std::string list_of_changes(const std::vector<std::vector<std::string>>& sets) {
-    std::string text;
-    for (const std::vector<std::string>& of : sets) text += "- " + changes_of(of) + "\n";
-    return text;
+    return joined(mapped(sets, [](const auto& of) { return "- " + changes_of(of) + "\n"; }), "");
   }
 
   /// Returns, (place), the worst of all jobs' short runs. A trial that does not run has its violation of the geometric limits
   /// (V1) to (V5).
   std::vector<Candidate> short_runs_of(const std::vector<VectorXd>& places) {
     const std::string candidates = list_of_changes(sets_at(places));
-    std::vector<Candidate> results;
-    for (const VectorXd& place : places) results.push_back({place, true, {}, {}});
+    std::vector<Candidate> results = mapped(places, [](const VectorXd& place) { return Candidate{place, true, {}, {}}; });
     std::vector<std::pair<double, std::string>> worst(places.size());  // violation and its limits
     for (const auto& job : screened_) {
       const ScreenedList list =
@@ -348,9 +338,7 @@ class Improver {
   /// clamps.
   void add_geometry(std::vector<Trial>& trials) const {
     if (screened_.empty()) return;
-    std::vector<std::vector<std::string>> sets;
-    for (const Trial& trial : trials) sets.push_back(trial.sets);
-    const std::vector<ScreeningResult> results = screened(sets);
+    const std::vector<ScreeningResult> results = screened(mapped(trials, &Trial::sets));
     for (std::size_t k = 0; k < trials.size(); ++k) {
       Outcome& worst = trials[k].worst;
       if (worst.failure.empty()) {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/readable.h"
 
 namespace dresslife::pipeline {
@@ -25,26 +27,17 @@ std::vector<ModeLife> earliest_first(std::vector<ModeLife> modes) {
   return modes;
 }
 
-double smallest_margin(const Outcome& outcome) {
-  double margin = endless;
-  for (const double g : outcome.beyond) margin = std::min(margin, -g);
-  return margin;
-}
-
 }  // namespace
 
 double life_by(const Outcome& outcome, const std::string& mode) {
   if (!outcome.failure.empty()) return endless;
-  for (const ModeLife& of : outcome.modes)
-    if (of.mode == mode) return of.hours;
-  return endless;
+  const ModeLife* const of = find_in(outcome.modes, &ModeLife::mode, mode);
+  return of ? of->hours : endless;
 }
 
 std::vector<ModeLife> worse_modes(const Outcome& outcome, const Outcome& as_it_is) {
-  std::vector<ModeLife> worse;
-  for (const ModeLife& mode : outcome.modes)
-    if (mode.hours < least_life(mode, outcome, as_it_is)) worse.push_back(mode);
-  return earliest_first(std::move(worse));
+  return earliest_first(filtered(
+      outcome.modes, [&](const ModeLife& mode) { return mode.hours < least_life(mode, outcome, as_it_is); }));
 }
 
 ModeLife first_mode(const Outcome& outcome) {
@@ -62,7 +55,7 @@ Merit merit_of(const Outcome& outcome, const Outcome& as_it_is) {
   merit.counted_hours = std::min(outcome.hours, outcome.robot_life);
   if (!worse.empty()) merit.counted_hours = std::min(merit.counted_hours, worse.front().hours);
   merit.first_hours = std::min(outcome.robot_life, first_mode(outcome).hours);
-  merit.margin = smallest_margin(outcome);
+  merit.margin = smallest_of(outcome.beyond, endless, std::negate<>());
   merit.hours = outcome.hours;
   return merit;
 }
@@ -96,11 +89,9 @@ bool clearly_better(const Merit& one, const Merit& other) {
 }
 
 std::string mode_words(const Outcome& outcome) {
-  std::string text;
-  for (const ModeLife& mode : earliest_first(outcome.modes))
-    if (mode.hours < outcome.robot_life)
-      text += fmt::format("{}{} from {}", text.empty() ? "" : ", ", mode.mode, hours_text(mode.hours));
-  return text;
+  const auto matters = [&](const ModeLife& mode) { return mode.hours < outcome.robot_life; };
+  const auto words = [](const ModeLife& mode) { return fmt::format("{} from {}", mode.mode, hours_text(mode.hours)); };
+  return joined(mapped(filtered(earliest_first(outcome.modes), matters), words), ", ");
 }
 
 }  // namespace dresslife::pipeline

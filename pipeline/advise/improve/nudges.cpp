@@ -5,6 +5,8 @@
 #include <Eigen/Geometry>
 
 #include "pipeline/base/constants.h"
+#include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/job/job.h"
 #include "pipeline/settings/fields.h"
 
@@ -12,10 +14,8 @@ namespace dresslife::pipeline {
 namespace {
 
 std::string routings_of(const Job& job) {
-  std::string text;
-  for (const MountedDresspack& mounted : job.dresspacks)
-    text += mounted.name + to_yaml(echo_fields(mounted.routing));
-  return text;
+  const auto text = [](const MountedDresspack& mounted) { return mounted.name + to_yaml(echo_fields(mounted.routing)); };
+  return joined(mapped(job.dresspacks, text), "");
 }
 
 std::string vector_text(const Vector3d& vector) {
@@ -120,10 +120,8 @@ bool has_mounting_tolerance(const std::string& key) {
   if (!key.starts_with("routing.") &&
       !(key.starts_with("dresspacks.") && key.find(".routing.") != std::string::npos))
     return false;
-  for (const char* const end :
-       {".free_length_m", ".at_length_m", ".position_m", ".direction", ".pre_twist_deg"})
-    if (key.ends_with(end)) return true;
-  return false;
+  constexpr std::array ends{".free_length_m", ".at_length_m", ".position_m", ".direction", ".pre_twist_deg"};
+  return std::ranges::any_of(ends, [&](const char* end) { return key.ends_with(end); });
 }
 
 std::string tolerance_text(const MountingTolerance& by) {

@@ -12,6 +12,8 @@
 #include "pipeline/arm/other_turns.h"
 #include "pipeline/base/constants.h"
 #include "pipeline/base/errors.h"
+#include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/order.h"
 #include "pipeline/job/job.h"
 #include "pipeline/settings/fields.h"
@@ -50,9 +52,8 @@ void add_lines(std::vector<Line>& lines, const std::vector<MotionStep>& steps, c
 }
 
 std::string joints_set(const Line& line, const std::vector<double>& joints) {
-  std::string list;
-  for (const double angle : joints) list += fmt::format("{}{:.6g}", list.empty() ? "" : ", ", angle / degree);
-  return fmt::format("{}.joints_deg=[{}]", line.path, list);
+  const auto in_degrees = mapped(joints, [](double angle) { return fmt::format("{:.6g}", angle / degree); });
+  return fmt::format("{}.joints_deg=[{}]", line.path, joined(in_degrees, ", "));
 }
 
 /// Returns the changes for a turn; absent: a line cannot be turned in this way.

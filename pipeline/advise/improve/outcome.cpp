@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "pipeline/base/errors.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/statistics.h"
 #include "pipeline/cable/believable.h"
@@ -69,15 +70,18 @@ struct ModeLimit {
   const char* mode;
   Limit limit;
   std::optional<double> AskedLimits::*least;
+  const char* meaning = "least hours of motion until 1 of 10 has failed by it";
   double value(const UnvalidatedMode& of) const { return limit == kink ? of.margin : of.early_hours(); }
 };
 constexpr std::array<ModeLimit, 6> mode_limits{
     {{"abrasion_life_h", UnvalidatedMode::abrasion, abrasion, &AskedLimits::abrasion},
      {"wall_life_h", UnvalidatedMode::wall, wall, &AskedLimits::wall},
-     {"rating_life_h", UnvalidatedMode::rating, rating, &AskedLimits::rating},
+     {"rating_life_h", UnvalidatedMode::rating, rating, &AskedLimits::rating,
+      "least hours of motion that makers' ratings cover in 9 of 10 samples"},
      {"jacket_life_h", UnvalidatedMode::jacket, jacket, &AskedLimits::jacket},
      {"corkscrew_life_h", UnvalidatedMode::corkscrew, corkscrew, &AskedLimits::corkscrew},
-     {"kink_margin", UnvalidatedMode::kink, kink, &AskedLimits::kink}}};
+     {"kink_margin", UnvalidatedMode::kink, kink, &AskedLimits::kink,
+      "least radius of a bend, over that at which a tube in the dresspack kinks"}}};
 
 void see_modes(Outcome& outcome, const RankingRow& row, const AskedLimits& asked) {
   for (const ModeLimit& of : mode_limits)
@@ -89,12 +93,10 @@ void see_modes(Outcome& outcome, const RankingRow& row, const AskedLimits& asked
 
 /// Keeps the shortest life by each mode of each dresspack.
 void see_lives(std::vector<ModeLife>& lives, const ModeLife& of) {
-  const auto same =
-      std::find_if(lives.begin(), lives.end(), [&](const ModeLife& one) { return one.mode == of.mode; });
-  if (same == lives.end())
-    lives.push_back(of);
-  else
+  if (ModeLife* const same = find_in(lives, &ModeLife::mode, of.mode))
     same->hours = std::min(same->hours, of.hours);
+  else
+    lives.push_back(of);
 }
 
 /// Adds the violation of the required slack, as a share of the length. The limit is also a share of the length, which gives the
@@ -264,15 +266,7 @@ void describe(Fields& f, AskedLimits& limits) {
   f.maybe_number("contact_force_N", limits.contact_force, above(0),
                  "largest of the dresspack on robot and cell");
   f.maybe_number("tension_N", limits.tension, above(0), "largest of the hose, besides its maker's");
-  const char* const least = "least hours of motion until 1 of 10 has failed by it";
-  f.maybe_number("abrasion_life_h", limits.abrasion, above(0), least);
-  f.maybe_number("wall_life_h", limits.wall, above(0), least);
-  f.maybe_number("rating_life_h", limits.rating, above(0),
-                 "least hours of motion that makers' ratings cover in 9 of 10 samples");
-  f.maybe_number("jacket_life_h", limits.jacket, above(0), least);
-  f.maybe_number("corkscrew_life_h", limits.corkscrew, above(0), least);
-  f.maybe_number("kink_margin", limits.kink, above(0),
-                 "least radius of a bend, over that at which a tube in the dresspack kinks");
+  for (const ModeLimit& of : mode_limits) f.maybe_number(of.key, limits.*of.least, above(0), of.meaning);
 }
 
 Outcome worst_of(const std::vector<Outcome>& jobs) {

@@ -1,5 +1,8 @@
 #include "pipeline/advise/improve/set_text.h"
 
+#include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
+
 namespace dresslife::pipeline {
 
 std::string set_text(const Node& value) {
@@ -8,11 +11,9 @@ std::string set_text(const Node& value) {
     const std::size_t begin = alone.find('[') + 1;
     return alone.substr(begin, alone.rfind(']') - begin);
   }
-  std::string text;
-  for (const Node& item : value.items) text += (text.empty() ? "" : ", ") + set_text(item);
-  for (const Entry& entry : value.entries)
-    text += (text.empty() ? "" : ", ") + entry.key + ": " + set_text(entry.value);
-  return value.is_map() ? "{" + text + "}" : "[" + text + "]";
+  if (value.is_list()) return "[" + joined(mapped(value.items, set_text), ", ") + "]";
+  const auto pair = [](const Entry& entry) { return entry.key + ": " + set_text(entry.value); };
+  return "{" + joined(mapped(value.entries, pair), ", ") + "}";
 }
 
 }  // namespace dresslife::pipeline

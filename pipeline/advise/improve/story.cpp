@@ -7,6 +7,8 @@
 #include <cmath>
 #include <optional>
 
+#include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/study/mode_table.h"
 #include "pipeline/study/row_words.h"
@@ -117,8 +119,7 @@ std::string front_words(const Improvement& found, const Finals& finals, const Im
   std::string text = fmt::format("Longest lives for their {}:\n", word(second));
   for (const std::size_t k : found.front) {
     const Trial& trial = found.trials[k];
-    const auto of =
-        std::find_if(finals.of.begin(), finals.of.end(), [&](const Final& one) { return one.trial == k; });
+    const Final* const of = find_in(finals.of, &Final::trial, k);
     const std::string modes = mode_words(trial.worst);
     text +=
         fmt::format("  {:>10}  {:>12}  {:.3f} m  {:.1f} s{}\n",
@@ -132,11 +133,9 @@ std::string front_words(const Improvement& found, const Finals& finals, const Im
 
 /// Returns a line with the freed keys whose errors were not evaluated; empty: none.
 std::string unjudged_words(const Improvement& found, const Trial& best) {
-  std::string keys;
-  for (const std::string& key : found.freed)
-    if (!value_in(best, key).empty() && !has_mounting_tolerance(key))
-      keys += (keys.empty() ? "" : ", ") + key;
-  return keys.empty() ? "" : fmt::format("Without a mounting tolerance: {}\n", keys);
+  const std::vector<std::string> keys = filtered(
+      found.freed, [&](const std::string& key) { return !value_in(best, key).empty() && !has_mounting_tolerance(key); });
+  return keys.empty() ? "" : fmt::format("Without a mounting tolerance: {}\n", joined(keys, ", "));
 }
 
 }  // namespace

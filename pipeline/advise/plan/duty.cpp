@@ -6,6 +6,7 @@
 #include <set>
 
 #include "pipeline/base/exported.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/resolve/document_kind.h"
 #include "pipeline/settings/fields.h"
@@ -14,12 +15,6 @@ namespace dresslife::pipeline {
 namespace {
 
 constexpr double most_repeats = 1e6;  // per hour: the limit means a motion of 3.6 ms
-
-std::vector<std::string> names_of(const DutyFile& file) {
-  std::vector<std::string> names;
-  for (const Duty& duty : file.duties) names.push_back(duty.name);
-  return names;
-}
 
 /// key: path of the duty, "duties[2]".
 void check(const Duty& duty, const std::string& key, Problems& problems) {
@@ -197,9 +192,8 @@ DutyFile read_duties(const std::filesystem::path& name, Day today) {
 }
 
 const Duty& duty_named(const DutyFile& file, const std::string& name, const Where& named_at) {
-  for (const Duty& duty : file.duties)
-    if (duty.name == name) return duty;
-  const std::string near = nearest_word(name, names_of(file));
+  if (const Duty* const duty = find_in(file.duties, &Duty::name, name)) return *duty;
+  const std::string near = nearest_word(name, mapped(file.duties, &Duty::name));
   throw InputError(named_at, fmt::format("there is no duty '{}'", name),
                    near.empty() ? "name one of the file's duties" : fmt::format("did you mean '{}'?", near));
 }

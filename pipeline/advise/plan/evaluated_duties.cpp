@@ -14,6 +14,7 @@
 
 #include "pipeline/advise/plan/pooled_lives.h"
 #include "pipeline/advise/plan/rounds.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/threads.h"
@@ -45,9 +46,7 @@ class Jobs {
   /// Errors: InputError if the program is not a job of the study.
   const StudyJob& of(const DutyProgram& program) const {
     if (const auto found = by_name_.find(program.job); found != by_name_.end()) return *found->second;
-    std::vector<std::string> names;
-    for (const StudyJob& job : study_.jobs) names.push_back(job.name);
-    const std::string near = nearest_word(program.job, names);
+    const std::string near = nearest_word(program.job, mapped(study_.jobs, &StudyJob::name));
     throw InputError(
         program.where, fmt::format("study '{}' has no job '{}'", study_.name, program.job),
         near.empty() ? "dresslife status STUDY lists its jobs" : fmt::format("did you mean '{}'?", near));
@@ -220,8 +219,7 @@ class Programs {
 
   /// Returns all programs of a duty, on one dresspack.
   std::vector<EvaluatedProgram> of(const Duty& duty) {
-    std::vector<EvaluatedProgram> all;
-    for (const DutyProgram& program : duty.programs) all.push_back(of(program));
+    const std::vector<EvaluatedProgram> all = mapped(duty.programs, [&](const DutyProgram& program) { return of(program); });
     for (const EvaluatedProgram& program : all) check_layout(duty, all.front(), program.job, *program.wires);
     return all;
   }
@@ -247,9 +245,7 @@ class Programs {
   const Job* job(const DutyProgram& program) const { return jobs_.of(program).job.get(); }
 
   std::vector<RankingRow> rows(const Duty& duty) const {
-    std::vector<RankingRow> rows;
-    for (const DutyProgram& program : duty.programs) rows.push_back(row(program));
-    return rows;
+    return mapped(duty.programs, [&](const DutyProgram& program) -> const RankingRow& { return row(program); });
   }
 
  private:
@@ -373,9 +369,7 @@ class DrawDamage {
 
 /// Returns the repeats per hour, (program).
 std::vector<double> repeats_of(const std::vector<DutyPart>& parts) {
-  std::vector<double> repeats;
-  for (const DutyPart& part : parts) repeats.push_back(part.repeats_per_hour);
-  return repeats;
+  return mapped(parts, &DutyPart::repeats_per_hour);
 }
 
 /// The time that the programs of a duty take in an hour of operation.
@@ -424,8 +418,7 @@ std::vector<Rate> rates_of(const Duty& duty, Programs& programs, std::vector<Dut
 void vary_repeats(const Duty& duty, const SamePlace& places, DutyResult& result) {
   constexpr int steps = 10;  // points of a chart
   const std::vector<double> repeats = repeats_of(result.parts);
-  double idle = 1;
-  for (const DutyPart& part : result.parts) idle -= part.share_of_time;
+  const double idle = sum_of(result.parts, [](const DutyPart& part) { return -part.share_of_time; }, 1.0);
   for (std::size_t k = 0; k < repeats.size(); ++k) {
     DutyPart& part = result.parts[k];
     const auto lives_at = [&](double factor) {
@@ -526,10 +519,7 @@ std::vector<RankingRow> rows_of(const DutyFile& file, const std::vector<RankingR
     for (const DutyProgram& program : duty.programs) named.insert(program.job);
     if (!duty.order.empty()) named.insert(round_name(duty));
   }
-  std::vector<RankingRow> some;
-  for (const RankingRow& row : rows)
-    if (named.contains(row.job)) some.push_back(row);
-  return some;
+  return filtered(rows, [&](const RankingRow& row) { return named.contains(row.job); });
 }
 
 namespace {
@@ -544,9 +534,9 @@ DutyResult outline_of(const Duty& duty, Programs& programs, std::vector<Rate>& r
   if (result.has_order) {
     result.rounds_per_hour = repeats_in_rounds(duty, repeats_of(result.parts)).back();
     for (const DutyPart& part : result.parts) {
-      double in_rounds = 0;
-      for (const OrderedProgram& ordered : duty.order)
-        if (ordered.job == part.job) in_rounds += result.rounds_per_hour * ordered.repeats;
+      const double in_rounds = sum_of(duty.order, [&](const OrderedProgram& ordered) {
+        return ordered.job == part.job ? result.rounds_per_hour * ordered.repeats : 0;
+      });
       constexpr double worth_a_word = 0.01;
       if (const double outside = 1 - in_rounds / part.repeats_per_hour; outside > worth_a_word)
         result.outside.push_back(fmt::format("{} ({:.0f} %)", part.job, 100 * outside));
@@ -728,8 +718,8 @@ std::map<std::string, LifeTable> life_tables(const DutyFile& file, const Study& 
   // The lives of a draw do not depend on other draws, so the number of threads does not change the result. The loop runs over
   // draws and inside over duties, so that the data of one draw stay in the processor's cache.
   const Shares shares(all);
-  std::vector<PreparedModes> prepared;
-  for (const FailureModes* const modes : shares.modes_of_result) prepared.emplace_back(*modes);
+  const std::vector<PreparedModes> prepared =
+      mapped(shares.modes_of_result, [](const FailureModes* modes) { return PreparedModes(*modes); });
   const std::size_t threads = std::min(thread_count(), draws);
   in_parallel(threads, [&](std::size_t part) {
     for (std::size_t d = draws * part / threads; d < draws * (part + 1) / threads; ++d) {

@@ -10,6 +10,7 @@
 
 #include "pipeline/base/constants.h"
 #include "pipeline/base/digest.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/order.h"
 #include "pipeline/files/files.h"
 #include "pipeline/life/planning.h"
@@ -205,10 +206,6 @@ std::vector<double> SamePlace::at(const std::vector<double>& repeats_per_hour,
   return share;
 }
 
-RepeatDamage damage_of_repeat(const FailureModes& modes, const std::string& dresspack, std::size_t samples) {
-  return damage_of_lives(mode_lives(modes, dresspack, samples));
-}
-
 RepeatDamage damage_of_lives(std::vector<std::vector<double>> log10_lives) {
   for (std::vector<double>& of_mode : log10_lives)
     for (double& life : of_mode) life = std::pow(10.0, -life);
@@ -235,7 +232,7 @@ DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std
   return damage_under(
       programs, rates, share,
       [&](const EvaluatedProgram& program) -> const RepeatDamage& {
-        return damage = damage_of_repeat(*program.modes, dresspack, samples);
+        return damage = damage_of_lives(mode_lives(*program.modes, dresspack, samples));
       },
       [&](const EvaluatedProgram& program, double deviation_percent) -> const std::vector<double>& {
         return factors = repeat_factors(program.job, deviation_percent, dresspack, samples);
@@ -318,8 +315,7 @@ DutyLives lives_under(const DutyDamage& duty, const std::vector<PastDamage>& his
   for (std::size_t s = 0; s < samples; ++s) {
     double left = infinity;
     for (std::size_t m = 0; m < duty.modes(); ++m) {
-      double used = 0;
-      for (const PastDamage& past : history) used += past.hours * past.duty->in_mode(m, s);
+      const double used = sum_of(history, [&](const PastDamage& past) { return past.hours * past.duty->in_mode(m, s); });
       const double rate = duty.in_mode(m, s);
       left = std::min(left, used >= 1 ? 0 : rate > 0 ? (1 - used) / rate : infinity);
     }

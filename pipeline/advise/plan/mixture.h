@@ -129,13 +129,12 @@ class SamePlace {
 /// (mode, sample) damage of one repeat for one dresspack.
 using RepeatDamage = std::vector<std::vector<double>>;
 RepeatDamage damage_of_lives(std::vector<std::vector<double>> log10_lives);  ///< log10_lives: (mode, sample)
-RepeatDamage damage_of_repeat(const FailureModes& modes, const std::string& dresspack, std::size_t samples);
 
 /// Returns r_k(s) over its median, (sample), for one dresspack.
 std::vector<double> repeat_factors(const std::string& job, double deviation_percent, const std::string& dresspack, std::size_t samples);
 
-/// Returns the damage under one duty for one dresspack. share: c(m) of SamePlace. of_repeat: returns damage_of_repeat() of a
-/// program. factors_of: returns repeat_factors() of a program with this deviation.
+/// Returns the damage under one duty for one dresspack. share: c(m) of SamePlace. of_repeat: returns the damage of one repeat
+/// of a program. factors_of: returns repeat_factors() of a program with this deviation.
 DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
                         const std::vector<double>& share,
                         const std::function<const RepeatDamage&(const EvaluatedProgram&)>& of_repeat,

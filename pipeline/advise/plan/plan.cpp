@@ -10,6 +10,7 @@
 
 #include "pipeline/advise/plan/pooled_lives.h"
 #include "pipeline/base/constants.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/random.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/statistics.h"
@@ -59,9 +60,7 @@ class Worlds {
     return sum;
   }
   double effective() const {
-    double squares = 0;
-    for (const double weight : weight_) squares += weight * weight;
-    return 1 / squares;
+    return 1 / sum_of(weight_, [](double weight) { return weight * weight; });
   }
   const std::vector<double>& weights() const { return weight_; }
 
@@ -465,8 +464,7 @@ AgeRates age_rates(const LifeTable& table, double planned_cost, double unplanned
 }
 
 std::vector<double> times_of(const std::vector<Window>& windows, Day today) {
-  std::vector<double> times;
-  for (const Window& window : windows) times.push_back(days_between(today, window.first));
+  std::vector<double> times = mapped(windows, [&](const Window& window) -> double { return days_between(today, window.first); });
   const double interval = times.size() > 1 ? times.back() - times[times.size() - 2] : days_per_year;
   times.push_back(times.back() + interval);
   return times;
@@ -474,8 +472,8 @@ std::vector<double> times_of(const std::vector<Window>& windows, Day today) {
 
 void keep_ages(Fleet& changed, const Fleet& now, const std::map<std::string, LifeTable>& tables, Day today, Day from) {
   for (Installed& row : changed.rows) {
-    const auto old = std::find_if(now.rows.begin(), now.rows.end(), [&](const Installed& one) { return one.name == row.name; });
-    if (old == now.rows.end() || old->since != row.since) continue;
+    const Installed* const old = find_in(now.rows, &Installed::name, row.name);
+    if (!old || old->since != row.since) continue;
     const LifeTable& before = tables.at(old->duty);
     row.run_hours = run_of(*old, before, today);
     row.before = old->before;

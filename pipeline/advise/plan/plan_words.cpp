@@ -11,6 +11,8 @@
 #include "pipeline/base/csv_rows.h"
 #include "pipeline/base/digest.h"
 #include "pipeline/base/limits.h"
+#include "pipeline/base/lists.h"
+#include "pipeline/base/order.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/job/uncertainty.h"
 #include "pipeline/settings/units.h"
@@ -48,6 +50,16 @@ std::string escaped(const std::string& text) {
   return escaped;
 }
 
+/// Returns the names as a list: the first twenty, which take four lines, and the number of the others.
+std::string names_text(std::vector<std::string> names, const char* where_others_are = "") {
+  constexpr std::size_t most = 20;
+  if (const std::size_t count = names.size(); count > most) {
+    names.resize(most);
+    names.push_back(fmt::format("and {} more{}", count - most, where_others_are));
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
 std::string compact(Day day) {
   std::string text = day_text(day);
   std::erase(text, '-');
@@ -70,8 +82,7 @@ std::string window_text(const Window& window) {
 std::string percent_text(double share) { return readable(100 * share, 2) + " %"; }
 
 std::string expected_words(const Plan& plan) {
-  double before = 0;
-  for (const RowPlan& row : plan.rows) before += row.fails_before_first;
+  const double before = sum_of(plan.rows, &RowPlan::fails_before_first);
   constexpr double surprising = 0.023;  // one-sided probability of more than two standard deviations
   std::string alive;
   if (plan.all_alive < surprising)
@@ -94,13 +105,8 @@ std::string kept_words(const Fleet& fleet, const Plan& plan) {
     if (!plan.by_cost && fails <= plan.risk) most = std::max(most, fails);
   }
   std::string text;
-  const auto add = [&](const std::string& why, std::vector<std::string> names) {
-    constexpr std::size_t most_names = 20;  // four lines
-    if (const std::size_t count = names.size(); count > most_names) {
-      names.resize(most_names);
-      names.push_back(fmt::format("and {} more in the table", count - most_names));
-    }
-    if (!names.empty()) text += wrapped(fmt::format("{}: {}.", why, fmt::join(names, ", ")), width, "  ");
+  const auto add = [&](const std::string& why, const std::vector<std::string>& names) {
+    if (!names.empty()) text += wrapped(fmt::format("{}: {}.", why, names_text(names, " in the table")), width, "  ");
   };
   add(fmt::format("Until {} the probability of failure between two windows is at most {} (limit {})",
                   day_text(plan.end), percent_text(most), percent_text(plan.risk)),
@@ -124,14 +130,9 @@ std::string plan_words(const Fleet& fleet, const Plan& plan) {
   const auto kept =
       std::count_if(plan.rows.begin(), plan.rows.end(), [](const RowPlan& row) { return !row.window; });
   text += fmt::format("\nIn no window: {}\n{}", kept, kept_words(fleet, plan));
-  std::vector<std::size_t> risky(plan.rows.size());
-  for (std::size_t i = 0; i < risky.size(); ++i) risky[i] = i;
-  std::stable_sort(risky.begin(), risky.end(), [&](std::size_t a, std::size_t b) {
-    return plan.rows[a].fails_before > plan.rows[b].fails_before;
-  });
+  std::vector<std::size_t> risky = largest_first(plan.rows.size(), [&](std::size_t i) { return plan.rows[i].fails_before; });
   risky.resize(std::min<std::size_t>(risky.size(), 10));
-  std::size_t wide = 9;
-  for (const std::size_t i : risky) wide = std::max(wide, columns_of(fleet.rows[i].name));
+  const std::size_t wide = largest_of(risky, std::size_t{9}, [&](std::size_t i) { return columns_of(fleet.rows[i].name); });
   text += fmt::format("\n{:<{}}  {:>9}  {:>26}  {:>25}  {}\n", "most risk", wide, "age [h]",
                       "fails before first window", "fails before replacement", "replace");
   for (const std::size_t i : risky) {
@@ -234,18 +235,10 @@ std::string age_words(const Fleet& fleet, const Plan& plan, const std::map<std::
     }
   }
   std::string text;
-  const auto names = [](std::vector<std::string> all) {
-    constexpr std::size_t most_names = 20;  // four lines
-    if (const std::size_t count = all.size(); count > most_names) {
-      all.resize(most_names);
-      all.push_back(fmt::format("and {} more", count - most_names));
-    }
-    return fmt::format("{}", fmt::join(all, ", "));
-  };
   for (const auto& [mode, reached] : by_mode) {
     std::string line = fmt::format("Not validated and not in this plan: {}. At these ages 1 of 10 dresspacks has failed by it.", mode);
-    if (!reached.today.empty()) line += fmt::format(" Inspect now: {}.", names(reached.today));
-    if (!reached.later.empty()) line += fmt::format(" They reach this age before they are replaced: {}.", names(reached.later));
+    if (!reached.today.empty()) line += fmt::format(" Inspect now: {}.", names_text(reached.today));
+    if (!reached.later.empty()) line += fmt::format(" They reach this age before they are replaced: {}.", names_text(reached.later));
     text += line + '\n';
   }
   return text;
@@ -270,12 +263,8 @@ std::vector<BesideRow> beside_rows(const Fleet& fleet, const Plan& plan, const F
     rows.push_back({what, text(now) + now_range, text(then) + then_range,
                     then == now ? "0" : (then > now ? "+ " : "- ") + text(std::abs(then - now))});
   };
-  const auto before_first = [](const Plan& of) {
-    return std::accumulate(of.rows.begin(), of.rows.end(), 0.0, [](double sum, const RowPlan& row) { return sum + row.fails_before_first; });
-  };
-  const auto failures = [](const Plan& of) {
-    return std::accumulate(of.years.begin(), of.years.end(), 0.0, [](double sum, const YearOfPlan& year) { return sum + year.unplanned; });
-  };
+  const auto before_first = [](const Plan& of) { return sum_of(of.rows, &RowPlan::fails_before_first); };
+  const auto failures = [](const Plan& of) { return sum_of(of.years, &YearOfPlan::unplanned); };
   const auto range = [](const YearOfPlan& year) { return fmt::format(" ({:g} .. {:g})", std::floor(year.low), std::ceil(year.high)); };
   add("dresspacks", double(plan.rows.size()), double(other.rows.size()), 0);
   add("fail before the first window", before_first(plan), before_first(other), 2);
@@ -302,10 +291,8 @@ std::string what_if_words(const std::string& name, const Fleet& fleet, const Pla
   };
   std::vector<std::string> changes;
   for (std::size_t i = 0; i < changed.rows.size(); ++i) {
-    const auto old = std::find_if(fleet.rows.begin(), fleet.rows.end(),
-                                  [&](const Installed& row) { return row.name == changed.rows[i].name; });
-    const std::string now =
-        old == fleet.rows.end() ? "new" : when(plan, static_cast<std::size_t>(old - fleet.rows.begin()));
+    const Installed* const old = find_in(fleet.rows, &Installed::name, changed.rows[i].name);
+    const std::string now = old ? when(plan, static_cast<std::size_t>(old - fleet.rows.data())) : "new";
     if (now != when(other, i))
       changes.push_back(fmt::format("{}: {} ({})", changed.rows[i].name, when(other, i), now));
   }

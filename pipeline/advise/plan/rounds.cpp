@@ -9,6 +9,8 @@
 #include <set>
 
 #include "pipeline/base/digest.h"
+#include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/base/whole_file.h"
 #include "pipeline/files/files.h"
@@ -84,20 +86,15 @@ class Recording {
 };
 
 std::vector<Joint> driven(const Robot& robot) {
-  std::vector<Joint> joints;
-  for (const Joint& joint : robot.joints)
-    if (joint.follows.empty()) joints.push_back(joint);
-  return joints;
+  return filtered(robot.joints, [](const Joint& joint) { return joint.follows.empty(); });
 }
 
 /// Returns the joint angles of a program from its strain file, which is kept longer than its motion file.
 JointCourse course_of(const OrderedProgram& program, const std::vector<RankingRow>& rows, std::size_t axes) {
-  const auto row =
-      std::find_if(rows.begin(), rows.end(), [&](const RankingRow& one) { return one.job == program.job; });
-  if (row == rows.end() || !row->done())
+  const RankingRow* const row = find_in(rows, &RankingRow::job, program.job);
+  if (!row || !row->done())
     throw InputError(
-        program.where,
-        fmt::format("job '{}' has no result{}", program.job, row == rows.end() ? "" : ": " + row->failure),
+        program.where, fmt::format("job '{}' has no result{}", program.job, row ? ": " + row->failure : ""),
         "correct the job and run again");
   const std::filesystem::path strain = row->life_file.parent_path() / "strain.h5";
   if (kind_of(strain) != FileKind::file)
@@ -121,8 +118,7 @@ JointCourse course_of(const OrderedProgram& program, const std::vector<RankingRo
 }  // namespace
 
 std::string round_name(const Duty& duty) {
-  std::string name;
-  for (const OrderedProgram& program : duty.order) name += (name.empty() ? "" : "+") + program.job;
+  const std::string name = joined(mapped(duty.order, &OrderedProgram::job), "+");
   return name.size() <= longest_name ? name : "round_" + xxh3(name).substr(0, 16);
 }
 
@@ -157,9 +153,8 @@ Study study_of_rounds(const DutyFile& file, const Study& study, const std::vecto
   for (const Duty& duty : file.duties) {
     const std::string name = round_name(duty);
     if (name.empty() || !known.insert(name).second) continue;
-    const auto first = std::find_if(study.jobs.begin(), study.jobs.end(),
-                                    [&](const StudyJob& job) { return job.name == duty.order.front().job; });
-    if (first == study.jobs.end() || !first->job)
+    const StudyJob* const first = find_in(study.jobs, &StudyJob::name, duty.order.front().job);
+    if (!first || !first->job)
       throw InputError(duty.order.front().where,
                        fmt::format("job '{}' cannot be made", duty.order.front().job),
                        "correct it: dresslife status STUDY gives the reason");
@@ -168,8 +163,8 @@ Study study_of_rounds(const DutyFile& file, const Study& study, const std::vecto
       throw InputError(duty.order.front().where, "an order is not evaluated for a robot with external axes",
                        "give a job with one motion of all programs, and its repeats_per_hour");
     const std::vector<Joint> axes = driven(job.robot);
-    std::vector<JointCourse> courses;
-    for (const OrderedProgram& program : duty.order) courses.push_back(course_of(program, rows, axes.size()));
+    const std::vector<JointCourse> courses =
+        mapped(duty.order, [&](const OrderedProgram& program) { return course_of(program, rows, axes.size()); });
     Motion motion;
     motion.name = name;
     motion.source = "the programs of a duty in their order";

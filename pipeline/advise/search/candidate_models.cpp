@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "pipeline/base/lists.h"
+
 namespace dresslife::pipeline {
 
 using Eigen::Index;
@@ -18,6 +20,13 @@ constexpr std::size_t most_short_runs = 250;  // in a model: the cost grows with
 constexpr Index most_for_shape = 120;         // for a fit of the shapes: the same growth of cost
 constexpr int shape_evaluations = 60;
 constexpr double same = 1e-9;  // values and places with a smaller difference are equal
+
+/// Returns (Q3) sign(g) ln(1 + |g|). NaN stays NaN.
+double tamed(double g) {
+  constexpr double far_kept = -1, far_beyond = 20;
+  const double bounded = std::clamp(g, far_kept, far_beyond);
+  return std::copysign(std::log1p(std::abs(bounded)), bounded);
+}
 
 constexpr GaussianProcess::Scale missed_by_short_runs{0.1, 3};
 
@@ -40,9 +49,7 @@ std::vector<const Candidate*> chosen(const std::vector<Candidate>& short_runs,
   }
   std::stable_sort(some.begin(), some.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   if (some.size() > most_short_runs) some.resize(most_short_runs);
-  std::vector<const Candidate*> of;
-  for (const auto& [distance, short_run] : some) of.push_back(short_run);
-  return of;
+  return mapped(some, &std::pair<double, const Candidate*>::second);
 }
 
 VectorXd pieces_of(const Candidate& candidate, std::size_t limit) {
@@ -57,12 +64,6 @@ VectorXd pieces_of(const Candidate& candidate, std::size_t limit) {
 double failure_of(const Candidate& candidate) { return candidate.ran ? -1 : 1 + tamed(candidate.violation()); }
 
 }  // namespace
-
-double tamed(double g) {
-  constexpr double far_kept = -1, far_beyond = 20;
-  const double bounded = std::clamp(g, far_kept, far_beyond);
-  return std::copysign(std::log1p(std::abs(bounded)), bounded);
-}
 
 void CandidateModels::FunctionModel::add(const VectorXd& place, const VectorXd& pieces) {
   const Index row = places.rows();

@@ -21,9 +21,6 @@
 
 namespace dresslife::pipeline {
 
-/// Returns (Q3) sign(g) ln(1 + |g|). NaN stays NaN.
-double tamed(double g);
-
 class CandidateModels {
  public:
   using Shapes = std::vector<GaussianProcess::Shape>;

@@ -7,6 +7,8 @@
 #include <tuple>
 #include <utility>
 
+#include "pipeline/base/lists.h"
+
 namespace dresslife::pipeline {
 
 using Eigen::Index;
@@ -97,10 +99,10 @@ VectorXd SurrogateSearch::first_candidate() {
 
 /// Returns the squared distance to the nearest candidate with or without a result.
 double SurrogateSearch::distance_to_known(const VectorXd& place) const {
-  double least = static_cast<double>(variables_);
-  for (const Candidate& candidate : evaluated_) least = std::min(least, (candidate.place - place).squaredNorm());
-  for (const VectorXd& other : pending_) least = std::min(least, (other - place).squaredNorm());
-  return least;
+  const auto away = [&](const VectorXd& other) { return (other - place).squaredNorm(); };
+  const double of_evaluated = smallest_of(evaluated_, static_cast<double>(variables_),
+                                          [&](const Candidate& candidate) { return away(candidate.place); });
+  return smallest_of(pending_, of_evaluated, away);
 }
 
 bool SurrogateSearch::is_known(const VectorXd& place) const {
@@ -162,9 +164,7 @@ std::vector<VectorXd> SurrogateSearch::ranked(const CandidateModels& models, con
   const double step = 0.2 * (box.high - box.low).maxCoeff();
   rank(minimised(aim, limits, box, std::get<2>(some.front()), step, polish_evaluations));
   std::stable_sort(some.begin(), some.end(), better_one);
-  std::vector<VectorXd> by_merit;
-  for (Ranked& one : some) by_merit.push_back(std::move(std::get<2>(one)));
-  return by_merit;
+  return mapped(some, [](Ranked& one) { return std::move(std::get<2>(one)); });
 }
 
 bool SurrogateSearch::has_short_run(const VectorXd& place) const {
