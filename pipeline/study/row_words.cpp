@@ -273,7 +273,9 @@ std::string failure_words(const RankingRow& row) {
                                               100 * row.failing_mode_share, row.failing_conductor.empty() ? "" : ", likeliest ",
                                               failing_place_words(row));
   const std::string during = row.worst_step.empty() ? "" : ", during '" + row.worst_step + "'";
-  return joined_words({first, fmt::format("The worst wire is {}, {:.2f} m from the tool. Its most damaging cycle ends at {:.1f} s{}.",
+  const bool elsewhere = !row.failing_conductor.empty() && !row.worst_component.starts_with(row.failing_conductor + "/");
+  return joined_words({first, fmt::format("{} {}, {:.2f} m from the tool. Its most damaging cycle ends at {:.1f} s{}.",
+                                          elsewhere ? "With the job's own values another wire is the worst:" : "The worst wire is",
                                           row.worst_component, row.worst_position_from_tool, row.worst_time, during),
                        joint_words(row)});
 }

@@ -201,6 +201,10 @@ std::string mixture_words(const DutyResult& duty) {
   return text;
 }
 
+std::string as_twice_text(const DutyResult& duty, const DutyPart& part) {
+  return std::isnan(part.as_twice[0]) ? "no time for it" : shown_hours(duty.robot_life_hours, part.as_twice[0]);
+}
+
 std::string duty_words(const std::vector<DutyResult>& results) {
   std::string text;
   for (const DutyResult& duty : results) {
@@ -217,7 +221,7 @@ std::string duty_words(const std::vector<DutyResult>& results) {
           fmt::format("  {:<{}}  {:>14}  {:>6.1f} %  {:>6.1f} %  {:>18}  {:>21}\n", duty.parts[k].job, wide,
                       readable(duty.parts[k].repeats_per_hour), 100 * duty.parts[k].share_of_time,
                       100 * duty.lives.share[k], shown_hours(duty.robot_life_hours, duty.parts[k].without[0]),
-                      shown_hours(duty.robot_life_hours, duty.parts[k].as_twice[0]));
+                      as_twice_text(duty, duty.parts[k]));
     text +=
         fmt::format("  The robot stands still in {:.1f} % of the time.\n", std::max(0.0, 100 * (1 - time)));
     text += caution_words(duty);
@@ -241,7 +245,7 @@ std::string duty_csv(const std::vector<DutyResult>& results) {
         cells.push_back(shortest_text(value));
       for (const double value : lives.remaining) cells.push_back(remains ? shortest_text(value) : "");
       for (const double value : {duty.parts[k].without[0], duty.parts[k].as_twice[0]})
-        cells.push_back(shortest_text(value));
+        cells.push_back(std::isnan(value) ? "" : shortest_text(value));
       for (const double factor : duty.errors) cells.push_back(std::isfinite(factor) ? shortest_text(factor) : "");
       text += fmt::format("{}\n", fmt::join(cells, ","));
     }

@@ -20,11 +20,14 @@ std::string duty_action(const DutyResult& duty);
 std::string percentile_words(const DutyResult& duty);
 /// Returns hours in the form of a study's tables: beyond the robot's own life only "over" this life.
 std::string shown_hours(double robot_life, double hours);
+/// Returns the first percentile of DutyPart::as_twice, or "no time for it".
+std::string as_twice_text(const DutyResult& duty, const DutyPart& part);
 
 /// Returns what the hours of a duty leave out: modes that no test validates, and parts that are not evaluated. Lines, or empty.
 std::string caution_words(const DutyResult& duty);
 
-/// Returns one row per duty and program; lives belong to the whole duty. Numbers are exact when read back; "inf": no damage.
+/// Returns one row per duty and program; lives belong to the whole duty. Numbers are exact when read back; "inf": no damage; empty: not
+/// computed, or not possible.
 std::string duty_csv(const std::vector<DutyResult>& results);
 
 }  // namespace dresslife::pipeline

@@ -427,6 +427,7 @@ void vary_repeats(const Duty& duty, const SamePlace& places, DutyResult& result)
       return lives_with(result.damage, times, places.at(changed, repeats_in_rounds(duty, changed)));
     };
     part.without = lives_at(0), part.as_twice = lives_at(2);
+    if (part.share_of_time > idle * (1 + 1e-9)) part.as_twice.fill(std::numeric_limits<double>::quiet_NaN());  // the hour is too short
     if (!(part.share_of_time > 0)) continue;
     const double most = std::max(part.share_of_time, part.share_of_time + idle);  // at least the present share, without rounding
     for (int i = 0; i <= steps; ++i)

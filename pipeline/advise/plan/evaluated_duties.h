@@ -29,7 +29,8 @@ struct DutyPart {
   std::string job;
   double repeats_per_hour = 0;
   double share_of_time = 0;
-  LifePercentiles without{}, as_twice{};  ///< [h] lives under the duty without this program, and with twice as many repeats of it
+  LifePercentiles without{};   ///< [h] lives under the duty without this program
+  LifePercentiles as_twice{};  ///< [h] with twice as many repeats of it; NaN: they would take more than all the time
   std::vector<LifeAtShare> over_share{};  ///< from 0 to all time that the other programs leave; empty: it never runs
   std::string recording_of{};  ///< DutyProgram::recording_of
   /// ratio of its damage with the loose cables at other places of rest, one standard deviation to either side, to its damage at the
