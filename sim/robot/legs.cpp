@@ -61,7 +61,7 @@ class Layout {
                         ? fault.worst.what
                         : fmt::format("{}, the farthest of {} targets outside of its limits", fault.worst.what, fault.targets),
                     fault.targets == 1 ? fault.worst.remedy
-                                       : "the program may be one of another robot: name that robot, or " + fault.worst.remedy);
+                                       : "the program may be one of another robot, or a URDF has other zeros than the controller: name the program's robot, or " + fault.worst.remedy);
     throw_if_any();
     int first = 0;
     expand(motion_.steps, first);

@@ -90,11 +90,16 @@ std::vector<pipeline::Warning> other_maker(const pipeline::Motion& motion, const
   if (motion.program.empty()) return {};
   const Language language = language_of(motion);
   std::string_view of_program, of_robot;
+  bool same = false;
   for (const auto& [spoken, maker] : makers) {
     if (spoken == language) of_program = maker;
     if (!lower_case(robot.name).starts_with(lower_case(maker))) continue;
-    if (spoken == language) return {};
-    of_robot = maker;
+    // A name such as 'KUKA KR 16-2' is given by hand. One such as 'kuka_kr16' is that of a URDF, which may have its own zeros.
+    if (spoken == language && (language == Language::fanuc || robot.name.starts_with(fmt::format("{} ", maker)))) return {};
+    if (spoken == language)
+      same = true;
+    else
+      of_robot = maker;
   }
   if (of_program.empty()) return {};
   std::string robot_is,
@@ -110,8 +115,10 @@ std::vector<pipeline::Warning> other_maker(const pipeline::Motion& motion, const
              lies && *lies != (language == Language::krl || language == Language::urscript)) {
     robot_is = fmt::format("{}, whose lower arm {} where all axes are at 0", robot.name,
                            *lies ? "lies flat" : "stands upright");
-    cause = fmt::format("a job of another robot: at 0 the lower arm of a robot of {} {}", of_program,
-                        *lies ? "stands upright" : "lies flat");
+    cause = fmt::format("{}: at 0 the lower arm of a robot of {} {}",
+                        same ? "a URDF with other zeros and directions of its axes than those of the controller" : "a job of another robot",
+                        of_program, *lies ? "stands upright" : "lies flat");
+    if (same) remedy = "robot: an entry of the catalogue (dresslife new lists them), or a URDF with the controller's zeros and directions";
     remedy +=
         fmt::format("; or robot.name: {} {}, if its controller has these zeros", of_program, robot.name);
   }

@@ -94,7 +94,7 @@ const Row rows[] = {
     {"job.yaml", "500,", "5000,", Answer::warned, "job.yaml:1:51", "an extra or exchanged digit", "about 840 is in proportion"},
     {"job.yaml", ", accelerations_deg_per_s2: [670, 500, 1050, 4720, 4980, 9350]", "", Answer::refused, "job.yaml:1:", "arm.urdf has no accelerations of joint_a1", "give accelerations_deg_per_s2 beside 'urdf', 6 numbers"},
     {"job.yaml", "urdf: arm.urdf", "urdf: arms.urdf", Answer::refused, "", "arms.urdf", "; "},
-    {"job.yaml", "{urdf: arm.urdf, accelerations_deg_per_s2: [670, 500, 1050, 4720, 4980, 9350]}", "abb_irb6640_185_280", Answer::refused, "nod.src:", "the farthest of ", "the program may be one of another robot: name that robot, or turn it"},
+    {"job.yaml", "{urdf: arm.urdf, accelerations_deg_per_s2: [670, 500, 1050, 4720, 4980, 9350]}", "abb_irb6640_185_280", Answer::refused, "nod.src:", "the farthest of ", "the program may be one of another robot, or a URDF has other zeros than the controller: name the program's robot, or turn it"},
     {"job.yaml", "{urdf: arm.urdf, accelerations_deg_per_s2: [670, 500, 1050, 4720, 4980, 9350]}", "fanuc_m20ia", Answer::refused, "nod.src:", "the program nod.src is one of KUKA, and the robot is Fanuc", "robot: the one for which the program was written"},
     // The program
     {"nod.src", "CP=0.25", "CP=5", Answer::warned, "nod.src:6:5", "the tool's speed is 5 m/s (limit 3 or less)", "0.5 m/s if the decimal point slipped"},
@@ -111,7 +111,7 @@ const Row rows[] = {
     {"pack.yaml", "hose_material: hose_polyamide", "hose_material: copper", Answer::warned, "pack.yaml:1:1", "hose_material 'copper' has youngs_modulus_GPa 117 (limit 15 or less: polymers)", "hose_material: hose_polyamide"},
     {"nod.src", "Z 150", "Z 0.15", Answer::warned, "nod.src:5:", "tool '$TOOL' lies 0.15 mm from the frame in which it is given", "[0, 0, 150] in its declaration"},
     {"job.yaml", "motion: nod.src", "motion: " DRESSLIFE_SOURCE_DIR "/config/programs/side_panel.mod", Answer::refused, "side_panel.mod: error: the program side_panel.mod is one of ABB", "the robot is own, whose lower arm lies flat", "robot: the one for which the program was written"},
-    {"job.yaml", "motion: nod.src", "motion: spot_robot_1", Answer::refused, "", "the farthest of ", "the program may be one of another robot: name that robot, or turn it"},
+    {"job.yaml", "motion: nod.src", "motion: spot_robot_1", Answer::refused, "", "the farthest of ", "the program may be one of another robot, or a URDF has other zeros than the controller: name the program's robot, or turn it"},
     // Clamps and length
     {"job.yaml", "link: link_3", "link: link_6", Answer::warned, "job.yaml:5:15", "both clamps of dresspack are on link_6", "routing.base_clamp.link with a link before the axes that bend the dresspack, for example link_3"},
     {"job.yaml", "[0.071, 0.217, -0.024]", "[0.331, 0.217, 1.331]", Answer::refused, "job.yaml:5:15", "as a place in the world in the mounting pose", "position_m: [0.071, 0.217, -0.024] and direction: [0.63, 0.36, -0.69], both in the frame of link_3"},

@@ -543,13 +543,13 @@ TEST_CASE("a program is compared with the zero pose of a robot whose maker is no
   const std::string fanuc =
       "/PROG NOD\n/MN\n1:J P[1] 60% FINE ;\n2:J P[2] 60% FINE ;\n/POS\nP[1]{GP1: UF:0,UT:1,J1=0 deg,J2=0 deg,J3=0 deg,"
       "J4=0 deg,J5=-30 deg,J6=0 deg};\nP[2]{GP1: UF:0,UT:1,J1=20 deg,J2=0 deg,J3=0 deg,J4=0 deg,J5=-60 deg,J6=9 deg};\n/END\n";
-  const auto output = [&](const char* file, const std::string& text, const char* robot) {
+  const auto output = [&](const char* file, const std::string& text, const char* robot, const char* name = "own") {
     const Scratch scratch;
     write_inputs(scratch);
     scratch.write(file, text);
     const Outcome outcome =
         run(scratch, "dresslife",
-            fmt::format("check job.yaml --set robot={} --set robot.name=own --set motion={}", robot, file));
+            fmt::format("check job.yaml --set robot={} --set robot.name='{}' --set motion={}", robot, name, file));
     return unwrapped(outcome.out + outcome.err);
   };
   const char *upright = "abb_irb6640_185_280", *flat = "kuka_kr16_2";
@@ -559,6 +559,11 @@ TEST_CASE("a program is compared with the zero pose of a robot whose maker is no
           "nod.src: warning: the program nod.src is one of KUKA, and the robot is own, whose lower arm stands upright where all axes "
           "are at 0") &&
           Contains("or robot.name: KUKA own, if its controller has these zeros"));
+  // The name of a URDF does not say that its axes have the controller's zeros. A maker's name with a capital is given by hand.
+  CHECK_THAT(output("nod.src", krl, upright, "kuka_kr16"), Contains("the robot is kuka_kr16, whose lower arm stands upright") &&
+                                                              Contains("a URDF with other zeros and directions of its axes"));
+  CHECK_THAT(output("nod.src", krl, upright, "KUKA KR 16"), !Contains("is one of KUKA"));
+  CHECK_THAT(output("nod.src", krl, flat, "kuka_kr16"), !Contains("is one of KUKA"));
   CHECK_THAT(output("nod.mod", rapid, upright), !Contains("is one of ABB"));
   CHECK_THAT(output("nod.src", krl, flat), !Contains("is one of KUKA"));
   CHECK_THAT(output("nod.mod", rapid, flat),

@@ -428,7 +428,7 @@ TEST_CASE("motion: of many waypoints beyond the limits of an axis the farthest i
   const std::string text = pipeline::message_of([&] { JointMotion(motion_of(steps), robot_with({2, 2}, {4, 4})); });
   CHECK(std::count(text.begin(), text.end(), '\n') == 1);
   CHECK(text.find("program.yaml:3:9: error: waypoint 'move 3' turns joint_1 to 687.549 deg (must be within -572.958 .. 572.958 deg), the "
-                  "farthest of 3 targets outside of its limits; the program may be one of another robot: name that robot, or turn it 114.6 deg less") != std::string::npos);
+                  "farthest of 3 targets outside of its limits; the program may be one of another robot, or a URDF has other zeros than the controller: name the program's robot, or turn it 114.6 deg less") != std::string::npos);
   CHECK(text.find("program.yaml:3:9: error: waypoint 'move 3' turns joint_2 to 601.606 deg (must be within -572.958 .. 572.958 deg); turn it "
                   "28.65 deg less") != std::string::npos);
 }
