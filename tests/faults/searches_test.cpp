@@ -21,7 +21,7 @@ const std::vector<Command> commands{
     {"duty duties.yaml --quiet", "job"},
     {"plan fleet.csv --duties duties.yaml --today 2026-11-23 --windows 2027-01-05 --quiet", "job"},
     {"improve better.yaml --trials 2 --short-runs 2 --off 0 --quiet", "better_improve"},
-    {"reprogram robot.yaml --lines 1 --quiet", "robot_reprogram"},
+    {"reprogram robot.yaml --lines 1 --quiet --set uncertainty.enabled=false", "robot_reprogram"},  // the others vary inputs
     {"route abb_irb2600_12_165 --dresspack ./hose.yaml --tried 20 --short-runs 2 --off 0 --quiet "
      "--set simulation.segments=8 --job found.yaml",
      "abb_irb2600_12_165_route"}};

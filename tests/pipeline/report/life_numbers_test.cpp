@@ -12,7 +12,8 @@
 #include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
 
-namespace dresslife::pipeline {
+using namespace dresslife::pipeline;
+
 namespace {
 
 constexpr double pixel = 0.11;  // places are written to a tenth of a pixel
@@ -294,5 +295,3 @@ TEST_CASE("life numbers: bars along the dresspack and over the strain range are 
     }
   }
 }
-
-}  // namespace dresslife::pipeline

@@ -7,7 +7,8 @@
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
 
-namespace dresslife::pipeline {
+using namespace dresslife::pipeline;
+
 namespace {
 
 std::string block(const std::string& from, const std::string& to) {
@@ -171,4 +172,3 @@ TEST_CASE("dresspacks: what they share must agree") {
 }
 
 }  // namespace
-}  // namespace dresslife::pipeline

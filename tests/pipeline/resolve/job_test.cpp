@@ -12,7 +12,9 @@
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
 
-namespace dresslife::pipeline {
+using namespace dresslife;
+using namespace dresslife::pipeline;
+
 namespace {
 
 Job job_of_text(const std::string& text, const std::vector<std::string>& sets = {}) {
@@ -619,4 +621,3 @@ TEST_CASE("stored jobs that differ in their motion are read as each alone") {
 }
 
 }  // namespace
-}  // namespace dresslife::pipeline

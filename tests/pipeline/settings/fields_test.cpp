@@ -7,7 +7,8 @@
 #include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
 
-namespace dresslife::pipeline {
+using namespace dresslife::pipeline;
+
 namespace {
 
 enum class Colour { red, green, blue };
@@ -210,5 +211,3 @@ TEST_CASE("fields: the manual has a row for every key with its unit, range and d
   CHECK(row("parts[]", "width_mm").allowed == "> 0");
   CHECK(row("parts[]", "colour").fallback == "green");
 }
-
-}  // namespace dresslife::pipeline

@@ -10,7 +10,8 @@
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
 
-namespace dresslife::pipeline {
+using namespace dresslife::pipeline;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -167,5 +168,3 @@ TEST_CASE("known study: receipts contain the values of the life files, bit by bi
   std::ofstream(receipt, std::ios::binary) << bytes;
   CHECK(read_receipt(receipt));
 }
-
-}  // namespace dresslife::pipeline

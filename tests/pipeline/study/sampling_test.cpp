@@ -8,7 +8,8 @@
 #include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
 
-namespace dresslife::pipeline {
+using namespace dresslife::pipeline;
+
 namespace {
 
 Node section(const std::string& text) {
@@ -104,4 +105,3 @@ TEST_CASE("sampling: what is no distribution is refused where it stands") {
 }
 
 }  // namespace
-}  // namespace dresslife::pipeline

@@ -6,7 +6,8 @@
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
 
-namespace dresslife::pipeline {
+using namespace dresslife::pipeline;
+
 namespace {
 
 Study study_of(const Scratch& scratch, const std::string& text, const std::vector<std::string>& sets = {}) {
@@ -153,4 +154,3 @@ TEST_CASE("study: what is no study is refused where it stands") {
 }
 
 }  // namespace
-}  // namespace dresslife::pipeline

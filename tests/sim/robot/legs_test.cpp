@@ -8,7 +8,9 @@
 #include "tests/pipeline/scratch.h"
 #include "tests/sim/robot/small_arm.h"
 
-namespace dresslife::sim {
+using namespace dresslife;
+using namespace dresslife::sim;
+
 namespace {
 
 using Eigen::VectorXd;
@@ -498,5 +500,3 @@ TEST_CASE("legs: targets out of reach are reported together, with their lines") 
               "\nmain.mod:14:3: error: target of 'move 3' is not reached in configuration abb 1 0 0 0 "
               "(but in abb"));
 }
-
-}  // namespace dresslife::sim

@@ -4,7 +4,9 @@
 #include "tests/catch.h"
 #include "tests/sim/simple_job.h"
 
-namespace dresslife::sim {
+using namespace dresslife;
+using namespace dresslife::sim;
+
 namespace {
 
 JointMotion motion_of(const std::vector<pipeline::MotionStep>& steps) {
@@ -64,4 +66,3 @@ TEST_CASE("loops: a motion without three equal rounds has none") {
 }
 
 }  // namespace
-}  // namespace dresslife::sim

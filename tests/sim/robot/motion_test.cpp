@@ -7,7 +7,9 @@
 #include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
 
-namespace dresslife::sim {
+using namespace dresslife;
+using namespace dresslife::sim;
+
 namespace {
 
 using Eigen::VectorXd;
@@ -481,4 +483,3 @@ TEST_CASE("motion: rows of a recording are a spline at rest where two rows are e
 }
 
 }  // namespace
-}  // namespace dresslife::sim

@@ -79,7 +79,7 @@ double reach_of(const pipeline::Robot& description) {
   return best;
 }
 
-double distance(const Frame& a, const Frame& b) {
+double pose_distance(const Frame& a, const Frame& b) {
   return (a.position - b.position).norm() + rotation_vector(a.orientation.conjugate() * b.orientation).norm();
 }
 
@@ -160,7 +160,7 @@ TEST_CASE("shipped robots: the maker's configuration words bring back the arm wi
       const auto found = arm.solve(flange, arm.configuration(joints, type.words), elsewhere, reason);
       CAPTURE(joints.transpose(), reason);
       REQUIRE(found);
-      CHECK(distance(arm.flange(*found), flange) < pose_rounding);
+      CHECK(pose_distance(arm.flange(*found), flange) < pose_rounding);
       CHECK(arm.configuration(*found, type.words) == arm.configuration(joints, type.words));
       if (near_edge) continue;
       ++compared;

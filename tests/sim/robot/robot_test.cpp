@@ -6,7 +6,9 @@
 #include "pipeline/base/constants.h"
 #include "tests/catch.h"
 
-namespace dresslife::sim {
+using namespace dresslife;
+using namespace dresslife::sim;
+
 namespace {
 
 /// Some ten roundings of 1e-16 in lengths of up to 3 m.
@@ -117,4 +119,3 @@ TEST_CASE("robot: a link is found by its name, a wrong name lists those that exi
 }
 
 }  // namespace
-}  // namespace dresslife::sim

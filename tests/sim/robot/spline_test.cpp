@@ -4,7 +4,7 @@
 
 #include "tests/catch.h"
 
-namespace dresslife::sim {
+using namespace dresslife::sim;
 
 constexpr double rounding = 1e-13;  // some tens of roundings of numbers near 1
 
@@ -60,5 +60,3 @@ TEST_CASE("spline: at rest at both ends it goes through a cubic that is") {
   CHECK(spline.slope(0)[0] == Approx(0).margin(rounding));
   CHECK(spline.slope(2)[0] == Approx(6 * 0.3 * 0.7).margin(rounding));
 }
-
-}  // namespace dresslife::sim

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "pipeline/base/constants.h"
 #include "sim/rod/rod.h"
 #include "sim/run/equilibrium.h"
 #include "tests/catch.h"
@@ -12,7 +13,7 @@
 
 namespace dresslife::sim::test {
 
-inline const double pi = std::acos(-1.0);
+using dresslife::pi;
 
 /// Returns a frame in the x-z plane with its tangent `angle` above the x axis: body z turned about y by 90 deg - angle.
 inline Frame planar_frame(double x, double z, double angle) {

@@ -5,7 +5,9 @@
 #include "sim/run/simulate.h"
 #include "tests/catch.h"
 
-namespace dresslife::sim {
+using namespace dresslife;
+using namespace dresslife::sim;
+
 namespace {
 
 const std::vector<std::string> programs{"spot_robot_1", "spot_robot_2", "easy", "hard"};
@@ -115,4 +117,3 @@ TEST_CASE("shipped programs: the IRB 6700 carries the same dresspack through the
 }
 
 }  // namespace
-}  // namespace dresslife::sim

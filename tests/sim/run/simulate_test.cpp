@@ -8,7 +8,9 @@
 #include "tests/pipeline/scratch.h"
 #include "tests/sim/simple_job.h"
 
-namespace dresslife::sim {
+using namespace dresslife;
+using namespace dresslife::sim;
+
 namespace {
 
 /// [m] Contact corrects speeds only, so the hose may penetrate a little: less than the wall of a real hose yields.
@@ -267,4 +269,3 @@ TEST_CASE("simulate: a clamp inside the robot is refused") {
 }
 
 }  // namespace
-}  // namespace dresslife::sim

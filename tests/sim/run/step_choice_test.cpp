@@ -9,7 +9,9 @@
 #include "tests/sim/rod/rod_driven_cable.h"
 #include "tests/sim/simple_job.h"
 
-namespace dresslife::sim {
+using namespace dresslife;
+using namespace dresslife::sim;
+
 namespace {
 
 using test::DrivenCable;
@@ -123,4 +125,3 @@ TEST_CASE("step choice: the lively windows lie where the clamps accelerate") {
 }
 
 }  // namespace
-}  // namespace dresslife::sim

@@ -7,7 +7,8 @@
 
 #include "tests/catch.h"
 
-namespace dresslife::pipeline {
+using namespace dresslife::pipeline;
+
 namespace {
 
 Outcome outcome(double hours) {
@@ -193,4 +194,3 @@ TEST_CASE("tolerance: the words name the tolerance, the loss and where it occurs
 }
 
 }  // namespace
-}  // namespace dresslife::pipeline
