@@ -132,11 +132,11 @@ std::string assumptions(const RankingRow& row, const Node& job, const FileReader
   if (!row.estimates.empty()) fact("ESTIMATE, not in the dresspack", escaped(row.estimates));
   if (row.force_ok() && row.largest_force_share.value_or(0) > 0)
     fact("forces",
-         fmt::format("cables pull with at most {:.2g} of what tears them", *row.largest_force_share));
+         fmt::format("at most {:.2g} of the force that breaks a cable", *row.largest_force_share));
   if (strain && strain->has_attribute("loose_mesh_error"))
     fact("mesh of loose cables",
          fmt::format(
-             "{:.2g} % of their curvature is missed by the length of their pieces (above 2 % is warned of)",
+             "discretisation error of their curvature: {:.2g} % (a warning above 2 %)",
              100 * strain->number_attribute("loose_mesh_error")));
   const std::string stiffness = motion ? stiffness_words(*motion) : "";
   if (!stiffness.empty()) fact("hose as simulated", escaped(stiffness));

@@ -279,7 +279,7 @@ std::string facts(const RankingRow& row) {
                          printed(row.life_repeats), row.repeat_seconds, calendar_words(row.life_months)));
   if (!std::isnan(row.scatter_hours[0]))
     fact("by the scatter of wires alone",
-         fmt::format("{} in 10 %, {} in half, {} in 90 % of such dresspacks, all else as the job has it",
+         fmt::format("{} in 10 %, {} in half, {} in 90 % of such dresspacks, everything else with the job's own values",
                      printed_hours(row.scatter_hours[0]), printed_hours(row.scatter_hours[1]),
                      printed_hours(row.scatter_hours[2])));
   if (!row.life_shares.empty()) fact("its causes", escaped(row.life_shares));
@@ -307,7 +307,7 @@ std::string facts(const RankingRow& row) {
   if (row.clamp_moment_share) {
     const std::string tears =
         row.largest_force_share
-            ? fmt::format("at most {:.2f} of what tears a cable", *row.largest_force_share)
+            ? fmt::format("at most {:.2f} of the force that breaks a cable", *row.largest_force_share)
             : "strength not known (tensile_strength_MPa of its wires' material)";
     fact("forces of cables",
          fmt::format("{}; at the clamps {:.2g} times the moment that the hose carries{}", tears,
@@ -323,11 +323,11 @@ std::string facts(const RankingRow& row) {
   if (row.loose_mesh_error)
     fact("mesh of loose cables",
          fmt::format(
-             "{:.2g} % of their curvature is missed by the length of their pieces (above 2 % is warned of)",
+             "discretisation error of their curvature: {:.2g} % (a warning above 2 %)",
              100 * *row.loose_mesh_error));
   const auto scatter = [&](const std::string& name, const std::array<double, 3>& lives) {
     if (std::isnan(lives[0])) return;
-    fact(name, fmt::format("by {} in 10 %, {} in half, {} in 90 % of such dresspacks, by scatter alone",
+    fact(name, fmt::format("by {} in 10 %, {} in half, {} in 90 % of such dresspacks, by the scatter of wires alone",
                            printed_hours(lives[0]), printed_hours(lives[1]), printed_hours(lives[2])));
   };
   scatter("first broken wire", row.first_wire_hours);

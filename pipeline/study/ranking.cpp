@@ -380,7 +380,7 @@ std::string force_words(const RankingRow& row) {
   if (row.force_ok()) return "";
   std::vector<std::string> parts;
   if (row.largest_force_share.value_or(0) > believable_share)
-    parts.push_back(fmt::format("cables pull with {:.2f} of what tears them", *row.largest_force_share));
+    parts.push_back(fmt::format("cables carry {:.2f} of their breaking force", *row.largest_force_share));
   if (row.clamp_moment_share.value_or(0) > believable_share)
     parts.push_back(fmt::format("bend the clamps {:.2g} times as much as the hose does",
                                 *row.clamp_moment_share));

@@ -430,7 +430,7 @@ const Doubtful doubtful[] = {
     {"hose.yaml", "axial_stiffness_N: 50000", "axial_stiffness_N: 50", "hose.yaml:1:1", "axial_stiffness_N is 50 (limit 589 or more: 2 % of stretch by the weight of a metre)", "axial_stiffness_N: 5e+04 if that was kN"},
     {"hose.yaml", "slack_percent: 1", "slack_percent: 1\n    play_mm: 400", "hose.yaml:12:5", "play_mm of 'lead' is 400 (limit 25: half of diameter_mm)", "it follows from the bore"},
     {"hose.yaml", "slack_percent: 1", "slack_percent: 1\n    friction_coefficient: 0.3\n    radial_line_load_N_per_m: 5e6", "hose.yaml:12:5", "radial_line_load_N_per_m of 'lead' is 5e+06, 610 MPa on its width (limit 10: jackets yield)", "0.05 MPa times the part's width"},
-    {"job.yaml", "free_length_m: 2.035", "free_length_m: 203.5", "", "least slack: too long", "routing.free_length_m: 2.046"},
+    {"job.yaml", "free_length_m: 2.035", "free_length_m: 203.5", "", "least slack, length too long", "routing.free_length_m: 2.046"},
     simulation_key("gravity_m_per_s2: [0, 0, 9.81]", "the upward part of simulation.gravity_m_per_s2 is 9.81", "simulation.gravity_m_per_s2: [0, 0, -9.81]"),
     simulation_key("gravity_m_per_s2: [0, 0, -1]", "the size of simulation.gravity_m_per_s2 is 1 (limit 9.71 .. 9.90). Likely cause: multiples of g", "simulation.gravity_m_per_s2: [0, 0, -9.81]"),
     simulation_key("gravity_m_per_s2: [0, -9.81, 0]", "the upward part of simulation.gravity_m_per_s2 is 0", "a wall or a ceiling"),

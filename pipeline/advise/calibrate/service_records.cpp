@@ -458,6 +458,8 @@ ServiceTests read_service_tests(const ServiceRequest& request) {
     for (const ObservedTest::Variant& program : test.variants)
       test.text += (program.share_of_time < 1 ? fmt::format("{} ", program.share_of_time) : "") + to_yaml(program.job);
   read.words = fmt::format("Columns: {}.\n{}", table.column_words(), table.job_words());
+  if (std::ranges::any_of(rows, [](const Row& row) { return row.hours_per_week.has_value(); }))
+    read.words += "Hours per week are those in which the job's program runs. dresslife plan counts hours of operation, with standstill.\n";
   read.words += fmt::format("{} dresspacks: {} failed, {} were removed before, {} are in use on {}.\n",
                             failed + removed + in_use, failed, removed, in_use, day_text(request.today));
   read.words += fmt::format(

@@ -382,13 +382,13 @@ TEST_CASE("report: each fact of a job has the row's own number") {
   std::map<std::string, std::string> facts;
   const std::regex fact("<dt>([^<]*)</dt><dd>(.*)</dd>");
   for (std::sregex_iterator at(page.begin(), page.end(), fact), end; at != end; ++at) facts[(*at)[1]] = std::regex_replace((*at)[2].str(), std::regex("</?b>"), "");
-  const std::string by_scatter = " of such dresspacks, by scatter alone", glued = " if everything inside the cables were glued, ",
+  const std::string by_scatter = " of such dresspacks, by the scatter of wires alone", glued = " if everything inside the cables were glued, ",
                     free = " if it slipped without friction";
   for (const auto& [name, text] : std::map<std::string, std::string>{
            {"life", "44.0 h of motion = 6.00 months by the calendar until 10 % of such dresspacks have a conductor that has lost its share of wires at one place; "
                     "66.0 h until half have, 110 h until 90 %; likeliest signal cable 3/conductor 2, 0.75 m from the tool"},
            {"worst wire", "71.0 h of motion = 7,100 repeats of 36.0 s = 7.00 months by the calendar, median of the worst wire"},
-           {"by the scatter of wires alone", "51.0 h in 10 %, 52.0 h in half, 53.0 h in 90 % of such dresspacks, all else as the job has it"},
+           {"by the scatter of wires alone", "51.0 h in 10 %, 52.0 h in half, 53.0 h in 90 % of such dresspacks, everything else with the job's own values"},
            {"its causes", "strength 60 %"},
            {"fails first", "wires of signal cable, in 75 % of the samples, likeliest signal cable 3/conductor 2, 0.75 m from the tool"},
            {"bounds of 10 % failed", "11.0 h" + glued + "111 h" + free},
@@ -397,9 +397,9 @@ TEST_CASE("report: each fact of a job has the row's own number") {
            {"bounds of the worst wire", "14.0 h" + glued + "150 h" + free},
            {"ESTIMATE, not in the dresspack", "mass"},
            {"mean stress", "61.0 h if none of it relaxed, 62.0 h without any, median of the same wire"},
-           {"forces of cables", "at most 0.11 of what tears a cable; at the clamps 0.12 times the moment that the hose carries"},
+           {"forces of cables", "at most 0.11 of the force that breaks a cable; at the clamps 0.12 times the moment that the hose carries"},
            {"pull at clamps", "0.13 of what a strain relief of type A has to hold (EN 50262)"},
-           {"mesh of loose cables", "1.4 % of their curvature is missed by the length of their pieces (above 2 % is warned of)"},
+           {"mesh of loose cables", "discretisation error of their curvature: 1.4 % (a warning above 2 %)"},
            {"first broken wire", "by 31.0 h in 10 %, 32.0 h in half, 33.0 h in 90 %" + by_scatter},
            {"share of a conductor broken anywhere in it", "by 41.0 h in 10 %, 42.0 h in half, 43.0 h in 90 %" + by_scatter},
            {"not evaluated", "water hose"},

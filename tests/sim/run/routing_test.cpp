@@ -236,7 +236,7 @@ TEST_CASE("routing: a dresspack with a free end hangs and rings down as its damp
   double aside = 0;
   for (const Row& row : hung.rows) aside = std::max(aside, std::abs(rod.tip(row.state).y()));
   CHECK(aside > 0.1);
-  CHECK_THROWS_AS(hung.check("least slack: too short below"), std::logic_error);
+  CHECK_THROWS_AS(hung.check("least slack, length too short"), std::logic_error);
 }
 
 TEST_CASE("routing: a dresspack is led by a ring that the job describes") {
@@ -260,7 +260,7 @@ TEST_CASE("routing: a dresspack is led by a ring that the job describes") {
   CHECK(force > 1);
   // Slack: the length minus the distance over the ring, which may be off-centre by its radius.
   const double way = std::hypot(0.5, 0.1) + std::hypot(0.6, 0.1) - 2 * 0.024;
-  CHECK(led.check("least slack: too short below").value == Approx(1.3 - way));
+  CHECK(led.check("least slack, length too short").value == Approx(1.3 - way));
 }
 
 TEST_CASE("routing: boxes and meshes of links and of the cell are obstacles from the job file on") {
