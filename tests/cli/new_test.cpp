@@ -16,6 +16,13 @@ Outcome make(const Scratch& scratch, const std::string& options) {
   return run(scratch, "dresslife", "new " + options);
 }
 
+/// While it exists, programs take this catalogue.
+class CatalogueOf {
+ public:
+  explicit CatalogueOf(const fs::path& folder) { ::setenv("DRESSLIFE_CONFIG", folder.c_str(), 1); }
+  ~CatalogueOf() { ::unsetenv("DRESSLIFE_CONFIG"); }
+};
+
 /// Writes a program of three targets. For a program of three minutes `new` would try every pose.
 void write_short_program(const Scratch& scratch) {
   scratch.write("mine.yaml",
@@ -40,13 +47,22 @@ TEST_CASE("new: without options it lists what can be chosen, and writes nothing"
   CHECK(!fs::exists(scratch / "job.yaml"));
 }
 
-TEST_CASE("new: the clamps of a shipped job") {
+TEST_CASE("new: the clamps of a job of the catalogue with this robot, if check has no warning with them") {
   Scratch scratch;
-  REQUIRE(make(scratch, "--robot abb_irb6640_185_280 --program spot_robot_1 job.yaml").status == 0);
-  const std::string text = content(scratch / "job.yaml");
-  CHECK(has(text, "# Clamps: as in config/jobs/irb6640_spot_welding.yaml."));
-  CHECK(has(text, "position_m: [0.144, 0, 0.174]"));
-  CHECK(std::count(text.begin(), text.end(), '\n') <= 15);
+  write_short_program(scratch);
+  const std::string options = "--robot abb_irb6640_185_280 --program mine.yaml ";
+  REQUIRE(make(scratch, options + "first.yaml").status == 0);
+  const std::string first = content(scratch / "first.yaml");
+  REQUIRE(has(first, "# Clamps: proposed from the robot's shape"));
+  fs::copy(fs::path(DRESSLIFE_SOURCE_DIR) / "config", scratch / "config", fs::copy_options::recursive);
+  fs::remove_all(scratch / "config/jobs");
+  scratch.write("config/jobs/brackets.yaml", replaced_all(first, "mine.yaml", "easy"));
+  const CatalogueOf own(scratch / "config");
+  REQUIRE(make(scratch, options + "second.yaml").status == 0);
+  const std::string second = content(scratch / "second.yaml");
+  CHECK(has(second, "# Clamps: as in config/jobs/brackets.yaml."));
+  CHECK(second.substr(second.find("routing:")) == first.substr(first.find("routing:")));
+  CHECK(std::count(second.begin(), second.end(), '\n') <= 15);
 }
 
 TEST_CASE("new: a job is the user's once it is edited") {
