@@ -52,7 +52,7 @@ const std::map<std::string, std::string> instead{
     {"dresslife run cell.yaml", "dresslife run cell.yaml" + quick},
     {"dresslife duty shift.yaml", "not run"},  // tests/cli/log_test
     {"dresslife duty shifts.yaml", "dresslife duty shifts.yaml" + quick},
-    {"dresslife check JOB.yaml", "dresslife check irb6640_spot_welding"},
+    {"dresslife check JOB.yaml", "dresslife check irb6640_spot_welding --set simulation.segments=16"},
     {"dresslife preview JOB.yaml", "dresslife preview irb6640_spot_welding"},
     {"dresslife route ROBOT_OR_JOB",
      "dresslife route abb_irb4600_60_205 --scale 0.5 --tried 60 --short-runs 20 --seed 2 --set uncertainty.enabled=false" + quick},
