@@ -223,8 +223,8 @@ std::string share_text(const pipeline::Job& job, const VariedLimit& limit, const
   for (std::size_t k = 1; k < limit.causes().size(); ++k)
     others.push_back(fmt::format("{} with {}", pipeline::percent_words(limit.causes()[k].share), words_of(job, all[limit.causes()[k].at])));
   return fmt::format(
-      "; about {} of such dresspacks exceed this limit{}, by straight lines between the computed values and the distribution of the "
-      "uncertain parameters; with the job's own values none does",
+      "; about {} of such dresspacks exceed this limit{} (interpolated linearly in the distribution of the uncertain parameters); with the "
+      "job's own values none does",
       pipeline::percent_words(limit.share()),
       others.empty() ? ""
                      : fmt::format(" ({} by this parameter, {})", pipeline::percent_words(limit.causes().front().share),
@@ -266,7 +266,7 @@ pipeline::Warning warning_at(const pipeline::Job& job, const FileCables& cables,
   const Cure cure = cure_at(job, at, cables.facts[cable], cables.force[cable], tension);
   std::string remedy = cure.remedy;
   for (const std::size_t p : cause.parameters)
-    if (p != starts_parameter) remedy += "; or, " + pipeline::measurement_words(pipeline::uncertain_parameters()[p]);
+    if (p != starts_parameter) remedy += "; or " + pipeline::measurement_words(pipeline::uncertain_parameters()[p]);
   return pipeline::warning_of(pipeline::WarningKind::other_values, "",
                               fmt::format("with {} {}{}", words_of(job, at), what, share_text(job, limit, all)), cure.cause, remedy);
 }

@@ -143,7 +143,7 @@ std::map<std::string, std::vector<AgeLimit>> age_limits(const std::vector<DutyRe
   std::map<std::string, std::vector<AgeLimit>> limits;
   for (const DutyResult& duty : duties)
     for (const DutyMode& mode : duty.others)
-      if (mode.mode == UnvalidatedMode::abrasion || mode.mode == UnvalidatedMode::jacket)
+      if (mode.mode == UnvalidatedMode::abrasion || mode.mode == UnvalidatedMode::jacket || mode.mode == UnvalidatedMode::wall)
         limits[duty.name].push_back({mode.dresspack.empty() ? mode.mode : mode.mode + " of " + mode.dresspack, mode.hours});
   return limits;
 }

@@ -651,7 +651,7 @@ TEST_CASE("a force that exceeds its limit only with another slack causes a warni
                           Catch::Contains(fmt::format("about {} of such dresspacks exceed this limit",
                                                       pipeline::percent_words(pipeline::share_beyond(nodes, 0, 1)))) &&
                           Catch::Contains("Likely cause: ") && Catch::Contains("Remedy: dresspack.components.1.slack_percent: ") &&
-                          Catch::Contains("uncertainty.slack: 1.16: The length of each cable measured"));
+                          Catch::Contains("uncertainty.slack: 1.16, if this measurement confirms the job's value: The length of each cable measured"));
   CHECK_THAT(warnings_with_limit(2 * std::abs(most)), !Catch::Contains("breaking force"));
   const std::string of_own = warnings_with_limit(std::abs(own) / 2);
   const std::string line = of_own.substr(0, of_own.find('\n'));

@@ -33,9 +33,9 @@ std::string inspection(const DutyResult& duty, double hours) {
                        after);
   const std::string of = first->dresspack.empty() ? "" : " of " + first->dresspack;
   if (first->mode == UnvalidatedMode::jacket)
-    return fmt::format(" A cable's jacket{} may wear through in the hose after {}: inspect it.", of, after);
+    return fmt::format(" A cable's jacket{} may wear through in the hose after {}: open the hose.", of, after);
   if (first->mode == UnvalidatedMode::corkscrew)
-    return fmt::format(" Cables{} may wind into a corkscrew after {}: inspect them.", of, after);
+    return fmt::format(" Cables{} may wind into a corkscrew after {}: open the hose.", of, after);
   if (first->mode == UnvalidatedMode::kink)
     return fmt::format(" A tube in the hose{} may kink (not validated): see the job's page.", of);
   return fmt::format(" The hose{} may {} after {}: inspect it.", of,

@@ -102,7 +102,7 @@ TEST_CASE("ranking: of several unvalidated modes of one name the first to fail c
       (pull ? forced.largest_force_share : forced.clamp_moment_share) = share;
       CHECK(forced.force_ok() == (share < 0.2));
       CHECK(force_words(forced).empty() == (share < 0.2));
-      if (share > 0.2) CHECK((force_words(forced).find("cables pull with") == 0) == pull);
+      if (share > 0.2) CHECK((force_words(forced).find("cables carry ") == 0) == pull);
     }
 }
 

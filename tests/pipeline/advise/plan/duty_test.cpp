@@ -102,10 +102,10 @@ TEST_CASE("a duty names the mode beside the wires that comes first, and all that
   CHECK_THAT(duty_action(duty), Catch::EndsWith(" The hose may wear through after 20,000 h (not validated): inspect it."));
   duty.others = {{UnvalidatedMode::jacket, "", "", 10000}};
   CHECK_THAT(duty_action(duty),
-             Catch::EndsWith(" A cable's jacket may wear through in the hose after 10,000 h (not validated): inspect it."));
+             Catch::EndsWith(" A cable's jacket may wear through in the hose after 10,000 h (not validated): open the hose."));
   CHECK_THAT(in_one_line(caution_words(duty)), Catch::Contains("1 of 10 dresspacks has a jacket worn through in the hose after 10,000 h"));
   duty.others = {{UnvalidatedMode::corkscrew, "", "", 10000}};
-  CHECK_THAT(duty_action(duty), Catch::EndsWith(" Cables may wind into a corkscrew after 10,000 h (not validated): inspect them."));
+  CHECK_THAT(duty_action(duty), Catch::EndsWith(" Cables may wind into a corkscrew after 10,000 h (not validated): open the hose."));
   CHECK_THAT(in_one_line(caution_words(duty)), Catch::Contains("1 of 10 dresspacks has a corkscrew after 10,000 h"));
 }
 
