@@ -79,8 +79,9 @@ constexpr double thickest_jacket = 2, thinnest_jacket = 0.25, narrow_part = 4e-3
 constexpr double shortest_pitch = 0.3e-3;  // [m]: the finest corrugated hoses have 1 mm
 // Pitch over height: the two shipped profiles have 1.1, wide ones 2; a pitch that is exchanged with the height has less than 1. ESTIMATE.
 constexpr double shortest_fold = 0.8;
-// Height over outer diameter. Conduits of polyamide of 13 to 106 mm have 0.06 to 0.12. Conduits of JIS C 8411 have up to 0.19.
-constexpr double lowest_fold = 0.05, highest_fold = 0.2;
+// Height over outer diameter. Usual: conduits of polyamide of 13 to 106 mm, an ESTIMATE. The limits contain the conduits of JIS C 8411,
+// table 5, with their least bore: 0.08 (CD 70) to 0.19 (PF 14).
+constexpr double lowest_fold = 0.05, highest_fold = 0.2, usual_folds[] = {0.06, 0.12};
 constexpr double largest_grip = 1e5;       // [N]: ten times the breaking force of a power cable
 
 /// Returns the mass of all wires per metre of the part along their lays, with the density of aluminium [kg/m].
@@ -352,8 +353,8 @@ void plausible_size(const Dresspack& dresspack, Judge& judge) {
                 fmt::format("height_mm is {:.3g}, {:.2g} times diameter_mm {:.4g} (limits {:g} .. {:g})", 1e3 * profile->height, share,
                             1e3 * diameter, lowest_fold, highest_fold),
                 "the corrugation or the diameter of another hose",
-                fmt::format("diameter_mm {:.3g} .. {:.3g} with this corrugation, or height_mm as a caliper finds it", 1e3 * profile->height / 0.12,
-                            1e3 * profile->height / 0.06));
+                fmt::format("diameter_mm {:.3g} .. {:.3g} with this corrugation, or height_mm as a caliper finds it", 1e3 * profile->height / usual_folds[1],
+                            1e3 * profile->height / usual_folds[0]));
   }
   if (const auto& profile = dresspack.hose_corrugation; profile && dresspack.inner_diameter) {
     const double height = (diameter - *dresspack.inner_diameter) / 2;

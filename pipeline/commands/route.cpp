@@ -379,7 +379,7 @@ std::string words_of(const Trial& trial, const Draft& draft, const MountingToler
   if (best.feasible()) {
     const auto at_other_values = std::ranges::count(warnings_of(trial.rows[*trial.best]), WarningKind::other_values, &Warning::kind);
     text += at_other_values > 0 ? "It keeps all limits in a run with its own values. At other values of stiffness, slack or friction it does not: "
-                                  "dresslife check names them.\n"
+                                  "the warnings of dresslife run name them.\n"
                                 : "It keeps all limits in a run.\n";
   } else {
     const DecidingLimit by = decided(trial, draft);

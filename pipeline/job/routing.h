@@ -103,7 +103,7 @@ inline constexpr int fewest_relief_segments = 4;
 /// Returns a relief for a first trial. Its length is three diameters, so that it bends as a beam, and at least
 /// fewest_relief_segments segments. It is as stiff as the dresspack, which halves the curvature at the clamp. A stiffer relief
 /// moves the bend to its end (fatigue/measurements.md). The length is rounded up to mm, the stiffness to three digits. diameter,
-/// segment [m] and stiffness [N m2] are those of the dresspack.
+/// segment [m] and stiffness [N m2] are those of the dresspack. segment 0: the three diameters alone.
 BendRelief first_relief(double diameter, double stiffness, double segment);
 /// Returns "{length_mm: 180, bending_stiffness_Nm2: 6.7}".
 std::string relief_text(const BendRelief& relief);

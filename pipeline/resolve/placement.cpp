@@ -207,10 +207,10 @@ void expand_places(Node& dresspack, const std::string& path, Problems& problems)
   double core = number_of(dresspack, "core_diameter_mm") / 2e3;
   const double bore = bore_of(dresspack) / 2e3;
   const std::vector<AutoPart> parts = auto_parts(*components, path, core, own);
-  if (bore < 0) {
-    own.add(where, fmt::format("place: auto is given, and hose_corrugation leaves no bore in the hose (diameter_mm is {:g})",
-                               number_of(dresspack, "diameter_mm")),
-            "check diameter_mm (a lost zero?) and height_mm of hose_corrugation: both folds and the bore make up the diameter", path);
+  if (const double diameter = number_of(dresspack, "diameter_mm"); bore < 0 && diameter > 0 && !dresspack.find("inner_diameter_mm")) {
+    own.add(where, fmt::format("place: auto is given, and hose_corrugation leaves no bore in the hose (diameter_mm is {:g})", diameter),
+            fmt::format("give diameter_mm: {:g} if a zero was lost, or check height_mm: the diameter is the bore and twice the height", 10 * diameter),
+            path);
   } else if (!(bore > 0)) {
     Dresspack hose;
     hose.diameter = number_of(dresspack, "diameter_mm") / 1e3;

@@ -138,6 +138,7 @@ const Row rows[] = {
     {"pack.yaml", "lay length 60 mm", "lay length 12 mm", Answer::refused, "pack.yaml:17:17", "do not lie beside each other on a lay of 12 mm", "or 55.8 mm if 12 is the lay angle in degrees"},
     {"pack.yaml", "7 x 0.5 mm2, wire 0.1 mm, lay length 60 mm, outer diameter 8.2 mm", "4G10, outer diameter 11.5 mm", Answer::refused, "pack.yaml:17:17", "4 cores of 10 mm2 need a cable about 1", "outer_diameter_mm is 11.5: correct one of the three numbers; "},
     {"pack.yaml", "jacket PUR 1.1 mm", "jacket PUR 0.2 mm", Answer::warned, "pack.yaml:13:5", "the jacket of 'cable' is 0.2 mm thick", "jacket 1.3 mm, a usual one"},
+    {"pack.yaml", pack, replaced_all(replaced_all(pack, "diameter_mm: 36", "diameter_mm: 3.6"), "helix_radius_mm: 9", "place: auto"), Answer::refused, "pack.yaml:13:5", "leaves no bore in the hose (diameter_mm is 3.6)", "give diameter_mm: 36 if a zero was lost"},
     {"pack.yaml", "pitch_mm: 4.5, height_mm: 3", "pitch_mm: 3, height_mm: 4.5", Answer::warned, "pack.yaml:5:19", "pitch_mm is 3 and height_mm 4.5", "pitch_mm: 4.5 and height_mm: 3 if they were exchanged"},
     {"pack.yaml", "diameter_mm: 36", "diameter_mm: 63", Answer::warned, "pack.yaml:5:19", "height_mm is 3, 0.048 times diameter_mm 63", "diameter_mm 25 .. 50 with this corrugation"},
     {"pack.yaml", "wall_mm: 0.7", "wall_mm: 8.75", Answer::refused, "pack.yaml:5:19", "wall_mm of hose_corrugation is 8.75", "give wall_mm: 0.875 if a decimal point was lost"},
