@@ -220,7 +220,7 @@ const Wrong wrong[] = {
     {"cable.yaml", "7 x 0.5 mm2", "7 x 20 mm2", "cable.yaml:6:17: error: ", "a conductor 5.807 mm wide", "give cross_section_mm2: 0.518 if 20 is a wire gauge (AWG)", "dresslife draw cable.yaml"},
     {"cable.yaml", "7 x 0.5 mm2", "0.5 x 7 mm2", "cable.yaml:6:17: error: ", "'0.5 x 7 mm2' of a data sheet is not understood", "write '7 x 0.5 mm2'", "dresslife draw cable.yaml"},
     {"hose.yaml", "diameter_mm: 50\ninner", "diameter_m: 0.05\ninner", "hose.yaml:3:1: error: ", "unknown key 'dresspack.diameter_m'", "its unit is mm, write 'diameter_mm: 50'"},
-    {"job.yaml", "simulation: {segments: 24, contact: false}", "cell: {meshes: [{file: box.obj}]}\nsimulation: {segments: 24}", "", "box.obj: error: the mesh is 300 m long with scale 1 (limit 30 m)", "give the mesh scale: 0.001 if its unit is the millimetre", "dresslife-sim job.yaml -o out.h5"},
+    {"job.yaml", "simulation: {segments: 24, contact: false}", "cell: {meshes: [{file: box.obj}]}\nsimulation: {segments: 24}", "", "box.obj: error: the mesh is 300 m long with scale 1 (limit 30 m)", "give the mesh scale: 0.001 if its unit is the millimetre (in a URDF scale=\"0.001 0.001 0.001\")", "dresslife-sim job.yaml -o out.h5"},
     {"hose.yaml", "mass_kg_per_m: 1.2", "mass_g_per_m: 1200", "hose.yaml:5:1: error: ", "unknown key 'dresspack.mass_g_per_m'", "write 'mass_kg_per_m: 1.2'"},
     {"axes.csv", "", "t,a,b,c,d,e,f" + axes.substr(axes.find('\n')), "axes.csv:1:1: error: ", "names axes without their order", "motion.values: [{name: joints, value: 'NAME,NAME,...'}]", "dresslife check axes.yaml"},
     {"spot.mod", "MoveAbsJ a", "MoveAbsJ b", "spot.mod:4:", "'b'", "motion.values: [{name: b, value: VALUE}]", "dresslife check module.yaml"},

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <map>
 #include <numbers>
 #include <random>
+#include <string>
 
 #include "tests/catch.h"
 
@@ -57,6 +59,32 @@ TEST_CASE("units: the unit of a key is its longest ending that is one") {
   CHECK(unit_of_key("m").name.empty());  // a unit alone is a name
   CHECK(unit_of_key("_mm").name.empty());
   CHECK(unit_of_key("stemm").name.empty());
+}
+
+TEST_CASE("units: each factor to SI is that of the parts of its name") {
+  // a prefix is a letter before a unit: mm is not m times m, and m alone is the metre
+  const std::map<std::string, double> parts{{"m", 1}, {"mm", 1e-3}, {"deg", M_PI / 180}, {"s", 1}, {"ms", 1e-3}, {"Hz", 1}, {"kg", 1}, {"N", 1}, {"mN", 1e-3},
+                                            {"MPa", 1e6}, {"GPa", 1e9}, {"C", 1}, {"MB", 1e6}, {"%", 1}, {"h", 1}, {"week", 1}, {"1", 1}};
+  for (const std::string suffix : {"m", "mm", "mm2", "mm3", "deg", "deg_per_s", "deg_per_s2", "deg_per_s3", "mm_per_s", "mm_per_s2", "s", "ms", "Hz",
+                                   "m_per_s2", "m_per_s3", "1_per_m", "deg_per_m", "kg", "kg_per_m", "N", "N_per_m", "N_per_m2", "Ns_per_m", "Nm2", "mNm",
+                                   "MPa", "GPa", "mm3_per_Nm", "C", "MB", "percent", "hours_per_week", "hours"}) {
+    const Unit& unit = unit_of_key("key_" + suffix);
+    REQUIRE(unit.suffix == suffix);
+    double factor = 1, sign = 1;
+    const std::string name(unit.name);
+    for (std::size_t at = 0; at < name.size(); ++at) {
+      if (name[at] == '/') sign = -1;
+      if (std::string_view("/ ()").find(name[at]) != std::string_view::npos) continue;
+      const std::size_t begin = at;
+      while (at + 1 < name.size() && (std::isalpha(static_cast<unsigned char>(name[at + 1])))) ++at;
+      const std::string part = name.substr(begin, at + 1 - begin);
+      const bool has_power = at + 1 < name.size() && std::isdigit(static_cast<unsigned char>(name[at + 1]));
+      const double power = has_power ? name[++at] - '0' : 1;
+      INFO(suffix << ": " << part);
+      factor *= std::pow(parts.at(part), sign * power);
+    }
+    CHECK(unit.to_si == Approx(factor).epsilon(1e-12));
+  }
 }
 
 TEST_CASE("units: the stem of a key is the key without its unit") {

@@ -38,6 +38,7 @@ std::vector<Option> options_of(Values& values) {
           {"--text", "WORD", "a text", &values.text},
           {"--file", "FILE", "a file", &values.file},
           {"--list", "WORD", "may be repeated", &values.list},
+          {"--set", "KEY=VALUE", "sets a key", &values.list},
           {"--call", "WORD", "is handed over",
            [&values](const std::string& text) {
              if (text == "bad") throw InputError({"--call"}, "is bad", "write another word");
@@ -126,6 +127,20 @@ TEST_CASE("command line: only a number right behind a flag is named as one that 
     INFO(line[1] << "\n" << words);
     CHECK(status == 2);
     CHECK((words.find(fmt::format("leave out '{}'", line.back())) != std::string::npos) == named);
+  }
+}
+
+TEST_CASE("command line: a key and its value with spaces around = are shown without spaces") {
+  for (const auto& [line, shown] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+           {{"in", "--set", "a", "=", "24"}, "write a=24\n"}, {{"in", "--set", "a=", "24"}, "write a=24\n"},
+           {{"in", "--set", "a", "=24"}, "write a=24\n"}, {{"in", "--set", "a", "="}, "write a=\n"}}) {
+    Values values;
+    Captured errors(STDERR_FILENO);
+    const std::optional<int> status = read(values, line);
+    const std::string words = errors.text();
+    INFO(words);
+    CHECK(status == 2);
+    CHECK(words.find("'--set' needs KEY=VALUE without spaces: " + shown) != std::string::npos);
   }
 }
 
