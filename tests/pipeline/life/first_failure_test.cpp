@@ -55,6 +55,9 @@ TEST_CASE("samples of a straight response are normal, with the sum of the varian
   CHECK(sum(lives.share) == Approx(1).margin(1e-12));
   CHECK(largest_share(lives.share) == friction);  // the residual is no cause that a test can reduce
   CHECK(lives.first == std::vector<double>{1});
+  // A hundred times the life: the same samples have the same variances.
+  const FirstFailures longer = summary_of({straight(a, b, c, 7)}, "job");
+  for (std::size_t cause = 0; cause < lives.share.size(); ++cause) CHECK(longer.share[cause] == Approx(lives.share[cause]).margin(1e-9));
 }
 
 TEST_CASE("the swing of a mounted hose widens lives, each job's by its own") {
