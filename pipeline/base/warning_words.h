@@ -20,6 +20,11 @@ struct Remedy {
 /// limit, the place and the time, if they apply.
 Warning warning_of(WarningKind kind, std::string where, const std::string& what, const std::string& cause,
                    const Remedy& remedy);
+/// The parts of a text of warning_of(), without their labels. A text without these labels is a problem alone.
+struct WarningParts {
+  std::string problem, cause, remedy;
+};
+WarningParts parts_of(std::string words);
 /// remedy: words without values.
 Warning warning_of(WarningKind kind, std::string where, const std::string& what, const std::string& cause,
                    const std::string& remedy);

@@ -148,6 +148,20 @@ Warning warning_of(WarningKind kind, std::string where, const std::string& what,
   return warning_of(kind, std::move(where), what, cause, Remedy{{}, remedy});
 }
 
+WarningParts parts_of(std::string words) {
+  WarningParts parts;
+  const auto cut = [&](std::string_view mark, std::string& part) {
+    const std::size_t at = words.find(mark);
+    if (at == std::string::npos) return;
+    part = words.substr(at + mark.size());
+    words.erase(at);
+  };
+  cut(remedy_mark, parts.remedy);
+  cut(cause_mark, parts.cause);
+  parts.problem = std::move(words);
+  return parts;
+}
+
 std::string warnings_text(const std::vector<Warning>& warnings) {
   std::string text;
   for (std::size_t k = 0; k < warnings.size(); ++k) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "pipeline/base/constants.h"
 #include "pipeline/base/joined.h"
@@ -32,6 +33,7 @@ constexpr double least_lay =
     0.6 * degree;  // a turn in 100 helix diameters or more; lays of cables are 3 to 40 deg, 0.05 to 0.7 rad
 // Lay length in widths of the layer: four times the longest lay of cores in flexible cables, 8 to 16 (config/defaults.md).
 constexpr double longest_lay = 64;
+constexpr std::pair<double, double> usual_wires{0.05e-3, 0.5e-3};  // diameters of wires in flexible conductors and shields [m]
 
 // Share of the mass of the construction. Copper wires are a third of it or more, and foamed insulation weighs a third of a solid one.
 constexpr double lightest_share = 0.3;
@@ -102,17 +104,22 @@ class Judge {
     warnings_.push_back(warning_of(WarningKind::material, where.text(), what, cause, remedy));
   }
 
+  /// Warns of a wire that is too thin. A data sheet has the diameter instead of the radius.
+  void thin_wire(const Component& of) {
+    const auto [least, most] = usual_wires;
+    const Meant radius = meant_length("radius_mm", 1e3 * of.radius, 0.5e3 * least, 0.5e3 * most);
+    const Meant width = meant_length("wire_diameter_mm", 2e3 * of.radius, 1e3 * least, 1e3 * most);
+    add(of.where, fmt::format("radius_mm of '{}' is {:.3g} (limit {:.2g} or more for a wire)", of.name, 1e3 * of.radius, 1e3 * thinnest),
+        radius.cause.empty() ? "another unit" : radius.cause,
+        radius.cause.empty() ? "radius_mm: half of the wire's diameter in millimetres" : radius.remedy + "; in a data sheet " + width.remedy);
+  }
+
   void parts(const std::vector<Component>& components) {
     // of all layers that are stranded together: they have one lay length, so the innermost has a small angle
     const double widest = largest_of(components, 0.0, [](const Component& of) { return 2 * (of.helix_radius + of.radius); });
     for (std::size_t k = 0; k < components.size(); ++k) {
       const Component& of = components[k];
-      if (is_wire(of) && of.radius < thinnest)
-        add(of.where,
-            fmt::format("radius_mm of '{}' is {:.3g} (limit {:.2g} or more for a wire)", of.name,
-                        1e3 * of.radius, 1e3 * thinnest),
-            "metres instead of millimetres",
-            fmt::format("radius_mm: {:.3g} if that was metres", 1e6 * of.radius));
+      if (is_wire(of) && of.radius < thinnest) thin_wire(of);
       if (of.lay_angle > 0 && of.lay_angle < least_lay && 2 * pi * of.helix_radius > longest_lay * widest * std::tan(of.lay_angle))
         add(of.where,
             fmt::format(

@@ -7,8 +7,10 @@
 
 #include "pipeline/base/csv_rows.h"
 #include "pipeline/base/lists.h"
+#include "pipeline/base/warning_words.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/settings/document.h"
+#include "pipeline/study/row_warnings.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -22,14 +24,16 @@ Json json_of_cell(const std::string& text) {
 
 Json null() { return Json(std::nan("")); }
 
-}  // namespace
+Json text_or_null(const std::string& text) { return text.empty() ? null() : Json(text); }
 
-Json json_of_csv(const std::string& csv) {
+Json object() { return Json(std::initializer_list<std::pair<std::string_view, Json>>{}); }
+
+std::vector<Json> rows_of_csv(const std::string& csv) {
   CsvReader reader(csv, "table", ",");
   const CsvRow titles = reader.next();
   std::vector<Json> rows;
   for (CsvRow row = reader.next(); !row.empty(); row = reader.next()) {
-    Json object{std::initializer_list<std::pair<std::string_view, Json>>{}};
+    Json object = pipeline::object();
     for (std::size_t k = 0; k < std::min(row.size(), titles.size()); ++k) {
       const bool text = std::find(always_text.begin(), always_text.end(), titles[k].text) != always_text.end();
       object.add(titles[k].text, row[k].text.empty() ? null() : text ? Json(row[k].text) : json_of_cell(row[k].text));
@@ -37,6 +41,25 @@ Json json_of_csv(const std::string& csv) {
     rows.push_back(object);
   }
   return rows;
+}
+
+}  // namespace
+
+Json json_of_csv(const std::string& csv) { return rows_of_csv(csv); }
+
+Json json_of(const std::vector<RankingRow>& rows) {
+  std::vector<Json> objects = rows_of_csv(ranking_csv(rows));
+  for (std::size_t k = 0; k < objects.size(); ++k)
+    objects[k].add("warning_list", mapped(warnings_of(rows[k]), [](const Warning& warning) { return json_of(warning); }));
+  return objects;
+}
+
+Json json_of(const Warning& warning) {
+  const WarningParts parts = parts_of(warning.words);
+  Json values = object();
+  for (const KeyValue& of : warning.remedy) values.add(of.key, json_of(parse_yaml(of.value, of.key)));
+  return {{"kind", word(warning.kind)}, {"where", text_or_null(warning.where)}, {"text", warning.words}, {"problem", parts.problem},
+          {"likely_cause", text_or_null(parts.cause)}, {"remedy", text_or_null(parts.remedy)}, {"remedy_values", values}};
 }
 
 Json json_of(const Node& document) {
@@ -48,11 +71,11 @@ Json json_of(const Node& document) {
       if (document.text == "true" || document.text == "false") return document.text == "true";
       return json_of_cell(document.text);
     case Node::Kind::list:
-      return mapped(document.items, json_of);
+      return mapped(document.items, [](const Node& item) { return json_of(item); });
     case Node::Kind::map:
       break;
   }
-  Json object{std::initializer_list<std::pair<std::string_view, Json>>{}};
+  Json object = pipeline::object();
   for (const Entry& entry : document.entries) object.add(entry.key, json_of(entry.value));
   return object;
 }

@@ -2,16 +2,26 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "pipeline/report/json.h"
 
 namespace dresslife::pipeline {
 
 struct Node;
+struct RankingRow;
+struct Warning;
 
 /// Returns a list with one object per row of a CSV text of this program, with the titles of the columns as keys. Cells with
 /// numbers become numbers, empty cells null; "inf" is text, because JSON has no infinity. Job names and digests are always text.
 Json json_of_csv(const std::string& csv);
+
+/// Returns the rows of ranking.csv, each with its warnings as `warning_list`, a list of json_of(Warning).
+Json json_of(const std::vector<RankingRow>& rows);
+
+/// Returns an object: kind, where, text (all words), problem, likely_cause, remedy, and remedy_values, the values of the remedy by
+/// their keys. Texts that are missing are null.
+Json json_of(const Warning& warning);
 
 /// Returns a YAML document as JSON: numbers, true and false keep their type, all other values are text.
 Json json_of(const Node& document);

@@ -204,7 +204,7 @@ std::string draft_text(const Draft& draft, const fs::path& folder) {
 
 /// Returns the best routing that geometry and short runs find within some seconds.
 Choice proposed(const Draft& draft) {
-  const PassingFile job("draft.yaml"), screening("screening.h5");
+  const PassingFile job("draft.yaml"), screening("screening.h5"), errors("errors.txt");
   write_text_if_changed(job.path(), with_mark(draft_text(draft, job.path().parent_path()), Mark::yaml));
   std::vector<std::string> arguments{job.path().string(),
                                      "--propose",
@@ -219,11 +219,14 @@ Choice proposed(const Draft& draft) {
                                      screening.path().string(),
                                      "--quiet"};
   if (draft.exercise) arguments.emplace_back("--exercise");
-  if (run_stage_program("dresslife-sim", arguments) != 0)
+  const int status = run_stage_program("dresslife-sim", arguments, errors.path());
+  if (kind_of(errors.path()) == FileKind::file) write_stderr(without_place(read_text(errors.path()), job.path()));
+  if (status != 0)
     throw InputError({"dresslife new"}, "no routing can be proposed (see above), nothing was written",
-                     draft.exercise ? "correct the errors above"
-                                    : "correct the errors above; a key motion.KEY belongs to a job: make one without "
-                                      "--program, and write motion: {program: FILE, KEY: VALUE} into it");
+                     std::string("correct the errors above; dresslife route has the options --bracket, --from and --to") +
+                         (draft.exercise ? ""
+                                         : "; a key motion.KEY belongs to a job: make one without --program, and write motion: "
+                                           "{program: FILE, KEY: VALUE} into it"));
   const ScreenedList found = read_screening(screening.path());
   const ScreenedCandidate& best = found.candidates.front();
   Choice choice{parse_yaml(best.changes, "proposal"),

@@ -29,7 +29,7 @@ int report(const StudyOptions& options) {
   const auto& [study, places, states, remembered, look_ups, digests] = standing;
   std::vector<RankingRow> rows = ranking_of(study, places, states);
   add_relative_lives(study, places, nullptr, rows);
-  print(options.json ? json_of_csv(ranking_csv(rows)).text + "\n" : shown(ranking_table(rows)));
+  print(options.json ? json_of(rows).text + "\n" : shown(ranking_table(rows)));
   write_stderr(shown(problem_words(study)) + warning_lines(rows));
   const auto open = std::count_if(states.begin(), states.end(), [](const JobState& state) {
     return !state.done() && !state.has_last && state.has_results && state.failure.empty();

@@ -1,4 +1,3 @@
-#include "pipeline/base/text.h"
 #include "pipeline/commands/command.h"
 
 #include <fmt/format.h>
@@ -21,6 +20,8 @@
 #include "pipeline/base/plain_file.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/stage_failed.h"
+#include "pipeline/base/text.h"
+#include "pipeline/base/warning_words.h"
 #include "pipeline/base/whole_file.h"
 #include "pipeline/cable/bend_limit.h"
 #include "pipeline/commands/making.h"
@@ -282,7 +283,6 @@ DecidingLimit decided(const Trial& trial, const Draft& draft) {
   const std::string& limit = outcome_limit_names()[most];
   if (limit != "bend radius") {
     // The warning of the run contains the amount, the reason and the remedy.
-    constexpr std::string_view remedy = " Remedy: ";
     static const std::map<std::string, WarningKind> kinds{{"twist", WarningKind::twist},
                                                           {"too short", WarningKind::slack},
                                                           {"too long", WarningKind::slack},
@@ -291,10 +291,9 @@ DecidingLimit decided(const Trial& trial, const Draft& draft) {
                                                           {"forces in cables", WarningKind::force}};
     const auto kind = kinds.find(limit);
     for (const Warning& warning : trial.best ? warnings_of(trial.rows[*trial.best]) : std::vector<Warning>{})
-      if (const std::size_t at = warning.words.find(remedy);
-          kind != kinds.end() && warning.kind == kind->second && at != std::string::npos)
-        return {"the limit that decides: " + warning.words.substr(0, at - 1),  // without its full stop
-                warning.words.substr(at + remedy.size()) + "; or " + other};
+      if (const WarningParts parts = parts_of(warning.words);
+          kind != kinds.end() && warning.kind == kind->second && !parts.remedy.empty())
+        return {fmt::format("the limit that decides: {}. Likely cause: {}", parts.problem, parts.cause), parts.remedy + "; or " + other};
     return {fmt::format("the limit that decides: {}, violated by {}", limit, passed_text(most, passed[most])), other};
   }
   // The limit shrinks with the hose, but a thinner hose is also bent more: abb_irb2600_12_165 with `hard` exceeds the limit by
@@ -415,11 +414,10 @@ int route(const RouteOptions& options) {
   const StudyPlaces places{fs::path(options.out) / (draft.name + "_route"), program_folder()};
   const FolderLock lock(places.folder);
   const std::vector<double> factors = factors_of(options);
-  // 45 s for the default numbers, measured on a busy machine with a job of 64 segments.
   if (!options.quiet)
     write_stderr(fmt::format(
-        "Checks {} routings by geometry and the best of them in {} short runs, for each size. This takes about a minute. "
-        "Runs with their remaining time follow{}.\n",
+        "Checks {} routings by geometry and the best of them in {} short runs, for each size. "
+        "Runs follow{}.\n",
         options.tried, options.short_runs,
         tolerance_for(draft, options).none()
             ? ""

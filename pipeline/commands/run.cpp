@@ -106,10 +106,10 @@ int run(const RunArguments& options) {
   const std::vector<fs::path> previews = refresh_previews(study, places, states);
   const std::set<std::string> not_shown = write_results(study, places, rows);
   for (const std::string& job : not_shown) forget_damaged(places.job(job));
-  print(options.json ? json_of_csv(ranking_csv(rows)).text + "\n"
+  locate(rows, request.file);
+  print(options.json ? json_of(rows).text + "\n"
                      : shown(fmt::format("{}\nReport: {}\n", ranking_table(rows),
                                          (places.folder / "report.html").string())));
-  locate(rows, request.file);
   write_stderr(warning_lines(rows));
   const int failed = count_failed(rows);
   if (failed == 0) return not_shown.empty() ? 0 : 1;

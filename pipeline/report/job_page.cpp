@@ -136,7 +136,7 @@ std::string assumptions(const RankingRow& row, const Node& job, const FileReader
   if (strain && strain->has_attribute("loose_mesh_error"))
     fact("mesh of loose cables",
          fmt::format(
-             "discretisation error of their curvature: {:.2g} % (a warning above 2 %)",
+             "discretisation error of their curvature: {:.2g} % (a warning above 1 %)",
              100 * strain->number_attribute("loose_mesh_error")));
   const std::string stiffness = motion ? stiffness_words(*motion) : "";
   if (!stiffness.empty()) fact("hose as simulated", escaped(stiffness));

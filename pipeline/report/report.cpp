@@ -323,7 +323,7 @@ std::string facts(const RankingRow& row) {
   if (row.loose_mesh_error)
     fact("mesh of loose cables",
          fmt::format(
-             "discretisation error of their curvature: {:.2g} % (a warning above 2 %)",
+             "discretisation error of their curvature: {:.2g} % (a warning above 1 %)",
              100 * *row.loose_mesh_error));
   const auto scatter = [&](const std::string& name, const std::array<double, 3>& lives) {
     if (std::isnan(lives[0])) return;

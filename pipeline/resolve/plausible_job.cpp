@@ -1095,7 +1095,7 @@ std::vector<Warning> located(std::vector<Warning> warnings, const Node& document
   static const std::regex key_words(R"([a-z_]+((\.|\[)[A-Za-z0-9_]+\]?)+)");
   for (Warning& warning : warnings) {
     std::smatch found;
-    const std::string problem = warning.words.substr(0, warning.words.find(". Likely cause: "));
+    const std::string problem = parts_of(warning.words).problem;
     if (!warning.where.empty() || !std::regex_search(problem, found, key_words)) continue;
     const Node* node = &document;
     bool whole = true;

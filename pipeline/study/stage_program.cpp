@@ -23,6 +23,10 @@ namespace dresslife::pipeline {
 
 int run_stage_program(const std::string& program, const std::vector<std::string>& arguments,
                       StageWords said) {
+  return run_stage_program(program, arguments, std::filesystem::path(said == StageWords::dropped ? "/dev/null" : ""));
+}
+
+int run_stage_program(const std::string& program, const std::vector<std::string>& arguments, const std::filesystem::path& errors) {
   const std::string file = (program_folder() / program).string();
   std::vector<char*> words{const_cast<char*>(file.c_str())};
   for (const std::string& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
@@ -35,8 +39,8 @@ int run_stage_program(const std::string& program, const std::vector<std::string>
   if (child == 0) {
     release_signals();
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);
-    if (const int nowhere = said == StageWords::dropped ? ::open("/dev/null", O_WRONLY) : -1; nowhere >= 0)
-      ::dup2(nowhere, STDERR_FILENO);
+    if (const int there = errors.empty() ? -1 : ::open(errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600); there >= 0)
+      ::dup2(there, STDERR_FILENO);
     if (::getppid() == parent) ::execv(file.c_str(), words.data());
     ::_exit(not_there);
   }

@@ -17,6 +17,9 @@ enum class StageWords { shown, dropped };
 int run_stage_program(const std::string& program, const std::vector<std::string>& arguments,
                       StageWords said = StageWords::shown);
 
+/// The same; the program's standard error goes to a file.
+int run_stage_program(const std::string& program, const std::vector<std::string>& arguments, const std::filesystem::path& errors);
+
 /// A temporary file in its own folder (in TMPDIR, or /tmp) for the results of a program, removed with this object.
 /// Errors: InputError when the file cannot be created.
 class PassingFile {

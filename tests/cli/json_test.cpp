@@ -23,6 +23,18 @@ job = json.load(open("job.json"))
 assert job["routing"]["free_length_m"] == 0.9 and job["motion"]["clamp_poses"].endswith("poses.csv")
 dry = json.load(open("dry.json"))
 assert [job["job"] for job in dry] == sorted(row["job"] for row in rows) and all(job["state"] != "done" for job in dry)
+for row in rows:
+    assert len(row["warning_list"]) == row["warnings"] > 0
+    for warning in row["warning_list"]:
+        assert row[warning["kind"] + "_ok"] == "no"
+        parts = [("", "problem"), (". Likely cause: ", "likely_cause"), (". Remedy: ", "remedy")]
+        assert warning["text"] == "".join(mark + warning[key] for mark, key in parts if warning[key] is not None)
+        assert warning["problem"] and warning["remedy"] and "Remedy" not in warning["problem"] + warning["likely_cause"]
+check = json.load(open("check.json"))
+assert check["job"] == "job.yaml" and check["refusal"] is None and check["not_checked"]
+assert check["warnings"][0].keys() == rows[0]["warning_list"][0].keys()
+coarse = [warning for warning in check["warnings"] if warning["kind"] == "mesh"][0]
+assert coarse["remedy_values"]["simulation.segments"] > 12 and "simulation.segments: " in coarse["remedy"]
 assert json.load(open("nothing.json")) == []
 assert json.load(open("states.json")) == [{"job": row["job"], "state": "done"} for row in sorted(rows, key=lambda r: r["job"])]
 )");
@@ -30,7 +42,7 @@ assert json.load(open("states.json")) == [{"job": row["job"], "state": "done"} f
   const Outcome outcome = run_shell(
       scratch, "set -e; " + program + " run study.yaml --json --quiet -n >dry.json; " + program +
                    " run study.yaml --json --quiet >ranking.json; " + program + " run study.yaml --json --quiet -n >nothing.json; " + program +
-                   " show job.yaml --json >job.json; " + program + " status study.yaml --json >states.json; python3 compare.py");
+                   " show job.yaml --json >job.json; " + program + " check job.yaml --set dresspack.bending_stiffness_Nm2=0.03 --json >check.json; " + program + " status study.yaml --json >states.json; python3 compare.py");
   // No progress. Warnings remain, because they concern the validity of the result.
   std::istringstream lines(outcome.err);
   for (std::string line; std::getline(lines, line);) CHECK(line.find(": warning: ") != std::string::npos);

@@ -47,6 +47,24 @@ TEST_CASE("plausible: a mass between that of its wires and of its parts in a hea
   least(std::max(10 * 2700 * std::numbers::pi / 4 * 1e-6, 0.3 * mass_of_construction(dresspack)));
 }
 
+TEST_CASE("plausible: a wire that is too thin names the slip behind it, for a part and for a data sheet") {
+  const auto words = [](double radius) {
+    Dresspack dresspack = read_dresspack(DRESSLIFE_SOURCE_DIR "/config/dresspacks/sensor_cable.yaml");
+    Component wire;
+    wire.name = "thin", wire.material = "copper", wire.radius = radius;
+    dresspack.components.push_back(wire);
+    for (const Warning& warning : plausibility_warnings(dresspack))
+      if (warning.words.find("'thin'") != std::string::npos) return warning.words;
+    return std::string();
+  };
+  CHECK(words(0.01e-3) == "");
+  const std::string digit = words(0.0075e-3);  // 'wire 0.015 mm' of a data sheet
+  CHECK_THAT(digit, Catch::Contains("Likely cause: a missing digit") && Catch::Contains("radius_mm: 0.075 if a digit is missing") &&
+                        Catch::Contains("in a data sheet wire_diameter_mm: 0.15 if a digit is missing") && !Catch::Contains("metres instead"));
+  CHECK_THAT(words(0.0001e-3), Catch::Contains("Likely cause: metres") && Catch::Contains("radius_mm: 0.1 if that was metres"));
+  CHECK_THAT(words(1e-9), Catch::Contains("Likely cause: another unit. Remedy: radius_mm: half of the wire's diameter"));
+}
+
 TEST_CASE("plausible: a swing that neither rings on nor stands still") {
   Dresspack dresspack = read_dresspack(DRESSLIFE_SOURCE_DIR "/config/dresspacks/spot_welding.yaml");
   for (const auto& [milliseconds, doubts] : {std::pair{0.0, 1}, {0.8, 1}, {0.9, 0}, {170.0, 0}, {180.0, 1}}) {

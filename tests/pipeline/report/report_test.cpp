@@ -399,7 +399,7 @@ TEST_CASE("report: each fact of a job has the row's own number") {
            {"mean stress", "61.0 h if none of it relaxed, 62.0 h without any, median of the same wire"},
            {"forces of cables", "at most 0.11 of the force that breaks a cable; at the clamps 0.12 times the moment that the hose carries"},
            {"pull at clamps", "0.13 of what a strain relief of type A has to hold (EN 50262)"},
-           {"mesh of loose cables", "discretisation error of their curvature: 1.4 % (a warning above 2 %)"},
+           {"mesh of loose cables", "discretisation error of their curvature: 1.4 % (a warning above 1 %)"},
            {"first broken wire", "by 31.0 h in 10 %, 32.0 h in half, 33.0 h in 90 %" + by_scatter},
            {"share of a conductor broken anywhere in it", "by 41.0 h in 10 %, 42.0 h in half, 43.0 h in 90 %" + by_scatter},
            {"not evaluated", "water hose"},

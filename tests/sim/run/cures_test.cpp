@@ -267,9 +267,22 @@ TEST_CASE("cures: a bend beside a clamp names its bend relief, unless it has one
   job.dresspacks[0].routing.base_clamp->direction = {0, -1, 0};  // away from the other clamp
   job.dresspacks[0].dresspack.least_bend_radius = 0.25;
   const std::string words = words_of(job, pipeline::WarningKind::bend_radius);
-  CHECK_THAT(words, Catch::Contains("dresslife improve tries: routing.base_clamp.bend_relief={length_mm: "));
+  CHECK_THAT(words, Catch::Contains("dresslife improve tries: routing.base_clamp.bend_relief={length_mm: 120, ") &&
+                        Catch::Contains(" and simulation.segments=44 (with 20 it tries four segments, 260 mm)"));
+  CHECK(pipeline::first_relief(0.04, 2, 1.3 / 20).length == Approx(0.26));  // the relief of improve
   job.dresspacks[0].routing.base_clamp->bend_relief = {0.1, 0};  // without stiffness: an identical run
   CHECK_THAT(words_of(job, pipeline::WarningKind::bend_radius), Catch::Contains("Remedy") && !Catch::Contains("bend_relief"));
+}
+
+TEST_CASE("cures: segments longer than the decay of a bend beside a pulled clamp are warned of, with the number that cures it") {
+  pipeline::Job job = swinging_job(1.3);
+  CHECK(words_of(job, pipeline::WarningKind::mesh) == "");
+  job.simulation.segments = 16;
+  job.dresspacks[0].dresspack.bending_stiffness = 0.02;
+  const std::string words = words_of(job, pipeline::WarningKind::mesh);
+  CHECK_THAT(words, Catch::Contains("simulation.segments is 16: a segment is 81 mm long"));
+  job.simulation.segments = static_cast<int>(value_of(words, "simulation.segments"));
+  CHECK(words_of(job, pipeline::WarningKind::mesh) == "");
 }
 
 TEST_CASE("cures: a hose that is pulled tight is cured by its length") {
