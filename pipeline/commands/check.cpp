@@ -34,7 +34,7 @@ int check(const CheckOptions& options) {
   }
   print_check(check);
   if (!check.refusal.empty()) return 1;
-  print(check.limits + "\n");
+  print(paragraph(check.limits));
   const std::size_t warnings = check.warnings.size();
   print(shown(fmt::format("{}: {}\n", job.string(),
                           warnings == 0   ? std::string("no warnings")

@@ -112,8 +112,8 @@ JobCheck check_of(const std::filesystem::path& file, const std::vector<std::stri
 
 void print_check(const JobCheck& check) {
   for (const Warning& warning : check.warnings) print(shown(warning.paragraph()));
-  for (const std::string& note : check.notes) print(shown(note + "\n"));
-  for (const std::string& estimate : check.estimates) print(shown(estimate + "\n"));
+  for (const std::string& note : check.notes) print(shown(paragraph(note)));
+  for (const std::string& estimate : check.estimates) print(shown(paragraph(estimate)));
   if (!check.refusal.empty()) print(shown("The simulation refuses the job: " + check.refusal + "\n"));
 }
 

@@ -372,7 +372,7 @@ int make(NewOptions options) {
   print(shown(fmt::format("Job: {}\n", options.job)));
   for (const std::string& doubt : choice.doubts) print(shown(paragraph(doubt)));
   for (const std::string& note : choice.notes) print(shown(paragraph(note)));
-  for (const std::string& estimate : choice.estimates) print(shown(estimate + "\n"));
+  for (const std::string& estimate : choice.estimates) print(shown(paragraph(estimate)));
   if (draft.tool_space) print(shown(paragraph(tool_space_words(draft))));
   if (options.dresspack_is_example)
     print(fmt::format("Its dresspack {} is an example for a large robot: name yours.\n", default_dresspack));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <set>
+#include <sstream>
 
 #include "pipeline/commands/checking.h"
 #include "pipeline/files/files.h"
@@ -19,7 +20,9 @@ TEST_CASE("check: a job without faults, one whose slip is a bound, one that is t
   INFO(bound.out << bound.err);
   CHECK(bound.status == 0);
   CHECK(bound.out.find("strain.slip is stick") != std::string::npos);
-  CHECK(bound.out.find("The dresspack was checked at rest and in short runs, also with a softer and a stiffer hose. A run may also warn of strains") != std::string::npos);
+  CHECK(unwrapped(bound.out).find("The dresspack was checked at rest and in short runs, also with a softer and a stiffer hose. A run may also warn of strains") != std::string::npos);
+  std::istringstream lines(bound.out);
+  for (std::string line; std::getline(lines, line);) CHECK(line.size() <= 120);
   const Outcome too_short = run(scratch, "dresslife", "check job.yaml --set routing.free_length_m=0.7");
   CHECK(too_short.status == 1);
   CHECK(too_short.out.find("The simulation refuses the job: ") != std::string::npos);

@@ -16,7 +16,7 @@ TEST_CASE("preview reports how far the clamps are apart and which lengths suit")
   INFO(told.err);
   // The distance of the clamps is 0.8 m at the start and falls to hypot(0.7, 0.05).
   CHECK(
-      told.out.find(
+      unwrapped(told.out).find(
           "Dresspack is 0.900 m long. Over the program its clamps are 0.702 .. 0.800 m apart: this length fits. Lengths of 0.82 .. 1.20 m "
           "fit the program: 2 % to a third longer than the largest distance.") != std::string::npos);
   // The warnings of `check` come first.

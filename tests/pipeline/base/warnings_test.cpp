@@ -49,6 +49,11 @@ TEST_CASE("warnings say what is wrong, why, and what to do, with the values of t
         "    Remedy: other clamps; or motion.acceleration_percent: 50 (now 100)\n");
   CHECK(Warning{WarningKind::twist, "hose", std::string(60, 'a') + " " + std::string(60, 'b')}.paragraph() ==
         "hose: warning: " + std::string(60, 'a') + "\n    " + std::string(60, 'b') + "\n");
+  const WarningParts parts = parts_of(twist(last).words), bare = parts_of("skipped: Stop");
+  CHECK(parts.problem == "twist: 200 deg/m (limit 180 deg/m)");
+  CHECK(parts.cause == "the clamps turn it");
+  CHECK(parts.remedy == "other clamps; or motion.acceleration_percent: 50 (now 100)");
+  CHECK((bare.problem == "skipped: Stop" && bare.cause.empty() && bare.remedy.empty()));
   const std::string in_words = "routing.pre_twist_deg: -90";
   CHECK(twist(in_words).line() == begin + in_words);
   CHECK(twist(in_words).remedy.empty());
