@@ -29,7 +29,7 @@ void describe(Fields& f, Strain& strain) {
   f.integer(
       "cable_elements_per_segment", strain.cable_elements, Need::optional, between(0, most_cable_elements),
       "The number of elements of a loose cable per segment. 0: it follows from slack and room, at least 2 per segment "
-      "and 64 in all. Twice as many take twice the time and have a quarter of the error (loose_mesh_error of "
+      "and 104 in all. Twice as many take twice the time and have a quarter of the error (loose_mesh_error of "
       "strain.h5).");
   const auto factor = [&](const char* key, double& value, const char* meaning) {
     f.number(key, value, Need::optional, between(1e-3, 1e3), meaning);

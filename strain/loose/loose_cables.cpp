@@ -23,7 +23,7 @@ double winding_radius(const LooseCable& cable) {
 }
 
 std::size_t elements_of_waves(const std::vector<LooseCable>& cables, double length) {
-  constexpr double least = 64, missed = 0.005;
+  constexpr double least = 104, missed = 0.0025;
   double piece = length / least;
   for (const LooseCable& cable : cables)
     if (const double room = winding_radius(cable); room > 0)
