@@ -183,6 +183,7 @@ int plan(const PlanOptions& options) {
   }
   need_duties(fleet);
   problems.finish(options.fleet);
+  if (!fleet.renamed.empty()) write_stderr(shown(fmt::format("note: {}: columns {}\n", options.fleet, joined(fleet.renamed, ", "))));
   if (!fleet.unused.empty())
     write_stderr(shown(fmt::format("note: {}: a plan does not use the columns {}\n", options.fleet, joined(fleet.unused, ", "))));
   const std::set<std::string> planned = needed;

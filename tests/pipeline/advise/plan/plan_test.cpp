@@ -510,11 +510,23 @@ TEST_CASE("a fleet is read from a spreadsheet's table, and what is wrong in it i
       read("name;duty;installed;hours_per_week\nr;day;28.02.2025 08:00;37,5\n");  // in the form that `calibrate` reads
   CHECK(day_text(german.rows[0].since) == "2025-02-28");
   CHECK(german.rows[0].hours_per_week == 37.5);
+  const Fleet titles = read("Roboter;Einsatz;Einbaudatum;Stunden/Woche;Kosten geplant;Kosten ungeplant\nr;day;28.02.2025;37,5;5;50\n");
+  CHECK(titles.rows[0].name == "r");
+  CHECK(day_text(titles.rows[0].since) == "2025-02-28");
+  CHECK(titles.rows[0].hours_per_week == 37.5);
+  CHECK(titles.rows[0].unplanned_cost == 50);
+  CHECK(titles.renamed.size() == 6);
+  CHECK(titles.renamed[2] == "installed = 'Einbaudatum'");
+  CHECK(read("name,duty,installed,robot\nr,day,,A\n").unused == std::vector<std::string>{"robot"});
+  CHECK(refusal("Roboter,Schlauchpaket,duty,installed\nr,A,day,\n").find("fleet.csv:1:9: error: columns 'Roboter' and 'Schlauchpaket' both mean name; title one of them name") !=
+        std::string::npos);
   CHECK(refusal("name,duty,instaled\nr,day,\n").find("did you mean 'installed'?") != std::string::npos);
   CHECK(refusal("name,duty,installed\nr,day,2027-01-01\n").find("after today") != std::string::npos);
   CHECK(refusal("name,duty,installed\nr,day,\nr,day,\n").find("is the name of line 2, too") != std::string::npos);
   CHECK(refusal("name,duty\nr,day\n").find("no column 'installed'") != std::string::npos);
   CHECK(refusal("name,duty,installed,hours\nr,day,,3\n").find("unknown column 'hours'") != std::string::npos);
+  CHECK(refusal("name,duty,installed,hours_so_far\nr,day,,3\n").find("for an hour counter give hours_per_week") != std::string::npos);
+  CHECK(refusal("name,duty,installed,Kosten\nr,day,,3\n").find("unknown column 'Kosten'; columns: name, duty, installed") != std::string::npos);
   CHECK(read("Name;Duty;Installed;Hours per week\nr;day;;80,5\n").rows[0].hours_per_week == std::optional<double>(80.5));
   CHECK(refusal("name,duty,installed,planned_cost\nr,day,,3\n").find("no column 'unplanned_cost'") != std::string::npos);
   CHECK(refusal("name,duty,installed,planned_cost,unplanned_cost\nr,day,,3,2\n").find("must be larger") != std::string::npos);
@@ -553,6 +565,7 @@ TEST_CASE("windows are days in order, after today") {
   CHECK(day_text(windows[0].last) == "2027-08-01");
   CHECK(windows[1].first == windows[1].last);
   CHECK(day_text(windows_from("12.07.2027..01.08.2027", start)[0].last) == "2027-08-01");
+  CHECK(day_text(windows_from("2027-07-12 .. 2027-08-01, 2027-12-20", start)[1].first) == "2027-12-20");
   for (const char* wrong : {"", "2027-07-12..", "2027-13-01", "2027-08-01..2027-07-12", "2026-11-23", "2027-07-12..2027-08-01,2027-08-01",
                             "2027-07-12,", "soon",
                             "2027-07-12 - 2027-08-01"})
