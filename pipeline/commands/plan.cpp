@@ -164,6 +164,8 @@ int plan(const PlanOptions& options) {
   note_input(options.fleet);
   Fleet fleet = read_fleet(options.fleet, day);
   const std::vector<Window> windows = windows_from(options.windows, day);
+  if (const Day end = end_of(windows, day); from >= end)
+    throw InputError({"--what-if-from"}, fmt::format("{} is not before {}, the end of the plan", day_text(from), day_text(end)), "give an earlier day, or later windows");
   const DutyFile file = read_duties(named_file(options.study, "duties"), day);
   std::set<std::string> needed;
   std::optional<Fleet> changed;

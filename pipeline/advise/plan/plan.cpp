@@ -490,6 +490,8 @@ std::vector<double> times_of(const std::vector<Window>& windows, Day today) {
   return times;
 }
 
+Day end_of(const std::vector<Window>& windows, Day today) { return today + std::chrono::days(std::llround(times_of(windows, today).back())); }
+
 void keep_ages(Fleet& changed, const Fleet& now, const std::map<std::string, LifeTable>& tables, Day today, Day from) {
   for (Installed& row : changed.rows) {
     const Installed* const old = find_in(now.rows, &Installed::name, row.name);
@@ -568,7 +570,7 @@ Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
   plan.today = today, plan.windows = windows;
   plan.risk = rule.risk, plan.by_cost = rule.by_cost;
   const std::vector<double> times = times_of(windows, today);
-  plan.end = today + std::chrono::days(std::llround(times.back()));
+  plan.end = end_of(windows, today);
   const std::vector<std::shared_ptr<const LifeTable>> first = first_lives(fleet, tables);
   const Worlds worlds = worlds_of(fleet, tables, first, today, rule);
   plan.weights = worlds.weights();

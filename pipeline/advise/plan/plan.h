@@ -134,6 +134,7 @@ std::vector<std::vector<std::size_t>> rows_of_policies(const Fleet& fleet);
 
 /// Returns the times [days from today] of the windows, then the end of the plan.
 std::vector<double> times_of(const std::vector<Window>& windows, Day today);
+Day end_of(const std::vector<Window>& windows, Day today);  ///< end of the plan
 
 /// Returns, (row), the lives of today's dresspacks (D10) [h of operation, under all of their duties]. For a dresspack without
 /// another duty the result refers to `tables`. Precondition: `tables` outlives the result.
