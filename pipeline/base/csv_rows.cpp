@@ -76,6 +76,12 @@ CsvRow CsvReader::cells() {
   if (separator_ == '\0') {
     const std::string_view line(&text_[at_], std::min(text_.find('\n', at_), text_.size()) - at_);
     if (line.find_first_not_of(" \t\r") == line.npos) return {};
+    constexpr std::string_view named = "sep=";  // the first line of some exports for Excel
+    const std::string_view stated = line.starts_with(named) ? trimmed(line.substr(named.size())) : "";
+    if (stated.size() == 1 && separators_.find(stated[0]) != separators_.npos) {
+      separator_ = stated[0];
+      return {};
+    }
     const auto found = std::find_if(separators_.begin(), separators_.end(),
                                     [&](char separator) { return line.find(separator) != line.npos; });
     separator_ = found == separators_.end() ? separators_.front() : *found;

@@ -1,5 +1,5 @@
 // Reads CSV files as rows of cells. Each cell has its line and column. Also writes cells. Quotes follow RFC 4180. Blank lines,
-// rows of empty cells and lines that begin with # are skipped.
+// rows of empty cells and lines that begin with # are skipped. A first line such as "sep=;" names the separator.
 #pragma once
 
 #include <cstdint>

@@ -121,6 +121,31 @@ std::string number_remedy(const std::string& text) {
              : "write a number with a decimal point";
 }
 
+std::string letters_of(std::string_view text) {
+  std::string letters;
+  for (const unsigned char letter : text)
+    if (letter < 128 && std::isalpha(letter)) letters += static_cast<char>(std::tolower(letter));
+  return letters;
+}
+
+const std::vector<std::string_view>& titles_of_installation() {
+  static const std::vector<std::string_view> titles{
+      "installed", "installedon", "installdate", "installationdate", "installation", "dateinstalled", "mounted", "einbau",
+      "einbaudatum", "eingebaut", "eingebautam", "dateofinstallation", "instalado", "instaladoel", "instalacion",
+      "instalacin", "fechadeinstalacion", "fechadeinstalacin", "fechainstalacion", "fechainstalacin", "montado", "montadoel",
+      "fechademontaje", "fechamontaje"};
+  return titles;
+}
+
+const std::vector<std::string_view>& titles_of_weekly_hours() {
+  static const std::vector<std::string_view> titles{
+      "hoursperweek", "hperweek", "operatinghoursperweek", "stundenprowoche", "betriebsstundenprowoche", "hprowoche",
+      "stundenwoche", "betriebsstundenwoche", "hwoche", "horasporsemana", "hporsemana", "horassemanales", "horassemana",
+      "hsemana", "horasdetrabajoporsemana", "horasdeoperacionporsemana", "horasdeoperacinporsemana",
+      "horasdefuncionamientoporsemana"};
+  return titles;
+}
+
 void check_utf8(const std::string& text, const std::string& file) {
   const std::size_t at = std::min(first_no_utf8(text), text.find('\0'));  // in UTF-16, each ASCII character has a byte 0
   if (at >= text.size()) return;

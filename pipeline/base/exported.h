@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "pipeline/base/days.h"
 
@@ -21,6 +22,13 @@ std::string day_remedy(const std::string& text);
 std::optional<double> exported_number(std::string text);
 /// Returns a remedy such as "write 1200 or 1.2" for a text that exported_number() cannot read.
 std::string number_remedy(const std::string& text);
+
+/// Returns the letters of a text that are a to z, in lower case: "stundenwoche" for "Stunden/Woche".
+std::string letters_of(std::string_view text);
+/// Return the titles, as letters_of() returns them, under which maintenance systems export the day of installation and the hours
+/// of operation per week.
+const std::vector<std::string_view>& titles_of_installation();
+const std::vector<std::string_view>& titles_of_weekly_hours();
 
 /// Checks that a text is UTF-8. Spreadsheets save characters beyond ASCII as Windows-1252, which pages and calendars cannot show.
 /// Errors: InputError with the line of the first byte that is not UTF-8.

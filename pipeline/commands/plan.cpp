@@ -164,6 +164,8 @@ int plan(const PlanOptions& options) {
   note_input(options.fleet);
   Fleet fleet = read_fleet(options.fleet, day);
   const std::vector<Window> windows = windows_from(options.windows, day);
+  if (const Day end = end_of(windows, day); from >= end)
+    throw InputError({"--what-if-from"}, fmt::format("{} is not before {}, the end of the plan", day_text(from), day_text(end)), "give an earlier day, or later windows");
   const DutyFile file = read_duties(named_file(options.study, "duties"), day);
   std::set<std::string> needed;
   std::optional<Fleet> changed;
@@ -183,6 +185,7 @@ int plan(const PlanOptions& options) {
   }
   need_duties(fleet);
   problems.finish(options.fleet);
+  if (!fleet.renamed.empty()) write_stderr(shown(fmt::format("note: {}: columns {}\n", options.fleet, joined(fleet.renamed, ", "))));
   if (!fleet.unused.empty())
     write_stderr(shown(fmt::format("note: {}: a plan does not use the columns {}\n", options.fleet, joined(fleet.unused, ", "))));
   const std::set<std::string> planned = needed;
@@ -194,27 +197,29 @@ int plan(const PlanOptions& options) {
        joined(doubts_of(options.risk_percent), joined(doubtful_fleet(fleet, day), doubtful_duties(file))))
     write_stderr(shown(warning.paragraph()));
   const DutiesRun made = run_duties(file, options);
-  std::map<std::string, LifeTable> tables = life_tables(file, made.study, made.rows, needed, has_changes);
+  const PlantLives lives_of_plant(file, made.study, made.rows, needed);
+  std::map<std::string, LifeTable> tables = lives_of_plant.in(usual_worlds, has_changes);
   for (const auto& [name, table] : tables)
-    if (const double half = table.median(); planned.contains(name) && half < table.hours_per_week)
+    if (planned.contains(name) && table.half_end_before(table.hours_per_week))
       throw InputError(
           {options.study},
-          fmt::format("half of the dresspacks under duty '{}' fail within {}", name, hours_text(half)),
+          fmt::format("half of the dresspacks under duty '{}' fail within {}", name, hours_text(table.median())),
           "no plan helps; see dresslife improve");
   const std::vector<DutyResult> duties = outlines(file, made.study, made.rows, planned);
   const auto add_past = [&](Fleet& of) {
     for (const Warning& warning : add_histories(of, file, tables, day)) write_stderr(shown(warning.paragraph()));
   };
   add_past(fleet);
-  const PlanRule rule{options.risk_percent.value_or(10) / 100, fleet.has_costs && !options.risk_percent,
-                      knows_survivors(made.study)};
+  PlanRule rule{options.risk_percent.value_or(10) / 100, fleet.has_costs && !options.risk_percent,
+                knows_survivors(made.study), {}, enough_worlds};
   Plan found = plan_of(fleet, tables, windows, day, rule);
   // ages of many survivors leave few worlds with weight
   if (found.effective_worlds < enough_worlds) {
     // the estimate from few worlds is exact to a tenth; the limit takes ten seconds for 500 dresspacks
     constexpr double spare = 1.2, most = 8;
     const auto times = static_cast<std::size_t>(std::clamp(std::ceil(spare * enough_worlds / found.effective_worlds), 2.0, most));
-    tables = life_tables(file, made.study, made.rows, needed, has_changes, times * usual_worlds);
+    tables = lives_of_plant.in(times * usual_worlds, has_changes);
+    rule.enough_worlds = fewest_worlds;
     found = plan_of(fleet, tables, windows, day, rule);
   }
   if (found.effective_worlds < fewest_worlds)

@@ -556,11 +556,12 @@ const ModeLives::Known& ModeLives::samples_for(const LifeResponse& mode, bool ha
   return made;
 }
 
-std::vector<std::vector<double>> ModeLives::of(const PreparedModes& prepared) {
-  std::vector<std::vector<double>> lives;
+std::vector<std::vector<double>> ModeLives::of(const PreparedModes& prepared, std::vector<std::vector<double>> lives) {
+  lives.resize(prepared.modes.size());
   for (std::size_t m = 0; m < prepared.modes.size(); ++m) {
     const auto& [mode, has_residual, samples, factors] = samples_for(prepared.modes[m], prepared.has_residual[m]);
-    std::vector<double>& of_mode = lives.emplace_back(samples_);
+    std::vector<double>& of_mode = lives[m];
+    of_mode.resize(samples_);
     for (std::size_t s = 0; s < samples_; ++s) {
       of_mode[s] = prepared.surfaces[m].log10_life(samples.z[s], samples.u[s], factors[s]);
       if (has_residual) of_mode[s] += samples.residual[s];

@@ -104,8 +104,8 @@ class ModeLives {
   ~ModeLives();
   ModeLives(const ModeLives&) = delete;
   ModeLives& operator=(const ModeLives&) = delete;
-  /// Returns mode_lives() of the modes.
-  std::vector<std::vector<double>> of(const PreparedModes& prepared);
+  /// Returns mode_lives() of the modes. memory: a list that is no longer needed; the result takes its memory.
+  std::vector<std::vector<double>> of(const PreparedModes& prepared, std::vector<std::vector<double>> memory = {});
 
  private:
   struct Known;

@@ -40,6 +40,10 @@ constexpr double strain_power = 5;  // see together()
 }  // namespace
 
 double together(double base, std::span<const double> alone) {
+  const auto changes = [&](double life) { return life != base; };
+  const auto first = std::ranges::find_if(alone, changes);
+  if (first == alone.end()) return base;
+  if (std::none_of(first + 1, alone.end(), changes)) return *first;  // a plan needs 1e8 lives, and two powers take most of their time
   double factor = 1, added = 0;
   for (const double life : alone) {
     if (life == base) continue;

@@ -228,6 +228,9 @@ TEST_CASE("a plan names what to replace in a window, writes a table and a calend
         std::string::npos);
   CHECK(run(scratch, "dresslife", plan + "2026-12-21 --what-if other.csv --what-if-from 2026-11-01").err.find("is before 2026-11-23, the first day of the plan") !=
         std::string::npos);
+  const Outcome late = run(scratch, "dresslife", plan + "2026-12-21 --what-if other.csv --what-if-from 2028-01-01");
+  CHECK(late.status == 1);
+  CHECK(late.err.find("2028-01-01 is not before 2027-12-21, the end of the plan") != std::string::npos);
   CHECK(run(scratch, "dresslife", plan + "2026-12-21 --what-if-from 2027-01-01").err.find("add --what-if OTHER.csv") != std::string::npos);
   scratch.write("other.csv", "name,duty,installed\nmore,d,\n");
   CHECK(run(scratch, "dresslife", plan + "2026-12-21 --what-if other.csv").err.find("other.csv:1:1: error: has no costs, but fleet.csv has some") !=

@@ -38,31 +38,7 @@ const std::array<ColumnWords, column_count>& columns() {
       {"dresspack",
        {"dresspack", "cable", "cablepackage", "cabledress", "umbilical", "component", "schlauchpaket",
         "kabel", "paquete", "paquetedecables", "paquetedemangueras", "mazo", "mazodecables", "manguera"}},
-      {"installed",
-       {"installed",
-        "installedon",
-        "installdate",
-        "installationdate",
-        "installation",
-        "dateinstalled",
-        "mounted",
-        "einbau",
-        "einbaudatum",
-        "eingebaut",
-        "eingebautam",
-        "dateofinstallation",
-        "instalado",
-        "instaladoel",
-        "instalacion",
-        "instalacin",
-        "fechadeinstalacion",
-        "fechadeinstalacin",
-        "fechainstalacion",
-        "fechainstalacin",
-        "montado",
-        "montadoel",
-        "fechademontaje",
-        "fechamontaje"}},
+      {"installed", titles_of_installation()},
       {"replaced",
        {"replaced",          "replacedon",    "replaceddate",    "replacementdate",  "datereplaced",
         "removed",           "removedon",     "removaldate",     "ausbau",           "ausbaudatum",
@@ -74,22 +50,10 @@ const std::array<ColumnWords, column_count>& columns() {
       {"reason",
        {"reason", "removalreason", "replacementreason", "cause", "grund", "ausbaugrund", "ausfallgrund", "ausfallursache", "ursache", "motivo",
         "causa", "razon", "razn"}},
-      {"hours_per_week",
-       {"hoursperweek", "hperweek", "operatinghoursperweek", "stundenprowoche", "betriebsstundenprowoche",
-        "hprowoche", "stundenwoche", "betriebsstundenwoche", "hwoche", "horasporsemana", "hporsemana",
-        "horassemanales", "horassemana", "hsemana", "horasdetrabajoporsemana", "horasdeoperacionporsemana",
-        "horasdeoperacinporsemana", "horasdefuncionamientoporsemana"}},
+      {"hours_per_week", titles_of_weekly_hours()},
       {"job", {"job", "program", "programm", "programa"}},
   }};
   return all;
-}
-
-/// Returns the letters of a text that are a to z, in lower case.
-std::string letters_of(const std::string& text) {
-  std::string letters;
-  for (const unsigned char letter : text)
-    if (letter < 128 && std::isalpha(letter)) letters += static_cast<char>(std::tolower(letter));
-  return letters;
 }
 
 bool has_any(const std::string& text, std::initializer_list<std::string_view> words) {
@@ -460,7 +424,7 @@ ServiceTests read_service_tests(const ServiceRequest& request) {
   read.words = fmt::format("Columns: {}.\n{}", table.column_words(), table.job_words());
   if (std::ranges::any_of(rows, [](const Row& row) { return row.hours_per_week.has_value(); }))
     read.words += "Hours per week are those in which the job's program runs. dresslife plan counts hours of operation, with standstill.\n";
-  read.words += fmt::format("{} dresspacks: {} failed, {} were removed before, {} are in use on {}.\n",
+  read.words += fmt::format("{} dresspacks: {} failed, {} were removed without a failure, {} are in use on {}.\n",
                             failed + removed + in_use, failed, removed, in_use, day_text(request.today));
   read.words += fmt::format(
       "Records begin on {}{}. Put in before: {}; these count from their age on that day.\n",

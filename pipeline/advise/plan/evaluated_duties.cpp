@@ -11,6 +11,7 @@
 #include <set>
 #include <span>
 #include <unordered_map>
+#include <utility>
 
 #include "pipeline/advise/plan/pooled_lives.h"
 #include "pipeline/advise/plan/rounds.h"
@@ -315,16 +316,20 @@ struct Shares {
 };
 
 /// Damage of one repeat for one dresspack in each world. Programs with one result share it until the last duty has used it;
-/// duties with one program share it, too.
+/// duties with one program share it, too. Later values take the memory of these, because new memory costs a quarter of the time.
 class DrawDamage {
  public:
   /// prepared: (result).
-  DrawDamage(const Shares& shares, const std::vector<PreparedModes>& prepared, std::size_t draw, std::size_t worlds)
-      : dresspack_(fmt::format("dresspack {}", draw)), worlds_(worlds), shares_(shares), prepared_(prepared), lives_(dresspack_, worlds), damage_(shares.programs_of_result.size()), factors_(shares.programs_of_job.size()) {
-    for (std::size_t k = 0; k < damage_.size(); ++k) damage_[k].programs = shares.programs_of_result[k];
-    for (std::size_t k = 0; k < factors_.size(); ++k) factors_[k].programs = shares.programs_of_job[k];
+  DrawDamage(const Shares& shares, const std::vector<PreparedModes>& prepared, std::size_t worlds)
+      : worlds_(worlds), shares_(shares), prepared_(prepared), damage_(shares.programs_of_result.size()), factors_(shares.programs_of_job.size()) {}
+  /// Begins with another dresspack.
+  void begin(std::size_t draw) {
+    dresspack_ = fmt::format("dresspack {}", draw);
+    lives_.emplace(dresspack_, worlds_);
+    for (std::size_t k = 0; k < damage_.size(); ++k) damage_[k].programs = shares_.programs_of_result[k];
+    for (std::size_t k = 0; k < factors_.size(); ++k) factors_[k].programs = shares_.programs_of_job[k];
   }
-  /// Returns, (world), the damage of the mode that fails first. Precondition: each duty is requested once.
+  /// Returns, (world), the damage of the mode that fails first. Precondition: each duty is requested once after begin().
   std::vector<double> under(std::size_t duty, const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
                             const std::vector<double>& share) {
     const auto number = [&](const EvaluatedProgram& program) { return static_cast<std::size_t>(&program - programs.data()); };
@@ -333,18 +338,21 @@ class DrawDamage {
         [&](const EvaluatedProgram& program) -> const RepeatDamage& {
           const std::size_t result = shares_.result[duty][number(program)];
           RepeatDamage& of_repeat = damage_[result].value;
-          if (of_repeat.empty()) of_repeat = damage_of_lives(lives_.of(prepared_[result]));
+          if (of_repeat.empty()) of_repeat = damage_of_lives(lives_->of(prepared_[result], taken_from(spare_damage_)));
           return of_repeat;
         },
         [&](const EvaluatedProgram& program, double deviation_percent) -> const std::vector<double>& {
           auto& [deviation, factors] = factors_[shares_.job[duty][number(program)]].value;
           if (factors.empty() || deviation != deviation_percent)
             deviation = deviation_percent,
-            factors = repeat_factors(program.job, deviation_percent, dresspack_, worlds_);
+            factors = repeat_factors(program.job, deviation_percent, dresspack_, worlds_,
+                                     factors.empty() ? taken_from(spare_factors_) : std::move(factors));
           return factors;
         });
-    for (const std::size_t result : shares_.result[duty]) damage_[result].release();
-    for (const std::size_t job : shares_.job[duty]) factors_[job].release();
+    for (const std::size_t result : shares_.result[duty])
+      if (--damage_[result].programs == 0) spare_damage_.push_back(std::exchange(damage_[result].value, {}));
+    for (const std::size_t job : shares_.job[duty])
+      if (--factors_[job].programs == 0) spare_factors_.push_back(std::exchange(factors_[job].value.second, {}));
     return damage;
   }
 
@@ -353,16 +361,21 @@ class DrawDamage {
   struct Shared {
     std::size_t programs = 0;  ///< number of programs that still need the value
     Value value{};
-
-    void release() {
-      if (--programs == 0) value = {};
-    }
   };
+  template <class List>
+  static List taken_from(std::vector<List>& spare) {
+    if (spare.empty()) return {};
+    List last = std::move(spare.back());
+    spare.pop_back();
+    return last;
+  }
   std::string dresspack_;
   std::size_t worlds_;
   const Shares& shares_;
   const std::vector<PreparedModes>& prepared_;
-  ModeLives lives_;
+  std::optional<ModeLives> lives_;
+  std::vector<RepeatDamage> spare_damage_;          ///< their memory
+  std::vector<std::vector<double>> spare_factors_;  ///< their memory
   std::vector<Shared<RepeatDamage>> damage_;
   std::vector<Shared<std::pair<double, std::vector<double>>>> factors_;
 };
@@ -684,50 +697,67 @@ class SharedValues {
 
 }  // namespace
 
-std::map<std::string, LifeTable> life_tables(const DutyFile& file, const Study& study,
-                                             const std::vector<RankingRow>& rows,
-                                             const std::set<std::string>& needed, bool keep_draws, std::size_t worlds) {
+/// A duty with what its lives need.
+struct PlantLives::Task {
+  const Duty* duty;
+  double robot_life_hours;
+  std::vector<Rate> rates;
+  std::vector<double> share;
+};
+
+struct PlantLives::Read {
+  std::vector<Task> tasks;                          ///< (duty)
+  std::vector<std::vector<EvaluatedProgram>> all;  ///< (duty, program)
+  std::optional<Shares> shares;
+  std::vector<PreparedModes> prepared;  ///< (result)
+};
+
+PlantLives::PlantLives(const DutyFile& file, const Study& study, const std::vector<RankingRow>& rows, const std::set<std::string>& needed) {
+  auto read = std::make_unique<Read>();
   Programs programs(study, rows);
-  std::vector<const Duty*> duties;
-  std::vector<std::vector<EvaluatedProgram>> all;
   for (const Duty& duty : file.duties)
-    if (needed.contains(duty.name)) duties.push_back(&duty), all.push_back(programs.of(duty));
-  std::map<std::string, LifeTable> tables;
-  struct Task {
-    LifeTable* table;
-    std::vector<Rate> rates;
-    std::vector<double> share;
-  };
-  std::vector<Task> tasks;  // (duty)
-  SharedValues shared(worlds);
-  for (std::size_t k = 0; k < duties.size(); ++k) {
-    const Duty& duty = *duties[k];
-    const std::vector<EvaluatedProgram>& evaluated = all[k];
+    if (needed.contains(duty.name)) read->tasks.push_back({&duty, 0, {}, {}}), read->all.push_back(programs.of(duty));
+  for (std::size_t k = 0; k < read->tasks.size(); ++k) {
+    const Duty& duty = *read->tasks[k].duty;
+    const std::vector<EvaluatedProgram>& evaluated = read->all[k];
     std::vector<DutyPart> parts;
-    std::vector<Rate> rates = rates_of(duty, programs, parts);
+    read->tasks[k].rates = rates_of(duty, programs, parts);
     const std::optional<WireDamage> round = programs.round_of(duty, evaluated.front());
     const std::vector<double> repeats = repeats_of(parts);
-    std::vector<double> share =
-        SamePlace(evaluated, round ? &*round : nullptr).at(repeats, repeats_in_rounds(duty, repeats));
+    read->tasks[k].share = SamePlace(evaluated, round ? &*round : nullptr).at(repeats, repeats_in_rounds(duty, repeats));
+    read->tasks[k].robot_life_hours = programs.row(duty.programs.front()).robot_life_hours;
+  }
+  read->shares.emplace(read->all);
+  read->prepared = mapped(read->shares->modes_of_result, [](const FailureModes* modes) { return PreparedModes(*modes); });
+  read_ = std::move(read);
+}
+
+PlantLives::~PlantLives() = default;
+
+std::map<std::string, LifeTable> PlantLives::in(std::size_t worlds, bool keep_draws) const {
+  const auto& [tasks, all, shares, prepared] = *read_;
+  std::map<std::string, LifeTable> tables;
+  std::vector<LifeTable*> of_task;  // (duty)
+  SharedValues shared(worlds);
+  for (std::size_t k = 0; k < tasks.size(); ++k) {
+    const Duty& duty = *tasks[k].duty;
     LifeTable& table = tables[duty.name];
     table.worlds = worlds, table.draws = draws, table.hours.resize(worlds * draws);
     table.hours_per_week = duty.hours_per_week;
-    table.shared = shared.of(evaluated);
-    table.robot_life_hours = programs.row(duty.programs.front()).robot_life_hours;
-    tasks.push_back({&table, std::move(rates), std::move(share)});
+    table.shared = shared.of(all[k]);
+    table.robot_life_hours = tasks[k].robot_life_hours;
+    of_task.push_back(&table);
   }
   // The lives of a draw do not depend on other draws, so the number of threads does not change the result. The loop runs over
   // draws and inside over duties, so that the data of one draw stay in the processor's cache.
-  const Shares shares(all);
-  const std::vector<PreparedModes> prepared =
-      mapped(shares.modes_of_result, [](const FailureModes* modes) { return PreparedModes(*modes); });
   const std::size_t threads = std::min(thread_count(), draws);
   in_parallel(threads, [&](std::size_t part) {
+    DrawDamage plant(*shares, prepared, worlds);
     for (std::size_t d = draws * part / threads; d < draws * (part + 1) / threads; ++d) {
-      DrawDamage plant(shares, prepared, d, worlds);
+      plant.begin(d);
       for (std::size_t k = 0; k < tasks.size(); ++k) {
         const std::vector<double> damage = plant.under(k, all[k], tasks[k].rates, tasks[k].share);
-        float* const hours = tasks[k].table->hours.data() + d * worlds;
+        float* const hours = of_task[k]->hours.data() + d * worlds;
         for (std::size_t w = 0; w < worlds; ++w)
           hours[w] = damage[w] > 0 ? static_cast<float>(1 / damage[w]) : std::numeric_limits<float>::infinity();
       }
@@ -736,7 +766,7 @@ std::map<std::string, LifeTable> life_tables(const DutyFile& file, const Study& 
   // From (draw, world) to (world, draw).
   in_parallel(threads, [&](std::size_t part) {
     for (std::size_t k = tasks.size() * part / threads; k < tasks.size() * (part + 1) / threads; ++k) {
-      LifeTable& table = *tasks[k].table;
+      LifeTable& table = *of_task[k];
       std::vector<float> by_draw = table.hours;
       for (std::size_t w = 0; w < worlds; ++w)
         for (std::size_t d = 0; d < draws; ++d) table.hours[w * draws + d] = by_draw[d * worlds + w];

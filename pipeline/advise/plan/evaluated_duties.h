@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -101,9 +102,21 @@ std::vector<DutyResult> outlines(const DutyFile& file, const Study& study, const
 /// Number of worlds: with 500 the error of a probability of 10 % is 1.3 %.
 constexpr std::size_t usual_worlds = 500;
 
-/// Returns the lives of a plant's dresspacks under each of the `needed` duties (plan.h). keep_draws: fills LifeTable::of_draw.
-/// Errors: as evaluated(), without histories.
-std::map<std::string, LifeTable> life_tables(const DutyFile& file, const Study& study, const std::vector<RankingRow>& rows,
-                                             const std::set<std::string>& needed, bool keep_draws = false, std::size_t worlds = usual_worlds);
+/// Computes the lives of a plant's dresspacks under each of the `needed` duties (plan.h), for one or more numbers of worlds.
+class PlantLives {
+ public:
+  /// Reads the results of the programs. Keeps a reference to the file. Errors: as evaluated(), without histories.
+  PlantLives(const DutyFile& file, const Study& study, const std::vector<RankingRow>& rows, const std::set<std::string>& needed);
+  ~PlantLives();
+  PlantLives(const PlantLives&) = delete;
+  PlantLives& operator=(const PlantLives&) = delete;
+  /// Returns the lives by the names of the duties. keep_draws: fills LifeTable::of_draw.
+  std::map<std::string, LifeTable> in(std::size_t worlds, bool keep_draws) const;
+
+ private:
+  struct Task;
+  struct Read;
+  std::unique_ptr<const Read> read_;
+};
 
 }  // namespace dresslife::pipeline

@@ -9,7 +9,9 @@
 #include "pipeline/base/csv_rows.h"
 #include "pipeline/base/exported.h"
 #include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/plain_file.h"
+#include "pipeline/base/text.h"
 #include "pipeline/settings/fields.h"
 #include "pipeline/settings/problems.h"
 
@@ -99,10 +101,48 @@ Installed installed_from(const Row& row, Day today, bool has_costs, Problems& pr
   return one;
 }
 
+/// A column of a fleet's table.
+struct Column {
+  std::string name;
+  std::vector<std::string_view> titles;  ///< other titles, as letters_of() returns them
+};
+const std::vector<Column>& columns() {
+  static const std::vector<Column> all{
+      {"name", {"robot", "robotname", "roboter", "dresspack", "schlauchpaket"}},
+      {"duty", {"aufgabe", "einsatz", "einsatzprofil"}},
+      {"installed", titles_of_installation()},
+      {"hours_per_week", titles_of_weekly_hours()},
+      {"planned_cost", {"plannedcosts", "costplanned", "kostengeplant", "geplantekosten", "plankosten"}},
+      {"unplanned_cost", {"unplannedcosts", "costunplanned", "kostenungeplant", "ungeplantekosten", "ausfallkosten"}},
+  };
+  return all;
+}
+
+/// Replaces other titles of columns that the table does not have under their own names. written: the titles in the file.
+void rename_titles(const CsvReader& reader, const CsvRow& written, CsvRow& titles, std::vector<std::string>& renamed) {
+  for (const Column& column : columns()) {
+    if (find_in(titles, &CsvCell::text, column.name)) continue;
+    const CsvCell* first = nullptr;
+    for (std::size_t k = 0; k < titles.size(); ++k) {
+      if (std::ranges::find(column.titles, letters_of(written[k].text)) == column.titles.end()) continue;
+      if (first)
+        throw InputError(reader.where(written[k]), fmt::format("columns '{}' and '{}' both mean {}", first->text, written[k].text, column.name),
+                         fmt::format("title one of them {}", column.name));
+      first = &written[k], titles[k].text = column.name;
+      renamed.push_back(fmt::format("{} = '{}'", column.name, first->text));
+    }
+  }
+}
+
 /// Returns whether a title resembles a known column, so that ignoring the column might change the plan.
 bool may_be_known(const std::string& title) {
   return std::ranges::any_of(std::initializer_list<std::string_view>{"hour", "stunde", "week", "woche", "cost", "kosten", "instal", "date", "datum"},
                              [&](std::string_view word) { return title.find(word) != title.npos; });
+}
+
+/// Whether the title may name hours of operation since the installation.
+bool counts_hours(const std::string& title) {
+  return (title.find("hour") != title.npos || title.find("stunde") != title.npos) && title.find("week") == title.npos && title.find("woche") == title.npos;
 }
 
 /// Whether the title names the day on which a dresspack was taken out.
@@ -128,11 +168,12 @@ Fleet read_fleet(const std::filesystem::path& file, Day today) {
   if (titles.empty())
     throw InputError({file.string(), 1, 1}, "holds no table",
                      "write the line 'name,duty,installed', then a row per dresspack");
-  const std::vector<std::string> known{"name", "duty", "installed", "hours_per_week", "planned_cost", "unplanned_cost"};
+  const std::vector<std::string> known = mapped(columns(), &Column::name);
   Fleet fleet;
   const CsvRow written = titles;
   for (CsvCell& title : titles)
     std::ranges::transform(title.text, title.text.begin(), [](unsigned char letter) { return letter == ' ' ? '_' : std::tolower(letter); });
+  rename_titles(reader, written, titles, fleet.renamed);
   const auto has = [&](const std::string& title) {
     return std::any_of(titles.begin(), titles.end(), [&](const CsvCell& cell) { return cell.text == title; });
   };
@@ -144,7 +185,9 @@ Fleet read_fleet(const std::filesystem::path& file, Day today) {
     const std::string near = nearest_word(title, missing);
     if (!near.empty() || (!missing.empty() && may_be_known(title)))
       throw InputError(reader.where(titles[k]), fmt::format("unknown column '{}'", written[k].text),
-                       near.empty() ? fmt::format("columns: {}", joined(known, ", ")) : fmt::format("did you mean '{}'?", near));
+                       !near.empty()         ? fmt::format("did you mean '{}'?", near)
+                       : counts_hours(title) ? "for an hour counter give hours_per_week: its hours divided by the weeks since 'installed'"
+                                             : fmt::format("columns: {}", joined(known, ", ")));
     fleet.unused.push_back(written[k].text);
   }
   check_titles(reader, titles, {"name", "duty", "installed"});
@@ -176,8 +219,9 @@ std::vector<Window> windows_from(const std::string& text, Day today) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
     const std::string one = text.substr(begin, end - begin);
     const std::size_t dots = one.find("..");
-    const Day first = needed_day(one.substr(0, dots));
-    windows.push_back({first, dots == std::string::npos ? first : needed_day(one.substr(dots + 2))});
+    const auto day_in = [](std::string_view part) { return needed_day(std::string(trimmed(part))); };
+    const Day first = day_in(std::string_view(one).substr(0, dots));
+    windows.push_back({first, dots == std::string::npos ? first : day_in(std::string_view(one).substr(dots + 2))});
     const Day before = windows.size() > 1 ? windows[windows.size() - 2].last : today;
     if (windows.back().last < first)
       throw InputError({"--windows"}, fmt::format("'{}' ends before it begins", one),
@@ -186,7 +230,7 @@ std::vector<Window> windows_from(const std::string& text, Day today) {
       throw InputError({"--windows"},
                        fmt::format("'{}' does not begin after {}, which is {}", one, day_text(before),
                                    windows.size() > 1 ? "in the window before it" : "today"),
-                       windows.size() > 1 ? "give windows in order" : "give windows after today, or another --today");
+                       windows.size() > 1 ? "give windows in order, and two that overlap as one" : "give windows after today, or another --today");
     if (windows.back().last > today + longest_plan)
       throw InputError({"--windows"}, fmt::format("'{}' is more than ten years ahead", one), "give nearer windows");
     begin = end + 1;

@@ -42,6 +42,7 @@ struct Fleet {
   std::vector<Installed> rows;
   bool has_costs = false;
   std::vector<std::string> unused;  ///< titles of columns that a plan does not need
+  std::vector<std::string> renamed{};  ///< "installed = 'Einbaudatum'": columns under another title
 };
 
 /// Reads a fleet. Titles may have any capitals, and blanks for underscores. Errors: InputError with line and column, for all rows

@@ -213,7 +213,7 @@ RepeatDamage damage_of_lives(std::vector<std::vector<double>> log10_lives) {
 }
 
 std::vector<double> repeat_factors(const std::string& job, double deviation_percent,
-                                   const std::string& dresspack, std::size_t samples) {
+                                   const std::string& dresspack, std::size_t samples, std::vector<double> memory) {
   const double deviation = log_deviation(deviation_percent);
   if (!(deviation > 0)) return std::vector<double>(samples, 1.0);
   thread_local std::vector<double> factors;  // factors of the previous deviation: thousands of programs have the same one
@@ -222,7 +222,8 @@ std::vector<double> repeat_factors(const std::string& job, double deviation_perc
     factors = standard_strata(samples), of_deviation = deviation;
     for (double& z : factors) z = std::exp(deviation * z);
   }
-  return in_order_of("repeats of " + job + "/job " + dresspack, factors);
+  memory = factors;
+  return in_order_of("repeats of " + job + "/job " + dresspack, std::move(memory));
 }
 
 DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
@@ -263,11 +264,15 @@ std::vector<double> first_mode_damage(
     const std::vector<double>& share,
     const std::function<const RepeatDamage&(const EvaluatedProgram&)>& of_repeat,
     const std::function<const std::vector<double>&(const EvaluatedProgram&, double)>& factors_of) {
-  RepeatDamage sums, largest;
+  thread_local RepeatDamage sums, largest;  // a plan of 500 duties needs them 32,000 times
   for (std::size_t k = 0; k < programs.size(); ++k) {
     const std::vector<double>& factors = factors_of(programs[k], rates[k].deviation_percent);
     const RepeatDamage& damage = of_repeat(programs[k]);
-    if (k == 0) sums = largest = RepeatDamage(damage.size(), std::vector<double>(factors.size(), 0.0));
+    if (k == 0)
+      for (RepeatDamage* const list : {&sums, &largest}) {
+        list->resize(damage.size());
+        for (std::vector<double>& of_mode : *list) of_mode.assign(factors.size(), 0.0);
+      }
     for (std::size_t m = 0; m < damage.size(); ++m) {
       const double repeats = share[m] * rates[k].repeats_per_hour;
       for (std::size_t s = 0; s < factors.size(); ++s) {

@@ -130,8 +130,9 @@ class SamePlace {
 using RepeatDamage = std::vector<std::vector<double>>;
 RepeatDamage damage_of_lives(std::vector<std::vector<double>> log10_lives);  ///< log10_lives: (mode, sample)
 
-/// Returns r_k(s) over its median, (sample), for one dresspack.
-std::vector<double> repeat_factors(const std::string& job, double deviation_percent, const std::string& dresspack, std::size_t samples);
+/// Returns r_k(s) over its median, (sample), for one dresspack. memory: a list that is no longer needed; the result takes its memory.
+std::vector<double> repeat_factors(const std::string& job, double deviation_percent, const std::string& dresspack, std::size_t samples,
+                                   std::vector<double> memory = {});
 
 /// Returns the damage under one duty for one dresspack. share: c(m) of SamePlace. of_repeat: returns the damage of one repeat
 /// of a program. factors_of: returns repeat_factors() of a program with this deviation.

@@ -247,30 +247,37 @@ class LaterLife {
 /// Decides on replacements by (D4) or (D5).
 class Decision {
  public:
-  /// hours: largest number of hours of operation within the plan.
-  Decision(const Worlds& worlds, const PlanRule& rule, double hours) : worlds_(worlds), rule_(rule), hours_(hours) {}
+  /// tables: (row) tables of its duty. hours: largest number of hours of operation within the plan.
+  Decision(const Fleet& fleet, const std::vector<const LifeTable*>& tables, const Worlds& worlds, const PlanRule& rule, double hours)
+      : fleet_(fleet), tables_(tables), worlds_(worlds), rule_(rule), hours_(hours), policy_(fleet.rows.size()) {
+    const std::vector<std::vector<std::size_t>> alike = rows_of_policies(fleet);
+    const std::size_t threads = std::min(thread_count(), alike.size());
+    in_parallel(threads, [&](std::size_t part) {
+      for (std::size_t k = part; k < alike.size(); k += threads) {
+        const auto policy = std::make_shared<const Policy>(policy_of(alike[k].front()));
+        for (const std::size_t row : alike[k]) policy_[row] = policy;
+      }
+    });
+  }
 
-  /// Returns the future of a dresspack with these lives that lives at this age, until the last age that replace() needs. table:
-  /// table of its duty.
-  LaterLife later_life(const Installed& row, const LifeTable& table, const LifeTable& lives, double age) { return later_life(lives, policy(row, table).rate, age); }
-  /// Returns whether a dresspack is replaced at the age `from`. life: its future from an earlier age. interval: hours until the
-  /// next window. Precondition: both ages of a window lie within the plan.
-  bool replace(const Installed& row, const LifeTable& table, const LaterLife& life, double from, double interval) {
+  /// Returns the future of the dresspack of a row with these lives that lives at this age, until the last age that replace() needs.
+  LaterLife later_life(std::size_t row, const LifeTable& lives, double age) const { return later_life(lives, policy_[row]->rate, age); }
+  /// Returns whether the dresspack of a row is replaced at the age `from`. life: its future from an earlier age. interval: hours
+  /// until the next window. Precondition: both ages of a window lie within the plan.
+  bool replace(std::size_t row, const LaterLife& life, double from, double interval) const {
     if (!rule_.by_cost) {
       const double left = life.alive(from);
       const double fails = left > 0 ? 1 - life.alive(from + interval) / left : 1;
-      return fails > rule_.risk && 1 - policy(row, table).life.alive(interval) < fails;
+      return fails > rule_.risk && 1 - policy_[row]->life.alive(interval) < fails;
     }
-    const double saves = row.unplanned_cost - row.planned_cost;
+    const double saves = fleet_.rows[row].unplanned_cost - fleet_.rows[row].planned_cost;
     const auto saved = [&](double age) { return saves * life.alive(age) + life.running(age); };
-    for (double hours = interval; hours < growth * std::max(interval, table.horizon()); hours *= growth)
+    for (double hours = interval; hours < growth * std::max(interval, tables_[row]->horizon()); hours *= growth)
       if (saved(from) <= saved(from + hours)) return false;
     return true;
   }
   /// Returns whether a dresspack that is installed later is replaced at the age `from`.
-  bool replace_new(const Installed& row, const LifeTable& table, double from, double interval) {
-    return replace(row, table, policy(row, table).life, from, interval);
-  }
+  bool replace_new(std::size_t row, double from, double interval) const { return replace(row, policy_[row]->life, from, interval); }
 
  private:
   static constexpr double growth = 1.5;  // ratio of successive times T: the cost is a smooth function of T
@@ -284,22 +291,22 @@ class Decision {
     return {table, worlds_.weights(), rate, age, age + hours_ + (rule_.by_cost ? growth * std::max(hours_, table.horizon()) : hours_)};
   }
 
-  const Policy& policy(const Installed& row, const LifeTable& table) {
-    const std::tuple key(&table, row.planned_cost, row.unplanned_cost);
-    const auto known = policies_.find(key);
-    if (known != policies_.end()) return known->second;
+  Policy policy_of(std::size_t row) const {
+    const LifeTable& table = *tables_[row];
     const auto count = static_cast<Eigen::Index>(table.worlds);
     Eigen::VectorXd rate = Eigen::VectorXd::Zero(count);
     if (rule_.by_cost)
-      rate = age_rates(table, row.planned_cost, row.unplanned_cost).least(Eigen::VectorXd::Map(worlds_.weights().data(), count));
+      rate = age_rates(table, fleet_.rows[row].planned_cost, fleet_.rows[row].unplanned_cost).least(Eigen::VectorXd::Map(worlds_.weights().data(), count));
     LaterLife life = later_life(table, rate, 0);
-    return policies_.emplace(key, Policy{std::move(rate), std::move(life)}).first->second;
+    return {std::move(rate), std::move(life)};
   }
 
+  const Fleet& fleet_;
+  const std::vector<const LifeTable*>& tables_;
   const Worlds& worlds_;
   const PlanRule rule_;
   const double hours_;
-  std::map<std::tuple<const LifeTable*, double, double>, Policy> policies_;
+  std::vector<std::shared_ptr<const Policy>> policy_;  ///< (row)
 };
 
 std::size_t weeks_until(double days) { return static_cast<std::size_t>(std::ceil(days / 7)); }
@@ -324,7 +331,7 @@ class Simulation {
   }
 
   /// Simulates one plant. decision: null: only failed dresspacks are replaced.
-  Outcome plant(RandomNumbers& random, Decision* decision) const {
+  Outcome plant(RandomNumbers& random, const Decision* decision) const {
     Outcome outcome{std::vector<int>(years_, 0), std::vector<int>(years_, 0), std::vector<int>(weeks_, 0)};
     const std::size_t world = draw_world(random);
     for (std::size_t i = 0; i < fleet_.rows.size(); ++i) dresspack(i, world, random, decision, outcome);
@@ -358,8 +365,7 @@ class Simulation {
     return life_after({{{until_change, earlier_[i]->life(world, d)}}}, table.life(world, d));
   }
 
-  void dresspack(std::size_t i, std::size_t world, RandomNumbers& random, Decision* decision, Outcome& outcome) const {
-    const LifeTable& table = *tables_[i];
+  void dresspack(std::size_t i, std::size_t world, RandomNumbers& random, const Decision* decision, Outcome& outcome) const {
     const Pace& pace = paces_[i];
     // All times are hours of operation from today.
     double begun = -rows_[i].age_hours, fails = begun + draw(*rows_[i].lives, world, rows_[i].age_hours, random);
@@ -384,7 +390,7 @@ class Simulation {
         continue;
       }
       const double hours = pace.hours(times_[window + 1]) - opens;
-      const bool replaces = is_first ? rows_[i].window == window : decision->replace_new(fleet_.rows[i], table, next - begun, hours);
+      const bool replaces = is_first ? rows_[i].window == window : decision->replace_new(i, next - begun, hours);
       if (replaces) put_in(next, true);
       ++window;
     }
@@ -423,10 +429,15 @@ const float* LifeTable::first_after(std::size_t world, double age) const {
 
 double LifeTable::median() const { return middle_of(hours); }
 
-double LifeTable::finite_median() const {
-  std::vector<float> finite;
-  std::ranges::copy_if(hours, std::back_inserter(finite), [](float life) { return std::isfinite(life); });
-  return finite.empty() ? 0 : middle_of(std::move(finite));
+bool LifeTable::half_end_before(double limit) const {
+  return static_cast<std::size_t>(std::ranges::count_if(hours, [&](float life) { return life < limit; })) > hours.size() / 2;
+}
+
+double LifeTable::horizon_or_median() const {
+  const double until = horizon();
+  const auto finite = std::ranges::count_if(hours, [](float life) { return std::isfinite(life); });
+  if (finite == 0 || std::ranges::count_if(hours, [&](float life) { return life <= until; }) > finite / 2) return until;  // the median is not later
+  return middle_of(filtered(hours, [](float life) { return std::isfinite(life); }));
 }
 
 double LifeTable::running(std::size_t world, double from, double to) const {
@@ -463,12 +474,23 @@ AgeRates age_rates(const LifeTable& table, double planned_cost, double unplanned
   return rates;
 }
 
+std::vector<std::vector<std::size_t>> rows_of_policies(const Fleet& fleet) {
+  std::map<std::tuple<std::string_view, double, double>, std::vector<std::size_t>> alike;
+  for (std::size_t i = 0; i < fleet.rows.size(); ++i) {
+    const Installed& row = fleet.rows[i];
+    alike[{row.duty, row.planned_cost, row.unplanned_cost}].push_back(i);
+  }
+  return mapped(alike, [](const auto& one) { return one.second; });
+}
+
 std::vector<double> times_of(const std::vector<Window>& windows, Day today) {
   std::vector<double> times = mapped(windows, [&](const Window& window) -> double { return days_between(today, window.first); });
   const double interval = times.size() > 1 ? times.back() - times[times.size() - 2] : days_per_year;
   times.push_back(times.back() + interval);
   return times;
 }
+
+Day end_of(const std::vector<Window>& windows, Day today) { return today + std::chrono::days(std::llround(times_of(windows, today).back())); }
 
 void keep_ages(Fleet& changed, const Fleet& now, const std::map<std::string, LifeTable>& tables, Day today, Day from) {
   for (Installed& row : changed.rows) {
@@ -548,12 +570,13 @@ Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
   plan.today = today, plan.windows = windows;
   plan.risk = rule.risk, plan.by_cost = rule.by_cost;
   const std::vector<double> times = times_of(windows, today);
-  plan.end = today + std::chrono::days(std::llround(times.back()));
+  plan.end = end_of(windows, today);
   const std::vector<std::shared_ptr<const LifeTable>> first = first_lives(fleet, tables);
   const Worlds worlds = worlds_of(fleet, tables, first, today, rule);
   plan.weights = worlds.weights();
   plan.effective_worlds = worlds.effective();
   plan.all_alive = worlds.all_alive();
+  if (plan.effective_worlds < rule.enough_worlds) return plan;
   std::vector<const LifeTable*> of_row, earlier;
   std::vector<Pace> paces;
   double most_hours = 0;  // hours of operation within the plan
@@ -563,29 +586,33 @@ Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
     most_hours = std::max(most_hours, paces.emplace_back(row, *of_row.back()).hours(times.back()));
     plan.rows.emplace_back().age_hours = run_of(row, *of_row.back(), today);
     plan.rows.back().lives = first[plan.rows.size() - 1];
-    plan.rows.back().reach_its_age = worlds.reaches(*plan.rows.back().lives, plan.rows.back().age_hours);
-    plan.reach_their_age += plan.rows.back().reach_its_age / double(fleet.rows.size());
   }
-  Decision decision(worlds, rule, most_hours);
-  for (std::size_t i = 0; i < plan.rows.size(); ++i) {
+  const Decision decision(fleet, of_row, worlds, rule, most_hours);
+  const auto plan_row = [&](std::size_t i) {
     RowPlan& row = plan.rows[i];
-    const LifeTable &table = *of_row[i], &lives = *row.lives;
+    const LifeTable& lives = *row.lives;
+    row.reach_its_age = worlds.reaches(lives, row.age_hours);
     const auto age_at = [&](double day) { return row.age_hours + paces[i].hours(day); };
     std::vector<double> weeks;
     for (std::size_t week = 1; week <= weeks_until(times.back()); ++week) weeks.push_back(age_at(std::min(7.0 * double(week), times.back())));
     row.fails_in_week = worlds.fails_in(lives, row.age_hours, weeks);
     row.fails_before_first = worlds.fails(lives, row.age_hours, row.age_hours, age_at(times.front()));
     double failed = row.fails_before_first;
-    const LaterLife life = decision.later_life(fleet.rows[i], table, lives, row.age_hours);
+    const LaterLife life = decision.later_life(i, lives, row.age_hours);
     for (std::size_t n = 0; n < windows.size(); ++n) {
       const double left = 1 - failed, from = age_at(times[n]), to = age_at(times[n + 1]);
       const double fails = worlds.fails(lives, row.age_hours, from, to);
       row.fails_until_next.push_back(left > 0 ? fails / left : 1);
-      if (!row.window && decision.replace(fleet.rows[i], table, life, from, to - from)) row.window = n, row.fails_before = failed;
+      if (!row.window && decision.replace(i, life, from, to - from)) row.window = n, row.fails_before = failed;
       failed += fails;
     }
     if (!row.window) row.fails_before = failed;
-  }
+  };
+  const std::size_t threads = std::min(thread_count(), plan.rows.size());
+  in_parallel(threads, [&](std::size_t part) {
+    for (std::size_t i = part; i < plan.rows.size(); i += threads) plan_row(i);
+  });
+  for (const RowPlan& row : plan.rows) plan.reach_their_age += row.reach_its_age / double(fleet.rows.size());
   plan.failures_in_week.resize(weeks_until(times.back()));
   plan.failures_in_week_without_windows = plan.failures_in_week;
   for (const RowPlan& row : plan.rows)

@@ -64,8 +64,10 @@ struct LifeTable {
   double alive(std::size_t world, double age) const;
   /// Returns the median over all worlds [h].
   double median() const;
-  /// Returns the median of the finite lives [h]; 0: none is.
-  double finite_median() const;
+  /// Returns whether median() is below these hours. Counts, which takes a tenth of the time of a median.
+  bool half_end_before(double limit) const;
+  /// Returns the larger of horizon() and the median of the finite lives [h].
+  double horizon_or_median() const;
   /// Returns the integral of S_w from one age to another [h].
   double running(std::size_t world, double from, double to) const;
 };
@@ -76,6 +78,7 @@ struct PlanRule {
   bool by_cost = false;
   bool knows_survivors = false;  ///< the worlds come from a calibration with these survivors: (D3) would count them twice
   std::vector<double> weights{};  ///< (world) weights of another plan of the same plant; empty: (D3)
+  double enough_worlds = 0;  ///< with fewer effective worlds the plan has only its dates, weights and numbers of worlds
 };
 
 struct RowPlan {
@@ -126,8 +129,12 @@ struct AgeRates {
 };
 AgeRates age_rates(const LifeTable& table, double planned_cost, double unplanned_cost);
 
+/// Returns the rows in groups. Those of a group have one duty and equal costs, and so the same age of replacement.
+std::vector<std::vector<std::size_t>> rows_of_policies(const Fleet& fleet);
+
 /// Returns the times [days from today] of the windows, then the end of the plan.
 std::vector<double> times_of(const std::vector<Window>& windows, Day today);
+Day end_of(const std::vector<Window>& windows, Day today);  ///< end of the plan
 
 /// Returns, (row), the lives of today's dresspacks (D10) [h of operation, under all of their duties]. For a dresspack without
 /// another duty the result refers to `tables`. Precondition: `tables` outlives the result.

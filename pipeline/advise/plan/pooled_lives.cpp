@@ -43,7 +43,7 @@ void sort_by_bits(std::vector<float>& numbers) {
 PooledLives::PooledLives(const LifeTable& table) : draws_(table.draws), mean_(table.worlds), pool_of_(table.worlds) {
   constexpr double no_influence = 100;
   constexpr float shortest = 1e-3F;  // [h] so that its logarithm is finite
-  const auto longest = static_cast<float>(std::log(no_influence * std::max(table.horizon(), table.finite_median())));
+  const auto longest = static_cast<float>(std::log(no_influence * table.horizon_or_median()));
   const auto count = static_cast<double>(table.draws);
   std::vector<float> logs(table.hours.size());
   for (std::size_t w = 0; w < table.worlds; ++w) {

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "pipeline/base/constants.h"
+#include "pipeline/base/lists.h"
+#include "pipeline/base/order.h"
 #include "pipeline/base/statistics.h"
+#include "pipeline/base/threads.h"
 #include "pipeline/job/uncertainty.h"
 
 namespace dresslife::pipeline {
@@ -85,29 +87,21 @@ class Values {
       : fleet_(fleet), tables_(tables), plan_(plan) {}
 
   /// Returns the values, (test). results: (test) results_of().
-  std::vector<double> of(const std::vector<MatrixXd>& results) {
+  std::vector<double> of(const std::vector<MatrixXd>& results) const {
     const std::vector<double> times = times_of(plan_.windows, plan_.today);
-    std::vector<double> saves(results.size(), 0.0);
-    for (std::size_t i = 0; i < fleet_.rows.size(); ++i) {
-      const Installed& row = fleet_.rows[i];
-      const LifeTable& table = tables_.at(row.duty);
-      const double hours_per_day = row.hours_per_week.value_or(table.hours_per_week) / 7;
-      const Policies& policies = policies_of(row, table, results);
-      const Costs costs =
-          costs_of(row, *plan_.rows[i].lives, plan_.rows[i].age_hours, hours_per_day, times, plan_.weights, policies.best);
-      const VectorXd& now = policies.now;
-      const double before =
-          (costs.fixed * costs.weights + costs.hours * now.cwiseProduct(costs.weights)).minCoeff();
-      for (std::size_t k = 0; k < results.size(); ++k) {
-        const MatrixXd weights = costs.weights.asDiagonal() * results[k];
-        const MatrixXd fixed = costs.fixed * weights;
-        const MatrixXd same = fixed + costs.hours * (now.asDiagonal() * weights);
-        const MatrixXd other = fixed + costs.hours * policies.after[k].cwiseProduct(weights);
-        double after = 0;
-        for (Index j = 0; j < bins; ++j) after += std::min(same.col(j).minCoeff(), other.col(j).minCoeff());
-        saves[k] += before - after;
+    const std::vector<std::vector<std::size_t>> alike = rows_of_policies(fleet_);
+    std::vector<std::vector<double>> of_row(fleet_.rows.size());  // (row, test)
+    const std::size_t threads = std::min(thread_count(), alike.size());
+    in_parallel(threads, [&](std::size_t part) {
+      for (std::size_t k = part; k < alike.size(); k += threads) {
+        const Installed& row = fleet_.rows[alike[k].front()];
+        const Policies policies = policies_of(row, tables_.at(row.duty), results);
+        for (const std::size_t i : alike[k]) of_row[i] = of(i, policies, times, results);
       }
-    }
+    });
+    std::vector<double> saves(results.size(), 0.0);
+    for (const std::vector<double>& one : of_row)
+      for (std::size_t k = 0; k < saves.size(); ++k) saves[k] += one[k];
     return saves;
   }
 
@@ -117,14 +111,29 @@ class Values {
     VectorXd best;                ///< (world) g_w at the best age of this world
     std::vector<MatrixXd> after;  ///< (test) (world, bin) g_w at the age with the least mean after the result
   };
-  const Policies& policies_of(const Installed& row, const LifeTable& table,
-                              const std::vector<MatrixXd>& results) {
-    const auto [found, is_new] = policies_.try_emplace({&table, row.planned_cost, row.unplanned_cost});
-    if (!is_new) return found->second;
+  /// Returns the values for one dresspack, (test).
+  std::vector<double> of(std::size_t i, const Policies& policies, const std::vector<double>& times, const std::vector<MatrixXd>& results) const {
+    const Installed& row = fleet_.rows[i];
+    const double hours_per_day = row.hours_per_week.value_or(tables_.at(row.duty).hours_per_week) / 7;
+    const Costs costs = costs_of(row, *plan_.rows[i].lives, plan_.rows[i].age_hours, hours_per_day, times, plan_.weights, policies.best);
+    const VectorXd& now = policies.now;
+    const double before = (costs.fixed * costs.weights + costs.hours * now.cwiseProduct(costs.weights)).minCoeff();
+    return mapped(indices_of(results.size()), [&](std::size_t k) {
+      const MatrixXd weights = costs.weights.asDiagonal() * results[k];
+      const MatrixXd fixed = costs.fixed * weights;
+      const MatrixXd same = fixed + costs.hours * (now.asDiagonal() * weights);
+      const MatrixXd other = fixed + costs.hours * policies.after[k].cwiseProduct(weights);
+      double after = 0;
+      for (Index j = 0; j < bins; ++j) after += std::min(same.col(j).minCoeff(), other.col(j).minCoeff());
+      return before - after;
+    });
+  }
+  Policies policies_of(const Installed& row, const LifeTable& table, const std::vector<MatrixXd>& results) const {
+    Policies policies;
     const AgeRates rates = age_rates(table, row.planned_cost, row.unplanned_cost);
     const VectorXd weights = VectorXd::Map(plan_.weights.data(), static_cast<Index>(plan_.weights.size()));
-    found->second.now = rates.least(weights);
-    found->second.best = rates.rate.colwise().minCoeff().transpose();
+    policies.now = rates.least(weights);
+    policies.best = rates.rate.colwise().minCoeff().transpose();
     MatrixXd all(weights.size(), static_cast<Index>(results.size()) * bins);
     for (std::size_t k = 0; k < results.size(); ++k)
       all.middleCols(static_cast<Index>(k) * bins, bins) = weights.asDiagonal() * results[k];
@@ -133,7 +142,7 @@ class Values {
     constexpr Index stride = 8;
     const MatrixXd some = rates.rate(Eigen::seq(0, Eigen::last, stride), Eigen::all), mean = some * all;  // (age, result and bin)
     for (std::size_t k = 0; k < results.size(); ++k) {
-      MatrixXd& after = found->second.after.emplace_back(weights.size(), bins);
+      MatrixXd& after = policies.after.emplace_back(weights.size(), bins);
       for (Index j = 0; j < bins; ++j) {
         const Index column = static_cast<Index>(k) * bins + j;
         Index best = 0;
@@ -143,13 +152,12 @@ class Values {
         after.col(j) = rates.rate.row(first + best).transpose();
       }
     }
-    return found->second;
+    return policies;
   }
 
   const Fleet& fleet_;
   const std::map<std::string, LifeTable>& tables_;
   const Plan& plan_;
-  std::map<std::tuple<const LifeTable*, double, double>, Policies> policies_;
 };
 
 }  // namespace

@@ -80,7 +80,7 @@ TEST_CASE("service records: the same plant in English with commas and in German 
     CHECK_FALSE(records[2].failed);
     CHECK(records[3].entry_hours == Approx(52 * 40.5));
     CHECK_THAT(plant.words,
-               Contains("4 dresspacks: 1 failed, 1 were removed before, 2 are in use on 2026-11-23.") &&
+               Contains("4 dresspacks: 1 failed, 1 were removed without a failure, 2 are in use on 2026-11-23.") &&
                    Contains("Records begin on 2023-05-01. Put in before: 2; these count from their age") &&
                        Contains("Hours per week are those in which the job's program runs."));
   }

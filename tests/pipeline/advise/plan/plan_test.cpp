@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <numeric>
 #include <random>
@@ -50,6 +51,25 @@ std::vector<Window> windows_in(const std::vector<int>& weeks) {
 std::vector<int> many(std::size_t count, int age) { return std::vector<int>(count, age); }
 
 }  // namespace
+
+TEST_CASE("a count of lives says on which side of a limit their median is") {
+  const LifeTable table{2, 3, {1, 2, 900, 4, 5, std::numeric_limits<float>::infinity()}, 40, 80};  // median 5 of all, 4 of the finite ones
+  CHECK(table.median() == 5);
+  CHECK_FALSE(table.half_end_before(5));
+  CHECK(table.half_end_before(5.5));
+  CHECK(table.horizon_or_median() == 40);
+  const auto with_horizon = [&](double hours) {
+    LifeTable other = table;
+    other.robot_life_hours = hours;
+    return other.horizon_or_median();
+  };
+  CHECK(with_horizon(4) == 4);
+  CHECK(with_horizon(3.9) == 4);
+  CHECK(with_horizon(0.5) == 4);
+  LifeTable endless = table;
+  std::ranges::fill(endless.hours, std::numeric_limits<float>::infinity());
+  CHECK(endless.horizon_or_median() == 40);
+}
 
 TEST_CASE("a plan names the dresspacks that reach the age of a mode without validation") {
   // Ages 5, 40 and 60 weeks of 70 h: 350, 2,800 and 4,200 h. The plan ends 24 weeks from today, because of its two windows.
@@ -266,6 +286,34 @@ TEST_CASE("survivors tell which world the plant is in, and the spread between pl
   CHECK(fresh.years[0].low < 1.5 * 100 * year / good);
   CHECK(fresh.years[0].high > 0.9 * 100 * year / bad);
   CHECK(fresh.effective_worlds == Approx(2).epsilon(1e-12));
+}
+
+TEST_CASE("a plan of too few effective worlds stops, and its other numbers do not depend on the threads") {
+  const std::map<std::string, LifeTable> tables{{"d", weibull(2.5, {2000, 4000, 8000})}, {"e", weibull(1.5, {3000, 5000, 6000})}};
+  Fleet fleet = fleet_of({20, 30, 40, 20}, 1, 6);
+  fleet.rows[1].duty = fleet.rows[3].duty = "e", fleet.rows[2].unplanned_cost = 9;
+  CHECK(rows_of_policies(fleet) == std::vector<std::vector<std::size_t>>{{0}, {2}, {1, 3}});
+  PlanRule rule{0.1, true};
+  const auto plan_with = [&](const char* threads) {
+    ::setenv("DRESSLIFE_THREADS", threads, 1);
+    const Plan plan = plan_of(fleet, tables, windows_in({4, 14}), start, rule);
+    ::unsetenv("DRESSLIFE_THREADS");
+    return plan;
+  };
+  const Plan one = plan_with("1"), three = plan_with("3");
+  CHECK(one.cost == three.cost);
+  CHECK(one.failures_in_week == three.failures_in_week);
+  CHECK(one.reach_their_age == three.reach_their_age);
+  for (std::size_t i = 0; i < one.rows.size(); ++i) {
+    CHECK(one.rows[i].window == three.rows[i].window);
+    CHECK(one.rows[i].fails_before == three.rows[i].fails_before);
+  }
+  rule.enough_worlds = one.effective_worlds * 1.01;
+  const Plan stopped = plan_with("1");
+  CHECK(stopped.effective_worlds == one.effective_worlds);
+  CHECK(stopped.rows.empty());
+  rule.enough_worlds = one.effective_worlds * 0.99;
+  CHECK(plan_with("1").rows.size() == 4);
 }
 
 TEST_CASE("survivors are weighed by the law of the lives, not by the chance of the few samples of a world") {
@@ -510,11 +558,23 @@ TEST_CASE("a fleet is read from a spreadsheet's table, and what is wrong in it i
       read("name;duty;installed;hours_per_week\nr;day;28.02.2025 08:00;37,5\n");  // in the form that `calibrate` reads
   CHECK(day_text(german.rows[0].since) == "2025-02-28");
   CHECK(german.rows[0].hours_per_week == 37.5);
+  const Fleet titles = read("Roboter;Einsatz;Einbaudatum;Stunden/Woche;Kosten geplant;Kosten ungeplant\nr;day;28.02.2025;37,5;5;50\n");
+  CHECK(titles.rows[0].name == "r");
+  CHECK(day_text(titles.rows[0].since) == "2025-02-28");
+  CHECK(titles.rows[0].hours_per_week == 37.5);
+  CHECK(titles.rows[0].unplanned_cost == 50);
+  CHECK(titles.renamed.size() == 6);
+  CHECK(titles.renamed[2] == "installed = 'Einbaudatum'");
+  CHECK(read("name,duty,installed,robot\nr,day,,A\n").unused == std::vector<std::string>{"robot"});
+  CHECK(refusal("Roboter,Schlauchpaket,duty,installed\nr,A,day,\n").find("fleet.csv:1:9: error: columns 'Roboter' and 'Schlauchpaket' both mean name; title one of them name") !=
+        std::string::npos);
   CHECK(refusal("name,duty,instaled\nr,day,\n").find("did you mean 'installed'?") != std::string::npos);
   CHECK(refusal("name,duty,installed\nr,day,2027-01-01\n").find("after today") != std::string::npos);
   CHECK(refusal("name,duty,installed\nr,day,\nr,day,\n").find("is the name of line 2, too") != std::string::npos);
   CHECK(refusal("name,duty\nr,day\n").find("no column 'installed'") != std::string::npos);
   CHECK(refusal("name,duty,installed,hours\nr,day,,3\n").find("unknown column 'hours'") != std::string::npos);
+  CHECK(refusal("name,duty,installed,hours_so_far\nr,day,,3\n").find("for an hour counter give hours_per_week") != std::string::npos);
+  CHECK(refusal("name,duty,installed,Kosten\nr,day,,3\n").find("unknown column 'Kosten'; columns: name, duty, installed") != std::string::npos);
   CHECK(read("Name;Duty;Installed;Hours per week\nr;day;;80,5\n").rows[0].hours_per_week == std::optional<double>(80.5));
   CHECK(refusal("name,duty,installed,planned_cost\nr,day,,3\n").find("no column 'unplanned_cost'") != std::string::npos);
   CHECK(refusal("name,duty,installed,planned_cost,unplanned_cost\nr,day,,3,2\n").find("must be larger") != std::string::npos);
@@ -553,6 +613,7 @@ TEST_CASE("windows are days in order, after today") {
   CHECK(day_text(windows[0].last) == "2027-08-01");
   CHECK(windows[1].first == windows[1].last);
   CHECK(day_text(windows_from("12.07.2027..01.08.2027", start)[0].last) == "2027-08-01");
+  CHECK(day_text(windows_from("2027-07-12 .. 2027-08-01, 2027-12-20", start)[1].first) == "2027-12-20");
   for (const char* wrong : {"", "2027-07-12..", "2027-13-01", "2027-08-01..2027-07-12", "2026-11-23", "2027-07-12..2027-08-01,2027-08-01",
                             "2027-07-12,", "soon",
                             "2027-07-12 - 2027-08-01"})
