@@ -136,6 +136,37 @@ void check_stream(const std::string& text, const std::string& file) {
   }
 }
 
+/// Returns the first line, from 1, whose indentation has a tab; 0: none.
+int line_with_tab(const std::string& text) {
+  std::istringstream lines(text);
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    if (line.substr(0, line.find_first_not_of(" \t")).find('\t') != std::string::npos) return number;
+  }
+  return 0;
+}
+
+/// Returns what the library refuses, in words that name the usual slips.
+InputError refusal_of(const YAML::Exception& problem, const std::string& text, const std::string& file) {
+  struct Slip {
+    std::string_view of_library, words, remedy;
+  };
+  static const Slip slips[] = {
+      {YAML::ErrorMsg::MAP_VALUE, "a second ': ' in one value, or another indentation than the line above", "quote a text that contains ': ', or indent the line as its neighbours"},
+      {YAML::ErrorMsg::END_OF_MAP, "no key of the map above: another indentation, or an item of a list", "indent it as the other keys of its map"},
+      {YAML::ErrorMsg::END_OF_SEQ, "no item of the list above: another indentation, or a key of a map", "indent it as the other items of its list"},
+      {YAML::ErrorMsg::END_OF_MAP_FLOW, "a { above is not closed", "close it with }"},
+      {YAML::ErrorMsg::END_OF_SEQ_FLOW, "a [ above is not closed", "close it with ]"},
+      {YAML::ErrorMsg::FLOW_END, "a bracket closes another than the last one that opened", "close each [ with ] and each { with }"},
+      {YAML::ErrorMsg::UNKNOWN_TOKEN, "no text begins with this character", "quote the text"}};
+  if (const int line = line_with_tab(text); line > 0 && line <= problem.mark.line + 1)
+    return InputError({file, line, 1}, "is not YAML (a tab indents this line)", "indent with spaces");
+  const Slip* const slip = std::ranges::find(slips, std::string_view(problem.msg), &Slip::of_library);
+  return slip == std::end(slips) ? InputError(place(problem.mark, file), fmt::format("is not YAML ({})", problem.msg), "correct the line")
+                                 : InputError(place(problem.mark, file), fmt::format("is not YAML ({})", slip->words), std::string(slip->remedy));
+}
+
 bool all_scalars(const Node& list) {
   return std::all_of(list.items.begin(), list.items.end(), [](const Node& item) { return item.is_scalar(); });
 }
@@ -294,8 +325,7 @@ Node parse_yaml(const std::string& text, const std::string& file) {
     check_stream(text, file);
     document = YAML::Load(text);
   } catch (const YAML::Exception& problem) {
-    throw InputError(place(problem.mark, file), fmt::format("is not YAML ({})", problem.msg),
-                     "correct the line");
+    throw refusal_of(problem, text, file);
   }
   Node root = Converter(file).convert(document);
   if (root.where.line <= 0) root.where = {file, 1, 1};

@@ -213,7 +213,9 @@ class FieldReader final : public Fields {
   bool enter(Key key, Need need, bool, std::string_view meaning, const char*) override {
     bool entered = false;
     read(key, need, meaning, [&](const Node& node) {
-      if (!node.is_map()) refuse(node, fmt::format("{} must be a map of settings", name_of(key)), meaning);
+      const std::string problem = fmt::format("{} must be a map of settings", name_of(key));
+      if (node.is_scalar() && node.text.find(':') != std::string::npos) throw InputError(node.where, problem, "write a space after the colon of a key");
+      if (!node.is_map()) refuse(node, problem, meaning);
       Level level;
       level.path = name_of(key);
       level.map = &node;

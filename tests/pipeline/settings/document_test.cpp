@@ -91,6 +91,21 @@ TEST_CASE("document: what is not YAML is refused where it stops being YAML") {
   CHECK(refusal("a: \tb: c\n").find("is not YAML") != std::string::npos);
 }
 
+TEST_CASE("document: usual slips in YAML are named, with their remedy") {
+  for (const auto& [text, answer] : std::vector<std::pair<std::string, std::string>>{
+           {"a: 1\nb:\n\tc: 2\n", "f.yaml:3:1: error: is not YAML (a tab indents this line); indent with spaces"},
+           {"a: 1\nb:\n  - \tc\n  \t- d: 1: 2\n", "f.yaml:4:1: error: is not YAML (a tab indents this line)"},
+           {"a: b: c\n", "f.yaml:1:5: error: is not YAML (a second ': ' in one value"},
+           {"a: 1\n  b: 2\n", "f.yaml:2:4: error: is not YAML (a second ': ' in one value, or another indentation"},
+           {"a:\n  b: 2\n c: 1\n", "f.yaml:3:2: error: is not YAML (no key of the map above: another indentation, or an item of a list); indent it as the other keys"},
+           {"a: {b: 1\nc: 2\n", "is not YAML (a { above is not closed)"},
+           {"a: [1, 2}\n", "is not YAML (a bracket closes another than the last one that opened); close each [ with ]"},
+           {"a: %b\n", "f.yaml:1:4: error: is not YAML (no text begins with this character); quote the text"}}) {
+    INFO(text);
+    CHECK(refusal(text).find(answer) != std::string::npos);
+  }
+}
+
 TEST_CASE(
     "document: a quote that is never closed is found near its line, not taken for the rest of the file") {
   const std::string never_closed =

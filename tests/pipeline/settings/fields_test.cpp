@@ -123,6 +123,7 @@ TEST_CASE("fields: the ends of a range are in it, and what lies beyond is refuse
            {"parts: [{width_mm: 1}, 3]", "parts[2] must be a map of settings"},
            {"parts: {}", "parts must be a list"},
            {"spare: 3", "spare must be a map of settings"},
+           {"spare: width_mm:1", "spare must be a map of settings; write a space after the colon"},
            {"spare: {width_mm: 1, colour: pink}", "spare.colour is 'pink'"},
            {"shar: 1", "did you mean 'share'?"},
            {"angle: 1", "its unit is deg, write 'angle_deg'"},
