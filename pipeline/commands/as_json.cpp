@@ -26,14 +26,14 @@ Json null() { return Json(std::nan("")); }
 
 Json text_or_null(const std::string& text) { return text.empty() ? null() : Json(text); }
 
-Json object() { return Json(std::initializer_list<std::pair<std::string_view, Json>>{}); }
+Json empty_object() { return Json(std::initializer_list<std::pair<std::string_view, Json>>{}); }
 
 std::vector<Json> rows_of_csv(const std::string& csv) {
   CsvReader reader(csv, "table", ",");
   const CsvRow titles = reader.next();
   std::vector<Json> rows;
   for (CsvRow row = reader.next(); !row.empty(); row = reader.next()) {
-    Json object = pipeline::object();
+    Json object = empty_object();
     for (std::size_t k = 0; k < std::min(row.size(), titles.size()); ++k) {
       const bool text = std::find(always_text.begin(), always_text.end(), titles[k].text) != always_text.end();
       object.add(titles[k].text, row[k].text.empty() ? null() : text ? Json(row[k].text) : json_of_cell(row[k].text));
@@ -56,7 +56,7 @@ Json json_of(const std::vector<RankingRow>& rows) {
 
 Json json_of(const Warning& warning) {
   const WarningParts parts = parts_of(warning.words);
-  Json values = object();
+  Json values = empty_object();
   for (const KeyValue& of : warning.remedy) values.add(of.key, json_of(parse_yaml(of.value, of.key)));
   return {{"kind", word(warning.kind)}, {"where", text_or_null(warning.where)}, {"text", warning.words}, {"problem", parts.problem},
           {"likely_cause", text_or_null(parts.cause)}, {"remedy", text_or_null(parts.remedy)}, {"remedy_values", values}};
@@ -75,7 +75,7 @@ Json json_of(const Node& document) {
     case Node::Kind::map:
       break;
   }
-  Json object = pipeline::object();
+  Json object = empty_object();
   for (const Entry& entry : document.entries) object.add(entry.key, json_of(entry.value));
   return object;
 }

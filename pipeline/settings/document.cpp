@@ -136,15 +136,13 @@ void check_stream(const std::string& text, const std::string& file) {
   }
 }
 
-/// Returns the first line, from 1, whose indentation has a tab; 0: none.
-int line_with_tab(const std::string& text) {
+/// Returns whether a tab indents a line of the text, counted from 0.
+bool tab_indents(const std::string& text, int number) {
   std::istringstream lines(text);
-  int number = 0;
-  for (std::string line; std::getline(lines, line);) {
-    ++number;
-    if (line.substr(0, line.find_first_not_of(" \t")).find('\t') != std::string::npos) return number;
-  }
-  return 0;
+  std::string line;
+  for (int k = 0; k <= number; ++k)
+    if (!std::getline(lines, line)) return false;
+  return line.substr(0, line.find_first_not_of(" \t")).find('\t') != std::string::npos;
 }
 
 /// Returns what the library refuses, in words that name the usual slips.
@@ -160,8 +158,7 @@ InputError refusal_of(const YAML::Exception& problem, const std::string& text, c
       {YAML::ErrorMsg::END_OF_SEQ_FLOW, "a [ above is not closed", "close it with ]"},
       {YAML::ErrorMsg::FLOW_END, "a bracket closes another than the last one that opened", "close each [ with ] and each { with }"},
       {YAML::ErrorMsg::UNKNOWN_TOKEN, "no text begins with this character", "quote the text"}};
-  if (const int line = line_with_tab(text); line > 0 && line <= problem.mark.line + 1)
-    return InputError({file, line, 1}, "is not YAML (a tab indents this line)", "indent with spaces");
+  if (tab_indents(text, problem.mark.line)) return InputError({file, problem.mark.line + 1, 1}, "is not YAML (a tab indents this line)", "indent with spaces");
   const Slip* const slip = std::ranges::find(slips, std::string_view(problem.msg), &Slip::of_library);
   return slip == std::end(slips) ? InputError(place(problem.mark, file), fmt::format("is not YAML ({})", problem.msg), "correct the line")
                                  : InputError(place(problem.mark, file), fmt::format("is not YAML ({})", slip->words), std::string(slip->remedy));

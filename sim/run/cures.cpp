@@ -626,15 +626,17 @@ std::string check_words(const CheckedMotion& motion, const Check& check) {
 std::optional<pipeline::Warning> mesh_warning(const CheckedMotion& motion, const Check& pull) {
   constexpr double coarse = 0.9, fine = 0.37;
   const pipeline::MountedDresspack& mounted = mounted_of(motion, pull);
+  const std::string name = pipeline::name_among(motion.setup, static_cast<std::size_t>(pull.dresspack));
   const int segments = motion.setup.simulation.segments;
   const double length = mounted.routing.free_length / segments;
   const double decay = pull.value > 0 ? std::sqrt(mounted.dresspack.bending_stiffness / pull.value) : infinite;
   if (length <= coarse * decay) return {};
   return pipeline::warning_of(
       WarningKind::mesh, "",
-      fmt::format("simulation.segments is {}: a segment is {:.0f} mm long (limit {:.0f} mm: {:g} of the length over which a bend decays from "
-                  "a clamp under the largest pull, {:.0f} N), so that strains at the clamps are at least 13 % too small and lives about twice too long",
-                  segments, 1e3 * length, 1e3 * coarse * decay, coarse, pull.value),
+      fmt::format("simulation.segments is {}: a segment{} is {:.0f} mm long (limit {:.0f} mm: {:g} of the length over which a bend decays from "
+                  "a clamp under the largest pull, {:.0f} N {}), so that strains at the clamps are at least 13 % too small and lives there about "
+                  "twice too long or longer",
+                  segments, name.empty() ? "" : " of " + name, 1e3 * length, 1e3 * coarse * decay, coarse, pull.value, motion.moment(pull.time)),
       "a coarse mesh, or a bending stiffness that is too small",
       {{{"simulation.segments", fmt::format("{:.0f}", std::ceil(mounted.routing.free_length / (fine * decay)))}}, ": lives within a tenth"});
 }

@@ -95,6 +95,7 @@ TEST_CASE("document: usual slips in YAML are named, with their remedy") {
   for (const auto& [text, answer] : std::vector<std::pair<std::string, std::string>>{
            {"a: 1\nb:\n\tc: 2\n", "f.yaml:3:1: error: is not YAML (a tab indents this line); indent with spaces"},
            {"a: 1\nb:\n  - \tc\n  \t- d: 1: 2\n", "f.yaml:4:1: error: is not YAML (a tab indents this line)"},
+           {"a: |\n  \tb\nc: d: 1\n", "f.yaml:3:5: error: is not YAML (a second ': ' in one value"},  // the tab belongs to a text
            {"a: b: c\n", "f.yaml:1:5: error: is not YAML (a second ': ' in one value"},
            {"a: 1\n  b: 2\n", "f.yaml:2:4: error: is not YAML (a second ': ' in one value, or another indentation"},
            {"a:\n  b: 2\n c: 1\n", "f.yaml:3:2: error: is not YAML (no key of the map above: another indentation, or an item of a list); indent it as the other keys"},
