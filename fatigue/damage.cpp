@@ -143,9 +143,11 @@ class BranchTable {
  public:
   explicit BranchTable(const CyclicCurve& curve)
       : curve_(curve),
-        table_(
-            elastic_limit(curve), largest_range, [&](double range) { return curve.stress_range(range); },
-            [&](double range) { return slope(curve, curve.stress(range / 2)); }),
+        table_(elastic_limit(curve), largest_range,
+               [&](double range) {
+                 const double stress_range = curve.stress_range(range);
+                 return LogTable::Point{stress_range, slope(curve, stress_range / 2)};
+               }),
         elastic_(curve.stress_range(table_.low()) / table_.low()) {}
 
   double operator()(double range) const {
@@ -186,12 +188,10 @@ class CurveTable {
       : low_(curve(most)),
         high_(curve(fewest)),
         at_high_(2 / fewest),
-        table_(
-            low_, high_, [&](double y) { return 2 / curve.inverse(y); },
-            [&](double y) {
-              const double x = curve.inverse(y);
-              return -2 / (x * x * curve.slope(x));
-            }) {}
+        table_(low_, high_, [&](double y) {
+          const double x = curve.inverse(y);
+          return LogTable::Point{2 / x, -2 / (x * x * curve.slope(x))};
+        }) {}
   double operator()(double y) const { return y < low_ ? 0 : y >= high_ ? at_high_ : table_(y); }
   double at_high() const { return at_high_; }
   LogTable::View view() const { return table_.view(); }
@@ -268,15 +268,14 @@ struct MetalTables {
   MetalTables(const pipeline::Material& m, const pipeline::Fatigue& f, double longest)
       : life(m, f.mean_stress, f.endurance_strain, longest),
         branch(CyclicCurve(m)),
-        strain_damage(life.coffin_manson(), fewest_reversals / room(f), longest * room(f)),
-        swt_damage(life.swt(), fewest_reversals, longest) {}
+        damage(f.mean_stress == MeanStress::swt ? life.swt() : life.coffin_manson(), fewest_reversals / room(f), longest * room(f)) {}
   static double room(const pipeline::Fatigue& f) {
     return with_rule(f.mean_stress, [](auto rule) { return rule.life_room; });
   }
 
   StrainLife life;
   BranchTable branch;
-  CurveTable strain_damage, swt_damage;
+  CurveTable damage;  ///< by the curve that the rule of mean stress reads
 };
 
 /// Limits the damage of a curve with a scaled axis to the same lives as other curves.
@@ -290,20 +289,20 @@ void hand_over(const CurveTable& table, LockstepTables& to) {
 }
 
 bool WithoutMeanStress::read(const MetalTables& metal, LockstepTables& to) {
-  hand_over(metal.strain_damage, to);
+  hand_over(metal.damage, to);
   return true;
 }
 double WithoutMeanStress::damage(const MetalTables& metal, double amplitude, double, double) {
-  return metal.strain_damage(amplitude);
+  return metal.damage(amplitude);
 }
 
 bool SmithWatsonTopper::read(const MetalTables& metal, LockstepTables& to) {
-  hand_over(metal.swt_damage, to);
+  hand_over(metal.damage, to);
   to.times_stress_max = true;
   return true;
 }
 double SmithWatsonTopper::damage(const MetalTables& metal, double amplitude, double stress_max, double) {
-  return metal.swt_damage(stress_max * amplitude);
+  return metal.damage(stress_max * amplitude);
 }
 
 double Walker::damage(const MetalTables& metal, double amplitude, double stress_max, double stress_mean) {
@@ -311,13 +310,13 @@ double Walker::damage(const MetalTables& metal, double amplitude, double stress_
   const double stretch = metal.life.walker_stretch(stress_max, stress_mean);
   if (stretch < 1 / life_room || stretch > life_room)  // outside the table: solved
     return metal.life.damage({amplitude, stress_max, stress_mean});
-  return within_lives(metal.strain_damage(amplitude) / stretch, metal.life.longest());
+  return within_lives(metal.damage(amplitude) / stretch, metal.life.longest());
 }
 
 double Morrow::damage(const MetalTables& metal, double amplitude, double, double stress_mean) {
   if (stress_mean >= metal.life.fatigue_strength()) return 2 / fewest_reversals;
   const StrainLife::MorrowScale scale = metal.life.morrow_scale(stress_mean);  // (F8)
-  return within_lives(metal.strain_damage(amplitude / scale.strain) / scale.life, metal.life.longest());
+  return within_lives(metal.damage(amplitude / scale.strain) / scale.life, metal.life.longest());
 }
 
 template <class Rule>

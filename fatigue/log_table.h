@@ -19,10 +19,12 @@ class LogTable {
  public:
   static constexpr int cells_per_octave_log2 = 7;
 
+  struct Point {
+    double y = 0, slope = 0;
+  };
   /// Tabulates y and its slope over at least [low, high]. The function must be smooth on this range; the caller treats kinks and
   /// limits. Precondition: 0 < low < high, both normal numbers.
-  LogTable(double low, double high, const std::function<double(double)>& y,
-           const std::function<double(double)>& slope);
+  LogTable(double low, double high, const std::function<Point(double)>& at);
 
   /// The table as plain data, for loops that read several values at a time.
   struct View {

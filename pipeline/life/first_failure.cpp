@@ -285,26 +285,39 @@ double covariance_of(const std::vector<double>& a, const std::vector<double>& b)
   return sum / count;
 }
 
-// The residual adds to all lives and is independent of the other causes. So its Shapley effect is the variance that it adds (for
-// several dresspacks on one robot approximately), and the other causes need no sets with it.
+/// Returns the variance [decades^2] of the factor `motion`, if it multiplies all lives and is independent of the other causes; else 0.
+double apart_by_motion(const FailureModes& modes) {
+  const auto at = static_cast<Eigen::Index>(index_of(Uncertain::motion));
+  const Eigen::MatrixXd& covariance = modes.front().knowledge.covariance;
+  if (covariance.row(at).squaredNorm() != covariance(at, at) * covariance(at, at)) return 0;
+  // each dresspack on the robot has its own value
+  for (const LifeResponse& mode : modes)
+    if (mode.dresspack != modes.front().dresspack) return 0;
+  return covariance(at, at) * std::pow(std::log10(uncertain_parameters()[index_of(Uncertain::motion)].step), 2);
+}
+
+// The residual and, with one dresspack, the factor `motion` add to log10 of all lives and are independent of the other causes. So
+// their Shapley effects are the variances that they add (for several dresspacks on one robot approximately), and the other causes
+// need no sets with them.
 CauseShares shares_of(const FailureModes& modes, const std::vector<LifeSurface>& surfaces, const std::string& job) {
+  constexpr std::size_t of_motion = index_of(Uncertain::motion);
+  const double by_residual = std::pow(residual_of(modes), 2), by_motion = apart_by_motion(modes), apart = by_residual + by_motion;
   std::vector<std::size_t> causes;
   for (std::size_t cause = 0; cause < cause_count; ++cause)
-    if (is_active(modes, surfaces, cause)) causes.push_back(cause);
+    if (is_active(modes, surfaces, cause) && !(cause == of_motion && by_motion > 0)) causes.push_back(cause);
   CauseShares share{};
-  const bool residual = residual_of(modes) > 0;
-  if (causes.empty()) {
-    share[of_residual] = residual ? 1 : 0;
-    return share;
-  }
-  // Half a million lives take about 0.1 s. With 4000 samples, 1 to 2 % of the variance is random.
-  constexpr std::size_t lives_in_all = 500'000, most_samples = 4000, fewest_samples = 500;
+  // A quarter of a million lives take about 0.05 s. With 4000 samples, 1 to 2 % of the variance is random.
+  constexpr std::size_t lives_in_all = 250'000, most_samples = 4000, fewest_samples = 500;
   const std::size_t sets = std::size_t{1} << causes.size();
   const std::size_t count = std::clamp(lives_in_all / sets, fewest_samples, most_samples);
   std::vector<Samples> one = samples_of(modes, job, count), other = samples_of(modes, job, count, true);
   const std::vector<double> whole = capped(lives_of(surfaces, one, Inside::as_is));
   for (auto* samples : {&one, &other})
-    for (Samples& of_mode : *samples) of_mode.residual.clear();
+    for (Samples& of_mode : *samples) {
+      of_mode.residual.clear();
+      if (by_motion > 0)
+        for (ParameterPoint& z : of_mode.z) z[of_motion] = 0;
+    }
   const Mixed mixture(one, other, modes.front().knowledge.covariance);
   const std::vector<double> lives = capped(lives_of(surfaces, one, Inside::as_is));
   std::vector<double> explained(sets, 0.0);  // V(S), index: set of causes as bits
@@ -316,9 +329,12 @@ CauseShares shares_of(const FailureModes& modes, const std::vector<LifeSurface>&
     explained[set] =
         covariance_of(lives, all ? lives : capped(lives_of(surfaces, mixture.keeping(kept), Inside::as_is)));
   }
-  const double variance = residual ? std::max(covariance_of(whole, whole), explained.back()) : explained.back();
+  const double variance = apart > 0 ? std::max(covariance_of(whole, whole), explained.back()) : explained.back();
   if (!(variance > 0)) return share;
-  share[of_residual] = 1 - explained.back() / variance;
+  if (apart > 0) {
+    const double added = 1 - explained.back() / variance;
+    share[of_residual] = added * by_residual / apart, share[of_motion] = added * by_motion / apart;
+  }
   const double d = double(causes.size());
   for (std::size_t set = 0; set < sets; ++set) {
     const double size = double(__builtin_popcountll(set));
@@ -465,12 +481,23 @@ std::vector<FailureModes> coarser(const FailureModes& modes) {
   return all;
 }
 
-}  // namespace
-
-double residual_of(const FailureModes& modes) { return std::ranges::any_of(modes, depends_on_place) ? residual_decades : 0; }
-
-LifePercentiles error_factors(const FailureModes& modes, const std::string& job, std::size_t count,
-                              const std::vector<double>& log10_lives) {
+/// Returns the standard errors of percentiles, as factors, from the number of samples and from the interpolation and
+/// extrapolation of the response between computed lives. The square of log10 of a factor is the sum of the squares of these
+/// changes of log10 of the percentile:
+///     samples     half the way between the lives at the ranks n s -+ sqrt(n s (1 - s)), s the share (order statistics
+///                 of independent samples; a Latin hypercube is better)
+///     nodes       without one node of friction, slack or strength, each in turn. The error of a linear interpolation grows with
+///                 the square of the distance of nodes, so this is three times the error there. It counts in full,
+///                 because other intervals are as wide as the one without the node
+///     places      computed lives have the error residual_decades, too: lives at each place of the cables are longer by this, each
+///                 in turn
+///     together()  together() of friction with slack and with stiffness instead of their computed combinations; counts if other
+///                 parameters are combined in this way. Slack and stiffness, whose combinations change lives most, stay together
+/// Not included: errors beyond the outermost nodes of friction, slack and stiffness (strain/measurements.md, response and full
+/// evaluations).
+/// log10_lives: of these samples.
+LifePercentiles error_factors(const FailureModes& modes, const std::vector<Samples>& samples, const std::vector<double>& log10_lives) {
+  const std::size_t count = log10_lives.size();
   const LifePercentiles percentiles = percentiles_of(log10_lives);
   std::vector<double> sorted = log10_lives;
   std::ranges::sort(sorted);
@@ -484,7 +511,6 @@ LifePercentiles error_factors(const FailureModes& modes, const std::string& job,
     for (std::size_t i = 0; i < shares.size(); ++i)
       squares[i] += std::pow(std::min(std::log10(other[i]), LifeResponse::endless) - std::log10(percentiles[i]), 2);
   };
-  const std::vector<Samples> samples = samples_of(modes, job, count);
   for (const FailureModes& changed : coarser(modes))
     add(percentiles_of(lives_of(surfaces_of(changed), samples, Inside::as_is)));
   LifePercentiles factors{};
@@ -492,6 +518,10 @@ LifePercentiles error_factors(const FailureModes& modes, const std::string& job,
     factors[i] = std::isfinite(percentiles[i]) ? std::pow(10.0, std::sqrt(squares[i])) : std::nan("");
   return factors;
 }
+
+}  // namespace
+
+double residual_of(const FailureModes& modes) { return std::ranges::any_of(modes, depends_on_place) ? residual_decades : 0; }
 
 std::string modes_text(const FailureModes& modes) {
   return joined(mapped(modes, &LifeResponse::text), "");
@@ -614,9 +644,9 @@ FirstFailures summary_of(const FailureModes& modes, const std::string& job, std:
   summary.percentiles = percentiles_of(summary.log10_life);
   summary.glued = percentiles_of(lives_of(surfaces, samples, Inside::glued));
   summary.free = percentiles_of(lives_of(surfaces, samples, Inside::free));
-  summary.share = shares_of(modes, surfaces, job);
-  summary.error_factor = error_factors(modes, job, count, summary.log10_life);
+  summary.error_factor = error_factors(modes, samples, summary.log10_life);
   find_best_test(modes, surfaces, job, count, summary);
+  summary.share = shares_of(modes, surfaces, job);  // last, because standard_strata() keeps one number of samples
   return summary;
 }
 

@@ -50,27 +50,10 @@ struct FirstFailures {
   /// Parameter whose test (UncertainParameter::test) reduces the range of 10 .. 90 % most; std::nullopt: no test reduces it.
   std::optional<std::size_t> best_test;
   LifePercentiles after_test{};  ///< if the result of that test is the present median of the parameter
-  /// Standard error of each of `percentiles`, as a factor of at least 1; NaN: an infinite life. See error_factors().
+  /// Standard error of each of `percentiles`, as a factor of at least 1; NaN: an infinite life. Its parts: error_factors() in
+  /// first_failure.cpp.
   LifePercentiles error_factor{};
 };
-
-/// Returns the standard errors of percentiles, as factors, from the number of samples and from the interpolation and
-/// extrapolation of the response between computed lives. The square of log10 of a factor is the sum of the squares of these
-/// changes of log10 of the percentile:
-///     samples     half the way between the lives at the ranks n s -+ sqrt(n s (1 - s)), s the share (order statistics
-///                 of independent samples; a Latin hypercube is better)
-///     nodes       without one node of friction, slack or strength, each in turn. The error of a linear interpolation grows with
-///                 the square of the distance of nodes, so this is three times the error there. It counts in full,
-///                 because other intervals are as wide as the one without the node
-///     places      computed lives have the error residual_decades, too: lives at each place of the cables are longer by this, each
-///                 in turn
-///     together()  together() of friction with slack and with stiffness instead of their computed combinations; counts if other
-///                 parameters are combined in this way. Slack and stiffness, whose combinations change lives most, stay together
-/// Not included: errors beyond the outermost nodes of friction, slack and stiffness (strain/measurements.md, response and full
-/// evaluations).
-/// log10_lives: first_failures() of the same arguments.
-LifePercentiles error_factors(const FailureModes& modes, const std::string& job, std::size_t samples,
-                              const std::vector<double>& log10_lives);
 
 /// Returns the log10 lives in repeats, (sample). job: name for the random numbers of this job alone. Equal names give equal
 /// samples on every machine. Every stratum of each parameter's distribution occurs once (Latin hypercube).

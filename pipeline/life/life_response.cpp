@@ -208,8 +208,10 @@ double LifeSurface::alone(std::size_t p, const ParameterPoint& z, const Place& s
 }
 
 LifeSurface::Factors LifeSurface::factors_at(const ParameterPoint& z) {
-  const auto of = [&](Uncertain parameter) { return std::log10(uncertain_parameters()[index_of(parameter)].value(z[index_of(parameter)])); };
-  return {of(Uncertain::model), of(Uncertain::motion)};
+  // both are factors, step^z
+  static const auto step = [](Uncertain parameter) { return std::log10(uncertain_parameters()[index_of(parameter)].step); };
+  static const Factors steps{step(Uncertain::model), step(Uncertain::motion)};
+  return {steps[0] * z[index_of(Uncertain::model)], steps[1] * z[index_of(Uncertain::motion)]};
 }
 
 double LifeSurface::change(const ParameterPoint& far, const Factors& factors, Inside inside) const {

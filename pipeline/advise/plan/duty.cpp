@@ -130,8 +130,10 @@ std::array<Day, 2> PastDuty::days(Day today) const {
   };
   const std::array<Day, 2> days{day_of("from", from), day_of("to", to)};
   if (days[1] < days[0]) throw InputError(where, fmt::format("the history ends on {}, before it begins", to), "exchange the two dates");
+  if (days[0] > today)
+    throw InputError(where, fmt::format("the history begins on {}, after today, {}", from, day_text(today)), "give days that are past");
   if (days[1] > today)
-    throw InputError(where, fmt::format("the history ends after today, {}", day_text(today)), "give days that are past");
+    throw InputError(where, fmt::format("the history ends on {}, after today, {}", to, day_text(today)), fmt::format("to: {}, or an earlier day", day_text(today)));
   return days;
 }
 

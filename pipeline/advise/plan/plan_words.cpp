@@ -115,7 +115,7 @@ std::string kept_words(const Fleet& fleet, const Plan& plan) {
           "The probability of failure between two windows is above {}. A new dresspack fails as often or more often in this time",
           percent_text(plan.risk)),
       no_better);
-  add("Running on costs less, on average, than a replacement in any of these windows", costly);
+  add("To keep them costs less, on average, than to replace them in one of these windows", costly);
   return text.empty() ? text : text + "  If one of them fails, it is replaced at once.\n";
 }
 

@@ -76,6 +76,31 @@ TEST_CASE("the swing of a mounted hose widens lives, each job's by its own") {
         Approx(normal(1)).margin(sampling_error));
 }
 
+TEST_CASE("the swing has the share of its variance: apart from the others, learned together with one, of two dresspacks") {
+  const double swing = std::log10(uncertain_parameters()[motion].value(1)), a = 0.5, b = 0.3, error = 0.03;  // as above
+  LifeResponse one = straight(a, b, 0);
+  one.knowledge.covariance(motion, motion) = 1;
+  one.planned = {{5, 5, 5}};
+  const double others = a * a + b * b + model_decades * model_decades + residual_decades * residual_decades;
+  const auto share_of = [&](const FailureModes& modes) {
+    const FirstFailures lives = summary_of(modes, "job");
+    CHECK(sum(lives.share) == Approx(1).margin(1e-12));
+    return lives.share[motion];
+  };
+  CHECK(share_of({one}) == Approx(swing * swing / (others + swing * swing)).margin(error));
+  // A second dresspack that outlives the first changes nothing. It has its own swing, so sets of causes contain the swing.
+  LifeResponse beside = straight(a, b, 0, 15);
+  beside.knowledge = one.knowledge;
+  one.dresspack = "one", beside.dresspack = "beside";
+  CHECK(share_of({one, beside}) == Approx(swing * swing / (others + swing * swing)).margin(error));
+  constexpr double together = -0.6;
+  one.dresspack = "", one.knowledge.covariance(motion, static_cast<Eigen::Index>(model)) = one.knowledge.covariance(static_cast<Eigen::Index>(model), motion) = together;
+  // Of two normal causes x + y, each has half of the variance of the sum and half of the difference of what each explains alone.
+  const double sum_of_both = swing * swing + model_decades * model_decades + 2 * together * swing * model_decades;
+  const double by_swing = std::pow(swing + together * model_decades, 2), by_model = std::pow(model_decades + together * swing, 2);
+  CHECK(share_of({one}) == Approx((sum_of_both + by_swing - by_model) / 2 / (others - model_decades * model_decades + sum_of_both)).margin(error));
+}
+
 TEST_CASE("shares of causes that act together are divided between them and add up to 1") {
   // Friction has an effect only where slack is not 0: first-order shares of both would be 0.
   LifeResponse product = straight(0, 1, 0);
@@ -175,7 +200,7 @@ TEST_CASE("the error of a percentile is that of few samples where the response i
   response.planned = {{5, 5, 5}};
   constexpr std::size_t samples = 10000;
   const auto errors = [&](const LifeResponse& of) {
-    return error_factors({of}, "job", samples, first_failures({of}, "job", samples));
+    return summary_of({of}, "job", samples).error_factor;
   };
   // Error of a quantile q of s normal numbers with deviation a: a sqrt(q (1 - q) / s) / the standard normal's density.
   const LifePercentiles of_samples = errors(response);
@@ -217,8 +242,8 @@ TEST_CASE("the residual of the response is an error of computed lives and widens
   response.knowledge.covariance.setZero();
   response.knowledge.covariance(slack, slack) = 1;
   constexpr std::size_t samples = 10000;
-  const std::vector<double> lives = first_failures({response}, "job", samples);
-  const LifePercentiles percentiles = percentiles_of(lives), error = error_factors({response}, "job", samples, lives);
+  const FirstFailures summary = summary_of({response}, "job", samples);
+  const LifePercentiles &percentiles = summary.percentiles, &error = summary.error_factor;
   // The samples are normal with the variance of both.
   CHECK(std::log10(percentiles[0]) == Approx(5 - decile * std::hypot(b, residual_decades)).margin(sampling_error));
   CHECK(std::log10(percentiles[2]) == Approx(5 + decile * std::hypot(b, residual_decades)).margin(sampling_error));

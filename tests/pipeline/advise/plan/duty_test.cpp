@@ -192,7 +192,8 @@ TEST_CASE("a history by dates has the hours of its days, each at the week of its
   CHECK_THAT(refused("      - {duty: a, from: 1/5/2026, to: 2026-01-11}\n"), Catch::Contains("2026-05-01 if the day comes first"));
   CHECK_THAT(refused("      - {duty: a, from: 2026-02-30, to: 2026-03-11}\n"), Catch::Contains("'2026-02-30' is no date"));
   CHECK_THAT(refused("      - {duty: a, from: 2026-01-11, to: 2026-01-05}\n"), Catch::Contains("before it begins; exchange"));
-  CHECK_THAT(refused("      - {duty: a, from: 2026-06-01, to: 2026-07-02}\n"), Catch::Contains("after today, 2026-07-01"));
+  CHECK_THAT(refused("      - {duty: a, from: 2026-06-01, to: 2026-07-02}\n"), Catch::Contains("ends on 2026-07-02, after today, 2026-07-01; to: 2026-07-01"));
+  CHECK_THAT(refused("      - {duty: a, from: 2026-08-01, to: 2026-08-02}\n"), Catch::Contains("begins on 2026-08-01, after today, 2026-07-01; give days"));
   CHECK_THAT(refused("      - {duty: a, from: 2026-01-05, to: 2026-01-11}\n      - {duty: b, from: 2026-01-11, to: 2026-02-01}\n"),
              Catch::Contains("duties.yaml:9:9: error: the days 2026-01-11 .. 2026-02-01 overlap those of line 8"));
 }
