@@ -608,8 +608,11 @@ std::vector<double> shared_samples(const LifeResponse& mode, std::size_t paramet
 const std::vector<double>& standard_strata(std::size_t samples) {
   thread_local std::vector<double> strata;
   if (strata.size() != samples) {
-    strata.clear();
-    for (std::size_t s = 0; s < samples; ++s) strata.push_back(normal_quantile((double(s) + 0.5) / double(samples)));
+    strata.assign(samples, 0.0);
+    for (std::size_t s = 0; s < samples / 2; ++s) {
+      strata[s] = normal_quantile((double(s) + 0.5) / double(samples));
+      strata[samples - 1 - s] = -strata[s];
+    }
   }
   return strata;
 }
