@@ -488,7 +488,7 @@ constexpr const char* example_line =
 /// empty text.
 std::string meant_section(const std::string& phrase) {
   static const std::regex gauge(R"((\d+) *[x*g]? *(?:awg *(\d+)|(\d+) *awg))"),
-      other_unit(R"((\d+) *[x*g] *([\d.]+) *(?:mm)?)"),
+      other_unit(R"((\d+(?: *[x*] *\d+)?) *[x*g] *([\d.]+) *(?:mm)?)"),
       exchanged(R"((\d*\.\d+) *[x*g] *(\d+) *(?:mm2|mm\^2|mm²|qmm|sqmm|mm)?)");
   std::smatch found;
   if (std::regex_match(phrase, found, gauge)) {

@@ -86,21 +86,30 @@ bool fill(const std::vector<double>& radii, std::vector<std::size_t> parts, doub
     places[parts[0]] = {(bore + core) / 2, 0};
     return 2 * radius <= (bore - core) * (1 + touching_of_radius);
   }
+  const auto sum = [&](const auto& of) { return sum_of(parts, [&](std::size_t part) { return of(radii[part]); }); };
+  if (sum([](double r) { return r * r; }) > bore * bore - core * core) return false;  // by area
   std::stable_sort(parts.begin(), parts.end(), [&](std::size_t a, std::size_t b) { return radii[a] > radii[b]; });
   // First the thickest part is put into the middle, then more and more parts inside of the ring.
-  for (std::size_t inside = 0; inside < parts.size(); ++inside) {
+  double in_ring = sum([](double r) { return r; }), too_narrow = 0;
+  for (std::size_t inside = 0; inside < parts.size(); in_ring -= radii[parts[inside++]]) {
+    const double widest_part = radii[parts[inside]];
+    if (inside > 0 && in_ring > pi * (bore - widest_part) * (1 + touching_of_radius)) continue;  // asin(x) >= x in asked()
     const std::vector<std::size_t> within(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(inside)),
         order = spread(radii, {parts.begin() + static_cast<std::ptrdiff_t>(inside), parts.end()});
     if (order.size() < 2) break;
     const std::vector<double> ring = chosen(radii, order);
-    const double thickest = *std::max_element(ring.begin(), ring.end());
     if (inside == 0) {
       if (const auto circle = circle_of(ring, bore, core)) return place_on(*circle, radii, order, places), true;
       continue;
     }
     // A ring at the wall leaves the largest space inside. Afterwards the ring moves to the circle that its own parts need.
-    if (asked(ring, bore - thickest) > 2 * pi * (1 + touching_of_radius)) continue;
-    if (!fill(radii, within, bore - 2 * thickest, core, places)) continue;
+    if (asked(ring, bore - widest_part) > 2 * pi * (1 + touching_of_radius)) continue;
+    const double space = bore - 2 * widest_part;
+    if (space <= too_narrow) continue;  // for fewer parts
+    if (!fill(radii, within, space, core, places)) {
+      too_narrow = space;
+      continue;
+    }
     const double taken = largest_of(within, core, [&](std::size_t part) { return places[part].helix_radius + radii[part]; });
     if (const auto circle = circle_of(ring, bore, taken)) return place_on(*circle, radii, order, places), true;
   }
@@ -151,8 +160,10 @@ std::vector<AutoPart> auto_parts(const Node& components, const std::string& path
     if (given_count && given_count->text.find_first_not_of("0123456789") != std::string::npos)
       problems.add(given_count->where, fmt::format("count is '{}' (must be a whole number)", given_count->text),
                    "give the number of equal parts", key);
-    const int count = given_count ? static_cast<int>(number_of(component, "count")) : 1;
-    for (int number = 0; number < std::clamp(count, 1, 1000); ++number) parts.push_back({i, number});
+    constexpr double most = 1000;  // as describe() of a component allows
+    const double count = given_count ? number_of(component, "count") : 1;
+    if (count > most) problems.add(given_count->where, fmt::format("count is {} (must be 1 .. {:g})", given_count->text, most), "correct it", key);
+    for (int number = 0; number < static_cast<int>(std::clamp(count, 1.0, most)); ++number) parts.push_back({i, number});
   }
   return parts;
 }

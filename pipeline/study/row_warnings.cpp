@@ -57,7 +57,7 @@ std::string warning_lines(const std::vector<RankingRow>& rows) {
   std::string text;
   for (const RankingRow& row : rows)
     for (const Warning& warning : warnings_of(row))
-      if (warning.kind == WarningKind::other_values)
+      if (warning.kind == WarningKind::other_values && rows.size() > 1)
         ++at_other_values;
       else if (++count <= most_lines)
         text += lines_of(row, warning);
@@ -66,8 +66,8 @@ std::string warning_lines(const std::vector<RankingRow>& rows) {
     for (int k = 0; k < warning_kinds_count; ++k) text += lines_of_kind(rows, static_cast<WarningKind>(k));
     return text + fmt::format("{} warnings in all: {}\n", count + at_other_values, places);
   }
-  // A job's own values keep these limits, so the first warning is enough here.
-  text += lines_of_kind(rows, WarningKind::other_values);
+  // The jobs' own values keep these limits, so the first warning is enough in a study.
+  if (rows.size() > 1) text += lines_of_kind(rows, WarningKind::other_values);
   if (at_other_values > 1) text += fmt::format("{} warnings on limits at other values: {}\n", at_other_values, places);
   return text;
 }

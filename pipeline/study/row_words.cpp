@@ -93,11 +93,11 @@ std::string first_inspection_words(const RankingRow& row) {
   if (mode->mode == UnvalidatedMode::wall)
     return fmt::format("{} may crack {} after {}: inspect it there.", of, place, wall_life(*mode));
   if (mode->mode == UnvalidatedMode::abrasion)
-    return fmt::format("{} may wear through on {}, {}, after {} (10 .. 90 %, not validated): inspect it there.", of, mode->place, place,
-                       range_text(mode->hours[0], mode->hours[2]));
+    return fmt::format("{} may wear through on {}, {}, after {} (10 .. 90 %, not validated): inspect it there from {} on.", of, mode->place, place,
+                       range_text(mode->hours[0], mode->hours[2]), hours_text(mode->hours[0]));
   if (mode->mode == UnvalidatedMode::jacket)
-    return fmt::format("The jacket of {} may wear through in the hose, {}, after {} (10 .. 90 %, not validated): open the hose there.", mode->place,
-                       place, range_text(mode->hours[0], mode->hours[2]));
+    return fmt::format("The jacket of {} may wear through in the hose, {}, after {} (10 .. 90 %, not validated): open the hose there from {} on.", mode->place,
+                       place, range_text(mode->hours[0], mode->hours[2]), hours_text(mode->hours[0]));
   if (mode->mode == UnvalidatedMode::rating)
     return fmt::format("The maker's rating of {} covers only {} (10 .. 90 %, not validated): test or replace it by then.", mode->place,
                        range_text(mode->hours[0], mode->hours[2]));
@@ -112,6 +112,13 @@ std::string first_inspection_words(const RankingRow& row) {
                        mode->note);
   return fmt::format("{} may come before, {}, after {} (not validated): inspect it there.", mode->mode, place,
                      hours_text(mode->early_hours()));
+}
+
+/// Returns the hint at warnings that do not apply to the job's own values, and so do not stop a plan.
+std::string other_values_words(const RankingRow& row) {
+  return std::ranges::count(warnings_of(row), WarningKind::other_values, &Warning::kind) > 0
+             ? "With other stiffness, slack or friction some dresspacks exceed a limit (see the warnings)."
+             : "";
 }
 
 std::string inspection_words(const RankingRow& row) {
@@ -231,18 +238,18 @@ std::string action_words(const RankingRow& row) {
     return fmt::format("Do not plan with {}: {} (see the warnings).", std::isinf(hours) ? "this result" : hours_text(hours),
                        warning_kinds(row));
   if (row.worst_segment_from_tool == 0) return "No wire was evaluated.";
-  const std::string inspection = inspection_words(row), bound = bound_words(row);
+  const std::string inspection = inspection_words(row), bound = bound_words(row), others = other_values_words(row);
   const bool may_fail_before = earlier_unvalidated(row);
   if (std::isinf(hours))
     return joined_words({inspection, !may_fail_before ? "No replacement is foreseen:" : "For the wires no replacement is foreseen:",
-                         row.planned() ? "in more than 90 % of the samples no mode fails." : "no wire is damaged.", bound});
+                         row.planned() ? "in more than 90 % of the samples no mode fails." : "no wire is damaged.", bound, others});
   if (outlives_robot(row, hours))
     return joined_words({inspection,
                          fmt::format("The {} last longer than the robot ({} h).", may_fail_before ? "wires" : "evaluated parts",
                                      readable(row.robot_life_hours)),
-                         bound, row.not_evaluated.empty() ? "" : fmt::format("Not evaluated: {}.", row.not_evaluated)});
+                         bound, others, row.not_evaluated.empty() ? "" : fmt::format("Not evaluated: {}.", row.not_evaluated)});
   return joined_words({fmt::format("Plan a replacement after {} of motion ({}).", hours_text(hours), calendar_text(row.headline_months())),
-                       inspection, bound});
+                       inspection, bound, others});
 }
 
 std::string factor_words(const std::array<double, 3>& errors) {

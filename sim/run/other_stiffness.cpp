@@ -112,8 +112,8 @@ Warning beyond_warning(const pipeline::Job& job, const OtherRun& at, const Check
   cure.remedy.words += "; or " + pipeline::measurement_words(stiffness());
   return pipeline::warning_of(
       pipeline::WarningKind::other_values, "",
-      fmt::format("with {} {}; about {} of such dresspacks exceed this limit (interpolated linearly in the prior of the "
-                  "stiffness); with the job's own stiffness none does",
+      fmt::format("with {} {}; about {} of such dresspacks exceed this limit (interpolated between the simulated "
+                  "stiffnesses); with the job's own stiffness none does",
                   pipeline::value_words(stiffness(), at.z, job.simulation.stiffness_factor), check_words(motion, broken),
                   pipeline::percent_words(share)),
       cure.cause, cure.remedy);

@@ -11,6 +11,7 @@
 #include "pipeline/base/csv_rows.h"
 #include "pipeline/base/exported.h"
 #include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/warning_words.h"
@@ -179,9 +180,10 @@ class Export {
     // Without this column a default is used. So an error asks about a column that may contain the hours.
     if (!at_[hours_per_week])
       for (const CsvCell& title : titles_)
-        if (has_any(letters_of(title.text), {"week", "woche", "semana", "semaine", "settimana"}))
+        if (has_any(letters_of(title.text), {"week", "woche", "semana", "semaine", "settimana", "hour", "stunde", "hora", "heure"}))
           throw InputError(reader_.where(title), fmt::format("column '{}' may mean hours_per_week, and is not known", title.text),
-                           "name it hours_per_week, or without a word for a week if it means something else");
+                           "name it hours_per_week (of an hour counter: its hours over the weeks since installed), or without a word for "
+                           "hours or a week if it means something else");
     for (const Column needed : {robot, installed, replaced})
       if (!at_[needed])
         throw InputError(
@@ -424,6 +426,9 @@ ServiceTests read_service_tests(const ServiceRequest& request) {
   read.words = fmt::format("Columns: {}.\n{}", table.column_words(), table.job_words());
   if (std::ranges::any_of(rows, [](const Row& row) { return row.hours_per_week.has_value(); }))
     read.words += "Hours per week are those in which the job's program runs. dresslife plan counts hours of operation, with standstill.\n";
+  else
+    read.words += fmt::format("Hours per week: {}, fatigue.operating_hours_per_week of the job, because the table has no column hours_per_week.\n",
+                              joined(mapped(hours_per_week, [](const auto& of) { return fmt::format("{:g}", of.second); }), ", "));
   read.words += fmt::format("{} dresspacks: {} failed, {} were removed without a failure, {} are in use on {}.\n",
                             failed + removed + in_use, failed, removed, in_use, day_text(request.today));
   read.words += fmt::format(

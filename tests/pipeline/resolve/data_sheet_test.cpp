@@ -249,6 +249,7 @@ TEST_CASE("a data sheet's line takes the sections of shops, and proposes what ot
   const auto refused = [&](const std::string& line) { return message_of([&] { text(line); }); };
   CHECK_THAT(refused("2.5 x 4 mm2"), Catch::Contains("write '4 x 2.5 mm2': the number of cores comes first"));
   CHECK_THAT(refused("4 x 2.5 mm"), Catch::Contains("write '4 x 2.5 mm2'"));
+  CHECK_THAT(refused("4x2x0.25 shielded"), Catch::Contains("write '4x2 x 0.25 mm2'"));
   CHECK_THAT(refused("4x2.5 + 2x(2x0.5) mm2"), Catch::Contains("a data sheet has one kind of cores: write '4x2.5 mm2' alone"));
   CHECK_THAT(refused("32 x 0.1 mm"), Catch::Contains("or 'wire 0.1 mm' if those are the wires of a core"));
   CHECK_THAT(refused("4G AWG 14"), Catch::Contains("write '4 x 2.08 mm2' for AWG 14"));

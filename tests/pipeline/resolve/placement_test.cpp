@@ -136,6 +136,11 @@ TEST_CASE("placement: what cannot be placed is refused with what would do") {
                        Contains("hose.yaml:7:"));
   const double enough = std::stod(full.substr(full.find("inner_diameter_mm: ") + 19));
   CHECK(refusal(hose_text(fmt::format("inner_diameter_mm: {}\n", enough), cable("lead", 12, 5))) == "");
+  // The search for inner rings must not try every number of parts in every ring: that takes hours for 40 parts.
+  for (const int count : {40, 200, 1000})
+    CHECK_THAT(refusal(hose_text("inner_diameter_mm: 42\n", cable("lead", count, 5.7) + cable("thin", 7, 2))),
+               Contains(fmt::format("{} parts with place: auto do not fit", count + 7)));
+  CHECK_THAT(refusal(hose_text("inner_diameter_mm: 42\n", cable("lead", 200'000'000, 5.7))), Contains("count is 200000000 (must be 1 .. 1000)"));
   CHECK_THAT(
       refusal(hose_text("", cable("lead", 3, 5))),
       Contains("place: auto is given, and the hose's bore is not") && Contains("give inner_diameter_mm") &&

@@ -365,7 +365,7 @@ TEST_CASE("ranking: abrasion has words and columns, and the first action names i
                                   job_with(scratch, "broken", broken)});
   CHECK(rows[2].failure.find("attribute 'unvalidated_modes' is no list of modes") != std::string::npos);
   CHECK(action_words(rows[0]) ==
-        "The hose may wear through on link_4, 0.13 m from the tool, after 300 .. 51,000 h (10 .. 90 %, not validated): inspect it there. "
+        "The hose may wear through on link_4, 0.13 m from the tool, after 300 .. 51,000 h (10 .. 90 %, not validated): inspect it there from 300 h on. "
         "The wires last longer than the robot (40,000 h). Not evaluated: water hose, kinks.");
   const std::string both = ranking_table(rows, 200);
   CHECK_THAT(both, Catch::Contains("*over 40,000") && Catch::Contains("* Plan with this number, and inspect for modes that are not validated. rubs, abrasion: from 300 h."));
@@ -409,7 +409,7 @@ TEST_CASE("ranking: jacket wear has words and columns, and the first action name
   const auto rows = read_ranking({job_with(scratch, "rubs", rubs)});
   CHECK(action_words(rows[0]) ==
         "The jacket of signal cable 3 may wear through in the hose, 0.13 m from the tool, after 300 .. 51,000 h (10 .. 90 %, not "
-        "validated): open the hose there. The wires last longer than the robot (40,000 h). Not evaluated: water hose, kinks.");
+        "validated): open the hose there from 300 h on. The wires last longer than the robot (40,000 h). Not evaluated: water hose, kinks.");
   UnvalidatedMode abraded = worn;
   abraded.mode = UnvalidatedMode::abrasion, abraded.place = "link_4", abraded.hours = {25000, 90000, 1e6};
   UnvalidatedMode late = worn;
@@ -417,7 +417,7 @@ TEST_CASE("ranking: jacket wear has words and columns, and the first action name
   SampleLife both = rubs;
   both.unvalidated = unvalidated_text({abraded, worn, late});
   const auto listed = read_ranking({job_with(scratch, "both", both)});
-  CHECK_THAT(action_words(listed[0]), Catch::Contains("51,000 h (10 .. 90 %, not validated): open the hose there. Inspect also for: abrasion: from "
+  CHECK_THAT(action_words(listed[0]), Catch::Contains("51,000 h (10 .. 90 %, not validated): open the hose there from 300 h on. Inspect also for: abrasion: from "
                                                       "25,000 h. The wires last longer"));
   CHECK(marks_note(listed) ==
         "* Plan with this number, and inspect for modes that are not validated. jacket wear: from 300 h, abrasion: from 25,000 h.");
@@ -943,6 +943,12 @@ TEST_CASE("ranking: warnings are counted, told in full, and each kind says wheth
   CHECK(warning_lines(other) ==
         "2 jobs, limits at other values: warned: warning: twist with half the slack\n"
         "2 warnings on limits at other values: in ranking.csv, in the report and in the jobs' logs\n");
+  // Of one job each is printed, and its first paragraph points to them.
+  other[0].warnings->push_back({WarningKind::other_values, "", "bent with half the stiffness"});
+  CHECK(warning_lines({other[0]}) == "warned: warning: twist with half the slack\nwarned: warning: bent with half the stiffness\n");
+  CHECK_THAT(action_words(other[0]), Catch::Contains("With other stiffness, slack or friction some dresspacks exceed a limit (see the warnings)."));
+  other[0].warnings.emplace();
+  CHECK_THAT(action_words(other[0]), !Catch::Contains("see the warnings"));
 }
 
 }  // namespace dresslife::pipeline

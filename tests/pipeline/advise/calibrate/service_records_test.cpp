@@ -133,6 +133,8 @@ TEST_CASE("service records: what cannot be used is refused at its place, with a 
        "there twice"},
       {"robot,installed,replaced,hours in a week\nA,2024-02-03,,20\n",
        "plant.csv:1:26: error: column 'hours in a week' may mean hours_per_week, and is not known", "name it hours_per_week"},
+      {"robot,installed,replaced,Operating Hours\nA,2024-02-03,,20\n",
+       "plant.csv:1:26: error: column 'Operating Hours' may mean hours_per_week", "of an hour counter: its hours over the weeks"},
       {"robot,installed,replaced,hours_per_week\nA,2024-02-03,,200\n",
        "plant.csv:2:15: error: hours_per_week is '200'", "hours"}};
   // A dresspack that failed on its first day ends where the next begins: no overlap. A repeated row counts once.
