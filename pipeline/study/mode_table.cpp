@@ -71,7 +71,7 @@ std::string cell_legend(const std::vector<ModeLine>& lines) {
   bool unknown = false, none = false;
   for (const ModeLine& line : lines)
     for (const std::string& cell : line.hours) unknown = unknown || cell == "-", none = none || cell == "none";
-  return std::string(none ? " none: fewer dresspacks fail by this mode." : "") + (unknown ? " -: not predicted." : "");
+  return std::string(none ? " none: so many dresspacks never fail by this mode." : "") + (unknown ? " -: not predicted." : "");
 }
 
 std::vector<ModeLine> mode_lines(const RankingRow& row) {

@@ -46,7 +46,7 @@ std::string error_words(const RankingRow& row) {
   std::string words = factor_words(row.planned_errors);
   if (words.empty()) return "";
   words = fmt::format(
-      "These hours also have a numerical error, because lives jump with stiffness, slack and friction, and only some of these are "
+      "These hours also have a numerical error, because lives change abruptly with stiffness, slack and friction, and only some values of these are "
       "computed: {}.",
       words);
   if (row.moving_places > 0)

@@ -788,7 +788,7 @@ TEST_CASE("ranking: what the calculation leaves uncertain stands beside the caus
   RankingRow row = read_ranking({job_with(scratch, "one", living(12000))}).front();
   row.planned_errors = {5.754, std::nan(""), 58.0};
   CHECK_THAT(uncertainty_words(row),
-             Catch::Contains("numerical error, because lives jump with stiffness, slack and friction, and only some of these are computed: "
+             Catch::Contains("numerical error, because lives change abruptly with stiffness, slack and friction, and only some values of these are computed: "
                              "the 10 % value by a factor of 5.8, the 90 % value by a factor of 58.") && !Catch::Contains("50 % value"));
   CHECK_THAT(uncertainty_words(row), !Catch::Contains("come to a cycle"));
   row.moving_places = 3;
@@ -885,9 +885,9 @@ TEST_CASE("ranking: the legend explains none and - where a line has them") {
   line.hours = {"300", "over 40,000", "over 40,000"};
   CHECK(cell_legend({line}).empty());
   line.hours[2] = "none";
-  CHECK(cell_legend({line}) == " none: fewer dresspacks fail by this mode.");
+  CHECK(cell_legend({line}) == " none: so many dresspacks never fail by this mode.");
   line.hours[0] = "-";
-  CHECK(cell_legend({line}) == " none: fewer dresspacks fail by this mode. -: not predicted.");
+  CHECK(cell_legend({line}) == " none: so many dresspacks never fail by this mode. -: not predicted.");
 }
 
 }  // namespace
