@@ -303,7 +303,7 @@ void CablePaths::lead_in(std::span<CablePaths* const> all, const SpanBlock& bloc
       of->shorten_loose(t);
       of->feed_slack(block.step);
     }
-    LooseCables::advance(cables, own.front()->nodes_, block.step);
+    LooseCables::advance(cables, own.front()->nodes_, block.step, t + 1 == samples);
   }
 }
 

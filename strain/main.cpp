@@ -6,8 +6,17 @@
 #include "strain/memory.h"
 #include "strain/strain_file.h"
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 int main(int argc, char** argv) {
   using namespace dresslife;
+#ifdef __GLIBC__
+  // Blocks of the motion are allocated and freed again and again. The system would clear their pages each time.
+  constexpr int kept_bytes = 32 << 20;  // largest value that glibc accepts for the first limit
+  mallopt(M_MMAP_THRESHOLD, kept_bytes), mallopt(M_TRIM_THRESHOLD, 8 * kept_bytes);
+#endif
   const pipeline::StageInfo info{
       .program = "dresslife-strain",
       .purpose = "Computes the strain of every wire of a dresspack while the robot moves.",

@@ -9,7 +9,7 @@ namespace dresslife::strain {
 using Eigen::Vector2d;
 
 CableLines::CableLines(const std::vector<LooseCable>& cables, const HoseLine& hose, double rest_curvature,
-                       bool presses)
+                       Use use)
     : cables_(cables),
       rest_curvature_(rest_curvature) {
   assert(!cables.empty());
@@ -21,7 +21,7 @@ CableLines::CableLines(const std::vector<LooseCable>& cables, const HoseLine& ho
   lane_rows_.assign(OfLane::lane_rows, batch_.lanes);
   for (LaneRows& rows : node_rows_) rows.assign(2 * batch_.nodes, batch_.lanes);
   gain_.assign(batch_.nodes - 1, batch_.lanes);
-  if (presses) press_.assign(batch_.nodes, batch_.lanes);
+  if (use == Use::presses) press_.assign(batch_.nodes, batch_.lanes);
   iterations_.assign(count(), 0);
   for (std::size_t k = 0; k < batch_.lanes; ++k) lay(k);
   for (std::size_t k = 0; k < count(); ++k) tensions_.emplace_back(cables_[k], laid_gain(k));
@@ -43,6 +43,7 @@ CableLines::CableLines(const std::vector<LooseCable>& cables, const HoseLine& ho
     for (std::size_t i = 0; i < batch_.nodes; ++i) put(path, i, k, vector(laid, i, k));
   }
   point_at_rows();
+  if (use == Use::turns) batch_.place = nullptr;
 }
 
 void CableLines::point_at_rows() {
@@ -60,7 +61,7 @@ void CableLines::point_at_rows() {
   batch_.strain = lanes(strain), batch_.tension = lanes(tension), batch_.stiffness = lanes(stiffness);
   batch_.rest = nodes(rest), batch_.place = nodes(place_at), batch_.before = nodes(before),
   batch_.path = nodes(path);
-  batch_.slope = nodes(slope), batch_.gained = nodes(gained), batch_.press = press_.data();
+  batch_.press = press_.data();
 }
 
 Vector2d CableLines::vector(OfNode row, std::size_t node, std::size_t k) const {
@@ -129,15 +130,20 @@ LineAnswer CableLines::answer() {
           &of_lane(mean_gain, 0),   &of_lane(bent_sum, 0),         &of_lane(missed_sum, 0)};
 }
 
-void CableLines::carry(std::size_t k, const std::vector<double>& turned) {
-  const double radius = Vector2d(cables_[k].place[0], cables_[k].place[1]).norm();
-  for (std::size_t i = 0; i < batch_.nodes; ++i)
-    put(stretch, i, k, vector(stretch, i, k) + Vector2d(radius * turned[i], 0));
+void CableLines::carry(const std::vector<double>& radii, const std::vector<double>& turned) {
+  for (std::size_t i = 0; i < batch_.nodes; ++i) {
+    double* const around_hose = node_rows_[stretch].data() + 2 * i * batch_.lanes;
+    for (std::size_t k = 0; k < radii.size(); ++k) around_hose[k] += radii[k] * turned[i];
+  }
 }
 
-void CableLines::take_friction(std::size_t k, const CableLines& from, std::size_t number) {
+void CableLines::take_friction(const CableLines& from, std::span<const std::size_t> numbers) {
   for (const OfNode row : {stretch, most_friction})
-    for (std::size_t i = 0; i < batch_.nodes; ++i) put(row, i, k, from.vector(row, i, number));
+    for (std::size_t i = 0; i < batch_.nodes; ++i) {
+      double* const to = node_rows_[row].data() + 2 * i * batch_.lanes;
+      const double* const other = from.node_rows_[row].data() + 2 * i * from.batch_.lanes;
+      for (std::size_t k = 0; k < numbers.size(); ++k) to[k] = other[numbers[k]];
+    }
 }
 
 void CableLines::begin(const HoseLine& hose, std::span<const Frame* const> frames, double time,
@@ -156,13 +162,23 @@ void CableLines::begin(const HoseLine& hose, std::span<const Frame* const> frame
     of_lane(most_strain, k) = pulled.most_strain();
     of_lane(least_strain, k) = -pulled.most_strain();
   }
-  for (std::size_t i = 0; i < batch_.nodes; ++i)
-    for (std::size_t k = 0; k < batch_.lanes; ++k) put(frame_at, i, k, (*frames[k < count() ? k : 0])[i]);
+  const auto frame_of_lane = [&](std::size_t k) { return frames[k < count() ? k : 0]; };
+  for (std::size_t k = 0, end = 0; k < batch_.lanes; k = end) {  // neighbours in one frame
+    while (end < batch_.lanes && frame_of_lane(end) == frame_of_lane(k)) ++end;
+    for (std::size_t i = 0; i < batch_.nodes; ++i)
+      for (std::size_t d = 0; d < 2; ++d)
+        std::fill_n(node_rows_[frame_at].data() + (2 * i + d) * batch_.lanes + k, end - k,
+                    (*frame_of_lane(k))[i][static_cast<Eigen::Index>(d)]);
+  }
   loose_kernels().begin(batch_, memory(), frame_of(hose), goes_on ? time : 0);
 }
 
-void CableLines::place(const Frame& frame, bool with_slope) {
-  loose_kernels().place(batch_, node_rows_[laid].data(), frame.front().data(), with_slope);
+void CableLines::place(const Frame& frame) {
+  loose_kernels().place(batch_, node_rows_[laid].data(), frame.front().data());
+}
+
+void CableLines::turn(const Frame& frame, const std::vector<double>& turned, const RingSystem& system) {
+  loose_kernels().turn(batch_, node_rows_[laid].data(), frame.front().data(), turned.data(), system);
 }
 
 Vector2d bend_at_clamp(const Vector2d& at_clamp, const Vector2d& next, const Vector2d& after_next, double q) {
@@ -198,23 +214,21 @@ void CableLines::put_state(const HoseLine& hose, std::size_t k, CableState& stat
   }
 }
 
-void CableLines::end(const HoseLine& hose, double time, std::span<CableState> states) {
-  if (!states.empty() || std::ranges::any_of(tensions_, &CableTension::slips)) follow(hose, states);
-  const bool dry = std::ranges::any_of(cables_, [](const LooseCable& cable) { return cable.friction > 0; });
-  if (dry && !states.empty()) loose_kernels().rub(batch_);
-  loose_kernels().end(batch_, memory(), time);
-}
-
-/// Stores the slip of the cables, and their states. Cables that cannot slip have nothing to store without states.
-void CableLines::follow(const HoseLine& hose, std::span<CableState> states) {
-  loose_kernels().follow(batch_, answer());
-  if (!states.empty()) loose_kernels().put_states(batch_, memory(), frame_of(hose), answer());
-  for (std::size_t k = 0; k < count(); ++k) {
+/// Cables that cannot slip have nothing to store without states.
+void CableLines::end(const HoseLine& hose, double time, std::span<CableState> states, bool whole) {
+  const bool slip = std::ranges::any_of(tensions_, &CableTension::slips);
+  if (!states.empty() || slip) loose_kernels().follow(batch_, answer());
+  for (std::size_t k = 0; k < count() && (!states.empty() || slip); ++k) {
     const double settled = tensions_[k].settle(of_lane(mean_gain, k));
-    if (states.empty()) continue;
-    states[k].strain = settled;
-    put_state(hose, k, states[k]);
+    if (!states.empty()) states[k].strain = settled;
   }
+  if (!states.empty()) {
+    const bool dry = std::ranges::any_of(cables_, [](const LooseCable& cable) { return cable.friction > 0; });
+    loose_kernels().put_states(batch_, memory(), frame_of(hose), answer());
+    if (dry || (whole && batch_.press)) loose_kernels().rub(batch_);
+    for (std::size_t k = 0; k < count() && whole; ++k) put_state(hose, k, states[k]);
+  }
+  loose_kernels().end(batch_, memory(), time);
 }
 
 }  // namespace dresslife::strain

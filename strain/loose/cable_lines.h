@@ -40,8 +40,10 @@ Eigen::Vector2d bend_at_clamp(const Eigen::Vector2d& at_clamp, const Eigen::Vect
 
 class CableLines {
  public:
-  /// hose: gives the number of nodes. presses: end() computes the contact forces.
-  CableLines(const std::vector<LooseCable>& cables, const HoseLine& hose, double rest_curvature, bool presses);
+  /// What the cables are for: their rest with or without the contact forces, or the turn of their ring.
+  enum class Use { presses, rests, turns };
+  /// hose: gives the number of nodes.
+  CableLines(const std::vector<LooseCable>& cables, const HoseLine& hose, double rest_curvature, Use use);
   CableLines(CableLines&&) = default;  // the addresses of the rows are kept
 
   std::size_t count() const { return cables_.size(); }
@@ -55,16 +57,19 @@ class CableLines {
   /// the frame at the previous sample, else at its previous position in the frame. rubs: dry friction acts; false while the
   /// cables are installed.
   void begin(const HoseLine& hose, std::span<const Frame* const> frames, double step, bool goes_on, bool rubs);
-  /// Moves cable k with its frame over its support. turned: of the frame against the hose since the previous sample (node) [rad].
-  void carry(std::size_t k, const std::vector<double>& turned);
-  /// Takes over the friction of a cable of another object with the same number of nodes.
-  void take_friction(std::size_t k, const CableLines& from, std::size_t number);
+  /// Moves cables with their ring over their support. radii: of their places (lane), 0: not in the ring [m]. turned: of the ring
+  /// against the hose since the previous sample (node) [rad].
+  void carry(const std::vector<double>& radii, const std::vector<double>& turned);
+  /// Takes over the friction around the hose. numbers: of the cables in another object with the same number of nodes.
+  void take_friction(const CableLines& from, std::span<const std::size_t> numbers);
   /// Returns the numbers of iterations to rest (cable), written by LineBench.
   std::span<std::int32_t> iterations() { return iterations_; }
-  /// Moves the cables of a ring (strain/loose/ring.h) to their places in a frame. with_slope: see LooseKernels.
-  void place(const Frame& frame, bool with_slope);
-  /// Ends the sample. step: as in begin(); 0: there was no previous sample. states: (cable); empty: not needed.
-  void end(const HoseLine& hose, double step, std::span<CableState> states);
+  /// Move the cables of a ring (strain/loose/ring.h) to their places in a frame, see LooseKernels.
+  void place(const Frame& frame);
+  void turn(const Frame& frame, const std::vector<double>& turned, const RingSystem& system);
+  /// Ends the sample. step: as in begin(); 0: there was no previous sample. states: (cable); empty: not needed. whole: fills them,
+  /// otherwise only their strain.
+  void end(const HoseLine& hose, double step, std::span<CableState> states, bool whole);
 
   /// Returns the length of its path beyond the hose's axis at installation, over the length of the axis.
   double laid_in(std::size_t k) const { return tensions_[k].laid_in(); }
@@ -91,13 +96,12 @@ class CableLines {
   };
   /// Rows with a vector per node, each (node, 2, lane): of LineBatch, LineMemory and LineAnswer.
   enum OfNode {
-    laid, laid_bent, rest, path, place_at, before, velocity, slope, gained, frame_at, bends, hose_bends, offset, around,
+    laid, laid_bent, rest, path, place_at, before, velocity, frame_at, bends, hose_bends, offset, around,
     stretch, most_friction, node_rows
   };
 
   void lay(std::size_t k);
   double laid_gain(std::size_t k) const;
-  void follow(const HoseLine& hose, std::span<CableState> states);
   void put_state(const HoseLine& hose, std::size_t k, CableState& state) const;
   LineMemory memory();
   LineAnswer answer();

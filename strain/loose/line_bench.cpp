@@ -16,9 +16,8 @@ struct OfNode {
   double* LineBatch::*row;
   std::size_t numbers;
 };
-constexpr OfNode on_the_way[] = {{&LineBatch::slope, 2}, {&LineBatch::gained, 2}, {&LineBatch::solved, 2},
-                                 {&LineBatch::soft, 2},  {&LineBatch::step, 2},   {&LineBatch::from, 2},
-                                 {&LineBatch::going, 2}, {&LineBatch::blocks, 3}, {&LineBatch::factors, 7}};
+constexpr OfNode on_the_way[] = {{&LineBatch::solved, 2}, {&LineBatch::soft, 2},  {&LineBatch::step, 2},
+                                 {&LineBatch::from, 2},   {&LineBatch::going, 2}, {&LineBatch::factors, 7}};
 
 }  // namespace
 

@@ -35,7 +35,7 @@ std::size_t elements_of_waves(const std::vector<LooseCable>& cables, double leng
 LooseCables::LooseCables(const std::vector<LooseCable>& cables, const LooseSettings& settings)
     : settings_(settings),
       hose_(settings.length, settings.elements),
-      lines_(cables, hose_, settings.rest_curvature, settings.presses),
+      lines_(cables, hose_, settings.rest_curvature, settings.presses ? CableLines::Use::presses : CableLines::Use::rests),
       bench_(hose_),
       frames_(cables.size(), &hose_.turn),
       states_(cables.size()) {
@@ -49,6 +49,9 @@ LooseCables::LooseCables(const std::vector<LooseCable>& cables, const LooseSetti
     std::vector<LooseCable> lying;
     for (const std::size_t k : of_ring) lying.push_back(cables[k]);
     Ring& ring = rings_.emplace_back(lying, hose_, settings.rest_curvature);
+    of_ring_.push_back(of_ring);
+    std::vector<double>& radii = radii_.emplace_back(cables.size(), 0.0);
+    for (const std::size_t k : of_ring) radii[k] = std::hypot(cables[k].place[0], cables[k].place[1]);
     for (std::size_t place = 0; place < of_ring.size(); ++place) {
       frames_[of_ring[place]] = &ring.frame();
       in_ring_[of_ring[place]] = {&ring, place};
@@ -165,7 +168,7 @@ void LooseCables::advance(std::span<const HoseNode> hose, double step) {
   advance({&alone, 1}, hose, step);
 }
 
-void LooseCables::advance(std::span<LooseCables* const> all, std::span<const HoseNode> hose, double step) {
+void LooseCables::advance(std::span<LooseCables* const> all, std::span<const HoseNode> hose, double step, bool seen) {
   HoseLine& first = all.front()->hose_;
   first.take(hose, all.front()->settings_.rest_curvature);
   for (LooseCables* const of : all) {
@@ -173,7 +176,7 @@ void LooseCables::advance(std::span<LooseCables* const> all, std::span<const Hos
     if (of != all.front()) of->hose_ = first;
     if (!of->started_) of->settle(step);
   }
-  relax(all, step);
+  relax(all, step, seen);
   for (LooseCables* const of : all) of->restless_ += !of->rests_;
 }
 
@@ -186,7 +189,7 @@ void LooseCables::settle(double step) {
     const double share = std::min(1.0, static_cast<double>(round) / feeding_rounds);
     feed_in(share);
     LooseCables* const alone = this;
-    relax({&alone, 1}, step);
+    relax({&alone, 1}, step, true);
     started_ = false;  // no velocity is carried over from round to round
     double sum = 0;
     for (const CableState& state : states_) sum += std::abs(state.strain);
@@ -195,7 +198,7 @@ void LooseCables::settle(double step) {
   }
 }
 
-void LooseCables::relax(std::span<LooseCables* const> all, double step) {
+void LooseCables::relax(std::span<LooseCables* const> all, double step, bool seen) {
   std::vector<CableLines*> lines;
   for (LooseCables* const of : all) {
     of->begin(step);
@@ -204,25 +207,25 @@ void LooseCables::relax(std::span<LooseCables* const> all, double step) {
   const bool started = all.front()->started_;
   const int most = started ? CableLines::most_iterations : CableLines::most_iterations_at_start;
   all.front()->bench_.relax(lines, most);
-  for (LooseCables* const of : all) of->end(step, most);
+  for (LooseCables* const of : all) of->end(step, most, seen);
 }
 
 void LooseCables::begin(double step) {
   rests_ = true;
-  for (std::size_t k = 0; k < cables(); ++k)
-    if (const auto& [ring, number] = in_ring_[k]; ring) ring->take_friction(number, lines_, k);
-  for (Ring& ring : rings_) rests_ &= ring.advance(hose_, step, started_);
-  for (std::size_t k = 0; k < cables(); ++k)
-    if (const Ring* const ring = in_ring_[k].first) lines_.carry(k, ring->last_turn());
+  for (std::size_t ring = 0; ring < rings_.size(); ++ring) {
+    rings_[ring].take_friction(lines_, of_ring_[ring]);
+    rests_ &= rings_[ring].advance(hose_, step, started_);
+    lines_.carry(radii_[ring], rings_[ring].last_turn());
+  }
   lines_.begin(hose_, frames_, step, started_, started_);
 }
 
-void LooseCables::end(double step, int most) {
+void LooseCables::end(double step, int most, bool seen) {
   for (const std::int32_t took : lines_.iterations()) {
     iterations_ += static_cast<std::size_t>(took);
     rests_ &= took < most;
   }
-  lines_.end(hose_, started_ ? step : 0, states_);
+  lines_.end(hose_, started_ ? step : 0, states_, seen);
   started_ = true;
 }
 

@@ -74,8 +74,9 @@ class LooseCables {
   /// Moves all cables to their rests at the next sample. hose: (node). step: since the previous sample [s].
   void advance(std::span<const HoseNode> hose, double step);
   /// Advances several objects that share only the hose and its samples. Side by side they need less time; the results are those
-  /// of separate calls.
-  static void advance(std::span<LooseCables* const> all, std::span<const HoseNode> hose, double step);
+  /// of separate calls. seen: updates state(), and with it what apart(), changed() and begin_repeat() use; false in samples after
+  /// which nothing of this is asked for.
+  static void advance(std::span<LooseCables* const> all, std::span<const HoseNode> hose, double step, bool seen = true);
 
   const CableState& state(std::size_t cable) const { return states_[cable]; }
   /// Begins the repeat that counts. Call at the end of a lead-in.
@@ -103,9 +104,9 @@ class LooseCables {
 
  private:
   void settle(double step);
-  static void relax(std::span<LooseCables* const> all, double step);
+  static void relax(std::span<LooseCables* const> all, double step, bool seen);
   void begin(double step);
-  void end(double step, int most);
+  void end(double step, int most, bool seen);
 
   LooseSettings settings_;
   HoseLine hose_;
@@ -114,6 +115,8 @@ class LooseCables {
   std::vector<Ring> rings_;
   std::vector<const CableLines::Frame*> frames_;        ///< (cable) of its place
   std::vector<std::pair<Ring*, std::size_t>> in_ring_;  ///< (cable) its ring and its number there; null: no ring
+  std::vector<std::vector<std::size_t>> of_ring_;       ///< (ring) its cables
+  std::vector<std::vector<double>> radii_;              ///< (ring, cable) of their places; 0: not in the ring [m]
   std::vector<CableState> states_;
   std::vector<std::vector<double>> begun_;  ///< (cable, node) curvature at begin_repeat() [1/m]
   std::size_t restless_ = 0, iterations_ = 0;

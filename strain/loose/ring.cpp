@@ -40,16 +40,18 @@ std::size_t negative_eigenvalues(const Eigen::MatrixXd& matrix) {
   return static_cast<std::size_t>((matrix.ldlt().vectorD().array() < 0).count());
 }
 
-void substitute(const std::vector<double>& bands, std::size_t rows, Eigen::VectorXd& right) {
+/// Solve L y = r and L^T x = y with the factors L D L^T.
+void eliminate(const std::vector<double>& bands, std::size_t rows, Eigen::VectorXd& right) {
   const auto at = [&](std::size_t i) -> double& { return right[static_cast<Eigen::Index>(i)]; };
   for (std::size_t i = 0; i < rows; ++i)
     for (std::size_t below = 1; below <= 2 && i + below < rows; ++below)
       at(i + below) -= bands[3 * i + below] * at(i);
-  for (std::size_t i = rows; i-- > 0;) {
-    at(i) /= bands[3 * i];
+}
+void substitute(const std::vector<double>& bands, std::size_t rows, Eigen::VectorXd& right) {
+  const auto at = [&](std::size_t i) -> double& { return right[static_cast<Eigen::Index>(i)]; };
+  for (std::size_t i = rows; i-- > 0;)
     for (std::size_t below = 1; below <= 2 && i + below < rows; ++below)
       at(i) -= bands[3 * i + below] * at(i + below);
-  }
 }
 
 }  // namespace
@@ -75,7 +77,7 @@ std::vector<double> random_winding(std::size_t nodes, double length, double radi
 }
 
 Ring::Ring(const std::vector<LooseCable>& cables, const HoseLine& hose, double rest_curvature)
-    : lines_(cables, hose, rest_curvature, false),
+    : lines_(cables, hose, rest_curvature, CableLines::Use::turns),
       psi_(hose.nodes(), 0.0),
       velocity_(psi_),
       before_(psi_),
@@ -85,8 +87,10 @@ Ring::Ring(const std::vector<LooseCable>& cables, const HoseLine& hose, double r
       slope_(hose.nodes() - 2) {
   const std::size_t lanes = lines_.batch().lanes;
   gained_.assign(slope_.size(), lanes);
-  solved_.assign(slope_.size(), lanes);
+  eliminated_.assign(slope_.size(), lanes);
+  scaled_.assign(slope_.size(), lanes);
   products_.assign(lanes, lanes);
+  sums_.assign(4 * slope_.size(), most_lanes);
 }
 
 void Ring::go_on_from(const Ring& other) {
@@ -94,13 +98,15 @@ void Ring::go_on_from(const Ring& other) {
   lines_.go_on_from(other.lines_);
 }
 
-/// Moves every cable to its place at the turn psi_. with_slope: also computes the slope there.
+/// Moves every cable to its place at the turn psi_. with_slope: also computes slope and matrix there.
 void Ring::place(const HoseLine& hose, bool with_slope) {
   for (std::size_t i = 1; i + 1 < hose.nodes(); ++i)
     frame_[i] = turned(hose.turn[i], {std::cos(psi_[i]), std::sin(psi_[i])});
   for (std::size_t i = 0; i < psi_.size(); ++i) turned_[i] = psi_[i] - before_[i];
-  lines_.place(frame_, with_slope);
-  if (with_slope) loose_kernels().slope_of_turn(lines_.batch(), turned_.data(), slope_.data());
+  if (with_slope)
+    lines_.turn(frame_, turned_, {slope_.data(), bands_.data(), gained_.data(), sums_.data()});
+  else
+    lines_.place(frame_);
 }
 
 /// Returns Newton's step to the minimum of the local quadratic, with a shift that makes it positive definite. Precondition:
@@ -108,15 +114,13 @@ void Ring::place(const HoseLine& hose, bool with_slope) {
 Eigen::VectorXd Ring::newton_turn() {
   const std::size_t rows = slope_.size(), lanes = lines_.batch().lanes;
   const auto count = static_cast<Eigen::Index>(lines_.count());
-  loose_kernels().assemble_turn(lines_.batch(), turned_.data(), {bands_.data(), gained_.data()});
   using Table = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const auto by_cable = [&](const LaneRows& of, std::size_t in_all) {
     return Eigen::Map<const Table, 0, Eigen::OuterStride<>>(
         of.data(), static_cast<Eigen::Index>(in_all), count,
         Eigen::OuterStride<>(static_cast<Eigen::Index>(lanes)));
   };
-  const auto gained = by_cable(gained_, rows), solved = by_cable(solved_, rows);
-  const auto soft = by_cable(products_, lines_.count());
+  const auto scaled = by_cable(scaled_, rows), soft = by_cable(products_, lines_.count());
   Eigen::VectorXd root(count);  // square roots of each cable's stiffness against its mean gain
   for (Eigen::Index k = 0; k < count; ++k)
     root[k] = std::sqrt(lines_.batch().stiffness[k] / lines_.batch().length);
@@ -128,17 +132,19 @@ Eigen::VectorXd Ring::newton_turn() {
     const std::size_t negative = factor(factors_, rows);
     if (negative > lines_.count()) continue;
     Eigen::VectorXd turn = -Eigen::Map<const Eigen::VectorXd>(slope_.data(), static_cast<Eigen::Index>(rows));
-    substitute(factors_, rows, turn);
-    std::copy(gained_.data(), gained_.data() + rows * lanes, solved_.data());
-    loose_kernels().substitute_turn(factors_.data(), rows, lines_.batch(), solved_.data());
-    loose_kernels().products(gained_.data(), solved_.data(), rows, lines_.batch(), products_.data());
+    eliminate(factors_, rows, turn);
+    std::copy(gained_.data(), gained_.data() + rows * lanes, eliminated_.data());
+    loose_kernels().eliminate_turn(factors_.data(), rows, lines_.batch(), eliminated_.data(), scaled_.data());
+    loose_kernels().products(eliminated_.data(), scaled_.data(), rows, lines_.batch(), products_.data());
     const Eigen::MatrixXd whole = Eigen::MatrixXd::Identity(count, count) +
                                   root.asDiagonal() * (soft + soft.transpose()) / 2 * root.asDiagonal();
     // The whole matrix is positive definite if the numbers of negative eigenvalues of the two are equal (Haynsworth).
     if (negative > 0 && negative_eigenvalues(whole) != negative) continue;
     const Eigen::VectorXd pulled =
-        root.cwiseProduct(whole.partialPivLu().solve(root.cwiseProduct(gained.transpose() * turn)));
-    turn -= solved * pulled;
+        root.cwiseProduct(whole.partialPivLu().solve(root.cwiseProduct(scaled.transpose() * turn)));
+    for (std::size_t i = 0; i < rows; ++i) turn[static_cast<Eigen::Index>(i)] /= factors_[3 * i];
+    turn -= scaled * pulled;
+    substitute(factors_, rows, turn);
     return turn;
   }
 }
@@ -172,7 +178,7 @@ bool Ring::advance(const HoseLine& hose, double time, bool goes_on) {
   bool rests = false;
   for (int k = 0; k < most_iterations && !rests; ++k) rests = step(hose) < at_rest;
   for (std::size_t i = 0; goes_on && i < psi_.size(); ++i) velocity_[i] = (psi_[i] - before_[i]) / time;
-  lines_.end(hose, 0, {});
+  lines_.end(hose, 0, {}, false);
   return rests;
 }
 

@@ -36,10 +36,8 @@ class Ring {
   /// Turns to the minimum at the next sample. time: since the previous sample [s]. goes_on: starts with the turning rate of the
   /// previous sample. Returns whether the ring has come to rest.
   bool advance(const HoseLine& hose, double time, bool goes_on);
-  /// Takes over the friction of cable `cable` of all, which is cable `number` of the ring. Call before advance().
-  void take_friction(std::size_t number, const CableLines& from, std::size_t cable) {
-    lines_.take_friction(number, from, cable);
-  }
+  /// Takes over the friction of its cables. numbers: their numbers among all. Call before advance().
+  void take_friction(const CableLines& from, std::span<const std::size_t> numbers) { lines_.take_friction(from, numbers); }
   /// Returns the turn against the hose in the last advance() (node) [rad].
   const std::vector<double>& last_turn() const { return turned_; }
   /// Returns cosine and sine of phi + psi (node): the frame in which the places of its cables are constant.
@@ -55,9 +53,9 @@ class Ring {
   std::vector<double> before_, turned_;  ///< (node) psi_ at the previous sample, change since then
   std::vector<Eigen::Vector2d> frame_;
   std::vector<double> bands_, factors_;  ///< (row, 3) diagonal and its two neighbours; row: an inner node
-  LaneRows gained_, solved_,
-      products_;               ///< (row, lane) mean gains of the cables, and solutions for them; (lane, lane)
-  std::vector<double> slope_;  ///< (row) of the sum of the energies at the last place()
+  /// (row, lane) mean gains of the cables, y of L y = gains, y/D; (lane, lane); scratch memory, see RingSystem.
+  LaneRows gained_, eliminated_, scaled_, products_, sums_;
+  std::vector<double> slope_;  ///< (row) of the sum of the energies at the last place() with the slope
 };
 
 }  // namespace dresslife::strain

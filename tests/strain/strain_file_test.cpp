@@ -459,8 +459,9 @@ TEST_CASE("a motion without samples or a dresspack without wires is refused in w
 TEST_CASE("less and more friction on the hose are variations, whose strains are nearer to a job with that friction than to their own job") {
   const Scratch scratch;
   write_motion(scratch / "motion.h5");
+  // With 3 % of slack the places of the cable depend on rounding: other instruction sets gave other ones.
   std::string text = replaced(pipeline::sample_job, "helix_radius_mm: 18.45\n",
-                              "helix_radius_mm: 18.45\n      slack_percent: 3\n      friction_coefficient: 0.3\n"
+                              "helix_radius_mm: 18.45\n      slack_percent: 1\n      friction_coefficient: 0.3\n"
                               "      radial_line_load_N_per_m: 60\n");
   text = replaced(text, "count: 3", "count: 1");  // one cable has no other starts
   text = replaced(text, "  damping_time_ms: 10\n", "  damping_time_ms: 10\n  inner_diameter_mm: 52\n");

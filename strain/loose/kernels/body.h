@@ -84,19 +84,16 @@ struct Lines {
   Pair sideways(const Pair& path, const Pair& offset) const;
   template <class Use>
   void walk(const Use& use) const;
-  void slopes() const;
   struct Touch;
   void contacts(std::size_t node, Touch& touch) const;
   void rub(std::size_t node, Touch& touch) const;
-  void put_press() const;
   void put_friction() const;
   struct Elimination;
-  struct TurnFriction;
-  void eliminate(const Pack& shift, Pack& negative, Pack& there) const;
-  void substitute() const;
+  Pack eliminate(Elimination& elimination, bool searches) const;
   void judge(int most, const Pack& there, Progress& progress) const;
-  void newton_step(const Pack& negative, Progress& progress) const;
-  void go(Progress& progress) const;
+  DoubleMask newton_step(const Elimination& done, Progress& progress) const;
+  Pack substitute(const DoubleMask& steps, const Pack& back) const;
+  void go(const DoubleMask& steps, Progress& progress) const;
   void round(int most, Progress& progress) const;
 };
 
@@ -204,7 +201,8 @@ inline void Lines::rub(std::size_t node, Touch& touch) const {
   touch.add_friction(out, stretch.y + dot(out, moved), stick, most.y);
 }
 
-/// Moves the points where cables stick: the displacement from them is at most that at the largest friction, before and now.
+/// Moves the points where cables stick: the displacement from them is at most that at the largest friction, before and now. Stores
+/// the contact forces if the batch has `press`.
 inline void Lines::put_friction() const {
   const Pack stick = at(of.stick, first), zero(0.0);
   const Pack friction = at(of.friction, first), load = at(of.line_load, first);
@@ -224,15 +222,7 @@ inline void Lines::put_friction() const {
          held(stretch.y + dot(out, moved), before.y, most.y)},
         of.stretch, i);
     put(most, of.most_friction, i);
-  }
-}
-
-/// Stores the contact forces of cables at their present positions.
-inline void Lines::put_press() const {
-  for (std::size_t i = 1; i + 1 < of.nodes; ++i) {
-    Touch touch;
-    contacts(i, touch);
-    store(touch.press, of.press + i * of.lanes + first);
+    if (of.press) store(touch.press, of.press + i * of.lanes + first);
   }
 }
 
@@ -265,21 +255,15 @@ inline void Lines::walk(const Use& use) const {
   }
 }
 
-/// Stores gain and slope without contact.
-inline void Lines::slopes() const {
-  walk([&](std::size_t i, const Pair& gained, const Pair& slope) {
-    put(gained, of.gained, i);
-    put(slope, of.slope, i);
-  });
-}
-
 constexpr int sides = 2;  // right-hand sides of the linear system: -slope and gained
 
 /// Forward elimination, node after node: L D L^T of bending, tension, drag and contact, and its right-hand sides.
 /// Stores for each node the inverse of its pivot, this inverse times the coupling to the next node, and the right-hand sides
-/// times the inverse. negative: number of negative pivots, which is that of negative eigenvalues (Sylvester).
+/// times the inverse. negative: number of negative pivots, which is that of negative eigenvalues (Sylvester). With the inverse
+/// matrix M, products are known before the back substitution, because r M s is the sum of the nodes' products in the elimination.
 struct Lines::Elimination {
   Pack tied2, tie, diagonal, negative;
+  Pack downhill, along, soft;  // slope M slope, -slope M gained, gained M gained
   // result of eliminating the previous nodes: for the diagonals of this node and the next, and for the coupling
   Pack here_xx, here_xy, here_yy, next_xx, next_xy, next_yy;
   Pack xx, xy, yx, yy;
@@ -291,11 +275,11 @@ struct Lines::Elimination {
     const Pack pulled = at(of.tension, k) * Pack(1 / h);
     tie = -4.0 * tied2 - pulled;
     diagonal = 6.0 * tied2 + 2.0 * pulled + Pack(h) * (at(of.drag, k) + shift);
-    negative = here_xx = here_xy = here_yy = next_xx = next_xy = next_yy = Pack(0.0);
+    negative = downhill = along = soft = Pack(0.0);
+    here_xx = here_xy = here_yy = next_xx = next_xy = next_yy = Pack(0.0);
     xx = xy = yx = yy = Pack(0.0);
     for (int s = 0; s < sides; ++s) here[s] = next[s] = {Pack(0.0), Pack(0.0)};
   }
-
   inline void add(const Lines& lines, std::size_t i, const Touch& touch, const Pair (&right)[sides]) {
     const LineBatch& of = lines.of;
     const std::size_t last = of.nodes - 1, lanes = of.lanes;
@@ -322,67 +306,74 @@ struct Lines::Elimination {
     next_xx = far * ixx, next_xy = far * ixy, next_yy = far * iyy;
     xx = -(tied2 * f_xx), xy = -(tied2 * f_yx), yx = -(tied2 * f_xy), yy = -(tied2 * f_yy);
     double* const solution[sides] = {of.solved, of.soft};
+    Pair y[sides], x[sides];
     for (int s = 0; s < sides; ++s) {
-      const Pair y = right[s] - here[s];
-      const Pair x{ixx * y.x + ixy * y.y, ixy * y.x + iyy * y.y};
-      lines.put(x, solution[s], i);
-      here[s] = next[s] + Pair{f_xx * y.x + f_yx * y.y, f_xy * y.x + f_yy * y.y};
-      next[s] = tied2 * x;
+      y[s] = right[s] - here[s];
+      x[s] = {ixx * y[s].x + ixy * y[s].y, ixy * y[s].x + iyy * y[s].y};
+      lines.put(x[s], solution[s], i);
+      here[s] = next[s] + Pair{f_xx * y[s].x + f_yx * y[s].y, f_xy * y[s].x + f_yy * y[s].y};
+      next[s] = tied2 * x[s];
     }
+    downhill += dot(y[0], x[0]);
+    along += dot(y[1], x[0]);
+    soft += dot(y[1], x[1]);
   }
 };
 
-/// Computes the slope of the energy at each inner node, with contact, and eliminates along the cable. shift: added stiffness per
-/// length. there: slope along the last step.
-inline void Lines::eliminate(const Pack& shift, Pack& negative, Pack& there) const {
-  Elimination elimination(of, first, shift);
-  Pack along(0.0);
+/// Computes the slope of the energy at each inner node, with contact, and eliminates along the cable. Returns the slope along the
+/// last step if `searches`, else 0.
+inline Pack Lines::eliminate(Elimination& elimination, bool searches) const {
+  Pack there(0.0);
   const Pack h(of.spacing);
   walk([&](std::size_t i, const Pair& gained, const Pair& without_contact) {
     Touch touch;
     contacts(i, touch);
     rub(i, touch);
     const Pair slope = without_contact + h * touch.slope;
-    put(gained, of.gained, i);
-    put(slope, of.slope, i);
-    along += dot(slope, pair(of.going, i));
+    if (searches) there += dot(slope, pair(of.going, i));
     elimination.add(*this, i, touch, {{-slope.x, -slope.y}, gained});
   });
-  negative = elimination.negative;
-  there = along;
+  return there;
 }
 
-/// Back substitution for the right-hand sides -slope and gained; the solutions are `solved` and `soft`.
-inline void Lines::substitute() const {
+/// Back substitution: `step` becomes the solution for -slope minus `back` times that for gained, in the lanes of `steps`. Returns
+/// the square of the largest movement of a node.
+inline Pack Lines::substitute(const DoubleMask& steps, const Pack& back) const {
   const std::size_t last = of.nodes - 1, lanes = of.lanes;
-  double* const solution[sides] = {of.solved, of.soft};
   const Pack tied2 = at(of.bending_stiffness, first) * Pack(1 / (of.spacing * of.spacing * of.spacing));
-  Pair here[sides], next[sides];  // of the two nodes behind
-  for (int s = 0; s < sides; ++s) here[s] = next[s] = {Pack(0.0), Pack(0.0)};
+  Pack largest(0.0);
+  Pair near{largest, largest}, after = near;  // of the two nodes behind
   for (std::size_t i = last - 1; i > 0; --i) {
     const double* const f = of.factors + 7 * i * lanes + first;
     const Pack ixx = load<Pack>(f), ixy = load<Pack>(f + lanes), iyy = load<Pack>(f + 2 * lanes);
     const Pack exx = load<Pack>(f + 3 * lanes), exy = load<Pack>(f + 4 * lanes);
     const Pack eyx = load<Pack>(f + 5 * lanes), eyy = load<Pack>(f + 6 * lanes);
-    for (int s = 0; s < sides; ++s) {
-      const Pair near = here[s], far = tied2 * next[s], y = pair(solution[s], i);
-      const Pair x = y - Pair{ixx * far.x + ixy * far.y, ixy * far.x + iyy * far.y} -
-                     Pair{exx * near.x + exy * near.y, eyx * near.x + eyy * near.y};
-      put(x, solution[s], i);
-      next[s] = near;
-      here[s] = x;
-    }
+    const Pair far = tied2 * after, y = pair(of.solved, i) - back * pair(of.soft, i);
+    const Pair x = y - Pair{ixx * far.x + ixy * far.y, ixy * far.x + iyy * far.y} -
+                   Pair{exx * near.x + exy * near.y, eyx * near.x + eyy * near.y};
+    put(select(steps, x, pair(of.step, i)), of.step, i);
+    largest = larger(dot(x, x), largest);
+    after = near;
+    near = x;
   }
+  return largest;
 }
+
+/// Returns the lanes whose step is taken as a whole.
+inline DoubleMask whole_steps(const Progress& progress) {
+  return at_least(Pack(whole_step), load<Pack>(progress.largest)) &
+         at_least(Pack(static_cast<double>(most_whole_steps)), load<Pack>(progress.took));
+}
+
+/// Returns whether any cable tries a step of which it may take a share.
+inline bool any_searches(const Progress& progress) { return bits(set(progress.trying)) & ~bits(whole_steps(progress)); }
 
 /// Decides for cables that try a step: accept its share, try a shorter one, or give up.
 inline void Lines::judge(int most, const Pack& there, Progress& progress) const {
   const Pack zero(0.0);
   const Pack down = load<Pack>(progress.down), share = load<Pack>(progress.share), tries = load<Pack>(progress.tries);
-  const DoubleMask whole = at_least(Pack(whole_step), load<Pack>(progress.largest)) &
-                           at_least(Pack(static_cast<double>(most_whole_steps)), load<Pack>(progress.took));
   const DoubleMask good =
-      whole | at_least(-0.5 * down, there) | at_least(tries, Pack(static_cast<double>(most_tries)));
+      whole_steps(progress) | at_least(-0.5 * down, there) | at_least(tries, Pack(static_cast<double>(most_tries)));
   const DoubleMask ends =
       set(progress.trying) & good & at_least(load<Pack>(progress.took), Pack(static_cast<double>(most)));
   const Pack shorter = smaller(larger(-down / (there - down), Pack(0.1)), Pack(0.7));
@@ -393,55 +384,44 @@ inline void Lines::judge(int most, const Pack& there, Progress& progress) const 
 }
 
 /// Computes the step to the minimum of the local quadratic, for cables that do not try one. If the quadratic is not positive
-/// definite, the next attempt adds more stiffness.
-inline void Lines::newton_step(const Pack& negative, Progress& progress) const {
-  const std::size_t last = of.nodes - 1;
+/// definite, the next attempt adds more stiffness. Returns the lanes with a new step.
+inline DoubleMask Lines::newton_step(const Elimination& done, Progress& progress) const {
   const Pack zero(0.0), one(1.0);
-  Pack along(0.0), soft(0.0), down(0.0), largest(0.0);
-  for (std::size_t i = 1; i < last; ++i) {
-    const Pair gained = pair(of.gained, i);
-    along += dot(gained, pair(of.solved, i));
-    soft += dot(gained, pair(of.soft, i));
-  }
   const Pack shift = load<Pack>(progress.shift), shifts = load<Pack>(progress.shifts);
-  const Pack spring = at(of.stiffness, first) / Pack(of.length), whole = 1.0 + spring * soft;
+  const Pack spring = at(of.stiffness, first) / Pack(of.length), whole = 1.0 + spring * done.soft;
   // The whole matrix is positive definite if its eigenvalues with and without the rank-one part agree (Haynsworth).
   const DoubleMask positive =
-      (equal(negative, zero) & greater(whole, zero)) | (equal(negative, one) & at_least(zero, whole));
+      (equal(done.negative, zero) & greater(whole, zero)) | (equal(done.negative, one) & at_least(zero, whole));
   const DoubleMask wants = set(progress.busy) & equal(load<Pack>(progress.trying), zero);
   const DoubleMask steps = wants & (positive | at_least(shifts, Pack(static_cast<double>(most_shifts - 1))));
   const Pack larger_shift = simd::select(equal(shift, zero), Pack(first_shift), 4.0 * shift);
   store(simd::select(steps, zero, simd::select(wants, larger_shift, shift)), progress.shift);
   store(simd::select(steps, zero, simd::select(wants, shifts + 1.0, shifts)), progress.shifts);
-  const Pack back = spring * along / whole;
-  for (std::size_t i = 1; i < last; ++i) {
-    const Pair way = pair(of.solved, i) - back * pair(of.soft, i);
-    put(select(steps, way, pair(of.step, i)), of.step, i);
-    put(select(steps, pair(of.path, i), pair(of.from, i)), of.from, i);
-    down += dot(pair(of.slope, i), way);
-    largest = larger(dot(way, way), largest);
-  }
+  const Pack back = spring * done.along / whole, largest = square_root(substitute(steps, back));
   const auto begin = [&](const Pack& value, double* of_lanes) {
     store(simd::select(steps, value, load<Pack>(of_lanes)), of_lanes);
   };
-  largest = square_root(largest);
-  begin(down, progress.down);
+  begin(back * done.along - done.downhill, progress.down);
   begin(largest, progress.largest);
   begin(smaller(Pack(longest_step) / largest, one), progress.share);
   begin(one, progress.trying);
   begin(one, progress.tries);
   begin(load<Pack>(progress.took) + one, progress.took);
+  return steps;
 }
 
-/// Sets path to `from` plus `share` of the step; a cable with a short step rests there. A node in contact with a round wall moves
-/// in polar coordinates about the wall's centre, because a straight movement would press it in by the square of its length.
-/// going: direction of movement of each node at its new position.
-inline void Lines::go(Progress& progress) const {
+/// Moves the path by `share` of the step; a cable with a short step rests there. A node in contact with a round wall moves in polar
+/// coordinates about the wall's centre, because a straight movement would press it in by the square of its length. steps: lanes
+/// with a new step. Stores what a search along the step needs: `from`, where it begins, and `going`, the direction of movement
+/// of each node at its new position.
+inline void Lines::go(const DoubleMask& steps, Progress& progress) const {
   const Pack share = load<Pack>(progress.share), zero(0.0);
   const DoubleMask moves = set(progress.trying);
+  const bool searches = any_searches(progress);
   const Pack play = at(of.play, first), far = at(of.farthest, first), near = at(of.nearest, first);
   for (std::size_t i = 1; i + 1 < of.nodes; ++i) {
-    const Pair from = pair(of.from, i), step = pair(of.step, i), place = pair(of.place, i);
+    const Pair at_first = pair(of.path, i), step = pair(of.step, i), place = pair(of.place, i);
+    const Pair from = searches ? select(steps, at_first, pair(of.from, i)) : at_first;
     const Pair offset = from - place;
     const DoubleMask on_play = greater(dot(offset, offset), play * play);
     const Pair centre = select(on_play, place, {zero, zero}), arm = from - centre;
@@ -450,19 +430,20 @@ inline void Lines::go(Progress& progress) const {
         (on_play | at_least(reach2, far * far) | at_least(near * near, reach2)) & greater(reach2, zero) & moves;
     Pair path = from + share * step, going = step;
     if (bits(round)) {
-      const Pack reach = square_root(reach2), per_reach = 1.0 / reach;
-      const Pair out = per_reach * arm, across{-out.y, out.x};
-      const Pack rise = dot(out, step), turn = dot(across, step) * per_reach;
-      // turn by 2 atan(half), equal to the angle up to the third power, without sine and cosine
-      const Pack half = 0.5 * share * turn, scale = 1.0 / (1.0 + half * half);
-      const Pack cosine = (1.0 - half * half) * scale, sine = 2.0 * half * scale;
-      const Pair now{out.x * cosine - out.y * sine, out.x * sine + out.y * cosine};
-      const Pair turned{across.x * cosine - across.y * sine, across.x * sine + across.y * cosine};
-      const Pack far_out = reach + share * rise;
-      path = select(round, centre + far_out * now, path);
-      going = select(round, rise * now + (far_out * turn * scale) * turned, going);
+      // rise, turn: of the step, over the distance from the centre. The turn is by 2 atan(half), half = share turn/2, equal to the
+      // angle up to the third power, without sine and cosine. One division gives 1/reach2 and 1/(1 + half^2).
+      const Pair across{-arm.y, arm.x};
+      const Pack side = 0.5 * share * dot(across, step), reach4 = reach2 * reach2, sum = reach4 + side * side;
+      const Pack inverse = 1.0 / (reach2 * sum), per_reach2 = sum * inverse, scale = reach4 * (reach2 * inverse);
+      const Pack rise = per_reach2 * dot(arm, step), turn = per_reach2 * dot(across, step), half = side * per_reach2;
+      const Pack cosine = (1.0 - half * half) * scale, sine = 2.0 * half * scale, stretch = 1.0 + share * rise;
+      const Pair now{arm.x * cosine - arm.y * sine, arm.x * sine + arm.y * cosine};
+      path = select(round, centre + stretch * now, path);
+      if (searches) going = select(round, rise * now + (stretch * turn * scale) * Pair{-now.y, now.x}, going);
     }
-    put(select(moves, path, pair(of.path, i)), of.path, i);
+    put(select(moves, path, at_first), of.path, i);
+    if (!searches) continue;
+    put(from, of.from, i);
     put(going, of.going, i);
   }
   const DoubleMask rests = moves & greater(Pack(at_rest), load<Pack>(progress.largest));
@@ -472,13 +453,11 @@ inline void Lines::go(Progress& progress) const {
 
 /// Does one iteration for each cable: the slope of the energy, then a step of Newton's method or a shorter share of the last one.
 __attribute__((flatten)) void Lines::round(int most, Progress& progress) const {
-  Pack negative, there;
   answer();
-  eliminate(load<Pack>(progress.shift), negative, there);
+  Elimination elimination(of, first, load<Pack>(progress.shift));
+  const Pack there = eliminate(elimination, any_searches(progress));
   judge(most, there, progress);
-  substitute();
-  newton_step(negative, progress);
-  go(progress);
+  go(newton_step(elimination, progress), progress);
 }
 
 /// Copies `rows` numbers of a cable from one batch to another.
@@ -558,14 +537,17 @@ void begin(const LineBatch& batch, const LineMemory& memory, const HoseFrame& ho
     for (std::size_t k = 0; k < batch.cables; k += pack_size) {
       const Lines lines{batch, k};
       const Pair frame = lines.pair(memory.frame, i), at = lines.pair(batch.path, i);
-      const Pair place = turned(lines.pair(memory.laid, i), frame);
+      const Pair place = turned(lines.pair(memory.laid, i), frame), before = turned(at, frame);
+      const bool clamped = i == 0 || i == last;
       lines.put(Lines::same(hose.rest, i) + turned(lines.pair(memory.laid_bent, i), Lines::same(hose.turn, i)),
                 batch.rest, i);
-      lines.put(place, batch.place, i);
-      const Pair before = turned(at, frame), offset = before - place;
       lines.put(before, batch.before, i);
-      lines.put(lines.sideways(before, offset), batch.around, i);
-      const bool clamped = i == 0 || i == last;
+      if (!batch.place) {
+        if (clamped) lines.put(place, batch.path, i);
+        continue;
+      }
+      lines.put(place, batch.place, i);
+      lines.put(lines.sideways(before, before - place), batch.around, i);
       const Pair path = ahead == 0 ? at : gone_on(at, Pack(ahead) * lines.pair(memory.velocity, i));
       lines.put(clamped ? place : turned(path, frame), batch.path, i);
     }
@@ -617,7 +599,6 @@ void put_states(const LineBatch& batch, const LineMemory& memory, const HoseFram
     }
     store(at(answer.bent, k) + bent, answer.bent + k);
     store(at(answer.missed, k) + missed / Pack(144.0), answer.missed + k);
-    if (batch.press) lines.put_press();
   }
 }
 
@@ -638,97 +619,68 @@ void end(const LineBatch& batch, const LineMemory& memory, double time) {
 
 // ---- rings ------------------------------------------------------------------------------------------------
 
-void place(const LineBatch& batch, const double* laid, const double* frame, bool with_slope) {
+void place(const LineBatch& batch, const double* laid, const double* frame) {
   for (std::size_t k = 0; k < batch.cables; k += pack_size) {
     const Lines lines{batch, k};
-    for (std::size_t i = 1; i + 1 < batch.nodes; ++i) {
-      const Pair by = Lines::same(frame, i), a0 = lines.pair(laid, i);
-      lines.put(turned(a0, by), batch.path, i);
-    }
-    if (!with_slope) continue;
-    lines.answer();
-    lines.slopes();
+    for (std::size_t i = 1; i + 1 < batch.nodes; ++i)
+      lines.put(turned(lines.pair(laid, i), Lines::same(frame, i)), batch.path, i);
   }
 }
 
 /// Returns the direction of a cable's movement when its ring turns.
 inline Pair across(const Pair& path) { return {-path.y, path.x}; }
 
-/// Returns moment and stiffness of a cable's friction against its ring's turn, per length.
-struct Lines::TurnFriction {
-  Pack moment, stiffness;
-
-  inline TurnFriction(const Lines& lines, std::size_t node, double turned) {
-    const LineBatch& of = lines.of;
-    const Pack radius = length(lines.pair(of.path, node)), stick = at(of.stick, lines.first);
-    const Pack most = lines.pair(of.most_friction, node).x;
-    const Pack held = stick * (lines.pair(of.stretch, node).x + radius * Pack(turned));
-    const Pack force = smaller(larger(held, -most), most);
-    moment = radius * force;
-    stiffness = simd::select(equal(held, force), radius * radius * stick, Pack(0.0));
-  }
-};
-
-void slope_of_turn(const LineBatch& batch, const double* turned, double* slope) {
-  for (std::size_t i = 1; i + 1 < batch.nodes; ++i) {
-    Pack sum(0.0);
-    for (std::size_t k = 0; k < batch.cables; k += pack_size) {
-      const Lines lines{batch, k};
-      const Pack friction = Pack(batch.spacing) * Lines::TurnFriction(lines, i, turned[i]).moment;
-      sum += at(batch.counts, k) *
-             (dot(lines.pair(batch.slope, i), across(lines.pair(batch.path, i))) + friction);
-    }
-    slope[i - 1] = sum_of_lanes(sum);
-  }
-}
-
-void assemble_turn(const LineBatch& batch, const double* turned, const RingSystem& system) {
+void turn(const LineBatch& batch, const double* laid, const double* frame, const double* turned, const RingSystem& system) {
+  place(batch, laid, frame);
   const std::size_t last = batch.nodes - 1, lanes = batch.lanes;
   const double h = batch.spacing;
-  for (std::size_t i = 1; i < last; ++i) {
-    const bool at_clamp = i == 1 || i + 1 == last;
-    Pack own(0.0), next(0.0), after(0.0);
-    for (std::size_t k = 0; k < batch.cables; k += pack_size) {
-      const Lines lines{batch, k};
-      const Pack counts = at(batch.counts, k), pulled = at(batch.tension, k) * Pack(1 / h);
-      const Pack bending = at(batch.bending_stiffness, k) * Pack(1 / (h * h * h));
-      const Pair A = lines.pair(batch.path, i), slope = lines.pair(batch.slope, i);
-      const Pack diagonal = (at_clamp ? 7.0 : 6.0) * bending + 2.0 * pulled + Pack(h) * at(batch.drag, k);
-      const Pack friction = Pack(h) * Lines::TurnFriction(lines, i, turned[i]).stiffness;
-      own += counts * (diagonal * dot(A, A) - dot(slope, A) + friction);
-      if (i + 1 < last) next += counts * (4.0 * bending + pulled) * dot(A, lines.pair(batch.path, i + 1));
-      if (i + 2 < last) after += counts * bending * dot(A, lines.pair(batch.path, i + 2));
-      store(Pack(counts * dot(lines.pair(batch.gained, i), across(A))),
-            system.table + (i - 1) * lanes + k);
-    }
-    double* const row = system.bands + 3 * (i - 1);
-    row[0] = sum_of_lanes(own);
-    row[1] = -sum_of_lanes(next);
-    row[2] = sum_of_lanes(after);
+  for (std::size_t k = 0; k < batch.cables; k += pack_size) {
+    const Lines lines{batch, k};
+    lines.answer();
+    const Pack zero(0.0), counts = at(batch.counts, k), pulled = at(batch.tension, k) * Pack(1 / h);
+    const Pack bending = at(batch.bending_stiffness, k) * Pack(1 / (h * h * h));
+    const Pack tie = 4.0 * bending + pulled, inside = 2.0 * pulled + Pack(h) * at(batch.drag, k);
+    const Pack per_radius = at(batch.per_radius, k), stick = at(batch.stick, k);
+    const Pack radius = simd::select(greater(per_radius, zero), 1.0 / per_radius, zero);
+    const bool is_first = k == 0, is_last = k + pack_size >= batch.cables;
+    lines.walk([&](std::size_t i, const Pair& gained, const Pair& slope) {
+      const bool at_clamp = i == 1 || i + 1 == last;
+      const Pair A = lines.pair(batch.path, i), way = across(A);
+      // friction against the turn
+      const Pack most = lines.pair(batch.most_friction, i).x;
+      const Pack held = stick * (lines.pair(batch.stretch, i).x + radius * Pack(turned[i]));
+      const Pack force = smaller(larger(held, -most), most);
+      const Pack stiffness = simd::select(equal(held, force), radius * radius * stick, zero);
+      const Pack diagonal = (at_clamp ? 7.0 : 6.0) * bending + inside;
+      Pack sums[] = {dot(slope, way) + Pack(h) * radius * force,
+                     diagonal * dot(A, A) - dot(slope, A) + Pack(h) * stiffness, zero, zero};
+      if (i + 1 < last) sums[2] = -(tie * dot(A, lines.pair(batch.path, i + 1)));
+      if (i + 2 < last) sums[3] = bending * dot(A, lines.pair(batch.path, i + 2));
+      double* const kept = system.sums + 4 * (i - 1) * most_lanes;
+      for (std::size_t v = 0; v < 4; ++v) {
+        const Pack sum = is_first ? counts * sums[v] : load<Pack>(kept + v * most_lanes) + counts * sums[v];
+        if (!is_last)
+          store(sum, kept + v * most_lanes);
+        else
+          (v == 0 ? system.slope[i - 1] : system.bands[3 * (i - 1) + v - 1]) = sum_of_lanes(sum);
+      }
+      store(Pack(counts * dot(gained, way)), system.table + (i - 1) * lanes + k);
+    });
   }
 }
 
-void substitute_turn(const double* bands, std::size_t rows, const LineBatch& batch, double* table) {
+void eliminate_turn(const double* bands, std::size_t rows, const LineBatch& batch, double* table, double* scaled) {
   const std::size_t lanes = batch.lanes;
   for (std::size_t k = 0; k < batch.cables; k += pack_size) {
     Pack before(0.0), before2(0.0);  // of the two previous rows
     for (std::size_t i = 0; i < rows; ++i) {
-      double* const at_row = table + i * lanes + k;
-      Pack x = load<Pack>(at_row);
+      Pack x = load<Pack>(table + i * lanes + k);
       if (i > 0) x -= Pack(bands[3 * (i - 1) + 1]) * before;
       if (i > 1) x -= Pack(bands[3 * (i - 2) + 2]) * before2;
-      store(x, at_row);
+      store(x, table + i * lanes + k);
+      store(x / Pack(bands[3 * i]), scaled + i * lanes + k);
       before2 = before;
       before = x;
-    }
-    Pack after(0.0), after2(0.0);
-    for (std::size_t i = rows; i-- > 0;) {
-      double* const at_row = table + i * lanes + k;
-      const Pack x = load<Pack>(at_row) / Pack(bands[3 * i]) - Pack(bands[3 * i + 1]) * after -
-                     Pack(bands[3 * i + 2]) * after2;
-      store(x, at_row);
-      after2 = after;
-      after = x;
     }
   }
 }
@@ -750,7 +702,7 @@ void products(const double* a, const double* b, std::size_t rows, const LineBatc
 }  // namespace
 
 extern const LooseKernels set;
-const LooseKernels set{relax, begin, follow, put_states, rub, end, place, assemble_turn, slope_of_turn, substitute_turn, products};
+const LooseKernels set{relax, begin, follow, put_states, rub, end, place, turn, eliminate_turn, products};
 
 }  // namespace DRESSLIFE_MACHINE_KERNELS
 }  // namespace dresslife::strain

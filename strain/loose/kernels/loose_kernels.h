@@ -32,7 +32,7 @@ struct LineBatch {
   double* counts = nullptr;            ///< 1: a cable, 0: a spare lane
 
   double* rest = nullptr;                      ///< (node, 2, lane) K0 plus the curvature of its place in it [1/m]
-  double *place = nullptr, *before = nullptr;  ///< (node, 2, lane) A0, A_before [m]
+  double *place = nullptr, *before = nullptr;  ///< (node, 2, lane) A0; null: a ring's cables, which stay at A0. A_before [m]
   double* path = nullptr;                      ///< (node, 2, lane) A [m]
   /// Dry friction, (node, 2, lane): direction around the hose; displacement from the points where the cable sticks, around the
   /// hose and outward, at A_before [m]; largest forces in these directions [N/m].
@@ -40,11 +40,10 @@ struct LineBatch {
 
   double *strain = nullptr, *tension = nullptr, *stiffness = nullptr;  ///< (lane) [1], [N], [N]
   double* press = nullptr;                                             ///< (node, lane) [N/m]; null: not needed
-  double *slope = nullptr, *gained = nullptr;                          ///< (node, 2, lane)
 
   // Scratch memory of the bench.
   double *solved = nullptr, *soft = nullptr, *step = nullptr, *from = nullptr, *going = nullptr;  ///< (node, 2, lane)
-  double *blocks = nullptr, *factors = nullptr;  ///< (node, 3, lane), (node, 7, lane)
+  double* factors = nullptr;  ///< (node, 7, lane)
 };
 
 /// Data that cables keep from sample to sample in addition to their batch, each (node, 2, lane).
@@ -87,9 +86,11 @@ struct WaitingCable {
 
 constexpr std::size_t bench_lanes = most_lanes;  ///< lanes of the bench
 
-/// The linear system of a ring's turn: bands (row, 3) and gains of each cable (row, lane); row: an inner node.
+/// A ring's turn: slope of the sum of the energies (row), matrix of the turn without the cables' stretch (row, 3 bands), gains of
+/// each cable (row, lane); row: an inner node.
 struct RingSystem {
-  double *bands = nullptr, *table = nullptr;
+  double *slope = nullptr, *bands = nullptr, *table = nullptr;
+  double* sums = nullptr;  ///< scratch memory (row, 4, most_lanes)
 };
 
 struct LooseKernels {
@@ -98,27 +99,24 @@ struct LooseKernels {
   /// paths to their batches.
   void (*relax)(const LineBatch& bench, const WaitingCable* cables, std::size_t count, int most);
   /// Starts the next sample: writes K0 and A0, and transforms the path from its frame to the untwisted one, `ahead` seconds
-  /// later.
+  /// later. Of a ring's cables it writes only K0, A_before and the path at the clamps.
   void (*begin)(const LineBatch&, const LineMemory&, const HoseFrame&, double ahead);
   /// Computes curvature and gain from the batch's path and its `rest`.
   void (*follow)(const LineBatch&, const LineAnswer&);
-  /// Computes the positions in the hose's frame, the error by the distance of nodes, and the contact forces if the batch has
-  /// `press`. Precondition: follow().
+  /// Computes the positions in the hose's frame and the error by the distance of nodes. Precondition: follow().
   void (*put_states)(const LineBatch&, const LineMemory&, const HoseFrame&, const LineAnswer&);
-  /// Moves the points where cables stick, and computes the largest friction from the contact forces at the present positions.
+  /// Moves the points where cables stick, and computes the largest friction from the contact forces at the present positions. Stores
+  /// these forces if the batch has `press`.
   void (*rub)(const LineBatch&);
   /// Ends the sample: transforms the path back to its frame. Sets its velocity over `time` seconds; time 0: keeps the old
   /// velocity.
   void (*end)(const LineBatch&, const LineMemory&, double time);
   /// Moves every cable to its place in the ring's frame (node, 2), cosine and sine. laid: places in this frame (node, 2, lane).
-  /// with_slope: also computes tension and slope, without contact.
-  void (*place)(const LineBatch&, const double* laid, const double* frame, bool with_slope);
-  /// turned: since the previous sample (node) [rad].
-  void (*assemble_turn)(const LineBatch&, const double* turned, const RingSystem&);
-  /// Computes the slope of the sum of the energies (row). turned: see assemble_turn.
-  void (*slope_of_turn)(const LineBatch&, const double* turned, double* slope);
-  /// Solves for several right-hand sides. bands: factors. table: (row, lane) right-hand sides, replaced by solutions.
-  void (*substitute_turn)(const double* bands, std::size_t rows, const LineBatch&, double* table);
+  void (*place)(const LineBatch&, const double* laid, const double* frame);
+  /// The same, and computes the system there, with tension and without contact. turned: since the previous sample (node) [rad].
+  void (*turn)(const LineBatch&, const double* laid, const double* frame, const double* turned, const RingSystem&);
+  /// Forward elimination. bands: factors of L D L^T. table: (row, lane) right-hand sides r, replaced by y, L y = r. scaled: y/D.
+  void (*eliminate_turn)(const double* bands, std::size_t rows, const LineBatch&, double* table, double* scaled);
   /// Writes the sum over rows of a's column k times b's column j to product[k * lanes + j].
   void (*products)(const double* a, const double* b, std::size_t rows, const LineBatch&, double* product);
 };
