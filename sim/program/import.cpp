@@ -500,6 +500,11 @@ std::vector<pipeline::Warning> moves_left_out(const Program& program) {
                                               "a digit too many or another unit", "a number within this range"));
       continue;
     }
+    if (group.reason == tiny_move) {
+      warnings.push_back(pipeline::warning_of(pipeline::WarningKind::program, group.first.text(), what.substr(what.find(": ") + 2),
+                                              "metres instead of millimetres", "a thousand times these numbers if they were metres"));
+      continue;
+    }
     if (group.reason.starts_with(above_all_speed)) {
       warnings.push_back(pipeline::warning_of(pipeline::WarningKind::program, group.first.text(), what.substr(what.find(": ") + 2),
                                               "a digit too many", "a percentage up to 100"));

@@ -119,6 +119,9 @@ inline constexpr const char* above_all_speed = "more than 100 % (limit 100, whic
 /// First words of the reason in Skipped::what for another number outside of the controller's range, whose nearest end counts.
 inline constexpr const char* beyond_range = "outside of the controller's range";
 std::string beyond_range_words(double low, double high);
+/// Reason in Skipped::what for a relative move that is shorter than those of plants' programs. Robots repeat a position within
+/// 0.05 mm, and numbers up to 1 mm are likely metres.
+inline constexpr const char* tiny_move = "a relative move of less than 1 mm";
 
 struct Program {
   std::string name;

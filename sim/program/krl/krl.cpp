@@ -273,6 +273,9 @@ bool Krl::read_known_target(const Expression& written, From from, const Frames& 
                  "write the target's angles, or #TOOL");
     return false;
   }
+  constexpr double likely_metres = 1, no_move = 0.02;  // [mm]
+  const double way = std::hypot(frame.numbers[0], frame.numbers[1], frame.numbers[2]);
+  if (from != From::origin && way >= no_move && way < likely_metres) run.note(written.place, fmt::format("{:.3g} mm: {}", way, tiny_move), true);
   const auto before = joint ? axes_ : place_before(frames);
   const Coordinates& read = joint ? axes : frame;
   auto numbers = moved(read, from, before);

@@ -290,6 +290,16 @@ TEST_CASE("krl: a move to where the robot stands is none") {
   CHECK(run("DECL E6AXIS h\nh=$AXIS_ACT\nh.A1=h.A1+4\nPTP h").problems.size() == 1);
 }
 
+TEST_CASE("krl: a relative move in metres is warned of, one in millimetres is not") {
+  const std::string begin = "$VEL.CP=1\nPTP {X 1000,Y 0,Z 1000,A 0,B 0,C 0}\n";
+  const auto warnings = [&](const std::string& move) { return moves_left_out(run(begin + move).program); };
+  const auto of_metres = warnings("LIN_REL {Z -0.15}\nLIN_REL {Y 0.12} #TOOL");
+  REQUIRE(of_metres.size() == 2);
+  CHECK_THAT(of_metres[0].text(), Catch::Contains(":4:") && Catch::Contains("0.15 mm: a relative move of less than 1 mm") &&
+                                      Catch::Contains("a thousand times these numbers if they were metres"));
+  CHECK(warnings("LIN_REL {Z -150}\nLIN_REL {Z 0}\nLIN_REL {A 0.5}\nLIN {X 0.5}").empty());
+}
+
 TEST_CASE("krl: what a target leaves out comes from where the robot stands, in the frames in use") {
   // The robot is at z = 1000 in the world. The new base is 30 mm above it, so the position in this base is 970.
   const Reading r =
