@@ -728,3 +728,23 @@ TEST_CASE("a bed that gives takes its share of conductors and wires in every way
   constexpr double twisting = 2.5e-3;
   CHECK(strain_of_pulled(dresspack, free) == Approx(share * rigid).epsilon(twisting));
 }
+
+TEST_CASE("the length over which a hose's bend changes is the wave of a sine along it, whatever its amplitude and its mean") {
+  constexpr std::size_t pieces = 64, moments = 9;
+  constexpr double whole = 2, wave = 0.5;  // [m]
+  const Construction construction(rubbing(0.3), Kinematics::exact);
+  for (const double amplitude : {0.1, 3.0}) {
+    Evaluation evaluation(construction, settings_with({Slip::friction}), std::vector<double>(pieces, whole / pieces), moments);
+    DeformationHistory history(pieces, moments);
+    for (std::size_t i = 0; i < pieces; ++i)
+      for (std::size_t t = 0; t < moments; ++t) {
+        const double z = whole * (static_cast<double>(i) + 0.5) / pieces, w = 2 * pi * static_cast<double>(t) / (moments - 1);
+        history.set(i, t, {2 + amplitude * std::sin(w) * std::sin(2 * pi * z / wave), 0, 0, 0});  // a constant bend does not count
+      }
+    evaluation.add({history});
+    evaluation.end_first_pass();
+    // Differences of segments of h miss (pi h/wave)^2/6 of the slope, 0.6 %, and the half segments at the ends, where the slope is
+    // largest, another h/whole of it, 1.6 %.
+    CHECK(evaluation.evening().bend_wave == Approx(wave).epsilon(0.025));
+  }
+}

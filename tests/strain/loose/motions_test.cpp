@@ -259,6 +259,7 @@ TEST_CASE("the change of a repeat is that of the cables between its begin and it
     changes.push_back(sum);
   }
   CHECK(changes[most.cable] == *std::max_element(changes.begin(), changes.end()));
+  REQUIRE(most.arc <= loose.length());
   const auto node = static_cast<std::size_t>(std::lround(most.arc / loose.length() * 64));
   const auto change_at = [&](std::size_t of) {
     double larger = 0;
