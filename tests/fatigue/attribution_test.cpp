@@ -83,6 +83,15 @@ TEST_CASE("attribution: a quadratic strain is followed exactly from any sample t
   }
 }
 
+TEST_CASE("attribution: the explained share is that of the variance which joints cause") {
+  const Wandering motion;
+  // 0.009 of the first joint, and as much of a swing whose frequency no product of two joints has
+  std::vector<double> strain = motion.strain([](double a, double, double) { return 0.01 * a; });
+  for (std::size_t t = 0; t < strain.size(); ++t)
+    strain[t] += 0.009 * std::sin(2 * std::numbers::pi * 40 * double(t) / double(motion.samples));
+  CHECK(StrainOfJoints(motion.position, known(strain), {true, true, true}).explained() == Approx(0.5).margin(ridge_pull));
+}
+
 TEST_CASE("attribution: a few known samples make the same surface") {
   const Wandering motion;
   const auto strain = motion.strain([](double a, double b, double) { return 0.01 * a - 0.02 * a * b; });
