@@ -209,6 +209,11 @@ TEST_CASE("urdf: meshes are found beside the file and in their packages") {
   UrdfRequest told = asked;
   told.package_folder = scratch / "elsewhere";
   CHECK(robot_of(missing, told).links[0].meshes.size() == 1);
+  for (const char* uneven : {"0.001 0.0005 0.001", "0.001 0.002 0.001", "0.001 0.001 0.0005", "-0.001 -0.001 -0.001"})
+    CHECK_THAT(message_of([&] {
+                 robot_of(changed("<box size=\"0.4 0.5 0.2\"/>", fmt::format("<mesh filename=\"plain.STL\" scale=\"{}\"/>", uneven)), asked);
+               }),
+               Catch::Contains("mesh 'plain.STL' is scaled by different factors"));
   scratch.write("cell/arm_support/urdf/colour.dae", "");
   CHECK_THAT(message_of([&] { robot_of(with_mesh("colour.dae"), asked); }),
              Catch::Contains("mesh 'colour.dae' is neither STL nor OBJ; convert it"));

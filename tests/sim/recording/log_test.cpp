@@ -95,7 +95,7 @@ TEST_CASE("log: time stamps of loggers and spreadsheets") {
   };
   CHECK(words(1) == "numbers in s");
   CHECK(words(1e-3) == "numbers in ms");
-  for (const char* wrong : {"", "soon", "2027-02-30 10:00:00", "2027-03-01", "10:61:00", "nan"})
+  for (const char* wrong : {"", "soon", "2027-02-30 10:00:00", "2027-03-01", "10:61:00", "25:10:00", "10:20:61", "nan"})
     CHECK_FALSE(LogTime({}).read(wrong));
 }
 

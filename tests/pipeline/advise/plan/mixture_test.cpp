@@ -140,6 +140,30 @@ TEST_CASE("the damage of each mode is that at its own places") {
   CHECK(lives_with(duty, {1, 1}, duty.same_place)[1] == Approx(1e5).epsilon(1e-4));
 }
 
+TEST_CASE("the damage of the mode that fails first is the same with and without the damage of each program") {
+  // Two modes, one place each that both programs damage, and places of the second mode of their own.
+  const auto with_modes = [](const std::string& name, double one, double other, double first, double second) {
+    return EvaluatedProgram{name, 60, std::make_shared<const FailureModes>(FailureModes{mode_of(one, "wires of one"), mode_of(other, "wires of other")}),
+                            wires_of({{1}, {first}, {second}}, {0, 1, 1}, 1)};
+  };
+  constexpr std::size_t samples = 500;
+  for (const double harder : {4.0, 5.0, 6.0}) {
+    const std::vector<EvaluatedProgram> programs{with_modes("first", 5, harder, 1, 0.2), with_modes("second", harder, 5.2, 0.1, 1)};
+    const std::vector<Rate> rates{{3, 40}, {2, 80}};
+    const std::vector<double> share = SamePlace(programs).at({3, 2});
+    REQUIRE(share[1] < 1);
+    std::vector<RepeatDamage> of_repeat;
+    for (const EvaluatedProgram& of : programs) of_repeat.push_back(damage_of_lives(mode_lives(*of.modes, "", samples)));
+    std::vector<double> factors;
+    const std::vector<double> first = first_mode_damage(
+        programs, rates, share, [&](const EvaluatedProgram& of) -> const RepeatDamage& { return of_repeat[of.job == "first" ? 0 : 1]; },
+        [&](const EvaluatedProgram& of, double percent) -> const std::vector<double>& { return factors = repeat_factors(of.job, percent, "", samples); });
+    const std::vector<double> stored = damage_under(programs, rates, share, "", samples).of_first_mode();
+    REQUIRE(first.size() == samples);
+    for (std::size_t s = 0; s < samples; ++s) CHECK(first[s] == Approx(stored[s]).epsilon(rounding));
+  }
+}
+
 TEST_CASE("the worst place of a duty is that of a search through all sites") {
   constexpr std::size_t places = 60, wires_each = 7, sites_each = 3, programs = 5;
   std::mt19937 random(1);
