@@ -1,6 +1,7 @@
 #include "sim/program/import.h"
 
 #include <algorithm>
+#include <array>
 #include <set>
 
 #include "pipeline/base/plain_file.h"
@@ -474,6 +475,18 @@ std::string waits_note(const Program& program) {
       count, count == 1 ? "wait for signals counts" : "waits for signals count");
 }
 
+namespace {
+
+/// Cause and remedy of a doubtful number, by the first words of the reason.
+struct NumberDoubt {
+  const char *reason, *cause, *remedy;
+};
+constexpr std::array<NumberDoubt, 3> doubts{{{beyond_range, "a digit too many or another unit", "a number within this range"},
+                                             {above_all_speed, "a digit too many", "a percentage up to 100"},
+                                             {tiny_move, "metres instead of millimetres", "a thousand times these numbers if they were metres"}}};
+
+}  // namespace
+
 std::vector<pipeline::Warning> moves_left_out(const Program& program) {
   std::vector<SkippedGroup> groups;
   std::map<std::string, std::size_t> known;
@@ -495,19 +508,10 @@ std::vector<pipeline::Warning> moves_left_out(const Program& program) {
       warnings.push_back({pipeline::WarningKind::program, group.first.text(), what});
       continue;
     }
-    if (group.reason.starts_with(beyond_range)) {
+    const auto doubt = std::ranges::find_if(doubts, [&](const NumberDoubt& of) { return group.reason.starts_with(of.reason); });
+    if (doubt != doubts.end()) {
       warnings.push_back(pipeline::warning_of(pipeline::WarningKind::program, group.first.text(), what.substr(what.find(": ") + 2),
-                                              "a digit too many or another unit", "a number within this range"));
-      continue;
-    }
-    if (group.reason == tiny_move) {
-      warnings.push_back(pipeline::warning_of(pipeline::WarningKind::program, group.first.text(), what.substr(what.find(": ") + 2),
-                                              "metres instead of millimetres", "a thousand times these numbers if they were metres"));
-      continue;
-    }
-    if (group.reason.starts_with(above_all_speed)) {
-      warnings.push_back(pipeline::warning_of(pipeline::WarningKind::program, group.first.text(), what.substr(what.find(": ") + 2),
-                                              "a digit too many", "a percentage up to 100"));
+                                              doubt->cause, doubt->remedy));
       continue;
     }
     warnings.push_back(pipeline::warning_of(

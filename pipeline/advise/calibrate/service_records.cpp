@@ -11,7 +11,6 @@
 #include "pipeline/base/csv_rows.h"
 #include "pipeline/base/exported.h"
 #include "pipeline/base/joined.h"
-#include "pipeline/base/lists.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/warning_words.h"
@@ -426,9 +425,12 @@ ServiceTests read_service_tests(const ServiceRequest& request) {
   read.words = fmt::format("Columns: {}.\n{}", table.column_words(), table.job_words());
   if (std::ranges::any_of(rows, [](const Row& row) { return row.hours_per_week.has_value(); }))
     read.words += "Hours per week are those in which the job's program runs. dresslife plan counts hours of operation, with standstill.\n";
-  else
-    read.words += fmt::format("Hours per week: {}, fatigue.operating_hours_per_week of the job, because the table has no column hours_per_week.\n",
-                              joined(mapped(hours_per_week, [](const auto& of) { return fmt::format("{:g}", of.second); }), ", "));
+  std::set<std::string> without_hours;
+  for (const Row& row : rows)
+    if (!row.hours_per_week) without_hours.insert(row.job);
+  for (const std::string& of_job : without_hours)
+    read.words += fmt::format("Rows of {} without hours per week: {:g} (fatigue.operating_hours_per_week of the job).\n",
+                              std::filesystem::path(of_job).filename().string(), hours_per_week[of_job]);
   read.words += fmt::format("{} dresspacks: {} failed, {} were removed without a failure, {} are in use on {}.\n",
                             failed + removed + in_use, failed, removed, in_use, day_text(request.today));
   read.words += fmt::format(

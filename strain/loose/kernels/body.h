@@ -365,7 +365,7 @@ inline DoubleMask whole_steps(const Progress& progress) {
          at_least(Pack(static_cast<double>(most_whole_steps)), load<Pack>(progress.took));
 }
 
-/// Returns whether any cable tries a step of which it may take a share.
+/// Returns whether any cable searches along its step.
 inline bool any_searches(const Progress& progress) { return bits(set(progress.trying)) & ~bits(whole_steps(progress)); }
 
 /// Decides for cables that try a step: accept its share, try a shorter one, or give up.

@@ -82,7 +82,7 @@ TEST_CASE("service records: the same plant in English with commas and in German 
     CHECK_THAT(plant.words,
                Contains("4 dresspacks: 1 failed, 1 were removed without a failure, 2 are in use on 2026-11-23.") &&
                    Contains("Records begin on 2023-05-01. Put in before: 2; these count from their age") &&
-                       Contains("Hours per week are those in which the job's program runs."));
+                       Contains("Hours per week are those in which the job's program runs.") && Contains("without hours per week: 80 ("));
   }
 }
 
@@ -94,7 +94,9 @@ TEST_CASE("service records: without a first day the first removal is it, and doe
   REQUIRE(records.size() == 2);
   CHECK(records[0].entry_hours == Approx(53 * 80));
   CHECK(records[1].entry_hours == 0);
-  CHECK_THAT(plant.words, Contains("Removed on that day, not counted: 1, of these failed: 1. --records-since"));
+  CHECK_THAT(plant.words, Contains("Removed on that day, not counted: 1, of these failed: 1. --records-since") &&
+                              Contains("without hours per week: 80 (fatigue.operating_hours_per_week of the job)") &&
+                              !Contains("Hours per week are those"));
   CHECK(read(table, "2024-01-01").tests.front().observation.service.size() == 3);
   CHECK_THAT(refusal("robot,installed,replaced\nA,2024-01-01,\n"),
              Contains("has no dresspack that was removed") && Contains("--records-since"));
