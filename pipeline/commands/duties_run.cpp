@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <string>
@@ -15,6 +16,7 @@
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/settings/document.h"
+#include "pipeline/study/changes.h"
 #include "pipeline/study/folder_lock.h"
 #include "pipeline/study/folder_source.h"
 #include "pipeline/study/stage_program.h"
@@ -59,6 +61,18 @@ void check_before_run(const DutyFile& file, const StudyState& standing) {
   if (!standing.all_done()) check_hours(file, repeat_seconds(file, standing.study));
 }
 
+/// Prints how many results of other settings this run replaces, and what has changed since the first of them.
+void note_replaced(const StudyState& standing) {
+  std::vector<JobState> states = standing.states;
+  const auto replaced = std::ranges::count_if(states, [](const JobState& state) { return state.has_last && !state.done(); });
+  if (replaced == 0) return;
+  report_changes(standing.study, standing.places, states);
+  const auto first = std::ranges::find_if(states, [](const JobState& state) { return !state.changed.empty(); });
+  if (first == states.end()) return;
+  write_stderr(fmt::format("note: {} earlier result{} replaced. Changed since that of '{}': {}\n", replaced, replaced == 1 ? " is" : "s are",
+                           standing.study.jobs[static_cast<std::size_t>(first - states.begin())].name, first->changed));
+}
+
 }  // namespace
 
 DutiesRun run_duties(const DutyFile& file, const RunOptions& options) {
@@ -88,6 +102,7 @@ DutiesRun run_duties(const DutyFile& file, const RunOptions& options) {
     standing = expanded(request);
   if (begun) check_before_run(file, standing);
   for (const Warning& warning : mounting_warnings(file, standing.study, nullptr)) write_stderr(shown(warning.paragraph()));
+  if (begun) note_replaced(standing);
   if (!begun) look_again(standing);
   make_rest(request, standing, options);
   std::vector<RankingRow> rows = results_of(standing.study, standing.places, standing.states);

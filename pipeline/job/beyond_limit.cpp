@@ -45,7 +45,7 @@ double share_beyond(std::vector<LoadNode> nodes, double mean, double deviation) 
 
 std::string value_words(const UncertainParameter& parameter, double z, double own) {
   const double by = parameter.value(z);
-  return fmt::format("{:.3g} times {} ({}: {:.3g})", by, parameter.cause, parameter.key, own * by);
+  return fmt::format("{:.2g} times {} ({}: {:.3g})", by, parameter.cause, parameter.key, own * by);
 }
 
 std::string percent_words(double share) {

@@ -22,7 +22,7 @@ double share_beyond(std::vector<LoadNode> nodes, double mean, double deviation);
 
 /// Below this share there is no warning: a result for 1 of 10 dresspacks does not depend on fewer than 1 of 100.
 inline constexpr double least_share_beyond = 0.01;
-/// Returns "2.83 times the friction of the cables on their hose (strain.hose_friction_factor: 2.83)". own: the job's value of the key.
+/// Returns "2.8 times the friction of the cables on their hose (strain.hose_friction_factor: 2.83)". own: the job's value of the key.
 std::string value_words(const UncertainParameter& parameter, double z, double own);
 /// Returns "19 %".
 std::string percent_words(double share);

@@ -235,6 +235,12 @@ TEST_CASE("a plan names what to replace in a window, writes a table and a calend
   scratch.write("other.csv", "name,duty,installed\nmore,d,\n");
   CHECK(run(scratch, "dresslife", plan + "2026-12-21 --what-if other.csv").err.find("other.csv:1:1: error: has no costs, but fleet.csv has some") !=
         std::string::npos);
+  // With another setting the same folder takes the results, and a note says so.
+  const Outcome changed = must_run(scratch, "dresslife", plan + "2026-12-21 --set fatigue.failed_wires_percent=20");
+  INFO(changed.err);
+  CHECK(unwrapped(changed.err).find("note: 3 earlier results are replaced. Changed since that of 'one': fatigue.failed_wires_percent 10 -> 20") != std::string::npos);
+  CHECK(run(scratch, "dresslife", plan + "2026-12-21").err.find("3 earlier results are replaced") != std::string::npos);
+  CHECK(run(scratch, "dresslife", plan + "2026-12-21").err.find("earlier result") == std::string::npos);
   // Twenty dresspacks that have lived for 32 weeks leave 6 of 500 samples, and 50 of 4,000. For three years none remains.
   const auto survivors = [&](const std::string& since) {
     std::string twenty = "name,duty,installed\n";

@@ -21,7 +21,7 @@ TEST_CASE("the share beyond a limit is that of the normal distribution beyond th
 
 TEST_CASE("values of uncertain parameters are named with factor, meaning, key and the job's own value") {
   const auto& friction = uncertain_parameters()[index_of(Uncertain::friction_hose)];
-  CHECK(value_words(friction, 1.5, 1) == "2.83 times the friction of the cables on their hose (strain.hose_friction_factor: 2.83)");
+  CHECK(value_words(friction, 1.5, 1) == "2.8 times the friction of the cables on their hose (strain.hose_friction_factor: 2.83)");
   CHECK(value_words(friction, -1, 3) == "0.5 times the friction of the cables on their hose (strain.hose_friction_factor: 1.5)");
   CHECK(percent_words(0.184) == "18 %");
   CHECK(measurement_words(friction) ==
