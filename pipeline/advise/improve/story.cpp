@@ -10,7 +10,9 @@
 #include "pipeline/base/joined.h"
 #include "pipeline/base/lists.h"
 #include "pipeline/base/readable.h"
+#include "pipeline/base/warning_words.h"
 #include "pipeline/study/mode_table.h"
+#include "pipeline/study/row_warnings.h"
 #include "pipeline/study/row_words.h"
 
 namespace dresslife::pipeline {
@@ -222,11 +224,38 @@ std::string improvement_words(const Improvement& found, const Finals& finals, co
   if (const RankingRow* const row = finals.worst_row(best)) {
     for (const std::string& words : {action_words(*row), uncertainty_words(*row), failure_words(*row)})
       text += words + (words.empty() ? "" : "\n");
-    text += mode_table(*row, 120, "") + mode_legend({*row}, 120, "");
+    text += left_at_other_values(*row) + mode_table(*row, 120, "") + mode_legend({*row}, 120, "");
   }
   text += change_lines(trial);
   for (const std::string& job : best.jobs)
     text += fmt::format("Job: {}\n", (places.job(job) / "job.yaml").string());
+  return text;
+}
+
+std::string remedy_after_search(const std::string& remedy) {
+  if (!remedy.starts_with("other clamps")) return remedy;
+  int depth = 0;
+  for (std::size_t k = 0; k < remedy.size(); ++k) {
+    depth += (remedy[k] == '(') - (remedy[k] == ')');
+    if (depth > 0 || !remedy.substr(k).starts_with("; ")) continue;
+    const std::string rest = remedy.substr(k + 2);
+    return rest.starts_with("or ") ? rest.substr(3) : rest;
+  }
+  return "";
+}
+
+std::string left_at_other_values(const RankingRow& row) {
+  std::string text;
+  for (const Warning& warning : warnings_of(row)) {
+    if (warning.kind != WarningKind::other_values) continue;
+    const WarningParts parts = parts_of(warning.words);
+    const std::string rest = remedy_after_search(parts.remedy);
+    text += "Not kept at other values: " + parts.problem + ". ";
+    text += rest == parts.remedy
+                ? "Remedy: " + rest + "\n"
+                : "No clamps were found that keep it. Remedies that are left: " + rest + (rest.empty() ? "" : "; ") +
+                      "a guide ring between the clamps (routing.rings); or a program that reaches less far\n";
+  }
   return text;
 }
 
