@@ -82,7 +82,7 @@ std::string nudges_section(const ImprovementStory& story) {
             ? "–"
             : fmt::format("{}: {}", escaped(nudge.first_mode), escaped(hours_text(nudge.first_hours))));
   return "<h2>Mounting tolerance</h2>\n<p>The same job with one clamp, ring, length or the turn of its end off. The life is the p10 of the "
-         "wires over that of the job as drawn. ≈: lives estimated by runs without uncertain stiffness, slack and friction on the hose.</p>\n" +
+         "wires over that of the job as drawn. ≈: lives estimated by runs without uncertain inputs.</p>\n" +
          wide_table({"off by", "#life", "limits", "first of the modes that are not validated"}, rows);
 }
 

@@ -2,12 +2,12 @@
 //
 // (T1) m_w = min(m, m_1, ..., m_n)   m: merit (merit.h) without offset; m_i: merit with one offset by the tolerance, of a clamp,
 //                                    a ring, a length or the turn of the end (nudges.h); the least merit if the job does not run
-// (T2) t_i ~ t q_i / q               t: life in a full run; q: life in a run with known stiffness, slack and friction on the hose
-//                                    (known_sets()), which takes a sixth to a third of the time; i: with offset i
+// (T2) t_i ~ t q_i / q               t: life in a full run; q: life in a run without uncertain inputs (known_sets()), which takes
+//                                    a tenth to a fifth of the time; i: with offset i
 //
-// A run with known values has the limits of the full run, because limits are those of the job's own values. So m_i by (T2) has
-// the right limits and an estimated life. First all m_i are estimated. Then the worst run in full until the least m_i is that of
-// a full run. The finalist with the largest m_w so far is evaluated next. The search ends when the m_w of the best is known.
+// A run without uncertain inputs has the limits of the full run, because limits are those of the job's own values. So m_i by (T2)
+// has the right limits and an estimated life. First all m_i are estimated. Then the worst four run in full, and more until the
+// least m_i is that of a full run. The finalist with the largest m_w so far is evaluated next. The search ends when the m_w of the best is known.
 // Three finalists are compared, and more as long as each of them has an m_i that does not run. Cases in which another finalist
 // lost most are evaluated first.
 #pragma once
@@ -30,11 +30,11 @@ struct Finalist {
   Outcome drawn;
   std::vector<Nudge> nudges;
   RunNudges run;
-  /// Runs with known values. Returns first the outcome without offset, then those of the nudges. Absent: all runs are full.
+  /// Runs without uncertain inputs. Returns first the outcome without offset, then those of the nudges. Absent: all runs are full.
   RunNudges run_known{};
 };
 
-/// Returns the changes that make the stiffness, slack and friction on the hose known; empty: they are known in all jobs.
+/// Returns the changes after which no input is uncertain; empty: none is uncertain in any job.
 std::vector<std::string> known_sets(const std::vector<StudyJob>& jobs);
 
 /// Sets both functions of a finalist. outcomes_of: runs the finalist's jobs with each of these sets of changes, under these short
@@ -43,7 +43,7 @@ void set_runs(Finalist& finalist, const std::vector<std::string>& known,
               const std::function<std::vector<Outcome>(const std::vector<std::vector<std::string>>&,
                                                        const std::vector<std::string>&)>& outcomes_of);
 
-/// Returns the outcome of a nudge by (T2). off, own: in runs with known values, with the offset and without. drawn: in a full
+/// Returns the outcome of a nudge by (T2). off, own: in runs without uncertain inputs, with the offset and without. drawn: in a full
 /// run without offset. A life whose ratio is not finite is the shorter one.
 Outcome estimated(const Outcome& off, const Outcome& own, const Outcome& drawn);
 
