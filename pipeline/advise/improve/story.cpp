@@ -140,6 +140,12 @@ std::string unjudged_words(const Improvement& found, const Trial& best) {
   return keys.empty() ? "" : fmt::format("Without a mounting tolerance: {}\n", joined(keys, ", "));
 }
 
+/// Returns left_at_other_values() of the worst of these jobs.
+std::string left_of(const Finals& finals, const Final& of) {
+  const RankingRow* const row = finals.worst_row(of);
+  return row ? left_at_other_values(*row) : "";
+}
+
 }  // namespace
 
 ImprovementStory story_of(const Improvement& found, const Finals& finals, SecondAim second,
@@ -209,7 +215,7 @@ std::string improvement_words(const Improvement& found, const Finals& finals, co
     text += fmt::format("No other job that keeps all limits was found in {} trial{} and {} short runs.\n", found.trials.size(),
                         found.trials.size() == 1 ? "" : "s", found.short_runs);
     for (const std::string& line : found.obstacle) text += line + "\n";
-    return text + relief_words(found);
+    return text + relief_words(found) + left_of(finals, finals.of.front());
   }
   if (found.front.size() > 1) return text + front_words(found, finals, story, second, tolerance);
   const Final& best = *finals.best();
@@ -220,7 +226,7 @@ std::string improvement_words(const Improvement& found, const Finals& finals, co
   text += fmt::format("{}{} {} of {}: {}\n{}{}{}{}", story.keep, gain ? "Trial" : " The best of it is trial",
                       best.trial, found.trials.size(), outcome_words(trial.worst, best.hours), story.gain,
                       story.gain.empty() ? "" : "\n", judged, story.choice);
-  if (!gain) return text;
+  if (!gain) return text + left_of(finals, finals.of.front());
   if (const RankingRow* const row = finals.worst_row(best)) {
     for (const std::string& words : {action_words(*row), uncertainty_words(*row), failure_words(*row)})
       text += words + (words.empty() ? "" : "\n");
@@ -253,7 +259,7 @@ std::string left_at_other_values(const RankingRow& row) {
     text += "Not kept at other values: " + parts.problem + ". ";
     text += rest == parts.remedy
                 ? "Remedy: " + rest + "\n"
-                : "No clamps were found that keep it. Remedies that are left: " + rest + (rest.empty() ? "" : "; ") +
+                : "The best clamps of this search do not keep it. Remedies that are left: " + rest + (rest.empty() ? "" : "; ") +
                       "a guide ring between the clamps (routing.rings); or a program that reaches less far\n";
   }
   return text;
