@@ -67,10 +67,11 @@ class SearchProgress {
     double left = (first_trial_ + now - trials_from_) / (done_ + running) * std::max(0.0, trials_ - done_ - running + after_trials_);
     if (short_runs) left += (now - first_trial_) / std::max(1, short_runs_) * (most_short_runs_ - short_runs_);
     const double share = now / (now + left);
+    const std::string remaining = remaining_words(now, 0, share);
     const std::string words =
         short_runs ? fmt::format("short run {} of about {} before the second of {} trials", short_runs_, most_short_runs_, trials_)
                    : fmt::format("trial {:.0f} of {}, best {}", std::min(done_ + std::floor(running), 1.0 * trials_), trials_, best_words_);
-    progress_.show(fmt::format("{:5.1f} %, {}  {}{}", 100 * share, remaining_words(now, 0, share), words,
+    progress_.show(fmt::format("{:5.1f} %{}{}  {}{}", 100 * share, remaining.empty() ? "" : ", ", remaining, words,
                                after_trials_ > 0 ? ", then the mounting tolerance" : ""));
   }
 
