@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t usually_judged = 3;  // 24 jobs for each
 constexpr std::size_t known_at_once = 4;    // the first are the lengths and the turn of the end, which show a narrow optimum soonest
-constexpr std::size_t full_at_once = 2;     // a second costs less beside the first than after it
-constexpr std::size_t least_full = 4;       // of the best: the order of estimates is that of full runs only roughly (rank correlation 0.5 in 24 cases)
+constexpr std::size_t full_at_once = 2;     // also the least: a second costs less beside the first than after it
+constexpr std::size_t usually_full = 4;     // of the best
 constexpr double known_time = 0.12;         // of a full run
 
 /// Returns the smallest remaining share of the life with a nudge, over the other finalists; 0: it does not run or violates a
@@ -40,7 +40,13 @@ std::size_t full_runs(const WithinTolerance& judged) {
   return static_cast<std::size_t>(std::ranges::count(judged.nudges, false, &ImprovementStory::Nudge::estimated));
 }
 
-/// Returns the next nudges: first those without a result, then the worst of the estimated ones.
+/// Returns what a full run may change: the wires' life, among results with equal limits and modes (T2).
+std::pair<Kept, double> to_verify(const Outcome& outcome, const Outcome& as_it_is) {
+  const Merit merit = merit_of(outcome, as_it_is);
+  return {merit.kept, merit.hours};
+}
+
+/// Returns the next nudges: first those without a result, then the estimated ones with the shortest lives of the wires.
 std::vector<std::size_t> next_of(const Finalist& of, const WithinTolerance& judged,
                                  const std::vector<WithinTolerance>& others, const Outcome& as_it_is) {
   std::vector<std::size_t> left;
@@ -53,12 +59,12 @@ std::vector<std::size_t> next_of(const Finalist& of, const WithinTolerance& judg
     left.resize(std::min(left.size(), known_at_once));
     return left;
   }
-  std::vector<std::pair<Merit, std::size_t>> worst_first;
+  std::vector<std::pair<std::pair<Kept, double>, std::size_t>> worst_first;
   for (std::size_t k = 0; k < judged.numbers.size(); ++k)
-    if (judged.nudges[k].estimated) worst_first.emplace_back(merit_of(judged.outcomes[k], as_it_is), judged.numbers[k]);
-  std::ranges::stable_sort(worst_first, [](const auto& a, const auto& b) { return a.first < b.first; });
+    if (judged.nudges[k].estimated) worst_first.emplace_back(to_verify(judged.outcomes[k], as_it_is), judged.numbers[k]);
+  std::ranges::sort(worst_first);
   worst_first.resize(std::min(worst_first.size(), full_at_once));
-  for (const auto& [merit, number] : worst_first) left.push_back(number);
+  for (const auto& [life, number] : worst_first) left.push_back(number);
   return left;
 }
 
@@ -86,14 +92,15 @@ void evaluate(WithinTolerance& judged, const Finalist& of, const std::vector<std
   for (std::size_t k = 0; k < numbers.size(); ++k)
     add(judged, of, numbers[k], estimates ? estimated(outcomes[k + 1], outcomes[0], of.drawn) : outcomes[k], estimates);
   judged.worst = merit_of(of.drawn, as_it_is), judged.worst_outcome = of.drawn;
-  bool worst_is_estimated = false;
-  for (std::size_t k = 0; k < judged.outcomes.size(); ++k)
-    if (const Merit merit = merit_of(judged.outcomes[k], as_it_is); merit < judged.worst) {
+  std::pair<Kept, double> worst_known = to_verify(of.drawn, as_it_is), worst_estimated{Kept::modes, HUGE_VAL};
+  for (std::size_t k = 0; k < judged.outcomes.size(); ++k) {
+    auto& worst = judged.nudges[k].estimated ? worst_estimated : worst_known;
+    worst = std::min(worst, to_verify(judged.outcomes[k], as_it_is));
+    if (const Merit merit = merit_of(judged.outcomes[k], as_it_is); merit < judged.worst)
       judged.worst = merit, judged.worst_outcome = judged.outcomes[k];
-      worst_is_estimated = judged.nudges[k].estimated;
-    }
-  judged.whole = judged.numbers.size() == of.nudges.size() && !worst_is_estimated &&
-                 full_runs(judged) >= std::min(least_full, of.nudges.size());
+  }
+  judged.whole = judged.numbers.size() == of.nudges.size() && worst_known <= worst_estimated &&
+                 full_runs(judged) >= std::min(full_at_once, of.nudges.size());
 }
 
 /// Returns the merit of the worst full run so far, or of the one without offset.
@@ -119,7 +126,7 @@ ToleranceCount count_of(const std::vector<const WithinTolerance*>& all, const Fi
   count.next = left > 0 ? std::min(to_estimate, each * known_at_once) : full_at_once;
   count.likely = count.done + to_estimate;
   if (of.run_known)
-    count.likely += static_cast<double>(std::max(least_full, full_runs(next) + full_at_once) - full_runs(next));
+    count.likely += static_cast<double>(std::max(usually_full, full_runs(next) + full_at_once) - full_runs(next));
   count.words = left > 0 ? fmt::format("{} of {} cases", next.numbers.size(), of.nudges.size())
                          : fmt::format("the worst of {} cases in full, {} so far", of.nudges.size(), full_runs(next));
   return count;
@@ -139,7 +146,7 @@ void set_runs(Finalist& finalist, const std::vector<std::string>& known,
     return outcomes_of(mapped(numbers, [&](std::size_t k) { return nudges[k].sets; }),
                        mapped(numbers, [](std::size_t k) { return fmt::format("{:02}", k + 1); }));
   };
-  if (known.empty()) return;
+  if (known.empty() || finalist.nudges.size() <= full_at_once) return;
   finalist.run_known = [nudges = finalist.nudges, known, outcomes_of](const std::vector<std::size_t>& numbers) {
     std::vector<std::vector<std::string>> runs{known};
     std::vector<std::string> names{"00_known"};
