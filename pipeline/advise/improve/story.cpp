@@ -244,7 +244,9 @@ std::string remedy_after_search(const std::string& remedy) {
   for (std::size_t k = 0; k < remedy.size(); ++k) {
     depth += (remedy[k] == '(') - (remedy[k] == ')');
     if (depth > 0 || !remedy.substr(k).starts_with("; ")) continue;
-    const std::string rest = remedy.substr(k + 2);
+    std::string rest = remedy.substr(k + 2);
+    constexpr std::string_view searched = ", which dresslife improve tries";
+    if (const std::size_t at = rest.find(searched); at != std::string::npos) rest.erase(at, searched.size());
     return rest.starts_with("or ") ? rest.substr(3) : rest;
   }
   return "";
