@@ -92,23 +92,25 @@ void evaluate(WithinTolerance& judged, const Finalist& of, const std::vector<std
   for (std::size_t k = 0; k < numbers.size(); ++k)
     add(judged, of, numbers[k], estimates ? estimated(outcomes[k + 1], outcomes[0], of.drawn) : outcomes[k], estimates);
   judged.worst = merit_of(of.drawn, as_it_is), judged.worst_outcome = of.drawn;
-  std::pair<Kept, double> worst_known = to_verify(of.drawn, as_it_is), worst_estimated{Kept::modes, HUGE_VAL};
+  std::pair<Kept, double> worst_of_full = to_verify(of.drawn, as_it_is), worst_estimated{Kept::modes, HUGE_VAL};
   for (std::size_t k = 0; k < judged.outcomes.size(); ++k) {
-    auto& worst = judged.nudges[k].estimated ? worst_estimated : worst_known;
+    auto& worst = judged.nudges[k].estimated ? worst_estimated : worst_of_full;
     worst = std::min(worst, to_verify(judged.outcomes[k], as_it_is));
     if (const Merit merit = merit_of(judged.outcomes[k], as_it_is); merit < judged.worst)
       judged.worst = merit, judged.worst_outcome = judged.outcomes[k];
   }
-  judged.whole = judged.numbers.size() == of.nudges.size() && worst_known <= worst_estimated &&
+  judged.whole = judged.numbers.size() == of.nudges.size() && worst_of_full <= worst_estimated &&
                  full_runs(judged) >= std::min(full_at_once, of.nudges.size());
 }
 
-/// Returns the merit of the worst full run so far, or of the one without offset.
-Merit worst_in_full(const WithinTolerance& judged, const Finalist& of, const Outcome& as_it_is) {
+/// Returns the worst merit so far without the estimated lives of the wires; limits and other modes are known.
+Merit worst_known(const WithinTolerance& judged, const Finalist& of, const Outcome& as_it_is) {
   Merit worst = merit_of(of.drawn, as_it_is);
-  for (std::size_t k = 0; k < judged.outcomes.size(); ++k)
-    if (const Merit merit = merit_of(judged.outcomes[k], as_it_is); !judged.nudges[k].estimated && merit < worst)
-      worst = merit;
+  for (std::size_t k = 0; k < judged.outcomes.size(); ++k) {
+    Outcome outcome = judged.outcomes[k];
+    if (judged.nudges[k].estimated) outcome.hours = of.drawn.hours;
+    worst = std::min(worst, merit_of(outcome, as_it_is));
+  }
   return worst;
 }
 
@@ -176,7 +178,7 @@ WithinTolerance within_tolerance(const Finalist& of, const Outcome& as_it_is,
                                  const std::vector<WithinTolerance>& others,
                                  const ToleranceProgress& progress) {
   WithinTolerance judged = none_evaluated(of, as_it_is);
-  while (!judged.whole && !enough(worst_in_full(judged, of, as_it_is))) {
+  while (!judged.whole && !enough(worst_known(judged, of, as_it_is))) {
     if (progress) progress(count_of({&judged}, of));
     evaluate(judged, of, next_of(of, judged, others, as_it_is), as_it_is);
   }

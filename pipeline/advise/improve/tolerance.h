@@ -69,8 +69,8 @@ struct WithinTolerance {
   std::vector<Outcome> outcomes{};              ///< (evaluated)
 };
 
-/// Evaluates the nudges of one finalist until m_w is known or `enough` returns true for the worst merit of
-/// full runs so far. others: finalists of the same job, which determine the order.
+/// Evaluates the nudges of one finalist until m_w is known or `enough` returns true for the worst merit so
+/// far, without estimated lives. others: finalists of the same job, which determine the order.
 WithinTolerance within_tolerance(const Finalist& finalist, const Outcome& as_it_is,
                                  const std::function<bool(const Merit&)>& enough,
                                  const std::vector<WithinTolerance>& others,

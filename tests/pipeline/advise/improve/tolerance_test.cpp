@@ -217,6 +217,9 @@ TEST_CASE("tolerance: a limit that a run without uncertain inputs exceeds counts
     return of;
   };
   CHECK(best_within(within_tolerance({at(2000, 0.01), at(1000, -0.01)}, outcome(100))) == 1);
+  const auto enough = [](const Merit& worst) { return worst.kept < Kept::limits; };
+  CHECK(within_tolerance(at(2000, 0.01), outcome(100), enough, {}, {}).nudges[0].estimated);  // it needs no full run
+  CHECK_FALSE(within_tolerance(at(2000, -0.01), outcome(100), enough, {}, {}).nudges[0].estimated);
 }
 
 TEST_CASE("tolerance: an estimate scales each life and takes the shorter one without damage") {
