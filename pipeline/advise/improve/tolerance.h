@@ -3,7 +3,7 @@
 // (T1) m_w = min(m, m_1, ..., m_n)   m: merit (merit.h) without offset; m_i: merit with one offset by the tolerance, of a clamp,
 //                                    a ring, a length or the turn of the end (nudges.h); the least merit if the job does not run
 // (T2) t_i ~ t q_i / q               t: life in a full run; q: life in a run without uncertain inputs (known_sets()), which takes
-//                                    a tenth to a fifth of the time; i: with offset i
+//                                    0.12 to 0.37 of the time; i: with offset i
 //
 // A run without uncertain inputs has the limits of the full run, because limits are those of the job's own values. Lives by modes
 // without a validated law have the same ratio t_i / t in both (jacket wear and abrasion, measured). So (T2) estimates only the wires' life, with an error (a factor of
