@@ -1,7 +1,8 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -31,21 +32,56 @@ struct ImproveOptions : RunOptions {
   std::optional<double> off_deg, bracket_mm;
 };
 
-/// Shows the progress. Short runs come before the first trial; the remaining time is that of the short runs, then of the trials.
-void show(Progress& progress, const Improvement& so_far, int trials) {
-  const std::optional<std::size_t> best = so_far.best();
-  const std::string best_words =
-      best ? hours_text(so_far.trials[*best].worst.hours) : "none within the limits";
-  const std::size_t done = so_far.trials.size();
-  trials = std::max(trials, static_cast<int>(done));  // bend reliefs are tried after the requested trials
-  if (done <= 1 && so_far.short_runs < so_far.most_short_runs)
-    progress.show(static_cast<double>(so_far.short_runs) / so_far.most_short_runs,
-                  fmt::format("short run {} of about {} before the first of {} trials", so_far.short_runs,
-                              so_far.most_short_runs, trials));
-  else
-    progress.show(static_cast<double>(done) / trials,
-                  fmt::format("trial {} of {}, best {}", done, trials, best_words));
-}
+/// Shows the progress of a search. The remaining time includes short runs, trials and the runs within the mounting tolerance.
+class SearchProgress {
+ public:
+  SearchProgress(const std::string& name, const ImproveOptions& options)
+      : progress_(name, options.quiet), trials_(options.request.trials),
+        after_trials_(tolerance_of(options.off_mm, options.off_deg).none() ? 0 : usual_tolerance_time) {}
+  void report(const Improvement& so_far) {
+    const std::optional<std::size_t> best = so_far.best();
+    best_words_ = best ? hours_text(so_far.trials[*best].worst.hours) : "none within the limits";
+    jobs_ = so_far.jobs.size();
+    done_ = static_cast<double>(so_far.trials.size());
+    trials_ = std::max(trials_, static_cast<int>(done_));  // bend reliefs are tried after the requested trials
+    short_runs_ = so_far.short_runs, most_short_runs_ = so_far.most_short_runs;
+    if (first_trial_ == 0) first_trial_ = seconds();
+    if (done_ <= 1) trials_from_ = seconds();
+    show(0);
+  }
+  /// Returns options for the jobs of trials, whose runs this object shows. Precondition: this object is not moved.
+  RunOptions shown_here(RunOptions options, const Study& study) {
+    const double trials = static_cast<double>(study.jobs.size()) / static_cast<double>(std::max<std::size_t>(jobs_, 1));
+    options.share_done = [this, trials](double share) { show(share * trials); };
+    return options;
+  }
+  void clear() { progress_.clear(); }
+
+ private:
+  double seconds() const { return std::chrono::duration<double>(Progress::Clock::now() - begin_).count(); }
+  /// running: trials that are done, but not reported.
+  void show(double running) {
+    if (done_ == 0) return progress_.show(fmt::format("trial 1 of {}", trials_));
+    const double now = seconds();
+    const bool short_runs = done_ == 1 && running == 0 && short_runs_ < most_short_runs_;
+    double left = (first_trial_ + now - trials_from_) / (done_ + running) * std::max(0.0, trials_ - done_ - running + after_trials_);
+    if (short_runs) left += (now - first_trial_) / std::max(1, short_runs_) * (most_short_runs_ - short_runs_);
+    const double share = now / (now + left);
+    const std::string remaining = remaining_words(now, 0, share);
+    const std::string words =
+        short_runs ? fmt::format("short run {} of about {} before the second of {} trials", short_runs_, most_short_runs_, trials_)
+                   : fmt::format("trial {:.0f} of {}, best {}", std::min(done_ + std::floor(running), 1.0 * trials_), trials_, best_words_);
+    progress_.show(fmt::format("{:5.1f} %{}{}  {}{}", 100 * share, remaining.empty() ? "" : ", ", remaining, words,
+                               after_trials_ > 0 ? ", then the mounting tolerance" : ""));
+  }
+
+  Progress progress_;
+  int trials_, short_runs_ = 0, most_short_runs_ = 0;
+  double after_trials_, done_ = 0, first_trial_ = 0, trials_from_ = 0;
+  std::size_t jobs_ = 1;
+  std::string best_words_;
+  Progress::Clock::time_point begin_ = Progress::Clock::now();
+};
 
 FilesAtStart files_of(const Study& study) {
   return FilesAtStart(filtered(mapped(study.jobs, &StudyJob::job), [](const auto& job) { return job != nullptr; }));
@@ -101,7 +137,7 @@ int judge_the_best(const ImproveOptions& options, const StudyPlaces& places, con
     written = write_short_job(options.request, found, finals, job, false, false);
     if (!options.quiet)
       write_stderr(shown(fmt::format(
-          "The trials are done. The jobs of the best are in {}{}. Next the best run again with {}: up to 24 runs each, most often about 30 in all. --off 0 leaves that out.\n",
+          "The trials are done. The jobs of the best are in {}{}. Next the best run again with {}, which most often takes as long as nine trials. --off 0 leaves that out.\n",
           places.folder.string(),
           written ? fmt::format(", the best as drawn also in {}", job.string()) : "",
           tolerance_text(tolerance))));
@@ -130,15 +166,12 @@ int improve_study(ImproveOptions options) {
   const StudyPlaces& places = own.places;
   const fs::path job = name + "_improved.yaml";
   check_replaceable(job);
-  RunOptions quiet = options;
-  quiet.quiet =
-      options.quiet || ::isatty(STDERR_FILENO);  // a terminal shows only one progress line, that of the search
-  Progress progress(name, options.quiet);
+  SearchProgress progress(name, options);
   const FilesAtStart files = files_of(read_study(options.request.file, options.sets));
   const TrialMakers makers{
-      [&](const Study& study) { return made_rows(study, places, quiet, files); },
+      [&](const Study& study) { return made_rows(study, places, progress.shown_here(options, study), files); },
       [&](const Improvement& so_far) {
-        show(progress, so_far, options.request.trials);
+        progress.report(so_far);
         remove_trial_files(so_far, places, true);
       }};
   Improvement found = improve(options.request, places, makers);

@@ -181,13 +181,7 @@ void ToleranceRuns::begin(const ToleranceCount& count) {
 }
 
 void ToleranceRuns::show(double share) {
-  const double done = static_cast<double>(count_.done) +
-                      share * static_cast<double>(std::min(tolerance_runs_at_once, count_.likely - count_.done));
-  progress_.show(done / static_cast<double>(count_.likely),
-                 fmt::format("mounting tolerance: run {:.0f} of {}{}", std::floor(done) + 1, count_.likely,
-                             count_.most > count_.likely
-                                 ? fmt::format(" (at most {} if another routing proves better)", count_.most)
-                                 : ""));
+  progress_.show((count_.done + share * count_.next) / count_.likely, "mounting tolerance: " + count_.words);
 }
 
 void add_relative_lives(const Study& study, const StudyPlaces& of_study, const RunOptions* to_run,

@@ -13,11 +13,14 @@
 #include "pipeline/advise/improve/faults.h"
 #include "pipeline/advise/improve/outcome.h"
 #include "pipeline/advise/improve/screened.h"
+#include "pipeline/advise/improve/story.h"
 #include "pipeline/advise/improve/tolerance.h"
 #include "pipeline/base/digest.h"
 #include "pipeline/base/errors.h"
 #include "pipeline/base/installation.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/plain_file.h"
+#include "pipeline/base/progress.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/stage_failed.h"
 #include "pipeline/base/text.h"
@@ -116,18 +119,24 @@ ScreenedList proposed(const Draft& draft, const RouteOptions& options, double fa
   return read_screening(passing.path());
 }
 
-/// Runs a routing through the whole chain. which: "run 2 of 4", for the progress.
-void run(Trial& trial, std::size_t k, const std::string& which, const Draft& draft, const RouteOptions& options,
+/// Runs routings through the whole chain.
+void run(Trial& trial, const std::vector<std::size_t>& of, const Draft& draft, const RunOptions& options,
          const StudyPlaces& places, const FilesAtStart& files) {
-  const ScreenedCandidate& candidate = trial.proposals.candidates[k];
-  const Node document = routed(draft, candidate.changes, trial.proposals.motion, trial.factor);
-  Study study{fmt::format("{} at {:.0f} %, {}", draft.name, 100 * trial.factor, which), {}};
-  study.jobs.push_back({fmt::format("{:.0f}_percent_{}", 100 * trial.factor, k + 1),
-                        std::make_shared<const Job>(job_from(document)), ""});
-  const RankingRow& row = trial.rows[k] = made_rows(study, places, options, files).front();
-  trial.outcomes[k] = outcome_of(row, places.job(row.job));
-  if (!trial.outcomes[k].failure.empty()) return;
-  if (!trial.best || better(trial.outcomes[k], trial.outcomes[*trial.best], trial.as_it_is())) trial.best = k;
+  Study study{draft.name, {}};
+  for (const std::size_t k : of) {
+    const Node document = routed(draft, trial.proposals.candidates[k].changes, trial.proposals.motion, trial.factor);
+    study.jobs.push_back({fmt::format("{:.0f}_percent_{}", 100 * trial.factor, k + 1),
+                          std::make_shared<const Job>(job_from(document)), ""});
+  }
+  const std::vector<RankingRow> rows = made_rows(study, places, options, files);
+  for (std::size_t n = 0; n < of.size(); ++n) {
+    const std::size_t k = of[n];
+    const RankingRow& row = trial.rows[k] = *find_in(rows, &RankingRow::job, study.jobs[n].name);
+    trial.outcomes[k] = outcome_of(row, places.job(row.job));
+    if (trial.outcomes[k].failure.empty() &&
+        (!trial.best || better(trial.outcomes[k], trial.outcomes[*trial.best], trial.as_it_is())))
+      trial.best = k;
+  }
 }
 
 /// Returns the tolerance to verify. Without a program of the user 24 more runs of each routing have no value, so it is zero then.
@@ -150,16 +159,14 @@ void judge(Trial& trial, const Draft& draft, const RouteOptions& options, const 
   for (const std::size_t k : best_first) {
     const Node document =
         routed(draft, trial.proposals.candidates[k].changes, trial.proposals.motion, trial.factor);
-    Finalist finalist{trial.outcomes[k],
-                      nudges_of({{"place", std::make_shared<const Job>(job_from(document)), ""}},
-                                tolerance_for(draft, options)),
-                      {}};
-    finalist.run = [&, k, document, nudges = finalist.nudges](const std::vector<std::size_t>& numbers) {
+    const std::vector<StudyJob> placed{{"place", std::make_shared<const Job>(job_from(document)), ""}};
+    Finalist finalist{trial.outcomes[k], nudges_of(placed, tolerance_for(draft, options)), {}};
+    set_runs(finalist, known_sets(placed), [&, k, document](const auto& sets_of_runs, const auto& names) {
       Study study{draft.name, {}, Keep::lives};
-      for (const std::size_t j : numbers) {
+      for (std::size_t j = 0; j < names.size(); ++j) {
         Node off = document;
-        for (const std::string& set : nudges[j].sets) apply_set(off, set);
-        study.jobs.push_back({fmt::format("{}_off_{:02}", trial.rows[k].job, j + 1),
+        for (const std::string& set : sets_of_runs[j]) apply_set(off, set);
+        study.jobs.push_back({fmt::format("{}_off_{}", trial.rows[k].job, names[j]),
                               std::make_shared<const Job>(job_from(off)), ""});
       }
       const std::vector<RankingRow> rows = made_rows(study, places, runs.options(), files);
@@ -168,7 +175,7 @@ void judge(Trial& trial, const Draft& draft, const RouteOptions& options, const 
         for (const RankingRow& row : rows)
           if (row.job == job.name) outcomes.push_back(outcome_of(row, places.job(row.job)));
       return outcomes;
-    };
+    });
     finalists.push_back(std::move(finalist));
   }
   const auto progress = [&](const ToleranceCount& count) { runs.begin(count); };
@@ -240,12 +247,22 @@ Trial tried(const Draft& draft, const RouteOptions& options, double factor, cons
     if (!trial.proposals.candidates[k].rejected && trial.proposals.candidates[k].violation() == 0)
       to_run.push_back(k);
   if (trial.start) to_run.push_back(*trial.start);
+  Progress progress(fmt::format("{} at {:.0f} %", draft.name, 100 * factor), options.quiet);
+  const auto run_next = [&](const std::vector<std::size_t>& of, std::size_t before) {
+    RunOptions with_progress = options;
+    with_progress.share_done = [&](double share) {
+      const double likely = static_cast<double>(to_run.size()) + (tolerance ? usual_tolerance_time : 0);
+      progress.show((static_cast<double>(before) + share * static_cast<double>(of.size())) / likely,
+                    fmt::format("full runs of {}{} routings{}", tolerance ? "" : "at most ", to_run.size(),
+                                tolerance ? ", then the mounting tolerance" : ""));
+    };
+    run(trial, of, draft, with_progress, places, files);
+  };
   try {
-    for (std::size_t n = 0; n < to_run.size(); ++n) {
-      if (to_run[n] != trial.start && !tolerance && trial.feasible()) continue;
-      run(trial, to_run[n], fmt::format("run {} of {}{}", n + 1, tolerance ? "" : "at most ", to_run.size()),
-          draft, options, places, files);
-    }
+    if (tolerance && !to_run.empty()) run_next(to_run, 0);
+    for (std::size_t n = 0; n < to_run.size() && !tolerance; ++n)
+      if (to_run[n] == trial.start || !trial.feasible()) run_next({to_run[n]}, n);
+    progress.clear();
     if (tolerance && trial.feasible()) {
       write_job(trial, draft, options, job, not_verified);
       if (!options.quiet)
@@ -293,7 +310,11 @@ DecidingLimit decided(const Trial& trial, const Draft& draft) {
     for (const Warning& warning : trial.best ? warnings_of(trial.rows[*trial.best]) : std::vector<Warning>{})
       if (const WarningParts parts = parts_of(warning.words);
           kind != kinds.end() && warning.kind == kind->second && !parts.remedy.empty())
-        return {fmt::format("the limit that decides: {}. Likely cause: {}", parts.problem, parts.cause), parts.remedy + "; or " + other};
+{
+        const std::string rest = remedy_after_search(parts.remedy);
+        return {fmt::format("the limit that decides: {}. Likely cause: {}", parts.problem, parts.cause),
+                (rest.empty() ? "" : rest + "; or ") + other};
+      }
     return {fmt::format("the limit that decides: {}, violated by {}", limit, passed_text(most, passed[most])), other};
   }
   // The limit shrinks with the hose, but a thinner hose is also bent more: abb_irb2600_12_165 with `hard` exceeds the limit by
@@ -376,9 +397,8 @@ std::string words_of(const Trial& trial, const Draft& draft, const MountingToler
     text += fmt::format("No program was given: the wrist was only moved about{}. Look again with yours.\n",
                         tolerance.none() ? ", and no mounting tolerance was tried" : "");
   if (best.feasible()) {
-    const auto at_other_values = std::ranges::count(warnings_of(trial.rows[*trial.best]), WarningKind::other_values, &Warning::kind);
-    text += at_other_values > 0 ? "It keeps all limits in a run with its own values. At other values of stiffness, slack or friction it does not: "
-                                  "the warnings of dresslife run name them.\n"
+    const std::string at_other_values = left_at_other_values(trial.rows[*trial.best]);
+    text += !at_other_values.empty() ? "It keeps all limits in a run with its own values.\n" + at_other_values
                                 : "It keeps all limits in a run.\n";
   } else {
     const DecidingLimit by = decided(trial, draft);
@@ -416,12 +436,12 @@ int route(const RouteOptions& options) {
   const std::vector<double> factors = factors_of(options);
   if (!options.quiet)
     write_stderr(fmt::format(
-        "Checks {} routings by geometry and the best of them in {} short runs, for each size. "
-        "Runs follow{}.\n",
+        "Checks {} routings by geometry and the best of them in {} short runs, for each size. Full runs follow{}. "
+        "The remaining time of the short runs does not include them.\n",
         options.tried, options.short_runs,
         tolerance_for(draft, options).none()
             ? ""
-            : "; the best three run up to 24 times each with a clamp or length off, most often about 30 times in all (--off 0 leaves that out)"));
+            : " of the best three, then runs with a clamp or length off, which most often take as long as nine full runs (--off 0 leaves them out)"));
   if (kind_of(options.request.of) == FileKind::file) claim_folder(places.folder, options.request.of);
   const FilesAtStart files({std::make_shared<const Job>(draft.job)});
   std::optional<Trial> chosen, nearest;
@@ -445,7 +465,7 @@ int route(const RouteOptions& options) {
   const bool may_run = !chosen && std::isfinite(violation(*nearest));
   if (may_run && ended.empty()) {
     try {
-      run(*nearest, 0, "run of the nearest", draft, options, places, files);
+      run(*nearest, {0}, draft, options, places, files);
     } catch (const FilesChanged& change) {
       ended = change.what();
       write_stderr(shown(ended) + "\n");

@@ -76,13 +76,13 @@ std::string nudges_section(const ImprovementStory& story) {
   for (const ImprovementStory::Nudge& nudge : story.nudges)
     rows += fmt::format(
         "<tr><td>{}</td><td class=\"number\">{}</td><td{}>{}</td><td>{}</td></tr>\n", escaped(nudge.what),
-        nudge.ran && std::isfinite(nudge.share) ? fmt::format("× {:.2f}", nudge.share) : "–",
+        nudge.ran && std::isfinite(nudge.share) ? fmt::format("{}× {:.2f}", nudge.estimated ? "≈ " : "", nudge.share) : "–",
         nudge.words.empty() ? "" : " class=\"failed\"", nudge.words.empty() ? "kept" : escaped(nudge.words),
         nudge.first_mode.empty()
             ? "–"
             : fmt::format("{}: {}", escaped(nudge.first_mode), escaped(hours_text(nudge.first_hours))));
   return "<h2>Mounting tolerance</h2>\n<p>The same job with one clamp, ring, length or the turn of its end off. The life is the p10 of the "
-         "wires over that of the job as drawn.</p>\n" +
+         "wires over that of the job as drawn. ≈: lives estimated by runs without uncertain inputs.</p>\n" +
          wide_table({"off by", "#life", "limits", "first of the modes that are not validated"}, rows);
 }
 

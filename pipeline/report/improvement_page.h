@@ -31,6 +31,7 @@ struct ImprovementStory {
     std::string words;  ///< violated limits; empty: none
     std::string first_mode{};  ///< first mode without a validated law within the robot's life; empty: none
     double first_hours = 0;    ///< hours until 1 of 10 has failed by first_mode
+    bool estimated = false;    ///< whether both lives are estimates by runs without uncertain inputs
   };
 
   std::string name;

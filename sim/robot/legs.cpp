@@ -8,6 +8,7 @@
 
 #include "pipeline/base/constants.h"
 #include "sim/robot/inverse_kinematics.h"
+#include "sim/robot/joint_slip.h"
 #include "sim/robot/robot.h"
 #include "sim/robot/tool_path.h"
 
@@ -55,13 +56,15 @@ class Layout {
                                  fmt::format("motion '{}' does not begin with a move", motion_.name),
                                  "begin with the joints_deg at which the robot starts");
     number(motion_.steps, "");
+    const std::string slip = beyond_.empty() ? "" : joint_slip(motion_, robot_);
     for (const auto& [axis, fault] : beyond_)
       problems_.add(fault.where,
                     fault.targets == 1
                         ? fault.worst.what
                         : fmt::format("{}, the farthest of {} targets outside of its limits", fault.worst.what, fault.targets),
-                    fault.targets == 1 ? fault.worst.remedy
-                                       : "the program may be one of another robot, or a URDF has other zeros than the controller: name the program's robot, or " + fault.worst.remedy);
+                    !slip.empty()        ? "probably " + slip + ": without this slip all axes keep their limits; else " + fault.worst.remedy
+                    : fault.targets == 1 ? fault.worst.remedy
+                                         : "the program may be one of another robot, or a URDF has other zeros than the controller: name the program's robot, or " + fault.worst.remedy);
     throw_if_any();
     int first = 0;
     expand(motion_.steps, first);

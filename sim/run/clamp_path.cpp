@@ -12,6 +12,7 @@
 #include "sim/program/import.h"
 #include "sim/program/interpreter/tokens.h"
 #include "sim/robot/inverse_kinematics.h"
+#include "sim/robot/joint_slip.h"
 
 namespace dresslife::sim {
 
@@ -207,6 +208,7 @@ std::vector<pipeline::Warning> too_fast(const pipeline::Motion& motion, const pi
   add_too_fast(motion.steps, axes, before, 0, found);
   if (found.count == 0) return {};
   const Axis& axis = axes[static_cast<std::size_t>(found.axis)];
+  const std::string slip = joint_slip(motion, robot);
   const double unit = axis.turns ? std::numbers::pi / 180 : 1e-3;
   const char* const name = axis.turns ? "deg/s" : "mm/s";
   return {pipeline::warning_of(
@@ -214,7 +216,8 @@ std::vector<pipeline::Warning> too_fast(const pipeline::Motion& motion, const pi
       fmt::format("{} is to move at {:.1f} {} up to {:.6g} s (limit {:.1f} {}){}: the robot takes longer",
                   axis.name, found.speed / unit, name, found.time, axis.speed / unit, name,
                   found.count > 1 ? fmt::format(", and {} further steps are too fast", found.count - 1) : ""),
-      "times or angles in another unit, or a recording of a faster robot",
+      slip.empty() ? "times or angles in another unit, or a recording of a faster robot"
+                   : slip + ": without this slip all axes keep their limits and speeds",
       "times that the robot can keep, or the axis' limit in robot.joints if it is larger")};
 }
 

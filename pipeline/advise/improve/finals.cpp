@@ -119,17 +119,17 @@ void judge(Finals& finals, const Improvement& found, const ImproveRequest& reque
   std::vector<Finalist> finalists;
   const auto finalist_of = [&](const Final* of) {
     const std::vector<std::string>& sets = found.trials[of->trial].sets;
-    Finalist finalist{
-        found.trials[of->trial].worst, nudges_of(changed_jobs(request, sets, "place"), tolerance), {}};
-    finalist.run = [&, of, sets, nudges = finalist.nudges](const std::vector<std::size_t>& numbers) {
+    const std::vector<StudyJob> placed = changed_jobs(request, sets, "place");
+    Finalist finalist{found.trials[of->trial].worst, nudges_of(placed, tolerance), {}};
+    // (run) the changes of each run and its name
+    const auto outcomes_of = [&, trial = of->trial, sets](const std::vector<std::vector<std::string>>& runs,
+                                                          const std::vector<std::string>& run_names) {
       Study study{found.name, {}, found.keep_trials};
-      std::vector<std::vector<std::string>> jobs(numbers.size());
-      for (std::size_t k = 0; k < numbers.size(); ++k) {
-        const std::vector<std::string>& off = nudges[numbers[k]].sets;
+      std::vector<std::vector<std::string>> jobs(runs.size());
+      for (std::size_t k = 0; k < runs.size(); ++k) {
         std::vector<std::string> all = sets;
-        all.insert(all.end(), off.begin(), off.end());
-        for (StudyJob& job :
-             changed_jobs(request, all, fmt::format("off_{:04}_{:02}", of->trial, numbers[k] + 1))) {
+        all.insert(all.end(), runs[k].begin(), runs[k].end());
+        for (StudyJob& job : changed_jobs(request, all, fmt::format("off_{:04}_{}", trial, run_names[k]))) {
           jobs[k].push_back(job.name);
           study.jobs.push_back(std::move(job));
         }
@@ -143,6 +143,7 @@ void judge(Finals& finals, const Improvement& found, const ImproveRequest& reque
       }
       return worst;
     };
+    set_runs(finalist, known_sets(placed), outcomes_of);
     return finalist;
   };
   for (const Final* of : best_first) finalists.push_back(finalist_of(of));

@@ -10,7 +10,9 @@
 #include "pipeline/base/joined.h"
 #include "pipeline/base/lists.h"
 #include "pipeline/base/readable.h"
+#include "pipeline/base/warning_words.h"
 #include "pipeline/study/mode_table.h"
+#include "pipeline/study/row_warnings.h"
 #include "pipeline/study/row_words.h"
 
 namespace dresslife::pipeline {
@@ -138,6 +140,12 @@ std::string unjudged_words(const Improvement& found, const Trial& best) {
   return keys.empty() ? "" : fmt::format("Without a mounting tolerance: {}\n", joined(keys, ", "));
 }
 
+/// Returns left_at_other_values() of the worst of these jobs.
+std::string left_of(const Finals& finals, const Final& of) {
+  const RankingRow* const row = finals.worst_row(of);
+  return row ? left_at_other_values(*row) : "";
+}
+
 }  // namespace
 
 ImprovementStory story_of(const Improvement& found, const Finals& finals, SecondAim second,
@@ -207,7 +215,7 @@ std::string improvement_words(const Improvement& found, const Finals& finals, co
     text += fmt::format("No other job that keeps all limits was found in {} trial{} and {} short runs.\n", found.trials.size(),
                         found.trials.size() == 1 ? "" : "s", found.short_runs);
     for (const std::string& line : found.obstacle) text += line + "\n";
-    return text + relief_words(found);
+    return text + relief_words(found) + left_of(finals, finals.of.front());
   }
   if (found.front.size() > 1) return text + front_words(found, finals, story, second, tolerance);
   const Final& best = *finals.best();
@@ -218,15 +226,44 @@ std::string improvement_words(const Improvement& found, const Finals& finals, co
   text += fmt::format("{}{} {} of {}: {}\n{}{}{}{}", story.keep, gain ? "Trial" : " The best of it is trial",
                       best.trial, found.trials.size(), outcome_words(trial.worst, best.hours), story.gain,
                       story.gain.empty() ? "" : "\n", judged, story.choice);
-  if (!gain) return text;
+  if (!gain) return text + left_of(finals, finals.of.front());
   if (const RankingRow* const row = finals.worst_row(best)) {
     for (const std::string& words : {action_words(*row), uncertainty_words(*row), failure_words(*row)})
       text += words + (words.empty() ? "" : "\n");
-    text += mode_table(*row, 120, "") + mode_legend({*row}, 120, "");
+    text += left_at_other_values(*row) + mode_table(*row, 120, "") + mode_legend({*row}, 120, "");
   }
   text += change_lines(trial);
   for (const std::string& job : best.jobs)
     text += fmt::format("Job: {}\n", (places.job(job) / "job.yaml").string());
+  return text;
+}
+
+std::string remedy_after_search(const std::string& remedy) {
+  if (!remedy.starts_with("other clamps")) return remedy;
+  int depth = 0;
+  for (std::size_t k = 0; k < remedy.size(); ++k) {
+    depth += (remedy[k] == '(') - (remedy[k] == ')');
+    if (depth > 0 || !remedy.substr(k).starts_with("; ")) continue;
+    std::string rest = remedy.substr(k + 2);
+    constexpr std::string_view searched = ", which dresslife improve tries";
+    if (const std::size_t at = rest.find(searched); at != std::string::npos) rest.erase(at, searched.size());
+    return rest.starts_with("or ") ? rest.substr(3) : rest;
+  }
+  return "";
+}
+
+std::string left_at_other_values(const RankingRow& row) {
+  std::string text;
+  for (const Warning& warning : warnings_of(row)) {
+    if (warning.kind != WarningKind::other_values) continue;
+    const WarningParts parts = parts_of(warning.words);
+    const std::string rest = remedy_after_search(parts.remedy);
+    text += "Not kept at other values: " + parts.problem + ". ";
+    text += rest == parts.remedy
+                ? "Remedy: " + rest + "\n"
+                : "The best clamps of this search do not keep it. Remedies that are left: " + rest + (rest.empty() ? "" : "; ") +
+                      "a guide ring between the clamps (routing.rings); or a program that reaches less far\n";
+  }
   return text;
 }
 

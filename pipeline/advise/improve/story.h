@@ -23,4 +23,11 @@ std::string improvement_words(const Improvement& found, const Finals& finals, co
                               SecondAim second, const MountingTolerance& tolerance,
                               const StudyPlaces& places);
 
+/// Returns the remedy of a warning without the clamps that a search has already tried; empty: there is no other remedy.
+std::string remedy_after_search(const std::string& remedy);
+
+/// Returns a line for each limit that a proposed job exceeds at other values of stiffness, slack or friction, with the remedies
+/// that are left after a search; empty: none.
+std::string left_at_other_values(const RankingRow& row);
+
 }  // namespace dresslife::pipeline

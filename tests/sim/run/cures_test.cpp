@@ -191,7 +191,7 @@ TEST_CASE("cures: a limit that no length and no direction keeps says so, with th
   job.dresspacks[0].dresspack.least_bend_radius = 30;  // of nearly straight hoses
   const std::string words = words_of(job, pipeline::WarningKind::bend_radius);
   CHECK_THAT(words, Catch::Contains("with these two clamps no length and no direction that was tried") &&
-                        Catch::Contains("Remedy: other clamps, which `dresslife route` searches") &&
+                        Catch::Contains("Remedy: other clamps (`dresslife route` searches them, unless it proposed these)") &&
                         Catch::Contains(" mm at rest, too little for a short run; required: 30000.0 mm"));
   job.dresspacks[0].dresspack.least_bend_radius = value_of(words, "dresspack.least_bend_radius_mm") / 1000;
   CHECK(words_of(job, pipeline::WarningKind::bend_radius) == "");
@@ -207,7 +207,7 @@ TEST_CASE("cures: a limit that a length keeps at rest and none keeps in a run is
     CAPTURE(limit, words);
     const std::size_t at = words.find(" m, bend radius ");
     if (at == std::string::npos) continue;
-    CHECK_THAT(words, Catch::Contains("Remedy: other clamps, which `dresslife route` searches: with these two clamps no length and no direction"));
+    CHECK_THAT(words, Catch::Contains("Remedy: other clamps (`dresslife route` searches them, unless it proposed these): with these two clamps no length and no direction"));
     const double rest = std::stod(words.substr(at + 16));
     const std::size_t run = words.find(" mm at rest, ");
     REQUIRE(run != std::string::npos);

@@ -156,4 +156,10 @@ TEST_CASE(
 }
 
 }  // namespace
+TEST_CASE("story: a remedy after a search names no clamps that were searched") {
+  CHECK(remedy_after_search("other clamps (`route` searches them; all): no length keeps it (best: 1 m; required: 2 m); or A: 1, which dresslife improve tries; or B: 2") == "A: 1; or B: 2");
+  CHECK(remedy_after_search("other clamps: no length keeps it").empty());
+  CHECK(remedy_after_search("free_length_m: 2; or B: 2") == "free_length_m: 2; or B: 2");
+}
+
 }  // namespace dresslife::pipeline
