@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "pipeline/base/csv_rows.h"
 #include "pipeline/base/joined.h"
 #include "pipeline/base/lists.h"
 #include "pipeline/base/plain_file.h"
@@ -35,6 +36,18 @@ std::string value_words(const Node* value) {
   return list.size() <= longest ? list : fmt::format("a list of {}", value->items.size());
 }
 
+/// Returns a number of many digits with six digits; any other text unchanged.
+std::string rounded(const std::string& text) {
+  const std::optional<double> number = number_in(text);
+  return number && text.size() > 8 ? fmt::format("{:.6g}", *number) : text;
+}
+
+std::string change_words(const Node* was, const Node* now) {
+  std::string before = value_words(was), after = value_words(now);
+  if (rounded(before) != rounded(after)) before = rounded(before), after = rounded(after);
+  return fmt::format("{} -> {}", before, after);
+}
+
 class Comparison {
  public:
   void compare(const Node* was, const Node* now, const std::string& path) {
@@ -47,7 +60,7 @@ class Comparison {
       for (std::size_t i = 0; i < was->items.size(); ++i)
         compare(&was->items[i], &now->items[i], fmt::format("{}[{}]", path, i + 1));
     else if (!same(was, now))
-      found.push_back(fmt::format("{} {} -> {}", path, value_words(was), value_words(now)));
+      found.push_back(fmt::format("{} {}", path, change_words(was, now)));
   }
   std::vector<std::string> found;
 

@@ -28,6 +28,8 @@ TEST_CASE("changes: keys by their paths, in the order of the settings as they we
         Lines{"a.old 1 -> nothing", "a.new nothing -> 2 keys"});
   CHECK(between("clamp: {at: [0, 1, 2]}\n", "clamp: {at: [0, 1, 3]}\n") ==
         Lines{"clamp.at [0, 1, 2] -> [0, 1, 3]"});
+  CHECK(between("factor: 0.6129078387471198\n", "factor: 1\n") == Lines{"factor 0.612908 -> 1"});
+  CHECK(between("factor: 1.0000000001\n", "factor: 1\n") == Lines{"factor 1.0000000001 -> 1"});
 }
 
 TEST_CASE("changes: of lists their items where there are as many, else their lengths") {
