@@ -198,7 +198,7 @@ int plan(const PlanOptions& options) {
     write_stderr(shown(warning.paragraph()));
   const DutiesRun made = run_duties(file, options);
   const PlantLives lives_of_plant(file, made.study, made.rows, needed);
-  std::map<std::string, LifeTable> tables = lives_of_plant.in(usual_worlds, has_changes);
+  std::map<std::string, LifeTable> tables = lives_of_plant.in(usual_worlds, usual_draws, has_changes);
   for (const auto& [name, table] : tables)
     if (planned.contains(name) && table.half_end_before(table.hours_per_week))
       throw InputError(
@@ -215,10 +215,10 @@ int plan(const PlanOptions& options) {
   Plan found = plan_of(fleet, tables, windows, day, rule);
   // ages of many survivors leave few worlds with weight
   if (found.effective_worlds < enough_worlds) {
-    // the estimate from few worlds is exact to a tenth; the limit takes ten seconds for 500 dresspacks
-    constexpr double spare = 1.2, most = 8;
+    // The estimate from few worlds is exact to a tenth. Few effective worlds need more dresspacks in each.
+    constexpr double spare = 1.2, most = 4;
     const auto times = static_cast<std::size_t>(std::clamp(std::ceil(spare * enough_worlds / found.effective_worlds), 2.0, most));
-    tables = lives_of_plant.in(times * usual_worlds, has_changes);
+    tables = lives_of_plant.in(times * usual_worlds, 2 * usual_draws, has_changes);
     rule.enough_worlds = fewest_worlds;
     found = plan_of(fleet, tables, windows, day, rule);
   }

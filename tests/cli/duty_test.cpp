@@ -241,7 +241,7 @@ TEST_CASE("a plan names what to replace in a window, writes a table and a calend
   CHECK(unwrapped(changed.err).find("note: 3 earlier results are replaced. Changed since that of 'one': fatigue.failed_wires_percent 10 -> 20") != std::string::npos);
   CHECK(run(scratch, "dresslife", plan + "2026-12-21").err.find("3 earlier results are replaced") != std::string::npos);
   CHECK(run(scratch, "dresslife", plan + "2026-12-21").err.find("earlier result") == std::string::npos);
-  // Twenty dresspacks that have lived for 32 weeks leave 6 of 500 samples, and 50 of 4,000. For three years none remains.
+  // Twenty dresspacks that have lived for 32 weeks leave 12 of 1,000 samples, and 50 of 4,000. For three years none remains.
   const auto survivors = [&](const std::string& since) {
     std::string twenty = "name,duty,installed\n";
     for (int k = 0; k < 20; ++k) twenty += "r" + std::to_string(k) + ",d," + since + "\n";

@@ -287,8 +287,6 @@ class Programs {
   WireDamages damages_;
 };
 
-constexpr std::size_t draws = 64;  // dresspacks in each world: the error of a probability of 10 % in one world is 3.8 %
-
 /// Numbers of the different results and of the different jobs among the programs of duties.
 struct Shares {
   std::vector<std::vector<std::size_t>> result, job;  ///< (duty, program) number of the result, number of the job
@@ -734,7 +732,7 @@ PlantLives::PlantLives(const DutyFile& file, const Study& study, const std::vect
 
 PlantLives::~PlantLives() = default;
 
-std::map<std::string, LifeTable> PlantLives::in(std::size_t worlds, bool keep_draws) const {
+std::map<std::string, LifeTable> PlantLives::in(std::size_t worlds, std::size_t draws, bool keep_draws) const {
   const auto& [tasks, all, shares, prepared] = *read_;
   std::map<std::string, LifeTable> tables;
   std::vector<LifeTable*> of_task;  // (duty)

@@ -99,8 +99,10 @@ std::vector<DutyResult> evaluated(const DutyFile& file, const Study& study, cons
 std::vector<DutyResult> outlines(const DutyFile& file, const Study& study, const std::vector<RankingRow>& rows,
                                  const std::set<std::string>& needed);
 
-/// Number of worlds: with 500 the error of a probability of 10 % is 1.3 %.
-constexpr std::size_t usual_worlds = 500;
+/// Usual numbers of worlds, and of dresspacks in each world. With 1,000 worlds the error of a probability of 10 % is 0.9 %. With 32
+/// dresspacks in each and 10 to 427 survivors, predicted failures deviate from the law by less than 4 %, with 16 by up to 7 % (means of
+/// 40 plans with at least 69 effective worlds).
+constexpr std::size_t usual_worlds = 1000, usual_draws = 32;
 
 /// Computes the lives of a plant's dresspacks under each of the `needed` duties (plan.h), for one or more numbers of worlds.
 class PlantLives {
@@ -110,8 +112,8 @@ class PlantLives {
   ~PlantLives();
   PlantLives(const PlantLives&) = delete;
   PlantLives& operator=(const PlantLives&) = delete;
-  /// Returns the lives by the names of the duties. keep_draws: fills LifeTable::of_draw.
-  std::map<std::string, LifeTable> in(std::size_t worlds, bool keep_draws) const;
+  /// Returns the lives by the names of the duties. draws: dresspacks in each world. keep_draws: fills LifeTable::of_draw.
+  std::map<std::string, LifeTable> in(std::size_t worlds, std::size_t draws, bool keep_draws) const;
 
  private:
   struct Task;

@@ -53,6 +53,7 @@ struct LifeTable {
   std::vector<SharedValue> shared{};  ///< values on which the lives depend
   /// (draw, world) the same lives; a draw is one dresspack under all duties; empty: `hours` is rising in each world
   std::vector<float> of_draw{};
+  std::vector<double> mean_ln{};  ///< (world) m'_w of (D11); empty: the mean of ln of its lives
 
   /// Returns the life of one dresspack [h].
   double life(std::size_t world, std::size_t draw) const { return of_draw.empty() ? hours[world * draws + draw] : of_draw[draw * worlds + world]; }

@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "pipeline/base/lists.h"
 #include "pipeline/base/order.h"
 
 namespace dresslife::pipeline {
@@ -59,6 +60,7 @@ PooledLives::PooledLives(const LifeTable& table) : draws_(table.draws), mean_(ta
     if (table.draws > 1)
       chance_ += std::max(0.0, squares - sum * mean_[w]) / (count - 1) / count / static_cast<double>(table.worlds);
   }
+  if (!table.mean_ln.empty()) mean_ = table.mean_ln;
   order_ = smallest_first(table.worlds, [&](std::size_t w) { return mean_[w]; });
   const std::size_t in_pool = std::clamp<std::size_t>(pooled / table.draws, 1, table.worlds), pools = table.worlds / in_pool;
   distance_.resize(pools);
@@ -81,12 +83,17 @@ double PooledLives::alive(std::size_t world, double age) const {
   return (double(longer) + 0.5) / (double(all.size()) + 0.5);
 }
 
-std::vector<float> PooledLives::without_chance() const {
-  const auto worlds = static_cast<double>(mean_.size()), count = static_cast<double>(draws_);
+std::vector<double> PooledLives::means_without_chance() const {
+  const auto worlds = static_cast<double>(mean_.size());
   double mean = 0, variance = 0;
   for (const double of_world : mean_) mean += of_world / worlds;
   for (const double of_world : mean_) variance += (of_world - mean) * (of_world - mean) / worlds;
   const double narrower = variance > 0 ? std::sqrt(std::max(0.0, 1 - chance_ / variance)) : 0;
+  return mapped(mean_, [&](double of_world) { return mean + narrower * (of_world - mean); });
+}
+
+std::vector<float> PooledLives::lives_around(const std::vector<double>& means) const {
+  const auto count = static_cast<double>(draws_);
   const double wider = draws_ > 1 ? std::sqrt(count / (count - 1)) : 1;
   std::vector<float> hours(mean_.size() * draws_);
   for (std::size_t place = 0; place < order_.size(); ++place) {
@@ -97,14 +104,16 @@ std::vector<float> PooledLives::without_chance() const {
     const std::vector<float>& all = distance_[pool_of_[w]];
     for (std::size_t d = 0; d < draws_; ++d) {
       const auto at = static_cast<std::size_t>((double(d) + first) * double(all.size()) / count);
-      hours[w * draws_ + d] = static_cast<float>(std::exp(mean + narrower * (mean_[w] - mean) + wider * all[std::min(at, all.size() - 1)]));
+      hours[w * draws_ + d] = static_cast<float>(std::exp(means[w] + wider * all[std::min(at, all.size() - 1)]));
     }
   }
   return hours;
 }
 
 void remove_chance(LifeTable& table) {
-  std::vector<float> better = PooledLives(table).without_chance();
+  const PooledLives pooled(table);
+  table.mean_ln = pooled.means_without_chance();
+  std::vector<float> better = pooled.lives_around(table.mean_ln);
   if (!table.of_draw.empty())
     for (std::size_t w = 0; w < table.worlds; ++w) {
       const auto order = smallest_first(table.draws, [&](std::size_t d) { return table.of_draw[d * table.worlds + w]; });

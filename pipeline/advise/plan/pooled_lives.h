@@ -22,8 +22,11 @@ class PooledLives {
   /// Returns the share of dresspacks that reach an age in a world, from the lives of similar worlds, moved to the mean of this
   /// world. If no life is longer, half a life is assumed.
   double alive(std::size_t world, double age) const;
-  /// Returns `draws` lives of each world by (D11) [h], (world, draw), rising in each world.
-  std::vector<float> without_chance() const;
+  /// Returns m'_w of (D11), (world).
+  std::vector<double> means_without_chance() const;
+  /// Returns `draws` lives of each world by (D11) [h], (world, draw), rising in each world. means: m'_w. The mean of these few
+  /// lives deviates from m'_w, and early lives more often belong to worlds with a smaller mean. So weights (D3) need m'_w itself.
+  std::vector<float> lives_around(const std::vector<double>& means) const;
 
  private:
   std::size_t draws_;

@@ -137,9 +137,9 @@ class Values {
     MatrixXd all(weights.size(), static_cast<Index>(results.size()) * bins);
     for (std::size_t k = 0; k < results.size(); ++k)
       all.middleCols(static_cast<Index>(k) * bins, bins) = weights.asDiagonal() * results[k];
-    // Minimum of a mean over the ages, as in least(): first every 8th age, then the ages near the minimum. The mean over many
+    // Minimum of a mean over the ages, as in least(): first every 4th age, then the ages near the minimum. The mean over many
     // worlds has no narrower minimum.
-    constexpr Index stride = 8;
+    constexpr Index stride = 4;
     const MatrixXd some = rates.rate(Eigen::seq(0, Eigen::last, stride), Eigen::all), mean = some * all;  // (age, result and bin)
     for (std::size_t k = 0; k < results.size(); ++k) {
       MatrixXd& after = policies.after.emplace_back(weights.size(), bins);

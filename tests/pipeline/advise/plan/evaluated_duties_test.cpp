@@ -189,7 +189,7 @@ TEST_CASE("duties: a plant's table of lives is the same distribution, and holds 
   Case of;
   const DutyFile file = of.file("  - name: d\n    hours_per_week: 100\n    programs: [{job: a, repeats_per_hour: 20}, {job: b, repeats_per_hour: 30}]\n"
                                 "  - {name: e, programs: [{job: c, repeats_per_hour: 100}]}\n  - {name: f, programs: [{job: c, repeats_per_hour: 1}]}\n");
-  const auto tables = PlantLives(file, of.study, of.rows, {"d", "e"}).in(50, true);
+  const auto tables = PlantLives(file, of.study, of.rows, {"d", "e"}).in(50, 64, true);
   REQUIRE(tables.size() == 2);
   for (const auto& [name, median] : {std::pair("d", ByHand({of.programs[0], of.programs[1]}, {20, 30}).hours()), std::pair("e", 1 / (100 * 9e-6))}) {
     const LifeTable& table = tables.at(name);
@@ -219,7 +219,7 @@ TEST_CASE("duties: a plant's table of lives is the same distribution, and holds 
   of.rows[0] = row_of(of.scratch, of.programs[0], {lead, bus});
   of.rows[1] = row_of(of.scratch, of.programs[1], {lead, bus});
   std::vector<std::string> found;
-  const std::map<std::string, LifeTable> known = PlantLives(file, of.study, of.rows, {"d"}).in(50, false);
+  const std::map<std::string, LifeTable> known = PlantLives(file, of.study, of.rows, {"d"}).in(50, 64, false);
   for (const SharedValue& value : known.at("d").shared) {
     found.push_back(std::string(uncertain_parameters()[value.parameter].name) + " of " + value.of);
     REQUIRE(value.z.size() == 50);

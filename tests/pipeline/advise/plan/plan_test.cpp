@@ -178,7 +178,7 @@ TEST_CASE("the failures of the weeks add up to those until the windows, and to t
 }
 
 TEST_CASE("a week of few sampled lives has no chance of its own: its failures are those of the law") {
-  // 500 worlds of 64 lives each, as in plans. One week contains one of these lives on average.
+  // 500 worlds of 64 lives each. One week contains one of these lives on average.
   constexpr double shape = 2.5, scale = 60000;
   std::mt19937 random(5);
   std::uniform_real_distribution<double> uniform;
@@ -317,7 +317,7 @@ TEST_CASE("a plan of too few effective worlds stops, and its other numbers do no
 }
 
 TEST_CASE("survivors are weighed by the law of the lives, not by the chance of the few samples of a world") {
-  // log10 of a life is normal: of the median of a world, and within a world. 64 lives of each world are known, as in plans.
+  // log10 of a life is normal: of the median of a world, and within a world. 64 lives of each world are known.
   constexpr double median = 7500, of_worlds = 0.3, within = 0.32, age = 60 * week, later = 120 * week;
   constexpr int dresspacks = 200;
   const auto alive = [](double hours, double z) { return 0.5 * std::erfc((std::log10(hours / median) - of_worlds * z) / within / std::sqrt(2.0)); };
