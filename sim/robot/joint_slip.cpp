@@ -16,12 +16,12 @@ namespace {
 
 constexpr double rounding = 1e-6, speed_rounding = 1.01;  // [rad] and ratio: rounded angles and times of recordings
 
-struct Target {
+struct JointTarget {
   std::vector<double> joints;
   double duration = 0;  // of the step that leads to it [s]; 0: not given
 };
 
-void add_targets(const std::vector<pipeline::MotionStep>& steps, std::vector<Target>& targets) {
+void add_targets(const std::vector<pipeline::MotionStep>& steps, std::vector<JointTarget>& targets) {
   for (const pipeline::MotionStep& step : steps) {
     add_targets(step.steps, targets);
     if (!step.joints.empty()) targets.push_back({step.joints, step.duration.value_or(0)});
@@ -30,9 +30,9 @@ void add_targets(const std::vector<pipeline::MotionStep>& steps, std::vector<Tar
 
 using Correction = std::function<void(std::vector<double>&)>;
 
-bool keeps_limits(const std::vector<Target>& targets, const std::vector<Axis>& axes, const Correction& correct) {
+bool keeps_limits(const std::vector<JointTarget>& targets, const std::vector<Axis>& axes, const Correction& correct) {
   std::vector<double> before;
-  for (const Target& target : targets) {
+  for (const JointTarget& target : targets) {
     std::vector<double> joints = target.joints;
     correct(joints);
     for (std::size_t k = 0; k < joints.size(); ++k) {
@@ -50,11 +50,11 @@ bool keeps_limits(const std::vector<Target>& targets, const std::vector<Axis>& a
 
 std::string joint_slip(const pipeline::Motion& motion, const pipeline::Robot& robot) {
   constexpr double turns = 4 * std::numbers::pi;  // no axis of a catalogue turns so far from its zero
-  std::vector<Target> targets;
+  std::vector<JointTarget> targets;
   add_targets(motion.steps, targets);
   const std::vector<Axis> axes = axes_of(robot);
   double farthest = 0;
-  for (const Target& target : targets) {
+  for (const JointTarget& target : targets) {
     if (target.joints.size() != robot.axes()) return "";
     for (const double angle : target.joints) farthest = std::max(farthest, std::abs(angle));
   }
