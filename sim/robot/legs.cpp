@@ -62,9 +62,9 @@ class Layout {
                     fault.targets == 1
                         ? fault.worst.what
                         : fmt::format("{}, the farthest of {} targets outside of its limits", fault.worst.what, fault.targets),
-                    !slip.empty()        ? "probably " + slip + ": without this slip all axes keep their limits; else " + fault.worst.remedy
-                    : fault.targets == 1 ? fault.worst.remedy
-                                         : "the program may be one of another robot, or a URDF has other zeros than the controller: name the program's robot, or " + fault.worst.remedy);
+                    (fault.targets == 1 ? fault.worst.remedy
+                                        : "the program may be one of another robot, or a URDF has other zeros than the controller: name the program's robot, or " + fault.worst.remedy) +
+                        (slip.empty() ? "" : "; if " + slip + ", correct that: then all axes keep their limits"));
     throw_if_any();
     int first = 0;
     expand(motion_.steps, first);

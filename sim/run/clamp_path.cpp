@@ -216,8 +216,8 @@ std::vector<pipeline::Warning> too_fast(const pipeline::Motion& motion, const pi
       fmt::format("{} is to move at {:.1f} {} up to {:.6g} s (limit {:.1f} {}){}: the robot takes longer",
                   axis.name, found.speed / unit, name, found.time, axis.speed / unit, name,
                   found.count > 1 ? fmt::format(", and {} further steps are too fast", found.count - 1) : ""),
-      slip.empty() ? "times or angles in another unit, or a recording of a faster robot"
-                   : slip + ": without this slip all axes keep their limits and speeds",
+      "times or angles in another unit, or a recording of a faster robot" +
+          (slip.empty() ? "" : ", or " + slip + " (then all axes keep their limits and speeds)"),
       "times that the robot can keep, or the axis' limit in robot.joints if it is larger")};
 }
 
