@@ -309,8 +309,7 @@ DecidingLimit decided(const Trial& trial, const Draft& draft) {
     const auto kind = kinds.find(limit);
     for (const Warning& warning : trial.best ? warnings_of(trial.rows[*trial.best]) : std::vector<Warning>{})
       if (const WarningParts parts = parts_of(warning.words);
-          kind != kinds.end() && warning.kind == kind->second && !parts.remedy.empty())
-{
+          kind != kinds.end() && warning.kind == kind->second && !parts.remedy.empty()) {
         const std::string rest = remedy_after_search(parts.remedy);
         return {fmt::format("the limit that decides: {}. Likely cause: {}", parts.problem, parts.cause),
                 (rest.empty() ? "" : rest + "; or ") + other};

@@ -114,7 +114,7 @@ Merit worst_known(const WithinTolerance& judged, const Finalist& of, const Outco
   return worst;
 }
 
-/// Returns the state of all finalists, of which the last is evaluated next.
+/// Returns the state of all finalists. The last one is evaluated next.
 ToleranceCount count_of(const std::vector<const WithinTolerance*>& all, const Finalist& of) {
   const double each = of.run_known ? known_time : 1;
   ToleranceCount count;
