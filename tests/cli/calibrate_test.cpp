@@ -252,9 +252,9 @@ TEST_CASE("calibrate: rows that cannot be used are named at their place") {
   CHECK(has(refused("observations:\n" + row("z", "    cycles: 5\n", "nowhere.yaml")), "nowhere.yaml"));
   job = wire_job;
   job.insert(job.size() - 1, ", uncertainty: {friction_inside: 2}");
-  CHECK(has(
-      refused("observations:\n" + row("u", "    cycles: 5\n", job)),
-      "o.yaml:2:5: error: 'u': its job gives uncertainties of its own, but all rows of a calibration must have the same; leave"));
+  CHECK(has(refused("observations:\n" + row("ok", "    cycles: 5\n") + row("u", "    cycles: 5\n", job)),
+            "o.yaml:8:5: error: 'u': its job gives other uncertainties than the first job, but all rows of a calibration must have "
+            "the same; give"));
   job = wire_job;
   job.replace(job.find("copper_halved"), 13, "unobtainium");
   CHECK(has(refused("observations:\n" + row("m", "    cycles: 5\n", job)), "'m': its job cannot be made"));

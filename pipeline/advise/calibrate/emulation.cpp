@@ -143,7 +143,7 @@ class RoundEmulation {
                          "name jobs that differ only in motion");
     }
     const auto over = std::make_shared<const LifeOverParameters>(std::move(modes), programs.front().moves);
-    for (OwnValues& own : own_values(over->modes(), programs.front().own, draws))
+    for (OwnValues& own : own_values(over->modes(), programs.front().own, round_.prior(), draws))
       life.variants.push_back([over, own = std::move(own), at = round_.centre()](const VectorXd& z) {
         const LifeAt hours = over->at(z - at, &own);
         return LifeAt{std::min(endless_log_life, hours.log_median), hours.spread};
@@ -182,7 +182,7 @@ class RoundEmulation {
       life.service = in_service ? factors_of(observation.service, false)
                                 : std::vector<ServiceFactor>{{std::log(*observation.hours), false, observation.specimens}};
       const auto over = std::make_shared<const LifeOverParameters>(std::move(of), moves);
-      for (OwnValues& each : own_values(over->modes(), own, draws))
+      for (OwnValues& each : own_values(over->modes(), own, round_.prior(), draws))
         life.variants.push_back([over, each = std::move(each)](const VectorXd& z) { return over->at(z, &each); });
     }
     return walls;
@@ -199,7 +199,7 @@ class RoundEmulation {
     std::vector<std::pair<double, std::string>> factors;
     for (std::size_t p = 0; p < uncertain_count; ++p) {
       VectorXd z = VectorXd::Zero(uncertain_count);
-      z[static_cast<Index>(p)] = 1;
+      z[static_cast<Index>(p)] = round_.prior()[static_cast<Index>(p)];
       const double change = std::abs(life.log_median_at(z) - life.log_median_at(-z)) / 2;
       if (all[p] && change > worth_a_word)
         factors.emplace_back(-change, fmt::format("{}{} {}", uncertain_parameters()[p].name, runs.own[p] ? " (each dresspack's own)" : "",

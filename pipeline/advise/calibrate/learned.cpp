@@ -76,7 +76,8 @@ std::vector<LearnedAxis> learned_axes(const Posterior& posterior, const Axes& ax
   std::vector<LearnedAxis> learned(uncertain_count);
   for (std::size_t p = 0; p < uncertain_count; ++p) {
     const UncertainParameter& parameter = uncertain_parameters()[p];
-    learned[p].before = {parameter.value(-normal_decile), parameter.value(0), parameter.value(normal_decile)};
+    const double decile = normal_decile * axes.prior()[static_cast<Index>(p)];
+    learned[p].before = {parameter.value(-decile), parameter.value(0), parameter.value(decile)};
     learned[p].after = learned[p].before;
     learned[p].is_own = axes.has_own(static_cast<Index>(p));
   }
@@ -86,12 +87,13 @@ std::vector<LearnedAxis> learned_axes(const Posterior& posterior, const Axes& ax
     learned[p].learned = true;
     learned[p].after = {parameter.value(posterior.low[i]), parameter.value(posterior.median[i]),
                         parameter.value(posterior.high[i])};
-    learned[p].narrowed = std::sqrt(posterior.covariance(i, i));
+    learned[p].narrowed = std::sqrt(posterior.covariance(i, i)) / axes.prior()[static_cast<Index>(p)];
   }
   return learned;
 }
 
 std::string_view why_not_learned(const LearnedAxis& axis) {
+  if (axis.before[0] == axis.before[2]) return "the jobs state it";
   return axis.is_own ? "each dresspack has its own" : "no test depends on it";
 }
 

@@ -38,17 +38,18 @@ bool of_typical_cables(const std::vector<ObservedTest>& tests) {
 /// typical: the tests belong to different makers' cables, and the posterior to a cable that is none of them.
 Posterior posterior_of(std::vector<LogLikelihood> terms, const Axes& axes, const VectorXd& start, bool typical,
                        const SamplerSettings& settings = {}) {
-  if (typical) terms.push_back(narrower_prior(axes.places()));
+  terms.push_back(prior_of_deviations(typical ? common_deviations(axes.places()) : axes.some(axes.prior())));
   Posterior posterior = posterior_of(terms, start, settings);
   if (typical) add_own_deviations(posterior, axes.places());
   return posterior;
 }
 
 /// Throws InputError at the row that differs most from its prediction, if the most likely parameters are beyond `farthest`.
-void refuse_contradiction(const std::vector<ObservedTest>& tests, const std::vector<LearnedTest>& learned,
-                          const VectorXd& there) {
-  Index worst = 0;
-  if (there.cwiseAbs().maxCoeff(&worst) <= farthest) return;
+void refuse_contradiction(const std::vector<ObservedTest>& tests, const std::vector<LearnedTest>& learned, const Axes& axes,
+                          const VectorXd& most_likely) {
+  const VectorXd off = most_likely.cwiseQuotient(axes.some(axes.prior())).cwiseAbs();
+  Index axis = 0;
+  if (off.maxCoeff(&axis) <= farthest) return;
   std::size_t row = 0;
   for (std::size_t t = 1; t < tests.size(); ++t)
     if (surprise(learned[t]) > surprise(learned[row])) row = t;
@@ -59,7 +60,7 @@ void refuse_contradiction(const std::vector<ObservedTest>& tests, const std::vec
           "'{}': the observation ({}) contradicts the prediction ({}): it would need a {} {:.1f} standard deviations "
           "from what was assumed (limit {:g})",
           observation.name, observed_text(observation), words_of(learned[row].before),
-          uncertain_parameters()[static_cast<std::size_t>(worst)].name, std::abs(there[worst]), farthest),
+          uncertain_parameters()[static_cast<std::size_t>(axes.places()[static_cast<std::size_t>(axis)])].name, off[axis], farthest),
       "correct the unit of the observation, or its job; else leave the row out");
 }
 
@@ -99,15 +100,17 @@ Learned learn(const std::vector<ObservedTest>& tests, const std::vector<std::str
     for (Index i = 0; i < axes.size(); ++i) {
       const Index p = axes.places()[static_cast<std::size_t>(i)];
       const double left = std::min(1.0, std::sqrt(learned.posterior.covariance(i, i)));
-      if (std::abs(there[p] - centre[p]) > (has_arms(round, p) ? still * left : within_response)) learned.settled = false;
+      // The outermost runs along the hose's stiffness are nearer if the jobs state a small deviation.
+      const double near = within_response * std::min(1.0, axes.prior()[p]);
+      if (std::abs(there[p] - centre[p]) > (has_arms(round, p) ? still * left : near)) learned.settled = false;
       step[p] = std::clamp(2 * left, 0.25, 1.0);
     }
     for (std::size_t t = 0; t < tests.size(); ++t) {
       const EmulatedTest& emulated = emulated_tests[t];
-      if (learned.rounds == 1) learned.tests[t].before = predicted_deciles(emulated, prior_draws(), false);
+      if (learned.rounds == 1) learned.tests[t].before = predicted_deciles(emulated, prior_draws(axes), false);
       learned.tests[t].after = predicted_deciles(emulated, posterior_draws(learned.posterior, axes), true);
       if (const std::vector<ServiceRecord>& records = tests[t].observation.service; !records.empty()) {
-        if (learned.rounds == 1) learned.tests[t].chance_before = service_chance(*emulated.life, records, prior_draws());
+        if (learned.rounds == 1) learned.tests[t].chance_before = service_chance(*emulated.life, records, prior_draws(axes));
         learned.tests[t].chance_after = service_chance(*emulated.life, records, posterior_draws(learned.posterior, axes));
       }
       learned.tests[t].fails_first = emulated.fails_first;
@@ -115,7 +118,7 @@ Learned learn(const std::vector<ObservedTest>& tests, const std::vector<std::str
       if (!emulated.life)
         learned.tests[t].measured = emulated.bending[0].numbers[emulated.shown].value / emulated.per_shown;
     }
-    refuse_contradiction(tests, learned.tests, there);
+    refuse_contradiction(tests, learned.tests, axes, learned.posterior.laplace.most_likely);
     centre = there;
     if (!learned.settled && learned.rounds < most_rounds) continue;
     learned.axes = learned_axes(learned.posterior, axes);

@@ -15,13 +15,13 @@ using Eigen::VectorXd;
 }  // namespace
 
 std::vector<OwnValues> own_values(const FailureModes& modes, const std::array<bool, uncertain_count>& own,
-                                  std::size_t count) {
+                                  const VectorXd& deviations, std::size_t count) {
   std::vector<OwnValues> all(count);
   for (std::size_t p = 0; p < uncertain_count; ++p) {
     if (!own[p]) continue;
     const std::vector<double> z =
         standard_normals("own " + std::string(uncertain_parameters()[p].name), count);
-    for (std::size_t k = 0; k < count; ++k) all[k].z[p] = z[k];
+    for (std::size_t k = 0; k < count; ++k) all[k].z[p] = deviations[static_cast<Index>(p)] * z[k];
   }
   for (const LifeResponse& mode : modes) {
     const std::vector<double> u = standard_normals("own scatter/" + mode.dresspack + "/" + mode.mode, count);

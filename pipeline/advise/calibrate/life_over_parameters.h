@@ -22,9 +22,9 @@ struct OwnValues {
       scatter;  ///< (mode) standard normal: the part of u that is independent between the modes
 };
 /// Returns `count` samples of equal probability with one sample in each stratum of each number. own: parameters that differ
-/// between dresspacks. Every call gives the same result.
+/// between dresspacks. deviations: of z (parameter). Every call gives the same result.
 std::vector<OwnValues> own_values(const FailureModes& modes, const std::array<bool, uncertain_count>& own,
-                                  std::size_t count);
+                                  const Eigen::VectorXd& deviations, std::size_t count);
 
 /// One program of a dresspack.
 struct ProgramModes {

@@ -153,6 +153,10 @@ void summarise(Posterior& posterior) {
   }
 }
 
+LogLikelihood prior_of_deviations(const VectorXd& deviations) {
+  return [excess = VectorXd(deviations.array().inverse().square() - 1)](const VectorXd& z) { return -excess.dot(z.cwiseAbs2()) / 2; };
+}
+
 double log_posterior(const std::vector<LogLikelihood>& terms, const VectorXd& z) {
   return sum_of(terms, [&](const LogLikelihood& term) { return term(z); }, -z.squaredNorm() / 2);
 }

@@ -17,6 +17,10 @@
 
 namespace dresslife::pipeline {
 
+/// Returns ln of the ratio of a prior N(0, deviation^2) along each axis to the standard normal prior, up to a constant: a term of
+/// posterior_of(). Precondition: deviations > 0.
+LogLikelihood prior_of_deviations(const Eigen::VectorXd& deviations);
+
 /// Returns ln of prior times likelihoods, up to a constant.
 double log_posterior(const std::vector<LogLikelihood>& terms, const Eigen::VectorXd& z);
 

@@ -88,15 +88,15 @@ ServiceChance service_chance(const ObservedLife& life, const std::vector<Service
   return chance;
 }
 
-Eigen::MatrixXd prior_draws() {
+Eigen::MatrixXd prior_draws(const Axes& axes) {
   RandomNumbers numbers(5);
   Eigen::MatrixXd draws(predicted_draws, static_cast<Index>(uncertain_count));
-  for (Index k = 0; k < draws.rows(); ++k) draws.row(k) = numbers.normals(VectorXd(draws.cols())).transpose();
+  for (Index k = 0; k < draws.rows(); ++k) draws.row(k) = numbers.normals(VectorXd(draws.cols())).cwiseProduct(axes.prior()).transpose();
   return draws;
 }
 
 Eigen::MatrixXd posterior_draws(const Posterior& posterior, const Axes& axes) {
-  Eigen::MatrixXd draws = prior_draws();
+  Eigen::MatrixXd draws = prior_draws(axes);
   const Index every = posterior.draws.rows() / draws.rows();
   for (Index k = 0; k < draws.rows(); ++k)
     for (Index i = 0; i < axes.size(); ++i)

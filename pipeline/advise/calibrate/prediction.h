@@ -13,7 +13,7 @@ namespace dresslife::pipeline {
 using PredictedDeciles = std::array<double, 3>;
 
 /// Return samples of all parameters, (draw, parameter): from the prior; from the posterior, with the prior for the others.
-Eigen::MatrixXd prior_draws();
+Eigen::MatrixXd prior_draws(const Axes& axes);
 Eigen::MatrixXd posterior_draws(const Posterior& posterior, const Axes& axes);
 
 /// Returns deciles over samples and variants. For a life: life of one specimen with its scatter, in the observer's unit. For a

@@ -84,12 +84,17 @@ RoundOfJobs::Runs RoundOfJobs::runs_of(const ObservedTest& test, const ObservedT
     if (plain.strain.factors != StrainFactors{} || plain.strain.rest != 0 || plain.simulation.stiffness_factor != 1 || is_changed(plain.fatigue) ||
         plain.fatigue.scatter_factor != 1)
       refuse("its job gives a key that is to be learned", "leave the factors of simulation, strain and fatigue out");
-    if (plain.uncertainty.spread != Uncertainty::default_spread())
-      refuse("its job gives uncertainties of its own, but all rows of a calibration must have the same",
+    if (test.typical && plain.uncertainty.spread != Uncertainty::default_spread())
+      refuse("its job gives uncertainties of its own, but typical cables are learned with the default ones",
              "leave section uncertainty out of its job");
+    const VectorXd prior = prior_of(plain.uncertainty).covariance.diagonal().cwiseSqrt();
+    if (prior_.size() == 0) prior_ = prior;
+    if (prior != prior_)
+      refuse("its job gives other uncertainties than the first job, but all rows of a calibration must have the same",
+             "give section uncertainty of all jobs the same values, or leave it out of all of them");
     runs.centre = add(test, variant, centre_);
     for (std::size_t p = 0; p < uncertain_count; ++p) {
-      if (!acts(plain, static_cast<Uncertain>(p))) continue;
+      if (!acts(plain, static_cast<Uncertain>(p)) || is_known(plain.uncertainty, static_cast<Uncertain>(p))) continue;
       if (!test.observation.is_life() && !uncertain_parameters()[p].of_strain) continue;
       const bool is_own = uncertain_parameters()[p].shared == SharedBy::installation && !test.observation.service.empty();
       (is_own ? runs.own : runs.moves)[p] = true;
@@ -120,7 +125,7 @@ std::size_t RoundOfJobs::add(const ObservedTest& test, const ObservedTest::Varia
   return known->second;
 }
 
-Axes::Axes(const RoundOfJobs& round) {
+Axes::Axes(const RoundOfJobs& round) : prior_(round.prior()) {
   for (const auto& variants : round.runs())
     for (const RoundOfJobs::Runs& runs : variants)
       for (std::size_t p = 0; p < uncertain_count; ++p) own_[p] = own_[p] || runs.own[p];

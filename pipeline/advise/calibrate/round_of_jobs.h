@@ -31,13 +31,15 @@ class RoundOfJobs {
   };
 
   /// sets: `--set` for every job. centre, step: (parameter) values of z. Errors: InputError at the row of a job that is invalid,
-  /// or that sets a parameter that is to be learned.
+  /// that sets a parameter that is to be learned, or that states other uncertainties than the first job.
   RoundOfJobs(const std::vector<ObservedTest>& tests, const std::vector<std::string>& sets, std::string name,
               Eigen::VectorXd centre, Eigen::VectorXd step);
 
   const Study& study() const { return study_; }
   const Eigen::VectorXd& centre() const { return centre_; }
   const Eigen::VectorXd& step() const { return step_; }
+  /// Returns the standard deviations of z before the observations (parameter), from the jobs' section `uncertainty`; 1 without it.
+  const Eigen::VectorXd& prior() const { return prior_; }
   const std::vector<std::vector<Runs>>& runs() const { return runs_; }  ///< (test, variant)
 
  private:
@@ -45,7 +47,7 @@ class RoundOfJobs {
   std::size_t add(const ObservedTest& test, const ObservedTest::Variant& variant, const Eigen::VectorXd& z);
 
   std::vector<std::string> sets_;
-  Eigen::VectorXd centre_, step_;
+  Eigen::VectorXd centre_, step_, prior_;
   Study study_;
   std::map<std::string, std::size_t> known_;  ///< job indices by the digest of their settings
   std::vector<std::vector<Runs>> runs_;
@@ -59,12 +61,14 @@ class Axes {
   Eigen::Index size() const { return static_cast<Eigen::Index>(places_.size()); }
   /// whether it is Runs::own in some test
   bool has_own(Eigen::Index parameter) const { return own_[static_cast<std::size_t>(parameter)]; }
+  const Eigen::VectorXd& prior() const { return prior_; }  ///< RoundOfJobs::prior()
   Eigen::VectorXd all(const Eigen::VectorXd& some) const;  ///< values of all parameters, 0 for the others
   Eigen::VectorXd some(const Eigen::VectorXd& all_of_them) const;
 
  private:
   std::vector<Eigen::Index> places_;
   std::array<bool, uncertain_count> own_{};
+  Eigen::VectorXd prior_;
 };
 
 }  // namespace dresslife::pipeline

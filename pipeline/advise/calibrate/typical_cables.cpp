@@ -1,7 +1,6 @@
 #include "pipeline/advise/calibrate/typical_cables.h"
 
 #include <cmath>
-#include <utility>
 
 #include "pipeline/base/random.h"
 
@@ -24,15 +23,11 @@ double share_between_cables(std::size_t parameter) {
   return 0.99;  // no common part, but its variance must be above 0
 }
 
-LogLikelihood narrower_prior(std::vector<Index> parameters) {
-  return [parameters = std::move(parameters)](const Eigen::VectorXd& some) {
-    double sum = 0;
-    for (Index i = 0; i < some.size(); ++i) {
-      const double share = share_between_cables(static_cast<std::size_t>(parameters[static_cast<std::size_t>(i)]));
-      sum -= some[i] * some[i] / 2 * share / (1 - share);
-    }
-    return sum;
-  };
+Eigen::VectorXd common_deviations(const std::vector<Index>& parameters) {
+  Eigen::VectorXd deviations(static_cast<Index>(parameters.size()));
+  for (Index i = 0; i < deviations.size(); ++i)
+    deviations[i] = std::sqrt(1 - share_between_cables(static_cast<std::size_t>(parameters[static_cast<std::size_t>(i)])));
+  return deviations;
 }
 
 void add_own_deviations(Posterior& posterior, const std::vector<Index>& parameters) {

@@ -19,9 +19,8 @@ namespace dresslife::pipeline {
 /// Returns the share, 0 .. 0.99. Precondition: parameter < uncertain_count.
 double share_between_cables(std::size_t parameter);
 
-/// Returns ln of the ratio of the prior of m to the standard normal prior, up to a constant: a term of posterior_of().
-/// parameters: parameters of its axes.
-LogLikelihood narrower_prior(std::vector<Eigen::Index> parameters);
+/// Returns the standard deviations of m. parameters: parameters of its axes.
+Eigen::VectorXd common_deviations(const std::vector<Eigen::Index>& parameters);
 
 /// Adds an independent d to m in every draw, with mean, covariance and quantiles of the sum. The seed is fixed.
 void add_own_deviations(Posterior& posterior, const std::vector<Eigen::Index>& parameters);

@@ -171,7 +171,7 @@ TEST_CASE("in service: dresspacks with values of their own live as long as the s
   std::array<bool, uncertain_count> shared{}, own{};
   shared[strength] = own[slack] = true;
   const LifeOverParameters life(modes, shared);
-  const std::vector<OwnValues> values = own_values(modes, own, 64);
+  const std::vector<OwnValues> values = own_values(modes, own, Eigen::VectorXd::Ones(uncertain_count), 64);
   const std::vector<double> samples = first_failures(modes, "a run");
   std::vector<double> sorted = samples;
   std::sort(sorted.begin(), sorted.end());

@@ -47,7 +47,7 @@ LogLikelihood told(const VectorXd& slope, double spread, double limit, bool last
 }  // namespace
 
 TEST_CASE("typical cables: a parameter's own and common parts make its prior together") {
-  std::vector<LogLikelihood> nothing{narrower_prior(parameters)};
+  std::vector<LogLikelihood> nothing{prior_of_deviations(common_deviations(parameters))};
   Posterior posterior = posterior_of(nothing, VectorXd::Zero(axes));
   for (Index i = 0; i < axes; ++i) CHECK(posterior.laplace.covariance(i, i) == Approx(1 - share(i)).epsilon(1e-3));
   add_own_deviations(posterior, parameters);
@@ -92,7 +92,7 @@ TEST_CASE("typical cables: a new cable lies in the 80 % interval as often as it 
       terms.push_back(told(slope, spread, limit, lived > limit, true));
       pooled.push_back(told(slope, spread, limit, lived > limit, false));
     }
-    terms.push_back(narrower_prior(parameters));
+    terms.push_back(prior_of_deviations(common_deviations(parameters)));
     SamplerSettings quick;
     quick.draws = 1000;
     quick.seed = static_cast<std::uint64_t>(trial);
