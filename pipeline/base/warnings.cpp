@@ -9,6 +9,7 @@
 #include "pipeline/base/joined.h"
 #include "pipeline/base/lists.h"
 #include "pipeline/base/readable.h"
+#include "pipeline/base/screen.h"
 #include "pipeline/base/warning_words.h"
 
 namespace dresslife::pipeline {
@@ -123,7 +124,7 @@ std::string Warning::line() const {
   return where.empty() ? "warning: " + words : where + ": warning: " + words;
 }
 std::string paragraph(const std::string& of) {
-  constexpr std::size_t columns = 120;
+  const std::size_t columns = screen_columns();
   const std::string indent = "    ";
   std::string rest = of, text;
   for (const std::string_view begin : {cause_mark, remedy_mark})

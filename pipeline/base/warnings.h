@@ -41,7 +41,7 @@ struct KeyValue {
   bool operator==(const KeyValue&) const = default;
 };
 
-/// Returns a line of a warning for a terminal: wrapped at 120 columns, with the likely cause and the remedy on lines of their own. All
+/// Returns a line of a warning for a terminal: wrapped at screen_columns(), with the likely cause and the remedy on lines of their own. All
 /// lines but the first are indented by four spaces. Ends with a line feed.
 std::string paragraph(const std::string& line);
 

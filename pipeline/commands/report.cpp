@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "pipeline/base/screen.h"
 #include "pipeline/commands/as_json.h"
 #include "pipeline/commands/making.h"
 #include "pipeline/commands/options.h"
@@ -29,7 +30,7 @@ int report(const StudyOptions& options) {
   const auto& [study, places, states, remembered, look_ups, digests] = standing;
   std::vector<RankingRow> rows = ranking_of(study, places, states);
   add_relative_lives(study, places, nullptr, rows);
-  print(options.json ? json_of(rows).text + "\n" : shown(ranking_table(rows)));
+  print(options.json ? json_of(rows).text + "\n" : shown(ranking_table(rows, screen_columns())));
   write_stderr(shown(problem_words(study)) + warning_lines(rows));
   const auto open = std::count_if(states.begin(), states.end(), [](const JobState& state) {
     return !state.done() && !state.has_last && state.has_results && state.failure.empty();

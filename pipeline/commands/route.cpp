@@ -22,6 +22,7 @@
 #include "pipeline/base/plain_file.h"
 #include "pipeline/base/progress.h"
 #include "pipeline/base/readable.h"
+#include "pipeline/base/screen.h"
 #include "pipeline/base/stage_failed.h"
 #include "pipeline/base/text.h"
 #include "pipeline/base/warning_words.h"
@@ -409,7 +410,7 @@ std::string words_of(const Trial& trial, const Draft& draft, const MountingToler
   for (const std::string& words :
        {action_words(row), uncertainty_words(row), failure_words(row)})
     text += words + (words.empty() ? "" : "\n");
-  return text + mode_table(row, 120, "") + mode_legend({row}, 120, "");
+  return text + mode_table(row, screen_columns(), "") + mode_legend({row}, screen_columns(), "");
 }
 
 /// Removes the runs of a search except that of the best routing.

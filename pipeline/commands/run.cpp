@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "pipeline/base/screen.h"
 #include "pipeline/commands/as_json.h"
 #include "pipeline/commands/making.h"
 #include "pipeline/commands/options.h"
@@ -108,7 +109,7 @@ int run(const RunArguments& options) {
   for (const std::string& job : not_shown) forget_damaged(places.job(job));
   locate(rows, request.file);
   print(options.json ? json_of(rows).text + "\n"
-                     : shown(fmt::format("{}\nReport: {}\n", ranking_table(rows),
+                     : shown(fmt::format("{}\nReport: {}\n", ranking_table(rows, screen_columns()),
                                          (places.folder / "report.html").string())));
   write_stderr(warning_lines(rows));
   const int failed = count_failed(rows);

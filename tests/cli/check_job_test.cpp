@@ -23,6 +23,13 @@ TEST_CASE("check: a job without faults, one whose slip is a bound, one that is t
   CHECK(unwrapped(bound.out).find("The dresspack was checked at rest and in short runs, also with a softer and a stiffer hose. A run may also warn of strains") != std::string::npos);
   std::istringstream lines(bound.out);
   for (std::string line; std::getline(lines, line);) CHECK(line.size() <= 120);
+  const Outcome narrow = run_shell(scratch, "script -qec \"stty cols 70; '" DRESSLIFE_BIN_DIR "/dresslife' check job.yaml\" /dev/null");
+  CHECK(narrow.status == 0);
+  std::size_t longest = 0;
+  std::istringstream narrow_lines(replaced_all(narrow.out, "\r", ""));
+  for (std::string line; std::getline(narrow_lines, line);) longest = std::max(longest, line.size());
+  CHECK(longest <= 70);
+  CHECK(longest > 60);  // a line ends before a word that does not fit; the longest word here has 9 letters
   const Outcome too_short = run(scratch, "dresslife", "check job.yaml --set routing.free_length_m=0.7");
   CHECK(too_short.status == 1);
   CHECK(too_short.out.find("The simulation refuses the job: ") != std::string::npos);

@@ -10,6 +10,7 @@
 #include "pipeline/base/joined.h"
 #include "pipeline/base/lists.h"
 #include "pipeline/base/readable.h"
+#include "pipeline/base/screen.h"
 #include "pipeline/base/warning_words.h"
 #include "pipeline/study/mode_table.h"
 #include "pipeline/study/row_warnings.h"
@@ -230,7 +231,7 @@ std::string improvement_words(const Improvement& found, const Finals& finals, co
   if (const RankingRow* const row = finals.worst_row(best)) {
     for (const std::string& words : {action_words(*row), uncertainty_words(*row), failure_words(*row)})
       text += words + (words.empty() ? "" : "\n");
-    text += left_at_other_values(*row) + mode_table(*row, 120, "") + mode_legend({*row}, 120, "");
+    text += left_at_other_values(*row) + mode_table(*row, screen_columns(), "") + mode_legend({*row}, screen_columns(), "");
   }
   text += change_lines(trial);
   for (const std::string& job : best.jobs)

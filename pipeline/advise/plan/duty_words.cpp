@@ -10,12 +10,15 @@
 
 #include "pipeline/base/csv_rows.h"
 #include "pipeline/base/readable.h"
+#include "pipeline/base/screen.h"
 #include "pipeline/life/planning.h"
 #include "pipeline/settings/units.h"
 #include "pipeline/study/row_words.h"
 
 namespace dresslife::pipeline {
 namespace {
+
+std::string indented_lines(const std::string& text) { return wrapped(text, screen_columns() - 2, "  "); }
 
 /// Returns the remaining life of the robot, which also ran during the history.
 double robot_life_left(const DutyResult& duty) {
@@ -111,11 +114,10 @@ std::string caution_words(const DutyResult& duty) {
   for (const DutyMode& mode : duty.others)
     if (mode.hours < duty.robot_life_hours) soon.push_back(other_words(mode));
   if (!soon.empty())
-    text += wrapped(
-        fmt::format("Not validated and not in these hours, at the soonest: {}.", fmt::join(soon, "; ")), 118,
-        "  ");
+    text += indented_lines(
+        fmt::format("Not validated and not in these hours, at the soonest: {}.", fmt::join(soon, "; ")));
   if (!duty.not_evaluated.empty())
-    text += wrapped(fmt::format("Not evaluated: {}.", duty.not_evaluated), 118, "  ");
+    text += indented_lines(fmt::format("Not evaluated: {}.", duty.not_evaluated));
   return text;
 }
 
@@ -153,12 +155,11 @@ std::string recording_words(const DutyResult& duty) {
                            "within a factor of {}.",
                            readable(low, 2), readable(high, 2), readable(std::exp(std::hypot(of_rest, std::log1p(error))), 2));
     }
-    text += wrapped(words, 118, "  ");
+    text += indented_lines(words);
   }
   if (leaves_out_rests)
-    text += wrapped("Where cables lie loose in the hose, the damage of a cycle also depends on the places at which they rest before it. With "
-                    "uncertainty.rest: 0 the standard error leaves that out: it may be several times too small.",
-                    118, "  ");
+    text += indented_lines("Where cables lie loose in the hose, the damage of a cycle also depends on the places at which they rest before it. With "
+                    "uncertainty.rest: 0 the standard error leaves that out: it may be several times too small.");
   return text;
 }
 
@@ -168,36 +169,31 @@ std::string mixture_words(const DutyResult& duty) {
   constexpr double worth_a_word = 0.01, worth_a_place = 0.05;
   std::string text = recording_words(duty);
   if (const std::string factors = factor_words(duty.errors); !factors.empty())
-    text += wrapped(fmt::format("The hours of a new dresspack have the numerical error of the programs' lives: {}. With loose cables one motion of the whole "
+    text += indented_lines(fmt::format("The hours of a new dresspack have the numerical error of the programs' lives: {}. With loose cables one motion of the whole "
                                 "log or of the whole order may differ from the duty by about as much, because friction holds the cables at other places.",
-                                factors),
-                    118, "  ");
+                                factors));
   std::vector<std::string> larger;
   for (std::size_t m = 0; m < duty.modes.size(); ++m) {
     const double apart = duty.damage.same_place[m] / duty.changes[m];
     if (1 / apart > 1 + worth_a_place) larger.push_back(fmt::format("{} by {:.0f} %", duty.modes[m], 100 / apart - 100));
     if (std::abs(duty.changes[m] - 1) > worth_a_word)
-      text += wrapped(fmt::format("Changes between the programs make the damage of {} {:.2f} times as large.", duty.modes[m],
-                                  duty.changes[m]),
-                      118, "  ");
+      text += indented_lines(fmt::format("Changes between the programs make the damage of {} {:.2f} times as large.", duty.modes[m],
+                                  duty.changes[m]));
   }
   if (!larger.empty())
-    text += wrapped(fmt::format("The programs damage different places. If all damaged the same place, the damage would be larger: {}.",
-                                fmt::join(larger, ", ")),
-                    118, "  ");
+    text += indented_lines(fmt::format("The programs damage different places. If all damaged the same place, the damage would be larger: {}.",
+                                fmt::join(larger, ", ")));
   // Measured pairs: README. Strain: damage is proportional to strain to the power 1/0.112 (copper.yaml).
   if (duty.has_order)
-    text += wrapped(fmt::format("The order runs {} times per hour. Abrasion between the programs is not counted.{}",
+    text += indented_lines(fmt::format("The order runs {} times per hour. Abrasion between the programs is not counted.{}",
                                 readable(duty.rounds_per_hour),
                                 duty.outside.empty() ? ""
                                                      : fmt::format(" The order has room for fewer repeats than the duty: these shares of them count without changes "
                                                                    "to another program: {}.",
-                                                                   fmt::join(duty.outside, ", "))),
-                    118, "  ");
+                                                                   fmt::join(duty.outside, ", "))));
   else if (std::ranges::count_if(duty.parts, [](const DutyPart& part) { return part.repeats_per_hour > 0; }) > 1)
-    text += wrapped("Cycles that begin in one program and end in another are not counted. With `order` or `batch_size` they are. For one measured pair "
-                    "they were 11 % of the damage, or 1.2 % of strain. Where two programs bend a cable to opposite sides they can be most of the damage.",
-                    118, "  ");
+    text += indented_lines("Cycles that begin in one program and end in another are not counted. With `order` or `batch_size` they are. For one measured pair "
+                    "they were 11 % of the damage, or 1.2 % of strain. Where two programs bend a cable to opposite sides they can be most of the damage.");
   return text;
 }
 
@@ -213,7 +209,7 @@ std::string duty_words(const std::vector<DutyResult>& results) {
     for (const DutyPart& part : duty.parts)
       time += part.share_of_time, wide = std::max(wide, columns_of(part.job));
     text += fmt::format("{}{}\n", text.empty() ? "" : "\n", duty.name);
-    text += wrapped(duty_action(duty), 118, "  ") + wrapped(percentile_words(duty), 118, "  ");
+    text += indented_lines(duty_action(duty)) + indented_lines(percentile_words(duty));
     text += fmt::format("  {:<{}}  {:>14}  {:>8}  {:>8}  {:>17}  {:>21}\n", "program", wide, "repeats per h",
                         "time", "damage", "p10 without it [h]", "p10 if twice as often");
     for (std::size_t k = 0; k < duty.parts.size(); ++k)

@@ -14,13 +14,14 @@
 #include "pipeline/base/lists.h"
 #include "pipeline/base/order.h"
 #include "pipeline/base/readable.h"
+#include "pipeline/base/screen.h"
 #include "pipeline/job/uncertainty.h"
 #include "pipeline/settings/units.h"
 
 namespace dresslife::pipeline {
 namespace {
 
-constexpr std::size_t width = 118;
+const std::size_t width = screen_columns() - 2;
 
 /// Returns "1 dresspack", "2.5 spare dresspacks".
 std::string dresspacks_text(const std::string& number, const char* kind = "") {
