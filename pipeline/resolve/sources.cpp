@@ -33,6 +33,10 @@ std::string program_names(const fs::path& program) {
 Sources::Sources() : outer_(std::exchange(current, this)) {}
 Sources::~Sources() { current = outer_; }
 
+Sources* Sources::of_this_thread() { return current; }
+Sources::Guest::Guest(Sources* host) : outer_(std::exchange(current, host)) {}
+Sources::Guest::~Guest() { current = outer_; }
+
 std::string Sources::found_at(Kind kind, const fs::path& path) {
   switch (kind) {
     case Kind::text:
@@ -52,22 +56,26 @@ std::string Sources::found_at(Kind kind, const fs::path& path) {
 }
 
 void note_source(Sources::Kind kind, const fs::path& path, const std::string& found) {
-  if (current) current->found_.try_emplace({kind, path.string()}, found);
+  if (!current) return;
+  const std::lock_guard lock(current->mutex_);
+  current->found_.try_emplace({kind, path.string()}, found);
 }
 
 /// Returns the result of the first look-up, so that all jobs of a study are built from the same files.
 bool look(Sources::Kind kind, const fs::path& path, bool (*now)(const fs::path&)) {
   if (!current) return now(path);
+  const std::lock_guard lock(current->mutex_);
   const auto [entry, fresh] = current->found_.try_emplace({kind, path.string()});
   if (fresh) entry->second = word(now(path));
   return entry->second == word(true);
 }
 
 std::string read_source(const fs::path& file) {
-  if (current)
-    if (const auto known = current->found_.find({Sources::Kind::text, file.string()});
-        known != current->found_.end() && known->second != word(false))
-      return known->second;
+  if (current) {
+    const std::lock_guard lock(current->mutex_);
+    const auto known = current->found_.find({Sources::Kind::text, file.string()});
+    if (known != current->found_.end() && known->second != word(false)) return known->second;
+  }
   std::string text;
   note_input(file);
   try {
@@ -85,8 +93,12 @@ Node read_document(const fs::path& file) {
     note_input(file);
     return read_yaml(file);
   }
-  std::shared_ptr<const Node>& known = current->documents_[file.string()];
-  if (!known) known = std::make_shared<const Node>(parse_yaml(read_source(file), file.string()));
+  const auto known = [&] {
+    const std::lock_guard lock(current->mutex_);
+    std::shared_ptr<const Node>& document = current->documents_[file.string()];
+    if (!document) document = std::make_shared<const Node>(parse_yaml(read_source(file), file.string()));
+    return document;
+  }();
   return *known;
 }
 

@@ -2,12 +2,13 @@
 // them are unchanged (pipeline/study/known_study.h).
 //
 // While a Sources exists, all look-ups of its thread through the functions below are recorded, and a document is read and parsed
-// once for any number of jobs that name it.
+// once for any number of jobs that name it. Other threads can share it.
 #pragma once
 
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,11 +32,25 @@ class Sources {
   using LookUps = std::map<std::pair<Kind, std::string>, std::string>;
   LookUps take() { return std::move(found_); }
 
+  static Sources* of_this_thread();  ///< null: there is none
+  /// While it exists, its thread uses the Sources of another thread. host: null: none.
+  class Guest {
+   public:
+    explicit Guest(Sources* host);
+    ~Guest();
+    Guest(const Guest&) = delete;
+    Guest& operator=(const Guest&) = delete;
+
+   private:
+    Sources* outer_;
+  };
+
  private:
   friend Node read_document(const std::filesystem::path&);
   friend std::string read_source(const std::filesystem::path&);
   friend void note_source(Kind, const std::filesystem::path&, const std::string&);
   friend bool look(Kind, const std::filesystem::path&, bool (*)(const std::filesystem::path&));
+  std::recursive_mutex mutex_;  ///< of both maps; recursive, because a document is read while it is held
   LookUps found_;
   std::map<std::string, std::shared_ptr<const Node>> documents_;
   Sources* outer_;

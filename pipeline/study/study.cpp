@@ -4,6 +4,7 @@
 #include <set>
 
 #include "pipeline/base/order.h"
+#include "pipeline/base/threads.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/catalogue.h"
 #include "pipeline/resolve/document_kind.h"
@@ -241,8 +242,16 @@ Study read_jobs_of(const std::filesystem::path& file, const std::vector<std::str
       throw InputError(document.where, fmt::format("two jobs are named '{}'", names.back()),
                        "give each combination another name");
   }
-  for (const std::size_t k : shard ? part_of(variants, *shard) : indices_of(variants.size()))
-    study.jobs.push_back(make_job(base, names[k], variants[k], sets));
+  const std::vector<std::size_t> indices = shard ? part_of(variants, *shard) : indices_of(variants.size());
+  study.jobs.resize(indices.size());
+  // Neighbours are in one part, because they often have the same dresspack, whose stiffness is computed once (complete.cpp).
+  const std::size_t parts = std::min(thread_count(), indices.size());
+  Sources* const sources = Sources::of_this_thread();
+  in_parallel(parts, [&](std::size_t part) {
+    const Sources::Guest guest(sources);
+    for (std::size_t i = part * indices.size() / parts; i < (part + 1) * indices.size() / parts; ++i)
+      study.jobs[i] = make_job(base, names[indices[i]], variants[indices[i]], sets);
+  });
   return study;
 }
 
