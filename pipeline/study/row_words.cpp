@@ -235,7 +235,7 @@ std::string action_words(const RankingRow& row) {
   if (!row.has_result()) return "";
   const double hours = row.headline_hours();
   if (!is_believable(row))
-    return fmt::format("Do not plan with {}: {} (see the warnings).", std::isinf(hours) ? "this result" : hours_text(hours),
+    return fmt::format("Do not plan with {}: {} (see the warnings).", std::isinf(hours) || outlives_robot(row, hours) ? "this result" : hours_text(hours),
                        warning_kinds(row));
   if (row.worst_segment_from_tool == 0) return "No wire was evaluated.";
   const std::string inspection = inspection_words(row), bound = bound_words(row), others = other_values_words(row);

@@ -762,6 +762,8 @@ TEST_CASE("ranking: of one job the first words say what to do, forces that canno
   CHECK(ranking_table(rows).starts_with("Plan a replacement after 1,300 h of motion (3.74 months).\n"));
   rows[0].warnings = std::vector<Warning>{{WarningKind::force, "", "cables pull"}};
   CHECK(ranking_table(rows).starts_with("Do not plan with 1,300 h: forces (see the warnings).\n"));
+  rows[0].planned_hours[0] = 55000, rows[0].robot_life_hours = 40000;
+  CHECK(ranking_table(rows).starts_with("Do not plan with this result: forces (see the warnings).\n"));
 }
 
 TEST_CASE("ranking: a life that equals one of its bounds is named, another one is not") {
