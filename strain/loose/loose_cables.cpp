@@ -10,6 +10,8 @@ namespace {
 
 constexpr int feeding_rounds = 100;  // 1 % of slack in 2 m grows by 0.2 mm in each round
 constexpr int most_rounds = 200;     // then at most so many rounds until all cables rest: 8 s at 25 Hz
+// Cables that do not come to rest at a sample, because they snap far, get the time of so many samples in which the hose stands still.
+constexpr int most_pauses = 8;
 constexpr double settled = 1e-7;     // change of strain in a round: 0.1 N of a cable of 1 MN
 // Relative change of curvature that the rest of a lead-in may still cause in cables that stop. It changes a life by 9 % (exponent
 // 1/0.112 of copper), an eighth of the least stated error, a factor of two.
@@ -177,7 +179,10 @@ void LooseCables::advance(std::span<LooseCables* const> all, std::span<const Hos
     if (!of->started_) of->settle(step);
   }
   relax(all, step, seen);
-  for (LooseCables* const of : all) of->restless_ += !of->rests_;
+  for (LooseCables* of : all) {
+    for (int k = 0; k < most_pauses && !of->rests_; ++k) relax({&of, 1}, step, seen);
+    of->restless_ += !of->rests_;
+  }
 }
 
 /// Moves the cables from their places to their rests at the first sample. A cable with excess length has many rests. The one

@@ -86,7 +86,8 @@ class LooseCables {
   /// Returns whether the cables had reached a cycle at end_repeat(): the change of curvature in this repeat times the number of
   /// further repeats was below 1 %.
   bool in_cycle() const { return in_cycle_; }
-  /// Returns the number of samples since begin_repeat() at which a ring or a cable did not converge in the allowed iterations.
+  /// Returns the number of samples since begin_repeat() at which a ring or a cable did not converge in the allowed iterations, also not
+  /// in the time of further samples in which the hose stands still.
   std::size_t restless() const { return restless_; }
   /// Returns the change of curvature since begin_repeat(), over the curvature: root mean squares over cables and nodes. 0 without
   /// begin_repeat().
