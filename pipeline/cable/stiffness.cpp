@@ -401,10 +401,10 @@ std::string stiffness_text(const Dresspack& dresspack) {
                         dresspack.mass_per_length, wire_density, polymer_density);
   const auto line = [&](const char* name, const char* unit, double used, bool taken,
                         double HoseStiffness::*of) {
-    text += fmt::format(
-        "{} {:.4g} {} {}; of its construction {:.3g} sliding, {:.3g} with friction at {:.3g} 1/m, {:.3g} glued\n",
-        name, used, unit, taken ? fmt::format("from construction ({})", state_words(dresspack)) : "given",
-        sliding.*of, friction.*of, curvature, stuck.*of);
+    const std::string source = taken ? fmt::format("from construction ({})", state_words(dresspack)) : "given";
+    text += used > 0 ? fmt::format("{} {:.4g} {} {}; ", name, used, unit, source) : fmt::format("{} [{}] ", name, unit);
+    text += fmt::format("of its construction {:.3g} sliding, {:.3g} with friction at {:.3g} 1/m, {:.3g} glued\n", sliding.*of,
+                        friction.*of, curvature, stuck.*of);
   };
   line("E I", "N m2", dresspack.bending_stiffness, dresspack.bending_from_construction,
        &HoseStiffness::bending);

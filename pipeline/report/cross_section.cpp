@@ -280,10 +280,12 @@ std::vector<std::string> wire_paths(const Dresspack& dresspack) {
 }
 
 std::string construction_text(const Dresspack& dresspack) {
-  std::string text =
-      fmt::format("{}: {:.4g} mm, {:.4g} kg/m, E I {:.4g} N m2, G J {:.4g} N m2, E A {:.4g} N\n",
-                  dresspack.name, millimetres(dresspack.diameter), dresspack.mass_per_length,
-                  dresspack.bending_stiffness, dresspack.torsional_stiffness, dresspack.axial_stiffness);
+  std::string text = fmt::format("{}: {:.4g} mm", dresspack.name, millimetres(dresspack.diameter));
+  if (dresspack.mass_per_length > 0)  // a cable alone may have no properties
+    text += fmt::format(", {:.4g} kg/m, E I {:.4g} N m2, G J {:.4g} N m2, E A {:.4g} N\n", dresspack.mass_per_length,
+                        dresspack.bending_stiffness, dresspack.torsional_stiffness, dresspack.axial_stiffness);
+  else
+    text += fmt::format(", {:.4g} kg/m by its construction\n", mass_of_construction(dresspack));
   for (const Component& component : dresspack.components) list_layer(component, 1, text);
   const Component all = whole(dresspack);
   if (dresspack.components.empty())

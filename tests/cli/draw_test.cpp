@@ -92,6 +92,16 @@ TEST_CASE("a cable needs no more than its data sheet's line, and is as wide as t
   CHECK(run(scratch, "dresslife", "draw hose.yaml").err.find("diameter_mm is missing") != std::string::npos);
 }
 
+TEST_CASE("draw: a cable alone has the mass of its construction") {
+  Scratch scratch;
+  scratch.write("cable.yaml", "cable: {name: lead, source: test, data_sheet: \"4G2.5, class 6, outer diameter 12.1 mm\"}\n");
+  const std::string drawn = must_run(scratch, "dresslife", "draw cable.yaml").out;
+  INFO(drawn);
+  // 9.97 mm2 of wires of 8900 kg/m3 and the remaining 105 mm2 of 1200 kg/m3: 0.2148 kg/m. Lays add 2 % to the copper.
+  CHECK(drawn.find("lead: 12.1 mm, 0.2164 kg/m by its construction") == 0);
+  CHECK(drawn.find("E I [N m2] of its construction") != std::string::npos);
+}
+
 TEST_CASE("draw replaces pictures and nothing else") {
   Scratch scratch;
   scratch.write("mine.yaml", "keep: me\n");

@@ -57,20 +57,30 @@ void add_service_doubts(const LearnedTest& test, double surprising, Learned& lea
   }
 }
 
-}  // namespace
-
-double surprise(const LearnedTest& test) {
+double surprise(const LearnedTest& test, const PredictedDeciles& predicted) {
   const Observation& observation = test.observation;
   if (!observation.service.empty()) return 0;  // many lives have no single surprise
   const double seen = observation.is_life() ? observed_life(observation) : test.measured;
   const auto off = [&](double side) {
-    return std::log(seen / test.before[1]) / (std::log(side / test.before[1]) / normal_decile);
+    return std::log(seen / predicted[1]) / (std::log(side / predicted[1]) / normal_decile);
   };
-  if (!(seen > 0) || !std::isfinite(test.before[2])) return 0;
+  if (!(seen > 0) || !std::isfinite(predicted[2])) return 0;
   const bool both = !observation.is_life() || observation.outcome == ObservedEnd::broken;
-  if (seen > test.before[1]) return both || bounds_below(observation.outcome) ? off(test.before[2]) : 0;
-  return both || bounds_above(observation.outcome) ? off(test.before[0]) : 0;
+  if (seen > predicted[1]) return both || bounds_below(observation.outcome) ? off(predicted[2]) : 0;
+  return both || bounds_above(observation.outcome) ? off(predicted[0]) : 0;
 }
+
+std::string chance_words(double deviations) {
+  constexpr double most = 1e6;  // tails of the predictions beyond it are not known
+  const double observations = 1 / std::erfc(deviations / std::numbers::sqrt2);
+  return fmt::format("by chance {} 1 of {} observations is as far off", observations > most ? "fewer than" : "about",
+                     readable(std::min(observations, most), 1));
+}
+
+}  // namespace
+
+double surprise(const LearnedTest& test) { return surprise(test, test.before); }
+double surprise_by_others(const LearnedTest& test) { return surprise(test, test.by_others); }
 
 std::vector<LearnedAxis> learned_axes(const Posterior& posterior, const Axes& axes) {
   std::vector<LearnedAxis> learned(uncertain_count);
@@ -107,9 +117,13 @@ void add_doubts(Learned& learned, const Axes& axes) {
   for (const LearnedTest& test : learned.tests)
     if (const double off = surprise(test); off > surprising)
       learned.notes.push_back(fmt::format(
-          "'{}' is far from its prediction: by chance about 1 of {} observations is as far off. Check its construction "
-          "and its test before you use this calibration",
-          test.observation.name, readable(1 / std::erfc(off / std::numbers::sqrt2), 1)));
+          "'{}' is far from its prediction: {}. Check its construction and its test before you use this calibration",
+          test.observation.name, chance_words(off)));
+    else if (const double apart = surprise_by_others(test); apart > surprising)
+      learned.notes.push_back(fmt::format(
+          "'{}' contradicts the other observations, which predict {}: {}. Check the cables, the tests and the outcomes before you "
+          "use this calibration",
+          test.observation.name, words_of(test.by_others), chance_words(apart)));
   const Posterior& posterior = learned.posterior;
   for (Index i = 0; i < axes.size(); ++i) {
     const double off =

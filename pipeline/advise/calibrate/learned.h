@@ -41,8 +41,11 @@ struct Learned {
 
 std::vector<LearnedAxis> learned_axes(const Posterior& posterior, const Axes& axes);
 
-/// Returns the standard deviations between a prediction and the observation, if it lies on the wrong side; 0 if they agree.
+/// Returns the standard deviations between the prediction before any observation and the observation, if it lies on the wrong
+/// side; 0 if they agree.
 double surprise(const LearnedTest& test);
+/// Returns the same for the prediction from all other observations.
+double surprise_by_others(const LearnedTest& test);
 
 /// Adds notes on the limits of the result.
 void add_doubts(Learned& learned, const Axes& axes);

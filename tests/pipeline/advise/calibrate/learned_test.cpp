@@ -308,6 +308,29 @@ TEST_CASE(
   CHECK(surprise(test) == 0);  // a measured 0 has no logarithm
 }
 
+TEST_CASE("learned: a row that only the other rows contradict has a note") {
+  const Made hours("    hours: 300\n");
+  const Axes axes(*hours.round);
+  const auto notes_of = [&](const PredictedDeciles& by_others) {
+    Learned learned;
+    learned.posterior.covariance = Eigen::MatrixXd::Identity(axes.size(), axes.size());
+    learned.posterior.median = learned.posterior.laplace.most_likely = Eigen::VectorXd::Zero(axes.size());
+    LearnedTest test;
+    test.observation.name = "flex";
+    test.observation.hours = 100;
+    test.observation.outcome = ObservedEnd::broken;
+    test.before = {10, 200, 4000};
+    test.by_others = by_others;
+    learned.tests.push_back(test);
+    add_doubts(learned, axes);
+    return learned.notes;
+  };
+  CHECK(notes_of({50, 200, 800}).empty());  // ln 2 is as far as the decile
+  const std::vector<std::string> notes = notes_of({1000, 2000, 8000});
+  REQUIRE(notes.size() == 1);
+  CHECK(notes[0].find("'flex' contradicts the other observations, which predict 1,000 (2,000, 8,000)") == 0);
+}
+
 TEST_CASE("learned: hoses that had not cracked move the strength of their wall as the closed form says") {
   // One hose survived until ln life = 9; ln median life = 8 + 2 z, deviation 0.5. With c = 2/0.5 and b = (8 - 9)/0.5 the
   // likelihood is Phi(b + c z). With q = b/sqrt(1 + c^2) the mean of z is c/sqrt(1 + c^2) phi(q)/Phi(q).
