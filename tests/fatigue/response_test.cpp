@@ -1,11 +1,18 @@
-// The rest of loose cables as a parameter of a life.
+// The response of a life: every point against the exact lives of all wires, and the rest of loose cables as a parameter.
 #include "fatigue/response.h"
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 
+#include "fatigue/relaxation.h"
 #include "pipeline/base/statistics.h"
+#include "pipeline/job/job.h"
 #include "pipeline/life/first_failure.h"
 #include "tests/catch.h"
+#include "tests/fatigue/materials.h"
+#include "tests/fatigue/part_of_strain.h"
+#include "tests/pipeline/scratch.h"
 
 using namespace dresslife;
 using fatigue::VariedStrains;
@@ -111,4 +118,116 @@ TEST_CASE("rests: they have a share in the causes when starts differ, and none w
   LifeResponse alone = Rests(5, 8).response;  // one start or no ring: no variation of rest
   alone.points.resize(1), alone.inside.resize(1), alone.worst_life.resize(1);
   CHECK(share_of(alone) == 0);
+}
+
+namespace {
+
+/// Sites of a strain file with their reversals, of two materials in turns.
+struct Sites {
+  pipeline::Job job;
+  std::vector<std::vector<float>> strains;
+  const pipeline::Scratch folder;
+
+  Sites() {
+    auto cu = fatigue_tests::copper(), al = fatigue_tests::aluminium();
+    cu.name = "copper", al.name = "aluminium";
+    cu.relaxation_threshold_strain = 0.002, cu.relaxation_exponent = 0.1;
+    job.dresspacks[0].dresspack.materials = {cu, al};
+    pipeline::Component& cable = job.dresspacks[0].dresspack.components.emplace_back();
+    cable.name = "cable", cable.components.resize(1);
+    cable.components[0].layer = "layer 1";
+  }
+  static std::string material(std::size_t site) { return site / 3 % 2 == 0 ? "copper" : "aluminium"; }
+  static const pipeline::Format& format() {
+    static const pipeline::Format part = fatigue_tests::part_of_strain(
+        {"/site/segment", "/site/component", "/site/material", "/reversal/strain", "/reversal/offset", "/segment/length"});
+    return part;
+  }
+  void write(const std::filesystem::path& path) const {
+    pipeline::FileWriter file(path, format());
+    std::vector<std::uint64_t> offset{0};
+    for (std::size_t site = 0; site < strains.size(); ++site) {
+      file.append("/site/segment", std::vector<std::int32_t>{0});
+      file.append("/site/component", std::vector<std::string>{"cable 1/layer 1/wire 1"});
+      file.append("/reversal/strain", strains[site]);
+      offset.push_back(offset.back() + strains[site].size());
+    }
+    std::vector<std::string> materials;
+    for (std::size_t site = 0; site < strains.size(); ++site) materials.push_back(material(site));
+    file.append("/site/material", materials);
+    file.append("/reversal/offset", offset);
+    file.append("/segment/length", std::vector<double>{1});
+    for (const char* name : {"job", "history", "input_sha256"}) file.attribute(name, "");
+    file.commit();
+  }
+
+  /// Returns the damage of a site by the exact curves. safe: compression has no effect.
+  double damage(std::size_t site, const std::vector<float>& of, const pipeline::Job& moved, bool safe) const {
+    const pipeline::Material m = pipeline::material_of(moved, material(site));
+    const auto reversals = fatigue::find_reversals(std::vector<double>(of.begin(), of.end()));
+    const fatigue::StrainLife life(m, moved.fatigue.mean_stress, moved.fatigue.endurance_strain);
+    const auto at_share = [&](double share) {
+      double sum = 0;
+      for (const fatigue::DamagingCycle& c : fatigue::evaluate_cycles(reversals, m, moved.fatigue, share)) {
+        const double compressive = safe ? std::min(c.stress_mean, 0.0) : 0;
+        sum += c.cycle.count * life.damage({c.cycle.range() / 2, c.stress_max - compressive, c.stress_mean - compressive});
+      }
+      return sum;
+    };
+    const fatigue::Relaxation relaxation(m, moved.fatigue);
+    if (relaxation.never()) return at_share(1);
+    const auto [low, high] = std::minmax_element(of.begin(), of.end());
+    return 1 / fatigue::relaxing_life(relaxation.exponent((double(*high) - double(*low)) / 2),
+                                      [&](std::span<const double> share, std::span<double> damage) {
+                                        for (std::size_t k = 0; k < share.size(); ++k) damage[k] = at_share(share[k]);
+                                      });
+  }
+};
+
+}  // namespace
+
+TEST_CASE("response: every point has the life of its worst wire, with every strength and slope of the material") {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> size(0.002, 0.004);
+  for (const bool relaxes : {false, true}) {
+    Sites sites;
+    if (relaxes) sites.job.fatigue.mean_stress_relaxation = pipeline::MeanStressRelaxation::power_law;
+    sites.job.fatigue.strength_factor = 1.1, sites.job.fatigue.slope_change = 0.004;
+    const auto history = [&](std::size_t k, double times) {
+      const double a = times * size(random), offset = (k % 2 ? 0.8 : -0.8) * a;
+      return std::vector<float>{0, float(a + offset), float(0.3 * a + offset), float(0.5 * a + offset), float(offset - a), 0};
+    };
+    for (std::size_t k = 0; k < 40; ++k) sites.strains.push_back(history(k, 1));
+    VariedStrains own;
+    for (std::size_t k = 0; k < 40; ++k) own.site.push_back(k), own.strains.push_back(sites.strains[k]);
+    std::vector<VariedStrains> varied(4);
+    for (std::size_t v = 0; v < 4; ++v) {
+      varied[v].z[v] = 1.5 - double(v);
+      varied[v].inside = static_cast<Inside>(v % 3);
+      for (std::size_t k = v; k < 40; k += v + 2) varied[v].site.push_back(k), varied[v].strains.push_back(history(k, 1 + 0.3 * double(v)));
+    }
+    sites.write(sites.folder / "strain.h5");
+    const pipeline::FileReader file(sites.folder / "strain.h5", Sites::format());
+    const fatigue::SiteSet set(file, "");
+    LifeResponse response;
+    fatigue::fill_response(response, own, varied, {}, set, fatigue::read_column(file, "/site/component"), sites.job, 2);
+    REQUIRE(response.points.size() == 5);
+    const std::size_t slopes = response.slope.size(), nodes = response.strength.size() * slopes;
+    REQUIRE(response.worst_life.size() == 5 * nodes);
+    for (std::size_t point = 0; point < 5; ++point) {
+      const VariedStrains& at = point == 0 ? own : varied[point - 1];
+      CHECK(response.points[point] == at.z);
+      CHECK(response.inside[point] == at.inside);
+      for (std::size_t node = 0; node < nodes; ++node) {
+        pipeline::Job moved = sites.job;
+        moved.fatigue.strength_factor *= std::pow(1.3, response.strength[node / slopes]);
+        moved.fatigue.slope_change += 0.01 * response.slope[node % slopes];
+        double worst = 0;
+        for (std::size_t k = 0; k < at.site.size(); ++k)
+          worst = std::max(worst, sites.damage(at.site[k], at.strains[k], moved, at.inside == Inside::glued));
+        CAPTURE(relaxes, point, node);
+        CHECK(response.worst_life[point * nodes + node] == Approx(-std::log10(worst)).margin(fatigue::DamageCounter::table_error));
+      }
+    }
+  }
 }
