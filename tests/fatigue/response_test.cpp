@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <tuple>
 
 #include "fatigue/relaxation.h"
 #include "pipeline/base/statistics.h"
@@ -106,6 +107,82 @@ TEST_CASE("rests: lives beyond anything physical shorten no other life") {
     CHECK(LifeSurface(response).log10_life(z, 0, Inside::glued) == Approx(4).margin(most));
     CHECK(LifeSurface(response).log10_life(z, 0) > 10);
   }
+}
+
+TEST_CASE("rests: each strength and slope of the material has its own lives, and the order is that of the medians") {
+  std::vector<VariedStrains> varied(3);
+  varied[0].rest = 1, varied[1].rest = 2, varied[2].rest = 2, varied[2].z[hose] = 1.5;
+  LifeResponse response;
+  response.knowledge = pipeline::prior_of({});
+  response.strength = {-1, 0}, response.slope = {-1, 0, 1};  // the median is the fifth of six
+  response.worst_life = {9, 8, 7, 8, 6, 5, /**/ 1, 2, 3, 4, 7, 6, /**/ 8, 7, 6, 5, 5, 3, /**/ 7, 8, 5, 6, 6, 4};
+  const std::vector<double> own = response.worst_life;
+  for (const VariedStrains& at : varied) response.points.push_back(at.z), response.inside.push_back(at.inside);
+  fatigue::put_rests(response, varied, {4, 3, 1});
+  // Lives 5, 6 and 7 at the medians: rests 2, 0 and 1, of 1, 4 and 3 starts.
+  const double zero = pipeline::normal_quantile(3. / 8);
+  CHECK(response.points[1][rest] == Approx(pipeline::normal_quantile(6.5 / 8) - zero));
+  CHECK(response.points[2][rest] == Approx(pipeline::normal_quantile(0.5 / 8) - zero));
+  CHECK(response.knowledge.mean[rest] == Approx(-zero));
+  for (std::size_t node = 0; node < 6; ++node)
+    CHECK(response.worst_life[18 + node] == Approx(pipeline::together(own[12 + node], std::array{own[18 + node], own[node]})));
+}
+
+TEST_CASE("variations are read as written, with the wires that count, and each number that the file does not hold is refused") {
+  const pipeline::Format format = fatigue_tests::part_of_strain({"/variation/z", "/variation/inside", "/variation/rest", "/variation/stiffness", "/start/rest",
+                                                               "/variation/row/variation", "/variation/row/site", "/variation/row/turning", "/variation/strain"});
+  const pipeline::Scratch folder;
+  const std::vector<double> z{0, 1, 2, 3, 4, -5, -6, -7, -8, -9, 10, 11, 12, 13, 14}, stiffness{0.5, 0, -0.5};
+  const std::vector<std::int32_t> inside{0, 2, 1}, rest_of{1, 0, 2}, start{0, 2, 1, 1};
+  const std::vector<std::uint32_t> variation{1, 0, 1, 2}, site{3, 1, 0, 3}, turning{2, 3, 1, 2};
+  const std::vector<float> strain{1, 2, 3, 4, 5, 6, 7, 8};
+  const auto reads = [&](const auto&... lists) {
+    const auto [of_inside, of_rest, of_start, of_variation, of_site, of_turning] = std::tuple(lists...);
+    {
+      pipeline::FileWriter file(folder / "strain.h5", format);
+      file.append("/variation/z", z), file.append("/variation/inside", of_inside), file.append("/variation/rest", of_rest);
+      file.append("/variation/stiffness", stiffness), file.append("/start/rest", of_start);
+      file.append("/variation/row/variation", of_variation), file.append("/variation/row/site", of_site);
+      file.append("/variation/row/turning", of_turning), file.append("/variation/strain", strain);
+      for (const char* name : {"job", "history", "input_sha256"}) file.attribute(name, "");
+      file.commit();
+    }
+    const pipeline::FileReader file(folder / "strain.h5", format);
+    fatigue::read_rests(file);
+    return fatigue::read_variations(file, 4);
+  };
+  const std::vector<VariedStrains> all = reads(inside, rest_of, start, variation, site, turning);
+  REQUIRE(all.size() == 3);
+  for (std::size_t v = 0; v < 3; ++v) {
+    for (std::size_t p = 0; p < rest; ++p) CHECK(all[v].z[p] == z[5 * v + p]);
+    CHECK(all[v].z[rest] == 0);
+    CHECK(all[v].z[index_of(Uncertain::hose_stiffness)] == stiffness[v]);
+    CHECK(static_cast<std::int32_t>(all[v].inside) == inside[v]);
+    CHECK(static_cast<std::int32_t>(all[v].rest) == rest_of[v]);
+  }
+  CHECK(all[0].site == std::vector<std::size_t>{1});
+  CHECK(all[1].site == std::vector<std::size_t>{3, 0});
+  CHECK(all[1].strains == std::vector<std::vector<float>>{{1, 2}, {6}});
+  CHECK(all[2].strains == std::vector<std::vector<float>>{{7, 8}});
+  const std::vector<VariedStrains> some = fatigue::only(all, {true, false, true, false});
+  CHECK((some[0].strains.empty() && some[2].site.empty()));
+  CHECK(some[1].site == std::vector<std::size_t>{0});
+  CHECK(some[1].strains == std::vector<std::vector<float>>{{6}});
+  CHECK((some[2].z == all[2].z && some[2].inside == all[2].inside && some[2].rest == all[2].rest));
+  const auto changed = [](auto list, std::size_t at, auto to) {
+    list[at] = to;
+    return list;
+  };
+  const auto refusal = [&](const auto&... lists) { return pipeline::message_of([&] { reads(lists...); }); };
+  for (const std::int32_t wrong : {-1, 3}) {
+    CHECK_THAT(refusal(changed(inside, 1, wrong), rest_of, start, variation, site, turning), Catch::Contains("/variation/inside is " + std::to_string(wrong)));
+    CHECK_THAT(refusal(inside, changed(rest_of, 1, wrong), start, variation, site, turning), Catch::Contains("/variation/rest is " + std::to_string(wrong)));
+    const std::int32_t of_start = wrong < 0 ? wrong : 4;
+    CHECK_THAT(refusal(inside, rest_of, changed(start, 2, of_start), variation, site, turning), Catch::Contains("/start/rest is " + std::to_string(of_start)));
+  }
+  CHECK_THAT(refusal(inside, rest_of, start, changed(variation, 1, 3u), site, turning), Catch::Contains("/variation/row names"));
+  CHECK_THAT(refusal(inside, rest_of, start, variation, changed(site, 1, 4u), turning), Catch::Contains("/variation/row names"));
+  CHECK_THAT(refusal(inside, rest_of, start, variation, site, changed(turning, 3, 3u)), Catch::Contains("/variation/row names"));
 }
 
 TEST_CASE("rests: they have a share in the causes when starts differ, and none when they agree") {

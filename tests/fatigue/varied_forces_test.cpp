@@ -270,3 +270,21 @@ TEST_CASE("forces at other values: a sample or a cable outside the file is refus
   varied.wrong_sample = 0, varied.wrong_cable = 1;
   CHECK_THAT(refusal(), Catch::Contains("of variation 1 has a sample or a cable that is not in the file"));
 }
+
+TEST_CASE("forces at other values: the slack that cures them is the present one over that of the variation") {
+  Varied varied;
+  pipeline::Component& cable = varied.job.dresspacks[0].dresspack.components[1];
+  cable.laying.slack = 2;
+  const auto cures = [&](std::size_t parameter, double z, double tension, const std::string& words) {
+    varied.all.clear();
+    varied.add(parameter, z).tension = {0, tension, 0};
+    CHECK_THAT(varied.text(), Catch::Contains(words));
+  };
+  // 2 times 1.5^1.5 = 3.67, rounded up, and 2 / 1.5^1.5 = 1.09, rounded down
+  cures(slack, -1.5, 1.4, "too little slack: 1.09 % instead of 2 %. Remedy: dresspack.components.2.slack_percent: 3.7 (now 2");
+  cures(slack, 1.5, -1.4, "too much slack: 3.67 % instead of 2 %. Remedy: dresspack.components.2.slack_percent: 1 (now 2");
+  cures(hose_friction, 1.5, 1.4, "friction keeps the cable from moving its slack to the bends that need it. Remedy: dresspack.components.2.slack_percent: 3.4 (now 2; not tried)");
+  cures(hose_friction, 1.5, -1.4, "Likely cause: slack, play, grips or position of the cable");
+  cable.laying.slack = 3;  // 3 times 1.5^1.5 is more than any usual slack
+  cures(slack, -1.5, 1.4, "Likely cause: slack, play, grips or position of the cable");
+}
