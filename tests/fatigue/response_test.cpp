@@ -272,7 +272,10 @@ TEST_CASE("response: every point has the life of its worst wire, with every stre
     sites.job.fatigue.strength_factor = 1.1, sites.job.fatigue.slope_change = 0.004;
     const auto history = [&](std::size_t k, double times) {
       const double a = times * size(random), offset = (k % 2 ? 0.8 : -0.8) * a;
-      return std::vector<float>{0, float(a + offset), float(0.3 * a + offset), float(0.5 * a + offset), float(offset - a), 0};
+      std::vector<float> turns{0, float(a + offset)};
+      for (std::size_t inner = 0; inner < k % 4; ++inner) turns.insert(turns.end(), {float(0.3 * a + offset), float(0.5 * a + offset)});
+      turns.insert(turns.end(), {float(offset - a), 0});
+      return turns;
     };
     for (std::size_t k = 0; k < 40; ++k) sites.strains.push_back(history(k, 1));
     VariedStrains own;

@@ -513,3 +513,13 @@ TEST_CASE("only a wall that contradicts the published test and would fail within
       CHECK(is_credible(mode) == !(bends > 0 && bends < published_wall_bends && hours < 1e5));
     }
 }
+
+TEST_CASE("lives have the residual of computed places if any other place of the cables has other lives, longer or shorter") {
+  for (const double decades : {-0.5, 0.0, 0.5}) {
+    LifeResponse response = straight(0.6, 0, 0);
+    response.points.push_back({}), response.points.back()[slack] = 1.5;
+    response.inside.push_back(Inside::as_is);
+    response.worst_life.insert(response.worst_life.end(), 3, 5.3 + decades);
+    CHECK(residual_of({response}) == (decades == 0 ? 0 : residual_decades));
+  }
+}
