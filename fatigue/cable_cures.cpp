@@ -95,9 +95,8 @@ Cure cure_of(const CableFacts& facts, const pipeline::CableForce& cable, bool st
   if (least > pipeline::largest_slack)
     return {cause, fmt::format("no slack up to {:g} % cures it: a hose that bends less, or a place nearer to its axis ({})",
                                100 * pipeline::largest_slack, cable_key(facts, "helix_radius_mm"))};
-  const double excess = least - facts.least_gain;
-  const double needed =
-      std::max(pipeline::room_of_excess(cable, excess, limit), excess * room_per_excess(facts));
+  const double needed = std::max(pipeline::room_of_excess(cable, least - std::min(0.0, facts.least_gain), limit),
+                                 (least - facts.least_gain) * room_per_excess(facts));
   return {cause, fmt::format("no slack fits this room. It needs {:.2g} mm: {}: {:.2g} if it has them, else another {} or {}.inner_diameter_mm",
                              1e3 * needed, cable_key(facts, "play_mm"), 1e3 * needed, cable_key(facts, "helix_radius_mm"), facts.key)};
 }

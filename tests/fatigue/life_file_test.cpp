@@ -1160,6 +1160,10 @@ TEST_CASE("life.h5: abrasion stands beside the wires with its place, its time an
   const FileReader partial(run(folder, f, job, "partial.h5").file, pipeline::life_format());
   CHECK(modes_of(partial).size() == 1);
   CHECK_THAT(names_in(partial), Catch::Contains("abrasion on arm,"));
+  job.robot.links.resize(5), job.robot.joints.resize(5);  // the third has a shape, the second and the fifth are short
+  for (std::size_t k = 1; k < 5; ++k) job.robot.links[k].name = fmt::format("link_{}", k), job.robot.joints[k].origin = {k % 3 == 1 ? 0.05 : 0.3, 0, 0};
+  job.robot.links[1].capsules.clear(), job.robot.links[2].boxes.emplace_back();
+  CHECK_THAT(names_in(FileReader(run(folder, f, job, "some.h5").file, pipeline::life_format())), Catch::Contains("abrasion on arm and link_3,"));
   job.simulation.self_contact = false;
   CHECK_FALSE(is_known("not_on_itself.h5"));
   job.simulation.self_contact = true, job.simulation.contact = false;

@@ -748,3 +748,47 @@ TEST_CASE("the length over which a hose's bend changes is the wave of a sine alo
     CHECK(evaluation.evening().bend_wave == Approx(wave).epsilon(0.025));
   }
 }
+
+TEST_CASE("with friction every fibre of a wire has the turning points of its own history, whatever the number of fibres") {
+  const DeformationHistory history = moving();
+  const Dresspack dresspack = rubbing(0.4, 100);
+  const Construction construction(dresspack, Kinematics::exact);
+  for (const int fibres : {0, 3, 5}) {
+    Settings settings = settings_with({Slip::friction});
+    settings.surface_fibres = fibres;
+    Evaluation evaluation(construction, settings, std::vector<double>(segments, 2.0 / segments), samples);
+    evaluation.add({history});
+    if (evaluation.wants_again()) evaluation.add_again(history);
+    dresslife::strain::SiteRows rows;
+    Sink sink;
+    sink.sites = [&](const dresslife::strain::SiteRows& of) {
+      rows.strain.insert(rows.strain.end(), of.strain.begin(), of.strain.end());
+      rows.turning.insert(rows.turning.end(), of.turning.begin(), of.turning.end());
+    };
+    sink.bound_free = sink.bound_stick = [](const dresslife::strain::SiteRows&) {};
+    sink.probe = [](const Probe&) {};
+    evaluation.evaluate(0, history, 0, sink);
+    std::vector<Evaluation::Site> sites;
+    const auto each = static_cast<std::size_t>(std::max(1, fibres));
+    const std::size_t wires = evaluation.sites() / segments / each;
+    for (std::size_t wire = 0; wire < wires; wire += 5)
+      for (std::size_t fibre = 0; fibre < each; ++fibre) sites.push_back({wire, static_cast<int>(fibre)});
+    const auto alone = evaluation.varied(sites, {1.0}, 0, history, 0).front();
+    REQUIRE(rows.turning.size() == wires * each);
+    std::vector<std::size_t> begin{0};  // (site)
+    for (const auto turning : rows.turning) begin.push_back(begin.back() + turning);
+    std::size_t at = 0;
+    double differs = 0, varies = 0;
+    for (std::size_t k = 0; k < sites.size(); ++k) {
+      const std::size_t row = evaluation.row_of(0, sites[k]);
+      const auto [low, high] = std::minmax_element(rows.strain.begin() + std::ptrdiff_t(begin[row]), rows.strain.begin() + std::ptrdiff_t(begin[row + 1]));
+      const auto [own_low, own_high] = std::minmax_element(alone.strain.begin() + std::ptrdiff_t(at), alone.strain.begin() + std::ptrdiff_t(at + alone.turning[k]));
+      at += alone.turning[k];
+      differs = std::max({differs, std::abs(double(*low) - *own_low), std::abs(double(*high) - *own_high)});
+      varies = std::max(varies, double(*high) - *low);
+    }
+    CAPTURE(fibres);
+    CHECK(differs < wave_rounding + third_of_length);
+    CHECK(varies > 0.01);
+  }
+}

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <random>
 
 #include "pipeline/life/unvalidated_modes.h"
 #include "tests/catch.h"
@@ -468,4 +469,57 @@ TEST_CASE("lives of many programs with common samples are those of each program 
   ModeLives lives("plant", count);
   for (const FailureModes& modes : programs) CHECK(lives.of(PreparedModes(modes)) == mode_lives(modes, "plant", count));
   for (const FailureModes& modes : programs) CHECK(lives.of(PreparedModes(modes)) == mode_lives(modes, "plant", count));
+}
+
+TEST_CASE("samples have the means and covariances that were learned, of any parameters together") {
+  LifeResponse response = straight(0.6, 0.2, 0.4);
+  std::mt19937 random(8);
+  std::normal_distribution<double> normal;
+  const auto n = static_cast<Eigen::Index>(uncertain_count);
+  Eigen::MatrixXd root(n, n);
+  for (Eigen::Index a = 0; a < n; ++a)
+    for (Eigen::Index b = 0; b < n; ++b) root(a, b) = normal(random);
+  response.knowledge.covariance = root * root.transpose();
+  for (Eigen::Index a = 0; a < n; ++a) response.knowledge.mean[a] = normal(random);
+  constexpr std::size_t count = 20000;
+  std::vector<std::vector<double>> samples;
+  std::vector<Eigen::Index> of;
+  for (std::size_t p = 0; p < uncertain_count; ++p)
+    if (uncertain_parameters()[p].shared != SharedBy::installation)
+      samples.push_back(shared_samples(response, p, count)), of.push_back(static_cast<Eigen::Index>(p));
+  REQUIRE(of.size() == 8);
+  const Eigen::MatrixXd& covariance = response.knowledge.covariance;
+  for (std::size_t a = 0; a < of.size(); ++a) {
+    constexpr double strata = 1e-9;  // each stream has a mean of 0
+    const double mean = std::accumulate(samples[a].begin(), samples[a].end(), 0.0) / double(count);
+    CHECK(mean == Approx(response.knowledge.mean[of[a]]).margin(strata));
+    for (std::size_t b = 0; b <= a; ++b) {
+      double sum = 0;
+      for (std::size_t s = 0; s < count; ++s)
+        sum += (samples[a][s] - response.knowledge.mean[of[a]]) * (samples[b][s] - response.knowledge.mean[of[b]]);
+      const double expected = covariance(of[a], of[b]), variances = covariance(of[a], of[a]) * covariance(of[b], of[b]);
+      // five standard deviations of the covariance of so many samples
+      CHECK(sum / double(count) == Approx(expected).margin(5 * std::sqrt((variances + expected * expected) / double(count))));
+    }
+  }
+}
+
+TEST_CASE("only a wall that contradicts the published test and would fail within a robot's time is not credible") {
+  for (const double bends : {0.0, 1.0, 0.99 * published_wall_bends, published_wall_bends, 2 * published_wall_bends})
+    for (const double hours : {9.9e4, 1e5, 1e9}) {
+      UnvalidatedMode mode;
+      mode.bends_at_limit = bends, mode.hours = {hours, 2 * hours, 3 * hours};
+      CAPTURE(bends, hours);
+      CHECK(is_credible(mode) == !(bends > 0 && bends < published_wall_bends && hours < 1e5));
+    }
+}
+
+TEST_CASE("lives have the residual of computed places if any other place of the cables has other lives, longer or shorter") {
+  for (const double decades : {-0.5, 0.0, 0.5}) {
+    LifeResponse response = straight(0.6, 0, 0);
+    response.points.push_back({}), response.points.back()[slack] = 1.5;
+    response.inside.push_back(Inside::as_is);
+    response.worst_life.insert(response.worst_life.end(), 3, 5.3 + decades);
+    CHECK(residual_of({response}) == (decades == 0 ? 0 : residual_decades));
+  }
 }

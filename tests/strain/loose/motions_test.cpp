@@ -235,10 +235,11 @@ TEST_CASE("a ring turns out of a twist that alternates, and what strain is left 
 
 TEST_CASE("the change of a repeat is that of the cables between its begin and its end") {
   constexpr int cycle = 100;
+  const double sign = GENERATE(1, -1);
   LooseCables loose(ring_of_ten(0), {2.035, 64});
   const auto move = [&](int from, int end) {
     for (int t = from; t < end; ++t)
-      loose.advance(hose(64, [&](double z) { return HoseNode{.curvature1 = 3 * std::sin(2 * pi * t / cycle) * std::pow(std::sin(pi * z), 4)}; }), step);
+      loose.advance(hose(64, [&](double z) { return HoseNode{.curvature1 = sign * 3 * std::sin(2 * pi * t / cycle) * std::pow(std::sin(pi * z), 4)}; }), step);
   };
   move(0, 2 * cycle + 1);
   CHECK(loose.changed() == 0);  // no repeat has begun
@@ -354,6 +355,17 @@ TEST_CASE("a random winding takes the slack of its ring and is held at both clam
   const double steepest = std::sqrt(2 * slack) / radius;  // mean square
   CHECK(std::abs(turn[1]) / h < 0.2 * steepest);          // first order in h: zero at the clamp itself
   CHECK(random_winding(nodes, length, radius, slack, 6) != turn);
+  // Four half waves times a half wave that holds both clamps, and no shorter ones.
+  for (int wave = 1; wave <= 8; ++wave) {
+    double size = 0;
+    for (std::size_t i = 1; i + 1 < nodes; ++i) {
+      const double x = pi * double(i) / double(nodes - 1);
+      size += 2 * turn[i] / std::sin(x) * std::sin(wave * x) / double(nodes - 1);
+    }
+    CAPTURE(wave);
+    constexpr double rounding = 1e-9;
+    CHECK((std::abs(size) > rounding) == (wave <= 4));
+  }
   CHECK(random_winding(nodes, length, radius, 0, 5) == std::vector<double>(nodes, 0.0));
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <tuple>
 
 #include "tests/catch.h"
 
@@ -147,8 +148,9 @@ TEST_CASE("the damage of the mode that fails first is the same with and without 
                             wires_of({{1}, {first}, {second}}, {0, 1, 1}, 1)};
   };
   constexpr std::size_t samples = 500;
-  for (const double harder : {4.0, 5.0, 6.0}) {
-    const std::vector<EvaluatedProgram> programs{with_modes("first", 5, harder, 1, 0.2), with_modes("second", harder, 5.2, 0.1, 1)};
+  // In the last two, both programs damage nearly the same place of the second mode, which fails first.
+  for (const auto& [harder, of_second, elsewhere] : {std::tuple(4.0, 5.2, 0.2), {5.0, 5.2, 0.2}, {6.0, 5.2, 0.2}, {4.0, 4.1, 0.8}, {4.0, 3.9, 0.9}}) {
+    const std::vector<EvaluatedProgram> programs{with_modes("first", 5, harder, 1, elsewhere), with_modes("second", harder + 1, of_second, elsewhere / 2, 1)};
     const std::vector<Rate> rates{{3, 40}, {2, 80}};
     const std::vector<double> share = SamePlace(programs).at({3, 2});
     REQUIRE(share[1] < 1);

@@ -8,6 +8,7 @@
 #include <limits>
 #include <numeric>
 #include <random>
+#include <tuple>
 
 #include "pipeline/advise/plan/doubtful_plan.h"
 #include "pipeline/advise/plan/plan_words.h"
@@ -638,4 +639,58 @@ TEST_CASE("the calendar has an event for each window with work, in lines of 75 b
   CHECK(plan_calendar(other, plan).find("a\\, b\\; c") != std::string::npos);
   other.rows.front().name = "of another plant";
   CHECK(uid(plan_calendar(other, plan)) != uid(calendar));
+}
+
+TEST_CASE("a plant of unlike dresspacks has the plan of each alone, if the worlds are given") {
+  const std::map<std::string, LifeTable> tables{
+      {"a", weibull(3, {4000, 6000}, 2000)}, {"b", weibull(1.5, {9000, 3000}, 2000)}, {"hard", weibull(2, {400, 300}, 2000)}};
+  Fleet fleet = fleet_of({5, 40, 25, 12, 33}, 1, 6);
+  for (const auto& [row, duty, planned, unplanned] : std::vector<std::tuple<std::size_t, const char*, double, double>>{
+           {1, "a", 2, 7}, {2, "b", 1, 30}, {3, "a", 1, 8}, {4, "b", 3, 9}})
+    fleet.rows[row].duty = duty, fleet.rows[row].planned_cost = planned, fleet.rows[row].unplanned_cost = unplanned;
+  fleet.rows[0].duty = "a", fleet.rows[1].hours_per_week = 30, fleet.rows[4].hours_per_week = 110;
+  fleet.rows[1].before = {{"hard", 20}};
+  fleet.rows[3].run_hours = 100, fleet.rows[3].before = {{"b", 10}, {"hard", 600}}, fleet.rows[3].change = {{100, 5}};  // hard for 100 days more
+  for (const bool by_cost : {false, true}) {
+    PlanRule rule{0.1, by_cost};
+    rule.weights = {0.3, 0.7};
+    const std::vector<Window> windows = windows_in({4, 14, 40});
+    const Plan plan = plan_of(fleet, tables, windows, start, rule);
+    double cost = 0, without = 0, planned = 0, unplanned = 0;
+    std::vector<double> failures(plan.failures_in_week.size(), 0.0), bare = failures;
+    std::size_t kinds = 0;
+    for (std::size_t i = 0; i < fleet.rows.size(); ++i) {
+      Fleet alone = fleet;
+      alone.rows = {fleet.rows[i]};
+      const Plan one = plan_of(alone, tables, windows, start, rule);
+      const RowPlan &row = plan.rows[i], &own = one.rows[0];
+      CHECK(row.age_hours == own.age_hours);
+      CHECK(row.fails_before_first == own.fails_before_first);
+      CHECK(row.fails_in_week == own.fails_in_week);
+      CHECK(row.fails_until_next == own.fails_until_next);
+      CHECK(row.fails_before == own.fails_before);
+      CHECK(row.reach_its_age == own.reach_its_age);
+      CHECK(row.window == own.window);
+      kinds |= std::size_t{1} << row.window.value_or(3);
+      cost += one.cost, without += one.cost_without_windows;
+      for (const YearOfPlan& year : one.years) planned += year.planned, unplanned += year.unplanned;
+      for (std::size_t week = 0; week < failures.size(); ++week)
+        failures[week] += one.failures_in_week[week], bare[week] += one.failures_in_week_without_windows[week];
+    }
+    CHECK(kinds != 1);  // they are replaced in different windows
+    // Five dresspacks have 10,000 simulated plants. The cost of a plant is at most a hundred, with a deviation below 30: 0.3 of the mean, and
+    // 4.5 of these.
+    const double of_cost = 4.5 * 0.3;
+    CHECK(plan.cost == Approx(cost).margin(of_cost));
+    CHECK(plan.cost_without_windows == Approx(without).margin(of_cost));
+    double all_planned = 0, all_unplanned = 0;
+    for (const YearOfPlan& year : plan.years) all_planned += year.planned, all_unplanned += year.unplanned;
+    constexpr double of_count = 4.5 * 0.03;  // the deviation of a plant's count is below 3
+    CHECK(all_planned == Approx(planned).margin(of_count));
+    CHECK(all_unplanned == Approx(unplanned).margin(of_count));
+    CHECK(std::accumulate(plan.failures_in_week.begin(), plan.failures_in_week.end(), 0.0) ==
+          Approx(std::accumulate(failures.begin(), failures.end(), 0.0)).margin(of_count));
+    CHECK(std::accumulate(plan.failures_in_week_without_windows.begin(), plan.failures_in_week_without_windows.end(), 0.0) ==
+          Approx(std::accumulate(bare.begin(), bare.end(), 0.0)).margin(of_count));
+  }
 }

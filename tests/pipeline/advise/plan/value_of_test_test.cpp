@@ -1,10 +1,12 @@
 // The value of a test against costs calculated by hand, and its bounds.
 #include "pipeline/advise/plan/value_of_test.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "pipeline/advise/plan/plan_words.h"
+#include "pipeline/base/statistics.h"
 #include "pipeline/job/uncertainty.h"
 #include "tests/catch.h"
 
@@ -70,4 +72,113 @@ TEST_CASE("a perfect test of two equally likely worlds saves what each costs les
   CHECK(test_words({}, plan).find("No test") != std::string::npos);
   // A parameter that is equal in both worlds.
   CHECK(value_of_test({0, "", {0.3, 0.3}}, 0.1, fleet, tables, plan) == Approx(0).margin(rounding));
+}
+
+namespace {
+
+/// Returns the value (D7) of a test for one dresspack, from each life by itself and a search through all ages.
+double searched(const Installed& row, const LifeTable& table, double age, double hours_per_day, const std::vector<double>& times,
+                const std::vector<double>& weights, const std::vector<double>& z, double error) {
+  const std::size_t worlds = weights.size();
+  const AgeRates rates = age_rates(table, row.planned_cost, row.unplanned_cost);
+  const auto ages = static_cast<std::size_t>(rates.rate.rows());
+  const auto rate = [&](std::size_t a, std::size_t w) { return rates.rate(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(w)); };
+  const auto best_age = [&](const std::vector<double>& of_world) {
+    std::size_t best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t a = 0; a < ages; ++a) {
+      double mean = 0;
+      for (std::size_t w = 0; w < worlds; ++w) mean += of_world[w] * rate(a, w);
+      if (mean < least) least = mean, best = a;
+    }
+    return best;
+  };
+  const double end = times.back() * hours_per_day, last = times[times.size() - 2] * hours_per_day;
+  std::vector<double> until;
+  for (std::size_t k = 0; k + 1 < times.size(); ++k) until.push_back(times[k] * hours_per_day);
+  for (double hours = end - last; hours < 1.5 * table.robot_life_hours; hours *= 1.5) until.push_back(last + hours);
+  const auto mean_cost = [&](std::size_t w, double at, std::size_t a) {
+    double least = std::numeric_limits<double>::infinity(), sum = 0;
+    for (std::size_t of = 0; of < ages; ++of) least = std::min(least, rate(of, w));
+    std::size_t count = 0;
+    for (std::size_t d = 0; d < table.draws; ++d) {
+      const double left = table.life(w, d) - age;
+      if (!(left > 0)) continue;
+      const double runs = std::min(left, at);
+      sum += (left <= at ? row.unplanned_cost : row.planned_cost) + rate(a, w) * (end - std::min(runs, end)) - least * std::max(0.0, runs - end);
+      ++count;
+    }
+    return sum / double(count);
+  };
+  double mean = 0, variance = 0;
+  for (std::size_t w = 0; w < worlds; ++w) mean += weights[w] * z[w];
+  for (std::size_t w = 0; w < worlds; ++w) variance += weights[w] * std::pow(z[w] - mean, 2);
+  const double deviation = std::sqrt(variance + error * error);
+  const auto least_of = [&](const std::vector<double>& share, std::initializer_list<std::size_t> policies) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::size_t a : policies)
+      for (const double at : until) {
+        double cost = 0;
+        for (std::size_t w = 0; w < worlds; ++w) cost += share[w] * mean_cost(w, at, a);
+        least = std::min(least, cost);
+      }
+    return least;
+  };
+  const std::size_t now = best_age(weights);
+  double after = 0;
+  constexpr int bins = 16;
+  for (int j = 0; j < bins; ++j) {
+    std::vector<double> share;
+    for (std::size_t w = 0; w < worlds; ++w) {
+      const auto below = [&](int edge) {
+        return edge == 0 ? 0 : edge == bins ? 1 : normal_share((mean + deviation * normal_quantile(double(edge) / bins) - z[w]) / error);
+      };
+      share.push_back(weights[w] * (below(j + 1) - below(j)));
+    }
+    after += least_of(share, {now, best_age(share)});
+  }
+  return least_of(weights, {now}) - after;
+}
+
+}  // namespace
+
+TEST_CASE("tests of a plant of unlike dresspacks are worth what a search through all lives and ages finds for each") {
+  // Quantiles of Weibull lives: their mean cost has one minimum over the ages, which no coarse search passes over.
+  const auto table = [&](double shape, const std::vector<double>& scales) {
+    constexpr std::size_t draws = 300;
+    LifeTable lives{scales.size(), draws, {}, 20000, week};
+    for (const double scale : scales)
+      for (std::size_t d = 0; d < draws; ++d)
+        lives.hours.push_back(static_cast<float>(scale * std::pow(-std::log1p(-(double(d) + 0.5) / double(draws)), 1 / shape)));
+    return lives;
+  };
+  std::map<std::string, LifeTable> tables{{"a", table(4, {2000, 3000, 5000, 9000})}, {"b", table(6, {6000, 2500, 4000, 1500})}};
+  tables.at("b").hours_per_week = 110;
+  tables.at("a").shared = {{index_of(Uncertain::friction_inside), "hose", {-1.2, -0.3, 0.4, 1.5}}};
+  tables.at("b").shared = {{index_of(Uncertain::friction_inside), "hose", {-1.2, -0.3, 0.4, 1.5}}, {index_of(Uncertain::strength), "copper", {0.9, -0.8, 0.2, -1.1}}};
+  Fleet fleet = new_dresspacks(3, 1, 8);
+  fleet.rows[1].duty = "b", fleet.rows[1].since = start - std::chrono::days(70), fleet.rows[1].planned_cost = 2, fleet.rows[1].unplanned_cost = 30;
+  fleet.rows[2].duty = "b", fleet.rows[2].hours_per_week = 40, fleet.rows[2].since = start - std::chrono::days(150);
+  fleet.rows[0].duty = "a";
+  PlanRule rule{0.1, true};
+  rule.weights = {0.1, 0.4, 0.2, 0.3};
+  const Plan plan = plan_of(fleet, tables, windows_in({6, 11, 20}), start, rule);
+  const std::vector<double> times = times_of(plan.windows, plan.today);
+  const std::vector<TestValue> values = values_of_tests(fleet, tables, plan);
+  REQUIRE(values.size() == 2);
+  CHECK(values[0].saves > values[1].saves);
+  for (const TestValue& of : values) {
+    const UncertainParameter& parameter = uncertain_parameters()[of.what.parameter];
+    const double error = parameter.test_deviation / parameter.deviation();
+    double sum = 0;
+    for (std::size_t i = 0; i < fleet.rows.size(); ++i) {
+      const Installed& row = fleet.rows[i];
+      const LifeTable& lives = tables.at(row.duty);
+      sum += searched(row, lives, plan.rows[i].age_hours, row.hours_per_week.value_or(lives.hours_per_week) / 7, times, rule.weights, of.what.z, error);
+    }
+    CHECK(sum > 0.01);
+    constexpr double single = 1e-5;  // relative: lives are in single precision
+    CHECK(of.saves == Approx(sum).epsilon(single));
+    CHECK(value_of_test(of.what, error, fleet, tables, plan) == Approx(of.saves).epsilon(1e-12));
+  }
 }
