@@ -193,10 +193,10 @@ double rig_length(const Rig& rig, double diameter) {
 }
 
 double clamped_length(const Rig& rig, double diameter) {
-  // Where the cable deforms equally along its whole length, parts even out over whole turns, however long the evaluated part is.
-  // A kilometre has many turns of any lay.
+  // The length of a cable that hangs on a clip or a mandrel is not known, and the evaluated part is an arbitrary piece of it. So its
+  // parts even out over whole turns. A kilometre has many turns of any lay.
   constexpr double many_turns = 1000;
-  if (rig.kind == RigKind::swivel || rig.kind == RigKind::axial) return many_turns;
+  if (rig.kind == RigKind::swivel || rig.kind == RigKind::axial || rig.kind == RigKind::tick_tock) return many_turns;
   const double evaluated = rig_length(rig, diameter);
   if (rig.kind != RigKind::rolling_flex && rig.kind != RigKind::two_pulley) return evaluated;
   const double passed = rig.kind == RigKind::rolling_flex ? *rig.travel / 2 : *rig.travel;

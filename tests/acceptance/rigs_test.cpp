@@ -213,17 +213,21 @@ TEST_CASE("rolling flex: strains even out over the cable of the test, not over t
   CHECK(life(24.1) / life(23.5) == Approx(1).epsilon(0.1));  // the tenth power of the strain, and an equal part from phases
 }
 
-TEST_CASE("swivel: the life does not depend on the number of turns in the evaluated part") {
-  // The evaluated part of 0.1 m contains one turn of 100 mm, which has no mean strain, and 1.05 turns of 95 mm. The clip's edge
-  // decides the bend, so only the lay angle differs, by 5 %.
-  const auto life = [](const std::string& lay_mm) {
+TEST_CASE("swivel and tick-tock: the life does not depend on the number of turns in the evaluated part") {
+  // The evaluated part of a swivel, 0.1 m, contains one turn of 100 mm, which has no mean strain, and 1.05 turns of 95 mm. The clip's
+  // edge decides the bend, so only the lay angle differs, by 5 %.
+  const auto life = [](const std::string& rig, const std::string& lay_mm) {
     Scratch scratch;
     scratch.write("job.yaml",
-                  "motion: {rig: {kind: swivel, angle_deg: 45, weight_kg: 2, radius_mm: 80}}\n"
+                  "motion: {rig: {" + rig + "}}\n"
                   "dresspack: {cable: {name: cable, source: made for the tests, data_sheet: {cores: 7, cross_section_mm2: 0.5, "
                   "wire_diameter_mm: 0.1, outer_diameter_mm: 8.2, jacket_thickness_mm: 1.1, lay_length_mm: " +
                       lay_mm + "}}}\nuncertainty: {enabled: false}\n");
     return life_of(scratch, "job.yaml");
   };
-  CHECK(life("95") / life("100") == Approx(1).epsilon(0.2));
+  const std::string swivel = "kind: swivel, angle_deg: 45, weight_kg: 2, radius_mm: 80";
+  CHECK(life(swivel, "95") / life(swivel, "100") == Approx(1).epsilon(0.2));
+  // Around one mandrel by 30 and by 90 degrees: the evaluated part contains 2.3 and 6.9 turns, with the same curvature.
+  const std::string mandrel = "kind: tick_tock, radius_mm: 40, angle_deg: ";
+  CHECK(life(mandrel + "30", "60") / life(mandrel + "90", "60") == Approx(1).epsilon(0.2));
 }

@@ -58,7 +58,7 @@ std::optional<Proposed> proposed_by(const std::string& remedy) {
 
 }  // namespace
 
-TEST_CASE("cures: a proposed slack keeps force and bend radius, a little less or more does not, and none is said only where none does") {
+TEST_CASE("cures: a proposed slack keeps force and bend radius, a smaller or larger one does not, and if none is proposed none keeps them") {
   std::mt19937 random(2);
   const auto between = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
   int found = 0, none = 0, bends_less = 0;
