@@ -134,7 +134,9 @@ std::set<StrainPoint> places_of(const FailureModes& modes) {
 }
 
 /// has_residual: depends_on_place(response). again: returns another, independent set of samples.
-Samples samples_of(const LifeResponse& response, bool has_residual, const std::string& job, std::size_t count, bool again) {
+/// moved_as: name in place of `job` for the parameter `motion`.
+Samples samples_of(const LifeResponse& response, bool has_residual, const std::string& job, const std::string& moved_as,
+                   std::size_t count, bool again) {
   const auto normals = [&](const std::string& name) { return standard_normals(again ? name + " again" : name, count); };
   std::vector<std::size_t> order = indices_of(uncertain_count);
   std::stable_partition(order.begin(), order.end(), [](std::size_t p) {
@@ -156,7 +158,8 @@ Samples samples_of(const LifeResponse& response, bool has_residual, const std::s
       samples.z[s][p] = response.knowledge.mean(static_cast<Eigen::Index>(p));
   for (std::size_t column = 0; column < uncertain_count; ++column) {
     if (factor.col(static_cast<Eigen::Index>(column)).isZero(0)) continue;
-    const std::vector<double> normal = normals(stream_of(response, order[column], job));
+    const bool moves = order[column] == index_of(Uncertain::motion);
+    const std::vector<double> normal = normals(stream_of(response, order[column], moves ? moved_as : job));
     for (std::size_t row = column; row < uncertain_count; ++row) {
       const double weight = factor(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column));
       if (weight == 0) continue;
@@ -167,7 +170,7 @@ Samples samples_of(const LifeResponse& response, bool has_residual, const std::s
 }
 
 Samples samples_of(const LifeResponse& response, const std::string& job, std::size_t count, bool again = false) {
-  return samples_of(response, depends_on_place(response), job, count, again);
+  return samples_of(response, depends_on_place(response), job, job, count, again);
 }
 
 /// Returns whether two modes have equal samples, if both have a residual or none has.
@@ -552,6 +555,11 @@ std::vector<double> first_failures(const FailureModes& modes, const std::string&
   return lives_of(surfaces_of(modes), samples_of(modes, job, samples), inside);
 }
 
+std::vector<double> compared_failures(const FailureModes& modes, const std::string& job, const std::string& moved_as, std::size_t samples) {
+  const auto samples_for = [&](const LifeResponse& mode) { return samples_of(mode, depends_on_place(mode), job, moved_as, samples, false); };
+  return lives_of(surfaces_of(modes), mapped(modes, samples_for), Inside::as_is);
+}
+
 std::vector<std::vector<double>> mode_lives(const FailureModes& modes, const std::string& job, std::size_t samples) {
   std::vector<std::vector<double>> lives;
   for (const LifeResponse& mode : modes) lives.push_back(first_failures({mode}, job, samples));
@@ -581,7 +589,7 @@ const ModeLives::Known& ModeLives::samples_for(const LifeResponse& mode, bool ha
   made.mode.mode = mode.mode, made.mode.dresspack = mode.dresspack, made.mode.construction = mode.construction;
   made.mode.material = mode.material, made.mode.knowledge = mode.knowledge, made.mode.scatter_shared = mode.scatter_shared;
   made.has_residual = has_residual;
-  made.samples = samples_of(mode, has_residual, job_, samples_, false);
+  made.samples = samples_of(mode, has_residual, job_, job_, samples_, false);
   for (const ParameterPoint& z : made.samples.z) made.factors.push_back(LifeSurface::factors_at(z));
   return made;
 }

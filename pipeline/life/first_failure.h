@@ -59,6 +59,9 @@ struct FirstFailures {
 /// samples on every machine. Every stratum of each parameter's distribution occurs once (Latin hypercube).
 std::vector<double> first_failures(const FailureModes& modes, const std::string& job,
                                    std::size_t samples = life_samples, Inside inside = Inside::as_is);
+/// The same for a comparison of jobs. moved_as: name for the random numbers of the parameter `motion`, equal for jobs with the same
+/// simulation, whose hoses swing in the same way.
+std::vector<double> compared_failures(const FailureModes& modes, const std::string& job, const std::string& moved_as, std::size_t samples);
 /// Returns the lives of first_failures() and the results computed from them.
 FirstFailures summary_of(const FailureModes& modes, const std::string& job,
                          std::size_t samples = life_samples);

@@ -138,7 +138,7 @@ RankingRow read_row(const JobResult& result) {
   row.job = result.name;
   row.life_file = result.life_file;
   row.failure = result.failure;
-  row.settings = result.settings;
+  row.settings = result.settings, row.simulated = result.simulated;
   row.stale = result.stale;
   row.changed = result.changed;
   if (!row.has_result()) return row;
@@ -185,11 +185,12 @@ RankingRow read_row(const JobResult& result) {
   return row;
 }
 
-/// Returns log10 hours of a row, (sample); empty: not known. A response that cannot be read makes a failed row.
-std::vector<double> lives_of(RankingRow& row, std::size_t samples) {
+/// Returns log10 hours of a row, (sample); empty: not known. A response that cannot be read makes a failed row. moved_as: the first
+/// job with the same simulation.
+std::vector<double> lives_of(RankingRow& row, const std::string& moved_as, std::size_t samples) {
   if (!row.done() || row.life_response.empty()) return {};
   try {
-    std::vector<double> lives = first_failures(modes_from_text(row.life_response), row.job, samples);
+    std::vector<double> lives = compared_failures(modes_from_text(row.life_response), row.job, moved_as, samples);
     for (double& life : lives) life += std::log10(row.repeat_seconds / 3600);
     return lives;
   } catch (const std::invalid_argument& problem) {
@@ -243,7 +244,11 @@ void report_orders(std::vector<RankingRow>& rows) {
   for (std::size_t k = 0; k < rows.size(); ++k) rows[k].rank = rows[k].done() ? k + 1 : 0;
   if (rows.empty() || rows.size() > most) return;
   const std::size_t samples = std::clamp(samples_in_all / rows.size(), fewest, life_samples);
-  std::vector<std::vector<double>> lives = mapped(rows, [&](RankingRow& row) { return lives_of(row, samples); });
+  std::map<std::string_view, std::string_view> moved_as;  // the first job by the recipe of its simulation
+  std::vector<std::vector<double>> lives = mapped(rows, [&](RankingRow& row) {
+    const std::string_view first = row.simulated.empty() ? row.job : moved_as.try_emplace(row.simulated, row.job).first->second;
+    return lives_of(row, std::string(first), samples);
+  });
   order_beyond_robot(rows, lives);
   const std::vector<double>*before = nullptr, *leader = nullptr;
   std::size_t rank = 0;
@@ -349,6 +354,7 @@ std::vector<RankingRow> results_of(const Study& study, const StudyPlaces& places
     const StudyJob& job = study.jobs[k];
     JobResult result{job.name,          places.life(job.name), first_problem(job), states[k].settings,
                      states[k].results, states[k].has_last,    states[k].changed};
+    if (states[k].done()) result.simulated = states[k].recipes[0];
     const bool found = states[k].done() || states[k].has_last;
     if (found && states[k].keep == Keep::lives && !state_of(result.life_file).exists()) result.life_file.clear();
     if (job.failure.empty() && !states[k].done())

@@ -26,6 +26,7 @@ struct JobResult {
   std::vector<ResultValue> results{};  ///< attributes of life.h5 from its receipt; empty: read the file
   bool stale = false;  ///< the file is the job's last result, made with other settings; `failure` contains the state of the job
   std::string changed{};  ///< changes since that result, as text
+  std::string simulated{};  ///< recipe of its simulation; equal recipes give the same motion of the hose. Empty: not known
 };
 
 /// Comparison of a job with the test rig of a cable that has a rating (relative_life.h).
@@ -44,6 +45,7 @@ struct RankingRow {
   bool stale = false;    ///< the job is not done; the other members describe its last result
   std::string changed;   ///< changes since that result, as text; empty: not known
   std::string settings;  ///< digest of the settings that belong to the row; empty: not known
+  std::string simulated;  ///< JobResult::simulated
   /// (varied key) key and the job's value, as in the job's name; empty: the job belongs to no study.
   std::vector<std::pair<std::string, std::string>> varied;
   double life_repeats = 0;              ///< repeats of the motion until the worst wire breaks

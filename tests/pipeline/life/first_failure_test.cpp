@@ -75,6 +75,9 @@ TEST_CASE("the swing of a mounted hose widens lives, each job's by its own") {
   longer.knowledge = swings.knowledge;
   CHECK(share_outliving(first_failures({longer}, "one"), first_failures({swings}, "other")) ==
         Approx(normal(1)).margin(sampling_error));
+  // With the same simulation both swing in the same way.
+  CHECK(compared_failures({swings}, "one", "one", 500) == first_failures({swings}, "one", 500));
+  CHECK(share_outliving(compared_failures({longer}, "one", "one", 500), compared_failures({swings}, "other", "one", 500)) == 1);
 }
 
 TEST_CASE("the swing has the share of its variance: apart from the others, learned together with one, of two dresspacks") {

@@ -640,10 +640,11 @@ TEST_CASE(
 constexpr std::size_t motion = index_of(Uncertain::motion);
 
 /// Returns the response of a job whose lives are all 10^log10_life repeats, with the prior's uncertainty.
-std::string response_of(double log10_life) {
+/// swings: variance of the swing, which jobs with different simulations do not share.
+std::string response_of(double log10_life, double swings = 0) {
   LifeResponse response;
   response.knowledge = prior_of({});
-  response.knowledge.covariance(motion, motion) = 0;  // removes the causes that are independent for every job
+  response.knowledge.covariance(motion, motion) = swings;
   response.worst_life = {log10_life};
   response.planned = {{log10_life, log10_life, log10_life}};
   return response.text();
@@ -752,6 +753,19 @@ TEST_CASE("ranking: p10 orders the jobs within the robot's life, shares of the s
     CHECK(order_words(rows[0]) ==
           "The next job lives longer in 100 of 100 samples, but 1 of 10 of its dresspacks fails earlier.");
   }
+}
+
+TEST_CASE("ranking: jobs with one simulation are compared with one swing of the hose") {
+  const Scratch scratch;
+  SampleLife longer = living(20000), shorter = living(10000);
+  longer.planned_hours = 60, shorter.planned_hours = 50;
+  longer.life_response = response_of(4.2, 1), shorter.life_response = response_of(4, 1);
+  std::vector<JobResult> results{job_with(scratch, "thick wires", shorter), job_with(scratch, "thin wires", longer)};
+  CHECK(*read_ranking(results)[0].outlives_next < 0.7);
+  results[0].simulated = "a recipe", results[1].simulated = "another";
+  CHECK(*read_ranking(results)[0].outlives_next < 0.7);
+  results[1].simulated = results[0].simulated;
+  CHECK(read_ranking(results)[0].outlives_next == 1);
 }
 
 TEST_CASE("ranking: of one job the first words say what to do, forces that cannot be stop a plan") {
