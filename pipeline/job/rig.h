@@ -56,8 +56,8 @@ BendWay bend_way(const Rig& rig, double diameter);
 double rig_length(const Rig& rig, double diameter);
 
 /// Returns the least length of the tested cable from clamp to clamp [m]: rig_length(), for a moving bend the bend plus its travel
-/// along the cable (rolling_flex: half the travel of the end), for a swivel, tick-tock and a pull a length of many turns. Strain in the parts of a cable is averaged over this length
-/// (strain/slip.h).
+/// along the cable (rolling_flex: half the travel of the end), for a swivel, tick-tock and a pull a length of many turns. Strain in
+/// the parts of a cable is averaged over this length (strain/slip.h).
 double clamped_length(const Rig& rig, double diameter);
 
 }  // namespace dresslife::pipeline

@@ -159,7 +159,7 @@ std::string recording_words(const DutyResult& duty) {
   }
   if (leaves_out_rests)
     text += indented_lines("Where cables lie loose in the hose, the damage of a cycle also depends on the places at which they rest before it. With "
-                    "uncertainty.rest: 0 the standard error leaves that out: it may be several times too small.");
+                           "uncertainty.rest: 0 the standard error leaves that out: it may be several times too small.");
   return text;
 }
 
@@ -170,30 +170,30 @@ std::string mixture_words(const DutyResult& duty) {
   std::string text = recording_words(duty);
   if (const std::string factors = factor_words(duty.errors); !factors.empty())
     text += indented_lines(fmt::format("The hours of a new dresspack have the numerical error of the programs' lives: {}. With loose cables one motion of the whole "
-                                "log or of the whole order may differ from the duty by about as much, because friction holds the cables at other places.",
-                                factors));
+                                       "log or of the whole order may differ from the duty by about as much, because friction holds the cables at other places.",
+                                       factors));
   std::vector<std::string> larger;
   for (std::size_t m = 0; m < duty.modes.size(); ++m) {
     const double apart = duty.damage.same_place[m] / duty.changes[m];
     if (1 / apart > 1 + worth_a_place) larger.push_back(fmt::format("{} by {:.0f} %", duty.modes[m], 100 / apart - 100));
     if (std::abs(duty.changes[m] - 1) > worth_a_word)
       text += indented_lines(fmt::format("Changes between the programs make the damage of {} {:.2f} times as large.", duty.modes[m],
-                                  duty.changes[m]));
+                                         duty.changes[m]));
   }
   if (!larger.empty())
     text += indented_lines(fmt::format("The programs damage different places. If all damaged the same place, the damage would be larger: {}.",
-                                fmt::join(larger, ", ")));
+                                       fmt::join(larger, ", ")));
   // Measured pairs: README. Strain: damage is proportional to strain to the power 1/0.112 (copper.yaml).
   if (duty.has_order)
     text += indented_lines(fmt::format("The order runs {} times per hour. Abrasion between the programs is not counted.{}",
-                                readable(duty.rounds_per_hour),
-                                duty.outside.empty() ? ""
-                                                     : fmt::format(" The order has room for fewer repeats than the duty: these shares of them count without changes "
-                                                                   "to another program: {}.",
-                                                                   fmt::join(duty.outside, ", "))));
+                                       readable(duty.rounds_per_hour),
+                                       duty.outside.empty() ? ""
+                                                            : fmt::format(" The order has room for fewer repeats than the duty: these shares of them count without changes "
+                                                                          "to another program: {}.",
+                                                                          fmt::join(duty.outside, ", "))));
   else if (std::ranges::count_if(duty.parts, [](const DutyPart& part) { return part.repeats_per_hour > 0; }) > 1)
     text += indented_lines("Cycles that begin in one program and end in another are not counted. With `order` or `batch_size` they are. For one measured pair "
-                    "they were 11 % of the damage, or 1.2 % of strain. Where two programs bend a cable to opposite sides they can be most of the damage.");
+                           "they were 11 % of the damage, or 1.2 % of strain. Where two programs bend a cable to opposite sides they can be most of the damage.");
   return text;
 }
 
