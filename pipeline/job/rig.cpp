@@ -193,7 +193,7 @@ double rig_length(const Rig& rig, double diameter) {
 }
 
 double clamped_length(const Rig& rig, double diameter) {
-  // The length of a cable that hangs on a clip or a mandrel is not known, and the evaluated part is an arbitrary piece of it. So its
+  // The length of a cable beyond its clip or mandrel is not known, and the evaluated part is an arbitrary piece of it. So its
   // parts even out over whole turns. A kilometre has many turns of any lay.
   constexpr double many_turns = 1000;
   if (rig.kind == RigKind::swivel || rig.kind == RigKind::axial || rig.kind == RigKind::tick_tock) return many_turns;

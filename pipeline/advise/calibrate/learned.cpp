@@ -114,16 +114,18 @@ std::string words_of(const PredictedDeciles& deciles) {
 void add_doubts(Learned& learned, const Axes& axes) {
   constexpr double surprising = 2, skewed = 0.3;  // standard deviations
   for (const LearnedTest& test : learned.tests) add_service_doubts(test, normal_share(-surprising), learned);
-  for (const LearnedTest& test : learned.tests)
-    if (const double off = surprise(test); off > surprising)
+  for (const LearnedTest& test : learned.tests) {
+    if (const double off = surprise(test); off > surprising) {
       learned.notes.push_back(fmt::format(
           "'{}' is far from its prediction: {}. Check its construction and its test before you use this calibration",
           test.observation.name, chance_words(off)));
-    else if (const double apart = surprise_by_others(test); apart > surprising)
+    } else if (const double apart = surprise_by_others(test); apart > surprising) {
       learned.notes.push_back(fmt::format(
           "'{}' contradicts the other observations, which predict {}: {}. Check the cables, the tests and the outcomes before you "
           "use this calibration",
           test.observation.name, words_of(test.by_others), chance_words(apart)));
+    }
+  }
   const Posterior& posterior = learned.posterior;
   for (Index i = 0; i < axes.size(); ++i) {
     const double off =
