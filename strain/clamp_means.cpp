@@ -1,5 +1,6 @@
 #include "strain/clamp_means.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numbers>
@@ -46,14 +47,19 @@ void ClampMeans::list_group(int parent) {
     }
   }
   if (members.empty()) return;
-  groups_.push_back({parent, {construction_, plan_, parent, members, lengths_, arcs_}, rows});
+  int round = 0;
+  if (parent != dresspack_itself)
+    for (const int above : construction_.ancestry(parent)) round += part_row_.contains(above) ? 1 : 0;
+  rounds_ = std::max(rounds_, round + 1);
+  groups_.push_back({parent, round, {construction_, plan_, parent, members, lengths_, arcs_}, rows});
 }
 
-void ClampMeans::add(std::size_t segment, const SegmentMotion& motion) {
+void ClampMeans::add(int round, std::size_t segment, const SegmentMotion& motion) {
   const std::size_t stride = padded(motion.samples);
   assert(next_ + motion.samples <= stride_);
   in_block_ = motion.samples;
   for (Group& group : groups_) {
+    if (group.round != round) continue;
     const std::size_t members = group.rows.size();
     group.path.resize(members * stride, 0.0);
     group.rest.resize(members, 0.0);
@@ -66,16 +72,16 @@ void ClampMeans::add(std::size_t segment, const SegmentMotion& motion) {
   }
 }
 
-void ClampMeans::next_block() {
+void ClampMeans::end_round(int round) {
   const std::size_t stride = padded(in_block_);
   for (Group& group : groups_) {
+    if (group.round != round) continue;
     for (std::size_t n = 0; n < group.rows.size(); ++n)
       for (std::size_t t = 0; t < in_block_; ++t)
         strain_[group.rows[n]][next_ + t] = group.path[n * stride + t] / group.rest[n] - 1;
     group.path.clear();
     group.rest.clear();
   }
-  next_ += in_block_;
 }
 
 const double* ClampMeans::of_part(int part) const {

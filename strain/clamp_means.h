@@ -19,9 +19,13 @@ class ClampMeans {
   ClampMeans(const Construction& construction, std::vector<LayerSlip> plan, std::vector<double> lengths,
              std::vector<double> arcs, std::size_t samples);
 
-  /// Adds the next samples of one segment. Call for each segment, then next_block(). motion: of these samples.
-  void add(std::size_t segment, const SegmentMotion& motion);
-  void next_block();
+  /// Parts that slide in parts that slide need the strains of these. So their paths are added in a later round.
+  int rounds() const { return rounds_; }
+  /// Adds the next samples of one segment. In each round call it for each segment, then end_round(); after all rounds
+  /// next_block(). motion: of these samples.
+  void add(int round, std::size_t segment, const SegmentMotion& motion);
+  void end_round(int round);
+  void next_block() { next_ += in_block_; }
   void repeat() { next_ = 0; }  ///< the next block is the first one again
 
   const std::vector<LayerSlip>& plan() const { return plan_; }
@@ -45,7 +49,7 @@ class ClampMeans {
 
  private:
   struct Group {  ///< the sliding parts of one parent
-    int parent;
+    int parent, round;
     PathRates rates;
     std::vector<std::size_t> rows;  ///< (member) index into strain_
     std::vector<double> path{};     ///< (member, sample) sum over the segments of the present block [m]
@@ -59,7 +63,8 @@ class ClampMeans {
   std::vector<LayerSlip> plan_;
   std::vector<double> lengths_, arcs_;
   std::size_t stride_, next_ = 0, in_block_ = 0;
-  std::vector<Group> groups_;  ///< parents before children
+  int rounds_ = 1;
+  std::vector<Group> groups_;
   std::map<int, std::size_t> part_row_;
   std::map<std::pair<int, int>, std::size_t> layer_row_;  ///< (part, layer) -> first of waves_per_layer rows
   std::vector<std::vector<double>> strain_;

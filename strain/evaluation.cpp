@@ -255,8 +255,11 @@ void Evaluation::add_again(const DeformationHistory& block) {
 void Evaluation::add_means(const DeformationHistory& block) {
   for (ClampMeans* means : {&means_, &stick_.means, &free_.means}) {
     if (!means->needed()) continue;
-    for (std::size_t segment = 0; segment < lengths_.size(); ++segment)
-      means->add(segment, keeper_.of(cables_, segment, block.columns(segment), meant_, block.samples()));
+    for (int round = 0; round < means->rounds(); ++round) {
+      for (std::size_t segment = 0; segment < lengths_.size(); ++segment)
+        means->add(round, segment, keeper_.of(cables_, segment, block.columns(segment), meant_, block.samples()));
+      means->end_round(round);
+    }
     means->next_block();
   }
   meant_ += block.samples();

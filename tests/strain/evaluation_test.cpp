@@ -272,6 +272,32 @@ TEST_CASE("straight wires in a helical conductor take the mean of a walk along i
   CHECK(difference < wave_tolerance);
 }
 
+TEST_CASE("straight wires that slide in a straight core that slides have its strain, too") {
+  Dresspack dresspack;
+  Component cable = thesis_dresspack().components[0];
+  cable.count = 1;
+  cable.helix_radius = 0;
+  cable.components[0].lay_angle = 0;
+  for (Component& wire : cable.components[0].components) wire.lay_angle = 0;
+  dresspack.components = {cable};
+  DeformationHistory history(few_segments, 2);
+  constexpr double curvature = 10;
+  for (std::size_t i = 0; i < few_segments; ++i) history.set(i, 1, {curvature, 0, 0, 0});
+  const auto strains = [&](Slip slip) {
+    Settings settings = settings_with(slip);
+    settings.surface_fibres = 0;
+    return evaluate(Construction(dresspack, Kinematics::exact), settings, history, few_segments).sites.strain;
+  };
+  // Everywhere the same bend: the mean from clamp to clamp is the strain of a glued wire.
+  const std::vector<float> free = strains(Slip::free), glued = strains(Slip::stick);
+  REQUIRE(free.size() == glued.size());
+  double largest = 0, difference = 0;
+  for (std::size_t k = 0; k < free.size(); ++k)
+    largest = std::max<double>(largest, std::abs(glued[k])), difference = std::max<double>(difference, std::abs(free[k] - glued[k]));
+  CHECK(largest > 0.0025 * curvature);  // most of it from the core, which is 2.8 mm from the axis
+  CHECK(difference < wave_tolerance * largest);
+}
+
 TEST_CASE("at a bend radius of 100 mm a glued wire sees thirty times what a slipping one does") {
   Dresspack dresspack;
   Component cable = thesis_dresspack().components[0];
