@@ -5,9 +5,9 @@
 #include <map>
 #include <memory>
 #include <sstream>
-#include <tuple>
 
 #include "pipeline/advise/improve/improvement.h"
+#include "pipeline/advise/improve/merit.h"
 #include "pipeline/advise/improve/other_ways.h"
 #include "pipeline/advise/improve/set_text.h"
 #include "pipeline/base/csv_rows.h"
@@ -24,6 +24,7 @@
 #include "pipeline/report/life_charts.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/settings/units.h"
+#include "pipeline/study/row_warnings.h"
 #include "pipeline/study/stage_program.h"
 
 namespace dresslife::pipeline {
@@ -42,6 +43,7 @@ struct TriedWay {
   OtherWay way;
   Outcome outcome;
   double seconds = 0;  ///< duration of a repeat [s]
+  std::string doubt;   ///< kinds of the warnings that make its life wrong; empty: none
   std::string patch;   ///< unified diff of the program; empty: the motion is a list of steps
   fs::path file;       ///< file with the patch
 };
@@ -58,6 +60,31 @@ double times_as_long(const TriedWay& tried, const TriedWay& before) {
   return std::isinf(before.outcome.hours) && std::isinf(tried.outcome.hours)
              ? 1
              : tried.outcome.hours / before.outcome.hours;
+}
+
+/// Returns the merit with all lives in hours at the pace of the original program: a slower program lives longer in hours even if each
+/// repeat does the same damage.
+Merit merit_at_pace(const TriedWay& tried, const TriedWay& before) {
+  Outcome at_pace = tried.outcome;
+  const double pace = tried.seconds > 0 ? before.seconds / tried.seconds : 1;
+  at_pace.hours *= pace;
+  for (ModeLife& mode : at_pace.modes) mode.hours *= pace;
+  return merit_of(at_pace, before.outcome);
+}
+
+bool helps(const TriedWay& tried, const TriedWay& before) {
+  return tried.outcome.feasible() && (tried.doubt.empty() || !before.doubt.empty()) &&
+         clearly_better(merit_at_pace(tried, before), merit_at_pace(before, before));
+}
+
+/// Returns "; bend radius violated by ..; abrasion from 1,080 h; not periodic": limits, the first mode, warnings.
+/// before: doubts of the original program are not repeated.
+std::string remarks(const TriedWay& tried, const TriedWay* before = nullptr) {
+  std::string text = tried.outcome.feasible() ? "" : "; " + tried.outcome.words();
+  if (const ModeLife mode = first_mode(tried.outcome); !mode.mode.empty())
+    text += fmt::format("; {} from {}", mode.mode, hours_text(mode.hours));
+  if (tried.outcome.feasible() && !tried.doubt.empty() && !(before && before->doubt == tried.doubt)) text += "; do not plan with it: " + tried.doubt;
+  return text;
 }
 
 std::string lines_words(const OtherWay& way) {
@@ -82,42 +109,58 @@ std::string spans_words(const OtherWay& way) {
 }
 
 std::string csv_of(const TriedWay& before, const std::vector<TriedWay>& ways) {
-  std::string text = "lines,way,life_hours_p10,times_as_long,cycle_s,cycle_won_s,beyond,sets,patch\n";
+  std::string text = "lines,way,life_hours_p10,times_as_long,cycle_s,cycle_won_s,beyond,sets,patch,first_mode,first_mode_hours,doubt\n";
   for (const TriedWay& tried : ways) {
     const bool ran = tried.outcome.failure.empty();
+    const ModeLife mode = first_mode(tried.outcome);
     text += fmt::format(
-        "{},{},{},{},{},{},{},{},{}\n", csv_cell(lines_words(tried.way)), csv_cell(tried.way.what),
+        "{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_cell(lines_words(tried.way)), csv_cell(tried.way.what),
         ran ? shortest_text(tried.outcome.hours) : "", ran ? shortest_text(times_as_long(tried, before)) : "",
         ran ? shortest_text(tried.seconds) : "", ran ? shortest_text(before.seconds - tried.seconds) : "",
-        csv_cell(tried.outcome.words()), csv_cell(joined(tried.way.sets, "; ")), csv_cell(tried.file.filename().string()));
+        csv_cell(tried.outcome.words()), csv_cell(joined(tried.way.sets, "; ")), csv_cell(tried.file.filename().string()),
+        csv_cell(mode.mode), mode.mode.empty() ? "" : shortest_text(mode.hours), csv_cell(tried.doubt));
   }
   return text;
 }
 
 std::string table_of(const std::string& job, const TriedWay& before, const std::vector<TriedWay>& ways) {
   std::string text =
-      fmt::format("{}: {} h, {:.1f} s{}{}\n", job, readable(before.outcome.hours), before.seconds,
-                  before.outcome.feasible() ? "" : "; ", before.outcome.words());
+      fmt::format("{}: {} h, {:.1f} s{}\n", job, readable(before.outcome.hours), before.seconds, remarks(before));
   if (before.outcome.hours >= before.outcome.robot_life)
     text += fmt::format(
-        "  The wires outlive the robot ({} h, fatigue.robot_life_hours): a longer life of the wires has no use. A shorter cycle may have.\n",
+        "  The wires outlive the robot ({} h, fatigue.robot_life_hours): a longer life of the wires has no use. A mode that comes later has, and a shorter cycle may have.\n",
         readable(before.outcome.robot_life));
   text += fmt::format("  {:>10} {:>10}  {}\n", "life", "cycle", "way");
   for (std::size_t k = 0; k < std::min(ways_shown, ways.size()); ++k) {
     const TriedWay& tried = ways[k];
     if (!tried.outcome.failure.empty()) break;
-    text += fmt::format("  {:>8.3g} x {:>+8.2f} s  {}: {}{}{}\n", times_as_long(tried, before),
-                        tried.seconds - before.seconds, spans_words(tried.way), tried.way.what,
-                        tried.outcome.feasible() ? "" : "; ", tried.outcome.words());
+    text += fmt::format("  {:>8.3g} x {:>+8.2f} s  {}: {}{}\n", times_as_long(tried, before),
+                        tried.seconds - before.seconds, spans_words(tried.way), tried.way.what, remarks(tried, &before));
     if (!tried.file.empty()) text += fmt::format("  {:>24}patch: {}\n", "", tried.file.string());
   }
+  text += "  life: of the wires, in hours of motion. The first way is the best by limits, lives in repeats, and modes that are not validated.\n";
+  if (const auto failed = std::ranges::count_if(ways, [](const TriedWay& tried) { return !tried.outcome.failure.empty(); }); failed > 0)
+    text += fmt::format("  {} of {} ways do not run (see the table).\n", failed, ways.size());
   if (!ways.empty() && std::ranges::none_of(ways, [](const TriedWay& tried) { return tried.outcome.feasible(); }))
     text += "  No way keeps all limits. Cure the job first: dresslife check names a remedy.\n";
   return text;
 }
 
+std::string doubt_of(const RankingRow& row) {
+  std::vector<std::string> kinds;
+  for (const Warning& warning : warnings_of(row))
+    if (spoils_plan(warning.kind) && std::ranges::find(kinds, title(warning.kind)) == kinds.end())
+      kinds.emplace_back(title(warning.kind));
+  return joined(kinds, ", ");
+}
+
 TriedWay seen(const RankingRow& row, const StudyPlaces& places) {
-  return {{}, outcome_of(row, places.job(row.job)), row.done() ? row.repeat_seconds : 0, {}, {}};
+  return {{},
+          outcome_of(row, places.job(row.job)),
+          row.done() ? row.repeat_seconds : 0,
+          row.done() ? doubt_of(row) : "",
+          {},
+          {}};
 }
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -146,6 +189,7 @@ std::vector<TriedWay> program_ways_of(const Job& job, const fs::path& life_file,
         {{what[k], lines_of(lines[k]), {"motion=" + set_text(parse_yaml(motions[k], noted.path()))}},
          {},
          0,
+         {},
          patches[k],
          {}});
   std::map<std::string, int> refused;
@@ -158,18 +202,17 @@ std::vector<TriedWay> ways_of(const Job& job, const fs::path& life_file, const R
   if (!job.motion.program.empty()) return program_ways_of(job, life_file, options);
   std::vector<TriedWay> ways;
   for (OtherWay& way : other_ways(job, cost_of_lines(life_file), static_cast<std::size_t>(options.lines)))
-    ways.push_back({std::move(way), {}, 0, {}, {}});
+    ways.push_back({std::move(way), {}, 0, {}, {}, {}});
   return ways;
 }
 
-/// Writes a patch beside the table for each alternative that increases the life, and removes the patches of an earlier run.
+/// Writes a patch beside the table for each alternative that helps, and removes the patches of an earlier run.
 void write_patches(const StudyPlaces& places, const std::string& job, const TriedWay& before,
                    std::vector<TriedWay>& ways) {
-  constexpr double helps = 1.01;  // ratio of lives; a smaller gain is within the rounding of a simulation
   const auto name = [&](int number) { return places.folder / fmt::format("{}_{:02}.patch", job, number); };
   int number = 0;
   for (TriedWay& tried : ways) {
-    if (tried.patch.empty() || !tried.outcome.feasible() || !(times_as_long(tried, before) > helps)) continue;
+    if (tried.patch.empty() || !helps(tried, before)) continue;
     tried.file = name(++number);
     write_text_if_changed(tried.file, with_mark(tried.patch, Mark::yaml));
   }
@@ -179,7 +222,7 @@ void write_patches(const StudyPlaces& places, const std::string& job, const Trie
 
 /// Returns the simulated alternatives for one job of the study, best first.
 std::vector<TriedWay> tried_ways(const ImproveRequest& request, std::size_t job, const StudyJob& base,
-                                 const StudyPlaces& places, const ReprogramOptions& options) {
+                                 const TriedWay& before, const StudyPlaces& places, const ReprogramOptions& options) {
   const std::vector<TriedWay> ways = ways_of(*base.job, places.life(base.name), options);
   Study study{base.name, {}};
   std::map<std::string, std::size_t> way_of;
@@ -192,15 +235,14 @@ std::vector<TriedWay> tried_ways(const ImproveRequest& request, std::size_t job,
   std::vector<TriedWay> tried;
   if (study.jobs.empty()) return tried;
   for (const RankingRow& row : made_rows(study, places, options)) {
-    TriedWay way = ways[way_of.at(row.job)];
-    way.outcome = outcome_of(row, places.job(row.job));
-    way.seconds = row.done() ? row.repeat_seconds : 0;
+    TriedWay way = seen(row, places);
+    way.way = ways[way_of.at(row.job)].way;
+    way.patch = ways[way_of.at(row.job)].patch;
     if (!way.patch.empty()) way.way.sets.clear();  // the patch contains these changes
     tried.push_back(std::move(way));
   }
-  std::stable_sort(tried.begin(), tried.end(), [](const TriedWay& a, const TriedWay& b) {
-    return std::tuple(!a.outcome.failure.empty(), -a.outcome.hours) <
-           std::tuple(!b.outcome.failure.empty(), -b.outcome.hours);
+  std::stable_sort(tried.begin(), tried.end(), [&](const TriedWay& a, const TriedWay& b) {
+    return merit_at_pace(a, before) > merit_at_pace(b, before);
   });
   return tried;
 }
@@ -223,7 +265,7 @@ int reprogram(const ReprogramOptions& options) {
       ++failed;
       continue;
     }
-    std::vector<TriedWay> ways = tried_ways(request, k, job, places, options);
+    std::vector<TriedWay> ways = tried_ways(request, k, job, before, places, options);
     write_patches(places, job.name, before, ways);
     const fs::path table = places.folder / (job.name + ".csv");
     write_text_if_changed(table, csv_of(before, ways));

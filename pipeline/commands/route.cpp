@@ -203,10 +203,18 @@ void prefer_own(Trial& trial) {
   if (own.feasible() && !clearly_better(merit_of(trial.outcomes[*trial.best], own), merit_of(own, own))) trial.best = trial.start;
 }
 
-/// Returns the routing of the given job as YAML; absent: the job has no complete routing.
-std::optional<std::string> own_routing(const Draft& draft) {
+/// Returns the routing of the given job as YAML; absent: the job has no complete routing, or not on the links that are asked for.
+std::optional<std::string> own_routing(const Draft& draft, const RouteOptions& options) {
   const Node* const routing = draft.document.find("routing");
   if (draft.exercise || !routing) return {};
+  const auto is_on = [](const Node* of, const std::string& asked) {
+    const Node* const link = of ? of->find("link") : nullptr;
+    return asked.empty() || (link && link->text == asked);
+  };
+  const Node* const rings = routing->find("rings");
+  if (!is_on(routing->find("base_clamp"), options.request.base_link) || !is_on(routing->find("tool_clamp"), options.request.tool_link) ||
+      !is_on(rings && rings->items.size() == 1 ? &rings->items.front() : nullptr, options.ring))
+    return {};
   try {
     job_from(draft.document);
   } catch (const InputError&) {  // the job lacks keys that the search finds
@@ -233,7 +241,7 @@ void write_job(const Trial& of, const Draft& draft, const RouteOptions& options,
 Trial tried(const Draft& draft, const RouteOptions& options, double factor, const StudyPlaces& places,
             const FilesAtStart& files, const fs::path& job) {
   Trial trial{factor, proposed(draft, options, factor, places.folder), {}, {}, {}};
-  if (const std::optional<std::string> own = own_routing(draft); own && factor == 1) {
+  if (const std::optional<std::string> own = own_routing(draft, options); own && factor == 1) {
     trial.start = trial.proposals.candidates.size();
     ScreenedCandidate& candidate = trial.proposals.candidates.emplace_back();
     candidate.changes = *own;

@@ -62,7 +62,12 @@ class Smoothing {
         if (next.back().window > 0) next.pop_back();
         for (std::size_t i = first; i < at; ++i)
           if (next.empty() || times_[i] > next.back().time) next.push_back(row(i));
-        if (k + 2 < knots.size() && at <= end_) knots[k + 1] = row(at);
+        if (k + 2 < knots.size() && at <= end_) {
+          knots[k + 1] = row(at);
+          const auto later = std::find_if(knots.begin() + static_cast<long>(k) + 2, knots.end(),
+                                          [&](const Knot& knot) { return knot.time > times_[at]; });
+          knots.erase(knots.begin() + static_cast<long>(k) + 2, later);  // rows are missing there
+        }
       }
       if (good) {
         largest = std::max(largest, furthest);

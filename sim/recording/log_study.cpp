@@ -97,17 +97,24 @@ std::string radians_words(const Recording& log) {
       largest, turn);
 }
 
-/// Returns a warning for times that are probably in a larger unit than their name; empty: they are not.
+/// Returns a warning for times that are probably in another unit than their name; empty: they are not.
 std::string times_words(const Recording& log, const Course& course) {
   constexpr double far_beyond = 10;  // ratio to the limits: rounded or late rows give a smaller ratio
-  double ratio = 0;
-  for (std::size_t i = 0; i < std::min(course.fastest.size(), log.columns.size()); ++i)
+  // A move of 10 deg at a hundredth of an axis's speed takes 6 s: even at the speed for teaching robots are faster. Milliseconds
+  // as seconds give at most a thousandth.
+  constexpr double far_below = 0.01, move = 10 / degrees;
+  double ratio = 0, way = 0;
+  for (std::size_t i = 0; i < std::min(course.fastest.size(), log.columns.size()); ++i) {
     ratio = std::max(ratio, course.fastest[i] / log.columns[i].axis.speed);
-  if (!(ratio > far_beyond) || !(log.interval > 0)) return "";
-  std::string text = fmt::format(
-      "warning: by the times of the log an axis turns {:.0f} times as fast as it can: they may be in another unit or another rate.",
-      ratio);
-  for (const double factor : {60.0, 1e3, 1e6, 1e9})
+    way = std::max(way, log.columns[i].high - log.columns[i].low);
+  }
+  const bool is_slow = ratio < far_below && way > move;
+  if (!(ratio > far_beyond || is_slow) || !(log.interval > 0)) return "";
+  std::string text =
+      is_slow ? fmt::format("warning: by the times of the log no axis turns faster than {:.2g} % of its limit", 100 * ratio)
+              : fmt::format("warning: by the times of the log an axis turns {:.0f} times as fast as it can", ratio);
+  text += ": they may be in another unit or another rate.";
+  for (const double factor : {60.0, 1e3, 1e6, 1e9, 1e-3})
     if (ratio / factor < 1.2 && ratio / factor > 0.02)
       return text +
              fmt::format(" Give --value rate_Hz={:.4g} if they are {:g} times as long: a row in {:.3g} s",

@@ -7,10 +7,13 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <sstream>
+#include <utility>
 
 #include "pipeline/arm/other_turns.h"
 #include "pipeline/base/constants.h"
 #include "pipeline/base/order.h"
+#include "pipeline/base/plain_file.h"
 #include "sim/robot/inverse_kinematics.h"
 #include "sim/robot/legs.h"
 #include "sim/robot/robot.h"
@@ -80,6 +83,7 @@ class Ways {
     for (const pipeline::MotionStep& step : read.motion.steps)
       joints_.push_back(step.is_move() ? targets.at(next++) : Eigen::VectorXd());
     find_chains();
+    find_seams();
   }
 
   std::vector<ProgramWay> run(std::size_t most_lines) {
@@ -218,17 +222,40 @@ class Ways {
     return step;
   }
 
-  /// Returns whether the process determines the speed, as in a weld or a bead: RAPID's Arc and Disp instructions.
-  static bool is_process(const std::string& text) {
-    const std::size_t colon = text.rfind(": ");
-    const std::string line = text.substr(colon == std::string::npos ? 0 : colon + 2);
-    return (line.starts_with("Arc") && !line.starts_with("ArcMove")) || line.starts_with("Disp");
+  /// Returns whether the process determines the speed, as in a weld or a bead: RAPID's Arc and Disp instructions, or a seam.
+  bool is_process(const pipeline::MotionStep& step) const {
+    const std::size_t colon = step.text.rfind(": ");
+    const std::string line = step.text.substr(colon == std::string::npos ? 0 : colon + 2);
+    return (line.starts_with("Arc") && !line.starts_with("ArcMove")) || line.starts_with("Disp") ||
+           line.find("WELD_SPEED") != std::string::npos || seams_.contains({step.where.file, step.where.line});
+  }
+
+  /// Collects the lines between begin and end of a weld in Fanuc's and Yaskawa's programs.
+  void find_seams() {
+    const bool is_fanuc = read_.language == Language::fanuc;
+    if (!is_fanuc && read_.language != Language::inform) return;
+    const std::string begin = is_fanuc ? "Arc Start" : "ARCON", end = is_fanuc ? "Arc End" : "ARCOF";
+    std::set<std::string> files;
+    for (const pipeline::MotionStep& step : read_.motion.steps)
+      if (!step.where.file.empty()) files.insert(step.where.file);
+    for (const std::string& file : files) {
+      std::istringstream text(pipeline::read_text(file));
+      bool is_seam = false;
+      int number = 0;
+      for (std::string line; std::getline(text, line);) {
+        ++number;
+        if (is_seam) seams_.emplace(file, number);
+        line = line.substr(0, line.find(is_fanuc ? '!' : '\''));  // a comment
+        if (line.find(begin) != std::string::npos) is_seam = true;
+        if (line.find(end) != std::string::npos) is_seam = false;
+      }
+    }
   }
 
   std::optional<ProgramWay> slower(std::size_t line, double factor) const {
     for (const std::size_t k : lines_.all()[line].moves) {
       const pipeline::MotionStep& step = read_.motion.steps[k];
-      if (step.duration || is_process(step.text) || !(step.speed || step.speed_percent || step.tool_speed))
+      if (step.duration || is_process(step) || !(step.speed || step.speed_percent || step.tool_speed))
         return {};
       if (read_.language == Language::krl && (leads_tool(step.path) || !step.speed_percent)) return {};
     }
@@ -244,6 +271,7 @@ class Ways {
   const std::vector<pipeline::NamedTurn> turns_;
   std::vector<Eigen::VectorXd> joints_;  // (step) joint angles at its end; empty: no move
   std::vector<std::size_t> chain_of_;    // (step)
+  std::set<std::pair<std::string, int>> seams_;  // file and line
 };
 
 }  // namespace

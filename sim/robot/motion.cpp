@@ -317,7 +317,8 @@ void JointMotion::hold(std::size_t axis) {
   const double middle = (low->position[of] + high->position[of]) / 2;
   for (MotionPiece& piece : pieces_) {
     piece.position[of] = middle;
-    piece.velocity_before[of] = piece.velocity_change[of] = 0;
+    piece.velocity_before[of] = 0;
+    if (piece.velocity_change.size() > 0) piece.velocity_change[of] = 0;
     if (piece.jerk.size() > 0) piece.acceleration[of] = piece.jerk[of] = 0;
   }
 }

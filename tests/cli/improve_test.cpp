@@ -320,7 +320,7 @@ simulation: {segments: 12, sample_rate_Hz: 25, most_repeats: 2}
   const Outcome ways = must_run(scratch, "dresslife", "reprogram job.yaml --quiet --lines 1 --set uncertainty.enabled=false");
   INFO(ways.out << ways.err);
   const std::string table = content(scratch / "runs/job_reprogram/as_it_is.csv");
-  CHECK(table.find("lines,way,life_hours_p10,times_as_long,cycle_s,cycle_won_s,beyond,sets,patch\n") == 0);
+  CHECK(table.find("lines,way,life_hours_p10,times_as_long,cycle_s,cycle_won_s,beyond,sets,patch,first_mode,first_mode_hours,doubt\n") == 0);
   CHECK(table.find("\nall lines,") != std::string::npos);
   CHECK(table.find("wrist over: ") != std::string::npos);
   CHECK(table.find("\nshort.yaml:") != std::string::npos);
@@ -370,6 +370,16 @@ strain: {cable_elements_per_segment: 1, surface_fibres: 0}
   const Outcome read = run(scratch, "dresslife-import", "changed.mod -o changed.yaml");
   INFO(read.out << read.err);
   CHECK(read.status == 0);
+
+  // Wires and abrasion that outlive the robot gain nothing from a longer life: no patch is left of those above.
+  const Outcome enough = must_run(scratch, "dresslife",
+                                  "reprogram job.yaml --quiet --lines 1 --set dresspack.least_bend_radius_mm=100 --set "
+                                  "uncertainty.enabled=false --set fatigue.robot_life_hours=1000");
+  INFO(enough.out);
+  CHECK(ways.out.find("; abrasion from ") != std::string::npos);
+  CHECK(enough.out.find("; abrasion from ") == std::string::npos);
+  CHECK(enough.out.find("patch: ") == std::string::npos);
+  CHECK(!fs::exists(patch));
 
   // dresslife-import provides the ways, and reports missing inputs.
   const std::string life = " --ways runs/job_reprogram/as_it_is/life.h5";

@@ -51,6 +51,13 @@ TEST_CASE("route writes a job that runs, from a robot and a hose") {
   CHECK(over.err ==
         "hose.yaml: error: is there already and was not written by dresslife, or was changed since; move it away, "
         "name another place with -o, or replace it with --force\n");
+
+  // The job's own routing is no answer to the question for another link.
+  const Outcome other = must_run(scratch, "dresslife",
+                                 "route found.yaml --from link_4 --scale 1 --tried 60 --short-runs 15 --off 0 --quiet --job other.yaml");
+  INFO(other.out << other.err);
+  CHECK(other.out.find("base_clamp: {link: link_4, ") == 0);
+  CHECK(other.out.find("own routing") == std::string::npos);
 }
 
 TEST_CASE("route finds clamps for a shipped hose that keep all limits in the whole chain") {

@@ -4,9 +4,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <string_view>
 
 #include "pipeline/advise/improve/set_text.h"
 #include "pipeline/base/lists.h"
@@ -324,6 +326,16 @@ class Reader {
   const std::vector<std::shared_ptr<const Job>>& jobs_;
 };
 
+/// Returns whether a key belongs to the calculation or is a limit: another value changes the numbers, and no dresspack lives longer.
+bool is_no_property(const std::string& path) {
+  static const std::array<std::string_view, 4> settings{"simulation", "strain", "fatigue", "uncertainty"};
+  static const std::array<std::string_view, 5> limits{"least_bend_radius_mm", "most_twist_deg_per_m", "most_tension_N",
+                                                      "longest_bracket_mm", "hold_joint"};
+  const auto is_any = [](const auto& names, std::string_view name) { return std::ranges::find(names, name) != names.end(); };
+  return is_any(settings, std::string_view(path).substr(0, path.find('.'))) ||
+         is_any(limits, std::string_view(path).substr(path.rfind('.') + 1));
+}
+
 /// Frees the position of a clamp by the reach of another bracket.
 void free_place(Node& free, const std::string& path) {
   free[path + "position_m"] = scalar("0.15 around");
@@ -339,6 +351,10 @@ Freedom Freedom::from(const Node& free, const std::vector<std::shared_ptr<const 
   Freedom freedom;
   std::vector<VectorXd> places;
   for (const Entry& entry : free.entries) {
+    if (is_no_property(entry.key))
+      throw InputError(entry.value.where,
+                       fmt::format("free.{} is a limit or a setting of the calculation, which makes no dresspack live longer", entry.key),
+                       "free keys of routing, dresspack or motion; compare settings in a study (jobs:)");
     const Node* own = common_value(documents, entry.key);
     freedom.keys_.push_back(
         {entry.key, Reader(entry.key, entry.value, documents, jobs).key(), own ? set_text(*own) : ""});

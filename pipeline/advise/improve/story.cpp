@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <optional>
+#include <string_view>
 
 #include "pipeline/base/joined.h"
 #include "pipeline/base/lists.h"
@@ -231,7 +233,8 @@ std::string improvement_words(const Improvement& found, const Finals& finals, co
   if (const RankingRow* const row = finals.worst_row(best)) {
     for (const std::string& words : {action_words(*row), uncertainty_words(*row), failure_words(*row)})
       text += words + (words.empty() ? "" : "\n");
-    text += left_at_other_values(*row) + mode_table(*row, screen_columns(), "") + mode_legend({*row}, screen_columns(), "");
+    const RankingRow* const original = finals.worst_row(finals.of.front());
+    text += left_at_other_values(*row) + (original ? beyond_words(*row, *original) : "") + mode_table(*row, screen_columns(), "") + mode_legend({*row}, screen_columns(), "");
   }
   text += change_lines(trial);
   for (const std::string& job : best.jobs)
@@ -251,6 +254,23 @@ std::string remedy_after_search(const std::string& remedy) {
     return rest.starts_with("or ") ? rest.substr(3) : rest;
   }
   return "";
+}
+
+std::string beyond_words(const RankingRow& proposed, const RankingRow& original) {
+  const auto most_percent = [](const RankingRow& row) {
+    static constexpr std::string_view begin = "; about ";
+    double most = 0;
+    for (const Warning& warning : warnings_of(row))
+      if (const std::size_t end = warning.words.find(" % of such dresspacks exceed");
+          warning.kind == WarningKind::other_values && end != std::string::npos)
+        if (const std::size_t at = warning.words.rfind(begin, end); at != std::string::npos)
+          most = std::max(most, std::atof(warning.words.c_str() + at + begin.size()));
+    return most;
+  };
+  const double now = most_percent(proposed), before = most_percent(original);
+  if (now == 0 || !is_believable(original)) return "";
+  return fmt::format("{}The limit that most dresspacks exceed at other values: {:.0f} % of them (as it is: {:.0f} %).\n",
+                     now > before ? "Worse at other values than the job as it is. " : "", now, before);
 }
 
 std::string left_at_other_values(const RankingRow& row) {

@@ -30,4 +30,8 @@ std::string remedy_after_search(const std::string& remedy);
 /// that are left after a search; empty: none.
 std::string left_at_other_values(const RankingRow& row);
 
+/// Returns a line with the share of dresspacks beyond the limit that most of them exceed at other values, and that of the original
+/// job; empty: the proposed job exceeds none.
+std::string beyond_words(const RankingRow& proposed, const RankingRow& original);
+
 }  // namespace dresslife::pipeline

@@ -265,11 +265,11 @@ TEST_CASE("log: columns, times, unit and ranges are stated, and columns that fit
 }
 
 TEST_CASE("log: radians under names in degrees, and times in another unit, have a remedy that works") {
-  const auto text_of = [](double size, double step, const char* time, double least = 0) {
+  const auto text_of = [](double size, double step, const char* time, double least = 0, double phase = 0.1) {
     std::string text = fmt::format("{},J1_deg,J2_deg\n", time);
     for (int k = 0; k < 200; ++k)
-      text += fmt::format("{:.6f},{:.5f},{:.5f}\n", step * k, least + size * (1 - std::cos(0.1 * k)),
-                          size * std::sin(0.1 * k));
+      text += fmt::format("{:.6f},{:.5f},{:.5f}\n", step * k, least + size * (1 - std::cos(phase * k)),
+                          size * std::sin(phase * k));
     return text;
   };
   const auto words = [](const std::string& text, LogOptions options = {.still = bound}) {
@@ -287,6 +287,11 @@ TEST_CASE("log: radians under names in degrees, and times in another unit, have 
              Contains("an axis turns") &&
                  Contains("--value rate_Hz=10 if they are 1000 times as long: a row in 0.1 s"));
   CHECK_THAT(words(short_times, {.rate = 10, .still = bound}), !Contains("warning"));
+  const std::string long_times = text_of(6, 2, "time", 0, 0.03);  // 90 deg/s at 500 Hz, milliseconds read as seconds
+  CHECK_THAT(words(long_times),
+             Contains("no axis turns faster than 0.1 % of its limit") &&
+                 Contains("--value rate_Hz=500 if they are 0.001 times as long: a row in 0.002 s"));
+  CHECK_THAT(words(long_times, {.rate = 500, .still = bound}), !Contains("0.001 times"));
 }
 
 TEST_CASE("log: its length is known before it is read") {
@@ -354,6 +359,17 @@ TEST_CASE("log: rows that are missing in a fine log leave a smooth course") {
   CHECK(course.gaps == 0);
   for (double t = 0; t < 4; t += 0.01)
     CHECK(course.at(t)[0] / degree == Approx(angle(t)).margin(0.2));  // 0.25 s without a row
+}
+
+TEST_CASE("log: times that jitter by nearly half an interval leave knots in order and finite angles") {
+  std::string text = "time,j1_deg,j2_deg\n";
+  std::mt19937 random{3};
+  std::uniform_real_distribution<double> jitter(-0.008, 0.008);
+  for (int k = 0; k <= 1000; ++k)
+    text += fmt::format("{:.4f},{:.4f},0\n", 1 + 0.02 * k + jitter(random), 30 * (1 - std::cos(std::numbers::pi * 0.02 * k)));
+  const Course course(read(text), two_axes(), bound);
+  for (std::size_t k = 1; k < course.knots().size(); ++k) CHECK(course.knots()[k] > course.knots()[k - 1]);
+  for (double t = 0; t < course.duration(); t += 0.01) CHECK(std::isfinite(course.at(t)[0]));
 }
 
 TEST_CASE("log: a gap with a move is no time, and a speed beyond the limit is named") {

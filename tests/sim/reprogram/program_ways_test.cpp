@@ -96,6 +96,22 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("program ways: the speed of a weld between Arc Start and Arc End belongs to the process") {
+  const Scratch scratch;
+  const Job job = read_job(scratch.write("job.yaml", "robot: fanuc_m20ia\nmotion: {program: " DRESSLIFE_SOURCE_DIR
+                                                     "/config/programs/frame_weld.ls}\ndresspack: handling\nrouting:\n"
+                                                     "  base_clamp: {link: link_3, position_m: [0, 0, 0.3], direction: [1, 0, 0]}\n"
+                                                     "  tool_clamp: {link: link_6, position_m: [0, 0.1, 0], direction: [1, 0, 0]}\n"
+                                                     "  free_length_m: 1.5\n"));
+  const ReadProgram read = read_job_program(job);
+  std::set<std::string> slowed;
+  for (const ProgramWay& way : program_ways(job, read, std::vector<double>(30, 1.0), 30))
+    if (way.what == "at 50 % of its speed") slowed.insert(way.lines.at(0));
+  CHECK(slowed.contains("frame_weld.ls:12"));
+  CHECK(!slowed.contains("frame_weld.ls:14"));
+  CHECK(slowed.contains("frame_weld.ls:16"));
+}
+
 TEST_CASE("program ways: a line that runs again and again is changed for all of its moves") {
   Job job = shipped("side_panel.yaml");
   job.motion.program = std::string(DRESSLIFE_SOURCE_DIR) + "/config/programs/pick_and_place.src";

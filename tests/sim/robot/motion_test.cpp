@@ -478,6 +478,10 @@ TEST_CASE("motion: rows of a recording are a spline at rest where two rows are e
     CHECK(joint.position(3 + t)[0] == Approx(1 - t * t * (3 - 2 * t)).margin(rounding));
   }
   CHECK(joint.position(2)[0] == 1);
+  JointMotion held(motion, robot_with({0.1}, {0.1}));
+  held.hold(0);
+  for (double t = 0; t < 4; t += 0.1) CHECK(held.position(t)[0] == 0.5);
+  CHECK(held.velocity(0.5)[0] == 0);
   motion.steps.insert(motion.steps.begin() + 1, dwell(1));
   CHECK_THROWS_WITH(JointMotion(motion, robot_with({2}, {4})), Catch::Contains("is no joint move with a duration"));
 }

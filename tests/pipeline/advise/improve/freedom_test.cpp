@@ -133,10 +133,10 @@ TEST_CASE("positions move in a box, along a line, along a link") {
 
 TEST_CASE("one of a list") {
   const Freedom freedom =
-      freed("dresspack.bending_stiffness_Nm2: [4, 5, 6]\nstrain.slip: [free, [free, friction, friction]]");
+      freed("dresspack.bending_stiffness_Nm2: [4, 5, 6]\nmotion: [easy, [easy, hard, hard]]");
   CHECK(freedom.sets_at(place_of({0.99, 0.6})) ==
         std::vector<std::string>{"dresspack.bending_stiffness_Nm2=6",
-                                 "strain.slip=[free, friction, friction]"});
+                                 "motion=[easy, hard, hard]"});
 }
 
 TEST_CASE("what nothing can be freed by is refused with its place") {
@@ -154,6 +154,9 @@ TEST_CASE("what nothing can be freed by is refused with its place") {
   CHECK(words("routing.rings.0.position_m: 0.1 around").find("count from 1") != std::string::npos);
   CHECK(words("routing.base_clamp.position_m: 0 .. 1 along link_9").find("no link that carries") !=
         std::string::npos);
+  for (const std::string key : {"fatigue.failed_wires_percent", "simulation.segments", "dresspack.least_bend_radius_mm",
+                                "dresspacks.1.dresspack.most_tension_N", "motion.hold_joint"})
+    CHECK_THAT(words(key + ": 20 .. 40"), Catch::Contains("free." + key + " is a limit or a setting of the calculation"));
   CHECK(words("routing.free_length_m: []").find("one of nothing") != std::string::npos);
   CHECK(words("[1, 2]").find("must be a map") != std::string::npos);
 }
