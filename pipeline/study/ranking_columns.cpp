@@ -85,7 +85,7 @@ class Table {
     add_jacket();
     for (std::size_t i = 0; i < ends.size(); ++i)
       add(where(fmt::format("life_error_{}", ends[i]), "1",
-                i == 0 ? "standard error of life_hours_p10, as a factor: of the number of samples, and of what lies between computed lives"
+                i == 0 ? "standard error of life_hours_p10 as a factor, of samples and interpolation"
                        : fmt::format("the same of life_hours_{}", ends[i]),
                 [i](const RankingRow& row) { return std::isfinite(row.planned_errors[i]); },
                 [i](const RankingRow& row) { return row.planned_errors[i]; }));
@@ -95,7 +95,7 @@ class Table {
       add(of_mode(fmt::format("hose_life_hours_{}", end), "h", fmt::format("hose_life_hours until {} % have cracked", share), UnvalidatedMode::wall,
                   [i = i](const UnvalidatedMode& mode) { return is_credible(mode) ? mode.hours[i] : UnvalidatedMode::unknown; }));
     add(of("moving_places", "1",
-           "computed places of loose cables, besides the job's own, at which they do not end the repeat where they began it",
+           "other computed places of loose cables at which they do not end the repeat where they began it",
            &RankingRow::moving_places));
     add_kind(WarningKind::other_values);
   }
@@ -123,7 +123,7 @@ class Table {
   }
 
   void add_position(const std::string& name, const char* mode) {
-    add(of_mode(name + "_position_from_tool_m", "m", "where, along the dresspack from the tool clamp", mode,
+    add(of_mode(name + "_position_from_tool_m", "m", "its place from the tool clamp", mode,
                 &UnvalidatedMode::position_from_tool));
   }
   /// Adds the columns of a mode in which something wears through. name: beginning of their names. words: the mode in a sentence.
@@ -148,8 +148,7 @@ class Table {
   void add_rating() {
     constexpr const char* rating = UnvalidatedMode::rating;
     add_mode_lives("rating_hours_{}",
-                   "in {} the maker's rating of a cable without described wires covers less, a lower bound of its life, by the "
-                   "uncertainty of its damage exponent; not validated", rating);
+                   "in {} the maker's rating of a cable without described wires covers less, a lower bound of its life; not validated", rating);
     add(of_mode("rating_first_share", "1", "share of the samples in which the wires of other cables outlive the rating", rating,
                 &UnvalidatedMode::first_share));
     add(of_mode("rating_of", "text", "that cable", rating, &UnvalidatedMode::place));
@@ -158,7 +157,7 @@ class Table {
   void add_inspection() {
     constexpr const char* abrasion = UnvalidatedMode::abrasion;
     add(of_mode("abrasion_found_share", "1",
-                "share of the dresspacks worn through within the robot's life of which a visual check sees the wear before; not validated",
+                "share of the dresspacks worn through within the robot's life that a visual check finds before; not validated",
                 abrasion, &UnvalidatedMode::found_share));
     add(of_mode("abrasion_unseen_share", "1", "share of all dresspacks that wear through within the robot's life, unseen by checks",
                 abrasion, &UnvalidatedMode::unseen_share));
@@ -305,7 +304,7 @@ class Table {
 
   void add_kind(WarningKind kind) {
     add(where(
-        fmt::format("{}_ok", word(kind)), "yes or no", fmt::format("no: it has a warning of kind {}", title(kind)),
+        fmt::format("{}_ok", word(kind)), "yes or no", fmt::format("no: a warning of kind {}", title(kind)),
         [](const RankingRow& row) { return row.warnings.has_value(); },
         [kind](const RankingRow& row) { return std::string(has_warning(row, kind) ? "no" : "yes"); }));
   }
