@@ -56,6 +56,8 @@ bool written_without_run(const Request& request, const pipeline::StageCall& call
   } else if (!request.screen.empty()) {
     sim::write_screening(job, request.screen, request.by_short_runs, file);
   } else {
+    for (pipeline::MountedDresspack& mounted : job.dresspacks)  // a hose that rests on both sides is mounted on the stated one
+      if (mounted.routing.side == pipeline::Side::either) mounted.routing.side = pipeline::Side::left;
     sim::ProposalSettings settings = request.proposals;
     settings.count = *request.propose;
     settings.progress = [&](double share, const std::string& words) { progress.show(share, words); };
