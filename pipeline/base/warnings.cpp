@@ -62,6 +62,8 @@ const char* word(WarningKind kind) {
       return "calibration";
     case WarningKind::motion:
       return "motion";
+    case WarningKind::side:
+      return "side";
     case WarningKind::other_values:
       return "other_values";
   }
@@ -79,6 +81,7 @@ bool spoils_plan(WarningKind kind) {
     case WarningKind::force:
     case WarningKind::strain:
     case WarningKind::motion:
+    case WarningKind::side:
       return true;
     case WarningKind::overlap:      // overlap of nominal cross-sections; real cables deform
     case WarningKind::mesh:         // a numerical error, whose size the message states
@@ -108,6 +111,8 @@ const char* title(WarningKind kind) {
       return "material, stiffness";
     case WarningKind::motion:
       return "unusual motion";
+    case WarningKind::side:
+      return "two sides";
     case WarningKind::other_values:
       return "limits at other values";
     case WarningKind::twist:

@@ -22,6 +22,7 @@ enum class WarningKind {
   strain,       ///< strains are beyond the use of any wire
   calibration,  ///< the job is outside of the tests of its calibration
   motion,       ///< a speed, a wait or an angle may be in another unit
+  side,         ///< the dresspack can be mounted on two sides, on which it moves differently, and the job states none
   other_values  ///< a limit is exceeded with other values of uncertain parameters, not with the job's own (pipeline/job/beyond_limit.h)
 };
 inline constexpr int warning_kinds_count = static_cast<int>(WarningKind::other_values) + 1;

@@ -97,6 +97,10 @@ void describe(Fields& f, Routing& routing) {
            "The end at the tool. free: the dresspack hangs from its last clamp, without a tool_clamp.");
   f.number("tool_mass_kg", routing.tool_mass, Need::optional, at_least(0),
            "The mass at the end of a dresspack whose tool_end is free.");
+  f.choice("side", routing.side,
+           "The side to which the dresspack bulges when it is mounted, seen from the base clamp to the tool clamp: left or right. "
+           "Between clamps that lie in one plane with the arm it can rest on both, and may keep this side for the whole program. "
+           "either: the left side if both are alike.");
   f.numbers("mounting_pose_deg", routing.mounting_pose, Need::optional,
             "The joint angles at which the dresspack was clamped without twist. Default: the first target. "
             "It is one pose for all dresspacks.");

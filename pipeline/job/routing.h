@@ -68,6 +68,10 @@ constexpr std::string_view word(ToolEnd value) { return word_at({"clamped", "fre
 /// Returns whether a clamp of the robot holds the tool end; otherwise the dresspack hangs from its last clamp.
 constexpr bool is_clamped(ToolEnd value) { return value == ToolEnd::clamped; }
 
+/// Side to which a dresspack bulges when it is mounted, seen from its base clamp to its tool clamp with gravity downward.
+enum class Side { either, left, right };
+constexpr std::string_view word(Side value) { return word_at({"either", "left", "right"}, value); }
+
 struct Routing {
   double free_length = 0;                       ///< length of dresspack between the clamps, unstretched [m]
   std::optional<Clamp> base_clamp, tool_clamp;  ///< absent only with clamp_poses
@@ -77,6 +81,7 @@ struct Routing {
   double pre_twist = 0;                         ///< of the tool clamp relative to twist-free [rad]
   ToolEnd tool_end = ToolEnd::clamped;          ///< free: the dresspack hangs from its last clamp and has no tool_clamp
   double tool_mass = 0;                         ///< at a free end [kg]
+  Side side = Side::either;                     ///< at mounting; either: the left if it rests on both sides
   std::vector<double>
       mounting_pose;  ///< joint angles at which the dresspack was clamped without twist [rad]; empty: start of the motion
   std::optional<double> longest_bracket;  ///< see longest_bracket_of()

@@ -98,6 +98,7 @@ class Table {
            "other computed places of loose cables at which they do not end the repeat where they began it",
            &RankingRow::moving_places));
     add_kind(WarningKind::other_values);
+    add_kind(WarningKind::side);
   }
   std::vector<RankingColumn> columns;
 
@@ -297,7 +298,7 @@ class Table {
     for (int k = 0; k < warning_kinds_count; ++k) {
       const auto kind = static_cast<WarningKind>(k);
       if (kind == WarningKind::force) continue;         // the column force_ok contains it
-      if (kind == WarningKind::other_values) continue;  // one of the last columns
+      if (kind == WarningKind::other_values || kind == WarningKind::side) continue;  // among the last columns
       add_kind(kind);
     }
   }

@@ -103,6 +103,7 @@ class Search {
     unchanged_.where = given.where;
     unchanged_.mounting_pose = given.mounting_pose;
     unchanged_.longest_bracket = given.longest_bracket;
+    unchanged_.side = given.side;
   }
 
   /// Runs one search per proposal, each with its own first candidates, so that they end at different places.

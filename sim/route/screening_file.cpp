@@ -174,8 +174,8 @@ std::string routing_text(const pipeline::Routing& routing) {
     text += fmt::format("  - {{{}, radius_mm: {:.4g}, width_mm: {:.4g}, friction_coefficient: {:.4g}}}\n",
                         place_text(ring.link, ring.position, ring.direction), 1e3 * ring.radius,
                         1e3 * ring.width, ring.friction);
-  return text + fmt::format("tool_clamp: {{{}}}\nfree_length_m: {:.3f}\n", clamp(*routing.tool_clamp),
-                            routing.free_length);
+  return text + fmt::format("tool_clamp: {{{}}}\nfree_length_m: {:.3f}\nside: {}\n", clamp(*routing.tool_clamp),
+                            routing.free_length, pipeline::word(routing.side));
 }
 
 }  // namespace

@@ -386,18 +386,17 @@ Equilibrium find_equilibrium(const Rod& rod, const ClampFrames& clamps, const Eq
 
 // A swivel at the tool end carries no torsion; its hose settles at some roll, to which the clamp is then
 // rotated. The link's rotation vector couples bending and a large roll, so this is repeated until the roll is constant.
-TwistFreeClamp twist_free_roll(const Rod& rod, const ClampFrames& clamps,
+TwistFreeClamp twist_free_roll(const Rod& rod, const ClampFrames& clamps, const TwistFreeClamp& near,
                                const EquilibriumSettings& settings) {
   constexpr int repeats = 20;
   constexpr double no_roll = 1e-10;  // [rad]
   RodProperties properties = rod.properties();
   properties.tool_end = End::swivel;
   const Rod swivel(properties);
-  StartCurve start = start_curve(rod, clamps);
   TwistFreeClamp result;
-  result.roll = -start.roll_to_tool;
+  result.roll = near.roll;
   ClampFrames turned{clamps.base, rolled(clamps.tool, result.roll)};
-  RodState state = start_curve(rod, turned).state;
+  RodState state = near.equilibrium.state;
   int iterations = 0;
   double gain = 1, roll_before = 0;
   for (int k = 0; k < repeats; ++k) {
@@ -420,6 +419,13 @@ TwistFreeClamp twist_free_roll(const Rod& rod, const ClampFrames& clamps,
   }
   result.equilibrium.iterations = iterations;
   return result;
+}
+
+TwistFreeClamp twist_free_roll(const Rod& rod, const ClampFrames& clamps, const EquilibriumSettings& settings) {
+  TwistFreeClamp start;
+  start.roll = -start_curve(rod, clamps).roll_to_tool;
+  start.equilibrium.state = start_curve(rod, {clamps.base, rolled(clamps.tool, start.roll)}).state;
+  return twist_free_roll(rod, clamps, start, settings);
 }
 
 std::vector<TwistFreeClamp> rest_shapes(const RodProperties& hose, const ClampFrames& clamps, bool twist_free,

@@ -56,6 +56,9 @@ struct TwistFreeClamp {
 };
 TwistFreeClamp twist_free_roll(const Rod& rod, const ClampFrames& clamps,
                                const EquilibriumSettings& settings = {});
+/// The same from a near result, for example that under another gravity: stays on its branch.
+TwistFreeClamp twist_free_roll(const Rod& rod, const ClampFrames& clamps, const TwistFreeClamp& near,
+                               const EquilibriumSettings& settings = {});
 
 /// Returns the stable shapes under gravity, each found from a start in which an installer may hold the hose: hanging, held up, or
 /// to either side (mounting.h). twist_free: each shape has a roll, else the roll is 0. Shapes at a distance below half a diameter

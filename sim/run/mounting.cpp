@@ -17,6 +17,9 @@ constexpr int settling_steps = 20000;
 constexpr double rest = 1e-5;          // target of the settling [m/s]
 constexpr double near_rest = 2e-2;     // accepted as a start: the hose sways by less than its diameter [m/s]
 constexpr double lean = 0.3;           // of a hose held up: exactly vertical it could stay in an unstable balance
+// Between clamps in one plane with the arm a hose rests on both sides, and rounding would choose one. 6 deg choose the same side for
+// clamps that are built some millimetres beside this plane.
+constexpr double lean_to_left = 0.1;
 constexpr double overlap_share = 0.5;  // share of the diameter: smaller overlaps are pushed out while settling
 
 constexpr double roomy = 0.98;  // share of the free length: the remainder is the length to bend when a unit is pulled out
@@ -283,15 +286,34 @@ class Mounting {
     return state;
   }
 
-  MountedPiece held_clear(const Piece& piece) const {
-    const Pose pose = mounting_pose();
+  /// A way in which an installer holds a piece: pulled in the direction of `gravity`, and then let go, if `lets_go`, before the
+  /// obstacles count.
+  struct Hold {
+    Vector3 gravity;
+    bool lets_go;
+  };
+  /// Returns the ways in the order in which they are tried.
+  std::vector<Hold> holds(const Piece& piece) const {
     const Vector3 g = setup_.simulation.gravity;
     const Vector3 chord = piece.end.position - piece.begin.position;
-    Vector3 side = chord.cross(g);
-    if (side.norm() > 0) side *= g.norm() / side.norm();
+    Vector3 left = chord.cross(g);
+    if (left.norm() > 0) left *= g.norm() / left.norm();
+    switch (routing(piece.dresspack).side) {
+      case pipeline::Side::left:
+        return {{g + left, true}, {left, false}, {-g + left, false}};
+      case pipeline::Side::right:
+        return {{g - left, true}, {-left, false}, {-g - left, false}};
+      case pipeline::Side::either:
+        break;
+    }
+    return {{g + lean_to_left * left, true}, {g, false}, {left, false}, {-left, false}, {-g + lean * left, false}};
+  }
+
+  MountedPiece held_clear(const Piece& piece) const {
+    const Pose pose = mounting_pose();
     MountedPiece best;
-    for (const Vector3& gravity : std::array<Vector3, 4>{g, side, -side, Vector3(-g + lean * side)}) {
-      MountedPiece held = equilibrium(piece, pose, gravity);
+    for (const Hold& hold : holds(piece)) {
+      MountedPiece held = equilibrium(piece, pose, hold);
       if (!held.found || (best.found && held.depth >= best.depth)) continue;
       best = std::move(held);
       if (best.depth == 0) break;
@@ -301,10 +323,10 @@ class Mounting {
     return best;
   }
 
-  MountedPiece equilibrium(const Piece& piece, const Pose& pose, const Vector3& gravity) const {
+  MountedPiece equilibrium(const Piece& piece, const Pose& pose, const Hold& hold) const {
     RodProperties properties = piece.properties;
-    properties.gravity = gravity;
-    const Rod rod(properties);
+    properties.gravity = hold.gravity;
+    Rod rod(properties);
     ClampFrames clamps{piece.begin, piece.end};
     if (properties.tool_end == End::free) clamps = rod.straight(piece.begin).clamps;
     TwistFreeClamp clamped;
@@ -312,6 +334,14 @@ class Mounting {
       clamped = twist_free_roll(rod, clamps);
     else
       clamped.equilibrium = find_equilibrium(rod, clamps);
+    if (hold.lets_go && clamped.equilibrium.status == EquilibriumStatus::converged) {
+      properties.gravity = setup_.simulation.gravity;
+      rod = Rod(properties);
+      if (piece.twist_free)
+        clamped = twist_free_roll(rod, clamps, clamped);
+      else
+        clamped.equilibrium = find_equilibrium(rod, clamps, clamped.equilibrium.state);
+    }
     Equilibrium& found = clamped.equilibrium;
     const int parts = static_cast<int>(std::ceil(std::abs(piece.pre_twist) / pre_twist_part));
     const Frame untwisted = found.state.clamps.tool;

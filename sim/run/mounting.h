@@ -4,9 +4,9 @@
 // span by span from its base, the hose is held without contact to the robot and the earlier dresspacks and is
 // clamped. Its far end is rotated until it has no torsion (unless this clamp has a roll). Then it is released until
 // it rests on the objects that it meets. Then the robot moves slowly to the first waypoint, which keeps full turns of
-// the hose. "Held without contact": static equilibria under gravity in its direction, absent, reversed and to either side are
-// found without obstacles; the one with the least overlap is the start of the release. All dresspacks are
-// released together.
+// the hose. "Held without contact": static equilibria are found without obstacles, under gravity after the hose was pulled a
+// little to the left, or far to the side that routing.side states; then under gravity to a side and reversed. The first one
+// without an overlap, else the one with the least, is the start of the release. All dresspacks are released together.
 #pragma once
 
 #include <memory>

@@ -16,6 +16,7 @@
 #include "sim/robot/loops.h"
 #include "sim/run/cures.h"
 #include "sim/run/equilibrium.h"
+#include "sim/run/other_side.h"
 #include "sim/run/routing.h"
 #include "sim/run/simulate.h"
 
@@ -87,6 +88,12 @@ class QuickChecks {
                                         "or the dresspack touches much. `dresslife run` checks all of it",
                                         *found.run.stopped_at, path_->duration()));
     add_rubbing(found.run, found.notes);
+    if (found.run.refusal.empty() && !found.run.stopped_at) {
+      pipeline::Setup few = with_segments(setup_, short_run_segments);
+      few.simulation.choose_time_step = false;
+      few.simulation.time_step = found.run.time_step;
+      found.others = pipeline::joined(std::move(found.others), other_side_warnings(few, {*found.run.begin, found.run.end}, short_run_work));
+    }
     add_winding(found.others);
     add_zero_pose(found.notes);
     return found;
@@ -473,7 +480,7 @@ ShortRun short_run(pipeline::Setup setup, int segments, double useless_below, in
   try {
     const Simulation simulation(with_segments(std::move(setup), segments));
     result.begin = simulation.start();
-    RunSinks sinks{[](const Sample&) {}};
+    RunSinks sinks{[&](const Sample& sample) { result.end = sample.state; }};
     if (!simulation.setup().simulation.choose_time_step) sinks.wanted = Wanted::checks;  // a choice needs the error of the step
     sinks.goes_on = [&](double work, bool leads_in) {
       return (result.work += work) <= (leads_in ? lead_in_share : 1) * short_run_work;

@@ -39,6 +39,7 @@ struct ShortRun {
   double time_step = 0;              ///< [s]
   int dresspack = 0;                 ///< index of the refused dresspack
   std::optional<RodState> begin;     ///< state at the begin; absent: the run did not begin
+  RodState end;                      ///< last state of the last repeat
 };
 
 /// Segments of each dresspack: at rest, where so few give the bend within a few percent; and at most in the short run, where

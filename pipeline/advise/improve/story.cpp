@@ -276,8 +276,9 @@ std::string beyond_words(const RankingRow& proposed, const RankingRow& original)
 std::string left_at_other_values(const RankingRow& row) {
   std::string text;
   for (const Warning& warning : warnings_of(row)) {
-    if (warning.kind != WarningKind::other_values) continue;
     const WarningParts parts = parts_of(warning.words);
+    if (warning.kind == WarningKind::side) text += parts.problem + ". Remedy: " + parts.remedy + "\n";
+    if (warning.kind != WarningKind::other_values) continue;
     const std::string rest = remedy_after_search(parts.remedy);
     text += "Not kept at other values: " + parts.problem + ". ";
     text += rest == parts.remedy

@@ -27,7 +27,7 @@ std::string improvement_words(const Improvement& found, const Finals& finals, co
 std::string remedy_after_search(const std::string& remedy);
 
 /// Returns a line for each limit that a proposed job exceeds at other values of stiffness, slack or friction, with the remedies
-/// that are left after a search; empty: none.
+/// that are left after a search, and one if its hose can be mounted on two sides; empty: none.
 std::string left_at_other_values(const RankingRow& row);
 
 /// Returns a line with the share of dresspacks beyond the limit that most of them exceed at other values, and that of the original
