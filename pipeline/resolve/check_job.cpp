@@ -73,11 +73,12 @@ void check_prescribed(const Job& job, const Node& document) {
   if (job.motion.rig && routing) refuse(routing->where, "routing is given");
   for (const Entry& entry : routing ? routing->entries : std::vector<Entry>{})
     if (entry.key != "free_length_m" && entry.key != "tool_end" && entry.key != "pre_twist_deg" &&
-        entry.key != "tool_mass_kg")
+        entry.key != "tool_mass_kg" && entry.key != "side")
       refuse(entry.where, "routing." + entry.key + " is given");
   const Routing& only = job.dresspacks.front().routing;
   if (only.pre_twist != 0 || only.tool_mass != 0 || !is_clamped(only.tool_end))
     refuse(only.where, "an end that is free or twisted is given");
+  if (only.side != Side::either) refuse(only.where, "routing.side is given");
   problems.finish(document.where.file);
 }
 

@@ -33,6 +33,7 @@ routing:
   free_length_m: 2.035
 simulation: {segments: 24, contact: false}
 uncertainty: {hose_stiffness: 1}
+routing.side: left
 )";
 
 const std::string hose = R"(name: hose
