@@ -1,7 +1,6 @@
 // dresslife-sim: a job in, motion.h5 out.
 #include <fmt/format.h>
 
-#include <limits>
 #include <optional>
 #include <string>
 
@@ -56,8 +55,6 @@ bool written_without_run(const Request& request, const pipeline::StageCall& call
   } else if (!request.screen.empty()) {
     sim::write_screening(job, request.screen, request.by_short_runs, file);
   } else {
-    for (pipeline::MountedDresspack& mounted : job.dresspacks)  // a hose that rests on both sides is mounted on the stated one
-      if (mounted.routing.side == pipeline::Side::either) mounted.routing.side = pipeline::Side::left;
     sim::ProposalSettings settings = request.proposals;
     settings.count = *request.propose;
     settings.progress = [&](double share, const std::string& words) { progress.show(share, words); };
@@ -106,12 +103,8 @@ void simulate(const pipeline::StageCall& call, const pipeline::Job& job, pipelin
   };
   const sim::RunSummary summary = simulation.run({add, begin, [&](double share) { progress.show(share); }});
   motion->finish(summary, [&](double time) { return simulation.path().step(time); });
-  pipeline::Setup same_step = simulation.setup();
-  same_step.simulation.choose_time_step = false;
-  same_step.simulation.time_step = summary.time_step;
   const std::vector<pipeline::Warning> refused =
-      pipeline::joined(sim::other_side_warnings(same_step, ends, std::numeric_limits<double>::infinity()),
-                       sim::write_other_stiffnesses(job, summary, *file));
+      pipeline::joined(sim::other_side_warnings(job, summary.time_step, ends), sim::write_other_stiffnesses(job, summary, *file));
   for (const std::string& note : {sim::repeats_note(summary), simulation.program_note()})
     if (!note.empty()) progress.note(note);
   pipeline::note_warnings(*file, call, progress,

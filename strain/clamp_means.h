@@ -19,7 +19,7 @@ class ClampMeans {
   ClampMeans(const Construction& construction, std::vector<LayerSlip> plan, std::vector<double> lengths,
              std::vector<double> arcs, std::size_t samples);
 
-  /// Parts that slide in parts that slide need the strains of these. So their paths are added in a later round.
+  /// A part that slides in another sliding part needs the strain of that part. So it is added one round later.
   int rounds() const { return rounds_; }
   /// Adds the next samples of one segment. In each round call it for each segment, then end_round(); after all rounds
   /// next_block(). motion: of these samples.

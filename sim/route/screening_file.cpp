@@ -202,7 +202,10 @@ void write_screening(const pipeline::Job& job, const std::filesystem::path& cand
 void write_proposals(const pipeline::Job& job, ProposalSettings settings, pipeline::FileWriter& file) {
   std::vector<Verdict> verdicts;
   settings.softer = softer_hose(job.uncertainty);
-  for (const Proposal& proposal : propose(job, settings)) {
+  pipeline::Job sided = job;  // a hose that rests on both sides is mounted on the side that the proposal states
+  pipeline::Routing& routing = sided.dresspacks.front().routing;
+  if (routing.side == pipeline::Side::either) routing.side = pipeline::Side::left;
+  for (const Proposal& proposal : propose(sided, settings)) {
     const bool has_short_run = settings.short_runs > 0 && proposal.short_run.refusal.empty();
     verdicts.push_back({routing_text(proposal.routing), proposal.short_run.refusal,
                         has_short_run ? proposal.short_run.seen : proposal.screening});

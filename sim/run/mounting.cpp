@@ -297,8 +297,13 @@ class Mounting {
     const Vector3 g = setup_.simulation.gravity;
     const Vector3 chord = piece.end.position - piece.begin.position;
     Vector3 left = chord.cross(g);
-    if (left.norm() > 0) left *= g.norm() / left.norm();
-    switch (routing(piece.dresspack).side) {
+    const pipeline::Side side = routing(piece.dresspack).side;
+    if (left.norm() > 0)
+      left *= g.norm() / left.norm();
+    else if (side != pipeline::Side::either)
+      fail(piece.dresspack, "has no left and no right side: its clamps are above each other, or there is no gravity",
+           "leave routing.side out, or move the clamps");
+    switch (side) {
       case pipeline::Side::left:
         return {{g + left, true}, {left, false}, {-g + left, false}};
       case pipeline::Side::right:

@@ -41,13 +41,12 @@ std::optional<RodState> end_of(const Simulation& simulation, double most_work) {
 /// The way of a dresspack that was mounted on one side. absent: it cannot be mounted or moved so.
 struct Mounted {
   Side side;
-  bool as_own = false;             ///< mounted in the shape of the job's own run
+  bool as_own = false;            ///< mounted in the shape of the job's own run
   std::optional<double> apart{};  ///< from the job's own run at the end [m]; absent: as_own, or the run was not finished
 };
 
 std::optional<Mounted> mounted(pipeline::Setup setup, int dresspack, Side side, const Ends& own, double most_work) {
   setup.dresspacks[static_cast<std::size_t>(dresspack)].routing.side = side;
-  setup.simulation.most_repeats = std::min(setup.simulation.most_repeats, 2);  // the first repeat is the lead-in
   try {
     const Simulation simulation(setup);
     const Rod& rod = simulation.rod();
@@ -64,7 +63,10 @@ std::optional<Mounted> mounted(pipeline::Setup setup, int dresspack, Side side, 
 
 }  // namespace
 
-std::vector<pipeline::Warning> other_side_warnings(const pipeline::Setup& setup, const Ends& own, double most_work) {
+std::vector<pipeline::Warning> other_side_warnings(const pipeline::Setup& job, double time_step, const Ends& own, double most_work) {
+  pipeline::Setup setup = job;
+  setup.simulation.choose_time_step = false;
+  setup.simulation.time_step = time_step;
   std::vector<pipeline::Warning> warnings;
   for (int d = 0; d < static_cast<int>(setup.dresspacks.size()); ++d) {
     const pipeline::Routing& routing = setup.dresspacks[static_cast<std::size_t>(d)].routing;

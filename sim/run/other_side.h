@@ -4,6 +4,7 @@
 // Some motions forget this start, in others the hose keeps a way of its own on each side.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "pipeline/base/warnings.h"
@@ -21,8 +22,9 @@ struct Ends {
 };
 
 /// Returns a warning for each dresspack without routing.side that is mounted in another shape if it is pulled to a side, and then ends
-/// the program more than half its diameter from `own`. own: of the run of this setup. Other runs end after `most_work`
-/// (World::work); a run that ends so is not compared.
-std::vector<pipeline::Warning> other_side_warnings(const pipeline::Setup& setup, const Ends& own, double most_work);
+/// the program more than half its diameter from `own`. own: of the run of this setup with this time step [s]. Other runs end after
+/// `most_work` (World::work); a run that ends so is not compared.
+std::vector<pipeline::Warning> other_side_warnings(const pipeline::Setup& setup, double time_step, const Ends& own,
+                                                   double most_work = std::numeric_limits<double>::infinity());
 
 }  // namespace dresslife::sim

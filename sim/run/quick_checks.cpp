@@ -90,9 +90,10 @@ class QuickChecks {
     add_rubbing(found.run, found.notes);
     if (found.run.refusal.empty() && !found.run.stopped_at) {
       pipeline::Setup few = with_segments(setup_, short_run_segments);
-      few.simulation.choose_time_step = false;
-      few.simulation.time_step = found.run.time_step;
-      found.others = pipeline::joined(std::move(found.others), other_side_warnings(few, {*found.run.begin, found.run.end}, short_run_work));
+      few.simulation.most_repeats = std::min(few.simulation.most_repeats, 2);  // as in the short run
+      found.others = pipeline::joined(
+          std::move(found.others),
+          other_side_warnings(few, found.run.time_step, {*found.run.begin, found.run.end}, short_run_work));
     }
     add_winding(found.others);
     add_zero_pose(found.notes);

@@ -2,8 +2,6 @@
 
 #include "sim/run/other_side.h"
 
-#include <limits>
-
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
 #include "sim/run/simulate.h"
@@ -30,7 +28,7 @@ std::vector<pipeline::Warning> warnings_of_sides(const pipeline::Job& job) {
   const Simulation simulation(job);
   Ends ends{simulation.start(), {}};
   simulation.run({[&](const Sample& sample) { ends.end = sample.state; }});
-  return other_side_warnings(job, ends, std::numeric_limits<double>::infinity());
+  return other_side_warnings(job, job.simulation.time_step, ends);
 }
 
 TEST_CASE("a hose is mounted on the side that the job states, for any number of segments, and on the left without a side") {
@@ -60,6 +58,11 @@ TEST_CASE("a motion that differs between the two sides causes a warning, unless 
   CHECK(warnings[0].remedy == std::vector<pipeline::KeyValue>{{"routing.side", "left"}});
   CHECK_THAT(warnings[0].words, Catch::Contains("moves differently in each") && Catch::Contains("on the left"));
   CHECK(warnings_of_sides(job_of("left")).empty());
+}
+
+TEST_CASE("a side without gravity is refused") {
+  CHECK_THROWS_WITH(Simulation(job_of("left", {"simulation.gravity_m_per_s2=[0, 0, 0]"})),
+                    Catch::Contains("has no left and no right side") && Catch::Contains("leave routing.side out"));
 }
 
 TEST_CASE("no warning of sides: the hose has one shape, or the motion forgets the other one") {
