@@ -204,6 +204,11 @@ class FirstPoses {
   std::map<std::string, std::vector<double>> poses_;
 };
 
+[[noreturn]] void refuse_without_samples(const DutyProgram& program) {
+  throw InputError(program.where, fmt::format("job '{}' has no samples of uncertain parameters", program.job),
+                   "set uncertainty.enabled: true in the study");
+}
+
 /// Returns the round of a duty as a program. Precondition: the duty has an order.
 DutyProgram program_of_round(const Duty& duty) {
   DutyProgram round;
@@ -264,10 +269,7 @@ class Programs {
 
   EvaluatedProgram of(const DutyProgram& program) {
     const RankingRow& of = row(program);
-    if (of.life_response.empty())
-      throw InputError(program.where,
-                       fmt::format("job '{}' has no samples of uncertain parameters", program.job),
-                       "set uncertainty.enabled: true in the study");
+    if (of.life_response.empty()) refuse_without_samples(program);
     // Jobs that share a result have hard links to one file (shared_stages.h).
     const FileState state = state_of(of.life_file);
     auto& [modes, wires] = lives_[{state.inode, state.changed_ns}];
@@ -497,7 +499,8 @@ void check_programs(const DutyFile& file, const Study& study) {
   const std::map<const Job*, std::size_t> sections = sections_of(file, jobs);
   for (const Duty& duty : file.duties)
     problems.attempt("", duty.where, [&] {
-      for (const DutyProgram& program : duty.programs) jobs.of(program);
+      for (const DutyProgram& program : duty.programs)
+        if (const StudyJob& of = jobs.of(program); of.job && !of.job->uncertainty.enabled) refuse_without_samples(program);
       check_same_dresspack(file, duty, jobs, sections);
     });
   problems.finish(file.where.file);

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "pipeline/advise/plan/duty_words.h"
 #include "pipeline/advise/plan/evaluated_duties.h"
 #include "pipeline/advise/plan/rounds.h"
+#include "pipeline/job/job.h"
 #include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
 
@@ -201,6 +203,17 @@ TEST_CASE("a history by dates has the hours of its days, each at the week of its
 TEST_CASE("duties of a study that keeps no lives are refused before it runs") {
   CHECK_NOTHROW(check_programs({}, Study{"s", {}, Keep::histories}));
   CHECK_THROWS_WITH(check_programs({}, Study{"s", {}, Keep::lives}), Catch::Contains("study 's' keeps no life.h5 (keep: lives)"));
+}
+
+TEST_CASE("duties of a job without samples of uncertain parameters are refused before it runs") {
+  const DutyFile file = read("study: s\nduties:\n  - {name: a, programs: [{job: p, percent_of_time: 90}], hours_per_week: 100}\n");
+  const auto check = [&](bool enabled) {
+    Job job;
+    job.uncertainty.enabled = enabled;
+    check_programs(file, Study{"s", {{"p", std::make_shared<const Job>(job), ""}}, Keep::histories});
+  };
+  CHECK_NOTHROW(check(true));
+  CHECK_THROWS_WITH(check(false), Catch::Contains("duties.yaml:3:") && Catch::Contains("job 'p' has no samples of uncertain parameters"));
 }
 
 TEST_CASE("batch sizes are an order in which each program runs once in a round") {
