@@ -267,8 +267,10 @@ pipeline::Warning warning_at(const pipeline::Job& job, const FileCables& cables,
   std::string remedy = cure.remedy;
   for (const std::size_t p : cause.parameters)
     if (p != starts_parameter) remedy += "; or " + pipeline::measurement_words(pipeline::uncertain_parameters()[p]);
-  return pipeline::warning_of(pipeline::WarningKind::other_values, "",
-                              fmt::format("with {} {}{}", words_of(job, at), what, share_text(job, limit, all)), cure.cause, remedy);
+  pipeline::Warning warning = pipeline::warning_of(pipeline::WarningKind::other_values, "",
+                                                   fmt::format("with {} {}{}", words_of(job, at), what, share_text(job, limit, all)), cure.cause, remedy);
+  warning.amount = limit.share();
+  return warning;
 }
 
 std::string place_words(double place) {

@@ -576,14 +576,16 @@ std::vector<Warning> cycle_warnings(const pipeline::Job& job, const RepeatChange
     remedy = {{{fmt::format("{}.components.{}.slack_percent", line_key(job, change.dresspack, "dresspack"), change.component + 1),
                 pipeline::percent_above(less)}},
               fmt::format(" (now {:.3g}; a shorter excess length has fewer places to rest; not tried)", component.laying.slack)};
-  return {pipeline::warning_of(
+  Warning warning = pipeline::warning_of(
       WarningKind::periodic, "",
       fmt::format("loose cables do not end the repeat where they began it: their curvature changes by {:.0f} % (limit {:.0f} %), that of "
                   "'{}' most, {:.2f} m from the base clamp, and the life counts this change in each repeat",
                   100 * change.share, 100 * most, change.cable, change.arc),
       fmt::format("the cables have not reached a cycle in {:.0f} s of motion and {} further repeats", lead_in_time,
                   Passage::most_closing_repeats),
-      remedy)};
+      remedy);
+  warning.amount = change.share / most;
+  return {warning};
 }
 
 Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWriter& strain,

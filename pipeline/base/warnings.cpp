@@ -6,6 +6,7 @@
 #include <optional>
 #include <sstream>
 
+#include "pipeline/base/csv_rows.h"
 #include "pipeline/base/joined.h"
 #include "pipeline/base/lists.h"
 #include "pipeline/base/readable.h"
@@ -18,6 +19,7 @@ namespace {
 constexpr std::size_t most_bytes = 60'000;  // HDF5 allows 64 kB in an attribute
 constexpr std::string_view cause_mark = ". Likely cause: ", remedy_mark = ". Remedy: ";
 constexpr const char* separator = ": ";     // between key and value
+constexpr std::string_view amount_key = "amount";  // no key of a job
 
 std::optional<WarningKind> kind_named(std::string_view name) {
   for (int k = 0; k < warning_kinds_count; ++k)
@@ -174,6 +176,7 @@ std::string warnings_text(const std::vector<Warning>& warnings) {
     std::string line = fmt::format("{}{}\t{}\t{}", k ? "\n" : "", word(warnings[k].kind), plain(warnings[k].where),
                                    plain(warnings[k].words));
     for (const KeyValue& of : warnings[k].remedy) line += "\t" + plain(of.key + separator + of.value);
+    if (warnings[k].amount) line += fmt::format("\t{}{}{}", amount_key, separator, *warnings[k].amount);
     if (text.size() + line.size() > most_bytes)
       return text + fmt::format("{}{}\t\tand {} more warnings", k ? "\n" : "", word(warnings[k].kind),
                                 warnings.size() - k);
@@ -194,8 +197,13 @@ std::vector<Warning> warnings_from(const std::string& text) {
     if (!kind) continue;
     Warning warning{*kind, fields[1], fields[2]};
     for (std::size_t k = 3; k < fields.size(); ++k)
-      if (const std::size_t at = fields[k].find(separator); at != std::string::npos)
-        warning.remedy.push_back({fields[k].substr(0, at), fields[k].substr(at + std::string_view(separator).size())});
+      if (const std::size_t at = fields[k].find(separator); at != std::string::npos) {
+        KeyValue of{fields[k].substr(0, at), fields[k].substr(at + std::string_view(separator).size())};
+        if (of.key == amount_key)
+          warning.amount = number_in(of.value);
+        else
+          warning.remedy.push_back(std::move(of));
+      }
     warnings.push_back(std::move(warning));
   }
   return warnings;

@@ -2,6 +2,7 @@
 // file, into the root attribute `warnings` of its output. So the last file has all warnings of a job.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,9 @@ struct Warning {
   /// The values of the remedy (warning_words.h). All of them together cure the warning. Keys are paths in the job; in a
   /// warning about a file of a dresspack they count from its place. Empty: no value is known.
   std::vector<KeyValue> remedy = {};
+  /// For the order of a search's candidates. `periodic`: the change by a repeat, over its limit. `other_values`: the share of
+  /// dresspacks beyond the limit. Absent: another kind, or an older file.
+  std::optional<double> amount = {};
   /// Returns "side_panel.mod:45: warning: skipped: ..."
   std::string line() const;
   std::string paragraph() const { return pipeline::paragraph(line()); }
@@ -61,8 +65,8 @@ struct Warning {
   bool operator==(const Warning&) const = default;
 };
 
-/// Returns the text of the attribute: a line for each warning with kind, place, words, and each KEY: VALUE of its remedy between
-/// tabs. If it would be longer than 60 kB, it has the first warnings and the number of the others.
+/// Returns the text of the attribute: a line for each warning with kind, place, words, each KEY: VALUE of its remedy, and "amount: 0.3",
+/// between tabs. If it would be longer than 60 kB, it has the first warnings and the number of the others.
 std::string warnings_text(const std::vector<Warning>& warnings);
 /// Reads a text of warnings_text(). Skips lines of unknown form, which a newer program may have written.
 std::vector<Warning> warnings_from(const std::string& text);

@@ -314,7 +314,8 @@ DecidingLimit decided(const Trial& trial, const Draft& draft) {
                                                           {"too long", WarningKind::slack},
                                                           {"tension", WarningKind::tension},
                                                           {"retraction's stroke", WarningKind::slack},
-                                                          {"forces in cables", WarningKind::force}};
+                                                          {"forces in cables", WarningKind::force},
+                                                          {"change by a repeat", WarningKind::periodic}};
     const auto kind = kinds.find(limit);
     for (const Warning& warning : trial.best ? warnings_of(trial.rows[*trial.best]) : std::vector<Warning>{})
       if (const WarningParts parts = parts_of(warning.words);

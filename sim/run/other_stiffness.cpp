@@ -110,13 +110,15 @@ Warning beyond_warning(const pipeline::Job& job, const OtherRun& at, const Check
   Cure cure = cure_of(motion, at.checks, broken);
   cure.cause += "; all radii here are with this stiffness";
   cure.remedy.words += "; or " + pipeline::measurement_words(stiffness());
-  return pipeline::warning_of(
+  Warning warning = pipeline::warning_of(
       pipeline::WarningKind::other_values, "",
       fmt::format("with {} {}; about {} of such dresspacks exceed this limit (interpolated between the simulated "
                   "stiffnesses); with the job's own stiffness none does",
                   pipeline::value_words(stiffness(), at.z, job.simulation.stiffness_factor), check_words(motion, broken),
                   pipeline::percent_words(share)),
       cure.cause, cure.remedy);
+  warning.amount = share;
+  return warning;
 }
 
 /// Returns a warning for each limit that a run exceeds and the job's own run keeps. own: checks of the job's own run.

@@ -337,7 +337,7 @@ std::optional<double> Simulation::run_once(World& world, Repeat& repeat, const R
 std::vector<pipeline::Warning> warnings_of(const Simulation& simulation, const RunSummary& summary) {
   std::vector<pipeline::Warning> warnings = simulation.doubts();
   const pipeline::SimulationSettings& settings = simulation.setup().simulation;
-  if (summary.returns && !summary.periodic)
+  if (summary.returns && !summary.periodic) {
     warnings.push_back(pipeline::warning_of(
         pipeline::WarningKind::periodic, "",
         fmt::format("after {} repeats the motion still begins {:.1f} mm from where it began the repeat before (limit "
@@ -346,6 +346,8 @@ std::vector<pipeline::Warning> warnings_of(const Simulation& simulation, const R
         "friction and contact leave the dresspack several resting places",
         fmt::format("simulation.most_repeats: {}, or simulation.periodic_tolerance_mm: {:g} if repeats may differ so",
                     std::min(1000, 2 * settings.most_repeats), std::ceil(2e4 * summary.distance) / 10)));
+    warnings.back().amount = summary.distance / settings.periodic_tolerance;
+  }
   warnings = pipeline::joined(std::move(warnings), one_link_warnings(simulation.setup()));
   return pipeline::joined(
       warnings, check_warnings({simulation.setup(), [&](double time) { return simulation.moment(time); },

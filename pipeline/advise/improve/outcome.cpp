@@ -19,6 +19,7 @@
 #include "pipeline/files/checks.h"
 #include "pipeline/files/receipt.h"
 #include "pipeline/settings/fields.h"
+#include "pipeline/study/row_warnings.h"
 #include "pipeline/study/row_words.h"
 
 namespace dresslife::pipeline {
@@ -41,6 +42,7 @@ enum Limit {
   jacket,
   corkscrew,
   kink,
+  periodic,
   bracket
 };
 static_assert(bracket == bracket_limit && bend == bend_limit);
@@ -147,6 +149,7 @@ const std::vector<std::string>& outcome_limit_names() {
                                               "jacket wear",
                                               "corkscrew",
                                               "kink",
+                                              "change by a repeat",
                                               "bracket"};
   return names;
 }
@@ -165,6 +168,7 @@ std::string passed_text(std::size_t limit, double beyond) {
     case pull:
     case contact:
     case believable:
+    case periodic:
       return beyond < std::log(2.0) ? percent(std::expm1(beyond)) : readable(std::exp(beyond), 2) + " times the limit";
     case bend:
     case abrasion:
@@ -241,6 +245,9 @@ Outcome outcome_of(const RankingRow& row, const std::filesystem::path& folder, c
                                 mode.early_hours()});
   const double share = std::max(row.largest_force_share.value_or(0), row.clamp_moment_share.value_or(0));
   see(outcome, believable, log_ratio(share, believable_share));
+  // Lives of a motion or of loose cables without a cycle are wrong: plans refuse them, too (spoils_plan()).
+  for (const Warning& warning : warnings_of(row))
+    if (warning.kind == WarningKind::periodic) see(outcome, periodic, log_ratio(warning.amount.value_or(1), 1));
   see_modes(outcome, row, asked);
   constexpr std::size_t simulation = 0;
   const std::filesystem::path receipt = folder / files_of_stage(simulation).receipt;

@@ -29,7 +29,7 @@ void check_evaluated(const AskedLimits& asked, const RankingRow& row);
 
 /// The limits, in the order of Outcome::beyond. Values are relative: the logarithm of a ratio, or a share of the length or
 /// diameter. The last limit, (V7) of the bracket, comes from geometry (screened.h), not from a run.
-inline constexpr int outcome_limits = 15;
+inline constexpr int outcome_limits = 16;
 const std::vector<std::string>& outcome_limit_names();
 
 inline constexpr std::size_t bend_limit = 0;

@@ -258,13 +258,9 @@ std::string remedy_after_search(const std::string& remedy) {
 
 std::string beyond_words(const RankingRow& proposed, const RankingRow& original) {
   const auto most_percent = [](const RankingRow& row) {
-    static constexpr std::string_view begin = "; about ";
     double most = 0;
     for (const Warning& warning : warnings_of(row))
-      if (const std::size_t end = warning.words.find(" % of such dresspacks exceed");
-          warning.kind == WarningKind::other_values && end != std::string::npos)
-        if (const std::size_t at = warning.words.rfind(begin, end); at != std::string::npos)
-          most = std::max(most, std::atof(warning.words.c_str() + at + begin.size()));
+      if (warning.kind == WarningKind::other_values) most = std::max(most, std::round(100 * warning.amount.value_or(0)));
     return most;
   };
   const double now = most_percent(proposed), before = most_percent(original);

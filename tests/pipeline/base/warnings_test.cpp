@@ -11,6 +11,8 @@ TEST_CASE("warnings come back from an attribute as they went in") {
   for (int k = 0; k < warning_kinds_count; ++k)
     all.push_back({static_cast<WarningKind>(k), k % 2 ? "door.mod:12" : "", "what: it is; what to do"});
   all[0].remedy = {{"routing.tool_clamp.direction", "[1, 0, 0]"}, {"a", "b: c"}};
+  all[0].amount = 1.0 / 3;
+  all[1].amount = 1e-20;
   CHECK(warnings_from(warnings_text(all)) == all);
   CHECK(warnings_text({}).empty());
   CHECK(warnings_from("").empty());

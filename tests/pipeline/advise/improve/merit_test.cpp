@@ -46,6 +46,22 @@ TEST_CASE("outcome: slack beyond its limits counts as a share of the hose's leng
     CHECK(beyond(check_name::too_long, length / 3 + more, length / 3, place("too long")) == Approx(more / length));
 }
 
+TEST_CASE("outcome: a job whose repeats change the dresspack violates a limit, the more the larger the change") {
+  const auto outcome = [](std::optional<double> amount) {
+    const Scratch scratch;
+    const auto file = scratch.folder() / files_of_stage(0).receipt;
+    std::filesystem::create_directories(file.parent_path());
+    write_receipt(file, {.recipe = "", .input = "", .output = "", .state = {}, .results = {}}, scratch.write("output", ""));
+    RankingRow row;
+    row.warnings = {Warning{WarningKind::periodic, "", "", {}, amount}};
+    return outcome_of(row, scratch.folder());
+  };
+  CHECK(outcome(5).words() == "change by a repeat violated by 5.0 times the limit");
+  CHECK(outcome(5).violation() == Approx(std::log(5)));
+  CHECK(outcome(1.2).words() == "change by a repeat violated by 20 %");
+  CHECK(outcome({}).feasible());  // an unlikely setting of the job, not a change
+}
+
 TEST_CASE("merit: wires that live longer than the robot gain nothing by wearing the hose through") {
   // Lives from a search on a handling robot. In the job as it is, the hose rubs nowhere.
   const Outcome as_it_is = outcome(449000, {{"abrasion", never}, {"jacket wear", 5890}});

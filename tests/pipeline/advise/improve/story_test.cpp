@@ -163,15 +163,12 @@ TEST_CASE("story: a remedy after a search names no clamps that were searched") {
 }
 
 TEST_CASE("story: a proposal states whether more dresspacks exceed a limit at other values than before") {
-  const auto row = [](WarningKind kind, const std::string& words) {
+  const auto row = [](WarningKind kind, double amount) {
     RankingRow made;
-    made.warnings = {Warning{kind, "", words}};
+    made.warnings = {Warning{kind, "", "", {}, amount}, Warning{kind, "", "", {}, amount / 2}};
     return made;
   };
-  const auto beyond = [&](int percent) {
-    return row(WarningKind::other_values,
-               fmt::format("with 0.4 times the stiffness smallest bend radius: 139 mm; about {} % of such dresspacks exceed this limit", percent));
-  };
+  const auto beyond = [&](int percent) { return row(WarningKind::other_values, percent / 100.0); };
   RankingRow none;
   none.warnings.emplace();
   CHECK(beyond_words(beyond(44), beyond(29)) ==
@@ -180,7 +177,7 @@ TEST_CASE("story: a proposal states whether more dresspacks exceed a limit at ot
         "The limit that most dresspacks exceed at other values: 10 % of them (as it is: 29 %).\n");
   CHECK(beyond_words(beyond(10), none).find("Worse at other values than the job as it is.") == 0);
   CHECK(beyond_words(none, beyond(29)).empty());
-  CHECK(beyond_words(beyond(10), row(WarningKind::bend_radius, "smallest bend radius: 90 mm")).empty());
+  CHECK(beyond_words(beyond(10), row(WarningKind::bend_radius, 0.2)).empty());
 }
 
 }  // namespace dresslife::pipeline
