@@ -120,7 +120,7 @@ TEST_CASE("bounds of the hard program are the lives of the same cables with stuc
   Scratch scratch;
   const fs::path study = scratch.write("plain.yaml", "base: " + config + R"(jobs/irb6640_spot_welding.yaml
 jobs:
-  hard: {motion: hard, simulation.sample_rate_Hz: 12.5, strain.cable_elements_per_segment: 1, uncertainty.enabled: false}
+  hard: {motion: hard, simulation.segments: 32, simulation.sample_rate_Hz: 12.5, strain.cable_elements_per_segment: 1, uncertainty.enabled: false}
 )");
   run_study(scratch, study.string(), "plain");
   const fs::path job = scratch / "runs/plain/hard";
