@@ -110,7 +110,7 @@ routing:
   tool_clamp: {link: link_6, position_m: [0.15, 0, 0.18], direction: [1, 0, -0.35]}
   free_length_m: 2.035
   pre_twist_deg: 55
-simulation: {segments: 20, sample_rate_Hz: 25, most_repeats: 1}
+simulation: {segments: 20, sample_rate_Hz: 25, most_repeats: 1, periodic_tolerance_mm: 1000}
 )");
   scratch.write("turn.yaml", R"(base: job.yaml
 jobs:

@@ -51,13 +51,13 @@ TEST_CASE("new: the clamps of a job of the catalogue with this robot, if check h
   Scratch scratch;
   write_short_program(scratch);
   const std::string options = "--robot abb_irb6640_185_280 --program mine.yaml ";
+  fs::copy(fs::path(DRESSLIFE_SOURCE_DIR) / "config", scratch / "config", fs::copy_options::recursive);
+  fs::remove_all(scratch / "config/jobs");
+  const CatalogueOf own(scratch / "config");
   REQUIRE(make(scratch, options + "first.yaml").status == 0);
   const std::string first = content(scratch / "first.yaml");
   REQUIRE(has(first, "# Clamps: proposed from the robot's shape"));
-  fs::copy(fs::path(DRESSLIFE_SOURCE_DIR) / "config", scratch / "config", fs::copy_options::recursive);
-  fs::remove_all(scratch / "config/jobs");
   scratch.write("config/jobs/brackets.yaml", replaced_all(first, "mine.yaml", "easy"));
-  const CatalogueOf own(scratch / "config");
   REQUIRE(make(scratch, options + "second.yaml").status == 0);
   const std::string second = content(scratch / "second.yaml");
   CHECK(has(second, "# Clamps: as in config/jobs/brackets.yaml."));

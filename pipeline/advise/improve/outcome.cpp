@@ -14,6 +14,7 @@
 #include "pipeline/base/lists.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/statistics.h"
+#include "pipeline/base/warning_words.h"
 #include "pipeline/cable/believable.h"
 #include "pipeline/files/check_names.h"
 #include "pipeline/files/checks.h"
@@ -247,7 +248,7 @@ Outcome outcome_of(const RankingRow& row, const std::filesystem::path& folder, c
   see(outcome, believable, log_ratio(share, believable_share));
   // Lives of a motion or of loose cables without a cycle are wrong: plans refuse them, too (spoils_plan()).
   for (const Warning& warning : warnings_of(row))
-    if (warning.kind == WarningKind::periodic) see(outcome, periodic, log_ratio(warning.amount.value_or(1), 1));
+    if (warning.kind == WarningKind::periodic) see(outcome, periodic, log_ratio(warning.amount.value_or(1), 1), "remedy: " + parts_of(warning.words).remedy);
   see_modes(outcome, row, asked);
   constexpr std::size_t simulation = 0;
   const std::filesystem::path receipt = folder / files_of_stage(simulation).receipt;

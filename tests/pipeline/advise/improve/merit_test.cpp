@@ -53,12 +53,12 @@ TEST_CASE("outcome: a job whose repeats change the dresspack violates a limit, t
     std::filesystem::create_directories(file.parent_path());
     write_receipt(file, {.recipe = "", .input = "", .output = "", .state = {}, .results = {}}, scratch.write("output", ""));
     RankingRow row;
-    row.warnings = {Warning{WarningKind::periodic, "", "", {}, amount}};
+    row.warnings = {Warning{WarningKind::periodic, "", "it differs. Likely cause: a. Remedy: b", {}, amount}};
     return outcome_of(row, scratch.folder());
   };
-  CHECK(outcome(5).words() == "change by a repeat violated by 5.0 times the limit");
+  CHECK(outcome(5).words() == "change by a repeat violated by 5.0 times the limit (remedy: b)");
   CHECK(outcome(5).violation() == Approx(std::log(5)));
-  CHECK(outcome(1.2).words() == "change by a repeat violated by 20 %");
+  CHECK(outcome(1.2).words() == "change by a repeat violated by 20 % (remedy: b)");
   CHECK(outcome({}).feasible());  // an unlikely setting of the job, not a change
 }
 
