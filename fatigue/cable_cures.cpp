@@ -112,8 +112,9 @@ std::vector<CableFacts> facts_of(const pipeline::FileReader& strain, const pipel
   for (std::size_t k = 0; k < names.size(); ++k) {
     const auto in = static_cast<std::size_t>(dresspack[k]);
     const auto which = static_cast<std::size_t>(component[k]);
-    CableFacts facts{names[k], line_key(job, in, "dresspack"), which + 1, &component_of(strain, job, in, which),
+    CableFacts facts{names[k], line_key(job, in, "dresspack"), "", &component_of(strain, job, in, which),
                      &job.dresspacks[in].dresspack};
+    facts.number = entry_number(facts.dresspack->components, which);
     facts.has_room = has_room;
     facts.slack_factor = job.strain.factors.slack;
     facts.winding_slack = pipeline::winding_slack(job.dresspacks[in], *facts.component);

@@ -18,7 +18,7 @@ const pipeline::Component& component_of(const pipeline::FileReader& strain, cons
 struct CableFacts {
   std::string name;
   std::string key;            ///< its dresspack as a line of the job: "dresspack"
-  std::size_t number = 0;     ///< number of its component in this dresspack, from 1
+  std::string number;         ///< of its component in a key path
   const pipeline::Component* component = nullptr;
   const pipeline::Dresspack* dresspack = nullptr;
   double room = 0, least_gain = 0, most_gain = 0;  ///< /cable/room, /cable/path_gain

@@ -573,7 +573,8 @@ std::vector<Warning> cycle_warnings(const pipeline::Job& job, const RepeatChange
   const double less = std::max(now / 2, pipeline::winding_slack(mounted, component) / 2);
   pipeline::Remedy remedy{{}, "another free length or other clamps, which `dresslife route` finds: less slack would let bends pull this cable"};
   if (less < now)
-    remedy = {{{fmt::format("{}.components.{}.slack_percent", line_key(job, change.dresspack, "dresspack"), change.component + 1),
+    remedy = {{{fmt::format("{}.components.{}.slack_percent", line_key(job, change.dresspack, "dresspack"),
+                            entry_number(mounted.dresspack.components, change.component)),
                 pipeline::percent_above(less)}},
               fmt::format(" (now {:.3g}; a shorter excess length has fewer places to rest; not tried)", component.laying.slack)};
   Warning warning = pipeline::warning_of(

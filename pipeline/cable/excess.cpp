@@ -102,9 +102,9 @@ double slack_to_lay(double winding_slack) { return std::max(usual_slack, winding
 
 std::vector<Warning> tight_warnings(const std::string& key, const MountedDresspack& mounted) {
   std::vector<Warning> warnings;
-  int number = 0;
-  for (const Component& component : mounted.dresspack.components) {
-    ++number;
+  const std::vector<Component>& components = mounted.dresspack.components;
+  for (std::size_t k = 0; k < components.size(); ++k) {
+    const Component& component = components[k];
     const double slack = component.laying.slack / 100, needed = winding_slack(mounted, component);
     if (slack >= needed / 2 || CableForce(mounted.dresspack, component).strength() <= 0) continue;
     warnings.push_back(warning_of(
@@ -113,7 +113,7 @@ std::vector<Warning> tight_warnings(const std::string& key, const MountedDresspa
             "'{}' has {:.3g} % of slack (limit {} %: half of what it needs to wind once around the hose's axis)",
             component.name, 100 * slack, percent_above(needed / 2)),
         "it stays on one side of the hose, so that a bend of the hose pulls it",
-        Remedy{{{fmt::format("{}.components.{}.slack_percent", key, number), percent_above(slack_to_lay(needed))}},
+        Remedy{{{fmt::format("{}.components.{}.slack_percent", key, entry_number(components, k)), percent_above(slack_to_lay(needed))}},
                fmt::format(" (now {:.3g}); dresspacks are installed with 1 to 2 %", component.laying.slack)}));
   }
   return warnings;
@@ -129,7 +129,7 @@ namespace {
 
 void place_parts(std::vector<Component>& components, const std::string& key) {
   for (std::size_t k = 0; k < components.size(); ++k) {
-    components[k].where = {fmt::format("{}.components.{}", key, k + 1)};
+    components[k].where = {fmt::format("{}.components.{}", key, entry_number(components, k))};
     place_parts(components[k].components, components[k].where.file);
   }
 }

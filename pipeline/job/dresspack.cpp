@@ -40,6 +40,8 @@ void describe(Fields& f, Laying& laying) {
 void describe(Fields& f, Component& component) {
   f.place(component.where);
   f.text("name", component.name, Need::required, "The name of the part. Equal parts are numbered from 1.");
+  f.text("entry", component.entry, Need::written,
+         "The number of the part's entry in the list as written, in which place: auto divided entries. Key paths count these entries.");
   f.text("layer", component.layer, Need::optional,
          "The name of the layer, where several layers of equal parts lie over each other.");
   f.integer("count", component.count, Need::optional, between(1, 1000),

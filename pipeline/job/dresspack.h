@@ -52,6 +52,7 @@ struct Sleeve {
 /// K equal parts on one helix. Each of them may contain further layers of parts (strain/theory.md).
 struct Component {
   std::string name;         ///< "signal cable"; parts are numbered "signal cable 1", ...
+  std::string entry;        ///< number of its entry in the user's list, if `place: auto` divided entries of that list; else empty
   std::string layer;        ///< set if several layers of parts share a name: "layer 1"; else empty
   int count = 1;            ///< K
   double radius = 0;        ///< of the part [m]
@@ -76,6 +77,11 @@ struct Component {
   std::vector<Component> components;
   Where where;
 };
+
+/// Returns the number of a component in a key path: that of its entry in the user's list.
+inline std::string entry_number(const std::vector<Component>& components, std::size_t k) {
+  return components[k].entry.empty() ? std::to_string(k + 1) : components[k].entry;
+}
 
 inline bool is_wire(const Component& part) { return part.components.empty() && !part.plain; }
 

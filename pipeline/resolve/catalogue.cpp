@@ -264,11 +264,17 @@ void resolve_entry(Node* entry, const std::string& path, const std::string& fold
   add_materials(*entry, job, path, problems);
 }
 
-/// Returns the index of a list's item for a word of a key path, which counts from 1; std::nullopt: there is no such item.
-std::optional<std::size_t> item_of(const Node& list, const std::string& word) {
+/// Returns the items of a list for a word of a key path, which counts from 1: one, or the parts that `place: auto` made of one entry;
+/// empty: there is none.
+template <class List>
+auto items_of(List& list, const std::string& word) {
+  std::vector<decltype(&list.items.front())> found;
   const auto number = whole_number_in<std::size_t>(word);
-  const bool is_item = number && *number >= 1 && *number <= list.items.size();
-  return is_item ? std::optional(*number - 1) : std::nullopt;
+  for (std::size_t k = 0; number && k < list.items.size(); ++k) {
+    const Node* const entry = list.items[k].is_map() ? list.items[k].find("entry") : nullptr;
+    if (entry ? entry->text == std::to_string(*number) : k + 1 == *number) found.push_back(&list.items[k]);
+  }
+  return found;
 }
 
 /// Returns the word of a key path at `begin` and moves `begin` to the next word, or beyond the end of the path after the last
@@ -280,19 +286,23 @@ std::string next_word(const std::string& path, std::size_t& begin) {
   return word;
 }
 
-Node* step_into(Node& node, const std::string& word, const Where& where, const std::string& path) {
+/// Adds the nodes of a word of a key path in a node.
+void step_into(Node& node, const std::string& word, const Where& where, const std::string& path, std::vector<Node*>& found) {
   if (node.is_list()) {
-    if (const auto item = item_of(node, word)) return &node.items[*item];
-    throw InputError(where, fmt::format("'{}' of {} is not an item of the list", word, path),
-                     fmt::format("items count from 1 to {}", node.items.size()));
+    const auto items = items_of(node, word);
+    if (items.empty())
+      throw InputError(where, fmt::format("'{}' of {} is not an item of the list", word, path),
+                       fmt::format("items count from 1 to {}", node.items.size()));
+    found.insert(found.end(), items.begin(), items.end());
+    return;
   }
   if (node.is_scalar())
     throw InputError(where, fmt::format("'{}' of {} lies inside a single value", word, path),
                      "shorten the path");
-  if (Node* found = node.find(word)) return found;
+  if (Node* known = node.find(word)) return found.push_back(known);
   Node& added = node[word];
   node.entries.back().where = added.where = where;
-  return &added;
+  found.push_back(&added);
 }
 
 }  // namespace
@@ -405,17 +415,19 @@ void apply_lines(Node& job) {
 
 void set_value(Node& job, const std::string& path, Node value, const Where& where) {
   apply_lines(job);
-  Node* node = &job;
+  std::vector<Node*> nodes{&job};
   for (std::size_t begin = 0; begin <= path.size();) {
     const std::size_t here = begin;
     const std::string word = next_word(path, begin);
     if (word.empty()) throw InputError(where, "has an empty word in its key path", "write key.path=value");
     // A catalogue entry is resolved as soon as a path leads into it.
     if (here > 0 && word != "from" && word != "cable")
-      if (const char* folder = shelf_of(path.substr(0, here - 1))) resolve(*node, folder, job.where);
-    node = step_into(*node, word, where, path);
+      if (const char* folder = shelf_of(path.substr(0, here - 1))) resolve(*nodes.front(), folder, job.where);
+    std::vector<Node*> next;
+    for (Node* const node : nodes) step_into(*node, word, where, path, next);
+    nodes = std::move(next);
   }
-  *node = std::move(value);
+  for (Node* const node : nodes) *node = value;
 }
 
 const Node* value_at(const Node& tree, const std::string& path) {
@@ -423,8 +435,8 @@ const Node* value_at(const Node& tree, const std::string& path) {
   for (std::size_t begin = 0; node && begin <= path.size();) {
     const std::string word = next_word(path, begin);
     if (node->is_list()) {
-      const auto item = item_of(*node, word);
-      node = item ? &node->items[*item] : nullptr;
+      const auto items = items_of(*node, word);
+      node = items.empty() ? nullptr : items.front();
     } else {
       node = node->find(word);
     }

@@ -257,6 +257,7 @@ void expand_places(Node& dresspack, const std::string& path, Problems& problems)
     return;
   }
   std::vector<Node> placed;
+  std::vector<std::size_t> entries;  // of the placed parts, from 1
   for (std::size_t i = 0; i < components->items.size(); ++i) {
     std::vector<PlacedPart> own_places;
     for (std::size_t k = 0; k < parts.size(); ++k)
@@ -264,11 +265,13 @@ void expand_places(Node& dresspack, const std::string& path, Problems& problems)
     Node component = components->items[i];
     if (own_places.empty()) {
       placed.push_back(component);
+      entries.push_back(i + 1);
       continue;
     }
     if (own_places.size() == 1 || even(own_places)) {
       set_place(component, own_places.front());
       placed.push_back(component);
+      entries.push_back(i + 1);
       continue;
     }
     std::erase_if(component.entries, [](const Entry& entry) { return entry.key == "count"; });
@@ -278,8 +281,12 @@ void expand_places(Node& dresspack, const std::string& path, Problems& problems)
       single["name"].text = name + " " + letter(static_cast<int>(k));
       set_place(single, own_places[k]);
       placed.push_back(single);
+      entries.push_back(i + 1);
     }
   }
+  // Remedies name keys of the user's list, which has fewer entries then.
+  if (placed.size() > components->items.size())
+    for (std::size_t k = 0; k < placed.size(); ++k) placed[k]["entry"] = scalar(std::to_string(entries[k]));
   components->items = std::move(placed);
 }
 

@@ -28,7 +28,8 @@ struct PlacedPart {
 std::optional<std::vector<PlacedPart>> pack_in_bore(const std::vector<double>& radii, double bore, double core);
 
 /// Replaces `place: auto` of a dresspack's components by helix_radius_mm and phase_deg. A component of several parts that are not
-/// evenly spaced on one circle becomes one component for each part ("signal cable a", "signal cable b"). Precondition: data
+/// evenly spaced on one circle becomes one component for each part ("signal cable a", "signal cable b"), and all get
+/// `entry`, the number of their component as written. Precondition: data
 /// sheets are expanded. Problems, under `path`: an unknown bore, parts that do not fit (with a bore that is large enough), other
 /// keys of the place, or parts off the axis without `place: auto`.
 void expand_places(Node& dresspack, const std::string& path, Problems& problems);

@@ -7,9 +7,12 @@
 #include <random>
 
 #include "pipeline/base/constants.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/cable/overlap.h"
 #include "pipeline/job/job.h"
+#include "pipeline/resolve/catalogue.h"
 #include "pipeline/resolve/job_text.h"
+#include "pipeline/settings/fields.h"
 #include "tests/catch.h"
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
@@ -109,6 +112,15 @@ TEST_CASE("placement: a dresspack's parts get their places, and a job reads it")
   CHECK(mixed.components[0].name == "lead a");
   CHECK(mixed.components[4].name == "bus b");
   CHECK(overlap_warnings(mixed).empty());
+  // Key paths of messages count the user's entries: the second is 'bus', in the resolved list, too.
+  CHECK(ring.components[0].entry.empty());
+  CHECK(entry_number(mixed.components, 3) == "2");
+  Node job;
+  job["dresspack"] = echo_fields(mixed);
+  set_value(job, "dresspack.components.2.slack_percent", scalar("3"), {});
+  Dresspack changed;
+  read_fields(*job.find("dresspack"), changed);
+  CHECK(mapped(changed.components, [](const Component& of) { return of.laying.slack; }) == std::vector<double>{1, 1, 1, 3, 3});
   // A part in the middle with a given place stays there.
   const Dresspack around =
       read(hose_text(bore, cable("power", 1, 8, "helix_radius_mm: 0") + cable("lead", 6, 5)));
