@@ -266,7 +266,7 @@ pipeline::Warning warning_at(const pipeline::Job& job, const FileCables& cables,
   const Cure cure = cure_at(job, at, cables.facts[cable], cables.force[cable], tension);
   std::string remedy = cure.remedy;
   for (const std::size_t p : cause.parameters)
-    if (p != starts_parameter) remedy += "; or " + pipeline::measurement_words(pipeline::uncertain_parameters()[p]);
+    if (p != starts_parameter) remedy += pipeline::measurement_words(pipeline::uncertain_parameters()[p], job.uncertainty);
   pipeline::Warning warning = pipeline::warning_of(pipeline::WarningKind::other_values, "",
                                                    fmt::format("with {} {}{}", words_of(job, at), what, share_text(job, limit, all)), cure.cause, remedy);
   warning.amount = limit.share();

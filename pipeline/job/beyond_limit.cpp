@@ -52,8 +52,11 @@ std::string percent_words(double share) {
   return fmt::format("{:.0f} %", 100 * share);
 }
 
-std::string measurement_words(const UncertainParameter& parameter) {
-  return fmt::format("uncertainty.{}: {:.3g}, if this measurement confirms the job's value: {}", parameter.name,
+std::string measurement_words(const UncertainParameter& parameter, const Uncertainty& known) {
+  const double now = parameter.z_of(known.spread[index_of(parameter.name)]) * parameter.deviation();
+  constexpr double rounding = 0.01;  // of the proposed factor, which has three digits
+  if (now <= parameter.test_deviation + rounding) return "";
+  return fmt::format("; or uncertainty.{}: {:.3g}, if this measurement confirms the job's value: {}", parameter.name,
                      std::exp(parameter.test_deviation), parameter.test);
 }
 

@@ -27,7 +27,8 @@ std::string value_words(const UncertainParameter& parameter, double z, double ow
 /// Returns "19 %".
 std::string percent_words(double share);
 
-/// Returns a remedy by knowledge: the measurement, and the spread of the parameter after it.
-std::string measurement_words(const UncertainParameter& parameter);
+/// Returns a further remedy by knowledge: "; or ", the measurement, and the spread of the parameter after it; empty if the job knows
+/// the parameter as well already.
+std::string measurement_words(const UncertainParameter& parameter, const Uncertainty& known);
 
 }  // namespace dresslife::pipeline

@@ -109,7 +109,7 @@ Warning beyond_warning(const pipeline::Job& job, const OtherRun& at, const Check
                              1 / factor_of(at.z)};
   Cure cure = cure_of(motion, at.checks, broken);
   cure.cause += "; all radii here are with this stiffness";
-  cure.remedy.words += "; or " + pipeline::measurement_words(stiffness());
+  cure.remedy.words += pipeline::measurement_words(stiffness(), job.uncertainty);
   Warning warning = pipeline::warning_of(
       pipeline::WarningKind::other_values, "",
       fmt::format("with {} {}; about {} of such dresspacks exceed this limit (interpolated between the simulated "
@@ -159,8 +159,8 @@ std::vector<Warning> periodic_warnings(const pipeline::Job& job, bool own_is_per
                   "lives of such dresspacks count this change in each repeat; with the job's own stiffness it keeps the limit",
                   words, 1e3 * job.simulation.periodic_tolerance),
       "friction and contact leave the dresspack several resting places",
-      fmt::format("simulation.periodic_tolerance_mm: {:g} if repeats may differ so; or {}", std::ceil(2e4 * farthest) / 10,
-                  pipeline::measurement_words(stiffness())))};
+      fmt::format("simulation.periodic_tolerance_mm: {:g} if repeats may differ so{}", std::ceil(2e4 * farthest) / 10,
+                  pipeline::measurement_words(stiffness(), job.uncertainty)))};
 }
 
 /// Returns the checks of the job with another stiffness. name: "softer" or "stiffer". Errors: InputError for a job that does not run
