@@ -542,6 +542,18 @@ std::string with_points(const std::string& text) {
   return std::regex_replace(text, comma, "$1$2.$3");
 }
 
+/// Replaces the words of German data sheets.
+std::string in_english(std::string phrase) {
+  static const std::vector<std::pair<std::regex, const char*>> words{{std::regex("klasse"), "class"},
+                                                                     {std::regex("(au(ß|ss)en)?durchmesser"), "outer diameter"},
+                                                                     {std::regex("(au(ß|ss)en)?mantel"), "jacket"},
+                                                                     {std::regex("schlagl(ä|ae)nge"), "lay length"},
+                                                                     {std::regex("geschirmt"), "shielded"},
+                                                                     {std::regex("feindr(ä|ae)htig"), "fine wire"}};
+  for (const auto& [german, english] : words) phrase = std::regex_replace(phrase, german, english);
+  return phrase;
+}
+
 /// Words for a shield.
 const std::string shield_words =
     R"((?:(?:with |and )?(?:(?:braid|braided|copper|cu|overall|foil|tinned|aluminium|al)[ -]*)*(?:shield|screen|braid)(?:ed|ing)?|\(c\)))";
@@ -673,7 +685,7 @@ Node sheet_from_line(const Node& line) {
   Problems problems;
   while (!rest.empty()) {
     const std::size_t end = std::min(rest.find(','), rest.size());
-    const std::vector<std::string> phrases = phrases_of(plain(std::string(rest.substr(0, end))));
+    const std::vector<std::string> phrases = phrases_of(in_english(plain(std::string(rest.substr(0, end)))));
     rest.remove_prefix(std::min(end + 1, rest.size()));
     for (const std::string& phrase : phrases)
       problems.attempt("", line.where, [&] {
@@ -706,6 +718,7 @@ std::string sheet_syntax() {
       "    outer diameter N mm        outer_diameter_mm; also OD\n"
       "    jacket PUR N mm            jacket_material (PUR, PVC or TPE) and jacket_thickness_mm, or one of them\n"
       "    lay length N mm            lay_length_mm; also pair lay length and wire lay length\n"
+      "    Klasse, Mantel, ..         the German words for class, outer diameter, jacket, lay length, shielded\n"
       "    shielded, screened, (C)    a shield, also without a comma: its wires are not evaluated, and its thickness belongs to N of the jacket\n"
       "  Lengths that are missing follow from class or wire. `dresslife draw DRESSPACK.yaml` shows the result. Examples:\n"
       "    data_sheet: {}\n"

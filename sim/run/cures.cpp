@@ -592,9 +592,14 @@ Cure cure_of(const CheckedMotion& motion, const std::vector<Check>& checks, cons
   return broken.name == check_name::travel ? travel_cure(motion, broken) : slack_cure(motion, checks, broken);
 }
 
+std::string obstacle_words(const pipeline::Setup& setup) {
+  const pipeline::Cell& cell = setup.cell;
+  return cell.capsules.empty() && cell.boxes.empty() && cell.meshes.empty() ? "the robot" : "the robot or an obstacle of the cell";
+}
+
 pipeline::Warning taut_warning(const CheckedMotion& motion, const ShortRun& run) {
   return pipeline::warning_of(WarningKind::slack, "", run.refusal,
-                              "it lies on the robot, around which its way is longer than from clamp to clamp",
+                              fmt::format("it lies on {}, around which its way is longer than from clamp to clamp", obstacle_words(motion.setup)),
                               remedy_for(motion, run.dresspack, *run.taut_at,
                                          "give it more free length, or move a clamp (dresslife preview shows it)"));
 }

@@ -51,6 +51,9 @@ struct Cure {
 /// Returns cause and remedy. Precondition: `broken` is one of the checks, and its limit is exceeded.
 Cure cure_of(const CheckedMotion& motion, const std::vector<Check>& checks, const Check& broken);
 
+/// Returns what a dresspack may wind around: "the robot", with the cell's obstacles if there are any.
+std::string obstacle_words(const pipeline::Setup& setup);
+
 /// Returns the warning for a dresspack that was pulled taut in a short run. Precondition: run.taut_at is set.
 pipeline::Warning taut_warning(const CheckedMotion& motion, const ShortRun& run);
 

@@ -134,8 +134,8 @@ void Simulation::check_taut(const RodState& state, double time) const {
       fmt::format("{} is pulled tight{} {}: {:.1f} mm are missing (it is stretched by {:.1f} %)",
                   pipeline::dresspack_words(setup_, span.dresspack), between_clamps(span), moment(time),
                   1e3 * elongation * span.properties.length, 1e2 * elongation),
-      "give it more free length, or keep the motion from winding it around the robot (dresslife preview shows "
-      "the clamps)",
+      fmt::format("give it more free length, or keep the motion from winding it around {} (dresslife preview shows the clamps)",
+                  obstacle_words(setup_)),
       span.dresspack, time);
 }
 

@@ -35,7 +35,7 @@ struct Cable {
     pipeline::Component& wires = cable.components[0];
     wires.name = "wire", wires.material = "copper", wires.count = 100, wires.radius = 1e-4;
     force = pipeline::CableForce(dresspack, cable);
-    facts = {"cable", "dresspack", 2, &cable, &dresspack};
+    facts = {"cable", "dresspack", "2", &cable, &dresspack};
     facts.has_room = true;
   }
   double limit() const { return pipeline::believable_share * force.strength(); }

@@ -60,7 +60,7 @@ struct Varied {
     for (std::size_t k = 0; k < cables; ++k) {
       const pipeline::Component& cable = dresspack.components[k];
       force.emplace_back(dresspack, cable);
-      facts.push_back({cable.name, "dresspack", k + 1, &cable, &dresspack});
+      facts.push_back({cable.name, "dresspack", std::to_string(k + 1), &cable, &dresspack});
     }
   }
 

@@ -355,6 +355,10 @@ Freedom Freedom::from(const Node& free, const std::vector<std::shared_ptr<const 
       throw InputError(entry.value.where,
                        fmt::format("free.{} is a limit or a setting of the calculation, which makes no dresspack live longer", entry.key),
                        "free keys of routing, dresspack or motion; compare settings in a study (jobs:)");
+    for (const FreeVariable& other : freedom.keys_)  // the later of the two would replace what the search chose for the other
+      if ((entry.key + ".").starts_with(other.path + ".") || other.path.starts_with(entry.key + "."))
+        throw InputError(entry.value.where, fmt::format("free.{} and free.{} set the same value", other.path, entry.key),
+                         "keep one of the two");
     const Node* own = common_value(documents, entry.key);
     freedom.keys_.push_back(
         {entry.key, Reader(entry.key, entry.value, documents, jobs).key(), own ? set_text(*own) : ""});

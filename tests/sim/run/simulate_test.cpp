@@ -214,6 +214,9 @@ TEST_CASE("simulate: a dresspack that winds itself taut stops the run") {
                         Catch::Contains("program step 2 'wind up': ") &&
                         Catch::Contains("mm are missing"));
   CHECK(samples > 10);
+  job.cell.capsules = {{{0, 0, 1}, {0, 0, 3}, 0.25}};  // the same post beside the robot
+  job.robot.links[0].capsules.clear();
+  CHECK_THROWS_WITH(Simulation(job).run({[](const Sample&) {}}), Catch::Contains("winding it around the robot or an obstacle of the cell"));
 }
 
 TEST_CASE("simulate: a state that is not finite stops the run") {

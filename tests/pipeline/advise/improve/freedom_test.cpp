@@ -157,6 +157,10 @@ TEST_CASE("what nothing can be freed by is refused with its place") {
   for (const std::string key : {"fatigue.failed_wires_percent", "simulation.segments", "dresspack.least_bend_radius_mm",
                                 "dresspacks.1.dresspack.most_tension_N", "motion.hold_joint"})
     CHECK_THAT(words(key + ": 20 .. 40"), Catch::Contains("free." + key + " is a limit or a setting of the calculation"));
+  for (const std::string keys : {"{routing.tool_clamp.position_m: 0.05 around, routing.tool_clamp.position_m.2: 0 .. 0.1}",
+                                 "{routing.tool_clamp.position_m.2: 0 .. 0.1, routing.tool_clamp.position_m: 0.05 around}"})
+    CHECK_THAT(words(keys), Catch::Contains("set the same value; keep one of the two"));
+  CHECK(words("{routing.tool_clamp.position_m.1: 0 .. 0.1, routing.tool_clamp.position_m.2: 0 .. 0.1}") == "");
   CHECK(words("routing.free_length_m: []").find("one of nothing") != std::string::npos);
   CHECK(words("[1, 2]").find("must be a map") != std::string::npos);
 }
