@@ -152,8 +152,7 @@ std::vector<double> damage_by_clamp(std::span<const double> segment_damage, std:
   std::size_t nearest = 0;
   for (std::size_t k = 0; k < length.size(); ++k) {
     const double centre = start + length[k] / 2;
-    while (nearest + 1 < clamp_at.size() && centre >= (clamp_at[nearest] + clamp_at[nearest + 1]) / 2)
-      ++nearest;
+    while (nearest + 1 < clamp_at.size() && centre >= (clamp_at[nearest] + clamp_at[nearest + 1]) / 2) ++nearest;
     damage[nearest] += segment_damage[k];
     start += length[k];
   }

@@ -37,8 +37,7 @@ class StrainOfJoints {
  public:
   /// position: (sample, joint) [rad]. known: samples with known strain, and the strain. between: (joint) joints that may
   /// contribute; joints that stand still do not. Precondition: at least one sample, and one known strain.
-  StrainOfJoints(std::span<const double> position, std::span<const Reversal> known,
-                 const std::vector<bool>& between);
+  StrainOfJoints(std::span<const double> position, std::span<const Reversal> known, const std::vector<bool>& between);
 
   std::size_t joints() const { return scale_.size(); }
   double explained() const { return explained_; }  ///< in [0, 1]; 0 for a constant strain

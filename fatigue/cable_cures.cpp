@@ -20,11 +20,10 @@ const pipeline::Component& component_of(const pipeline::FileReader& strain, cons
     const auto& components = job.dresspacks[dresspack].dresspack.components;
     if (component < components.size()) return components[component];
   }
-  throw pipeline::InputError(
-      strain.where(),
-      fmt::format("has a cable of component {} of dresspack {}, which its job does not have", component + 1,
-                  dresspack + 1),
-      "make the file again with dresslife-strain");
+  throw pipeline::InputError(strain.where(),
+                             fmt::format("has a cable of component {} of dresspack {}, which its job does not have",
+                                         component + 1, dresspack + 1),
+                             "make the file again with dresslife-strain");
 }
 
 namespace {
@@ -34,21 +33,25 @@ std::string slack_line(const CableFacts& facts, double least, double most) {
   least /= facts.slack_factor, most /= facts.slack_factor;
   const std::string low = pipeline::percent_above(least), high = pipeline::percent_below(most);
   return fmt::format("{}: {} ({} .. {} fit; now {:.3g})", cable_key(facts, "slack_percent"),
-                     facts.component->laying.slack < 100 * least ? low : high, low, high, facts.component->laying.slack);
+                     facts.component->laying.slack < 100 * least ? low : high, low, high,
+                     facts.component->laying.slack);
 }
 
 /// Returns the cause of the pull in a cable that is held at its place and at both clamps, and the remedy.
 Cure held_cure(const CableFacts& facts, bool known_bore, double least, double most) {
-  const std::string path = fmt::format("its place in the dresspack and both clamps hold it, while its path changes by {:.2g} "
-                                       ".. {:.2g} %",
-                                       100 * facts.least_gain, 100 * facts.most_gain);
+  const std::string path = fmt::format(
+      "its place in the dresspack and both clamps hold it, while its path changes by {:.2g} "
+      ".. {:.2g} %",
+      100 * facts.least_gain, 100 * facts.most_gain);
   if (known_bore)
     return {path, fmt::format("{}: loose, or {}", cable_key(facts, "position"),
-                              least <= most ? slack_line(facts, least, most)
-                                            : fmt::format("{} and tool_grip_N as measured", cable_key(facts, "base_grip_N")))};
-  return {path, fmt::format("{}.inner_diameter_mm: {:.3g} (ESTIMATE) if it lies in a hose, else {} and tool_grip_N as measured",
-                            facts.key, 1e3 * pipeline::usual_bore_share * facts.dresspack->diameter,
-                            cable_key(facts, "base_grip_N"))};
+                              least <= most
+                                  ? slack_line(facts, least, most)
+                                  : fmt::format("{} and tool_grip_N as measured", cable_key(facts, "base_grip_N")))};
+  return {path, fmt::format(
+                    "{}.inner_diameter_mm: {:.3g} (ESTIMATE) if it lies in a hose, else {} and tool_grip_N as measured",
+                    facts.key, 1e3 * pipeline::usual_bore_share * facts.dresspack->diameter,
+                    cable_key(facts, "base_grip_N"))};
 }
 
 /// Returns the room per wound excess. Excess s in a room c makes a helix of curvature 2 s/c (excess.h), which must keep
@@ -63,12 +66,14 @@ std::string cable_key(const CableFacts& facts, const char* key) {
   return fmt::format("{}.components.{}.{}", facts.key, facts.number, key);
 }
 
-Cure cure_of(const CableFacts& facts, const pipeline::CableForce& cable, bool sticks, bool compressed, double acceleration) {
-  const double limit = pipeline::believable_share * cable.strength(), slack = facts.slack_factor * facts.component->laying.slack / 100;
-  if (sticks)
-    return {"it sticks to the hose (strain.slip of its level is stick)", "strain.slip: friction"};
+Cure cure_of(const CableFacts& facts, const pipeline::CableForce& cable, bool sticks, bool compressed,
+             double acceleration) {
+  const double limit = pipeline::believable_share * cable.strength(),
+               slack = facts.slack_factor * facts.component->laying.slack / 100;
+  if (sticks) return {"it sticks to the hose (strain.slip of its level is stick)", "strain.slip: friction"};
   if (!facts.has_room)
-    return {"slack, play, grips or position of the cable", cable_key(facts, "slack_percent") + " (run dresslife-strain again for its value)"};
+    return {"slack, play, grips or position of the cable",
+            cable_key(facts, "slack_percent") + " (run dresslife-strain again for its value)"};
   const double least = std::max(0.0, facts.most_gain - cable.strain_at(limit));
   // Includes the straight hose, for which pipeline::slack_warnings() warns.
   const double most = std::min(0.0, facts.least_gain) + pipeline::excess_at_force(cable, limit, facts.room);
@@ -78,27 +83,33 @@ Cure cure_of(const CableFacts& facts, const pipeline::CableForce& cable, bool st
   const double highest = std::min(most, pipeline::largest_slack);
   if (const double laid = pipeline::slack_to_lay(facts.winding_slack);
       !compressed && facts.winding_slack > 0 && slack < laid && slack < least && laid <= highest)
-    return {fmt::format("it has {:.3g} % of slack, too little to wind around the hose's axis, so that it stays on one side of the "
-                        "hose and a bend of the hose pulls it",
-                        100 * slack),
-            slack_line(facts, laid, highest)};
+    return {
+        fmt::format(
+            "it has {:.3g} % of slack, too little to wind around the hose's axis, so that it stays on one side of the "
+            "hose and a bend of the hose pulls it",
+            100 * slack),
+        slack_line(facts, laid, highest)};
   const std::string cause =
       compressed ? fmt::format("{}, where its path and its room take {} % at most", room, pipeline::percent_below(most))
-                 : fmt::format("{}, and its path gets {} % longer if no cable beside it gives way", room, pipeline::percent_above(least));
+                 : fmt::format("{}, and its path gets {} % longer if no cable beside it gives way", room,
+                               pipeline::percent_above(least));
   if (least <= slack && slack <= most)
     return {room + ", which fit its path; friction, its weight and the hose's motion pull it",
-            fmt::format("motion.acceleration_percent: {:.0f} (now {:.0f}), or {} as measured", std::max(1.0, acceleration / 2),
-                        acceleration, cable_key(facts, "friction_coefficient"))};
+            fmt::format("motion.acceleration_percent: {:.0f} (now {:.0f}), or {} as measured",
+                        std::max(1.0, acceleration / 2), acceleration, cable_key(facts, "friction_coefficient"))};
   const double proposed = std::min(highest, facts.least_gain + facts.room / room_per_excess(facts));
-  if (least <= proposed)
-    return {cause, slack_line(facts, least, proposed)};
+  if (least <= proposed) return {cause, slack_line(facts, least, proposed)};
   if (least > pipeline::largest_slack)
-    return {cause, fmt::format("no slack up to {:g} % cures it: a hose that bends less, or a place nearer to its axis ({})",
-                               100 * pipeline::largest_slack, cable_key(facts, "helix_radius_mm"))};
+    return {cause,
+            fmt::format("no slack up to {:g} % cures it: a hose that bends less, or a place nearer to its axis ({})",
+                        100 * pipeline::largest_slack, cable_key(facts, "helix_radius_mm"))};
   const double needed = std::max(pipeline::room_of_excess(cable, least - std::min(0.0, facts.least_gain), limit),
                                  (least - facts.least_gain) * room_per_excess(facts));
-  return {cause, fmt::format("no slack fits this room. It needs {:.2g} mm: {}: {:.2g} if it has them, else another {} or {}.inner_diameter_mm",
-                             1e3 * needed, cable_key(facts, "play_mm"), 1e3 * needed, cable_key(facts, "helix_radius_mm"), facts.key)};
+  return {
+      cause,
+      fmt::format(
+          "no slack fits this room. It needs {:.2g} mm: {}: {:.2g} if it has them, else another {} or {}.inner_diameter_mm",
+          1e3 * needed, cable_key(facts, "play_mm"), 1e3 * needed, cable_key(facts, "helix_radius_mm"), facts.key)};
 }
 
 std::vector<CableFacts> facts_of(const pipeline::FileReader& strain, const pipeline::Job& job) {

@@ -11,14 +11,14 @@
 namespace dresslife::fatigue {
 
 /// Returns the component of a cable in /cable of a strain file. Errors: InputError if the job does not have it.
-const pipeline::Component& component_of(const pipeline::FileReader& strain, const pipeline::Job& job, std::size_t dresspack,
-                                        std::size_t component);
+const pipeline::Component& component_of(const pipeline::FileReader& strain, const pipeline::Job& job,
+                                        std::size_t dresspack, std::size_t component);
 
 /// Data of a cable besides its force.
 struct CableFacts {
   std::string name;
-  std::string key;            ///< its dresspack as a line of the job: "dresspack"
-  std::string number;         ///< of its component in a key path
+  std::string key;     ///< its dresspack as a line of the job: "dresspack"
+  std::string number;  ///< of its component in a key path
   const pipeline::Component* component = nullptr;
   const pipeline::Dresspack* dresspack = nullptr;
   double room = 0, least_gain = 0, most_gain = 0;  ///< /cable/room, /cable/path_gain
@@ -40,7 +40,8 @@ struct Cure {
 
 /// Returns the cause and the remedy of a large force: a slack whose force is within the limit, by the gains of the path and by
 /// the excess that a helix in its room can take. acceleration: motion.acceleration_percent.
-Cure cure_of(const CableFacts& facts, const pipeline::CableForce& cable, bool sticks, bool compressed, double acceleration);
+Cure cure_of(const CableFacts& facts, const pipeline::CableForce& cable, bool sticks, bool compressed,
+             double acceleration);
 
 /// Returns "at 1.2 s, program step 3 'text'".
 std::string moment_of(const pipeline::FileReader& strain, std::size_t sample);

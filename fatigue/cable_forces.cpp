@@ -40,13 +40,11 @@ Cables cables_of(const pipeline::FileReader& strain, const pipeline::Job& job) {
   const auto place = strain.read<double>("/cable/clamp_place");
   const auto strains = strain.read<double>("/cable/strain");
   const std::size_t count = dresspack.size();
-  Cables cables{
-      {}, strain.read<std::int32_t>("/cable/span"), strain.length("sample"), strain.length("cable_span")};
+  Cables cables{{}, strain.read<std::int32_t>("/cable/span"), strain.length("sample"), strain.length("cable_span")};
   for (std::size_t k = 0; k < count; ++k) {
     if (cables.span[k] < 0 || static_cast<std::size_t>(cables.span[k]) >= cables.spans)
       throw pipeline::InputError(
-          strain.where(),
-          fmt::format("has a cable of span {} of {}", std::int64_t{cables.span[k]} + 1, cables.spans),
+          strain.where(), fmt::format("has a cable of span {} of {}", std::int64_t{cables.span[k]} + 1, cables.spans),
           "make the file again with dresslife-strain");
     const auto in = static_cast<std::size_t>(dresspack[k]);
     const pipeline::Component& of = component_of(strain, job, in, static_cast<std::size_t>(component[k]));
@@ -67,11 +65,12 @@ pipeline::Warning force_warning(const CableFacts& facts, const pipeline::CableFo
   const Cure cure = cure_of(facts, cable, sticks, tension < 0, acceleration);
   return pipeline::warning_of(
       pipeline::WarningKind::force, "",
-      fmt::format("'{}' is {} with {:.0f} % of its breaking force: {} of {} N (limit {:.0f} %) {}; that is unrealistic: "
-                  "do not plan with the hours",
-                  facts.name, tension < 0 ? "compressed" : "pulled", 100 * std::abs(tension) / cable.strength(),
-                  pipeline::readable(std::abs(tension)), pipeline::readable(cable.strength()),
-                  100 * pipeline::believable_share, moment),
+      fmt::format(
+          "'{}' is {} with {:.0f} % of its breaking force: {} of {} N (limit {:.0f} %) {}; that is unrealistic: "
+          "do not plan with the hours",
+          facts.name, tension < 0 ? "compressed" : "pulled", 100 * std::abs(tension) / cable.strength(),
+          pipeline::readable(std::abs(tension)), pipeline::readable(cable.strength()), 100 * pipeline::believable_share,
+          moment),
       cure.cause, cure.remedy);
 }
 
@@ -89,7 +88,8 @@ void write_tensions(pipeline::FileWriter& life, const std::vector<std::string>& 
 
 }  // namespace
 
-CableForces write_cable_forces(const pipeline::FileReader& strain, const pipeline::Job& job, pipeline::FileWriter& life) {
+CableForces write_cable_forces(const pipeline::FileReader& strain, const pipeline::Job& job,
+                               pipeline::FileWriter& life) {
   if (!strain.has("/cable/strain")) {
     for (const char* name : {"largest_force_share", "clamp_moment_share"})
       if (strain.has_attribute(name)) life.attribute(name, strain.number_attribute(name));
@@ -99,11 +99,12 @@ CableForces write_cable_forces(const pipeline::FileReader& strain, const pipelin
   const std::vector<CableFacts> facts = facts_of(strain, job);
   const auto carried = strain.read<double>("/cable_span/hose_moment");
   std::vector<std::vector<double>> tension(cables.all.size());
-  std::vector<double> cable_moment, hose_moment;  // of the span with the largest moment of cables over the moment of the hose
+  std::vector<double> cable_moment,
+      hose_moment;  // of the span with the largest moment of cables over the moment of the hose
   std::vector<pipeline::CableForce> force;
   for (const PulledCable& cable : cables.all) force.push_back(cable.force);
   double force_share = 0, moment_share = 0, relief_share = 0;
-  std::size_t strained = 0, at_sample = 0;   // cable with the largest share of its strength, and the sample
+  std::size_t strained = 0, at_sample = 0;  // cable with the largest share of its strength, and the sample
   std::size_t bender = 0, bent_sample = 0;  // cable with the largest pull at the most bent clamp, and the sample
   for (std::size_t span = 0; span < cables.spans; ++span) {
     std::vector<std::size_t> in_span;
@@ -114,8 +115,7 @@ CableForces write_cable_forces(const pipeline::FileReader& strain, const pipelin
     for (std::size_t i = 0; i < in_span.size(); ++i) tension[in_span[i]] = std::move(pulls.tension[i]);
     for (std::size_t i = 0; i < in_span.size(); ++i) {
       const double held = held_by_strain_relief(2 * facts[in_span[i]].component->radius);
-      if (held > 0)
-        relief_share = std::max(relief_share, std::max(pulls.end_pull[i][0], pulls.end_pull[i][1]) / held);
+      if (held > 0) relief_share = std::max(relief_share, std::max(pulls.end_pull[i][0], pulls.end_pull[i][1]) / held);
     }
     if (pulls.force_share > force_share)
       force_share = pulls.force_share, strained = in_span[pulls.of_cable], at_sample = pulls.at_sample;
@@ -124,7 +124,8 @@ CableForces write_cable_forces(const pipeline::FileReader& strain, const pipelin
     const double share = pipeline::moment_share(pulls, of_hose);
     if (!cable_moment.empty() && share <= moment_share) continue;
     moment_share = share;
-    bent_sample = static_cast<std::size_t>(std::max_element(pulls.moment.begin(), pulls.moment.end()) - pulls.moment.begin());
+    bent_sample =
+        static_cast<std::size_t>(std::max_element(pulls.moment.begin(), pulls.moment.end()) - pulls.moment.begin());
     bender = *std::max_element(in_span.begin(), in_span.end(), [&](std::size_t a, std::size_t b) {
       return std::abs(tension[a][bent_sample]) < std::abs(tension[b][bent_sample]);
     });
@@ -147,17 +148,17 @@ CableForces write_cable_forces(const pipeline::FileReader& strain, const pipelin
                               job.motion.acceleration_percent);
     warnings.push_back(pipeline::warning_of(
         pipeline::WarningKind::force, "",
-        fmt::format("the cables bend a clamp with {:.2g} times the moment of the hose ({} of {} N m, limit {:g} times) {}; "
-                    "'{}' {} most, with {} N",
-                    moment_share, pipeline::readable(cable_moment[bent_sample]),
-                    pipeline::readable(*std::max_element(hose_moment.begin(), hose_moment.end())),
-                    pipeline::believable_share, moment_of(strain, bent_sample), facts[bender].name,
-                    tension[bender][bent_sample] < 0 ? "presses" : "pulls",
-                    pipeline::readable(std::abs(tension[bender][bent_sample]))),
+        fmt::format(
+            "the cables bend a clamp with {:.2g} times the moment of the hose ({} of {} N m, limit {:g} times) {}; "
+            "'{}' {} most, with {} N",
+            moment_share, pipeline::readable(cable_moment[bent_sample]),
+            pipeline::readable(*std::max_element(hose_moment.begin(), hose_moment.end())), pipeline::believable_share,
+            moment_of(strain, bent_sample), facts[bender].name, tension[bender][bent_sample] < 0 ? "presses" : "pulls",
+            pipeline::readable(std::abs(tension[bender][bent_sample]))),
         cure.cause, cure.remedy));
   }
-  warnings = pipeline::joined(std::move(warnings),
-                              varied_force_warnings(strain, job, {facts, force, cables.span}, {force_share, moment_share}));
+  warnings = pipeline::joined(std::move(warnings), varied_force_warnings(strain, job, {facts, force, cables.span},
+                                                                         {force_share, moment_share}));
   return {std::move(warnings), std::move(tension)};
 }
 

@@ -89,12 +89,11 @@ LifeScatter life_scatter(const Conductors& conductors, const std::vector<PlacesO
     its.insert(its.end(), bundle.damage.begin(), bundle.damage.end());
   }
   result.first_wire = first_wire_lives(wires, scatter);
-  result.first_place = first_place_lives(places, conductors.bundle, segments, settings.failed_wires_percent,
-                                         scatter, sharing_draws);
+  result.first_place =
+      first_place_lives(places, conductors.bundle, segments, settings.failed_wires_percent, scatter, sharing_draws);
   result.place = median_place_lives(places, conductors.bundle, segments, settings.failed_wires_percent);
   if (settings.load_sharing) {
-    SharedLives shared =
-        shared_lives(conductors.bundle, settings.failed_wires_percent, scatter, sharing_draws);
+    SharedLives shared = shared_lives(conductors.bundle, settings.failed_wires_percent, scatter, sharing_draws);
     result.conductor = std::move(shared.conductor);
     result.first_conductor = shared.first_conductor;
     return result;

@@ -18,9 +18,9 @@ namespace dresslife::fatigue {
 std::string conductor_of(const std::string& wire, const std::vector<std::string>& layer_names);
 
 struct Conductors {
-  std::vector<std::string> path;   ///< (conductor) in order of appearance
+  std::vector<std::string> path;       ///< (conductor) in order of appearance
   std::vector<ConductorWires> bundle;  ///< (conductor)
-  std::vector<std::size_t> worst;  ///< (conductor) its site with the largest damage
+  std::vector<std::size_t> worst;      ///< (conductor) its site with the largest damage
   /// (component) the conductor that contains a wire, no_site for the hose's wall; and the wire's number in it.
   std::vector<std::size_t> of_component, wire_of_component;
 };
@@ -46,9 +46,9 @@ inline constexpr int sharing_draws = 1000;
 /// Percentiles of the life for one definition of failure.
 struct LifeScatter {
   Percentiles first_wire, first_conductor;  ///< of the whole dresspack
-  FirstPlace first_place;                   ///< the planner's life: the first conductor that lost its share of wires at one place
-  std::vector<FailureLives> conductor;      ///< (conductor)
-  std::vector<double> place;                ///< (conductor) median_place_lives()
+  FirstPlace first_place;  ///< the planner's life: the first conductor that lost its share of wires at one place
+  std::vector<FailureLives> conductor;  ///< (conductor)
+  std::vector<double> place;            ///< (conductor) median_place_lives()
 };
 /// Returns lives in repeats. Precondition for load_sharing: bundles with rates.
 LifeScatter life_scatter(const Conductors& conductors, const std::vector<PlacesOfConductor>& places,

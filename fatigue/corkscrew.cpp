@@ -33,8 +33,7 @@ bool returns(const pipeline::FileReader& strain) {
   const std::size_t joints = angle.size() / strain.length("sample");
   constexpr double turn = 2 * std::numbers::pi;
   for (std::size_t k = 0; k < joints; ++k)
-    if (std::abs(std::remainder(angle[angle.size() - joints + k] - angle[k], turn)) > least_turn_left)
-      return false;
+    if (std::abs(std::remainder(angle[angle.size() - joints + k] - angle[k], turn)) > least_turn_left) return false;
   return true;
 }
 
@@ -81,12 +80,14 @@ double BoredCable::critical_torque(double compression, double curvature) const {
 
 double BoredCable::margin(double compression, double torque, double curvature) const {
   constexpr int to_rounding = 50;
-  const auto holds = [&](double margin) { return !(margin * torque >= critical_torque(margin * compression, curvature)); };
+  const auto holds = [&](double margin) {
+    return !(margin * torque >= critical_torque(margin * compression, curvature));
+  };
   return pipeline::halved(0, largest_margin, to_rounding, holds).high;
 }
 
-std::optional<Corkscrew> corkscrew(const pipeline::FileReader& strain, const pipeline::Job& job,
-                                   std::size_t dresspack, const std::vector<std::vector<double>>& tension) {
+std::optional<Corkscrew> corkscrew(const pipeline::FileReader& strain, const pipeline::Job& job, std::size_t dresspack,
+                                   const std::vector<std::vector<double>>& tension) {
   if (tension.empty() || !strain.has("/cable/room")) return {};
   const auto room = strain.read<double>("/cable/room");
   const auto of = strain.read<std::int32_t>("/cable/dresspack"),
@@ -102,15 +103,15 @@ std::optional<Corkscrew> corkscrew(const pipeline::FileReader& strain, const pip
     if (std::isinf(room[k])) return {};
     const pipeline::Component& part = mounted.components[static_cast<std::size_t>(component[k])];
     const pipeline::CableForce force(mounted, part);
-    const double most = force.strength() > 0 ? pipeline::believable_share * force.strength()
-                                             : std::numeric_limits<double>::infinity();
+    const double most =
+        force.strength() > 0 ? pipeline::believable_share * force.strength() : std::numeric_limits<double>::infinity();
     if (std::any_of(tension[k].begin(), tension[k].end(), [&](double pull) { return std::abs(pull) > most; }))
       return {};
     const BoredCable cable = bored(mounted, part, force, room[k], shape.length);
     const double growth = cable.torsion * shape.turn_left / shape.length;  // increase of the torque per repeat
     if (!worst)
-      worst =
-          Corkscrew{k, BoredCable::largest_margin, std::numeric_limits<double>::infinity(), shape.turn_left, shape.knows_turn};
+      worst = Corkscrew{k, BoredCable::largest_margin, std::numeric_limits<double>::infinity(), shape.turn_left,
+                        shape.knows_turn};
     for (std::size_t t = 0; t < tension[k].size(); ++t)
       for (std::size_t i = 0; i < shape.segment.size(); ++i) {
         const std::size_t row = t * segments + shape.segment[i];
@@ -120,10 +121,9 @@ std::optional<Corkscrew> corkscrew(const pipeline::FileReader& strain, const pip
         if (!tight && growth == 0) continue;
         const double bend = std::hypot(curvature[2 * row], curvature[2 * row + 1]);
         if (growth > 0)
-          worst->repeats = std::min(
-              worst->repeats, std::max(1.0, (cable.critical_torque(compression, bend) - torque) / growth));
-        if (!tight || worst->margin * torque < cable.torque_to_coil(worst->margin * compression, bend))
-          continue;
+          worst->repeats =
+              std::min(worst->repeats, std::max(1.0, (cable.critical_torque(compression, bend) - torque) / growth));
+        if (!tight || worst->margin * torque < cable.torque_to_coil(worst->margin * compression, bend)) continue;
         worst->margin = cable.margin(compression, torque, bend);
         worst->cable = k, worst->position = shape.middle[i], worst->sample = t;
       }

@@ -52,12 +52,12 @@ struct BoredCable {
 
 /// The loose cable of a dresspack that is nearest to a corkscrew.
 struct Corkscrew {
-  std::size_t cable = 0;  ///< index in the strain file
-  double margin = 0;      ///< factor on its forces and twist
-  double repeats = 0;    ///< until the twist that each repeat leaves winds it, at least 1; infinite: none is left
-  double turn_left = 0;  ///< D; 0 if below `least_turn_left`, or unknown [rad]
+  std::size_t cable = 0;   ///< index in the strain file
+  double margin = 0;       ///< factor on its forces and twist
+  double repeats = 0;      ///< until the twist that each repeat leaves winds it, at least 1; infinite: none is left
+  double turn_left = 0;    ///< D; 0 if below `least_turn_left`, or unknown [rad]
   bool knows_turn = true;  ///< false: twist is left, but the robot does not end in its first pose
-  double position = 0;   ///< of the place from the base clamp [m]
+  double position = 0;     ///< of the place from the base clamp [m]
   std::size_t sample = 0;
 };
 
@@ -67,7 +67,7 @@ constexpr double least_turn_left = 0.01;
 /// Returns the cable with the smallest margin. tension: (cable, sample) of the strain file, largest along each cable by size [N].
 /// std::nullopt: no cable of the dresspack lies loose in a room of known size, or the forces are unknown or not believable
 /// (believable.h).
-std::optional<Corkscrew> corkscrew(const pipeline::FileReader& strain, const pipeline::Job& job,
-                                   std::size_t dresspack, const std::vector<std::vector<double>>& tension);
+std::optional<Corkscrew> corkscrew(const pipeline::FileReader& strain, const pipeline::Job& job, std::size_t dresspack,
+                                   const std::vector<std::vector<double>>& tension);
 
 }  // namespace dresslife::fatigue

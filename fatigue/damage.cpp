@@ -63,8 +63,7 @@ std::vector<DamagingCycle> list_cycles(std::span<const Reversal> reversals, Coun
 
 }  // namespace
 
-std::vector<DamagingCycle> evaluate_cycles(std::span<const Reversal> reversals,
-                                           const pipeline::Material& material,
+std::vector<DamagingCycle> evaluate_cycles(std::span<const Reversal> reversals, const pipeline::Material& material,
                                            const pipeline::Fatigue& settings, double share) {
   if (!material.strain_life_table.empty()) {
     const StrainLifeTable table(material.strain_life_table);
@@ -95,9 +94,8 @@ std::vector<double> stress_along(std::span<const double> strain, const pipeline:
   const auto smaller = [](double a, double b) { return std::fabs(a) < std::fabs(b); };
   const std::size_t samples = strain.size();
   const std::size_t first =
-      repeating
-          ? static_cast<std::size_t>(std::max_element(strain.begin(), strain.end(), smaller) - strain.begin())
-          : 0;
+      repeating ? static_cast<std::size_t>(std::max_element(strain.begin(), strain.end(), smaller) - strain.begin())
+                : 0;
   std::vector<double> stress(samples);
   std::vector<Reversal> path(samples);
   for (std::size_t i = 0; i < samples; ++i) {
@@ -116,8 +114,7 @@ double sum_of_damage(std::span<const DamagingCycle> cycles) {
   return sum;
 }
 
-std::vector<double> damage_over_time(std::span<const DamagingCycle> cycles, std::size_t samples,
-                                     Moment moment) {
+std::vector<double> damage_over_time(std::span<const DamagingCycle> cycles, std::size_t samples, Moment moment) {
   std::vector<double> damage(samples, 0.0);
   for (const DamagingCycle& c : cycles)
     damage.at((moment == Moment::opens ? c.cycle.begin : c.cycle.end).sample) += c.damage;
@@ -158,8 +155,8 @@ class BranchTable {
   LogTable::View view() const { return table_.view(); }
 
  private:
-  static constexpr double largest_range = 8;         // strain; the exact curve is used beyond it
-  static constexpr double plastic_share = 1e-9;      // plastic share of the strain below which a branch counts as straight
+  static constexpr double largest_range = 8;     // strain; the exact curve is used beyond it
+  static constexpr double plastic_share = 1e-9;  // plastic share of the strain below which a branch counts as straight
   static constexpr double smallest_range = 0x1p-40;  // lower end of the table if even tiny strains are plastic
 
   /// Returns d stress / d strain at this stress.
@@ -185,10 +182,7 @@ class BranchTable {
 class CurveTable {
  public:
   CurveTable(const PowerSum& curve, double fewest, double most)
-      : low_(curve(most)),
-        high_(curve(fewest)),
-        at_high_(2 / fewest),
-        table_(low_, high_, [&](double y) {
+      : low_(curve(most)), high_(curve(fewest)), at_high_(2 / fewest), table_(low_, high_, [&](double y) {
           const double x = curve.inverse(y);
           return LogTable::Point{2 / x, -2 / (x * x * curve.slope(x))};
         }) {}
@@ -268,7 +262,8 @@ struct MetalTables {
   MetalTables(const pipeline::Material& m, const pipeline::Fatigue& f, double longest)
       : life(m, f.mean_stress, f.endurance_strain, longest),
         branch(CyclicCurve(m)),
-        damage(f.mean_stress == MeanStress::swt ? life.swt() : life.coffin_manson(), fewest_reversals / room(f), longest * room(f)) {}
+        damage(f.mean_stress == MeanStress::swt ? life.swt() : life.coffin_manson(), fewest_reversals / room(f),
+               longest * room(f)) {}
   static double room(const pipeline::Fatigue& f) {
     return with_rule(f.mean_stress, [](auto rule) { return rule.life_room; });
   }
@@ -324,7 +319,8 @@ bool WithoutCompression<Rule>::read(const MetalTables& metal, LockstepTables& to
   return std::is_same_v<Rule, WithoutMeanStress> && Rule::read(metal, to);
 }
 template <class Rule>
-double WithoutCompression<Rule>::damage(const MetalTables& metal, double amplitude, double stress_max, double stress_mean) {
+double WithoutCompression<Rule>::damage(const MetalTables& metal, double amplitude, double stress_max,
+                                        double stress_mean) {
   const double compressive = std::min(stress_mean, 0.0);
   return Rule::damage(metal, amplitude, stress_max - compressive, stress_mean - compressive);
 }
@@ -423,8 +419,8 @@ struct OuterLoop {
 }  // namespace
 
 struct DamageCounter::Tables {
-  Tables(const pipeline::Material& m, const pipeline::Fatigue& f, pipeline::InstructionSet set,
-         double longest, Compression of_compression)
+  Tables(const pipeline::Material& m, const pipeline::Fatigue& f, pipeline::InstructionSet set, double longest,
+         Compression of_compression)
       : material(m), settings(f), compression(of_compression), relaxation(m, f), lockstep(lockstep_for(set)) {
     if (m.strain_life_table.empty()) {
       metal.emplace(m, f, longest);
@@ -465,21 +461,17 @@ template <class Use>
 auto DamageCounter::Tables::with_functions(const Use& use) const {
   const auto with_damage = [&](const auto& stress_range) {
     const auto lasting = [&](const auto& damage) {
-      return use(stress_range,
-                 [&, endurance = settings.endurance_strain](double amplitude, double max, double mean) {
-                   return amplitude <= endurance ? 0.0 : damage(amplitude, max, mean);
-                 });
-    };
-    if (measured)
-      return lasting([&](double amplitude, double, double) { return measured->damage(amplitude); });
-    return with_rule(settings.mean_stress, compression, [&](auto rule) {
-      return lasting([&](double amplitude, double max, double mean) {
-        return rule.damage(*metal, amplitude, max, mean);
+      return use(stress_range, [&, endurance = settings.endurance_strain](double amplitude, double max, double mean) {
+        return amplitude <= endurance ? 0.0 : damage(amplitude, max, mean);
       });
+    };
+    if (measured) return lasting([&](double amplitude, double, double) { return measured->damage(amplitude); });
+    return with_rule(settings.mean_stress, compression, [&](auto rule) {
+      return lasting(
+          [&](double amplitude, double max, double mean) { return rule.damage(*metal, amplitude, max, mean); });
     });
   };
-  if (metal && yields(settings.stress))
-    return with_damage([&](double range) { return metal->branch(range); });
+  if (metal && yields(settings.stress)) return with_damage([&](double range) { return metal->branch(range); });
   return with_damage([modulus = material.youngs_modulus](double range) { return modulus * range; });
 }
 
@@ -503,9 +495,8 @@ double DamageCounter::Tables::expected_share(double largest, double range, const
   if (range / 2 <= settings.endurance_strain) return 0;
   const double offset = std::copysign(loop.offset, largest);
   const double life = rough_relaxing_life(
-      std::exp(exponent * std::log(10)), std::exp(exponent * std::log(5.5)), [&](double share) {
-        return Rule::damage(*metal, range / 2, loop.half_range + share * offset, share * offset);
-      });
+      std::exp(exponent * std::log(10)), std::exp(exponent * std::log(5.5)),
+      [&](double share) { return Rule::damage(*metal, range / 2, loop.half_range + share * offset, share * offset); });
   return mean_share(life, exponent);
 }
 
@@ -554,8 +545,8 @@ void DamageCounter::operator()(std::span<const StrainList> histories, std::span<
     for (const StrainList& history : group) longest = std::max(longest, history.size);
     const std::size_t lines = lockstep.lines(longest);
     if (workspace.lines.size() < lines) workspace.lines.resize(lines);
-    const unsigned amiss = lockstep.sum(tables_->side_by_side, group.data(), group.size(),
-                                        workspace.lines.data(), &damage[first]);
+    const unsigned amiss =
+        lockstep.sum(tables_->side_by_side, group.data(), group.size(), workspace.lines.data(), &damage[first]);
     for (std::size_t k = 0; amiss >> k != 0; ++k)
       if (amiss >> k & 1) {
         const std::vector<float> period = alternating_period({group[k].strain, group[k].size});
@@ -580,8 +571,7 @@ double DamageCounter::damage_once(const StrainList& list, Workspace& workspace) 
     });
   }
   std::vector<Reversal> reversals;
-  for (const float strain : strains)
-    reversals.push_back({strain, static_cast<std::int64_t>(reversals.size())});
+  for (const float strain : strains) reversals.push_back({strain, static_cast<std::int64_t>(reversals.size())});
   return sum_of_damage(cycles(reversals, 1));
 }
 
@@ -626,9 +616,7 @@ std::vector<DamagingCycle> DamageCounter::cycles(std::span<const Reversal> rever
 
 bool DamageCounter::must_alternate() const { return !is_repeated(tables_->settings.counting); }
 
-double life_in_repeats(double damage) {
-  return damage > 0 ? 1 / damage : std::numeric_limits<double>::infinity();
-}
+double life_in_repeats(double damage) { return damage > 0 ? 1 / damage : std::numeric_limits<double>::infinity(); }
 
 double hours(double repeats, double motion_duration) { return repeats * motion_duration / 3600; }
 

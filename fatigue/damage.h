@@ -30,8 +30,7 @@ struct DamagingCycle {
 
 /// Returns every cycle of a history under `settings.counting`, in the order in which they close, with exact stress and life.
 /// share: remaining share of the offset stress (F22) of a repeated history.
-std::vector<DamagingCycle> evaluate_cycles(std::span<const Reversal> reversals,
-                                           const pipeline::Material& material,
+std::vector<DamagingCycle> evaluate_cycles(std::span<const Reversal> reversals, const pipeline::Material& material,
                                            const pipeline::Fatigue& settings, double share = 1);
 
 /// Returns the stress [Pa] along a history (sample), which agrees with evaluate_cycles() at the reversals. If the history is
@@ -87,8 +86,7 @@ class DamageCounter {
   static constexpr double table_error = 1e-5;
   /// Computes the damage of many histories, (history), several times as fast. The damage of one history does not depend on the
   /// other histories of the call.
-  void operator()(std::span<const StrainList> histories, std::span<double> damage,
-                  Workspace& workspace) const;
+  void operator()(std::span<const StrainList> histories, std::span<double> damage, Workspace& workspace) const;
 
   /// Returns whether the offset falls from repeat to repeat. Then the mean damage over a life differs from that of operator().
   bool settles() const;

@@ -15,7 +15,8 @@ using pipeline::LifeResponse;
 // medians of the parameters, where hardly any wire is damaged. W(z) is known for the worst wire only, and is added to the
 // distance.
 constexpr double most_after_first_wire = 1;
-constexpr std::size_t likely_anywhere = 32;  // number of worst wires of a mode, in addition to the worst wire of each segment
+constexpr std::size_t likely_anywhere =
+    32;  // number of worst wires of a mode, in addition to the worst wire of each segment
 
 /// Returns "signal cable" for "signal cable 3/conductor 2/layer 1/wire 17"; empty: the wire lies directly in the dresspack.
 std::string cable_of(const std::string& wire, const std::vector<std::string>& layer_names) {
@@ -34,8 +35,7 @@ std::string name_of_mode(const pipeline::Job& job, const PathInJob& place,
 }
 
 double log10_life(double repeats) {
-  return std::isfinite(repeats) ? std::min(std::log10(repeats), LifeResponse::undamaged)
-                                : LifeResponse::undamaged;
+  return std::isfinite(repeats) ? std::min(std::log10(repeats), LifeResponse::undamaged) : LifeResponse::undamaged;
 }
 
 std::array<double, percentiles.size()> logs_of(const Percentiles& lives) {
@@ -46,8 +46,7 @@ std::array<double, percentiles.size()> logs_of(const Percentiles& lives) {
 
 class Modes {
  public:
-  Modes(const ModeList& list, const ModeInputs& in)
-      : list_(list), in_(in), of_component_(list.of(in.component)) {}
+  Modes(const ModeList& list, const ModeInputs& in) : list_(list), in_(in), of_component_(list.of(in.component)) {}
 
   LifeResponse response(std::size_t mode) const {
     LifeResponse response;
@@ -61,8 +60,7 @@ class Modes {
       response.material = pipeline::material_of(in_.job, in_.sites.material()[worst_of(mode)]).name;
     std::vector<bool> counts(in_.sites.size());
     for (std::size_t site = 0; site < counts.size(); ++site) counts[site] = mode_of(site) == mode;
-    fill_response(response, own, only(in_.varied, counts), in_.starts, in_.sites, in_.component, in_.job,
-                  in_.threads);
+    fill_response(response, own, only(in_.varied, counts), in_.starts, in_.sites, in_.component, in_.job, in_.threads);
     set_bound(response, pipeline::Inside::glued, in_.glued[mode]);
     set_bound(response, pipeline::Inside::free, in_.free[mode]);
     add_planned(mode, response);
@@ -76,14 +74,12 @@ class Modes {
   /// Returns the number of modes of the same dresspack, including this one.
   std::size_t neighbours(std::size_t mode) const {
     std::size_t count = 0;
-    for (std::size_t other = 0; other < list_.size(); ++other)
-      count += list_.dresspack(other) == list_.dresspack(mode);
+    for (std::size_t other = 0; other < list_.size(); ++other) count += list_.dresspack(other) == list_.dresspack(mode);
     return count;
   }
 
   std::size_t worst_of(std::size_t mode) const {
-    return worst_by_group(in_.damage, 1, [&](std::size_t site) { return mode_of(site) == mode ? 0 : no_site; })
-        .front();
+    return worst_by_group(in_.damage, 1, [&](std::size_t site) { return mode_of(site) == mode ? 0 : no_site; }).front();
   }
 
   /// Returns the job's own wires of which one can be the worst with other parameters.
@@ -119,9 +115,9 @@ class Modes {
     const auto with = [&](double z) {
       const double factor = pipeline::uncertain_parameters()[index_of(pipeline::Uncertain::scatter)].value(z);
       const Scatter scatter{settings.scatter_log10 * settings.scatter_factor * factor, settings.scatter_shared};
-      return logs_of(first_place_lives(places, bundles, in_.segments, settings.failed_wires_percent, scatter,
-                                       sharing_draws)
-                         .lives);
+      return logs_of(
+          first_place_lives(places, bundles, in_.segments, settings.failed_wires_percent, scatter, sharing_draws)
+              .lives);
     };
     const auto here = list_.size() == 1 ? logs_of(in_.planned) : with(0);
     response.planned = {here};
@@ -163,8 +159,7 @@ class Modes {
 }  // namespace
 
 ModeList::ModeList(const pipeline::Job& job, const TextColumn& component) : job_(job) {
-  for (const pipeline::MountedDresspack& mounted : job.dresspacks)
-    layers_.push_back(layer_names(mounted.dresspack));
+  for (const pipeline::MountedDresspack& mounted : job.dresspacks) layers_.push_back(layer_names(mounted.dresspack));
   for (const std::string& path : component.values) {
     const PathInJob place = path_in_job(job, path);
     if (pipeline::is_hose_wall(job.dresspacks[place.dresspack].dresspack, place.inside) || of(path) != no_site)

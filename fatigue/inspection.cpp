@@ -16,8 +16,7 @@ Inspected inspected(const std::vector<double>& lives, double repeat, double visi
     found += pipeline::found_before((1 - visible_from) * age, interval, inspection.found_percent / 100);
   }
   const auto all = static_cast<double>(lives.size());
-  return {failed / all, failed > 0 ? found / failed : std::numeric_limits<double>::quiet_NaN(),
-          (failed - found) / all};
+  return {failed / all, failed > 0 ? found / failed : std::numeric_limits<double>::quiet_NaN(), (failed - found) / all};
 }
 
 }  // namespace dresslife::fatigue

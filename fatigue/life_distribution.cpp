@@ -119,8 +119,8 @@ void LifeDistribution::tabulate() {
   };
   table_low_ = end(negligible);
   const double whole = end(1 - negligible) - table_low_;
-  const auto pieces = static_cast<std::size_t>(
-      std::clamp(std::ceil(whole / (piece * std::hypot(common_, whole / 10))), 8.0, 70.0));
+  const auto pieces =
+      static_cast<std::size_t>(std::clamp(std::ceil(whole / (piece * std::hypot(common_, whole / 10))), 8.0, 70.0));
   width_ = whole / double(pieces);
   double before = 0;
   for (std::size_t i = 0; i < pieces; ++i) {
@@ -133,8 +133,7 @@ void LifeDistribution::tabulate() {
 double life_of_share(const std::vector<LifeDistribution>& distributions, double share) {
   if (distributions.empty()) return infinity;
   double low = infinity, high = infinity;
-  for (const LifeDistribution& one : distributions)
-    low = std::min(low, one.low()), high = std::min(high, one.high());
+  for (const LifeDistribution& one : distributions) low = std::min(low, one.low()), high = std::min(high, one.high());
   return std::exp(bisect(low, high, share, [&](double log_life) {
     double none = 1;
     for (const LifeDistribution& one : distributions) none *= 1 - one(log_life);
@@ -173,8 +172,7 @@ LifeDistribution distribution_of(std::shared_ptr<const Wires> wires, std::size_t
             return wires->failed(log_time, count, own, memory);
           },
           wires->log_life(own > 0 ? 0 : count - 1) - LifeDistribution::farthest * own,
-          wires->log_life(count - 1) + LifeDistribution::farthest * own,
-          scatter.common() * std::numbers::ln10};
+          wires->log_life(count - 1) + LifeDistribution::farthest * own, scatter.common() * std::numbers::ln10};
 }
 
 }  // namespace dresslife::fatigue

@@ -57,8 +57,7 @@ struct Context {
   std::size_t worst = no_site;       // worst wire
   std::size_t worst_wall = no_site;  // worst place of the hose's wall
 
-  Context(const FileReader& strain_file, const pipeline::Job& the_job, FileWriter& life_file,
-          std::size_t thread_count)
+  Context(const FileReader& strain_file, const pipeline::Job& the_job, FileWriter& life_file, std::size_t thread_count)
       : strain(strain_file),
         job(the_job),
         life(life_file),
@@ -79,8 +78,7 @@ struct Context {
   };
   Range segments_of(std::size_t of) const {
     const auto [first, end] = std::equal_range(dresspack.begin(), dresspack.end(), of);
-    return {static_cast<std::size_t>(first - dresspack.begin()),
-            static_cast<std::size_t>(end - dresspack.begin())};
+    return {static_cast<std::size_t>(first - dresspack.begin()), static_cast<std::size_t>(end - dresspack.begin())};
   }
   std::size_t dresspack_of(std::size_t site) const {
     return site == no_site ? 0 : dresspack[static_cast<std::size_t>(sites.segment(site))];
@@ -94,9 +92,7 @@ struct Context {
     return std::max(0.0, length - wires_at[segment]);  // rounding of the sum
   }
   double repeat_seconds() const { return time.empty() ? 0 : time.back() - time.front(); }
-  const std::string* step_at(std::size_t sample) const {
-    return step[sample] < 0 ? nullptr : &step_text[step[sample]];
-  }
+  const std::string* step_at(std::size_t sample) const { return step[sample] < 0 ? nullptr : &step_text[step[sample]]; }
   /// Returns the cycles of a site. They add up to the site's damage, also if this was scaled by another site's ratio (F21).
   /// If mean stress relaxes, their stress is that of the mean share over the life.
   std::vector<DamagingCycle> cycles_of(std::size_t site) const {
@@ -127,8 +123,7 @@ void check_steps(const Context& c) {
   for (const std::int32_t step : c.step) {
     if (step < -1 || step >= static_cast<std::int32_t>(c.step_text.size())) {
       throw pipeline::InputError(
-          c.strain.where(),
-          fmt::format("/program/step names line {} (/program/text has {})", step, c.step_text.size()),
+          c.strain.where(), fmt::format("/program/step names line {} (/program/text has {})", step, c.step_text.size()),
           "make the file again with dresslife-strain");
     }
   }
@@ -139,9 +134,7 @@ void put(FileWriter& file, const std::string& dataset, const std::vector<T>& val
   file.append(dataset, std::span<const T>(values));
 }
 
-std::vector<std::uint32_t> as_index(const std::vector<std::size_t>& sites) {
-  return {sites.begin(), sites.end()};
-}
+std::vector<std::uint32_t> as_index(const std::vector<std::size_t>& sites) { return {sites.begin(), sites.end()}; }
 
 std::vector<double> damage_at(const Context& c, const std::vector<std::size_t>& sites) {
   std::vector<double> damage;
@@ -154,8 +147,7 @@ void write_sites(const Context& c) {
   in_blocks(c.sites.size(), [&](std::size_t first, std::size_t count) {  // throws for values that are not finite
     for (const char* table : {"/site/helix", "/site/fibre"}) c.strain.read_rows(table, first, count, values);
   });
-  for (const char* table :
-       {"/site/segment", "/site/component", "/site/helix", "/site/fibre", "/site/material"})
+  for (const char* table : {"/site/segment", "/site/component", "/site/helix", "/site/fibre", "/site/material"})
     c.life.copy(c.strain, table);
   put(c.life, "/damage", c.damage.damage);
   std::vector<double> life;
@@ -246,9 +238,8 @@ Layers layers_of(const Context& c, const TextColumn& components) {
 
 void write_layers(const Context& c) {
   const Layers layers = layers_of(c, c.component);
-  const auto worst = worst_by_group(c.damage, layers.name.size(), [&](std::size_t site) {
-    return layers.of_component[c.component.index[site]];
-  });
+  const auto worst = worst_by_group(c.damage, layers.name.size(),
+                                    [&](std::size_t site) { return layers.of_component[c.component.index[site]]; });
   put(c.life, "/layer/component", layers.name);
   put(c.life, "/layer/worst_site", as_index(worst));
   put(c.life, "/layer/damage", damage_at(c, worst));
@@ -269,8 +260,7 @@ struct SettledGroups {
         component(components) {}
   std::size_t operator()(std::size_t site) const {
     const std::size_t layer = layers.of_component[component.index[site]];
-    return layer == no_site ? no_site
-                            : static_cast<std::size_t>(sites.segment(site)) * layers.name.size() + layer;
+    return layer == no_site ? no_site : static_cast<std::size_t>(sites.segment(site)) * layers.name.size() + layer;
   }
 };
 
@@ -295,8 +285,7 @@ Conductors loaded_conductors(const Context& c) {
   for (std::size_t k = 0; k < conductors.path.size(); ++k) {
     ConductorWires& bundle = conductors.bundle[k];
     bundle.dresspack = c.dresspack_of(conductors.worst[k]);
-    if (c.job.fatigue.load_sharing)
-      bundle.rate = sharing_rates_of(c, conductors.worst[k], bundle.damage.size());
+    if (c.job.fatigue.load_sharing) bundle.rate = sharing_rates_of(c, conductors.worst[k], bundle.damage.size());
   }
   return conductors;
 }
@@ -346,8 +335,8 @@ Worst worst_of(const Context& c, std::size_t site, const std::vector<DamagingCyc
   worst.segment_from_tool = double(c.segments_of(c.dresspack[segment]).end - segment);
   worst.position_from_tool = c.from_tool(segment);
   worst.component = c.component[site];
-  const auto most = std::max_element(cycles.begin(), cycles.end(),
-                                     [](const auto& a, const auto& b) { return a.damage < b.damage; });
+  const auto most =
+      std::max_element(cycles.begin(), cycles.end(), [](const auto& a, const auto& b) { return a.damage < b.damage; });
   const std::size_t sample = most == cycles.end() ? 0 : most->cycle.end.sample;
   worst.time = c.time.empty() ? 0 : c.time[sample];
   if (const std::string* const step = c.step_at(sample)) worst.step = *step;
@@ -355,10 +344,12 @@ Worst worst_of(const Context& c, std::size_t site, const std::vector<DamagingCyc
 }
 
 /// Returns the site of the most damaged wire of a conductor in a segment; no_site: none.
-std::size_t worst_of_conductor(const Context& c, const Conductors& conductors, std::size_t conductor, std::size_t segment) {
+std::size_t worst_of_conductor(const Context& c, const Conductors& conductors, std::size_t conductor,
+                               std::size_t segment) {
   std::size_t worst = no_site;
   for (std::size_t site = 0; site < c.sites.size(); ++site)
-    if (static_cast<std::size_t>(c.sites.segment(site)) == segment && conductors.of_component[c.component.index[site]] == conductor &&
+    if (static_cast<std::size_t>(c.sites.segment(site)) == segment &&
+        conductors.of_component[c.component.index[site]] == conductor &&
         (worst == no_site || c.damage.damage[site] > c.damage.damage[worst]))
       worst = site;
   return worst;
@@ -458,8 +449,7 @@ void write_clamps(const Context& c) {
 }
 
 /// Writes the damage by joint and clamp. Writes nothing about joints if the motion is given by its clamps.
-void write_causes(const Context& c, const std::vector<DamagingCycle>& cycles,
-                  const std::vector<Reversal>& known) {
+void write_causes(const Context& c, const std::vector<DamagingCycle>& cycles, const std::vector<Reversal>& known) {
   write_clamps(c);
   const char* const joints = "/robot/joint_position";
   const std::vector<bool> between = joints_between_clamps(c.job, c.dresspack_of(c.worst));
@@ -475,8 +465,7 @@ void write_causes(const Context& c, const std::vector<DamagingCycle>& cycles,
   put(c.life, "/joint/damage", by_joint.damage);
   put(c.life, "/program/joint_damage", by_joint.by_line);
   c.life.attribute("joint_explained", surface.explained());
-  const auto most =
-      std::max_element(by_joint.damage.begin(), by_joint.damage.end()) - by_joint.damage.begin();
+  const auto most = std::max_element(by_joint.damage.begin(), by_joint.damage.end()) - by_joint.damage.begin();
   const double total = sum_of_damage(cycles);
   c.life.attribute("worst_joint", total > 0 ? names[most] : "");
   c.life.attribute("worst_joint_share", total > 0 ? by_joint.damage[most] / total : 0);
@@ -522,7 +511,8 @@ void write_estimates(const Context& c) {
     const std::string name = pipeline::name_among(c.job, d);
     if (!of_one.empty()) words += (words.empty() ? "" : "; ") + (name.empty() ? "" : name + ": ") + of_one;
   }
-  if (const std::string ratings = ratings_words(c.job); !ratings.empty()) words += (words.empty() ? "" : "; ") + ratings;
+  if (const std::string ratings = ratings_words(c.job); !ratings.empty())
+    words += (words.empty() ? "" : "; ") + ratings;
   c.life.attribute("estimates", words);
 }
 
@@ -614,12 +604,12 @@ std::string write_unvalidated(const Context& c, const std::vector<double>& lives
       summary += "; the life of the hose's wall is not predicted";
     else if (mode.mode != pipeline::UnvalidatedMode::rating && mode.mode != pipeline::UnvalidatedMode::corkscrew &&
              mode.mode != pipeline::UnvalidatedMode::kink)
-      summary += fmt::format("; the {} {}",
-                             mode.mode == pipeline::UnvalidatedMode::wall     ? "hose's wall"
-                             : mode.mode == pipeline::UnvalidatedMode::jacket ? "worst jacket"
-                                                                              : "surface",
-                             std::isinf(mode.hours[1]) ? "is not damaged"
-                                                       : "lasts " + pipeline::readable(mode.hours[1]) + " h");
+      summary += fmt::format(
+          "; the {} {}",
+          mode.mode == pipeline::UnvalidatedMode::wall     ? "hose's wall"
+          : mode.mode == pipeline::UnvalidatedMode::jacket ? "worst jacket"
+                                                           : "surface",
+          std::isinf(mode.hours[1]) ? "is not damaged" : "lasts " + pipeline::readable(mode.hours[1]) + " h");
   return summary;
 }
 
@@ -643,22 +633,21 @@ SiteDamage damage_of_bound(const Context& c, const SiteSet& sites, const TextCol
   SiteDamage damage = damage_of(sites, counters, c.threads, progress);
   const SettledGroups group_of(c, sites, component);
   settle(
-      damage, counters, group_of.count, group_of,
-      [&](std::size_t site) { return as_floats(sites.reversals_of(site)); }, c.threads);
+      damage, counters, group_of.count, group_of, [&](std::size_t site) { return as_floats(sites.reversals_of(site)); },
+      c.threads);
   return damage;
 }
 
 /// Writes a bound. Returns the worst wire's life of each mode [repeats].
-std::vector<double> write_bound(const Context& c, const ModeList& modes, const std::string& name,
-                                pipeline::Slip slip, const std::function<void(double)>& progress) {
+std::vector<double> write_bound(const Context& c, const ModeList& modes, const std::string& name, pipeline::Slip slip,
+                                const std::function<void(double)>& progress) {
   const SiteSet sites(c.strain, "/bound_" + name);
   if (sites.size() == 0 && c.sites.size() > 0) {
     throw pipeline::InputError(c.strain.where(), fmt::format("/bound_{} holds no sites", name),
                                "make the file again with dresslife-strain");
   }
   const TextColumn component = read_column(c.strain, "/bound_" + name + "/site/component");
-  const SiteDamage damage =
-      is_own_slip(c.job, slip) ? c.damage : damage_of_bound(c, sites, component, slip, progress);
+  const SiteDamage damage = is_own_slip(c.job, slip) ? c.damage : damage_of_bound(c, sites, component, slip, progress);
   const std::size_t worst = damage.worst_wire();
   const double repeats = life_in_repeats(worst == no_site ? 0 : damage.damage[worst]);
   c.life.attribute("life_repeats_all_" + name, repeats);
@@ -684,8 +673,7 @@ void write_shear(const Context& c) {
     put(c.life, "/plane/site", as_index(c.planes->sites()));
     put(c.life, "/plane/angle", angle);
     put(c.life, "/plane/damage", damage);
-    if (const CriticalPlane* plane = c.planes->of(c.worst))
-      c.life.attribute("worst_plane_angle", plane->theta);
+    if (const CriticalPlane* plane = c.planes->of(c.worst)) c.life.attribute("worst_plane_angle", plane->theta);
   }
   if (!c.strain.has("/probe/shear")) return;
   const auto probed = c.strain.read<std::uint32_t>("/probe/site");
@@ -715,29 +703,25 @@ pipeline::FirstFailures write_first_failures(const Context& c, const pipeline::F
   const std::size_t cause = pipeline::largest_share(lives.share);
   c.life.attribute("life_response", pipeline::modes_text(modes));
   c.life.attribute("life_shares", pipeline::share_words(lives.share));
-  c.life.attribute("measure_next", cause < pipeline::uncertain_count
-                                       ? std::string(pipeline::uncertain_parameters()[cause].name)
-                                       : "");
+  c.life.attribute("measure_next",
+                   cause < pipeline::uncertain_count ? std::string(pipeline::uncertain_parameters()[cause].name) : "");
   c.life.attribute("measure_next_share", lives.share[cause]);
   for (std::size_t i = 0; i < ends.size(); ++i)
     if (std::isfinite(lives.error_factor[i]))
       c.life.attribute(fmt::format("life_error_{}", ends[i]), lives.error_factor[i]);
-  c.life.attribute("best_test", lives.best_test
-                                    ? std::string(pipeline::uncertain_parameters()[*lives.best_test].name)
-                                    : "");
+  c.life.attribute("best_test",
+                   lives.best_test ? std::string(pipeline::uncertain_parameters()[*lives.best_test].name) : "");
   put_hours("best_test_life_hours_p10", lives.best_test ? lives.after_test[0] : lives.percentiles[0]);
   put_hours("best_test_life_hours_p90", lives.best_test ? lives.after_test[2] : lives.percentiles[2]);
   return lives;
 }
 
 pipeline::FirstFailures first_failures_of(const Context& c, const ModeList& modes, const Conductors& conductors,
-                                          const std::vector<PlacesOfConductor>& places,
-                                          const LifeScatter& scatter, const std::vector<double>& glued,
-                                          const std::vector<double>& free) {
+                                          const std::vector<PlacesOfConductor>& places, const LifeScatter& scatter,
+                                          const std::vector<double>& glued, const std::vector<double>& free) {
   std::vector<std::size_t> starts;
   std::vector<VariedStrains> varied;
-  if (c.job.uncertainty.enabled)
-    varied = read_variations(c.strain, c.sites.size()), starts = read_rests(c.strain);
+  if (c.job.uncertainty.enabled) varied = read_variations(c.strain, c.sites.size()), starts = read_rests(c.strain);
   const ModeInputs inputs{c.job,
                           c.sites,
                           c.component,
@@ -762,8 +746,7 @@ void judge(Context& c) {
   const SettledGroups group_of(c, c.sites, c.component);
   if (!c.planes->empty()) c.planes->apply(c.damage, group_of.count, group_of);
   settle(
-      c.damage, c.counters, group_of.count, group_of, [&](std::size_t site) { return c.strains_of(site); },
-      c.threads);
+      c.damage, c.counters, group_of.count, group_of, [&](std::size_t site) { return c.strains_of(site); }, c.threads);
 }
 
 /// Returns warnings where the job exceeds the tests from which its calibration was learned.
@@ -790,9 +773,8 @@ std::vector<pipeline::Warning> warnings_of(const Context& c, const std::vector<D
   std::map<std::string, pipeline::Warning> contradictions;  // sorted, without duplicates
   for (const std::string& name : c.sites.material().values) {
     const auto& packs = c.job.dresspacks;
-    if (std::any_of(packs.begin(), packs.end(), [&](const pipeline::MountedDresspack& mounted) {
-          return mounted.dresspack.hose_material == name;
-        }))
+    if (std::any_of(packs.begin(), packs.end(),
+                    [&](const pipeline::MountedDresspack& mounted) { return mounted.dresspack.hose_material == name; }))
       continue;
     const pipeline::Material& material = pipeline::material_of(c.job, name);
     if (!yields(c.job.fatigue.stress) || !material.strain_life_table.empty()) continue;
@@ -808,13 +790,15 @@ std::vector<pipeline::Warning> warnings_of(const Context& c, const std::vector<D
                                     [](pipeline::Slip slip) { return !slides(slip); });
     warnings.push_back(pipeline::warning_of(
         pipeline::WarningKind::strain, "",
-        fmt::format("{} of the cycles of {} tear it on their first reversal (strain range up to {:.3g}), in segment {} from the tool", torn,
-                    c.component[c.worst], c.damage.range[c.worst],
-                    static_cast<int>(c.segment_length.size()) - c.sites.segment(c.worst)),
+        fmt::format(
+            "{} of the cycles of {} tear it on their first reversal (strain range up to {:.3g}), in segment {} from the tool",
+            torn, c.component[c.worst], c.damage.range[c.worst],
+            static_cast<int>(c.segment_length.size()) - c.sites.segment(c.worst)),
         sticks ? "its parts stick to each other (strain.slip is stick)"
                : "the dresspack bends too tightly, or a lay is too long or missing",
-        sticks ? "strain.slip: friction"
-               : "a larger bend radius (see its warnings, or dresslife improve), or lay_angle_deg of its layers as measured"));
+        sticks
+            ? "strain.slip: friction"
+            : "a larger bend radius (see its warnings, or dresslife improve), or lay_angle_deg of its layers as measured"));
   }
   return pipeline::joined(warnings, beyond_calibration(c));
 }
@@ -836,13 +820,13 @@ Notes write_life(const FileReader& strain, const pipeline::Job& job, FileWriter&
   const std::vector<PlacesOfConductor> places =
       places_of(c.damage, c.component, conductors, segments,
                 [&](std::size_t site) { return static_cast<std::size_t>(c.sites.segment(site)); });
-  std::future<LifeScatter> scatter = pipeline::beside<LifeScatter>(
-      [&] { return life_scatter(conductors, places, segments, c.job.fatigue); });
+  std::future<LifeScatter> scatter =
+      pipeline::beside<LifeScatter>([&] { return life_scatter(conductors, places, segments, c.job.fatigue); });
   const ModeList modes(job, c.component);
-  const auto glued = write_bound(c, modes, "stick", pipeline::Slip::stick,
-                                 [&](double share) { progress((1 + share) / 3); });
-  const auto free = write_bound(c, modes, "free", pipeline::Slip::free,
-                                [&](double share) { progress((2 + share) / 3); });
+  const auto glued =
+      write_bound(c, modes, "stick", pipeline::Slip::stick, [&](double share) { progress((1 + share) / 3); });
+  const auto free =
+      write_bound(c, modes, "free", pipeline::Slip::free, [&](double share) { progress((2 + share) / 3); });
   const auto cycles = c.cycles_of(c.worst);
   write_sites(c);
   write_listed_cycles(c);
@@ -854,13 +838,15 @@ Notes write_life(const FileReader& strain, const pipeline::Job& job, FileWriter&
   const double p10_repeats = job.uncertainty.enabled ? first.percentiles[0] : lives.first_place.lives[0];
   write_scatter(c, conductors, lives, job.uncertainty.enabled ? &first : nullptr);
   const auto most = std::max_element(first.first.begin(), first.first.end());
-  write_first_place(c, conductors, lives.first_place, modes, static_cast<std::size_t>(most - first.first.begin()), p10_repeats);
+  write_first_place(c, conductors, lives.first_place, modes, static_cast<std::size_t>(most - first.first.begin()),
+                    p10_repeats);
   write_shear(c);
   write_program(c, cycles);
   write_causes(c, cycles, write_worst_strain(c));
   const std::string summary = write_worst(c, cycles, p10_repeats);
   const CableForces forces = write_cable_forces(strain, job, life);
-  return {pipeline::joined(forces.warnings, warnings_of(c, cycles)), summary + write_unvalidated(c, first.log10_life, forces.tension)};
+  return {pipeline::joined(forces.warnings, warnings_of(c, cycles)),
+          summary + write_unvalidated(c, first.log10_life, forces.tension)};
 }
 
 }  // namespace dresslife::fatigue

@@ -16,7 +16,8 @@ LogTable::LogTable(double low, double high, const std::function<Point(double)>& 
     const double x1 = node(cell + 1), h = x1 - x0;
     const Point end = at(x1);
     const double rise = end.y - begin.y;
-    cells_.push_back({{begin.y, h * begin.slope, 3 * rise - h * (2 * begin.slope + end.slope), h * (begin.slope + end.slope) - 2 * rise}});
+    cells_.push_back({{begin.y, h * begin.slope, 3 * rise - h * (2 * begin.slope + end.slope),
+                       h * (begin.slope + end.slope) - 2 * rise}});
     x0 = x1, begin = end;
   }
 }

@@ -31,9 +31,8 @@ pipeline::MemoryNeed memory_of(const pipeline::FileReader& strain, std::size_t t
   // Segment, offset and two indices of texts; damage, range and kind of each site; its life as written to the file.
   constexpr double of_a_site = 4 + 8 + 2 * 4 + 3 * 8 + 8;
   constexpr double of_a_bound_site = 4 + 8 + 2 * 4 + 2 * 8;
-  constexpr double of_a_turn = 2 * sizeof(float);  // a block, and the next one
-  constexpr double of_a_listed_turn =
-      2 * sizeof(Reversal) + 4 * sizeof(double);  // of one site with exact stress
+  constexpr double of_a_turn = 2 * sizeof(float);                                 // a block, and the next one
+  constexpr double of_a_listed_turn = 2 * sizeof(Reversal) + 4 * sizeof(double);  // of one site with exact stress
   const std::string bytes_of_sites = "fewer simulation.segments or strain.surface_fibres";
   const std::string sampling = "a lower simulation.sample_rate_Hz, or split the motion";
   const auto rows = [&](const char* dataset) {
@@ -50,8 +49,7 @@ pipeline::MemoryNeed memory_of(const pipeline::FileReader& strain, std::size_t t
   }
   pipeline::MemoryNeed need;
   need.add(program, "the program");
-  need.add(of_a_site * sites + of_a_bound_site * bound, fmt::format("{:.0f} sites", sites + bound),
-           bytes_of_sites);
+  need.add(of_a_site * sites + of_a_bound_site * bound, fmt::format("{:.0f} sites", sites + bound), bytes_of_sites);
   need.add(of_a_turn * block + of_a_listed_turn * longest * static_cast<double>(threads),
            "turning points being counted", sampling);
   const std::size_t samples = strain.rows("/time");
@@ -60,8 +58,7 @@ pipeline::MemoryNeed memory_of(const pipeline::FileReader& strain, std::size_t t
   // Per cable: three strains, both as read and separated; its force in memory and as written to the file.
   constexpr double of_a_cable = 2 * 3 + 2;
   constexpr double histories = 8;  // times, steps, damage by opening and closing, the worst wire's strain
-  need.add(static_cast<double>(samples) * (histories + 2 * joints + of_a_cable * rows("/cable/span")) *
-               sizeof(double),
+  need.add(static_cast<double>(samples) * (histories + 2 * joints + of_a_cable * rows("/cable/span")) * sizeof(double),
            fmt::format("histories of {} samples", samples), sampling);
   // Tables of sites are copied and checked in blocks of text and numbers.
   constexpr double table_block = (1 << 15) * 300.0;

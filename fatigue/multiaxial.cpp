@@ -11,8 +11,8 @@ double lean_of(int plane, int planes) { return std::numbers::pi * (double(plane)
 
 }  // namespace
 
-std::vector<double> plane_strain(std::span<const double> strain, std::span<const double> shear,
-                                 double poisson_ratio, double theta) {
+std::vector<double> plane_strain(std::span<const double> strain, std::span<const double> shear, double poisson_ratio,
+                                 double theta) {
   assert(strain.size() == shear.size());
   const double c = std::cos(theta), s = std::sin(theta);
   std::vector<double> result;
@@ -21,14 +21,12 @@ std::vector<double> plane_strain(std::span<const double> strain, std::span<const
   return result;
 }
 
-CriticalPlane critical_plane(std::span<const double> strain, std::span<const double> shear,
-                             double poisson_ratio, const DamageCounter& counter,
-                             DamageCounter::Workspace& workspace, int planes) {
+CriticalPlane critical_plane(std::span<const double> strain, std::span<const double> shear, double poisson_ratio,
+                             const DamageCounter& counter, DamageCounter::Workspace& workspace, int planes) {
   std::vector<std::vector<float>> reversals(planes);
   std::vector<StrainList> lists;
   for (int plane = 0; plane < planes; ++plane) {
-    for (const Reversal& reversal :
-         find_reversals(plane_strain(strain, shear, poisson_ratio, lean_of(plane, planes))))
+    for (const Reversal& reversal : find_reversals(plane_strain(strain, shear, poisson_ratio, lean_of(plane, planes))))
       reversals[plane].push_back(static_cast<float>(reversal.strain));
     lists.push_back({reversals[plane].data(), reversals[plane].size()});
   }

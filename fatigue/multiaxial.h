@@ -20,8 +20,8 @@
 namespace dresslife::fatigue {
 
 /// Returns eps_n of (F18), (sample).
-std::vector<double> plane_strain(std::span<const double> strain, std::span<const double> shear,
-                                 double poisson_ratio, double theta);
+std::vector<double> plane_strain(std::span<const double> strain, std::span<const double> shear, double poisson_ratio,
+                                 double theta);
 
 struct CriticalPlane {
   double theta = 0;   ///< angle of its normal to the axis, in [-pi/2, pi/2) [rad]
@@ -30,8 +30,7 @@ struct CriticalPlane {
 
 /// Returns the worst of `planes` planes, equally spaced over half a turn from theta = -pi/2. For even `planes` the plane across
 /// the axis is one of them. poisson_ratio: nu of the material.
-CriticalPlane critical_plane(std::span<const double> strain, std::span<const double> shear,
-                             double poisson_ratio, const DamageCounter& counter,
-                             DamageCounter::Workspace& workspace, int planes = 36);
+CriticalPlane critical_plane(std::span<const double> strain, std::span<const double> shear, double poisson_ratio,
+                             const DamageCounter& counter, DamageCounter::Workspace& workspace, int planes = 36);
 
 }  // namespace dresslife::fatigue

@@ -24,9 +24,8 @@ struct Place {
 };
 
 /// Returns all places that can fail, shortest life first.
-std::vector<Place> places_of(std::span<const PlacesOfConductor> places,
-                             std::span<const ConductorWires> bundles, std::size_t segments,
-                             double failed_percent) {
+std::vector<Place> places_of(std::span<const PlacesOfConductor> places, std::span<const ConductorWires> bundles,
+                             std::size_t segments, double failed_percent) {
   std::vector<Place> all;
   std::vector<double> damage;
   for (std::size_t conductor = 0; conductor < places.size(); ++conductor) {
@@ -40,8 +39,7 @@ std::vector<Place> places_of(std::span<const PlacesOfConductor> places,
       if (damage[count - 1] > 0) all.push_back({conductor, segment, -std::log(damage[count - 1])});
     }
   }
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Place& a, const Place& b) { return a.log_life < b.log_life; });
+  std::stable_sort(all.begin(), all.end(), [](const Place& a, const Place& b) { return a.log_life < b.log_life; });
   return all;
 }
 
@@ -70,8 +68,7 @@ class Places {
                          place.segment, pipeline::wires_of_share(failed_percent, wires), place.log_life};
     };
     least_ = neglected / double(all.size());
-    constexpr std::size_t soonest =
-        64;  // enough places to find the time by which the first has certainly failed
+    constexpr std::size_t soonest = 64;  // enough places to find the time by which the first has certainly failed
     for (std::size_t i = 0; i < std::min(soonest, all.size()); ++i) judged_.push_back(judged(all[i]));
     take_conductors(bundles);
     latest_ = latest_of_judged(all.front().log_life);
@@ -84,8 +81,7 @@ class Places {
                    : place.log_life > latest_ + haste)
         continue;
       JudgedPlace candidate = judged(place);
-      if (own_ > 0 && candidate.wires.failed(latest_ + haste, candidate.count, own_, memory) < least_)
-        continue;
+      if (own_ > 0 && candidate.wires.failed(latest_ + haste, candidate.count, own_, memory) < least_) continue;
       judged_.push_back(std::move(candidate));
     }
     take_conductors(bundles);
@@ -98,13 +94,11 @@ class Places {
     for (const JudgedPlace& conductor : anywhere_) {
       double none_of_it = 1;
       for (; place != judged_.end() && place->conductor == conductor.conductor; ++place) {
-        const double most =
-            double(place->wires.damaged()) * tabulated_normal((log_time - place->log_life) / own_);
+        const double most = double(place->wires.damaged()) * tabulated_normal((log_time - place->log_life) / own_);
         if (most > least_) none_of_it *= 1 - place->wires.failed(log_time, place->count, own_, memory);
       }
       if (none_of_it < 1)
-        none_of_it =
-            std::max(none_of_it, 1 - conductor.wires.failed(log_time, conductor.count, own_, memory));
+        none_of_it = std::max(none_of_it, 1 - conductor.wires.failed(log_time, conductor.count, own_, memory));
       none *= none_of_it;
       if (none < certain * certain) return 1;
     }
@@ -156,9 +150,8 @@ std::vector<double> median_place_lives(std::span<const PlacesOfConductor> places
   return lives;
 }
 
-FirstPlace first_place_lives(std::span<const PlacesOfConductor> places,
-                             std::span<const ConductorWires> bundles, std::size_t segments,
-                             double failed_percent, Scatter scatter, int draws) {
+FirstPlace first_place_lives(std::span<const PlacesOfConductor> places, std::span<const ConductorWires> bundles,
+                             std::size_t segments, double failed_percent, Scatter scatter, int draws) {
   assert(places.size() == bundles.size());
   FirstPlace result;
   result.lives.fill(infinity);
@@ -166,7 +159,8 @@ FirstPlace first_place_lives(std::span<const PlacesOfConductor> places,
   if (all.empty()) return result;
   std::vector<bool> seen(places.size());
   for (const Place& place : all)
-    if (!seen[place.conductor]) seen[place.conductor] = true, result.soonest.push_back({place.conductor, place.segment});
+    if (!seen[place.conductor])
+      seen[place.conductor] = true, result.soonest.push_back({place.conductor, place.segment});
   std::map<std::size_t, std::vector<Place>> of_dresspack;
   for (const Place& place : all) of_dresspack[bundles[place.conductor].dresspack].push_back(place);
 
@@ -191,18 +185,19 @@ FirstPlace first_place_lives(std::span<const PlacesOfConductor> places,
     std::vector<PlaceOfConductor> judged;
     for (const Places& dresspack : dresspacks)
       for (const JudgedPlace& place : dresspack.judged()) judged.push_back({place.conductor, place.segment});
-    result.lives = shared_place_lives(
-        bundles, judged, failed_percent, scatter, draws, [&](std::size_t conductor, std::size_t segment) {
-          return damage_at(places[conductor], segment, bundles[conductor].damage.size());
-        });
+    result.lives = shared_place_lives(bundles, judged, failed_percent, scatter, draws,
+                                      [&](std::size_t conductor, std::size_t segment) {
+                                        return damage_at(places[conductor], segment, bundles[conductor].damage.size());
+                                      });
     return result;
   }
   std::vector<LifeDistribution> each;
   for (const Places& dresspack : dresspacks)
-    each.emplace_back([&dresspack, memory = std::vector<double>()](
-                          double log_time) mutable { return dresspack.failed(log_time, memory); },
-                      own > 0 ? dresspack.earliest() : dresspack.latest(), dresspack.latest(),
-                      scatter.common() * std::numbers::ln10);
+    each.emplace_back(
+        [&dresspack, memory = std::vector<double>()](double log_time) mutable {
+          return dresspack.failed(log_time, memory);
+        },
+        own > 0 ? dresspack.earliest() : dresspack.latest(), dresspack.latest(), scatter.common() * std::numbers::ln10);
   result.lives = first_of(each);
   return result;
 }

@@ -35,9 +35,8 @@ struct FirstPlace {
 /// damage of its wires at their worst places, and with load sharing the rates. Then `draws` samples are used as in
 /// shared_lives(), without bounds. The places and times that are left out have together a probability of failure of at most
 /// 2 * `neglected`.
-FirstPlace first_place_lives(std::span<const PlacesOfConductor> places,
-                             std::span<const ConductorWires> bundles, std::size_t segments,
-                             double failed_percent, Scatter scatter, int draws);
+FirstPlace first_place_lives(std::span<const PlacesOfConductor> places, std::span<const ConductorWires> bundles,
+                             std::size_t segments, double failed_percent, Scatter scatter, int draws);
 constexpr double neglected = 1e-4;
 
 /// Returns the repeats until each conductor has lost this share in one of its segments, (conductor), if every wire has its median

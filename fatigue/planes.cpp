@@ -18,8 +18,8 @@ std::vector<double> row_of_floats(const std::vector<float>& rows, std::size_t ro
 
 }  // namespace
 
-JudgedPlanes::JudgedPlanes(const pipeline::FileReader& file, const SiteSet& sites,
-                           const SiteCounters& counters, const pipeline::Job& job, std::size_t threads)
+JudgedPlanes::JudgedPlanes(const pipeline::FileReader& file, const SiteSet& sites, const SiteCounters& counters,
+                           const pipeline::Job& job, std::size_t threads)
     : file_(file), sites_(sites), job_(job) {
   if (!file.has("/plane/site")) return;
   for (const std::uint32_t site : file.read<std::uint32_t>("/plane/site")) site_.push_back(site);
@@ -39,9 +39,8 @@ JudgedPlanes::JudgedPlanes(const pipeline::FileReader& file, const SiteSet& site
     pipeline::in_parallel(threads, [&](std::size_t part) {
       for (std::size_t row = part; row < count; row += threads) {
         const std::size_t site = site_[first + row];
-        plane_[first + row] =
-            critical_plane(row_of_floats(strain, row, samples), row_of_floats(shear, row, samples),
-                           poisson_ratio_of(site), counters.of(site), workspaces[part]);
+        plane_[first + row] = critical_plane(row_of_floats(strain, row, samples), row_of_floats(shear, row, samples),
+                                             poisson_ratio_of(site), counters.of(site), workspaces[part]);
       }
     });
   }
@@ -67,8 +66,7 @@ std::vector<double> JudgedPlanes::strain_of(std::size_t site) const {
   file_.read_rows("/plane/strain", row, 1, strain);
   file_.read_rows("/plane/shear", row, 1, shear);
   return plane_strain(std::vector<double>(strain.begin(), strain.end()),
-                      std::vector<double>(shear.begin(), shear.end()), poisson_ratio_of(site),
-                      plane_[row].theta);
+                      std::vector<double>(shear.begin(), shear.end()), poisson_ratio_of(site), plane_[row].theta);
 }
 
 void JudgedPlanes::apply(SiteDamage& all, std::size_t groups,

@@ -38,8 +38,7 @@ class JudgedPlanes {
   std::vector<double> strain_of(std::size_t site) const;
 
   /// Replaces the damage of the equivalent strain by (F21). group_of(site) < groups: its segment and layer.
-  void apply(SiteDamage& all, std::size_t groups,
-             const std::function<std::size_t(std::size_t)>& group_of) const;
+  void apply(SiteDamage& all, std::size_t groups, const std::function<std::size_t(std::size_t)>& group_of) const;
 
  private:
   std::size_t row_of(std::size_t site) const;

@@ -30,9 +30,9 @@ void append_alternating(std::vector<Reversal>& to, const Reversal& reversal) {
 std::optional<Reversal> ReversalFinder::push(double strain) {
   const Reversal now{strain, sample_++};
   if (!std::isfinite(strain)) {
-    throw pipeline::InputError(
-        {}, fmt::format("sample {} of a strain history is {} (must be finite)", now.sample, strain),
-        "repair the history; a gap cannot be counted over");
+    throw pipeline::InputError({},
+                               fmt::format("sample {} of a strain history is {} (must be finite)", now.sample, strain),
+                               "repair the history; a gap cannot be counted over");
   }
   if (now.sample == 0) return candidate_ = now;
   if (strain == candidate_.strain) return std::nullopt;
@@ -63,10 +63,9 @@ std::vector<Cycle> count_half_cycles(std::span<const Reversal> reversals) {
       bad < reversals.size())
     throw pipeline::InputError(
         {},
-        fmt::format(
-            "reversal {} of a strain history continues from {} to {} in the direction of the one before "
-            "(rises and falls must alternate)",
-            bad, reversals[bad - 1].strain, reversals[bad].strain),
+        fmt::format("reversal {} of a strain history continues from {} to {} in the direction of the one before "
+                    "(rises and falls must alternate)",
+                    bad, reversals[bad - 1].strain, reversals[bad].strain),
         "leave out what is no turn, or count the repeated history");
   std::vector<Cycle> cycles;
   std::vector<Reversal> open;
@@ -92,9 +91,9 @@ std::vector<Cycle> count_half_cycles(std::span<const Reversal> reversals) {
 
 std::vector<Reversal> rotate_to_largest(std::span<const Reversal> reversals) {
   assert(!reversals.empty());
-  const auto largest = std::max_element(
-      reversals.begin(), reversals.end(),
-      [](const Reversal& a, const Reversal& b) { return std::fabs(a.strain) < std::fabs(b.strain); });
+  const auto largest = std::max_element(reversals.begin(), reversals.end(), [](const Reversal& a, const Reversal& b) {
+    return std::fabs(a.strain) < std::fabs(b.strain);
+  });
   std::vector<Reversal> period;
   period.reserve(reversals.size() + 1);
   for (auto r = largest; r != reversals.end(); ++r) append_alternating(period, *r);

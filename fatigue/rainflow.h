@@ -33,9 +33,7 @@ struct Cycle {
   Reversal begin, end;
   double count = 1;  ///< 1, or 0.5 for a half cycle
 
-  double range() const {
-    return begin.strain < end.strain ? end.strain - begin.strain : begin.strain - end.strain;
-  }
+  double range() const { return begin.strain < end.strain ? end.strain - begin.strain : begin.strain - end.strain; }
   double mean() const { return begin.strain / 2 + end.strain / 2; }
 };
 

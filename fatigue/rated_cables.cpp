@@ -16,7 +16,8 @@ using pipeline::RigKind;
 
 constexpr std::size_t directions = 12;  // error of a range: 1 - cos(7.5 deg), of a damage: 4 % at m = 5
 
-using Damage = std::array<double, 3>;  // with the damage exponent one deviation below its median, at its median, one above
+using Damage =
+    std::array<double, 3>;  // with the damage exponent one deviation below its median, at its median, one above
 using Exponents = std::array<double, 3>;
 
 bool is_twisted(const Rating& rating) { return rating.rig.kind == RigKind::torsion; }
@@ -48,8 +49,7 @@ Sum sum_of(std::span<const double> history, const Exponents& exponents, double u
   if (reversals.size() < 2) return result;
   for (const Cycle& cycle : count_repeating(reversals)) {
     const double range = cycle.range() / unit;
-    for (std::size_t i = 0; i < exponents.size(); ++i)
-      result.sum[i] += cycle.count * std::pow(range, exponents[i]);
+    for (std::size_t i = 0; i < exponents.size(); ++i) result.sum[i] += cycle.count * std::pow(range, exponents[i]);
     if (range <= result.largest) continue;
     result.largest = range;
     const bool begins = std::abs(cycle.begin.strain) > std::abs(cycle.end.strain);
@@ -112,8 +112,7 @@ RatedLife rated_life(const pipeline::Component& cable, std::span<const SegmentMo
     Damage all{}, by_twist{};
     Sum bends, twists;
     if (life.bends) bends = bends_of(segments[k], exponents, bending.unit()), all = bending.damage(bends);
-    if (life.twists)
-      twists = sum_of(segments[k].twist, exponents, torsion.unit()), by_twist = torsion.damage(twists);
+    if (life.twists) twists = sum_of(segments[k].twist, exponents, torsion.unit()), by_twist = torsion.damage(twists);
     const bool twist_leads = by_twist[1] > all[1];
     for (std::size_t i = 0; i < all.size(); ++i) {
       all[i] += by_twist[i];

@@ -83,8 +83,7 @@ double mean_share(double repeats, double exponent) {
   if (repeats <= 1 || exponent == 0) return 1;
   if (std::isinf(repeats)) return 0;
   const double log_repeats = std::log(repeats), power = 1 + exponent;
-  const double rest =
-      std::fabs(power * log_repeats) < 1e-8 ? log_repeats : std::expm1(power * log_repeats) / power;
+  const double rest = std::fabs(power * log_repeats) < 1e-8 ? log_repeats : std::expm1(power * log_repeats) / power;
   return (1 + rest) / repeats;
 }
 

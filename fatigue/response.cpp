@@ -63,8 +63,8 @@ std::vector<std::size_t> worst_of(const std::vector<std::size_t>& wires, const s
 }
 
 /// Returns log10 of the shortest life, with exact relaxation of mean stress (F23) for the likely worst wires.
-double worst_life(const VariedStrains& at, const std::vector<std::size_t>& wires,
-                  const SiteCounters& counters, DamageCounter::Workspace& workspace) {
+double worst_life(const VariedStrains& at, const std::vector<std::size_t>& wires, const SiteCounters& counters,
+                  DamageCounter::Workspace& workspace) {
   const std::vector<double> rough = damage_of(at, wires, counters, workspace);
   double worst = 0;
   for (const std::size_t wire : worst_of(wires, rough, settled_wires))
@@ -95,7 +95,8 @@ std::vector<VariedStrains> read_variation_points(const pipeline::FileReader& str
     const auto inside = strain.read<std::int32_t>("/variation/inside");
     for (std::size_t v = 0; v < all.size(); ++v) {
       if (inside[v] < 0 || inside[v] >= std::int32_t(pipeline::inside_count))
-        throw pipeline::InputError(strain.where(), fmt::format("/variation/inside is {} (must be 0, 1 or 2)", inside[v]),
+        throw pipeline::InputError(strain.where(),
+                                   fmt::format("/variation/inside is {} (must be 0, 1 or 2)", inside[v]),
                                    "make the file again with dresslife-strain");
       all[v].inside = static_cast<pipeline::Inside>(inside[v]);
     }
@@ -145,8 +146,7 @@ std::vector<std::size_t> read_rests(const pipeline::FileReader& strain) {
   for (const std::int32_t rest : strain.read<std::int32_t>("/start/rest")) {
     if (rest < 0 || static_cast<std::size_t>(rest) >= strain.rows("/start/rest"))
       throw pipeline::InputError(
-          strain.where(),
-          fmt::format("/start/rest is {} (there are {} starts)", rest, strain.rows("/start/rest")),
+          strain.where(), fmt::format("/start/rest is {} (there are {} starts)", rest, strain.rows("/start/rest")),
           "make the file again with dresslife-strain");
     starts.resize(std::max(starts.size(), static_cast<std::size_t>(rest) + 1));
     ++starts[static_cast<std::size_t>(rest)];
@@ -175,14 +175,11 @@ void put_rests(pipeline::LifeResponse& response, std::span<const VariedStrains> 
   std::vector<std::size_t> point(starts.size(), 0), order;  // (rest)
   for (std::size_t v = 0; v < varied.size(); ++v)
     if (is_rest(varied[v])) point[varied[v].rest] = v + 1;
-  const auto life = [&](std::size_t at, std::size_t node) -> double& {
-    return response.worst_life[at * nodes + node];
-  };
+  const auto life = [&](std::size_t at, std::size_t node) -> double& { return response.worst_life[at * nodes + node]; };
   for (std::size_t rest = 0; rest < starts.size(); ++rest)
     if (rest == 0 || point[rest] > 0) order.push_back(rest);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return life(point[a], middle) < life(point[b], middle);
-  });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return life(point[a], middle) < life(point[b], middle); });
   double all = 0, before = 0;
   for (const std::size_t rest : order) all += static_cast<double>(starts[rest]);
   std::vector<double> score(starts.size());
@@ -203,10 +200,9 @@ void put_rests(pipeline::LifeResponse& response, std::span<const VariedStrains> 
   }
 }
 
-void fill_response(pipeline::LifeResponse& response, const VariedStrains& own,
-                   std::span<const VariedStrains> varied, const std::vector<std::size_t>& starts,
-                   const SiteSet& sites, const TextColumn& component, const pipeline::Job& job,
-                   std::size_t threads) {
+void fill_response(pipeline::LifeResponse& response, const VariedStrains& own, std::span<const VariedStrains> varied,
+                   const std::vector<std::size_t>& starts, const SiteSet& sites, const TextColumn& component,
+                   const pipeline::Job& job, std::size_t threads) {
   response.strength = strength_nodes, response.slope = slope_nodes;
   std::vector<const VariedStrains*> points{&own};
   response.points = {{}}, response.inside = {pipeline::Inside::as_is};
@@ -232,8 +228,7 @@ void fill_response(pipeline::LifeResponse& response, const VariedStrains& own,
       pipeline::Job moved = job;
       moved.fatigue.strength_factor *=
           parameters[index_of(pipeline::Uncertain::strength)].value(strength_nodes[node / slopes]);
-      moved.fatigue.slope_change +=
-          parameters[index_of(pipeline::Uncertain::slope)].value(slope_nodes[node % slopes]);
+      moved.fatigue.slope_change += parameters[index_of(pipeline::Uncertain::slope)].value(slope_nodes[node % slopes]);
       const PointCounters counters(sites, component, moved);
       for (std::size_t k = 0; k < points.size(); ++k)
         response.worst_life[k * nodes + node] = worst_life(*points[k], likely[k], counters.at(*points[k]), workspace);

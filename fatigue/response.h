@@ -34,10 +34,9 @@ std::vector<std::size_t> read_rests(const pipeline::FileReader& strain);
 
 /// Fills in log10 of the worst wire's life in repeats at every point and over strength and slope, (point, strength, slope). The
 /// first point is the job itself with its wires `own`. starts: (rest), see read_rests() and put_rests().
-void fill_response(pipeline::LifeResponse& response, const VariedStrains& own,
-                   std::span<const VariedStrains> varied, const std::vector<std::size_t>& starts,
-                   const SiteSet& sites, const TextColumn& component, const pipeline::Job& job,
-                   std::size_t threads);
+void fill_response(pipeline::LifeResponse& response, const VariedStrains& own, std::span<const VariedStrains> varied,
+                   const std::vector<std::size_t>& starts, const SiteSet& sites, const TextColumn& component,
+                   const pipeline::Job& job, std::size_t threads);
 
 /// (W40) Makes the lives at the rests of loose cables a parameter of the response. The z of a rest is the normal score of its
 /// life among those of all starts, minus the score of the job's own rest. The mean of the prior is reduced by the same score. The

@@ -39,8 +39,8 @@ double common_of(std::size_t dresspack, std::uint64_t draw, Scatter scatter) {
 }
 
 /// Computes the factors of the lives of a conductor's wires in one sample, (wire).
-void draw_factors(const ConductorWires& bundle, std::uint64_t first_stream, std::uint64_t draw,
-                  Scatter scatter, std::vector<double>& factors) {
+void draw_factors(const ConductorWires& bundle, std::uint64_t first_stream, std::uint64_t draw, Scatter scatter,
+                  std::vector<double>& factors) {
   factors.clear();
   const double common = common_of(bundle.dresspack, draw, scatter);
   for (std::size_t wire = 0; wire < bundle.damage.size(); ++wire)
@@ -48,8 +48,8 @@ void draw_factors(const ConductorWires& bundle, std::uint64_t first_stream, std:
 }
 
 /// Computes the lives at which 1, 2, ... `count` of wires with this damage have broken. rate: see ConductorWires.
-void order_breaks(std::span<const double> damage, std::span<const double> factors,
-                  std::span<const double> rate, std::size_t count, std::vector<double>& breaks) {
+void order_breaks(std::span<const double> damage, std::span<const double> factors, std::span<const double> rate,
+                  std::size_t count, std::vector<double>& breaks) {
   breaks.clear();
   for (std::size_t wire = 0; wire < damage.size(); ++wire)
     breaks.push_back(damage[wire] > 0 ? factors[wire] / damage[wire] : infinity);
@@ -97,8 +97,7 @@ FailureLives conductor_lives(const ConductorWires& bundle, double failed_percent
   return lives;
 }
 
-Percentiles first_conductor_lives(std::span<const ConductorWires> bundles, double failed_percent,
-                                  Scatter scatter) {
+Percentiles first_conductor_lives(std::span<const ConductorWires> bundles, double failed_percent, Scatter scatter) {
   struct Conductor {
     Wires wires;
     std::size_t count;
@@ -136,8 +135,7 @@ Percentiles first_conductor_lives(std::span<const ConductorWires> bundles, doubl
   return first_of(each);
 }
 
-SharedLives shared_lives(std::span<const ConductorWires> bundles, double failed_percent, Scatter scatter,
-                         int draws) {
+SharedLives shared_lives(std::span<const ConductorWires> bundles, double failed_percent, Scatter scatter, int draws) {
   SharedLives result;
   std::vector<double> first(draws, infinity), factors, breaks;
   std::uint64_t stream = 0;
@@ -159,9 +157,8 @@ SharedLives shared_lives(std::span<const ConductorWires> bundles, double failed_
   return result;
 }
 
-Percentiles shared_place_lives(std::span<const ConductorWires> bundles,
-                               std::span<const PlaceOfConductor> places, double failed_percent,
-                               Scatter scatter, int draws, const DamageAt& damage_at) {
+Percentiles shared_place_lives(std::span<const ConductorWires> bundles, std::span<const PlaceOfConductor> places,
+                               double failed_percent, Scatter scatter, int draws, const DamageAt& damage_at) {
   std::vector<std::uint64_t> stream;  // (conductor) first stream, as in shared_lives()
   std::uint64_t next = 0;
   for (const ConductorWires& bundle : bundles) {

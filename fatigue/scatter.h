@@ -45,8 +45,7 @@ struct ConductorWires {
 FailureLives conductor_lives(const ConductorWires& bundle, double failed_percent, Scatter scatter);
 
 /// Returns the life by which the first of several conductors has lost `failed_percent` of its wires.
-Percentiles first_conductor_lives(std::span<const ConductorWires> bundles, double failed_percent,
-                                  Scatter scatter);
+Percentiles first_conductor_lives(std::span<const ConductorWires> bundles, double failed_percent, Scatter scatter);
 
 /// Lives with load sharing: the remaining wires of a conductor take over the load of the broken wires (F16).
 struct SharedLives {
@@ -57,8 +56,7 @@ struct SharedLives {
 /// Returns lives with ConductorWires::rate, from `draws` samples of all wires with a fixed seed. With k wires broken every
 /// remaining wire is damaged rate[k] times as fast. In a time that runs faster by this factor the wires break as without
 /// sharing, so a sample gives all its breaks by one sort.
-SharedLives shared_lives(std::span<const ConductorWires> bundles, double failed_percent, Scatter scatter,
-                         int draws);
+SharedLives shared_lives(std::span<const ConductorWires> bundles, double failed_percent, Scatter scatter, int draws);
 
 /// A conductor in one segment.
 struct PlaceOfConductor {
@@ -68,9 +66,8 @@ using DamageAt = std::function<std::span<const double>(std::size_t conductor, st
 
 /// Returns the life by which the first of these places has lost `failed_percent` of its wires, from the samples of
 /// shared_lives(). The places of one conductor must be adjacent. damage_at: damage per repeat in one segment, (wire).
-Percentiles shared_place_lives(std::span<const ConductorWires> bundles,
-                               std::span<const PlaceOfConductor> places, double failed_percent,
-                               Scatter scatter, int draws, const DamageAt& damage_at);
+Percentiles shared_place_lives(std::span<const ConductorWires> bundles, std::span<const PlaceOfConductor> places,
+                               double failed_percent, Scatter scatter, int draws, const DamageAt& damage_at);
 
 /// Returns a number from the standard normal distribution. It depends only on the arguments, on every machine.
 double normal_of(std::uint64_t stream, std::uint64_t draw);

@@ -13,8 +13,7 @@ constexpr std::size_t block_rows = 1 << 15;  // rows of site tables: a few megab
 }  // namespace
 
 void in_blocks(std::size_t rows, const std::function<void(std::size_t, std::size_t)>& copy) {
-  for (std::size_t first = 0; first < rows; first += block_rows)
-    copy(first, std::min(block_rows, rows - first));
+  for (std::size_t first = 0; first < rows; first += block_rows) copy(first, std::min(block_rows, rows - first));
 }
 
 TextColumn read_column(const pipeline::FileReader& file, const std::string& dataset) {
@@ -46,14 +45,13 @@ void SiteSet::check(std::size_t segments) const {
   const auto outside = [&](std::int32_t s) { return s < 0 || static_cast<std::size_t>(s) >= segments; };
   if (const auto bad = std::find_if(segment_.begin(), segment_.end(), outside); bad != segment_.end()) {
     throw pipeline::InputError(
-        file_.where(), fmt::format("{}/site/segment names segment {} (there are {})", group_, *bad, segments),
-        remedy);
+        file_.where(), fmt::format("{}/site/segment names segment {} (there are {})", group_, *bad, segments), remedy);
   }
   if (offset_.empty() || offset_.front() != 0 || !std::is_sorted(offset_.begin(), offset_.end()) ||
       offset_.back() != file_.rows(group_ + "/reversal/strain")) {
     throw pipeline::InputError(
-        file_.where(),
-        fmt::format("{}/reversal/offset does not divide the turning points among the sites", group_), remedy);
+        file_.where(), fmt::format("{}/reversal/offset does not divide the turning points among the sites", group_),
+        remedy);
   }
 }
 
@@ -79,8 +77,7 @@ void SiteSet::check_materials(const pipeline::Job& job) const {
   for (const std::string& name : material_.values)
     if (!describes(name))
       throw pipeline::InputError(
-          file_.where(),
-          fmt::format("{}/site/material names '{}', which its job does not describe", group_, name),
+          file_.where(), fmt::format("{}/site/material names '{}', which its job does not describe", group_, name),
           "make the file again with dresslife-strain");
 }
 
@@ -95,8 +92,7 @@ void SiteSet::for_each_block(const Visit& visit) const {
   std::size_t begin = 0, end = 0;
   const auto read_ahead = [&] {  // reads the block after `end`
     if (end == size()) return;
-    file_.read_rows(group_ + "/reversal/strain", offset_[end], offset_[end_of_block(end)] - offset_[end],
-                    next);
+    file_.read_rows(group_ + "/reversal/strain", offset_[end], offset_[end_of_block(end)] - offset_[end], next);
   };
   for (read_ahead(); end < size(); begin = end) {
     std::swap(strains, next);
@@ -127,9 +123,8 @@ std::vector<Reversal> SiteSet::reversals_of(std::size_t site) const {
     if (samples[i] >= file_.length("sample") || (i > 0 && samples[i] <= samples[i - 1])) {
       throw pipeline::InputError(
           file_.where(),
-          fmt::format(
-              "{}/reversal/sample holds {} for a turning point of site {} (must rise and stay below {})",
-              group_, samples[i], site, file_.length("sample")),
+          fmt::format("{}/reversal/sample holds {} for a turning point of site {} (must rise and stay below {})",
+                      group_, samples[i], site, file_.length("sample")),
           "make the file again with dresslife-strain");
     }
     reversals.push_back({strains[i], samples[i]});

@@ -43,8 +43,7 @@ class SiteSet {
     std::span<const float> strains;
     std::span<const std::uint64_t> offset;  ///< (sites + 1) offsets in the file
     std::span<const float> strains_of(std::size_t site) const {
-      return strains.subspan(offset[site - begin] - offset[0],
-                             offset[site - begin + 1] - offset[site - begin]);
+      return strains.subspan(offset[site - begin] - offset[0], offset[site - begin + 1] - offset[site - begin]);
     }
     /// Returns `parts` + 1 sites that divide the block into parts with about equal numbers of reversals.
     std::vector<std::size_t> cuts(std::size_t parts) const;

@@ -54,8 +54,7 @@ StrainLife::StrainLife(const pipeline::Material& m, pipeline::MeanStress mean_st
       coffin_manson_(m.fatigue_strength / m.youngs_modulus, m.fatigue_strength_exponent, m.fatigue_ductility,
                      m.fatigue_ductility_exponent),
       swt_(m.fatigue_strength * m.fatigue_strength / m.youngs_modulus, 2 * m.fatigue_strength_exponent,
-           m.fatigue_strength * m.fatigue_ductility,
-           m.fatigue_strength_exponent + m.fatigue_ductility_exponent),
+           m.fatigue_strength * m.fatigue_ductility, m.fatigue_strength_exponent + m.fatigue_ductility_exponent),
       walker_power_(-(1 - m.walker_exponent.value_or(swt_walker_exponent)) / m.fatigue_strength_exponent) {}
 
 double StrainLife::reversals(const CycleLoad& load) const {
@@ -74,9 +73,8 @@ double StrainLife::reversals(const CycleLoad& load) const {
     }
     case pipeline::MeanStress::walker:
       if (load.stress_max <= 0) return infinity;
-      return bounded(
-          walker_stretch(load.stress_max, load.stress_mean) * coffin_manson_.inverse(load.strain_amplitude),
-          longest_);
+      return bounded(walker_stretch(load.stress_max, load.stress_mean) * coffin_manson_.inverse(load.strain_amplitude),
+                     longest_);
   }
   throw std::logic_error("no such rule of mean stress");
 }
@@ -112,8 +110,7 @@ double StrainLifeTable::cycles(double strain_amplitude) const {
   std::size_t i = 0;
   while (i + 1 < pieces_.size() && log_strain < pieces_[i + 1].log_strain) ++i;
   const Piece& piece = pieces_[i];
-  return bounded(2 * std::exp(piece.log_cycles + piece.slope * (log_strain - piece.log_strain)), longest_) /
-         2;
+  return bounded(2 * std::exp(piece.log_cycles + piece.slope * (log_strain - piece.log_strain)), longest_) / 2;
 }
 
 }  // namespace dresslife::fatigue

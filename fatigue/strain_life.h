@@ -47,8 +47,8 @@ struct CycleLoad {
 class StrainLife {
  public:
   /// Amplitudes up to `endurance_strain` do no damage. longest: largest 2N.
-  StrainLife(const pipeline::Material& material, pipeline::MeanStress mean_stress,
-             double endurance_strain = 0, double longest = most_reversals);
+  StrainLife(const pipeline::Material& material, pipeline::MeanStress mean_stress, double endurance_strain = 0,
+             double longest = most_reversals);
 
   double reversals(const CycleLoad& load) const;  ///< 2N; infinity if the load does no damage
   double damage(const CycleLoad& load) const;     ///< 1/N of one full cycle; 0 to 2
@@ -85,8 +85,7 @@ class StrainLife {
 class StrainLifeTable {
  public:
   /// Precondition: at least two points, strains falling, cycles rising.
-  explicit StrainLifeTable(const std::vector<pipeline::StrainLifePoint>& points,
-                           double longest = most_reversals);
+  explicit StrainLifeTable(const std::vector<pipeline::StrainLifePoint>& points, double longest = most_reversals);
   double cycles(double strain_amplitude) const;  ///< N; infinity if the load does no damage
   double damage(double strain_amplitude) const { return 1 / cycles(strain_amplitude); }
 

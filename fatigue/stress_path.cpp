@@ -47,8 +47,7 @@ double CyclicCurve::stress(double strain) const {
   double s = std::min(modulus_ * target, strength_ * std::pow(target, hardening_exponent_));
   for (;;) {
     const double plastic = std::pow(s / strength_, 1 / hardening_exponent_);
-    const double next =
-        s - (s / modulus_ + plastic - target) / (1 / modulus_ + plastic / (s * hardening_exponent_));
+    const double next = s - (s / modulus_ + plastic - target) / (1 / modulus_ + plastic / (s * hardening_exponent_));
     if (!(next < s)) break;
     s = next;
   }
@@ -63,12 +62,13 @@ std::optional<pipeline::Warning> compatibility_warning(const pipeline::Material&
   if (!differs(curve.hardening_exponent(), exponent) && !differs(curve.strength(), strength)) return {};
   return pipeline::warning_of(
       pipeline::WarningKind::material, "",
-      fmt::format("material {}: K' {:.4g} MPa and n' {:.3g} disagree with its strain-life curve, which gives {:.4g} MPa and "
-                  "{:.3g} (limit {:.0f} %)",
-                  m.name, curve.strength() / 1e6, curve.hardening_exponent(), strength / 1e6, exponent, 100 * agreement),
+      fmt::format(
+          "material {}: K' {:.4g} MPa and n' {:.3g} disagree with its strain-life curve, which gives {:.4g} MPa and "
+          "{:.3g} (limit {:.0f} %)",
+          m.name, curve.strength() / 1e6, curve.hardening_exponent(), strength / 1e6, exponent, 100 * agreement),
       "the six constants come from different test series",
-      fmt::format("cyclic_strength_MPa: {:.4g} and cyclic_hardening_exponent: {:.3g}, or leave both out", strength / 1e6,
-                  exponent));
+      fmt::format("cyclic_strength_MPa: {:.4g} and cyclic_hardening_exponent: {:.3g}, or leave both out",
+                  strength / 1e6, exponent));
 }
 
 double MemoryPath::on_curve(double input) const { return std::copysign(curve_(std::fabs(input)), input); }
@@ -81,8 +81,7 @@ double MemoryPath::go_to(double input) {
     return open_.back().response;
   }
   // The last point was not a reversal: the path continues in its direction.
-  if (open_.size() > 1 &&
-      (input > open_.back().input) == (open_.back().input > open_[open_.size() - 2].input)) {
+  if (open_.size() > 1 && (input > open_.back().input) == (open_.back().input > open_[open_.size() - 2].input)) {
     open_.pop_back();
   }
   while (open_.size() > 2) {

@@ -26,11 +26,9 @@ class CyclicCurve {
   /// Uses K' and n' of the material. Missing values follow from compatibility with (8), (F5): n' = b / c, K' = sf' / ef'^n'.
   explicit CyclicCurve(const pipeline::Material& material);
 
-  double strain(double stress) const;  ///< [1]
-  double stress(double strain) const;  ///< exact to rounding [Pa]
-  double stress_range(double strain_range) const {
-    return 2 * stress(strain_range / 2);
-  }  ///< of a branch (F3) [Pa]
+  double strain(double stress) const;                                                      ///< [1]
+  double stress(double strain) const;                                                      ///< exact to rounding [Pa]
+  double stress_range(double strain_range) const { return 2 * stress(strain_range / 2); }  ///< of a branch (F3) [Pa]
 
   double youngs_modulus() const { return modulus_; }                 ///< E [Pa]
   double strength() const { return strength_; }                      ///< K' [Pa]

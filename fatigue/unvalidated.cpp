@@ -47,8 +47,7 @@ class PatchCheck {
       : strain_(strain), group_(std::move(group)), place_(place) {}
 
   [[noreturn]] void refuse(const std::string& what) const {
-    throw pipeline::InputError(strain_.where(), group_ + ": " + what,
-                               "make the file again with dresslife-strain");
+    throw pipeline::InputError(strain_.where(), group_ + ": " + what, "make the file again with dresslife-strain");
   }
   /// Checks one patch. owner: number of its dresspack or cable in the file; owners: how many the file has.
   void see(std::size_t row, std::int32_t owner, std::size_t owners, double work) {
@@ -84,8 +83,7 @@ std::vector<std::vector<RubbedPatch>> patches_of(const FileReader& strain, std::
   for (std::size_t k = 0; k < work.size(); ++k) {
     const double* const p = &place[4 * k];
     check.see(k, dresspack[k], dresspacks, work[k]);
-    patches[static_cast<std::size_t>(dresspack[k])].push_back(
-        {p[0], p[1], p[2], p[3], obstacle[k], work[k], time[k]});
+    patches[static_cast<std::size_t>(dresspack[k])].push_back({p[0], p[1], p[2], p[3], obstacle[k], work[k], time[k]});
   }
   check.finish();
   return patches;
@@ -129,11 +127,14 @@ struct Search {
   }
 
   double repeat() const { return time.empty() ? 0 : time.back() - time.front(); }  ///< [s]
-  std::vector<double> never() const { return std::vector<double>(lives.size(), std::numeric_limits<double>::infinity()); }
+  std::vector<double> never() const {
+    return std::vector<double>(lives.size(), std::numeric_limits<double>::infinity());
+  }
 
   /// Returns lives over the samples of the validated modes. log10_spread: standard deviation of log10 of repeats, sampled
   /// independently of them. of: a part; modes with equal mode and part have the same samples of the spread.
-  std::vector<double> own_lives(const UnvalidatedMode& mode, double repeats, double log10_spread, const std::string& of = "") const {
+  std::vector<double> own_lives(const UnvalidatedMode& mode, double repeats, double log10_spread,
+                                const std::string& of = "") const {
     if (!std::isfinite(repeats)) return never();
     LifeResponse response;
     response.mode = mode.mode + of;
@@ -191,16 +192,15 @@ struct HoseMotion {
 
   HoseMotion(const FileReader& strain, std::size_t dresspack) {
     const auto curvature = strain.read<double>("/deformation/curvature"),
-               twist = strain.read<double>("/deformation/twist"),
-               length = strain.read<double>("/segment/length"), at = strain.read<double>("/segment/wires_at");
+               twist = strain.read<double>("/deformation/twist"), length = strain.read<double>("/segment/length"),
+               at = strain.read<double>("/segment/wires_at");
     const auto of = pipeline::dresspack_of_segments(strain);
     double end = 0;
     for (std::size_t k = 0; k < of.size(); ++k) {
       if (of[k] != dresspack) continue;
       SegmentMotion& segment = segments.emplace_back();
       for (std::size_t row = k; row < twist.size(); row += of.size()) {
-        segment.curvature1.push_back(curvature[2 * row]),
-            segment.curvature2.push_back(curvature[2 * row + 1]);
+        segment.curvature1.push_back(curvature[2 * row]), segment.curvature2.push_back(curvature[2 * row + 1]);
         segment.twist.push_back(twist[row]);
       }
       end += length[k];
@@ -227,8 +227,7 @@ std::string rating_words(const RatedLife& rated) {
 }
 
 /// Returns the share of the life after which abrasion is visible.
-double visible_from(const WornMaterial& material, const Abrasion& worn,
-                    const pipeline::Inspection& inspection) {
+double visible_from(const WornMaterial& material, const Abrasion& worn, const pipeline::Inspection& inspection) {
   const WornLayer& layer = material.layer;
   return layer.area(inspection.visible_depth_percent / 100 * layer.thickness, worn.arc) /
          layer.area(layer.thickness, worn.arc);
@@ -364,18 +363,20 @@ void find_corkscrews(Search& found, const std::vector<std::vector<double>>& tens
     mode.place = cable_in_words(found.job, found.strain.read<std::string>("/cable/name")[worst->cable]);
     mode.time = found.time[worst->sample];
     found.put_place(mode, d, worst->position, worst->sample);
-    mode.note = worst->margin < BoredCable::largest_margin
-                    ? fmt::format("Forces and twist {} times as large would wind it.",
-                                  pipeline::readable(worst->margin, 2))
-                    : "Neither its forces nor its twist would wind it.";
+    mode.note =
+        worst->margin < BoredCable::largest_margin
+            ? fmt::format("Forces and twist {} times as large would wind it.", pipeline::readable(worst->margin, 2))
+            : "Neither its forces nor its twist would wind it.";
     if (worst->turn_left > 0)
       mode.note += fmt::format(" A repeat leaves {} degrees of twist.",
                                pipeline::readable(180 / std::numbers::pi * worst->turn_left, 2));
     if (!worst->knows_turn)
-      mode.note += " The motion does not end in its first pose, so whether repeats add up to more twist is not evaluated.";
+      mode.note +=
+          " The motion does not end in its first pose, so whether repeats add up to more twist is not evaluated.";
     constexpr double spread = 0.3;  // deviation: stiffnesses of a cable are known to a factor of two; ESTIMATE
     std::vector<double> own = found.own_lives(mode, worst->repeats, spread);
-    const std::vector<double> stiffness = pipeline::standard_normals("margin of " + mode.mode + " " + mode.dresspack, own.size());
+    const std::vector<double> stiffness =
+        pipeline::standard_normals("margin of " + mode.mode + " " + mode.dresspack, own.size());
     for (std::size_t s = 0; s < own.size(); ++s)
       if (worst->margin * std::pow(10.0, spread * stiffness[s]) <= 1) own[s] = 0;  // in the first repeat
     found.put_lives(mode, std::move(own));
@@ -395,8 +396,8 @@ std::vector<SmoothTube> tubes_of(const pipeline::Dresspack& dresspack) {
     if (part->plain && part->plain->kind == pipeline::PlainKind::hose)
       tubes.push_back({part->name, part->helix_radius, pipeline::kink_radius(*part)});
   if (is_smooth_hose(dresspack))
-    tubes.push_back({"the hose", 0,
-                     pipeline::kink_radius(pipeline::Tube{dresspack.diameter, *dresspack.inner_diameter})});
+    tubes.push_back(
+        {"the hose", 0, pipeline::kink_radius(pipeline::Tube{dresspack.diameter, *dresspack.inner_diameter})});
   return tubes;
 }
 
@@ -437,33 +438,32 @@ void find_kinks(Search& found) {
     if (std::isfinite(bend.radius)) {
       const std::vector<double> scatter = pipeline::standard_normals(mode.mode + " of " + worst.name, own.size());
       for (std::size_t s = 0; s < own.size(); ++s)
-        if (mode.margin < std::pow(10.0, worst.kinks.log10_spread * scatter[s]))
-          own[s] = 0;  // in the first repeat
+        if (mode.margin < std::pow(10.0, worst.kinks.log10_spread * scatter[s])) own[s] = 0;  // in the first repeat
       found.put_place(mode, d, hose.position[bend.segment], bend.sample);
       mode.time = found.time[bend.sample];
       const bool spreads = worst.kinks.log10_spread > 0;
-      mode.note = fmt::format(
-          "Its tightest bend has a radius of {} mm. {} {} mm{}.", pipeline::readable(1e3 * radius_of(worst), 3),
-          spreads ? "By its two diameters half of such tubes kink at" : "Its maker allows",
-          pipeline::readable(1e3 * worst.kinks.median, 3), spreads ? "" : " or more");
+      mode.note = fmt::format("Its tightest bend has a radius of {} mm. {} {} mm{}.",
+                              pipeline::readable(1e3 * radius_of(worst), 3),
+                              spreads ? "By its two diameters half of such tubes kink at" : "Its maker allows",
+                              pipeline::readable(1e3 * worst.kinks.median, 3), spreads ? "" : " or more");
       constexpr double other_polymers = 5;  // times as large are the largest published radii (kink.h)
       if (spreads && mode.margin < other_polymers)
-        mode.note += " Tubes of PTFE with thick walls kink at up to five times that: give least_bend_radius_mm of such a hose.";
+        mode.note +=
+            " Tubes of PTFE with thick walls kink at up to five times that: give least_bend_radius_mm of such a hose.";
     }
     found.put_lives(mode, std::move(own));
   }
 }
 
 /// Returns the parts and modes of the job that have no life, in words. left_out: modes that this function does not determine.
-std::string not_evaluated(const FileReader& strain, const pipeline::Job& job, const std::vector<std::string>& left_out) {
+std::string not_evaluated(const FileReader& strain, const pipeline::Job& job,
+                          const std::vector<std::string>& left_out) {
   std::vector<std::string> names;
   const auto add = [&](const std::string& name) {
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   };
   const auto add_plain = [&](const pipeline::Component& part) {
-    const auto twisted = [](const pipeline::Rating& rating) {
-      return rating.rig.kind == pipeline::RigKind::torsion;
-    };
+    const auto twisted = [](const pipeline::Rating& rating) { return rating.rig.kind == pipeline::RigKind::torsion; };
     const auto of_twist = std::count_if(part.ratings.begin(), part.ratings.end(), twisted);
     if (part.plain->kind == pipeline::PlainKind::hose) return add("fatigue and pressure of " + part.name);
     if (part.ratings.empty()) return add(part.name);
@@ -485,8 +485,7 @@ std::string not_evaluated(const FileReader& strain, const pipeline::Job& job, co
     if (is_hose(dresspack) && dresspack.hose_material.empty()) add(UnvalidatedMode::wall);
     for (const pipeline::Component* const each : parts_of(dresspack)) {
       const pipeline::Component& part = *each;
-      if (part.components.empty() && !(part.plain && part.plain->kind == pipeline::PlainKind::cable))
-        continue;
+      if (part.components.empty() && !(part.plain && part.plain->kind == pipeline::PlainKind::cable)) continue;
       ++cables;
       // The work of a cable without friction is not in the file.
       const bool rubs = !part.components.empty() && strain.has(work_of_jackets) && part.friction.value_or(0) > 0;
@@ -511,12 +510,10 @@ std::string not_evaluated(const FileReader& strain, const pipeline::Job& job, co
 
 }  // namespace
 
-void set_lives(UnvalidatedMode& mode, std::vector<double> own, const std::vector<double>& lives,
-               double repeat) {
+void set_lives(UnvalidatedMode& mode, std::vector<double> own, const std::vector<double>& lives, double repeat) {
   std::vector<double> together(lives.size());
   std::size_t first = 0;
-  for (std::size_t s = 0; s < lives.size(); ++s)
-    first += own[s] < lives[s], together[s] = std::min(own[s], lives[s]);
+  for (std::size_t s = 0; s < lives.size(); ++s) first += own[s] < lives[s], together[s] = std::min(own[s], lives[s]);
   mode.first_share = static_cast<double>(first) / static_cast<double>(lives.size());
   const auto repeats = pipeline::percentiles_of(std::move(own));
   for (std::size_t i = 0; i < repeats.size(); ++i) mode.hours[i] = hours(repeats[i], repeat);

@@ -23,7 +23,8 @@ namespace dresslife::fatigue {
 namespace {
 
 using pipeline::Uncertain;
-using Parameters = std::vector<std::size_t>;  // indices of uncertain_parameters(); starts_parameter alone: another rest of the cables
+using Parameters =
+    std::vector<std::size_t>;  // indices of uncertain_parameters(); starts_parameter alone: another rest of the cables
 
 constexpr std::size_t starts_parameter = index_of(Uncertain::rest);
 
@@ -68,10 +69,15 @@ std::vector<VariedForces> read_forces(const pipeline::FileReader& strain, std::s
     of.moment_place = row_of<std::uint32_t>(strain, "/variation/clamp_moment_place", v);
     of.moment_tension = row_of<double>(strain, "/variation/clamp_moment_tension", v);
     bool known = std::ranges::all_of(of.sample, [&](std::uint32_t sample) { return sample < samples; });
-    for (std::size_t k = 0; k < of.moment_place.size(); ++k) known = known && of.moment_place[k] < (k % 2 == 0 ? samples : cables);
+    for (std::size_t k = 0; k < of.moment_place.size(); ++k)
+      known = known && of.moment_place[k] < (k % 2 == 0 ? samples : cables);
     if (!known)
-      throw pipeline::InputError(strain.where(), fmt::format("/variation/tension_sample or clamp_moment_place of variation {} has a sample or a cable that is not in the file", v + 1),
-                                 "make the file again with dresslife-strain");
+      throw pipeline::InputError(
+          strain.where(),
+          fmt::format(
+              "/variation/tension_sample or clamp_moment_place of variation {} has a sample or a cable that is not in the file",
+              v + 1),
+          "make the file again with dresslife-strain");
   }
   return all;
 }
@@ -103,8 +109,9 @@ Load moment_load(const VariedForces& at, const FileCables&) {
 /// One or two parameters whose other values exceed a limit.
 struct Cause {
   Parameters parameters;
-  double share = 0;      ///< of dresspacks beyond the limit by them
-  std::size_t at = 0;    ///< variation that exceeds the limit: the one nearest to the job, of two equally near ones the larger load
+  double share = 0;  ///< of dresspacks beyond the limit by them
+  std::size_t at =
+      0;  ///< variation that exceeds the limit: the one nearest to the job, of two equally near ones the larger load
   Load load{};
 };
 
@@ -131,8 +138,8 @@ std::string words_of(const pipeline::Job& job, const VariedForces& at) {
 /// One limit at all variations.
 class VariedLimit {
  public:
-  VariedLimit(const pipeline::FileReader& strain, const pipeline::Job& job, const std::vector<VariedForces>& all, double own,
-              const std::vector<Load>& loads)
+  VariedLimit(const pipeline::FileReader& strain, const pipeline::Job& job, const std::vector<VariedForces>& all,
+              double own, const std::vector<Load>& loads)
       : all_(all), loads_(loads), own_(own), knowledge_(knowledge_of_job(job)), starts_(read_rests(strain)) {
     std::map<Parameters, std::vector<std::size_t>> groups;
     for (std::size_t v = 0; v < all.size(); ++v)
@@ -167,7 +174,8 @@ class VariedLimit {
     std::optional<std::size_t> worst;
     for (const std::size_t v : variations) {
       if (loads_[v].load <= 1) continue;
-      if (!worst || std::pair(distance(v), -loads_[v].load) < std::pair(distance(*worst), -loads_[*worst].load)) worst = v;
+      if (!worst || std::pair(distance(v), -loads_[v].load) < std::pair(distance(*worst), -loads_[*worst].load))
+        worst = v;
     }
     if (!worst) return;
     double share = 0;
@@ -221,7 +229,8 @@ class VariedLimit {
 std::string share_text(const pipeline::Job& job, const VariedLimit& limit, const std::vector<VariedForces>& all) {
   std::vector<std::string> others;
   for (std::size_t k = 1; k < limit.causes().size(); ++k)
-    others.push_back(fmt::format("{} with {}", pipeline::percent_words(limit.causes()[k].share), words_of(job, all[limit.causes()[k].at])));
+    others.push_back(fmt::format("{} with {}", pipeline::percent_words(limit.causes()[k].share),
+                                 words_of(job, all[limit.causes()[k].at])));
   return fmt::format(
       "; about {} of such dresspacks exceed this limit{} (interpolated linearly in the distribution of the uncertain parameters); with the "
       "job's own values none does",
@@ -240,14 +249,17 @@ std::string slack_line(const CableFacts& facts, double by, const std::string& wh
 }
 
 /// Returns cause and remedy of a force at a variation. tension: of the cable [N].
-Cure cure_at(const pipeline::Job& job, const VariedForces& at, const CableFacts& facts, const pipeline::CableForce& force,
-             double tension) {
+Cure cure_at(const pipeline::Job& job, const VariedForces& at, const CableFacts& facts,
+             const pipeline::CableForce& force, double tension) {
   const auto& slack = pipeline::uncertain_parameters()[index_of(Uncertain::slack)];
   const double z = at.z[index_of(Uncertain::slack)], now = facts.slack_factor * facts.component->laying.slack;
   if (z != 0) {
-    const std::string line = slack_line(facts, 1 / slack.value(z), "then such a dresspack has the slack that keeps the limit now");
+    const std::string line =
+        slack_line(facts, 1 / slack.value(z), "then such a dresspack has the slack that keeps the limit now");
     if (!line.empty())
-      return {fmt::format("too {} slack: {:.3g} % instead of {:.3g} %", z < 0 ? "little" : "much", now * slack.value(z), now), line};
+      return {fmt::format("too {} slack: {:.3g} % instead of {:.3g} %", z < 0 ? "little" : "much", now * slack.value(z),
+                          now),
+              line};
   }
   if (at.z[index_of(Uncertain::friction_hose)] != 0 && tension > 0) {
     // With it `hard` at 2.83 times the friction pulls a cable with 0.03 instead of 0.25 of its breaking force.
@@ -260,15 +272,18 @@ Cure cure_at(const pipeline::Job& job, const VariedForces& at, const CableFacts&
 
 /// Returns the warning. cable: number of the cable that causes the load. what: part, value, limit, place and time.
 pipeline::Warning warning_at(const pipeline::Job& job, const FileCables& cables, const VariedLimit& limit,
-                             const std::vector<VariedForces>& all, std::size_t cable, double tension, const std::string& what) {
+                             const std::vector<VariedForces>& all, std::size_t cable, double tension,
+                             const std::string& what) {
   const Cause& cause = limit.causes().front();
   const VariedForces& at = all[cause.at];
   const Cure cure = cure_at(job, at, cables.facts[cable], cables.force[cable], tension);
   std::string remedy = cure.remedy;
   for (const std::size_t p : cause.parameters)
-    if (p != starts_parameter) remedy += pipeline::measurement_words(pipeline::uncertain_parameters()[p], job.uncertainty);
-  pipeline::Warning warning = pipeline::warning_of(pipeline::WarningKind::other_values, "",
-                                                   fmt::format("with {} {}{}", words_of(job, at), what, share_text(job, limit, all)), cure.cause, remedy);
+    if (p != starts_parameter)
+      remedy += pipeline::measurement_words(pipeline::uncertain_parameters()[p], job.uncertainty);
+  pipeline::Warning warning = pipeline::warning_of(
+      pipeline::WarningKind::other_values, "",
+      fmt::format("with {} {}{}", words_of(job, at), what, share_text(job, limit, all)), cure.cause, remedy);
   warning.amount = limit.share();
   return warning;
 }
@@ -299,10 +314,11 @@ std::vector<pipeline::Warning> varied_force_warnings(const pipeline::FileReader&
       const double tension = at.tension[cable], strength = cables.force[cable].strength();
       warnings.push_back(warning_at(
           job, cables, varied, all, cable, tension,
-          fmt::format("'{}' is {} with {:.0f} % of its breaking force: {} of {} N (limit {:.0f} %), {}, {}, which is unrealistic",
-                      cables.facts[cable].name, tension < 0 ? "compressed" : "pulled", 100 * std::abs(tension) / strength,
-                      pipeline::readable(std::abs(tension)), pipeline::readable(strength), 100 * limit, place_words(at.place[cable]),
-                      moment_of(strain, at.sample[cable]))));
+          fmt::format(
+              "'{}' is {} with {:.0f} % of its breaking force: {} of {} N (limit {:.0f} %), {}, {}, which is unrealistic",
+              cables.facts[cable].name, tension < 0 ? "compressed" : "pulled", 100 * std::abs(tension) / strength,
+              pipeline::readable(std::abs(tension)), pipeline::readable(strength), 100 * limit,
+              place_words(at.place[cable]), moment_of(strain, at.sample[cable]))));
     }
   }
   if (own.moment <= limit) {
@@ -314,11 +330,12 @@ std::vector<pipeline::Warning> varied_force_warnings(const pipeline::FileReader&
       const double tension = at.moment_tension[span];
       warnings.push_back(warning_at(
           job, cables, varied, all, cable, tension,
-          fmt::format("the cables bend a clamp with {:.2g} times the moment of the hose ({} of {} N m, limit {:g} times) {}, which is "
-                      "unrealistic; '{}' {} most, with {} N",
-                      at.moment[2 * span] / at.moment[2 * span + 1], pipeline::readable(at.moment[2 * span]),
-                      pipeline::readable(at.moment[2 * span + 1]), limit, moment_of(strain, at.moment_place[2 * span]),
-                      cables.facts[cable].name, tension < 0 ? "presses" : "pulls", pipeline::readable(std::abs(tension)))));
+          fmt::format(
+              "the cables bend a clamp with {:.2g} times the moment of the hose ({} of {} N m, limit {:g} times) {}, which is "
+              "unrealistic; '{}' {} most, with {} N",
+              at.moment[2 * span] / at.moment[2 * span + 1], pipeline::readable(at.moment[2 * span]),
+              pipeline::readable(at.moment[2 * span + 1]), limit, moment_of(strain, at.moment_place[2 * span]),
+              cables.facts[cable].name, tension < 0 ? "presses" : "pulls", pipeline::readable(std::abs(tension)))));
     }
   }
   return warnings;

@@ -56,8 +56,8 @@ std::size_t SiteDamage::worst_wall() const {
   return worst_by_group(*this, 1, [&](std::size_t site) { return is_wire(site) ? no_site : 0; }).front();
 }
 
-SiteCounters::SiteCounters(const SiteSet& sites, const TextColumn& component, const pipeline::Job& job,
-                           double longest, Compression compression)
+SiteCounters::SiteCounters(const SiteSet& sites, const TextColumn& component, const pipeline::Job& job, double longest,
+                           Compression compression)
     : component_(component.index), material_(sites.material().index) {
   sites.check_materials(job);
   std::vector<int> wall_of_dresspack;
@@ -65,8 +65,8 @@ SiteCounters::SiteCounters(const SiteSet& sites, const TextColumn& component, co
     const bool walled = !mounted.dresspack.hose_material.empty();
     wall_of_dresspack.push_back(walled ? static_cast<int>(wall_.size()) : -1);
     if (walled)
-      wall_.emplace_back(pipeline::hose_material_of(job, mounted.dresspack), job.fatigue,
-                         pipeline::instruction_set(), longest, compression);
+      wall_.emplace_back(pipeline::hose_material_of(job, mounted.dresspack), job.fatigue, pipeline::instruction_set(),
+                         longest, compression);
   }
   for (const std::string& path : component.values) {
     const PathInJob place = path_in_job(job, path);
@@ -74,8 +74,8 @@ SiteCounters::SiteCounters(const SiteSet& sites, const TextColumn& component, co
     wall_of_component_.push_back(wall ? wall_of_dresspack[place.dresspack] : -1);
   }
   for (const std::string& name : sites.material().values)
-    by_material_.emplace_back(pipeline::material_of(job, name), job.fatigue, pipeline::instruction_set(),
-                              longest, compression);
+    by_material_.emplace_back(pipeline::material_of(job, name), job.fatigue, pipeline::instruction_set(), longest,
+                              compression);
 }
 
 const DamageCounter& SiteCounters::of(std::size_t site) const {
@@ -148,8 +148,7 @@ void settle(SiteDamage& all, const SiteCounters& counters, std::size_t groups,
   if (!counters.settle()) return;
   const std::vector<std::size_t> worst = worst_by_group(all, groups, group_of);
   std::vector<std::vector<float>> strains;  // read on one thread, because the file must not be shared
-  for (const std::size_t site : worst)
-    strains.push_back(site == no_site ? std::vector<float>() : strains_of(site));
+  for (const std::size_t site : worst) strains.push_back(site == no_site ? std::vector<float>() : strains_of(site));
   std::vector<double> settled(groups, 0.0);
   std::vector<DamageCounter::Workspace> workspaces(threads);
   pipeline::in_parallel(threads, [&](std::size_t part) {
@@ -187,8 +186,7 @@ PathInJob path_in_job(const pipeline::Job& job, const std::string& component) {
     if (component == name) return {d, ""};  // its wires form one conductor
     if (component.starts_with(name + "/")) return {d, component.substr(name.size() + 1)};
   }
-  throw pipeline::InputError({},
-                             fmt::format("component '{}' lies in none of the job's dresspacks", component),
+  throw pipeline::InputError({}, fmt::format("component '{}' lies in none of the job's dresspacks", component),
                              "make the strain file again with dresslife-strain");
 }
 

@@ -35,7 +35,8 @@ LifeResponse wall_response(std::span<const Reversal> worst_place, const pipeline
     const DamageCounter counter(changed(material, stronger), job.fatigue, pipeline::instruction_set(),
                                 2 * std::pow(10, LifeResponse::undamaged));
     const double damage = sum_of_damage(counter.cycles(worst_place));
-    response.worst_life.push_back(damage > 0 ? std::min(-std::log10(damage), LifeResponse::undamaged) : LifeResponse::undamaged);
+    response.worst_life.push_back(damage > 0 ? std::min(-std::log10(damage), LifeResponse::undamaged)
+                                             : LifeResponse::undamaged);
   }
   const double median = response.worst_life[response.strength.size() / 2];
   response.bound.fill(median);

@@ -23,7 +23,8 @@ struct Job;
 namespace dresslife::fatigue {
 
 /// Returns the response (F37). worst_place: reversals of the wall's worst place in one repeat.
-pipeline::LifeResponse wall_response(std::span<const Reversal> worst_place, const pipeline::Job& job, std::size_t dresspack);
+pipeline::LifeResponse wall_response(std::span<const Reversal> worst_place, const pipeline::Job& job,
+                                     std::size_t dresspack);
 
 /// Returns by the wall's law, with its median strength, the number of bends of a straight hose to its bend radius limit; 0
 /// without measured points.

@@ -19,8 +19,7 @@ bool is_ring(const std::string& obstacle) { return obstacle.starts_with("ring ")
 
 Counterface counterface(const std::string& obstacle) {
   if (is_ring(obstacle)) return Counterface::ring;
-  for (const Counterface one :
-       {Counterface::floor, Counterface::dresspack, Counterface::cell, Counterface::hose})
+  for (const Counterface one : {Counterface::floor, Counterface::dresspack, Counterface::cell, Counterface::hose})
     if (obstacle == word(one)) return one;
   return Counterface::robot;
 }
@@ -58,8 +57,8 @@ struct Grid {
     for (std::vector<double>* of : {&field.volume, &field.largest, &field.time}) of->resize(cells);
     const auto sector = static_cast<std::size_t>(patch.angle / width);
     const double from = (patch.position - patch.length / 2) / length, to = from + patch.length / length;
-    for (auto cell = static_cast<std::size_t>(std::max(0.0, from));
-         cell < cells && static_cast<double>(cell) < to; ++cell) {
+    for (auto cell = static_cast<std::size_t>(std::max(0.0, from)); cell < cells && static_cast<double>(cell) < to;
+         ++cell) {
       const auto begin = static_cast<double>(cell);
       const double share = (std::min(to, begin + 1) - std::max(from, begin)) / (to - from);
       const double volume = rate * patch.work * share;
@@ -79,12 +78,10 @@ struct Grid {
   void spread(Field& field, std::size_t wide) const {
     std::vector<double> sum(cells + 1);
     for (std::size_t sector = 0; sector < sectors; ++sector) {
-      for (std::size_t cell = 0; cell < cells; ++cell)
-        sum[cell + 1] = sum[cell] + field.area[at(cell, sector)];
+      for (std::size_t cell = 0; cell < cells; ++cell) sum[cell + 1] = sum[cell] + field.area[at(cell, sector)];
       for (std::size_t cell = 0; cell < cells; ++cell) {
         const std::size_t first = first_of(wide, cell);
-        field.area[at(cell, sector)] =
-            std::max(0.0, sum[first + wide] - sum[first]) / static_cast<double>(wide);
+        field.area[at(cell, sector)] = std::max(0.0, sum[first + wide] - sum[first]) / static_cast<double>(wide);
       }
     }
   }
@@ -95,8 +92,7 @@ struct Grid {
 double WornLayer::area(double depth, double arc) const {
   constexpr double cap = 4.0 / 3;
   if (crest == 0) return depth * (arc + cap * std::sqrt(2 * radius * depth));
-  return depth *
-         (std::numbers::pi * depth * std::sqrt(radius * crest) + cap * arc * std::sqrt(2 * crest * depth)) /
+  return depth * (std::numbers::pi * depth * std::sqrt(radius * crest) + cap * arc * std::sqrt(2 * crest * depth)) /
          pitch;
 }
 
@@ -116,8 +112,7 @@ std::optional<WornMaterial> worn_of(const pipeline::Dresspack& dresspack) {
   return worn;
 }
 
-std::optional<WornMaterial> jacket_of(const pipeline::Dresspack& dresspack,
-                                      const pipeline::Component& cable) {
+std::optional<WornMaterial> jacket_of(const pipeline::Dresspack& dresspack, const pipeline::Component& cable) {
   if (!cable.jacket) return {};
   const pipeline::Material* const material = find_material(dresspack, cable.jacket->material);
   if (!material || material->wear.empty()) return {};
@@ -140,15 +135,12 @@ Abrasion abrasion(const WornMaterial& worn, const std::vector<RubbedPatch>& patc
   const WornLayer& layer = worn.layer;
   const Grid grid(patches, 2 * layer.radius);
   const auto footprint = [&](const std::string& obstacle) {
-    const double share = is_ring(obstacle)                     ? at_rings
-                         : obstacle == word(Counterface::hose) ? in_hose
-                                                               : on_links;
+    const double share = is_ring(obstacle) ? at_rings : obstacle == word(Counterface::hose) ? in_hose : on_links;
     return grid.cells_of(share * 2 * layer.radius);
   };
   std::map<std::string, Field> fields;
   for (const RubbedPatch& patch : patches)
-    grid.add(fields[patch.obstacle], patch,
-             worn.warm.factor * wear_rate(*worn.material, patch.obstacle).rate);
+    grid.add(fields[patch.obstacle], patch, worn.warm.factor * wear_rate(*worn.material, patch.obstacle).rate);
   std::vector<double> all(grid.cells * grid.sectors);
   for (auto& [obstacle, field] : fields) {
     grid.spread(field, footprint(obstacle));
@@ -188,9 +180,9 @@ Abrasion abrasion(const WornMaterial& worn, const std::vector<RubbedPatch>& patc
   worst.arc = arc[worst_arc];
   // The area is a power of the thickness, which is nearly constant within the spread.
   const double power = std::log2(layer.area(layer.thickness * 2, worst.arc) / through[worst_arc]);
-  worst.log10_spread = std::hypot(
-      std::hypot(std::log10(wear_rate(*worn.material, worst.obstacle).factor), power * thickness_spread),
-      worn.warm.log10_spread);
+  worst.log10_spread =
+      std::hypot(std::hypot(std::log10(wear_rate(*worn.material, worst.obstacle).factor), power * thickness_spread),
+                 worn.warm.log10_spread);
   return worst;
 }
 

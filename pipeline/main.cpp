@@ -67,12 +67,11 @@ int main(int argc, char** argv) {
   settle_streams();
   return guarded("dresslife", [&] {
     if (argc > 1 && std::string_view(argv[1]) == "import") return import_program(argv + 1);
-    Command program{
-        .name = "dresslife",
-        .purpose =
-            "How long does a robot's dresspack live under its programs, which wire breaks, where, and "
-            "which motion does it?",
-        .example = "dresslife run two_robots"};
+    Command program{.name = "dresslife",
+                    .purpose =
+                        "How long does a robot's dresspack live under its programs, which wire breaks, where, and "
+                        "which motion does it?",
+                    .example = "dresslife run two_robots"};
     bool force = false;
     program.commands = commands(program, force);
     const Command* called = nullptr;

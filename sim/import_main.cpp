@@ -43,8 +43,8 @@ struct Request {
 constexpr double shortest_cycle = 5;  // [s] of motion: shorter cycles count as several together
 
 /// "NAME=VALUE" cut at its first or last '='.
-std::pair<std::string, std::string> halves(const std::string& option, const std::string& written,
-                                           std::size_t equals, const std::string& example) {
+std::pair<std::string, std::string> halves(const std::string& option, const std::string& written, std::size_t equals,
+                                           const std::string& example) {
   if (equals == std::string::npos || equals == 0 || equals + 1 == written.size())
     throw pipeline::InputError({option + " " + written}, "has nothing before or behind '='",
                                "write for example " + option + " " + example);
@@ -54,8 +54,7 @@ std::pair<std::string, std::string> halves(const std::string& option, const std:
 pipeline::Motion motion_asked_for(const Request& request, const std::filesystem::path& program) {
   pipeline::Motion motion;
   if (!request.frames.empty()) motion = pipeline::motion_from(pipeline::read_yaml(request.frames));
-  if (!request.answers.empty() && std::filesystem::exists(request.answers))
-    sim::add_answers(request.answers, motion);
+  if (!request.answers.empty() && std::filesystem::exists(request.answers)) sim::add_answers(request.answers, motion);
   motion.program = program;
   const std::filesystem::path input = std::filesystem::absolute(program).lexically_normal();
   motion.source = "imported from " + (input.has_filename() ? input : input.parent_path()).filename().string();
@@ -93,8 +92,7 @@ bool all_are_empty(const std::vector<sim::Problem>& problems, const pipeline::Mo
 std::filesystem::path free_name(const std::filesystem::path& wanted) {
   std::filesystem::path name = wanted;
   for (int number = 2; std::filesystem::exists(std::filesystem::symlink_status(name)); ++number)
-    name = wanted.parent_path() /
-           fmt::format("{}-{}{}", wanted.stem().string(), number, wanted.extension().string());
+    name = wanted.parent_path() / fmt::format("{}-{}{}", wanted.stem().string(), number, wanted.extension().string());
   return name;
 }
 
@@ -177,7 +175,8 @@ sim::LogOptions log_options(const Request& request) {
       if (!(options.rate > 0 && std::isfinite(options.rate)))
         throw pipeline::InputError(where, "is no rate", "give the rows per second: --value rate_Hz=10");
     } else {
-      throw pipeline::InputError(where, "is no value of a log", "give unit=deg, unit=rad, joints=NAME,NAME,.. or rate_Hz=10");
+      throw pipeline::InputError(where, "is no value of a log",
+                                 "give unit=deg, unit=rad, joints=NAME,NAME,.. or rate_Hz=10");
     }
   }
   return options;
@@ -210,17 +209,20 @@ void note_log(const Request& request, const pipeline::StageCall& call, pipeline:
   if (!call.quiet)
     for (const std::string& line : sim::read_words(log, course)) fmt::print("{}\n", line);
   if (motions.empty())
-    throw pipeline::InputError({call.input.string()}, fmt::format("the robot does not move by more than {} deg", request.smooth_deg),
+    throw pipeline::InputError({call.input.string()},
+                               fmt::format("the robot does not move by more than {} deg", request.smooth_deg),
                                "name a log of a robot that moves");
   const std::filesystem::path beside = call.output.parent_path(), folder = beside / name;
   std::vector<std::pair<std::filesystem::path, std::string>> files;
-  for (const sim::LogMotion& motion : motions) files.emplace_back(folder / (motion.name + ".csv"), sim::motion_csv(motion));
+  for (const sim::LogMotion& motion : motions)
+    files.emplace_back(folder / (motion.name + ".csv"), sim::motion_csv(motion));
   const std::filesystem::path base = ".." / pipeline::as_seen_from(beside.empty() ? "." : beside, request.log);
   files.emplace_back(folder / "study.yaml", sim::study_text(name, base, log, open_mounting(job), motions));
   files.emplace_back(call.output, sim::duty_text(name, name + "/study.yaml", course, motions));
   for (const auto& [file, text] : files) pipeline::check_replaceable(file);
   std::filesystem::create_directories(folder);
-  for (const auto& [file, text] : files) pipeline::write_text_if_changed(file, pipeline::with_mark(text, pipeline::Mark::yaml));
+  for (const auto& [file, text] : files)
+    pipeline::write_text_if_changed(file, pipeline::with_mark(text, pipeline::Mark::yaml));
   if (call.quiet) return;
   for (const std::string& line : sim::log_words(log, course, cycles, motions)) fmt::print("{}\n", line);
   fmt::print("Next: dresslife duty {}\n", call.output.string());
@@ -245,26 +247,22 @@ int main(int argc, char** argv) {
            "where to start, with arguments where it takes some: 'name(1, p20)'; without it "
            "main, or the first routine",
            &request.routine},
-          {"--answers", "FILE.yaml",
-           "what the program asks: written there to be filled in, read where the file exists",
+          {"--answers", "FILE.yaml", "what the program asks: written there to be filled in, read where the file exists",
            &request.answers},
           {"--assume", "LINE=then|else|VALUE",
            "one answer: how a branch goes that depends on inputs, or the value by which a "
            "choice of several goes; LINE may be FILE:LINE",
            &request.assume},
           {"--module", "FILE", "a further module, data file or called program", &request.modules},
-          {"--frames", "FILE.yaml", "answers: tools and work_objects that lie in the controller",
-           &request.frames},
+          {"--frames", "FILE.yaml", "answers: tools and work_objects that lie in the controller", &request.frames},
           {"--value", "NAME=VALUE",
-           "one answer: an input, register, variable or position that only the running robot knows",
-           &request.values},
+           "one answer: an input, register, variable or position that only the running robot knows", &request.values},
           {"--passes",
            "N",
            "of an endless main loop; without it until the program repeats itself",
            &request.passes,
            {.range = {{1, 1'000'000'000}}}},
-          {"--explain", "",
-           "print each move with tool, work object, speed and zone, and where each comes from",
+          {"--explain", "", "print each move with tool, work object, speed and zone, and where each comes from",
            &request.explain},
           {"--ways", "life.h5",
            "instead: what the lines of the job's program could do instead, as its dresspack's life says what each "
@@ -276,15 +274,28 @@ int main(int argc, char** argv) {
            &request.lines,
            {.range = {{0, 1000}}, .needs = "--ways"}},
           {"--log", "JOB.yaml",
-           "instead: the cycles and the rest of a log as a study and a duty of this job's robot, dresspack and routing", &request.log},
-          {"--smooth", "DEG", "with --log: largest distance of the motion from a row, and of rows of a standstill",
-           &request.smooth_deg, {.range = {{1e-4, 5}}, .needs = "--log"}},
-          {"--alike", "DEG", "with --log: largest difference of cycles that count as one", &request.alike_deg,
+           "instead: the cycles and the rest of a log as a study and a duty of this job's robot, dresspack and routing",
+           &request.log},
+          {"--smooth",
+           "DEG",
+           "with --log: largest distance of the motion from a row, and of rows of a standstill",
+           &request.smooth_deg,
+           {.range = {{1e-4, 5}}, .needs = "--log"}},
+          {"--alike",
+           "DEG",
+           "with --log: largest difference of cycles that count as one",
+           &request.alike_deg,
            {.range = {{1e-3, 20}}, .needs = "--log"}},
-          {"--warp", "PERCENT", "with --log: largest difference of their times", &request.warp_percent,
+          {"--warp",
+           "PERCENT",
+           "with --log: largest difference of their times",
+           &request.warp_percent,
            {.range = {{0, 50}}, .needs = "--log"}},
-          {"--recordings", "COUNT", "with --log: motions of one cycle that are simulated, at most, and at most three if they take more than 600 s together; their damages show how well its damage is known",
-           &request.recordings, {.range = {{1, 20}}, .needs = "--log"}}}};
+          {"--recordings",
+           "COUNT",
+           "with --log: motions of one cycle that are simulated, at most, and at most three if they take more than 600 s together; their damages show how well its damage is known",
+           &request.recordings,
+           {.range = {{1, 20}}, .needs = "--log"}}}};
   return pipeline::run_stage(
       info, argc, argv, [&request](const pipeline::StageCall& call, pipeline::Progress& progress) {
         if (!request.ways.empty()) return note_ways(request, call);
@@ -303,7 +314,6 @@ int main(int argc, char** argv) {
         pipeline::write_text_if_changed(
             call.output,
             pipeline::with_mark(pipeline::motion_text(sim::motion_of(program, asked)), pipeline::Mark::yaml));
-        progress.note(
-            fmt::format("{}: {} moves and dwells", call.output.string(), program.instructions.size()));
+        progress.note(fmt::format("{}: {} moves and dwells", call.output.string(), program.instructions.size()));
       });
 }

@@ -41,15 +41,13 @@ bool written_without_run(const Request& request, const pipeline::StageCall& call
                          pipeline::Progress& progress) {
   if (!request.preview && request.screen.empty() && !request.propose) return false;
   if (job.motion.is_prescribed())
-    throw pipeline::InputError(job.motion.where,
-                               "a prescribed deformation has no cell to preview (nothing moves)",
+    throw pipeline::InputError(job.motion.where, "a prescribed deformation has no cell to preview (nothing moves)",
                                "run it, and look at its page");
   if (request.exercise) job.motion = sim::exercise(job.robot);
   if (request.bracket_mm)
     for (pipeline::MountedDresspack& mounted : job.dresspacks)
       mounted.routing.longest_bracket = *request.bracket_mm / 1e3;
-  pipeline::FileWriter file(call.output,
-                            request.preview ? pipeline::preview_format() : pipeline::screening_format());
+  pipeline::FileWriter file(call.output, request.preview ? pipeline::preview_format() : pipeline::screening_format());
   if (request.preview) {
     sim::write_preview(job, file);
   } else if (!request.screen.empty()) {
@@ -66,7 +64,9 @@ bool written_without_run(const Request& request, const pipeline::StageCall& call
 }
 
 void write_duration(const pipeline::StageCall& call, const pipeline::Job& job) {
-  if (job.motion.is_prescribed()) throw pipeline::InputError(job.motion.where, "a prescribed deformation has no path whose duration is computed", "run it");
+  if (job.motion.is_prescribed())
+    throw pipeline::InputError(job.motion.where, "a prescribed deformation has no path whose duration is computed",
+                               "run it");
   const auto path = sim::path_of(job);
   const double rate = job.simulation.sample_rate, seconds = sim::intervals(path->duration(), rate) / rate;
   std::string text = fmt::format("repeat_seconds: {}\n", seconds);
@@ -103,12 +103,11 @@ void simulate(const pipeline::StageCall& call, const pipeline::Job& job, pipelin
   };
   const sim::RunSummary summary = simulation.run({add, begin, [&](double share) { progress.show(share); }});
   motion->finish(summary, [&](double time) { return simulation.path().step(time); });
-  const std::vector<pipeline::Warning> refused =
-      pipeline::joined(sim::other_side_warnings(job, summary.time_step, ends), sim::write_other_stiffnesses(job, summary, *file));
+  const std::vector<pipeline::Warning> refused = pipeline::joined(
+      sim::other_side_warnings(job, summary.time_step, ends), sim::write_other_stiffnesses(job, summary, *file));
   for (const std::string& note : {sim::repeats_note(summary), simulation.program_note()})
     if (!note.empty()) progress.note(note);
-  pipeline::note_warnings(*file, call, progress,
-                          pipeline::joined(sim::warnings_of(simulation, summary), refused));
+  pipeline::note_warnings(*file, call, progress, pipeline::joined(sim::warnings_of(simulation, summary), refused));
   pipeline::stamp(*file, call, job, "");
   file->commit();
 }
@@ -125,13 +124,13 @@ int main(int argc, char** argv) {
       .example = "dresslife-sim config/jobs/irb6640_spot_welding.yaml -o motion.h5",
       .input_is_job = true,
       .options =
-          {{"--duration", "", "write only the duration of one repeat of the motion [s], and a shape for the space of a tool if it is not known (YAML)",
+          {{"--duration", "",
+            "write only the duration of one repeat of the motion [s], and a shape for the space of a tool if it is not known (YAML)",
             &request.duration},
            {"--preview", "", "write only the geometry over the program and suitable lengths (preview.h5)",
             &request.preview},
            {"--screen", "LIST.yaml",
-            "write only the geometric checks of the job with each of these changes (screening.h5)",
-            &request.screen},
+            "write only the geometric checks of the job with each of these changes (screening.h5)", &request.screen},
            {"--by-short-runs", "", "with --screen: run each with few segments, and write the results",
             &request.by_short_runs},
            {"--propose",
@@ -165,8 +164,7 @@ int main(int argc, char** argv) {
             "instead of the job's routing.longest_bracket_mm",
             &request.bracket_mm,
             {.range = {{0, 10'000}}}},
-           {"--exercise", "", "with these: a motion of the wrist instead of the job's motion",
-            &request.exercise}},
+           {"--exercise", "", "with these: a motion of the wrist instead of the job's motion", &request.exercise}},
       .part = pipeline::JobPart::sim,
       .results = pipeline::results_of_checks};
   return pipeline::run_stage(

@@ -25,8 +25,7 @@ double nodal_share(double angle, int node) {
 
 double rest_ingredient(const WireNode& node, const Fibre* fibre) {
   const double length = rest_length(node.place.kinematics, node.rest);
-  if (fibre == nullptr)
-    return node.strain_factor * node.shear_radius / std::numbers::sqrt3 * node.rest.twist / length;
+  if (fibre == nullptr) return node.strain_factor * node.shear_radius / std::numbers::sqrt3 * node.rest.twist / length;
   const FibreShape shape = shape_of(*fibre, node);
   return shape.by_bend1 * node.rest.bend1 + shape.by_bend2 * node.rest.bend2;
 }
@@ -67,8 +66,7 @@ MixedLanes BundleScan::mixed_lanes(const WireNode* nodes, const Fibre* fibres, c
     mixed.shape[3][lane] = static_cast<float>(std::cos(2 * angle));
     for (int kind = 0; kind <= settings_.fibre_count; ++kind) {
       double rest = 0;
-      for (int node = 0; node < waves_per_layer; ++node)
-        rest += shares[node] * at_rest[kind * waves_per_layer + node];
+      for (int node = 0; node < waves_per_layer; ++node) rest += shares[node] * at_rest[kind * waves_per_layer + node];
       mixed.rest[kind][lane] = static_cast<float>(rest);
       if (kind > 0) mixed.fibre_scale[kind - 1][lane] = mixed.scales ? static_cast<float>(1 / (1 + rest)) : 1.0f;
     }
@@ -100,8 +98,8 @@ void BundleScan::list_groups(const std::vector<int>& layers) {
 }
 
 /// Prepares a bundle. The groups are kept if the previous bundle has the same layers.
-void BundleScan::start(const Bundle& bundle, const std::vector<LayerSlip>& plan,
-                       const BundlePointers& nesting, bool mixed) {
+void BundleScan::start(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& nesting,
+                       bool mixed) {
   if (bundle.wire_layers != layers_) list_groups(bundle.wire_layers);
   for (TurningList& list : lists_) list.clear();
   for (Group& group : groups_) {
@@ -119,8 +117,7 @@ std::span<TurningList> BundleScan::lists_of(const Group& group, int fibre) {
 
 LaneRun& BundleScan::add_run(Group& group, int fibre, std::size_t count, Wanted wanted) {
   LaneScan& scan = group.scans[fibre];
-  return runs_.emplace_back(wanted == Wanted::turns ? scan.next(count, lists_of(group, fibre))
-                                                    : scan.next_to_rank());
+  return runs_.emplace_back(wanted == Wanted::turns ? scan.next(count, lists_of(group, fibre)) : scan.next_to_rank());
 }
 
 void BundleScan::scan_waves(std::size_t count, Wanted wanted) {
@@ -146,7 +143,8 @@ void BundleScan::scan_mixed(std::size_t count, Wanted wanted) {
     const std::size_t together = g + 1 < groups_.size() && groups_[g + 1].mirrors ? 2 : 1;
     const std::span<Group> here(groups_.data() + g, together);
     for (std::size_t first = 0; first < count; first += mixed_at_once)
-      scan_mixed_groups(here, waves_.data() + here[0].layer * of_layer + first, std::min(mixed_at_once, count - first), wanted);
+      scan_mixed_groups(here, waves_.data() + here[0].layer * of_layer + first, std::min(mixed_at_once, count - first),
+                        wanted);
     g += together;
   }
 }
@@ -166,8 +164,8 @@ void BundleScan::scan_mixed_groups(std::span<Group> here, const float* waves, st
     for (int f = 0; wanted == Wanted::turns && f < fibres; ++f) group.scans[f].done(lists_of(group, f));
 }
 
-void BundleScan::run_blocks(const BundlePointers& nesting, bool mixed, Wanted wanted,
-                            const DeformationColumns& columns, std::size_t samples) {
+void BundleScan::run_blocks(const BundlePointers& nesting, bool mixed, Wanted wanted, const DeformationColumns& columns,
+                            std::size_t samples) {
   const std::size_t layers = nesting.node_count / waves_per_layer;
   const int kinds = mixed ? ingredients(settings_.fibre_count) : settings_.fibre_count;
   waves_.resize(layers * kinds * waves_per_layer * block_samples);
@@ -191,16 +189,14 @@ void BundleScan::settle(const std::vector<LayerSlip>& plan, const BundlePointers
   waves_.resize(nesting.node_count / waves_per_layer * of_layer);
   std::vector<MixedRun> open;
   for (Group& group : groups_)
-    if (plan[layers_[group.layer]].friction)
-      open.push_back({&group.mixed, waves_.data() + group.layer * of_layer});
+    if (plan[layers_[group.layer]].friction) open.push_back({&group.mixed, waves_.data() + group.layer * of_layer});
   const std::vector<MixedRun> all = open;
   for (std::size_t end = samples; end > 0 && !open.empty();) {
     const std::size_t first = (end - 1) / block_samples * block_samples, count = end - first;
     kernels().deviation_waves(nesting, columns, first, count, waves_.data(), block_samples);
     kernels().settle(open.data(), open.size(), block_samples, count);
-    std::erase_if(open, [](const MixedRun& run) {
-      return std::ranges::equal(run.state->least_slip, run.state->most_slip);
-    });
+    std::erase_if(open,
+                  [](const MixedRun& run) { return std::ranges::equal(run.state->least_slip, run.state->most_slip); });
     end = first;
   }
   for (const MixedRun& run : all)  // the motion starts without slip
@@ -208,9 +204,8 @@ void BundleScan::settle(const std::vector<LayerSlip>& plan, const BundlePointers
       run.state->slip[lane] = std::clamp(0.0f, run.state->least_slip[lane], run.state->most_slip[lane]);
 }
 
-void BundleScan::run_all(const Bundle& bundle, const std::vector<LayerSlip>& plan,
-                         const BundlePointers& nesting, bool mixed, const DeformationColumns& columns,
-                         std::size_t samples, Wanted wanted) {
+void BundleScan::run_all(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& nesting,
+                         bool mixed, const DeformationColumns& columns, std::size_t samples, Wanted wanted) {
   start(bundle, plan, nesting, mixed);
   const bool settles = std::any_of(bundle.wire_layers.begin(), bundle.wire_layers.end(),
                                    [&](int layer) { return plan[layer].friction; });
@@ -240,8 +235,7 @@ void BundleScan::for_each_site(
   }
 }
 
-void BundleScan::for_each_rank(
-    const std::function<void(std::size_t, int, const StrainMeasures&)>& found) const {
+void BundleScan::for_each_rank(const std::function<void(std::size_t, int, const StrainMeasures&)>& found) const {
   for (std::size_t wire = 0; wire < place_.size(); ++wire)
     for (int f = 0; f < settings_.fibre_count; ++f)
       found(wire, f, groups_[place_[wire].group].scans[f].measures(place_[wire].lane));

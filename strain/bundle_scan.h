@@ -30,14 +30,14 @@ class BundleScan {
       : construction_(construction), settings_(settings) {}
 
   /// Scans a bundle. nesting: contains the nodes of the bundle's layers. mixed: strains are composed wire by wire.
-  void run(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& nesting,
-           bool mixed, const DeformationColumns& columns, std::size_t samples);
+  void run(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& nesting, bool mixed,
+           const DeformationColumns& columns, std::size_t samples);
   /// Calls found(wire, fibre, points) for every site, wire by wire. Wires are numbered through the bundle. Precondition: run().
   void for_each_site(const std::function<void(std::size_t, int, std::span<const TurningPoint>)>& found) const;
 
   /// Scans a bundle for its strain measures without listing turning points.
-  void rank(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& nesting,
-            bool mixed, const DeformationColumns& columns, std::size_t samples);
+  void rank(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& nesting, bool mixed,
+            const DeformationColumns& columns, std::size_t samples);
   /// Calls found(wire, fibre, measures) for every site. Precondition: rank().
   void for_each_rank(const std::function<void(std::size_t, int, const StrainMeasures&)>& found) const;
 
@@ -57,19 +57,18 @@ class BundleScan {
   };
 
   void list_groups(const std::vector<int>& layers);
-  void start(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& nesting,
-             bool mixed);
+  void start(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& nesting, bool mixed);
   MixedLanes mixed_lanes(const WireNode* nodes, const Fibre* fibres, const LayerSlip& slip,
                          const std::vector<double>& angles) const;
   std::span<TurningList> lists_of(const Group& group, int fibre);
   enum class Wanted { turns, ranks };
-  void run_all(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& nesting,
-               bool mixed, const DeformationColumns& columns, std::size_t samples, Wanted wanted);
+  void run_all(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& nesting, bool mixed,
+               const DeformationColumns& columns, std::size_t samples, Wanted wanted);
   void run_blocks(const BundlePointers& nesting, bool mixed, Wanted wanted, const DeformationColumns& columns,
                   std::size_t samples);
   /// Puts the sliders into the state in which one repeat of the motion leaves them.
-  void settle(const std::vector<LayerSlip>& plan, const BundlePointers& nesting,
-              const DeformationColumns& columns, std::size_t samples);
+  void settle(const std::vector<LayerSlip>& plan, const BundlePointers& nesting, const DeformationColumns& columns,
+              std::size_t samples);
   /// Scans the next `count` samples of all groups, from the waves of the block.
   void scan_waves(std::size_t count, Wanted wanted);
   void scan_mixed(std::size_t count, Wanted wanted);

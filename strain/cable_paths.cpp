@@ -70,9 +70,10 @@ CablePaths::CablePaths(const Construction& construction, const std::vector<Layer
     const Part& in = construction.parts()[part];
     const Layer& layer = construction.layers()[in.layer];
     if (plan[in.layer].sliding == Sliding::glued && !plan[in.layer].loose) continue;
-    const auto grip = [&](const std::optional<double>& force) {  // elastic force at the strain that the grip force causes
-      return force ? layer.axial_stiffness * layer.force.strain_at(*force) : without_limit;
-    };
+    const auto grip =
+        [&](const std::optional<double>& force) {  // elastic force at the strain that the grip force causes
+          return force ? layer.axial_stiffness * layer.force.strain_at(*force) : without_limit;
+        };
     Cable cable{part,
                 plan[in.layer].loose,
                 false,
@@ -128,9 +129,8 @@ CablePaths::CablePaths(const Construction& construction, const std::vector<Layer
     const double length = std::accumulate(lengths_.begin(), lengths_.end(), 0.0);
     const std::size_t of_waves = (elements_of_waves(loose, length) + node_segments() - 1) / node_segments();
     const std::size_t per_segment =
-        job.elements_per_segment > 0
-            ? job.elements_per_segment
-            : std::clamp<std::size_t>(of_waves, least_elements, pipeline::most_cable_elements);
+        job.elements_per_segment > 0 ? job.elements_per_segment
+                                     : std::clamp<std::size_t>(of_waves, least_elements, pipeline::most_cable_elements);
     loose_ = std::make_shared<LooseCables>(
         loose, LooseSettings{length, node_segments() * per_segment, construction.rest_curvature(),
                              std::ranges::any_of(cables_, &Cable::rubs)});
@@ -143,9 +143,7 @@ CablePaths::CablePaths(const Construction& construction, const std::vector<Layer
   hose_twist_.assign(samples, 0.0);
 }
 
-const std::string& CablePaths::name(std::size_t cable) const {
-  return construction_.parts()[cables_[cable].part].path;
-}
+const std::string& CablePaths::name(std::size_t cable) const { return construction_.parts()[cables_[cable].part].path; }
 
 int CablePaths::component(std::size_t cable) const {
   return construction_.layers()[construction_.parts()[cables_[cable].part].layer].component;
@@ -213,8 +211,7 @@ void CablePaths::add_hose(const SpanBlock& block) {
     for (std::size_t t = 0; t < block.deformation.samples(); ++t) {
       const bool known = known_ends_[clamp];
       const Deformation* const end = known ? &block.ends[2 * t + clamp] : nullptr;
-      hose_curvature_[(2 * clamp) * all_ + next_ + t] =
-          static_cast<float>(known ? end->curvature1 : at.curvature1[t]);
+      hose_curvature_[(2 * clamp) * all_ + next_ + t] = static_cast<float>(known ? end->curvature1 : at.curvature1[t]);
       hose_curvature_[(2 * clamp + 1) * all_ + next_ + t] =
           static_cast<float>(known ? end->curvature2 : at.curvature2[t]);
     }
@@ -236,7 +233,8 @@ void CablePaths::add_held(const SpanBlock& block) {
   const auto attach = [](BundleNesting&) {};
   for (std::size_t segment = 0; segment < lengths_.size(); ++segment) {
     const DeformationColumns columns = block.deformation.columns(segment);
-    const bool apart = std::any_of(held_.begin(), held_.end(), [&](std::size_t c) { return cables_[c].rubs || cables_[c].sticks; });
+    const bool apart =
+        std::any_of(held_.begin(), held_.end(), [&](std::size_t c) { return cables_[c].rubs || cables_[c].sticks; });
     if (!apart) {
       rates_->add(segment, columns, count, attach, path.data(), stride);
     } else {
@@ -248,7 +246,8 @@ void CablePaths::add_held(const SpanBlock& block) {
       rest[k] += rates_->rest(segment, k);
       Cable& cable = cables_[held_[k]];
       if (cable.sticks)
-        add_stuck(cable, segment, columns.twist, std::span(in_segment).subspan(k * stride, count), rates_->rest(segment, k));
+        add_stuck(cable, segment, columns.twist, std::span(in_segment).subspan(k * stride, count),
+                  rates_->rest(segment, k));
       if (!cable.rubs) continue;
       const Layer& layer = construction_.layers()[construction_.parts()[cable.part].layer];
       const double sine = std::sin(layer.lay_angle);
@@ -257,8 +256,7 @@ void CablePaths::add_held(const SpanBlock& block) {
         const std::size_t at = along_at(segment, next_ + t);
         const double ratio = in_segment[k * stride + t] / rates_->rest(segment, k);
         cable.along[at] = cable.radial_share * (ratio / (1 + cable.slack) - 1);
-        cable.pressing[at] =
-            static_cast<float>(std::hypot(columns.curvature1[t], columns.curvature2[t]) + coiled);
+        cable.pressing[at] = static_cast<float>(std::hypot(columns.curvature1[t], columns.curvature2[t]) + coiled);
         if (cable.rubbing) cable.rubbing->touch(segment, next_ + t, columns.curvature2[t], -columns.curvature1[t]);
       }
     }
@@ -347,16 +345,18 @@ void CablePaths::find_nodes(const SpanBlock& block, std::size_t t) {
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     // linear between two segment centres or a centre and a known end; extrapolated beyond the outermost centres
     const double along = static_cast<double>(i) / static_cast<double>(elements) * segments - 0.5;
-    const auto low = segments < 2 ? 0
-                                  : std::min(static_cast<std::size_t>(std::max(0.0, std::floor(along))),
-                                             segments - 2);
+    const auto low =
+        segments < 2 ? 0 : std::min(static_cast<std::size_t>(std::max(0.0, std::floor(along))), segments - 2);
     const std::size_t high = std::min(low + 1, segments - 1);
     const double share = along - static_cast<double>(low);
     const DeformationColumns a = deformation.columns(low), b = deformation.columns(high);
     const auto between = [&](const double* x, const double* y) { return x[t] + share * (y[t] - x[t]); };
     HoseNode& node = nodes_[i];
-    node = {between(a.curvature1, b.curvature1), between(a.curvature2, b.curvature2),
-            between(a.twist, b.twist), between(a.elongation, b.elongation), {}};
+    node = {between(a.curvature1, b.curvature1),
+            between(a.curvature2, b.curvature2),
+            between(a.twist, b.twist),
+            between(a.elongation, b.elongation),
+            {}};
     if (along < 0 && known_ends_[0])
       node = between_end(block.ends[2 * t], a, t, -2 * along);
     else if (along > static_cast<double>(segments - 1) && known_ends_[1])
@@ -400,8 +400,7 @@ void CablePaths::see_gains(const std::vector<HoseNode>& nodes, std::size_t t) {
         across += (nodes[i].curvature1 * (s * a1 + c * a2) - nodes[i].curvature2 * (c * a1 - s * a2)) / count;
       }
     }
-    const double gain =
-        mean.elongation + across + square * (lay * lay + 2 * lay * mean.twist + twisted) / 2;
+    const double gain = mean.elongation + across + square * (lay * lay + 2 * lay * mean.twist + twisted) / 2;
     // A cable alone around the axis can go to any side of it; its own place then has no influence.
     const bool around = lies.ring == no_ring && lies.play == without_limit;
     const double relief = around ? lies.farthest : std::min(lies.play, lies.ring == no_ring ? without_limit : lies.gap);
@@ -459,11 +458,9 @@ void CablePaths::put_curvature(std::size_t t) {
       for (const std::size_t clamp : {0, 1})
         curvature_->at(segments + clamp, 2 * k + d, t) = static_cast<float>(loose_->state(k).clamped[2 * clamp + d]);
       for (std::size_t i = 0; i < segments; ++i) {
-        const std::size_t first = i * elements / segments,
-                          end = std::max(first + 1, (i + 1) * elements / segments);
+        const std::size_t first = i * elements / segments, end = std::max(first + 1, (i + 1) * elements / segments);
         double sum = 0;  // trapezoidal rule over the elements
-        for (std::size_t e = first; e < end; ++e)
-          sum += (curvature[2 * e + d] + curvature[2 * (e + 1) + d]) / 2;
+        for (std::size_t e = first; e < end; ++e) sum += (curvature[2 * e + d] + curvature[2 * (e + 1) + d]) / 2;
         curvature_->at(i, 2 * k + d, t) = static_cast<float>(sum / (end - first));
       }
     }
@@ -478,8 +475,7 @@ void CablePaths::put_loose(std::size_t index, std::size_t state_index, std::size
   for (const double gain : state.gain) mean += gain / static_cast<double>(elements);
   cable.strain[sample] = (1 + mean) / free_length - 1;
   for (std::size_t i = 0; cable.rubs && i < segments; ++i) {
-    const std::size_t first = i * elements / segments,
-                      end = std::max(first + 1, (i + 1) * elements / segments);
+    const std::size_t first = i * elements / segments, end = std::max(first + 1, (i + 1) * elements / segments);
     double gain = 0, press = 0;
     for (std::size_t e = first; e < end; ++e) {
       gain += state.gain[e] / (end - first);
@@ -531,8 +527,7 @@ void CablePaths::find_bent() {
       std::array<BendingSum, 4> sums;
       for (std::size_t t = 0; t < next_; ++t) {
         sums[0].add(one[t]), sums[1].add(other[t]);
-        sums[2].add((one[t] + other[t]) / std::numbers::sqrt2),
-            sums[3].add((one[t] - other[t]) / std::numbers::sqrt2);
+        sums[2].add((one[t] + other[t]) / std::numbers::sqrt2), sums[3].add((one[t] - other[t]) / std::numbers::sqrt2);
       }
       bending_sums_.push_back(std::ranges::max(sums, {}, &BendingSum::sum).sum());
     }
@@ -556,8 +551,7 @@ std::vector<int> CablePaths::bent_most(std::size_t segment) const {
   for (std::size_t k = 0; k < loose; ++k) {
     double most = 0;
     for (std::size_t of = 0; of < bending_sums_.size(); ++of)
-      if (component(loosened_[of % loose]) == component(loosened_[k]))
-        most = std::max(most, bending_sums_[of]);
+      if (component(loosened_[of % loose]) == component(loosened_[k])) most = std::max(most, bending_sums_[of]);
     if (bending_sums_[segment * loose + k] >= bent_share * most) parts.push_back(cables_[loosened_[k]].part);
   }
   return parts;
@@ -692,9 +686,9 @@ void CablePaths::ask_for_forces() {
   for (int clamp = 0; clamp < 2; ++clamp)
     for (std::size_t t = 0; t < next_; ++t) {
       const float* const bent = hose_curvature_.data() + 2 * clamp * all_ + t;
-      hose_moment_[t] = std::max(hose_moment_[t], 
-                                 (stiffness_factor_ * construction_.hose_bending_stiffness() + relief_stiffness_[clamp]) *
-                                     std::hypot(bent[0], bent[all_]));
+      hose_moment_[t] = std::max(
+          hose_moment_[t], (stiffness_factor_ * construction_.hose_bending_stiffness() + relief_stiffness_[clamp]) *
+                               std::hypot(bent[0], bent[all_]));
     }
 }
 
@@ -710,8 +704,8 @@ double CablePaths::place_of_force(std::size_t cable, std::size_t sample) const {
 }
 
 const SegmentMotion& CablePaths::Keeper::of(const CablePaths& paths, std::size_t segment,
-                                            const DeformationColumns& hose, std::size_t first,
-                                            std::size_t count, bool at_wires) {
+                                            const DeformationColumns& hose, std::size_t first, std::size_t count,
+                                            bool at_wires) {
   const std::size_t bends_at = at_wires ? paths.wires_at(segment) : segment;
   motion_.samples = count;
   motion_.hose = hose;

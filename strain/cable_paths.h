@@ -44,10 +44,12 @@ struct CablesInJob {
   bool stick = false;  ///< they stick to the hose, each segment with its own strain: they slide only in a bound
   /// The hose's tool end is free: only a tool_grip_N of the job holds its cables there.
   bool free_tool_end = false;
-  std::size_t elements_per_segment = 0;  ///< elements of loose cables; 0: the number follows from the length of their waves
+  std::size_t elements_per_segment =
+      0;  ///< elements of loose cables; 0: the number follows from the length of their waves
   KnownEnds known_ends{};
-  std::array<double, 2> relief_stiffness{};  ///< of the bend reliefs at base and tool end, which bend with the hose [N m2]
-  double stiffness_factor = 1;               ///< of the hose in this motion, on its bending stiffness
+  std::array<double, 2>
+      relief_stiffness{};       ///< of the bend reliefs at base and tool end, which bend with the hose [N m2]
+  double stiffness_factor = 1;  ///< of the hose in this motion, on its bending stiffness
 };
 
 class CablePaths {
@@ -128,7 +130,9 @@ class CablePaths {
   /// Returns the sliding distance in both directions together in one repeat of the motion, at base and tool clamp [m].
   std::array<double, 2> grip_slip(std::size_t cable) const { return cables_[cable].grip_slip; }
   /// Returns where the jacket rubs in one repeat; null: it was not recorded.
-  const CableRubbing* rubbing(std::size_t cable) const { return cables_[cable].rubbing ? &*cables_[cable].rubbing : nullptr; }
+  const CableRubbing* rubbing(std::size_t cable) const {
+    return cables_[cable].rubbing ? &*cables_[cable].rubbing : nullptr;
+  }
   /// Returns the radius of the helix into which the cable can wind [m]; 0: it is held.
   double room(std::size_t cable) const { return cables_[cable].room; }
   /// Returns the largest curvature of the path where the wires are evaluated [1/m]; 0: it is held.
@@ -142,7 +146,9 @@ class CablePaths {
   const std::vector<double>& hose_moment() const { return hose_moment_; }
   /// Samples for which offsets() has the places of loose cables.
   const std::vector<std::size_t>& offset_samples() const { return offset_samples_; }
-  const std::vector<double>& offsets() const { return offsets_; }  ///< (sample, cable, segment, 2) from their own places [m]
+  const std::vector<double>& offsets() const {
+    return offsets_;
+  }  ///< (sample, cable, segment, 2) from their own places [m]
   /// Returns the number of elements of a loose cable in each segment; 0: no cable is loose.
   std::size_t elements_per_segment() const { return loose_ ? (nodes_.size() - 1) / node_segments() : 0; }
   /// Returns the share of the curvature of loose cables that the distance of their nodes misses; 0: no cable is loose.
@@ -165,10 +171,11 @@ class CablePaths {
     double elastic;                  ///< share of the deviation from the mean that a jacket holds (W30)
     pipeline::PulledCable pulled{};  ///< at the clamps' ends
     std::array<double, 2> grip_slip{};
-    double room = 0;                                              ///< see room()
+    double room = 0;                                                 ///< see room()
     std::array<double, 2> path_gain{without_limit, -without_limit};  ///< see path_gain()
-    std::vector<double> strain{};   ///< (sample) strain of all segments; before finish(): without sliding
-    std::vector<double> along{};    ///< (sample, segment) strain of each segment, with friction; before finish(): without sliding
+    std::vector<double> strain{};  ///< (sample) strain of all segments; before finish(): without sliding
+    std::vector<double>
+        along{};  ///< (sample, segment) strain of each segment, with friction; before finish(): without sliding
     std::vector<float> pressing{};  ///< (sample, segment) curvature [1/m]; of a loose cable its contact force [N/m]
     std::optional<CableRubbing> rubbing{};
   };
@@ -176,9 +183,7 @@ class CablePaths {
   /// Number of segments into which the nodes of loose cables divide the hose: at least 8, also if the hose has fewer.
   std::size_t node_segments() const { return std::max<std::size_t>(lengths_.size(), 8); }
   /// Index into `along` and `pressing`. All segments of a sample lie side by side, because they slide together.
-  std::size_t along_at(std::size_t segment, std::size_t sample) const {
-    return sample * lengths_.size() + segment;
-  }
+  std::size_t along_at(std::size_t segment, std::size_t sample) const { return sample * lengths_.size() + segment; }
   void add_hose(const SpanBlock& block);
   void add_held(const SpanBlock& block);
   static void add_loose(std::span<CablePaths* const> all, const SpanBlock& block);
@@ -193,8 +198,7 @@ class CablePaths {
   void put_loose(std::size_t cable, std::size_t state, std::size_t sample);
   void put_curvature(std::size_t of_block);
   void put_offsets(std::size_t sample);
-  void add_stuck(Cable& cable, std::size_t segment, const double* twist, std::span<const double> path,
-                 double rest);
+  void add_stuck(Cable& cable, std::size_t segment, const double* twist, std::span<const double> path, double rest);
   /// Returns the strain that makes force in addition to the strain of the axis: the shortening that twist would cause in a free
   /// cable.
   double pulled_by_twist(const Cable& cable, double twist) const;
@@ -209,7 +213,7 @@ class CablePaths {
   std::vector<Cable> cables_;
   std::vector<std::size_t> held_;  ///< indices into cables_, in the order of rates_
   std::optional<PathRates> rates_;
-  std::vector<std::size_t> loosened_;  ///< indices into cables_, in the order of loose_
+  std::vector<std::size_t> loosened_;   ///< indices into cables_, in the order of loose_
   std::shared_ptr<LooseCables> loose_;  ///< null: no cable is loose
   KnownEnds known_ends_;
   std::array<double, 2> relief_stiffness_;

@@ -26,8 +26,8 @@ std::size_t CableRubbing::sector_of(double x, double y, std::size_t guess) {
   return static_cast<std::size_t>((angle < 0 ? angle + 2 * std::numbers::pi : angle) / width()) % sectors;
 }
 
-void CableRubbing::move_across(std::size_t sample, const LooseCable& cable, const CableState& state,
-                               double line_load, double spacing) {
+void CableRubbing::move_across(std::size_t sample, const LooseCable& cable, const CableState& state, double line_load,
+                               double spacing) {
   const std::size_t elements = state.press.size() - 1;
   const auto middle = [](const std::vector<double>& of, std::size_t element, std::size_t d) {
     return (of[2 * element + d] + of[2 * element + 2 + d]) / 2;
@@ -45,14 +45,11 @@ void CableRubbing::move_across(std::size_t sample, const LooseCable& cable, cons
     return (of[element] + of[element + 1]) / 2;
   };
   for (std::size_t i = 0; i < segments_; ++i) {
-    const std::size_t first = i * elements / segments_,
-                      end = std::max(first + 1, (i + 1) * elements / segments_);
-    const double length =
-        spacing * static_cast<double>(elements) / static_cast<double>(segments_ * (end - first));
+    const std::size_t first = i * elements / segments_, end = std::max(first + 1, (i + 1) * elements / segments_);
+    const double length = spacing * static_cast<double>(elements) / static_cast<double>(segments_ * (end - first));
     double x = 0, y = 0;
     for (std::size_t e = first; e < end; ++e) {
-      const double to_x = middle(state.offset, e, 0), to_y = middle(state.offset, e, 1),
-                   now = pressing(state.press, e);
+      const double to_x = middle(state.offset, e, 0), to_y = middle(state.offset, e, 1), now = pressing(state.press, e);
       double at_x = laid_[e][0] + to_x, at_y = laid_[e][1] + to_y;
       if (at_x * at_x + at_y * at_y < between * between) at_x = -at_x, at_y = -at_y;
       x += (line_load + now) * at_x, y += (line_load + now) * at_y;

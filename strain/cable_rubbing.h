@@ -26,11 +26,7 @@ class CableRubbing {
   static constexpr std::size_t sectors = 36;  ///< evenly around the cable
 
   CableRubbing(std::size_t segments, std::size_t samples)
-      : segments_(segments),
-        side_(segments * samples),
-        slid_(segments),
-        across_(segments),
-        along_(segments) {}
+      : segments_(segments), side_(segments * samples), slid_(segments), across_(segments), along_(segments) {}
 
   /// Sets the side on which the cable touches: direction (x, y) toward d1 and d2 of the hose.
   void touch(std::size_t segment, std::size_t sample, double x, double y) {
@@ -82,7 +78,7 @@ class CableRubbing {
   Sums across_, along_;
   std::vector<std::array<double, 2>> laid_;  ///< (element) its own place in the hose [m]
   std::vector<std::uint8_t> sector_;         ///< (element) sector in which it rubbed last
-  std::vector<double> pressed_, offset_;  ///< (node) and (node, 2) at the previous sample
+  std::vector<double> pressed_, offset_;     ///< (node) and (node, 2) at the previous sample
 };
 
 }  // namespace dresslife::strain

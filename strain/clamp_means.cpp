@@ -7,8 +7,8 @@
 
 namespace dresslife::strain {
 
-ClampMeans::ClampMeans(const Construction& construction, std::vector<LayerSlip> plan,
-                       std::vector<double> lengths, std::vector<double> arcs, std::size_t samples)
+ClampMeans::ClampMeans(const Construction& construction, std::vector<LayerSlip> plan, std::vector<double> lengths,
+                       std::vector<double> arcs, std::size_t samples)
     : construction_(construction),
       plan_(std::move(plan)),
       lengths_(std::move(lengths)),
@@ -26,8 +26,7 @@ std::size_t ClampMeans::add_row() {
 void ClampMeans::list_group(int parent) {
   std::vector<PathMember> members;
   std::vector<std::size_t> rows;
-  const int parent_layer =
-      parent == dresspack_itself ? dresspack_itself : construction_.parts()[parent].layer;
+  const int parent_layer = parent == dresspack_itself ? dresspack_itself : construction_.parts()[parent].layer;
   const auto& parts = construction_.parts();
   for (std::size_t k = 0; k < parts.size(); ++k)
     if (parts[k].parent == parent && plan_[parts[k].layer].sliding == Sliding::clamp_to_clamp &&
@@ -38,8 +37,7 @@ void ClampMeans::list_group(int parent) {
     }
   for (std::size_t k = 0; k < construction_.layers().size(); ++k) {
     const Layer& layer = construction_.layers()[k];
-    if (!layer.is_wire || layer.parent != parent_layer || plan_[k].sliding != Sliding::clamp_to_clamp)
-      continue;
+    if (!layer.is_wire || layer.parent != parent_layer || plan_[k].sliding != Sliding::clamp_to_clamp) continue;
     layer_row_[{parent, static_cast<int>(k)}] = strain_.size();
     for (int node = 0; node < waves_per_layer; ++node) {
       members.push_back({static_cast<int>(k), 1, 2 * std::numbers::pi * node / waves_per_layer});
@@ -65,9 +63,8 @@ void ClampMeans::add(int round, std::size_t segment, const SegmentMotion& motion
     group.rest.resize(members, 0.0);
     const DeformationColumns& columns = motion.columns(construction_, plan_, group.parent);
     group.rates.add(
-        segment, columns, motion.samples,
-        [&](BundleNesting& nesting) { attach(nesting, group.parent, motion, next_); }, group.path.data(),
-        stride);
+        segment, columns, motion.samples, [&](BundleNesting& nesting) { attach(nesting, group.parent, motion, next_); },
+        group.path.data(), stride);
     for (std::size_t n = 0; n < members; ++n) group.rest[n] += group.rates.rest(segment, n);
   }
 }
@@ -107,8 +104,7 @@ std::vector<double> ClampMeans::at_angle(int part, int layer, double turn) const
   return strain;
 }
 
-void ClampMeans::attach(BundleNesting& nesting, int part, const SegmentMotion& motion,
-                        std::size_t first) const {
+void ClampMeans::attach(BundleNesting& nesting, int part, const SegmentMotion& motion, std::size_t first) const {
   const std::vector<int> line = construction_.ancestry(part);
   for (std::size_t k = 0; k < line.size(); ++k)
     if (nesting.steps[k].slide.sliding == Sliding::clamp_to_clamp)
@@ -125,8 +121,8 @@ ShortenedPlan ClampMeans::shorten(double bend_wave) {
 ClampMeans ClampMeans::rubbing(double factor) const {
   ClampMeans means = *this;
   for (LayerSlip& slip : means.plan_)
-    slip.cap = factor == glued ? FrictionCap{glued, 0}
-                               : FrictionCap{slip.cap.constant * factor, slip.cap.per_mean * factor};
+    slip.cap =
+        factor == glued ? FrictionCap{glued, 0} : FrictionCap{slip.cap.constant * factor, slip.cap.per_mean * factor};
   return means;
 }
 

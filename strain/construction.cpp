@@ -28,8 +28,7 @@ Construction::Construction(const pipeline::Dresspack& dresspack, pipeline::Kinem
                            const pipeline::StrainFactors& factors)
     : kinematics_(kinematics),
       rest_curvature_(dresspack.rest_curvature),
-      section_{pipeline::inner_radius(dresspack).value_or(without_limit), dresspack.core_diameter / 2,
-               factors.play},
+      section_{pipeline::inner_radius(dresspack).value_or(without_limit), dresspack.core_diameter / 2, factors.play},
       hose_bending_stiffness_(dresspack.bending_stiffness) {
   for (const auto& component : dresspack.components) add(dresspack, component, dresspack_itself, 1);
   if (!dresspack.hose_material.empty()) {
@@ -70,22 +69,20 @@ void Construction::check(const pipeline::Component& component, int parent_layer,
         fmt::format("component {} lies {} levels deep (at most {} are computed)", name, level, highest_level),
         "join the outermost levels that have no lay of their own");
   if (component.helix_radius == 0 && (component.count > 1 || component.lay_angle != 0))
-    throw pipeline::InputError(
-        component.where,
-        fmt::format("component {} has helix radius 0 (one straight part fits on the axis, not "
-                    "several, and without a lay angle)",
-                    name),
-        "give the radius from the parent's axis to the part's, or count 1 and lay angle 0");
+    throw pipeline::InputError(component.where,
+                               fmt::format("component {} has helix radius 0 (one straight part fits on the axis, not "
+                                           "several, and without a lay angle)",
+                                           name),
+                               "give the radius from the parent's axis to the part's, or count 1 and lay angle 0");
   for (const Layer& other : layers_)
     if (other.parent == parent_layer && other.name == component.name && other.label == component.layer)
       throw pipeline::InputError(
-          component.where,
-          fmt::format("two components {} lie in the same part (their paths would be the same)", name),
+          component.where, fmt::format("two components {} lie in the same part (their paths would be the same)", name),
           "give each its own `layer`, for example 'layer 1'");
 }
 
-void Construction::add(const pipeline::Dresspack& dresspack, const pipeline::Component& component,
-                       int parent_layer, int level, double friction_level) {
+void Construction::add(const pipeline::Dresspack& dresspack, const pipeline::Component& component, int parent_layer,
+                       int level, double friction_level) {
   check(component, parent_layer, level);
   Layer layer;
   layer.name = component.name;
@@ -117,12 +114,11 @@ void Construction::add(const pipeline::Dresspack& dresspack, const pipeline::Com
   levels_ = std::max(levels_, level);
   const bool measured = component.measured_bending_stiffness.has_value();
   if (measured && friction_level != 1)
-    throw pipeline::InputError(
-        component.where,
-        fmt::format("'{}' has measured_bending_stiffness_Nm2 and lies in a part that has it "
-                    "too (one friction level belongs to both)",
-                    component.name),
-        "keep one of the two");
+    throw pipeline::InputError(component.where,
+                               fmt::format("'{}' has measured_bending_stiffness_Nm2 and lies in a part that has it "
+                                           "too (one friction level belongs to both)",
+                                           component.name),
+                               "keep one of the two");
   const double inside = measured ? pipeline::friction_level(dresspack, component) : friction_level;
   for (const auto& inner : component.components) add(dresspack, inner, index, level + 1, inside);
 }
@@ -130,8 +126,7 @@ void Construction::add(const pipeline::Dresspack& dresspack, const pipeline::Com
 void Construction::list_parts(int parent_layer, int parent_part) {
   Bundle bundle{parent_part, {}};
   for (std::size_t k = 0; k < layers_.size(); ++k)
-    if (layers_[k].parent == parent_layer && layers_[k].is_wire)
-      bundle.wire_layers.push_back(static_cast<int>(k));
+    if (layers_[k].parent == parent_layer && layers_[k].is_wire) bundle.wire_layers.push_back(static_cast<int>(k));
   if (!bundle.wire_layers.empty()) bundles_.push_back(bundle);
   for (std::size_t k = 0; k < layers_.size(); ++k) {
     if (layers_[k].parent != parent_layer || layers_[k].is_wire) continue;
@@ -173,8 +168,7 @@ double Construction::phase(int layer, int number, int parent, double arc) const 
   return phase - 2 * pi * std::nearbyint(phase / (2 * pi));
 }
 
-Placement Construction::placement(int layer, int number, int parent, double arc, double turn,
-                                  int order) const {
+Placement Construction::placement(int layer, int number, int parent, double arc, double turn, int order) const {
   const Layer& of = layers_[layer];
   return make_placement(kinematics_, of.helix_radius, of.lay_tangent, of.lay_cosine,
                         phase(layer, number, parent, arc) + turn, order);

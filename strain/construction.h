@@ -107,8 +107,8 @@ class Construction {
  private:
   void scale(Layer& layer, const pipeline::StrainFactors& factors) const;
   /// friction_level: factor of the radial line loads, from the measured stiffness of the cable that contains it.
-  void add(const pipeline::Dresspack& dresspack, const pipeline::Component& component, int parent_layer,
-           int level, double friction_level = 1);
+  void add(const pipeline::Dresspack& dresspack, const pipeline::Component& component, int parent_layer, int level,
+           double friction_level = 1);
   void check(const pipeline::Component& component, int parent_layer, int level) const;
   void list_parts(int parent_layer, int parent_part);
   double lay_angle(const Layer& layer) const;

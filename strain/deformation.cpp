@@ -67,16 +67,13 @@ constexpr std::array<double, 3> clamp_weights{54.0 / 28, -39.0 / 28, 13.0 / 28};
 
 DeformationGauge::DeformationGauge(std::vector<double> lengths, pipeline::DeformationMeasure measure,
                                    std::optional<Vector3d> free_end)
-    : lengths_(std::move(lengths)),
-      measure_(measure),
-      free_end_(std::move(free_end)),
-      links_(lengths_.size() + 1) {
+    : lengths_(std::move(lengths)), measure_(measure), free_end_(std::move(free_end)), links_(lengths_.size() + 1) {
   assert(!lengths_.empty());
   const auto [shortest, longest] = std::minmax_element(lengths_.begin(), lengths_.end());
-  equal_lengths_ = *longest - *shortest <= 1e-9 * *longest;  // rounding when a length is divided by the number of segments
+  equal_lengths_ =
+      *longest - *shortest <= 1e-9 * *longest;  // rounding when a length is divided by the number of segments
   link_lengths_.push_back(lengths_.front() / 2);
-  for (std::size_t i = 1; i < lengths_.size(); ++i)
-    link_lengths_.push_back((lengths_[i - 1] + lengths_[i]) / 2);
+  for (std::size_t i = 1; i < lengths_.size(); ++i) link_lengths_.push_back((lengths_[i - 1] + lengths_[i]) / 2);
   link_lengths_.push_back(lengths_.back() / 2);
 }
 
@@ -115,8 +112,8 @@ void DeformationGauge::measure_links(const ChainPose& pose) {
   Vector3d half_before = Vector3d::Zero();  // of the segment on the base side of the link
   for (std::size_t i = 0; i <= segments; ++i) {
     const bool at_tool = i == segments, between = i > 0 && !at_tool;
-    const Quaterniond next = at_tool ? orientation_at(pose.clamp_orientation, last_clamp)
-                                     : orientation_at(pose.segment_orientation, i);
+    const Quaterniond next =
+        at_tool ? orientation_at(pose.clamp_orientation, last_clamp) : orientation_at(pose.segment_orientation, i);
     const Vector3d tangent = next * Vector3d::UnitZ();
     const Vector3d centre =
         position_at(at_tool ? pose.clamp_position : pose.segment_position, at_tool ? last_clamp : i);
@@ -125,8 +122,7 @@ void DeformationGauge::measure_links(const ChainPose& pose) {
     const Vector3d tangent_before = frame * Vector3d::UnitZ();
     const double arms = between ? 1 + (1 - tangent_before.dot(tangent)) / 12 : 1;  // (S17)
     const Vector3d gap = centre - centre_before - arms * (half + half_before);
-    links_[i] = {logarithm(turn), angle_about_tangent(turn),
-                 gap.dot((tangent_before + tangent).normalized())};
+    links_[i] = {logarithm(turn), angle_about_tangent(turn), gap.dot((tangent_before + tangent).normalized())};
     frame = next;
     centre_before = centre;
     half_before = half;
@@ -149,8 +145,7 @@ void DeformationGauge::rotation_vectors(std::span<Deformation> out) const {
     const auto& weight = end_weights[i];
     set(out[i], weight[0] * base + weight[1] * rate(2) + weight[2] * rate(3));
     if (!free_end_)
-      set(out[segments - 1 - i],
-          weight[0] * tool + weight[1] * rate(segments - 2) + weight[2] * rate(segments - 3));
+      set(out[segments - 1 - i], weight[0] * tool + weight[1] * rate(segments - 2) + weight[2] * rate(segments - 3));
   }
   if (!free_end_) return;
   for (std::size_t i = segments - end_weights.size(); i + 1 < segments; ++i) set(out[i], on_cubic(i));
@@ -191,9 +186,9 @@ void DeformationGauge::rotation_vectors_on_lines(std::span<Deformation> out) con
 void DeformationGauge::circles(const ChainPose& pose, std::span<Deformation> out) const {
   const std::size_t segments = lengths_.size();
   for (std::size_t i = 1; i + 1 < segments; ++i) {
-    const Vector3d curvature = circle_curvature(
-        position_at(pose.segment_position, i - 1), position_at(pose.segment_position, i),
-        position_at(pose.segment_position, i + 1), orientation_at(pose.segment_orientation, i));
+    const Vector3d curvature =
+        circle_curvature(position_at(pose.segment_position, i - 1), position_at(pose.segment_position, i),
+                         position_at(pose.segment_position, i + 1), orientation_at(pose.segment_orientation, i));
     const double before = links_[i].tangent_angle / link_lengths_[i];
     const double after = links_[i + 1].tangent_angle / link_lengths_[i + 1];
     set(out[i], {curvature[0], curvature[1], (before + after) / 2});

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <utility>
 #include <numeric>
 #include <set>
+#include <utility>
 
 #include "pipeline/base/constants.h"
 #include "pipeline/base/errors.h"
@@ -28,16 +28,13 @@ std::vector<double> centres(const std::vector<double>& lengths, double start) {
   return arcs;
 }
 
-std::vector<double> places_of_wires(const std::vector<double>& lengths, std::vector<double> arcs,
-                                    KnownEnds known) {
+std::vector<double> places_of_wires(const std::vector<double>& lengths, std::vector<double> arcs, KnownEnds known) {
   if (known[0]) arcs.front() -= lengths.front() / 2;
   if (known[1]) arcs.back() += lengths.back() / 2;
   return arcs;
 }
 
-double total(const std::vector<double>& lengths) {
-  return std::accumulate(lengths.begin(), lengths.end(), 0.0);
-}
+double total(const std::vector<double>& lengths) { return std::accumulate(lengths.begin(), lengths.end(), 0.0); }
 
 double clamped(const SpanPlace& place, const std::vector<double>& lengths) {
   return std::max(place.clamped_length, total(lengths));
@@ -91,9 +88,8 @@ void SiteRows::clear() {
   sample.clear();
 }
 
-Evaluation::Evaluation(const Construction& construction, const pipeline::Strain& settings,
-                       std::vector<double> lengths, std::size_t samples, std::size_t threads,
-                       const SpanPlace& place, const Scratch& scratch)
+Evaluation::Evaluation(const Construction& construction, const pipeline::Strain& settings, std::vector<double> lengths,
+                       std::size_t samples, std::size_t threads, const SpanPlace& place, const Scratch& scratch)
     : construction_(construction),
       place_(place),
       lengths_(std::move(lengths)),
@@ -102,8 +98,8 @@ Evaluation::Evaluation(const Construction& construction, const pipeline::Strain&
       samples_(samples),
       fibres_(strain::surface_fibres(settings.surface_fibres)),
       surface_fibres_(settings.surface_fibres),
-      scan_{static_cast<int>(fibres_.size()), static_cast<float>(settings.gate),
-            counts_shear(settings.equivalent), settings.surface_fibres == 0},
+      scan_{static_cast<int>(fibres_.size()), static_cast<float>(settings.gate), counts_shear(settings.equivalent),
+            settings.surface_fibres == 0},
       with_planes_(judges_planes(settings.equivalent)),
       means_(construction, plan_slip(construction, settings.slip, clamped(place, lengths_)), lengths_, arcs_, samples),
       stick_{{construction, bound_plan(construction, means_.plan(), pipeline::Slip::stick, clamped(place, lengths_)),
@@ -127,8 +123,8 @@ Evaluation::Evaluation(const Construction& construction, const pipeline::Strain&
     first_wire_.push_back(wires_.size());
     for (const int layer : bundle.wire_layers)
       for (int number = 1; number <= construction.layers()[layer].count; ++number)
-        wires_.push_back({static_cast<int>(b), layer, number,
-                          before + construction.wire_path(layer, number, bundle.part)});
+        wires_.push_back(
+            {static_cast<int>(b), layer, number, before + construction.wire_path(layer, number, bundle.part)});
   }
   find_probes(settings.probes);
 }
@@ -138,24 +134,21 @@ void Evaluation::find_probes(const std::vector<pipeline::ProbeRequest>& probes) 
     const auto wire =
         std::find_if(wires_.begin(), wires_.end(), [&](const Wire& w) { return w.path == probe.component; });
     if (wire == wires_.end())
-      throw pipeline::InputError(
-          {},
-          fmt::format("strain.probes: no wire is called '{}' (a path from the outermost part "
-                      "inward)",
-                      probe.component),
-          fmt::format("write it like '{}'", wires_.empty() ? "" : wires_.front().path));
+      throw pipeline::InputError({},
+                                 fmt::format("strain.probes: no wire is called '{}' (a path from the outermost part "
+                                             "inward)",
+                                             probe.component),
+                                 fmt::format("write it like '{}'", wires_.empty() ? "" : wires_.front().path));
     const int segments = static_cast<int>(place_.segments_in_all);
     if (probe.segment_from_tool < 1 || probe.segment_from_tool > segments)
-      throw pipeline::InputError(
-          {},
-          fmt::format("strain.probes: there is no segment {} from the tool (the dresspack has "
-                      "{})",
-                      probe.segment_from_tool, segments),
-          "count from 1 at the tool");
+      throw pipeline::InputError({},
+                                 fmt::format("strain.probes: there is no segment {} from the tool (the dresspack has "
+                                             "{})",
+                                             probe.segment_from_tool, segments),
+                                 "count from 1 at the tool");
     const std::size_t segment = place_.segments_in_all - probe.segment_from_tool;
     if (segment >= place_.first_segment && segment < place_.first_segment + lengths_.size())
-      probes_.push_back(
-          {segment - place_.first_segment, {static_cast<std::size_t>(wire - wires_.begin()), 0}});
+      probes_.push_back({segment - place_.first_segment, {static_cast<std::size_t>(wire - wires_.begin()), 0}});
   }
 }
 
@@ -182,9 +175,8 @@ std::string Evaluation::name_of_layer(int layer) const {
 
 std::string Evaluation::summary(std::size_t sites) const {
   if (worst_range_ < 0) return "no wire was evaluated";
-  return fmt::format("{} sites; largest strain range {:.3f} %, segment {} from the tool, {}", sites,
-                     100 * worst_range_, place_.segments_in_all - place_.first_segment - worst_segment_,
-                     wires_[worst_.wire].path);
+  return fmt::format("{} sites; largest strain range {:.3f} %, segment {} from the tool, {}", sites, 100 * worst_range_,
+                     place_.segments_in_all - place_.first_segment - worst_segment_, wires_[worst_.wire].path);
 }
 
 void Evaluation::add(const SpanBlock& block) {
@@ -276,19 +268,17 @@ const SegmentMotion& Evaluation::motion_at_wires(std::size_t segment, const Defo
 }
 
 bool Evaluation::mixed(const ClampMeans& means) const {
-  return scan_.with_shear || std::any_of(means.plan().begin(), means.plan().end(),
-                                         [](const LayerSlip& slip) { return slip.friction; });
+  return scan_.with_shear ||
+         std::any_of(means.plan().begin(), means.plan().end(), [](const LayerSlip& slip) { return slip.friction; });
 }
 
 bool Evaluation::rubs_inside() const {
-  return std::any_of(means_.plan().begin(), means_.plan().end(),
-                     [](const LayerSlip& slip) { return slip.friction; });
+  return std::any_of(means_.plan().begin(), means_.plan().end(), [](const LayerSlip& slip) { return slip.friction; });
 }
 
 void Evaluation::add_held(const ClampMeans& means) {
   for (Worker& worker : workers_)
-    worker.held.push_back(
-        std::make_unique<HeldStrains>(construction_, means, worker.deviations, order_for(fibres_)));
+    worker.held.push_back(std::make_unique<HeldStrains>(construction_, means, worker.deviations, order_for(fibres_)));
 }
 
 bool Evaluation::holds_down_to(int part, const ClampMeans& means) const {
@@ -344,8 +334,7 @@ bool parent_suffices(const BundleNesting& nesting) {
 }
 
 BundlePointers Evaluation::from_parent(const BundleNesting& nesting, int part, std::size_t segment,
-                                       const ClampMeans& means, const SegmentMotion& motion,
-                                       Worker& worker) const {
+                                       const ClampMeans& means, const SegmentMotion& motion, Worker& worker) const {
   BundlePointers from = pointers(nesting);
   const int parent = part == dresspack_itself ? dresspack_itself : construction_.parts()[part].parent;
   if (parent == dresspack_itself || !parent_suffices(nesting)) return from;
@@ -355,17 +344,15 @@ BundlePointers Evaluation::from_parent(const BundleNesting& nesting, int part, s
   if (worker.parent_is != wanted || (in_double && !worker.parent.in_double())) {
     BundleNesting to_parent = part_nesting(parent, segment, means, motion, fibres_, worker);
     to_parent.order = nesting.order + 1;
-    worker.parent.fill(to_parent, motion.columns(construction_, means.plan(), parent), motion.samples,
-                       in_double);
+    worker.parent.fill(to_parent, motion.columns(construction_, means.plan(), parent), motion.samples, in_double);
     worker.parent_is = wanted;
   }
   worker.parent.lend(from);
   return from;
 }
 
-void Evaluation::scan_bundle(std::size_t b, std::size_t segment, const ClampMeans& means,
-                             const SegmentMotion& motion, bool with_rows, Worker& worker,
-                             BundleSites& out) const {
+void Evaluation::scan_bundle(std::size_t b, std::size_t segment, const ClampMeans& means, const SegmentMotion& motion,
+                             bool with_rows, Worker& worker, BundleSites& out) const {
   const Bundle& bundle = construction_.bundles()[b];
   const BundleNesting nesting = layer_nesting(bundle, segment, means, motion, worker);
   const BundlePointers from = from_parent(nesting, bundle.part, segment, means, motion, worker);
@@ -390,8 +377,8 @@ void Evaluation::scan_bundle(std::size_t b, std::size_t segment, const ClampMean
   });
 }
 
-void Evaluation::scan_bundles(std::size_t segment, const ClampMeans& means, const SegmentMotion& motion,
-                              bool with_rows, const std::function<void(const BundleSites&)>& use) {
+void Evaluation::scan_bundles(std::size_t segment, const ClampMeans& means, const SegmentMotion& motion, bool with_rows,
+                              const std::function<void(const BundleSites&)>& use) {
   const std::size_t bundles = construction_.bundles().size(), threads = workers_.size();
   const std::size_t each = std::max<std::size_t>(1, samples_at_a_time / motion.samples);
   const std::size_t ahead = threads == 1 ? 1 : std::min(bundles, 2 * threads * each);
@@ -405,9 +392,9 @@ void Evaluation::scan_bundles(std::size_t segment, const ClampMeans& means, cons
       [&](std::size_t b) { use(found_[b % ahead]); });
 }
 
-BundleNesting Evaluation::site_nesting(std::span<const Site> sites, std::size_t segment,
-                                       const ClampMeans& means, const SegmentMotion& motion,
-                                       std::vector<std::vector<double>>& sliding, Worker& worker) const {
+BundleNesting Evaluation::site_nesting(std::span<const Site> sites, std::size_t segment, const ClampMeans& means,
+                                       const SegmentMotion& motion, std::vector<std::vector<double>>& sliding,
+                                       Worker& worker) const {
   const int part = construction_.bundles()[wires_[sites[0].wire].bundle].part;
   BundleNesting nesting = part_nesting(part, segment, means, motion, {fibres_[sites[0].fibre]}, worker);
   sliding.resize(sites.size());
@@ -416,8 +403,8 @@ BundleNesting Evaluation::site_nesting(std::span<const Site> sites, std::size_t 
     WireNode& node = nesting.nodes.emplace_back(
         node_at(construction_, means.plan(), nesting, wire.layer, wire.number, part, places_[segment], 0));
     if (node.slide.sliding != Sliding::clamp_to_clamp) continue;
-    sliding[k] = means.at_angle(part, wire.layer,
-                                2 * pi * (wire.number - 1) / construction_.layers()[wire.layer].count);
+    sliding[k] =
+        means.at_angle(part, wire.layer, 2 * pi * (wire.number - 1) / construction_.layers()[wire.layer].count);
     node.slide.clamp_strain = sliding[k].data();
   }
   return nesting;
@@ -428,15 +415,14 @@ namespace {
 /// Replaces the strain by the equivalent strain with shear.
 void count_shear(FibreHistory& both) {
   for (std::size_t t = 0; t < both.strain.size(); ++t)
-    both.strain[t] =
-        std::copysign(std::hypot(both.strain[t], both.shear[t] / std::numbers::sqrt3), both.strain[t]);
+    both.strain[t] = std::copysign(std::hypot(both.strain[t], both.shear[t] / std::numbers::sqrt3), both.strain[t]);
 }
 
 }  // namespace
 
 std::vector<std::vector<double>> Evaluation::histories_of(std::span<const Site> sites, std::size_t segment,
-                                                          const ClampMeans& means,
-                                                          const SegmentMotion& motion, Worker& worker) const {
+                                                          const ClampMeans& means, const SegmentMotion& motion,
+                                                          Worker& worker) const {
   const std::size_t samples = motion.samples, stride = padded(samples);
   std::vector<std::vector<double>> histories;
   if (mixed(means)) {
@@ -449,10 +435,8 @@ std::vector<std::vector<double>> Evaluation::histories_of(std::span<const Site> 
   std::vector<std::vector<double>> sliding;
   const BundleNesting nesting = site_nesting(sites, segment, means, motion, sliding, worker);
   std::vector<double> strain(sites.size() * stride);
-  kernels().node_strains(pointers(nesting), columns_of(sites[0], means, motion), 0, samples, strain.data(),
-                         stride);
-  for (auto from = strain.begin(); from != strain.end(); from += stride)
-    histories.emplace_back(from, from + samples);
+  kernels().node_strains(pointers(nesting), columns_of(sites[0], means, motion), 0, samples, strain.data(), stride);
+  for (auto from = strain.begin(); from != strain.end(); from += stride) histories.emplace_back(from, from + samples);
   return histories;
 }
 
@@ -479,8 +463,7 @@ void Evaluation::list_turns(std::span<const Site> sites, std::size_t segment, co
   const BundlePointers from = from_parent(nesting, part, segment, means, motion, worker);
   const std::size_t stride = padded(motion.samples);
   std::vector<float> strain(sites.size() * stride);
-  kernels().node_strains_in_single(from, columns_of(sites[0], means, motion), 0, motion.samples,
-                                   strain.data(), stride);
+  kernels().node_strains_in_single(from, columns_of(sites[0], means, motion), 0, motion.samples, strain.data(), stride);
   for (std::size_t k = 0; k < sites.size(); ++k) list({strain.data() + k * stride, motion.samples}, lists[k]);
 }
 
@@ -493,13 +476,11 @@ std::vector<FibreHistory> Evaluation::fibre_histories(std::span<const Site> site
   const BundlePointers from = from_parent(nesting, part, segment, means, motion, worker);
   const std::size_t stride = padded(motion.samples), of_one = ingredients(1) * stride;
   std::vector<double> rows(sites.size() * of_one);
-  kernels().node_ingredients(from, columns_of(sites[0], means, motion), 0, motion.samples, rows.data(),
-                             stride);
+  kernels().node_ingredients(from, columns_of(sites[0], means, motion), 0, motion.samples, rows.data(), stride);
   std::vector<FibreHistory> all;
   for (std::size_t k = 0; k < sites.size(); ++k) {
-    all.push_back(mixed_history(nesting.nodes[k], nesting.fibres[0],
-                                means.plan()[wires_[sites[k].wire].layer], rows.data() + k * of_one,
-                                motion.samples, with_shear));
+    all.push_back(mixed_history(nesting.nodes[k], nesting.fibres[0], means.plan()[wires_[sites[k].wire].layer],
+                                rows.data() + k * of_one, motion.samples, with_shear));
     all.back().site = site_row(segment, sites[k]);
   }
   return all;
@@ -515,9 +496,7 @@ FibreHistory Evaluation::mixed_history(const WireNode& node, const Fibre& fibre,
   const double fibre_scale = shape_of(fibre, node).scale;
   const bool scales = !is_thesis(construction_.kinematics());
   constexpr double glued = std::numeric_limits<double>::infinity();
-  const auto cap = [&](std::size_t t) {
-    return slip.sliding == Sliding::glued ? glued : cap_at(slip.cap, means[t]);
-  };
+  const auto cap = [&](std::size_t t) { return slip.sliding == Sliding::glued ? glued : cap_at(slip.cap, means[t]); };
   const auto slides = [&](std::size_t t) { return (1 - slip.elastic) * deviations[t]; };
   Slider slider(slip.friction ? settled_slip(samples, slides, cap) : 0);
   std::vector<double> held(samples);
@@ -540,14 +519,12 @@ std::vector<double> Evaluation::helix_of(int part, std::size_t segment) const {
     const Part& in = construction_.parts()[inner];
     const Layer& layer = construction_.layers()[in.layer];
     const double phase = construction_.phase(in.layer, in.number, in.parent, places_[segment]);
-    std::ranges::copy(std::array{layer.helix_radius, layer.lay_angle, phase},
-                      helix.begin() + 3 * (layer.level - 1));
+    std::ranges::copy(std::array{layer.helix_radius, layer.lay_angle, phase}, helix.begin() + 3 * (layer.level - 1));
   }
   return helix;
 }
 
-void Evaluation::append_site(SiteRows& rows, Site site, std::size_t segment,
-                             const std::vector<double>& helix) const {
+void Evaluation::append_site(SiteRows& rows, Site site, std::size_t segment, const std::vector<double>& helix) const {
   const Wire& wire = wires_[site.wire];
   const Layer& layer = construction_.layers()[wire.layer];
   const int part = construction_.bundles()[wire.bundle].part;
@@ -559,8 +536,7 @@ void Evaluation::append_site(SiteRows& rows, Site site, std::size_t segment,
   std::ranges::copy(std::array{layer.helix_radius, layer.lay_angle, phase},
                     rows.helix.end() - helix.size() + 3 * (layer.level - 1));
   const bool on_axis = scan_.on_axis || layer.is_hose;
-  rows.fibre.insert(rows.fibre.end(),
-                    {on_axis ? 0 : layer.part_radius, fibre_angle(site.fibre, surface_fibres_)});
+  rows.fibre.insert(rows.fibre.end(), {on_axis ? 0 : layer.part_radius, fibre_angle(site.fibre, surface_fibres_)});
 }
 
 /// Returns the strains of the appended points.
@@ -621,8 +597,7 @@ std::vector<Evaluation::Worst> Evaluation::worst_of(std::size_t segment, const C
 std::vector<const Evaluation::Worst*> Evaluation::of_wires(const std::vector<Worst>& worst) const {
   std::vector<const Worst*> wires;
   for (std::size_t layer = 0; layer < worst.size(); ++layer)
-    if (!construction_.layers()[layer].is_hose && worst[layer].value[Worst::range] >= 0)
-      wires.push_back(&worst[layer]);
+    if (!construction_.layers()[layer].is_hose && worst[layer].value[Worst::range] >= 0) wires.push_back(&worst[layer]);
   return wires;
 }
 
@@ -643,8 +618,7 @@ void Evaluation::find_likely(const std::vector<const Worst*>& wires) {
   likely_.erase(std::unique(likely_.begin(), likely_.end()), likely_.end());
 }
 
-std::vector<Evaluation::Site> Evaluation::sites_to_probe(const std::vector<const Worst*>& wires,
-                                                         std::size_t segment) {
+std::vector<Evaluation::Site> Evaluation::sites_to_probe(const std::vector<const Worst*>& wires, std::size_t segment) {
   std::vector<Site> sites;
   const auto of_range =
       std::ranges::max_element(wires, {}, [](const Worst* layer) { return layer->value[Worst::range]; });
@@ -664,8 +638,7 @@ std::vector<Evaluation::Site> Evaluation::sites_to_probe(const std::vector<const
     std::vector<std::pair<float, Site>> most;
     for (const Worst* const layer : wires) {
       const auto& list = layer->by_sum[sum];
-      most.insert(most.end(), list.begin(),
-                  list.begin() + static_cast<std::ptrdiff_t>(std::min(by_sum, list.size())));
+      most.insert(most.end(), list.begin(), list.begin() + static_cast<std::ptrdiff_t>(std::min(by_sum, list.size())));
     }
     std::ranges::stable_sort(most, std::greater(), &std::pair<float, Site>::first);
     most.resize(std::min(by_sum, most.size()));
@@ -677,16 +650,14 @@ std::vector<Evaluation::Site> Evaluation::sites_to_probe(const std::vector<const
   return sites;
 }
 
-void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history, std::size_t row,
-                          const Sink& sink) {
+void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history, std::size_t row, const Sink& sink) {
   end_first_pass();
   const SegmentMotion& motion = motion_at_wires(segment, history, row);
   for (Worker& worker : workers_) worker.held[0]->begin(places_[segment], motion);
   const std::vector<Worst> worst = worst_of(segment, means_, motion, sink.sites);
   for (Bound* bound : {&stick_, &free_}) {
     const bool same = bound->means.plan() == means_.plan();
-    const std::vector<Site> sites =
-        sites_of_bound(same ? worst : worst_of(segment, bound->means, motion, {}), *bound);
+    const std::vector<Site> sites = sites_of_bound(same ? worst : worst_of(segment, bound->means, motion, {}), *bound);
     put_bound(sites, bound->means, segment, motion, bound == &stick_ ? sink.bound_stick : sink.bound_free);
   }
   const std::vector<const Worst*> wires = of_wires(worst);
@@ -702,14 +673,13 @@ void Evaluation::evaluate(std::size_t segment, const DeformationHistory& history
   pipeline::in_order(
       workers_.size(), list.size(), found.size(),
       [&](std::size_t part, std::size_t k) {
-        found[k % found.size()] =
-            fibre_histories({&list[k], 1}, segment, means_, motion, true, workers_[part])[0];
+        found[k % found.size()] = fibre_histories({&list[k], 1}, segment, means_, motion, true, workers_[part])[0];
       },
       [&](std::size_t k) { sink.fibre(found[k % found.size()]); });
 }
 
-std::vector<Evaluation::Worst> Evaluation::worst_of_bent(std::size_t segment,
-                                                         const DeformationHistory& history, std::size_t row) {
+std::vector<Evaluation::Worst> Evaluation::worst_of_bent(std::size_t segment, const DeformationHistory& history,
+                                                         std::size_t row) {
   std::vector<Worst> worst(construction_.layers().size());
   const std::vector<int> cables = cables_.bent_most(segment);
   if (cables.empty()) return worst;
@@ -728,8 +698,7 @@ std::vector<Evaluation::Worst> Evaluation::worst_of_bent(std::size_t segment,
   return worst;
 }
 
-const std::vector<Evaluation::Site>& Evaluation::likely_of_bent(std::size_t segment,
-                                                                const DeformationHistory& history,
+const std::vector<Evaluation::Site>& Evaluation::likely_of_bent(std::size_t segment, const DeformationHistory& history,
                                                                 std::size_t row) {
   if (segment < likely_of_bent_.size()) return likely_of_bent_[segment];
   find_likely(of_wires(worst_of_bent(segment, history, row)));
@@ -762,8 +731,7 @@ void Evaluation::put_probes(const std::vector<Site>& sites, std::size_t segment,
       [&](std::size_t k) { sink.probe(found[k % found.size()]); });
 }
 
-std::vector<Evaluation::Site> Evaluation::sites_of_bound(const std::vector<Worst>& worst,
-                                                         Bound& bound) const {
+std::vector<Evaluation::Site> Evaluation::sites_of_bound(const std::vector<Worst>& worst, Bound& bound) const {
   constexpr float nearly =
       0.7f;  // in the free bound hundreds of wires have sums this near the largest, and any of them can be the worst
   bound.most.resize(worst.size());
@@ -794,8 +762,7 @@ void Evaluation::put_bound(const std::vector<Site>& list, const ClampMeans& mean
   sink(rows);
 }
 
-std::vector<std::vector<TurningList>> Evaluation::turning_of(const std::vector<Site>& list,
-                                                             std::size_t segment,
+std::vector<std::vector<TurningList>> Evaluation::turning_of(const std::vector<Site>& list, std::size_t segment,
                                                              const std::vector<const ClampMeans*>& ways,
                                                              const SegmentMotion& motion) {
   std::vector<std::size_t> cuts;  // indices at which the fibre or the bundle changes: one nesting serves a whole piece
@@ -819,8 +786,7 @@ std::vector<std::vector<TurningList>> Evaluation::turning_of(const std::vector<S
 }
 
 std::vector<SiteRows> Evaluation::varied(const std::vector<Site>& sites, const std::vector<double>& factors,
-                                         std::size_t segment, const DeformationHistory& history,
-                                         std::size_t row) {
+                                         std::size_t segment, const DeformationHistory& history, std::size_t row) {
   end_first_pass();
   const SegmentMotion& motion = motion_at_wires(segment, history, row);
   std::vector<const ClampMeans*> ways;

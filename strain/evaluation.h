@@ -58,16 +58,18 @@ struct SpanPlace {
   std::size_t first_segment = 0;    ///< index in its dresspack
   std::size_t segments_in_all = 0;  ///< number of segments of its dresspack; 0: the span is the whole dresspack
   double first_arc = 0;             ///< arc of the span's base end, from the dresspack's base clamp [m]
-  double clamped_length = 0;        ///< length of a rig's cable, of which the span is a part [m]; 0: the span is the whole cable
-  bool free_tool_end = false;       ///< no clamp holds the tool end
+  double clamped_length =
+      0;  ///< length of a rig's cable, of which the span is a part [m]; 0: the span is the whole cable
+  bool free_tool_end = false;  ///< no clamp holds the tool end
   KnownEnds known_ends{};
   std::array<double, 2> relief_stiffness{};  ///< see CablesInJob
   double stiffness_factor = 1;               ///< see CablesInJob
   // Sums over the dresspacks before this one in the file:
   std::size_t segments_before = 0, sites_before = 0;
   std::size_t dresspack = 0;
-  std::string name{};  ///< name of its dresspack among several, with which the paths of its wires begin; empty: one dresspack
-  int levels = 0;      ///< levels of the file's helix table; 0: those of the construction
+  std::string
+      name{};  ///< name of its dresspack among several, with which the paths of its wires begin; empty: one dresspack
+  int levels = 0;  ///< levels of the file's helix table; 0: those of the construction
 };
 
 class Evaluation {
@@ -82,12 +84,13 @@ class Evaluation {
   /// lengths: rest lengths of the segments [m]. threads: number of threads that share the bundles of a segment; the result
   /// does not depend on it. Errors: InputError for a probe that names no existing wire or segment.
   Evaluation(const Construction& construction, const pipeline::Strain& settings, std::vector<double> lengths,
-             std::size_t samples, std::size_t threads = 1, const SpanPlace& place = {},
-             const Scratch& scratch = {});
+             std::size_t samples, std::size_t threads = 1, const SpanPlace& place = {}, const Scratch& scratch = {});
 
   std::size_t segments() const { return lengths_.size(); }
   const std::vector<double>& lengths() const { return lengths_; }  ///< (segment) [m]
-  const std::vector<double>& arcs() const { return arcs_; }  ///< (segment) arc of the centre from the dresspack's base clamp [m]
+  const std::vector<double>& arcs() const {
+    return arcs_;
+  }  ///< (segment) arc of the centre from the dresspack's base clamp [m]
   /// (segment) arc from the dresspack's base clamp at which its wires are evaluated [m].
   const std::vector<double>& places() const { return places_; }
   std::size_t sites() const {
@@ -164,15 +167,14 @@ class Evaluation {
   const std::vector<Site>& likely_worst() const { return likely_; }
   /// Returns the likely worst sites at a rest that is not the job's own. Scans only the cables that bend most. Precondition: find_bent().
   /// Segments as in varied().
-  const std::vector<Site>& likely_of_bent(std::size_t segment, const DeformationHistory& history,
-                                          std::size_t row);
+  const std::vector<Site>& likely_of_bent(std::size_t segment, const DeformationHistory& history, std::size_t row);
   /// Returns the largest sum over turning points of (range times tensile peak)^3 of the cables that bend most, which compares the
   /// rests of one job. Call in the order of the segments; likely_of_bent() then returns the wires of this scan.
   float damage_of_bent(std::size_t segment, const DeformationHistory& history, std::size_t row);
   /// Returns site rows and turning points of `sites`, in their order, with friction times each of `factors`: (factor). Segments
   /// as in evaluate(). An evaluation with other slack, play or grips does not need evaluate() before.
-  std::vector<SiteRows> varied(const std::vector<Site>& sites, const std::vector<double>& factors,
-                               std::size_t segment, const DeformationHistory& history, std::size_t row);
+  std::vector<SiteRows> varied(const std::vector<Site>& sites, const std::vector<double>& factors, std::size_t segment,
+                               const DeformationHistory& history, std::size_t row);
   /// Returns the row of a site among the file's own sites.
   std::size_t row_of(std::size_t segment, Site site) const { return site_row(segment, site); }
 
@@ -205,8 +207,7 @@ class Evaluation {
     /// Every level of the job slips as in this bound. Then the job's own sites are the bound, and the worst wire does not need
     /// the list.
     bool own;
-    std::vector<std::array<float, Worst::sums.size()>>
-        most{};  ///< (layer) the largest sums of the segments so far
+    std::vector<std::array<float, Worst::sums.size()>> most{};  ///< (layer) the largest sums of the segments so far
   };
 
   /// Identifies the part whose states a worker holds for the parts inside it.
@@ -248,19 +249,18 @@ class Evaluation {
                                                    const SegmentMotion& motion);
   const DeformationColumns& columns_of(Site site, const ClampMeans& means, const SegmentMotion& motion) const;
   void find_probes(const std::vector<pipeline::ProbeRequest>& probes);
-  BundleNesting part_nesting(int part, std::size_t segment, const ClampMeans& means,
-                             const SegmentMotion& motion, const std::vector<Fibre>& fibres,
-                             Worker& worker) const;
+  BundleNesting part_nesting(int part, std::size_t segment, const ClampMeans& means, const SegmentMotion& motion,
+                             const std::vector<Fibre>& fibres, Worker& worker) const;
   BundleNesting layer_nesting(const Bundle& bundle, std::size_t segment, const ClampMeans& means,
                               const SegmentMotion& motion, Worker& worker) const;
-  void scan_bundle(std::size_t bundle, std::size_t segment, const ClampMeans& means,
-                   const SegmentMotion& motion, bool with_rows, Worker& worker, BundleSites& out) const;
+  void scan_bundle(std::size_t bundle, std::size_t segment, const ClampMeans& means, const SegmentMotion& motion,
+                   bool with_rows, Worker& worker, BundleSites& out) const;
   /// Calls use() for every bundle, in order. The threads share the work.
   void scan_bundles(std::size_t segment, const ClampMeans& means, const SegmentMotion& motion, bool with_rows,
                     const std::function<void(const BundleSites&)>& use);
   /// Returns the nesting to `part`. Starts from the states of its parent if they suffice.
-  BundlePointers from_parent(const BundleNesting& nesting, int part, std::size_t segment,
-                             const ClampMeans& means, const SegmentMotion& motion, Worker& worker) const;
+  BundlePointers from_parent(const BundleNesting& nesting, int part, std::size_t segment, const ClampMeans& means,
+                             const SegmentMotion& motion, Worker& worker) const;
   /// Returns whole histories, in double precision, of sites of one bundle and one fibre.
   std::vector<std::vector<double>> histories_of(std::span<const Site> sites, std::size_t segment,
                                                 const ClampMeans& means, const SegmentMotion& motion,
@@ -269,19 +269,18 @@ class Evaluation {
   void list_turns(std::span<const Site> sites, std::size_t segment, const ClampMeans& means,
                   const SegmentMotion& motion, Worker& worker, std::span<TurningList> lists) const;
   /// Returns the strain along the fibre and, if wanted, the shear of sites of one bundle and one fibre, in double precision.
-  std::vector<FibreHistory> fibre_histories(std::span<const Site> sites, std::size_t segment,
-                                            const ClampMeans& means, const SegmentMotion& motion,
-                                            bool with_shear, Worker& worker) const;
-  FibreHistory mixed_history(const WireNode& node, const Fibre& fibre, const LayerSlip& slip,
-                             const double* rows, std::size_t samples, bool with_shear) const;
+  std::vector<FibreHistory> fibre_histories(std::span<const Site> sites, std::size_t segment, const ClampMeans& means,
+                                            const SegmentMotion& motion, bool with_shear, Worker& worker) const;
+  FibreHistory mixed_history(const WireNode& node, const Fibre& fibre, const LayerSlip& slip, const double* rows,
+                             std::size_t samples, bool with_shear) const;
   /// Returns the nesting to sites of one bundle and one fibre, which are its nodes. sliding: receives the clamp means to which
   /// the nodes point.
   BundleNesting site_nesting(std::span<const Site> sites, std::size_t segment, const ClampMeans& means,
                              const SegmentMotion& motion, std::vector<std::vector<double>>& sliding,
                              Worker& worker) const;
   std::size_t site_row(std::size_t segment, Site site) const {
-    return place_.sites_before +
-           ((place_.first_segment + segment) * wires_.size() + site.wire) * scan_.fibre_count + site.fibre;
+    return place_.sites_before + ((place_.first_segment + segment) * wires_.size() + site.wire) * scan_.fibre_count +
+           site.fibre;
   }
   std::vector<double> helix_of(int part, std::size_t segment) const;
   void append_site(SiteRows& rows, Site site, std::size_t segment, const std::vector<double>& helix) const;
@@ -297,8 +296,7 @@ class Evaluation {
   /// Returns the worst sites of every wire layer. sink: receives all sites; may be empty.
   std::vector<Worst> worst_of(std::size_t segment, const ClampMeans& means, const SegmentMotion& motion,
                               const std::function<void(const SiteRows&)>& sink);
-  void put_probes(const std::vector<Site>& sites, std::size_t segment, const SegmentMotion& motion,
-                  const Sink& sink);
+  void put_probes(const std::vector<Site>& sites, std::size_t segment, const SegmentMotion& motion, const Sink& sink);
   std::vector<Site> sites_of_bound(const std::vector<Worst>& worst, Bound& bound) const;
   void put_bound(const std::vector<Site>& sites, const ClampMeans& means, std::size_t segment,
                  const SegmentMotion& motion, const std::function<void(const SiteRows&)>& sink);

@@ -17,7 +17,8 @@ void hold(const std::vector<double>& deviations, int powers, std::size_t stride,
   const auto cap = [&](std::size_t t) { return cap_at(slip.cap, deviations[t]); };
   Slider slider(settled_slip(samples, deviation, cap));
   double before = slider.slip();
-  for (std::size_t t = 0; t < samples; ++t) {  // slips only: the previous one stays in a register, since no function is called
+  for (std::size_t t = 0; t < samples;
+       ++t) {  // slips only: the previous one stays in a register, since no function is called
     slider.next(deviation(t), cap(t));
     held[t] = slider.slip();
   }
@@ -53,8 +54,7 @@ void hold(const std::vector<double>& deviations, int powers, std::size_t stride,
 int turned_level(const Construction& construction, const std::vector<int>& line) {
   for (int k = static_cast<int>(line.size()) - 1; k >= 0; --k) {
     const Layer& layer = construction.layers()[construction.parts()[line[k]].layer];
-    if (layer.helix_radius > 0 && layer.lay_angle != 0)
-      return k + 1 == static_cast<int>(line.size()) ? 0 : layer.level;
+    if (layer.helix_radius > 0 && layer.lay_angle != 0) return k + 1 == static_cast<int>(line.size()) ? 0 : layer.level;
   }
   return 0;
 }
@@ -73,8 +73,7 @@ std::size_t HeldStrains::bytes(std::size_t samples) const {
   std::size_t rows = 0, scratch = 0;
   for (std::size_t level = 0; level < held.size(); ++level) {
     if (!held[level]) continue;
-    rows +=
-        static_cast<std::size_t>(powers(static_cast<int>(level))) * (any_turned() ? 1 + phases_per_pitch : 1);
+    rows += static_cast<std::size_t>(powers(static_cast<int>(level))) * (any_turned() ? 1 + phases_per_pitch : 1);
     scratch = std::max<std::size_t>(scratch, powers(static_cast<int>(level)) + 1);
   }
   return (rows + scratch) * padded(samples) * sizeof(double);
@@ -101,8 +100,7 @@ const HeldStrains::Rows& HeldStrains::rows_of(int part, int level) {
 BundleNesting HeldStrains::nesting_of(int part) {
   BundleNesting nesting = nesting_to(construction_, means_.plan(), part, arc_, surface_fibres(0));
   means_.attach(nesting, part, *motion_);
-  if (const int parent = construction_.parts()[part].parent; parent != dresspack_itself)
-    attach(nesting, parent);
+  if (const int parent = construction_.parts()[part].parent; parent != dresspack_itself) attach(nesting, parent);
   return nesting;
 }
 
@@ -121,8 +119,8 @@ void HeldStrains::find_deviations(const BundleNesting& nesting, const PartDeviat
   }
   const auto rows = static_cast<std::size_t>(nesting.order) + 2;  // the mean, and the powers
   deviations_->rows.resize(rows * stride_);
-  kernels().deviations(from, of.turn, turned_level(construction_, construction_.ancestry(of.part)), columns,
-                       0, samples_, deviations_->rows.data(), stride_);
+  kernels().deviations(from, of.turn, turned_level(construction_, construction_.ancestry(of.part)), columns, 0,
+                       samples_, deviations_->rows.data(), stride_);
   deviations_->of = of;
 }
 

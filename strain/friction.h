@@ -53,17 +53,14 @@ double settled_slip(std::size_t samples, const auto& deviation, const auto& cap)
   return std::clamp(0.0, low, high);
 }
 
-inline double cap_at(const FrictionCap& cap, double mean) {
-  return std::max(0.0, cap.constant + cap.per_mean * mean);
-}
+inline double cap_at(const FrictionCap& cap, double mean) { return std::max(0.0, cap.constant + cap.per_mean * mean); }
 
 /// Input of friction: mean of a part, and its deviation from the mean as a series: (1 + power, sample). Stores the part of the
 /// last request, and the state of its parent, from which all parts in the parent are computed.
 struct PartDeviations {
   struct Of {
     int part = -1, turn = -1;
-    const ClampMeans* means =
-        nullptr;  ///< null: independent of friction, because no part above has friction
+    const ClampMeans* means = nullptr;  ///< null: independent of friction, because no part above has friction
     bool operator==(const Of&) const = default;
   };
   Of of;

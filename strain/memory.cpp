@@ -50,8 +50,7 @@ Counts counts_of(const pipeline::Dresspack& dresspack, const pipeline::Strain& s
   for (const Part& part : construction.parts()) {
     const Layer& layer = construction.layers()[part.layer];
     if (layer.is_cable()) {
-      counts.rubbing +=
-          pipeline::rubs(settings.slip.front()) && (layer.friction > 0 || layer.jacket_stiffness > 0);
+      counts.rubbing += pipeline::rubs(settings.slip.front()) && (layer.friction > 0 || layer.jacket_stiffness > 0);
       counts.cables += 1;
       counts.loose += free[part.layer].loose;
       continue;
@@ -92,8 +91,7 @@ void check_counts(const pipeline::Where& where, double samples, double sites) {
         "choose fewer simulation.segments or strain.surface_fibres, or split the dresspack");
 }
 
-pipeline::MemoryNeed memory_of(const pipeline::FileReader& motion, const pipeline::Job& job,
-                               std::size_t threads) {
+pipeline::MemoryNeed memory_of(const pipeline::FileReader& motion, const pipeline::Job& job, std::size_t threads) {
   constexpr double program = 18 << 20;  // program, libraries and a job: the smallest jobs take 18.8 MB in total
   const std::size_t samples = motion.rows("/time"), segments = motion.rows("/segment/length");
   const double rows = static_cast<double>(samples), workers = static_cast<double>(threads);
@@ -114,19 +112,17 @@ pipeline::MemoryNeed memory_of(const pipeline::FileReader& motion, const pipelin
   }
   check_counts(motion.where(), rows, sites);
   need.add(listed, "parts and wires", "fewer of them (dresspack.components)");
-  if (need.megabytes() > static_cast<double>(pipeline::installed_memory_mb()))
-    return need;  // too many for the lists
+  if (need.megabytes() > static_cast<double>(pipeline::installed_memory_mb())) return need;  // too many for the lists
 
   // Each other set of cable places is kept in addition to the job's own, each with four frictions and two bounds. Other starts
   // have one friction.
-  const double laid = 1 + static_cast<double>(placements_at_most(job)),
-               frictions = job.uncertainty.enabled ? 6 : 1;
+  const double laid = 1 + static_cast<double>(placements_at_most(job)), frictions = job.uncertainty.enabled ? 6 : 1;
   double cable_rows = 0, bent_rows = 0, part_rows = 0, found = 0;
   for (const pipeline::MotionSpan& span : spans) {
     if (span.dresspack >= job.dresspacks.size()) continue;
-    const double length = std::accumulate(
-        lengths.begin() + static_cast<std::ptrdiff_t>(span.first_segment),
-        lengths.begin() + static_cast<std::ptrdiff_t>(span.first_segment + span.segments), 0.0);
+    const double length =
+        std::accumulate(lengths.begin() + static_cast<std::ptrdiff_t>(span.first_segment),
+                        lengths.begin() + static_cast<std::ptrdiff_t>(span.first_segment + span.segments), 0.0);
     const Counts counts =
         counts_of(job.dresspacks[span.dresspack].dresspack, job.strain, std::max(length, clamped_length(job)));
     const double in_span = static_cast<double>(span.segments);
@@ -139,22 +135,20 @@ pipeline::MemoryNeed memory_of(const pipeline::FileReader& motion, const pipelin
     part_rows = std::max(part_rows, laid * frictions * counts.clamp_rows);
     // Per thread: states of a part and of its parent, and the held strains of every level.
     constexpr double states = 4, in_single = 3, turned = 1 + phases_per_pitch;
-    found = std::max(found, workers * (2 * states * (counts.depth + 1) + in_single +
-                                       laid * frictions * counts.depth * turned));
+    found = std::max(
+        found, workers * (2 * states * (counts.depth + 1) + in_single + laid * frictions * counts.depth * turned));
     // Bundles that wait to be written: turning points of every site, in lists and in rows (evaluation.cpp).
     constexpr double turns_of_samples = 0.25, point = 16;
     const double ahead = threads == 1 ? 1 : std::min(counts.bundles, 2 * workers);
-    found =
-        std::max(found, ahead * counts.widest_bundle * counts.most_fibres * turns_of_samples * point / value);
+    found = std::max(found, ahead * counts.widest_bundle * counts.most_fibres * turns_of_samples * point / value);
   }
   const std::string sampling = "a lower simulation.sample_rate_Hz, or split the motion";
-  need.add(std::min(rows * static_cast<double>(segments) * sizeof(Deformation),
-                    static_cast<double>(default_history_bytes)),
-           fmt::format("histories of {} segments", segments), sampling);
+  need.add(
+      std::min(rows * static_cast<double>(segments) * sizeof(Deformation), static_cast<double>(default_history_bytes)),
+      fmt::format("histories of {} segments", segments), sampling);
   need.add(std::min(bent_rows * rows * value, static_cast<double>(default_history_bytes) / 2),
            "where loose cables bend", sampling);
-  need.add(cable_rows * rows * value, "what cables do in each segment",
-           "fewer simulation.segments, " + sampling);
+  need.add(cable_rows * rows * value, "what cables do in each segment", "fewer simulation.segments, " + sampling);
   need.add((part_rows + found) * rows * value, "what parts do at each sample", sampling);
   const std::map<std::string, std::size_t> axes{{"sample", samples},
                                                 {"segment", segments},

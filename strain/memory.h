@@ -14,8 +14,7 @@ class FileReader;
 namespace dresslife::strain {
 
 /// Errors: InputError if the samples or sites exceed the numbers of strain.h5, and the errors of Construction.
-pipeline::MemoryNeed memory_of(const pipeline::FileReader& motion, const pipeline::Job& job,
-                               std::size_t threads);
+pipeline::MemoryNeed memory_of(const pipeline::FileReader& motion, const pipeline::Job& job, std::size_t threads);
 
 /// strain.h5 numbers samples and sites in 32 bits. The largest 32-bit number means "none".
 inline constexpr double most_numbered = 4294967294.0;

@@ -49,7 +49,7 @@ bool MotionReader::ends_freely(const pipeline::Job& job, std::size_t k) const {
 }
 
 void MotionReader::run(bool with_pull, const std::function<void(const MotionBlock&)>& put, std::size_t from,
-         std::size_t end) {
+                       std::size_t end) {
   const std::size_t segments = lengths_.size();
   const std::size_t clamps = file_.row_size("/clamp/position") / 3;
   std::vector<double> position, orientation, clamp_position, clamp_orientation;
@@ -64,9 +64,7 @@ void MotionReader::run(bool with_pull, const std::function<void(const MotionBloc
     deformation.resize(count * segments);
     at_wires.resize(count * segments);
     for (std::size_t t = 0; t < count; ++t) {
-      auto row = [&](const std::vector<double>& of, std::size_t size) {
-        return std::span(of).subspan(t * size, size);
-      };
+      auto row = [&](const std::vector<double>& of, std::size_t size) { return std::span(of).subspan(t * size, size); };
       for (std::size_t k = 0; k < spans_.size(); ++k) {
         const auto& [dresspack, begin, size, base, tool] = spans_[k];
         const std::size_t held = tool - base + 1;  // includes the first and the last clamp of the span
@@ -90,7 +88,7 @@ void MotionReader::run(bool with_pull, const std::function<void(const MotionBloc
 /// Computes gravity minus acceleration in each segment's frame. The first and the last sample get the acceleration of their
 /// neighbour.
 void MotionReader::measure_pull(std::size_t first, std::size_t count, const std::vector<double>& orientation,
-                  std::vector<double>& pull) const {
+                                std::vector<double>& pull) const {
   const std::size_t segments = lengths_.size(), row = 3 * segments;
   const std::size_t before = first > 0 ? 1 : 0, after = first + count < samples_ ? 1 : 0;
   std::vector<double> position;

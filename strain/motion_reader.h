@@ -21,8 +21,9 @@ constexpr std::size_t motion_block_samples = 512;  // rows per read
 struct MotionBlock {
   std::size_t first;                         ///< number of its first sample
   std::span<const Deformation> deformation;  ///< (sample, segment) deformation at the segment's centre
-  std::span<const Deformation> at_wires;     ///< (sample, segment) deformation where the segment's wires are evaluated (W39)
-  std::span<const double> pull;              ///< (sample, segment, 2), see SpanBlock; empty: not wanted
+  std::span<const Deformation>
+      at_wires;                  ///< (sample, segment) deformation where the segment's wires are evaluated (W39)
+  std::span<const double> pull;  ///< (sample, segment, 2), see SpanBlock; empty: not wanted
 };
 
 class MotionReader {
@@ -31,7 +32,7 @@ class MotionReader {
   MotionReader(const pipeline::FileReader& file, const pipeline::Job& job, std::string group = "");
 
   std::size_t samples() const { return samples_; }
-  double step() const { return step_; }                             ///< time between samples [s]
+  double step() const { return step_; }                            ///< time between samples [s]
   const std::vector<double>& lengths() const { return lengths_; }  ///< (segment) [m]
   const std::vector<pipeline::MotionSpan>& spans() const { return spans_; }
   std::vector<double> lengths_of(const pipeline::MotionSpan& span) const;

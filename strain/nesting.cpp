@@ -57,35 +57,32 @@ bool helical(const Layer& layer) { return layer.helix_radius > 0 && layer.lay_an
 
 }  // namespace
 
-BundleNesting nesting_to(const Construction& construction, const std::vector<LayerSlip>& plan, int part,
-                         double arc, const std::vector<Fibre>& fibres) {
+BundleNesting nesting_to(const Construction& construction, const std::vector<LayerSlip>& plan, int part, double arc,
+                         const std::vector<Fibre>& fibres) {
   // Each level needs one order, and fibres that depend on bend1 need one more.
   const int order = std::min(construction.levels() + 1, Series<double>::capacity - 1);
   BundleNesting nesting;
   nesting.fibres = fibres;
   nesting.dresspack_at_rest = uniform_rod<double>(0, 0, construction.rest_curvature(), 0, order);
   nesting.order = order_for(fibres);
-  const bool any_turned = std::any_of(plan.begin(), plan.end(), [](const LayerSlip& slip) {
-    return slip.sliding == Sliding::along_ancestor;
-  });
+  const bool any_turned = std::any_of(plan.begin(), plan.end(),
+                                      [](const LayerSlip& slip) { return slip.sliding == Sliding::along_ancestor; });
   const std::vector<int> line = construction.ancestry(part);
   nesting.steps.reserve(line.size());
   for (const int level_part : line) {
     const Part& of = construction.parts()[level_part];
     NestingLevel step;
     // A loose cable does not turn about itself, with or without lay. Its phase is that at the clamp (W32).
-    step.place = plan[of.layer].loose
-                     ? make_placement(construction.kinematics(), 0.0, 0.0, 1.0,
-                                      construction.phase(of.layer, of.number, of.parent, 0), order)
-                     : construction.placement(of.layer, of.number, of.parent, arc, 0, order);
+    step.place = plan[of.layer].loose ? make_placement(construction.kinematics(), 0.0, 0.0, 1.0,
+                                                       construction.phase(of.layer, of.number, of.parent, 0), order)
+                                      : construction.placement(of.layer, of.number, of.parent, arc, 0, order);
     step.rest = child(rest_at_end(nesting), step.place);
     step.slide = sliding_numbers(plan[of.layer], nesting, step.place);
     const bool turns = helical(construction.layers()[of.layer]);
     for (int turn = 0; any_turned && turn < phases_per_pitch; ++turn) {
       const double angle = turns ? 2 * pi * turn / phases_per_pitch : 0;
-      step.turned[turn] = plan[of.layer].loose
-                              ? step.place
-                              : construction.placement(of.layer, of.number, of.parent, arc, angle, order);
+      step.turned[turn] =
+          plan[of.layer].loose ? step.place : construction.placement(of.layer, of.number, of.parent, arc, angle, order);
       step.turned_rest[turn] = child(rest_at_end(nesting, turns ? -1 : turn), step.turned[turn]);
     }
     nesting.steps.push_back(step);
@@ -93,22 +90,21 @@ BundleNesting nesting_to(const Construction& construction, const std::vector<Lay
   return nesting;
 }
 
-WireNode node_at(const Construction& construction, const std::vector<LayerSlip>& plan,
-                 const BundleNesting& nesting, int layer, int number, int part, double arc, double turn) {
+WireNode node_at(const Construction& construction, const std::vector<LayerSlip>& plan, const BundleNesting& nesting,
+                 int layer, int number, int part, double arc, double turn) {
   WireNode node;
   node.place = construction.placement(layer, number, part, arc, turn, 0);
   put_at_rest(node, rest_at_end(nesting));
   node.slide = sliding_numbers(plan[layer], nesting, node.place);
   const Layer& of = construction.layers()[layer];
-  node.shear_radius =
-      of.part_radius * of.shear_factor / of.strain_factor;  // the kernels multiply by strain_factor
+  node.shear_radius = of.part_radius * of.shear_factor / of.strain_factor;  // the kernels multiply by strain_factor
   node.wire_radius = of.is_hose ? 0 : of.part_radius;
   node.strain_factor = of.strain_factor;
   return node;
 }
 
-void add_wire_layer(const Construction& construction, const std::vector<LayerSlip>& plan,
-                    BundleNesting& nesting, int layer, int part, double arc) {
+void add_wire_layer(const Construction& construction, const std::vector<LayerSlip>& plan, BundleNesting& nesting,
+                    int layer, int part, double arc) {
   const double fifth = 2 * pi / waves_per_layer, sine = std::sin(fifth), cosine = std::cos(fifth);
   WireNode node = node_at(construction, plan, nesting, layer, 1, part, arc, 0);
   const bool closed =
@@ -118,8 +114,7 @@ void add_wire_layer(const Construction& construction, const std::vector<LayerSli
   for (int k = 1; k < waves_per_layer; ++k) {
     turn_place(node.place, sine, cosine);
     put_at_rest(node, rest_at_end(nesting));
-    if (node.slide.sliding == Sliding::along_ancestor)
-      node.slide = sliding_numbers(plan[layer], nesting, node.place);
+    if (node.slide.sliding == Sliding::along_ancestor) node.slide = sliding_numbers(plan[layer], nesting, node.place);
     nesting.nodes.push_back(node);
   }
 }

@@ -14,8 +14,8 @@ void PartStates::fill(const BundleNesting& nesting, const DeformationColumns& co
     kernels().part_rows_of_dresspack(pointers(nesting), columns, 0, samples, single_.data(), stride_);
   if (!in_double_) return;
   rows_.resize(part_state_rows(nesting.order) * stride_);
-  kernels().part_states(pointers(nesting), columns, 0, samples, rows_.data(),
-                        from_dresspack ? nullptr : single_.data(), stride_);
+  kernels().part_states(pointers(nesting), columns, 0, samples, rows_.data(), from_dresspack ? nullptr : single_.data(),
+                        stride_);
 }
 
 void PartStates::lend(BundlePointers& nesting) const {

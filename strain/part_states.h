@@ -12,8 +12,7 @@ namespace dresslife::strain {
 class PartStates {
  public:
   /// nesting: to the part; its order is that of its parts plus one. in_double: computes double precision also.
-  void fill(const BundleNesting& nesting, const DeformationColumns& columns, std::size_t samples,
-            bool in_double);
+  void fill(const BundleNesting& nesting, const DeformationColumns& columns, std::size_t samples, bool in_double);
   bool in_double() const { return in_double_; }
   /// Makes the nesting of one of its parts start from this state.
   void lend(BundlePointers& nesting) const;

@@ -94,8 +94,8 @@ void Passage::each_span(const MotionBlock& block, const Shortening::Piece& piece
     }
     const SpanBlock span_block{of_span, pull, motion_.step(), ends};
     std::vector<Evaluation*> all = evaluations(k);
-    const auto others = std::ranges::stable_partition(
-        all, [&](const Evaluation* of) { return !leaves_out(piece, of->samples()); });
+    const auto others =
+        std::ranges::stable_partition(all, [&](const Evaluation* of) { return !leaves_out(piece, of->samples()); });
     for (Evaluation* const of : others) of->leave_out(span_block);
     all.erase(others.begin(), others.end());
     const std::vector<std::vector<Evaluation*>> of_thread = shared_out(all);
@@ -109,7 +109,8 @@ void Passage::each_span(const MotionBlock& block, const Shortening::Piece& piece
 void Passage::each_piece(bool with_pull,
                          const std::function<void(const MotionBlock&, const Shortening::Piece&)>& use) const {
   for (const Shortening::Piece& piece : shortening_.pieces())
-    motion_.run(with_pull, [&](const MotionBlock& block) { use(block, piece); }, piece.first, piece.end);
+    motion_.run(
+        with_pull, [&](const MotionBlock& block) { use(block, piece); }, piece.first, piece.end);
 }
 
 void Passage::keep(std::size_t first_segment, const MotionBlock& block, const Shortening::Piece& piece) const {
@@ -118,7 +119,9 @@ void Passage::keep(std::size_t first_segment, const MotionBlock& block, const Sh
   window_.keep(first_segment, whole ? block.first : piece.at + block.first - piece.first, block);
 }
 
-std::size_t Passage::samples_in(double time) const { return static_cast<std::size_t>(std::ceil(time / motion_.step())); }
+std::size_t Passage::samples_in(double time) const {
+  return static_cast<std::size_t>(std::ceil(time / motion_.step()));
+}
 
 /// Returns whether cables can stop early in the lead-in.
 bool Passage::is_short() const { return motion_.samples() <= samples_in(longest_short); }
@@ -145,7 +148,8 @@ void Passage::lead_in(std::size_t from, std::size_t until) {
     const std::size_t first = (samples - left % samples) % samples, count = std::min(left - until, samples - first);
     const Shortening::Piece piece{first, first + count, 0, 1};
     const auto move = [&](const MotionBlock& block) {
-      each_span(block, piece, [&](std::size_t span) { return still_moving(span); }, Evaluation::lead_in);
+      each_span(
+          block, piece, [&](std::size_t span) { return still_moving(span); }, Evaluation::lead_in);
       if (moving == all_of_them) starts_.merge();  // else some starts are at the end of a repeat
     };
     motion_.run(true, move, first, first + count);
@@ -177,7 +181,8 @@ void Passage::close_cycles() {
     for (const std::vector<Evaluation*>& of_span : all)
       for (Evaluation* const evaluation : of_span) evaluation->repeat();
     each_piece(true, [&](const MotionBlock& block, const Shortening::Piece& piece) {
-      each_span(block, piece, [&](std::size_t span) { return all[span]; }, add);
+      each_span(
+          block, piece, [&](std::size_t span) { return all[span]; }, add);
     });
     starts_.merge();
   }
@@ -186,7 +191,8 @@ void Passage::close_cycles() {
 void Passage::run(const std::function<void(const MotionBlock&)>& put) {
   each_piece(loose_, [&](const MotionBlock& block, const Shortening::Piece& piece) {
     put(block);
-    each_span(block, piece, [&](std::size_t span) { return evaluated(span); }, add);
+    each_span(
+        block, piece, [&](std::size_t span) { return evaluated(span); }, add);
     starts_.merge();
     keep(0, block, piece);
   });
@@ -195,18 +201,18 @@ void Passage::run(const std::function<void(const MotionBlock&)>& put) {
     for (Evaluation* const evaluation : evaluated(k)) evaluation->end_first_pass();
   if (std::ranges::none_of(starts_.spans(0), [](const auto& evaluation) { return evaluation->wants_again(); })) return;
   each_piece(false, [&](const MotionBlock& block, const Shortening::Piece& piece) {
-    each_span(block, piece, [&](std::size_t span) { return evaluated(span); },
-              [](std::span<Evaluation* const> own, const SpanBlock& of_span) {
-                for (Evaluation* const evaluation : own)
-                  if (evaluation->wants_again()) evaluation->add_again(of_span.deformation);
-              });
+    each_span(
+        block, piece, [&](std::size_t span) { return evaluated(span); },
+        [](std::span<Evaluation* const> own, const SpanBlock& of_span) {
+          for (Evaluation* const evaluation : own)
+            if (evaluation->wants_again()) evaluation->add_again(of_span.deformation);
+        });
   });
 }
 
 void Passage::refill(std::size_t first_segment) {
-  each_piece(false, [&](const MotionBlock& block, const Shortening::Piece& piece) {
-    keep(first_segment, block, piece);
-  });
+  each_piece(false,
+             [&](const MotionBlock& block, const Shortening::Piece& piece) { keep(first_segment, block, piece); });
 }
 
 void Passage::choose(double z) {
@@ -218,8 +224,8 @@ void Passage::choose(double z) {
   std::vector<double> damage(starts_.rests(), 0.0);
   each_segment([&](std::size_t span, std::size_t segment, std::size_t row) {
     for (std::size_t rest = 0; rest < starts_.rests(); ++rest)
-      damage[rest] = std::max<double>(
-          damage[rest], starts_.spans(rest)[span]->damage_of_bent(segment, window_.history(), row));
+      damage[rest] =
+          std::max<double>(damage[rest], starts_.spans(rest)[span]->damage_of_bent(segment, window_.history(), row));
   });
   starts_.choose(z, damage);
   if (window_.size() < motion_.lengths().size()) refill(0);

@@ -74,7 +74,8 @@ class Passage {
   std::vector<Evaluation*> still_moving(std::size_t span) const;
   std::vector<std::vector<Evaluation*>> shared_out(const std::vector<Evaluation*>& all) const;
   using OfSpan = std::function<std::vector<Evaluation*>(std::size_t span)>;
-  void each_span(const MotionBlock& block, const Shortening::Piece& piece, const OfSpan& evaluations, const Use& use) const;
+  void each_span(const MotionBlock& block, const Shortening::Piece& piece, const OfSpan& evaluations,
+                 const Use& use) const;
   void close_cycles();
   void each_piece(bool with_pull, const std::function<void(const MotionBlock&, const Shortening::Piece&)>& use) const;
   void keep(std::size_t first_segment, const MotionBlock& block, const Shortening::Piece& piece) const;

@@ -29,8 +29,7 @@ PathRates::PathRates(const Construction& construction, const std::vector<LayerSl
   const double turn = shortest_turn(construction, parent, members);
   for (std::size_t segment = 0; segment < lengths.size(); ++segment) {
     const double length = lengths[segment];
-    const double places =
-        std::isinf(turn) ? 1 : std::max(least_places, std::ceil(places_per_turn * length / turn));
+    const double places = std::isinf(turn) ? 1 : std::max(least_places, std::ceil(places_per_turn * length / turn));
     weights_.push_back(length / places);
     for (double place = 0; place < places; ++place) {
       const double arc = arcs[segment] + length * ((place + 0.5) / places - 0.5);

@@ -24,8 +24,7 @@ class PathRates {
  public:
   /// lengths, arcs: rest length and centre of each segment [m].
   PathRates(const Construction& construction, const std::vector<LayerSlip>& plan, int parent,
-            std::vector<PathMember> members, const std::vector<double>& lengths,
-            const std::vector<double>& arcs);
+            std::vector<PathMember> members, const std::vector<double>& lengths, const std::vector<double>& arcs);
 
   std::size_t members() const { return count_; }
   /// Path length of member n in a segment at rest [m].

@@ -13,7 +13,7 @@ namespace dresslife::strain {
 struct SegmentMotion {
   std::size_t samples = 0;
   DeformationColumns hose{};
-  std::vector<const double*> strain{};  ///< (cable) pointer to (sample); null: it sticks to the hose in every plan
+  std::vector<const double*> strain{};      ///< (cable) pointer to (sample); null: it sticks to the hose in every plan
   std::vector<DeformationColumns> loose{};  ///< (cable) its own deformation, if it can lie loose
 
   /// Returns the deformation from which the nesting to a part starts.

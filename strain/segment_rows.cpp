@@ -12,8 +12,7 @@ SegmentRows::SegmentRows(std::size_t segments, std::size_t rows, std::size_t sam
   if (scratch.beside.empty()) return;
   std::filesystem::path name = scratch.beside;
   pipeline::remove_leftovers(name += ".paths");  // of a killed run
-  if (segments * rows * samples * sizeof(float) > scratch.room)
-    file_ = std::make_unique<pipeline::WholeFile>(name);
+  if (segments * rows * samples * sizeof(float) > scratch.room) file_ = std::make_unique<pipeline::WholeFile>(name);
 }
 
 void SegmentRows::begin(std::size_t samples) {
@@ -43,12 +42,10 @@ void SegmentRows::end() {
   blocks_.push_back(std::move(block));
 }
 
-void SegmentRows::read(std::size_t segment, std::size_t row, std::size_t first, std::size_t count,
-                       double* to) const {
+void SegmentRows::read(std::size_t segment, std::size_t row, std::size_t first, std::size_t count, double* to) const {
   std::vector<float> from_file;
-  auto block =
-      std::upper_bound(blocks_.begin(), blocks_.end(), first,
-                       [](std::size_t sample, const Block& of) { return sample < of.first + of.samples; });
+  auto block = std::upper_bound(blocks_.begin(), blocks_.end(), first,
+                                [](std::size_t sample, const Block& of) { return sample < of.first + of.samples; });
   for (; count > 0; ++block) {
     assert(block != blocks_.end());
     const std::size_t skipped = first - block->first, here = std::min(count, block->samples - skipped);

@@ -64,8 +64,7 @@ class PartsDifference {
       variation = std::max(variation, (of.squares - of.sum.squaredNorm() / samples) / samples);
       difference = std::max(difference, of.difference / samples);
     }
-    return std::sqrt(difference) <= same_rms * std::sqrt(variation) &&
-           largest_ <= same_sample * std::sqrt(variation);
+    return std::sqrt(difference) <= same_rms * std::sqrt(variation) && largest_ <= same_sample * std::sqrt(variation);
   }
 
  private:
@@ -105,10 +104,8 @@ class PartsCheck {
                                 around = read(first - parts.length - 1, first - parts.length + count + 1);
       for (std::size_t k = 0; k < now.size(); ++k) {
         const Vector &last = around[k], &before = around[k + segments], &next = around[k + 2 * segments];
-        const Vector
-            expected =  // by the parabola through three samples, because parts drift against their rounds
-            before + parts.drift / 2 * (next - last) +
-            parts.drift * parts.drift / 2 * (next - 2 * before + last);
+        const Vector expected =  // by the parabola through three samples, because parts drift against their rounds
+            before + parts.drift / 2 * (next - last) + parts.drift * parts.drift / 2 * (next - 2 * before + last);
         difference.add(k % segments, before, now[k] - expected);
       }
     }
@@ -120,8 +117,7 @@ class PartsCheck {
     std::vector<Vector> all;
     const auto put = [&](const MotionBlock& block) {
       for (const Deformation& of : block.deformation)
-        all.push_back(
-            {of.curvature1, of.curvature2, of.twist, of.elongation / radius_[all.size() % radius_.size()]});
+        all.push_back({of.curvature1, of.curvature2, of.twist, of.elongation / radius_[all.size() % radius_.size()]});
     };
     motion_.run(false, put, from, end);
     return all;

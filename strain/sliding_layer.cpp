@@ -23,8 +23,7 @@ struct LengthAtRest {
 
   LengthAtRest(const AtRest& rest, double height) {
     double value[5];
-    for (int k = 0; k <= 4; ++k)
-      value[k] = (k == 0 || k == 4 ? 1 : 2) / (1 + height * rest.bending(eighth(k)));
+    for (int k = 0; k <= 4; ++k) value[k] = (k == 0 || k == 4 ? 1 : 2) / (1 + height * rest.bending(eighth(k)));
     for (int wave = 0; wave < 4; ++wave) {
       at[wave] = 0;
       for (int k = 0; k <= 4; ++k) at[wave] += (wave == 0 ? 0.125 : 0.25) * value[k] * eighth(wave * k);
@@ -43,8 +42,7 @@ SlidingFibre sliding_fibre(const AtRest& rest, double height) {
   const auto single = [](double x) { return static_cast<float>(x); };
   const auto [G0, G1, G2, G3] = LengthAtRest(rest, height).at;
   const double R = rest.R, D = rest.D, s = rest.s, B = rest.B;
-  const double by_first = height / D, by_second = -0.5 * height * R / D,
-               by_third = 0.25 * height * R * R / (D * D);
+  const double by_first = height / D, by_second = -0.5 * height * R / D, by_third = 0.25 * height * R * R / (D * D);
   SlidingFibre fibre;
   fibre.mean = single(height / R);
   fibre.mean_of_mean = single(G0);
@@ -101,8 +99,7 @@ SlidingLayer sliding_layer(const ComponentState<double>& parent, const Placement
   layer.first0 = single(s * B * (C2 + k * (0.75 * C4 + k * (0.625 * C6 + 35.0 / 64 * k * C8))));
   layer.second_wave0 = single(B * B * (E1 + k * (E2 + 0.9375 * k * E3)));
   layer.radial_share = single(radial_share);
-  for (std::size_t f = 0; f < heights.size(); ++f)
-    layer.fibres[f] = sliding_fibre({R, s, sigma, B, D, C4}, heights[f]);
+  for (std::size_t f = 0; f < heights.size(); ++f) layer.fibres[f] = sliding_fibre({R, s, sigma, B, D, C4}, heights[f]);
   // theta - psi at wire 1
   const double sine1 = first.sine.at[0] * cosine - first.cosine.at[0] * sine;
   const double cosine1 = first.cosine.at[0] * cosine + first.sine.at[0] * sine;

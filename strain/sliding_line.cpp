@@ -12,7 +12,8 @@ namespace {
 // Beyond a clamp that can slip, an element represents the free end. It is so much softer than the part that only a millionth of
 // the force remains in it.
 constexpr double soft_end = 1e6;
-constexpr double at_limit = 1 - 1e-5;  // share of a grip at which it counts as reached, because of the soft end and rounding
+constexpr double at_limit =
+    1 - 1e-5;  // share of a grip at which it counts as reached, because of the soft end and rounding
 // A node keeps its sign if its slide in the wrong direction is less than this share of the length; strains change by the same
 // amount. The value exceeds the rounding of a sum of some hundred elements.
 constexpr double no_slide = 1e-13;
@@ -21,8 +22,7 @@ constexpr int most_sign_rounds = 6, sign_rounds_after_failure = 1;
 
 }  // namespace
 
-SlidingLine::SlidingLine(std::vector<double> lengths, double axial_stiffness, double base_grip,
-                         double tool_grip)
+SlidingLine::SlidingLine(std::vector<double> lengths, double axial_stiffness, double base_grip, double tool_grip)
     : lengths_(std::move(lengths)),
       stiffness_(axial_stiffness),
       base_grip_(base_grip),

@@ -32,9 +32,9 @@ std::vector<LayerSlip> plan_slip(const Construction& construction, const std::ve
   const auto& layers = construction.layers();
   std::vector<LayerSlip> plan(layers.size());
   std::vector<int> helical_level(layers.size(),
-                                 0);           // of the layer itself or its nearest helical ancestor; 0: none
-  std::vector<double> turning(layers.size());  // about the dresspack or a loose cable [rad/m]
-  std::vector<double> length(layers.size());   // ideal length between the clamps [m]
+                                 0);                 // of the layer itself or its nearest helical ancestor; 0: none
+  std::vector<double> turning(layers.size());        // about the dresspack or a loose cable [rad/m]
+  std::vector<double> length(layers.size());         // ideal length between the clamps [m]
   for (std::size_t k = 0; k < layers.size(); ++k) {  // parents come first
     const Layer& layer = layers[k];
     const bool outermost = layer.parent == dresspack_itself;
@@ -76,7 +76,8 @@ std::vector<LayerSlip> plan_slip(const Construction& construction, const std::ve
 
 ShortenedPlan shortened(const Construction& construction, std::vector<LayerSlip> plan, double bend_wave) {
   ShortenedPlan result{std::move(plan)};
-  std::vector<bool> on_axis(result.plan.size());  // true on the axis of its cable: no bend strains it, so friction has no effect
+  std::vector<bool> on_axis(
+      result.plan.size());  // true on the axis of its cable: no bend strains it, so friction has no effect
   for (std::size_t k = 0; k < result.plan.size(); ++k) {
     LayerSlip& slip = result.plan[k];
     const Layer& of = construction.layers()[k];

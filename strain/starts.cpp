@@ -47,8 +47,7 @@ std::vector<Evaluation*> Starts::placed(std::size_t span) const {
 void Starts::merge() {
   const auto same = [&](const Spans& one, const Spans& other) {
     for (std::size_t span = 0; span < one.size(); ++span)
-      if (one[span]->any_loose() && !(one[span]->cables().apart(other[span]->cables()) < same_rest))
-        return false;
+      if (one[span]->any_loose() && !(one[span]->cables().apart(other[span]->cables()) < same_rest)) return false;
     return true;
   };
   for (std::size_t rest = 1; rest < rests(); ++rest)

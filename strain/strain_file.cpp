@@ -32,7 +32,7 @@ using pipeline::FileWriter;
 using pipeline::Warning;
 using pipeline::WarningKind;
 
-constexpr double first_pass_share = 0.05;   // share of the work, for the progress display
+constexpr double first_pass_share = 0.05;  // share of the work, for the progress display
 // Lives of three programs are 14 to 30 % too long at errors of 1.4 to 1.9 % (strain/measurements.md). At 1 % the life changes by about a
 // sixth: less than any other uncertainty here.
 constexpr double believable_mesh_error = 0.01;
@@ -116,8 +116,7 @@ std::vector<OtherMotion> other_motions(const FileReader& motion, const pipeline:
 class VariationWriter {
  public:
   /// before: number of variations in the file.
-  VariationWriter(FileWriter& file, const Variations& variations, std::size_t before)
-      : file_(file), before_(before) {
+  VariationWriter(FileWriter& file, const Variations& variations, std::size_t before) : file_(file), before_(before) {
     if (variations.empty()) return;
     std::vector<double> z;
     for (const Variations::Point& point : variations.points()) z.insert(z.end(), point.begin(), point.end());
@@ -147,8 +146,7 @@ class VariationWriter {
       file_.append("/variation/row/variation",
                    std::vector<std::uint32_t>(sites.size(), static_cast<std::uint32_t>(before_ + variation)));
       file_.append("/variation/row/site", std::vector<std::uint32_t>(sites.begin(), sites.end()));
-      file_.append("/variation/row/turning",
-                   std::vector<std::uint32_t>(rows.turning.begin(), rows.turning.end()));
+      file_.append("/variation/row/turning", std::vector<std::uint32_t>(rows.turning.begin(), rows.turning.end()));
       file_.append("/variation/strain", rows.strain);
     };
   }
@@ -196,8 +194,7 @@ void check(const FileReader& motion, const pipeline::Job& job, const MotionReade
       throw pipeline::InputError(
           motion.where(),
           fmt::format("comes from a dresspack {}without {} (there is no wire to evaluate)",
-                      name.empty() ? "" : "'" + name + "' ",
-                      dresspack.components.empty() ? "components" : "wires"),
+                      name.empty() ? "" : "'" + name + "' ", dresspack.components.empty() ? "components" : "wires"),
           "give dresspack.components that hold wires");
     }
 }
@@ -236,8 +233,7 @@ struct Evaluations {
   /// samples: of the whole or the shortened motion. as_given: the same dresspacks without further factors. Loose cables get as many
   /// elements as those of as_given, so that both can be computed side by side.
   Evaluations(const pipeline::Job& job, const MotionReader& reader, std::size_t samples, std::size_t threads,
-              const pipeline::StrainFactors& factors, const Scratch& scratch,
-              const Evaluations* as_given = nullptr) {
+              const pipeline::StrainFactors& factors, const Scratch& scratch, const Evaluations* as_given = nullptr) {
     for (const pipeline::MountedDresspack& mounted : job.dresspacks) {
       constructions.emplace_back(mounted.dresspack, job.strain.kinematics, factors);
       levels = std::max(levels, constructions.back().levels());
@@ -263,16 +259,16 @@ struct Evaluations {
       place.first_segment = spans[k].first_segment - place.segments_before;
       place.free_tool_end = reader.ends_freely(job, k);
       place.known_ends = reader.known_ends(k);
-      const std::vector<std::array<pipeline::BendRelief, 2>> reliefs = pipeline::bend_reliefs(job.dresspacks[d].routing);
+      const std::vector<std::array<pipeline::BendRelief, 2>> reliefs =
+          pipeline::bend_reliefs(job.dresspacks[d].routing);
       for (std::size_t end = 0; end < 2 && k - first < reliefs.size(); ++end)
         place.relief_stiffness[end] = reliefs[k - first][end].length > 0 ? reliefs[k - first][end].stiffness : 0;
       place.clamped_length = pipeline::clamped_length(job);
       const std::vector<double> lengths = reader.lengths_of(spans[k]);
       pipeline::Strain settings = settings_of(job, d);
-      if (as_given)
-        settings.cable_elements = static_cast<int>(as_given->of_span[k]->cables().elements_per_segment());
-      of_span.push_back(std::make_unique<Evaluation>(constructions[d], settings, lengths, samples,
-                                                     threads, place, scratch));
+      if (as_given) settings.cable_elements = static_cast<int>(as_given->of_span[k]->cables().elements_per_segment());
+      of_span.push_back(
+          std::make_unique<Evaluation>(constructions[d], settings, lengths, samples, threads, place, scratch));
       place.first_arc += std::accumulate(lengths.begin(), lengths.end(), 0.0);
     }
   }
@@ -283,8 +279,9 @@ std::vector<Warning> mesh_warnings(double error, std::size_t pieces, int segment
   if (error <= believable_mesh_error) return {};
   return {pipeline::warning_of(
       WarningKind::mesh, "",
-      fmt::format("loose cables are cut into {} pieces in each segment, which misses {:.3g} of their curvature (limit {:g}): lives are too long",
-                  pieces, error, believable_mesh_error),
+      fmt::format(
+          "loose cables are cut into {} pieces in each segment, which misses {:.3g} of their curvature (limit {:g}): lives are too long",
+          pieces, error, believable_mesh_error),
       "the cables lie in waves shorter than these pieces resolve",
       2 * pieces <= std::size_t{pipeline::most_cable_elements}
           ? fmt::format("strain.cable_elements_per_segment: {} or more", 2 * pieces)
@@ -295,9 +292,11 @@ std::vector<Warning> restless_warnings(std::size_t samples, double sample_rate) 
   if (samples == 0) return {};
   return {pipeline::warning_of(
       WarningKind::mesh, "",
-      fmt::format("loose cables did not come to rest at {} samples: their curvatures there are not those of any balance",
-                  samples),
-      "the hose moves too far from one sample to the next", fmt::format("simulation.sample_rate_Hz: {:g}", 2 * sample_rate))};
+      fmt::format(
+          "loose cables did not come to rest at {} samples: their curvatures there are not those of any balance",
+          samples),
+      "the hose moves too far from one sample to the next",
+      fmt::format("simulation.sample_rate_Hz: {:g}", 2 * sample_rate))};
 }
 
 RepeatChange change_of(const Evaluation& evaluation) {
@@ -305,7 +304,8 @@ RepeatChange change_of(const Evaluation& evaluation) {
   if (!(cables.changed() > 0)) return {};
   const ChangedPlace most = cables.most_changed();
   return {cables.changed(), evaluation.dresspack(), static_cast<std::size_t>(cables.component(most.cable)),
-          evaluation.name_of_cable(most.cable), evaluation.arcs().front() - evaluation.lengths().front() / 2 + most.arc};
+          evaluation.name_of_cable(most.cable),
+          evaluation.arcs().front() - evaluation.lengths().front() / 2 + most.arc};
 }
 
 /// Places of loose cables besides the job's own: of other starts and of variations.
@@ -338,8 +338,7 @@ class CableRows {
       for (const double gain : cables.path_gain(k)) gain_.push_back(gain);
       room_.push_back(cables.room(k));
       curvature_.push_back(cables.largest_curvature(k));
-      for (const auto& at_clamp : pulled_.back()->place)
-        place_.insert(place_.end(), at_clamp.begin(), at_clamp.end());
+      for (const auto& at_clamp : pulled_.back()->place) place_.insert(place_.end(), at_clamp.begin(), at_clamp.end());
     }
   }
   std::size_t size() const { return names_.size(); }
@@ -440,8 +439,7 @@ std::vector<Warning> write_cables(FileWriter& file, const pipeline::Job& job,
                               warnings);
   if (evaluations.size() != 1 || !evaluations[0]->any_loose()) return warnings;
   const CablePaths& cables = evaluations[0]->cables();
-  const std::vector<std::uint32_t> offset_samples(cables.offset_samples().begin(),
-                                                  cables.offset_samples().end());
+  const std::vector<std::uint32_t> offset_samples(cables.offset_samples().begin(), cables.offset_samples().end());
   file.append("/cable/offset_sample", offset_samples);
   file.append("/cable/offset", cables.offsets());
   return warnings;
@@ -455,12 +453,14 @@ std::vector<Warning> evening_warnings(const std::vector<std::unique_ptr<Evaluati
     if (of.layer < 0 || of.longest <= believable_evening * of.bend_wave) continue;
     all.push_back(pipeline::warning_of(
         WarningKind::material, "",
-        fmt::format("the strain of {} evens out over {:.3g} m, and the bend changes over {:.3g} m (limit of the first over the "
-                    "second {:g}): friction could hold up to 2.5 times as much strain",
-                    evaluation->name_of_layer(of.layer), of.longest, of.bend_wave, believable_evening),
-        of.straight ? "it has no lay, or fewer than four turns"
-                    : "its hand or that of its conductor differs from that of the next outer layer, and their lay lengths are nearly "
-                      "equal",
+        fmt::format(
+            "the strain of {} evens out over {:.3g} m, and the bend changes over {:.3g} m (limit of the first over the "
+            "second {:g}): friction could hold up to 2.5 times as much strain",
+            evaluation->name_of_layer(of.layer), of.longest, of.bend_wave, believable_evening),
+        of.straight
+            ? "it has no lay, or fewer than four turns"
+            : "its hand or that of its conductor differs from that of the next outer layer, and their lay lengths are nearly "
+              "equal",
         "strain.friction_factor: 2.5, which counts with the most that friction could hold; or the hand and the lay length that "
         "the cable's maker states"));
   }
@@ -470,19 +470,16 @@ std::vector<Warning> evening_warnings(const std::vector<std::unique_ptr<Evaluati
 /// Writes the moment of a cable by itself, from the curvature of a hanging cable to that of a wire around a finger.
 void write_bending(FileWriter& file, const pipeline::Job& job) {
   const pipeline::Dresspack& dresspack = job.dresspacks.front().dresspack;
-  const bool rub = std::any_of(job.strain.slip.begin(), job.strain.slip.end(),
-                               [](pipeline::Slip slip) { return rubs(slip); });
-  if (!dresspack.cable_alone || !rub || dresspack.components.size() != 1 ||
-      dresspack.components[0].components.empty())
+  const bool rub =
+      std::any_of(job.strain.slip.begin(), job.strain.slip.end(), [](pipeline::Slip slip) { return rubs(slip); });
+  if (!dresspack.cable_alone || !rub || dresspack.components.size() != 1 || dresspack.components[0].components.empty())
     return;
   constexpr int of_a_decade = 20, decades = 5;
   constexpr double least = 1e-3;  // [1/m]
   std::vector<double> curvature, moment;
-  for (int k = 0; k <= decades * of_a_decade; ++k)
-    curvature.push_back(least * std::pow(10, double(k) / of_a_decade));
+  for (int k = 0; k <= decades * of_a_decade; ++k) curvature.push_back(least * std::pow(10, double(k) / of_a_decade));
   try {
-    moment =
-        pipeline::bending_moments(dresspack, dresspack.components[0], job.strain.factors.friction, curvature);
+    moment = pipeline::bending_moments(dresspack, dresspack.components[0], job.strain.factors.friction, curvature);
   } catch (const pipeline::InputError&) {
     return;  // straight parts beside the axis: their sliding depends on the length
   }
@@ -518,7 +515,9 @@ class Work {
 class OwnResults {
  public:
   OwnResults(FileWriter& file, const std::vector<std::unique_ptr<Evaluation>>& evaluations)
-      : sites_(file, "", evaluations), stick_(file, "/bound_stick", evaluations), free_(file, "/bound_free", evaluations) {
+      : sites_(file, "", evaluations),
+        stick_(file, "/bound_stick", evaluations),
+        free_(file, "/bound_free", evaluations) {
     sink_.sites = [&](const SiteRows& rows) { sites_.append(rows); };
     sink_.bound_stick = [&](const SiteRows& rows) { stick_.append(rows); };
     sink_.bound_free = [&](const SiteRows& rows) { free_.append(rows); };
@@ -571,17 +570,21 @@ std::vector<Warning> cycle_warnings(const pipeline::Job& job, const RepeatChange
   const double now = component.laying.slack / 100;
   // Below half of the slack of one turn, bends of the hose pull the cable (pipeline/cable/excess.h).
   const double less = std::max(now / 2, pipeline::winding_slack(mounted, component) / 2);
-  pipeline::Remedy remedy{{}, "another free length or other clamps, which `dresslife route` finds: less slack would let bends pull this cable"};
+  pipeline::Remedy remedy{
+      {},
+      "another free length or other clamps, which `dresslife route` finds: less slack would let bends pull this cable"};
   if (less < now)
     remedy = {{{fmt::format("{}.components.{}.slack_percent", line_key(job, change.dresspack, "dresspack"),
                             entry_number(mounted.dresspack.components, change.component)),
                 pipeline::percent_above(less)}},
-              fmt::format(" (now {:.3g}; a shorter excess length has fewer places to rest; not tried)", component.laying.slack)};
+              fmt::format(" (now {:.3g}; a shorter excess length has fewer places to rest; not tried)",
+                          component.laying.slack)};
   Warning warning = pipeline::warning_of(
       WarningKind::periodic, "",
-      fmt::format("loose cables do not end the repeat where they began it: their curvature changes by {:.0f} % (limit {:.0f} %), that of "
-                  "'{}' most, {:.2f} m from the base clamp, and the life counts this change in each repeat",
-                  100 * change.share, 100 * most, change.cable, change.arc),
+      fmt::format(
+          "loose cables do not end the repeat where they began it: their curvature changes by {:.0f} % (limit {:.0f} %), that of "
+          "'{}' most, {:.2f} m from the base clamp, and the life counts this change in each repeat",
+          100 * change.share, 100 * most, change.cable, change.arc),
       fmt::format("the cables have not reached a cycle in {:.0f} s of motion and {} further repeats", lead_in_time,
                   Passage::most_closing_repeats),
       remedy);
@@ -589,9 +592,8 @@ std::vector<Warning> cycle_warnings(const pipeline::Job& job, const RepeatChange
   return {warning};
 }
 
-Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWriter& strain,
-                   std::size_t threads, const std::function<void(double)>& progress,
-                   std::size_t history_bytes) {
+Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWriter& strain, std::size_t threads,
+                   const std::function<void(double)>& progress, std::size_t history_bytes) {
   MotionReader reader(motion, job);
   check(motion, job, reader);
   std::vector<OtherMotion> others = other_motions(motion, job);
@@ -675,9 +677,8 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
     work.other_motions(other + 1);
   }
   if (places.all > 0) strain.attribute("moving_places", static_cast<double>(places.moving));
-  const auto worst =
-      std::max_element(evaluations.begin(), evaluations.end(),
-                       [](const auto& a, const auto& b) { return a->worst_range() < b->worst_range(); });
+  const auto worst = std::max_element(evaluations.begin(), evaluations.end(),
+                                      [](const auto& a, const auto& b) { return a->worst_range() < b->worst_range(); });
   return {warnings, (*worst)->summary(evaluations.back()->sites_so_far())};
 }
 

@@ -14,17 +14,14 @@ using pipeline::Uncertain;
 constexpr double low_slack = -2.25;
 
 bool any_component(const pipeline::Job& job, const std::function<bool(const pipeline::Component&)>& holds) {
-  return std::any_of(
-      job.dresspacks.begin(), job.dresspacks.end(), [&](const pipeline::MountedDresspack& mounted) {
-        return std::any_of(mounted.dresspack.components.begin(), mounted.dresspack.components.end(), holds);
-      });
+  return std::any_of(job.dresspacks.begin(), job.dresspacks.end(), [&](const pipeline::MountedDresspack& mounted) {
+    return std::any_of(mounted.dresspack.components.begin(), mounted.dresspack.components.end(), holds);
+  });
 }
 
 bool has_slack(const pipeline::Component& part) { return part.laying.slack > 0; }
 bool has_grip(const pipeline::Component& part) { return part.laying.base_grip || part.laying.tool_grip; }
-bool rubs_on_hose(const pipeline::Component& part) {
-  return !part.components.empty() && part.friction.value_or(0) > 0;
-}
+bool rubs_on_hose(const pipeline::Component& part) { return !part.components.empty() && part.friction.value_or(0) > 0; }
 
 // z of the nodes
 constexpr std::array slacks{low_slack, -1.25, Variations::reach};
@@ -89,8 +86,7 @@ std::size_t placements_at_most(const pipeline::Job& job) {
 }
 
 std::vector<Variations::Friction> Variations::other_frictions(const Spans& spans) {
-  if (std::ranges::none_of(spans, [](const auto& evaluation) { return evaluation->rubs_inside(); }))
-    return {};
+  if (std::ranges::none_of(spans, [](const auto& evaluation) { return evaluation->rubs_inside(); })) return {};
   // Small values of friction are needed, because there lives bend toward those without damage.
   return {{-reach}, {-reach / 2}, {reach}, {0, Inside::glued}, {0, Inside::free}};
 }
@@ -118,9 +114,10 @@ Variations::Variations(const pipeline::Job& job, double stiffness, const Spans& 
   lay(job, build, Uncertain::slack, slacks_of_other_stiffness, all);
 }
 
-void Variations::lay(const pipeline::Job& job, const Build& build, Uncertain parameter,
-                     std::span<const double> nodes, const std::vector<Friction>& friction) {
-  const bool any_cables = std::ranges::any_of(as_given_, [](const auto& evaluation) { return evaluation->any_cables(); });
+void Variations::lay(const pipeline::Job& job, const Build& build, Uncertain parameter, std::span<const double> nodes,
+                     const std::vector<Friction>& friction) {
+  const bool any_cables =
+      std::ranges::any_of(as_given_, [](const auto& evaluation) { return evaluation->any_cables(); });
   if (!any_cables || !is_varied(job, parameter)) return;
   for (const double z : nodes) {
     Point point{};

@@ -63,8 +63,7 @@ class Variations {
   std::vector<VariedPulls> pulls() const;
 
   /// Receives the results of a variation for some sites: their rows in the file and their turning points.
-  using Put =
-      std::function<void(std::size_t variation, const std::vector<std::size_t>& sites, const SiteRows& rows)>;
+  using Put = std::function<void(std::size_t variation, const std::vector<std::size_t>& sites, const SiteRows& rows)>;
   /// Evaluates one segment. likely: the likely worst wires of the job's own evaluation there. history: of the whole motion in the
   /// job's own motion, else of the shortened motion.
   void evaluate(const std::vector<Evaluation::Site>& likely, std::size_t span, std::size_t segment,
@@ -88,8 +87,8 @@ class Variations {
   static std::vector<Friction> other_frictions(const Spans& spans);
   void add(const Spans& spans, Point z, const std::vector<Friction>& friction);
   /// Adds an evaluation with another value of a parameter than as_given_.
-  void lay(const pipeline::Job& job, const Build& build, pipeline::Uncertain parameter,
-           std::span<const double> nodes, const std::vector<Friction>& friction);
+  void lay(const pipeline::Job& job, const Build& build, pipeline::Uncertain parameter, std::span<const double> nodes,
+           const std::vector<Friction>& friction);
 
   bool enabled_;
   const Spans& as_given_;

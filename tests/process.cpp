@@ -4,8 +4,8 @@ namespace dresslife::tests {
 
 Outcome run_shell(const Scratch& scratch, const std::string& line) {
   const fs::path out = scratch / ".out", err = scratch / ".err";
-  const std::string command = "cd '" + scratch.folder().string() + "' && { " + line + "\n} >'" +
-                              out.string() + "' 2>'" + err.string() + "' </dev/null";
+  const std::string command = "cd '" + scratch.folder().string() + "' && { " + line + "\n} >'" + out.string() +
+                              "' 2>'" + err.string() + "' </dev/null";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(out), unwrapped(content(err))};
 }

@@ -58,7 +58,8 @@ void Captured::restore() {
 std::string place_of(const std::string& text, const std::string& needle, const std::string& file) {
   const std::size_t at = text.find(needle);
   REQUIRE(at != std::string::npos);
-  const std::size_t line = 1 + static_cast<std::size_t>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+  const std::size_t line =
+      1 + static_cast<std::size_t>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
   const std::size_t before = text.rfind('\n', at == 0 ? std::string::npos : at - 1);
   const std::size_t column = before == std::string::npos || at == 0 ? at + 1 : at - before;
   return fmt::format("{}:{}:{}", file, line, column);
@@ -72,7 +73,8 @@ std::string edited(std::string text, const std::string& from, const std::string&
 }
 
 std::string replaced_all(std::string text, const std::string& from, const std::string& to) {
-  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) text.replace(at, from.size(), to);
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+    text.replace(at, from.size(), to);
   return text;
 }
 

@@ -64,8 +64,7 @@ inline Pack damage_of(const LockstepTables& tables, const DoubleMask& closing, c
   return select(damaging, select(at_least(y, high), Pack(tables.damage_at_high), damage), Pack{});
 }
 
-inline Pack damage_one_by_one(const LockstepTables& tables, const DoubleMask& closing,
-                              const LaneLoads& loop) {
+inline Pack damage_one_by_one(const LockstepTables& tables, const DoubleMask& closing, const LaneLoads& loop) {
   if (tables.damage_of == nullptr) return damage_of(tables, closing, loop);
   double amplitude[lanes], max[lanes], min[lanes], damage[lanes] = {};
   store(loop.amplitude, amplitude), store(loop.stress_max, max), store(loop.stress_min, min);
@@ -154,8 +153,7 @@ class Loops {
   template <bool falls>
   DRESSLIFE_INLINE void close(const DoubleMask& closing) {
     const Pack amplitude = (falls ? top_.strain - top_.below : top_.below - top_.strain) * 0.5;
-    const Pack peak = falls ? top_.stress : top_.stress_below,
-               valley = falls ? top_.stress_below : top_.stress;
+    const Pack peak = falls ? top_.stress : top_.stress_below, valley = falls ? top_.stress_below : top_.stress;
     const LaneLoads loop{amplitude, select(mirrored_, -valley, peak), select(mirrored_, -peak, valley)};
     sum_ += one_by_one ? damage_one_by_one(tables_, closing, loop) : damage_of(tables_, closing, loop);
     depth_ = select(closing, depth_ - 2, depth_);
@@ -279,8 +277,8 @@ unsigned sum_lanes(const LockstepTables& tables, const Periods& periods, unsigne
     for (std::size_t i = which >> j & 1 ? periods.of[j].steps : 0; i < steps; ++i)
       periods.strains[j * periods.stride + i] = static_cast<float>(largest[j]);
 
-  Loops<one_by_one> loops(tables, load<Pack>(largest), load<Pack>(sign),
-                          tables.first_stress ? first_stress : nullptr, periods.open);
+  Loops<one_by_one> loops(tables, load<Pack>(largest), load<Pack>(sign), tables.first_stress ? first_stress : nullptr,
+                          periods.open);
   for (std::size_t first = 0; first < steps; first += steps_at_once) {
     float rows[steps_at_once * lanes];
     for (std::size_t i = 0; i < steps_at_once; i += lanes)
@@ -293,8 +291,7 @@ unsigned sum_lanes(const LockstepTables& tables, const Periods& periods, unsigne
   }
   double sums[lanes];
   store(loops.sum(), sums);
-  for (unsigned left = which; left != 0; left &= left - 1)
-    damage[__builtin_ctz(left)] = sums[__builtin_ctz(left)];
+  for (unsigned left = which; left != 0; left &= left - 1) damage[__builtin_ctz(left)] = sums[__builtin_ctz(left)];
   return loops.amiss() & which;
 }
 
@@ -308,16 +305,15 @@ std::size_t lines(std::size_t longest) {
   return 2 * stack_lines(longest) + stride_of(longest) * lanes * sizeof(float) / sizeof(LockstepLine);
 }
 
-unsigned sum(const LockstepTables& tables, const StrainList* histories, std::size_t count,
-             LockstepLine* memory, double* damage) {
+unsigned sum(const LockstepTables& tables, const StrainList* histories, std::size_t count, LockstepLine* memory,
+             double* damage) {
   std::size_t longest = 0;
   for (std::size_t j = 0; j < count; ++j) longest = histories[j].size > longest ? histories[j].size : longest;
   Periods periods;
   const std::size_t stack = stack_lines(longest);
   periods.stride = stride_of(longest);
   periods.strains = reinterpret_cast<float*>(memory + 2 * stack);
-  periods.open = {reinterpret_cast<double*>(memory) + lanes,
-                  reinterpret_cast<double*>(memory + stack) + lanes};
+  periods.open = {reinterpret_cast<double*>(memory) + lanes, reinterpret_cast<double*>(memory + stack) + lanes};
   unsigned by_table = 0, one_by_one = 0;  // lanes
   for (std::size_t j = 0; j < count; ++j) {
     Period& period = periods.of[j];

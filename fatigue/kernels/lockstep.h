@@ -27,8 +27,7 @@ struct LockstepTables {
   double damage_at_high = 0;
   bool times_stress_max = false;
   /// Used instead of the table if it is not null.
-  double (*damage_of)(const void* material, double amplitude, double stress_max,
-                      double stress_mean) = nullptr;
+  double (*damage_of)(const void* material, double amplitude, double stress_max, double stress_mean) = nullptr;
   const void* material = nullptr;  ///< argument of the functions
 
   double endurance = 0;  ///< amplitudes up to it do no damage

@@ -31,9 +31,7 @@ Isometry3d forearm(const Robot& robot, const Vector3d& arm) {
 }
 
 /// Returns the wrist's centre. It is on axis 4, so the angle of axis 4 has no effect.
-Vector3d centre(const Robot& robot, const Vector3d& arm) {
-  return forearm(robot, arm) * robot.joints[4].origin;
-}
+Vector3d centre(const Robot& robot, const Vector3d& arm) { return forearm(robot, arm) * robot.joints[4].origin; }
 
 /// Returns dc/dq by central differences. The functions are smooth, so with this step the error is that of rounding.
 Matrix3d jacobian(const Robot& robot, const Vector3d& arm) {
@@ -92,8 +90,7 @@ std::optional<Vector3d> wrist_at(const Robot& robot, const Matrix3d& rotation, c
   const double lean = std::hypot(tip.dot(e), tip.dot(a.cross(e)));
   std::optional<Vector3d> nearest;
   for (const double side : {1.0, -1.0}) {
-    const double four =
-        lean < aligned ? before[0] : std::atan2(side * tip.dot(a.cross(e)), side * tip.dot(e));
+    const double four = lean < aligned ? before[0] : std::atan2(side * tip.dot(a.cross(e)), side * tip.dot(e));
     const double five = std::atan2(side * lean, tip.dot(a));
     const Matrix3d rest =
         (Eigen::AngleAxisd(four, a) * Eigen::AngleAxisd(five, b)).toRotationMatrix().transpose() * rotation;
@@ -144,8 +141,7 @@ std::vector<OtherArm> other_arms(const Robot& robot, const std::vector<double>& 
     const bool round = std::cos((*found)[0] - arm[0]) < 0;
     const bool flipped = (jacobian(robot, *found).determinant() * side < 0) != round;
     const std::string_view what = arm_configurations[round ? (flipped ? 2 : 1) : flipped ? 0 : 3];
-    others.push_back(
-        {what, {(*found)[0], (*found)[1], (*found)[2], (*turned)[0], (*turned)[1], (*turned)[2]}});
+    others.push_back({what, {(*found)[0], (*found)[1], (*found)[2], (*turned)[0], (*turned)[1], (*turned)[2]}});
   }
   return others;
 }

@@ -18,9 +18,9 @@ namespace dresslife::pipeline {
 /// Returns whether a robot's last three axes are such a wrist.
 bool has_wrist(const Robot& robot);
 
-inline constexpr std::array<std::string_view, 4> arm_configurations{
-    "elbow to the other side", "axis 1 turned round", "axis 1 turned round, elbow to the other side",
-    "axis 1 by a whole turn"};
+inline constexpr std::array<std::string_view, 4> arm_configurations{"elbow to the other side", "axis 1 turned round",
+                                                                    "axis 1 turned round, elbow to the other side",
+                                                                    "axis 1 by a whole turn"};
 
 struct OtherArm {
   std::string_view what;       ///< one of arm_configurations

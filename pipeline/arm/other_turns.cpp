@@ -22,8 +22,8 @@ std::vector<NamedTurn> turns_of_wrist(const Robot& robot) {
   };
   for (const double four : {-180.0, 180.0})
     for (const double six : {-180.0, 180.0})
-      add(fmt::format("wrist over: axis 4 {:+.0f}, axis 6 {:+.0f} deg, axis 5 to the other side", four, six),
-          four, true, six);
+      add(fmt::format("wrist over: axis 4 {:+.0f}, axis 6 {:+.0f} deg, axis 5 to the other side", four, six), four,
+          true, six);
   for (const double turn : {-360.0, 360.0}) add(fmt::format("axis 6 {:+.0f} deg", turn), 0, false, turn);
   for (const double turn : {-360.0, 360.0}) add(fmt::format("axis 4 {:+.0f} deg", turn), turn, false, 0);
   return turns;

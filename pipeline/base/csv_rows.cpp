@@ -48,7 +48,8 @@ void CsvReader::read_on() {
   if (read_ == 0 && text_.starts_with(byte_order_mark)) text_.erase(0, byte_order_mark.size());
   read_ += count;
   if (text_.find('\n') == text_.npos && read_ < source_->size())
-    throw InputError({file_, line_ + 1, 1}, fmt::format("has a line of more than {} bytes", count), "name a file of comma separated values");
+    throw InputError({file_, line_ + 1, 1}, fmt::format("has a line of more than {} bytes", count),
+                     "name a file of comma separated values");
 }
 
 CsvRow CsvReader::next() {
@@ -59,8 +60,7 @@ CsvRow CsvReader::next() {
     CsvRow row;
     if (text_.compare(at_, 1, "#") != 0) at_ = line_begin_, row = cells();
     skip_line();
-    if (std::any_of(row.begin(), row.end(), [](const CsvCell& cell) { return !cell.text.empty(); }))
-      return row;
+    if (std::any_of(row.begin(), row.end(), [](const CsvCell& cell) { return !cell.text.empty(); })) return row;
   }
   return {};
 }
@@ -127,8 +127,7 @@ void check_titles(const CsvReader& table, const CsvRow& titles, std::initializer
   std::set<std::string_view> seen;
   for (const CsvCell& title : titles) {
     if (title.text.empty())
-      throw InputError(table.where(title), "a column has no title",
-                       "give it one, or remove the column");
+      throw InputError(table.where(title), "a column has no title", "give it one, or remove the column");
     if (!seen.insert(title.text).second)
       throw InputError(table.where(title), fmt::format("two columns are titled '{}'", title.text),
                        "keep one of the two");
@@ -137,9 +136,11 @@ void check_titles(const CsvReader& table, const CsvRow& titles, std::initializer
     if (seen.contains(name)) continue;
     for (const CsvCell& title : titles)
       if (lower_case(title.text) == name)
-        throw InputError(table.where(title), fmt::format("the table has no column '{}' (it has '{}')", name, title.text),
+        throw InputError(table.where(title),
+                         fmt::format("the table has no column '{}' (it has '{}')", name, title.text),
                          fmt::format("write '{}' instead of '{}'", name, title.text));
-    throw InputError(table.where(titles.front()), fmt::format("the table has no column '{}' (it has {})", name, joined(seen, ", ")),
+    throw InputError(table.where(titles.front()),
+                     fmt::format("the table has no column '{}' (it has {})", name, joined(seen, ", ")),
                      "add it, or rename one");
   }
 }
@@ -148,8 +149,7 @@ std::string harmless(const std::string& text) {
   char* end = nullptr;
   std::strtod(text.c_str(), &end);
   const bool number = !text.empty() && *end == '\0';
-  const bool formula =
-      !number && !text.empty() && std::string_view("=+-@\t\r").find(text[0]) != std::string_view::npos;
+  const bool formula = !number && !text.empty() && std::string_view("=+-@\t\r").find(text[0]) != std::string_view::npos;
   return shown(formula ? "'" + text : text);
 }
 

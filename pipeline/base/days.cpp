@@ -4,7 +4,6 @@
 
 #include "pipeline/base/text.h"
 
-
 namespace dresslife::pipeline {
 namespace {
 

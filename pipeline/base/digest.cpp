@@ -43,7 +43,6 @@ std::string sha256(std::string_view bytes) {
 
 namespace {
 
-
 /// Adds the bytes of a file to `digest`, block by block.
 template <class Digest>
 std::string digest_of(const PlainFile& bytes, Digest&& digest) {

@@ -11,8 +11,7 @@ std::string Where::text() const {
 }
 
 InputError::InputError(const Where& where, const std::string& what, const std::string& remedy)
-    : std::runtime_error(
-          fmt::format("{}: error: {}{}{}", where.text(), what, remedy.empty() ? "" : "; ", remedy)) {}
+    : std::runtime_error(fmt::format("{}: error: {}{}{}", where.text(), what, remedy.empty() ? "" : "; ", remedy)) {}
 
 MachineFault::MachineFault(const Where& where, const std::string& what, const std::string& remedy)
     : InputError(where, what, remedy + then_run_again) {}

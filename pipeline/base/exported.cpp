@@ -38,7 +38,12 @@ std::string without_thousands(const std::string& text) {
 std::size_t first_no_utf8(const std::string& text) {
   for (std::size_t at = 0; at < text.size();) {
     const auto byte = static_cast<unsigned char>(text[at]);
-    const std::size_t length = byte < 0x80 ? 1 : byte < 0xC2 ? 0 : byte < 0xE0 ? 2 : byte < 0xF0 ? 3 : byte < 0xF5 ? 4 : 0;
+    const std::size_t length = byte < 0x80   ? 1
+                               : byte < 0xC2 ? 0
+                               : byte < 0xE0 ? 2
+                               : byte < 0xF0 ? 3
+                               : byte < 0xF5 ? 4
+                                             : 0;
     if (length == 0) return at;
     for (std::size_t k = 1; k < length; ++k)
       if (at + k >= text.size() || (static_cast<unsigned char>(text[at + k]) & 0xC0) != 0x80) return at;
@@ -69,24 +74,24 @@ std::string day_remedy(const std::string& text) {
   char mark = 0, again = 0;
   if (std::sscanf(text.c_str(), "%2d%c%2d%c%4d%n", &first, &mark, &second, &again, &year, &used) == 5 &&
       used == static_cast<int>(text.size()) && mark == again && year >= 1000) {
-    const std::optional<Day> by_day = day_in_order(year, second, first),
-                             by_month = day_in_order(year, first, second);
+    const std::optional<Day> by_day = day_in_order(year, second, first), by_month = day_in_order(year, first, second);
     if (by_day && by_month && first != second)
-      return fmt::format("{}: {} if the day comes first, {} if the month does", date_remedy,
-                         day_text(*by_day), day_text(*by_month));
+      return fmt::format("{}: {} if the day comes first, {} if the month does", date_remedy, day_text(*by_day),
+                         day_text(*by_month));
     if (by_day || by_month) return fmt::format("write {}", day_text(by_day ? *by_day : *by_month));
   }
   int month = 0, day = 0;
-  if (std::sscanf(text.c_str(), "%4d-%2d-%2d%n", &year, &month, &day, &used) == 3 && used == static_cast<int>(text.size())) {
+  if (std::sscanf(text.c_str(), "%4d-%2d-%2d%n", &year, &month, &day, &used) == 3 &&
+      used == static_cast<int>(text.size())) {
     int last = 31;
     while (last > 28 && !day_in_order(year, month, last)) --last;
-    if (month >= 1 && month <= 12 && day >= 1 && day <= last) return fmt::format("write {:04}-{:02}-{:02}", year, month, day);
+    if (month >= 1 && month <= 12 && day >= 1 && day <= last)
+      return fmt::format("write {:04}-{:02}-{:02}", year, month, day);
     return date_remedy + (month < 1 || month > 12 ? std::string(" (a year has 12 months)")
                                                   : fmt::format(" ({:04}-{:02} has {} days)", year, month, last));
   }
   constexpr double spreadsheet_1970 = 25569, spreadsheet_2100 = 73051;  // days since 1899-12-30
-  if (const std::optional<double> days = number_in(text);
-      days && *days > spreadsheet_1970 && *days < spreadsheet_2100)
+  if (const std::optional<double> days = number_in(text); days && *days > spreadsheet_1970 && *days < spreadsheet_2100)
     return fmt::format("write {} if that is the number of a spreadsheet",
                        day_text(Day(std::chrono::days(static_cast<int>(*days - spreadsheet_1970)))));
   return date_remedy;
@@ -95,8 +100,7 @@ std::string day_remedy(const std::string& text) {
 std::optional<double> exported_number(std::string text) {
   if (may_be_thousands(text)) return std::nullopt;
   text = without_thousands(text);
-  if (text.find('.') == text.npos && std::count(text.begin(), text.end(), ',') == 1)
-    text[text.find(',')] = '.';
+  if (text.find('.') == text.npos && std::count(text.begin(), text.end(), ',') == 1) text[text.find(',')] = '.';
   return number_in(text);
 }
 
@@ -129,29 +133,63 @@ std::string letters_of(std::string_view text) {
 }
 
 const std::vector<std::string_view>& titles_of_installation() {
-  static const std::vector<std::string_view> titles{
-      "installed", "installedon", "installdate", "installationdate", "installation", "dateinstalled", "mounted", "einbau",
-      "einbaudatum", "eingebaut", "eingebautam", "dateofinstallation", "instalado", "instaladoel", "instalacion",
-      "instalacin", "fechadeinstalacion", "fechadeinstalacin", "fechainstalacion", "fechainstalacin", "montado", "montadoel",
-      "fechademontaje", "fechamontaje"};
+  static const std::vector<std::string_view> titles{"installed",
+                                                    "installedon",
+                                                    "installdate",
+                                                    "installationdate",
+                                                    "installation",
+                                                    "dateinstalled",
+                                                    "mounted",
+                                                    "einbau",
+                                                    "einbaudatum",
+                                                    "eingebaut",
+                                                    "eingebautam",
+                                                    "dateofinstallation",
+                                                    "instalado",
+                                                    "instaladoel",
+                                                    "instalacion",
+                                                    "instalacin",
+                                                    "fechadeinstalacion",
+                                                    "fechadeinstalacin",
+                                                    "fechainstalacion",
+                                                    "fechainstalacin",
+                                                    "montado",
+                                                    "montadoel",
+                                                    "fechademontaje",
+                                                    "fechamontaje"};
   return titles;
 }
 
 const std::vector<std::string_view>& titles_of_weekly_hours() {
-  static const std::vector<std::string_view> titles{
-      "hoursperweek", "hperweek", "operatinghoursperweek", "stundenprowoche", "betriebsstundenprowoche", "hprowoche",
-      "stundenwoche", "betriebsstundenwoche", "hwoche", "horasporsemana", "hporsemana", "horassemanales", "horassemana",
-      "hsemana", "horasdetrabajoporsemana", "horasdeoperacionporsemana", "horasdeoperacinporsemana",
-      "horasdefuncionamientoporsemana"};
+  static const std::vector<std::string_view> titles{"hoursperweek",
+                                                    "hperweek",
+                                                    "operatinghoursperweek",
+                                                    "stundenprowoche",
+                                                    "betriebsstundenprowoche",
+                                                    "hprowoche",
+                                                    "stundenwoche",
+                                                    "betriebsstundenwoche",
+                                                    "hwoche",
+                                                    "horasporsemana",
+                                                    "hporsemana",
+                                                    "horassemanales",
+                                                    "horassemana",
+                                                    "hsemana",
+                                                    "horasdetrabajoporsemana",
+                                                    "horasdeoperacionporsemana",
+                                                    "horasdeoperacinporsemana",
+                                                    "horasdefuncionamientoporsemana"};
   return titles;
 }
 
 void check_utf8(const std::string& text, const std::string& file) {
-  const std::size_t at = std::min(first_no_utf8(text), text.find('\0'));  // in UTF-16, each ASCII character has a byte 0
+  const std::size_t at =
+      std::min(first_no_utf8(text), text.find('\0'));  // in UTF-16, each ASCII character has a byte 0
   if (at >= text.size()) return;
   const bool table = file.ends_with(".csv");
-  throw InputError({file, 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<long>(at), '\n')), 0},
-                   "is no text in UTF-8", table ? "save the table as CSV UTF-8" : "save it in UTF-8 by the editor");
+  throw InputError(
+      {file, 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<long>(at), '\n')), 0},
+      "is no text in UTF-8", table ? "save the table as CSV UTF-8" : "save it in UTF-8 by the editor");
 }
 
 }  // namespace dresslife::pipeline

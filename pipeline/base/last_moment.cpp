@@ -24,7 +24,8 @@ struct Place {
 };
 Place places[most_places];
 std::atomic<bool> tidied{false};
-pid_t owner = 0;  ///< id of the program; a child that has not become another program yet has another id and cleans up nothing
+pid_t owner =
+    0;  ///< id of the program; a child that has not become another program yet has another id and cleans up nothing
 
 constexpr std::initializer_list<int> ending_signals{SIGINT, SIGTERM, SIGHUP};
 

@@ -55,8 +55,7 @@ void end_with_parent() {
 void limit_time(const std::string& program, std::uint64_t seconds) {
   if (seconds == 0) return;
   const std::string words = fmt::format(
-      "{}: error: took longer than {} s (--job-time); look for an endless motion, or allow more\n", program,
-      seconds);
+      "{}: error: took longer than {} s (--job-time); look for an endless motion, or allow more\n", program, seconds);
   last_words.length = std::min(words.size(), sizeof last_words.text);
   std::memcpy(last_words.text, words.data(), last_words.length);
   std::signal(SIGALRM, time_is_over);
@@ -93,8 +92,7 @@ void limit_memory(std::uint64_t megabytes) {
 }
 
 std::uint64_t installed_memory_mb() {
-  return static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
-             static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) >>
+  return static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) >>
          20;
 }
 

@@ -65,8 +65,8 @@ std::vector<Triangle> ascii_stl(const std::string& text, const std::filesystem::
 }
 
 // Reads the first number of "7", "7/1", "7//3" or "-1". Negative numbers count from the last vertex.
-Vector3 corner_of(const std::string& word, const std::vector<Vector3>& vertices,
-                  const std::filesystem::path& file, int line) {
+Vector3 corner_of(const std::string& word, const std::vector<Vector3>& vertices, const std::filesystem::path& file,
+                  int line) {
   const int index = std::atoi(word.c_str()), count = static_cast<int>(vertices.size());
   const int place = index < 0 ? count + index : index - 1;
   if (place < 0 || place >= count) fail(file, line, fmt::format("face names vertex {} of {}", word, count));
@@ -89,8 +89,7 @@ std::vector<Triangle> obj(const std::string& text, const std::filesystem::path& 
       std::vector<Vector3> corners;
       while (words >> word) corners.push_back(corner_of(word, vertices, file, number));
       if (corners.size() < 3) fail(file, number, "face without three corners");
-      for (size_t k = 2; k < corners.size(); ++k)
-        triangles.push_back({corners[0], corners[k - 1], corners[k]});
+      for (size_t k = 2; k < corners.size(); ++k) triangles.push_back({corners[0], corners[k - 1], corners[k]});
     }
     word.clear();
   }

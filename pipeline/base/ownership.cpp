@@ -22,26 +22,25 @@ constexpr std::string_view words = "Written by dresslife; ", yours = "yours once
 constexpr std::size_t digest_digits = 32;
 
 /// Names of files that our programs write into a notes folder.
-constexpr std::array<std::string_view, 8> notes{notes_mark,    "study",      "failure",     "memory",
-                                                ".ninja_log",  ".ninja_deps", "build.ninja", ".lock"};
-constexpr std::array<std::string_view, 5> ends_of_notes{".receipt", ".log",   ".launcher",
-                                                        ".same",    ".part"};
+constexpr std::array<std::string_view, 8> notes{notes_mark,   "study",       "failure",     "memory",
+                                                ".ninja_log", ".ninja_deps", "build.ninja", ".lock"};
+constexpr std::array<std::string_view, 5> ends_of_notes{".receipt", ".log", ".launcher", ".same", ".part"};
 
 /// Beginnings of our files that contain no comment line.
 constexpr std::array<std::string_view, 13> beginnings{
-    "dresslife file\n",                                       // HDF5 (pipeline/files/checksum.h)
-    "recipe ",                                                // receipts
-    "dresslife study ",                                       // notes of a run about its study
-    "== dresslife-",                                          // logs
-    "ninja_required_version = 1.8\nbuilddir = .stage",        // build.ninja
-    "job,life_repeats,life_hours,worst_segment_from_tool,",   // ranking.csv
-    "trial,feasible,life_hours_p10,",                         // improve.csv
-    "cable,job,rig,status,cycles_p10,",                       // rate.csv
-    "duty,job,repeats_per_hour,share_of_time,",               // of duty
-    "name,duty,installed,age_hours,",                         // of plan
+    "dresslife file\n",                                      // HDF5 (pipeline/files/checksum.h)
+    "recipe ",                                               // receipts
+    "dresslife study ",                                      // notes of a run about its study
+    "== dresslife-",                                         // logs
+    "ninja_required_version = 1.8\nbuilddir = .stage",       // build.ninja
+    "job,life_repeats,life_hours,worst_segment_from_tool,",  // ranking.csv
+    "trial,feasible,life_hours_p10,",                        // improve.csv
+    "cable,job,rig,status,cycles_p10,",                      // rate.csv
+    "duty,job,repeats_per_hour,share_of_time,",              // of duty
+    "name,duty,installed,age_hours,",                        // of plan
     "name,fails_in_week_of_",
     "BEGIN:VCALENDAR\r\nPRODID:-//dresslife//plan",
-    "lines,way,life_hours_p10,times_as_long,"                 // of reprogram
+    "lines,way,life_hours_p10,times_as_long,"  // of reprogram
 };
 
 /// The digest in a mark, and the text behind the mark.
@@ -103,7 +102,8 @@ bool is_notes(const fs::path& folder) {
 
 struct Policy {
   std::mutex mutex;
-  std::multimap<std::pair<dev_t, ino_t>, fs::path> inputs;  ///< key: inode; value: the name of the file when it was read
+  std::multimap<std::pair<dev_t, ino_t>, fs::path>
+      inputs;  ///< key: inode; value: the name of the file when it was read
   bool replaces_files_of_others = false;
 };
 /// Returns the one policy of the program, which applies to all files that it writes.
@@ -232,7 +232,8 @@ void make_notes(const fs::path& folder) {
 void check_notes(const fs::path& folder) {
   for (const fs::path& entry : entries_of(folder))
     if (const FileKind kind = kind_of_name(entry); kind == FileKind::link || kind == FileKind::other)
-      throw InputError({entry.string()}, "is a link, a device or a pipe (dresslife writes plain files there)", "remove it");
+      throw InputError({entry.string()}, "is a link, a device or a pipe (dresslife writes plain files there)",
+                       "remove it");
 }
 
 void remove_notes(const fs::path& folder) {

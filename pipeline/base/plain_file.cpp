@@ -18,14 +18,11 @@ FileState state_from(const struct stat& status) {
 }
 
 /// Returns whether the error means that the path leads to no file, or cannot be a path.
-bool is_absence(int error) {
-  return error == ENOENT || error == ENOTDIR || error == ENAMETOOLONG || error == ELOOP;
-}
+bool is_absence(int error) { return error == ENOENT || error == ENOTDIR || error == ENAMETOOLONG || error == ELOOP; }
 
 [[noreturn]] void refuse_to_open(const std::filesystem::path& file, int error) {
   // ENXIO: a device is not connected.
-  if (error == ENXIO)
-    throw InputError({file.string()}, "is a device or a pipe, not a file", "save it as a file first");
+  if (error == ENXIO) throw InputError({file.string()}, "is a device or a pipe, not a file", "save it as a file first");
   if (is_absence(error) || error == EACCES || error == EPERM)
     throw InputError({file.string()}, fmt::format("cannot be read ({})", std::strerror(error)), "check the path");
   throw DiskError(file.string(), error);
@@ -105,8 +102,8 @@ std::vector<std::filesystem::path> files_below(const std::filesystem::path& fold
 ssize_t read_some(int descriptor, void* bytes, std::size_t count, std::uint64_t offset) {
   std::size_t done = 0;
   while (done < count) {
-    const ssize_t got = ::pread(descriptor, static_cast<char*>(bytes) + done, count - done,
-                                static_cast<off_t>(offset + done));
+    const ssize_t got =
+        ::pread(descriptor, static_cast<char*>(bytes) + done, count - done, static_cast<off_t>(offset + done));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) return -1;
     if (got == 0) break;

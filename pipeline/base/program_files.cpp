@@ -19,9 +19,10 @@ namespace fs = std::filesystem;
 std::string lower_extension(const fs::path& file) { return lower_case(file.extension().string()); }
 
 bool ends_like_a_program(const fs::path& file) {
-  static const std::set<std::string> ends{".mod", ".modx", ".prg", ".sys", ".sysx", ".pgf",
-                                          ".src", ".dat",  ".sub", ".ls",  ".va",   ".jbi", ".cnd"};
-  return ends.contains(lower_extension(file)) || lower_case(file.filename().string()) == "backinfo.txt";  // ABB's contents
+  static const std::set<std::string> ends{".mod", ".modx", ".prg", ".sys", ".sysx", ".pgf", ".src",
+                                          ".dat", ".sub",  ".ls",  ".va",  ".jbi",  ".cnd"};
+  return ends.contains(lower_extension(file)) ||
+         lower_case(file.filename().string()) == "backinfo.txt";  // ABB's contents
 }
 
 constexpr std::size_t most_files = 20'000;  // limit for one folder, many times the size of a controller's backup

@@ -20,9 +20,7 @@ std::string remaining_words(double seconds, double begun, double share) {
 }
 
 Progress::Progress(std::string label, bool quiet)
-    : label_(std::move(label)),
-      quiet_(quiet),
-      terminal_(::isatty(STDERR_FILENO)) {
+    : label_(std::move(label)), quiet_(quiet), terminal_(::isatty(STDERR_FILENO)) {
   log();  // the first minute begins with the first Progress object
 }
 
@@ -45,7 +43,8 @@ void Progress::show(double share, const std::string& words) {
   last_share_ = share;
   const std::string left =
       remaining_words(std::chrono::duration<double>(now - first_->time).count(), first_->share, share);
-  draw(fmt::format("{:5.1f} %{}{}{}{}", permille / 10.0, left.empty() ? "" : ", ", left, words.empty() ? "" : "  ", words));
+  draw(fmt::format("{:5.1f} %{}{}{}{}", permille / 10.0, left.empty() ? "" : ", ", left, words.empty() ? "" : "  ",
+                   words));
 }
 
 void Progress::show(const std::string& words) { draw(words); }

@@ -36,36 +36,29 @@ std::string readable(double value, int figures) {
   if (value == 0) return "0";
   // The value is rounded first, so that 999.6 becomes 1,000 and not 1e+03.
   const std::string text = fmt::format("{:.{}e}", value, figures - 1);
-  const double rounded =
-      std::strtod(text.c_str(), nullptr);  // accepts values beyond the range of a double
+  const double rounded = std::strtod(text.c_str(), nullptr);  // accepts values beyond the range of a double
   const double size = std::abs(rounded);
   if (size >= longest_written_out || size < shortest_written_out) return text;
   const int decimals = std::max(0, figures - 1 - static_cast<int>(std::floor(std::log10(size) + 1e-12)));
   return grouped(fmt::format("{:.{}f}", rounded, decimals));
 }
 
-std::string life_text(double life, int figures) {
-  return std::isinf(life) ? "no damage" : readable(life, figures);
-}
+std::string life_text(double life, int figures) { return std::isinf(life) ? "no damage" : readable(life, figures); }
 
 std::string hours_text(double hours) { return life_text(hours) + (std::isinf(hours) ? "" : " h"); }
 
 std::string calendar_words(double months) {
   constexpr double days_per_month = 365.2425 / 12, months_of_years = 36;
   if (std::isfinite(months) && months >= months_of_years) return readable(months / 12, 2) + " years";
-  if (!(months < 1))
-    return std::isinf(months) || std::isnan(months) ? readable(months) : readable(months) + " months";
+  if (!(months < 1)) return std::isinf(months) || std::isnan(months) ? readable(months) : readable(months) + " months";
   const double days = months * days_per_month;
   return days < 1 ? "less than a day" : readable(days, 2) + " days";
 }
 
-std::string calendar_text(double months) {
-  return std::isinf(months) ? life_text(months) : calendar_words(months);
-}
+std::string calendar_text(double months) { return std::isinf(months) ? life_text(months) : calendar_words(months); }
 
 std::size_t columns_of(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char byte) { return !continues(byte); }));
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char byte) { return !continues(byte); }));
 }
 
 std::string wrapped(const std::string& text, std::size_t columns, const std::string& indent) {

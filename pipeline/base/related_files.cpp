@@ -40,8 +40,7 @@ std::optional<std::string> text_of(const fs::path& file) {
 }
 
 bool is_name_letter(char letter) {
-  return (letter >= 'a' && letter <= 'z') || (letter >= '0' && letter <= '9') || letter == '_' ||
-         letter == '$';
+  return (letter >= 'a' && letter <= 'z') || (letter >= '0' && letter <= '9') || letter == '_' || letter == '$';
 }
 
 std::vector<std::string> words_of(std::string_view line) {
@@ -84,9 +83,7 @@ std::vector<std::vector<std::string>> declarations(const std::string& text) {
 bool has(const std::vector<std::string>& words, const char* word) {
   return std::ranges::find(words, word) != words.end();
 }
-bool begins_a_routine(const std::vector<std::string>& words) {
-  return has(words, "def") || has(words, "deffct");
-}
+bool begins_a_routine(const std::vector<std::string>& words) { return has(words, "def") || has(words, "deffct"); }
 
 /// Returns the names of the routines that a KRL file defines.
 std::set<std::string> routines_of(const std::string& text) {
@@ -108,8 +105,8 @@ std::vector<std::string> names_declared(const fs::path& file, const std::string&
     if (!routine && has(words, "global")) data.insert(data.end(), words.begin(), words.end());
     first = first && !routine;
   }
-  for (const char* own : {"global", "public", "decl", "const", "signal", "to", "struc", "enum", "in", "out",
-                          "int", "real", "bool", "char", "axis", "pos", "frame", "e6axis", "e6pos"})
+  for (const char* own : {"global", "public", "decl", "const", "signal", "to", "struc", "enum", "in", "out", "int",
+                          "real", "bool", "char", "axis", "pos", "frame", "e6axis", "e6pos"})
     std::erase(data, own);
   names.insert(names.end(), data.begin(), data.end());
   for (const char* mark : {":", ".."}) names.push_back(stem_of(file) + mark);
@@ -132,8 +129,7 @@ std::set<std::string> used_in(const std::string& text) {
     used.insert(word);
     const std::size_t next = std::min(text.find_first_not_of(" \t\r", end), text.size());
     const bool line_ends = next == text.size() || text[next] == '\n';
-    const bool alone =
-        line_ends && (before.empty() || before == "do" || before == "continue" || before == "run");
+    const bool alone = line_ends && (before.empty() || before == "do" || before == "continue" || before == "run");
     if (alone || text.compare(next, 1, "(") == 0) used.insert(word + '(');
     for (const char* mark : {":", ".."})
       if (text.compare(next, std::strlen(mark), mark) == 0) used.insert(word + mark);
@@ -199,8 +195,7 @@ std::vector<fs::path> related_files(const std::vector<fs::path>& programs, std::
     };
     std::erase_if(candidates, [&](Candidate& candidate) {
       // A data file belongs to the program of the same name: weld.dat to weld.src.
-      if (stem_of(candidate.file) != of.stem && std::ranges::none_of(candidate.names, stands_in_text))
-        return false;
+      if (stem_of(candidate.file) != of.stem && std::ranges::none_of(candidate.names, stands_in_text)) return false;
       open.push_back({stem_of(candidate.file), std::move(candidate.text)});
       related.push_back(std::move(candidate.file));
       return true;

@@ -152,9 +152,7 @@ HWY_INLINE MaskOf<Tag> equal(const Vector<Tag>& a, const Vector<Tag>& b) {
 HWY_INLINE DoubleMask equal(const LongPack& a, std::int64_t b) {
   return {hn::RebindMask(DoubleTag(), hn::Eq(a.raw, hn::Set(LongTag(), b)))};
 }
-HWY_INLINE Mask nonzero(const IntPack& a) {
-  return {hn::RebindMask(FloatTag(), hn::Ne(a.raw, hn::Zero(IntTag())))};
-}
+HWY_INLINE Mask nonzero(const IntPack& a) { return {hn::RebindMask(FloatTag(), hn::Ne(a.raw, hn::Zero(IntTag())))}; }
 template <class Tag>
 HWY_INLINE Vector<Tag> select(const MaskOf<Tag>& mask, const Vector<Tag>& yes, const Vector<Tag>& no) {
   return hn::IfThenElse(mask.raw, yes.raw, no.raw);
@@ -212,8 +210,7 @@ HWY_INLINE void transpose(const float* from, std::size_t stride, float* to) {
     }
 #else
   for (std::size_t step = 0; step < pack_size; ++step)
-    for (std::size_t lane = 0; lane < pack_size; ++lane)
-      to[step * pack_size + lane] = from[lane * stride + step];
+    for (std::size_t lane = 0; lane < pack_size; ++lane) to[step * pack_size + lane] = from[lane * stride + step];
 #endif
 }
 
@@ -227,8 +224,8 @@ HWY_INLINE Pack gathered(const double* rows, const LongPack& place) {
 #if HWY_TARGET == HWY_AVX3_DL  // twice as fast as the gather instruction of the machine
   std::int64_t at[pack_size];
   store(place, at);
-  return Pack::Raw{_mm512_setr_pd(rows[at[0]], rows[at[1]], rows[at[2]], rows[at[3]], rows[at[4]],
-                                  rows[at[5]], rows[at[6]], rows[at[7]])};
+  return Pack::Raw{_mm512_setr_pd(rows[at[0]], rows[at[1]], rows[at[2]], rows[at[3]], rows[at[4]], rows[at[5]],
+                                  rows[at[6]], rows[at[7]])};
 #else
   return hn::GatherIndex(DoubleTag(), rows, place.raw);
 #endif
@@ -267,17 +264,15 @@ HWY_INLINE Four gathered_fours(const double* cells, const LongPack& offset) {
   const auto a = rows_of(0), b = rows_of(1), c = rows_of(2), d = rows_of(3);
   const auto ab0 = hn::InterleaveLower(all, a, b), ab1 = hn::InterleaveUpper(all, a, b);
   const auto cd0 = hn::InterleaveLower(all, c, d), cd1 = hn::InterleaveUpper(all, c, d);
-  return {hn::OddEvenBlocks(hn::SwapAdjacentBlocks(cd0), ab0),
-          hn::OddEvenBlocks(hn::SwapAdjacentBlocks(cd1), ab1),
-          hn::OddEvenBlocks(cd0, hn::SwapAdjacentBlocks(ab0)),
-          hn::OddEvenBlocks(cd1, hn::SwapAdjacentBlocks(ab1))};
+  return {hn::OddEvenBlocks(hn::SwapAdjacentBlocks(cd0), ab0), hn::OddEvenBlocks(hn::SwapAdjacentBlocks(cd1), ab1),
+          hn::OddEvenBlocks(cd0, hn::SwapAdjacentBlocks(ab0)), hn::OddEvenBlocks(cd1, hn::SwapAdjacentBlocks(ab1))};
 #else
   static_assert(pack_size == 2);
   const DoubleTag all;
   const auto a01 = hn::LoadU(all, cells + at[0]), a23 = hn::LoadU(all, cells + at[0] + 2);
   const auto b01 = hn::LoadU(all, cells + at[1]), b23 = hn::LoadU(all, cells + at[1] + 2);
-  return {hn::InterleaveLower(all, a01, b01), hn::InterleaveUpper(all, a01, b01),
-          hn::InterleaveLower(all, a23, b23), hn::InterleaveUpper(all, a23, b23)};
+  return {hn::InterleaveLower(all, a01, b01), hn::InterleaveUpper(all, a01, b01), hn::InterleaveLower(all, a23, b23),
+          hn::InterleaveUpper(all, a23, b23)};
 #endif
 #endif
 }
@@ -319,8 +314,8 @@ HWY_INLINE IntPack place_of(const IntPack& bit) {  // the exponent of the word a
 
 /// Returns -1 if a is larger than b (as unsigned words), else 0.
 HWY_INLINE IntPack above(const IntPack& a, const IntPack& b) {
-  return hn::BitCast(IntTag(), hn::VecFromMask(WordTag(), hn::Gt(hn::BitCast(WordTag(), a.raw),
-                                                                 hn::BitCast(WordTag(), b.raw))));
+  return hn::BitCast(IntTag(),
+                     hn::VecFromMask(WordTag(), hn::Gt(hn::BitCast(WordTag(), a.raw), hn::BitCast(WordTag(), b.raw))));
 }
 
 constexpr int word = 32;                                   ///< bits
@@ -348,8 +343,7 @@ class WordRecord {
       }
     } orders;
     const __m512i unit = _mm512_set1_epi64(0x8040201008040201);
-    const __m512i octets =
-        _mm512_permutexvar_epi8(_mm512_load_si512(orders.by_octets), _mm512_load_si512(rows_));
+    const __m512i octets = _mm512_permutexvar_epi8(_mm512_load_si512(orders.by_octets), _mm512_load_si512(rows_));
     const __m512i turned = _mm512_gf2p8affine_epi64_epi8(unit, octets, 0);
     return IntPack::Raw{_mm512_permutexvar_epi8(_mm512_load_si512(orders.by_lanes), turned)};
   }

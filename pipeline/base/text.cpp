@@ -8,8 +8,7 @@ namespace {
 /// In UTF-8, the code of a small letter of U+00C0 .. U+00DE (except the multiplication sign) is 0x20 higher.
 char lower(std::string_view text, std::size_t at) {
   const auto c = static_cast<unsigned char>(text[at]);
-  if (at > 0 && text[at - 1] == '\xC3' && c >= 0x80 && c <= 0x9E && c != 0x97)
-    return static_cast<char>(c + 0x20);
+  if (at > 0 && text[at - 1] == '\xC3' && c >= 0x80 && c <= 0x9E && c != 0x97) return static_cast<char>(c + 0x20);
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : text[at];
 }
 

@@ -24,8 +24,7 @@ std::size_t thread_count() {
   const auto count = whole_number_in<std::size_t>(text);
   constexpr std::size_t most = 1024;
   if (!count || *count < 1 || *count > most)
-    throw InputError(Where{"DRESSLIFE_THREADS"},
-                     fmt::format("is '{}' (must be a whole number, 1 .. {})", text, most),
+    throw InputError(Where{"DRESSLIFE_THREADS"}, fmt::format("is '{}' (must be a whole number, 1 .. {})", text, most),
                      "set it to the threads that each stage may use, or unset it");
   return *count;
 }

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t most_bytes = 60'000;  // HDF5 allows 64 kB in an attribute
 constexpr std::string_view cause_mark = ". Likely cause: ", remedy_mark = ". Remedy: ";
-constexpr const char* separator = ": ";     // between key and value
+constexpr const char* separator = ": ";            // between key and value
 constexpr std::string_view amount_key = "amount";  // no key of a job
 
 std::optional<WarningKind> kind_named(std::string_view name) {
@@ -89,7 +89,8 @@ bool spoils_plan(WarningKind kind) {
     case WarningKind::mesh:         // a numerical error, whose size the message states
     case WarningKind::material:     // the constants may be right
     case WarningKind::calibration:  // the uncertainty of the prior applies
-    case WarningKind::other_values:  // the message states the share of such dresspacks and the measurement that rules them out
+    case WarningKind::
+        other_values:  // the message states the share of such dresspacks and the measurement that rules them out
       return false;
   }
   return false;
@@ -127,9 +128,7 @@ const char* title(WarningKind kind) {
   return "";
 }
 
-std::string Warning::line() const {
-  return where.empty() ? "warning: " + words : where + ": warning: " + words;
-}
+std::string Warning::line() const { return where.empty() ? "warning: " + words : where + ": warning: " + words; }
 std::string paragraph(const std::string& of) {
   const std::size_t columns = screen_columns();
   const std::string indent = "    ";
@@ -144,12 +143,14 @@ std::string paragraph(const std::string& of) {
 std::string Warning::text() const { return where.empty() ? words : where + ": " + words; }
 
 std::string Remedy::text() const {
-  return preferred + joined(mapped(values, [](const KeyValue& of) { return of.key + separator + of.value; }), " and ") + words;
+  return preferred + joined(mapped(values, [](const KeyValue& of) { return of.key + separator + of.value; }), " and ") +
+         words;
 }
 
 Warning warning_of(WarningKind kind, std::string where, const std::string& what, const std::string& cause,
                    const Remedy& remedy) {
-  return {kind, std::move(where), what + std::string(cause_mark) + cause + std::string(remedy_mark) + remedy.text(), remedy.values};
+  return {kind, std::move(where), what + std::string(cause_mark) + cause + std::string(remedy_mark) + remedy.text(),
+          remedy.values};
 }
 Warning warning_of(WarningKind kind, std::string where, const std::string& what, const std::string& cause,
                    const std::string& remedy) {
@@ -178,8 +179,8 @@ std::string warnings_text(const std::vector<Warning>& warnings) {
     for (const KeyValue& of : warnings[k].remedy) line += "\t" + plain(of.key + separator + of.value);
     if (warnings[k].amount) line += fmt::format("\t{}{}{}", amount_key, separator, *warnings[k].amount);
     if (text.size() + line.size() > most_bytes)
-      return text + fmt::format("{}{}\t\tand {} more warnings", k ? "\n" : "", word(warnings[k].kind),
-                                warnings.size() - k);
+      return text +
+             fmt::format("{}{}\t\tand {} more warnings", k ? "\n" : "", word(warnings[k].kind), warnings.size() - k);
     text += line;
   }
   return text;

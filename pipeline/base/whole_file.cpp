@@ -33,23 +33,19 @@ constexpr std::string_view part_begin = "dresslife-", part_end = ".part";
 /// Returns whether `name` is "dresslife-PROCESS-NUMBER.part".
 bool is_part(std::string_view name) {
   if (!name.starts_with(part_begin) || !name.ends_with(part_end)) return false;
-  const std::string_view middle =
-      name.substr(part_begin.size(), name.size() - part_begin.size() - part_end.size());
+  const std::string_view middle = name.substr(part_begin.size(), name.size() - part_begin.size() - part_end.size());
   return !middle.empty() && middle.find_first_not_of("0123456789-") == std::string_view::npos &&
          std::count(middle.begin(), middle.end(), '-') == 1;
 }
 
 constexpr int most_parts = 1000;  // limit for one process in one folder
-std::string part_name(int number) {
-  return fmt::format("{}{}-{}{}", part_begin, ::getpid(), number, part_end);
-}
+std::string part_name(int number) { return fmt::format("{}{}-{}{}", part_begin, ::getpid(), number, part_end); }
 
 /// Creates and locks a file under a new name. Returns -1 on failure: see errno.
 std::pair<int, fs::path> make_part(const fs::path& folder) {
   for (int number = 0; number < most_parts; ++number) {
     fs::path part = folder / part_name(number);
-    const int made =
-        ::open(part.c_str(), O_CREAT | O_EXCL | O_NOFOLLOW | O_RDWR | O_CLOEXEC, readable_by_all);
+    const int made = ::open(part.c_str(), O_CREAT | O_EXCL | O_NOFOLLOW | O_RDWR | O_CLOEXEC, readable_by_all);
     if (made < 0 && errno == EEXIST) continue;
     if (made < 0) return {-1, {}};
     // Another program may have removed the file as a leftover before it was locked.
@@ -57,7 +53,8 @@ std::pair<int, fs::path> make_part(const fs::path& folder) {
     struct stat status {};
     const bool known = ::fstat(made, &status) == 0;
     const int error = errno;
-    if (locked && known && status.st_nlink == 1) return {made, std::move(part)};  // nothing throws before its registration
+    if (locked && known && status.st_nlink == 1)
+      return {made, std::move(part)};  // nothing throws before its registration
     ::close(made);
     if (!locked || known) continue;
     ::unlink(part.c_str());
@@ -87,7 +84,7 @@ bool same_bytes(const WholeFile& one, const fs::path& path) {
 /// Syncs a folder. Returns 0 or errno.
 int sync_folder(const fs::path& folder) {
   const int opened = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (opened < 0) return errno == EACCES ? 0 : errno;  // a folder may be writable but not readable
+  if (opened < 0) return errno == EACCES ? 0 : errno;                     // a folder may be writable but not readable
   const int error = ::fsync(opened) == 0 || errno == EINVAL ? 0 : errno;  // some file systems cannot sync folders
   ::close(opened);
   return error;

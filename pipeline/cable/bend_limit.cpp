@@ -35,23 +35,29 @@ double unknown_core(const Dresspack& dresspack) {
 double least_bend_radius(const Dresspack& dresspack) {
   if (dresspack.least_bend_radius) return *dresspack.least_bend_radius;
   if (!bends_by_folds(dresspack)) return least_bend_diameters * dresspack.diameter;
-  return std::max({tightest_hose * dresspack.diameter, least_bend_diameters * unknown_core(dresspack), limit_of(stiffest_part(dresspack))});
+  return std::max({tightest_hose * dresspack.diameter, least_bend_diameters * unknown_core(dresspack),
+                   limit_of(stiffest_part(dresspack))});
 }
 
 std::string bend_rule(const Dresspack& dresspack) {
   if (!bends_by_folds(dresspack))
-    return fmt::format("ten diameters of the {} ({:.4g} mm) count{}", dresspack.cable_alone ? "cable" : "hose", 1e3 * dresspack.diameter,
+    return fmt::format("ten diameters of the {} ({:.4g} mm) count{}", dresspack.cable_alone ? "cable" : "hose",
+                       1e3 * dresspack.diameter,
                        dresspack.cable_alone ? "" : ", because it has no hose_corrugation that bends by its folds");
   const Component& part = stiffest_part(dresspack);
   const double core = least_bend_diameters * unknown_core(dresspack), folds = tightest_hose * dresspack.diameter;
   if (folds >= std::max(core, limit_of(part)))
-    return fmt::format("{:g} diameters of the hose ({:.4g} mm) count, the smallest radius that makers of moved hoses state", tightest_hose,
-                       1e3 * dresspack.diameter);
+    return fmt::format(
+        "{:g} diameters of the hose ({:.4g} mm) count, the smallest radius that makers of moved hoses state",
+        tightest_hose, 1e3 * dresspack.diameter);
   return fmt::format("ten diameters of {} count, because a corrugated hose itself bends by its folds",
-                     core > limit_of(part) ? fmt::format("{} ({:.4g} mm)", dresspack.core_components.empty() ? "its core" : "a core with the area that no core component takes",
+                     core > limit_of(part) ? fmt::format("{} ({:.4g} mm)",
+                                                         dresspack.core_components.empty()
+                                                             ? "its core"
+                                                             : "a core with the area that no core component takes",
                                                          1e3 * unknown_core(dresspack))
-                                           : fmt::format("'{}' ({:.4g} mm) in the hose, {:.4g} mm off its axis,", part.name,
-                                                         2e3 * part.radius, 1e3 * part.helix_radius));
+                                           : fmt::format("'{}' ({:.4g} mm) in the hose, {:.4g} mm off its axis,",
+                                                         part.name, 2e3 * part.radius, 1e3 * part.helix_radius));
 }
 
 }  // namespace dresslife::pipeline

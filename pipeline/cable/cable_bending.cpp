@@ -22,7 +22,8 @@ constexpr double small = 1e-4;  // [1/m], [rad/m]; strains of 1e-6: the error of
 // Length of a cable in its bending test [m], as config/observations/your_cable.md requires. Over longer waves, wires slide out at
 // the ends. This length matters only for parts with a longer turn; those of the shipped dresspacks turn within 66 mm.
 constexpr double bent_sample = 0.5;
-constexpr double reach = 1e-3;  // [m]; elongation per twist of similar effect, a typical distance of a wire from the axis
+constexpr double reach =
+    1e-3;  // [m]; elongation per twist of similar effect, a typical distance of a wire from the axis
 
 void scale_friction(std::vector<Component>& parts, double factor) {
   for (Component& part : parts) {
@@ -51,7 +52,7 @@ struct Answer {
   double EA, weight;
   double evening;  ///< length over which its strain evens out; 0: straight in straight parts [m]
   double share;
-  double away, mean;                ///< deviation of the strain from the mean over its pitch, and that mean
+  double away, mean;                       ///< deviation of the strain from the mean over its pitch, and that mean
   double bend1 = 0, bend2 = 0, twist = 0;  ///< of wires
   int depth;
 };
@@ -65,8 +66,7 @@ void descend(const Dresspack& dresspack, const Component& layer, const BentPart&
   const double turns = helices::turning(parent.turning, signed_angle, R);
   const double evening = helical || parent.helical ? helices::evening_length(turns, bent_sample) : 0;
   const double EA = axial_stiffness(dresspack, layer);
-  const double share =
-      helices::radial_share(EA, layer.lay_angle, R, layer.radial_stiffness.value_or(HUGE_VAL));
+  const double share = helices::radial_share(EA, layer.lay_angle, R, layer.radial_stiffness.value_or(HUGE_VAL));
   const int angles = parent.alike_around ? 1 : phases;
   const double weight = parent.per_length * layer.count / angles / cosine;
   const double inside = layer.measured_bending_stiffness ? friction_level(dresspack, layer) : parent.friction_level;
@@ -74,8 +74,7 @@ void descend(const Dresspack& dresspack, const Component& layer, const BentPart&
     const Placement place =
         helices::make_placement(Kinematics::exact, R, std::tan(signed_angle), std::cos(signed_angle),
                                 2 * pi * (k + 0.5) / angles, parent.rest.stretch.order);
-    const ComponentState<double> rest = helices::child(parent.rest, place),
-                                 glued = helices::child(parent.now, place);
+    const ComponentState<double> rest = helices::child(parent.rest, place), glued = helices::child(parent.now, place);
     const double strain = glued.stretch.at[0] / rest.stretch.at[0] - 1;
     const double mean =
         R == 0 ? strain : helices::mean_path_rate(parent.now, place) / helices::mean_path_rate(parent.rest, place) - 1;
@@ -100,7 +99,13 @@ int levels_in(const Component& part) {
 BentPart straight_cable(const Component& cable, double elongation, double curvature, double twist) {
   const int order = std::clamp(levels_in(cable), 1, Series<double>::capacity - 1);
   return {helices::uniform_rod<double>(0, 0, 0, 0, order),
-          helices::uniform_rod<double>(elongation, curvature, 0, twist, order), 1, 0, false, 1, 0, curvature == 0};
+          helices::uniform_rod<double>(elongation, curvature, 0, twist, order),
+          1,
+          0,
+          false,
+          1,
+          0,
+          curvature == 0};
 }
 
 /// Returns the stiffness of a wire whose deviation is free, per size of the deformation and per length of the cable.
@@ -126,11 +131,12 @@ double held_by_friction(double away, double cap) {
 }
 
 void refuse_straight(const Component& layer) {
-  throw InputError(layer.where,
-                   fmt::format("'{}' lies straight beside the axis of its cable (how far it slides in a bent sample depends on "
-                               "the sample's length)",
-                               layer.name),
-                   "give its lay_angle_deg, or leave out measured_bending_stiffness_Nm2");
+  throw InputError(
+      layer.where,
+      fmt::format("'{}' lies straight beside the axis of its cable (how far it slides in a bent sample depends on "
+                  "the sample's length)",
+                  layer.name),
+      "give its lay_angle_deg, or leave out measured_bending_stiffness_Nm2");
 }
 
 }  // namespace
@@ -149,7 +155,8 @@ double axial_stiffness(const Dresspack& dresspack, const Component& part) {
 
 double left_by_bed(const Dresspack& dresspack, const Component& part) {
   if (part.helix_radius == 0 || !part.radial_stiffness) return 1;
-  return helices::radial_share(axial_stiffness(dresspack, part), part.lay_angle, part.helix_radius, *part.radial_stiffness);
+  return helices::radial_share(axial_stiffness(dresspack, part), part.lay_angle, part.helix_radius,
+                               *part.radial_stiffness);
 }
 
 CableBending::CableBending(const Dresspack& dresspack, const Component& cable, StraightParts straight) {
@@ -190,7 +197,8 @@ double CableBending::moment(double curvature, double friction_level) const {
 }
 
 double CableBending::free_stiffness() const {
-  return sum_of(held_, [](const HeldLayer& of) { return of.elastic * of.share * of.glued; }, own_stiffness_);
+  return sum_of(
+      held_, [](const HeldLayer& of) { return of.elastic * of.share * of.glued; }, own_stiffness_);
 }
 
 double CableBending::stuck_stiffness(int levels) const {
@@ -226,10 +234,9 @@ double friction_level(const Dresspack& dresspack, const Component& cable) {
   if (wanted < least || wanted > most)
     throw InputError(
         cable.where,
-        fmt::format(
-            "'{}' has measured_bending_stiffness_Nm2 {:.4g} at {:.4g} 1/m (its wires and polymer have "
-            "{:.4g} without friction and {:.4g} where friction holds all that it presses)",
-            cable.name, wanted, curvature, least, most),
+        fmt::format("'{}' has measured_bending_stiffness_Nm2 {:.4g} at {:.4g} 1/m (its wires and polymer have "
+                    "{:.4g} without friction and {:.4g} where friction holds all that it presses)",
+                    cable.name, wanted, curvature, least, most),
         "check the measurement, polymer_bending_stiffness_Nm2, the radii and lay angles, and that the layers "
         "have a friction_coefficient and a radial_line_load_N_per_m");
   double low = 1e-9, high = all_friction;  // M increases with the level
@@ -244,16 +251,14 @@ double jacket_bending(double radius) { return jacketed_modulus * pi / 4 * std::p
 
 double polymer_bending(const Component& part) {
   if (part.components.empty()) return 0;
-  if (part.polymer_bending_stiffness > 0 || part.measured_bending_stiffness)
-    return part.polymer_bending_stiffness;
+  if (part.polymer_bending_stiffness > 0 || part.measured_bending_stiffness) return part.polymer_bending_stiffness;
   return part.stiffness_factor * jacket_bending(part.radius);
 }
 
 double cable_stiffness(const Dresspack& dresspack, const Component& cable) {
   if (cable.measured_bending_stiffness) return *cable.measured_bending_stiffness;
   const double curvature = cable.measured_at_curvature;
-  return polymer_bending(cable) +
-         CableBending(dresspack, cable, StraightParts::slide).moment(curvature, 1) / curvature;
+  return polymer_bending(cable) + CableBending(dresspack, cable, StraightParts::slide).moment(curvature, 1) / curvature;
 }
 
 std::vector<double> bending_moments(const Dresspack& dresspack, Component cable, double friction,

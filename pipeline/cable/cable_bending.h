@@ -39,22 +39,22 @@ class CableBending {
  public:
   /// cable: a component with parts, of this dresspack. Errors: InputError for straight parts off the axis of straight ones if
   /// these are refused. Otherwise they slide, and contribute only to stuck_stiffness().
-  CableBending(const Dresspack& dresspack, const Component& cable,
-               StraightParts straight = StraightParts::refused);
+  CableBending(const Dresspack& dresspack, const Component& cable, StraightParts straight = StraightParts::refused);
 
   /// Returns the moment of one cable's wires [N m]. curvature [1/m]. friction_level: factor of every radial line load in the
   /// cable, in addition to the factors from measured stiffnesses of its parts.
   double moment(double curvature, double friction_level) const;
-  double free_stiffness() const;                 ///< without friction [N m2]
-  double stuck_stiffness(int levels = 0) const;  ///< if no part slides, or only the innermost `levels` do not slide [N m2]
+  double free_stiffness() const;  ///< without friction [N m2]
+  double stuck_stiffness(
+      int levels = 0) const;  ///< if no part slides, or only the innermost `levels` do not slide [N m2]
 
  private:
   /// A layer of parts or wires.
   struct HeldLayer {
-    int depth = 0;         ///< levels below the cable; 1: in the cable
-    double stiffness = 0;  ///< E A times the number of parts per length of the cable [N]
-    double glued = 0;      ///< stiffness times the mean of D^2 [N m2]
-    double share = 1;      ///< of the strain that the bed leaves (W31)
+    int depth = 0;                            ///< levels below the cable; 1: in the cable
+    double stiffness = 0;                     ///< E A times the number of parts per length of the cable [N]
+    double glued = 0;                         ///< stiffness times the mean of D^2 [N m2]
+    double share = 1;                         ///< of the strain that the bed leaves (W31)
     double by_tension = 0, by_line_load = 0;  ///< terms of the cap (W16); the second at friction level 1
     double elastic = 0;                       ///< share that is held elastically for any cap (W30)
   };

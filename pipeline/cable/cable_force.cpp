@@ -77,7 +77,8 @@ double CableForce::strain_at(double wanted) const {
   if (wanted == 0 || wires_.empty()) return 0;
   double low = 0, high = 1e-3;
   while (force(high) < std::abs(wanted) && high < 1e3) high *= 2;
-  while (high - low > 1e-15 + 1e-13 * high) {  // by bisection, because the slope of a sum of powers can mislead Newton's method
+  while (high - low >
+         1e-15 + 1e-13 * high) {  // by bisection, because the slope of a sum of powers can mislead Newton's method
     const double middle = (low + high) / 2;
     (force(middle) < std::abs(wanted) ? low : high) = middle;
   }

@@ -48,8 +48,7 @@ double bending_of(const std::vector<Component>& components, const Dresspack& dre
   double sum = 0;
   for (const Component& part : components) {
     const Material* material = find_material(dresspack, part.material);
-    const double wire =
-        (material ? material->youngs_modulus : 0) * std::numbers::pi / 4 * std::pow(part.radius, 4);
+    const double wire = (material ? material->youngs_modulus : 0) * std::numbers::pi / 4 * std::pow(part.radius, 4);
     const double own = part.plain                ? properties_of(*part.plain, part.radius).bending
                        : part.components.empty() ? wire
                                                  : cable_stiffness(dresspack, part);
@@ -60,21 +59,18 @@ double bending_of(const std::vector<Component>& components, const Dresspack& dre
 
 }  // namespace
 
-double pull_of_wires(const Dresspack& dresspack, const std::vector<Component>& parts, double elongation,
-                     double twist) {
+double pull_of_wires(const Dresspack& dresspack, const std::vector<Component>& parts, double elongation, double twist) {
   return pull_of(parts, dresspack, {1 + elongation, twist}, {});
 }
 
-double elongation_under(const Dresspack& dresspack, const std::vector<Component>& parts, double pull,
-                        double twist) {
+double elongation_under(const Dresspack& dresspack, const std::vector<Component>& parts, double pull, double twist) {
   // The pull increases with the elongation.
   const auto pulls_less = [&](double elongation) { return pull_of_wires(dresspack, parts, elongation, twist) < pull; };
   return halved(-0.5, 0.5, 60, pulls_less).middle();
 }
 
 TwistShortening twist_shortening(const Dresspack& dresspack, const Component& cable) {
-  constexpr double twist =
-      1;  // [rad/m], a large twist of hoses: the cubic term is 1e-5 of the result, rounding 1e-15
+  constexpr double twist = 1;  // [rad/m], a large twist of hoses: the cubic term is 1e-5 of the result, rounding 1e-15
   if (!(pull_of_wires(dresspack, cable.components, 1e-3, 0) > 0)) return {};
   const double there = -elongation_under(dresspack, cable.components, 0, twist);
   const double back = -elongation_under(dresspack, cable.components, 0, -twist);
@@ -82,8 +78,7 @@ TwistShortening twist_shortening(const Dresspack& dresspack, const Component& ca
 }
 
 double bending_stiffness(const Dresspack& dresspack) {
-  return dresspack.bending_stiffness > 0 ? dresspack.bending_stiffness
-                                         : bending_of(dresspack.components, dresspack);
+  return dresspack.bending_stiffness > 0 ? dresspack.bending_stiffness : bending_of(dresspack.components, dresspack);
 }
 
 }  // namespace dresslife::pipeline

@@ -13,12 +13,10 @@
 namespace dresslife::pipeline {
 
 /// Returns the elastic pull of all wires in these parts of a dresspack [N] at this elongation and twist [rad/m].
-double pull_of_wires(const Dresspack& dresspack, const std::vector<Component>& parts, double elongation,
-                     double twist);
+double pull_of_wires(const Dresspack& dresspack, const std::vector<Component>& parts, double elongation, double twist);
 
 /// Returns the elongation at which the parts carry `pull` [N]. Precondition: there are wires.
-double elongation_under(const Dresspack& dresspack, const std::vector<Component>& parts, double pull,
-                        double twist);
+double elongation_under(const Dresspack& dresspack, const std::vector<Component>& parts, double pull, double twist);
 
 /// Shortening of a cable without pull per length, to second order in its twist. Layers of one hand cause the linear term, wires
 /// off the axis the quadratic one.

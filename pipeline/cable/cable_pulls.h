@@ -26,7 +26,7 @@ struct CablePulls {
   std::vector<double> moment;  ///< of all cables on the hose, at the clamp with the larger moment (sample) [N m]
   /// Largest tension at each cable's base clamp and at its tool clamp (cable, 2) [N]; 0: only compression.
   std::vector<std::array<double, 2>> end_pull;
-  double force_share = 0;      ///< largest ratio of force to breaking force of all cables; 0: unknown
+  double force_share = 0;                   ///< largest ratio of force to breaking force of all cables; 0: unknown
   std::size_t of_cable = 0, at_sample = 0;  ///< cable and sample of that ratio
 };
 

@@ -5,8 +5,7 @@
 namespace dresslife::pipeline {
 
 double hardening_exponent(const Material& metal) {
-  return metal.cyclic_hardening_exponent.value_or(metal.fatigue_strength_exponent /
-                                                  metal.fatigue_ductility_exponent);
+  return metal.cyclic_hardening_exponent.value_or(metal.fatigue_strength_exponent / metal.fatigue_ductility_exponent);
 }
 
 double cyclic_strength(const Material& metal) {

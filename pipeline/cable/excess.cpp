@@ -18,7 +18,6 @@
 
 namespace dresslife::pipeline {
 
-
 /// Returns a length in mm, rounded up to two digits, for requirements.
 static std::string millimetres_above(double metres) { return percent_above(10 * metres); }
 
@@ -82,7 +81,8 @@ std::vector<Warning> slack_warnings(const Dresspack& dresspack) {
         fmt::format("it has {:.2g} mm of room to wind in and {:.3g} % ({:.3g} mm in a metre) of excess length",
                     1e3 * loose.room, 100 * slack, 1e3 * slack),
         Remedy{{{"slack_percent", percent_below(excess_at_force(cable, limit, loose.room))}},
-               fmt::format(" or less; or {} mm of room around it", millimetres_above(room_of_excess(cable, slack, limit)))}));
+               fmt::format(" or less; or {} mm of room around it",
+                           millimetres_above(room_of_excess(cable, slack, limit)))}));
   }
   return warnings;
 }
@@ -91,9 +91,8 @@ double winding_slack(const MountedDresspack& mounted, const Component& component
   const Routing& routing = mounted.routing;
   if (!routing.base_clamp || !routing.tool_clamp || !routing.clamps.empty()) return 0;
   const std::vector<LooseRoom> rooms = loose_rooms(mounted.dresspack);
-  const bool in_ring = std::any_of(rooms.begin(), rooms.end(), [&](const LooseRoom& room) {
-    return room.component == &component && room.in_ring;
-  });
+  const bool in_ring = std::any_of(rooms.begin(), rooms.end(),
+                                   [&](const LooseRoom& room) { return room.component == &component && room.in_ring; });
   const double turn = 2 * std::numbers::pi * component.helix_radius / routing.free_length;
   return in_ring && std::abs(std::tan(component.lay_angle)) < turn ? turn * turn / 2 : 0;
 }
@@ -113,7 +112,8 @@ std::vector<Warning> tight_warnings(const std::string& key, const MountedDresspa
             "'{}' has {:.3g} % of slack (limit {} %: half of what it needs to wind once around the hose's axis)",
             component.name, 100 * slack, percent_above(needed / 2)),
         "it stays on one side of the hose, so that a bend of the hose pulls it",
-        Remedy{{{fmt::format("{}.components.{}.slack_percent", key, entry_number(components, k)), percent_above(slack_to_lay(needed))}},
+        Remedy{{{fmt::format("{}.components.{}.slack_percent", key, entry_number(components, k)),
+                 percent_above(slack_to_lay(needed))}},
                fmt::format(" (now {:.3g}); dresspacks are installed with 1 to 2 %", component.laying.slack)}));
   }
   return warnings;

@@ -27,7 +27,7 @@ double room_of_excess(const CableForce& cable, double excess, double force);
 /// A loose component of the dresspack, with the smallest room of its parts.
 struct LooseRoom {
   const Component* component;
-  double room;  ///< c [m]; infinite: no limit
+  double room;   ///< c [m]; infinite: no limit
   bool in_ring;  ///< each of its parts can turn around the hose's axis only together with its neighbours (room.h)
 };
 std::vector<LooseRoom> loose_rooms(const Dresspack& dresspack);

@@ -61,8 +61,8 @@ inline namespace DRESSLIFE_MACHINE {
 
 /// Returns a placement for the tangent and cosine of the signed lay angle. phase: theta at the point [rad]. order: of the
 /// parent's state; 0 is enough for wires.
-inline Placement make_placement(pipeline::Kinematics kinematics, double radius, double lay_tangent,
-                                double lay_cosine, double phase, int order = Series<double>::capacity - 1) {
+inline Placement make_placement(pipeline::Kinematics kinematics, double radius, double lay_tangent, double lay_cosine,
+                                double phase, int order = Series<double>::capacity - 1) {
   assert(radius > 0 || lay_tangent == 0);
   Placement place;
   place.kinematics = kinematics;
@@ -76,8 +76,7 @@ inline Placement make_placement(pipeline::Kinematics kinematics, double radius, 
   return place;
 }
 
-inline Placement make_placement(pipeline::Kinematics kinematics, double radius, double lay_angle,
-                                double phase) {
+inline Placement make_placement(pipeline::Kinematics kinematics, double radius, double lay_angle, double phase) {
   return make_placement(kinematics, radius, std::tan(lay_angle), std::cos(lay_angle), phase);
 }
 
@@ -109,8 +108,7 @@ T path_rate(const ComponentState<T>& parent, const Placement& place) {
   const T X = parent.bend1.at[0] * place.sine.at[0] - parent.bend2.at[0] * place.cosine.at[0];
   if (is_thesis(place.kinematics)) {
     const ThesisAngle<T> a = thesis_angle(parent, place);
-    return 1.0 + a.cosine_squared * (parent.stretch.at[0] - 1.0 + R * X) +
-           R * a.sine_cosine * parent.twist.at[0];
+    return 1.0 + a.cosine_squared * (parent.stretch.at[0] - 1.0 + R * X) + R * a.sine_cosine * parent.twist.at[0];
   }
   const T sigma = place.turn_rate + parent.twist.at[0], y = parent.stretch.at[0] + R * X;
   return square_root(R * R * sigma * sigma + y * y);
@@ -153,8 +151,7 @@ WireState<T> wire_state(const ComponentState<T>& parent, const Placement& place)
   const T radial = parent.bend1.at[0] * cosine + parent.bend2.at[0] * sine;
   if (is_thesis(place.kinematics)) {
     const ThesisAngle<T> a = thesis_angle(parent, place);
-    return {path_rate(parent, place), -a.cosine * radial, a.cosine_squared * X, a.sine_cosine * X,
-            1.0 + 0.0 * X};
+    return {path_rate(parent, place), -a.cosine * radial, a.cosine_squared * X, a.sine_cosine * X, 1.0 + 0.0 * X};
   }
   const T sigma = place.turn_rate + parent.twist.at[0], y = parent.stretch.at[0] + R * X;
   const T V = square_root(R * R * sigma * sigma + y * y), inverse = 1.0 / V, scale = c * inverse;
@@ -173,8 +170,8 @@ ComponentState<T> child(const ComponentState<T>& parent, const Placement& place)
   if (is_thesis(place.kinematics)) return thesis_child(parent, place);
   if (parent.stretch.order == 1) {
     const WireState<T> values = wire_state(parent, place);
-    return {constant_series(values.stretch, 0), constant_series(values.bend1, 0),
-            constant_series(values.bend2, 0), constant_series(values.twist, 0)};
+    return {constant_series(values.stretch, 0), constant_series(values.bend1, 0), constant_series(values.bend2, 0),
+            constant_series(values.twist, 0)};
   }
   const double R = place.radius, c = place.lay_cosine;
   const Series<T> X = parent.bend1 * place.sine - parent.bend2 * place.cosine;
@@ -241,12 +238,11 @@ inline double rest_length(pipeline::Kinematics kinematics, const WireState<doubl
 /// = stretch / stretch0 - 1 of the wire, the strain of the fibre is
 ///     (stretch + r Y) / (stretch0 + r Y0) - 1 = (e + r (Y - Y0) / stretch0) / (1 + r Y0 / stretch0). (W12)
 /// Precondition: r Y0 > -stretch0, so the wire is thinner than the radius of its bend at rest.
-inline FibreShape fibre_shape(pipeline::Kinematics kinematics, const WireState<double>& rest, double r,
-                              double phi_sine, double phi_cosine) {
+inline FibreShape fibre_shape(pipeline::Kinematics kinematics, const WireState<double>& rest, double r, double phi_sine,
+                              double phi_cosine) {
   const double per_length = r / rest_length(kinematics, rest);
   FibreShape shape{per_length * phi_sine, -per_length * phi_cosine, 1};
-  if (!is_thesis(kinematics))
-    shape.scale = 1 / (1 + shape.by_bend1 * rest.bend1 + shape.by_bend2 * rest.bend2);
+  if (!is_thesis(kinematics)) shape.scale = 1 / (1 + shape.by_bend1 * rest.bend1 + shape.by_bend2 * rest.bend2);
   return shape;
 }
 

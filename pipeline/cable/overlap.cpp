@@ -38,7 +38,9 @@ double largest_lay_angle(const Component& of) {
 /// Returns the least radius of the circle on which the parts fit at this lay angle [m].
 double least_helix_radius(const Component& of) {
   const double enough = of.count * of.radius / std::cos(of.lay_angle);  // a circle of 2 pi R > K 2 r / cos
-  const auto overlap = [&](double radius) { return neighbour_distance(radius, of.lay_angle, of.count) < 2 * of.radius; };
+  const auto overlap = [&](double radius) {
+    return neighbour_distance(radius, of.lay_angle, of.count) < 2 * of.radius;
+  };
   return halved(of.helix_radius, enough, 40, overlap).high;
 }
 
@@ -47,16 +49,18 @@ std::string what_fits(Component of) {
   constexpr double steepest = 30 * pi / 180;  // cores of moved cables have 8 to 25 deg
   if (of.lay_angle > steepest) {
     const double number = of.lay_angle * 180 / pi, meant = std::atan(2 * pi * of.helix_radius / (1e-3 * number));
-    const std::string angle = (meant <= steepest ? fmt::format("lay_angle_deg: {:.3g} if {:.4g} is the lay length in mm, or ",
-                                                               meant * 180 / pi, number)
-                                                 : std::string("lay_angle_deg: ")) +
-                              "the angle of the cable (8 to 25)";
+    const std::string angle =
+        (meant <= steepest
+             ? fmt::format("lay_angle_deg: {:.3g} if {:.4g} is the lay length in mm, or ", meant * 180 / pi, number)
+             : std::string("lay_angle_deg: ")) +
+        "the angle of the cable (8 to 25)";
     of.lay_angle = std::min(meant, steepest);
     return fits(of, of.lay_angle, of.count, allowed) ? angle : angle + "; with it " + what_fits(std::move(of));
   }
   std::string keys = fmt::format("count: {} or less", largest_count(of));
   if (of.lay_angle > 0 && fits(of, 0, of.count))
-    keys = fmt::format("lay_angle_deg: {:.1f} or less, or ", std::floor(10 * largest_lay_angle(of) * 180 / pi) / 10) + keys;
+    keys = fmt::format("lay_angle_deg: {:.1f} or less, or ", std::floor(10 * largest_lay_angle(of) * 180 / pi) / 10) +
+           keys;
   return keys + fmt::format(", or helix_radius_mm: {:.4g} or more", std::ceil(1e6 * least_helix_radius(of)) / 1e3);
 }
 
@@ -82,9 +86,7 @@ void add_overlaps_between(const std::vector<Component>& components, Problems& pr
       const double apart = nearest_distance(one, other), needed = one.radius + other.radius;
       const bool other_is_outer = other.helix_radius >= one.helix_radius;
       const Component &outer = other_is_outer ? other : one, &inner = other_is_outer ? one : other;
-      const auto name = [](const Component& of) {
-        return of.layer.empty() ? of.name : of.layer + "/" + of.name;
-      };
+      const auto name = [](const Component& of) { return of.layer.empty() ? of.name : of.layer + "/" + of.name; };
       const std::string what = fmt::format(
           "'{}' and '{}' come as near as {:.4g} mm between their axes, {:.3f} mm less than their "
           "radii together",
@@ -92,7 +94,8 @@ void add_overlaps_between(const std::vector<Component>& components, Problems& pr
       const std::string remedy =
           go_on_alike(one, other)
               ? fmt::format("check phase_deg, helix_radius_mm and radius_mm of both, or write place: auto for both")
-              : fmt::format("give '{}' helix_radius_mm: {:.4g} or more", name(outer), 1e3 * (inner.helix_radius + needed));
+              : fmt::format("give '{}' helix_radius_mm: {:.4g} or more", name(outer),
+                            1e3 * (inner.helix_radius + needed));
       if (apart < hopeless * needed && go_on_alike(one, other))
         problems.add(other.where, what + " (nearer than half of these)", remedy);
       else if (warnings)
@@ -107,9 +110,9 @@ void add_overlaps(const Component& of, Problems& problems, std::vector<Warning>*
   if (!overlaps(of)) return;
   const double apart = neighbour_distance(of.helix_radius, of.lay_angle, of.count), needed = 2 * of.radius;
   const std::string name = of.layer.empty() ? of.name : of.layer + "/" + of.name;
-  const std::string what = fmt::format(
-      "the {} parts '{}' are {:.4g} mm apart between their axes, {:.3f} mm less than their diameter",
-      of.count, name, 1e3 * apart, 1e3 * (needed - apart));
+  const std::string what =
+      fmt::format("the {} parts '{}' are {:.4g} mm apart between their axes, {:.3f} mm less than their diameter",
+                  of.count, name, 1e3 * apart, 1e3 * (needed - apart));
   if (apart < hopeless * needed)
     problems.add(of.where, fmt::format("{} (nearer than half of it)", what), "give " + what_fits(of));
   else if (warnings)
@@ -126,7 +129,8 @@ void add_outside(const Dresspack& dresspack, std::vector<Warning>& warnings) {
           fmt::format("'{}' reaches {:.4g} mm from the axis, {:.3g} mm outside a bore of {:.4g} mm radius, which is an "
                       "ESTIMATE",
                       of.name, 1e3 * (of.helix_radius + of.radius), 1e3 * by, 1e3 * room.bore),
-          fmt::format("the bore is not given and counts as {:g} of diameter_mm, as of corrugated hoses", usual_bore_share),
+          fmt::format("the bore is not given and counts as {:g} of diameter_mm, as of corrugated hoses",
+                      usual_bore_share),
           fmt::format("give inner_diameter_mm as measured; or of parts that fit, helix_radius_mm: {:.4g} or less",
                       1e3 * std::max(0.0, room.bore - of.radius))));
 }
@@ -142,8 +146,9 @@ void add_filling(const Dresspack& dresspack, std::vector<Warning>& warnings) {
   if (const double share = squares / (*bore * *bore); share > most)
     warnings.push_back(warning_of(
         WarningKind::overlap, dresspack.where.text(),
-        fmt::format("the parts fill {:.0f} % of the bore of {:.4g} mm (limit {:g} % of a hose that moves: the parts rub more on each other)",
-                    100 * share, 2e3 * *bore, 100 * most),
+        fmt::format(
+            "the parts fill {:.0f} % of the bore of {:.4g} mm (limit {:g} % of a hose that moves: the parts rub more on each other)",
+            100 * share, 2e3 * *bore, 100 * most),
         "a hose that is too narrow for its parts",
         fmt::format("a hose with inner_diameter_mm: {:.4g} or more, or fewer parts",
                     std::ceil(2e4 * std::sqrt(squares / most)) / 10)));
@@ -163,8 +168,7 @@ double neighbour_distance(double helix_radius, double lay_angle, int count) {
   int nearest = 0;
   for (int k = 1; k <= steps; ++k)
     if (squared(-turned * k / steps) < squared(-turned * nearest / steps)) nearest = k;
-  double low = -turned * std::min(nearest + 1, steps) / steps,
-         high = -turned * std::max(nearest - 1, 0) / steps;
+  double low = -turned * std::min(nearest + 1, steps) / steps, high = -turned * std::max(nearest - 1, 0) / steps;
   for (int third = 0; third < 40;
        ++third) {  // the width becomes 2/3 each time: 1e-7 of a step in the end, squared in the distance
     const double left = (2 * low + high) / 3, right = (low + 2 * high) / 3;

@@ -9,7 +9,6 @@
 namespace dresslife::pipeline {
 namespace {
 
-
 double away(const CableSpot& cable) { return std::hypot(cable.place[0], cable.place[1]); }
 
 /// Range of distances from the axis in which a ring lies [m].
@@ -46,8 +45,8 @@ std::vector<CableRoom> rooms_of(std::span<const CableSpot> cables, double bore, 
     room.nearest = inside > 0 ? std::min(inside + cables[k].radius, away(cables[k])) : 0;
     for (std::size_t other = 0; other < cables.size(); ++other)
       if (other != k && rooms[other].ring == room.ring) {
-        const double apart = std::hypot(cables[k].place[0] - cables[other].place[0],
-                                        cables[k].place[1] - cables[other].place[1]);
+        const double apart =
+            std::hypot(cables[k].place[0] - cables[other].place[0], cables[k].place[1] - cables[other].place[1]);
         room.gap = std::min(room.gap, std::max(0.0, (apart - cables[k].radius - cables[other].radius) / 2));
       }
   }

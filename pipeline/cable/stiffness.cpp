@@ -24,7 +24,8 @@ constexpr double wire_density = 8900;        // [kg/m3], of copper
 constexpr double torsion_of_core = 0.8;      // ESTIMATE: that of a solid round bar
 constexpr double gravity = 9.81;             // [m/s2]
 constexpr double believable_stretch = 1e-3;  // by the hose's own weight; hoses of polyamide have 1e-4 and less
-constexpr double stiffest_cable = 8;  // twice the largest ratio of bending tests of cables to their calculation, 3.7 (strain/measurements.md)
+constexpr double stiffest_cable =
+    8;  // twice the largest ratio of bending tests of cables to their calculation, 3.7 (strain/measurements.md)
 constexpr double believable = 2;  // twice the E I changed lives of shipped jobs by a factor of up to five
 
 bool is_hose(const Dresspack& dresspack) { return inner_radius(dresspack).has_value(); }
@@ -75,11 +76,9 @@ void add_wires(const Component& part, double count, double cosines, double& mass
 double section_of_wall(const Dresspack& dresspack) {
   if (dresspack.hose_corrugation) {
     const Corrugation& profile = *dresspack.hose_corrugation;
-    return pi * (dresspack.diameter - profile.height) * profile.wall * fold_of(profile).unfolded() /
-           profile.pitch;
+    return pi * (dresspack.diameter - profile.height) * profile.wall * fold_of(profile).unfolded() / profile.pitch;
   }
-  return pi / 4 *
-         (dresspack.diameter * dresspack.diameter - *dresspack.inner_diameter * *dresspack.inner_diameter);
+  return pi / 4 * (dresspack.diameter * dresspack.diameter - *dresspack.inner_diameter * *dresspack.inner_diameter);
 }
 
 HoseStiffness core_of(const Dresspack& dresspack) {
@@ -105,8 +104,7 @@ Component whole(const Dresspack& dresspack) {
 class Wires {
  public:
   explicit Wires(const Dresspack& dresspack) : bending_(dresspack, whole(dresspack), StraightParts::slide) {
-    for (const Component& layer : dresspack.components)
-      layers_.push_back(pull_and_twist(dresspack, alone(layer)));
+    for (const Component& layer : dresspack.components) layers_.push_back(pull_and_twist(dresspack, alone(layer)));
   }
   double bending(SlipState state, double curvature) const {
     switch (state) {
@@ -131,13 +129,11 @@ class Wires {
 };
 
 double pull_of_plain(const Component& part) {
-  return part.plain ? part.count * properties_of(*part.plain, part.radius).axial *
-                          std::pow(std::cos(part.lay_angle), 3)
+  return part.plain ? part.count * properties_of(*part.plain, part.radius).axial * std::pow(std::cos(part.lay_angle), 3)
                     : 0;
 }
 
-HoseStiffness stiffness_with(const Wires& wires, const Dresspack& dresspack, SlipState state,
-                             double curvature) {
+HoseStiffness stiffness_with(const Wires& wires, const Dresspack& dresspack, SlipState state, double curvature) {
   const HoseStiffness wall = wall_of(dresspack), core = core_of(dresspack);
   const double polymer = polymer_of(dresspack);
   HoseStiffness sum{wall.bending + core.bending + polymer + wires.bending(state, curvature),
@@ -156,8 +152,8 @@ HoseStiffness stiffness_with(const Wires& wires, const Dresspack& dresspack, Sli
 /// larger, it is the curvature at which the elements together are nine times as stiff as the sliding hose. At the others, 50, 85
 /// and 99.5 % of the remaining friction act. sliding: E I of the hose [N m2].
 std::vector<BendingFriction> friction_of(const Wires& wires, double sliding) {
-  constexpr double all = 1e4;           // [1/m]: nothing in a cable sticks up to this curvature
-  constexpr double stiffest = 9;        // with more, the implicit part of (S3) slows swings of 5 Hz by more than 10 % at 5 ms
+  constexpr double all = 1e4;     // [1/m]: nothing in a cable sticks up to this curvature
+  constexpr double stiffest = 9;  // with more, the implicit part of (S3) slows swings of 5 Hz by more than 10 % at 5 ms
   constexpr double first_share = 0.33;
   const double most = wires.friction(all);
   if (!(most > 1e-9 * sliding)) return {};
@@ -231,7 +227,8 @@ std::vector<double> bending_moments(const Dresspack& dresspack, double friction,
 
 std::string missing_wall(const Dresspack& dresspack) {
   const bool hose = is_hose(dresspack);
-  if (!dresspack.bending_from_construction || (hose && !dresspack.hose_material.empty() && knows_wall(dresspack))) return "";
+  if (!dresspack.bending_from_construction || (hose && !dresspack.hose_material.empty() && knows_wall(dresspack)))
+    return "";
   if (!hose && !room_of_parts(dresspack).estimated) return "";
   const std::string profile = dresspack.hose_corrugation ? "" : corrugation_line(usual_corrugation(dresspack));
   const std::string material = dresspack.hose_material.empty() ? "hose_material: hose_polyamide" : "";
@@ -241,8 +238,8 @@ std::string missing_wall(const Dresspack& dresspack) {
 std::vector<std::string> missing_in_construction(const Dresspack& dresspack) {
   std::vector<std::string> missing;
   if (dresspack.core_diameter > 0 && !dresspack.core_bending_stiffness)
-    missing.push_back(fmt::format("what fills its core of {:.3g} mm (core_bending_stiffness_Nm2)",
-                                  1e3 * dresspack.core_diameter));
+    missing.push_back(
+        fmt::format("what fills its core of {:.3g} mm (core_bending_stiffness_Nm2)", 1e3 * dresspack.core_diameter));
   if (is_hose(dresspack) && dresspack.hose_material.empty())
     missing.push_back("its wall (hose_material)");
   else if (is_hose(dresspack) && !knows_wall(dresspack))
@@ -261,18 +258,15 @@ void take_from_construction(Dresspack& dresspack) {
     if (!(value > 0))
       throw InputError(
           dresspack.where,
-          fmt::format(
-              "dresspack.{} is from_construction, which has none (no part, wall or core of it carries)", key),
+          fmt::format("dresspack.{} is from_construction, which has none (no part, wall or core of it carries)", key),
           fmt::format("give {}, components with wires, hose_material and its profile, or the core's", key));
     to = value;
   };
-  take(dresspack.bending_from_construction, "bending_stiffness_Nm2", taken.bending,
-       dresspack.bending_stiffness);
+  take(dresspack.bending_from_construction, "bending_stiffness_Nm2", taken.bending, dresspack.bending_stiffness);
   if (dresspack.bending_from_construction) {
     dresspack.bending_friction.clear();
     if (dresspack.construction_state == SlipState::friction)
-      dresspack.bending_friction =
-          friction_of(wires, stiffness_with(wires, dresspack, SlipState::sliding, 1).bending);
+      dresspack.bending_friction = friction_of(wires, stiffness_with(wires, dresspack, SlipState::sliding, 1).bending);
   }
   take(dresspack.torsional_from_construction, "torsional_stiffness_Nm2", taken.torsional,
        dresspack.torsional_stiffness);
@@ -300,17 +294,15 @@ std::optional<Warning> too_little(const Dresspack& dresspack, const std::vector<
                         100 * believable_stretch)
           : "";
   const bool wall = is_hose(dresspack) && dresspack.hose_material.empty();
-  const std::string profile = dresspack.hose_corrugation
-                                  ? ""
-                                  : fmt::format(" and {} (ESTIMATE) if it is corrugated",
-                                                corrugation_line(usual_corrugation(dresspack)));
-  return warning_of(
-      WarningKind::material, "",
-      fmt::format("too low: {} from the construction{}", joined(taken, ", "), soft),
-      fmt::format("the construction lacks {}", joined(missing, " and ")),
-      fmt::format("{}, or measured values of {}",
-                  wall ? "hose_material: hose_polyamide (the wall's)" + profile : "the missing keys",
-                  joined(keys, ", ")));
+  const std::string profile = dresspack.hose_corrugation ? ""
+                                                         : fmt::format(" and {} (ESTIMATE) if it is corrugated",
+                                                                       corrugation_line(usual_corrugation(dresspack)));
+  return warning_of(WarningKind::material, "",
+                    fmt::format("too low: {} from the construction{}", joined(taken, ", "), soft),
+                    fmt::format("the construction lacks {}", joined(missing, " and ")),
+                    fmt::format("{}, or measured values of {}",
+                                wall ? "hose_material: hose_polyamide (the wall's)" + profile : "the missing keys",
+                                joined(keys, ", ")));
 }
 
 /// Returns a warning about a smooth wall that a mechanic cannot bend to its bend radius: the profile of a corrugated hose is
@@ -320,8 +312,7 @@ std::optional<Warning> too_stiff_wall(const Dresspack& dresspack) {
   // polyamide, a tube of 8/6 mm bent to 40 mm needs 6, the corrugated hose of config/dresspacks/handling.yaml (48 mm) bent to 200
   // mm needs 3.
   constexpr double by_hand = 10;
-  if (dresspack.hose_material.empty() || dresspack.hose_corrugation || !knows_wall(dresspack))
-    return std::nullopt;
+  if (dresspack.hose_material.empty() || dresspack.hose_corrugation || !knows_wall(dresspack)) return std::nullopt;
   const double wall = wall_of(dresspack).bending, radius = least_bend_radius(dresspack);
   if (!(wall / radius > by_hand)) return std::nullopt;
   Dresspack corrugated = dresspack;
@@ -357,14 +348,11 @@ std::vector<Warning> stiffness_warnings(const Dresspack& dresspack) {
   }
   const std::string without = missing.empty() ? "" : fmt::format(" without {}", joined(missing, " and "));
   const Wires wires(dresspack);
-  const auto bending = [&](SlipState state) {
-    return stiffness_with(wires, dresspack, state, curvature).bending;
-  };
+  const auto bending = [&](SlipState state) { return stiffness_with(wires, dresspack, state, curvature).bending; };
   const double sliding = bending(SlipState::sliding), friction = bending(SlipState::friction),
                stuck = bending(SlipState::stuck);
   // The stiffness of a jacket around parts, and how it holds them, are unknown for a cable.
-  const double least =
-      is_hose(dresspack) ? std::max(friction / believable, sliding) : sliding - polymer_of(dresspack);
+  const double least = is_hose(dresspack) ? std::max(friction / believable, sliding) : sliding - polymer_of(dresspack);
   // A wall of unknown construction is at most as stiff as a solid bar of polyamide 66 (3.3 GPa dry, the stiffest without glass).
   constexpr double stiffest = 3.3e9;
   const double solid = stiffest * std::numbers::pi / 64 * std::pow(dresspack.diameter, 4);
@@ -379,9 +367,10 @@ std::vector<Warning> stiffness_warnings(const Dresspack& dresspack) {
   const std::string limits = fmt::format("{:.3g} .. {:.3g}", least, most);
   warnings.push_back(warning_of(
       WarningKind::material, "",
-      fmt::format("bending_stiffness_Nm2 is {:.3g} (limits {}); calculated from the dresspack's parts{}: {:.3g} at a curvature of "
-                  "{:.3g} 1/m ({:.3g} sliding .. {:.3g} glued)",
-                  given, limits, without, friction, curvature, sliding, stuck),
+      fmt::format(
+          "bending_stiffness_Nm2 is {:.3g} (limits {}); calculated from the dresspack's parts{}: {:.3g} at a curvature of "
+          "{:.3g} 1/m ({:.3g} sliding .. {:.3g} glued)",
+          given, limits, without, friction, curvature, sliding, stuck),
       "an estimate of the stiffness that does not belong to these parts, their friction and their pressures",
       fmt::format("bending_stiffness_Nm2: {:.3g} or from_construction; or measure it by the sag of a hanging length",
                   friction)));
@@ -399,17 +388,14 @@ std::string stiffness_text(const Dresspack& dresspack) {
   if (dresspack.mass_from_construction)
     text += fmt::format("mass {:.4g} kg/m from construction: wires of {:.0f} kg/m3 in a polymer of {:.0f}\n",
                         dresspack.mass_per_length, wire_density, polymer_density);
-  const auto line = [&](const char* name, const char* unit, double used, bool taken,
-                        double HoseStiffness::*of) {
+  const auto line = [&](const char* name, const char* unit, double used, bool taken, double HoseStiffness::*of) {
     const std::string source = taken ? fmt::format("from construction ({})", state_words(dresspack)) : "given";
     text += used > 0 ? fmt::format("{} {:.4g} {} {}; ", name, used, unit, source) : fmt::format("{} [{}] ", name, unit);
-    text += fmt::format("of its construction {:.3g} sliding, {:.3g} with friction at {:.3g} 1/m, {:.3g} glued\n", sliding.*of,
-                        friction.*of, curvature, stuck.*of);
+    text += fmt::format("of its construction {:.3g} sliding, {:.3g} with friction at {:.3g} 1/m, {:.3g} glued\n",
+                        sliding.*of, friction.*of, curvature, stuck.*of);
   };
-  line("E I", "N m2", dresspack.bending_stiffness, dresspack.bending_from_construction,
-       &HoseStiffness::bending);
-  line("G J", "N m2", dresspack.torsional_stiffness, dresspack.torsional_from_construction,
-       &HoseStiffness::torsional);
+  line("E I", "N m2", dresspack.bending_stiffness, dresspack.bending_from_construction, &HoseStiffness::bending);
+  line("G J", "N m2", dresspack.torsional_stiffness, dresspack.torsional_from_construction, &HoseStiffness::torsional);
   line("E A", "N", dresspack.axial_stiffness, dresspack.axial_from_construction, &HoseStiffness::axial);
   const auto missing = missing_in_construction(dresspack);
   return missing.empty() ? text : text + fmt::format("without {}\n", joined(missing, " and "));

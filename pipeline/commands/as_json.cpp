@@ -50,7 +50,8 @@ Json json_of_csv(const std::string& csv) { return rows_of_csv(csv); }
 Json json_of(const std::vector<RankingRow>& rows) {
   std::vector<Json> objects = rows_of_csv(ranking_csv(rows));
   for (std::size_t k = 0; k < objects.size(); ++k)
-    objects[k].add("warning_list", mapped(warnings_of(rows[k]), [](const Warning& warning) { return json_of(warning); }));
+    objects[k].add("warning_list",
+                   mapped(warnings_of(rows[k]), [](const Warning& warning) { return json_of(warning); }));
   return objects;
 }
 
@@ -58,8 +59,10 @@ Json json_of(const Warning& warning) {
   const WarningParts parts = parts_of(warning.words);
   Json values = empty_object();
   for (const KeyValue& of : warning.remedy) values.add(of.key, json_of(parse_yaml(of.value, of.key)));
-  return {{"kind", word(warning.kind)}, {"where", text_or_null(warning.where)}, {"text", warning.words}, {"problem", parts.problem},
-          {"likely_cause", text_or_null(parts.cause)}, {"remedy", text_or_null(parts.remedy)}, {"remedy_values", values}};
+  return {
+      {"kind", word(warning.kind)}, {"where", text_or_null(warning.where)},      {"text", warning.words},
+      {"problem", parts.problem},   {"likely_cause", text_or_null(parts.cause)}, {"remedy", text_or_null(parts.remedy)},
+      {"remedy_values", values}};
 }
 
 Json json_of(const Node& document) {

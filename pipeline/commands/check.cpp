@@ -50,7 +50,8 @@ Command check_command() {
   return {"check",
           "check a job in seconds, before its run: units, joint limits, lengths over the whole program, slack and "
           "clearance of the cables, slip",
-          {{"job", "", "JOB.yaml", &options->job, {.required = true}}, json_option(options->json),
+          {{"job", "", "JOB.yaml", &options->job, {.required = true}},
+           json_option(options->json),
            sets_option("override a key", options->sets)},
           [options] { return check(*options); }};
 }

@@ -49,8 +49,7 @@ bool is_shipped(const Where& where) {
 }
 
 /// Returns the warnings of a prescribed deformation, which needs no simulation: dresslife-sim writes it in less than a second.
-std::vector<Warning> warnings_of_prescribed(const std::filesystem::path& file,
-                                            const std::vector<std::string>& sets) {
+std::vector<Warning> warnings_of_prescribed(const std::filesystem::path& file, const std::vector<std::string>& sets) {
   const PassingFile motion("motion.h5");
   std::vector<std::string> arguments{file.string(), "-o", motion.path().string(), "--quiet"};
   for (const std::string& set : sets) arguments.insert(arguments.end(), {"--set", set});
@@ -74,7 +73,8 @@ JobCheck check_of(const std::filesystem::path& file, const std::vector<std::stri
                                 ? construction_warnings_at(line_key(job, d, "dresspack"), dresspack, may_slide)
                                 : construction_warnings(dresspack, may_slide));
     if (may_slide && job.motion.needs_robot())
-      check.warnings = joined(std::move(check.warnings), tight_warnings(line_key(job, d, "dresspack"), job.dresspacks[d]));
+      check.warnings =
+          joined(std::move(check.warnings), tight_warnings(line_key(job, d, "dresspack"), job.dresspacks[d]));
   }
   check.warnings = joined(std::move(check.warnings), plausibility_of_lives(job));
   add_slip(job, check.notes);
@@ -93,11 +93,13 @@ JobCheck check_of(const std::filesystem::path& file, const std::vector<std::stri
   try {
     check.refusal = refusal_of(preview_file);
     const FileReader preview(preview_file, preview_format(), FileReader::Scope::attributes);
-    check.warnings = located(joined(std::move(check.warnings), warnings_from(preview.text_attribute("warnings"))), document);
+    check.warnings =
+        located(joined(std::move(check.warnings), warnings_from(preview.text_attribute("warnings"))), document);
     for (std::string& words : length_words(preview_file)) check.notes.push_back(std::move(words));
     std::istringstream notes(preview.text_attribute("notes"));
     for (std::string note; std::getline(notes, note);) {
-      if (note.starts_with("The short run of the checks was left out")) check.limits = "The motion of the dresspack was not checked (see the note).";
+      if (note.starts_with("The short run of the checks was left out"))
+        check.limits = "The motion of the dresspack was not checked (see the note).";
       check.notes.push_back("note: " + note);
     }
   } catch (const InputError&) {  // the file was written just now, so its faults are no fault of the job

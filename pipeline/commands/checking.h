@@ -10,12 +10,13 @@
 namespace dresslife::pipeline {
 
 struct JobCheck {
-  std::string refusal;             ///< reason why the simulation refuses the job; empty: the simulation accepts it
-  std::vector<Warning> warnings;   ///< a run of the job has warnings of the same kinds
+  std::string refusal;            ///< reason why the simulation refuses the job; empty: the simulation accepts it
+  std::vector<Warning> warnings;  ///< a run of the job has warnings of the same kinds
   /// suitable lengths of each dresspack between two clamps, and a note if strain.slip gives a bound only
   std::vector<std::string> notes;
-  std::vector<std::string> estimates;  ///< keys that each dresspack leaves out, with the assumed values, in the format of a run
-  std::string limits;              ///< a sentence with the faults that only a run finds
+  std::vector<std::string>
+      estimates;       ///< keys that each dresspack leaves out, with the assumed values, in the format of a run
+  std::string limits;  ///< a sentence with the faults that only a run finds
 };
 
 /// Checks a job. Errors: InputError with all faults that a reader of jobs finds.

@@ -35,7 +35,8 @@ int draw(const DrawOptions& options) {
 
 Command draw_command() {
   const auto options = std::make_shared<DrawOptions>();
-  return {"draw", "list a dresspack's layers and what they add up to, and draw its cross-section to scale",
+  return {"draw",
+          "list a dresspack's layers and what they add up to, and draw its cross-section to scale",
           {{"dresspack", "", "DRESSPACK.yaml, or a job with one dresspack", &options->dresspack, {.required = true}},
            {"-o,--output", "FILE", "picture to write, .svg or .png", &options->picture}},
           [options] { return draw(*options); }};

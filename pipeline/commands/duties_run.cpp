@@ -48,10 +48,13 @@ std::map<std::string, double> repeat_seconds(const DutyFile& file, const Study& 
   for (const StudyJob& job : study.jobs) {
     if (!named.contains(job.name) || !job.job || job.job->motion.is_prescribed()) continue;
     write_text_if_changed(described.path(), with_mark(job_text(*job.job), Mark::yaml), Sync::never);
-    if (run_stage_program("dresslife-sim", {described.path().string(), "--duration", "-o", duration.path().string(), "--quiet"}, StageWords::dropped) != 0)
+    if (run_stage_program("dresslife-sim",
+                          {described.path().string(), "--duration", "-o", duration.path().string(), "--quiet"},
+                          StageWords::dropped) != 0)
       continue;
     const Node written = read_yaml(duration.path());
-    if (const Node* const of_repeat = written.find("repeat_seconds")) seconds[job.name] = number_in(of_repeat->text).value_or(0);
+    if (const Node* const of_repeat = written.find("repeat_seconds"))
+      seconds[job.name] = number_in(of_repeat->text).value_or(0);
   }
   return seconds;
 }
@@ -64,12 +67,14 @@ void check_before_run(const DutyFile& file, const StudyState& standing) {
 /// Prints how many results of other settings this run replaces, and what has changed since the first of them.
 void note_replaced(const StudyState& standing) {
   std::vector<JobState> states = standing.states;
-  const auto replaced = std::ranges::count_if(states, [](const JobState& state) { return state.has_last && !state.done(); });
+  const auto replaced =
+      std::ranges::count_if(states, [](const JobState& state) { return state.has_last && !state.done(); });
   if (replaced == 0) return;
   report_changes(standing.study, standing.places, states);
   const auto first = std::ranges::find_if(states, [](const JobState& state) { return !state.changed.empty(); });
   if (first == states.end()) return;
-  write_stderr(fmt::format("note: {} earlier result{} replaced. Changed since that of '{}': {}\n", replaced, replaced == 1 ? " is" : "s are",
+  write_stderr(fmt::format("note: {} earlier result{} replaced. Changed since that of '{}': {}\n", replaced,
+                           replaced == 1 ? " is" : "s are",
                            standing.study.jobs[static_cast<std::size_t>(first - states.begin())].name, first->changed));
 }
 
@@ -79,13 +84,11 @@ DutiesRun run_duties(const DutyFile& file, const RunOptions& options) {
   const std::filesystem::path named = file.study, beside = folder_of(file.where) / named;
   const bool is_path = named.extension() == ".yaml" && named.is_relative();
   const std::filesystem::path beside_file = beside.string() + ".yaml";
-  if (!is_path && beside_file != std::filesystem::path(file.where.file) &&
-      kind_of(beside_file) == FileKind::file)
-    throw InputError(
-        file.where,
-        fmt::format("study '{}' is a name of the catalogue, and {}.yaml is a file beside this one",
-                    file.study, file.study),
-        fmt::format("write study: {}.yaml for the file, or studies/{}", file.study, file.study));
+  if (!is_path && beside_file != std::filesystem::path(file.where.file) && kind_of(beside_file) == FileKind::file)
+    throw InputError(file.where,
+                     fmt::format("study '{}' is a name of the catalogue, and {}.yaml is a file beside this one",
+                                 file.study, file.study),
+                     fmt::format("write study: {}.yaml for the file, or studies/{}", file.study, file.study));
   const std::filesystem::path study = named_study((is_path ? beside : named).string());
   const StudyRequest request{study, options.sets, options.out, program_folder()};
   const std::filesystem::path folder = request.out / study_name(study);
@@ -101,12 +104,14 @@ DutiesRun run_duties(const DutyFile& file, const RunOptions& options) {
   else if (standing.remembered)
     standing = expanded(request);
   if (begun) check_before_run(file, standing);
-  for (const Warning& warning : mounting_warnings(file, standing.study, nullptr)) write_stderr(shown(warning.paragraph()));
+  for (const Warning& warning : mounting_warnings(file, standing.study, nullptr))
+    write_stderr(shown(warning.paragraph()));
   if (begun) note_replaced(standing);
   if (!begun) look_again(standing);
   make_rest(request, standing, options);
   std::vector<RankingRow> rows = results_of(standing.study, standing.places, standing.states);
-  for (const Warning& warning : mounting_warnings(file, standing.study, &rows)) write_stderr(shown(warning.paragraph()));
+  for (const Warning& warning : mounting_warnings(file, standing.study, &rows))
+    write_stderr(shown(warning.paragraph()));
   add_rounds(file, options, standing.study, standing.places, rows);
   return {std::move(standing.study), std::move(standing.places), std::move(rows)};
 }

@@ -28,9 +28,11 @@ int duty(const RunOptions& options) {
   const fs::path table = made.places.folder / ("duty_" + name.stem().string() + ".csv");
   write_text_if_changed(table, csv);
   const fs::path page = made.places.folder / ("duty_" + name.stem().string() + ".html");
-  write_text_if_changed(page, with_mark(duty_page(name.stem().string(), results, table.filename().string()), Mark::page));
+  write_text_if_changed(page,
+                        with_mark(duty_page(name.stem().string(), results, table.filename().string()), Mark::page));
   print(options.json ? json_of_csv(csv).text + "\n"
-                     : shown(fmt::format("{}\nTable: {} (columns: comma, decimals: point)\nPage: {}\n", duty_words(results), table.string(), page.string())));
+                     : shown(fmt::format("{}\nTable: {} (columns: comma, decimals: point)\nPage: {}\n",
+                                         duty_words(results), table.string(), page.string())));
   write_stderr(warning_lines(rows_of(file, made.rows)));
   return 0;
 }
@@ -42,7 +44,8 @@ Command duty_command() {
   return {"duty",
           "predict the life, or the remaining life, of a dresspack under several programs and their numbers of repeats",
           joined({{{"duties", "", "DUTIES.yaml", &options->study, {.required = true}}, json_option(options->json)},
-                  run_options(*options), study_options(*options)}),
+                  run_options(*options),
+                  study_options(*options)}),
           [options] { return duty(*options); }};
 }
 

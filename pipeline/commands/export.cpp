@@ -29,12 +29,15 @@ int export_job(const ExportOptions& options) {
 
 Command export_command() {
   const auto options = std::make_shared<ExportOptions>();
-  return {"export", "write a job's motion and results for ParaView (5.11 or newer), which plays them in 3D",
+  return {"export",
+          "write a job's motion and results for ParaView (5.11 or newer), which plays them in 3D",
           {{"job", "", "the job's folder, or one of its .h5 files", &options->job, {.required = true}},
-           {"--paraview", "FILE.xdmf",
+           {"--paraview",
+            "FILE.xdmf",
             "file to write; it names the .h5 files, which must stay. Of ParaView's three readers only 'XDMF "
             "Reader' reads parts of their tables",
-            &options->xdmf, {.required = true}}},
+            &options->xdmf,
+            {.required = true}}},
           [options] { return export_job(*options); }};
 }
 

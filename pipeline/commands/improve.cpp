@@ -36,7 +36,8 @@ struct ImproveOptions : RunOptions {
 class SearchProgress {
  public:
   SearchProgress(const std::string& name, const ImproveOptions& options)
-      : progress_(name, options.quiet), trials_(options.request.trials),
+      : progress_(name, options.quiet),
+        trials_(options.request.trials),
         after_trials_(tolerance_of(options.off_mm, options.off_deg).none() ? 0 : usual_tolerance_time) {}
   void report(const Improvement& so_far) {
     const std::optional<std::size_t> best = so_far.best();
@@ -64,13 +65,16 @@ class SearchProgress {
     if (done_ == 0) return progress_.show(fmt::format("trial 1 of {}", trials_));
     const double now = seconds();
     const bool short_runs = done_ == 1 && running == 0 && short_runs_ < most_short_runs_;
-    double left = (first_trial_ + now - trials_from_) / (done_ + running) * std::max(0.0, trials_ - done_ - running + after_trials_);
+    double left = (first_trial_ + now - trials_from_) / (done_ + running) *
+                  std::max(0.0, trials_ - done_ - running + after_trials_);
     if (short_runs) left += (now - first_trial_) / std::max(1, short_runs_) * (most_short_runs_ - short_runs_);
     const double share = now / (now + left);
     const std::string remaining = remaining_words(now, 0, share);
     const std::string words =
-        short_runs ? fmt::format("short run {} of about {} before the second of {} trials", short_runs_, most_short_runs_, trials_)
-                   : fmt::format("trial {:.0f} of {}, best {}", std::min(done_ + std::floor(running), 1.0 * trials_), trials_, best_words_);
+        short_runs ? fmt::format("short run {} of about {} before the second of {} trials", short_runs_,
+                                 most_short_runs_, trials_)
+                   : fmt::format("trial {:.0f} of {}, best {}", std::min(done_ + std::floor(running), 1.0 * trials_),
+                                 trials_, best_words_);
     progress_.show(fmt::format("{:5.1f} %{}{}  {}{}", 100 * share, remaining.empty() ? "" : ", ", remaining, words,
                                after_trials_ > 0 ? ", then the mounting tolerance" : ""));
   }
@@ -99,8 +103,8 @@ int end_early(const Improvement& found, const StudyPlaces& places) {
 /// Writes the best trial as a short job into the present folder. Writes none if no trial is better or the job has no robot.
 /// verified: it was judged within the mounting tolerance, or no tolerance is given. written: this search has already written a
 /// version that is not verified. Returns whether the file now contains the job of this search.
-bool write_short_job(const ImproveRequest& request, const Improvement& found, const Finals& finals,
-                     const fs::path& job, bool verified, bool written) {
+bool write_short_job(const ImproveRequest& request, const Improvement& found, const Finals& finals, const fs::path& job,
+                     bool verified, bool written) {
   const Final* const best = finals.best();
   const Node document = read_document(request.file);
   check_replaceable(job);  // checked a second time, because the file may have changed during the search
@@ -114,10 +118,10 @@ bool write_short_job(const ImproveRequest& request, const Improvement& found, co
   route.sets.insert(route.sets.end(), sets.begin(), sets.end());
   const Draft draft = draft_of(route);
   const Node whole = routed(draft, to_yaml(*draft.document.find("routing")), "", 1, ".");
-  write_text_if_changed(
-      job, with_mark(fmt::format("# Proposed by dresslife improve {}\n{}{}", shown(request.file.string()),
-                                 verified ? "" : not_verified, to_yaml(whole)),
-                     Mark::yaml));
+  write_text_if_changed(job,
+                        with_mark(fmt::format("# Proposed by dresslife improve {}\n{}{}", shown(request.file.string()),
+                                              verified ? "" : not_verified, to_yaml(whole)),
+                                  Mark::yaml));
   if (verified) print(shown(fmt::format("Short job: {}\n", job.string())));
   return true;
 }
@@ -125,11 +129,11 @@ bool write_short_job(const ImproveRequest& request, const Improvement& found, co
 /// Runs the best trials again, in full and with offsets of clamps and length, and writes the results.
 int judge_the_best(const ImproveOptions& options, const StudyPlaces& places, const Improvement& found,
                    const FilesAtStart& files, const fs::path& job) {
-  Finals finals = finals_of(found, options.request, [&](const Study& study) {
-    return made_rows(study, places, options, files);
-  });
+  Finals finals =
+      finals_of(found, options.request, [&](const Study& study) { return made_rows(study, places, options, files); });
   remove_trial_files(found, places, false);
-  renew_receipts(finals.study, places, states_of(finals.study, places));  // removed links changed the times of the files
+  renew_receipts(finals.study, places,
+                 states_of(finals.study, places));  // removed links changed the times of the files
   const bool all_written = write_results(finals.study, places, finals.rows).empty();
   const MountingTolerance tolerance = tolerance_of(options.off_mm, options.off_deg);
   bool written = false;
@@ -138,8 +142,7 @@ int judge_the_best(const ImproveOptions& options, const StudyPlaces& places, con
     if (!options.quiet)
       write_stderr(shown(fmt::format(
           "The trials are done. The jobs of the best are in {}{}. Next the best run again with {}, which most often takes as long as nine trials. --off 0 leaves that out.\n",
-          places.folder.string(),
-          written ? fmt::format(", the best as drawn also in {}", job.string()) : "",
+          places.folder.string(), written ? fmt::format(", the best as drawn also in {}", job.string()) : "",
           tolerance_text(tolerance))));
     ToleranceRuns runs(found.name, options);
     judge(
@@ -213,21 +216,17 @@ Command improve_command() {
              "trials proposed together; the search depends on it",
              &request.at_a_time,
              {.range = {{1, 1024}}}},
-            {"--seed",
-             "NUMBER",
-             "start of the random numbers",
-             &request.seed,
-             {.range = {{0, 1'000'000'000}}}},
+            {"--seed", "NUMBER", "start of the random numbers", &request.seed, {.range = {{0, 1'000'000'000}}}},
             {"--short-runs",
              "COUNT",
              "short runs before the first trial, at most; each trial adds a few; 0: none; -1: 40 for each "
              "variable",
              &request.short_runs,
              {.range = {{-1, 100'000}}}},
-            choice_option("--method", "models of lives and limits, or random trials for comparison",
-                          request.method, {SearchMethod::surrogate, SearchMethod::random}),
-            choice_option("--second", "a second aim, to be small: the answer is the front of both",
-                          request.second, {SecondAim::none, SecondAim::hose_length, SecondAim::cycle_time}),
+            choice_option("--method", "models of lives and limits, or random trials for comparison", request.method,
+                          {SearchMethod::surrogate, SearchMethod::random}),
+            choice_option("--second", "a second aim, to be small: the answer is the front of both", request.second,
+                          {SecondAim::none, SecondAim::hose_length, SecondAim::cycle_time}),
             {"--off",
              "MM",
              "mounting tolerance of clamps and lengths; also tilts clamps by MM over 100 mm; the best job within it wins; 0: none",

@@ -64,7 +64,7 @@ class Unkept {
   const Study& study_;
   const StudyPlaces& places_;
   const std::vector<JobState>& states_;
-  std::unordered_map<std::string, std::size_t> left_;                   ///< (last stage of a job) first job of its group
+  std::unordered_map<std::string, std::size_t> left_;  ///< (last stage of a job) first job of its group
   std::unordered_map<std::size_t, std::vector<std::size_t>> together_;  ///< (first job) all jobs of its group
   std::unordered_map<std::size_t, std::size_t> ended_;
 };
@@ -81,8 +81,7 @@ int build_rest(const Study& study, const StudyPlaces& places, const RunOptions& 
   share_cores(options, left);
   Unkept unkept(study, places, states);
   const BuildResult built = run_build_graph(places, options.jobs, [&](const BuildEvent& event) {
-    const double share =
-        event.total > 0 ? static_cast<double>(event.finished) / static_cast<double>(event.total) : 0;
+    const double share = event.total > 0 ? static_cast<double>(event.finished) / static_cast<double>(event.total) : 0;
     if (options.share_done)
       options.share_done(share);
     else
@@ -99,7 +98,7 @@ int build_rest(const Study& study, const StudyPlaces& places, const RunOptions& 
 /// Runs the first of every group of jobs with the same recipes. The other jobs of the group take its results. Jobs without such
 /// a group wait for the next graph. Returns the number of started stages.
 int make_first_of_same(const Study& study, const StudyPlaces& places, const RunOptions& options,
-                        std::vector<JobState>& states, const Digests& before, Progress& progress) {
+                       std::vector<JobState>& states, const Digests& before, Progress& progress) {
   if (study.keep == Keep::lives) return 0;  // the first job would keep no files that the others could take
   std::map<std::array<std::string, stage_count>, std::vector<std::size_t>> by_recipe;
   for (std::size_t k = 0; k < states.size(); ++k)
@@ -139,8 +138,7 @@ int make_rest(const StudyRequest& request, StudyState& standing, const RunOption
   else
     write_build_graph(study, places, states, options.limits, options.launcher);
   if (!remembered && places.shard.empty()) remember(request, standing);
-  return left == 0 ? started
-                   : started + build_rest(study, places, options, left, standing.states, digests, progress);
+  return left == 0 ? started : started + build_rest(study, places, options, left, standing.states, digests, progress);
 }
 
 std::vector<RankingRow> made_rows(const Study& study, const StudyPlaces& places, const RunOptions& options) {
@@ -149,8 +147,7 @@ std::vector<RankingRow> made_rows(const Study& study, const StudyPlaces& places,
   share_stages(study, places, states);
   Progress progress(study.name, options.quiet);
   for (std::size_t k = 0; k < states.size(); ++k)
-    if (study.removes_unkept && study.jobs[k].failure.empty())
-      remove_unkept(states[k], places.job(study.jobs[k].name));
+    if (study.removes_unkept && study.jobs[k].failure.empty()) remove_unkept(states[k], places.job(study.jobs[k].name));
   write_build_graph(study, places, states, options.limits, options.launcher);
   if (const std::size_t left = count_left(study, states); left > 0)
     build_rest(study, places, options, left, states, before, progress);
@@ -186,9 +183,7 @@ void ToleranceRuns::show(double share) {
 
 void add_relative_lives(const Study& study, const StudyPlaces& of_study, const RunOptions* to_run,
                         std::vector<RankingRow>& rows) {
-  const auto is_rated = [](const StudyJob& job) {
-    return job.failure.empty() && job.job && has_ratings(*job.job);
-  };
+  const auto is_rated = [](const StudyJob& job) { return job.failure.empty() && job.job && has_ratings(*job.job); };
   if (study.keep == Keep::lives && std::any_of(study.jobs.begin(), study.jobs.end(), is_rated))
     write_stderr(
         "note: no life in rated cycles, because keep: lives keeps no damage of single places. Remedy: "
@@ -196,21 +191,20 @@ void add_relative_lives(const Study& study, const StudyPlaces& of_study, const R
   const RatedStudy rated = rated_study(study);
   if (rated.cables.empty()) return;
   const StudyPlaces places{of_study.folder / ".rigs", of_study.programs};
-  const std::vector<RankingRow> rigs = to_run ? made_rows(rated.rigs, places, *to_run)
-                                              : ranking_of(rated.rigs, places, states_of(rated.rigs, places));
+  const std::vector<RankingRow> rigs =
+      to_run ? made_rows(rated.rigs, places, *to_run) : ranking_of(rated.rigs, places, states_of(rated.rigs, places));
   for (const std::string& reason : relate(rated, rigs, rows)) write_stderr(fmt::format("note: {}\n", reason));
 }
 
 int count_failed(const std::vector<RankingRow>& rows) {
-  return static_cast<int>(
-      std::count_if(rows.begin(), rows.end(), [](const RankingRow& row) { return !row.done(); }));
+  return static_cast<int>(std::count_if(rows.begin(), rows.end(), [](const RankingRow& row) { return !row.done(); }));
 }
 
 int say_failures(const std::string& input, const std::vector<RankingRow>& rows) {
   const int failed = count_failed(rows);
   if (failed == 0) return 0;
-  write_stderr(fmt::format("{}: error: {} of {} jobs failed (their reasons are in the table)\n", input, failed,
-                   rows.size()));
+  write_stderr(
+      fmt::format("{}: error: {} of {} jobs failed (their reasons are in the table)\n", input, failed, rows.size()));
   return 1;
 }
 

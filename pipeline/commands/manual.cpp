@@ -21,19 +21,48 @@ namespace dresslife::pipeline {
 namespace {
 
 /// Keys that a first job needs. All other keys have a default or belong to a special case.
-constexpr std::array first_keys{
-    "motion", "robot", "dresspack", "routing", "study.base", "study.vary", "study.jobs", "study.table",
-    "motion.program", "motion.modules", "motion.routine", "motion.speed_percent", "motion.steps",
-    "motion.steps[].joints_deg", "motion.steps[].speed_percent", "motion.steps[].dwell_s",
-    "dresspack.diameter_mm", "dresspack.inner_diameter_mm", "dresspack.components", "dresspack.components[].name",
-    "dresspack.components[].count", "dresspack.components[].radius_mm", "dresspack.components[].slack_percent",
-    "dresspack.components[].measured_bending_stiffness_Nm2", "dresspack.components[].without_wires",
-    "dresspack.components[].without_wires.kind", "dresspack.components[].without_wires.bore_mm",
-    "dresspack.components[].without_wires.filled_with", "dresspack.components[].data_sheet.cores",
-    "dresspack.components[].data_sheet.cross_section_mm2", "dresspack.components[].data_sheet.conductor_class",
-    "dresspack.components[].data_sheet.outer_diameter_mm", "routing.free_length_m", "routing.base_clamp",
-    "routing.base_clamp.link", "routing.base_clamp.position_m", "routing.base_clamp.direction", "routing.tool_clamp",
-    "simulation.segments", "fatigue.operating_hours_per_week", "fatigue.robot_life_hours", "calibration"};
+constexpr std::array first_keys{"motion",
+                                "robot",
+                                "dresspack",
+                                "routing",
+                                "study.base",
+                                "study.vary",
+                                "study.jobs",
+                                "study.table",
+                                "motion.program",
+                                "motion.modules",
+                                "motion.routine",
+                                "motion.speed_percent",
+                                "motion.steps",
+                                "motion.steps[].joints_deg",
+                                "motion.steps[].speed_percent",
+                                "motion.steps[].dwell_s",
+                                "dresspack.diameter_mm",
+                                "dresspack.inner_diameter_mm",
+                                "dresspack.components",
+                                "dresspack.components[].name",
+                                "dresspack.components[].count",
+                                "dresspack.components[].radius_mm",
+                                "dresspack.components[].slack_percent",
+                                "dresspack.components[].measured_bending_stiffness_Nm2",
+                                "dresspack.components[].without_wires",
+                                "dresspack.components[].without_wires.kind",
+                                "dresspack.components[].without_wires.bore_mm",
+                                "dresspack.components[].without_wires.filled_with",
+                                "dresspack.components[].data_sheet.cores",
+                                "dresspack.components[].data_sheet.cross_section_mm2",
+                                "dresspack.components[].data_sheet.conductor_class",
+                                "dresspack.components[].data_sheet.outer_diameter_mm",
+                                "routing.free_length_m",
+                                "routing.base_clamp",
+                                "routing.base_clamp.link",
+                                "routing.base_clamp.position_m",
+                                "routing.base_clamp.direction",
+                                "routing.tool_clamp",
+                                "simulation.segments",
+                                "fatigue.operating_hours_per_week",
+                                "fatigue.robot_life_hours",
+                                "calibration"};
 
 /// Returns the path of a key as on a command line: "motion.program"; for a key of the job itself "motion".
 std::string path_of(const KeyRow& row) { return row.map == "job" ? row.key : row.map + "." + row.key; }
@@ -88,10 +117,13 @@ std::vector<KeyRow> keys_of(const std::string& wanted) {
   take([&](const KeyRow& row) { return path_of(row) == path; });
   take([&](const KeyRow& row) { return ("." + path_of(row)).ends_with("." + path); });
   take([&](const KeyRow& row) { return row.key == last; });
-  take([&](const KeyRow& row) { return ("." + row.map).ends_with("." + path); });  // all keys of a map that is not a key itself
+  take([&](const KeyRow& row) {
+    return ("." + row.map).ends_with("." + path);
+  });  // all keys of a map that is not a key itself
   // a short form that stands for other keys, such as `place: auto`
   take([&](const KeyRow& row) {
-    return row.meaning.find("`" + last + ":") != std::string::npos || row.meaning.find("'" + last + ":") != std::string::npos;
+    return row.meaning.find("`" + last + ":") != std::string::npos ||
+           row.meaning.find("'" + last + ":") != std::string::npos;
   });
   if (!found.empty()) return found;
   const std::string near = nearest_word(last, mapped(all, &KeyRow::key));
@@ -104,8 +136,8 @@ std::string keys_text(const std::string& wanted) {
   const std::vector<KeyRow> rows = keys_of(wanted);
   if (rows.size() > 1 && rows.front().map.ends_with(".data_sheet")) text = sheet_syntax();
   for (const KeyRow& row : rows)
-    text += fmt::format("{}{}\n  {}\n  allowed: {}{}\n  default: {}\n", &row == &rows.front() ? "" : "\n", path_of(row), row.meaning,
-                        row.allowed, row.unit.empty() ? "" : ", unit " + row.unit, row.fallback);
+    text += fmt::format("{}{}\n  {}\n  allowed: {}{}\n  default: {}\n", &row == &rows.front() ? "" : "\n", path_of(row),
+                        row.meaning, row.allowed, row.unit.empty() ? "" : ", unit " + row.unit, row.fallback);
   return text;
 }
 
@@ -129,11 +161,16 @@ Command manual_command(const Command& program) {
   const auto what = std::make_shared<std::string>();
   std::vector<std::string> references{"keys", "files", "ranking.csv"};
   references.insert(references.end(), manual_kinds().begin(), manual_kinds().end());
-  return {"manual",
-          "print a reference: one KEY, such as slack_percent; all keys, all files or the columns of ranking.csv (Markdown); the "
-          "man page, a shell's completion",
-          {{"what", "", "KEY, keys, files, ranking.csv, man, bash or zsh", what.get(), {.required = true, .choices = references, .other_values = true}}},
-          [&program, what] { return manual(program, *what); }};
+  return {
+      "manual",
+      "print a reference: one KEY, such as slack_percent; all keys, all files or the columns of ranking.csv (Markdown); the "
+      "man page, a shell's completion",
+      {{"what",
+        "",
+        "KEY, keys, files, ranking.csv, man, bash or zsh",
+        what.get(),
+        {.required = true, .choices = references, .other_values = true}}},
+      [&program, what] { return manual(program, *what); }};
 }
 
 }  // namespace dresslife::pipeline

@@ -21,11 +21,11 @@
 #include "pipeline/commands/checking.h"
 #include "pipeline/commands/command.h"
 #include "pipeline/commands/options.h"
-#include "pipeline/settings/units.h"
 #include "pipeline/resolve/catalogue.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/resolve/sources.h"
 #include "pipeline/resolve/urdf_request.h"
+#include "pipeline/settings/units.h"
 #include "pipeline/study/stage_program.h"
 
 namespace dresslife::pipeline {
@@ -39,7 +39,8 @@ struct NewOptions {
 };
 
 constexpr const char* default_dresspack = "spot_welding";
-constexpr int segments = 64;  ///< of a new job, and of the checks of its routings, which otherwise differ from `dresslife check`
+constexpr int segments =
+    64;  ///< of a new job, and of the checks of its routings, which otherwise differ from `dresslife check`
 
 /// Returns the YAML files of a folder of the shipped catalogue, sorted.
 std::vector<fs::path> shipped(const char* shelf) {
@@ -52,10 +53,10 @@ std::vector<fs::path> shipped(const char* shelf) {
 struct Choice {
   Node routing;
   std::string source;
-  std::vector<std::string> faults = {};  ///< faults that dresslife check reports
+  std::vector<std::string> faults = {};     ///< faults that dresslife check reports
   std::vector<std::string> estimates = {};  ///< estimated keys of the dresspack
   std::vector<std::string> notes = {};      ///< notes of dresslife check
-  std::vector<std::string> doubts = {};  ///< faults of program and dresspack that do not depend on the routing
+  std::vector<std::string> doubts = {};     ///< faults of program and dresspack that do not depend on the routing
   bool refused = false;
   std::vector<KeyValue> remedies = {};  ///< of the faults: values of the routing, and slacks of the dresspack's cables
   std::vector<KeyValue> slacks = {};    ///< slacks that the job sets in its dresspack
@@ -73,9 +74,8 @@ std::optional<Choice> shipped_routing(const std::string& robot, const std::strin
     if (!of || of->text != robot || !pack || !routing || routing->find("rings")) continue;
     const bool same = pack->text == dresspack;
     if (found && !same) continue;
-    found =
-        Choice{*routing, fmt::format("as in config/jobs/{}{}", file.filename().string(),
-                                     same ? "" : fmt::format(", which has the dresspack {}", pack->text))};
+    found = Choice{*routing, fmt::format("as in config/jobs/{}{}", file.filename().string(),
+                                         same ? "" : fmt::format(", which has the dresspack {}", pack->text))};
     if (same) break;
   }
   return found;
@@ -140,7 +140,8 @@ std::string without_place(const std::string& words, const fs::path& file) {
 
 /// Returns whether a value belongs to the installation of the dresspack. A job must not change other values to keep a limit.
 bool is_of_installation(const KeyValue& of) {
-  return of.key.starts_with("routing.") || (of.key.starts_with("dresspack.components.") && of.key.ends_with(".slack_percent"));
+  return of.key.starts_with("routing.") ||
+         (of.key.starts_with("dresspack.components.") && of.key.ends_with(".slack_percent"));
 }
 
 /// Sets the results of dresslife check for the draft with this routing, with places in the user's files. motion: YAML; empty: the
@@ -163,7 +164,8 @@ void judge(const Draft& draft, const std::string& motion, Choice& choice) {
   choice.refused = !check.refusal.empty();
   choice.estimates = check.estimates;
   choice.notes.clear();
-  std::ranges::copy_if(check.notes, std::back_inserter(choice.notes), [](const std::string& note) { return note.starts_with("note: "); });
+  std::ranges::copy_if(check.notes, std::back_inserter(choice.notes),
+                       [](const std::string& note) { return note.starts_with("note: "); });
   if (choice.refused) choice.faults.push_back(without_place(check.refusal, file.path()));
   for (const Warning& warning : check.warnings) {
     const bool of_routing = warning.kind != WarningKind::program && warning.kind != WarningKind::motion &&
@@ -206,31 +208,22 @@ std::string draft_text(const Draft& draft, const fs::path& folder) {
 Choice proposed(const Draft& draft) {
   const PassingFile job("draft.yaml"), screening("screening.h5"), errors("errors.txt");
   write_text_if_changed(job.path(), with_mark(draft_text(draft, job.path().parent_path()), Mark::yaml));
-  std::vector<std::string> arguments{job.path().string(),
-                                     "--propose",
-                                     "1",
-                                     "--tried",
-                                     "300",
-                                     "--short-runs",
-                                     "80",
-                                     "--further",
-                                     "16",
-                                     "-o",
-                                     screening.path().string(),
-                                     "--quiet"};
+  std::vector<std::string> arguments{
+      job.path().string(),       "--propose", "1", "--tried", "300", "--short-runs", "80", "--further", "16", "-o",
+      screening.path().string(), "--quiet"};
   if (draft.exercise) arguments.emplace_back("--exercise");
   const int status = run_stage_program("dresslife-sim", arguments, errors.path());
   if (kind_of(errors.path()) == FileKind::file) write_stderr(without_place(read_text(errors.path()), job.path()));
   if (status != 0)
-    throw InputError({"dresslife new"}, "no routing can be proposed (see above), nothing was written",
-                     std::string("correct the errors above; dresslife route has the options --bracket, --from and --to") +
-                         (draft.exercise ? ""
-                                         : "; a key motion.KEY belongs to a job: make one without --program, and write motion: "
-                                           "{program: FILE, KEY: VALUE} into it"));
+    throw InputError(
+        {"dresslife new"}, "no routing can be proposed (see above), nothing was written",
+        std::string("correct the errors above; dresslife route has the options --bracket, --from and --to") +
+            (draft.exercise ? ""
+                            : "; a key motion.KEY belongs to a job: make one without --program, and write motion: "
+                              "{program: FILE, KEY: VALUE} into it"));
   const ScreenedList found = read_screening(screening.path());
   const ScreenedCandidate& best = found.candidates.front();
-  Choice choice{parse_yaml(best.changes, "proposal"),
-                "proposed from the robot's shape; put your brackets here"};
+  Choice choice{parse_yaml(best.changes, "proposal"), "proposed from the robot's shape; put your brackets here"};
   judge(draft, found.motion, choice);
   return cured(draft, found.motion, std::move(choice));
 }
@@ -291,8 +284,7 @@ std::string text_of(const NewOptions& options, const Draft& draft, const Choice&
   const std::string job = shown(options.job);
   const auto entry = [&](const std::string& name) { return set_text(scalar(seen_from_job(name, options.job))); };
   std::string text = fmt::format(
-      "# A job, written by dresslife new. Next: dresslife check {0}, dresslife preview {0}, dresslife run {0}\n",
-      job);
+      "# A job, written by dresslife new. Next: dresslife check {0}, dresslife preview {0}, dresslife run {0}\n", job);
   if (!accelerations.empty())
     text += fmt::format(
         "# A URDF has no accelerations. These are an ESTIMATE: its speeds times the accelerations over the speeds of config/robots "
@@ -307,35 +299,41 @@ std::string text_of(const NewOptions& options, const Draft& draft, const Choice&
         "# FILL IN your program, a file or a name of config/programs, and take the # away:\n# motion: program.mod\n";
   else
     text += commented("motion", entry(options.program), "your robot program, or a name of config/programs");
+  text += commented("dresspack", entry(options.dresspack),
+                    options.dresspack_is_example ? "an EXAMPLE, 60 mm wide; name yours, or your own YAML file"
+                                                 : "a name of config/dresspacks, or your own YAML file");
   text +=
-      commented("dresspack", entry(options.dresspack), options.dresspack_is_example ? "an EXAMPLE, 60 mm wide; name yours, or your own YAML file"
-                                                                                : "a name of config/dresspacks, or your own YAML file");
-  text += choice.refused
-              ? fmt::format("# FILL IN clamps, or let dresslife route {} search. No routing that was tried runs. The last one:\n# {}\n",
-                            job, shown(choice.faults.front()))
-              : fmt::format("# Clamps: {}.\n", choice.source);
+      choice.refused
+          ? fmt::format(
+                "# FILL IN clamps, or let dresslife route {} search. No routing that was tried runs. The last one:\n# {}\n",
+                job, shown(choice.faults.front()))
+          : fmt::format("# Clamps: {}.\n", choice.source);
   if (!choice.refused && !choice.faults.empty()) {
-    text += fmt::format("# No routing that was tried keeps all limits. dresslife route {0} searches longer. dresslife check {0}:\n", job);
+    text += fmt::format(
+        "# No routing that was tried keeps all limits. dresslife route {0} searches longer. dresslife check {0}:\n",
+        job);
     for (const std::string& fault : choice.faults) text += fmt::format("# {}\n", shown(fault));
   }
   const char* const off = choice.refused ? "# " : "";
   text += fmt::format(
-      "# position_m and direction are in the frame of the link; free_length_m is the length between the clamps.\n{}routing:\n", off);
-  for (const Entry& key : choice.routing.entries) text += fmt::format("{}  {}: {}\n", off, key.key, set_text(key.value));
+      "# position_m and direction are in the frame of the link; free_length_m is the length between the clamps.\n{}routing:\n",
+      off);
+  for (const Entry& key : choice.routing.entries)
+    text += fmt::format("{}  {}: {}\n", off, key.key, set_text(key.value));
   for (const KeyValue& slack : choice.slacks)
     text += commented(off + slack.key, slack.value, "without it, dresslife check warns");
   if (draft.tool_space)
     text += "# ESTIMATE: the space of the tool, whose shape is not known. Replace it by the shape of yours.\n" +
             fmt::format("{}: {}\n", draft.tool_space->key, set_text(draft.tool_space->value));
-  return text + commented("simulation", fmt::format("{{segments: {}}}", segments), "everything else has a default: config/keys.md");
+  return text + commented("simulation", fmt::format("{{segments: {}}}", segments),
+                          "everything else has a default: config/keys.md");
 }
 
 int make(NewOptions options) {
   if (options.robot.empty()) {
     print(shown(choices()));
     if (options.job.empty() && options.program.empty() && options.dresspack.empty()) return 0;
-    throw InputError({"dresslife new"}, "lacks --robot (nothing was written)",
-                     "choose one from the list above");
+    throw InputError({"dresslife new"}, "lacks --robot (nothing was written)", "choose one from the list above");
   }
   if (options.job.empty())
     throw InputError({"dresslife new"}, "lacks the job to write", "name a file, for example job.yaml");
@@ -357,17 +355,19 @@ int make(NewOptions options) {
     request.of = of_urdf.path().string();
   Draft draft = draft_of(request);
   if (const Dresspack& dresspack = draft.job.dresspacks.front().dresspack; !missing_wall(dresspack).empty())
-    throw InputError(dresspack.where,
-                     fmt::format("the wall of the hose is not known: bending_stiffness_Nm2 from the construction, {:.3g}, lacks it (nothing was "
-                                 "written)",
-                                 dresspack.bending_stiffness),
-                     fmt::format("give {} (ESTIMATE) for a corrugated hose, hose_material and inner_diameter_mm for a smooth one, or "
-                                 "bending_stiffness_Nm2 as measured",
-                                 missing_wall(dresspack)));
+    throw InputError(
+        dresspack.where,
+        fmt::format(
+            "the wall of the hose is not known: bending_stiffness_Nm2 from the construction, {:.3g}, lacks it (nothing was "
+            "written)",
+            dresspack.bending_stiffness),
+        fmt::format(
+            "give {} (ESTIMATE) for a corrugated hose, hose_material and inner_diameter_mm for a smooth one, or "
+            "bending_stiffness_Nm2 as measured",
+            missing_wall(dresspack)));
   fill_tool_space(draft);
   const Choice choice = routing_for(draft, options);
-  if (const fs::path folder = fs::path(options.job).parent_path(); !folder.empty())
-    fs::create_directories(folder);
+  if (const fs::path folder = fs::path(options.job).parent_path(); !folder.empty()) fs::create_directories(folder);
   write_text_if_changed(options.job, with_mark(text_of(options, draft, choice, accelerations), Mark::yaml));
   print(shown(fmt::format("Job: {}\n", options.job)));
   for (const std::string& doubt : choice.doubts) print(shown(paragraph(doubt)));
@@ -379,12 +379,15 @@ int make(NewOptions options) {
   if (!accelerations.empty()) print("ESTIMATE: the accelerations of its axes. Replace them by those of your robot.\n");
   if (draft.exercise) print("Fill in its motion.\n");
   if (choice.refused)
-    print(shown(fmt::format("Fill in its clamps, or let dresslife route {} search: no routing that was tried runs. {}\n", options.job,
-                            choice.faults.front())));
+    print(
+        shown(fmt::format("Fill in its clamps, or let dresslife route {} search: no routing that was tried runs. {}\n",
+                          options.job, choice.faults.front())));
   else if (!choice.faults.empty()) {
     for (const std::string& fault : choice.faults) print(shown(paragraph(fault)));
-    print(shown(fmt::format("No routing of those that were tried keeps all limits. Use a remedy above, or dresslife route {0}, which "
-                            "searches longer.\n", options.job)));
+    print(shown(fmt::format(
+        "No routing of those that were tried keeps all limits. Use a remedy above, or dresslife route {0}, which "
+        "searches longer.\n",
+        options.job)));
   }
   return 0;
 }
@@ -393,17 +396,15 @@ int make(NewOptions options) {
 
 Command new_command() {
   const auto options = std::make_shared<NewOptions>();
-  return {
-      "new",
-      "write a short job with comments for a robot, a program and a dresspack; without options list what can be "
-      "chosen",
-      {{"job", "", "JOB.yaml to write", &options->job},
-       {"--robot", "NAME|URDF", "of config/robots, or a file", &options->robot},
-       {"--program", "FILE|NAME",
-        "a robot program, or a motion of config/programs; without it a line to fill in", &options->program},
-       {"--dresspack", "NAME", "of config/dresspacks, or a file; without it spot_welding",
-        &options->dresspack}},
-      [options] { return make(*options); }};
+  return {"new",
+          "write a short job with comments for a robot, a program and a dresspack; without options list what can be "
+          "chosen",
+          {{"job", "", "JOB.yaml to write", &options->job},
+           {"--robot", "NAME|URDF", "of config/robots, or a file", &options->robot},
+           {"--program", "FILE|NAME", "a robot program, or a motion of config/programs; without it a line to fill in",
+            &options->program},
+           {"--dresspack", "NAME", "of config/dresspacks, or a file; without it spot_welding", &options->dresspack}},
+          [options] { return make(*options); }};
 }
 
 }  // namespace dresslife::pipeline

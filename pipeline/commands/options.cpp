@@ -42,7 +42,10 @@ std::vector<Option> study_options(StudyOptions& options) {
 }
 
 std::vector<Option> run_options(RunOptions& options) {
-  return {{"-j,--jobs", "COUNT", "stages at a time", &options.jobs,
+  return {{"-j,--jobs",
+           "COUNT",
+           "stages at a time",
+           &options.jobs,
            {.range = {{1, 1024}}, .shown_default = "one per core"}},
           {"--quiet", "", "no progress, no notes", &options.quiet}};
 }
@@ -77,8 +80,8 @@ fs::path file_or_entry(const std::string& name, const std::vector<std::string>& 
     const fs::path entry = fs::path(shelf) / name, shipped = shipped_file(entry);
     if (!shipped.empty()) {
       if (shelf == "jobs" && !shipped_file(fs::path("studies") / name).empty())
-        write_stderr(fmt::format("{}: note: is a job and a study; the job is taken. The study is studies/{}\n", name,
-                         name));
+        write_stderr(
+            fmt::format("{}: note: is a job and a study; the job is taken. The study is studies/{}\n", name, name));
       return shipped;
     }
     looked_for += (looked_for.empty() ? "" : " or ") + entry.string() + ".yaml";
@@ -91,11 +94,11 @@ fs::path file_or_entry(const std::string& name, const std::vector<std::string>& 
   }
   std::sort(entries.begin(), entries.end());
   if (name.find_first_not_of("0123456789") == std::string::npos)
-    throw InputError({name}, "is a number where a study or job is expected",
-                     "write the study's or job's name. -n prints what would run and takes no number; -j COUNT sets how many stages run at a time");
+    throw InputError(
+        {name}, "is a number where a study or job is expected",
+        "write the study's or job's name. -n prints what would run and takes no number; -j COUNT sets how many stages run at a time");
   const std::string near = nearest_entry(fs::path(name).filename().string(), entries);
-  throw InputError({name},
-                   fmt::format("is no file, and {} holds no {}", shipped_catalogue().string(), looked_for),
+  throw InputError({name}, fmt::format("is no file, and {} holds no {}", shipped_catalogue().string(), looked_for),
                    near.empty() ? "write the path of a YAML file"
                                 : fmt::format("did you mean '{}'? Else write the path of a YAML file", near));
 }
@@ -113,7 +116,8 @@ constexpr OtherKind program_kind{"robot program", "name it in a job: dresslife n
 /// (pipeline/resolve/document_kind.h).
 const OtherKind* kind_by_name(const fs::path& file) {
   const std::string end = lower_case(file.extension().string());
-  static const std::set<std::string> programs{".mod", ".modx", ".prg", ".sys", ".pgf", ".src", ".dat", ".ls", ".jbi", ".script"};
+  static const std::set<std::string> programs{".mod", ".modx", ".prg", ".sys", ".pgf",
+                                              ".src", ".dat",  ".ls",  ".jbi", ".script"};
   if (programs.contains(end)) return &program_kind;
   if (end == ".urdf" || end == ".xacro") return &robot_kind;
   if (end == ".h5" || end == ".hdf5") return &result_kind;
@@ -123,7 +127,8 @@ const OtherKind* kind_by_name(const fs::path& file) {
 /// Returns the input file that the user named. Throws InputError for a robot program or a result file.
 fs::path input(fs::path file) {
   if (const OtherKind* const other = kind_by_name(file))
-    throw InputError({file.string()}, fmt::format("is a {}, not a YAML file of dresslife", other->kind), std::string(other->use));
+    throw InputError({file.string()}, fmt::format("is a {}, not a YAML file of dresslife", other->kind),
+                     std::string(other->use));
   note_input(file);
   return file;
 }
@@ -153,7 +158,8 @@ StudyState standing_study(const StudyRequest& request) {
 fs::path folder_of_results(const StudyRequest& request, const StudyOptions& options) {
   const fs::path folder = request.out / study_name(request.file);
   if (kind_of(folder) != FileKind::folder)
-    throw InputError({folder.string()}, "is not there (the study has not run)", "run it: dresslife run " + options.study);
+    throw InputError({folder.string()}, "is not there (the study has not run)",
+                     "run it: dresslife run " + options.study);
   return folder;
 }
 

@@ -16,8 +16,7 @@ namespace fs = std::filesystem;
 int page(const fs::path& folder) {
   JobFolder files{fs::weakly_canonical(folder).filename().string(), folder};
   if (kind_of(files.life()) == FileKind::absent)
-    throw InputError({folder.string()}, "holds no life.h5",
-                     "name the folder of a job that is done: runs/STUDY/JOB");
+    throw InputError({folder.string()}, "holds no life.h5", "name the folder of a job that is done: runs/STUDY/JOB");
   refresh_job_page(files);
   print(shown(files.page().string() + "\n"));
   return 0;
@@ -27,7 +26,8 @@ int page(const fs::path& folder) {
 
 Command page_command() {
   const auto folder = std::make_shared<fs::path>();
-  return {"page", "write the page of one job: robot and dresspack in motion, its damage over place and time",
+  return {"page",
+          "write the page of one job: robot and dresspack in motion, its damage over place and time",
           {{"folder", "", "folder of its results: runs/STUDY/JOB", folder.get(), {.required = true}}},
           [folder] { return page(*folder); }};
 }

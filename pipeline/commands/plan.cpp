@@ -45,22 +45,24 @@ Day change_day(const PlanOptions& options, Day today) {
   if (options.what_if_from.empty()) return today;
   if (options.what_if.empty()) throw InputError({option}, "no table begins on this day", "add --what-if OTHER.csv");
   const Day from = day_of(option, options.what_if_from);
-  if (from < today) throw InputError({option}, fmt::format("{} is before {}, the first day of the plan", day_text(from), day_text(today)), "give a later day");
+  if (from < today)
+    throw InputError({option},
+                     fmt::format("{} is before {}, the first day of the plan", day_text(from), day_text(today)),
+                     "give a later day");
   return from;
 }
 
 std::vector<Warning> doubts_of(std::optional<double> risk_percent) {
   constexpr double least = 1, most = 50;  // per cent in one interval
   if (!risk_percent || (*risk_percent >= least && *risk_percent <= most)) return {};
-  return {warning_of(
-      WarningKind::motion, "--risk",
-      fmt::format("the risk is {:g} % (limit {:g} .. {:g})", *risk_percent, least, most),
-      *risk_percent == 0     ? "a plan without any failure: a new dresspack may fail, too"
-      : *risk_percent < least ? "a share instead of per cent"
-                              : "a dresspack is hardly ever replaced",
-      *risk_percent == 0     ? "--risk 1"
-      : *risk_percent < least ? fmt::format("--risk {:g} if that was a share", 100 * *risk_percent)
-                              : "--risk 10")};
+  return {warning_of(WarningKind::motion, "--risk",
+                     fmt::format("the risk is {:g} % (limit {:g} .. {:g})", *risk_percent, least, most),
+                     *risk_percent == 0      ? "a plan without any failure: a new dresspack may fail, too"
+                     : *risk_percent < least ? "a share instead of per cent"
+                                             : "a dresspack is hardly ever replaced",
+                     *risk_percent == 0      ? "--risk 1"
+                     : *risk_percent < least ? fmt::format("--risk {:g} if that was a share", 100 * *risk_percent)
+                                             : "--risk 10")};
 }
 
 constexpr std::size_t most_named = 3;  // duties or programs that are named; a plant may have hundreds
@@ -79,11 +81,10 @@ std::vector<std::string> doubts(const std::vector<DutyResult>& duties) {
     programs.resize(std::min(programs.size(), most_named));
     if (duty.doubtful.size() > most_named)
       programs.push_back(fmt::format("and {} more", duty.doubtful.size() - most_named));
-    lines.push_back(fmt::format("Do not plan with duty '{}': {} (see the warnings).\n", duty.name,
-                                joined(programs, ", ")));
+    lines.push_back(
+        fmt::format("Do not plan with duty '{}': {} (see the warnings).\n", duty.name, joined(programs, ", ")));
   }
-  if (more > 0)
-    lines.push_back(fmt::format("Do not plan with {} more duties that have such programs.\n", more));
+  if (more > 0) lines.push_back(fmt::format("Do not plan with {} more duties that have such programs.\n", more));
   return lines;
 }
 
@@ -106,15 +107,14 @@ std::vector<std::string> cautions(const std::vector<DutyResult>& duties) {
   }
   const std::size_t named = std::min(order.size(), most_named);
   if (order.size() > most_named)
-    std::stable_sort(order.begin(), order.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<std::string> texts;
   for (std::size_t k = 0; k < named; ++k)
     texts.push_back(order[k].second->name + ":\n" + caution_words(*order[k].second));
   if (order.size() > named)
-    texts.push_back(fmt::format(
-        "{} more duties have such modes later, or other parts without a life; dresslife duty lists them.\n",
-        order.size() - named));
+    texts.push_back(
+        fmt::format("{} more duties have such modes later, or other parts without a life; dresslife duty lists them.\n",
+                    order.size() - named));
   return texts;
 }
 
@@ -143,8 +143,10 @@ std::map<std::string, std::vector<AgeLimit>> age_limits(const std::vector<DutyRe
   std::map<std::string, std::vector<AgeLimit>> limits;
   for (const DutyResult& duty : duties)
     for (const DutyMode& mode : duty.others)
-      if (mode.mode == UnvalidatedMode::abrasion || mode.mode == UnvalidatedMode::jacket || mode.mode == UnvalidatedMode::wall)
-        limits[duty.name].push_back({mode.dresspack.empty() ? mode.mode : mode.mode + " of " + mode.dresspack, mode.hours});
+      if (mode.mode == UnvalidatedMode::abrasion || mode.mode == UnvalidatedMode::jacket ||
+          mode.mode == UnvalidatedMode::wall)
+        limits[duty.name].push_back(
+            {mode.dresspack.empty() ? mode.mode : mode.mode + " of " + mode.dresspack, mode.hours});
   return limits;
 }
 
@@ -165,13 +167,16 @@ int plan(const PlanOptions& options) {
   Fleet fleet = read_fleet(options.fleet, day);
   const std::vector<Window> windows = windows_from(options.windows, day);
   if (const Day end = end_of(windows, day); from >= end)
-    throw InputError({"--what-if-from"}, fmt::format("{} is not before {}, the end of the plan", day_text(from), day_text(end)), "give an earlier day, or later windows");
+    throw InputError({"--what-if-from"},
+                     fmt::format("{} is not before {}, the end of the plan", day_text(from), day_text(end)),
+                     "give an earlier day, or later windows");
   const DutyFile file = read_duties(named_file(options.study, "duties"), day);
   std::set<std::string> needed;
   std::optional<Fleet> changed;
   Problems problems;
   const auto need_duties = [&](const Fleet& of) {
-    for (const Installed& row : of.rows) problems.attempt("", row.where, [&] { needed.insert(duty_named(file, row.duty, row.where).name); });
+    for (const Installed& row : of.rows)
+      problems.attempt("", row.where, [&] { needed.insert(duty_named(file, row.duty, row.where).name); });
   };
   if (!options.what_if.empty()) {
     note_input(options.what_if);
@@ -185,9 +190,11 @@ int plan(const PlanOptions& options) {
   }
   need_duties(fleet);
   problems.finish(options.fleet);
-  if (!fleet.renamed.empty()) write_stderr(shown(fmt::format("note: {}: columns {}\n", options.fleet, joined(fleet.renamed, ", "))));
+  if (!fleet.renamed.empty())
+    write_stderr(shown(fmt::format("note: {}: columns {}\n", options.fleet, joined(fleet.renamed, ", "))));
   if (!fleet.unused.empty())
-    write_stderr(shown(fmt::format("note: {}: a plan does not use the columns {}\n", options.fleet, joined(fleet.unused, ", "))));
+    write_stderr(shown(
+        fmt::format("note: {}: a plan does not use the columns {}\n", options.fleet, joined(fleet.unused, ", "))));
   const std::set<std::string> planned = needed;
   bool has_changes = changed.has_value();  // whether the duty of a dresspack changes
   for (const Duty& duty : file.duties)
@@ -210,28 +217,32 @@ int plan(const PlanOptions& options) {
     for (const Warning& warning : add_histories(of, file, tables, day)) write_stderr(shown(warning.paragraph()));
   };
   add_past(fleet);
-  PlanRule rule{options.risk_percent.value_or(10) / 100, fleet.has_costs && !options.risk_percent,
-                knows_survivors(made.study), {}, enough_worlds};
+  PlanRule rule{options.risk_percent.value_or(10) / 100,
+                fleet.has_costs && !options.risk_percent,
+                knows_survivors(made.study),
+                {},
+                enough_worlds};
   Plan found = plan_of(fleet, tables, windows, day, rule);
   // ages of many survivors leave few worlds with weight
   if (found.effective_worlds < enough_worlds) {
     // The estimate from few worlds is exact to a tenth. Few effective worlds need more dresspacks in each.
     constexpr double spare = 1.2, most = 4;
-    const auto times = static_cast<std::size_t>(std::clamp(std::ceil(spare * enough_worlds / found.effective_worlds), 2.0, most));
+    const auto times =
+        static_cast<std::size_t>(std::clamp(std::ceil(spare * enough_worlds / found.effective_worlds), 2.0, most));
     tables = lives_of_plant.in(times * usual_worlds, 2 * usual_draws, has_changes);
     rule.enough_worlds = fewest_worlds;
     found = plan_of(fleet, tables, windows, day, rule);
   }
   if (found.effective_worlds < fewest_worlds)
-    throw InputError(
-        {options.fleet},
-        fmt::format("the ages of these dresspacks contradict the model: {:.1f} of {} samples explain them",
-                    found.effective_worlds, tables.begin()->second.worlds),
-        "learn from them first: dresslife calibrate");
+    throw InputError({options.fleet},
+                     fmt::format("the ages of these dresspacks contradict the model: {:.1f} of {} samples explain them",
+                                 found.effective_worlds, tables.begin()->second.worlds),
+                     "learn from them first: dresslife calibrate");
   for (const Warning& warning : doubtful_ages(fleet, found)) write_stderr(shown(warning.paragraph()));
   std::optional<Plan> other;
   std::string what_if;
-  const std::string what_if_name = fs::path(options.what_if).stem().string() + (from > day ? " from " + day_text(from) : "");
+  const std::string what_if_name =
+      fs::path(options.what_if).stem().string() + (from > day ? " from " + day_text(from) : "");
   if (changed) {
     add_past(*changed);
     keep_ages(*changed, fleet, tables, day, from);
@@ -250,17 +261,14 @@ int plan(const PlanOptions& options) {
     }
   }
   tests += age_words(fleet, found, age_limits(duties), week_hours_of(duties));
-  const std::string stem = "plan_" + fs::path(options.fleet).stem().string(),
-                    csv = plan_csv(fleet, found, checks);
-  const fs::path table = made.places.folder / (stem + ".csv"),
-                 calendar = made.places.folder / (stem + ".ics");
-  const fs::path weeks = made.places.folder / (stem + "_weeks.csv"),
-                 page = made.places.folder / (stem + ".html");
+  const std::string stem = "plan_" + fs::path(options.fleet).stem().string(), csv = plan_csv(fleet, found, checks);
+  const fs::path table = made.places.folder / (stem + ".csv"), calendar = made.places.folder / (stem + ".ics");
+  const fs::path weeks = made.places.folder / (stem + "_weeks.csv"), page = made.places.folder / (stem + ".html");
   write_text_if_changed(table, csv);
   write_text_if_changed(weeks, plan_weeks_csv(fleet, found));
   const PlanNotes notes{doubts_with_warnings(duties), tests, cautions(duties)};
-  write_text_if_changed(page, with_mark(plan_page(fs::path(options.fleet).stem().string(), fleet, found,
-                                                  notes, table.filename().string()),
+  write_text_if_changed(page, with_mark(plan_page(fs::path(options.fleet).stem().string(), fleet, found, notes,
+                                                  table.filename().string()),
                                         Mark::page));
   if (other) {
     const fs::path beside = made.places.folder / (stem + "_what_if.csv"),
@@ -277,16 +285,16 @@ int plan(const PlanOptions& options) {
   write_text_if_changed(calendar, plan_calendar(fleet, found));
   const auto json = [&] {
     const std::string now = json_of_csv(csv).text;
-    return other ? fmt::format("{{\"plan\":{},\"what_if\":{}}}\n", now,
-                               json_of_csv(plan_csv(*changed, *other)).text)
+    return other ? fmt::format("{{\"plan\":{},\"what_if\":{}}}\n", now, json_of_csv(plan_csv(*changed, *other)).text)
                  : now + "\n";
   };
-  print(options.json ? json()
-                     : shown(fmt::format("{}{}{}\n{}Table: {} (columns: comma, decimals: point)\nWeeks: {}\nCalendar: {}\nPage: {}\n",
-                                         block(doubts(duties)), plan_words(fleet, found), wrapped_lines(tests),
-                                         block(cautions(duties)), table.string(), weeks.string(),
-                                         calendar.string(), page.string()) +
-                             what_if));
+  print(options.json
+            ? json()
+            : shown(fmt::format(
+                        "{}{}{}\n{}Table: {} (columns: comma, decimals: point)\nWeeks: {}\nCalendar: {}\nPage: {}\n",
+                        block(doubts(duties)), plan_words(fleet, found), wrapped_lines(tests), block(cautions(duties)),
+                        table.string(), weeks.string(), calendar.string(), page.string()) +
+                    what_if));
   write_stderr(warning_lines(rows_of(file, made.rows)));
   return 0;
 }
@@ -299,11 +307,7 @@ Command plan_command() {
       "plan", "plan which dresspacks of a plant to replace in which maintenance window, and the spare parts",
       joined(
           {{{"fleet", "", "FLEET.csv", &options->fleet, {.required = true}},
-            {"--duties",
-             "DUTIES.yaml",
-             "the duties that the table names",
-             &options->study,
-             {.required = true}},
+            {"--duties", "DUTIES.yaml", "the duties that the table names", &options->study, {.required = true}},
             {"--windows",
              "DATES",
              "the maintenance windows: 2027-07-12..2027-08-01,2027-12-20..2028-01-02",
@@ -317,7 +321,8 @@ Command plan_command() {
              {.range = {{0, 100}}}},
             {"--what-if", "OTHER.csv", "a changed table of the same plant: its plan beside that of the first",
              &options->what_if},
-            {"--what-if-from", "DATE", "the day on which the other duties of OTHER.csv begin; default: the first day of the plan",
+            {"--what-if-from", "DATE",
+             "the day on which the other duties of OTHER.csv begin; default: the first day of the plan",
              &options->what_if_from},
             {"--today", "DATE", "the first day of the plan; default: the computer's date", &options->today},
             json_option(options->json)},

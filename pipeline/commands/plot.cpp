@@ -41,12 +41,13 @@ std::vector<std::string> figure_words() {
 
 Command plot_command() {
   const auto options = std::make_shared<PlotOptions>();
-  return {"plot", "draw one figure of a job's results into a file",
+  return {"plot",
+          "draw one figure of a job's results into a file",
           {{"job", "", "the job's folder, or one of its .h5 files", &options->job, {.required = true}},
            {"--what", "", "which figure", &options->what, {.required = true, .choices = figure_words()}},
            {"-o,--output", "FILE", "picture to write, .svg or .png", &options->picture, {.required = true}},
-           {"--time", "SECONDS",
-            "of scene and deformation; without it when the most damaging cycle closes", &options->time}},
+           {"--time", "SECONDS", "of scene and deformation; without it when the most damaging cycle closes",
+            &options->time}},
           [options] { return plot(*options); }};
 }
 

@@ -2,12 +2,12 @@
 
 #include <memory>
 
+#include "pipeline/base/digest.h"
 #include "pipeline/base/errors.h"
 #include "pipeline/base/whole_file.h"
 #include "pipeline/commands/checking.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/commands/results.h"
-#include "pipeline/base/digest.h"
 #include "pipeline/report/page_shell.h"
 #include "pipeline/report/preview_page.h"
 #include "pipeline/study/stage_program.h"
@@ -26,8 +26,7 @@ struct PreviewOptions {
 /// status 0 means that the page was written.
 int preview(const PreviewOptions& options) {
   const fs::path job = named_file(options.job, "jobs");
-  const fs::path page =
-      options.page.empty() ? fs::path(job.stem().string() + "_preview.html") : fs::path(options.page);
+  const fs::path page = options.page.empty() ? fs::path(job.stem().string() + "_preview.html") : fs::path(options.page);
   check_replaceable(page);
   const PassingFile file("preview.h5");
   const JobCheck check = check_of(job, options.sets, file.path());

@@ -22,8 +22,7 @@ int rate(const RunOptions& options) {
   const StudyPlaces& places = own.places;
   const std::vector<RankingRow> rows = made_rows(rated.study, places, options);
   write_text_if_changed(places.folder / "rate.csv", rate_csv(rated, rows));
-  print(
-      shown(fmt::format("{}\nTable: {}\n", rate_table(rated, rows), (places.folder / "rate.csv").string())));
+  print(shown(fmt::format("{}\nTable: {}\n", rate_table(rated, rows), (places.folder / "rate.csv").string())));
   return say_failures(options.study, rows);
 }
 
@@ -34,7 +33,8 @@ Command rate_command() {
   return {"rate",
           "print how many cycles a cable, or each of a dresspack's, lives in the standard test rigs, beside its "
           "ratings",
-          joined({{{"cable", "", "DRESSPACK.yaml", &options->study, {.required = true}}}, run_options(*options),
+          joined({{{"cable", "", "DRESSPACK.yaml", &options->study, {.required = true}}},
+                  run_options(*options),
                   study_options(*options)}),
           [options] { return rate(*options); }};
 }

@@ -49,12 +49,13 @@ int report(const StudyOptions& options) {
     if (!options.json) print(shown(fmt::format("\nReport: {}\n", (places.folder / "report.html").string())));
   } else {
     write_stderr(fmt::format("{}: note: ranking.csv and report.html stay as the last run left them ({})\n",
-                     places.folder.string(), kept));
+                             places.folder.string(), kept));
   }
   const int failed = count_failed(rows);
   if (failed > 0)
-    write_stderr(fmt::format("{}: error: {} of {} jobs have no current result (their reasons are in the table); make them with dresslife run\n",
-                     options.study, failed, study.jobs.size()));
+    write_stderr(fmt::format(
+        "{}: error: {} of {} jobs have no current result (their reasons are in the table); make them with dresslife run\n",
+        options.study, failed, study.jobs.size()));
   return failed > 0 || !all_written ? 1 : 0;
 }
 

@@ -83,13 +83,12 @@ std::string remarks(const TriedWay& tried, const TriedWay* before = nullptr) {
   std::string text = tried.outcome.feasible() ? "" : "; " + tried.outcome.words();
   if (const ModeLife mode = first_mode(tried.outcome); !mode.mode.empty())
     text += fmt::format("; {} from {}", mode.mode, hours_text(mode.hours));
-  if (tried.outcome.feasible() && !tried.doubt.empty() && !(before && before->doubt == tried.doubt)) text += "; do not plan with it: " + tried.doubt;
+  if (tried.outcome.feasible() && !tried.doubt.empty() && !(before && before->doubt == tried.doubt))
+    text += "; do not plan with it: " + tried.doubt;
   return text;
 }
 
-std::string lines_words(const OtherWay& way) {
-  return way.lines.empty() ? "all lines" : joined(way.lines, "; ");
-}
+std::string lines_words(const OtherWay& way) { return way.lines.empty() ? "all lines" : joined(way.lines, "; "); }
 
 /// Returns the same with successive lines of a file as "welding.mod:45..54".
 std::string spans_words(const OtherWay& way) {
@@ -100,7 +99,8 @@ std::string spans_words(const OtherWay& way) {
     const std::size_t number = line.rfind(':') + 1;
     const bool is_unnamed = line.find_first_not_of("0123456789", number) == std::string::npos;
     if (line == next)
-      spans.lines.back() = spans.lines.back().substr(0, spans.lines.back().find("..", number)) + ".." + line.substr(number);
+      spans.lines.back() =
+          spans.lines.back().substr(0, spans.lines.back().find("..", number)) + ".." + line.substr(number);
     else
       spans.lines.push_back(line);
     next = is_unnamed ? line.substr(0, number) + std::to_string(std::atoi(line.c_str() + number) + 1) : "";
@@ -109,16 +109,17 @@ std::string spans_words(const OtherWay& way) {
 }
 
 std::string csv_of(const TriedWay& before, const std::vector<TriedWay>& ways) {
-  std::string text = "lines,way,life_hours_p10,times_as_long,cycle_s,cycle_won_s,beyond,sets,patch,first_mode,first_mode_hours,doubt\n";
+  std::string text =
+      "lines,way,life_hours_p10,times_as_long,cycle_s,cycle_won_s,beyond,sets,patch,first_mode,first_mode_hours,doubt\n";
   for (const TriedWay& tried : ways) {
     const bool ran = tried.outcome.failure.empty();
     const ModeLife mode = first_mode(tried.outcome);
-    text += fmt::format(
-        "{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_cell(lines_words(tried.way)), csv_cell(tried.way.what),
-        ran ? shortest_text(tried.outcome.hours) : "", ran ? shortest_text(times_as_long(tried, before)) : "",
-        ran ? shortest_text(tried.seconds) : "", ran ? shortest_text(before.seconds - tried.seconds) : "",
-        csv_cell(tried.outcome.words()), csv_cell(joined(tried.way.sets, "; ")), csv_cell(tried.file.filename().string()),
-        csv_cell(mode.mode), mode.mode.empty() ? "" : shortest_text(mode.hours), csv_cell(tried.doubt));
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_cell(lines_words(tried.way)),
+                        csv_cell(tried.way.what), ran ? shortest_text(tried.outcome.hours) : "",
+                        ran ? shortest_text(times_as_long(tried, before)) : "", ran ? shortest_text(tried.seconds) : "",
+                        ran ? shortest_text(before.seconds - tried.seconds) : "", csv_cell(tried.outcome.words()),
+                        csv_cell(joined(tried.way.sets, "; ")), csv_cell(tried.file.filename().string()),
+                        csv_cell(mode.mode), mode.mode.empty() ? "" : shortest_text(mode.hours), csv_cell(tried.doubt));
   }
   return text;
 }
@@ -134,12 +135,16 @@ std::string table_of(const std::string& job, const TriedWay& before, const std::
   for (std::size_t k = 0; k < std::min(ways_shown, ways.size()); ++k) {
     const TriedWay& tried = ways[k];
     if (!tried.outcome.failure.empty()) break;
-    text += fmt::format("  {:>8.3g} x {:>+8.2f} s  {}: {}{}\n", times_as_long(tried, before),
-                        tried.seconds - before.seconds, spans_words(tried.way), tried.way.what, remarks(tried, &before));
+    text +=
+        fmt::format("  {:>8.3g} x {:>+8.2f} s  {}: {}{}\n", times_as_long(tried, before),
+                    tried.seconds - before.seconds, spans_words(tried.way), tried.way.what, remarks(tried, &before));
     if (!tried.file.empty()) text += fmt::format("  {:>24}patch: {}\n", "", tried.file.string());
   }
-  text += "  life: of the wires, in hours of motion. The first way is the best by limits, lives in repeats, and modes that are not validated.\n";
-  if (const auto failed = std::ranges::count_if(ways, [](const TriedWay& tried) { return !tried.outcome.failure.empty(); }); failed > 0)
+  text +=
+      "  life: of the wires, in hours of motion. The first way is the best by limits, lives in repeats, and modes that are not validated.\n";
+  if (const auto failed =
+          std::ranges::count_if(ways, [](const TriedWay& tried) { return !tried.outcome.failure.empty(); });
+      failed > 0)
     text += fmt::format("  {} of {} ways do not run (see the table).\n", failed, ways.size());
   if (!ways.empty() && std::ranges::none_of(ways, [](const TriedWay& tried) { return tried.outcome.feasible(); }))
     text += "  No way keeps all limits. Cure the job first: dresslife check names a remedy.\n";
@@ -178,20 +183,18 @@ std::vector<TriedWay> program_ways_of(const Job& job, const fs::path& life_file,
   if (run_stage_program("dresslife-import",
                         {described.path().string(), "--ways", fs::absolute(life_file).string(), "--lines",
                          std::to_string(options.lines), "-o", noted.path().string(), "--quiet"}) != 0)
-    throw InputError({job.motion.program.string()}, "has no other ways (see above)",
-                     "correct the errors above");
+    throw InputError({job.motion.program.string()}, "has no other ways (see above)", "correct the errors above");
   const FileReader file(noted.path(), ways_format());
   const auto what = file.read<std::string>("/way/what"), lines = file.read<std::string>("/way/lines"),
              motions = file.read<std::string>("/way/motion"), patches = file.read<std::string>("/way/patch");
   std::vector<TriedWay> ways;
   for (std::size_t k = 0; k < what.size(); ++k)
-    ways.push_back(
-        {{what[k], lines_of(lines[k]), {"motion=" + set_text(parse_yaml(motions[k], noted.path()))}},
-         {},
-         0,
-         {},
-         patches[k],
-         {}});
+    ways.push_back({{what[k], lines_of(lines[k]), {"motion=" + set_text(parse_yaml(motions[k], noted.path()))}},
+                    {},
+                    0,
+                    {},
+                    patches[k],
+                    {}});
   std::map<std::string, int> refused;
   for (const std::string& why : file.read<std::string>("/refusal/words")) ++refused[why];
   for (const auto& [why, count] : refused) write_stderr(fmt::format("{} ({} ways are not tried)\n", why, count));
@@ -278,20 +281,19 @@ int reprogram(const ReprogramOptions& options) {
 
 Command reprogram_command() {
   const auto options = std::make_shared<ReprogramOptions>();
-  return {
-      "reprogram",
-      "try what the program could do instead: the lines that cost most by other turns of wrist and arm, by "
-      "a point, or slower; of a robot program, patches in its own language are written for the ways that help",
-      joined({{study_or_job(*options),
-               {"--lines",
-                "COUNT",
-                "of the program that are tried, those first that cost most",
-                &options->lines,
-                {.range = {{0, 1000}}}}},
-              run_options(*options),
-              {launcher_option(*options)},
-              study_options(*options)}),
-      [options] { return reprogram(*options); }};
+  return {"reprogram",
+          "try what the program could do instead: the lines that cost most by other turns of wrist and arm, by "
+          "a point, or slower; of a robot program, patches in its own language are written for the ways that help",
+          joined({{study_or_job(*options),
+                   {"--lines",
+                    "COUNT",
+                    "of the program that are tried, those first that cost most",
+                    &options->lines,
+                    {.range = {{0, 1000}}}}},
+                  run_options(*options),
+                  {launcher_option(*options)},
+                  study_options(*options)}),
+          [options] { return reprogram(*options); }};
 }
 
 }  // namespace dresslife::pipeline

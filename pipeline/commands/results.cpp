@@ -18,7 +18,7 @@ namespace dresslife::pipeline {
 namespace fs = std::filesystem;
 
 int print_preview(const fs::path& job, const std::vector<std::string>& sets, const StageLimits& limits,
-                 const fs::path& preview, StageWords said) {
+                  const fs::path& preview, StageWords said) {
   std::vector<std::string> arguments{job.string(),
                                      "--preview",
                                      "-o",
@@ -35,8 +35,7 @@ int print_preview(const fs::path& job, const std::vector<std::string>& sets, con
 namespace {
 
 /// Writes the page of a refused job if the refusal or the parts of the page changed. Returns whether a page exists.
-bool refresh_preview(const fs::path& job, const fs::path& page, const JobState& state,
-                     const std::string& name) {
+bool refresh_preview(const fs::path& job, const fs::path& page, const JobState& state, const std::string& name) {
   constexpr StageLimits limits{
       20, 4000};  // a preview takes one second and little memory; the ranking contains the reason of the failure
   const std::string made_from = xxh3(shell_digest() + state.recipes[0] + state.failure + name);
@@ -80,9 +79,7 @@ namespace {
 std::string why_old(const RankingRow& row) {
   if (row.stale) return stale_words(row);
   if (!row.done()) return "the job has no result now: " + row.failure;
-  return row.life_file.empty()
-             ? "ranking.csv has the present result; the files for this page are not kept"
-             : "";
+  return row.life_file.empty() ? "ranking.csv has the present result; the files for this page are not kept" : "";
 }
 
 /// Does a step with a job's page. Returns whether it succeeded; prints the error if not.

@@ -24,8 +24,7 @@ std::vector<std::filesystem::path> refresh_previews(const Study& study, const St
                                                     const std::vector<JobState>& states);
 
 /// Runs `dresslife-sim --preview` with its output in the file `preview`. Returns its exit status.
-int print_preview(const std::filesystem::path& job, const std::vector<std::string>& sets,
-                 const StageLimits& limits, const std::filesystem::path& preview,
-                 StageWords said = StageWords::shown);
+int print_preview(const std::filesystem::path& job, const std::vector<std::string>& sets, const StageLimits& limits,
+                  const std::filesystem::path& preview, StageWords said = StageWords::shown);
 
 }  // namespace dresslife::pipeline

@@ -40,8 +40,8 @@
 #include "pipeline/study/folder_lock.h"
 #include "pipeline/study/folder_source.h"
 #include "pipeline/study/job_folder.h"
-#include "pipeline/study/row_warnings.h"
 #include "pipeline/study/mode_table.h"
+#include "pipeline/study/row_warnings.h"
 #include "pipeline/study/row_words.h"
 #include "pipeline/study/stage_program.h"
 
@@ -50,9 +50,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int trials = 3;  // number of routings of one search that are simulated through the whole chain
-constexpr int further =
-    40;  // short runs for less bending and twisting: a third more time than a usual search
+constexpr int trials = 3;    // number of routings of one search that are simulated through the whole chain
+constexpr int further = 40;  // short runs for less bending and twisting: a third more time than a usual search
 
 struct RouteOptions : RunOptions {
   RouteRequest request;
@@ -71,9 +70,9 @@ struct Trial {
   std::optional<std::size_t>
       // index of the best proposal that ran: of feasible ones the best merit within the tolerance, else the smallest violation
       best;
-  std::vector<ImprovementStory::Nudge> nudges{};  // runs of the best proposal within the tolerance
-  std::optional<std::size_t> start{};             // the job's own routing, if it has one
-  std::optional<std::size_t> found{};             // the best other routing, if the job's own one ran, too
+  std::vector<ImprovementStory::Nudge> nudges{};      // runs of the best proposal within the tolerance
+  std::optional<std::size_t> start{};                 // the job's own routing, if it has one
+  std::optional<std::size_t> found{};                 // the best other routing, if the job's own one ran, too
   std::vector<ImprovementStory::Nudge> own_nudges{};  // runs of the job's own routing within the tolerance
   std::string ended{};  // message that a file changed and the search ended; empty: no file changed
 
@@ -158,8 +157,7 @@ void judge(Trial& trial, const Draft& draft, const RouteOptions& options, const 
   });
   std::vector<Finalist> finalists;
   for (const std::size_t k : best_first) {
-    const Node document =
-        routed(draft, trial.proposals.candidates[k].changes, trial.proposals.motion, trial.factor);
+    const Node document = routed(draft, trial.proposals.candidates[k].changes, trial.proposals.motion, trial.factor);
     const std::vector<StudyJob> placed{{"place", std::make_shared<const Job>(job_from(document)), ""}};
     Finalist finalist{trial.outcomes[k], nudges_of(placed, tolerance_for(draft, options)), {}};
     set_runs(finalist, known_sets(placed), [&, k, document](const auto& sets_of_runs, const auto& names) {
@@ -167,8 +165,8 @@ void judge(Trial& trial, const Draft& draft, const RouteOptions& options, const 
       for (std::size_t j = 0; j < names.size(); ++j) {
         Node off = document;
         for (const std::string& set : sets_of_runs[j]) apply_set(off, set);
-        study.jobs.push_back({fmt::format("{}_off_{}", trial.rows[k].job, names[j]),
-                              std::make_shared<const Job>(job_from(off)), ""});
+        study.jobs.push_back(
+            {fmt::format("{}_off_{}", trial.rows[k].job, names[j]), std::make_shared<const Job>(job_from(off)), ""});
       }
       const std::vector<RankingRow> rows = made_rows(study, places, runs.options(), files);
       std::vector<Outcome> outcomes;
@@ -187,8 +185,9 @@ void judge(Trial& trial, const Draft& draft, const RouteOptions& options, const 
     if (best_first[k] == trial.start) own = k;
   // The bound of a routing that keeps all limits so far may be too high.
   if (own && best != *own && !judged[*own].whole && judged[*own].worst.kept >= Kept::limits)
-    judged[*own] = within_tolerance(finalists[*own], as_it_is, [&](const Merit& worst) { return clearly_better(judged[best].worst, worst); },
-                                    {judged[best]}, progress);
+    judged[*own] = within_tolerance(
+        finalists[*own], as_it_is, [&](const Merit& worst) { return clearly_better(judged[best].worst, worst); },
+        {judged[best]}, progress);
   const std::size_t chosen = best_within(judged, own);
   trial.best = best_first[chosen];
   trial.nudges = judged[chosen].nudges;
@@ -200,7 +199,8 @@ void prefer_own(Trial& trial) {
   if (!trial.start || trial.best == trial.start || trial.rows[*trial.start].job.empty()) return;
   const Outcome& own = trial.outcomes[*trial.start];
   trial.found = trial.best;
-  if (own.feasible() && !clearly_better(merit_of(trial.outcomes[*trial.best], own), merit_of(own, own))) trial.best = trial.start;
+  if (own.feasible() && !clearly_better(merit_of(trial.outcomes[*trial.best], own), merit_of(own, own)))
+    trial.best = trial.start;
 }
 
 /// Returns the routing of the given job as YAML; absent: the job has no complete routing, or not on the links that are asked for.
@@ -212,7 +212,8 @@ std::optional<std::string> own_routing(const Draft& draft, const RouteOptions& o
     return asked.empty() || (link && link->text == asked);
   };
   const Node* const rings = routing->find("rings");
-  if (!is_on(routing->find("base_clamp"), options.request.base_link) || !is_on(routing->find("tool_clamp"), options.request.tool_link) ||
+  if (!is_on(routing->find("base_clamp"), options.request.base_link) ||
+      !is_on(routing->find("tool_clamp"), options.request.tool_link) ||
       !is_on(rings && rings->items.size() == 1 ? &rings->items.front() : nullptr, options.ring))
     return {};
   try {
@@ -227,13 +228,13 @@ std::optional<std::string> own_routing(const Draft& draft, const RouteOptions& o
 void write_job(const Trial& of, const Draft& draft, const RouteOptions& options, const fs::path& job,
                const std::string& head) {
   check_replaceable(job);  // checked a second time, because the file may have changed during the search
-  const Node document =
-      routed(draft, of.proposals.candidates[of.best.value_or(0)].changes, of.proposals.motion, of.factor,
-             job.has_parent_path() ? job.parent_path() : fs::path("."));
+  const Node document = routed(draft, of.proposals.candidates[of.best.value_or(0)].changes, of.proposals.motion,
+                               of.factor, job.has_parent_path() ? job.parent_path() : fs::path("."));
   const std::string of_tool = tool_space_words(draft);
-  write_text_if_changed(job, with_mark(fmt::format("# Proposed by dresslife route {}\n{}{}{}", shown(options.request.of), head,
-                                                   of_tool.empty() ? "" : "# " + of_tool + "\n", to_yaml(document)),
-                                       Mark::yaml));
+  write_text_if_changed(
+      job, with_mark(fmt::format("# Proposed by dresslife route {}\n{}{}{}", shown(options.request.of), head,
+                                 of_tool.empty() ? "" : "# " + of_tool + "\n", to_yaml(document)),
+                     Mark::yaml));
 }
 
 /// Runs the proposals that kept all limits in their short run, and the job's own routing. With a tolerance all of them are run,
@@ -253,8 +254,7 @@ Trial tried(const Draft& draft, const RouteOptions& options, double factor, cons
   const std::size_t found = trial.start.value_or(trial.outcomes.size());
   std::vector<std::size_t> to_run;
   for (std::size_t k = 0; k < found; ++k)
-    if (!trial.proposals.candidates[k].rejected && trial.proposals.candidates[k].violation() == 0)
-      to_run.push_back(k);
+    if (!trial.proposals.candidates[k].rejected && trial.proposals.candidates[k].violation() == 0) to_run.push_back(k);
   if (trial.start) to_run.push_back(*trial.start);
   Progress progress(fmt::format("{} at {:.0f} %", draft.name, 100 * factor), options.quiet);
   const auto run_next = [&](const std::vector<std::size_t>& of, std::size_t before) {
@@ -275,8 +275,8 @@ Trial tried(const Draft& draft, const RouteOptions& options, double factor, cons
     if (tolerance && trial.feasible()) {
       write_job(trial, draft, options, job, not_verified);
       if (!options.quiet)
-        write_stderr(shown(fmt::format("The best routing so far is in {}, not yet verified within the mounting tolerance.\n",
-                               job.string())));
+        write_stderr(shown(fmt::format(
+            "The best routing so far is in {}, not yet verified within the mounting tolerance.\n", job.string())));
       judge(trial, draft, options, places, files);
     } else if (trial.feasible()) {
       prefer_own(trial);
@@ -303,8 +303,7 @@ DecidingLimit decided(const Trial& trial, const Draft& draft) {
   for (double& g : passed)
     if (!(g > 0)) g = 0;  // NaN: not known
   const auto most = static_cast<std::size_t>(std::max_element(passed.begin(), passed.end()) - passed.begin());
-  const std::string other =
-      "another link (--from, --to), more --tried and --short-runs, or a gentler program";
+  const std::string other = "another link (--from, --to), more --tried and --short-runs, or a gentler program";
   if (passed.empty() || passed[most] == 0) return {"no routing runs", other};
   const std::string& limit = outcome_limit_names()[most];
   if (limit != "bend radius") {
@@ -328,18 +327,19 @@ DecidingLimit decided(const Trial& trial, const Draft& draft) {
   }
   // The limit shrinks with the hose, but a thinner hose is also bent more: abb_irb2600_12_165 with `hard` exceeds the limit by
   // 0.14 at 100 % and by 0.033 at 78 %, and keeps all limits at 70 %. Short runs give a bend to some percent.
-  constexpr double margin = 0.95, smallest = 0.5;  // of half the size, cables have a quarter of the copper: other cables
+  constexpr double margin = 0.95,
+                   smallest = 0.5;  // of half the size, cables have a quarter of the copper: other cables
   const Dresspack& dresspack = draft.job.dresspacks.front().dresspack;
   const double least = least_bend_radius(dresspack) * trial.factor, share = std::exp(-passed[most]);
   const double scale = std::floor(100 * trial.factor * share * share * margin) / 100, allowed = least * share * margin;
   const std::string smaller =
-      scale < smallest ? ""
-                       : fmt::format("--scale {:.2g} (a dresspack of the same make in that size), ", scale);
+      scale < smallest ? "" : fmt::format("--scale {:.2g} (a dresspack of the same make in that size), ", scale);
   const std::string tighter = allowed < tightest_bend_radius(dresspack) * trial.factor
                                   ? ""
-                                  : fmt::format(", or dresspack.least_bend_radius_mm: {:.0f} if its maker allows it", std::floor(1e3 * allowed));
-  return {fmt::format("the limit that decides: bend radius, {:.0f} mm of at least {:.0f} mm",
-                      1e3 * least * share, 1e3 * least),
+                                  : fmt::format(", or dresspack.least_bend_radius_mm: {:.0f} if its maker allows it",
+                                                std::floor(1e3 * allowed));
+  return {fmt::format("the limit that decides: bend radius, {:.0f} mm of at least {:.0f} mm", 1e3 * least * share,
+                      1e3 * least),
           smaller + other + tighter};
 }
 
@@ -360,8 +360,7 @@ std::vector<double> factors_of(const RouteOptions& options) {
   if (options.scale == "auto") return {1, 0.8, 0.65, 0.5, 0.4, 0.3};
   const auto factor = whole_number_in<double>(options.scale);
   if (!factor || !(*factor >= 0.05 && *factor <= 2))
-    throw InputError({"--scale"},
-                     fmt::format("'{}' is neither auto nor a number from 0.05 to 2", options.scale),
+    throw InputError({"--scale"}, fmt::format("'{}' is neither auto nor a number from 0.05 to 2", options.scale),
                      "write one");
   return {*factor};
 }
@@ -381,14 +380,16 @@ std::string outcome_words(const Outcome& outcome) {
 
 /// Returns a comparison of the best routing with the job's own routing.
 std::string comparison_words(const Trial& trial, const MountingTolerance& tolerance) {
-  if (!trial.start || trial.rows[*trial.start].job.empty())
-    return "";  // no own routing, or the search ended early
+  if (!trial.start || trial.rows[*trial.start].job.empty()) return "";  // no own routing, or the search ended early
   const Outcome& own = trial.outcomes[*trial.start];
   if (!own.failure.empty()) return fmt::format("The job's own routing does not run: {}\n", own.failure);
-  if (trial.best == trial.start && !trial.found) return "It is the job's own routing: none that was found is better in limits, modes and life.\n";
+  if (trial.best == trial.start && !trial.found)
+    return "It is the job's own routing: none that was found is better in limits, modes and life.\n";
   const Outcome& other = trial.outcomes[trial.found.value_or(*trial.best)];
-  const std::string both = fmt::format("the best of the others: {}\n  the job's own: {}\n", outcome_words(other), outcome_words(own));
-  if (trial.best == trial.start) return "It is the job's own routing, because no other is better in life, limits and modes together.\n  " + both;
+  const std::string both =
+      fmt::format("the best of the others: {}\n  the job's own: {}\n", outcome_words(other), outcome_words(own));
+  if (trial.best == trial.start)
+    return "It is the job's own routing, because no other is better in life, limits and modes together.\n  " + both;
   std::string text = "It is better than the job's own routing.\n  " + both;
   if (!trial.own_nudges.empty()) text += "  The job's own: " + tolerance_words(trial.own_nudges, tolerance);
   return text;
@@ -408,16 +409,15 @@ std::string words_of(const Trial& trial, const Draft& draft, const MountingToler
   if (best.feasible()) {
     const std::string at_other_values = left_at_other_values(trial.rows[*trial.best]);
     text += !at_other_values.empty() ? "It keeps all limits in a run with its own values.\n" + at_other_values
-                                : "It keeps all limits in a run.\n";
+                                     : "It keeps all limits in a run.\n";
   } else {
     const DecidingLimit by = decided(trial, draft);
-    text += fmt::format("It runs, but no routing was found that keeps all limits ({}): {}. Remedy: {}\n",
-                        best.words(), by.by, by.remedy);
+    text += fmt::format("It runs, but no routing was found that keeps all limits ({}): {}. Remedy: {}\n", best.words(),
+                        by.by, by.remedy);
   }
   text += comparison_words(trial, tolerance) + tolerance_words(trial.nudges, tolerance);
   const RankingRow& row = trial.rows[*trial.best];
-  for (const std::string& words :
-       {action_words(row), uncertainty_words(row), failure_words(row)})
+  for (const std::string& words : {action_words(row), uncertainty_words(row), failure_words(row)})
     text += words + (words.empty() ? "" : "\n");
   return text + mode_table(row, screen_columns(), "") + mode_legend({row}, screen_columns(), "");
 }
@@ -430,8 +430,7 @@ void remove_others(const fs::path& folder, const std::string& winner) {
 
 int route(const RouteOptions& options) {
   RouteRequest request = options.request;
-  if (options.bracket_mm)
-    request.sets.push_back(fmt::format("routing.longest_bracket_mm={:.6g}", *options.bracket_mm));
+  if (options.bracket_mm) request.sets.push_back(fmt::format("routing.longest_bracket_mm={:.6g}", *options.bracket_mm));
   Draft draft = draft_of(request);
   for (const Warning& fault : dresspack_faults(draft.job, true)) write_stderr(fault.paragraph());
   fill_tool_space(draft);
@@ -490,8 +489,7 @@ int route(const RouteOptions& options) {
   write_job(of, draft, options, job, "");
   write_page(job, page);
   if (of.best && !options.keep) remove_others(places.folder, of.rows[*of.best].job);
-  print(shown(of.best ? words_of(of, draft, tolerance_for(draft, options))
-                      : routing + "Only short runs tried it.\n"));
+  print(shown(of.best ? words_of(of, draft, tolerance_for(draft, options)) : routing + "Only short runs tried it.\n"));
   print(shown(fmt::format("Job: {}\nPreview: {}\n", job.string(), page.string())));
   return of.feasible() && ended.empty() ? 0 : 1;
 }
@@ -508,8 +506,7 @@ Command route_command() {
       joined(
           {{{"of", "", "JOB.yaml, or a ROBOT", &request.of, {.required = true}},
             {"--dresspack", "NAME", "instead of the job's; of a robot spot_welding", &request.dresspack},
-            {"--motion", "NAME", "instead of the job's; for a robot alone: a motion of its wrist",
-             &request.motion},
+            {"--motion", "NAME", "instead of the job's; for a robot alone: a motion of its wrist", &request.motion},
             {"--from", "LINK", "link of the base clamp; else the job's, or the one that axis 3 moves",
              &request.base_link},
             {"--to", "LINK", "link of the tool clamp; else the job's, or the last", &request.tool_link},
@@ -526,11 +523,7 @@ Command route_command() {
              "short runs that improve the best of them, for each size",
              &options->short_runs,
              {.range = {{1, 100'000}}}},
-            {"--seed",
-             "NUMBER",
-             "start of the random numbers",
-             &options->seed,
-             {.range = {{0, 1'000'000'000}}}},
+            {"--seed", "NUMBER", "start of the random numbers", &options->seed, {.range = {{0, 1'000'000'000}}}},
             {"--bracket",
              "MM",
              "longest bracket, written into the job as routing.longest_bracket_mm; else the job's",

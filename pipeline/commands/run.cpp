@@ -24,9 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string ran_words(int stages) {
-  return fmt::format("{} {} ran", stages, stages == 1 ? "stage" : "stages");
-}
+std::string ran_words(int stages) { return fmt::format("{} {} ran", stages, stages == 1 ? "stage" : "stages"); }
 
 /// Runs the jobs of one shard beside the runs of other shards. A run of the whole study writes ranking and report.
 int run_shard(const RunOptions& options) {
@@ -38,8 +36,7 @@ int run_shard(const RunOptions& options) {
   const FolderLock lock(folder / standing.places.notes());
   look_again(standing);
   const int executed = make_rest(request, standing, options);
-  if (!options.quiet)
-    write_stderr(fmt::format("{} {}: {}\n", standing.study.name, options.shard, ran_words(executed)));
+  if (!options.quiet) write_stderr(fmt::format("{} {}: {}\n", standing.study.name, options.shard, ran_words(executed)));
   return say_failures(options.study, ranking_of(standing.study, standing.places, standing.states));
 }
 
@@ -98,8 +95,8 @@ int run(const RunArguments& options) {
   const int executed = make_rest(request, standing, options);
   report_changes(standing.study, standing.places, standing.states);
   const auto& [study, places, states, remembered, look_ups, digests] = standing;
-  const bool any = std::any_of(study.jobs.begin(), study.jobs.end(),
-                               [](const StudyJob& job) { return job.failure.empty(); });
+  const bool any =
+      std::any_of(study.jobs.begin(), study.jobs.end(), [](const StudyJob& job) { return job.failure.empty(); });
   if (!options.quiet && any)
     write_stderr(fmt::format("{}: {}\n", study.name, executed == 0 ? "nothing to do" : ran_words(executed)));
   std::vector<RankingRow> rows = ranking_of(study, places, states);
@@ -119,9 +116,9 @@ int run(const RunArguments& options) {
       "{}: error: {} of {} jobs failed (their reasons are in the table); see the log in each job's folder\n",
       options.study, failed, study.jobs.size()));
   for (const fs::path& page : previews)
-    write_stderr(fmt::format(
-        "note: what the simulation refuses can be seen in {}; after a change: dresslife preview JOB.yaml\n",
-        page.string()));
+    write_stderr(
+        fmt::format("note: what the simulation refuses can be seen in {}; after a change: dresslife preview JOB.yaml\n",
+                    page.string()));
   return 1;
 }
 
@@ -131,22 +128,21 @@ Command run_command() {
   const auto options = std::make_shared<RunArguments>();
   return {
       "run", "run what is not up to date in a study, then rank and report",
-      joined({{study_or_job(*options)},
-              run_options(*options),
-              {{"-n,--dry-run", "", "print what would be made and why, and run nothing", &options->dry_run},
-               json_option(options->json)},
-              {{"--job-time", "SECONDS", "let no stage of a job take longer; 0: no limit",
-                &options->limits.seconds},
-               {"--job-memory",
-                "MB",
-                "let no stage of a job take more memory; 0: no limit",
-                &options->limits.megabytes,
-                {.shown_default = "all of the machine's"}},
-               launcher_option(*options),
-               {"--shard", "K/N",
-                "make only the Kth of N parts of the study, beside runs of the others, and rank nothing",
-                &options->shard}},
-              study_options(*options)}),
+      joined(
+          {{study_or_job(*options)},
+           run_options(*options),
+           {{"-n,--dry-run", "", "print what would be made and why, and run nothing", &options->dry_run},
+            json_option(options->json)},
+           {{"--job-time", "SECONDS", "let no stage of a job take longer; 0: no limit", &options->limits.seconds},
+            {"--job-memory",
+             "MB",
+             "let no stage of a job take more memory; 0: no limit",
+             &options->limits.megabytes,
+             {.shown_default = "all of the machine's"}},
+            launcher_option(*options),
+            {"--shard", "K/N", "make only the Kth of N parts of the study, beside runs of the others, and rank nothing",
+             &options->shard}},
+           study_options(*options)}),
       [options] { return run(*options); }};
 }
 

@@ -17,12 +17,12 @@ int status(const StudyOptions& options) {
   JobList jobs(options.json);
   for (std::size_t k = 0; k < standing.states.size(); ++k) {
     const StudyJob& job = standing.study.jobs[k];
-    const std::string word =
-        job.failure.empty() ? standing.states[k].words() : "failed   " + first_problem(job);
+    const std::string word = job.failure.empty() ? standing.states[k].words() : "failed   " + first_problem(job);
     done += word == "done";
     jobs.add(job.name, word);
   }
-  jobs.end(shown(problem_words(standing.study)) + fmt::format("{} of {} jobs done\n", done, standing.study.jobs.size()));
+  jobs.end(shown(problem_words(standing.study)) +
+           fmt::format("{} of {} jobs done\n", done, standing.study.jobs.size()));
   return 0;
 }
 

@@ -46,10 +46,9 @@ std::string script_of(const SubmitOptions& options, const Cluster& cluster, cons
       "#SBATCH --job-name={}\n#SBATCH --ntasks={} --cpus-per-task=1 --mem-per-cpu={}\n#SBATCH --requeue --output=/dev/null\n",
       standing.study.name, tasks, memory);
   if (!cluster.options.empty()) text += fmt::format("#SBATCH {}\n", cluster.options);
+  text += fmt::format("cd {} && exec >>{} 2>&1 || exit 1\n", shell_word(fs::current_path().string()), whole(log));
   text +=
-      fmt::format("cd {} && exec >>{} 2>&1 || exit 1\n", shell_word(fs::current_path().string()), whole(log));
-  text += fmt::format("exec {} run {} -o {}", whole(program_file()), whole(request_of(options).file),
-                      whole(options.out));
+      fmt::format("exec {} run {} -o {}", whole(program_file()), whole(request_of(options).file), whole(options.out));
   for (const std::string& set : options.sets) text += " --set " + shell_word(set);
   text += fmt::format(" \\\n  --quiet --jobs {} --job-memory {} --launcher {} \\\n", tasks, memory,
                       shell_word(cluster.launcher));
@@ -67,12 +66,12 @@ std::string submitted(const Cluster& cluster, const std::string& more, const fs:
   const int status = said ? ::pclose(said) : -1;
   name = name.substr(0, name.find_first_of(";\n"));  // "17;cluster"
   if (status == 0 && !name.empty() && name.find_first_not_of("0123456789") == std::string::npos) return name;
-  throw InputError({script.string()},
-                   fmt::format("'{}' did not take it ({})", cluster.submit,
-                               WIFEXITED(status) && WEXITSTATUS(status) != 0
-                                   ? fmt::format("exit status {}", WEXITSTATUS(status))
-                                   : "it printed no number"),
-                   "see what it said, and the options of the cluster's file (--cluster)");
+  throw InputError(
+      {script.string()},
+      fmt::format("'{}' did not take it ({})", cluster.submit,
+                  WIFEXITED(status) && WEXITSTATUS(status) != 0 ? fmt::format("exit status {}", WEXITSTATUS(status))
+                                                                : "it printed no number"),
+      "see what it said, and the options of the cluster's file (--cluster)");
 }
 
 int submit(const SubmitOptions& options) {
@@ -91,10 +90,13 @@ int submit(const SubmitOptions& options) {
   write_text_if_changed(script, with_mark(script_of(options, cluster, standing), Mark::script));
   const std::string array = shards > 1 ? fmt::format(" --array=1-{}", shards) : "";
   if (options.only_write) {
-    print(shown(fmt::format("{0} is written; submit it: {1}{2} {0}{3}\n", script.string(), cluster.submit, array,
-                            shards > 1 ? fmt::format("\nThen the rest and the ranking, with the number that this prints: {} --dependency=afterany:NUMBER {}",
-                                                     cluster.submit, script.string())
-                                       : "")));
+    print(shown(fmt::format(
+        "{0} is written; submit it: {1}{2} {0}{3}\n", script.string(), cluster.submit, array,
+        shards > 1
+            ? fmt::format(
+                  "\nThen the rest and the ranking, with the number that this prints: {} --dependency=afterany:NUMBER {}",
+                  cluster.submit, script.string())
+            : "")));
     return 0;
   }
   std::string last = submitted(cluster, array, script);
@@ -115,8 +117,11 @@ Command submit_command() {
   return {"submit", "let a cluster's queue run a study: the same graph, each stage behind the cluster's launcher",
           joined({{study_or_job(*options),
                    {"--cluster", "", "YAML of config/clusters, or a file", &options->cluster},
-                   {"-n,--tasks", "N", "stages at a time, a core each; default: the cluster's tasks",
-                    &options->tasks, {.range = {{1, 1024}}}},
+                   {"-n,--tasks",
+                    "N",
+                    "stages at a time, a core each; default: the cluster's tasks",
+                    &options->tasks,
+                    {.range = {{1, 1024}}}},
                    {"--only-write", "", "write the batch script, and submit nothing", &options->only_write}},
                   study_options(*options)}),
           [options] { return submit(*options); }};

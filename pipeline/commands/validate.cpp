@@ -35,8 +35,7 @@ int validate(const RunOptions& options) {
   const std::vector<RankingRow> rows = made_rows(validation.study, places, options);
   const std::string table = validation_table(validation, rows);
   write_text_if_changed(places.folder / "validation.md", with_mark(table, Mark::xml));
-  write_text_if_changed(places.folder / "validation.svg",
-                        with_mark(validation_picture(validation, rows), Mark::xml));
+  write_text_if_changed(places.folder / "validation.svg", with_mark(validation_picture(validation, rows), Mark::xml));
   print(shown(fmt::format("{}\nPicture: {}\n", table, (places.folder / "validation.svg").string())));
   return say_failures(options.study, rows);
 }

@@ -18,8 +18,7 @@ std::vector<ResultValue> results_of_checks(const std::filesystem::path& motion_f
   const auto names = file.read<std::string>("/check/name");
   const auto values = file.read<double>("/check/value"), limits = file.read<double>("/check/limit");
   std::string lines;
-  for (std::size_t k = 0; k < names.size(); ++k)
-    lines += fmt::format("{} {} {}\n", values[k], limits[k], names[k]);
+  for (std::size_t k = 0; k < names.size(); ++k) lines += fmt::format("{} {} {}\n", values[k], limits[k], names[k]);
   return {{checks_name, lines}};
 }
 

@@ -21,8 +21,8 @@ constexpr std::string_view hdf5_signature = "\x89HDF\r\n\x1a\n";
 
 std::string checksum_block(const std::string& digest, std::uint64_t bytes) {
   std::string block(first_line);
-  block += fmt::format("{}{}{}{} bytes after these {}", before_digest, digest, before_bytes, bytes,
-                       checksum_block_bytes);
+  block +=
+      fmt::format("{}{}{}{} bytes after these {}", before_digest, digest, before_bytes, bytes, checksum_block_bytes);
   block.resize(checksum_block_bytes, '\n');
   return block;
 }
@@ -65,8 +65,7 @@ std::string write_checksum(WholeFile& file) {
   };
   constexpr auto behind_the_block = static_cast<std::int64_t>(checksum_block_bytes);
   const std::string digest = digest_read_back(behind_the_block);
-  const std::string block =
-      checksum_block(digest, static_cast<std::uint64_t>(size) - checksum_block_bytes);
+  const std::string block = checksum_block(digest, static_cast<std::uint64_t>(size) - checksum_block_bytes);
   file.write_at(block.data(), block.size(), 0);
   if (digest_read_back(behind_the_block) != digest) refuse("twice the same bytes were not the same");
   return digest;
@@ -79,10 +78,8 @@ std::string InputBytes::read_checksum(const std::string& remedy) const {
   const bool block_before = block.ends_with(hdf5_signature) && block.size() > checksum_block_bytes;
   block.resize(std::min<std::size_t>(block.size(), checksum_block_bytes));
   if (!block.starts_with(first_line) && !block_before) return "";
-  const std::optional<Promise> promise =
-      block.size() == checksum_block_bytes ? promise_of(block) : std::nullopt;
-  if (!promise)
-    throw MachineFault(where(), "is damaged (its first 512 bytes are no checksum)", remedy);
+  const std::optional<Promise> promise = block.size() == checksum_block_bytes ? promise_of(block) : std::nullopt;
+  if (!promise) throw MachineFault(where(), "is damaged (its first 512 bytes are no checksum)", remedy);
   if (promise->bytes + checksum_block_bytes != size())
     throw MachineFault(where(),
                        fmt::format("is cut off or has grown (it has {} bytes and promises {})", size(),
@@ -160,7 +157,8 @@ bool InputBytes::read(void* bytes, std::size_t count, std::uint64_t address) noe
 namespace {
 
 [[noreturn]] void refuse_other_bytes(const Where& where) {
-  throw MachineFault(where, "holds other bytes now than when it was checked (another program writes it, or the disk fails)",
+  throw MachineFault(where,
+                     "holds other bytes now than when it was checked (another program writes it, or the disk fails)",
                      "let nothing write it meanwhile, check the disk");
 }
 

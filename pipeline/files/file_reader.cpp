@@ -40,8 +40,7 @@ Handle FileReader::Impl::one_value(hid_t object, const std::string& attribute) c
   if (!id.valid()) fail(fmt::format("attribute '{}' is missing", attribute));
   const Handle space(H5Aget_space(id), H5Sclose);
   if (H5Sget_simple_extent_npoints(space) != 1)
-    fail(fmt::format("attribute '{}' holds {} values (must be one)", attribute,
-                     H5Sget_simple_extent_npoints(space)));
+    fail(fmt::format("attribute '{}' holds {} values (must be one)", attribute, H5Sget_simple_extent_npoints(space)));
   return id;
 }
 
@@ -51,16 +50,15 @@ std::string FileReader::Impl::text_of(hid_t object, const std::string& attribute
   if (H5Tget_class(type) != H5T_STRING) fail(fmt::format("attribute '{}' is not text", attribute));
   if (H5Tis_variable_str(type) > 0) {
     char* words = nullptr;
-    if (H5Aread(id, type, &words) < 0 || !words)
-      fail(fmt::format("attribute '{}' cannot be read", attribute));
+    if (H5Aread(id, type, &words) < 0 || !words) fail(fmt::format("attribute '{}' cannot be read", attribute));
     std::string text(words);
     H5free_memory(words);
     return text;
   }
   const std::size_t length = H5Tget_size(type);
   if (length > bytes)
-    fail(fmt::format("attribute '{}' is a text of {} bytes in a file of {} (the file is damaged)", attribute,
-                     length, bytes));
+    fail(fmt::format("attribute '{}' is a text of {} bytes in a file of {} (the file is damaged)", attribute, length,
+                     bytes));
   std::string text(length, '\0');
   if (H5Aread(id, type, text.data()) < 0) fail(fmt::format("attribute '{}' cannot be read", attribute));
   text.resize(std::min(text.size(), text.find('\0')));
@@ -79,10 +77,9 @@ void FileReader::Impl::check_format() {
   int version = 0;
   read_number("format_version", H5T_NATIVE_INT, &version);
   if (version > format->version)
-    throw InputError(
-        {name.string()},
-        fmt::format("has format version {} (this program reads up to {})", version, format->version),
-        "update dresslife");
+    throw InputError({name.string()},
+                     fmt::format("has format version {} (this program reads up to {})", version, format->version),
+                     "update dresslife");
 }
 
 void FileReader::Impl::open_dataset(const Dataset& description) {
@@ -119,8 +116,7 @@ void FileReader::Impl::check_type(const Open& made) const {
   if (!fits) fail(fmt::format("dataset {} has the wrong type", made.description->path));
   const std::string unit = text_of(made.id, "unit");
   if (unit != made.description->unit)
-    fail(fmt::format("dataset {} has unit '{}' (must be '{}')", made.description->path, unit,
-                     made.description->unit));
+    fail(fmt::format("dataset {} has unit '{}' (must be '{}')", made.description->path, unit, made.description->unit));
 }
 
 void FileReader::Impl::check_shape(Open& made) {
@@ -136,20 +132,17 @@ void FileReader::Impl::check_shape(Open& made) {
       fail(fmt::format("dataset {} is too large", made.description->path));
     const AxisLength axis(shape[i]);
     if (axis.fixed ? made.lengths[i] != axis.fixed : made.lengths[i] < axis.plus)
-      fail(fmt::format("dataset {} has length {} (must be {})", made.description->path, made.lengths[i],
-                       shape[i]));
+      fail(fmt::format("dataset {} has length {} (must be {})", made.description->path, made.lengths[i], shape[i]));
     if (axis.fixed) continue;
     const auto [entry, fresh] = axes.emplace(axis.name, made.lengths[i] - axis.plus);
     if (!fresh && entry->second + axis.plus != made.lengths[i])
-      fail(fmt::format("dataset {} has {} values along '{}' (others have {})", made.description->path,
-                       made.lengths[i], shape[i], entry->second + axis.plus));
+      fail(fmt::format("dataset {} has {} values along '{}' (others have {})", made.description->path, made.lengths[i],
+                       shape[i], entry->second + axis.plus));
   }
 }
 
-void FileReader::Impl::read(const Open& from, std::size_t first, std::size_t count, hid_t type,
-                            void* out) const {
-  if (first + count > from.lengths[0])
-    throw std::logic_error("rows beyond the end of " + from.description->path);
+void FileReader::Impl::read(const Open& from, std::size_t first, std::size_t count, hid_t type, void* out) const {
+  if (first + count > from.lengths[0]) throw std::logic_error("rows beyond the end of " + from.description->path);
   std::vector<hsize_t> begin(from.lengths.size(), 0), length = from.lengths;
   begin[0] = first;
   length[0] = count;
@@ -157,8 +150,7 @@ void FileReader::Impl::read(const Open& from, std::size_t first, std::size_t cou
   if (from.chunks_to_be_checked) check_chunks(from);
   const Handle file_space(H5Dget_space(from.id), H5Sclose);
   H5Sselect_hyperslab(file_space, H5S_SELECT_SET, begin.data(), nullptr, length.data(), nullptr);
-  const Handle memory_space(H5Screate_simple(static_cast<int>(length.size()), length.data(), nullptr),
-                            H5Sclose);
+  const Handle memory_space(H5Screate_simple(static_cast<int>(length.size()), length.data(), nullptr), H5Sclose);
   if (H5Dread(from.id, type, memory_space, file_space, H5P_DEFAULT, out) < 0)
     fail(fmt::format("dataset {} cannot be read (the file is damaged)", from.description->path));
 }
@@ -180,8 +172,7 @@ void FileReader::Impl::read_values(const std::string& path, std::size_t first, s
 
 /// Stored: type of the numbers in the file.
 template <class Stored, class T>
-void FileReader::Impl::read_packed(const Open& from, std::size_t first, std::size_t count,
-                                   std::vector<T>& out) const {
+void FileReader::Impl::read_packed(const Open& from, std::size_t first, std::size_t count, std::vector<T>& out) const {
   const std::size_t numbers = count * from.row_values;
   if constexpr (std::is_same_v<Stored, T>) {
     out.resize(numbers);
@@ -235,7 +226,8 @@ FileReader::FileReader(const std::filesystem::path& file, const Format& format, 
   impl_->input.check_reads();
 }
 
-FileReader::FileReader(const std::filesystem::path& file, const Format& format, std::initializer_list<std::string_view> datasets)
+FileReader::FileReader(const std::filesystem::path& file, const Format& format,
+                       std::initializer_list<std::string_view> datasets)
     : impl_(std::make_unique<Impl>()) {
   open(file, format, true);
   for (const Dataset& description : format.datasets)
@@ -256,16 +248,12 @@ std::size_t FileReader::length(const std::string& axis) const {
   return found == impl_->axes.end() ? 0 : found->second;
 }
 std::size_t FileReader::rows(const std::string& dataset) const { return impl_->dataset(dataset).lengths[0]; }
-std::size_t FileReader::row_size(const std::string& dataset) const {
-  return impl_->dataset(dataset).row_values;
-}
+std::size_t FileReader::row_size(const std::string& dataset) const { return impl_->dataset(dataset).row_values; }
 
-void FileReader::read_rows(const std::string& d, std::size_t first, std::size_t count,
-                           std::vector<double>& out) const {
+void FileReader::read_rows(const std::string& d, std::size_t first, std::size_t count, std::vector<double>& out) const {
   impl_->read_values(d, first, count, out);
 }
-void FileReader::read_rows(const std::string& d, std::size_t first, std::size_t count,
-                           std::vector<float>& out) const {
+void FileReader::read_rows(const std::string& d, std::size_t first, std::size_t count, std::vector<float>& out) const {
   impl_->read_values(d, first, count, out);
 }
 void FileReader::read_rows(const std::string& d, std::size_t first, std::size_t count,
@@ -308,9 +296,7 @@ void FileReader::read_rows(const std::string& d, std::size_t first, std::size_t 
 
 std::string FileReader::stored(const std::string& dataset) const { return impl_->stored(impl_->dataset(dataset)); }
 
-std::string FileReader::text_attribute(const std::string& name) const {
-  return impl_->text_of(impl_->file, name);
-}
+std::string FileReader::text_attribute(const std::string& name) const { return impl_->text_of(impl_->file, name); }
 
 double FileReader::number_attribute(const std::string& name) const {
   double value = 0;
@@ -360,8 +346,8 @@ bool is_dresslife_file(const std::filesystem::path& file) {
 
 const Format* format_of(const std::filesystem::path& file) {
   const std::string written = written_format(file);
-  for (const Format* format : {&motion_format(), &strain_format(), &life_format(), &preview_format(),
-                               &screening_format(), &ways_format()})
+  for (const Format* format :
+       {&motion_format(), &strain_format(), &life_format(), &preview_format(), &screening_format(), &ways_format()})
     if (format->name == written) return format;
   return nullptr;
 }

@@ -19,8 +19,8 @@ struct FileReader::Impl {
     std::size_t row_values = 1;
     /// Rows of a chunk that scale_offset.h or list_deflate.h unpacks; 0: the library unpacks.
     std::size_t packed_rows = 0;
-    mutable std::vector<char> unpacked;  ///< the last unpacked chunk, for reads of single rows
-    mutable hsize_t unpacked_at = 0;     ///< first row of that chunk
+    mutable std::vector<char> unpacked;         ///< the last unpacked chunk, for reads of single rows
+    mutable hsize_t unpacked_at = 0;            ///< first row of that chunk
     std::vector<hsize_t> chunk;                 ///< length along each axis; empty: not in chunks
     mutable bool chunks_to_be_checked = false;  ///< check before the library reads them
   };
@@ -69,8 +69,7 @@ struct FileReader::Impl {
   [[noreturn]] void fail_at_chunk(const Open& from) const;
   /// Unpacks rows [first, first + count) of packed numbers. unpack(chunk, numbers) returns false for a damaged chunk.
   template <class T, class Unpack>
-  void unpack_rows(const Open& from, std::size_t first, std::size_t count, T* out,
-                   const Unpack& unpack) const;
+  void unpack_rows(const Open& from, std::size_t first, std::size_t count, T* out, const Unpack& unpack) const;
   void unpack_rows(const Open& from, std::size_t first, std::size_t count, float* out) const;
   void unpack_rows(const Open& from, std::size_t first, std::size_t count, double* out) const;
   void unpack_rows(const Open& from, std::size_t first, std::size_t count, std::uint32_t* out) const;

@@ -9,7 +9,8 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr std::size_t most_chunk_bytes = 64 << 20;  // one chunk is kept unpacked; other programs write chunks of 1 MB or less
+constexpr std::size_t most_chunk_bytes =
+    64 << 20;  // one chunk is kept unpacked; other programs write chunks of 1 MB or less
 
 using Filters = std::vector<H5Z_filter_t>;
 
@@ -34,8 +35,7 @@ bool is_of(H5T_class_t numbers, std::size_t bytes, hid_t dataset) {
 
 /// Returns whether the first filter of the dataset has the parameters of scale_offset.h.
 bool is_scale_offset(hid_t creation, int decimals) {
-  std::array<unsigned, 20>
-      values{};  // scale type, scale, numbers per chunk, class, size, sign, order, fill value ...
+  std::array<unsigned, 20> values{};  // scale type, scale, numbers per chunk, class, size, sign, order, fill value ...
   std::size_t count = values.size();
   unsigned flags = 0, config = 0;
   H5Pget_filter2(creation, 0, &flags, &count, values.data(), 0, nullptr, &config);
@@ -53,8 +53,7 @@ void FileReader::Impl::check_storage(Open& made) const {
   const Handle type(H5Dget_type(made.id), H5Tclose);
   hsize_t promised = H5Tget_size(type);
   for (const hsize_t length : made.lengths)
-    if (__builtin_mul_overflow(promised, length, &promised))
-      fail(fmt::format("dataset {} is too large", path));
+    if (__builtin_mul_overflow(promised, length, &promised)) fail(fmt::format("dataset {} is too large", path));
   const H5D_layout_t layout = H5Pget_layout(creation);
   if (H5Pget_external_count(creation) != 0 || layout == H5D_VIRTUAL)
     fail(fmt::format("dataset {} lies in other files (the data must lie in the file itself)", path));
@@ -90,8 +89,7 @@ void FileReader::Impl::check_chunks_are_there(Open& made, hid_t creation) const 
 void FileReader::Impl::choose_reading(Open& made, hid_t creation) const {
   const Filters filters = filters_of(creation);
   const std::optional<int> decimals = made.description->decimals;
-  const bool is_list =
-      made.description->type == Type::u32 && made.chunk.size() == 1 && is_of(H5T_INTEGER, 4, made.id);
+  const bool is_list = made.description->type == Type::u32 && made.chunk.size() == 1 && is_of(H5T_INTEGER, 4, made.id);
   const bool has_whole_rows = std::equal(made.chunk.begin() + 1, made.chunk.end(), made.lengths.begin() + 1);
   const std::size_t float_bytes = made.description->type == Type::f32 ? 4 : 8;
   if (filters.empty())
@@ -101,8 +99,7 @@ void FileReader::Impl::choose_reading(Open& made, hid_t creation) const {
     made.packed_rows = made.chunk[0];
   else if (filters == Filters{H5Z_FILTER_DEFLATE} && is_list)
     made.packed_rows = made.chunk[0];
-  else if (filters == Filters{H5Z_FILTER_DEFLATE} ||
-           filters == Filters{H5Z_FILTER_SHUFFLE, H5Z_FILTER_DEFLATE})
+  else if (filters == Filters{H5Z_FILTER_DEFLATE} || filters == Filters{H5Z_FILTER_SHUFFLE, H5Z_FILTER_DEFLATE})
     made.chunks_to_be_checked = true;
   else
     throw InputError(
@@ -115,8 +112,8 @@ void FileReader::Impl::check_fits(const Open& made, hsize_t chunks, hsize_t chun
   constexpr hsize_t least_index_bytes = 4;  // per chunk: at least its length is stored
   const std::string& path = made.description->path;
   if (chunks > bytes / (filtered ? least_index_bytes : chunk_size))
-    fail(fmt::format("dataset {} promises {} chunks of {} bytes in a file of {} (the file is damaged)", path,
-                     chunks, chunk_size, bytes));
+    fail(fmt::format("dataset {} promises {} chunks of {} bytes in a file of {} (the file is damaged)", path, chunks,
+                     chunk_size, bytes));
   if (H5Dget_storage_size(made.id) > bytes)
     fail(fmt::format("dataset {} is larger than its file of {} bytes (the file is damaged)", path, bytes));
 }
@@ -134,8 +131,7 @@ void FileReader::Impl::read_chunk(const Open& from, const hsize_t* at, std::vect
   std::uint32_t filters_skipped = 0;
   const bool found = H5Dget_chunk_storage_size(from.id, at, &size) >= 0;
   packed.resize(size);
-  if (!found || H5Dread_chunk(from.id, H5P_DEFAULT, at, &filters_skipped, packed.data()) < 0 ||
-      filters_skipped != 0)
+  if (!found || H5Dread_chunk(from.id, H5P_DEFAULT, at, &filters_skipped, packed.data()) < 0 || filters_skipped != 0)
     fail_at_chunk(from);
 }
 
@@ -152,8 +148,7 @@ void FileReader::Impl::for_each_chunk(const Open& from, const Use& use) const {
     read_chunk(from, at.data(), packed);
     use(packed);
     std::size_t axis = at.size() - 1;
-    for (at[axis] += from.chunk[axis]; axis > 0 && at[axis] >= from.lengths[axis];
-         at[axis] += from.chunk[axis])
+    for (at[axis] += from.chunk[axis]; axis > 0 && at[axis] >= from.lengths[axis]; at[axis] += from.chunk[axis])
       at[axis--] = 0;
   }
 }
@@ -178,7 +173,8 @@ std::string FileReader::Impl::stored(const Open& from) const {
   std::string all(length, '\0');
   if (length == 0 || H5Tencode(type, all.data(), &length) < 0) return "";
   for (const H5Z_filter_t filter : filters_of(creation)) all += fmt::format(" {}", filter);
-  for (std::size_t axis = 0; axis < from.chunk.size(); ++axis) all += fmt::format(" {}/{}", from.lengths[axis], from.chunk[axis]);
+  for (std::size_t axis = 0; axis < from.chunk.size(); ++axis)
+    all += fmt::format(" {}/{}", from.lengths[axis], from.chunk[axis]);
   for_each_chunk(from, [&](const std::vector<char>& packed) {
     all += fmt::format(" {}:", packed.size());
     all.append(packed.begin(), packed.end());
@@ -206,8 +202,7 @@ void FileReader::Impl::unpack_rows(const Open& from, std::size_t first, std::siz
       from.unpacked_at = chunk[0];
     }
     const std::size_t here = std::min<std::size_t>(end, chunk[0] + from.packed_rows) - row;
-    std::copy_n(reinterpret_cast<const T*>(unpacked.data()) + (row - chunk[0]) * row_values,
-                here * row_values, out);
+    std::copy_n(reinterpret_cast<const T*>(unpacked.data()) + (row - chunk[0]) * row_values, here * row_values, out);
     row += here;
     out += here * row_values;
   }
@@ -219,15 +214,13 @@ void FileReader::Impl::unpack_rows(const Open& from, std::size_t first, std::siz
   });
 }
 
-void FileReader::Impl::unpack_rows(const Open& from, std::size_t first, std::size_t count,
-                                   double* out) const {
+void FileReader::Impl::unpack_rows(const Open& from, std::size_t first, std::size_t count, double* out) const {
   unpack_rows(from, first, count, out, [&](std::span<const char> chunk, std::span<double> numbers) {
     return unpack_chunk(chunk, *from.description->decimals, numbers);
   });
 }
 
-void FileReader::Impl::unpack_rows(const Open& from, std::size_t first, std::size_t count,
-                                   std::uint32_t* out) const {
+void FileReader::Impl::unpack_rows(const Open& from, std::size_t first, std::size_t count, std::uint32_t* out) const {
   Inflater inflater;
   unpack_rows(from, first, count, out, [&](std::span<const char> chunk, std::span<std::uint32_t> numbers) {
     return inflater.unpack(chunk, {reinterpret_cast<char*>(numbers.data()), numbers.size_bytes()});

@@ -98,8 +98,7 @@ struct FileWriter::Impl {
       made.type = Handle(H5Tcopy(number_type(made.description->type)), H5Tclose);
       made.value_bytes = H5Tget_size(made.type);
     }
-    const std::size_t most =
-        made.description->packed() ? packed_chunk_numbers * made.value_bytes : written_at_once;
+    const std::size_t most = made.description->packed() ? packed_chunk_numbers * made.value_bytes : written_at_once;
     made.chunk_rows = std::max<std::size_t>(1, most / std::max<std::size_t>(1, made.row_bytes()));
     made.attributes["unit"] = made.description->unit;
     return made;
@@ -115,8 +114,7 @@ struct FileWriter::Impl {
       most[i] = i ? lengths[i] : H5S_UNLIMITED;
       chunk[i] = i ? std::max<hsize_t>(1, lengths[i]) : made.chunk_rows;
     }
-    const Handle space(H5Screate_simple(static_cast<int>(shape.size()), lengths.data(), most.data()),
-                       H5Sclose);
+    const Handle space(H5Screate_simple(static_cast<int>(shape.size()), lengths.data(), most.data()), H5Sclose);
     const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
     H5Pset_chunk(creation, static_cast<int>(shape.size()), chunk.data());
     H5Pset_obj_track_times(creation, false);
@@ -182,8 +180,7 @@ struct FileWriter::Impl {
     const std::size_t rest = target.buffer.size();
     target.buffer.resize(whole_chunk);
     for (std::size_t at = rest; at < whole_chunk; at += target.value_bytes)
-      std::copy_n(target.buffer.data() + rest - target.value_bytes, target.value_bytes,
-                  target.buffer.data() + at);
+      std::copy_n(target.buffer.data() + rest - target.value_bytes, target.value_bytes, target.buffer.data() + at);
     write_chunk(target, target.buffer.data(), rest / target.row_bytes());
     target.buffer.clear();
   }
@@ -222,8 +219,7 @@ struct FileWriter::Impl {
     if (H5Dset_extent(target.id, length.data()) < 0) fail("dataset " + target.description->path);
     const Handle file_space(H5Dget_space(target.id), H5Sclose);
     H5Sselect_hyperslab(file_space, H5S_SELECT_SET, first.data(), nullptr, count.data(), nullptr);
-    const Handle memory_space(H5Screate_simple(static_cast<int>(shape.size()), count.data(), nullptr),
-                              H5Sclose);
+    const Handle memory_space(H5Screate_simple(static_cast<int>(shape.size()), count.data(), nullptr), H5Sclose);
     if (H5Dwrite(target.id, target.type, memory_space, file_space, H5P_DEFAULT, target.buffer.data()) < 0)
       fail("dataset " + target.description->path);
     target.rows += rows;
@@ -260,7 +256,8 @@ struct FileWriter::Impl {
   }
 
   void append_text(const std::string& path, std::span<const std::string> values) {
-    const std::size_t longest = largest_of(values, std::size_t{0}, [](const std::string& value) { return value.size(); });
+    const std::size_t longest =
+        largest_of(values, std::size_t{0}, [](const std::string& value) { return value.size(); });
     Open& target = dataset(path, longest);
     if (longest > target.value_bytes) throw std::logic_error("text of " + path + " is longer than its width");
     std::vector<char> bytes(values.size() * target.value_bytes, '\0');
@@ -275,15 +272,14 @@ struct FileWriter::Impl {
     for (const Dataset& description : format->datasets) {
       const auto found = open.find(description.path);
       if (found == open.end()) {
-        if (!description.may_be_absent)
-          throw std::logic_error("dataset " + description.path + " was never written");
+        if (!description.may_be_absent) throw std::logic_error("dataset " + description.path + " was never written");
         continue;
       }
       const AxisLength axis(description.shape[0]);
       const auto [entry, fresh] = seen.emplace(axis.name, found->second.rows - axis.plus);
       if (!axis.fixed && !fresh && entry->second + axis.plus != found->second.rows)
-        throw std::logic_error(fmt::format("{} has {} rows, others of its axis {}", description.path,
-                                           found->second.rows, entry->second));
+        throw std::logic_error(
+            fmt::format("{} has {} rows, others of its axis {}", description.path, found->second.rows, entry->second));
     }
   }
 };
@@ -297,13 +293,12 @@ FileWriter::FileWriter(std::filesystem::path file, const Format& format) {
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   H5Pset_obj_track_times(creation, false);
   H5Pset_userblock(creation, checksum_block_bytes);
-  impl_->file =
-      Handle(H5Fcreate(impl_->whole.final_name().c_str(), H5F_ACC_TRUNC, creation, access), H5Fclose);
+  impl_->file = Handle(H5Fcreate(impl_->whole.final_name().c_str(), H5F_ACC_TRUNC, creation, access), H5Fclose);
   if (!impl_->file.valid()) impl_->fail("a new file");
   attribute("format", format.name);
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Handle version(
-      H5Acreate2(impl_->file, "format_version", H5T_STD_I32LE, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  const Handle version(H5Acreate2(impl_->file, "format_version", H5T_STD_I32LE, space, H5P_DEFAULT, H5P_DEFAULT),
+                       H5Aclose);
   if (!version.valid() || H5Awrite(version, H5T_NATIVE_INT, &format.version) < 0)
     impl_->fail("attribute format_version");
 }
@@ -311,17 +306,13 @@ FileWriter::FileWriter(std::filesystem::path file, const Format& format) {
 FileWriter::~FileWriter() = default;
 
 void FileWriter::set_axis(const std::string& axis, std::size_t length) { impl_->axes[axis] = length; }
-void FileWriter::set_text_width(const std::string& dataset, std::size_t bytes) {
-  impl_->text_widths[dataset] = bytes;
-}
+void FileWriter::set_text_width(const std::string& dataset, std::size_t bytes) { impl_->text_widths[dataset] = bytes; }
 void FileWriter::append(const std::string& d, std::span<const double> rows) { impl_->append(d, rows); }
 void FileWriter::append(const std::string& d, std::span<const float> rows) { impl_->append(d, rows); }
 void FileWriter::append(const std::string& d, std::span<const std::int32_t> rows) { impl_->append(d, rows); }
 void FileWriter::append(const std::string& d, std::span<const std::uint32_t> rows) { impl_->append(d, rows); }
 void FileWriter::append(const std::string& d, std::span<const std::uint64_t> rows) { impl_->append(d, rows); }
-void FileWriter::append(const std::string& d, std::span<const std::string> rows) {
-  impl_->append_text(d, rows);
-}
+void FileWriter::append(const std::string& d, std::span<const std::string> rows) { impl_->append_text(d, rows); }
 
 void FileWriter::attribute(const std::string& name, const std::string& value) {
   if (!write_text_attribute(impl_->file, name, value)) impl_->fail("attribute " + name);
@@ -329,13 +320,11 @@ void FileWriter::attribute(const std::string& name, const std::string& value) {
 
 void FileWriter::attribute(const std::string& name, double value) {
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Handle made(H5Acreate2(impl_->file, name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT),
-                    H5Aclose);
+  const Handle made(H5Acreate2(impl_->file, name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
   if (!made.valid() || H5Awrite(made, H5T_NATIVE_DOUBLE, &value) < 0) impl_->fail("attribute " + name);
 }
 
-void FileWriter::dataset_attribute(const std::string& dataset, const std::string& name,
-                                   const std::string& value) {
+void FileWriter::dataset_attribute(const std::string& dataset, const std::string& name, const std::string& value) {
   Impl::Open& target = impl_->dataset(dataset);
   target.attributes[name] = value;
   if (target.id.valid() && !write_text_attribute(target.id, name, value)) impl_->fail("attribute " + name);
@@ -364,8 +353,7 @@ void FileWriter::copy(const FileReader& from, const std::string& dataset) {
       description.type != source.description->type || description.shape.size() != source.lengths.size())
     throw std::logic_error("dataset " + dataset + " cannot be copied");
   impl_->make_groups(dataset);
-  if (H5Ocopy(from.impl_->file, dataset.c_str(), impl_->file, dataset.c_str(), H5P_DEFAULT, H5P_DEFAULT) <
-      0) {
+  if (H5Ocopy(from.impl_->file, dataset.c_str(), impl_->file, dataset.c_str(), H5P_DEFAULT, H5P_DEFAULT) < 0) {
     impl_->whole.check();
     from.impl_->fail(fmt::format("dataset {} cannot be copied (the file is damaged)", dataset));
   }

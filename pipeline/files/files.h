@@ -132,18 +132,15 @@ class FileReader {
     read_rows(dataset, 0, rows(dataset), values);
     return values;
   }
-  void read_rows(const std::string& dataset, std::size_t first, std::size_t count,
-                 std::vector<double>& out) const;
-  void read_rows(const std::string& dataset, std::size_t first, std::size_t count,
-                 std::vector<float>& out) const;
+  void read_rows(const std::string& dataset, std::size_t first, std::size_t count, std::vector<double>& out) const;
+  void read_rows(const std::string& dataset, std::size_t first, std::size_t count, std::vector<float>& out) const;
   void read_rows(const std::string& dataset, std::size_t first, std::size_t count,
                  std::vector<std::int32_t>& out) const;
   void read_rows(const std::string& dataset, std::size_t first, std::size_t count,
                  std::vector<std::uint32_t>& out) const;
   void read_rows(const std::string& dataset, std::size_t first, std::size_t count,
                  std::vector<std::uint64_t>& out) const;
-  void read_rows(const std::string& dataset, std::size_t first, std::size_t count,
-                 std::vector<std::string>& out) const;
+  void read_rows(const std::string& dataset, std::size_t first, std::size_t count, std::vector<std::string>& out) const;
 
   /// Returns the bytes of a dataset as they are stored, with its type, lengths and filters. Equal results mean equal values.
   /// Unequal ones may be the same values, packed by another program. Empty: not known (no chunks, texts of any length).

@@ -40,8 +40,7 @@ struct AttributeRow {
 };
 
 /// Adds datasets. group: prefix of every path. set: prefix of the axes that count sites and reversals.
-void add(Format& format, std::initializer_list<Row> rows, const std::string& group = "",
-         const std::string& set = "") {
+void add(Format& format, std::initializer_list<Row> rows, const std::string& group = "", const std::string& set = "") {
   for (const Row& row : rows) {
     Dataset& dataset = format.datasets.emplace_back();
     dataset = {group + row.path, row.type, {}, row.unit, row.meaning};
@@ -640,8 +639,8 @@ const Format& ways_format() { return made<make_ways_format>(); }
 std::string file_manual() {
   std::string text;
   for (const Format* format : {&motion_format(), &strain_format(), &life_format()}) {
-    text += fmt::format("### {} version {}: {} (written by {})\n\n", format->name, format->version,
-                        format->purpose, format->made_by);
+    text += fmt::format("### {} version {}: {} (written by {})\n\n", format->name, format->version, format->purpose,
+                        format->made_by);
     text += "| dataset | type | shape | unit | meaning |\n|---|---|---|---|---|\n";
     for (const Dataset& dataset : format->datasets) {
       if (dataset.path.starts_with("/bound_")) continue;  // the text below the table describes them

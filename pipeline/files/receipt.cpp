@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <chrono>
 
+#include "pipeline/base/digest.h"
 #include "pipeline/base/errors.h"
 #include "pipeline/files/checksum.h"
-#include "pipeline/base/digest.h"
 #include "pipeline/files/files.h"
 #include "pipeline/files/words.h"
 
@@ -74,8 +74,7 @@ std::optional<std::string> whole_text(const std::filesystem::path& name, std::in
 /// in_line() replaces line feeds of a text, out_of_line() restores them.
 std::string in_line(const std::string& text) {
   std::string line;
-  for (const char letter : text)
-    line += letter == '\n' ? "\\n" : letter == '\\' ? "\\\\" : std::string(1, letter);
+  for (const char letter : text) line += letter == '\n' ? "\\n" : letter == '\\' ? "\\\\" : std::string(1, letter);
   return line;
 }
 std::string out_of_line(std::string_view line) {
@@ -108,9 +107,8 @@ std::string text_of(const Receipt& receipt) {
                                  receipt.output, words_of(receipt.state));
   for (const ResultValue& results : receipt.results)
     text += results.text.empty() ? fmt::format("number {} {}\n", results.name, results.number)
-                              : fmt::format("text {} {}\n", results.name, in_line(results.text));
-  for (const auto& [what, digest] : receipt.made_with)
-    text += fmt::format("with {} {}\n", digest, in_line(what));
+                                 : fmt::format("text {} {}\n", results.name, in_line(results.text));
+  for (const auto& [what, digest] : receipt.made_with) text += fmt::format("with {} {}\n", digest, in_line(what));
   return text;
 }
 
@@ -124,8 +122,7 @@ std::string note_digests(const std::vector<std::filesystem::path>& files) {
     const auto now = std::chrono::system_clock::now().time_since_epoch();
     if (!state.exists() || now - std::chrono::nanoseconds(state.changed_ns) < tick) continue;
     const std::string digest = Digests().of(file);
-    if (state_of(file) == state)
-      notes += fmt::format("{} {} {}\n", digest, words_of(state), in_line(file.string()));
+    if (state_of(file) == state) notes += fmt::format("{} {} {}\n", digest, words_of(state), in_line(file.string()));
   }
   return notes;
 }

@@ -11,8 +11,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-static_assert(std::endian::native == std::endian::little,
-              "headers and numbers are written as they lie in memory");
+static_assert(std::endian::native == std::endian::little, "headers and numbers are written as they lie in memory");
 
 constexpr std::size_t header_bytes = 21;
 constexpr int whole = 32;             // bits of an unchanged number
@@ -101,8 +100,7 @@ std::uint64_t word_at(const char* at) {
 
 int bits_for(double largest, double smallest, double scale) {
   const double span = (largest - smallest) * scale + 0.5;
-  return span < std::exp2(most_bits_of_double) ? std::bit_width(static_cast<std::uint64_t>(span))
-                                               : whole_double;
+  return span < std::exp2(most_bits_of_double) ? std::bit_width(static_cast<std::uint64_t>(span)) : whole_double;
 }
 
 /// Makes the chunk long enough for the packed numbers and `spare` more bytes, and writes its head.
@@ -232,8 +230,7 @@ bool unpack_chunk(std::span<const char> chunk, int decimals, std::span<double> n
   const std::size_t inside =
       stream < rest.size() ? 0 : stream - sizeof(std::uint64_t);  // words begin before this offset
   std::size_t k = 0;
-  for (; k < numbers.size() && k * width / 8 < inside; ++k)
-    numbers[k] = number_at(in + k * width / 8, k * width);
+  for (; k < numbers.size() && k * width / 8 < inside; ++k) numbers[k] = number_at(in + k * width / 8, k * width);
   for (; k < numbers.size(); ++k) {
     const std::size_t at = k * width / 8;
     rest.fill(0);

@@ -48,9 +48,7 @@ std::string value_words(const UncertainParameter& parameter, double z, double ow
   return fmt::format("{:.2g} times {} ({}: {:.3g})", by, parameter.cause, parameter.key, own * by);
 }
 
-std::string percent_words(double share) {
-  return fmt::format("{:.0f} %", 100 * share);
-}
+std::string percent_words(double share) { return fmt::format("{:.0f} %", 100 * share); }
 
 std::string measurement_words(const UncertainParameter& parameter, const Uncertainty& known) {
   const double now = parameter.z_of(known.spread[index_of(parameter.name)]) * parameter.deviation();

@@ -34,8 +34,7 @@ void describe(Fields& f, LearnedFrom& from) {
 }
 
 void describe(Fields& f, LearnedWithin& within) {
-  f.maybe_number("least_strain_range", within.least_strain_range, at_least(0),
-                 "of the worst wire, over the tests");
+  f.maybe_number("least_strain_range", within.least_strain_range, at_least(0), "of the worst wire, over the tests");
   f.maybe_number("largest_strain_range", within.largest_strain_range, at_least(0), "likewise");
   f.maybe_number("largest_curvature_1_per_m", within.largest_curvature, at_least(0), "of the tests");
   f.maybe_number("largest_twist_deg_per_m", within.largest_twist, at_least(0), "of the tests");
@@ -54,8 +53,7 @@ void describe(Fields& f, LearnedSetting& setting) {
 void describe(Fields& f, LearnedCable& cable) {
   f.text("name", cable.name, Need::required, "of the cable");
   f.text("hose", cable.hose, Need::optional, "dresspack that it lay in; empty: it was tested alone");
-  f.text("construction", cable.construction, Need::required,
-         "digest of its parts, without names and friction keys");
+  f.text("construction", cable.construction, Need::required, "digest of its parts, without names and friction keys");
   f.text("friction", cable.friction, Need::optional, "friction keys of its parts");
 }
 
@@ -70,10 +68,9 @@ void describe(Fields& f, LearnedUnder& under) {
       "cables", under.cables, Need::optional,
       "a job with other friction keys is refused; for a job with other cables friction_inside, friction_hose and play "
       "keep their priors");
-  f.list(
-      "materials", under.materials, Need::optional,
-      "a job with other constants is refused; for a job with other materials strength, slope and scatter keep their "
-      "priors");
+  f.list("materials", under.materials, Need::optional,
+         "a job with other constants is refused; for a job with other materials strength, slope and scatter keep their "
+         "priors");
 }
 
 void describe(Fields& f, Calibration& calibration) {
@@ -87,8 +84,7 @@ void describe(Fields& f, Calibration& calibration) {
   f.text("note", calibration.note, Need::optional, "how it was learned");
   f.list("parameters", calibration.parameters, Need::required, "what was learned");
   f.group("under", calibration.under, Need::optional, "what the tests were computed with");
-  f.group("within", calibration.within, Need::optional,
-          "the range of the tests; outside it nothing was tested");
+  f.group("within", calibration.within, Need::optional, "the range of the tests; outside it nothing was tested");
   f.list("observations", calibration.observations, Need::optional, "from what it was learned");
 }
 
@@ -97,13 +93,13 @@ namespace {
 void check_parameter(const Calibration& calibration, std::size_t i) {
   const LearnedParameter& parameter = calibration.parameters[i];
   if (index_of(parameter.name) == uncertain_count && !is_wall_strength(parameter.name)) {
-    throw InputError(parameter.where, fmt::format("'{}' is no uncertain parameter", parameter.name),
-                     fmt::format("one of: {}", joined(mapped(uncertain_parameters(), &UncertainParameter::name), ", ")));
+    throw InputError(
+        parameter.where, fmt::format("'{}' is no uncertain parameter", parameter.name),
+        fmt::format("one of: {}", joined(mapped(uncertain_parameters(), &UncertainParameter::name), ", ")));
   }
   for (std::size_t other = 0; other < i; ++other)
     if (calibration.parameters[other].name == parameter.name)
-      throw InputError(parameter.where, fmt::format("'{}' is listed twice", parameter.name),
-                       "keep one of the two");
+      throw InputError(parameter.where, fmt::format("'{}' is listed twice", parameter.name), "keep one of the two");
   if (parameter.covariance.size() != calibration.parameters.size())
     throw InputError(parameter.where,
                      fmt::format("'{}' has {} covariances (there are {} parameters)", parameter.name,
@@ -116,8 +112,7 @@ Eigen::MatrixXd covariance_of(const Calibration& calibration) {
   Eigen::MatrixXd covariance(n, n);
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j)
-      covariance(i, j) =
-          calibration.parameters[static_cast<std::size_t>(i)].covariance[static_cast<std::size_t>(j)];
+      covariance(i, j) = calibration.parameters[static_cast<std::size_t>(i)].covariance[static_cast<std::size_t>(j)];
   return covariance;
 }
 
@@ -125,13 +120,12 @@ Eigen::MatrixXd covariance_of(const Calibration& calibration) {
 
 void check_calibration(const Calibration& calibration) {
   if (calibration.format != Calibration::format_word)
-    throw InputError(
-        calibration.where, fmt::format("has the format '{}'", calibration.format),
-        fmt::format("name a file that dresslife calibrate wrote ({})", Calibration::format_word));
+    throw InputError(calibration.where, fmt::format("has the format '{}'", calibration.format),
+                     fmt::format("name a file that dresslife calibrate wrote ({})", Calibration::format_word));
   if (calibration.format_version > Calibration::newest_version)
     throw InputError(calibration.where,
-                     fmt::format("is of version {} (this dresslife reads up to {})",
-                                 calibration.format_version, Calibration::newest_version),
+                     fmt::format("is of version {} (this dresslife reads up to {})", calibration.format_version,
+                                 Calibration::newest_version),
                      "use the dresslife that wrote it, or calibrate again");
   for (std::size_t i = 0; i < calibration.parameters.size(); ++i) check_parameter(calibration, i);
   const Eigen::MatrixXd covariance = covariance_of(calibration);
@@ -150,8 +144,7 @@ ParameterKnowledge knowledge_of(const Calibration& calibration, ParameterKnowled
   const Eigen::MatrixXd covariance = covariance_of(calibration);
   std::vector<std::pair<Eigen::Index, Eigen::Index>> places;  // index in the list, index of the parameter
   for (std::size_t i = 0; i < calibration.parameters.size(); ++i)
-    if (const std::size_t p = index_of(calibration.parameters[i].name); p < uncertain_count)
-      places.emplace_back(i, p);
+    if (const std::size_t p = index_of(calibration.parameters[i].name); p < uncertain_count) places.emplace_back(i, p);
   for (const auto& [i, p] : places) {
     knowledge.mean[p] = calibration.parameters[static_cast<std::size_t>(i)].mean;
     for (const auto& [j, q] : places) knowledge.covariance(p, q) = covariance(i, j);
@@ -166,14 +159,12 @@ std::vector<std::string> beyond(const LearnedWithin& within, const Experience& e
   std::vector<std::string> words;
   const auto at_most = [&](const char* what, double value, const std::optional<double>& most, double margin) {
     if (most && value > margin * *most)
-      words.push_back(
-          fmt::format("{} of {} (at most {} in its tests)", what, readable(value, 2), readable(*most, 2)));
+      words.push_back(fmt::format("{} of {} (at most {} in its tests)", what, readable(value, 2), readable(*most, 2)));
   };
   at_most("a strain range", experience.strain_range, within.largest_strain_range, strains);
   if (within.least_strain_range && experience.strain_range > 0 &&
       experience.strain_range * strains < *within.least_strain_range)
-    words.push_back(fmt::format("a strain range of {} (at least {} in its tests)",
-                                readable(experience.strain_range, 2),
+    words.push_back(fmt::format("a strain range of {} (at least {} in its tests)", readable(experience.strain_range, 2),
                                 readable(*within.least_strain_range, 2)));
   at_most("a curvature [1/m]", experience.curvature, within.largest_curvature, hardly);
   at_most("a twist [rad/m]", experience.twist, within.largest_twist, hardly);

@@ -78,7 +78,8 @@ struct Calibration {
   std::string format = format_word;
   int format_version = newest_version;
   bool applied = false;
-  bool typical = false;  ///< true: learned from makers' ratings of many cables; its parameters are those of a cable without tests
+  bool typical =
+      false;  ///< true: learned from makers' ratings of many cables; its parameters are those of a cable without tests
   std::string note;
   std::vector<LearnedParameter> parameters;
   LearnedUnder under;

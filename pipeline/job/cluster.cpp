@@ -8,10 +8,9 @@ namespace dresslife::pipeline {
 void describe(Fields& f, Cluster& cluster) {
   f.text("name", cluster.name, Need::required, "The name of the cluster.");
   f.text("source", cluster.source, Need::required, "The source of the commands and limits.");
-  f.text(
-      "launcher", cluster.launcher, Need::required,
-      "The shell words before the command of each stage. They start the stage in the allocation and end "
-      "with its exit status.");
+  f.text("launcher", cluster.launcher, Need::required,
+         "The shell words before the command of each stage. They start the stage in the allocation and end "
+         "with its exit status.");
   f.text("submit", cluster.submit, Need::optional,
          "The shell words that queue a batch script in Slurm's format and print its number alone.");
   f.text("options", cluster.options, Need::optional,
@@ -28,8 +27,7 @@ void describe(Fields& f, Cluster& cluster) {
 Cluster read_cluster(const std::filesystem::path& file) {
   Cluster cluster;
   const Node document = read_yaml(file);
-  if (!document.is_map())
-    throw InputError({file.string()}, "holds no cluster", "write name:, source: and launcher:");
+  if (!document.is_map()) throw InputError({file.string()}, "holds no cluster", "write name:, source: and launcher:");
   read_fields(document, cluster);
   for (const char* key : {"launcher", "submit", "options"})
     if (const Node* words = document.find(key); words && words->text.find('\n') != std::string::npos)

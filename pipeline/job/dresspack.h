@@ -34,11 +34,13 @@ constexpr std::string_view word(SlipState value) { return word_at({"sliding", "f
 /// How a first-level part lies in its dresspack and how it is clamped (strain/theory.md, W32 to W37).
 struct Laying {
   Position position = Position::automatic;
-  double slack = 0;                 ///< excess length over the path on which it was installed [% of that path]
-  std::optional<double> play;       ///< free movement from its place in any direction [m]; absent: the room in the hose
-  std::optional<double> base_grip;  ///< force at which the part slips through the base clamp [N]; absent: it never slips
-  std::optional<double> tool_grip;  ///< force at which the part slips through the tool clamp [N]; absent: it never slips
-  std::optional<double> mass;       ///< per length [kg/m]; absent: computed from wires and a polymer filling
+  double slack = 0;            ///< excess length over the path on which it was installed [% of that path]
+  std::optional<double> play;  ///< free movement from its place in any direction [m]; absent: the room in the hose
+  std::optional<double>
+      base_grip;  ///< force at which the part slips through the base clamp [N]; absent: it never slips
+  std::optional<double>
+      tool_grip;               ///< force at which the part slips through the tool clamp [N]; absent: it never slips
+  std::optional<double> mass;  ///< per length [kg/m]; absent: computed from wires and a polymer filling
   bool operator==(const Laying&) const = default;
 };
 
@@ -51,8 +53,9 @@ struct Sleeve {
 
 /// K equal parts on one helix. Each of them may contain further layers of parts (strain/theory.md).
 struct Component {
-  std::string name;         ///< "signal cable"; parts are numbered "signal cable 1", ...
-  std::string entry;        ///< number of its entry in the user's list, if `place: auto` divided entries of that list; else empty
+  std::string name;  ///< "signal cable"; parts are numbered "signal cable 1", ...
+  std::string
+      entry;  ///< number of its entry in the user's list, if `place: auto` divided entries of that list; else empty
   std::string layer;        ///< set if several layers of parts share a name: "layer 1"; else empty
   int count = 1;            ///< K
   double radius = 0;        ///< of the part [m]
@@ -60,11 +63,11 @@ struct Component {
   double lay_angle = 0;     ///< alpha >= 0 [rad]
   Hand hand = Hand::right;
   double phase = 0;                ///< theta_layer: angle of part 1 at the base clamp [rad]
-  std::optional<double> friction;          ///< Coulomb coefficient against the surfaces that the part touches; absent: none
-  std::optional<double> radial_line_load;  ///< line load between the part and its support [N/m]; absent: 0
-  double tension = 0;                      ///< tension in the part while the dresspack is at rest [N]
-  double jacket_stiffness = 0;             ///< of a jacket that holds the part along its path [N/m2]
-  std::optional<double> radial_stiffness;  ///< of the support under the helix [N/m2]; absent: rigid
+  std::optional<double> friction;  ///< Coulomb coefficient against the surfaces that the part touches; absent: none
+  std::optional<double> radial_line_load;            ///< line load between the part and its support [N/m]; absent: 0
+  double tension = 0;                                ///< tension in the part while the dresspack is at rest [N]
+  double jacket_stiffness = 0;                       ///< of a jacket that holds the part along its path [N/m2]
+  std::optional<double> radial_stiffness;            ///< of the support under the helix [N/m2]; absent: rigid
   std::optional<double> measured_bending_stiffness;  ///< moment / curvature of a part that has parts [N m2]
   double measured_at_curvature = 1;                  ///< curvature of that measurement [1/m]
   double polymer_bending_stiffness = 0;              ///< its share from jacket and insulation [N m2]
@@ -112,32 +115,32 @@ struct Dresspack {
   /// Whether the preceding four values were computed from the construction. The stiffnesses are those in construction_state at
   /// construction_curvature (stiffness.h).
   bool mass_from_construction = false;
-  bool bending_from_construction = false, torsional_from_construction = false,
-       axial_from_construction = false;
+  bool bending_from_construction = false, torsional_from_construction = false, axial_from_construction = false;
   SlipState construction_state = SlipState::friction;
   double construction_curvature = 1;             ///< [1/m]
   std::optional<double> core_bending_stiffness;  ///< EI of the core, which fills the middle and is no component [N m2]
   std::optional<double> core_torsional_stiffness;  ///< GJ of the core [N m2]
   std::optional<double> core_axial_stiffness;      ///< EA of the core [N]
   double rest_curvature = 0;                       ///< of the unloaded hose, toward x of the base clamp [1/m]
-  double damping_time = 0;                         ///< Kelvin-Voigt tau of twist, and of bending without loss_factor [s]
-  std::optional<double> loss_factor;               ///< of bending without friction; absent: damping_time is used
-  std::vector<BendingFriction> bending_friction;   ///< shares of bending_stiffness that friction limits
-  std::string damping_source;                      ///< source of the damping: a measurement, or the reason of an estimate
-  double friction = 0;                             ///< Coulomb coefficient, hose against robot
-  std::optional<double> least_bend_radius;         ///< allowed in motion [m]; absent: pipeline/cable/bend_limit.h
-  Where least_bend_radius_where = {};              ///< of its key
-  std::optional<double> most_twist;                ///< allowed in motion [rad/m]; absent: 180 deg/m
-  std::optional<double> most_tension;              ///< of the hose, allowed in motion [N]; absent: no limit
-  std::string hose_material;                       ///< of the hose's wall; empty: the strain of the wall is not evaluated
-  std::optional<double> hose_strain_factor;        ///< strain of the wall / strain of a smooth hose
-  std::optional<Corrugation> hose_corrugation;     ///< determines that factor instead; both absent: a smooth hose
+  double damping_time = 0;                        ///< Kelvin-Voigt tau of twist, and of bending without loss_factor [s]
+  std::optional<double> loss_factor;              ///< of bending without friction; absent: damping_time is used
+  std::vector<BendingFriction> bending_friction;  ///< shares of bending_stiffness that friction limits
+  std::string damping_source;                   ///< source of the damping: a measurement, or the reason of an estimate
+  double friction = 0;                          ///< Coulomb coefficient, hose against robot
+  std::optional<double> least_bend_radius;      ///< allowed in motion [m]; absent: pipeline/cable/bend_limit.h
+  Where least_bend_radius_where = {};           ///< of its key
+  std::optional<double> most_twist;             ///< allowed in motion [rad/m]; absent: 180 deg/m
+  std::optional<double> most_tension;           ///< of the hose, allowed in motion [N]; absent: no limit
+  std::string hose_material;                    ///< of the hose's wall; empty: the strain of the wall is not evaluated
+  std::optional<double> hose_strain_factor;     ///< strain of the wall / strain of a smooth hose
+  std::optional<Corrugation> hose_corrugation;  ///< determines that factor instead; both absent: a smooth hose
   std::optional<double> inner_diameter;  ///< of the space in which parts can move [m]; absent: see inner_radius()
   double core_diameter = 0;              ///< of the core, which fills the middle and is no component [m]
   std::string core_parts;                ///< content of the core in words; empty: unknown
-  std::vector<Component> core_components;  ///< parts of the core with a life; the keys core_.. contain their stiffness and mass
-  double stiffness_factor = 1;           ///< of the polymer of wall or jacket at the cell's temperature
-  std::optional<Sleeve> sleeve;          ///< absent: abrasion acts on the wall of hose_corrugation
+  std::vector<Component>
+      core_components;           ///< parts of the core with a life; the keys core_.. contain their stiffness and mass
+  double stiffness_factor = 1;   ///< of the polymer of wall or jacket at the cell's temperature
+  std::optional<Sleeve> sleeve;  ///< absent: abrasion acts on the wall of hose_corrugation
   std::vector<Component> components;
   std::vector<Material> materials;  ///< materials of the wires, from the catalogue
   std::vector<Rating> ratings;      ///< of a dresspack that is a single cable

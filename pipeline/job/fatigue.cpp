@@ -25,15 +25,13 @@ void describe(Fields& f, Fatigue& fatigue) {
   f.number(
       "robot_life_hours", fatigue.robot_life_hours, Need::optional, between(1, 1e7),
       "The life of the robot. Tables print longer lives as longer than this, ranking.csv in hours. `improve` counts no "
-           "longer life of the wires as a gain. ESTIMATE: robots are overhauled or replaced after 20,000 to 40,000 h.");
-  f.number(
-      "scatter_log10", fatigue.scatter_log10, Need::optional, between(0, 1),
-      "The standard deviation of log10 of a wire's life. ESTIMATE: lives of 20 equal wires cover 0.75 of a "
-      "decade.");
-  f.number(
-      "scatter_shared", fatigue.scatter_shared, Need::optional, between(0, 1),
-      "The share of the variance of scatter_log10 that all wires of a dresspack have in common, as one "
-      "spool or batch. ESTIMATE.");
+      "longer life of the wires as a gain. ESTIMATE: robots are overhauled or replaced after 20,000 to 40,000 h.");
+  f.number("scatter_log10", fatigue.scatter_log10, Need::optional, between(0, 1),
+           "The standard deviation of log10 of a wire's life. ESTIMATE: lives of 20 equal wires cover 0.75 of a "
+           "decade.");
+  f.number("scatter_shared", fatigue.scatter_shared, Need::optional, between(0, 1),
+           "The share of the variance of scatter_log10 that all wires of a dresspack have in common, as one "
+           "spool or batch. ESTIMATE.");
   f.number("failed_wires_percent", fatigue.failed_wires_percent, Need::optional, between(0, 100),
            "The share of broken wires at which a conductor fails. 0: with the first wire.");
   f.boolean("load_sharing", fatigue.load_sharing, Need::optional,

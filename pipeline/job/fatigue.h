@@ -19,9 +19,7 @@ constexpr std::string_view word(Stress value) { return word_at({"cyclic", "elast
 constexpr bool yields(Stress value) { return value == Stress::cyclic; }
 
 enum class MeanStress { none, morrow, swt, walker };
-constexpr std::string_view word(MeanStress value) {
-  return word_at({"none", "morrow", "swt", "walker"}, value);
-}
+constexpr std::string_view word(MeanStress value) { return word_at({"none", "morrow", "swt", "walker"}, value); }
 
 /// Relaxation of the offset of stress in a repeated history (fatigue/theory.md, F22).
 enum class MeanStressRelaxation { none, power_law, complete };
@@ -45,9 +43,9 @@ struct Fatigue {
   double operating_hours_per_week = 80;  ///< converts hours into months
   double robot_life_hours = 40000;       ///< longest life that tables show [h]
   double scatter_log10 = 0.2;            ///< standard deviation of log10 of a wire's life
-  double scatter_shared = 0.5;       ///< share of that variance that all wires of a dresspack have in common
-  double failed_wires_percent = 10;  ///< share of broken wires at which a conductor fails [%]
-  bool load_sharing = false;         ///< the remaining wires of a conductor take the load of its broken wires
+  double scatter_shared = 0.5;           ///< share of that variance that all wires of a dresspack have in common
+  double failed_wires_percent = 10;      ///< share of broken wires at which a conductor fails [%]
+  bool load_sharing = false;             ///< the remaining wires of a conductor take the load of its broken wires
   // Uncertain parameters (uncertainty.h) of wires, not of the hose:
   double strength_factor = 1;  ///< factor of strains and stresses of the strain-life curve
   double slope_change = 0;     ///< addend of b

@@ -17,7 +17,8 @@ void describe_keys(Fields& f, Job& job, const JobForms& forms) {
   f.group("motion", job.motion, Need::required,
           "The motion: a name of config/programs, a file, or the keys themselves.");
   f.group("robot", job.robot, job.motion.needs_robot() ? Need::required : Need::optional,
-          "The robot: a name of config/robots, a file, or the keys themselves. A rig needs none.", !job.robot.joints.empty());
+          "The robot: a name of config/robots, a file, or the keys themselves. A rig needs none.",
+          !job.robot.joints.empty());
   if (forms.one) {
     MountedDresspack& only = job.dresspacks.front();
     f.group("dresspack", only.dresspack, Need::required,
@@ -33,8 +34,7 @@ void describe_keys(Fields& f, Job& job, const JobForms& forms) {
   f.group("strain", job.strain, Need::optional, "The settings of dresslife-strain.");
   f.group("fatigue", job.fatigue, Need::optional, "The settings of dresslife-fatigue.");
   f.group("inspection", job.inspection, Need::optional, "The visual checks of the dresspack in the plant.");
-  f.group("uncertainty", job.uncertainty, Need::optional,
-          "The uncertain parameters and their standard deviations.");
+  f.group("uncertainty", job.uncertainty, Need::optional, "The uncertain parameters and their standard deviations.");
   f.maybe_group("calibration", job.calibration,
                 "A file that dresslife calibrate wrote. It holds the posterior of the uncertain parameters.",
                 Need::written);
@@ -54,8 +54,7 @@ const Material& resolved_material(const Job& job, const std::string& wanted) {
 }  // namespace
 
 Material material_of(const Job& job, const std::string& name) {
-  return changed(resolved_material(job, job.fatigue.material.empty() ? name : job.fatigue.material),
-                 job.fatigue);
+  return changed(resolved_material(job, job.fatigue.material.empty() ? name : job.fatigue.material), job.fatigue);
 }
 
 ParameterKnowledge knowledge_of(const Job& job) {

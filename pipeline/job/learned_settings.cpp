@@ -28,9 +28,7 @@ std::vector<std::string> split(std::string_view text) {
   return parts;
 }
 
-std::string listed(const std::vector<std::string>& parts, std::string_view by = separator) {
-  return joined(parts, by);
-}
+std::string listed(const std::vector<std::string>& parts, std::string_view by = separator) { return joined(parts, by); }
 
 template <class T>
 void add_once(std::vector<T>& all, T one) {
@@ -46,8 +44,7 @@ std::string slip_of(const Job& job, const Dresspack& dresspack) {
   const std::vector<Slip>& slip = job.strain.slip;
   std::vector<std::string> words;
   for (std::size_t level = 0; level < levels_of(dresspack.components); ++level)
-    words.emplace_back(level == 0 && dresspack.cable_alone ? any
-                                                           : word(slip[std::min(level, slip.size() - 1)]));
+    words.emplace_back(level == 0 && dresspack.cable_alone ? any : word(slip[std::min(level, slip.size() - 1)]));
   return listed(words);
 }
 
@@ -66,8 +63,7 @@ bool slips_agree(const std::string& one, const std::string& other) {
 std::string slip_words(const std::string& slip) {
   std::vector<std::string> words = split(slip);
   if (words.size() > 1 && words.front() == any) words.erase(words.begin());
-  const bool alike =
-      std::all_of(words.begin(), words.end(), [&](const auto& one) { return one == words.front(); });
+  const bool alike = std::all_of(words.begin(), words.end(), [&](const auto& one) { return one == words.front(); });
   return alike ? words.front() : "[" + listed(words) + "]";
 }
 
@@ -75,8 +71,7 @@ std::vector<LearnedSetting> settings_of(const Job& job) {
   std::vector<LearnedSetting> settings;
   for (const MountedDresspack& mounted : job.dresspacks)
     add_once(settings, LearnedSetting{std::string(slip_key), slip_of(job, mounted.dresspack)});
-  const auto add = [&](const Node& section, const std::string& name,
-                       std::initializer_list<const char*> keys) {
+  const auto add = [&](const Node& section, const std::string& name, std::initializer_list<const char*> keys) {
     for (const char* key : keys)
       if (const Node* value = section.find(key)) settings.push_back({name + "." + key, value->text});
   };
@@ -132,8 +127,7 @@ std::vector<LearnedCable> cables_of(const Dresspack& dresspack) {
   const std::vector<Component>& parts = dresspack.components;
   const bool hose = inner_radius(dresspack) || !dresspack.hose_material.empty();
   if (!hose && has_wires(dresspack)) {
-    const bool on_axis =
-        parts.size() == 1 && parts.front().helix_radius == 0 && !parts.front().components.empty();
+    const bool on_axis = parts.size() == 1 && parts.front().helix_radius == 0 && !parts.front().components.empty();
     return {cable_of(dresspack.name, "", on_axis ? parts.front().components : parts)};
   }
   std::vector<LearnedCable> cables;
@@ -148,8 +142,7 @@ std::string constants_of(const Material& material) {
   std::vector<std::string> words;
   for (const Entry& entry : echo_fields(material).entries)
     if (entry.key != "name" && entry.key != "source")
-      words.push_back(entry.key + " " +
-                      (entry.value.is_scalar() ? entry.value.text : xxh3(to_yaml(entry.value))));
+      words.push_back(entry.key + " " + (entry.value.is_scalar() ? entry.value.text : xxh3(to_yaml(entry.value))));
   return listed(words);
 }
 
@@ -175,7 +168,8 @@ void add_job(const Job& job, LearnedUnder& under) {
 /// Returns the words of `of` that are not in `beside`.
 std::string different(const std::string& of, const std::string& beside) {
   const std::vector<std::string> all = split(of), others = split(beside);
-  const auto left = filtered(all, [&](const std::string& one) { return std::ranges::find(others, one) == others.end(); });
+  const auto left =
+      filtered(all, [&](const std::string& one) { return std::ranges::find(others, one) == others.end(); });
   return left.empty() ? "none" : listed(left);
 }
 
@@ -191,13 +185,12 @@ void check_settings(const Calibration& calibration, const LearnedUnder& own, Pro
       agree |= slip ? slips_agree(other.value, setting.value) : other.value == setting.value;
     }
     if (agree || learned.empty()) continue;  // `learned` is empty for a key that is newer than the calibration
-    problems.add(
-        calibration.where,
-        fmt::format("was learned with {}: {} (this job has {})", setting.key, listed(learned, " or "),
-                    words(setting.value)),
-        fmt::format("set {} as the tests had it, calibrate again with --set '{}={}', or leave out the key "
-                    "calibration",
-                    setting.key, setting.key, words(setting.value)));
+    problems.add(calibration.where,
+                 fmt::format("was learned with {}: {} (this job has {})", setting.key, listed(learned, " or "),
+                             words(setting.value)),
+                 fmt::format("set {} as the tests had it, calibrate again with --set '{}={}', or leave out the key "
+                             "calibration",
+                             setting.key, setting.key, words(setting.value)));
   }
 }
 
@@ -213,9 +206,8 @@ void check_friction(const Calibration& calibration, const LearnedUnder& own, Pro
     if (same && !agree)
       problems.add(
           calibration.where,
-          fmt::format("was learned with {} in '{}' (this job has {})",
-                      different(same->friction, cable.friction), same->name,
-                      different(cable.friction, same->friction)),
+          fmt::format("was learned with {} in '{}' (this job has {})", different(same->friction, cable.friction),
+                      same->name, different(cable.friction, same->friction)),
           "give the cable the friction keys that it had in the tests, calibrate again with those of the job, or "
           "leave out the key calibration");
   }
@@ -225,12 +217,11 @@ void check_constants(const Calibration& calibration, const LearnedUnder& own, Pr
   for (const LearnedMaterial& material : own.materials)
     for (const LearnedMaterial& other : calibration.under.materials)
       if (other.name == material.name && other.constants != material.constants)
-        problems.add(
-            calibration.where,
-            fmt::format("was learned with {} of material '{}' (this job has {})",
-                        different(other.constants, material.constants), material.name,
-                        different(material.constants, other.constants)),
-            "use the material of the tests, calibrate again with this one, or leave out the key calibration");
+        problems.add(calibration.where,
+                     fmt::format("was learned with {} of material '{}' (this job has {})",
+                                 different(other.constants, material.constants), material.name,
+                                 different(material.constants, other.constants)),
+                     "use the material of the tests, calibrate again with this one, or leave out the key calibration");
 }
 
 /// Returns the names of the items that no test had.
@@ -253,8 +244,7 @@ LearnedUnder learned_under(const std::vector<const Job*>& jobs) {
 void check_learned_settings(const Job& job) {
   const Calibration& calibration = *job.calibration;
   if (calibration.under.settings.empty())
-    throw InputError(calibration.where,
-                     "does not say under which settings it was learned (strain.slip and others)",
+    throw InputError(calibration.where, "does not say under which settings it was learned (strain.slip and others)",
                      "run dresslife calibrate again with the same observations");
   const LearnedUnder own = learned_under({&job});
   Problems problems;
@@ -290,12 +280,9 @@ void leave_out(Calibration& calibration, const std::set<std::string>& names) {
 void leave_out_foreign_parameters(Job& job) {
   Calibration& calibration = *job.calibration;
   const LearnedUnder &under = calibration.under, own = learned_under({&job});
-  const auto has = [](const auto& all, const auto& is_same) {
-    return std::any_of(all.begin(), all.end(), is_same);
-  };
+  const auto has = [](const auto& all, const auto& is_same) { return std::any_of(all.begin(), all.end(), is_same); };
   const std::vector<std::string> cables = foreign(own.cables, [&](const LearnedCable& cable) {
-    return has(under.cables,
-               [&](const LearnedCable& other) { return other.construction == cable.construction; });
+    return has(under.cables, [&](const LearnedCable& other) { return other.construction == cable.construction; });
   });
   std::vector<std::string> hoses;
   for (const LearnedCable& cable : own.cables)
@@ -312,16 +299,15 @@ void leave_out_foreign_parameters(Job& job) {
       if (!strangers.empty() && concerns(index_of(parameter.name)) && out.insert(parameter.name).second)
         names.push_back(parameter.name);
     if (!names.empty())
-      words.push_back(fmt::format("no test has {} {}, for which {} {} not used", kind, listed(strangers),
-                                  listed(names), names.size() == 1 ? "is" : "are"));
+      words.push_back(fmt::format("no test has {} {}, for which {} {} not used", kind, listed(strangers), listed(names),
+                                  names.size() == 1 ? "is" : "are"));
   };
   const auto shared_by = [](SharedBy what) {
     return [what](std::size_t p) { return p < uncertain_count && uncertain_parameters()[p].shared == what; };
   };
   leave(cables, "the cable", shared_by(SharedBy::construction));
-  leave(hoses, "the hose", [](std::size_t p) {
-    return p == index_of(Uncertain::friction_hose) || p == index_of(Uncertain::play);
-  });
+  leave(hoses, "the hose",
+        [](std::size_t p) { return p == index_of(Uncertain::friction_hose) || p == index_of(Uncertain::play); });
   leave(materials, "wires of", shared_by(SharedBy::material));
   leave_out(calibration, out);
   calibration.within.left_out = listed(words, "; ");

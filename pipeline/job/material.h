@@ -38,19 +38,19 @@ struct Material {
   std::string name, source;
   double youngs_modulus = 0;  ///< E [Pa]
   double poisson_ratio = 0;
-  double fatigue_strength = 0;                        ///< sigma_f' [Pa]
-  double fatigue_strength_exponent = 0;               ///< b
-  double fatigue_ductility = 0;                       ///< epsilon_f'
-  double fatigue_ductility_exponent = 0;              ///< c
-  std::optional<double> cyclic_strength;              ///< K' [Pa]; absent: sigma_f' / epsilon_f'^n'
-  std::optional<double> cyclic_hardening_exponent;    ///< n'; absent: b / c
-  std::optional<double> tensile_strength;             ///< at which a wire tears [Pa]
-  std::optional<double> walker_exponent;              ///< gamma; absent: 0.5, that of SWT
-  std::optional<double> relaxation_threshold_strain;  ///< strain above which mean stress relaxes; absent: it never relaxes
-  std::optional<double> relaxation_exponent;          ///< relaxation exponent at twice the threshold; absent: 0.085
-  std::vector<StrainLifePoint>
-      strain_life_table;  ///< replaces sigma_f' to n', for polymers; larger strains first
-  std::vector<WearRate> wear;  ///< of a hose, sleeve or jacket; empty: abrasion is not evaluated
+  double fatigue_strength = 0;                      ///< sigma_f' [Pa]
+  double fatigue_strength_exponent = 0;             ///< b
+  double fatigue_ductility = 0;                     ///< epsilon_f'
+  double fatigue_ductility_exponent = 0;            ///< c
+  std::optional<double> cyclic_strength;            ///< K' [Pa]; absent: sigma_f' / epsilon_f'^n'
+  std::optional<double> cyclic_hardening_exponent;  ///< n'; absent: b / c
+  std::optional<double> tensile_strength;           ///< at which a wire tears [Pa]
+  std::optional<double> walker_exponent;            ///< gamma; absent: 0.5, that of SWT
+  std::optional<double>
+      relaxation_threshold_strain;                 ///< strain above which mean stress relaxes; absent: it never relaxes
+  std::optional<double> relaxation_exponent;       ///< relaxation exponent at twice the threshold; absent: 0.085
+  std::vector<StrainLifePoint> strain_life_table;  ///< replaces sigma_f' to n', for polymers; larger strains first
+  std::vector<WearRate> wear;                      ///< of a hose, sleeve or jacket; empty: abrasion is not evaluated
   Where where;
 
   /// Returns whether the material has a strain-life curve; otherwise it only wears.

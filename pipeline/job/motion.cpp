@@ -18,30 +18,25 @@ void describe(Fields& f, MotionStep& step) {
   f.numbers("joints_deg", step.joints, Need::optional, "The target of a move: one angle per axis.");
   f.numbers("position_mm", step.position, Need::optional,
             "The target of the tool in the work object: x, y, z. It replaces joints_deg.");
-  f.numbers("quaternion", step.quaternion, Need::optional,
-            "The orientation of the tool at the target: w, x, y, z.");
+  f.numbers("quaternion", step.quaternion, Need::optional, "The orientation of the tool at the target: w, x, y, z.");
   f.numbers("via_position_mm", step.via_position, Need::optional, "A point on the path of a circular move.");
   f.numbers("circle_joints_deg", step.circle_joints, Need::optional,
             "The joint angles at a further point of the circle, before the start or behind the end of a "
             "circular move to joints_deg.");
-  f.text(
-      "configuration", step.configuration, Need::optional,
-      "The configuration of the arm at the pose: abb CF1 CF4 CF6 CFX, kuka S T, fanuc NUT 0 0 0, motoman "
-      "and the first six numbers of RCONF, or near and six angles in deg. Default: the nearest one.");
+  f.text("configuration", step.configuration, Need::optional,
+         "The configuration of the arm at the pose: abb CF1 CF4 CF6 CFX, kuka S T, fanuc NUT 0 0 0, motoman "
+         "and the first six numbers of RCONF, or near and six angles in deg. Default: the nearest one.");
   f.numbers("external_axes", step.external_axes, Need::optional,
             "The targets of the external axes in mm or deg. Default: the axes do not move.");
   f.text("tool", step.tool, Need::optional, "A name of tools. Default: the flange.");
-  f.text("work_object", step.work_object, Need::optional,
-         "A name of work_objects. Default: the robot's base frame.");
+  f.text("work_object", step.work_object, Need::optional, "A name of work_objects. Default: the robot's base frame.");
   f.maybe_number("speed_percent", step.speed_percent, between(0.1, 100),
                  "The speed of the move, as a share of the highest speed of each axis.");
   f.maybe_number("speed_deg_per_s", step.speed, above(0),
                  "The speed of the axis with the longest way, instead of a percentage.");
   f.maybe_number("speed_mm_per_s", step.tool_speed, above(0), "The highest speed of the tool.");
-  f.maybe_number("turn_deg_per_s", step.turn_speed, above(0),
-                 "The highest speed of the tool's rotation on a path.");
-  f.maybe_number("duration_s", step.duration, above(0),
-                 "The duration of the whole move, instead of a speed.");
+  f.maybe_number("turn_deg_per_s", step.turn_speed, above(0), "The highest speed of the tool's rotation on a path.");
+  f.maybe_number("duration_s", step.duration, above(0), "The duration of the whole move, instead of a speed.");
   f.maybe_number("acceleration_percent", step.acceleration_percent, between(0.1, 150),
                  "The acceleration of this move. It multiplies the one of the program.");
   f.maybe_number("jerk_percent", step.jerk_percent, between(1, 100),
@@ -59,8 +54,7 @@ void describe(Fields& f, MotionStep& step) {
   f.maybe_number("zone_deg", step.zone, at_least(0),
                  "The distance of every axis to the target at which the next move begins. 0: the robot "
                  "stops.");
-  f.number("dwell_s", step.dwell, Need::optional, at_least(0),
-           "The duration of a standstill. It replaces a move.");
+  f.number("dwell_s", step.dwell, Need::optional, at_least(0), "The duration of a standstill. It replaces a move.");
   f.integer("repeat", step.repeat, Need::optional, at_least(0),
             "The number of runs of the block of `steps`. 0: this step is no block.");
   f.list("steps", step.steps, Need::optional, "The steps of the block.");
@@ -76,23 +70,19 @@ void describe(Fields& f, MotionFrame& frame) {
 
 void describe(Fields& f, BranchAssumption& assumption) {
   f.text("line", assumption.line, Need::required, "The line of the branch: FILE:LINE, or LINE alone.");
-  f.text(
-      "take", assumption.take, Need::optional,
-      "The decision of the branch: then or else. For a choice among several (TEST, SWITCH, SELECT): the "
-      "value that decides.");
+  f.text("take", assumption.take, Need::optional,
+         "The decision of the branch: then or else. For a choice among several (TEST, SWITCH, SELECT): the "
+         "value that decides.");
 }
 
 void describe(Fields& f, ProgramValue& value) {
   f.text("name", value.name, Need::required,
          "The name of an input, a register, a variable or a position, as in the program: di5, $IN[3], R[1], "
          "PR[2].");
-  f.text("value", value.value, Need::required,
-         "The value, as in the program: TRUE, 3, [[0,0,100],[1,0,0,0]].");
+  f.text("value", value.value, Need::required, "The value, as in the program: TRUE, 3, [[0,0,100],[1,0,0,0]].");
 }
 
-void describe(Fields& f, ProgramFile& file) {
-  f.path("file", file.file, Need::required, "A module or data file.");
-}
+void describe(Fields& f, ProgramFile& file) { f.path("file", file.file, Need::required, "A module or data file."); }
 
 void describe(Fields& f, Motion& motion) {
   f.place(motion.where);
@@ -100,9 +90,10 @@ void describe(Fields& f, Motion& motion) {
   f.text("source", motion.source, Need::optional, "The author of the program.");
   f.number("speed_percent", motion.speed_percent, Need::optional, between(0.1, 100),
            "The speed of moves without a speed of their own.");
-  f.number("override_percent", motion.override_percent, Need::optional, between(1, 100),
-           "The speed override of the controller. It multiplies all speeds of the program and of the axes, and divides the times of "
-           "moves that have times. Accelerations and waits stay.");
+  f.number(
+      "override_percent", motion.override_percent, Need::optional, between(1, 100),
+      "The speed override of the controller. It multiplies all speeds of the program and of the axes, and divides the times of "
+      "moves that have times. Accelerations and waits stay.");
   f.number("acceleration_percent", motion.acceleration_percent, Need::optional, between(1, 100),
            "The acceleration of all moves, as a share of the highest one of each axis.");
   f.number("ramp_percent", motion.ramp_percent, Need::optional, between(1, 50),
@@ -119,9 +110,10 @@ void describe(Fields& f, Motion& motion) {
                  "path_smoothing_ms. KUKA: $JERK_MA.CP of $machine.dat.");
   f.number("zone_deg", motion.zone, Need::optional, at_least(0),
            "The zone of moves without a zone of their own. 0: the robot stops at each target.");
-  f.text("hold_joint", motion.hold_joint, Need::optional,
-         "The name of a joint that stands still at the middle of its way while the others move as the program says. The life "
-         "without its motion, divided by the life with it, is what the joint costs.");
+  f.text(
+      "hold_joint", motion.hold_joint, Need::optional,
+      "The name of a joint that stands still at the middle of its way while the others move as the program says. The life "
+      "without its motion, divided by the life with it, is what the joint costs.");
   f.list("steps", motion.steps, Need::optional,
          "The steps of the program. The robot starts at rest at the target of the first step.");
   f.list("tools", motion.tools, Need::optional,
@@ -134,21 +126,20 @@ void describe(Fields& f, Motion& motion) {
          "backup.");
   f.list("modules", motion.modules, Need::optional,
          "Further files of the program: modules, .dat files and called programs.");
-  f.text(
-      "routine", motion.routine, Need::optional,
-      "The routine to run, with its arguments if it takes some: name(1, p20). Default: main, or the first "
-      "routine.");
+  f.text("routine", motion.routine, Need::optional,
+         "The routine to run, with its arguments if it takes some: name(1, p20). Default: main, or the first "
+         "routine.");
   f.list("assume", motion.assume, Need::optional, "The decisions of branches that depend on inputs.");
   f.list("values", motion.values, Need::optional,
          "The values of inputs, registers, variables and positions that the files of the program do not "
          "contain.");
-  f.choice("rows", motion.rows,
-           "The motion between joint angles with times. blended: straight lines, with the accelerations of the axes at each row. "
-           "spline: a cubic spline through the rows, which keeps the times and no limits of the axes.");
+  f.choice(
+      "rows", motion.rows,
+      "The motion between joint angles with times. blended: straight lines, with the accelerations of the axes at each row. "
+      "spline: a cubic spline through the rows, which keeps the times and no limits of the axes.");
   f.integer("passes", motion.passes, Need::optional, at_least(0),
             "The number of passes of the program's endless main loop. 0: until it repeats itself.");
-  f.number("spot_time_s", motion.spot_time, Need::optional, at_least(0),
-           "The dwell at each spot weld of the program.");
+  f.number("spot_time_s", motion.spot_time, Need::optional, at_least(0), "The dwell at each spot weld of the program.");
   f.path("clamp_poses", motion.clamp_poses, Need::optional,
          "A CSV file with the poses of both clamps instead of steps: t, then x y z qw qx qy qz of base and "
          "tool clamp (s, m).");
@@ -160,8 +151,7 @@ void describe(Fields& f, Motion& motion) {
 
 namespace {
 
-void check_pose(const std::vector<double>& position, const std::vector<double>& quaternion,
-                const Where& where) {
+void check_pose(const std::vector<double>& position, const std::vector<double>& quaternion, const Where& where) {
   if (position.size() != 3)
     throw InputError(where, fmt::format("position_mm has {} numbers", position.size()), "give x, y, z");
   double squares = 0;
@@ -175,10 +165,9 @@ void check_pose(const std::vector<double>& position, const std::vector<double>& 
 void check_move(const MotionStep& step, const Robot& robot) {
   const Where& where = step.where;
   if (!step.joints.empty() && step.joints.size() != robot.axes())
-    throw InputError(
-        where,
-        fmt::format("joints_deg has {} angles (the robot has {} axes)", step.joints.size(), robot.axes()),
-        "give one angle per axis");
+    throw InputError(where,
+                     fmt::format("joints_deg has {} angles (the robot has {} axes)", step.joints.size(), robot.axes()),
+                     "give one angle per axis");
   if (!step.joints.empty() && !step.position.empty())
     throw InputError(where, "both joints_deg and position_mm are given", "keep one of the two");
   if (!step.position.empty()) check_pose(step.position, step.quaternion, where);
@@ -190,10 +179,10 @@ void check_move(const MotionStep& step, const Robot& robot) {
                      "via_position_mm or circle_joints_deg belongs to a circular move, which must have one of them",
                      "give x, y, z or one angle per axis, or change the path");
   if (step.speed.has_value() + step.speed_percent.has_value() + step.duration.has_value() > 1)
-    throw InputError(where,
-                     step.duration ? "duration_s is given beside a speed"
-                                   : "both speed_percent and speed_deg_per_s are given",
-                     "keep one of the two");
+    throw InputError(
+        where,
+        step.duration ? "duration_s is given beside a speed" : "both speed_percent and speed_deg_per_s are given",
+        "keep one of the two");
   if (step.zone.has_value() + step.tool_zone.has_value() + step.stop_zone.has_value() > 1)
     throw InputError(where, "more than one of zone_deg, zone_mm, zone_percent is given", "keep one of them");
 }
@@ -208,8 +197,8 @@ void check_lone_step(const MotionStep& step, const Robot& robot) {
   if (block && (step.repeat < 1 || step.steps.empty()))
     throw InputError(step.where, "a block needs both repeat (at least 1) and steps", "give both");
   if (move) check_move(step, robot);
-  if (!move && (step.speed || step.speed_percent || step.zone || step.tool_speed || step.tool_zone ||
-                step.stop_zone || step.duration || step.acceleration || step.tool_acceleration))
+  if (!move && (step.speed || step.speed_percent || step.zone || step.tool_speed || step.tool_zone || step.stop_zone ||
+                step.duration || step.acceleration || step.tool_acceleration))
     throw InputError(step.where, "speed and zone belong to a move", "take them out of this step");
 }
 

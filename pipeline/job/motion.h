@@ -39,28 +39,30 @@ struct MotionStep {
   std::vector<double> quaternion;     ///< of the tool: w, x, y, z
   std::vector<double> via_position;   ///< of a circular move: a point of the path [m]
   std::vector<double> circle_joints;  ///< of a circular move by joints: a point of its circle beyond the move [rad]
-  std::string configuration;          ///< "abb 0 -1 0 1", "kuka 2 35", "fanuc NUT 0 0 0", "motoman 0 0 0 0 0 0", "near 0 -90 90 0 90 0"; empty: the nearest
-  std::vector<double> external_axes;  ///< as programmed, in mm or deg, in the order of the robot's external axes
-  std::string tool, work_object;      ///< names in Motion; empty: flange, robot base
-  std::optional<double> speed_percent;         ///< share of each axis' largest speed [%]
-  std::optional<double> speed;                 ///< of the fastest axis [rad/s]
-  std::optional<double> tool_speed;            ///< largest speed of the tool's origin [m/s]
-  std::optional<double> turn_speed;            ///< largest rotation speed of the tool [rad/s]
-  std::optional<double> duration;              ///< of the whole move [s]
-  std::optional<double> acceleration_percent;  ///< share of each axis' largest acceleration, multiplied with that of Motion [%]
-  std::optional<double> acceleration;          ///< largest of the fastest axis [rad/s2]
-  std::optional<double> tool_acceleration;     ///< largest acceleration of the tool's origin along its path [m/s2]
-  std::optional<double> jerk_percent;          ///< share of the usual rate at which acceleration increases [%]
+  std::string
+      configuration;  ///< "abb 0 -1 0 1", "kuka 2 35", "fanuc NUT 0 0 0", "motoman 0 0 0 0 0 0", "near 0 -90 90 0 90 0"; empty: the nearest
+  std::vector<double> external_axes;    ///< as programmed, in mm or deg, in the order of the robot's external axes
+  std::string tool, work_object;        ///< names in Motion; empty: flange, robot base
+  std::optional<double> speed_percent;  ///< share of each axis' largest speed [%]
+  std::optional<double> speed;          ///< of the fastest axis [rad/s]
+  std::optional<double> tool_speed;     ///< largest speed of the tool's origin [m/s]
+  std::optional<double> turn_speed;     ///< largest rotation speed of the tool [rad/s]
+  std::optional<double> duration;       ///< of the whole move [s]
+  std::optional<double>
+      acceleration_percent;            ///< share of each axis' largest acceleration, multiplied with that of Motion [%]
+  std::optional<double> acceleration;  ///< largest of the fastest axis [rad/s2]
+  std::optional<double> tool_acceleration;  ///< largest acceleration of the tool's origin along its path [m/s2]
+  std::optional<double> jerk_percent;       ///< share of the usual rate at which acceleration increases [%]
   std::optional<double> zone;  ///< blending begins at this distance of the farthest axis from its target [rad]; 0: stop
   std::optional<double> tool_zone;  ///< blending begins at this distance of the tool from its target [m]; 0: stop
-  std::optional<double>
-      stop_zone;     ///< blending begins at this share of the stopping distance [%]
-  double dwell = 0;  ///< [s]
-  int repeat = 0;    ///< 0: not a block
-  std::vector<MotionStep> steps;  ///< of a block
-  std::string text;               ///< description of the step for reports
+  std::optional<double> stop_zone;  ///< blending begins at this share of the stopping distance [%]
+  double dwell = 0;                 ///< [s]
+  int repeat = 0;                   ///< 0: not a block
+  std::vector<MotionStep> steps;    ///< of a block
+  std::string text;                 ///< description of the step for reports
   Where where;
-  Where speed_where, acceleration_where, tool_where, object_where;  ///< of the lines of a program that assign them; line 0: not known
+  Where speed_where, acceleration_where, tool_where,
+      object_where;  ///< of the lines of a program that assign them; line 0: not known
 
   bool is_move() const { return !joints.empty() || !position.empty(); }
 };
@@ -90,15 +92,15 @@ struct ProgramFile {
 
 struct Motion {
   std::string name, source;
-  double speed_percent = 100;  ///< default for the moves [%]
+  double speed_percent = 100;     ///< default for the moves [%]
   double override_percent = 100;  ///< of the controller: factor of all speeds [%]
   double acceleration_percent = 100;
-  double ramp_percent = 25;      ///< share of a joint move's change of speed during which acceleration increases [%]
-  double path_smoothing = 0.015; ///< of tool paths: acceleration increases within twice this time [s]
+  double ramp_percent = 25;         ///< share of a joint move's change of speed during which acceleration increases [%]
+  double path_smoothing = 0.015;    ///< of tool paths: acceleration increases within twice this time [s]
   std::optional<double> jerk;       ///< largest jerk of each axis in joint moves, replaces ramp_percent [rad/s3]
   std::optional<double> path_jerk;  ///< jerk of tool paths, replaces path_smoothing [m/s3]
-  double zone = 0;               ///< default for the moves [rad]
-  std::string hold_joint;        ///< name of a joint of the robot that does not move; empty: none
+  double zone = 0;                  ///< default for the moves [rad]
+  std::string hold_joint;           ///< name of a joint of the robot that does not move; empty: none
   std::vector<MotionFrame> tools, work_objects;
   std::vector<MotionStep> steps;  ///< the first step is a move; the robot starts at its target, at rest
   /// A robot program, or a folder with one (sim/program), instead of steps; empty: none.
@@ -107,10 +109,10 @@ struct Motion {
   std::string routine;               ///< of the program, "name" or "name(arguments)"; empty: the start of the program
   std::vector<BranchAssumption> assume;
   std::vector<ProgramValue> values;
-  int passes = 0;                     ///< of the program's endless main loop; 0: until it repeats
+  int passes = 0;                             ///< of the program's endless main loop; 0: until it repeats
   RecordedRows rows = RecordedRows::blended;  ///< for steps with durations
-  double spot_time = 1;               ///< dwell of a spot weld in a program [s]
-  std::filesystem::path clamp_poses;  ///< CSV with the poses of both clamps, instead of steps; empty: none
+  double spot_time = 1;                       ///< dwell of a spot weld in a program [s]
+  std::filesystem::path clamp_poses;          ///< CSV with the poses of both clamps, instead of steps; empty: none
   std::filesystem::path deformation;  ///< CSV with the deformation of the dresspack, instead of steps; empty: none
   std::optional<Rig> rig;             ///< test rig that deforms the dresspack, instead of steps
   /// Warnings about skipped instructions of a program that may move the robot, and about numbers that seem to be in another unit

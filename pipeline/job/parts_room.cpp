@@ -13,12 +13,10 @@ namespace {
 /// is the cable itself.
 bool holds_cables(const Dresspack& dresspack) {
   const std::vector<Component>& parts = dresspack.components;
-  if (dresspack.cable_alone || (parts.size() == 1 && parts[0].count == 1 && parts[0].helix_radius == 0))
-    return false;
+  if (dresspack.cable_alone || (parts.size() == 1 && parts[0].count == 1 && parts[0].helix_radius == 0)) return false;
   return std::any_of(parts.begin(), parts.end(), [](const Component& part) {
-    return part.plain || std::any_of(part.components.begin(), part.components.end(), [](const Component& inner) {
-             return !inner.components.empty();
-           });
+    return part.plain || std::any_of(part.components.begin(), part.components.end(),
+                                     [](const Component& inner) { return !inner.components.empty(); });
   });
 }
 
@@ -58,7 +56,8 @@ double outside_bore(const PartsRoom& room, const Component& component) {
 }
 
 double inside_core(const PartsRoom& room, const Component& component) {
-  return beyond_caliper(component, component.helix_radius == 0 ? 0 : room.core - component.helix_radius + component.radius);
+  return beyond_caliper(component,
+                        component.helix_radius == 0 ? 0 : room.core - component.helix_radius + component.radius);
 }
 
 namespace {
@@ -66,8 +65,8 @@ namespace {
 constexpr double touching = 1e-3;  // share of the bore; place: auto arranges parts without contact
 
 std::string wider_bore(const Dresspack& dresspack, double radius) {
-  return fmt::format("inner_diameter_mm{}: {:.4g} or more", dresspack.inner_diameter ? "" : " (now by hose_corrugation)",
-                     std::ceil(2e4 * radius - 1e-6) / 10);
+  return fmt::format("inner_diameter_mm{}: {:.4g} or more",
+                     dresspack.inner_diameter ? "" : " (now by hose_corrugation)", std::ceil(2e4 * radius - 1e-6) / 10);
 }
 
 std::string thickness(const Component& part) { return fmt::format("'{}' ({:.4g} mm)", part.name, 2e3 * part.radius); }
@@ -77,28 +76,31 @@ std::string thickness(const Component& part) { return fmt::format("'{}' ({:.4g} 
 std::string half_of(const Component& part) {
   const double bore = part.plain ? part.plain->bore.value_or(0) : 0;  // diameter
   return bore > 0 && bore < narrowest_bore * 2 * part.radius && bore < widest_bore * part.radius
-             ? fmt::format("give radius_mm: {:.4g} of '{}' if {:.4g} is its outer diameter; or ", 5e2 * part.radius, part.name,
-                           1e3 * part.radius)
+             ? fmt::format("give radius_mm: {:.4g} of '{}' if {:.4g} is its outer diameter; or ", 5e2 * part.radius,
+                           part.name, 1e3 * part.radius)
              : "";
 }
 
 /// Returns the conflict if `other` does not fit beside `middle`, which lies in the middle of the bore or must lie there.
-std::optional<Crowd> crowd_around(const Dresspack& dresspack, double bore, const Component& middle, const Component& other) {
+std::optional<Crowd> crowd_around(const Dresspack& dresspack, double bore, const Component& middle,
+                                  const Component& other) {
   const double gap = bore - middle.radius;
   if (2 * other.radius <= gap + 2 * caliper_error * other.radius) return std::nullopt;
   const double thickest = std::max(middle.radius, other.radius);
   const bool beside = 2 * thickest <= bore;  // both fit beside the axis, on opposite sides
   const std::string what = fmt::format(
-      "{} and {} do not fit into the bore of {:.4g} mm{}: around '{}' in the middle are {:.3g} mm", thickness(middle), thickness(other),
-      2e3 * bore, beside ? " as they lie" : fmt::format("; a part wider than {:.4g} mm lies in the middle here", 1e3 * bore), middle.name,
-      1e3 * gap);
+      "{} and {} do not fit into the bore of {:.4g} mm{}: around '{}' in the middle are {:.3g} mm", thickness(middle),
+      thickness(other), 2e3 * bore,
+      beside ? " as they lie" : fmt::format("; a part wider than {:.4g} mm lies in the middle here", 1e3 * bore),
+      middle.name, 1e3 * gap);
   const std::string together = "place: auto for both instead of helix_radius_mm and phase_deg";
   return Crowd{
       middle.where, what,
       half_of(middle) + half_of(other) +
           (beside ? "write " + together
                   : fmt::format("take a hose with {} and {}, or beside '{}' only parts of {:.3g} mm and less",
-                                wider_bore(dresspack, (1 + touching) * std::min(middle.radius + 2 * other.radius, 2 * thickest)),
+                                wider_bore(dresspack,
+                                           (1 + touching) * std::min(middle.radius + 2 * other.radius, 2 * thickest)),
                                 together, middle.name, 1e3 * gap))};
 }
 
@@ -109,20 +111,23 @@ std::optional<Crowd> crowd_in(const Dresspack& dresspack) {
   if (!inner_radius(dresspack) || room.estimated || !(room.bore > 0) || room.core >= room.bore) return std::nullopt;
   for (const Component& part : dresspack.components)
     if (part.radius > room.bore)
-      return Crowd{
-          part.where,
-          fmt::format("'{}' is {:.4g} mm thick (the hose is {:.4g} mm wide inside)", part.name, 2e3 * part.radius, 2e3 * room.bore),
-          half_of(part) + fmt::format("check the diameters of both, or take a hose with {}", wider_bore(dresspack, part.radius))};
+      return Crowd{part.where,
+                   fmt::format("'{}' is {:.4g} mm thick (the hose is {:.4g} mm wide inside)", part.name,
+                               2e3 * part.radius, 2e3 * room.bore),
+                   half_of(part) + fmt::format("check the diameters of both, or take a hose with {}",
+                                               wider_bore(dresspack, part.radius))};
   const auto too_thick = [](const Component& part, double gap) { return 2 * part.radius * (1 - caliper_error) > gap; };
   if (room.core > 0) {
     for (const Component& part : dresspack.components)
       if (const double gap = room.bore - room.core; part.helix_radius > 0 && too_thick(part, gap))
-        return Crowd{part.where,
-                     fmt::format("'{}' is {:.4g} mm thick (between the core of {:.4g} mm and the bore of {:.4g} mm are {:.3g} mm)",
-                                 part.name, 2e3 * part.radius, 2e3 * room.core, 2e3 * room.bore, 1e3 * gap),
-                     fmt::format("take a hose with {}, or core_diameter_mm: {:.4g} or less",
-                                 wider_bore(dresspack, room.core + 2 * part.radius),
-                                 2e3 * std::max(0.0, room.bore - 2 * part.radius))};
+        return Crowd{
+            part.where,
+            fmt::format(
+                "'{}' is {:.4g} mm thick (between the core of {:.4g} mm and the bore of {:.4g} mm are {:.3g} mm)",
+                part.name, 2e3 * part.radius, 2e3 * room.core, 2e3 * room.bore, 1e3 * gap),
+            fmt::format("take a hose with {}, or core_diameter_mm: {:.4g} or less",
+                        wider_bore(dresspack, room.core + 2 * part.radius),
+                        2e3 * std::max(0.0, room.bore - 2 * part.radius))};
     return std::nullopt;
   }
   for (const Component& middle : dresspack.components) {

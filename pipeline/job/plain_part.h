@@ -25,8 +25,9 @@ struct PlainPart {
   Medium medium = Medium::air;              ///< content of a hose
   std::optional<double> bending_stiffness;  ///< E I [N m2]; absent: that of polymer
   std::optional<double> damage_exponent;    ///< m of (F31), of a cable; absent: usual_damage_exponent
-  std::optional<double> least_bend_radius{};  ///< of a hose's axis, from its maker [m]; absent: see pipeline/cable/kink.h
-  double stiffness_factor = 1;              ///< of its polymer at the cell's temperature (pipeline/cable/warmth.h)
+  std::optional<double>
+      least_bend_radius{};      ///< of a hose's axis, from its maker [m]; absent: see pipeline/cable/kink.h
+  double stiffness_factor = 1;  ///< of its polymer at the cell's temperature (pipeline/cable/warmth.h)
   Where where{};
 };
 

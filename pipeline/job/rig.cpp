@@ -81,13 +81,11 @@ void check_radius(const Rig& rig) {
 
 void describe(Fields& f, Rig& rig) {
   f.place(rig.where);
-  f.choice(
-      "kind", rig.kind,
-      "The kind of test. torsion: twist between two grips. rolling_flex: a bend of 180 deg rolls along the cable, "
-      "as in an energy chain. two_pulley: a carriage with two pulleys runs along the cable (EN 50396). tick_tock: "
-      "bending over two mandrels. swivel: bending at a clip. axial: pull and release.");
-  f.maybe_number("length_m", rig.length, between(1e-3, 1000),
-                 "torsion: the length between the grips. Default: 1.");
+  f.choice("kind", rig.kind,
+           "The kind of test. torsion: twist between two grips. rolling_flex: a bend of 180 deg rolls along the cable, "
+           "as in an energy chain. two_pulley: a carriage with two pulleys runs along the cable (EN 50396). tick_tock: "
+           "bending over two mandrels. swivel: bending at a clip. axial: pull and release.");
+  f.maybe_number("length_m", rig.length, between(1e-3, 1000), "torsion: the length between the grips. Default: 1.");
   f.maybe_number("twist_deg_per_m", rig.twist, between(1e-3, 1e5), "torsion: the twist to either side.");
   f.maybe_number("radius_mm", rig.radius, between(1e-3, 1e5),
                  "rolling_flex: the bend radius of the cable's axis. tick_tock: the radius of the mandrels. "
@@ -99,14 +97,12 @@ void describe(Fields& f, Rig& rig) {
   f.maybe_number("travel_m", rig.travel, between(1e-3, 1000),
                  "The one-way travel of the moving end (rolling_flex) or of the carriage (two_pulley, "
                  "default 1).");
-  f.maybe_number(
-      "angle_deg", rig.angle, between(1e-2, 180),
-      "The angle to either side (swivel; tick_tock, default 90), or the angle of contact at each pulley "
-      "(two_pulley, default 180).");
-  f.maybe_number(
-      "weight_kg", rig.weight, at_least(0),
-      "The mass that pulls on the cable. torsion: its lower end is then free to rise, and without it both "
-      "ends keep their distance. tick_tock, two_pulley: default 0.");
+  f.maybe_number("angle_deg", rig.angle, between(1e-2, 180),
+                 "The angle to either side (swivel; tick_tock, default 90), or the angle of contact at each pulley "
+                 "(two_pulley, default 180).");
+  f.maybe_number("weight_kg", rig.weight, at_least(0),
+                 "The mass that pulls on the cable. torsion: its lower end is then free to rise, and without it both "
+                 "ends keep their distance. tick_tock, two_pulley: default 0.");
   f.maybe_number("elongation_percent", rig.elongation, between(1e-6, 10),
                  "axial: the elongation to either side of the mean.");
   f.maybe_number("mean_elongation_percent", rig.mean_elongation, between(-10, 10),
@@ -125,8 +121,7 @@ void check_rig(Rig& rig) {
                                    joined(keys_of(rig.kind), ", ")),
                        "leave it out, or choose another kind");
     if (!given && use == Use::required)
-      throw InputError(rig.where, fmt::format("a rig of kind {} needs {}", word(rig.kind), parameter.key),
-                       "give it");
+      throw InputError(rig.where, fmt::format("a rig of kind {} needs {}", word(rig.kind), parameter.key), "give it");
   }
   check_radius(rig);
   switch (rig.kind) {

@@ -30,8 +30,7 @@ void describe(Fields& f, Joint& joint) {
   f.number("lower_deg", joint.lower, Need::required, any_number(), "The lowest angle.");
   f.number("upper_deg", joint.upper, Need::required, any_number(), "The highest angle.");
   f.number("speed_deg_per_s", joint.speed, Need::required, above(0), "The highest speed.");
-  f.number("acceleration_deg_per_s2", joint.acceleration, Need::required, above(0),
-           "The highest acceleration.");
+  f.number("acceleration_deg_per_s2", joint.acceleration, Need::required, above(0), "The highest acceleration.");
   f.place_of("acceleration_deg_per_s2", joint.acceleration_where);
 }
 
@@ -50,16 +49,14 @@ void describe(Fields& f, ExternalAxis& axis) {
     f.number("lower_mm", axis.lower, Need::required, any_number(), "The lowest position.");
     f.number("upper_mm", axis.upper, Need::required, any_number(), "The highest position.");
     f.number("speed_mm_per_s", axis.speed, Need::required, above(0), "The highest speed.");
-    f.number("acceleration_mm_per_s2", axis.acceleration, Need::required, above(0),
-             "The highest acceleration.");
+    f.number("acceleration_mm_per_s2", axis.acceleration, Need::required, above(0), "The highest acceleration.");
   }
   if (axis.kind == ExternalAxis::Kind::linear && !manual) return;
   const Need need = manual ? Need::optional : Need::required;
   f.number("lower_deg", axis.lower, need, any_number(), "The lowest angle of a rotary axis.");
   f.number("upper_deg", axis.upper, need, any_number(), "The highest angle of a rotary axis.");
   f.number("speed_deg_per_s", axis.speed, need, above(0), "The highest speed of a rotary axis.");
-  f.number("acceleration_deg_per_s2", axis.acceleration, need, above(0),
-           "The highest acceleration of a rotary axis.");
+  f.number("acceleration_deg_per_s2", axis.acceleration, need, above(0), "The highest acceleration of a rotary axis.");
 }
 
 void describe(Fields& f, MountingPoint& point) {
@@ -72,8 +69,7 @@ void describe(Fields& f, MountingPoint& point) {
 
 void describe(Fields& f, Link& link) {
   f.text("name", link.name, Need::required, "The name of the link. Clamps refer to it.");
-  f.list("capsules", link.capsules, Need::optional,
-         "Capsules that form the link for contact with the dresspack.");
+  f.list("capsules", link.capsules, Need::optional, "Capsules that form the link for contact with the dresspack.");
   f.list("boxes", link.boxes, Need::optional, "Boxes that form the link, in its frame.");
   f.list("meshes", link.meshes, Need::optional, "Meshes that form the link, in its frame.");
 }
@@ -81,8 +77,7 @@ void describe(Fields& f, Link& link) {
 void describe(Fields& f, Robot& robot) {
   f.text("name", robot.name, Need::required, "The type designation.");
   f.text("source", robot.source, Need::required, "The source of the numbers.");
-  f.vector("base_position_m", robot.base_position, Need::optional,
-           "The position of the base link in the world.");
+  f.vector("base_position_m", robot.base_position, Need::optional, "The position of the base link in the world.");
   f.vector("base_rpy_deg", robot.base_orientation, Need::optional,
            "Roll, pitch and yaw of the base link in the world.");
   f.vector("program_base_m", robot.program_base, Need::optional,
@@ -98,15 +93,13 @@ void describe(Fields& f, Robot& robot) {
          "Drives beside the robot's own. Tracks under the robot come first, from the world upwards.");
   f.list("joints", robot.joints, Need::required, "The axes from the base to the flange.");
   f.list("links", robot.links, Need::required, "The base link, then the link behind each joint.");
-  f.list("mounting_points", robot.mounting_points, Need::optional,
-         "The places at which dresspacks can be clamped.");
+  f.list("mounting_points", robot.mounting_points, Need::optional, "The places at which dresspacks can be clamped.");
 }
 
 namespace {
 
 void check_direction(const Vector3d& axis, const std::string& name, const Where& where) {
-  if (!(axis.norm() > 1e-9))
-    throw InputError(where, fmt::format("axis of {} is zero", name), "give its direction");
+  if (!(axis.norm() > 1e-9)) throw InputError(where, fmt::format("axis of {} is zero", name), "give its direction");
 }
 
 void check_range(double lower, double upper, const std::string& name, const Where& where) {
@@ -121,8 +114,7 @@ void check_joint(const Joint& joint, const Robot& robot) {
     return other.name == joint.follows && other.follows.empty();
   });
   if (!driven)
-    throw InputError(joint.where,
-                     fmt::format("{} follows '{}', which is no driven joint", joint.name, joint.follows),
+    throw InputError(joint.where, fmt::format("{} follows '{}', which is no driven joint", joint.name, joint.follows),
                      "name a joint that follows no other");
 }
 
@@ -135,8 +127,7 @@ void check_robot(const Robot& robot, const Where& where) {
                  fmt::format("robot has {} joints and {} links (must be one link more)", robot.joints.size(),
                              robot.links.size()),
                  "list the base link and one link per joint");
-  for (const Joint& joint : robot.joints)
-    problems.attempt("", joint.where, [&] { check_joint(joint, robot); });
+  for (const Joint& joint : robot.joints) problems.attempt("", joint.where, [&] { check_joint(joint, robot); });
   for (const ExternalAxis& axis : robot.external_axes)
     problems.attempt("", axis.where, [&] {
       if (axis.name.empty()) throw InputError(axis.where, "an external axis has no name", "name it");

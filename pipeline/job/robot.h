@@ -60,15 +60,15 @@ struct MountingPoint {
 
 struct Robot {
   std::string name, source;
-  Vector3d base_position = Vector3d::Zero();     ///< of link 0 in the world [m]
-  Vector3d base_orientation = Vector3d::Zero();  ///< roll, pitch, yaw [rad]
-  Vector3d program_base = Vector3d::Zero();  ///< origin of the programs' base frame, in link 0 [m]
+  Vector3d base_position = Vector3d::Zero();        ///< of link 0 in the world [m]
+  Vector3d base_orientation = Vector3d::Zero();     ///< roll, pitch, yaw [rad]
+  Vector3d program_base = Vector3d::Zero();         ///< origin of the programs' base frame, in link 0 [m]
   Vector3d program_orientation = Vector3d::Zero();  ///< of that frame in link 0: roll, pitch, yaw [rad]
-  Vector3d flange_position = Vector3d::Zero();     ///< of the flange frame in the last link [m]
-  Vector3d flange_orientation = Vector3d::Zero();  ///< roll, pitch, yaw; the z axis points away from the flange [rad]
-  std::vector<ExternalAxis> external_axes;         ///< axes that carry the robot, from the world on
-  std::vector<Joint> joints;                       ///< serial, from the base
-  std::vector<Link> links;                         ///< joints + 1
+  Vector3d flange_position = Vector3d::Zero();      ///< of the flange frame in the last link [m]
+  Vector3d flange_orientation = Vector3d::Zero();   ///< roll, pitch, yaw; the z axis points away from the flange [rad]
+  std::vector<ExternalAxis> external_axes;          ///< axes that carry the robot, from the world on
+  std::vector<Joint> joints;                        ///< serial, from the base
+  std::vector<Link> links;                          ///< joints + 1
   std::vector<MountingPoint> mounting_points;
 
   std::size_t axes() const;  ///< Returns the number of joints that follow no other joint.

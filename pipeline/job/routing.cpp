@@ -23,9 +23,10 @@ void describe(Fields& f, BendRelief& relief) {
 
 void describe(Fields& f, Clamp& clamp) {
   f.place(clamp.where);
-  f.text("mounting_point", clamp.mounting_point, Need::optional,
-         "The name of a mounting point of the robot, instead of link, position_m and direction. A position_m or direction beside it "
-         "replaces the point's.");
+  f.text(
+      "mounting_point", clamp.mounting_point, Need::optional,
+      "The name of a mounting point of the robot, instead of link, position_m and direction. A position_m or direction beside it "
+      "replaces the point's.");
   const Need need = clamp.mounting_point.empty() ? Need::required : Need::optional;
   f.text("link", clamp.link, need, "The link of the robot with the clamp.");
   f.vector("position_m", clamp.position, need, "The position of the clamp in the link's frame.");
@@ -34,8 +35,9 @@ void describe(Fields& f, Clamp& clamp) {
   f.maybe_number("roll_deg", clamp.roll, between(-360, 360),
                  "The angle of the clamp about the direction. Default: 0 at the base clamp, and the angle "
                  "without twist at the others.");
-  f.maybe_group("bend_relief", clamp.bend_relief,
-                "A sleeve or spring that makes the dresspack stiffer beside the clamp, on its free side. Default: none.");
+  f.maybe_group(
+      "bend_relief", clamp.bend_relief,
+      "A sleeve or spring that makes the dresspack stiffer beside the clamp, on its free side. Default: none.");
 }
 
 void describe(Fields& f, IntermediateClamp& between) {
@@ -47,8 +49,7 @@ void describe(Fields& f, IntermediateClamp& between) {
 void describe(Fields& f, GuideRing& ring) {
   f.place(ring.where);
   f.text("link", ring.link, Need::required, "The link of the robot with the ring.");
-  f.vector("position_m", ring.position, Need::required,
-           "The position of the ring's centre in the link's frame.");
+  f.vector("position_m", ring.position, Need::required, "The position of the ring's centre in the link's frame.");
   f.vector("direction", ring.direction, Need::required,
            "The direction of the ring's axis, from base to tool, in the link's frame.");
   f.number("radius_mm", ring.radius, Need::required, above(0), "The clear inner radius.");
@@ -56,18 +57,16 @@ void describe(Fields& f, GuideRing& ring) {
            "The Coulomb friction of the dresspack on the ring.");
   f.number("width_mm", ring.width, Need::optional, at_least(0),
            "The width of the ring along its axis. Both edges guide the dresspack.");
-  f.maybe_number(
-      "at_length_m", ring.at_length, above(0),
-      "The length of dresspack from the base clamp to the ring when mounted. Default: all pieces have the "
-      "same relative slack.");
+  f.maybe_number("at_length_m", ring.at_length, above(0),
+                 "The length of dresspack from the base clamp to the ring when mounted. Default: all pieces have the "
+                 "same relative slack.");
 }
 
 void describe(Fields& f, Retraction& retraction) {
   f.place(retraction.where);
   f.number("force_N", retraction.force, Need::required, at_least(0),
            "The force that pulls the base clamp back against its direction in the retracted position.");
-  f.number("spring_N_per_m", retraction.spring, Need::optional, at_least(0),
-           "The additional force per distance.");
+  f.number("spring_N_per_m", retraction.spring, Need::optional, at_least(0), "The additional force per distance.");
   f.number("stroke_m", retraction.stroke, Need::required, above(0),
            "The largest distance along the direction of the clamp.");
   f.number("damping_Ns_per_m", retraction.damping, Need::optional, at_least(0),
@@ -97,16 +96,18 @@ void describe(Fields& f, Routing& routing) {
            "The end at the tool. free: the dresspack hangs from its last clamp, without a tool_clamp.");
   f.number("tool_mass_kg", routing.tool_mass, Need::optional, at_least(0),
            "The mass at the end of a dresspack whose tool_end is free.");
-  f.choice("side", routing.side,
-           "The side to which the dresspack bulges when it is mounted, seen from the base clamp to the tool clamp: left or right. "
-           "Between clamps that lie in one plane with the arm it can rest on both, and may keep this side for the whole program. "
-           "either: the left side if both are alike.");
+  f.choice(
+      "side", routing.side,
+      "The side to which the dresspack bulges when it is mounted, seen from the base clamp to the tool clamp: left or right. "
+      "Between clamps that lie in one plane with the arm it can rest on both, and may keep this side for the whole program. "
+      "either: the left side if both are alike.");
   f.numbers("mounting_pose_deg", routing.mounting_pose, Need::optional,
             "The joint angles at which the dresspack was clamped without twist. Default: the first target. "
             "It is one pose for all dresspacks.");
-  f.maybe_number("longest_bracket_mm", routing.longest_bracket, between(0, 10'000),
-                 "The longest bracket that can be built between a link's surface and a clamp or ring. Default: 150. route and "
-                 "improve keep it, and the preview draws longer ones red.");
+  f.maybe_number(
+      "longest_bracket_mm", routing.longest_bracket, between(0, 10'000),
+      "The longest bracket that can be built between a link's surface and a clamp or ring. Default: 150. route and "
+      "improve keep it, and the preview draws longer ones red.");
 }
 
 namespace {
@@ -136,18 +137,17 @@ void place_clamp(Clamp& clamp, const Robot& robot) {
 /// Checks the place of a clamp or a ring.
 template <class Place>
 void check_place(const Place& place, const std::string& name, const Robot& robot) {
-  constexpr double farthest = 30;  // [m] from a link's frame: more than the size of a cell, so the value was in millimetres
+  constexpr double farthest =
+      30;  // [m] from a link's frame: more than the size of a cell, so the value was in millimetres
   if (!(place.direction.norm() > 1e-9))
-    throw InputError(place.where, fmt::format("routing.{}.direction is zero", name),
-                     "give where the dresspack points");
+    throw InputError(place.where, fmt::format("routing.{}.direction is zero", name), "give where the dresspack points");
   if (!(place.position.norm() <= farthest))
     throw InputError(place.where,
                      fmt::format("routing.{}.position_m is {:.4g} m away from the frame of {} (at most {:g})", name,
                                  place.position.norm(), place.link, farthest),
                      "give it in metres, in the link's frame");
   if (!find_in(robot.links, &Link::name, place.link))
-    throw InputError(place.where,
-                     fmt::format("routing.{}.link '{}' is not a link of the robot", name, place.link),
+    throw InputError(place.where, fmt::format("routing.{}.link '{}' is not a link of the robot", name, place.link),
                      fmt::format("one of: {}", joined(mapped(robot.links, &Link::name), ", ")));
 }
 
@@ -163,9 +163,8 @@ void check_clamp(const std::optional<Clamp>& clamp, const std::string& name, con
 void check_robot_only(const Routing& routing) {
   const auto refuse = [&](bool given, const char* key, const Where& where) {
     if (given)
-      throw InputError(
-          where, fmt::format("routing.{} needs a robot (motion.clamp_poses brings two poses only)", key),
-          "describe the motion by a robot, or leave it out");
+      throw InputError(where, fmt::format("routing.{} needs a robot (motion.clamp_poses brings two poses only)", key),
+                       "describe the motion by a robot, or leave it out");
   };
   if (!routing.clamps.empty()) refuse(true, "clamps", routing.clamps.front().clamp.where);
   if (!routing.rings.empty()) refuse(true, "rings", routing.rings.front().where);
@@ -187,19 +186,17 @@ void check_rings(const Routing& routing, double diameter, const Robot& robot, Pr
                    "take a wider ring");
     if (!ring.at_length) continue;
     if (!(*ring.at_length > before && *ring.at_length < routing.free_length))
-      problems.add(
-          ring.where,
-          fmt::format("routing.{}.at_length_m is {} (must lie between {} and {}, the ring or clamp before "
-                      "it and the dresspack's end)",
-                      name, *ring.at_length, before, routing.free_length),
-          "list the rings in their order along the dresspack");
+      problems.add(ring.where,
+                   fmt::format("routing.{}.at_length_m is {} (must lie between {} and {}, the ring or clamp before "
+                               "it and the dresspack's end)",
+                               name, *ring.at_length, before, routing.free_length),
+                   "list the rings in their order along the dresspack");
     before = *ring.at_length;
   }
   if (!routing.rings.empty() && !routing.clamps.empty())
     for (const GuideRing& ring : routing.rings)
       if (!ring.at_length)
-        problems.add(ring.where,
-                     "a ring beside routing.clamps has no at_length_m (its place between the clamps)",
+        problems.add(ring.where, "a ring beside routing.clamps has no at_length_m (its place between the clamps)",
                      "give the length of dresspack from the base clamp to the ring");
 }
 
@@ -207,9 +204,8 @@ void check_intermediate_clamps(const Routing& routing, const Robot& robot, Probl
   double before = 0;
   for (std::size_t k = 0; k < routing.clamps.size(); ++k) {
     const auto& [clamp, at_length] = routing.clamps[k];
-    problems.attempt("", clamp.where, [&, &clamp = clamp] {
-      check_clamp(clamp, fmt::format("clamps[{}]", k + 1), routing, robot);
-    });
+    problems.attempt("", clamp.where,
+                     [&, &clamp = clamp] { check_clamp(clamp, fmt::format("clamps[{}]", k + 1), routing, robot); });
     if (!(at_length > before && at_length < routing.free_length))
       problems.add(clamp.where,
                    fmt::format("routing.clamps[{}].at_length_m is {} (must lie between {} and {}, the clamps "
@@ -227,10 +223,12 @@ void check_bend_reliefs(const Routing& routing, Problems& problems) {
   const auto check_piece = [&](double end, const Clamp* after) {
     for (const Clamp* const clamp : {before, after})
       if (clamp && clamp->bend_relief && begin < end && clamp->bend_relief->length > (end - begin) / 2)
-        problems.add(clamp->where,
-                     fmt::format("bend_relief.length_mm is {:.5g} (at most {:.5g}, half the dresspack between this clamp and the next)",
-                                 1e3 * clamp->bend_relief->length, 5e2 * (end - begin)),
-                     "give the length from the clamp's edge to the end of the sleeve");
+        problems.add(
+            clamp->where,
+            fmt::format(
+                "bend_relief.length_mm is {:.5g} (at most {:.5g}, half the dresspack between this clamp and the next)",
+                1e3 * clamp->bend_relief->length, 5e2 * (end - begin)),
+            "give the length from the clamp's edge to the end of the sleeve");
     begin = end, before = after;
   };
   for (const IntermediateClamp& between : routing.clamps) check_piece(between.at_length, &between.clamp);
@@ -241,9 +239,7 @@ void check_bend_reliefs(const Routing& routing, Problems& problems) {
 
 void place_clamps(Routing& routing, const Robot& robot) {
   Problems problems;
-  const auto place = [&](Clamp& clamp) {
-    problems.attempt("", clamp.where, [&] { place_clamp(clamp, robot); });
-  };
+  const auto place = [&](Clamp& clamp) { problems.attempt("", clamp.where, [&] { place_clamp(clamp, robot); }); };
   for (std::optional<Clamp>* clamp : {&routing.base_clamp, &routing.tool_clamp})
     if (*clamp) place(**clamp);
   for (IntermediateClamp& between : routing.clamps) place(between.clamp);
@@ -261,7 +257,9 @@ std::string relief_text(const BendRelief& relief) {
 }
 
 std::vector<std::array<BendRelief, 2>> bend_reliefs(const Routing& routing) {
-  const auto of = [](const std::optional<Clamp>& clamp) { return clamp ? clamp->bend_relief.value_or(BendRelief{}) : BendRelief{}; };
+  const auto of = [](const std::optional<Clamp>& clamp) {
+    return clamp ? clamp->bend_relief.value_or(BendRelief{}) : BendRelief{};
+  };
   std::vector<std::array<BendRelief, 2>> reliefs{{of(routing.base_clamp), {}}};
   for (const IntermediateClamp& between : routing.clamps) {
     reliefs.back()[1] = of(between.clamp);
@@ -276,8 +274,7 @@ void check_routing(const Routing& routing, double diameter, const Robot& robot, 
   const auto attempt = [&](const auto& check) { problems.attempt("", routing.where, check); };
   if (!recorded) {
     attempt([&] { check_clamp(routing.base_clamp, "base_clamp", routing, robot); });
-    if (is_clamped(routing.tool_end))
-      attempt([&] { check_clamp(routing.tool_clamp, "tool_clamp", routing, robot); });
+    if (is_clamped(routing.tool_end)) attempt([&] { check_clamp(routing.tool_clamp, "tool_clamp", routing, robot); });
   } else if (routing.base_clamp || routing.tool_clamp) {
     problems.add(routing.where, "clamps are given although motion.clamp_poses brings their poses",
                  "keep one of the two");
@@ -297,8 +294,8 @@ void check_routing(const Routing& routing, double diameter, const Robot& robot, 
                  "add tool_end: free, or leave the mass out");
   if (!routing.mounting_pose.empty() && routing.mounting_pose.size() != robot.axes())
     problems.add(routing.where,
-                 fmt::format("mounting_pose_deg has {} angles (the robot has {} axes)",
-                             routing.mounting_pose.size(), robot.axes()),
+                 fmt::format("mounting_pose_deg has {} angles (the robot has {} axes)", routing.mounting_pose.size(),
+                             robot.axes()),
                  "give one angle per axis");
   problems.finish();
 }

@@ -28,7 +28,8 @@ struct Clamp {
   std::string link;                        ///< link of the robot
   Vector3d position = Vector3d::Zero();    ///< in the link's frame [m]
   Vector3d direction = Vector3d::UnitZ();  ///< of the dresspack at the clamp, base to tool, in the link's frame
-  std::optional<double> roll;  ///< about the direction [rad]; absent: 0 at the base clamp, twist-free at the other clamps
+  std::optional<double>
+      roll;  ///< about the direction [rad]; absent: 0 at the base clamp, twist-free at the other clamps
   Where where;
   std::string mounting_point{};  ///< of the robot, replaces link, position and direction; empty after reading
   std::optional<BendRelief> bend_relief{};

@@ -24,8 +24,7 @@ void describe(Fields& f, Box& box) {
 
 void describe(Fields& f, MeshFile& mesh) {
   f.path("file", mesh.file, Need::required, "A file of triangles as STL or OBJ.");
-  f.number("scale", mesh.scale, Need::optional, above(0),
-           "The metres per unit of the file: 0.001 for millimetres.");
+  f.number("scale", mesh.scale, Need::optional, above(0), "The metres per unit of the file: 0.001 for millimetres.");
   f.vector("position_m", mesh.position, Need::optional, "The position of the file's origin.");
   f.vector("rpy_deg", mesh.orientation, Need::optional, "Roll, pitch and yaw of the file's axes.");
 }
@@ -33,9 +32,10 @@ void describe(Fields& f, MeshFile& mesh) {
 void describe(Fields& f, Cell& cell) {
   std::optional<double> other;  // absent at the usual temperature, so that the files of such jobs do not change
   if (cell.temperature != Cell::usual_temperature) other = cell.temperature;
-  f.maybe_number("temperature_C", other, between(Cell::coldest, Cell::warmest),
-                 "The temperature of the dresspack. Polymers soften and wear faster when it rises; metals stay the same. Other "
-                 "temperatures are beyond the published data. Default: 23, at which most polymers are tested.");
+  f.maybe_number(
+      "temperature_C", other, between(Cell::coldest, Cell::warmest),
+      "The temperature of the dresspack. Polymers soften and wear faster when it rises; metals stay the same. Other "
+      "temperatures are beyond the published data. Default: 23, at which most polymers are tested.");
   cell.temperature = other.value_or(Cell::usual_temperature);
   f.list("capsules", cell.capsules, Need::optional, "Posts, pipes and round edges, in the world's frame.");
   f.list("boxes", cell.boxes, Need::optional, "Tables and cabinets, in the world's frame.");

@@ -37,9 +37,9 @@ struct MeshFile {
 
 /// Fixed objects around the robot, in the world's frame, and the air temperature.
 struct Cell {
-  static constexpr double usual_temperature = 23;  ///< [C], temperature of most tests of polymers (ISO 291)
+  static constexpr double usual_temperature = 23;      ///< [C], temperature of most tests of polymers (ISO 291)
   static constexpr double coldest = 10, warmest = 60;  ///< [C], range of the law in pipeline/cable/warmth.h
-  double temperature = usual_temperature;          ///< [C]
+  double temperature = usual_temperature;              ///< [C]
   std::vector<Capsule> capsules;
   std::vector<Box> boxes;
   std::vector<MeshFile> meshes;

@@ -17,11 +17,10 @@ void describe(Fields& f, Strain& strain) {
   f.choices("slip", strain.slip,
             "The slip between a part and its parent: one word, or one per level from the outermost. "
             "friction is the best estimate; free and stick are its bounds.");
-  f.choice(
-      "equivalent", strain.equivalent,
-      "The strain that is counted. axial: along the fibre. shear_included: with the shear of the wire's "
-      "torsion, signed sqrt(eps^2 + gamma^2/3). critical_plane: across the plane with the largest damage, for "
-      "the likely worst wires.");
+  f.choice("equivalent", strain.equivalent,
+           "The strain that is counted. axial: along the fibre. shear_included: with the shear of the wire's "
+           "torsion, signed sqrt(eps^2 + gamma^2/3). critical_plane: across the plane with the largest damage, for "
+           "the likely worst wires.");
   f.integer("surface_fibres", strain.surface_fibres, Need::optional, between(0, 64),
             "The number of fibres on each wire's surface. 1: the outer one. 0: the axis.");
   f.number("gate", strain.gate, Need::optional, between(0, 0.1),

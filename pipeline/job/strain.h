@@ -13,9 +13,7 @@ namespace dresslife::pipeline {
 class Fields;
 
 enum class DeformationMeasure { rotation_vector, thesis };
-constexpr std::string_view word(DeformationMeasure value) {
-  return word_at({"rotation_vector", "thesis"}, value);
-}
+constexpr std::string_view word(DeformationMeasure value) { return word_at({"rotation_vector", "thesis"}, value); }
 /// Returns whether curvature and twist are computed by (24) of the thesis.
 constexpr bool is_thesis(DeformationMeasure value) { return value == DeformationMeasure::thesis; }
 
@@ -62,7 +60,7 @@ struct Strain {
   /// Reversals with a smaller strain range are dropped. An amplitude of half the default has a life of 1.6e14 cycles in soft
   /// copper by (8) of fatigue/theory.md; lives end at 5e14.
   double gate = 2e-4;
-  int cable_elements = 0;                     ///< elements of a loose cable per segment; 0: chosen from its wave length
+  int cable_elements = 0;  ///< elements of a loose cable per segment; 0: chosen from its wave length
   std::vector<ProbeRequest> probes;
   StrainFactors factors;
   double rest = 0;  ///< normal quantile of the rest position of loose cables: 0: the position with the median life

@@ -16,9 +16,7 @@ double UncertainParameter::value(double z) const { return logarithmic ? std::pow
 
 double UncertainParameter::deviation() const { return logarithmic ? std::log(step) : step; }
 
-double UncertainParameter::z_of(double value) const {
-  return (logarithmic ? std::log(value) : value) / deviation();
-}
+double UncertainParameter::z_of(double value) const { return (logarithmic ? std::log(value) : value) / deviation(); }
 
 const std::array<UncertainParameter, uncertain_count>& uncertain_parameters() {
   static const std::array<UncertainParameter, uncertain_count> parameters{{
@@ -30,8 +28,7 @@ const std::array<UncertainParameter, uncertain_count>& uncertain_parameters() {
       {"friction_hose", "strain.hose_friction_factor", true, 2, true, SharedBy::construction,
        "ESTIMATE: coefficients of polymers on polymers are 0.15 to 0.6",
        "the force that pulls one cable through its hose", "the friction of the cables on their hose",
-       "One cable pulled through its hose with a spring scale (one hour)",
-       0.2},  // the force is measured to 20 %
+       "One cable pulled through its hose with a spring scale (one hour)", 0.2},  // the force is measured to 20 %
       {"slack", "strain.slack_factor", true, 1.5, true, SharedBy::installation,
        "ESTIMATE: 2 cm in 2 m, mounted by hand to within about 1 cm",
        "the length of each cable between the clamps against the hose's: slack_percent",
@@ -39,15 +36,12 @@ const std::array<UncertainParameter, uncertain_count>& uncertain_parameters() {
        "The length of each cable measured against the hose (half an hour)", 0.15},  // 3 mm of 20 mm
       {"play", "strain.play_factor", true, 1.4, true, SharedBy::construction,
        "ESTIMATE: differences of diameters known to 1 or 2 mm each",
-       "the inner diameter of the hose and the cables' outer ones: play_mm",
-       "the room in which the cables can move",
+       "the inner diameter of the hose and the cables' outer ones: play_mm", "the room in which the cables can move",
        "The diameters of hose and cables measured with a caliper (half an hour)", 0.1},  // 0.5 mm of 5 mm
       {"grip", "strain.grip_factor", true, 2, true, SharedBy::installation,
        "ESTIMATE: a clamp's screw and rubber by hand; without effect where no grip is given",
-       "the force that pulls a cable out of its clamp: tool_grip_N",
-       "the force at which a clamp lets a cable slip",
-       "One cable pulled out of its clamp with a spring scale (one hour)",
-       0.2},  // the force is measured to 20 %
+       "the force that pulls a cable out of its clamp: tool_grip_N", "the force at which a clamp lets a cable slip",
+       "One cable pulled out of its clamp with a spring scale (one hour)", 0.2},  // the force is measured to 20 %
       {"rest", "strain.rest", false, 1, true, SharedBy::installation,
        "The places are those to which several starts of the cables lead (/start/rest of strain.h5). The key has no "
        "effect without a ring of loose cables",
@@ -63,13 +57,11 @@ const std::array<UncertainParameter, uncertain_count>& uncertain_parameters() {
        "Source: errors of rules from tensile tests (Nachtigall 1975) and the differences of the soft coppers in "
        "config/materials",
        "two cables in a torsion or flex test, with the cycles at which they failed (dresslife calibrate)",
-       "the strain that the wires withstand",
-       "Two cables bent or twisted in a test until they fail (some weeks)",
+       "the strain that the wires withstand", "Two cables bent or twisted in a test until they fail (some weeks)",
        0.1},  // 0.3 decades of life, to the power 1/7
       {"slope", "fatigue.slope_change", false, 0.01, false, SharedBy::material,
        "ESTIMATE: published slopes of copper are -0.112 and -0.12", "the same test at half the twist or bend",
-       "the slope of the wires' fatigue life over the strain",
-       "The same test at half the bend or twist (some weeks)",
+       "the slope of the wires' fatigue life over the strain", "The same test at half the bend or twist (some weeks)",
        0.005},  // 0.15 decades of life for a factor of two in strain
       {"scatter", "fatigue.scatter_factor", true, 1.4, false, SharedBy::material,
        "ESTIMATE: foils of one batch 0.04, fatigue lives often 0.3 of a decade, 0.2 in between",
@@ -78,8 +70,8 @@ const std::array<UncertainParameter, uncertain_count>& uncertain_parameters() {
        0.35},  // standard deviation of five values: 1 / sqrt(2 (5 - 1))
       {"model", "fatigue.model_factor", true, 2, false, SharedBy::everything, "ESTIMATE",
        "dresspacks that broke, or have not, with their programs and hours (dresslife calibrate)",
-       "what the model leaves out, such as wear and temperature",
-       "One dresspack observed until it fails (months)", 0.5},  // 0.2 decades of scatter
+       "what the model leaves out, such as wear and temperature", "One dresspack observed until it fails (months)",
+       0.5},  // 0.2 decades of scatter
       {"motion", "fatigue.motion_factor", true, 3.7, false, SharedBy::installation,
        "ESTIMATE, from four programs with other ramps and another damping. The key has no effect without a robot",
        "the swing of the mounted dresspack after a stop: damping_time_ms, bending_stiffness_Nm2, motion.ramp_percent",
@@ -91,8 +83,7 @@ const std::array<UncertainParameter, uncertain_count>& uncertain_parameters() {
 
 std::size_t index_of(std::string_view name) {
   const auto& known = uncertain_parameters();
-  const auto found =
-      std::find_if(known.begin(), known.end(), [&](const auto& one) { return one.name == name; });
+  const auto found = std::find_if(known.begin(), known.end(), [&](const auto& one) { return one.name == name; });
   return static_cast<std::size_t>(found - known.begin());
 }
 
@@ -100,8 +91,8 @@ std::vector<std::string> sets_at(std::span<const double> z) {
   std::vector<std::string> sets;
   for (std::size_t p = 0; p < uncertain_count; ++p)
     if (z[p] != 0)
-      sets.push_back(fmt::format("{}={}", uncertain_parameters()[p].key,
-                                 shortest_text(uncertain_parameters()[p].value(z[p]))));
+      sets.push_back(
+          fmt::format("{}={}", uncertain_parameters()[p].key, shortest_text(uncertain_parameters()[p].value(z[p]))));
   return sets;
 }
 
@@ -112,21 +103,19 @@ std::array<double, uncertain_count> Uncertainty::default_spread() {
 }
 
 void describe(Fields& f, Uncertainty& uncertainty) {
-  f.boolean(
-      "enabled", uncertainty.enabled, Need::optional,
-      "Whether lives include the uncertain parameters beside the wires' scatter. It takes at most twice as "
-      "much time again.");
-  f.choice(
-      "ratings", uncertainty.ratings,
-      "What is known of cables without a calibration. typical: what makers promise of their cables in tests "
-      "(config/observations/ratings.yaml); without effect if enabled is false. none: only the deviations below.");
+  f.boolean("enabled", uncertainty.enabled, Need::optional,
+            "Whether lives include the uncertain parameters beside the wires' scatter. It takes at most twice as "
+            "much time again.");
+  f.choice("ratings", uncertainty.ratings,
+           "What is known of cables without a calibration. typical: what makers promise of their cables in tests "
+           "(config/observations/ratings.yaml); without effect if enabled is false. none: only the deviations below.");
   for (std::size_t p = 0; p < uncertain_count; ++p) {
     const UncertainParameter& parameter = uncertain_parameters()[p];
     f.number(parameter.name, uncertainty.spread[p], Need::optional,
              parameter.logarithmic ? between(1, 100) : between(0, 5 * parameter.step),
              fmt::format("The standard deviation of {}, as {} of {}. {}: it is known. {}.", parameter.cause,
-                         parameter.logarithmic ? "a factor" : "a change", parameter.key,
-                         parameter.logarithmic ? 1 : 0, parameter.source));
+                         parameter.logarithmic ? "a factor" : "a change", parameter.key, parameter.logarithmic ? 1 : 0,
+                         parameter.source));
   }
 }
 
@@ -140,8 +129,7 @@ double other_stiffness(const Uncertainty& uncertainty) {
   // with 1.25)
   constexpr double reach = 1.65;
   const UncertainParameter& stiffness = uncertain_parameters()[index_of(Uncertain::hose_stiffness)];
-  return uncertainty.enabled ? reach * stiffness.z_of(uncertainty.spread[index_of(Uncertain::hose_stiffness)])
-                             : 0;
+  return uncertainty.enabled ? reach * stiffness.z_of(uncertainty.spread[index_of(Uncertain::hose_stiffness)]) : 0;
 }
 
 ParameterKnowledge prior_of(const Uncertainty& uncertainty) {

@@ -57,8 +57,9 @@ struct UncertainParameter {
   std::string_view source;   ///< of the deviation
   std::string_view measure;  ///< quantity that a user can measure to know it better
   std::string_view cause;    ///< as the subject of a sentence: "the friction inside the cables"
-  std::string_view test;     ///< measurement that determines it, and its duration: "One bending test of a cable (one hour)"
-  double test_deviation;     ///< error of that measurement: one standard deviation of ln(key), or of the key. ESTIMATE
+  std::string_view
+      test;  ///< measurement that determines it, and its duration: "One bending test of a cable (one hour)"
+  double test_deviation;  ///< error of that measurement: one standard deviation of ln(key), or of the key. ESTIMATE
 
   double deviation() const;      ///< of ln(key), or of the key
   double value(double z) const;  ///< of the key

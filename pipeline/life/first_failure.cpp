@@ -68,9 +68,8 @@ Eigen::MatrixXd factor_of(const Eigen::MatrixXd& covariance, const std::vector<s
     if (!(left > 1e-12)) continue;
     factor(column, column) = std::sqrt(left);
     for (Eigen::Index row = column + 1; row < n; ++row)
-      factor(row, column) =
-          (of(row, column) - factor.row(row).head(column).dot(factor.row(column).head(column))) /
-          factor(column, column);
+      factor(row, column) = (of(row, column) - factor.row(row).head(column).dot(factor.row(column).head(column))) /
+                            factor(column, column);
   }
   return factor;
 }
@@ -87,8 +86,7 @@ Eigen::MatrixXd divided(const Eigen::MatrixXd& numbers, const Eigen::MatrixXd& c
     for (Eigen::Index k = 0; k < n; ++k)
       if (factor(k, k) > 0) w(k) = (numbers(row, k) - factor.row(k).head(k).dot(w.head(k))) / factor(k, k);
     for (Eigen::Index k = n - 1; k >= 0; --k)
-      if (factor(k, k) > 0)
-        w(k) = (w(k) - factor.col(k).tail(n - 1 - k).dot(w.tail(n - 1 - k))) / factor(k, k);
+      if (factor(k, k) > 0) w(k) = (w(k) - factor.col(k).tail(n - 1 - k).dot(w.tail(n - 1 - k))) / factor(k, k);
   }
   return weights;
 }
@@ -111,7 +109,9 @@ StrainPoint place_of(StrainPoint point) {
 /// Returns whether the worst wire has other lives at other places of the cables, with equal friction inside.
 bool depends_on_place(const LifeResponse& response) {
   const auto of_point = static_cast<std::ptrdiff_t>(response.strength.size() * response.slope.size());
-  const auto lives = [&](std::size_t k) { return response.worst_life.begin() + static_cast<std::ptrdiff_t>(k) * of_point; };
+  const auto lives = [&](std::size_t k) {
+    return response.worst_life.begin() + static_cast<std::ptrdiff_t>(k) * of_point;
+  };
   // Equal strains give lives that differ by rounding: a response as text has six digits, at lives of up to 1e25.
   const auto alike = [](double one, double other) { return std::abs(one - other) < 1e-3; };
   std::map<double, std::size_t> own;  // point at the job's own place, by friction
@@ -139,9 +139,8 @@ Samples samples_of(const LifeResponse& response, bool has_residual, const std::s
                    std::size_t count, bool again) {
   const auto normals = [&](const std::string& name) { return standard_normals(again ? name + " again" : name, count); };
   std::vector<std::size_t> order = indices_of(uncertain_count);
-  std::stable_partition(order.begin(), order.end(), [](std::size_t p) {
-    return uncertain_parameters()[p].shared != SharedBy::installation;
-  });
+  std::stable_partition(order.begin(), order.end(),
+                        [](std::size_t p) { return uncertain_parameters()[p].shared != SharedBy::installation; });
   const Eigen::MatrixXd factor = factor_of(response.knowledge.covariance, order);
   Samples samples{std::vector<ParameterPoint>(count), normals("scatter of wires/" + own_name(response, job)), {}};
   if (has_residual) {
@@ -282,7 +281,8 @@ std::vector<double> capped(std::vector<double> lives) {
 
 double covariance_of(const std::vector<double>& a, const std::vector<double>& b) {
   const double count = double(a.size());
-  const double mean = (std::accumulate(a.begin(), a.end(), 0.0) + std::accumulate(b.begin(), b.end(), 0.0)) / (2 * count);
+  const double mean =
+      (std::accumulate(a.begin(), a.end(), 0.0) + std::accumulate(b.begin(), b.end(), 0.0)) / (2 * count);
   double sum = 0;
   for (std::size_t s = 0; s < a.size(); ++s) sum += (a[s] - mean) * (b[s] - mean);
   return sum / count;
@@ -304,7 +304,8 @@ double apart_by_motion(const FailureModes& modes) {
 // need no sets with them.
 CauseShares shares_of(const FailureModes& modes, const std::vector<LifeSurface>& surfaces, const std::string& job) {
   constexpr std::size_t of_motion = index_of(Uncertain::motion);
-  const double by_residual = std::pow(residual_of(modes), 2), by_motion = apart_by_motion(modes), apart = by_residual + by_motion;
+  const double by_residual = std::pow(residual_of(modes), 2), by_motion = apart_by_motion(modes),
+               apart = by_residual + by_motion;
   std::vector<std::size_t> causes;
   for (std::size_t cause = 0; cause < cause_count; ++cause)
     if (is_active(modes, surfaces, cause) && !(cause == of_motion && by_motion > 0)) causes.push_back(cause);
@@ -499,7 +500,8 @@ std::vector<FailureModes> coarser(const FailureModes& modes) {
 /// Not included: errors beyond the outermost nodes of friction, slack and stiffness (strain/measurements.md, response and full
 /// evaluations).
 /// log10_lives: of these samples.
-LifePercentiles error_factors(const FailureModes& modes, const std::vector<Samples>& samples, const std::vector<double>& log10_lives) {
+LifePercentiles error_factors(const FailureModes& modes, const std::vector<Samples>& samples,
+                              const std::vector<double>& log10_lives) {
   const std::size_t count = log10_lives.size();
   const LifePercentiles percentiles = percentiles_of(log10_lives);
   std::vector<double> sorted = log10_lives;
@@ -524,11 +526,11 @@ LifePercentiles error_factors(const FailureModes& modes, const std::vector<Sampl
 
 }  // namespace
 
-double residual_of(const FailureModes& modes) { return std::ranges::any_of(modes, depends_on_place) ? residual_decades : 0; }
-
-std::string modes_text(const FailureModes& modes) {
-  return joined(mapped(modes, &LifeResponse::text), "");
+double residual_of(const FailureModes& modes) {
+  return std::ranges::any_of(modes, depends_on_place) ? residual_decades : 0;
 }
+
+std::string modes_text(const FailureModes& modes) { return joined(mapped(modes, &LifeResponse::text), ""); }
 
 FailureModes modes_from_text(const std::string& text) {
   FailureModes modes;
@@ -555,8 +557,11 @@ std::vector<double> first_failures(const FailureModes& modes, const std::string&
   return lives_of(surfaces_of(modes), samples_of(modes, job, samples), inside);
 }
 
-std::vector<double> compared_failures(const FailureModes& modes, const std::string& job, const std::string& moved_as, std::size_t samples) {
-  const auto samples_for = [&](const LifeResponse& mode) { return samples_of(mode, depends_on_place(mode), job, moved_as, samples, false); };
+std::vector<double> compared_failures(const FailureModes& modes, const std::string& job, const std::string& moved_as,
+                                      std::size_t samples) {
+  const auto samples_for = [&](const LifeResponse& mode) {
+    return samples_of(mode, depends_on_place(mode), job, moved_as, samples, false);
+  };
   return lives_of(surfaces_of(modes), mapped(modes, samples_for), Inside::as_is);
 }
 
@@ -587,7 +592,8 @@ const ModeLives::Known& ModeLives::samples_for(const LifeResponse& mode, bool ha
   if (known_.size() == most) known_.erase(known_.begin());
   Known& made = *known_.emplace_back(std::make_unique<Known>());
   made.mode.mode = mode.mode, made.mode.dresspack = mode.dresspack, made.mode.construction = mode.construction;
-  made.mode.material = mode.material, made.mode.knowledge = mode.knowledge, made.mode.scatter_shared = mode.scatter_shared;
+  made.mode.material = mode.material, made.mode.knowledge = mode.knowledge,
+  made.mode.scatter_shared = mode.scatter_shared;
   made.has_residual = has_residual;
   made.samples = samples_of(mode, has_residual, job_, job_, samples_, false);
   for (const ParameterPoint& z : made.samples.z) made.factors.push_back(LifeSurface::factors_at(z));
@@ -630,7 +636,8 @@ std::vector<double> in_order_of(const std::string& name, std::vector<double> val
   // as long. floor(x floor((2^64 - 1)/k) / 2^64) is the quotient, or smaller by one.
   __extension__ using Wide = unsigned __int128;
   thread_local std::vector<std::uint64_t> inverse;  // (k)
-  for (std::uint64_t k = inverse.size(); k <= values.size(); ++k) inverse.push_back(~std::uint64_t{0} / std::max<std::uint64_t>(k, 1));
+  for (std::uint64_t k = inverse.size(); k <= values.size(); ++k)
+    inverse.push_back(~std::uint64_t{0} / std::max<std::uint64_t>(k, 1));
   std::uint64_t state = seed_of(name);
   for (std::size_t k = values.size(); k > 1; --k, state += mix_step) {
     const std::uint64_t number = mixed(state);

@@ -61,10 +61,10 @@ std::vector<double> first_failures(const FailureModes& modes, const std::string&
                                    std::size_t samples = life_samples, Inside inside = Inside::as_is);
 /// The same for a comparison of jobs. moved_as: name for the random numbers of the parameter `motion`, equal for jobs with the same
 /// simulation, whose hoses swing in the same way.
-std::vector<double> compared_failures(const FailureModes& modes, const std::string& job, const std::string& moved_as, std::size_t samples);
+std::vector<double> compared_failures(const FailureModes& modes, const std::string& job, const std::string& moved_as,
+                                      std::size_t samples);
 /// Returns the lives of first_failures() and the results computed from them.
-FirstFailures summary_of(const FailureModes& modes, const std::string& job,
-                         std::size_t samples = life_samples);
+FirstFailures summary_of(const FailureModes& modes, const std::string& job, std::size_t samples = life_samples);
 
 /// Returns the standard deviation of the residual of these modes: residual_decades, or 0 if no life depends on the place of the
 /// cables.
@@ -78,8 +78,8 @@ struct PreparedModes {
   explicit PreparedModes(const FailureModes& modes);  ///< keeps a reference
 
   const FailureModes& modes;
-  std::vector<LifeSurface> surfaces;      ///< (mode)
-  std::vector<char> has_residual;         ///< (mode) whether its lives depend on the place of the cables
+  std::vector<LifeSurface> surfaces;  ///< (mode)
+  std::vector<char> has_residual;     ///< (mode) whether its lives depend on the place of the cables
 };
 
 /// Computes mode_lives() of many programs under one name. Modes with equal knowledge, construction and material have equal samples,

@@ -43,7 +43,8 @@ double together(double base, std::span<const double> alone) {
   const auto changes = [&](double life) { return life != base; };
   const auto first = std::ranges::find_if(alone, changes);
   if (first == alone.end()) return base;
-  if (std::none_of(first + 1, alone.end(), changes)) return *first;  // a plan needs 1e8 lives, and two powers take most of their time
+  if (std::none_of(first + 1, alone.end(), changes))
+    return *first;  // a plan needs 1e8 lives, and two powers take most of their time
   double factor = 1, added = 0;
   for (const double life : alone) {
     if (life == base) continue;
@@ -71,9 +72,7 @@ class CrossedLives {
       if (response.inside[k] == inside && is_zero_but(response.points[k], {friction, slack, hose_stiffness}))
         computed_[response.points[k]] = k;
     if (!as_is) return;
-    const auto zero_of = [](const std::vector<double>& nodes) {
-      return std::ranges::find(nodes, 0.0) - nodes.begin();
-    };
+    const auto zero_of = [](const std::vector<double>& nodes) { return std::ranges::find(nodes, 0.0) - nodes.begin(); };
     const auto own = static_cast<std::size_t>(zero_of(response.strength)) * response.slope.size() +
                      static_cast<std::size_t>(zero_of(response.slope));
     shift_ = response.bound[number_of(inside)] - at({})[own];
@@ -105,8 +104,7 @@ class CrossedLives {
     if (one == point || other == point) return changed_as_is(point);
     std::vector<double> lives = at(base);
     const std::vector<double> of_one = at(one), of_other = at(other);
-    for (std::size_t k = 0; k < lives.size(); ++k)
-      lives[k] = together(lives[k], std::array{of_one[k], of_other[k]});
+    for (std::size_t k = 0; k < lives.size(); ++k) lives[k] = together(lives[k], std::array{of_one[k], of_other[k]});
     return lives;
   }
 
@@ -183,9 +181,8 @@ double LifeSurface::worst(const std::vector<double>& lives, std::size_t point, c
                           const Place& slope) const {
   const std::size_t slopes = response_.slope.size();
   const double* const of_point = lives.data() + point * response_.strength.size() * slopes;
-  return between(strength, [&](std::size_t s) {
-    return between(slope, [&](std::size_t t) { return of_point[s * slopes + t]; });
-  });
+  return between(
+      strength, [&](std::size_t s) { return between(slope, [&](std::size_t t) { return of_point[s * slopes + t]; }); });
 }
 
 double LifeSurface::crossed_worst(const Table& of, const ParameterPoint& z, const Place& strength,
@@ -199,8 +196,7 @@ double LifeSurface::crossed_worst(const Table& of, const ParameterPoint& z, cons
   });
 }
 
-double LifeSurface::alone(std::size_t p, const ParameterPoint& z, const Place& strength,
-                          const Place& slope) const {
+double LifeSurface::alone(std::size_t p, const ParameterPoint& z, const Place& strength, const Place& slope) const {
   // Rest positions beyond those of the computed starts are unknown.
   const double at = p == of_rest ? std::clamp(z[p], nodes_[p].front(), nodes_[p].back()) : z[p];
   return between(place_among(nodes_[p], at),
@@ -209,7 +205,9 @@ double LifeSurface::alone(std::size_t p, const ParameterPoint& z, const Place& s
 
 LifeSurface::Factors LifeSurface::factors_at(const ParameterPoint& z) {
   // both are factors, step^z
-  static const auto step = [](Uncertain parameter) { return std::log10(uncertain_parameters()[index_of(parameter)].step); };
+  static const auto step = [](Uncertain parameter) {
+    return std::log10(uncertain_parameters()[index_of(parameter)].step);
+  };
   static const Factors steps{step(Uncertain::model), step(Uncertain::motion)};
   return {steps[0] * z[index_of(Uncertain::model)], steps[1] * z[index_of(Uncertain::motion)]};
 }
@@ -224,8 +222,7 @@ double LifeSurface::change(const ParameterPoint& far, const Factors& factors, In
   std::size_t count = 1;
   for (std::size_t p = 0; p < strain_parameters; ++p)
     if (nodes_[p].size() > 1) lives[count++] = alone(p, z, strength, slope);
-  double sum =
-      together(worst(response_.worst_life, 0, strength, slope), std::span(lives).first(count)) - at_zero_;
+  double sum = together(worst(response_.worst_life, 0, strength, slope), std::span(lives).first(count)) - at_zero_;
   for (const double factor : factors) sum += factor;
   return sum;
 }
@@ -236,7 +233,8 @@ double LifeSurface::log10_life(const ParameterPoint& z, double u, const Factors&
     return between(scatter, [&](std::size_t k) { return response_.planned[k][share]; });
   };
   const double median = at(1);
-  const double planned = u < 0 ? median + u / normal_decile * (median - at(0)) : median + u / normal_decile * (at(2) - median);
+  const double planned =
+      u < 0 ? median + u / normal_decile * (median - at(0)) : median + u / normal_decile * (at(2) - median);
   const double life = planned + change(z, factors, inside);
   return life < LifeResponse::endless ? life : infinity;
 }
@@ -271,8 +269,7 @@ bool LifeSurface::depends_on_strain(std::size_t parameter) const {
       if (response_.inside[one] != Inside::as_is || response_.inside[other] != Inside::as_is) continue;
       StrainPoint apart = response_.points[one];
       for (std::size_t p = 0; p < apart.size(); ++p) apart[p] -= response_.points[other][p];
-      if (is_zero_but(apart, {parameter}) &&
-          !std::equal(begin_of(one), begin_of(one) + of_point, begin_of(other)))
+      if (is_zero_but(apart, {parameter}) && !std::equal(begin_of(one), begin_of(one) + of_point, begin_of(other)))
         return true;
     }
   return false;
@@ -309,8 +306,7 @@ void check(const LifeResponse& response) {
       !response.points.empty() && response.points[0] == StrainPoint{} &&
       response.inside.size() == response.points.size() && response.inside[0] == Inside::as_is &&
       holds_zero(response.strength) && holds_zero(response.slope) && holds_zero(response.scatter) &&
-      response.worst_life.size() ==
-          response.points.size() * response.strength.size() * response.slope.size() &&
+      response.worst_life.size() == response.points.size() * response.strength.size() * response.slope.size() &&
       response.planned.size() == response.scatter.size() && response.scatter_shared >= 0 &&
       response.scatter_shared <= 1 && response.knowledge.mean.size() == Eigen::Index(uncertain_count) &&
       response.knowledge.covariance.size() == Eigen::Index(uncertain_count * uncertain_count);
@@ -356,8 +352,7 @@ void read_numbers(LifeResponse& response, const std::string& name, const std::ve
   };
   if (name == "mean") {
     const std::vector<double> mean = completed(numbers, uncertain_count);
-    response.knowledge.mean =
-        Eigen::Map<const Eigen::VectorXd>(mean.data(), static_cast<Eigen::Index>(mean.size()));
+    response.knowledge.mean = Eigen::Map<const Eigen::VectorXd>(mean.data(), static_cast<Eigen::Index>(mean.size()));
   } else if (name == "covariance") {
     const std::vector<double> row = completed(numbers, uncertain_count);
     const std::size_t lacks = later_parameters(numbers.size(), uncertain_count);
@@ -391,12 +386,12 @@ void read_numbers(LifeResponse& response, const std::string& name, const std::ve
 
 std::string LifeResponse::text() const {
   constexpr std::array<const char*, inside_count> point_names{"point", "glued_point", "free_point"};
-  std::string text = "mode " + mode + "\ndresspack " + dresspack + "\nconstruction " + construction + "\nmaterial " +
-                     material + "\n";
+  std::string text =
+      "mode " + mode + "\ndresspack " + dresspack + "\nconstruction " + construction + "\nmaterial " + material + "\n";
   text += line("mean", std::vector<double>(knowledge.mean.begin(), knowledge.mean.end()));
   for (Eigen::Index row = 0; row < knowledge.covariance.rows(); ++row)
-    text += line("covariance", std::vector<double>(knowledge.covariance.row(row).begin(),
-                                                   knowledge.covariance.row(row).end()));
+    text += line("covariance",
+                 std::vector<double>(knowledge.covariance.row(row).begin(), knowledge.covariance.row(row).end()));
   for (std::size_t k = 0; k < points.size(); ++k) text += line(point_names[number_of(inside[k])], points[k]);
   text += line("strength", strength) + line("slope", slope) + line("scatter", scatter) + line("bound", bound);
   for (const auto& lives : planned) text += line("planned", lives);

@@ -60,7 +60,7 @@ struct LifeResponse {
   std::array<double, inside_count> bound{undamaged, undamaged, undamaged};
   std::vector<double> scatter{0};              ///< z of the scatter, like strength
   std::vector<std::array<double, 3>> planned;  ///< (scatter) log10 repeats until 10, 50, 90 % have failed
-  double scatter_shared = 1;  ///< share of u's variance that all modes of one dresspack have in common
+  double scatter_shared = 1;                   ///< share of u's variance that all modes of one dresspack have in common
 
   /// text returns the response as text for an attribute of a file; from_text reads it back. Errors: std::invalid_argument for any
   /// other text.
@@ -78,9 +78,13 @@ class LifeSurface {
   /// Keeps a reference to the response.
   explicit LifeSurface(const LifeResponse& response);
   /// Returns W(z) - W(0) plus log10 of the model's factor.
-  double change(const ParameterPoint& z, Inside inside = Inside::as_is) const { return change(z, factors_at(z), inside); }
+  double change(const ParameterPoint& z, Inside inside = Inside::as_is) const {
+    return change(z, factors_at(z), inside);
+  }
   /// Returns log10 of the life in repeats; infinity for an infinite life.
-  double log10_life(const ParameterPoint& z, double u, Inside inside = Inside::as_is) const { return log10_life(z, u, factors_at(z), inside); }
+  double log10_life(const ParameterPoint& z, double u, Inside inside = Inside::as_is) const {
+    return log10_life(z, u, factors_at(z), inside);
+  }
   /// factors: factors_at(z), which many responses share.
   double log10_life(const ParameterPoint& z, double u, const Factors& factors, Inside inside = Inside::as_is) const;
   /// Returns whether a parameter has any effect.
@@ -100,18 +104,14 @@ class LifeSurface {
   static Place place_among(const std::vector<double>& nodes, double z);
   bool depends_on_strain(std::size_t parameter) const;
   /// Returns W at a point of a list (point, strength, slope).
-  double worst(const std::vector<double>& lives, std::size_t point, const Place& strength,
-               const Place& slope) const;
-  double crossed_worst(const Table& of, const ParameterPoint& z, const Place& strength,
-                       const Place& slope) const;
+  double worst(const std::vector<double>& lives, std::size_t point, const Place& strength, const Place& slope) const;
+  double crossed_worst(const Table& of, const ParameterPoint& z, const Place& strength, const Place& slope) const;
   /// Returns W for a point at which only this parameter has a z other than 0.
-  double alone(std::size_t parameter, const ParameterPoint& z, const Place& strength,
-               const Place& slope) const;
+  double alone(std::size_t parameter, const ParameterPoint& z, const Place& strength, const Place& slope) const;
 
   const LifeResponse& response_;
   // Of the parameters that are not crossed:
-  std::array<std::vector<double>, strain_parameters>
-      nodes_;  ///< (parameter, node) z of the points with as_is
+  std::array<std::vector<double>, strain_parameters> nodes_;       ///< (parameter, node) z of the points with as_is
   std::array<std::vector<std::size_t>, strain_parameters> alone_;  ///< (parameter, node) point
   std::array<Table, inside_count> tables_;
   double at_zero_ = 0;

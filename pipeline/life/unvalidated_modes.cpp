@@ -33,11 +33,11 @@ bool is_credible(const UnvalidatedMode& mode) {
 std::string unvalidated_text(const std::vector<UnvalidatedMode>& modes) {
   std::string text;
   for (const UnvalidatedMode& m : modes)
-    text +=
-        fmt::format("{}\t{}\t{:.6g}\t{:.6g}\t{:.6g}\t{:.4g}\t{:.6g}\t{}\t{:.6g}\t{}\t{:.6g}\t{}\t{:.6g}\t{}\t{:.4g}\t{:.4g}\t{:.4g}\t{:.4g}\n", m.mode,
-                    in_a_line(m.dresspack), m.hours[0], m.hours[1], m.hours[2], m.first_share, m.together_p10,
-                    m.segment_from_tool, m.position_from_tool, in_a_line(m.place), m.time, in_a_line(m.step), m.bends_at_limit,
-                    in_a_line(m.note), m.found_share, m.unseen_share, m.visible_from, m.margin);
+    text += fmt::format(
+        "{}\t{}\t{:.6g}\t{:.6g}\t{:.6g}\t{:.4g}\t{:.6g}\t{}\t{:.6g}\t{}\t{:.6g}\t{}\t{:.6g}\t{}\t{:.4g}\t{:.4g}\t{:.4g}\t{:.4g}\n",
+        m.mode, in_a_line(m.dresspack), m.hours[0], m.hours[1], m.hours[2], m.first_share, m.together_p10,
+        m.segment_from_tool, m.position_from_tool, in_a_line(m.place), m.time, in_a_line(m.step), m.bends_at_limit,
+        in_a_line(m.note), m.found_share, m.unseen_share, m.visible_from, m.margin);
   return text;
 }
 

@@ -27,16 +27,18 @@ struct UnvalidatedMode {
   double together_p10 = unknown;  ///< the planner's hours if this mode was included [h]
   int segment_from_tool = 0;      ///< segment of its worst place, 1 is nearest to the tool; 0: unknown
   double position_from_tool = 0;  ///< [m]
-  std::string place;              ///< the body that rubs: "link_4"; of the wall, its place: "hose 5"; of a rating, its cable
-  double time = 0;                ///< time of the largest load [s]
-  std::string step;               ///< program line at that time; empty: none
-  double bends_at_limit = 0;      ///< of the wall, by its law: bends from straight to its bend radius limit; 0: unknown
-  std::string note;                ///< further sentences; empty: none
+  std::string place;  ///< the body that rubs: "link_4"; of the wall, its place: "hose 5"; of a rating, its cable
+  double time = 0;    ///< time of the largest load [s]
+  std::string step;   ///< program line at that time; empty: none
+  double bends_at_limit = 0;  ///< of the wall, by its law: bends from straight to its bend radius limit; 0: unknown
+  std::string note;           ///< further sentences; empty: none
 
-  double found_share = unknown;   ///< share of failures in the robot's life that visual checks find before; unknown: none fails
-  double unseen_share = unknown;  ///< share of all dresspacks that fail within the robot's life without a check finding it
+  double found_share =
+      unknown;  ///< share of failures in the robot's life that visual checks find before; unknown: none fails
+  double unseen_share =
+      unknown;  ///< share of all dresspacks that fail within the robot's life without a check finding it
   double visible_from = unknown;  ///< share of its life after which a visual check can find it; unknown: never
-  double margin = 0;  ///< for a kink: tightest bend radius / kink radius of the tube; 0: another mode
+  double margin = 0;              ///< for a kink: tightest bend radius / kink radius of the tube; 0: another mode
   /// Returns the hours until 10 % have failed by this mode; in old files, the median for the wall.
   double early_hours() const { return std::isnan(hours[0]) ? hours[1] : hours[0]; }
   bool operator==(const UnvalidatedMode&) const = default;

@@ -30,7 +30,8 @@ struct Law {
   double largest;  ///< largest curvature in the motion [1/m]
   /// Returns the moment of the first bend [N m]; friction: a factor on the friction.
   std::function<Curve(double friction, const Curve& curvature)> moment;
-  std::function<double(double curvature)> simulated;  ///< moment of the first bend in the simulation [N m]; empty: not simulated
+  std::function<double(double curvature)>
+      simulated;  ///< moment of the first bend in the simulation [N m]; empty: not simulated
 };
 
 constexpr int curve_steps = 120;  // number of points of a curve, about 7 px apart
@@ -55,9 +56,10 @@ std::string words_of(const Law& law, const std::array<double, 3>& frictions) {
     return readable(held > 1e-12 * at[1] ? held : 0);  // a smaller value is rounding
   };
   const Curve at = law.moment(frictions[1], {none, all, 2 * all});
-  return fmt::format("{}: E I {} N m2 sliding, {} held; friction {} N m (10 .. 90 %: {} .. {}); largest curvature {} 1/m", law.name,
-                     readable((at[2] - at[1]) / all), readable(at[0] / none), friction(frictions[1]), friction(frictions[0]),
-                     friction(frictions[2]), readable(law.largest));
+  return fmt::format(
+      "{}: E I {} N m2 sliding, {} held; friction {} N m (10 .. 90 %: {} .. {}); largest curvature {} 1/m", law.name,
+      readable((at[2] - at[1]) / all), readable(at[0] / none), friction(frictions[1]), friction(frictions[0]),
+      friction(frictions[2]), readable(law.largest));
 }
 
 void draw(Picture& picture, const Panel& panel, const Law& law, const std::array<double, 3>& frictions) {
@@ -83,7 +85,8 @@ void draw(Picture& picture, const Panel& panel, const Law& law, const std::array
   picture.curve(loop, "curve-hot");
   picture.curve(first, "curve");
   picture.curve(simulated, "leader");
-  picture.text(panel.left + 6, panel.top + 12, words_of(law, frictions), "note", Picture::Anchor::start, panel.width - 12);
+  picture.text(panel.left + 6, panel.top + 12, words_of(law, frictions), "note", Picture::Anchor::start,
+               panel.width - 12);
 }
 
 Law law_of_hose(const Dresspack& dresspack, double largest) {
@@ -113,10 +116,12 @@ double bend_of_hose(const FileReader& strain, std::size_t dresspack) {
 double bend_of_cables(const FileReader& strain, std::size_t dresspack, std::size_t component) {
   if (!strain.has("/cable/curvature")) return 0;
   const auto bends = strain.read<double>("/cable/curvature");
-  const auto of_dresspack = strain.read<std::int32_t>("/cable/dresspack"), of_component = strain.read<std::int32_t>("/cable/component");
+  const auto of_dresspack = strain.read<std::int32_t>("/cable/dresspack"),
+             of_component = strain.read<std::int32_t>("/cable/component");
   double most = 0;
   for (std::size_t k = 0; k < bends.size(); ++k)
-    if (of_dresspack[k] == static_cast<int>(dresspack) && of_component[k] == static_cast<int>(component)) most = std::max(most, bends[k]);
+    if (of_dresspack[k] == static_cast<int>(dresspack) && of_component[k] == static_cast<int>(component))
+      most = std::max(most, bends[k]);
   return most;
 }
 
@@ -130,7 +135,8 @@ std::string bending_chart(const std::filesystem::path& strain_file, std::size_t 
                      "set strain.slip: friction and run again");
   const Dresspack& dresspack = job.dresspacks.at(which).dresspack;
   const double bend = bend_of_hose(strain, which);
-  if (!(bend > 0)) throw InputError({strain_file.string()}, "has no bend (the motion twists or pulls alone)", "choose another figure");
+  if (!(bend > 0))
+    throw InputError({strain_file.string()}, "has no bend (the motion twists or pulls alone)", "choose another figure");
   std::vector<Law> laws{law_of_hose(dresspack, bend)};
   std::vector<std::string> left_out;
   for (std::size_t c = 0; c < dresspack.components.size() && inner_radius(dresspack); ++c) {
@@ -140,7 +146,8 @@ std::string bending_chart(const std::filesystem::path& strain_file, std::size_t 
       continue;
     }
     const double own = bend_of_cables(strain, which, c);
-    laws.push_back({own > 0 ? cable.name : cable.name + " (bent as the hose)", own > 0 ? own : bend,
+    laws.push_back({own > 0 ? cable.name : cable.name + " (bent as the hose)",
+                    own > 0 ? own : bend,
                     [&](double friction, const Curve& at) { return bending_moments(dresspack, cable, friction, at); },
                     {}});
   }
@@ -154,15 +161,24 @@ std::string bending_chart(const std::filesystem::path& strain_file, std::size_t 
   constexpr double height = 300, heading = 44, below = 62;  // [px]
   const std::string title = "Moment over curvature";
   Picture picture(chart_width, heading + (height + below) * static_cast<double>(laws.size()), title, title);
-  picture.text(chart_left, 15, "Blue: first bend; red: loop of the largest bend in the motion; grey: with the friction of 10 .. 90 %; dashed: as simulated",
-               "note");
+  picture.text(
+      chart_left, 15,
+      "Blue: first bend; red: loop of the largest bend in the motion; grey: with the friction of 10 .. 90 %; dashed: as simulated",
+      "note");
   if (!left_out.empty())
-    picture.text(chart_left, 32, fmt::format("Left out, because they have no wires that are described: {}", fmt::join(left_out, ", ")), "note");
+    picture.text(chart_left, 32,
+                 fmt::format("Left out, because they have no wires that are described: {}", fmt::join(left_out, ", ")),
+                 "note");
   for (std::size_t k = 0; k < laws.size(); ++k) {
-    const double most = way_up(laws[k], frictions[2]).back(), by_simulation = laws[k].simulated ? laws[k].simulated(laws[k].largest) : 0;
+    const double most = way_up(laws[k], frictions[2]).back(),
+                 by_simulation = laws[k].simulated ? laws[k].simulated(laws[k].largest) : 0;
     const double highest = std::max(most, by_simulation);
-    const Panel panel{chart_left, heading + (height + below) * static_cast<double>(k), chart_panel, height,
-                      linear_axis("curvature [1/m]", -laws[k].largest, laws[k].largest, 9), linear_axis("moment [N m]", -highest, highest)};
+    const Panel panel{chart_left,
+                      heading + (height + below) * static_cast<double>(k),
+                      chart_panel,
+                      height,
+                      linear_axis("curvature [1/m]", -laws[k].largest, laws[k].largest, 9),
+                      linear_axis("moment [N m]", -highest, highest)};
     draw(picture, panel, laws[k], frictions);
   }
   return picture.svg();

@@ -108,13 +108,13 @@ class Drawing {
   std::string svg() {
     if (layers_ == LayerLines::drawn) list(dresspack_.components, 0);
     const double height = picture + line_height * (static_cast<double>(lines_.size()) + 1);
-    std::string body = fmt::format("<g transform=\"translate({0:.4g} {0:.4g})\">\n{1}{2}</g>\n", picture / 2,
-                                   hose(), inside(dresspack_.components));
+    std::string body = fmt::format("<g transform=\"translate({0:.4g} {0:.4g})\">\n{1}{2}</g>\n", picture / 2, hose(),
+                                   inside(dresspack_.components));
     body += scale_bar();
     double y = picture + line_height;
     for (const std::string& line : lines_) {
-      body += fmt::format("<text x=\"{:.4g}\" y=\"{:.5g}\" xml:space=\"preserve\">{}</text>\n", margin, y,
-                          escaped(line));
+      body +=
+          fmt::format("<text x=\"{:.4g}\" y=\"{:.5g}\" xml:space=\"preserve\">{}</text>\n", margin, y, escaped(line));
       y += line_height;
     }
     return fmt::format(
@@ -149,11 +149,9 @@ class Drawing {
   std::string inside(const std::vector<Component>& components) {
     std::string text;
     for (const Component& component : components) {
-      const std::string id =
-          define(component, overlap(component, components) || leaves_room(component, components));
+      const std::string id = define(component, overlap(component, components) || leaves_room(component, components));
       for (int k = 0; k < component.count; ++k) {
-        const double angle = component.phase + 2 * pi * k / component.count,
-                     R = scale_ * component.helix_radius;
+        const double angle = component.phase + 2 * pi * k / component.count, R = scale_ * component.helix_radius;
         text += fmt::format("<use href=\"#{}\" x=\"{:.2f}\" y=\"{:.2f}\"/>\n", id, R * std::cos(angle),
                             -R * std::sin(angle));
       }
@@ -182,8 +180,8 @@ class Drawing {
 
   void list(const std::vector<Component>& components, int level) {
     for (const Component& of : components) {
-      std::string line = fmt::format("{:{}}{} x {}: {:.4g} mm", "", 4 * level, of.count, name_of(of),
-                                     millimetres(2 * of.radius));
+      std::string line =
+          fmt::format("{:{}}{} x {}: {:.4g} mm", "", 4 * level, of.count, name_of(of), millimetres(2 * of.radius));
       if (of.helix_radius > 0)
         line += fmt::format(", {:.4g} mm off the axis, {}", millimetres(of.helix_radius), lay_words(of));
       if (of.plain) line += ", " + kind_words(of);
@@ -224,12 +222,10 @@ class Drawing {
 
 /// Returns "layer 2/wire 17": the layer's name if it has one, then the name and number of the part.
 std::string own_name(const Component& component, int number) {
-  return fmt::format("{}{}{} {}", component.layer, component.layer.empty() ? "" : "/", component.name,
-                     number);
+  return fmt::format("{}{}{} {}", component.layer, component.layer.empty() ? "" : "/", component.name, number);
 }
 
-void list_wires(const std::vector<Component>& components, const std::string& before,
-                std::vector<std::string>& paths) {
+void list_wires(const std::vector<Component>& components, const std::string& before, std::vector<std::string>& paths) {
   for (const Component& component : components)
     for (int k = 0; k < component.count; ++k) {
       const std::string path = before + own_name(component, k + 1);
@@ -241,8 +237,7 @@ void list_wires(const std::vector<Component>& components, const std::string& bef
 void list_layer(const Component& of, int level, std::string& text) {
   text += fmt::format("{:{}}{:4} {:<{}} {:>7.4g} mm", "", 2 * level, of.count, name_of(of), 24 - 2 * level,
                       millimetres(2 * of.radius));
-  if (of.helix_radius > 0)
-    text += fmt::format("  at {:>6.4g} mm, {}", millimetres(of.helix_radius), lay_words(of));
+  if (of.helix_radius > 0) text += fmt::format("  at {:>6.4g} mm, {}", millimetres(of.helix_radius), lay_words(of));
   if (!of.material.empty()) text += "  " + of.material;
   if (of.plain) text += "  " + plain_words(of);
   text += '\n';
@@ -288,11 +283,10 @@ std::string construction_text(const Dresspack& dresspack) {
     text += fmt::format(", {:.4g} kg/m by its construction\n", mass_of_construction(dresspack));
   for (const Component& component : dresspack.components) list_layer(component, 1, text);
   const Component all = whole(dresspack);
-  if (dresspack.components.empty())
-    return text + "no parts: its motion can be simulated, no wire has a life\n";
+  if (dresspack.components.empty()) return text + "no parts: its motion can be simulated, no wire has a life\n";
   const std::vector<double> bending = bending_stiffnesses(dresspack, all);
-  text += fmt::format("{:.0f} wires of {:.4g} mm2, E A {:.4g} N\n", wires_of(all),
-                      1e6 * section_of_wires(all), stiffness_of(dresspack, all, 0, 0).axial);
+  text += fmt::format("{:.0f} wires of {:.4g} mm2, E A {:.4g} N\n", wires_of(all), 1e6 * section_of_wires(all),
+                      stiffness_of(dresspack, all, 0, 0).axial);
   text += fmt::format("E I of the wires [N m2]: {:.3g} when all slide", bending.front());
   for (std::size_t k = 1; k + 1 < bending.size(); ++k)
     text += fmt::format(", {:.3g} when parts of level {} are solid", bending[k], bending.size() - 1 - k);

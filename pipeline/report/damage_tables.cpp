@@ -61,8 +61,7 @@ std::string cause_table(const LifeSummary& life) {
     rows += fmt::format(
         "<tr><td>{}</td><td>{}</td></tr>\n",
         last ? "carrying: gravity, swinging, and what the joints do not explain" : escaped(life.cause[cause]),
-        damage < 0 ? fmt::format("{:.1f} %{}", 100 * damage / total,
-                                 last ? "" : ": moves against the others, relieves")
+        damage < 0 ? fmt::format("{:.1f} %{}", 100 * damage / total, last ? "" : ": moves against the others, relieves")
                    : meter(damage / total, largest / total));
   }
   return fmt::format(
@@ -101,16 +100,16 @@ std::string program_table(const LifeSummary& life) {
         "class=\"number\">{}</td><td class=\"number\">{}</td><td>{}</td><td class=\"number\">{}</td></tr>\n",
         line + 1, escaped(life.step_text[line]), of.times,
         of.costliest ? fmt::format("{:.1f} .. {:.1f}&nbsp;s", of.costliest->begin, of.costliest->end) : "",
-        meter(damage[line] / total, largest / total), share(life.step_opened, line),
-        share(life.step_damage, line), main_causes(life, line), printed(damage[line]));
+        meter(damage[line] / total, largest / total), share(life.step_opened, line), share(life.step_damage, line),
+        main_causes(life, line), printed(damage[line]));
   }
   if (rows.empty()) return "";
   return "<h3>Program lines that cost most</h3>\n<p class=\"soft\">It takes two lines to make a cycle of "
          "strain: "
          "one in which it opens and one in which its range is reached. Each is blamed for half of its "
          "damage.</p>\n" +
-         wide_table({"#line", "program", "#runs", "costliest at", "share of the damage", "#opened here", "#reached here",
-                     "reached mostly by", "#damage per repeat"},
+         wide_table({"#line", "program", "#runs", "costliest at", "share of the damage", "#opened here",
+                     "#reached here", "reached mostly by", "#damage per repeat"},
                     rows);
 }
 
@@ -121,11 +120,11 @@ std::string layer_table(const LifeSummary& life, const RankingRow& row) {
     rows += fmt::format(
         "<tr><td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td><td "
         "class=\"number\">{}</td></tr>\n",
-        escaped(life.layer[i]), printed(row.hours_of(repeats)), printed(repeats),
-        printed(life.layer_damage[i]));
+        escaped(life.layer[i]), printed(row.hours_of(repeats)), printed(repeats), printed(life.layer_damage[i]));
   }
   if (rows.empty()) return "";
-  return "<h3>Life by layer of wires</h3>\n" + wide_table({"layer", "#life [h]", "#repeats", "#damage per repeat"}, rows);
+  return "<h3>Life by layer of wires</h3>\n" +
+         wide_table({"layer", "#life [h]", "#repeats", "#damage per repeat"}, rows);
 }
 
 std::string place_remark(const LifeSummary& life) {
@@ -140,8 +139,8 @@ std::string place_remark(const LifeSummary& life) {
   const double total = sum_of(life.clamp_damage);
   std::string shares;
   for (std::size_t k = 0; total > 0 && k < life.clamps.size(); ++k)
-    shares += fmt::format("{}{} {:.0f} %", shares.empty() ? " By the nearest clamp: " : "; ",
-                          escaped(life.clamps[k]), 100 * life.clamp_damage[k] / total);
+    shares += fmt::format("{}{} {:.0f} %", shares.empty() ? " By the nearest clamp: " : "; ", escaped(life.clamps[k]),
+                          100 * life.clamp_damage[k] / total);
   return shares.empty() ? text : text + shares + ".";
 }
 
@@ -160,8 +159,8 @@ std::string failure_table(const RankingRow& row) {
     const auto& [tenth, half, most] = line.hours;
     for (const std::string& number : {tenth, half, most, line.before_wires, line.with_it, line.from_tool, line.time})
       rows += "<td class=\"number\">" + escaped(number) + "</td>";
-    rows += fmt::format("<td>{}{}<span class=\"soft\">{}</span></td></tr>\n", escaped(line.step), line.step.empty() ? "" : "<br>",
-                        escaped(line.note));
+    rows += fmt::format("<td>{}{}<span class=\"soft\">{}</span></td></tr>\n", escaped(line.step),
+                        line.step.empty() ? "" : "<br>", escaped(line.note));
   }
   return "<div class=\"wide\"><table class=\"modes\">\n<thead><tr><th>fails by</th><th class=\"number\">10 % [h]</th>"
          "<th class=\"number\">half [h]</th><th class=\"number\">90 % [h]</th><th class=\"number\">before the wires</th><th class=\"number\">replace after, with it [h]</th>"
@@ -173,10 +172,8 @@ std::string failure_table(const RankingRow& row) {
 }
 
 std::string damage_along(const LifeSummary& life, const RankingRow& row) {
-  const std::string along =
-      row.worst_dresspack.empty() ? "the dresspack" : "the " + escaped(row.worst_dresspack);
-  return chart_section("Damage along " + along, place_remark(life),
-                       segment_chart(life, row.worst_segment_from_tool));
+  const std::string along = row.worst_dresspack.empty() ? "the dresspack" : "the " + escaped(row.worst_dresspack);
+  return chart_section("Damage along " + along, place_remark(life), segment_chart(life, row.worst_segment_from_tool));
 }
 
 std::string damage_tables(const LifeSummary& life, const RankingRow& row) {

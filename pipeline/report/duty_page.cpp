@@ -27,8 +27,10 @@ std::string shares_chart(const DutyResult& duty) {
   picture.box(panel.right() - legend / 2, panel.bottom() + 27, 14, 10, "bar-hot");
   picture.text(panel.right() - legend / 2 + 20, panel.bottom() + 36, "of the damage", "tick");
   for (std::size_t k = 0; k < duty.parts.size(); ++k) {
-    const double y = top + duty_row * double(k), time = 100 * duty.parts[k].share_of_time, damage = 100 * duty.lives.share[k];
-    picture.text(duty_names - 8, y + duty_row / 2 + 4, duty.parts[k].job, "name", Picture::Anchor::end, duty_names - 12);
+    const double y = top + duty_row * double(k), time = 100 * duty.parts[k].share_of_time,
+                 damage = 100 * duty.lives.share[k];
+    picture.text(duty_names - 8, y + duty_row / 2 + 4, duty.parts[k].job, "name", Picture::Anchor::end,
+                 duty_names - 12);
     picture.box(panel.left, y + 5, panel.across(time) - panel.left, 14, "dark");
     picture.text(panel.across(time) + 5, y + 16, fmt::format("{:.1f} %", time), "tick");
     picture.box(panel.left, y + 20, panel.across(damage) - panel.left, 14, "bar-hot");
@@ -45,20 +47,29 @@ std::string life_chart(const DutyResult& duty, const DutyPart& part) {
     for (const std::size_t p : {0, 1})
       if (std::isfinite(at.hours[p])) low = std::min(low, at.hours[p]), high = std::max(high, at.hours[p]);
   high = std::min(high, 1e3 * duty.robot_life_hours);  // longer lives are not relevant for a plan
-  const Panel panel{84, 10, chart - 104, height - 70, linear_axis("share of the time [%]", 0, 100 * part.over_share.back().share_of_time),
+  const Panel panel{84,
+                    10,
+                    chart - 104,
+                    height - 70,
+                    linear_axis("share of the time [%]", 0, 100 * part.over_share.back().share_of_time),
                     decades_axis("life [h]", low * 0.999, high)};
-  Picture picture(chart, height, part.job, "Hours until 1 of 10 and half have failed, over the share of the time of this program.");
+  Picture picture(chart, height, part.job,
+                  "Hours until 1 of 10 and half have failed, over the share of the time of this program.");
   panel.draw_axes(picture);
-  picture.line(panel.left, panel.down(duty.robot_life_hours), panel.right(), panel.down(duty.robot_life_hours), "leader");
+  picture.line(panel.left, panel.down(duty.robot_life_hours), panel.right(), panel.down(duty.robot_life_hours),
+               "leader");
   for (const auto& [p, style, words] : {std::tuple(0, "curve-hot", "1 of 10"), std::tuple(1, "curve", "half")}) {
     std::vector<std::pair<double, double>> points;
     for (const LifeAtShare& at : part.over_share)
-      if (at.hours[std::size_t(p)] <= panel.y.high) points.emplace_back(panel.across(100 * at.share_of_time), panel.down(at.hours[std::size_t(p)]));
+      if (at.hours[std::size_t(p)] <= panel.y.high)
+        points.emplace_back(panel.across(100 * at.share_of_time), panel.down(at.hours[std::size_t(p)]));
     picture.curve(points, style);
     for (const LifeAtShare& at : part.over_share)
       if (at.hours[std::size_t(p)] <= panel.y.high)
-        picture.dot(panel.across(100 * at.share_of_time), panel.down(at.hours[std::size_t(p)]), 2.5, p ? "dot" : "bar-hot",
-                    fmt::format("{:.1f} % of the time: {} have failed after {}", 100 * at.share_of_time, words, printed_hours(at.hours[std::size_t(p)])));
+        picture.dot(panel.across(100 * at.share_of_time), panel.down(at.hours[std::size_t(p)]), 2.5,
+                    p ? "dot" : "bar-hot",
+                    fmt::format("{:.1f} % of the time: {} have failed after {}", 100 * at.share_of_time, words,
+                                printed_hours(at.hours[std::size_t(p)])));
   }
   const double today = panel.across(100 * part.share_of_time);
   picture.line(today, panel.top, today, panel.bottom(), "mark");
@@ -66,18 +77,24 @@ std::string life_chart(const DutyResult& duty, const DutyPart& part) {
 }
 
 std::string section(const DutyResult& duty) {
-  std::string text = fmt::format("<h3>{}</h3>\n<p><b>{}</b> {}</p>\n", escaped(duty.name), escaped(duty_action(duty)), escaped(percentile_words(duty)));
+  std::string text = fmt::format("<h3>{}</h3>\n<p><b>{}</b> {}</p>\n", escaped(duty.name), escaped(duty_action(duty)),
+                                 escaped(percentile_words(duty)));
   for (const std::string& warning : duty.warnings) text += "<p class=\"failed\">" + escaped(warning) + "</p>\n";
   text += chart_in_page(shares_chart(duty));
   std::string charts;
   for (const DutyPart& part : duty.parts)
     if (!part.over_share.empty())
-      charts += fmt::format("<figure><figcaption class=\"soft\">{}</figcaption>{}</figure>\n", escaped(part.job), life_chart(duty, part));
+      charts += fmt::format("<figure><figcaption class=\"soft\">{}</figcaption>{}</figure>\n", escaped(part.job),
+                            life_chart(duty, part));
   if (!charts.empty())
-    text += "<p class=\"soft\">Life of a new dresspack over the share of one program, all others as often as today. Orange: 1 of 10 has failed. Blue: half. "
-            "Upright line: today. Dashed: the life of the robot.</p>\n<div class=\"pairs\">\n" + charts + "</div>\n";
-  if (const std::string caution = caution_words(duty); !caution.empty()) text += "<p class=\"soft\">" + escaped(caution) + "</p>\n";
-  if (const std::string mixture = mixture_words(duty); !mixture.empty()) text += "<p class=\"soft\">" + escaped(mixture) + "</p>\n";
+    text +=
+        "<p class=\"soft\">Life of a new dresspack over the share of one program, all others as often as today. Orange: 1 of 10 has failed. Blue: half. "
+        "Upright line: today. Dashed: the life of the robot.</p>\n<div class=\"pairs\">\n" +
+        charts + "</div>\n";
+  if (const std::string caution = caution_words(duty); !caution.empty())
+    text += "<p class=\"soft\">" + escaped(caution) + "</p>\n";
+  if (const std::string mixture = mixture_words(duty); !mixture.empty())
+    text += "<p class=\"soft\">" + escaped(mixture) + "</p>\n";
   return text;
 }
 
@@ -87,15 +104,19 @@ std::string programs_table(const std::vector<DutyResult>& results, const std::st
     for (std::size_t k = 0; k < duty.parts.size(); ++k) {
       const DutyPart& part = duty.parts[k];
       const auto percent = [](double share) { return number_cell(share, fmt::format("{:.1f} %", 100 * share)); };
-      const auto life = [&](double hours) { return number_cell(hours, escaped(shown_hours(duty.robot_life_hours, hours))); };
-      rows.push_back(fmt::format("<tr data-rank=\"{0}\"><td>{1}</td><td>{2}</td>{3}{4}{5}{6}{7}{8}</tr>\n", rows.size() + 1, escaped(duty.name),
-                                 escaped(part.job), number_cell(part.repeats_per_hour, printed(part.repeats_per_hour)), percent(part.share_of_time),
-                                 percent(duty.lives.share[k]), life(duty.lives.percentiles[0]), life(part.without[0]),
-                                 number_cell(part.as_twice[0], as_twice_text(duty, part))));
+      const auto life = [&](double hours) {
+        return number_cell(hours, escaped(shown_hours(duty.robot_life_hours, hours)));
+      };
+      rows.push_back(fmt::format(
+          "<tr data-rank=\"{0}\"><td>{1}</td><td>{2}</td>{3}{4}{5}{6}{7}{8}</tr>\n", rows.size() + 1,
+          escaped(duty.name), escaped(part.job), number_cell(part.repeats_per_hour, printed(part.repeats_per_hour)),
+          percent(part.share_of_time), percent(duty.lives.share[k]), life(duty.lives.percentiles[0]),
+          life(part.without[0]), number_cell(part.as_twice[0], as_twice_text(duty, part))));
     }
-  return sorted_table("<th>duty</th><th>program</th><th class=\"number\">repeats per h</th><th class=\"number\">time</th><th class=\"number\">damage</th>"
-                      "<th class=\"number\">p10 [h]</th><th class=\"number\">p10 without it [h]</th><th class=\"number\">p10 if twice as often [h]</th>",
-                      rows, "programs", table);
+  return sorted_table(
+      "<th>duty</th><th>program</th><th class=\"number\">repeats per h</th><th class=\"number\">time</th><th class=\"number\">damage</th>"
+      "<th class=\"number\">p10 [h]</th><th class=\"number\">p10 without it [h]</th><th class=\"number\">p10 if twice as often [h]</th>",
+      rows, "programs", table);
 }
 
 }  // namespace

@@ -97,7 +97,7 @@ std::string deformation_chart(const std::array<Along, 3>& all, const std::vector
   for (std::size_t p = 0; p < all.size(); ++p) {
     const auto [low, high] = extremes(all[p].value);
     const Panel panel{chart_left, heading + static_cast<double>(p) * (height + gap),     chart_panel, height,
-                      x,    linear_axis(all[p].title, std::min(low, 0.0), high, 4)};
+                      x,          linear_axis(all[p].title, std::min(low, 0.0), high, 4)};
     panel.draw_axes(picture, p + 1 == all.size());
     std::vector<std::pair<double, double>> points;
     double begin = 0;
@@ -136,8 +136,7 @@ std::string curvature_figure(const JobFiles& files) {
   const std::vector<double> all = strain_file.read<double>("/deformation/curvature");
   const std::size_t segments = strain_file.rows("/segment/length");
   if (all.size() != 2 * segments * strain.size())
-    throw InputError({files.strain.string()},
-                     fmt::format("is not the strain file of {}", files.life.string()),
+    throw InputError({files.strain.string()}, fmt::format("is not the strain file of {}", files.life.string()),
                      "give files of one job");
   std::vector<double> curvature;
   for (std::size_t k = 0; k < strain.size(); ++k) {
@@ -166,7 +165,8 @@ std::string curvature_figure(const JobFiles& files) {
 std::string bending_figure(const JobFiles& files) {
   const auto worst = worst_if_known(files);
   if (!worst) return bending_chart(files.strain, 0);
-  return bending_chart(files.strain, dresspack_of_segments(FileReader(files.strain, strain_format())).at(worst->segment));
+  return bending_chart(files.strain,
+                       dresspack_of_segments(FileReader(files.strain, strain_format())).at(worst->segment));
 }
 
 std::string scene_figure(const JobFiles& files, std::optional<double> time) {
@@ -207,9 +207,7 @@ JobFiles job_files(const std::filesystem::path& place) {
   if (!format)
     throw InputError({place.string()}, "is neither a job's folder nor one of its files",
                      "name a folder below runs/, or a motion.h5, strain.h5 or life.h5");
-  (format == &motion_format()   ? files.motion
-   : format == &strain_format() ? files.strain
-                                : files.life) = place;
+  (format == &motion_format() ? files.motion : format == &strain_format() ? files.strain : files.life) = place;
   return files;
 }
 

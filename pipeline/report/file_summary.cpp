@@ -69,8 +69,8 @@ std::string file_summary(const std::filesystem::path& path) {
     throw InputError({path.string()}, "is no file of dresslife's",
                      "name a job (YAML), or a motion.h5, strain.h5 or life.h5");
   const FileReader file(path, *format);
-  std::string text = fmt::format("{}: {} version {}, {}\nmade by\n{}", path.string(), format->name,
-                                 format->version, format->purpose, indented(file.text_attribute("history")));
+  std::string text = fmt::format("{}: {} version {}, {}\nmade by\n{}", path.string(), format->name, format->version,
+                                 format->purpose, indented(file.text_attribute("history")));
   for (const AttributeInfo& attribute : format->attributes) {
     if (!file.has_attribute(attribute.name)) continue;
     const std::string value = attribute.is_text
@@ -80,9 +80,8 @@ std::string file_summary(const std::filesystem::path& path) {
   }
   for (const Dataset& dataset : format->datasets) {
     if (!file.has(dataset.path)) continue;
-    text +=
-        fmt::format("{:<24} ({}) {}  {}\n{:<24} {}\n", dataset.path, shape_words(file, dataset),
-                    range_words(file, dataset), dataset.unit == "1" ? "" : dataset.unit, "", dataset.meaning);
+    text += fmt::format("{:<24} ({}) {}  {}\n{:<24} {}\n", dataset.path, shape_words(file, dataset),
+                        range_words(file, dataset), dataset.unit == "1" ? "" : dataset.unit, "", dataset.meaning);
   }
   return text;
 }

@@ -14,8 +14,7 @@ struct DresspackLine {
 
   std::size_t points() const { return segments + 2; }
   /// Returns the points, (points) [m]. clamps, centres: rows of the datasets, (point, 3).
-  std::vector<Eigen::Vector3d> in(const std::vector<double>& clamps,
-                                  const std::vector<double>& centres) const;
+  std::vector<Eigen::Vector3d> in(const std::vector<double>& clamps, const std::vector<double>& centres) const;
 };
 
 /// Returns one line per dresspack, in the order of the file. Errors: InputError.

@@ -35,15 +35,13 @@ std::string lives_section(const ImprovementStory& story) {
     return fmt::format(
         "<tr><td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td>"
         "<td>{}</td><td>{}</td></tr>\n",
-        name, printed_life(of.p10), printed_life(of.p50), printed_life(of.p90), escaped(of.words),
-        escaped(of.modes));
+        name, printed_life(of.p10), printed_life(of.p50), printed_life(of.p90), escaped(of.words), escaped(of.modes));
   };
   std::string text =
       "<h2>Lives</h2>\n" +
-      wide_table(
-          {"", "#p10 [h]", "#p50 [h]", "#p90 [h]", "limits", "modes that are not validated"},
-          (story.before ? row("before", *story.before) : "") +
-              (story.after ? row(story.keep.empty() ? "after" : "best of the trials", *story.after) : ""));
+      wide_table({"", "#p10 [h]", "#p50 [h]", "#p90 [h]", "limits", "modes that are not validated"},
+                 (story.before ? row("before", *story.before) : "") +
+                     (story.after ? row(story.keep.empty() ? "after" : "best of the trials", *story.after) : ""));
   if (!story.keep.empty()) text += fmt::format("<p><b>{}</b></p>\n", escaped(story.keep));
   if (!story.gain.empty()) text += fmt::format("<p>{}</p>\n", escaped(story.gain));
   std::istringstream lines(story.choice);
@@ -76,7 +74,8 @@ std::string nudges_section(const ImprovementStory& story) {
   for (const ImprovementStory::Nudge& nudge : story.nudges)
     rows += fmt::format(
         "<tr><td>{}</td><td class=\"number\">{}</td><td{}>{}</td><td>{}</td></tr>\n", escaped(nudge.what),
-        nudge.ran && std::isfinite(nudge.share) ? fmt::format("{}× {:.2f}", nudge.estimated ? "≈ " : "", nudge.share) : "–",
+        nudge.ran && std::isfinite(nudge.share) ? fmt::format("{}× {:.2f}", nudge.estimated ? "≈ " : "", nudge.share)
+                                                : "–",
         nudge.words.empty() ? "" : " class=\"failed\"", nudge.words.empty() ? "kept" : escaped(nudge.words),
         nudge.first_mode.empty()
             ? "–"
@@ -92,9 +91,8 @@ constexpr double broad = 940, narrow = 350, chart_height = 370;
 /// Returns a chart in both widths: text keeps its size, so the narrow chart has less of it.
 template <typename Draw>
 std::string at_both_widths(const Draw& draw) {
-  return fmt::format(
-      "<div class=\"figure\"><div class=\"broad\">{}</div><div class=\"narrow\">{}</div></div>\n",
-      draw(broad), draw(narrow));
+  return fmt::format("<div class=\"figure\"><div class=\"broad\">{}</div><div class=\"narrow\">{}</div></div>\n",
+                     draw(broad), draw(narrow));
 }
 
 Panel panel_of(double width, PlotAxis x, PlotAxis y) {
@@ -150,10 +148,8 @@ std::string front_charts(const ImprovementStory& story) {
   if (!(high > 0) || !(least < most)) return "";
   const PlotAxis across{story.second_title, least, most};
   return "<h2>Between the two aims</h2>\n" + at_both_widths([&](double width) {
-           const Panel panel =
-               panel_of(width, across, decades_axis("life of the worst job, p10 [h]", low, high));
-           Picture picture(width, chart_height, "The front",
-                           "Longest life for each value of the second aim.");
+           const Panel panel = panel_of(width, across, decades_axis("life of the worst job, p10 [h]", low, high));
+           Picture picture(width, chart_height, "The front", "Longest life for each value of the second aim.");
            panel.draw_axes(picture);
            for (const auto& [second, hours] : story.front)
              picture.dot(panel.across(second), panel.down(std::min(hours, panel.y.high)), 4, "dot",
@@ -170,8 +166,8 @@ std::string history_section(const ImprovementStory& story) {
   return fmt::format(
              "<h2>The search</h2>\n<p>{} trials, of which {} keep all limits (blue), {} break some (orange) and {} do not "
              "run; the line is the longest life so far. A longer life that makes another mode worse, or that exceeds the robot's, is not better.</p>\n",
-             story.points.size(), feasible,
-             static_cast<std::ptrdiff_t>(story.points.size()) - feasible - failed, failed) +
+             story.points.size(), feasible, static_cast<std::ptrdiff_t>(story.points.size()) - feasible - failed,
+             failed) +
          history_charts(story.points);
 }
 
@@ -184,8 +180,8 @@ std::string improvement_page(const ImprovementStory& story) {
       "<p class=\"soft\">All trials stand in improve.csv, the last jobs in <a href=\"report.html\">their report</a>.</p>\n"
       "{3}{4}{5}{6}{7}{8}</body></html>\n",
       escaped(story.name), chart_style(), improvement_style, lives_section(story),
-      story.after ? changes_section(story) : "", front_charts(story), beside_section(story),
-      nudges_section(story), history_section(story));
+      story.after ? changes_section(story) : "", front_charts(story), beside_section(story), nudges_section(story),
+      history_section(story));
 }
 
 }  // namespace dresslife::pipeline

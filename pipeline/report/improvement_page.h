@@ -10,7 +10,8 @@ namespace dresslife::pipeline {
 
 struct ImprovementStory {
   struct Change {
-    std::string key, before, after;  ///< before: empty if a job does not have the key, or if the jobs have different values
+    std::string key, before,
+        after;  ///< before: empty if a job does not have the key, or if the jobs have different values
   };
   struct Lives {
     std::string page;                  ///< address of the job's page, relative to this page; empty: none
@@ -27,8 +28,8 @@ struct ImprovementStory {
   struct Nudge {
     std::string what;  ///< "base clamp, z + 10 mm"
     bool ran = false;
-    double share = 0;   ///< life with this change over the life without it
-    std::string words;  ///< violated limits; empty: none
+    double share = 0;          ///< life with this change over the life without it
+    std::string words;         ///< violated limits; empty: none
     std::string first_mode{};  ///< first mode without a validated law within the robot's life; empty: none
     double first_hours = 0;    ///< hours until 1 of 10 has failed by first_mode
     bool estimated = false;    ///< whether both lives are estimates by runs without uncertain inputs

@@ -7,12 +7,12 @@
 #include <memory>
 #include <optional>
 
+#include "pipeline/base/digest.h"
 #include "pipeline/base/joined.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/whole_file.h"
 #include "pipeline/cable/stiffness.h"
 #include "pipeline/files/checksum.h"
-#include "pipeline/base/digest.h"
 #include "pipeline/files/motion_layout.h"
 #include "pipeline/report/cross_section.h"
 #include "pipeline/report/damage_tables.h"
@@ -36,21 +36,20 @@ using Reader = std::unique_ptr<const FileReader>;
 
 Reader opened(const std::filesystem::path& file, const Format& format, std::vector<std::string>& notes) {
   if (kind_of(file) != FileKind::absent) return std::make_unique<FileReader>(file, format);
-  notes.push_back(
-      fmt::format("{} is not there (run the job again)", file.filename().string()));
+  notes.push_back(fmt::format("{} is not there (run the job again)", file.filename().string()));
   return nullptr;
 }
 
 /// Throws if the files do not have the same number of samples and segments, so that they belong to different motions.
 void check_together(const FileReader& life, const FileReader* other) {
-  if (!other || (life.rows("/time") == other->rows("/time") &&
-                 life.rows("/segment/length") == other->rows("/segment/length")))
+  if (!other ||
+      (life.rows("/time") == other->rows("/time") && life.rows("/segment/length") == other->rows("/segment/length")))
     return;
-  throw InputError(other->where(),
-                   fmt::format("has {} samples and {} segments, {} has {} and {} (they are not of one job)",
-                               other->rows("/time"), other->rows("/segment/length"), life.where().file,
-                               life.rows("/time"), life.rows("/segment/length")),
-                   "run the stages again, one after the other");
+  throw InputError(
+      other->where(),
+      fmt::format("has {} samples and {} segments, {} has {} and {} (they are not of one job)", other->rows("/time"),
+                  other->rows("/segment/length"), life.where().file, life.rows("/time"), life.rows("/segment/length")),
+      "run the stages again, one after the other");
 }
 
 std::string paragraph(const std::string& words) {
@@ -60,7 +59,8 @@ std::string paragraph(const std::string& words) {
 /// Returns the action and each failure mode.
 std::string headline(const RankingRow& row) {
   const std::string action = action_words(row);
-  const bool named = action.find(row.not_evaluated) != std::string::npos;  // true also if all parts and modes are evaluated
+  const bool named =
+      action.find(row.not_evaluated) != std::string::npos;  // true also if all parts and modes are evaluated
   return fmt::format("<h1>{}</h1>\n<p><b>{}</b></p>\n", escaped(row.job), escaped(action)) + failure_table(row) +
          (named ? "" : paragraph(fmt::format("Not evaluated: {}.", row.not_evaluated)));
 }
@@ -72,15 +72,17 @@ std::string lives(const RankingRow& row) {
   if (std::isfinite(hours))
     words += fmt::format("{} of motion, {} repeats of {:.1f} s: by then {}. ", printed_hours(hours),
                          printed(row.headline_repeats()), row.repeat_seconds,
-                         row.planned() ? "10 % of such dresspacks have a conductor that has lost its share of wires at one place"
-                                       : "the worst wire breaks (median)");
+                         row.planned()
+                             ? "10 % of such dresspacks have a conductor that has lost its share of wires at one place"
+                             : "the worst wire breaks (median)");
   if (row.planned() && std::isfinite(row.planned_hours[2]))
     words += fmt::format("Half have failed after {}, 90 % after {}. ", printed_hours(row.planned_hours[1]),
                          printed_hours(row.planned_hours[2]));
   if (!std::isnan(row.glued_hours[0]))
-    words += fmt::format("10 % would have failed after {} if everything inside the cables were glued, after {} if it slipped "
-                         "without friction. ",
-                         printed_hours(row.glued_hours[0]), printed_hours(row.free_hours[0]));
+    words += fmt::format(
+        "10 % would have failed after {} if everything inside the cables were glued, after {} if it slipped "
+        "without friction. ",
+        printed_hours(row.glued_hours[0]), printed_hours(row.free_hours[0]));
   if (const std::string own = own_values_words(row); !own.empty()) words += own + " ";
   words += fmt::format("The median of the worst wire is {}.", printed_hours(row.life_hours));
   return paragraph(words) + paragraph(uncertainty_words(row)) + (row.damaged() ? paragraph(failure_words(row)) : "");
@@ -98,8 +100,7 @@ std::string stiffness_words(const FileReader& motion) {
   for (std::size_t d = 0; d < bending.size() && d < names.size(); ++d)
     if (bending[d] > 0)
       words.push_back(fmt::format("{}E I {:.3g} N m2, G J {:.3g} N m2, E A {:.3g} N",
-                                  names[d].empty() ? "" : names[d] + ": ", bending[d], torsional[d],
-                                  axial[d]));
+                                  names[d].empty() ? "" : names[d] + ": ", bending[d], torsional[d], axial[d]));
   return joined(words, "; ");
 }
 
@@ -121,23 +122,19 @@ std::string settings_words(const Node& job, const std::string& part) {
 }
 
 /// Returns the settings with most influence, in their final form. job: resolved.
-std::string assumptions(const RankingRow& row, const Node& job, const FileReader* motion,
-                        const FileReader* strain, const Setup* setup) {
+std::string assumptions(const RankingRow& row, const Node& job, const FileReader* motion, const FileReader* strain,
+                        const Setup* setup) {
   std::string list;
   const auto fact = [&](const std::string& name, const std::string& value) {
     list += fmt::format("<dt>{}</dt><dd>{}</dd>\n", name, value);
   };
-  for (const Warning& warning : warnings_of(row))
-    fact(title(warning.kind), "<b>" + escaped(warning.text()) + "</b>");
+  for (const Warning& warning : warnings_of(row)) fact(title(warning.kind), "<b>" + escaped(warning.text()) + "</b>");
   if (!row.estimates.empty()) fact("ESTIMATE, not in the dresspack", escaped(row.estimates));
   if (row.force_ok() && row.largest_force_share.value_or(0) > 0)
-    fact("forces",
-         fmt::format("at most {:.2g} of the force that breaks a cable", *row.largest_force_share));
+    fact("forces", fmt::format("at most {:.2g} of the force that breaks a cable", *row.largest_force_share));
   if (strain && strain->has_attribute("loose_mesh_error"))
-    fact("mesh of loose cables",
-         fmt::format(
-             "discretisation error of their curvature: {:.2g} % (a warning above 1 %)",
-             100 * strain->number_attribute("loose_mesh_error")));
+    fact("mesh of loose cables", fmt::format("discretisation error of their curvature: {:.2g} % (a warning above 1 %)",
+                                             100 * strain->number_attribute("loose_mesh_error")));
   const std::string stiffness = motion ? stiffness_words(*motion) : "";
   if (!stiffness.empty()) fact("hose as simulated", escaped(stiffness));
   if (const std::string words = setup ? construction_words(*setup) : ""; !words.empty())
@@ -161,16 +158,13 @@ std::string broken_limits(const FileReader& motion) {
   std::vector<std::string> broken;
   for (std::size_t k = 0; k < names.size(); ++k)
     if (warnings[k]) broken.push_back(names[k]);
-  return broken.empty()
-             ? ""
-             : fmt::format("Limits of the motion are broken: {} (see below)", joined(broken, ", "));
+  return broken.empty() ? "" : fmt::format("Limits of the motion are broken: {} (see below)", joined(broken, ", "));
 }
 
 /// Returns the layers of each dresspack as text.
 std::string layers(const Setup& setup) {
   std::string text;
-  for (std::size_t d = 0; d < setup.dresspacks.size(); ++d)
-    text += construction_text(setup.dresspacks[d].dresspack);
+  for (std::size_t d = 0; d < setup.dresspacks.size(); ++d) text += construction_text(setup.dresspacks[d].dresspack);
   return text;
 }
 

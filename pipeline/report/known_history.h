@@ -13,9 +13,9 @@ namespace dresslife::pipeline {
 bool known_whole(const FileReader& strain, std::uint32_t site);
 
 struct KnownHistory {
-  std::string component;  ///< path of the wire
-  double share = 1;       ///< its damage over the damage of the worst wire
-  bool whole = false;     ///< false: only turning points are known, with straight lines between them
+  std::string component;       ///< path of the wire
+  double share = 1;            ///< its damage over the damage of the worst wire
+  bool whole = false;          ///< false: only turning points are known, with straight lines between them
   std::vector<double> strain;  ///< (sample)
 
   /// Returns "signal cable 10/... (87.4 % of the worst wire's damage)".

@@ -55,8 +55,7 @@ struct Label {
 };
 
 /// Returns the most damaging program lines, each at the time of its largest damage, in the order of time.
-std::vector<Label> costly_lines(const LifeSummary& life, const std::vector<ProgramRun>& runs,
-                                const Panel& panel) {
+std::vector<Label> costly_lines(const LifeSummary& life, const std::vector<ProgramRun>& runs, const Panel& panel) {
   const double total = sum_of(life.step_damage);
   std::vector<Label> labels;
   for (const std::size_t line : largest_first(life.step_damage)) {
@@ -92,8 +91,8 @@ void draw_labels(Picture& picture, const Panel& panel, const std::vector<Label>&
 }
 
 /// Draws one cell per stretch of the program, alternately light and dark. Stretches with much damage are marked.
-void draw_program(Picture& picture, const LifeSummary& life, const std::vector<ProgramRun>& runs,
-                  const Panel& panel, double top, double height) {
+void draw_program(Picture& picture, const LifeSummary& life, const std::vector<ProgramRun>& runs, const Panel& panel,
+                  double top, double height) {
   const double total = sum_of(life.damage_rate);
   bool dark = false;
   for (const ProgramRun& run : runs) {
@@ -106,8 +105,8 @@ void draw_program(Picture& picture, const LifeSummary& life, const std::vector<P
                 share >= named_share ? "costly"
                 : dark               ? "dark"
                                      : "light",
-                fmt::format("{:.1f} .. {:.1f} s, line {}: {}; {:.1f} % of the damage", run.begin, run.end,
-                            line, line_name(life, run.step), in_percent * share));
+                fmt::format("{:.1f} .. {:.1f} s, line {}: {}; {:.1f} % of the damage", run.begin, run.end, line,
+                            line_name(life, run.step), in_percent * share));
     const std::string number = std::to_string(line);
     if (run.step >= 0 && to - from > text_width(number) + 2)
       picture.text((from + to) / 2, top + height - 4.5, number, "cell", Picture::Anchor::middle);
@@ -176,12 +175,10 @@ struct PlaceInFile {
 PlaceInFile read_worst_dresspack(const FileReader& file, LifeSummary& life) {
   life.dresspack = dresspack_names(file);
   if (file.has("/dresspack/damage")) life.dresspack_damage = file.read<double>("/dresspack/damage");
-  const std::string worst =
-      file.has_attribute("worst_dresspack") ? file.text_attribute("worst_dresspack") : "";
+  const std::string worst = file.has_attribute("worst_dresspack") ? file.text_attribute("worst_dresspack") : "";
   const auto found = std::find(life.dresspack.begin(), life.dresspack.end(), worst);
   PlaceInFile place;
-  if (found != life.dresspack.end())
-    place.dresspack = static_cast<std::size_t>(found - life.dresspack.begin());
+  if (found != life.dresspack.end()) place.dresspack = static_cast<std::size_t>(found - life.dresspack.begin());
   const std::vector<std::size_t> of_segment = dresspack_of_segments(file);
   const auto range = std::equal_range(of_segment.begin(), of_segment.end(), place.dresspack);
   const auto first = range.first - of_segment.begin(), end = range.second - of_segment.begin();
@@ -272,13 +269,12 @@ std::string strain_chart(const LifeSummary& life) {
   const auto [low, high] = std::minmax_element(life.strain.begin(), life.strain.end());
   const std::vector<ProgramRun> runs = program_runs(life);
   PlotAxis time{"time [s]", life.time.front(), life.time.back()};
-  Panel strain{chart_left,   0,    chart_panel,
+  Panel strain{chart_left,    0,    chart_panel,
                strain_height, time, linear_axis("strain [%]", in_percent * *low, in_percent * *high)};
   const std::vector<Label> labels = costly_lines(life, runs, strain);
   strain.top = 8 + label_row * static_cast<double>(labels.size());
   const double strip = strain.bottom() + gap;
-  const Panel share{chart_left, strip + strip_height + gap, chart_panel, share_height,
-                    time,        {"share [%]", 0, 100}};
+  const Panel share{chart_left, strip + strip_height + gap, chart_panel, share_height, time, {"share [%]", 0, 100}};
   const bool damaged = sum_of(life.damage_rate) > 0;
   const double bottom = damaged ? share.bottom() : strip + strip_height;
   Picture picture(chart_width, bottom + x_axis_height, "Strain of the worst wire over time",
@@ -304,8 +300,7 @@ std::string strain_chart(const LifeSummary& life) {
   } else {
     for (const Tick& tick : time.ticks(9))
       picture.text(strain.across(tick.value), bottom + 17, tick.label, "tick", Picture::Anchor::middle);
-    picture.text(chart_left + chart_panel / 2, bottom + 36, time.title, "axis-title",
-                 Picture::Anchor::middle);
+    picture.text(chart_left + chart_panel / 2, bottom + 36, time.title, "axis-title", Picture::Anchor::middle);
   }
   return picture.svg();
 }
@@ -313,11 +308,10 @@ std::string strain_chart(const LifeSummary& life) {
 std::string segment_chart(const LifeSummary& life, int worst_from_tool) {
   const std::size_t segments = life.segment_damage.size();
   if (segments == 0 || !(sum_of(life.segment_damage) > 0)) return "";
-  PlotAxis x{"base clamp   \u2190   distance to the tool clamp along the dresspack [m]   \u2192   tool clamp",
-             0, sum_of(life.segment_length)};
+  PlotAxis x{"base clamp   \u2190   distance to the tool clamp along the dresspack [m]   \u2192   tool clamp", 0,
+             sum_of(life.segment_length)};
   x.reversed = true;
-  const Panel panel{chart_left, 26, chart_panel,
-                    180,         x,  axis_of_amounts("damage per repeat", life.segment_damage)};
+  const Panel panel{chart_left, 26, chart_panel, 180, x, axis_of_amounts("damage per repeat", life.segment_damage)};
   Picture picture(chart_width, panel.bottom() + x_axis_height, "Damage along the dresspack",
                   fmt::format("The worst segment is number {} from the tool.", worst_from_tool));
   panel.draw_axes(picture);
@@ -336,8 +330,7 @@ std::string segment_chart(const LifeSummary& life, int worst_from_tool) {
     const std::string words = fmt::format("worst: segment {} from the tool", from_tool);
     const bool left = middle + 5 + text_width(words) > chart_width;
     picture.line(middle, 4, middle, top, "leader");
-    picture.text(middle + (left ? -5 : 5), 13, words, "note",
-                 left ? Picture::Anchor::end : Picture::Anchor::start);
+    picture.text(middle + (left ? -5 : 5), 13, words, "note", left ? Picture::Anchor::end : Picture::Anchor::start);
   }
   return picture.svg();
 }
@@ -360,7 +353,7 @@ std::string cycle_chart(const LifeSummary& life) {
   const PlotAxis x = range_axis(bins);
   const Panel count{chart_left, 10, chart_panel, 130, x, axis_of_amounts("cycles per repeat", counts)};
   const Panel share{
-      chart_left, count.bottom() + 16,
+      chart_left,  count.bottom() + 16,
       chart_panel, 130,
       x,           linear_axis("share of damage [%]", 0, *std::max_element(shares.begin(), shares.end()), 5)};
   Picture picture(chart_width, share.bottom() + x_axis_height, "Cycles of the worst wire",
@@ -369,12 +362,10 @@ std::string cycle_chart(const LifeSummary& life) {
   share.draw_axes(picture);
   for (std::size_t k = 0; k < bins.size(); ++k) {
     const double from = count.across(bins[k].low) + 0.5, to = count.across(bins[k].high) - 0.5;
-    const std::string hint =
-        fmt::format("range {} .. {} %: {} cycles, {} % of the damage", printed(bins[k].low),
-                    printed(bins[k].high), printed(bins[k].count), printed(shares[k]));
+    const std::string hint = fmt::format("range {} .. {} %: {} cycles, {} % of the damage", printed(bins[k].low),
+                                         printed(bins[k].high), printed(bins[k].count), printed(shares[k]));
     picture.box(from, count.down(counts[k]), to - from, count.bottom() - count.down(counts[k]), "bar", hint);
-    picture.box(from, share.down(shares[k]), to - from, share.bottom() - share.down(shares[k]), "bar-hot",
-                hint);
+    picture.box(from, share.down(shares[k]), to - from, share.bottom() - share.down(shares[k]), "bar-hot", hint);
   }
   return picture.svg();
 }

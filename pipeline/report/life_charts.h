@@ -21,9 +21,9 @@ struct LifeSummary {
   std::vector<double> damage_rate;     ///< (sample) damage rate of the worst segment; empty: no wire was evaluated
   std::vector<std::int32_t> step;      ///< (sample) program line, -1: none
   std::vector<std::string> step_text;  ///< (line)
-  std::vector<double> step_damage;  ///< (line) damage of the worst wire per repeat, by the line that closes a cycle
-  std::vector<double> step_opened;  ///< (line) the same damage by the line that opens the cycle; empty: not known
-  std::vector<std::string> dresspack;     ///< names of the dresspacks; {""}: only one
+  std::vector<double> step_damage;     ///< (line) damage of the worst wire per repeat, by the line that closes a cycle
+  std::vector<double> step_opened;     ///< (line) the same damage by the line that opens the cycle; empty: not known
+  std::vector<std::string> dresspack;  ///< names of the dresspacks; {""}: only one
   std::vector<double> dresspack_damage;   ///< (dresspack) damage of its worst wire per repeat; empty: not known
   std::vector<double> segment_length;     ///< (segment of the worst dresspack) length, from the base [m]
   std::vector<double> segment_damage;     ///< (segment of the worst dresspack) damage of its worst wire per repeat

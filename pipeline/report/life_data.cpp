@@ -25,13 +25,12 @@ constexpr std::size_t most_turns = 30'000;     // turning points of other places
 constexpr std::size_t most_life_samples = 20'000;
 constexpr std::size_t most_closings = 300;  // per segment
 constexpr double least_closing = 1e-4;      // share of a segment's damage: 0.01 %
-constexpr int cycle_cells = 24;             // number of cells along range and along mean, each wide enough for a thumb on a phone
+constexpr int cycle_cells = 24;  // number of cells along range and along mean, each wide enough for a thumb on a phone
 
 /// Reduces a long history to the two extremes of each of equal intervals, in the order of time; keeps a short one.
 class Thinning {
  public:
-  explicit Thinning(std::size_t samples)
-      : samples_(samples), stretch_(1 + (samples - 1) / most_life_samples * 2) {}
+  explicit Thinning(std::size_t samples) : samples_(samples), stretch_(1 + (samples - 1) / most_life_samples * 2) {}
 
   bool thins() const { return stretch_ > 1; }
   std::size_t length() const { return thins() ? 2 * ((samples_ + stretch_ - 1) / stretch_) : samples_; }
@@ -56,8 +55,7 @@ class Thinning {
   std::vector<float> times(const std::vector<double>& time) const {
     std::vector<float> thin;
     for (std::size_t k = 0; k < length(); ++k) {
-      const std::size_t sample =
-          thins() ? std::min(k / 2 * stretch_ + k % 2 * stretch_ / 2, samples_ - 1) : k;
+      const std::size_t sample = thins() ? std::min(k / 2 * stretch_ + k % 2 * stretch_ / 2, samples_ - 1) : k;
       thin.push_back(static_cast<float>(time[sample] - time[0]));
     }
     return thin;
@@ -86,15 +84,15 @@ class Data {
     if (const auto of_worst = cycles()) data.add("cycles", *of_worst);
     if (const auto of_worst = loops()) data.add("loops", *of_worst);
     data.add("program", program_data(life_).add("damage", life_.read<double>("/program/damage")));
-    return data.add("joints", life_.has("/joint/name") ? life_.read<std::string>("/joint/name")
-                                                       : std::vector<std::string>{});
+    return data.add("joints",
+                    life_.has("/joint/name") ? life_.read<std::string>("/joint/name") : std::vector<std::string>{});
   }
 
  private:
   Json attributes() const {
     Json data{};
-    for (const char* name : {"life_hours", "life_repeats", "damage_per_repeat", "repeat_seconds",
-                             "worst_time", "worst_segment_from_tool"})
+    for (const char* name :
+         {"life_hours", "life_repeats", "damage_per_repeat", "repeat_seconds", "worst_time", "worst_segment_from_tool"})
       data.add(name, life_.number_attribute(name));
     return data.add("worst_component", life_.text_attribute("worst_component"))
         .add("worst_segment", worst_segment())
@@ -105,7 +103,9 @@ class Data {
   Json marked() const {
     const std::optional<MarkedPlace> place = marked_place(life_);
     if (!place) return Json{{"segment", -1}};
-    return Json{{"segment", place->segment}, {"time", place->time}, {"words", place->fails_first ? "fails first" : "the worst wire"}};
+    return Json{{"segment", place->segment},
+                {"time", place->time},
+                {"words", place->fails_first ? "fails first" : "the worst wire"}};
   }
 
   /// Returns the index in the file; -1: none.
@@ -285,8 +285,7 @@ class Data {
     struct Cell {
       double count = 0, damage = 0, most = -1, time = 0;
     };
-    const auto site = life_.read<std::uint32_t>("/cycles/site"),
-               end = life_.read<std::uint32_t>("/cycles/end");
+    const auto site = life_.read<std::uint32_t>("/cycles/site"), end = life_.read<std::uint32_t>("/cycles/end");
     const auto range = life_.read<double>("/cycles/range"), mean = life_.read<double>("/cycles/mean"),
                count = life_.read<double>("/cycles/count"), damage = life_.read<double>("/cycles/damage");
     double high = 0, low_mean = INFINITY, high_mean = -INFINITY;
@@ -313,11 +312,8 @@ class Data {
     std::vector<std::vector<double>> rows;
     for (const auto& [at, cell] : cells)
       rows.push_back({double(at.first), double(at.second), cell.count, cell.damage, cell.time});
-    return Json{{"cells", cycle_cells},
-                {"range", high},
-                {"low_mean", low_mean},
-                {"high_mean", high_mean},
-                {"rows", rows}};
+    return Json{
+        {"cells", cycle_cells}, {"range", high}, {"low_mean", low_mean}, {"high_mean", high_mean}, {"rows", rows}};
   }
 
   /// Returns stress over strain of the worst site.

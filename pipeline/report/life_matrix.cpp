@@ -109,16 +109,14 @@ std::string cell_text(const RankingRow& row, const MatrixCell& cell,
   const double between = spread ? (std::log(hours) - span->first) / (span->second - span->first) : 0.5;
   const double part = !(hours > 0) ? 0 : std::isinf(hours) ? 1 : between;
   const std::string kinds = warning_kinds(row);
-  return fmt::format("<td class=\"coloured\" style=\"background:{}\" title=\"{}{}{}\">{}{}{}</td>",
-                     colour_of(part), escaped(row.job), kinds.empty() ? "" : "; warnings: ", escaped(kinds),
-                     linked(printed_life(hours)),
+  return fmt::format("<td class=\"coloured\" style=\"background:{}\" title=\"{}{}{}\">{}{}{}</td>", colour_of(part),
+                     escaped(row.job), kinds.empty() ? "" : "; warnings: ", escaped(kinds), linked(printed_life(hours)),
                      kinds.empty() ? "" : " <span aria-label=\"has warnings\">\u26a0</span>", many);
 }
 
 }  // namespace
 
-std::string life_matrix(const std::vector<RankingRow>& rows,
-                        const std::function<std::string(std::size_t row)>& link) {
+std::string life_matrix(const std::vector<RankingRow>& rows, const std::function<std::string(std::size_t row)>& link) {
   std::vector<Key> axes = axes_of(rows);
   if (axes.size() != 2 || axes[0].values.size() * axes[1].values.size() > most_cells) return "";
   if (axes[0].values.size() < axes[1].values.size()) std::swap(axes[0], axes[1]);
@@ -126,22 +124,20 @@ std::string life_matrix(const std::vector<RankingRow>& rows,
   std::map<std::pair<std::size_t, std::size_t>, MatrixCell> cells;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     if (rows[k].varied.size() <= std::max(down.index, across.index)) continue;
-    MatrixCell& cell = cells[{down.place(rows[k].varied[down.index].second),
-                        across.place(rows[k].varied[across.index].second)}];
+    MatrixCell& cell =
+        cells[{down.place(rows[k].varied[down.index].second), across.place(rows[k].varied[across.index].second)}];
     if (cell.jobs++ == 0 || shorter(rows[k], rows[cell.row])) cell.row = k;
   }
   const auto span = span_of(rows, cells);
   const auto& names = rows.front().varied;
   std::string head, body;
-  for (const std::string& value : across.values)
-    head += fmt::format("<th scope=\"col\">{}</th>", escaped(value));
+  for (const std::string& value : across.values) head += fmt::format("<th scope=\"col\">{}</th>", escaped(value));
   for (std::size_t r = 0; r < down.values.size(); ++r) {
     body += fmt::format("<tr><th scope=\"row\">{}</th>", escaped(down.values[r]));
     for (std::size_t c = 0; c < across.values.size(); ++c) {
       const auto cell = cells.find({r, c});
-      body += cell == cells.end()
-                  ? "<td>-</td>"
-                  : cell_text(rows[cell->second.row], cell->second, span, link(cell->second.row));
+      body += cell == cells.end() ? "<td>-</td>"
+                                  : cell_text(rows[cell->second.row], cell->second, span, link(cell->second.row));
     }
     body += "</tr>\n";
   }

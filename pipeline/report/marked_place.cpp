@@ -8,7 +8,8 @@
 namespace dresslife::pipeline {
 
 std::optional<MarkedPlace> marked_place(const FileReader& life) {
-  const bool fails = life.has_attribute("failing_segment_from_tool") && life.number_attribute("failing_segment_from_tool") >= 1;
+  const bool fails =
+      life.has_attribute("failing_segment_from_tool") && life.number_attribute("failing_segment_from_tool") >= 1;
   const std::string of = fails ? "failing_" : "worst_";
   MarkedPlace place;
   place.from_tool = static_cast<int>(life.number_attribute(of + "segment_from_tool"));

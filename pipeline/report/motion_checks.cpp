@@ -30,10 +30,9 @@ std::string in_words(double value, const std::string& unit) {
 std::string repeats_words(const FileReader& file) {
   if (!file.has_attribute("repeats")) return "";
   const double repeats = file.number_attribute("repeats");
-  if (!file.has_attribute("repeat_distance"))
-    return "The motion does not end where it begins and was run once.";
-  return fmt::format("Repeat {:.0f} of the motion; the dresspack ended it {:.2g} mm from where it began it.",
-                     repeats, 1e3 * file.number_attribute("repeat_distance"));
+  if (!file.has_attribute("repeat_distance")) return "The motion does not end where it begins and was run once.";
+  return fmt::format("Repeat {:.0f} of the motion; the dresspack ended it {:.2g} mm from where it began it.", repeats,
+                     1e3 * file.number_attribute("repeat_distance"));
 }
 
 }  // namespace
@@ -45,8 +44,7 @@ std::string check_table(const std::filesystem::path& motion_file) {
   const auto texts = file.read<std::string>("/program/text");
   const auto values = file.read<double>("/check/value"), limits = file.read<double>("/check/limit");
   const auto times = file.read<double>("/check/time"), positions = file.read<double>("/check/position");
-  const auto steps = file.read<std::int32_t>("/check/step"),
-             warnings = file.read<std::int32_t>("/check/warning");
+  const auto steps = file.read<std::int32_t>("/check/step"), warnings = file.read<std::int32_t>("/check/warning");
   const auto lengths = file.read<double>("/segment/length");
   const std::vector<std::size_t> of_segment = dresspack_of_segments(file);
   const std::vector<std::string> dresspacks = dresspack_names(file);
@@ -70,9 +68,8 @@ std::string check_table(const std::filesystem::path& motion_file) {
         positions[i] < 0 ? "" : rounded(length[dresspack] - positions[i], 2) + " m", times[i],
         known ? escaped(texts[static_cast<std::size_t>(steps[i])]) : "");
   }
-  return fmt::format(
-      "<p class=\"soft\">{}</p>\n{}", repeats_words(file),
-      wide_table({"check", "#worst", "#limit", "#from the tool", "#when", "program"}, rows));
+  return fmt::format("<p class=\"soft\">{}</p>\n{}", repeats_words(file),
+                     wide_table({"check", "#worst", "#limit", "#from the tool", "#when", "program"}, rows));
 }
 
 }  // namespace dresslife::pipeline

@@ -13,10 +13,10 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr std::size_t most_motion_bytes = 2'150'000;     // bytes in the page, before base64 adds a third
+constexpr std::size_t most_motion_bytes = 2'150'000;  // bytes in the page, before base64 adds a third
 // samples that are considered; of longer motions every second, third, ... sample
 constexpr std::size_t most_samples = 20'000;
-constexpr double first_miss = 0.5e-3;             // first tolerance of a position [m]
+constexpr double first_miss = 0.5e-3;  // first tolerance of a position [m]
 // tolerance of curvature and twist, as a share of their largest value, per metre of position tolerance
 constexpr double shape_miss = 0.01 / first_miss;
 constexpr std::size_t samples_at_once = 512;
@@ -96,7 +96,8 @@ class Player {
   }
 
   std::size_t row_bytes() const {
-    return sum_of(groups_, [](const Group& group) { return group.size * (group.narrow ? 1 : 2); }, sizeof(float));
+    return sum_of(
+        groups_, [](const Group& group) { return group.size * (group.narrow ? 1 : 2); }, sizeof(float));
   }
 
   /// Reads the points of each dresspack: base clamp, segment centres, tool clamp.
@@ -149,8 +150,7 @@ class Player {
   void read_shape(const FileReader& strain) {
     const std::vector<double> pairs = read_strided(strain, "/deformation/curvature", stride_);
     std::vector<double> curvature, twist = read_strided(strain, "/deformation/twist", stride_);
-    for (std::size_t i = 0; i + 1 < pairs.size(); i += 2)
-      curvature.push_back(std::hypot(pairs[i], pairs[i + 1]));
+    for (std::size_t i = 0; i + 1 < pairs.size(); i += 2) curvature.push_back(std::hypot(pairs[i], pairs[i + 1]));
     const auto weight = [](const std::vector<double>& values) {
       return 1 / (shape_miss * largest_of(values, 1e-9, [](double value) { return std::abs(value); }));
     };
@@ -242,11 +242,9 @@ class Player {
     std::vector<Json> list;
     for (const DresspackLine& line : lines_) {
       std::vector<double> places{0};
-      for (const std::size_t segment : kept_centres(line))
-        places.push_back(static_cast<double>(segment) + 0.5);
+      for (const std::size_t segment : kept_centres(line)) places.push_back(static_cast<double>(segment) + 0.5);
       places.push_back(static_cast<double>(line.segments));
-      list.push_back(
-          {{"first_segment", line.first_segment}, {"segments", line.segments}, {"places", places}});
+      list.push_back({{"first_segment", line.first_segment}, {"segments", line.segments}, {"places", places}});
     }
     return list;
   }

@@ -76,7 +76,8 @@ PredictedDeciles in_deviations(const UncertainParameter& parameter, const Predic
   return {parameter.z_of(key[0]), parameter.z_of(key[1]), parameter.z_of(key[2])};
 }
 
-void add_before_and_after(Rows& rows, const PredictedDeciles& before, const PredictedDeciles* after, const std::string& words) {
+void add_before_and_after(Rows& rows, const PredictedDeciles& before, const PredictedDeciles* after,
+                          const std::string& words) {
   rows.bar(before[0], before[2], 16, "before");
   if (after) rows.bar((*after)[0], (*after)[2], 8, "after"), rows.median((*after)[1]);
   rows.words(words, "open");
@@ -90,10 +91,11 @@ std::string validation_picture(const ValidationStudy& validation, const std::vec
   Picture picture(names + width + verdicts, first_row + row_height * static_cast<double>(count) + below,
                   "Predicted and observed lives", "One line per observation: range of predictions, and what was seen");
   Rows lines(picture, first_row, count, width, decades_axis("life [cycles of the test]", least_life, most_life));
-  picture.text(names, 18,
-               "bar: predicted, 10 .. 90 % over all that is not known; lines in it: medians of the variants; thin: all glued .. all "
-               "free inside",
-               "tick");
+  picture.text(
+      names, 18,
+      "bar: predicted, 10 .. 90 % over all that is not known; lines in it: medians of the variants; thin: all glued .. all "
+      "free inside",
+      "tick");
   picture.text(names, 34, arrows, "tick");
   for (const Observation& observation : validation.observations) {
     const Prediction prediction = predicted(observation, validation.study, rows);
@@ -122,7 +124,8 @@ std::string calibration_picture(const Learned& learned) {
   Picture picture(names + width + results, second + row_height * static_cast<double>(tests) + below,
                   "What observations have taught", "Parameters, and lives predicted, before and after");
   picture.text(names, 18, "wide bars: range before (8 of 10 cases); narrow: after, with its middle value", "tick");
-  Rows parameters(picture, first_row, uncertain_count, width, {"parameter [standard deviations of its range before]", -4, 4});
+  Rows parameters(picture, first_row, uncertain_count, width,
+                  {"parameter [standard deviations of its range before]", -4, 4});
   for (std::size_t p = 0; p < uncertain_count; ++p) {
     const UncertainParameter& parameter = uncertain_parameters()[p];
     const LearnedAxis& axis = learned.axes[p];

@@ -5,10 +5,10 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "pipeline/base/digest.h"
 #include "pipeline/base/installation.h"
 #include "pipeline/base/ownership.h"
 #include "pipeline/base/plain_file.h"
-#include "pipeline/base/digest.h"
 #include "pipeline/report/chart_style.h"
 #include "pipeline/report/glossary.h"
 #include "pipeline/report/page_assets.h"
@@ -43,8 +43,8 @@ std::filesystem::path three_folder() {
 }
 
 std::string shell_digest() {
-  return xxh3(
-      fmt::format("{}{}{}{}{}{}", chart_style(), page_style(), page_scripts(), three_scripts(), glossary_html(), version()));
+  return xxh3(fmt::format("{}{}{}{}{}{}", chart_style(), page_style(), page_scripts(), three_scripts(), glossary_html(),
+                          version()));
 }
 
 std::string whole_page(const std::string& title, const std::string& made_from, const std::string& body,
@@ -54,16 +54,18 @@ std::string whole_page(const std::string& title, const std::string& made_from, c
       "initial-scale=1\">\n<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n{}"
       "{}<p class=\"soft\">dresslife {} \u00b7 <a href=\"#words\">what the words mean</a></p>\n<script type=\"application/json\" id=\"data\">{}</script>\n"
       "{}<script>{}</script>\n</body>\n</html>\n",
-      doctype, before_digest, made_from, escaped(title), chart_style() + std::string(page_style()), body, glossary_html(), version(),
-      data, three_scripts(), page_scripts());
+      doctype, before_digest, made_from, escaped(title), chart_style() + std::string(page_style()), body,
+      glossary_html(), version(), data, three_scripts(), page_scripts());
   return with_mark(page, Mark::page);
 }
 
 std::string wide_table(std::initializer_list<std::string_view> heads, const std::string& rows) {
   std::string head;
   for (const std::string_view one : heads)
-    head += one.starts_with('#') ? fmt::format("<th class=\"number\">{}</th>", one.substr(1)) : fmt::format("<th>{}</th>", one);
-  return fmt::format("<div class=\"wide\"><table>\n<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody></table></div>\n", head, rows);
+    head += one.starts_with('#') ? fmt::format("<th class=\"number\">{}</th>", one.substr(1))
+                                 : fmt::format("<th>{}</th>", one);
+  return fmt::format("<div class=\"wide\"><table>\n<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody></table></div>\n",
+                     head, rows);
 }
 
 std::string made_from_of(const std::filesystem::path& page) {

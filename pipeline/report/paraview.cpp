@@ -21,8 +21,7 @@ namespace fs = std::filesystem;
 
 /// Returns the path of a file relative to the XDMF file, in the form that its reader needs in front of a dataset's path.
 std::string name_from(const fs::path& output, const fs::path& file) {
-  return escaped(
-      fs::proximate(file, output.has_parent_path() ? output.parent_path() : fs::path(".")).generic_string());
+  return escaped(fs::proximate(file, output.has_parent_path() ? output.parent_path() : fs::path(".")).generic_string());
 }
 
 /// Returns the other file of a job, if it exists and belongs to the same motion; else null.
@@ -43,8 +42,8 @@ class Slab {
       : file_(std::move(file)), rows_(rows), segments_(segments) {}
 
   std::string scalars(const std::string& dataset, std::size_t sample, int bytes) const {
-    return slab(dataset, fmt::format("{} 0 1 1 1 {}", sample, segments_),
-                fmt::format("{} {}", rows_, segments_), "3 2", fmt::format("{}", segments_), bytes);
+    return slab(dataset, fmt::format("{} 0 1 1 1 {}", sample, segments_), fmt::format("{} {}", rows_, segments_), "3 2",
+                fmt::format("{}", segments_), bytes);
   }
   /// Returns a reference to component `k` of a dataset of pairs.
   std::string component(const std::string& dataset, std::size_t sample, int k, int bytes) const {
@@ -53,8 +52,8 @@ class Slab {
   }
   std::string constant(const std::string& dataset) const {
     return fmt::format(
-        "<DataItem Dimensions=\"{}\" NumberType=\"Float\" Precision=\"8\" Format=\"HDF\">{}:{}</DataItem>",
-        segments_, file_, dataset);
+        "<DataItem Dimensions=\"{}\" NumberType=\"Float\" Precision=\"8\" Format=\"HDF\">{}:{}</DataItem>", segments_,
+        file_, dataset);
   }
 
  private:
@@ -73,8 +72,8 @@ class Slab {
 };
 
 std::string attribute(const char* name, const char* centre, std::size_t values, const std::string& item) {
-  return fmt::format("<Attribute Name=\"{}\" Center=\"{}\" Dimensions=\"{}\">{}</Attribute>\n", name, centre,
-                     values, item);
+  return fmt::format("<Attribute Name=\"{}\" Center=\"{}\" Dimensions=\"{}\">{}</Attribute>\n", name, centre, values,
+                     item);
 }
 
 /// Returns positions to a tenth of a millimetre. They are in the text, because ParaView rejects positions in parts of a dataset.
@@ -90,8 +89,7 @@ void add_place(std::string& places, const Vector3d& at) {
 
 /// Returns numbers that are repeated at every time step, because a reference to one list makes the Xdmf3 readers abort.
 std::string numbers(std::size_t count, const char* type, const std::string& values) {
-  return fmt::format("<DataItem Dimensions=\"{}\" NumberType=\"{}\" Format=\"XML\">{}</DataItem>", count,
-                     type, values);
+  return fmt::format("<DataItem Dimensions=\"{}\" NumberType=\"{}\" Format=\"XML\">{}</DataItem>", count, type, values);
 }
 
 // ---- the robot --------------------------------------------------------------------------------------------
@@ -165,13 +163,11 @@ struct HoseLines {
     std::size_t count = 0;
     for (std::size_t first = 0; first < dresspack_of_segment.size();) {
       std::size_t end = first;
-      while (end < dresspack_of_segment.size() && dresspack_of_segment[end] == dresspack_of_segment[first])
-        ++end;
+      while (end < dresspack_of_segment.size() && dresspack_of_segment[end] == dresspack_of_segment[first]) ++end;
       points_of_lines += fmt::format("2 {} ", end - first);
       for (std::size_t k = first; k < end; ++k) {
         points_of_lines += fmt::format("{} ", k);
-        radius_of_each +=
-            fmt::format("{:.6g} ", setup.dresspacks.at(dresspack_of_segment[k]).dresspack.diameter / 2);
+        radius_of_each += fmt::format("{:.6g} ", setup.dresspacks.at(dresspack_of_segment[k]).dresspack.diameter / 2);
       }
       ++lines;
       count += 2 + end - first;
@@ -186,8 +182,7 @@ struct HoseLines {
 
 std::string xdmf_text(const JobFiles& files, const fs::path& output) {
   const FileReader motion(files.motion, motion_format());
-  const auto strain = beside(files.strain, strain_format(), motion),
-             life = beside(files.life, life_format(), motion);
+  const auto strain = beside(files.strain, strain_format(), motion), life = beside(files.life, life_format(), motion);
   const Setup setup = setup_from(stored_job(motion));
   const std::vector<double> times = motion.read<double>("/time");
   const std::vector<std::size_t> of_segment = dresspack_of_segments(motion);
@@ -216,8 +211,7 @@ std::string xdmf_text(const JobFiles& files, const fs::path& output) {
         "NumberOfElements=\"{}\">{}</Topology>\n{}{}",
         times[k], hose.lines, hose.cells, geometry(segments, places), at_nodes("radius [m]", hose.radii));
     text += at_nodes("tension [N]", moved.scalars("/tension", k, 8));
-    if (motion.has("/contact/force"))
-      text += at_nodes("contact force [N]", moved.scalars("/contact/force", k, 4));
+    if (motion.has("/contact/force")) text += at_nodes("contact force [N]", moved.scalars("/contact/force", k, 4));
     if (strain) {
       text += at_nodes("curvature 1 [1_m]", strained.component("/deformation/curvature", k, 0, 4));
       text += at_nodes("curvature 2 [1_m]", strained.component("/deformation/curvature", k, 1, 4));

@@ -52,10 +52,12 @@ class Calendar {
 
   std::string svg() const {
     const double bottom = first_row + row_height * double(order_.size());
-    Picture picture(plan_width, bottom + 50, "Calendar", "Probability of failure of each dresspack over the weeks of the plan, its windows and replacements.");
+    Picture picture(
+        plan_width, bottom + 50, "Calendar",
+        "Probability of failure of each dresspack over the weeks of the plan, its windows and replacements.");
     for (const Window& window : plan_.windows)
-      picture.box(x(window.first), top, std::max(2.0, x(window.last + std::chrono::days(1)) - x(window.first)), bottom - top, "window",
-                  window_text(window));
+      picture.box(x(window.first), top, std::max(2.0, x(window.last + std::chrono::days(1)) - x(window.first)),
+                  bottom - top, "window", window_text(window));
     failures(picture);
     for (std::size_t i = 0; i < order_.size(); ++i) row(picture, order_[i], first_row + row_height * double(i));
     months(picture, bottom);
@@ -81,9 +83,11 @@ class Calendar {
       by_plan.push_back(plan_.failures_in_week[k] / part);
       without.push_back(plan_.failures_in_week_without_windows[k] / part);
     }
-    const double most = std::max(*std::max_element(by_plan.begin(), by_plan.end()), *std::max_element(without.begin(), without.end()));
+    const double most =
+        std::max(*std::max_element(by_plan.begin(), by_plan.end()), *std::max_element(without.begin(), without.end()));
     if (!(most > 0)) return;
-    const Panel panel{plan_names, top, plan_width - plan_names - plan_right, strip, {}, linear_axis("failures a week", 0, most, 4)};
+    const Panel panel{plan_names, top, plan_width - plan_names - plan_right,
+                      strip,      {},  linear_axis("failures a week", 0, most, 4)};
     for (const Tick& tick : panel.y.ticks(3)) {
       picture.line(panel.left, panel.down(tick.value), panel.right(), panel.down(tick.value), "grid");
       picture.text(panel.left - 6, panel.down(tick.value) + 4, tick.label, "tick", Picture::Anchor::end);
@@ -113,8 +117,8 @@ class Calendar {
       for (std::size_t of = k; of < behind; ++of) fails += plan.fails_in_week[of];
       if (const char* const shade = shade_of(fails / double(behind - k)))
         picture.box(x(week(k)), y + 1, x(std::min(end, week(behind))) - x(week(k)), row_height - 2, shade,
-                    fmt::format("{}, {} .. {}: fails with {}", name, day_text(week(k)), day_text(std::min(end, week(behind)) - std::chrono::days(1)),
-                                percent_text(fails)));
+                    fmt::format("{}, {} .. {}: fails with {}", name, day_text(week(k)),
+                                day_text(std::min(end, week(behind)) - std::chrono::days(1)), percent_text(fails)));
     }
     if (!plan.window) return;
     picture.box(x(end), y + 1, x(plan_.end) - x(end), row_height - 2, "new", name + ": a new dresspack");
@@ -125,7 +129,8 @@ class Calendar {
     picture.line(plan_names, bottom, plan_width - plan_right, bottom, "mark");
     const std::chrono::year_month_day today(plan_.today);
     double free = plan_names;
-    for (std::chrono::year_month month = today.year() / today.month() + std::chrono::months(1); Day(month / 1) < plan_.end; month += std::chrono::months(1)) {
+    for (std::chrono::year_month month = today.year() / today.month() + std::chrono::months(1);
+         Day(month / 1) < plan_.end; month += std::chrono::months(1)) {
       const double at = x(Day(month / 1));
       picture.line(at, bottom, at, bottom + 4, "mark");
       const std::string words = day_text(Day(month / 1)).substr(0, 7);
@@ -157,8 +162,11 @@ class Calendar {
 std::string beside_table(const PlanNotes& notes) {
   std::string rows;
   for (const BesideRow& row : notes.beside)
-    rows += fmt::format("<tr><td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td></tr>\n", row.what, row.now, row.then, row.more);
-  return "<h3>Beside today's fleet</h3>\n" + wide_table({"", "#" + escaped(notes.today), "#what if", "#difference"}, rows);
+    rows += fmt::format(
+        "<tr><td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td></tr>\n",
+        row.what, row.now, row.then, row.more);
+  return "<h3>Beside today's fleet</h3>\n" +
+         wide_table({"", "#" + escaped(notes.today), "#what if", "#difference"}, rows);
 }
 
 std::string windows_table(const Fleet& fleet, const Plan& plan) {
@@ -166,7 +174,8 @@ std::string windows_table(const Fleet& fleet, const Plan& plan) {
   for (std::size_t n = 0; n < plan.windows.size(); ++n) {
     const std::vector<std::string> replaced = replaced_in(fleet, plan, n);
     rows += fmt::format("<tr><td style=\"white-space: nowrap\">{}</td><td class=\"number\">{}</td><td>{}</td></tr>\n",
-                        window_text(plan.windows[n]), replaced.size(), replaced.empty() ? "nothing to replace" : escaped(joined(replaced, ", ")));
+                        window_text(plan.windows[n]), replaced.size(),
+                        replaced.empty() ? "nothing to replace" : escaped(joined(replaced, ", ")));
   }
   return "<h3>What to replace</h3>\n" + wide_table({"window", "#dresspacks", "names"}, rows);
 }
@@ -177,14 +186,16 @@ std::string years_table(const Fleet& fleet, const Plan& plan) {
     const YearOfPlan& year = plan.years[y];
     rows += fmt::format(
         "<tr><td>{}</td><td class=\"number\">{}</td><td class=\"number\">{:g} .. {:g}</td><td class=\"number\">{}</td><td class=\"number\">{}</td></tr>\n",
-        y + 1, printed(year.planned + year.unplanned, 2), std::floor(year.low), std::ceil(year.high), printed(year.planned, 2), printed(year.unplanned, 2));
+        y + 1, printed(year.planned + year.unplanned, 2), std::floor(year.low), std::ceil(year.high),
+        printed(year.planned, 2), printed(year.unplanned, 2));
   }
   std::string text =
       "<h3>Spare dresspacks</h3>\n" +
       wide_table({"year from today", "#expected", "#in 90 of 100 plants", "#planned", "#after failures"}, rows);
   if (fleet.has_costs)
-    text += fmt::format("<p>Cost until {}: <b>{}</b> by this plan, {} if only failed dresspacks are replaced.{}</p>\n", day_text(plan.end),
-                        printed(plan.cost), printed(plan.cost_without_windows), later_saving_words(plan));
+    text += fmt::format("<p>Cost until {}: <b>{}</b> by this plan, {} if only failed dresspacks are replaced.{}</p>\n",
+                        day_text(plan.end), printed(plan.cost), printed(plan.cost_without_windows),
+                        later_saving_words(plan));
   return text;
 }
 
@@ -199,37 +210,47 @@ std::string dresspacks_table(const Fleet& fleet, const Plan& plan, const std::st
     const RowPlan& row = plan.rows[i];
     const auto percent = [](double share) { return number_cell(share, percent_text(share)); };
     std::string cells = fmt::format(
-        "<tr data-rank=\"{0}\"><td class=\"number\" data-value=\"{0}\">{0}</td><td>{1}</td><td>{2}</td><td style=\"white-space: nowrap\">{3}</td>{4}{5}<td style=\"white-space: nowrap\">{6}</td>{7}", rows.size() + 1,
-        escaped(fleet.rows[i].name), escaped(fleet.rows[i].duty), day_text(fleet.rows[i].since), number_cell(row.age_hours, printed(row.age_hours)),
-        percent(row.fails_before_first), row.window ? day_text(plan.windows[*row.window].first) : "in no window", percent(row.fails_before));
+        "<tr data-rank=\"{0}\"><td class=\"number\" data-value=\"{0}\">{0}</td><td>{1}</td><td>{2}</td><td style=\"white-space: nowrap\">{3}</td>{4}{5}<td style=\"white-space: nowrap\">{6}</td>{7}",
+        rows.size() + 1, escaped(fleet.rows[i].name), escaped(fleet.rows[i].duty), day_text(fleet.rows[i].since),
+        number_cell(row.age_hours, printed(row.age_hours)), percent(row.fails_before_first),
+        row.window ? day_text(plan.windows[*row.window].first) : "in no window", percent(row.fails_before));
     for (const double share : row.fails_until_next) cells += percent(share);
     rows.push_back(cells + "</tr>\n");
   }
   return "<h3>All dresspacks</h3>\n<p class=\"soft\">A click on a head sorts. Probabilities between windows hold for a dresspack that lives "
          "at the first and is not replaced. The file " +
-         escaped(table) + " has commas between its columns and decimal points: a spreadsheet that expects others imports it as text with these.</p>\n" +
+         escaped(table) +
+         " has commas between its columns and decimal points: a spreadsheet that expects others imports it as text with these.</p>\n" +
          sorted_table(heads, rows, "dresspacks", table);
 }
 
 }  // namespace
 
-std::string plan_page(const std::string& name, const Fleet& fleet, const Plan& plan, const PlanNotes& notes, const std::string& table) {
+std::string plan_page(const std::string& name, const Fleet& fleet, const Plan& plan, const PlanNotes& notes,
+                      const std::string& table) {
   const Calendar calendar(fleet, plan);
   std::string body = shade_rules;
   for (const std::string& doubt : notes.doubts) body += "<p><b>" + escaped(doubt) + "</b></p>\n";
-  body += "<p>" + escaped(expected_words(plan)) + "</p>\n" + (notes.beside.empty() ? "" : beside_table(notes)) + windows_table(fleet, plan);
-  if (const std::string kept = kept_words(fleet, plan); !kept.empty()) body += "<p class=\"soft\">" + escaped("In no window. " + kept) + "</p>\n";
+  body += "<p>" + escaped(expected_words(plan)) + "</p>\n" + (notes.beside.empty() ? "" : beside_table(notes)) +
+          windows_table(fleet, plan);
+  if (const std::string kept = kept_words(fleet, plan); !kept.empty())
+    body += "<p class=\"soft\">" + escaped("In no window. " + kept) + "</p>\n";
   if (!notes.values.empty()) body += "<p style=\"white-space: pre-wrap\">" + escaped(notes.values) + "</p>\n";
   for (const std::string& note : notes.paragraphs) body += "<p class=\"soft\">" + escaped(note) + "</p>\n";
   body += fmt::format(
       "<h3>Calendar</h3>\n<p class=\"soft\">Above: expected failures of all dresspacks in a week; those of dresspacks that are put in later are counted in simulated plants. Below: {}. Colour: the probability that today's dresspack "
       "fails in a week. {}Rest the pointer on a cell for its number.</p>\n",
-      plan.rows.size() > most_rows ? fmt::format("the {} dresspacks with the greatest risk", most_rows) : "each dresspack, the greatest risk first",
-      calendar.weeks_per_cell() > 1 ? fmt::format("A cell is {} weeks, its colour their mean. ", calendar.weeks_per_cell()) : "");
+      plan.rows.size() > most_rows ? fmt::format("the {} dresspacks with the greatest risk", most_rows)
+                                   : "each dresspack, the greatest risk first",
+      calendar.weeks_per_cell() > 1
+          ? fmt::format("A cell is {} weeks, its colour their mean. ", calendar.weeks_per_cell())
+          : "");
   body += chart_in_page(calendar.svg()) + years_table(fleet, plan) + dresspacks_table(fleet, plan, table);
   return table_page((notes.beside.empty() ? "Plan: " : "What if: ") + name,
-                    notes.beside.empty() ? fmt::format("{}: which dresspacks to replace, and when", name)
-                                         : fmt::format("What if {} were the fleet: which dresspacks to replace, and when, beside {}", name, notes.today),
+                    notes.beside.empty()
+                        ? fmt::format("{}: which dresspacks to replace, and when", name)
+                        : fmt::format("What if {} were the fleet: which dresspacks to replace, and when, beside {}",
+                                      name, notes.today),
                     body);
 }
 

@@ -19,6 +19,7 @@ struct PlanNotes {
   std::vector<BesideRow> beside{};  ///< the plan of the present fleet and that of the other fleet
 };
 /// Returns the page. name: name of the fleet. table: file with all dresspacks.
-std::string plan_page(const std::string& name, const Fleet& fleet, const Plan& plan, const PlanNotes& notes, const std::string& table);
+std::string plan_page(const std::string& name, const Fleet& fleet, const Plan& plan, const PlanNotes& notes,
+                      const std::string& table);
 
 }  // namespace dresslife::pipeline

@@ -51,8 +51,7 @@ std::string logarithmic_label(int factor, int exponent) {
 std::vector<Tick> linear_ticks(double low, double high, int most) {
   const double step = round_step(high - low, most);
   constexpr double resolved = 1e12;  // number of steps from 0 beyond which a step is lost in the rounding of a double
-  if (!(step > 0) || !std::isfinite(step) || !(std::max(std::abs(low), std::abs(high)) < resolved * step))
-    return {};
+  if (!(step > 0) || !std::isfinite(step) || !(std::max(std::abs(low), std::abs(high)) < resolved * step)) return {};
   const int power = power_of_labels(low, high);
   std::vector<Tick> ticks;
   for (double k = std::ceil(low / step - close_to_tick); k * step <= high + step * close_to_tick; ++k)
@@ -67,14 +66,12 @@ std::vector<Tick> logarithmic_ticks(double low, double high, int most) {
   const bool narrow = decades < 2.5;
   const bool room = decades < 0.4 * most;  // room between 1 and 2, the two closest labels
   std::vector<Tick> ticks;
-  for (int exponent = static_cast<int>(std::floor(std::log10(low) - 1)); exponent <= std::log10(high) + 1;
-       ++exponent)
+  for (int exponent = static_cast<int>(std::floor(std::log10(low) - 1)); exponent <= std::log10(high) + 1; ++exponent)
     for (const int factor : {1, 2, 5}) {
       const double value = factor * std::pow(10, exponent);
       if (value < low * (1 - close_to_tick) || value > high * (1 + close_to_tick)) continue;
       const bool labelled = factor == 1 ? exponent % every == 0 : narrow && room;
-      if (factor == 1 || narrow)
-        ticks.push_back({value, labelled ? logarithmic_label(factor, exponent) : ""});
+      if (factor == 1 || narrow) ticks.push_back({value, labelled ? logarithmic_label(factor, exponent) : ""});
     }
   return ticks;
 }
@@ -116,8 +113,7 @@ std::string escaped(const std::string& text) {
 std::string power_of_ten(int exponent) {
   constexpr std::array digits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
   std::string text = exponent < 0 ? "10⁻" : "10";
-  for (const char digit : std::to_string(std::abs(exponent)))
-    text += digits[static_cast<std::size_t>(digit - '0')];
+  for (const char digit : std::to_string(std::abs(exponent))) text += digits[static_cast<std::size_t>(digit - '0')];
   return text;
 }
 
@@ -130,9 +126,7 @@ std::string printed(double value, int figures) {
 
 std::string printed_life(double life) { return std::isinf(life) ? life_text(life) : printed(life); }
 
-std::string printed_hours(double hours) {
-  return std::isinf(hours) ? hours_text(hours) : printed(hours) + " h";
-}
+std::string printed_hours(double hours) { return std::isinf(hours) ? hours_text(hours) : printed(hours) + " h"; }
 
 std::vector<Tick> PlotAxis::ticks(int most) const {
   return logarithmic ? logarithmic_ticks(low, high, most) : linear_ticks(low, high, most);
@@ -151,9 +145,7 @@ PlotAxis decades_axis(std::string title, double low, double high) {
   return {std::move(title), std::pow(10, from), std::pow(10, to), true};
 }
 
-double text_width(const std::string& words) {
-  return label_character * static_cast<double>(columns_of(words));
-}
+double text_width(const std::string& words) { return label_character * static_cast<double>(columns_of(words)); }
 
 // ---- picture ----------------------------------------------------------------------------------------------
 
@@ -164,16 +156,15 @@ void Picture::line(double x1, double y1, double x2, double y2, const char* style
   body_ += fmt::format("<path class=\"{}\" d=\"M{} {}L{} {}\"/>\n", style, at(x1), at(y1), at(x2), at(y2));
 }
 
-void Picture::box(double x, double y, double width, double height, const char* style,
-                  const std::string& hint) {
-  body_ += hinted(fmt::format("rect class=\"{}\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"", style, at(x),
-                              at(y), at(std::max(0.0, width)), at(std::max(0.0, height))),
+void Picture::box(double x, double y, double width, double height, const char* style, const std::string& hint) {
+  body_ += hinted(fmt::format("rect class=\"{}\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"", style, at(x), at(y),
+                              at(std::max(0.0, width)), at(std::max(0.0, height))),
                   hint);
 }
 
 void Picture::dot(double x, double y, double radius, const char* style, const std::string& hint) {
-  body_ += hinted(
-      fmt::format("circle class=\"{}\" cx=\"{}\" cy=\"{}\" r=\"{}\"", style, at(x), at(y), at(radius)), hint);
+  body_ +=
+      hinted(fmt::format("circle class=\"{}\" cx=\"{}\" cy=\"{}\" r=\"{}\"", style, at(x), at(y), at(radius)), hint);
 }
 
 void Picture::curve(const std::vector<std::pair<double, double>>& points, const char* style) {
@@ -183,20 +174,18 @@ void Picture::curve(const std::vector<std::pair<double, double>>& points, const 
   body_ += fmt::format("<path class=\"{}\" d=\"{}\"/>\n", style, path);
 }
 
-void Picture::text(double x, double y, const std::string& words, const char* style, Anchor anchor,
-                   double most_width) {
-  const std::string narrower =
-      most_width > 0 && text_width(words) > most_width
-          ? fmt::format(" textLength=\"{}\" lengthAdjust=\"spacingAndGlyphs\"", at(most_width))
-          : "";
-  body_ += fmt::format("<text class=\"{}\" x=\"{}\" y=\"{}\" text-anchor=\"{}\"{}>{}</text>\n", style, at(x),
-                       at(y), anchor_word(anchor), narrower, escaped(words));
+void Picture::text(double x, double y, const std::string& words, const char* style, Anchor anchor, double most_width) {
+  const std::string narrower = most_width > 0 && text_width(words) > most_width
+                                   ? fmt::format(" textLength=\"{}\" lengthAdjust=\"spacingAndGlyphs\"", at(most_width))
+                                   : "";
+  body_ += fmt::format("<text class=\"{}\" x=\"{}\" y=\"{}\" text-anchor=\"{}\"{}>{}</text>\n", style, at(x), at(y),
+                       anchor_word(anchor), narrower, escaped(words));
 }
 
 void Picture::upright_text(double x, double y, const std::string& words, const char* style) {
-  body_ += fmt::format(
-      "<text class=\"{}\" transform=\"translate({} {}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
-      style, at(x), at(y), escaped(words));
+  body_ +=
+      fmt::format("<text class=\"{}\" transform=\"translate({} {}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
+                  style, at(x), at(y), escaped(words));
 }
 
 std::string Picture::svg() const {
@@ -220,12 +209,10 @@ void Panel::draw_axes(Picture& picture, bool with_x_labels) const {
   picture.upright_text(left - 16 - widest, top + height / 2, y.title, "axis-title");
   for (const Tick& tick : x.ticks(static_cast<int>(width / x_spacing))) {
     picture.line(across(tick.value), bottom(), across(tick.value), bottom() + 4, "mark");
-    if (with_x_labels)
-      picture.text(across(tick.value), bottom() + 17, tick.label, "tick", Picture::Anchor::middle);
+    if (with_x_labels) picture.text(across(tick.value), bottom() + 17, tick.label, "tick", Picture::Anchor::middle);
   }
   picture.line(left, bottom(), right(), bottom(), "mark");
-  if (with_x_labels)
-    picture.text(left + width / 2, bottom() + 36, x.title, "axis-title", Picture::Anchor::middle);
+  if (with_x_labels) picture.text(left + width / 2, bottom() + 36, x.title, "axis-title", Picture::Anchor::middle);
 }
 
 void Panel::draw_upright_grid(Picture& picture) const {
@@ -238,8 +225,8 @@ void Panel::draw_upright_grid(Picture& picture) const {
 
 // ---- curves -----------------------------------------------------------------------------------------------
 
-std::vector<std::pair<double, double>> thinned(const std::vector<double>& time,
-                                               const std::vector<double>& value, std::size_t columns) {
+std::vector<std::pair<double, double>> thinned(const std::vector<double>& time, const std::vector<double>& value,
+                                               std::size_t columns) {
   std::vector<std::pair<double, double>> points;
   const std::size_t samples = std::min(time.size(), value.size());
   if (samples <= 2 * columns) {

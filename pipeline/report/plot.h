@@ -92,7 +92,7 @@ struct Panel {
 
 /// Returns the extremes of a history in each of `columns` equal intervals, in the order of time: the same curve at that width,
 /// with at most two points per column.
-std::vector<std::pair<double, double>> thinned(const std::vector<double>& time,
-                                               const std::vector<double>& value, std::size_t columns);
+std::vector<std::pair<double, double>> thinned(const std::vector<double>& time, const std::vector<double>& value,
+                                               std::size_t columns);
 
 }  // namespace dresslife::pipeline

@@ -95,16 +95,17 @@ std::string bend_words(const SpanPreview& span, bool bends) {
   const bool keeps_with_robot = !bends && span.works() && (span.length < first->length || span.length > last->length);
   return fmt::format(
       " At rest and without the robot, {} the bend radius of {:.4g} mm.{} Motion and contact bend the hose more.",
-      first == last ? fmt::format("{:.2f} m keeps", first->length) : fmt::format("{:.2f} .. {:.2f} m keep", first->length, last->length),
+      first == last ? fmt::format("{:.2f} m keeps", first->length)
+                    : fmt::format("{:.2f} .. {:.2f} m keep", first->length, last->length),
       allowed, keeps_with_robot ? fmt::format(" With the robot, {:.3f} m keeps it, too.", span.length) : "");
 }
 
 std::string words(const SpanPreview& span, bool bends) {
-  if (span.hangs())
-    return fmt::format("{} hangs {:.3f} m long from its last clamp.", span.subject, span.length);
-  const std::string first_pose = std::abs(span.here[0] - span.program[0]) + std::abs(span.here[1] - span.program[1]) < 0.01
-                                     ? ""
-                                     : fmt::format(" ({:.2f} .. {:.2f} m in its first pose alone)", span.here[0], span.here[1]);
+  if (span.hangs()) return fmt::format("{} hangs {:.3f} m long from its last clamp.", span.subject, span.length);
+  const std::string first_pose =
+      std::abs(span.here[0] - span.program[0]) + std::abs(span.here[1] - span.program[1]) < 0.01
+          ? ""
+          : fmt::format(" ({:.2f} .. {:.2f} m in its first pose alone)", span.here[0], span.here[1]);
   return fmt::format(
       "{} is {:.3f} m long. Over the program its clamps are {:.3f} .. {:.3f} m apart: {}. Lengths of {:.2f} .. {:.2f} m fit the program{}: 2 % to a "
       "third longer than the largest distance.{}",
@@ -119,7 +120,8 @@ std::string words(const SpanPreview& span, bool bends) {
 bool warns_of_bends(const FileReader& preview) {
   if (!preview.has_attribute("warnings")) return true;
   const std::vector<Warning> warnings = warnings_from(preview.text_attribute("warnings"));
-  return std::any_of(warnings.begin(), warnings.end(), [](const Warning& one) { return one.kind == WarningKind::bend_radius; });
+  return std::any_of(warnings.begin(), warnings.end(),
+                     [](const Warning& one) { return one.kind == WarningKind::bend_radius; });
 }
 
 std::string scan_table(const std::vector<SpanPreview>& spans) {
@@ -171,7 +173,8 @@ double place_in(const std::string& refusal) { return number_between(" ", " m fro
 std::vector<std::string> length_words(const std::filesystem::path& preview_file) {
   const FileReader file(preview_file, preview_format());
   const bool bends = warns_of_bends(file);
-  return mapped(spans_of(file, setup_from(stored_job(file))), [&](const SpanPreview& span) { return words(span, bends); });
+  return mapped(spans_of(file, setup_from(stored_job(file))),
+                [&](const SpanPreview& span) { return words(span, bends); });
 }
 
 std::string refusal_of(const std::filesystem::path& preview_file) {
@@ -221,8 +224,8 @@ std::string preview_page(const std::filesystem::path& preview_file, const std::s
         "<figure><img alt=\"Cross-section of {0}\" src=\"data:image/svg+xml;base64,{1}\"><figcaption class=\"soft\">{0}</figcaption>"
         "</figure>\n",
         escaped(dresspack.name), base64(cross_section_picture(dresspack, LayerLines::left_out)));
-    layers += fmt::format("<h2>{}</h2>\n<pre>{}</pre>\n", escaped(dresspack.name),
-                          escaped(construction_text(dresspack)));
+    layers +=
+        fmt::format("<h2>{}</h2>\n<pre>{}</pre>\n", escaped(dresspack.name), escaped(construction_text(dresspack)));
   }
   body += "</div></div>\n" + well + scan_table(spans) + layers;
   body += "<p class=\"soft\" id=\"shown\"></p>\n<details><summary>Settings</summary>\n<pre>" +

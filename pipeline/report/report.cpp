@@ -38,21 +38,19 @@ constexpr double least_shear_told = 5e-5;  // smallest value that is not 0 with 
 /// Returns the hours by which the first wire breaks in 10 to 90 % of such dresspacks.
 std::string first_break_cell(const RankingRow& row) {
   if (std::isnan(row.first_wire_hours[0])) return "";
-  return std::isinf(row.first_wire_hours[0]) ? printed_life(row.first_wire_hours[0])
-                                             : fmt::format("{} .. {}", printed(row.first_wire_hours[0]),
-                                                           printed_life(row.first_wire_hours[2]));
+  return std::isinf(row.first_wire_hours[0])
+             ? printed_life(row.first_wire_hours[0])
+             : fmt::format("{} .. {}", printed(row.first_wire_hours[0]), printed_life(row.first_wire_hours[2]));
 }
 
 std::string place_words(const RankingRow& row) {
-  return fmt::format("segment {} from the tool ({:.2f} m){}", row.worst_segment_from_tool,
-                     row.worst_position_from_tool,
+  return fmt::format("segment {} from the tool ({:.2f} m){}", row.worst_segment_from_tool, row.worst_position_from_tool,
                      row.worst_dresspack.empty() ? "" : " of the " + escaped(row.worst_dresspack));
 }
 
 /// Returns the address of a page beside the job's results, relative to the study's page; empty if it does not exist.
 std::string page_address(const RankingRow& row, const std::string& page) {
-  if (row.life_file.empty() || kind_of(row.life_file.parent_path() / page) != FileKind::file)
-    return "";
+  if (row.life_file.empty() || kind_of(row.life_file.parent_path() / page) != FileKind::file) return "";
   std::string address;
   for (const char c : row.job)
     address += std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' || c == '.'
@@ -75,8 +73,8 @@ std::string warning_cell(const RankingRow& row) {
   if (kinds.empty()) return row.warnings ? "" : "<span class=\"soft\">not known</span>";
   std::string list;
   for (const Warning& warning : warnings_of(row)) list += fmt::format("<li>{}</li>", escaped(warning.text()));
-  return fmt::format("<details><summary class=\"{}\">{}</summary><ul>{}</ul></details>", warning_kinds(row).empty() ? "soft" : "failed",
-                     escaped(kinds), list);
+  return fmt::format("<details><summary class=\"{}\">{}</summary><ul>{}</ul></details>",
+                     warning_kinds(row).empty() ? "soft" : "failed", escaped(kinds), list);
 }
 
 /// Returns the begin of a table row, with data for sorting and comparing.
@@ -109,11 +107,11 @@ std::vector<std::string> ranking_rows(const std::vector<RankingRow>& rows, const
     const std::string name =
         detailed[i] ? fmt::format("<a href=\"#job-{}\">{}</a>", i + 1, escaped(row.job)) : escaped(row.job);
     if (!row.has_result()) {
-      all.push_back(fmt::format(
-          "{}<td class=\"number\">-</td><td>{}</td><td colspan=\"7\"><span class=\"failed\">{}</span> "
-          "{}</td></tr>\n",
-          row_begin(row, i + 1), name, row.waits() ? escaped(row.failure) : "failed",
-          (row.waits() ? "" : escaped(row.failure)) + page_link(row, "preview.html", "See where")));
+      all.push_back(
+          fmt::format("{}<td class=\"number\">-</td><td>{}</td><td colspan=\"7\"><span class=\"failed\">{}</span> "
+                      "{}</td></tr>\n",
+                      row_begin(row, i + 1), name, row.waits() ? escaped(row.failure) : "failed",
+                      (row.waits() ? "" : escaped(row.failure)) + page_link(row, "preview.html", "See where")));
       continue;
     }
     const std::string worst =
@@ -121,28 +119,28 @@ std::vector<std::string> ranking_rows(const std::vector<RankingRow>& rows, const
     const std::string failing = escaped(failing_place_words(row));  // the worst wire may be in another cable
     const std::string where = !row.damaged() ? "no wire is damaged" : failing.empty() ? worst : failing;
     const std::string moved =
-        !row.damaged()
-            ? ""
-            : fmt::format("{}{}<br><span class=\"soft\">at {:.1f} s of {:.0f} s</span>",
-                          failing.empty() ? "" : worst + "<br>", escaped(row.worst_step), row.worst_time, row.repeat_seconds) +
-                  (row.worst_joint.empty()
-                       ? ""
-                       : fmt::format("<br><span class=\"soft\">{}</span>", escaped(joint_words(row))));
+        !row.damaged() ? ""
+                       : fmt::format("{}{}<br><span class=\"soft\">at {:.1f} s of {:.0f} s</span>",
+                                     failing.empty() ? "" : worst + "<br>", escaped(row.worst_step), row.worst_time,
+                                     row.repeat_seconds) +
+                             (row.worst_joint.empty()
+                                  ? ""
+                                  : fmt::format("<br><span class=\"soft\">{}</span>", escaped(joint_words(row))));
     const std::string fails_first =
         row.failing_mode.empty() || !row.damaged()
             ? ""
             : fmt::format("{} ({:.0f} %)<br>", escaped(row.failing_mode), 100 * row.failing_mode_share);
     const std::string unvalidated =
-        !earlier_unvalidated(row) ? "" : fmt::format("<br><span class=\"soft\">not validated: {}</span>", escaped(earlier_words(row)));
+        !earlier_unvalidated(row)
+            ? ""
+            : fmt::format("<br><span class=\"soft\">not validated: {}</span>", escaped(earlier_words(row)));
     const bool planned = !std::isnan(row.glued_hours[0]);
-    const auto bounds =
-        std::pair(planned ? row.glued_hours[0] : row.hours_of(row.life_repeats_all_stick),
-                  planned ? row.free_hours[0] : row.hours_of(row.life_repeats_all_free));
+    const auto bounds = std::pair(planned ? row.glued_hours[0] : row.hours_of(row.life_repeats_all_stick),
+                                  planned ? row.free_hours[0] : row.hours_of(row.life_repeats_all_free));
     const auto count = static_cast<double>(warnings_of(row).size());
     all.push_back(fmt::format(
         "{}{}<td>{}</td>{}{}{}{}<td>{}</td><td>{}</td><td{}>{}</td></tr>\n", row_begin(row, i + 1),
-        number_cell(static_cast<double>(i + 1), row.rank ? std::to_string(row.rank) : "-"),
-        name + stale_note(row),
+        number_cell(static_cast<double>(i + 1), row.rank ? std::to_string(row.rank) : "-"), name + stale_note(row),
         number_cell(row.headline_hours(),
                     "<b>" + plan_mark(row) + shown_life(row, row.headline_hours()) + "</b>" + certainty_cell(row)),
         number_cell(bounds.first, shown_range(row, bounds.first, bounds.second)),
@@ -165,9 +163,8 @@ std::string comparison_chart(const std::vector<RankingRow>& rows) {
   for (const RankingRow& row : rows) {
     if (!row.done() || !row.damaged() || shown.size() == most_compared) continue;
     shown.push_back(&row);
-    for (const double hours :
-         {row.headline_hours(), row.hours_of(row.life_repeats_all_stick),
-          row.hours_of(row.life_repeats_all_free), spread_of(row)[0], spread_of(row)[2]}) {
+    for (const double hours : {row.headline_hours(), row.hours_of(row.life_repeats_all_stick),
+                               row.hours_of(row.life_repeats_all_free), spread_of(row)[0], spread_of(row)[2]}) {
       if (!(hours > 0) || std::isinf(hours)) continue;
       low = std::min(low, hours);
       high = std::max(high, hours);
@@ -220,7 +217,8 @@ std::string ranking_section(const std::vector<RankingRow>& rows, const std::vect
       "Parts inside a cable rub on each other. Glued .. free: the same p10 if they could not slip, and if they slipped "
       "without friction. First wire: by then a first single wire has broken, by the scatter of wires alone, in 10 .. 90 % "
       "of such dresspacks. {}{}</p>\n",
-      sorted_table(heads, ranking_rows(rows, detailed), "jobs", "ranking.csv"), matrix, escaped(unvalidated_legend(rows)),
+      sorted_table(heads, ranking_rows(rows, detailed), "jobs", "ranking.csv"), matrix,
+      escaped(unvalidated_legend(rows)),
       std::any_of(rows.begin(), rows.end(), [](const RankingRow& row) { return plan_mark(row) == "!"; })
           ? " ! marks jobs whose warnings forbid a plan with these hours."
           : "",
@@ -239,14 +237,13 @@ std::string dresspack_table(const LifeSummary& life, const RankingRow& row) {
   std::string rows;
   for (std::size_t d = 0; d < life.dresspack.size(); ++d) {
     const double damage = life.dresspack_damage[d];
-    rows += damage > 0
-                ? fmt::format(
-                      "<tr><td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td><td "
-                      "class=\"number\">{}</td></tr>\n",
-                      escaped(life.dresspack[d]), printed(row.hours_of(1 / damage)), printed(1 / damage),
-                      printed(damage))
-                : fmt::format("<tr><td>{}</td><td class=\"number\" colspan=\"3\">no damage</td></tr>\n",
-                              escaped(life.dresspack[d]));
+    rows += damage > 0 ? fmt::format(
+                             "<tr><td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td><td "
+                             "class=\"number\">{}</td></tr>\n",
+                             escaped(life.dresspack[d]), printed(row.hours_of(1 / damage)), printed(1 / damage),
+                             printed(damage))
+                       : fmt::format("<tr><td>{}</td><td class=\"number\" colspan=\"3\">no damage</td></tr>\n",
+                                     escaped(life.dresspack[d]));
   }
   return "<h3>Life by dresspack</h3>\n<p class=\"soft\">Of the worst wire in each; the charts below are about the worst of them.</p>\n" +
          wide_table({"dresspack", "#life [h]", "#repeats", "#damage per repeat"}, rows);
@@ -262,13 +259,12 @@ std::string facts(const RankingRow& row) {
     fact("life",
          std::isinf(lives[0])
              ? "no damage at any place to the share of wires with which a conductor fails"
-             : fmt::format(
-                   "<b>{} h</b> of motion = {} by the calendar until 10 % of such dresspacks have a "
-                   "conductor that has lost its share of wires at one place; {} until half have, {} until "
-                   "90 %{}",
-                   printed(lives[0]), calendar_words(row.planned_months), printed_hours(lives[1]),
-                   printed_hours(lives[2]),
-                   row.failing_conductor.empty() ? "" : "; likeliest " + escaped(failing_place_words(row))));
+             : fmt::format("<b>{} h</b> of motion = {} by the calendar until 10 % of such dresspacks have a "
+                           "conductor that has lost its share of wires at one place; {} until half have, {} until "
+                           "90 %{}",
+                           printed(lives[0]), calendar_words(row.planned_months), printed_hours(lives[1]),
+                           printed_hours(lives[2]),
+                           row.failing_conductor.empty() ? "" : "; likeliest " + escaped(failing_place_words(row))));
   }
   fact(row.planned() ? "worst wire" : "life",
        std::isinf(row.life_hours)
@@ -285,8 +281,9 @@ std::string facts(const RankingRow& row) {
   if (!row.life_shares.empty()) fact("its causes", escaped(row.life_shares));
   if (const std::string words = order_words(row); !words.empty()) fact("beside the next job", escaped(words));
   if (!row.failing_mode.empty())
-    fact("fails first", fmt::format("{}, in {:.0f} % of the samples{}{}", escaped(row.failing_mode), 100 * row.failing_mode_share,
-                                    row.failing_conductor.empty() ? "" : ", likeliest ", escaped(failing_place_words(row))));
+    fact("fails first",
+         fmt::format("{}, in {:.0f} % of the samples{}{}", escaped(row.failing_mode), 100 * row.failing_mode_share,
+                     row.failing_conductor.empty() ? "" : ", likeliest ", escaped(failing_place_words(row))));
   if (row.relative) fact("relative life", escaped(relative_words(*row.relative)));
   const auto bounds = [&](const char* name, double glued, double free) {
     fact(name, fmt::format("{} if everything inside the cables were glued, {} if it slipped without friction",
@@ -298,9 +295,9 @@ std::string facts(const RankingRow& row) {
   bounds("bounds of the worst wire", row.hours_of(row.life_repeats_all_stick), row.hours_of(row.life_repeats_all_free));
   if (!row.estimates.empty()) fact("ESTIMATE, not in the dresspack", escaped(row.estimates));
   if (row.hours_mean_stress_kept)
-    fact("mean stress", fmt::format("{} if none of it relaxed, {} without any, median of the same wire",
-                                    printed_hours(*row.hours_mean_stress_kept),
-                                    printed_hours(*row.hours_without_mean_stress)));
+    fact("mean stress",
+         fmt::format("{} if none of it relaxed, {} without any, median of the same wire",
+                     printed_hours(*row.hours_mean_stress_kept), printed_hours(*row.hours_without_mean_stress)));
   if (const std::string held = held_words(row); !held.empty()) fact("comparable", escaped(held));
   if (!row.settings.empty()) fact("settings", row.settings + " in ranking.csv");
   for (const Warning& warning : warnings_of(row)) fact("warning", "<b>" + escaped(warning.text()) + "</b>");
@@ -309,22 +306,19 @@ std::string facts(const RankingRow& row) {
         row.largest_force_share
             ? fmt::format("at most {:.2f} of the force that breaks a cable", *row.largest_force_share)
             : "strength not known (tensile_strength_MPa of its wires' material)";
-    fact("forces of cables",
-         fmt::format("{}; at the clamps {:.2g} times the moment that the hose carries{}", tears,
-                     *row.clamp_moment_share,
-                     row.force_ok()
-                         ? ""
-                         : ". <b>Above a fifth of either, the forces are unrealistic: "
-                           "check slack, play and grips</b>"));
+    fact("forces of cables", fmt::format("{}; at the clamps {:.2g} times the moment that the hose carries{}", tears,
+                                         *row.clamp_moment_share,
+                                         row.force_ok() ? ""
+                                                        : ". <b>Above a fifth of either, the forces are unrealistic: "
+                                                          "check slack, play and grips</b>"));
   }
   if (row.strain_relief_share)
-    fact("pull at clamps", fmt::format("{:.2g} of what a strain relief of type A has to hold (EN 50262){}", *row.strain_relief_share,
-                                       *row.strain_relief_share > 1 ? ". <b>Check that the clamps hold the cables</b>" : ""));
+    fact("pull at clamps",
+         fmt::format("{:.2g} of what a strain relief of type A has to hold (EN 50262){}", *row.strain_relief_share,
+                     *row.strain_relief_share > 1 ? ". <b>Check that the clamps hold the cables</b>" : ""));
   if (row.loose_mesh_error)
-    fact("mesh of loose cables",
-         fmt::format(
-             "discretisation error of their curvature: {:.2g} % (a warning above 1 %)",
-             100 * *row.loose_mesh_error));
+    fact("mesh of loose cables", fmt::format("discretisation error of their curvature: {:.2g} % (a warning above 1 %)",
+                                             100 * *row.loose_mesh_error));
   const auto scatter = [&](const std::string& name, const std::array<double, 3>& lives) {
     if (std::isnan(lives[0])) return;
     fact(name, fmt::format("by {} in 10 %, {} in half, {} in 90 % of such dresspacks, by the scatter of wires alone",
@@ -335,22 +329,21 @@ std::string facts(const RankingRow& row) {
   if (!row.not_evaluated.empty()) fact("not evaluated", escaped(row.not_evaluated));
   if (row.damaged()) {
     fact("breaks first",
-         escaped(row.worst_component) + (row.worst_shear_range >= least_shear_told
-                                             ? fmt::format(" (its surface is sheared by {:.2f} % to and fro)",
-                                                           100 * row.worst_shear_range)
-                                             : ""));
+         escaped(row.worst_component) +
+             (row.worst_shear_range >= least_shear_told
+                  ? fmt::format(" (its surface is sheared by {:.2f} % to and fro)", 100 * row.worst_shear_range)
+                  : ""));
     fact("where", place_words(row));
-    fact("when", fmt::format("at {:.1f} s, {}", row.worst_time,
-                             row.worst_step.empty() ? "outside any program line"
-                                                    : "during '" + escaped(row.worst_step) + "'"));
+    fact("when",
+         fmt::format("at {:.1f} s, {}", row.worst_time,
+                     row.worst_step.empty() ? "outside any program line" : "during '" + escaped(row.worst_step) + "'"));
   }
   return failure_table(row) + "<dl>\n" + list + "</dl>\n";
 }
 
 std::string charts(const RankingRow& row) {
   // A stage that ran again since may have replaced the strains of the last result.
-  const LifeSummary life =
-      read_life(row.life_file, row.stale ? "" : row.life_file.parent_path() / "strain.h5");
+  const LifeSummary life = read_life(row.life_file, row.stale ? "" : row.life_file.parent_path() / "strain.h5");
   return dresspack_table(life, row) +
          chart_section(
              "Strain of the worst wire over time",
@@ -377,9 +370,10 @@ std::string scene(const RankingRow& row) {
   const std::string picture = scene_picture(motion, place->time, place->from_tool, place->dresspack);
   return picture.empty()
              ? ""
-             : fmt::format("<h3>The moment</h3>\n<p class=\"soft\">Robot and dresspack when the most damaging cycle closes at the marked "
-                           "place, that of the {}.</p>\n",
-                           place->fails_first ? "conductor that fails first" : "worst wire") +
+             : fmt::format(
+                   "<h3>The moment</h3>\n<p class=\"soft\">Robot and dresspack when the most damaging cycle closes at the marked "
+                   "place, that of the {}.</p>\n",
+                   place->fails_first ? "conductor that fails first" : "worst wire") +
                    picture_in_page(picture);
 }
 
@@ -405,8 +399,7 @@ std::string job_section(const RankingRow& row, std::size_t rank, std::vector<Rep
     body += fmt::format("<p class=\"failed\">{}</p>\n", escaped(problem.what()));
     problems.push_back({row.job, problem.what()});
   }
-  const std::string stale =
-      row.stale ? fmt::format("<p class=\"failed\">{}</p>\n", escaped(stale_words(row))) : "";
+  const std::string stale = row.stale ? fmt::format("<p class=\"failed\">{}</p>\n", escaped(stale_words(row))) : "";
   return fmt::format("<section id=\"job-{}\">\n<h2>{}. {}</h2>\n{}{}</section>\n", rank,
                      row.rank ? std::to_string(row.rank) : "-", escaped(row.job), stale, body);
 }
@@ -419,14 +412,12 @@ std::string summary(const std::vector<RankingRow>& rows) {
   const std::size_t stale = count([](const RankingRow& row) { return row.stale; });
   const std::size_t waiting = count([](const RankingRow& row) { return !row.stale && row.waits(); });
   std::string text = fmt::format("{} of {} jobs done", done, rows.size());
-  if (stale > 0)
-    text += fmt::format(", <span class=\"failed\">{} stale</span>: their last results stand below", stale);
+  if (stale > 0) text += fmt::format(", <span class=\"failed\">{} stale</span>: their last results stand below", stale);
   if (waiting > 0) text += fmt::format(", {} to do", waiting);
   if (const std::size_t failed = rows.size() - done - stale - waiting; failed > 0)
     text += fmt::format(", <span class=\"failed\">{} failed</span>", failed);
   if (done + stale > most_detailed)
-    text += fmt::format("; charts for the {} best and the {} worst of them", most_detailed / 2,
-                        most_detailed / 2);
+    text += fmt::format("; charts for the {} best and the {} worst of them", most_detailed / 2, most_detailed / 2);
   return "<p>" + text + ".</p>\n";
 }
 

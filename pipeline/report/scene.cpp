@@ -17,8 +17,8 @@ namespace dresslife::pipeline {
 namespace {
 
 constexpr double picture_width = 860, scene_margin = 24;  // [px]
-constexpr double most_height = 620;                 // [px]
-constexpr double azimuth = -62, elevation = 16;     // direction of view: angle from +x, and angle above the floor [deg]
+constexpr double most_height = 620;                       // [px]
+constexpr double azimuth = -62, elevation = 16;  // direction of view: angle from +x, and angle above the floor [deg]
 constexpr double piece = 0.06;  // thick parts are divided into pieces of this length, which are sorted by depth [m]
 
 /// A line with round ends.
@@ -75,16 +75,17 @@ std::vector<Frame> frames_at(const FileReader& file, std::size_t sample) {
 void add_robot(std::vector<Stroke>& strokes, const std::vector<Frame>& frames, const Robot& robot) {
   for (std::size_t link = 0; link < std::min(robot.links.size(), frames.size()); ++link)
     for (const Capsule& capsule : robot.links[link].capsules)
-      add_in_pieces(strokes, {frames[link](capsule.from), frames[link](capsule.to), capsule.radius, link % 2 ? "arm" : "arm-2"});
+      add_in_pieces(strokes,
+                    {frames[link](capsule.from), frames[link](capsule.to), capsule.radius, link % 2 ? "arm" : "arm-2"});
 }
 
 /// Adds guide rings and intermediate clamps, as circles of short strokes around the hose.
 void add_rings(std::vector<Stroke>& strokes, const std::vector<Frame>& frames, const Setup& setup) {
   constexpr int corners = 20;
   constexpr double thick = 0.006;  // [m]
-  const auto circle = [&](const std::string& name, const Vector3d& centre, const Vector3d& axis,
-                          double radius) {
-    const auto link = static_cast<std::size_t>(std::ranges::find(setup.robot.links, name, &Link::name) - setup.robot.links.begin());
+  const auto circle = [&](const std::string& name, const Vector3d& centre, const Vector3d& axis, double radius) {
+    const auto link =
+        static_cast<std::size_t>(std::ranges::find(setup.robot.links, name, &Link::name) - setup.robot.links.begin());
     if (link >= frames.size()) return;
     const Vector3d middle = frames[link](centre), z = frames[link].turn * axis.normalized();
     const Vector3d x = z.unitOrthogonal(), y = z.cross(x);
@@ -112,8 +113,7 @@ std::vector<std::vector<Vector3d>> hose_points(const FileReader& file, std::size
 }
 
 /// Adds a dresspack. Segment i extends half way to its neighbours.
-void add_hose(std::vector<Stroke>& strokes, const std::vector<Vector3d>& points, double radius,
-              int from_tool) {
+void add_hose(std::vector<Stroke>& strokes, const std::vector<Vector3d>& points, double radius, int from_tool) {
   const int segments = static_cast<int>(points.size()) - 2;
   for (int i = 1; i <= segments; ++i) {
     const Vector3d begin = i == 1 ? points[0] : Vector3d((points[i - 1] + points[i]) / 2);

@@ -18,8 +18,7 @@ constexpr std::size_t most_triangles = 30'000;
 
 Json pose(const Vector3d& position, const Vector3d& roll_pitch_yaw) {
   const Eigen::Quaterniond turn = from_roll_pitch_yaw(roll_pitch_yaw);
-  return {{"position", position},
-          {"quaternion", std::vector<double>{turn.x(), turn.y(), turn.z(), turn.w()}}};
+  return {{"position", position}, {"quaternion", std::vector<double>{turn.x(), turn.y(), turn.z(), turn.w()}}};
 }
 
 Json mesh_shape(const MeshFile& file, std::size_t most) {
@@ -49,8 +48,7 @@ class Scene {
 
   Json json() {
     std::vector<Json> links, clamps, rings, points, hoses;
-    for (const Link& link : setup_.robot.links)
-      links.push_back({{"name", link.name}, {"shapes", shapes(link)}});
+    for (const Link& link : setup_.robot.links) links.push_back({{"name", link.name}, {"shapes", shapes(link)}});
     for (std::size_t d = 0; d < setup_.dresspacks.size(); ++d) {
       const MountedDresspack& mounted = setup_.dresspacks[d];
       add_routing(d, clamps, rings);
@@ -106,8 +104,7 @@ class Scene {
   std::vector<Json> shapes(const Shapes& of) {
     std::vector<Json> list;
     for (const Capsule& capsule : of.capsules)
-      list.push_back(
-          {{"kind", "capsule"}, {"from", capsule.from}, {"to", capsule.to}, {"radius", capsule.radius}});
+      list.push_back({{"kind", "capsule"}, {"from", capsule.from}, {"to", capsule.to}, {"radius", capsule.radius}});
     for (const Box& box : of.boxes)
       list.push_back(Json{{"kind", "box"}}.add(pose(box.position, box.orientation)).add("sides", box.sides));
     for (const MeshFile& mesh : of.meshes) {

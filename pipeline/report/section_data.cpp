@@ -50,8 +50,7 @@ struct Wires {
 };
 
 /// Returns the map from the sites of one segment; without wires if the sites do not belong to the dresspack.
-Wires wires_of(const FileReader& life, const Setup& setup, std::size_t d, std::size_t first_site,
-               std::size_t sites) {
+Wires wires_of(const FileReader& life, const Setup& setup, std::size_t d, std::size_t first_site, std::size_t sites) {
   const std::string name = name_among(setup, d), before = name.empty() ? "" : name + "/";
   std::unordered_map<std::string, std::size_t> number;
   for (const std::string& path : wire_paths(setup.dresspacks[d].dresspack))
@@ -81,8 +80,7 @@ std::string levels_of(const std::vector<double>& damage, double most) {
   for (std::size_t k = 0; k < damage.size(); ++k) {
     const double share = damage[k] / most;
     if (!(share >= least_share)) continue;
-    const int level =
-        1 + static_cast<int>(std::lround((steps - 1) * (1 - std::log(share) / std::log(least_share))));
+    const int level = 1 + static_cast<int>(std::lround((steps - 1) * (1 - std::log(share) / std::log(least_share))));
     bytes[k / 2] = static_cast<char>(bytes[k / 2] | std::min(level, steps) << (k % 2 * 4));
   }
   return bytes;
@@ -121,17 +119,12 @@ std::optional<Json> section_data(const FileReader& life, const Setup& setup) {
     if (wires[d].count == 0 || wires[d].of_site.size() != sites) return {};
     if ((bytes += wires[d].count / 2) > most_bytes) break;
     const std::vector<double> here = damage_of_wires(wires[d], &damage[first_site]);
-    rows.push_back({{"segment", at},
-                    {"dresspack", d},
-                    {"worst", worst_json(here)},
-                    {"levels", base64(levels_of(here, most))}});
+    rows.push_back(
+        {{"segment", at}, {"dresspack", d}, {"worst", worst_json(here)}, {"levels", base64(levels_of(here, most))}});
   }
   for (std::size_t d = 0; d < setup.dresspacks.size(); ++d) dresspacks.push_back(dresspack_json(setup, d));
-  return Json{{"steps", steps},
-              {"low", least_share * most},
-              {"high", most},
-              {"dresspacks", dresspacks},
-              {"rows", rows}};
+  return Json{
+      {"steps", steps}, {"low", least_share * most}, {"high", most}, {"dresspacks", dresspacks}, {"rows", rows}};
 }
 
 }  // namespace dresslife::pipeline

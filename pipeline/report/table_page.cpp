@@ -75,8 +75,8 @@ std::string sorted_table(const std::string& heads, const std::vector<std::string
                          const std::string& file) {
   const auto middle = rows.begin() + static_cast<std::ptrdiff_t>(std::min(rows.size(), rows_at_once));
   std::string text = fmt::format(
-      "<div class=\"wide\"><table id=\"ranking\" data-things=\"{}\">\n<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody></table></div>\n", things,
-      heads, fmt::join(rows.begin(), middle, ""));
+      "<div class=\"wide\"><table id=\"ranking\" data-things=\"{}\">\n<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody></table></div>\n",
+      things, heads, fmt::join(rows.begin(), middle, ""));
   if (middle != rows.end())
     text += fmt::format(
         "<noscript><p>The first {} of {} {}; {} holds all.</p></noscript>\n<template id=\"more-jobs\">\n{}</template>\n",

@@ -19,9 +19,8 @@ std::string name_of(const Node& node) {
 
 /// Returns whether a key of a component describes its place among others.
 bool is_place(const std::string& key) {
-  for (const char* word :
-       {"count", "layer", "helix_radius_mm", "lay_angle_deg", "hand", "phase_deg", "position",
-        "slack_percent", "play_mm", "base_grip_N", "tool_grip_N", "mass_kg_per_m", "tension_N"})
+  for (const char* word : {"count", "layer", "helix_radius_mm", "lay_angle_deg", "hand", "phase_deg", "position",
+                           "slack_percent", "play_mm", "base_grip_N", "tool_grip_N", "mass_kg_per_m", "tension_N"})
     if (key == word) return true;
   return false;
 }
@@ -35,8 +34,7 @@ Node around(Node cable) {
   std::erase_if(cable.entries, [](const Entry& entry) { return is_place(entry.key); });
   cable["helix_radius_mm"] = scalar("0");
   const Node* radius = cable.find("radius_mm");
-  if (!radius)
-    throw InputError(cable.where, fmt::format("cable '{}' has no radius_mm", name_of(cable)), "give it");
+  if (!radius) throw InputError(cable.where, fmt::format("cable '{}' has no radius_mm", name_of(cable)), "give it");
   Node dresspack;
   dresspack.kind = Node::Kind::map;
   dresspack.where = cable.where;
@@ -122,9 +120,8 @@ Node cable_alone(const Node& written, const std::string& part, const Where& aske
   const auto known = std::find(names.begin(), names.end(), part);
   if ((part.empty() && names.size() != 1) || (!part.empty() && known == names.end()))
     throw InputError(asked,
-                     part.empty()
-                         ? fmt::format("dresspack '{}' holds {} cables", name_of(dresspack), names.size())
-                         : fmt::format("dresspack '{}' holds no cable '{}'", name_of(dresspack), part),
+                     part.empty() ? fmt::format("dresspack '{}' holds {} cables", name_of(dresspack), names.size())
+                                  : fmt::format("dresspack '{}' holds no cable '{}'", name_of(dresspack), part),
                      names.empty() ? "name a dresspack whose parts hold wires"
                                    : fmt::format("give part, one of: {}", fmt::join(names, ", ")));
   const std::size_t which = part.empty() ? 0 : static_cast<std::size_t>(known - names.begin());
@@ -136,11 +133,12 @@ Node cable_alone(const Node& written, const std::string& part, const Where& aske
   alone.where = asked;
   copy(dresspack, "source", alone);
   copy(dresspack, "materials", alone);
-  if (const std::string left_out = left_out_of(dresspack, names[which]); !left_out.empty()) alone["estimates"] = scalar(left_out);
+  if (const std::string left_out = left_out_of(dresspack, names[which]); !left_out.empty())
+    alone["estimates"] = scalar(left_out);
   if (is_hose(dresspack)) return alone;
   for (const char* key :
-       {"mass_kg_per_m", "bending_stiffness_Nm2", "torsional_stiffness_Nm2", "axial_stiffness_N",
-        "construction_state", "construction_curvature_1_per_m", "damping_time_ms", "loss_factor", "bending_friction", "damping_source",
+       {"mass_kg_per_m", "bending_stiffness_Nm2", "torsional_stiffness_Nm2", "axial_stiffness_N", "construction_state",
+        "construction_curvature_1_per_m", "damping_time_ms", "loss_factor", "bending_friction", "damping_source",
         "friction_coefficient", "least_bend_radius_mm", "most_twist_deg_per_m", "most_tension_N"})
     copy(dresspack, key, alone);
   return alone;

@@ -11,14 +11,14 @@ struct Step {
   double section, length;
 };
 
-constexpr Step wires_of_class_5[] = {{0.499, 0.16}, {1, 0.21}, {2.5, 0.26}, {6, 0.31}, {50, 0.41}, {400, 0.51}, {630, 0.61}};
+constexpr Step wires_of_class_5[] = {{0.499, 0.16}, {1, 0.21},   {2.5, 0.26}, {6, 0.31},
+                                     {50, 0.41},    {400, 0.51}, {630, 0.61}};
 constexpr Step wires_of_class_6[] = {{0.499, 0.11}, {4, 0.16}, {35, 0.21}, {150, 0.31}, {300, 0.41}};
-constexpr Step insulations[] = {{0.499, 0.3}, {1, 0.6},  {1.5, 0.7}, {6, 0.8},   {16, 1.0},  {35, 1.2},
-                                 {70, 1.4},    {120, 1.6}, {150, 1.8}, {185, 2.0}, {240, 2.2}, {300, 2.4},
-                                 {400, 2.6}};
-constexpr double below_the_limit = 0.01;             // [mm], of real strands
+constexpr Step insulations[] = {{0.499, 0.3}, {1, 0.6},   {1.5, 0.7}, {6, 0.8},   {16, 1.0},  {35, 1.2}, {70, 1.4},
+                                {120, 1.6},   {150, 1.8}, {185, 2.0}, {240, 2.2}, {300, 2.4}, {400, 2.6}};
+constexpr double below_the_limit = 0.01;                    // [mm], of real strands
 constexpr double jacket_slope = 0.035, jacket_base = 1e-3;  // [1], [m]
-constexpr double rounding = 1e-6;                    // relative, of a section
+constexpr double rounding = 1e-6;                           // relative, of a section
 
 template <class Table>
 double length_at(const Table& table, double section) {
@@ -32,7 +32,8 @@ double length_at(const Table& table, double section) {
 }  // namespace
 
 double thickest_wire(int conductor_class, double section) {
-  return conductor_class == flexible_class ? length_at(wires_of_class_5, section) : length_at(wires_of_class_6, section);
+  return conductor_class == flexible_class ? length_at(wires_of_class_5, section)
+                                           : length_at(wires_of_class_6, section);
 }
 
 double usual_wire(int conductor_class, double section) {

@@ -71,9 +71,8 @@ void merge_by_name(Node& base, const Node& over) {
     return found ? found->text : std::string();
   };
   for (const Node& item : over.items) {
-    const auto same = std::find_if(base.items.begin(), base.items.end(), [&](const Node& known) {
-      return !name(item).empty() && name(known) == name(item);
-    });
+    const auto same = std::find_if(base.items.begin(), base.items.end(),
+                                   [&](const Node& known) { return !name(item).empty() && name(known) == name(item); });
     if (same != base.items.end())
       merge(*same, item);
     else
@@ -111,7 +110,8 @@ void check_accelerations(const Node& robot, const UrdfRequest& request, const Wh
 /// Reads `urdf: FILE` with the keys that belong to it. All other keys of the entry replace those of the robot.
 void read_urdf(Node& entry) {
   Node about = entry, over = entry;
-  constexpr std::array<std::string_view, 5> keys{"urdf", "tip", "package_folder", "collision", "accelerations_deg_per_s2"};
+  constexpr std::array<std::string_view, 5> keys{"urdf", "tip", "package_folder", "collision",
+                                                 "accelerations_deg_per_s2"};
   const auto is_about = [&](const Entry& e) { return std::ranges::find(keys, e.key) != keys.end(); };
   std::erase_if(about.entries, [&](const Entry& e) { return !is_about(e); });
   std::erase_if(over.entries, is_about);
@@ -178,8 +178,7 @@ void resolve(Node& entry, const std::string& folder, const Where& job, int depth
     return;
   }
   const Node* from = entry.is_map() ? entry.find("from") : nullptr;
-  if (!from && entry.is_map() && entry.find("cable") && folder == "dresspacks")
-    return read_cable(entry, job, depth);
+  if (!from && entry.is_map() && entry.find("cable") && folder == "dresspacks") return read_cable(entry, job, depth);
   if (!from && entry.is_map() && entry.find("urdf") && folder == "robots") return read_urdf(entry);
   if (!from) return;
   Node base = catalogue_entry(folder, from->text, from->where, job);
@@ -248,8 +247,7 @@ void add_materials(Node& dresspack, const Node& job, const std::string& path, Pr
                                         [&] { materials.items.push_back(material_entry(name, job)); });
     if (!found) unknown.insert(name.text);
   }
-  if (materials.items.empty())
-    std::erase_if(dresspack.entries, [](const Entry& e) { return e.key == "materials"; });
+  if (materials.items.empty()) std::erase_if(dresspack.entries, [](const Entry& e) { return e.key == "materials"; });
 }
 
 /// Resolves a catalogue entry of a job. For a dresspack, also expands data sheets of cables and adds the materials of its wires.
@@ -287,7 +285,8 @@ std::string next_word(const std::string& path, std::size_t& begin) {
 }
 
 /// Adds the nodes of a word of a key path in a node.
-void step_into(Node& node, const std::string& word, const Where& where, const std::string& path, std::vector<Node*>& found) {
+void step_into(Node& node, const std::string& word, const Where& where, const std::string& path,
+               std::vector<Node*>& found) {
   if (node.is_list()) {
     const auto items = items_of(node, word);
     if (items.empty())
@@ -297,8 +296,7 @@ void step_into(Node& node, const std::string& word, const Where& where, const st
     return;
   }
   if (node.is_scalar())
-    throw InputError(where, fmt::format("'{}' of {} lies inside a single value", word, path),
-                     "shorten the path");
+    throw InputError(where, fmt::format("'{}' of {} lies inside a single value", word, path), "shorten the path");
   if (Node* known = node.find(word)) return found.push_back(known);
   Node& added = node[word];
   node.entries.back().where = added.where = where;
@@ -321,8 +319,7 @@ std::string nearest_entry(const std::string& name, const std::vector<std::string
   return nearest_word(name, entries);
 }
 
-Node catalogue_entry(const std::string& folder, const std::string& name, const Where& named_at,
-                     const Where& job) {
+Node catalogue_entry(const std::string& folder, const std::string& name, const Where& named_at, const Where& job) {
   if (name.ends_with(".urdf") && folder != "robots")
     throw InputError(named_at, fmt::format("'{}' is a robot description (URDF)", name),
                      "write it after 'robot:', robot: {urdf: FILE}");
@@ -352,8 +349,7 @@ Node catalogue_entry(const std::string& folder, const std::string& name, const W
   std::string program;  // with this name, in a robot's language
   const auto found_in = [&](const fs::path& place) {
     const fs::path file = place / (name + ".yaml");
-    if (is_file(file))
-      return file.lexically_relative(fs::current_path()).empty() ? file : fs::proximate(file);
+    if (is_file(file)) return file.lexically_relative(fs::current_path()).empty() ? file : fs::proximate(file);
     for (const fs::path& entry : entries_of(place)) {
       if (entry.extension() == ".yaml") names.push_back(entry.stem().string());
       if (folder == "programs" && program.empty() && entry.stem() == name && is_program_file(entry))
@@ -370,10 +366,11 @@ Node catalogue_entry(const std::string& folder, const std::string& name, const W
                      fmt::format("write '{}.yaml' for the file beside the job", name));
   if (fs::is_directory(beside, failure)) {
     const std::vector<fs::path> inside = entries_of(beside);
-    const auto file = std::ranges::find(inside, ".yaml", [](const fs::path& entry) { return entry.extension().string(); });
-    throw InputError(
-        named_at, fmt::format("'{}' is a folder", name),
-        fmt::format("name a file in it, such as '{}/{}'", name, file == inside.end() ? "NAME.yaml" : file->filename().string()));
+    const auto file =
+        std::ranges::find(inside, ".yaml", [](const fs::path& entry) { return entry.extension().string(); });
+    throw InputError(named_at, fmt::format("'{}' is a folder", name),
+                     fmt::format("name a file in it, such as '{}/{}'", name,
+                                 file == inside.end() ? "NAME.yaml" : file->filename().string()));
   }
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
@@ -393,13 +390,12 @@ Node catalogue_entry(const std::string& folder, const std::string& name, const W
   if (!program.empty())
     throw InputError(named_at, fmt::format("'{}' is a robot program, and is named by its file", name),
                      fmt::format("write '{}'", program));
-  throw InputError(
-      named_at,
-      fmt::format("'{}' is not in the catalogue (config/{}){}", name, folder,
-                  may_be_file ? fmt::format(", and there is no file '{}'", beside.string()) : ""),
-      names.empty() ? "write the entry itself or a path to a .yaml file"
-                    : fmt::format("{}one of: {}", near.empty() ? "" : "did you mean '" + near + "'? ",
-                                  fmt::join(names, ", ")));
+  throw InputError(named_at,
+                   fmt::format("'{}' is not in the catalogue (config/{}){}", name, folder,
+                               may_be_file ? fmt::format(", and there is no file '{}'", beside.string()) : ""),
+                   names.empty() ? "write the entry itself or a path to a .yaml file"
+                                 : fmt::format("{}one of: {}", near.empty() ? "" : "did you mean '" + near + "'? ",
+                                               fmt::join(names, ", ")));
 }
 
 void apply_lines(Node& job) {
@@ -455,8 +451,7 @@ void apply_set(Node& job, const std::string& set) {
 }
 
 void resolve_job(Node& job, Problems& problems) {
-  for (const Shelf& shelf : shelves)
-    resolve_entry(job.find(shelf.key), shelf.key, shelf.folder, job, problems);
+  for (const Shelf& shelf : shelves) resolve_entry(job.find(shelf.key), shelf.key, shelf.folder, job, problems);
   Node* list = job.find("dresspacks");
   for (std::size_t i = 0; list && i < list->items.size(); ++i)
     resolve_entry(list->items[i].find("dresspack"), fmt::format("dresspacks[{}].dresspack", i + 1),

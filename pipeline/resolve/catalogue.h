@@ -13,8 +13,7 @@ namespace dresslife::pipeline {
 /// that names it and in its parent folders (FOLDER/NAME.yaml, config/FOLDER/NAME.yaml; for --set, from the working folder), then
 /// in the same way beside the job (because a study or --set may change a job in another folder), then in the catalogue of
 /// dresslife (installation.h; DRESSLIFE_CONFIG replaces it). Errors: InputError with similar names.
-Node catalogue_entry(const std::string& folder, const std::string& name, const Where& named_at,
-                     const Where& job);
+Node catalogue_entry(const std::string& folder, const std::string& name, const Where& named_at, const Where& job);
 
 /// Returns the entry that a name probably means: kuka_kr16_2 for "KR 16-2", otherwise the nearest by spelling. Empty: none is
 /// near.

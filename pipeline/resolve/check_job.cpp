@@ -39,8 +39,8 @@ void check_shared(const std::vector<MountedDresspack>& dresspacks) {
       posed = &mounted;
     }
     for (const Material& material : mounted.dresspack.materials) {
-      const auto same = std::find_if(known.begin(), known.end(),
-                                     [&](const Material* other) { return other->name == material.name; });
+      const auto same =
+          std::find_if(known.begin(), known.end(), [&](const Material* other) { return other->name == material.name; });
       if (same == known.end())
         known.push_back(&material);
       else if (to_yaml(echo_fields(**same)) != to_yaml(echo_fields(material)))
@@ -58,16 +58,14 @@ void check_prescribed(const Job& job, const Node& document) {
   const char* key = job.motion.rig ? "motion.rig" : "motion.deformation";
   Problems problems;
   const auto refuse = [&](const Where& where, const std::string& what) {
-    problems.add(where, fmt::format("{} beside {} (which says how the dresspack deforms)", what, key),
-                 "leave it out");
+    problems.add(where, fmt::format("{} beside {} (which says how the dresspack deforms)", what, key), "leave it out");
   };
   if (const Node* robot = document.find("robot")) refuse(robot->where, "robot is given");
   const Node* cell = document.find("cell");
   for (const Entry& entry : cell ? cell->entries : std::vector<Entry>{})
     if (entry.key != "temperature_C") refuse(entry.where, "cell." + entry.key + " is given");
   if (job.dresspacks.size() > 1)
-    problems.add(job.motion.where,
-                 fmt::format("{} deforms one dresspack (there are {})", key, job.dresspacks.size()),
+    problems.add(job.motion.where, fmt::format("{} deforms one dresspack (there are {})", key, job.dresspacks.size()),
                  "keep one dresspack");
   const Node* routing = document.find("routing");
   if (job.motion.rig && routing) refuse(routing->where, "routing is given");
@@ -91,8 +89,7 @@ void check_simulated(const Dresspack& dresspack) {
                                                    {"axial_stiffness_N", dresspack.axial_stiffness}};
   for (const auto& [key, value] : needed)
     if (value <= 0)
-      problems.add(dresspack.where,
-                   fmt::format("dresspack.{} is missing (a cable that is simulated needs it)", key),
+      problems.add(dresspack.where, fmt::format("dresspack.{} is missing (a cable that is simulated needs it)", key),
                    "give it, or let motion.rig or motion.deformation move the cable");
   if (dresspack.damping_source.empty())
     problems.add(dresspack.where, "dresspack.damping_source is missing (a cable that is simulated needs it)",
@@ -127,9 +124,10 @@ void check_wear(const Sleeve& layer, const std::string& key, const Dresspack& dr
 /// name, whole: in words, "the sleeve", "dresspack". radius: of the whole [m].
 void check_thickness(const Sleeve& layer, const std::string& name, const char* whole, double radius) {
   if (layer.thickness < radius) return;
-  throw InputError(layer.where,
-                   fmt::format("{} is {:.4g} mm thick, the {} {:.4g} mm wide", name, 1e3 * layer.thickness, whole, 2e3 * radius),
-                   "give thickness_mm of one wall, less than the radius");
+  throw InputError(
+      layer.where,
+      fmt::format("{} is {:.4g} mm thick, the {} {:.4g} mm wide", name, 1e3 * layer.thickness, whole, 2e3 * radius),
+      "give thickness_mm of one wall, less than the radius");
 }
 
 void check_uses(const Dresspack& dresspack) {
@@ -160,8 +158,7 @@ std::optional<int> check_mounted(const Job& job, const MountedDresspack& mounted
   if (!job.motion.is_prescribed() && !problems.touch("motion")) {
     if (!problems.touch("robot") && !problems.touch(dresspack + ".diameter_mm"))
       judge(routing, mounted.routing.where, [&] {
-        check_routing(mounted.routing, mounted.dresspack.diameter, job.robot,
-                      !job.motion.clamp_poses.empty());
+        check_routing(mounted.routing, mounted.dresspack.diameter, job.robot, !job.motion.clamp_poses.empty());
       });
     judge(dresspack, mounted.dresspack.where, [&] { check_simulated(mounted.dresspack); });
   }
@@ -169,11 +166,10 @@ std::optional<int> check_mounted(const Job& job, const MountedDresspack& mounted
   if (!problems.touch("strain"))
     judge(dresspack + ".components", mounted.dresspack.where,
           [&] { depth = check_dresspack(mounted.dresspack, job.strain.slip); });
-  judge(dresspack + ".materials", mounted.dresspack.where,
-        [&] {
-          check_materials(mounted.dresspack.materials);
-          check_uses(mounted.dresspack);
-        });
+  judge(dresspack + ".materials", mounted.dresspack.where, [&] {
+    check_materials(mounted.dresspack.materials);
+    check_uses(mounted.dresspack);
+  });
   judge(dresspack + ".components", mounted.dresspack.where,
         [&] { refuse_gross_overlap(mounted.dresspack); });  // dresslife-strain warns of smaller overlaps
   return depth;
@@ -181,13 +177,12 @@ std::optional<int> check_mounted(const Job& job, const MountedDresspack& mounted
 
 void check_dresspacks(const Job& job, const Where& strain, Problems& problems) {
   const JobForms forms = forms_of(job);
-  if (!forms.one)
-    problems.attempt("dresspacks", job.dresspacks.front().where, [&] { check_names(job.dresspacks); });
+  if (!forms.one) problems.attempt("dresspacks", job.dresspacks.front().where, [&] { check_names(job.dresspacks); });
   if (job.dresspacks.size() > 1 && !job.motion.clamp_poses.empty())
-    problems.add(job.motion.where,
-                 fmt::format("motion.clamp_poses brings the clamps of one dresspack (there are {})",
-                             job.dresspacks.size()),
-                 "describe the motion by a robot, or keep one dresspack", "motion");
+    problems.add(
+        job.motion.where,
+        fmt::format("motion.clamp_poses brings the clamps of one dresspack (there are {})", job.dresspacks.size()),
+        "describe the motion by a robot, or keep one dresspack", "motion");
   int depth = 0;
   bool known = true;  // whether the depth of every dresspack is known
   for (std::size_t d = 0; d < job.dresspacks.size(); ++d) {
@@ -198,10 +193,9 @@ void check_dresspacks(const Job& job, const Where& strain, Problems& problems) {
   }
   if (known) problems.attempt("", job.motion.where, [&] { check_shared(job.dresspacks); });
   if (known && job.strain.slip.size() > 1 && static_cast<int>(job.strain.slip.size()) != depth)
-    problems.add(
-        strain,
-        fmt::format("strain.slip lists {} levels (the dresspack has {})", job.strain.slip.size(), depth),
-        "give one word, or one per level, outermost first");
+    problems.add(strain,
+                 fmt::format("strain.slip lists {} levels (the dresspack has {})", job.strain.slip.size(), depth),
+                 "give one word, or one per level, outermost first");
 }
 
 /// Checks that lives increase with decreasing strain.
@@ -211,8 +205,7 @@ void check_slopes(const Job& job, const Where& where) {
       if (material.strain_life_table.empty() && material.has_strain_life() &&
           !(material.fatigue_strength_exponent + job.fatigue.slope_change <= -0.02))
         throw InputError(
-            job.fatigue.slope_change > 0 && material.fatigue_strength_exponent <= -0.02 ? where
-                                                                                        : material.where,
+            job.fatigue.slope_change > 0 && material.fatigue_strength_exponent <= -0.02 ? where : material.where,
             fmt::format("fatigue.slope_change {} leaves '{}' a slope b of {} (must be -0.02 or less)",
                         job.fatigue.slope_change, material.name,
                         material.fatigue_strength_exponent + job.fatigue.slope_change),
@@ -222,9 +215,7 @@ void check_slopes(const Job& job, const Where& where) {
 }  // namespace
 
 void check_job(const Job& job, const Node& document, Problems& problems) {
-  const auto where = [&](const char* key) {
-    return document.find(key) ? document.find(key)->where : document.where;
-  };
+  const auto where = [&](const char* key) { return document.find(key) ? document.find(key)->where : document.where; };
   const auto judge = [&](std::initializer_list<const char*> keys, const auto& check) {
     if (std::none_of(keys.begin(), keys.end(), [&](const char* key) { return problems.touch(key); }))
       problems.attempt(*keys.begin(), where(*keys.begin()), check);

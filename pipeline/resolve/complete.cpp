@@ -51,15 +51,15 @@ void complete_job(Job& job, const Node& document, Problems& problems) {
     soften(mounted.dresspack.components, softer);
     const std::string path = forms_of(job).one ? "" : fmt::format("dresspacks[{}].", d + 1);
     if (!problems.touch("robot") && !problems.touch(path + "routing"))
-      problems.attempt(path + "routing", mounted.routing.where,
-                       [&] { place_clamps(mounted.routing, job.robot); });
+      problems.attempt(path + "routing", mounted.routing.where, [&] { place_clamps(mounted.routing, job.robot); });
     if (!problems.touch(path + "dresspack"))
       problems.attempt(path + "dresspack", mounted.dresspack.where,
                        [&] { take_stiffnesses(mounted.dresspack, job.strain.slip); });
   }
   if (problems.touch("motion")) return;
-  if (!problems.attempt("motion", job.motion.where,
-                        [&] { job.motion.left_out = joined(std::move(job.motion.left_out), plausibility_of_motion(job)); }))
+  if (!problems.attempt("motion", job.motion.where, [&] {
+        job.motion.left_out = joined(std::move(job.motion.left_out), plausibility_of_motion(job));
+      }))
     return;
   if (!job.motion.rig) return;
   problems.attempt("motion", job.motion.where, [&] { check_rig(*job.motion.rig); });

@@ -15,10 +15,10 @@
 #include "pipeline/base/lists.h"
 #include "pipeline/base/text.h"
 #include "pipeline/cable/overlap.h"
-#include "pipeline/resolve/cable_rules.h"
-#include "pipeline/resolve/placement.h"
 #include "pipeline/job/dresspack.h"
+#include "pipeline/resolve/cable_rules.h"
 #include "pipeline/resolve/estimates.h"
+#include "pipeline/resolve/placement.h"
 #include "pipeline/settings/fields.h"
 #include "pipeline/settings/units.h"
 
@@ -31,15 +31,14 @@ constexpr int closed_ring = 5;         // six parts that touch have space for a 
 constexpr int filled_ring = 9;         // ten parts have space for two
 constexpr double wire_lay_ratio = 16;  // lay length / width of the conductor: stranding has 10 to 20
 constexpr double core_lay_ratio = 12;  // lay length / width of the cores: flexible cables have 8 to 16
-constexpr int fewest_wires = 7;         // of a flexible conductor; IEC 60228 has solid ones (class 1) and 7 thick wires (class 2) for fixed laying
-constexpr double section_tolerance = 0.25;  // a standard's nominal section is rounded: 0.22 for 7 x 0.2 mm
-constexpr double thickest_insulation = 5;  // core / conductor: control cables have 1.5 to 3, those for 1 kV up to 4
+constexpr int fewest_wires =
+    7;  // of a flexible conductor; IEC 60228 has solid ones (class 1) and 7 thick wires (class 2) for fixed laying
+constexpr double section_tolerance = 0.25;     // a standard's nominal section is rounded: 0.22 for 7 x 0.2 mm
+constexpr double thickest_insulation = 5;      // core / conductor: control cables have 1.5 to 3, those for 1 kV up to 4
 constexpr double thinnest_insulation = 50e-6;  // [m]: signal cables have 0.15 mm and more
-constexpr int rounds = 60;             // of the bisection for the cores' diameter
+constexpr int rounds = 60;                     // of the bisection for the cores' diameter
 
-double first_radius(int count, double diameter) {
-  return count == 1 ? 0 : diameter / (2 * std::sin(pi / count));
-}
+double first_radius(int count, double diameter) { return count == 1 ? 0 : diameter / (2 * std::sin(pi / count)); }
 
 int room_in(double radius, double diameter) {
   return static_cast<int>(std::floor(pi / std::asin(diameter / (2 * radius)) + touching));
@@ -67,24 +66,24 @@ double lay_angle_at(double radius, double lay_length) { return std::atan(2 * pi 
 std::string longer_lay(double radius, double lay_length) {
   constexpr double least = 5, most = 45;  // [deg] of cores in cables
   const double number = 1e3 * lay_length;
-  return number >= least && number <= most ? fmt::format("give a longer lay, or {:.3g} mm if {:.4g} is the lay angle in degrees",
-                                                         1e3 * 2 * pi * radius / std::tan(number * pi / 180), number)
-                                           : "give a longer lay";
+  return number >= least && number <= most
+             ? fmt::format("give a longer lay, or {:.3g} mm if {:.4g} is the lay angle in degrees",
+                           1e3 * 2 * pi * radius / std::tan(number * pi / 180), number)
+             : "give a longer lay";
 }
 
 /// Widens a ring until its parts fit beside each other with their lay.
 void widen(CoreRing& ring, double diameter, double lay_length, const Where& where) {
   ring.lay_angle = lay_angle_at(ring.radius, lay_length);
   const auto fits = [&](double radius) {
-    return neighbour_distance(radius, lay_angle_at(radius, lay_length), ring.count) >=
-           diameter * (1 - touching);
+    return neighbour_distance(radius, lay_angle_at(radius, lay_length), ring.count) >= diameter * (1 - touching);
   };
   if (ring.count > 1 && !fits(ring.radius)) {
     const double largest = std::tan(steepest) * lay_length / (2 * pi);
     if (largest <= ring.radius || !fits(largest))
       throw InputError(where,
-                       fmt::format("{} parts of {:.4g} mm do not lie beside each other on a lay of {:.4g} mm", ring.count,
-                                   1e3 * diameter, 1e3 * lay_length),
+                       fmt::format("{} parts of {:.4g} mm do not lie beside each other on a lay of {:.4g} mm",
+                                   ring.count, 1e3 * diameter, 1e3 * lay_length),
                        longer_lay(ring.radius, lay_length));
     ring.radius = halved(ring.radius, largest, 50, [&](double radius) { return !fits(radius); }).high;
     ring.lay_angle = lay_angle_at(ring.radius, lay_length);
@@ -99,7 +98,8 @@ void widen(CoreRing& ring, double diameter, double lay_length, const Where& wher
 /// Builds the layers of a sheet, from the wire outwards.
 class Expansion {
  public:
-  explicit Expansion(const DataSheet& given) : sheet_(with_class(given)), wire_(wire_of(sheet_)), has_class_(given.conductor_class > 0) {
+  explicit Expansion(const DataSheet& given)
+      : sheet_(with_class(given)), wire_(wire_of(sheet_)), has_class_(given.conductor_class > 0) {
     const DataSheet& sheet = sheet_;
     const double section = pi / 4 * wire_ * wire_;
     const double wires = std::round(sheet.cross_section / section);
@@ -109,10 +109,11 @@ class Expansion {
                                    1e6 * sheet.cross_section, 1e3 * wire_, sheet.cross_section / section, most_wires),
                        "check cross_section_mm2, of one core, and wire_diameter_mm");
     if (std::abs(wires * section / sheet.cross_section - 1) > section_tolerance)
-      throw InputError(sheet.where,
-                       fmt::format("{:.4g} mm2 are {:.3g} wires of {:.4g} mm (a whole number within {:g} %)",
-                                   1e6 * sheet.cross_section, sheet.cross_section / section, 1e3 * wire_, 100 * section_tolerance),
-                       "check cross_section_mm2, of one core, and wire_diameter_mm");
+      throw InputError(
+          sheet.where,
+          fmt::format("{:.4g} mm2 are {:.3g} wires of {:.4g} mm (a whole number within {:g} %)",
+                      1e6 * sheet.cross_section, sheet.cross_section / section, 1e3 * wire_, 100 * section_tolerance),
+          "check cross_section_mm2, of one core, and wire_diameter_mm");
     if (wires < fewest_wires)
       throw InputError(sheet.where,
                        fmt::format("{:.4g} mm2 are {:g} wire{} of {:.4g} mm (flexible conductors have {} and more)",
@@ -145,8 +146,7 @@ class Expansion {
     std::vector<Component> layers;
     for (std::size_t k = rings.size(); k-- > 0;) {  // the outermost ring is layer 1
       const Hand hand = (rings.size() - 1 - k) % 2 == 0 ? Hand::left : Hand::right;
-      Component layer =
-          part_of(grouped() ? group_name() : "core", rings, k, part, hand, line_load(part));
+      Component layer = part_of(grouped() ? group_name() : "core", rings, k, part, hand, line_load(part));
       layer.components = grouped() ? group(opposite(hand)) : wires(opposite(hand));
       layers.push_back(layer);
     }
@@ -167,7 +167,10 @@ class Expansion {
     constexpr double exponent = 5;
     if (thickest_wire(flexible_class, sheet_.cross_section) == 0) return "";
     const double wire = usual_wire(flexible_class, sheet_.cross_section), times = std::pow(wire / wire_, exponent);
-    return times < 2 ? "" : fmt::format(" (class {} has wires of {:.3g} mm: lives in bending 2 to about {:.0f} times shorter)", flexible_class, 1e3 * wire, times);
+    return times < 2
+               ? ""
+               : fmt::format(" (class {} has wires of {:.3g} mm: lives in bending 2 to about {:.0f} times shorter)",
+                             flexible_class, 1e3 * wire, times);
   }
   std::string ruled(bool as_keys) const {
     std::vector<std::string> parts;
@@ -177,13 +180,17 @@ class Expansion {
     for (const Ruled& of : std::vector<Ruled>{
              {"wire", "wire_diameter_mm", sheet_.wire_diameter.has_value(), wire_},
              {"core", "core_diameter_mm", sheet_.core_diameter || sheet_.jacket_thickness, core_diameter_},
-             {"jacket", "jacket_thickness_mm", sheet_.jacket_thickness || (sheet_.core_diameter && sheet_.outer_diameter), jacket_},
+             {"jacket", "jacket_thickness_mm",
+              sheet_.jacket_thickness || (sheet_.core_diameter && sheet_.outer_diameter), jacket_},
              {"outer diameter", "outer_diameter_mm", sheet_.outer_diameter.has_value(), outer_},
-             {"", "lay_length_mm", sheet_.lay_length || sheet_.cores == 1, usual_lay(sheet_.cores, group_diameter(core_diameter_))},
-             {"", "group_lay_length_mm", sheet_.group_lay_length || !grouped(), usual_lay(sheet_.cores_per_group, core_diameter_)},
+             {"", "lay_length_mm", sheet_.lay_length || sheet_.cores == 1,
+              usual_lay(sheet_.cores, group_diameter(core_diameter_))},
+             {"", "group_lay_length_mm", sheet_.group_lay_length || !grouped(),
+              usual_lay(sheet_.cores_per_group, core_diameter_)},
              {"", "wire_lay_length_mm", sheet_.wire_lay_length || wire_count() == 1, wire_lay_}})
       if (!of.given && (as_keys || *of.words))
-        parts.push_back(as_keys ? fmt::format("{} {:.3g}", of.key, 1e3 * of.value) : fmt::format("{} {:.3g} mm", of.words, 1e3 * of.value));
+        parts.push_back(as_keys ? fmt::format("{} {:.3g}", of.key, 1e3 * of.value)
+                                : fmt::format("{} {:.3g} mm", of.words, 1e3 * of.value));
     return fmt::format("{}", fmt::join(parts, ", "));
   }
   static constexpr int most_wires = 5000;  // 400 mm2 of class 6
@@ -209,11 +216,11 @@ class Expansion {
                                    1e6 * sheet.cross_section, sheet.conductor_class),
                        "check cross_section_mm2, of one core, or give wire_diameter_mm without the class");
     if (sheet.wire_diameter && *sheet.wire_diameter > most)
-      throw InputError(sheet.where,
-                       fmt::format("wire_diameter_mm is {:.4g} (class {} has wires of {:.4g} mm at most at {:.4g} mm2)",
-                                   1e3 * *sheet.wire_diameter, sheet.conductor_class, 1e3 * most,
-                                   1e6 * sheet.cross_section),
-                       "check both, or leave out the class");
+      throw InputError(
+          sheet.where,
+          fmt::format("wire_diameter_mm is {:.4g} (class {} has wires of {:.4g} mm at most at {:.4g} mm2)",
+                      1e3 * *sheet.wire_diameter, sheet.conductor_class, 1e3 * most, 1e6 * sheet.cross_section),
+          "check both, or leave out the class");
     return sheet.wire_diameter.value_or(usual_wire(sheet.conductor_class, sheet.cross_section));
   }
 
@@ -225,8 +232,8 @@ class Expansion {
   bool grouped() const { return sheet_.cores_per_group > 1; }
   std::string group_name() const { return sheet_.cores_per_group == 2 ? "pair" : "group"; }
 
-  Component part_of(const std::string& name, const std::vector<CoreRing>& rings, std::size_t k,
-                    double diameter, Hand hand, std::optional<double> line_load) const {
+  Component part_of(const std::string& name, const std::vector<CoreRing>& rings, std::size_t k, double diameter,
+                    Hand hand, std::optional<double> line_load) const {
     Component part;
     part.name = name;
     if (rings.size() > 1) part.layer = fmt::format("layer {}", rings.size() - k);
@@ -253,8 +260,7 @@ class Expansion {
     const std::vector<CoreRing> rings = twisted(core_diameter_);
     std::vector<Component> layers;
     for (std::size_t k = rings.size(); k-- > 0;) {
-      layers.push_back(
-          part_of("core", rings, k, core_diameter_, hand, line_load(core_diameter_)));
+      layers.push_back(part_of("core", rings, k, core_diameter_, hand, line_load(core_diameter_)));
       layers.back().components = wires(opposite(hand));
     }
     return layers;
@@ -289,9 +295,10 @@ class Expansion {
       throw InputError(sheet_.where, "data_sheet has no outer_diameter_mm",
                        "give it, or conductor_class (IEC 60228), by which it is estimated");
     if (!sheet_.core_diameter && !sheet_.jacket_thickness && !by_rule)
-      throw InputError(sheet_.where, "data_sheet has neither core_diameter_mm nor jacket_thickness_mm",
-                       "give one of the two: it says how thick the insulation is; or conductor_class (IEC 60228), by which "
-                       "the jacket is estimated");
+      throw InputError(
+          sheet_.where, "data_sheet has neither core_diameter_mm nor jacket_thickness_mm",
+          "give one of the two: it says how thick the insulation is; or conductor_class (IEC 60228), by which "
+          "the jacket is estimated");
     if (!sheet_.outer_diameter) {  // computed from the inside outwards
       core_diameter_ = sheet_.core_diameter.value_or(conductor_ + 2 * usual_insulation(sheet_.cross_section));
       const double bundle = cabled_width(core_diameter_);
@@ -307,24 +314,26 @@ class Expansion {
     core_diameter_ = sheet_.core_diameter ? *sheet_.core_diameter : widest_core(inside);
     check_conductor();
     if (const double width = cabled_width(core_diameter_); width > inside * (1 + slack_of_a_caliper))
-      throw InputError(sheet_.where,
-                       fmt::format("the cores make a bundle {:.4g} mm wide (the cable leaves {:.4g} mm)",
-                                   1e3 * width, 1e3 * inside),
-                       "check cores, core_diameter_mm, outer_diameter_mm and jacket_thickness_mm");
+      throw InputError(
+          sheet_.where,
+          fmt::format("the cores make a bundle {:.4g} mm wide (the cable leaves {:.4g} mm)", 1e3 * width, 1e3 * inside),
+          "check cores, core_diameter_mm, outer_diameter_mm and jacket_thickness_mm");
   }
 
   void check_conductor() const {
     if (conductor_ > core_diameter_ * (1 + touching))
       throw InputError(sheet_.where,
-                       fmt::format("{} wires of {:.4g} mm are a conductor {:.4g} mm wide (the core has {:.4g} mm)", wire_count(),
-                                   1e3 * wire_, 1e3 * conductor_, 1e3 * core_diameter_),
-                       contradiction() + (fitting_gauge().empty() ? fitting_section() + fitting_diameter() : fitting_gauge()) +
+                       fmt::format("{} wires of {:.4g} mm are a conductor {:.4g} mm wide (the core has {:.4g} mm)",
+                                   wire_count(), 1e3 * wire_, 1e3 * conductor_, 1e3 * core_diameter_),
+                       contradiction() +
+                           (fitting_gauge().empty() ? fitting_section() + fitting_diameter() : fitting_gauge()) +
                            "check cross_section_mm2, of one core, the jacket's thickness and the diameters");
     if (core_diameter_ < conductor_ + 2 * thinnest_insulation)
       throw InputError(
           sheet_.where,
-          fmt::format("a core is {:.4g} mm wide, which leaves {:.3g} mm of insulation around its conductor of {:.3g} mm (limit {:g} mm)",
-                      1e3 * core_diameter_, 5e2 * (core_diameter_ - conductor_), 1e3 * conductor_, 1e3 * thinnest_insulation),
+          fmt::format(
+              "a core is {:.4g} mm wide, which leaves {:.3g} mm of insulation around its conductor of {:.3g} mm (limit {:g} mm)",
+              1e3 * core_diameter_, 5e2 * (core_diameter_ - conductor_), 1e3 * conductor_, 1e3 * thinnest_insulation),
           fitting_diameter() + "check the diameters, jacket_thickness_mm and cross_section_mm2, of one core");
     if (!sheet_.core_diameter && core_diameter_ > thickest_insulation * conductor_)
       throw InputError(
@@ -348,10 +357,11 @@ class Expansion {
     } catch (const InputError&) {  // such cores do not fit with the given lay
       return "";
     }
-    return fmt::format("{} cores of {:.4g} mm2 need a cable about {:.3g} mm wide by EN 50525, and outer_diameter_mm is {:.4g}: correct one "
-                       "of the three numbers; ",
-                       sheet_.cores * sheet_.cores_per_group, 1e6 * sheet_.cross_section,
-                       1e3 * (bundle + 2 * sheet_.jacket_thickness.value_or(usual_jacket(bundle))), 1e3 * outer_);
+    return fmt::format(
+        "{} cores of {:.4g} mm2 need a cable about {:.3g} mm wide by EN 50525, and outer_diameter_mm is {:.4g}: correct one "
+        "of the three numbers; ",
+        sheet_.cores * sheet_.cores_per_group, 1e6 * sheet_.cross_section,
+        1e3 * (bundle + 2 * sheet_.jacket_thickness.value_or(usual_jacket(bundle))), 1e3 * outer_);
   }
 
   /// Returns "give outer_diameter_mm: 8.2 if the decimal point was lost; " for 82 or 0.82, and for 0.0082 in metres: the diameter
@@ -384,15 +394,16 @@ class Expansion {
   /// Returns "give cross_section_mm2: 0.519 if 20 is an AWG; " if the section of that gauge fits the core; otherwise an empty
   /// text.
   std::string fitting_gauge() const {
-    const double number = 1e6 * sheet_.cross_section;  // [mm2]
-    constexpr double coarsest = 4, finest = 36;        // gauges of cables
+    const double number = 1e6 * sheet_.cross_section;               // [mm2]
+    constexpr double coarsest = 4, finest = 36;                     // gauges of cables
     constexpr std::array metric{4.0, 6.0, 10.0, 16.0, 25.0, 35.0};  // [mm2] of IEC 60228, which are no gauges
-    if (number != std::floor(number) || number < coarsest || number > finest || std::ranges::find(metric, number) != metric.end())
+    if (number != std::floor(number) || number < coarsest || number > finest ||
+        std::ranges::find(metric, number) != metric.end())
       return "";
     const double share = square_mm_of_awg(number) / number, conductor = conductor_ * std::sqrt(share);
     return conductor < core_diameter_ && core_diameter_ <= thickest_insulation * conductor
-               ? fmt::format("give cross_section_mm2: {:.3g} if {:g} is a wire gauge (AWG); ",
-                             square_mm_of_awg(number), number)
+               ? fmt::format("give cross_section_mm2: {:.3g} if {:g} is a wire gauge (AWG); ", square_mm_of_awg(number),
+                             number)
                : "";
   }
 
@@ -402,17 +413,17 @@ class Expansion {
     for (const double share : {0.1, 0.01})
       if (const double conductor = conductor_ * std::sqrt(share);
           conductor < core_diameter_ && core_diameter_ <= thickest_insulation * conductor)
-        return fmt::format("give cross_section_mm2: {:.4g} if a decimal point was lost; ", 1e6 * share * sheet_.cross_section);
+        return fmt::format("give cross_section_mm2: {:.4g} if a decimal point was lost; ",
+                           1e6 * share * sheet_.cross_section);
     return "";
   }
 
   /// Returns the largest diameter of a core in this width. The bundle's width increases with it, almost in proportion.
   double widest_core(double inside) const {
     if (!(inside > 0))
-      throw InputError(
-          sheet_.where,
-          fmt::format("the jacket of {:.4g} mm leaves no room in {:.4g} mm", 1e3 * jacket_, 1e3 * outer_),
-          fitting_diameter() + "check jacket_thickness_mm");
+      throw InputError(sheet_.where,
+                       fmt::format("the jacket of {:.4g} mm leaves no room in {:.4g} mm", 1e3 * jacket_, 1e3 * outer_),
+                       fitting_diameter() + "check jacket_thickness_mm");
     return core_in(inside);
   }
   double core_in(double inside) const {
@@ -453,8 +464,7 @@ void expand(Node& component, LeftOut& left_out) {
   if (!written) return;
   for (const char* key : {"components", "material", "radius_mm"})
     if (const Node* other = component.find(key))
-      throw InputError(other->where, fmt::format("both data_sheet and {} are given", key),
-                       "keep one of the two");
+      throw InputError(other->where, fmt::format("both data_sheet and {} are given", key), "keep one of the two");
   DataSheet sheet;
   sheet.where = written->where;
   const Node keys = written->is_scalar() ? sheet_from_line(*written) : *written;
@@ -468,8 +478,9 @@ void expand(Node& component, LeftOut& left_out) {
   if (!keys.find("material")) estimated += (estimated.empty() ? "" : ", ") + ("material " + sheet.material);
   if (!sheet.unused.empty()) estimated += (estimated.empty() ? "" : ", ") + ("without effect: " + sheet.unused);
   if (!sheet.shield.empty())
-    estimated += fmt::format("{}{}: the shield's wires are not evaluated, and its thickness counts as that of the jacket",
-                             estimated.empty() ? "" : ", ", sheet.shield);
+    estimated +=
+        fmt::format("{}{}: the shield's wires are not evaluated, and its thickness counts as that of the jacket",
+                    estimated.empty() ? "" : ", ", sheet.shield);
   if (!estimated.empty()) left_out.keys.push_back(fmt::format("data_sheet of {}: {}", name, estimated));
   Node made = echo_fields(Layers{expansion.components(), component.find("jacket") ? std::nullopt : expansion.jacket()});
   made["radius_mm"] = scalar(text_in_unit(expansion.radius(), unit_of_key("radius_mm")));
@@ -493,12 +504,11 @@ std::string meant_section(const std::string& phrase) {
   std::smatch found;
   if (std::regex_match(phrase, found, gauge)) {
     const std::string number = found[2].matched ? found[2] : found[3];
-    return fmt::format("write '{} x {:.3g} mm2' for AWG {}", found[1].str(),
-                       square_mm_of_awg(std::stod(number)), number);
+    return fmt::format("write '{} x {:.3g} mm2' for AWG {}", found[1].str(), square_mm_of_awg(std::stod(number)),
+                       number);
   }
   if (std::regex_match(phrase, found, exchanged))
-    return fmt::format("write '{} x {} mm2': the number of cores comes first", found[2].str(),
-                       found[1].str());
+    return fmt::format("write '{} x {} mm2': the number of cores comes first", found[2].str(), found[1].str());
   if (!std::regex_match(phrase, found, other_unit)) return "";
   constexpr double thick_wire = 0.5;  // [mm] of flexible conductors
   return fmt::format("write '{} x {} mm2'", found[1].str(), found[2].str()) +
@@ -520,10 +530,13 @@ std::string jacket_material(const std::string& phrase) {
 
 /// Returns the words of "outer jacket purr" that name neither the jacket, nor its place, nor a known material; empty: none.
 std::string unknown_material(const std::string& words) {
-  static const std::regex own(R"(\b(outer|outside|inner|jacket|sheath|material|wall|thickness|thick|of|the)\b)"), space(" +"),
-      without_wear_rate(R"(\b(pe|hdpe|ldpe|xlpe|pp|pa|nylon|polyamide|silicone?|rubber|neoprene|cr|nbr|epr|epdm|hypalon|csm|)"
-                        R"(fep|pfa|ptfe|etfe|lszh|lsoh|frnc|hffr|halogen|free|black|grey|gray|orange|green|blue|yellow)\b)");
-  std::string rest = std::regex_replace(std::regex_replace(std::regex_replace(words, own, ""), without_wear_rate, ""), space, " ");
+  static const std::regex own(R"(\b(outer|outside|inner|jacket|sheath|material|wall|thickness|thick|of|the)\b)"),
+      space(" +"),
+      without_wear_rate(
+          R"(\b(pe|hdpe|ldpe|xlpe|pp|pa|nylon|polyamide|silicone?|rubber|neoprene|cr|nbr|epr|epdm|hypalon|csm|)"
+          R"(fep|pfa|ptfe|etfe|lszh|lsoh|frnc|hffr|halogen|free|black|grey|gray|orange|green|blue|yellow)\b)");
+  std::string rest =
+      std::regex_replace(std::regex_replace(std::regex_replace(words, own, ""), without_wear_rate, ""), space, " ");
   rest.erase(0, rest.find_first_not_of(" -"));
   return rest.substr(0, rest.find_last_not_of(" -") + 1);
 }
@@ -544,12 +557,13 @@ std::string with_points(const std::string& text) {
 
 /// Replaces the words of German data sheets.
 std::string in_english(std::string phrase) {
-  static const std::vector<std::pair<std::regex, const char*>> words{{std::regex("klasse"), "class"},
-                                                                     {std::regex("(au(ß|ss)en)?durchmesser"), "outer diameter"},
-                                                                     {std::regex("(au(ß|ss)en)?mantel"), "jacket"},
-                                                                     {std::regex("schlagl(ä|ae)nge"), "lay length"},
-                                                                     {std::regex("geschirmt"), "shielded"},
-                                                                     {std::regex("feindr(ä|ae)htig"), "fine wire"}};
+  static const std::vector<std::pair<std::regex, const char*>> words{
+      {std::regex("klasse"), "class"},
+      {std::regex("(au(ß|ss)en)?durchmesser"), "outer diameter"},
+      {std::regex("(au(ß|ss)en)?mantel"), "jacket"},
+      {std::regex("schlagl(ä|ae)nge"), "lay length"},
+      {std::regex("geschirmt"), "shielded"},
+      {std::regex("feindr(ä|ae)htig"), "fine wire"}};
   for (const auto& [german, english] : words) phrase = std::regex_replace(phrase, german, english);
   return phrase;
 }
@@ -575,26 +589,32 @@ std::vector<std::string> phrases_of(const std::string& phrase) {
 bool changes_nothing(const std::string& phrase) {
   static const std::vector<std::regex> words{
       std::regex(R"(un(shielded|screened))"),
-      std::regex(R"((highly |extra |extremely |very |super )?flex(ible)?( cable)?|stranded|fine wire|tinned( copper)?|bare copper|copper|cu)"),
-      std::regex(R"((for )?(drag|energy|cable)[ -]?(chains?|tracks?|carriers?)( (cable|suitable|rated))?|robot(ic|ics)?( cable)?|torsion( cable)?|chainflex.*)"),
+      std::regex(
+          R"((highly |extra |extremely |very |super )?flex(ible)?( cable)?|stranded|fine wire|tinned( copper)?|bare copper|copper|cu)"),
+      std::regex(
+          R"((for )?(drag|energy|cable)[ -]?(chains?|tracks?|carriers?)( (cable|suitable|rated))?|robot(ic|ics)?( cable)?|torsion( cable)?|chainflex.*)"),
       std::regex(R"((ul|csa|cul|vde|ce|din|iec|en|awm|dnv|rohs|reach)([ /-].*)?)"),
-      std::regex(R"((halogen|silicone|pvc|lsoh|lszh)[ -]?free|lszh|flame[ -]retardant|(oil|uv|abrasion|weld spatter)[ -]resistant)"),
-      std::regex(R"((rated )?(voltage )?[\d./ ]+ *k?v( ac| dc)?|-?\d+ *(\.\.|to|\+|/)+ *\+?-?\d+ *(deg|°)? *c|temperature.*)"),
-      std::regex(R"((insulation|core insulation|cores?) *:? *(pvc|tpe|pp|pe|pur|etfe|xlpe)|(black|grey|gray|orange|green|blue|yellow|colou?r.*|numbered.*))")};
+      std::regex(
+          R"((halogen|silicone|pvc|lsoh|lszh)[ -]?free|lszh|flame[ -]retardant|(oil|uv|abrasion|weld spatter)[ -]resistant)"),
+      std::regex(
+          R"((rated )?(voltage )?[\d./ ]+ *k?v( ac| dc)?|-?\d+ *(\.\.|to|\+|/)+ *\+?-?\d+ *(deg|°)? *c|temperature.*)"),
+      std::regex(
+          R"((insulation|core insulation|cores?) *:? *(pvc|tpe|pp|pe|pur|etfe|xlpe)|(black|grey|gray|orange|green|blue|yellow|colou?r.*|numbered.*))")};
   return std::any_of(words.begin(), words.end(), [&](const std::regex& of) { return std::regex_match(phrase, of); });
 }
 
 /// Returns a remedy for a phrase that belongs to a key outside of the data sheet: "leave it out and give least_bend_radius_mm: 80
 /// of the dresspack"; otherwise an empty text.
 std::string other_key(const std::string& phrase) {
-  static const std::regex bend(R"((min(imum)?\.? *)?bend(ing)? *radius.*)"),
-      number(R"((\d[\d.]*) *mm)"), mass(R"((mass|weight) *:? *([\d.]+) *kg */ *km|([\d.]+) *kg */ *km)"),
+  static const std::regex bend(R"((min(imum)?\.? *)?bend(ing)? *radius.*)"), number(R"((\d[\d.]*) *mm)"),
+      mass(R"((mass|weight) *:? *([\d.]+) *kg */ *km|([\d.]+) *kg */ *km)"),
       cycles(R"(.*(cycles|million|bends|strokes|torsion).*)");
   std::smatch found;
   if (std::regex_match(phrase, bend)) {
     std::string radius = " in mm";
     if (std::regex_search(phrase, found, number)) radius = ": " + found[1].str();
-    return fmt::format("leave it out and give the dresspack least_bend_radius_mm{} if no part needs a larger one", radius);
+    return fmt::format("leave it out and give the dresspack least_bend_radius_mm{} if no part needs a larger one",
+                       radius);
   }
   if (std::regex_match(phrase, found, mass))
     return fmt::format("leave it out and give mass_kg_per_m: {:.4g} beside data_sheet",
@@ -604,12 +624,11 @@ std::string other_key(const std::string& phrase) {
 }
 
 /// Returns the keys and values of one phrase of a sheet's line.
-std::vector<std::pair<const char*, std::string>> keys_of_phrase(const std::string& phrase,
-                                                                const Where& where) {
+std::vector<std::pair<const char*, std::string>> keys_of_phrase(const std::string& phrase, const Where& where) {
   // 4 x 2.5 mm2 and 4 x (2 x 0.25) mm2; in shops also 3x1.5 qmm, and 4G2.5 with the protective conductor as one of the four.
-  static const std::regex section(
-      R"((\d+) *[x*] *(?:\(? *(\d+) *[x*] *)?([\d.]+) *\)? *(?:mm2|mm\^2|mm²|qmm|sqmm))"),
-      with_earth(R"((\d+) *g *([\d.]+) *(?:mm2|mm\^2|mm²|qmm|sqmm)?)"), word_class("(?:(?:extra |super )?fine(?:ly)?[ -]strand(?:s|ed)? )?class *([1-6])"),
+  static const std::regex section(R"((\d+) *[x*] *(?:\(? *(\d+) *[x*] *)?([\d.]+) *\)? *(?:mm2|mm\^2|mm²|qmm|sqmm))"),
+      with_earth(R"((\d+) *g *([\d.]+) *(?:mm2|mm\^2|mm²|qmm|sqmm)?)"),
+      word_class("(?:(?:extra |super )?fine(?:ly)?[ -]strand(?:s|ed)? )?class *([1-6])"),
       length(R"(([a-z][a-z. -]*?) *([\d.]+) *mm(?: *[a-z]+)?)");
   static const std::vector<std::pair<std::regex, const char*>> lengths{
       {std::regex("(single )?wires?( diameter)?"), "wire_diameter_mm"},
@@ -621,11 +640,9 @@ std::vector<std::pair<const char*, std::string>> keys_of_phrase(const std::strin
       {std::regex("wire lay( length)?"), "wire_lay_length_mm"}};
   std::smatch found;
   if (std::regex_match(phrase, found, word_class)) return {{"conductor_class", found[1]}};
-  if (std::regex_match(phrase, found, with_earth))
-    return {{"cores", found[1]}, {"cross_section_mm2", found[2]}};
+  if (std::regex_match(phrase, found, with_earth)) return {{"cores", found[1]}, {"cross_section_mm2", found[2]}};
   if (std::regex_match(phrase, found, section)) {
-    std::vector<std::pair<const char*, std::string>> keys{{"cores", found[1]},
-                                                          {"cross_section_mm2", found[3]}};
+    std::vector<std::pair<const char*, std::string>> keys{{"cores", found[1]}, {"cross_section_mm2", found[3]}};
     if (found[2].matched) keys.emplace_back("cores_per_group", found[2]);
     return keys;
   }
@@ -642,7 +659,8 @@ std::vector<std::pair<const char*, std::string>> keys_of_phrase(const std::strin
         }
         return keys;
       }
-  static const std::regex jacket(R"((outer |outside )?(jacket|sheath)( material)? *:? *[a-z -]+|[a-z-]+ (outer )?(jacket|sheath)|pur|tpu|polyurethane|pvc|tpe)");
+  static const std::regex jacket(
+      R"((outer |outside )?(jacket|sheath)( material)? *:? *[a-z -]+|[a-z-]+ (outer )?(jacket|sheath)|pur|tpu|polyurethane|pvc|tpe)");
   if (std::regex_match(phrase, jacket)) {
     const std::string material = jacket_material(phrase);
     if (material.empty()) refuse_unknown_material(phrase, where);
@@ -658,8 +676,9 @@ std::vector<std::pair<const char*, std::string>> keys_of_phrase(const std::strin
     meant = fmt::format("write '{} {} mm'", found[1].str(), found[2].str());
   static const std::regex two_kinds(R"((\d+ *[x*g] *.*\d) *\+ *\(?\d+ *[x*g(].*)");
   if (meant.empty() && std::regex_match(phrase, found, two_kinds))
-    meant = fmt::format("a data sheet has one kind of cores: write '{} mm2' alone, or describe the cable by its components",
-                        std::string(found[1]).substr(0, found[1].str().find(" mm")));
+    meant =
+        fmt::format("a data sheet has one kind of cores: write '{} mm2' alone, or describe the cable by its components",
+                    std::string(found[1]).substr(0, found[1].str().find(" mm")));
   static const std::regex angle(R"((?:(pair|group|wire) )?lay angle *:? *([\d.]+) *(?:deg(?:rees?)?|°)?)");
   if (meant.empty() && std::regex_match(phrase, found, angle))
     meant = fmt::format(
@@ -669,10 +688,12 @@ std::vector<std::pair<const char*, std::string>> keys_of_phrase(const std::strin
   const std::string other = other_key(phrase);
   throw InputError(
       where, fmt::format("'{}' of a data sheet is not understood", phrase),
-      !meant.empty()   ? meant
-      : !other.empty() ? other
-                       : fmt::format("leave it out if it gives no length; lengths as in '{}' in mm, or as keys (dresslife manual data_sheet)",
-                                     example_line));
+      !meant.empty() ? meant
+      : !other.empty()
+          ? other
+          : fmt::format(
+                "leave it out if it gives no length; lengths as in '{}' in mm, or as keys (dresslife manual data_sheet)",
+                example_line));
 }
 
 }  // namespace
@@ -743,10 +764,9 @@ void describe(Fields& f, DataSheet& sheet) {
                  "0.5 to 4 mm2.");
   f.maybe_number("outer_diameter_mm", sheet.outer_diameter, above(0),
                  "The diameter of the cable. Default: with a class, the sum from the cores outwards.");
-  f.maybe_number(
-      "jacket_thickness_mm", sheet.jacket_thickness, at_least(0),
-      "The thickness of the jacket with tapes and screens. The cores fill the rest if core_diameter_mm is "
-      "not given. Default: with a class, 1 mm and 3.5 % of the width of the cores (IEC 60502-1).");
+  f.maybe_number("jacket_thickness_mm", sheet.jacket_thickness, at_least(0),
+                 "The thickness of the jacket with tapes and screens. The cores fill the rest if core_diameter_mm is "
+                 "not given. Default: with a class, 1 mm and 3.5 % of the width of the cores (IEC 60502-1).");
   f.text("jacket_material", sheet.jacket_material, Need::optional,
          "A material with `wear`: a name of config/materials. Default: the wear of the jacket is not evaluated.");
   f.maybe_number("core_diameter_mm", sheet.core_diameter, above(0),
@@ -758,8 +778,7 @@ void describe(Fields& f, DataSheet& sheet) {
                  "The lay length of the cores in a group. Default: 12 times the group's width.");
   f.maybe_number("wire_lay_length_mm", sheet.wire_lay_length, above(0),
                  "The lay length of the wires in a core. Default: 16 times the conductor's width.");
-  f.text("material", sheet.material, Need::optional,
-         "The material of the wires: a name of config/materials.");
+  f.text("material", sheet.material, Need::optional, "The material of the wires: a name of config/materials.");
   f.maybe_number("friction_coefficient", sheet.friction, between(0, 1e6),
                  "The Coulomb friction of cores and wires. Default: 0.3, an ESTIMATE.");
   f.text("shield", sheet.shield, Need::written, "The words of the sheet's line for a shield.");
@@ -769,15 +788,13 @@ void describe(Fields& f, DataSheet& sheet) {
                  "of published cables. measured_bending_stiffness_Nm2 beside data_sheet sets its level.");
 }
 
-std::vector<CoreRing> packed(int count, double diameter, double lay_length, Fillers fillers,
-                             const Where& where) {
+std::vector<CoreRing> packed(int count, double diameter, double lay_length, Fillers fillers, const Where& where) {
   std::vector<CoreRing> best;
   const auto consider = [&](int middle, int first) {
     std::vector<CoreRing> rings = straight_rings(count, diameter, middle, first);
     const double gain = best.empty() ? 1 : width_of(best, diameter) - width_of(rings, diameter);
     const bool equal = std::abs(gain) <= touching * diameter;
-    if (equal ? fullness(rings.back(), diameter) > fullness(best.back(), diameter) : gain > 0)
-      best = std::move(rings);
+    if (equal ? fullness(rings.back(), diameter) > fullness(best.back(), diameter) : gain > 0) best = std::move(rings);
   };
   const int widest = fillers == Fillers::allowed ? count : closed_ring;
   for (int first = 1; first <= std::min(count, widest); ++first) consider(0, first);
@@ -792,9 +809,7 @@ std::vector<CoreRing> packed(int count, double diameter, double lay_length, Fill
   return best;
 }
 
-double width_of(const std::vector<CoreRing>& rings, double diameter) {
-  return 2 * rings.back().radius + diameter;
-}
+double width_of(const std::vector<CoreRing>& rings, double diameter) { return 2 * rings.back().radius + diameter; }
 
 void expand_data_sheets(Node& dresspack) {
   Problems problems;
@@ -817,8 +832,9 @@ void refuse_thicker_than(double bore, const Node& component) {
   const Node* const outer = keys.find("outer_diameter_mm");
   const double diameter = outer ? std::strtod(outer->text.c_str(), nullptr) : 0;
   if (diameter > bore)
-    throw InputError(outer->where, fmt::format("the cable is {:.4g} mm thick (the hose is {:.4g} mm wide inside)", diameter, bore),
-                     fmt::format("check outer_diameter_mm, or take a hose with inner_diameter_mm: {:.4g} or more", diameter));
+    throw InputError(
+        outer->where, fmt::format("the cable is {:.4g} mm thick (the hose is {:.4g} mm wide inside)", diameter, bore),
+        fmt::format("check outer_diameter_mm, or take a hose with inner_diameter_mm: {:.4g} or more", diameter));
 }
 
 void expand_all(Node& dresspack, const std::string& path, Problems& problems, LeftOut& left_out) {
@@ -843,7 +859,8 @@ void expand_data_sheets(Node& dresspack, const std::string& path, Problems& prob
   expand_all(dresspack, path, problems, left_out);
   Node* source = dresspack.is_map() ? dresspack.find("source") : nullptr;
   if (source && source->is_scalar() && !left_out.by_rules.empty())
-    source->text += fmt::format("{}{} (by IEC 60228, EN 50525 and IEC 60502-1)", estimate_mark, fmt::join(left_out.by_rules, "; "));
+    source->text +=
+        fmt::format("{}{} (by IEC 60228, EN 50525 and IEC 60502-1)", estimate_mark, fmt::join(left_out.by_rules, "; "));
   if (left_out.keys.empty()) return;
   const Where where = dresspack.where;
   Node& estimates = dresspack["estimates"];

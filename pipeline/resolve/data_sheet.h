@@ -39,10 +39,10 @@ struct DataSheet {
   std::optional<double> group_lay_length;  ///< of the cores in a group [m]
   std::optional<double> wire_lay_length;   ///< [m]
   std::string material = "copper_halved";  ///< of the wires
-  std::optional<double> friction;          ///< Coulomb coefficient of cores and wires; absent: an ESTIMATE (estimates.h)
-  std::optional<double> jacket_pressure;   ///< on cores and wires [Pa]; absent: an ESTIMATE
-  std::string shield;                      ///< words of a sheet's line for a shield; its wires are not evaluated
-  std::string unused;                      ///< words of a sheet's line that do not affect results
+  std::optional<double> friction;         ///< Coulomb coefficient of cores and wires; absent: an ESTIMATE (estimates.h)
+  std::optional<double> jacket_pressure;  ///< on cores and wires [Pa]; absent: an ESTIMATE
+  std::string shield;                     ///< words of a sheet's line for a shield; its wires are not evaluated
+  std::string unused;                     ///< words of a sheet's line that do not affect results
   Where where;
 };
 
@@ -75,8 +75,7 @@ inline constexpr std::string_view estimate_mark = " ESTIMATE by rules: ";
 
 /// Returns the rings of `count` >= 1 parts of one diameter [m] and lay length [m] (infinity: straight), innermost first. Errors:
 /// InputError at `where` for a lay length that is too short for the parts of a ring.
-std::vector<CoreRing> packed(int count, double diameter, double lay_length, Fillers fillers,
-                             const Where& where);
+std::vector<CoreRing> packed(int count, double diameter, double lay_length, Fillers fillers, const Where& where);
 
 /// Returns the diameter of the circle around the rings [m].
 double width_of(const std::vector<CoreRing>& rings, double diameter);

@@ -16,8 +16,7 @@ constexpr KeyOfKind known[] = {
     {DocumentKind::job, "routing", "job", "give it to dresslife run, check, preview or route"},
     {DocumentKind::job, "dresspack", "job", "give it to dresslife run, check, preview or route"},
     {DocumentKind::job, "dresspacks", "job", "give it to dresslife run, check or preview"},
-    {DocumentKind::observations, "observations", "list of observations",
-     "give it to dresslife calibrate or validate"},
+    {DocumentKind::observations, "observations", "list of observations", "give it to dresslife calibrate or validate"},
     {DocumentKind::observations, "law_tests", "list of observations", "give it to dresslife validate"},
     {DocumentKind::duties, "duties", "file of duties", "give it to dresslife duty or plan --duties"},
     {DocumentKind::dresspack, "components", "dresspack",
@@ -27,8 +26,7 @@ constexpr KeyOfKind known[] = {
      "name it in a job, after 'robot:', or give it to dresslife route or new --robot"},
     {DocumentKind::motion, "steps", "motion",
      "name it in a job, after 'motion:', or give it to dresslife new --program"},
-    {DocumentKind::material, "youngs_modulus_GPa", "material",
-     "name it in a dresspack's component, after 'material:'"},
+    {DocumentKind::material, "youngs_modulus_GPa", "material", "name it in a dresspack's component, after 'material:'"},
 };
 
 }  // namespace
@@ -48,8 +46,7 @@ void refuse_other_kind(const Node& document, DocumentKind wanted) {
   for (const KeyOfKind& of : known)
     if (of.kind == kind && document.find(of.key))
       throw InputError(document.where,
-                       fmt::format("is a {} (it has the key '{}'), no {}", of.name, of.key, wanted_name),
-                       of.use);
+                       fmt::format("is a {} (it has the key '{}'), no {}", of.name, of.key, wanted_name), of.use);
 }
 
 }  // namespace dresslife::pipeline

@@ -8,8 +8,8 @@
 #include <numbers>
 #include <optional>
 
-#include "pipeline/resolve/cable_alone.h"
 #include "pipeline/job/dresspack.h"
+#include "pipeline/resolve/cable_alone.h"
 #include "pipeline/settings/units.h"
 
 namespace dresslife::pipeline {
@@ -51,9 +51,8 @@ class List {
     for (const Key& key : keys_) {
       std::vector<std::string> values;
       for (const Value& value : key.values)
-        values.push_back(value.parts.empty()
-                             ? value.name
-                             : fmt::format("{} ({})", value.name, fmt::join(value.parts, ", ")));
+        values.push_back(value.parts.empty() ? value.name
+                                             : fmt::format("{} ({})", value.name, fmt::join(value.parts, ", ")));
       keys.push_back(fmt::format("{} {}", key.name, fmt::join(values, ", ")));
     }
     return fmt::format("{}", fmt::join(keys, "; "));
@@ -81,9 +80,9 @@ std::string rounded(double value) { return fmt::format("{:.4g}", value); }
 
 /// Surroundings of a component.
 enum class Inside {
-  hose,     ///< parts are beside each other without pressure
-  jacket,   ///< the jacket of a cable, or of a core without pressure from outside
-  core      ///< a core under the pressure of a jacket
+  hose,    ///< parts are beside each other without pressure
+  jacket,  ///< the jacket of a cable, or of a core without pressure from outside
+  core     ///< a core under the pressure of a jacket
 };
 
 class Estimates {
@@ -134,8 +133,8 @@ class Estimates {
     const bool room = dresspack_.find("inner_diameter_mm") || dresspack_.find("hose_corrugation");
     const std::string position = text_at(component, "position");
     const bool holds = component.find("components") || component.find("without_wires");
-    const bool gentle = number_at(component, "lay_angle_deg").value_or(0) <=
-                        steepest_loose_lay * 180 * std::numbers::inv_pi;
+    const bool gentle =
+        number_at(component, "lay_angle_deg").value_or(0) <= steepest_loose_lay * 180 * std::numbers::inv_pi;
     if (position == "loose" || (position != "held" && room && gentle && holds))
       estimate(component, "slack_percent", estimated_slack);
   }
@@ -152,24 +151,21 @@ class Estimates {
   /// Returns whether any part limits the dresspack's length; cables with slack do not.
   bool is_held(const std::vector<Node>& components) const {
     return dresspack_.find("hose_material") || dresspack_.find("core_axial_stiffness_N") || !is_hose(dresspack_) ||
-           std::any_of(components.begin(), components.end(), [](const Node& component) {
-             return number_at(component, "slack_percent").value_or(0) == 0;
-           });
+           std::any_of(components.begin(), components.end(),
+                       [](const Node& component) { return number_at(component, "slack_percent").value_or(0) == 0; });
   }
 
   void add_to_hose(const std::vector<Node>& components) {
     const bool held = is_held(components);
     add_width(components);  // an addition moves the components
     if (!held) estimate(dresspack_, "axial_stiffness_N", estimated_axial_stiffness);
-    for (const char* key :
-         {"mass_kg_per_m", "bending_stiffness_Nm2", "torsional_stiffness_Nm2", "axial_stiffness_N"})
+    for (const char* key : {"mass_kg_per_m", "bending_stiffness_Nm2", "torsional_stiffness_Nm2", "axial_stiffness_N"})
       if (!dresspack_.find(key)) add(dresspack_, key, "from_construction");
     estimate(dresspack_, "friction_coefficient", estimated_friction);
     if (dresspack_.find("damping_time_ms") || dresspack_.find("damping_source")) return;
     list_.note("damping_time_ms", add(dresspack_, "damping_time_ms", rounded(estimated_damping_time)).text, "");
     estimate(dresspack_, "loss_factor", is_hose(dresspack_) ? estimated_hose_loss : estimated_cable_loss);
-    add(dresspack_, "damping_source",
-        "ESTIMATE, the default of dresslife; a decay test of a hanging length decides");
+    add(dresspack_, "damping_source", "ESTIMATE, the default of dresslife; a decay test of a hanging length decides");
   }
 
   Node& dresspack_;

@@ -62,8 +62,7 @@ void describe(Fields& echo, StrainKeys& keys) {
   if (dresspack.rest_curvature != 0)
     echo.number("rest_curvature_1_per_m", dresspack.rest_curvature, Need::optional, any_number(), "");
   if (dresspack.construction_curvature != Dresspack{}.construction_curvature)
-    echo.number("construction_curvature_1_per_m", dresspack.construction_curvature, Need::optional,
-                any_number(), "");
+    echo.number("construction_curvature_1_per_m", dresspack.construction_curvature, Need::optional, any_number(), "");
   echo.maybe_number("core_bending_stiffness_Nm2", dresspack.core_bending_stiffness, any_number(), "");
   if (dresspack.hose_material.empty()) return;
   echo.text("hose_material", dresspack.hose_material, Need::optional, "");
@@ -131,7 +130,8 @@ void describe(Fields& echo, FatigueKeys& keys) {
   echo.maybe_group("sleeve", dresspack.sleeve, "");
   std::vector<RatedKeys> rated;
   for (const Component& part : dresspack.components)
-    if (part.plain && !part.ratings.empty()) rated.push_back({part.name, part.radius, part.plain->damage_exponent, part.ratings});
+    if (part.plain && !part.ratings.empty())
+      rated.push_back({part.name, part.radius, part.plain->damage_exponent, part.ratings});
   if (!rated.empty()) echo.list("rated", rated, Need::optional, "");
   std::vector<JacketKeys> jackets;
   for (const Component& part : dresspack.components)
@@ -139,7 +139,8 @@ void describe(Fields& echo, FatigueKeys& keys) {
   if (!jackets.empty()) echo.list("jackets", jackets, Need::optional, "");
   std::vector<KinkKeys> hoses;
   for (const Component& part : dresspack.components)
-    if (part.plain && part.plain->kind == PlainKind::hose) hoses.push_back({part.name, part.radius, part.helix_radius, *part.plain});
+    if (part.plain && part.plain->kind == PlainKind::hose)
+      hoses.push_back({part.name, part.radius, part.helix_radius, *part.plain});
   if (!hoses.empty()) echo.list("hoses", hoses, Need::optional, "");
   if (!dresspack.core_parts.empty()) echo.text("core_parts", dresspack.core_parts, Need::optional, "");
   if (!dresspack.core_components.empty()) echo.list("core_components", dresspack.core_components, Need::optional, "");
@@ -158,8 +159,8 @@ void describe_each(Fields& echo, const JobForms& forms, std::vector<Keys> keys) 
 void count_as_numbers(Dresspack& dresspack) {
   const Dresspack untold;
   dresspack.mass_from_construction = false;
-  dresspack.bending_from_construction = dresspack.torsional_from_construction =
-      dresspack.axial_from_construction = false;
+  dresspack.bending_from_construction = dresspack.torsional_from_construction = dresspack.axial_from_construction =
+      false;
   dresspack.construction_state = untold.construction_state;
   if (dresspack.bending_friction.empty()) dresspack.construction_curvature = untold.construction_curvature;
   dresspack.core_bending_stiffness = dresspack.core_torsional_stiffness = dresspack.core_axial_stiffness = {};
@@ -167,7 +168,8 @@ void count_as_numbers(Dresspack& dresspack) {
 
 /// Temperature for strain and fatigue. The usual temperature is left out, so that the texts of older jobs do not change.
 void describe_temperature(Fields& echo, Cell& cell) {
-  if (cell.temperature != Cell::usual_temperature) echo.number("temperature_C", cell.temperature, Need::optional, any_number(), "");
+  if (cell.temperature != Cell::usual_temperature)
+    echo.number("temperature_C", cell.temperature, Need::optional, any_number(), "");
 }
 
 void describe_sim(Fields& echo, Job copy) {

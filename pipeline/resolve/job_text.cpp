@@ -49,19 +49,16 @@ void check_forms(Node& document, Problems& problems) {
 
 void take_length_of_rig(Job& job) {
   if (job.motion.rig)
-    job.dresspacks.front().routing.free_length =
-        rig_length(*job.motion.rig, job.dresspacks.front().dresspack.diameter);
+    job.dresspacks.front().routing.free_length = rig_length(*job.motion.rig, job.dresspacks.front().dresspack.diameter);
 }
 
 /// Reads a job. Resolves the names in the document.
 Job resolved_job(Node& document, const std::vector<std::string>& sets) {
-  if (!document.is_map())
-    throw InputError(document.where, "holds no job", "write robot, motion, dresspack, routing");
+  if (!document.is_map()) throw InputError(document.where, "holds no job", "write robot, motion, dresspack, routing");
   if (!document.find("robot") && !document.find("motion")) refuse_other_kind(document, DocumentKind::job);
   Problems problems;
   problems.attempt("", document.where, [&] { apply_lines(document); });
-  for (const std::string& set : sets)
-    problems.attempt("", {"--set " + set}, [&] { apply_set(document, set); });
+  for (const std::string& set : sets) problems.attempt("", {"--set " + set}, [&] { apply_set(document, set); });
   check_forms(document, problems);
   resolve_job(document, problems);
   if (const Node* calibration = document.find("calibration"))
@@ -69,7 +66,8 @@ Job resolved_job(Node& document, const std::vector<std::string>& sets) {
   Job job;
   if (document.find("dresspacks")) job.dresspacks.clear();
   read_fields(document, Describe([&](Fields& f) { describe(f, job); }), problems);
-  const std::initializer_list<const char*> parts{"calibration", "strain", "fatigue", "uncertainty", "dresspack", "dresspacks"};
+  const std::initializer_list<const char*> parts{"calibration", "strain",    "fatigue",
+                                                 "uncertainty", "dresspack", "dresspacks"};
   if (std::none_of(parts.begin(), parts.end(), [&](const char* part) { return problems.touch(part); }))
     problems.attempt("calibration", document.where, [&] {
       apply_calibration(document, job);
@@ -97,7 +95,9 @@ std::optional<DividedText> divided(const std::string& text) {
   while (end != std::string::npos && end + 1 < text.size() && text[end + 1] == ' ') end = text.find('\n', end + 1);
   if (end == std::string::npos || end + 1 >= text.size()) return std::nullopt;
   const std::size_t comment = text.starts_with('#') ? text.find('\n') : 0;
-  return DividedText{std::string(static_cast<std::size_t>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(before) + 1, '\n')), '\n') +
+  return DividedText{std::string(static_cast<std::size_t>(std::count(
+                                     text.begin(), text.begin() + static_cast<std::ptrdiff_t>(before) + 1, '\n')),
+                                 '\n') +
                          text.substr(before + 1, end - before),
                      text.substr(comment, before + 1 - comment) + text.substr(end + 1)};
 }
@@ -129,7 +129,8 @@ std::shared_ptr<const Job> StoredJobs::read(const std::filesystem::path& file) {
   const auto same = std::ranges::find_if(known_, [&](const auto& one) { return text && one->beside == beside; });
   if (same == known_.end()) {
     last_ = known_.size();
-    return known_.emplace_back(std::make_unique<Known>(Known{beside, std::make_shared<const Job>(read_job(file))}))->job;
+    return known_.emplace_back(std::make_unique<Known>(Known{beside, std::make_shared<const Job>(read_job(file))}))
+        ->job;
   }
   note_input(file);
   last_ = static_cast<std::size_t>(same - known_.begin());
@@ -164,13 +165,16 @@ Dresspack read_dresspack(const std::filesystem::path& file) {
 
 Dresspack read_dresspack(const std::filesystem::path& file, std::string& faults) {
   Node job, whole = read_yaml(file);
-  if (!whole.is_map()) throw InputError({file.string()}, "holds no dresspack", "name a file of the keys of job.dresspack, or a job");
+  if (!whole.is_map())
+    throw InputError({file.string()}, "holds no dresspack", "name a file of the keys of job.dresspack, or a job");
   if (const Node* const list = whole.find("dresspacks"); list && list->is_list()) {
     std::vector<std::string> names;
     for (const Node& item : list->items)
-      if (const Node* const of = item.is_map() ? item.find("dresspack") : nullptr; of && of->is_scalar()) names.push_back(of->text);
+      if (const Node* const of = item.is_map() ? item.find("dresspack") : nullptr; of && of->is_scalar())
+        names.push_back(of->text);
     throw InputError(list->where, fmt::format("is a job with {} dresspacks (one is drawn)", list->items.size()),
-                     names.empty() ? "write one of them into a file of its own, and name that" : "name one of them: " + joined(names, ", "));
+                     names.empty() ? "write one of them into a file of its own, and name that"
+                                   : "name one of them: " + joined(names, ", "));
   }
   const bool is_job = whole.find("dresspack");
   if (is_job) apply_lines(whole);
@@ -198,8 +202,8 @@ std::vector<KeyRow> job_keys() {
     describe_keys(f, job, {true, true});
   };
   std::vector<KeyRow> rows = key_rows("job", both_forms);
-  for (const std::vector<KeyRow>& more : {key_rows<UrdfRequest>("robot from a URDF"),
-                                          key_rows<DataSheet>("dresspack.components[].data_sheet")})
+  for (const std::vector<KeyRow>& more :
+       {key_rows<UrdfRequest>("robot from a URDF"), key_rows<DataSheet>("dresspack.components[].data_sheet")})
     rows.insert(rows.end(), more.begin(), more.end());
   return rows;
 }

@@ -48,7 +48,8 @@ std::optional<double> circle_of(const std::vector<double>& radii, double bore, d
   const double thickest = *std::max_element(radii.begin(), radii.end());
   const double widest = bore - thickest;
   if (widest <= 0 || asked(radii, widest) > 2 * pi * (1 + touching_of_radius)) return std::nullopt;
-  const double least_circle = halved(0, widest, halvings, [&](double circle) { return asked(radii, circle) > 2 * pi; }).high;
+  const double least_circle =
+      halved(0, widest, halvings, [&](double circle) { return asked(radii, circle) > 2 * pi; }).high;
   const double least = std::max(least_circle, core + thickest);
   if (least > widest * (1 + touching_of_radius)) return std::nullopt;
   const auto leaves_more_outside = [&](double circle) {
@@ -93,7 +94,8 @@ bool fill(const std::vector<double>& radii, std::vector<std::size_t> parts, doub
   double in_ring = sum([](double r) { return r; }), too_narrow = 0;
   for (std::size_t inside = 0; inside < parts.size(); in_ring -= radii[parts[inside++]]) {
     const double widest_part = radii[parts[inside]];
-    if (inside > 0 && in_ring > pi * (bore - widest_part) * (1 + touching_of_radius)) continue;  // asin(x) >= x in asked()
+    if (inside > 0 && in_ring > pi * (bore - widest_part) * (1 + touching_of_radius))
+      continue;  // asin(x) >= x in asked()
     const std::vector<std::size_t> within(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(inside)),
         order = spread(radii, {parts.begin() + static_cast<std::ptrdiff_t>(inside), parts.end()});
     if (order.size() < 2) break;
@@ -110,7 +112,8 @@ bool fill(const std::vector<double>& radii, std::vector<std::size_t> parts, doub
       too_narrow = space;
       continue;
     }
-    const double taken = largest_of(within, core, [&](std::size_t part) { return places[part].helix_radius + radii[part]; });
+    const double taken =
+        largest_of(within, core, [&](std::size_t part) { return places[part].helix_radius + radii[part]; });
     if (const auto circle = circle_of(ring, bore, taken)) return place_on(*circle, radii, order, places), true;
   }
   return false;
@@ -149,12 +152,10 @@ std::vector<AutoPart> auto_parts(const Node& components, const std::string& path
                    "write auto, or helix_radius_mm and phase_deg instead of place", key);
     for (const char* other : {"helix_radius_mm", "phase_deg", "lay_angle_deg"})
       if (const Node* given = component.find(other))
-        problems.add(given->where, fmt::format("both place and {} are given", other), "keep one of the two",
-                     key);
+        problems.add(given->where, fmt::format("both place and {} are given", other), "keep one of the two", key);
     if (!(number_of(component, "radius_mm") > 0) &&
         !component.find("data_sheet"))  // a remaining data sheet was refused already
-      problems.add(component.where, "has place: auto and no radius_mm", "give radius_mm, or a data_sheet",
-                   key);
+      problems.add(component.where, "has place: auto and no radius_mm", "give radius_mm, or a data_sheet", key);
     const Node* const given_count = component.find("count");
     // Parts of a split component lose the key, so it is checked here.
     if (given_count && given_count->text.find_first_not_of("0123456789") != std::string::npos)
@@ -162,8 +163,11 @@ std::vector<AutoPart> auto_parts(const Node& components, const std::string& path
                    "give the number of equal parts", key);
     constexpr double most = 1000;  // as describe() of a component allows
     const double count = given_count ? number_of(component, "count") : 1;
-    if (count > most) problems.add(given_count->where, fmt::format("count is {} (must be 1 .. {:g})", given_count->text, most), "correct it", key);
-    for (int number = 0; number < static_cast<int>(std::clamp(count, 1.0, most)); ++number) parts.push_back({i, number});
+    if (count > most)
+      problems.add(given_count->where, fmt::format("count is {} (must be 1 .. {:g})", given_count->text, most),
+                   "correct it", key);
+    for (int number = 0; number < static_cast<int>(std::clamp(count, 1.0, most)); ++number)
+      parts.push_back({i, number});
   }
   return parts;
 }
@@ -185,8 +189,11 @@ std::string letter(int number) {
 /// Returns whether places are evenly spaced on one circle, in their order.
 bool even(const std::vector<PlacedPart>& places) {
   for (std::size_t k = 0; k < places.size(); ++k) {
-    const double off = std::remainder(places[k].phase - places[0].phase - 2 * pi * static_cast<double>(k) / static_cast<double>(places.size()), 2 * pi);
-    if (std::abs(places[k].helix_radius - places[0].helix_radius) > touching_of_radius || std::abs(off) > 1e-6) return false;
+    const double off = std::remainder(
+        places[k].phase - places[0].phase - 2 * pi * static_cast<double>(k) / static_cast<double>(places.size()),
+        2 * pi);
+    if (std::abs(places[k].helix_radius - places[0].helix_radius) > touching_of_radius || std::abs(off) > 1e-6)
+      return false;
   }
   return true;
 }
@@ -218,30 +225,36 @@ void expand_places(Node& dresspack, const std::string& path, Problems& problems)
   double core = number_of(dresspack, "core_diameter_mm") / 2e3;
   const double bore = bore_of(dresspack) / 2e3;
   const std::vector<AutoPart> parts = auto_parts(*components, path, core, own);
-  if (const double diameter = number_of(dresspack, "diameter_mm"); bore < 0 && diameter > 0 && !dresspack.find("inner_diameter_mm")) {
-    own.add(where, fmt::format("place: auto is given, and hose_corrugation leaves no bore in the hose (diameter_mm is {:g})", diameter),
-            fmt::format("give diameter_mm: {:g} if a zero was lost, or check height_mm: the diameter is the bore and twice the height", 10 * diameter),
-            path);
+  if (const double diameter = number_of(dresspack, "diameter_mm");
+      bore < 0 && diameter > 0 && !dresspack.find("inner_diameter_mm")) {
+    own.add(
+        where,
+        fmt::format("place: auto is given, and hose_corrugation leaves no bore in the hose (diameter_mm is {:g})",
+                    diameter),
+        fmt::format(
+            "give diameter_mm: {:g} if a zero was lost, or check height_mm: the diameter is the bore and twice the height",
+            10 * diameter),
+        path);
   } else if (!(bore > 0)) {
     Dresspack hose;
     hose.diameter = number_of(dresspack, "diameter_mm") / 1e3;
     own.add(where, "place: auto is given, and the hose's bore is not (how much room there is is not known)",
             fmt::format("give inner_diameter_mm or hose_corrugation of the dresspack{}",
-                        hose.diameter > 0 ? fmt::format(", of {:g} mm usually hose_material: hose_polyamide and {} (ESTIMATE)",
-                                                        1e3 * hose.diameter, corrugation_line(usual_corrugation(hose)))
-                                          : ""),
+                        hose.diameter > 0
+                            ? fmt::format(", of {:g} mm usually hose_material: hose_polyamide and {} (ESTIMATE)",
+                                          1e3 * hose.diameter, corrugation_line(usual_corrugation(hose)))
+                            : ""),
             path);
   }
   if (!problems.attempt(path + ".components", where, [&] { own.finish(); })) return;
   if (std::any_of(components->items.begin(), components->items.end(),
                   [](const Node& of) { return of.is_map() && of.find("data_sheet"); })) {
     for (Node& component : components->items)
-      if (asks(component))
-        set_place(component, {});  // their places depend on the cable whose data sheet was refused
+      if (asks(component)) set_place(component, {});  // their places depend on the cable whose data sheet was refused
     return;
   }
-  const std::vector<double> radii =
-      mapped(parts, [&](const AutoPart& part) { return number_of(components->items[part.component], "radius_mm") / 1e3; });
+  const std::vector<double> radii = mapped(
+      parts, [&](const AutoPart& part) { return number_of(components->items[part.component], "radius_mm") / 1e3; });
   const auto places = pack_in_bore(radii, bore, core);
   if (!places) {
     double enough = 2 * bore;
@@ -250,10 +263,10 @@ void expand_places(Node& dresspack, const std::string& path, Problems& problems)
       const double middle = (low + enough) / 2;
       (pack_in_bore(radii, middle, core) ? enough : low) = middle;
     }
-    problems.add(where,
-                 fmt::format("{} parts with place: auto do not fit into the bore of {:.4g} mm", parts.size(), 2e3 * bore),
-                 fmt::format("take fewer or thinner parts, or a hose with inner_diameter_mm: {:.4g} or more", 2e3 * enough),
-                 path + ".components");
+    problems.add(
+        where, fmt::format("{} parts with place: auto do not fit into the bore of {:.4g} mm", parts.size(), 2e3 * bore),
+        fmt::format("take fewer or thinner parts, or a hose with inner_diameter_mm: {:.4g} or more", 2e3 * enough),
+        path + ".components");
     return;
   }
   std::vector<Node> placed;

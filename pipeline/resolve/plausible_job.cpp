@@ -34,58 +34,61 @@ constexpr double least_metres = 0.05e-3, most_metres = 5e-3, far_place = 0.05;  
 // A position beside the preceding one: 20 mm to 1 m in metres. Robots repeat a position within 0.05 mm, and no program of a plant
 // has such small steps.
 constexpr double least_step = 0.02e-3, most_step = 1e-3;  // [m]
-constexpr double least_percent = 1;    // a hundredth of an axis' speed: no program of a plant is so slow
-constexpr double fastest_tool = 10;     // [m/s]: the fastest controllers allow 5 to 7
-constexpr double fastest_of_kuka = 3;   // [m/s]: ESTIMATE of $VEL_MA.CP, the upper bound of $VEL.CP in the machine data of a robot
+constexpr double least_percent = 1;  // a hundredth of an axis' speed: no program of a plant is so slow
+constexpr double fastest_tool = 10;  // [m/s]: the fastest controllers allow 5 to 7
+constexpr double fastest_of_kuka =
+    3;  // [m/s]: ESTIMATE of $VEL_MA.CP, the upper bound of $VEL.CP in the machine data of a robot
 constexpr double surely_millimetres = 50;  // [m/s]: a tenth of smaller numbers is a speed of robots
-constexpr double longest_dwell = 100;  // [s]: cycles of production lines are shorter
+constexpr double longest_dwell = 100;      // [s]: cycles of production lines are shorter
 
-constexpr double largest_step = 10e-3;  // [s]: the largest step that an automatic choice takes; larger ones were not tried
-constexpr double least_rate = 5;       // [Hz]: fewer than three samples of a hose's swing at 1.8 Hz
-constexpr double largest_gate = 2e-4;  // the default: with 5e-4 lives of 4e9 repeats become endless (strain/measurements.md)
+constexpr double largest_step =
+    10e-3;                        // [s]: the largest step that an automatic choice takes; larger ones were not tried
+constexpr double least_rate = 5;  // [Hz]: fewer than three samples of a hose's swing at 1.8 Hz
+constexpr double largest_gate =
+    2e-4;  // the default: with 5e-4 lives of 4e9 repeats become endless (strain/measurements.md)
 
 constexpr double least_speed = 0.5 * degree;  // [rad/s] of the fastest axis: robots in plants reach 100 deg/s
 
 constexpr double standard_gravity = 9.80665;
-constexpr double gravity_spread = 0.01;    // relative: gravity varies by 0.5 % over the earth
-constexpr double down = 0.999;             // cosine of 2.6 deg, more than the slope of floors
-constexpr double least_robot_life = 1000;  // [h]: half a year of one shift
-constexpr double least_week = 5;           // [h]: an hour per working day
-constexpr double hours_of_day = 24;        // robots in plants move 40 h a week or more
+constexpr double gravity_spread = 0.01;     // relative: gravity varies by 0.5 % over the earth
+constexpr double down = 0.999;              // cosine of 2.6 deg, more than the slope of floors
+constexpr double least_robot_life = 1000;   // [h]: half a year of one shift
+constexpr double least_week = 5;            // [h]: an hour per working day
+constexpr double hours_of_day = 24;         // robots in plants move 40 h a week or more
 constexpr double largest_endurance = 5e-3;  // polymers have 9e-3 at ten million cycles, metals a fifth of this limit
-constexpr double largest_factor = 30;      // 100 is a percentage; trials have 0.1 to 10
+constexpr double largest_factor = 30;       // 100 is a percentage; trials have 0.1 to 10
 constexpr double largest_tolerance = 0.05;  // [m] between the starts of two repeats: the width of a hose
-constexpr double longest_spot = 10;        // [s]: a weld takes 0.3 to 2
+constexpr double longest_spot = 10;         // [s]: a weld takes 0.3 to 2
 constexpr double widest_zone = 30 * degree;
-constexpr int repeats_to_steady = 100;         // of the motion: the default is 8
-constexpr int least_targets = 30;              // of a recording: programs with targets so near to each other are shorter
-constexpr double near_targets = 3 * degree;    // of the fastest axis from target to target
-constexpr int most_repeats = 1000;             // of steps in a program: a pallet has some hundred places
-constexpr double slowest_tool = 3e-3;          // [m/s]: arc welding has 5 to 20 mm/s
-constexpr double widest_path_zone = 0.5;       // [m]: zones of controllers are at most 0.2
-constexpr double tool_behind = 0.02;           // [m]: a flange is thicker than the distance of a tool's centre behind its face
+constexpr int repeats_to_steady = 100;       // of the motion: the default is 8
+constexpr int least_targets = 30;            // of a recording: programs with targets so near to each other are shorter
+constexpr double near_targets = 3 * degree;  // of the fastest axis from target to target
+constexpr int most_repeats = 1000;           // of steps in a program: a pallet has some hundred places
+constexpr double slowest_tool = 3e-3;        // [m/s]: arc welding has 5 to 20 mm/s
+constexpr double widest_path_zone = 0.5;     // [m]: zones of controllers are at most 0.2
+constexpr double tool_behind = 0.02;  // [m]: a flange is thicker than the distance of a tool's centre behind its face
 constexpr double slowest_move = 0.2 * degree;  // [rad/s] of the fastest axis in one move
 constexpr double slowest_axis = 5 * degree,
                  fastest_axis = 3000 * degree;  // [rad/s]: positioners have 30, wrists of small robots 1000 deg/s
-constexpr double longest_ramp = 5,
-                 quickest_robot = 0.05, shortest_ramp = 0.005;  // [s] from rest to full speed: robots need 0.1 to 1
+constexpr double longest_ramp = 5, quickest_robot = 0.05,
+                 shortest_ramp = 0.005;  // [s] from rest to full speed: robots need 0.1 to 1
 constexpr double most_turns = 4 * 360,
                  twice_around = 2 * 360;  // [deg]: wrists turn up to two turns in each direction
 constexpr double endless_axis = 36000;    // of a continuous joint of a URDF [deg]
-constexpr double longest_box = 60;  // [m]: the floor of a hall
+constexpr double longest_box = 60;        // [m]: the floor of a hall
 constexpr double farthest = 20;           // [m] from the origin: the size of a cell
 constexpr double widest_spread = 20;  // factor of one standard deviation: friction of seven published cables has 2.2
 constexpr double least_pre_twist = 6.2832 * degree, largest_pre_twist = 3600 * degree;
-constexpr double longest_hose = 20;  // [m]: the size of a cell; hoses on robots are 0.5 to 6 m long
+constexpr double longest_hose = 20;     // [m]: the size of a cell; hoses on robots are 0.5 to 6 m long
 constexpr double shortest_in_mm = 300;  // a smaller number is in centimetres: no hose on a robot is 0.3 m long
-constexpr double farthest_clamp =
-    3;  // [m] from its link's frame: arms of large robots are 1.5 m long, brackets 0.3
+constexpr double farthest_clamp = 3;    // [m] from its link's frame: arms of large robots are 1.5 m long, brackets 0.3
 constexpr double longest_tool = 0.5,
-                 near_link = 0.25;     // [m]: clamps on welding guns; usual brackets and small tools
-constexpr double near_bracket = 0.15;    // [m]: bracket length that route tries; beyond it, exchanged coordinates must be 4 times nearer
+                 near_link = 0.25;  // [m]: clamps on welding guns; usual brackets and small tools
+constexpr double near_bracket =
+    0.15;  // [m]: bracket length that route tries; beyond it, exchanged coordinates must be 4 times nearer
 constexpr int few_segments = 16;         // with more segments, a hose whose segments are too long is itself too long
 constexpr double longest_segment = 0.5;  // of the least bend radius: chords of 0.5 rad are 1 % shorter than their arcs
-constexpr double inside_robot = 0.01;  // [m] below a box's surface: floors and tables end at the base
+constexpr double inside_robot = 0.01;    // [m] below a box's surface: floors and tables end at the base
 constexpr double shortest_bracket = 1e-3, longest_built = 2;  // [m]
 constexpr double widest_ring = 10;                            // in diameters of the dresspack
 constexpr double longest_stroke = 5, largest_pull = 2000, stiffest_spring = 1e4,
@@ -105,7 +108,8 @@ struct Doubted {
     line = of.line > 0 ? of : step.where;
   }
   Warning warning(const std::string& what, const std::string& cause, const std::string& remedy) const {
-    return warning_of(WarningKind::motion, line.text(), what + (more ? fmt::format(" (and {} more)", more) : ""), cause, remedy);
+    return warning_of(WarningKind::motion, line.text(), what + (more ? fmt::format(" (and {} more)", more) : ""), cause,
+                      remedy);
   }
 };
 
@@ -120,10 +124,12 @@ struct Seen {
   int moves = 0;
   bool all_joints = true;
   bool default_speed = false;  ///< a move has no speed of its own
-  bool only_timed = true;    ///< all moves are joint moves, and all except the first have durations
+  bool only_timed = true;      ///< all moves are joint moves, and all except the first have durations
 };
 
-double fastest_tool_of(const MotionStep& step) { return step.where.file.ends_with(".src") ? fastest_of_kuka : fastest_tool; }
+double fastest_tool_of(const MotionStep& step) {
+  return step.where.file.ends_with(".src") ? fastest_of_kuka : fastest_tool;
+}
 
 void add_steps(const std::vector<MotionStep>& steps, Seen& seen) {
   for (const MotionStep& step : steps) {
@@ -193,15 +199,16 @@ void doubt_single_axes(const std::vector<const MotionStep*>& joints, std::vector
     }
     if (!odd || !one || others.size() < fewest) continue;
     const double number = odd->joints[k] / degree;  // also the angle that was meant [rad]
-    if (std::abs(number) <= small_turn || std::abs(number) > half_turn || std::abs(std::remainder(number, 0.5)) < 1e-9 ||
-        largest_size(odd->joints) / degree <= half_turn)
+    if (std::abs(number) <= small_turn || std::abs(number) > half_turn ||
+        std::abs(std::remainder(number, 0.5)) < 1e-9 || largest_size(odd->joints) / degree <= half_turn)
       continue;
     const auto [low, high] = std::ranges::minmax(others);
     if (low * number < 0 || high * number < 0 || number < low - neighbours || number > high + neighbours) continue;
     warnings.push_back(warning_of(
         WarningKind::motion, odd->where.text(),
-        fmt::format("axis {} of this target is at {:.4g} deg (limit: at the other targets it is at {:.4g} .. {:.4g} deg)", k + 1,
-                    number, low / degree, high / degree),
+        fmt::format(
+            "axis {} of this target is at {:.4g} deg (limit: at the other targets it is at {:.4g} .. {:.4g} deg)",
+            k + 1, number, low / degree, high / degree),
         "radians instead of degrees in one number",
         fmt::format("{:.4g} if that was radians; leave it if the axis moves so far here", number / degree)));
   }
@@ -212,11 +219,12 @@ void doubt_single_targets(const std::vector<MotionStep>& steps, std::vector<Warn
   std::vector<const MotionStep*> joints, places;
   gather(steps, joints, places);
   Doubted radians, metres;
-  double widest = 0;  // [rad]
+  double widest = 0;                         // [rad]
   std::vector<const MotionStep*> different;  // a program may come back to one target many times
   for (const MotionStep* step : joints) {
     widest = std::max(widest, largest_size(step->joints));
-    if (std::ranges::none_of(different, [&](const MotionStep* other) { return other->joints == step->joints; })) different.push_back(step);
+    if (std::ranges::none_of(different, [&](const MotionStep* other) { return other->joints == step->joints; }))
+      different.push_back(step);
   }
   for (const MotionStep* step : different)
     if (const double largest = largest_size(step->joints) / degree;
@@ -226,25 +234,25 @@ void doubt_single_targets(const std::vector<MotionStep>& steps, std::vector<Warn
     return found.first && 3 * (static_cast<std::size_t>(found.more) + 1) <= all + 1;
   };
   if (few(radians, different.size())) {
-    const auto meant = mapped(radians.first->joints, [](double angle) { return fmt::format("{:.4g}", angle / degree / degree); });
+    const auto meant =
+        mapped(radians.first->joints, [](double angle) { return fmt::format("{:.4g}", angle / degree / degree); });
     warnings.push_back(radians.warning(
-        fmt::format(
-            "all angles of this target are below {:.3g} deg (limit: those of other targets reach {:.0f} deg)",
-            half_turn, widest / degree),
+        fmt::format("all angles of this target are below {:.3g} deg (limit: those of other targets reach {:.0f} deg)",
+                    half_turn, widest / degree),
         "radians instead of degrees in one target",
         fmt::format("[{}] if those were radians; leave it if the robot's pose is this near to its zero pose",
                     fmt::join(meant, ", "))));
   }
   doubt_single_axes(joints, warnings);
-  const std::vector<double> reaches = mapped(places, [](const MotionStep* step) { return largest_size(step->position); });
+  const std::vector<double> reaches =
+      mapped(places, [](const MotionStep* step) { return largest_size(step->position); });
   if (reaches.empty()) return;
   const double farthest_place = *std::max_element(reaches.begin(), reaches.end());
   for (std::size_t k = 0; k < places.size(); ++k)
     // Only positions in one work object are compared: the origin of another one may be its only position.
     if (const double reach = reaches[k];
         reach >= least_metres && reach <= most_metres && farthest_place >= far_place &&
-        nonzero(places[k]->position) >= 2 &&
-        std::any_of(places.begin(), places.end(), [&](const MotionStep* other) {
+        nonzero(places[k]->position) >= 2 && std::any_of(places.begin(), places.end(), [&](const MotionStep* other) {
           return other->work_object == places[k]->work_object && largest_size(other->position) >= far_place;
         }))
       metres.add(*places[k]);
@@ -270,7 +278,8 @@ void doubt_small_steps(const std::vector<MotionStep>& steps, std::vector<Warning
   double way = 0;  // [m]
   for (std::size_t k = 1; k < places.size(); ++k) {
     const MotionStep &before = *places[k - 1], &now = *places[k];
-    if (before.work_object != now.work_object || before.tool != now.tool || before.quaternion != now.quaternion) continue;
+    if (before.work_object != now.work_object || before.tool != now.tool || before.quaternion != now.quaternion)
+      continue;
     double squared = 0;
     for (std::size_t i = 0; i < std::min(before.position.size(), now.position.size()); ++i)
       squared += (now.position[i] - before.position[i]) * (now.position[i] - before.position[i]);
@@ -281,37 +290,43 @@ void doubt_small_steps(const std::vector<MotionStep>& steps, std::vector<Warning
   if (!small.first || 3 * (static_cast<std::size_t>(small.more) + 1) > places.size()) return;  // a dense path
   warnings.push_back(small.warning(
       fmt::format("this target lies {:.3g} mm from the one before (limit {:g} mm or more)", 1e3 * way, 1e3 * most_step),
-      "an offset in metres instead of millimetres", fmt::format("{:.4g} mm in the program if that was metres", 1e6 * way)));
+      "an offset in metres instead of millimetres",
+      fmt::format("{:.4g} mm in the program if that was metres", 1e6 * way)));
 }
 
 /// Returns the place of the line in a program that assigns this tool or work object; line 0: none.
 Where assigned_at(const std::vector<MotionStep>& steps, const std::string& name) {
   for (const MotionStep& step : steps) {
-    const Where where = step.tool == name ? step.tool_where : step.work_object == name ? step.object_where : assigned_at(step.steps, name);
+    const Where where = step.tool == name          ? step.tool_where
+                        : step.work_object == name ? step.object_where
+                                                   : assigned_at(step.steps, name);
     if (where.line > 0) return where;
   }
   return {};
 }
 
 /// Warns of tools and work objects that are close to their reference frame, but not equal to it.
-void doubt_frames(const std::vector<MotionFrame>& frames, const char* kind, const Motion& motion, std::vector<Warning>& warnings) {
+void doubt_frames(const std::vector<MotionFrame>& frames, const char* kind, const Motion& motion,
+                  std::vector<Warning>& warnings) {
   for (const MotionFrame& frame : frames) {
     const Where assigned = assigned_at(motion.steps, frame.name), &where = assigned.line > 0 ? assigned : motion.where;
     const Vector3d& at = frame.position;
-    if (std::string_view(kind) == "tool" && !frame.stationary && at.z() < -std::max(tool_behind, std::hypot(at.x(), at.y())))
+    if (std::string_view(kind) == "tool" && !frame.stationary &&
+        at.z() < -std::max(tool_behind, std::hypot(at.x(), at.y())))
       warnings.push_back(warning_of(
           WarningKind::motion, where.text(),
-          fmt::format("the centre of tool '{}' lies {:.4g} mm behind the flange, in the arm (limit {:g})", frame.name, -1e3 * at.z(),
-                      1e3 * tool_behind),
+          fmt::format("the centre of tool '{}' lies {:.4g} mm behind the flange, in the arm (limit {:g})", frame.name,
+                      -1e3 * at.z(), 1e3 * tool_behind),
           "a wrong sign: z points out of the flange",
           fmt::format("[{:.4g}, {:.4g}, {:.4g}] in its declaration if so", 1e3 * at.x(), 1e3 * at.y(), -1e3 * at.z())));
     if (const double reach = at.cwiseAbs().maxCoeff(); reach < least_metres || reach > most_metres) continue;
     warnings.push_back(warning_of(
         WarningKind::motion, where.text(),
-        fmt::format("{} '{}' lies {:.3g} mm from the frame in which it is given (limit 0, or more than {:g} mm)", kind, frame.name,
-                    1e3 * at.norm(), 1e3 * most_metres),
+        fmt::format("{} '{}' lies {:.3g} mm from the frame in which it is given (limit 0, or more than {:g} mm)", kind,
+                    frame.name, 1e3 * at.norm(), 1e3 * most_metres),
         "metres instead of millimetres",
-        fmt::format("[{:.4g}, {:.4g}, {:.4g}] in its declaration if those were metres", 1e6 * at.x(), 1e6 * at.y(), 1e6 * at.z())));
+        fmt::format("[{:.4g}, {:.4g}, {:.4g}] in its declaration if those were metres", 1e6 * at.x(), 1e6 * at.y(),
+                    1e6 * at.z())));
   }
 }
 
@@ -330,7 +345,8 @@ std::vector<Warning> plausibility_of_steps(const Motion& motion) {
     warnings.push_back(seen.slow.warning(
         fmt::format("speed_percent is {:g} (limit {:g} or more)", *step->speed_percent, least_percent),
         "a share instead of a percentage",
-        fmt::format("{}{:g}{} if that was a share", key("speed_percent: ", "", *step), 100 * *step->speed_percent, key("", " %", *step))));
+        fmt::format("{}{:g}{} if that was a share", key("speed_percent: ", "", *step), 100 * *step->speed_percent,
+                    key("", " %", *step))));
   if (const MotionStep* step = seen.fast.first)
     warnings.push_back(seen.fast.warning(
         fmt::format("the tool's speed is {:g} m/s (limit {:g} or less)", *step->tool_speed, fastest_tool_of(*step)),
@@ -348,40 +364,44 @@ std::vector<Warning> plausibility_of_steps(const Motion& motion) {
     warnings.push_back(seen.wide.warning(
         fmt::format("the zone is {:g} mm (limit {:g} or less)", 1e3 * *step->tool_zone, 1e3 * widest_path_zone),
         "another unit or a slip of the decimal point",
-        fmt::format("{}{:g} mm if there are zeros too many", key("zone_mm: ", "a zone of ", *step), 10 * *step->tool_zone)));
+        fmt::format("{}{:g} mm if there are zeros too many", key("zone_mm: ", "a zone of ", *step),
+                    10 * *step->tool_zone)));
   if (const MotionStep* step = seen.repeats.first)
-    warnings.push_back(
-        seen.repeats.warning(fmt::format("repeat is {} (limit {} or less)", step->repeat, most_repeats),
-                             "the repeats of the whole program, which goes round by itself",
-                             "no repeat; hours of operation are fatigue.operating_hours_per_week"));
+    warnings.push_back(seen.repeats.warning(fmt::format("repeat is {} (limit {} or less)", step->repeat, most_repeats),
+                                            "the repeats of the whole program, which goes round by itself",
+                                            "no repeat; hours of operation are fatigue.operating_hours_per_week"));
   if (const MotionStep* step = seen.creeping.first)
     warnings.push_back(seen.creeping.warning(
         fmt::format("the tool's speed is {:.4g} mm/s (limit {:g} or more)", 1e3 * *step->tool_speed,
                     1e3 * slowest_tool),
         "m/s instead of mm/s, or a slip of the decimal point",
-        fmt::format("{}{:g}{} if that was m/s; 10 or 100 times as much if the decimal point slipped; leave it if the tool moves so slowly",
-                    key("speed_mm_per_s: ", "a speed of ", *step), 1e6 * *step->tool_speed, key("", " mm/s", *step))));
+        fmt::format(
+            "{}{:g}{} if that was m/s; 10 or 100 times as much if the decimal point slipped; leave it if the tool moves so slowly",
+            key("speed_mm_per_s: ", "a speed of ", *step), 1e6 * *step->tool_speed, key("", " mm/s", *step))));
   if (const MotionStep* step = seen.turning.first)
     warnings.push_back(seen.turning.warning(
-        fmt::format("speed_deg_per_s is {:.4g} (limit {:g} or more)", *step->speed / degree,
-                    slowest_move / degree),
+        fmt::format("speed_deg_per_s is {:.4g} (limit {:g} or more)", *step->speed / degree, slowest_move / degree),
         "radians per second instead of degrees",
         fmt::format("speed_deg_per_s: {:.3g} if that was rad/s", *step->speed / degree / degree)));
   if (const MotionStep* step = seen.waits.first)
-    warnings.push_back(
-        seen.waits.warning(fmt::format("{} is {:g} (limit {:g} or less)", key("dwell_s", "the wait in seconds", *step), step->dwell, longest_dwell),
-                           "milliseconds instead of seconds",
-                           fmt::format("{}{:g} if that was milliseconds", key("dwell_s: ", "a wait of ", *step), step->dwell / 1000)));
+    warnings.push_back(seen.waits.warning(
+        fmt::format("{} is {:g} (limit {:g} or less)", key("dwell_s", "the wait in seconds", *step), step->dwell,
+                    longest_dwell),
+        "milliseconds instead of seconds",
+        fmt::format("{}{:g} if that was milliseconds", key("dwell_s: ", "a wait of ", *step), step->dwell / 1000)));
   if (motion.speed_percent != 100 && seen.moves > 0 && !seen.default_speed)
-    warnings.push_back(warning_of(WarningKind::motion, motion.where.text(),
-                                  fmt::format("motion.speed_percent {:g} has no effect", motion.speed_percent),
-                                  "each move of the program has its own speed",
-                                  fmt::format("motion.override_percent: {:g} for the speed override of the controller",
-                                              motion.speed_percent < least_percent ? 100 * motion.speed_percent : motion.speed_percent)));
+    warnings.push_back(warning_of(
+        WarningKind::motion, motion.where.text(),
+        fmt::format("motion.speed_percent {:g} has no effect", motion.speed_percent),
+        "each move of the program has its own speed",
+        fmt::format("motion.override_percent: {:g} for the speed override of the controller",
+                    motion.speed_percent < least_percent ? 100 * motion.speed_percent : motion.speed_percent)));
   if (motion.override_percent <= least_percent)
-    warnings.push_back(warning_of(WarningKind::motion, motion.where.text(),
-                                  fmt::format("motion.override_percent is {:g} (limit more than {:g})", motion.override_percent, least_percent),
-                                  "a share instead of a percentage", fmt::format("motion.override_percent: {:g}", 100 * motion.override_percent)));
+    warnings.push_back(warning_of(
+        WarningKind::motion, motion.where.text(),
+        fmt::format("motion.override_percent is {:g} (limit more than {:g})", motion.override_percent, least_percent),
+        "a share instead of a percentage",
+        fmt::format("motion.override_percent: {:g}", 100 * motion.override_percent)));
   doubt_single_targets(motion.steps, warnings);
   doubt_small_steps(motion.steps, warnings);
   doubt_frames(motion.tools, "tool", motion, warnings);
@@ -393,15 +413,16 @@ std::vector<Warning> plausibility_of_steps(const Motion& motion) {
     way = std::max(way, (seen.high[k] - seen.low[k]) / degree);
   }
   if (seen.moves > 1 && seen.all_joints && way <= moves)
-    warnings.push_back(warning_of(WarningKind::motion, seen.first->where.text(),
-                                  fmt::format("no axis moves by more than {:.2g} deg (limit {:.2g} or more)", way, moves),
-                                  "targets that are copies of one, or turns instead of degrees",
-                                  "joints_deg: the angles of each target"));
-  if (largest <= most_radians && way > moves)
     warnings.push_back(warning_of(
         WarningKind::motion, seen.first->where.text(),
-        fmt::format("no joint angle of the motion is larger than {:.3g} deg (limit {:.3g} or more)", largest, most_radians),
-        "radians instead of degrees", "joints_deg in degrees; leave it if the robot moves so little"));
+        fmt::format("no axis moves by more than {:.2g} deg (limit {:.2g} or more)", way, moves),
+        "targets that are copies of one, or turns instead of degrees", "joints_deg: the angles of each target"));
+  if (largest <= most_radians && way > moves)
+    warnings.push_back(
+        warning_of(WarningKind::motion, seen.first->where.text(),
+                   fmt::format("no joint angle of the motion is larger than {:.3g} deg (limit {:.3g} or more)", largest,
+                               most_radians),
+                   "radians instead of degrees", "joints_deg in degrees; leave it if the robot moves so little"));
   if (seen.all_joints && seen.untimed == seen.moves && seen.moves >= least_targets && way > moves &&
       seen.farthest <= near_targets)
     warnings.push_back(warning_of(
@@ -412,17 +433,17 @@ std::vector<Warning> plausibility_of_steps(const Motion& motion) {
         "a recording without its column of times",
         "a column time_s with the time of each row, or motion.zone_deg if these are targets of a program"));
   if (seen.only_timed && way > moves && seen.fastest < least_speed)
-    warnings.push_back(warning_of(
-        WarningKind::motion, seen.first->where.text(),
-        fmt::format("no axis is faster than {:.2g} deg/s (limit {:.2g} or more)", seen.fastest / degree, least_speed / degree),
-        "milliseconds instead of seconds", "times in seconds"));
+    warnings.push_back(warning_of(WarningKind::motion, seen.first->where.text(),
+                                  fmt::format("no axis is faster than {:.2g} deg/s (limit {:.2g} or more)",
+                                              seen.fastest / degree, least_speed / degree),
+                                  "milliseconds instead of seconds", "times in seconds"));
   return warnings;
 }
 
 namespace {
 
-using AddDoubt = std::function<void(const Where&, const std::string& what, const std::string& cause,
-                                    const std::string& remedy)>;
+using AddDoubt =
+    std::function<void(const Where&, const std::string& what, const std::string& cause, const std::string& remedy)>;
 
 /// Returns whether a place is in a URDF, whose lengths and angles are in m and rad.
 bool is_urdf(const Where& where) { return where.file.ends_with(".urdf") || where.file.ends_with(".xml"); }
@@ -433,10 +454,9 @@ bool has_list(const Joint& joint) { return is_urdf(joint.where) && !is_urdf(join
 void doubt_limits(const Joint& joint, const AddDoubt& add) {
   const double lower = joint.lower / degree, upper = joint.upper / degree,
                largest = std::max(std::abs(lower), std::abs(upper));
-  if (largest <= most_turns || largest * degree > twice_around || std::abs(largest - endless_axis) < 1e-6)
-    return;
-  const std::string what = fmt::format("{} turns from {:.5g} to {:.5g} deg (limit {:g} turns)", joint.name,
-                                       lower, upper, most_turns / 360);
+  if (largest <= most_turns || largest * degree > twice_around || std::abs(largest - endless_axis) < 1e-6) return;
+  const std::string what =
+      fmt::format("{} turns from {:.5g} to {:.5g} deg (limit {:g} turns)", joint.name, lower, upper, most_turns / 360);
   const std::string last = "; leave it if the axis is built to turn so far";
   if (is_urdf(joint.where))
     add(joint.where, what, "degrees in a URDF, whose angles are in radians",
@@ -455,8 +475,7 @@ void doubt_ranges(const std::vector<const Joint*>& driven, const AddDoubt& add) 
   if (driven.empty() || largest == 0 || largest > most_radians) return;
   const Joint& first = *driven.front();
   add(first.where,
-      fmt::format("no axis of the robot turns farther than {:.3g} deg (limit {:.3g} or more)", largest,
-                  most_radians),
+      fmt::format("no axis of the robot turns farther than {:.3g} deg (limit {:.3g} or more)", largest, most_radians),
       is_urdf(first.where) ? "radians that were converted from degrees twice" : "radians instead of degrees",
       is_urdf(first.where)
           ? fmt::format("limit lower=\"{:.4g}\" upper=\"{:.4g}\" of {}, and of the other joints likewise",
@@ -485,26 +504,22 @@ void doubt_order(const std::vector<const Joint*>& driven, const AddDoubt& add) {
           least, most),
       "the reversed order of the axes",
       fmt::format(
-          "{}: {} if so",
-          has_list(first) ? "accelerations_deg_per_s2" : "acceleration_deg_per_s2 of the axes in turn",
-          has_list(first) ? fmt::format("[{}]", fmt::join(words, ", "))
-                          : fmt::format("{}", fmt::join(words, ", "))));
+          "{}: {} if so", has_list(first) ? "accelerations_deg_per_s2" : "acceleration_deg_per_s2 of the axes in turn",
+          has_list(first) ? fmt::format("[{}]", fmt::join(words, ", ")) : fmt::format("{}", fmt::join(words, ", "))));
 }
 
 void doubt_speed(const Joint& joint, const AddDoubt& add) {
   const double speed = joint.speed / degree;
   const bool slow = joint.speed < slowest_axis;
   if (!(joint.speed > 0) || (!slow && joint.speed <= fastest_axis)) return;
-  const std::string limits =
-      fmt::format("(limits {:g} .. {:g}", slowest_axis / degree, fastest_axis / degree);
+  const std::string limits = fmt::format("(limits {:g} .. {:g}", slowest_axis / degree, fastest_axis / degree);
   if (!is_urdf(joint.where))
     return add(joint.where, fmt::format("speed_deg_per_s of {} is {:.4g} {})", joint.name, speed, limits),
                slow ? "radians per second instead of degrees" : "degrees per minute",
                slow ? fmt::format("speed_deg_per_s: {:.4g} if that was rad/s", speed / degree)
                     : fmt::format("speed_deg_per_s: {:.4g} if that was deg/min", speed / 60));
   add(joint.where,
-      fmt::format("velocity of {} is {:.4g} rad/s, {:.4g} deg/s {} deg/s)", joint.name, joint.speed, speed,
-                  limits),
+      fmt::format("velocity of {} is {:.4g} rad/s, {:.4g} deg/s {} deg/s)", joint.name, joint.speed, speed, limits),
       slow ? "another unit, or a conversion that was made twice"
            : "degrees per second in a URDF, whose angles are in radians",
       slow ? fmt::format("velocity=\"{:.4g}\" if the conversion was made twice", speed)
@@ -525,8 +540,7 @@ bool doubt_ramp(const Joint& joint, const std::vector<const Joint*>& driven, con
       "{} takes {:.3g} s from rest to its full speed of {:.4g} deg/s by acceleration_deg_per_s2 {:.4g} (limits {:g} .. {:g} s)",
       joint.name, ramp, speed, joint.acceleration / degree, shortest_ramp, longest_ramp);
   if (!has_list(joint)) {
-    add(joint.acceleration_where, what, cause,
-        fmt::format("acceleration_deg_per_s2: {}{}", meant(joint), why));
+    add(joint.acceleration_where, what, cause, fmt::format("acceleration_deg_per_s2: {}{}", meant(joint), why));
     return false;
   }
   const auto numbers = mapped(driven, [&](const Joint* of) { return meant(*of); });
@@ -547,11 +561,13 @@ void doubt_quick(const std::vector<const Joint*>& driven, const AddDoubt& add) {
   if (driven.empty() || longest >= quickest_robot || longest < shortest_ramp) return;
   const Joint& first = *driven.front();
   add(first.acceleration_where,
-      fmt::format("every axis reaches its full speed within {:.3g} s (limit {:g} s or more for one of them)", longest, quickest_robot),
+      fmt::format("every axis reaches its full speed within {:.3g} s (limit {:g} s or more for one of them)", longest,
+                  quickest_robot),
       "accelerations with a digit too many, or in another unit",
       fmt::format("{}: {} if there is an extra zero",
                   has_list(first) ? "accelerations_deg_per_s2" : "acceleration_deg_per_s2 of the axes in turn",
-                  has_list(first) ? fmt::format("[{}]", fmt::join(numbers, ", ")) : fmt::format("{}", fmt::join(numbers, ", "))));
+                  has_list(first) ? fmt::format("[{}]", fmt::join(numbers, ", "))
+                                  : fmt::format("{}", fmt::join(numbers, ", "))));
 }
 
 /// Warns of an acceleration with which one axis takes much more or less time to its full speed than the axes beside it. Makers
@@ -572,13 +588,15 @@ void doubt_digits(const std::vector<const Joint*>& driven, const AddDoubt& add) 
     if (high > most_apart * low || (!slow && ramp(joint) >= low / most_apart)) continue;
     const double number = joint.acceleration / degree, ten_times = slow ? 10 * number : number / 10;
     const double like_beside = 10 * std::round(joint.speed / std::sqrt(low * high) / degree / 10);
-    const auto numbers = mapped(
-        driven, [&](const Joint* of) { return fmt::format("{:.5g}", of == &joint ? ten_times : of->acceleration / degree); });
+    const auto numbers = mapped(driven, [&](const Joint* of) {
+      return fmt::format("{:.5g}", of == &joint ? ten_times : of->acceleration / degree);
+    });
     const bool list = has_list(joint);
     add(joint.acceleration_where,
-        fmt::format("{} takes {:.3g} s from rest to its full speed by acceleration_deg_per_s2 {:.5g}, the axes beside it {:.3g} "
-                    "and {:.3g} s (limit: {:g} times as much or as little)",
-                    joint.name, ramp(joint), number, ramp(one), ramp(other), most_apart),
+        fmt::format(
+            "{} takes {:.3g} s from rest to its full speed by acceleration_deg_per_s2 {:.5g}, the axes beside it {:.3g} "
+            "and {:.3g} s (limit: {:g} times as much or as little)",
+            joint.name, ramp(joint), number, ramp(one), ramp(other), most_apart),
         slow ? "a missing or exchanged digit" : "an extra or exchanged digit",
         fmt::format("{}: {} if a digit is {}; about {:g} is in proportion to the axes beside it",
                     list ? "accelerations_deg_per_s2" : "acceleration_deg_per_s2",
@@ -637,7 +655,9 @@ void doubt_boxes(const Cell& cell, const Robot& robot, const AddDoubt& add) {
     for (const auto& [name, point] : points_in(robot)) {
       const Eigen::Vector3d off = (point - box.position).cwiseAbs() - box.sides / 2;
       if (off.maxCoeff() >= -inside_robot) continue;
-      add({}, fmt::format("cell.boxes[{}] contains {} at [{:.3g}, {:.3g}, {:.3g}] m", k + 1, name, point.x(), point.y(), point.z()),
+      add({},
+          fmt::format("cell.boxes[{}] contains {} at [{:.3g}, {:.3g}, {:.3g}] m", k + 1, name, point.x(), point.y(),
+                      point.z()),
           "a box in another frame than the world's, or sides_m that are twice as long as they are",
           "position_m of its centre in the world, and sides_m, its full lengths");
       break;
@@ -656,7 +676,8 @@ void doubt_cell(const Cell& cell, const SimulationSettings& simulation, const Ad
     if (const Eigen::Vector3d& sides = cell.boxes[k].sides; sides.maxCoeff() > longest_box)
       add({}, fmt::format("cell.boxes[{}] is {:.4g} m long (limit {:g})", k + 1, sides.maxCoeff(), longest_box),
           "millimetres instead of metres",
-          fmt::format("sides_m: [{:g}, {:g}, {:g}] if those were millimetres", sides.x() / 1e3, sides.y() / 1e3, sides.z() / 1e3));
+          fmt::format("sides_m: [{:g}, {:g}, {:g}] if those were millimetres", sides.x() / 1e3, sides.y() / 1e3,
+                      sides.z() / 1e3));
     else if (const double far = cell.boxes[k].position.norm() - cell.boxes[k].sides.norm(); far > farthest)
       add({}, fmt::format("cell.boxes[{}] lies {:.4g} m from the origin (limit {:g})", k + 1, far, farthest),
           "another unit", "position_m in metres, or no box: the dresspack does not reach it");
@@ -686,8 +707,9 @@ void doubt_mounting(const Routing& routing, const AddDoubt& add) {
       fmt::format("no angle of routing.mounting_pose_deg, [{}], is larger than {:.3g} deg (limit {:.3g} or more)",
                   fmt::join(written, ", "), largest, most_radians),
       "radians instead of degrees",
-      fmt::format("routing.mounting_pose_deg: [{}] if those were radians; leave it if the arm was this near to its zero pose",
-                  fmt::join(meant, ", ")));
+      fmt::format(
+          "routing.mounting_pose_deg: [{}] if those were radians; leave it if the arm was this near to its zero pose",
+          fmt::join(meant, ", ")));
 }
 
 /// Returns those of the two links beside `name` in the chain to whose shapes the point in their frame is nearer than `most` [m]:
@@ -711,21 +733,24 @@ void doubt_flange_frame(const char* key, const Clamp& clamp, const Robot& robot,
   if (behind <= std::max(least, wrist / 2) || clamp.position.z() < 0) return;
   const Vector3d meant = robot.flange_position + flange * clamp.position, to = flange * clamp.direction;
   add(clamp.where,
-      fmt::format("routing.{}.position_m lies {:.3g} m behind the flange (limit {:.3g}, half of the way to the wrist's centre)",
-                  key, behind, std::max(least, wrist / 2)),
+      fmt::format(
+          "routing.{}.position_m lies {:.3g} m behind the flange (limit {:.3g}, half of the way to the wrist's centre)",
+          key, behind, std::max(least, wrist / 2)),
       "a place in the frame of the flange (tool0) instead of that of " + clamp.link,
-      fmt::format("position_m: [{:.4g}, {:.4g}, {:.4g}] and direction: [{:.3g}, {:.3g}, {:.3g}] if so; leave it if the bracket "
-                  "reaches back so far",
-                  meant.x(), meant.y(), meant.z(), to.x(), to.y(), to.z()));
+      fmt::format(
+          "position_m: [{:.4g}, {:.4g}, {:.4g}] and direction: [{:.3g}, {:.3g}, {:.3g}] if so; leave it if the bracket "
+          "reaches back so far",
+          meant.x(), meant.y(), meant.z(), to.x(), to.y(), to.z()));
 }
 
 /// Warns of a clamp at the origin of its link's frame, on the axis of a joint. At a flange it may be a hose through the tool.
 bool doubt_origin(const char* key, const Clamp& clamp, const Robot& robot, const AddDoubt& add) {
-  const bool at_flange = !robot.links.empty() && clamp.link == robot.links.back().name && robot.flange_position.isZero();
+  const bool at_flange =
+      !robot.links.empty() && clamp.link == robot.links.back().name && robot.flange_position.isZero();
   if (!clamp.position.isZero() || at_flange) return false;
   add(clamp.where,
-      fmt::format("routing.{}.position_m is [0, 0, 0], the origin of {}: inside of the robot, on the axis of a joint", key,
-                  clamp.link),
+      fmt::format("routing.{}.position_m is [0, 0, 0], the origin of {}: inside of the robot, on the axis of a joint",
+                  key, clamp.link),
       "a place that was not filled in",
       fmt::format("routing.{}.position_m of the bracket, in metres in the frame of {}: dresslife preview shows it by a "
                   "click on the link",
@@ -741,7 +766,8 @@ void doubt_place(const char* key, const Clamp& clamp, const Routing& routing, do
   if (!away || doubt_origin(key, clamp, robot, add)) return;
   doubt_flange_frame(key, clamp, robot, add);
   const bool on_tool = clamp.link == robot.links.back().name;
-  const std::string beside = on_tool || *away <= near_link ? "" : links_beside(robot, clamp.link, clamp.position, near_limit);
+  const std::string beside =
+      on_tool || *away <= near_link ? "" : links_beside(robot, clamp.link, clamp.position, near_limit);
   for (const auto& [one, other] : {std::pair{0, 2}, {0, 1}, {1, 2}}) {
     Vector3d exchanged = clamp.position;
     std::swap(exchanged[one], exchanged[other]);
@@ -749,9 +775,11 @@ void doubt_place(const char* key, const Clamp& clamp, const Routing& routing, do
     if (*away <= near_limit || then > *away / (*away > near_link ? 2 : 4) || then == 0) continue;  // inside of the link
     return add(
         clamp.where,
-        fmt::format("routing.{}.position_m lies {:.3g} m from all shapes of {} (limit {:.3g})", key, *away, clamp.link, near_limit),
+        fmt::format("routing.{}.position_m lies {:.3g} m from all shapes of {} (limit {:.3g})", key, *away, clamp.link,
+                    near_limit),
         beside.empty() ? "exchanged coordinates" : fmt::format("exchanged coordinates, or a place on {}", beside),
-        fmt::format("position_m: [{:g}, {:g}, {:g}] if coordinates are exchanged, ", exchanged.x(), exchanged.y(), exchanged.z()) +
+        fmt::format("position_m: [{:g}, {:g}, {:g}] if coordinates are exchanged, ", exchanged.x(), exchanged.y(),
+                    exchanged.z()) +
             (beside.empty() ? "" : fmt::format("link: {} if it is there, ", beside)) +
             fmt::format("or routing.longest_bracket_mm: {:.0f} if a bracket is so long", std::ceil(1e2 * *away) * 10));
   }
@@ -766,17 +794,18 @@ void doubt_place(const char* key, const Clamp& clamp, const Routing& routing, do
     if (nearest > near_link) best = other, nearest = *distance_to(robot, clamp.link, other);
   }
   add(clamp.where,
-      fmt::format("routing.{}.position_m lies {:.3g} m from all shapes of {} (limit {:g}): the clamp is in the air", key, *away,
-                  clamp.link, std::min(limit, *away <= limit ? near_limit : limit)),
+      fmt::format("routing.{}.position_m lies {:.3g} m from all shapes of {} (limit {:g}): the clamp is in the air",
+                  key, *away, clamp.link, std::min(limit, *away <= limit ? near_limit : limit)),
       beside.empty() ? "a decimal point at another place, another link or a place in another frame"
                      : fmt::format("a place on {}", beside),
       (beside.empty() ? "" : fmt::format("link: {} if it is there; ", beside)) +
-          (nearest <= near_link
-               ? fmt::format("position_m: [{:g}, {:g}, {:g}] if a decimal point slipped; ", best.x(), best.y(), best.z())
-               : std::string("position_m in the frame of the link; ")) +
+          (nearest <= near_link ? fmt::format("position_m: [{:g}, {:g}, {:g}] if a decimal point slipped; ", best.x(),
+                                              best.y(), best.z())
+                                : std::string("position_m in the frame of the link; ")) +
           (on_tool ? fmt::format("or the shape of the tool as robot.links.{}.boxes, if it is clamped to a large tool",
                                  robot.links.size())
-                   : fmt::format("or routing.longest_bracket_mm: {:.0f} if a bracket is so long", std::ceil(1e2 * *away) * 10)));
+                   : fmt::format("or routing.longest_bracket_mm: {:.0f} if a bracket is so long",
+                                 std::ceil(1e2 * *away) * 10)));
 }
 
 /// Warns of angles about the axes, in the form of controllers, instead of a direction.
@@ -786,10 +815,13 @@ void doubt_direction(const char* key, const Clamp& clamp, const AddDoubt& add) {
   for (const double number : to)
     if (std::abs(number) > most || std::abs(std::remainder(number, round_angle)) > 1e-9) return;
   const Vector3d unit = to.normalized();
-  add(clamp.where, fmt::format("routing.{}.direction is [{:g}, {:g}, {:g}] (limit: numbers below {:g})", key, to.x(), to.y(), to.z(), round_angle),
+  add(clamp.where,
+      fmt::format("routing.{}.direction is [{:g}, {:g}, {:g}] (limit: numbers below {:g})", key, to.x(), to.y(), to.z(),
+                  round_angle),
       "angles in degrees instead of a vector",
-      fmt::format("direction: [{:.3g}, {:.3g}, {:.3g}] if it points there from the base to the tool, in the frame of the link; [1, 0, 0] is its x axis",
-                  unit.x(), unit.y(), unit.z()));
+      fmt::format(
+          "direction: [{:.3g}, {:.3g}, {:.3g}] if it points there from the base to the tool, in the frame of the link; [1, 0, 0] is its x axis",
+          unit.x(), unit.y(), unit.z()));
 }
 
 auto link_of(const Robot& robot, const Clamp& clamp) { return std::ranges::find(robot.links, clamp.link, &Link::name); }
@@ -797,16 +829,20 @@ auto link_of(const Robot& robot, const Clamp& clamp) { return std::ranges::find(
 void doubt_order_of_clamps(const Routing& routing, const Robot& robot, const AddDoubt& add) {
   if (!clamps_exchanged(routing, robot)) return;
   const auto base = link_of(robot, *routing.base_clamp), tool = link_of(robot, *routing.tool_clamp);
-  const auto away = [&](const Link& link, const Clamp& clamp) { return distance_to(robot, link.name, clamp.position).value_or(0); };
+  const auto away = [&](const Link& link, const Clamp& clamp) {
+    return distance_to(robot, link.name, clamp.position).value_or(0);
+  };
   const bool links = away(*tool, *routing.base_clamp) + away(*base, *routing.tool_clamp) <
                      away(*base, *routing.base_clamp) + away(*tool, *routing.tool_clamp);
   add(routing.base_clamp->where,
-      fmt::format("routing.base_clamp is on {}, and routing.tool_clamp on {}, which is nearer to the robot's base", base->name,
-                  tool->name),
+      fmt::format("routing.base_clamp is on {}, and routing.tool_clamp on {}, which is nearer to the robot's base",
+                  base->name, tool->name),
       "exchanged clamps, or exchanged links",
-      links ? fmt::format("routing.base_clamp.link: {} and routing.tool_clamp.link: {}: then both places are nearer to their links",
-                          tool->name, base->name)
-            : std::string("exchange base_clamp and tool_clamp"));
+      links
+          ? fmt::format(
+                "routing.base_clamp.link: {} and routing.tool_clamp.link: {}: then both places are nearer to their links",
+                tool->name, base->name)
+          : std::string("exchange base_clamp and tool_clamp"));
 }
 
 void doubt_routing(const Routing& routing, const Dresspack& dresspack, const Robot& robot, int segments,
@@ -823,7 +859,8 @@ void doubt_routing(const Routing& routing, const Dresspack& dresspack, const Rob
     if (*clamp && (*clamp)->position.norm() > farthest_clamp) {
       const Eigen::Vector3d& at = (*clamp)->position;
       add((*clamp)->where,
-          fmt::format("routing.{}.position_m lies {:.4g} m from the frame of its link (limit {:g})", key, at.norm(), farthest_clamp),
+          fmt::format("routing.{}.position_m lies {:.4g} m from the frame of its link (limit {:g})", key, at.norm(),
+                      farthest_clamp),
           "centimetres instead of metres, or a place in the world",
           fmt::format("position_m: [{:g}, {:g}, {:g}] if those were centimetres", at.x() / 100, at.y() / 100,
                       at.z() / 100));
@@ -834,31 +871,32 @@ void doubt_routing(const Routing& routing, const Dresspack& dresspack, const Rob
   if (const double limit = least_bend_radius(dresspack), segment = routing.free_length / segments;
       routing.base_clamp && segments < few_segments && segment > longest_segment * limit && limit > 0)
     add(routing.where,
-        fmt::format("simulation.segments is {}: a segment is {:.3g} m long (limit {:.3g} m: {:g} of the least bend radius)", segments,
-                    segment, longest_segment * limit, longest_segment),
+        fmt::format(
+            "simulation.segments is {}: a segment is {:.3g} m long (limit {:.3g} m: {:g} of the least bend radius)",
+            segments, segment, longest_segment * limit, longest_segment),
         "a number for a trial: the shape, the bends and the lives are wrong", "simulation.segments: 64");
   // Small angles in radians or turns are multiples of an eighth or a half of a turn; a search proposes any angle.
   constexpr double rounded = 0.005;
   const double number = routing.pre_twist / degree;
-  const bool simple = std::abs(std::remainder(number, pi / 4)) < rounded || std::abs(std::remainder(number, 0.5)) < 1e-9;
+  const bool simple =
+      std::abs(std::remainder(number, pi / 4)) < rounded || std::abs(std::remainder(number, 0.5)) < 1e-9;
   if (const double twist = std::abs(routing.pre_twist);
       (twist > 0 && twist < least_pre_twist && simple) || twist > largest_pre_twist)
     add(routing.where,
         fmt::format("routing.pre_twist_deg is {:.4g} (limits {:.3g} .. {:g})", routing.pre_twist / degree,
                     least_pre_twist / degree, largest_pre_twist / degree),
         twist < least_pre_twist ? "radians or turns instead of degrees" : "another unit",
-        twist < least_pre_twist ? fmt::format("routing.pre_twist_deg: {:.4g} if that was radians",
-                                              routing.pre_twist / degree / degree)
-                                : "routing.pre_twist_deg: -180 .. 180");
+        twist < least_pre_twist
+            ? fmt::format("routing.pre_twist_deg: {:.4g} if that was radians", routing.pre_twist / degree / degree)
+            : "routing.pre_twist_deg: -180 .. 180");
   if (const double bracket = routing.longest_bracket.value_or(shortest_bracket);
       (bracket > 0 && bracket < shortest_bracket) || bracket > longest_built)
     add(routing.where,
         fmt::format("routing.longest_bracket_mm is {:.4g} (limits {:g} .. {:g}, or 0)", 1e3 * bracket,
                     1e3 * shortest_bracket, 1e3 * longest_built),
         bracket < shortest_bracket ? "metres instead of millimetres" : "another unit",
-        bracket < shortest_bracket
-            ? fmt::format("routing.longest_bracket_mm: {:g} if that was metres", 1e6 * bracket)
-            : "routing.longest_bracket_mm: 150");
+        bracket < shortest_bracket ? fmt::format("routing.longest_bracket_mm: {:g} if that was metres", 1e6 * bracket)
+                                   : "routing.longest_bracket_mm: 150");
   for (const GuideRing& ring : routing.rings)
     if (2 * ring.radius > widest_ring * dresspack.diameter)
       add(ring.where,
@@ -869,25 +907,20 @@ void doubt_routing(const Routing& routing, const Dresspack& dresspack, const Rob
   if (!routing.retraction) return;
   const Retraction& unit = *routing.retraction;
   if (unit.stroke > longest_stroke)
-    add(unit.where,
-        fmt::format("stroke_m of the retraction unit is {:.4g} (limit {:g})", unit.stroke, longest_stroke),
-        "millimetres instead of metres",
-        fmt::format("stroke_m: {:g} if that was millimetres", unit.stroke / 1e3));
+    add(unit.where, fmt::format("stroke_m of the retraction unit is {:.4g} (limit {:g})", unit.stroke, longest_stroke),
+        "millimetres instead of metres", fmt::format("stroke_m: {:g} if that was millimetres", unit.stroke / 1e3));
   if (unit.force > largest_pull)
-    add(unit.where,
-        fmt::format("force_N of the retraction unit is {:.4g} (limit {:g})", unit.force, largest_pull),
+    add(unit.where, fmt::format("force_N of the retraction unit is {:.4g} (limit {:g})", unit.force, largest_pull),
         "another unit", fmt::format("force_N: {:g} if that was mN", unit.force / 1e3));
   if (unit.force == 0 && unit.spring == 0)
     add(unit.where, "force_N of the retraction unit is 0, and it has no spring: it pulls nothing back",
         "a force that is not known", "force_N: 20 to 100 N, as its maker states");
   if (unit.spring > stiffest_spring)
     add(unit.where,
-        fmt::format("spring_N_per_m of the retraction unit is {:.4g} (limit {:g})", unit.spring,
-                    stiffest_spring),
+        fmt::format("spring_N_per_m of the retraction unit is {:.4g} (limit {:g})", unit.spring, stiffest_spring),
         "another unit", fmt::format("spring_N_per_m: {:g} if that was N/km", unit.spring / 1e3));
   if (unit.mass > heaviest_slider)
-    add(unit.where,
-        fmt::format("mass_kg of the retraction unit is {:.4g} (limit {:g})", unit.mass, heaviest_slider),
+    add(unit.where, fmt::format("mass_kg of the retraction unit is {:.4g} (limit {:g})", unit.mass, heaviest_slider),
         "grams instead of kilograms", fmt::format("mass_kg: {:g} if that was grams", unit.mass / 1e3));
 }
 
@@ -903,8 +936,8 @@ void doubt_spreads(const Job& job, const AddDoubt& add) {
                       1 + job.uncertainty.spread[p] / 100));
 }
 
-Warning beyond_limit(WarningKind kind, const char* key, double value, const std::string& limit, const std::string& cause,
-                     const std::string& remedy) {
+Warning beyond_limit(WarningKind kind, const char* key, double value, const std::string& limit,
+                     const std::string& cause, const std::string& remedy) {
   return warning_of(kind, "", fmt::format("{} is {:.6g} (limit {})", key, value, limit), cause, remedy);
 }
 
@@ -916,8 +949,8 @@ AddDoubt adding_to(std::vector<Warning>& warnings) {
 
 std::vector<Warning> doubts_of_motion(const Job& job) {
   std::vector<Warning> warnings;
-  const auto add = [&](WarningKind kind, const char* key, double value, const std::string& limit, const std::string& cause,
-                       const std::string& remedy) {
+  const auto add = [&](WarningKind kind, const char* key, double value, const std::string& limit,
+                       const std::string& cause, const std::string& remedy) {
     warnings.push_back(beyond_limit(kind, key, value, limit, cause, remedy));
   };
   const AddDoubt doubt = adding_to(warnings);
@@ -943,13 +976,16 @@ std::vector<Warning> doubts_of_motion(const Job& job) {
         "simulation.periodic_tolerance_mm: 1");
   if (job.motion.spot_time > longest_spot)
     add(WarningKind::motion, "motion.spot_time_s", job.motion.spot_time, fmt::format("{:g} or less", longest_spot),
-        "milliseconds instead of seconds", fmt::format("motion.spot_time_s: {:g} if that was milliseconds", job.motion.spot_time / 1000));
+        "milliseconds instead of seconds",
+        fmt::format("motion.spot_time_s: {:g} if that was milliseconds", job.motion.spot_time / 1000));
   if (job.motion.speed_percent < least_percent)
-    add(WarningKind::motion, "motion.speed_percent", job.motion.speed_percent, fmt::format("{:g} or more", least_percent),
-        "a share instead of per cent", fmt::format("motion.speed_percent: {:g} if that was a share", 100 * job.motion.speed_percent));
+    add(WarningKind::motion, "motion.speed_percent", job.motion.speed_percent,
+        fmt::format("{:g} or more", least_percent), "a share instead of per cent",
+        fmt::format("motion.speed_percent: {:g} if that was a share", 100 * job.motion.speed_percent));
   if (job.motion.zone > widest_zone)
-    add(WarningKind::motion, "motion.zone_deg", job.motion.zone / degree, fmt::format("{:g} or less", widest_zone / degree),
-        "another unit, such as mm or per cent", "motion.zone_deg: 0, or the zone that the controller uses");
+    add(WarningKind::motion, "motion.zone_deg", job.motion.zone / degree,
+        fmt::format("{:g} or less", widest_zone / degree), "another unit, such as mm or per cent",
+        "motion.zone_deg: 0, or the zone that the controller uses");
   const Eigen::Vector3d gravity = job.simulation.gravity;
   if (const double size = gravity.norm(); size > 0) {
     if (std::abs(size / standard_gravity - 1) > gravity_spread)
@@ -980,15 +1016,16 @@ void doubt_bend_reliefs(const MountedDresspack& mounted, int segments, std::vect
         own > 0 && stiffness > rigid * own)
       warnings.push_back(warning_of(
           WarningKind::material, clamp->where.text(),
-          fmt::format("bend_relief.bending_stiffness_Nm2 is {:.4g} (limit {:.2g}, {:g} times the dresspack's)", stiffness, rigid * own, rigid),
+          fmt::format("bend_relief.bending_stiffness_Nm2 is {:.4g} (limit {:.2g}, {:g} times the dresspack's)",
+                      stiffness, rigid * own, rigid),
           "N mm2 instead of N m2, or a tube: the dresspack bends at its end as at a clamp",
           fmt::format("bending_stiffness_Nm2: {:.2g}, as the dresspack", own)));
     const double length = clamp->bend_relief->length, within = length * segments / routing.free_length;
     if (within >= fewest) continue;
     warnings.push_back(warning_of(
         WarningKind::mesh, clamp->where.text(),
-        fmt::format("bend_relief.length_mm is {:.4g}: {:.2g} segments (limit {}): the bend at the clamp is uncertain", 1e3 * length,
-                    within, fewest),
+        fmt::format("bend_relief.length_mm is {:.4g}: {:.2g} segments (limit {}): the bend at the clamp is uncertain",
+                    1e3 * length, within, fewest),
         length < 1e-3 ? "metres instead of millimetres" : "the segments are too long for it",
         length < 1e-3 ? fmt::format("bend_relief.length_mm: {:.4g} if that was metres", 1e6 * length)
                       : fmt::format("simulation.segments: {:.0f}", std::ceil(fewest * routing.free_length / length))));
@@ -999,28 +1036,31 @@ void doubt_bend_reliefs(const MountedDresspack& mounted, int segments, std::vect
 
 std::vector<Warning> plausibility_of_lives(const Job& job) {
   std::vector<Warning> warnings;
-  const auto add = [&](const char* key, double value, const std::string& limit, const std::string& cause, const std::string& remedy) {
+  const auto add = [&](const char* key, double value, const std::string& limit, const std::string& cause,
+                       const std::string& remedy) {
     warnings.push_back(beyond_limit(WarningKind::material, key, value, limit, cause, remedy));
   };
   const Fatigue& fatigue = job.fatigue;
   if (fatigue.failed_wires_percent > 0 && fatigue.failed_wires_percent < 1)
-    add("fatigue.failed_wires_percent", fatigue.failed_wires_percent, "0, or 1 or more",
-        "a share instead of per cent", fmt::format("fatigue.failed_wires_percent: {:g}", 100 * fatigue.failed_wires_percent));
+    add("fatigue.failed_wires_percent", fatigue.failed_wires_percent, "0, or 1 or more", "a share instead of per cent",
+        fmt::format("fatigue.failed_wires_percent: {:g}", 100 * fatigue.failed_wires_percent));
   if (fatigue.robot_life_hours < least_robot_life)
     add("fatigue.robot_life_hours", fatigue.robot_life_hours, fmt::format("{:g} or more", least_robot_life),
         "years instead of hours", "fatigue.robot_life_hours: 40000, or leave the key out");
   if (fatigue.operating_hours_per_week < least_week)
-    add("fatigue.operating_hours_per_week", fatigue.operating_hours_per_week,
-        fmt::format("{:g} or more", least_week), "a share of the week, or another unit",
+    add("fatigue.operating_hours_per_week", fatigue.operating_hours_per_week, fmt::format("{:g} or more", least_week),
+        "a share of the week, or another unit",
         "fatigue.operating_hours_per_week: 80, or the hours of motion in a week");
   else if (fatigue.operating_hours_per_week <= hours_of_day)
     add("fatigue.operating_hours_per_week", fatigue.operating_hours_per_week,
         fmt::format("more than {:g}", hours_of_day), "hours of a day",
-        fmt::format("fatigue.operating_hours_per_week: {:g} if that was per working day; leave it if the robot moves so little",
-                    5 * fatigue.operating_hours_per_week));
+        fmt::format(
+            "fatigue.operating_hours_per_week: {:g} if that was per working day; leave it if the robot moves so little",
+            5 * fatigue.operating_hours_per_week));
   if (fatigue.endurance_strain > largest_endurance)
     add("fatigue.endurance_strain", fatigue.endurance_strain, fmt::format("{:g} or less", largest_endurance),
-        "per cent instead of a share", fmt::format("fatigue.endurance_strain: {:g} if that was per cent", fatigue.endurance_strain / 100));
+        "per cent instead of a share",
+        fmt::format("fatigue.endurance_strain: {:g} if that was per cent", fatigue.endurance_strain / 100));
   const std::pair<const char*, double> factors[] = {{"fatigue.strength_factor", fatigue.strength_factor},
                                                     {"fatigue.model_factor", fatigue.model_factor},
                                                     {"fatigue.motion_factor", fatigue.motion_factor},
@@ -1036,7 +1076,8 @@ std::vector<Warning> plausibility_of_lives(const Job& job) {
           value > 1 ? fmt::format("{}: {:g} if that was per cent", key, value / 100) : fmt::format("{}: 1", key));
   doubt_spreads(job, adding_to(warnings));
   for (const MountedDresspack& mounted : job.dresspacks)
-    if (!job.motion.is_prescribed()) warnings = joined(std::move(warnings), radians_in(echo_fields(mounted.dresspack), "dresspack"));
+    if (!job.motion.is_prescribed())
+      warnings = joined(std::move(warnings), radians_in(echo_fields(mounted.dresspack), "dresspack"));
   if (job.strain.gate > largest_gate)
     warnings.push_back(
         warning_of(WarningKind::strain, "",
@@ -1069,7 +1110,8 @@ double usual_distance(const Routing& routing, const Dresspack& dresspack) {
 }
 
 const Clamp* clamp_on_wrong_link(const Routing& routing, const Robot& robot) {
-  if (robot.links.empty() || !routing.base_clamp || !routing.tool_clamp || routing.base_clamp->link != routing.tool_clamp->link)
+  if (robot.links.empty() || !routing.base_clamp || !routing.tool_clamp ||
+      routing.base_clamp->link != routing.tool_clamp->link)
     return nullptr;
   return robot.links.back().name == routing.base_clamp->link ? &*routing.base_clamp : &*routing.tool_clamp;
 }
@@ -1130,18 +1172,19 @@ std::vector<Warning> plausibility_of_motion(const Job& job) {
   const Motion& motion = job.motion;
   std::vector<Warning> warnings = doubts_of_motion(job);
   if (!motion.is_prescribed() && job.simulation.sample_rate < least_rate)
-    warnings.push_back(warning_of(WarningKind::mesh, "",
-                                  fmt::format("simulation.sample_rate_Hz is {:g} (limit {:g} or more)",
-                                              job.simulation.sample_rate, least_rate),
-                                  "seconds instead of 1/s; the samples miss the hose's swing",
-                                  "simulation.sample_rate_Hz: 25"));
+    warnings.push_back(warning_of(
+        WarningKind::mesh, "",
+        fmt::format("simulation.sample_rate_Hz is {:g} (limit {:g} or more)", job.simulation.sample_rate, least_rate),
+        "seconds instead of 1/s; the samples miss the hose's swing", "simulation.sample_rate_Hz: 25"));
   if (!motion.is_prescribed() && !job.simulation.choose_time_step && job.simulation.time_step > largest_step)
     warnings.push_back(warning_of(WarningKind::mesh, "",
-                                  fmt::format("simulation.time_step_ms is {:g} (limit {:g} or less)", 1e3 * job.simulation.time_step,
-                                              1e3 * largest_step),
-                                  "a digit too many; larger steps were not tested", "simulation.time_step_ms: 5, or auto"));
+                                  fmt::format("simulation.time_step_ms is {:g} (limit {:g} or less)",
+                                              1e3 * job.simulation.time_step, 1e3 * largest_step),
+                                  "a digit too many; larger steps were not tested",
+                                  "simulation.time_step_ms: 5, or auto"));
   if (!motion.is_prescribed())
-    for (const MountedDresspack& mounted : job.dresspacks) doubt_bend_reliefs(mounted, job.simulation.segments, warnings);
+    for (const MountedDresspack& mounted : job.dresspacks)
+      doubt_bend_reliefs(mounted, job.simulation.segments, warnings);
   return motion.program.empty() ? joined(std::move(warnings), plausibility_of_steps(motion)) : warnings;
 }
 

@@ -12,8 +12,7 @@ void describe(Fields& f, UrdfRequest& request) {
          "The link of the URDF at the flange. Default: tool0, flange, or the only end.");
   f.path("package_folder", request.package_folder, Need::optional,
          "The folder of the packages of package:// names. Default: the folders above the URDF.");
-  f.choice("collision", request.collision,
-           "Whether the collision shapes of the URDF become the shapes of the links.");
+  f.choice("collision", request.collision, "Whether the collision shapes of the URDF become the shapes of the links.");
   f.numbers("accelerations_deg_per_s2", request.accelerations, Need::optional,
             "The highest accelerations of the axes in their order. A URDF has none.");
   f.place_of("accelerations_deg_per_s2", request.accelerations_where);

@@ -13,7 +13,8 @@ namespace dresslife::pipeline {
 namespace {
 
 constexpr int most_nodes = 1'000'000;  // far more than in any job; the library takes 10 s and 600 MB for this number
-constexpr std::size_t most_bytes = 16 << 20;  // far more than in any job; the library takes 4 s for comments of this size
+constexpr std::size_t most_bytes =
+    16 << 20;  // far more than in any job; the library takes 4 s for comments of this size
 constexpr int deepest_level = 64;
 
 Where place(const YAML::Mark& mark, const std::string& file) {
@@ -29,8 +30,7 @@ class Converter {
     Node node;
     node.where = place(from.Mark(), file_);
     if (++nodes_ > most_nodes || depth > deepest_level)
-      throw InputError(node.where, "document is too large or too deep (aliases of aliases?)",
-                       "write it out plainly");
+      throw InputError(node.where, "document is too large or too deep (aliases of aliases?)", "write it out plainly");
     if (from.IsScalar()) {
       node.kind = Node::Kind::scalar;
       node.text = from.Scalar();
@@ -57,8 +57,8 @@ class Converter {
     return map;
   }
 
-  void add_entry(Node& map, std::unordered_set<std::string>& keys, const YAML::Node& key,
-                 const YAML::Node& value, int depth) {
+  void add_entry(Node& map, std::unordered_set<std::string>& keys, const YAML::Node& key, const YAML::Node& value,
+                 int depth) {
     const Where where = place(key.Mark(), file_);
     if (!key.IsScalar()) throw InputError(where, "a key must be a word", "write 'key: value'");
     if (key.Scalar() == "<<")
@@ -89,13 +89,11 @@ class Walker : public YAML::EventHandler {
   void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t, const std::string&) override {
     last = mark;
   }
-  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
-                       YAML::EmitterStyle::value) override {
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
     last = mark;
   }
   void OnSequenceEnd() override {}
-  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
-                  YAML::EmitterStyle::value) override {
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
     last = mark;
   }
   void OnMapEnd() override {}
@@ -131,8 +129,7 @@ void check_stream(const std::string& text, const std::string& file) {
   } catch (const YAML::Exception& problem) {
     if (problem.msg != YAML::ErrorMsg::EOF_IN_SCALAR) throw;
     throw InputError(walker.last.is_null() ? Where{file, 1, 1} : place(walker.last, file),
-                     "is not YAML (a quote that opens here or in the lines below is never closed)",
-                     "close it");
+                     "is not YAML (a quote that opens here or in the lines below is never closed)", "close it");
   }
 }
 
@@ -151,17 +148,24 @@ InputError refusal_of(const YAML::Exception& problem, const std::string& text, c
     std::string_view of_library, words, remedy;
   };
   static const Slip slips[] = {
-      {YAML::ErrorMsg::MAP_VALUE, "a second ': ' in one value, or another indentation than the line above", "quote a text that contains ': ', or indent the line as its neighbours"},
-      {YAML::ErrorMsg::END_OF_MAP, "no key of the map above: another indentation, or an item of a list", "indent it as the other keys of its map"},
-      {YAML::ErrorMsg::END_OF_SEQ, "no item of the list above: another indentation, or a key of a map", "indent it as the other items of its list"},
+      {YAML::ErrorMsg::MAP_VALUE, "a second ': ' in one value, or another indentation than the line above",
+       "quote a text that contains ': ', or indent the line as its neighbours"},
+      {YAML::ErrorMsg::END_OF_MAP, "no key of the map above: another indentation, or an item of a list",
+       "indent it as the other keys of its map"},
+      {YAML::ErrorMsg::END_OF_SEQ, "no item of the list above: another indentation, or a key of a map",
+       "indent it as the other items of its list"},
       {YAML::ErrorMsg::END_OF_MAP_FLOW, "a { above is not closed", "close it with }"},
       {YAML::ErrorMsg::END_OF_SEQ_FLOW, "a [ above is not closed", "close it with ]"},
-      {YAML::ErrorMsg::FLOW_END, "a bracket closes another than the last one that opened", "close each [ with ] and each { with }"},
+      {YAML::ErrorMsg::FLOW_END, "a bracket closes another than the last one that opened",
+       "close each [ with ] and each { with }"},
       {YAML::ErrorMsg::UNKNOWN_TOKEN, "no text begins with this character", "quote the text"}};
-  if (tab_indents(text, problem.mark.line)) return InputError({file, problem.mark.line + 1, 1}, "is not YAML (a tab indents this line)", "indent with spaces");
+  if (tab_indents(text, problem.mark.line))
+    return InputError({file, problem.mark.line + 1, 1}, "is not YAML (a tab indents this line)", "indent with spaces");
   const Slip* const slip = std::ranges::find(slips, std::string_view(problem.msg), &Slip::of_library);
-  return slip == std::end(slips) ? InputError(place(problem.mark, file), fmt::format("is not YAML ({})", problem.msg), "correct the line")
-                                 : InputError(place(problem.mark, file), fmt::format("is not YAML ({})", slip->words), std::string(slip->remedy));
+  return slip == std::end(slips)
+             ? InputError(place(problem.mark, file), fmt::format("is not YAML ({})", problem.msg), "correct the line")
+             : InputError(place(problem.mark, file), fmt::format("is not YAML ({})", slip->words),
+                          std::string(slip->remedy));
 }
 
 bool all_scalars(const Node& list) {
@@ -223,9 +227,7 @@ class Emitter {
  private:
   static constexpr std::size_t step = 2;  // of indentation
 
-  static bool stands_in_line(const Node& node) {
-    return !node.is_map() && !(node.is_list() && !all_scalars(node));
-  }
+  static bool stands_in_line(const Node& node) { return !node.is_map() && !(node.is_list() && !all_scalars(node)); }
   void new_line(std::size_t indent) {
     out_ += '\n';
     out_.append(indent, ' ');

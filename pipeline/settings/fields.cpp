@@ -50,11 +50,10 @@ std::string decimal_comma_words(std::string text) {
 
 /// Returns "write 0.5189 for AWG 20; " if the value is a wire gauge instead of a section; else an empty text.
 std::string gauge_words(const std::string& text, Fields::Key key) {
-  const bool is_gauge =
-      unit_of_key(key).suffix == "mm2" && (text.starts_with("AWG") || text.starts_with("awg"));
-  const std::optional<double> gauge = is_gauge ? parse_number(std::string_view(text).substr(
-                                                     std::min(text.size(), text.find_first_of("0123456789"))))
-                                               : std::nullopt;
+  const bool is_gauge = unit_of_key(key).suffix == "mm2" && (text.starts_with("AWG") || text.starts_with("awg"));
+  const std::optional<double> gauge =
+      is_gauge ? parse_number(std::string_view(text).substr(std::min(text.size(), text.find_first_of("0123456789"))))
+               : std::nullopt;
   return gauge ? fmt::format("write {:.4g} for AWG {:g}; ", square_mm_of_awg(*gauge), *gauge) : "";
 }
 
@@ -107,8 +106,7 @@ class FieldReader final : public Fields {
  public:
   FieldReader(const Node& root, Problems& problems) : problems_(problems), passed_over_(problems.keys()) {
     if (!root.is_map())
-      throw InputError(root.where, "holds no settings (a map of 'key: value' lines is expected)",
-                       "write some");
+      throw InputError(root.where, "holds no settings (a map of 'key: value' lines is expected)", "write some");
     levels_.emplace_back().map = &root;
   }
 
@@ -117,8 +115,7 @@ class FieldReader final : public Fields {
 
   void text(Key key, std::string& value, Need need, std::string_view meaning) override {
     read(key, need, meaning, [&](const Node& node) {
-      if (!node.is_scalar() || node.text.empty())
-        refuse(node, fmt::format("{} must be text", name_of(key)), meaning);
+      if (!node.is_scalar() || node.text.empty()) refuse(node, fmt::format("{} must be text", name_of(key)), meaning);
       value = node.text;
     });
   }
@@ -198,11 +195,9 @@ class FieldReader final : public Fields {
     read(key, Need::optional, meaning, [&](const Node& node) { index = word_of(node, key, words, meaning); });
   }
 
-  void choose_some(Key key, std::vector<int>& indices, const Words& words,
-                   std::string_view meaning) override {
+  void choose_some(Key key, std::vector<int>& indices, const Words& words, std::string_view meaning) override {
     read(key, Need::optional, meaning, [&](const Node& node) {
-      if (node.is_list() && node.items.empty())
-        refuse(node, fmt::format("{} is an empty list", name_of(key)), meaning);
+      if (node.is_list() && node.items.empty()) refuse(node, fmt::format("{} is an empty list", name_of(key)), meaning);
       std::vector<int> read;
       if (!node.is_list()) read.push_back(word_of(node, key, words, meaning));
       for (const Node& item : node.items) read.push_back(word_of(item, key, words, meaning));
@@ -214,7 +209,8 @@ class FieldReader final : public Fields {
     bool entered = false;
     read(key, need, meaning, [&](const Node& node) {
       const std::string problem = fmt::format("{} must be a map of settings", name_of(key));
-      if (node.is_scalar() && node.text.find(':') != std::string::npos) throw InputError(node.where, problem, "write a space after the colon of a key");
+      if (node.is_scalar() && node.text.find(':') != std::string::npos)
+        throw InputError(node.where, problem, "write a space after the colon of a key");
       if (!node.is_map()) refuse(node, problem, meaning);
       Level level;
       level.path = name_of(key);
@@ -250,8 +246,8 @@ class FieldReader final : public Fields {
     level.map = &node;
     level.passed_over = passed_over_.contains(level.path);
     if (!level.passed_over && !node.is_map()) {
-      problems_.add(node.where, fmt::format("{} must be a map of settings", level.path),
-                    "write {key: value, ...}", level.path);
+      problems_.add(node.where, fmt::format("{} must be a map of settings", level.path), "write {key: value, ...}",
+                    level.path);
       level.passed_over = true;
     }
     if (level.passed_over) level.map = &nothing;
@@ -310,28 +306,24 @@ class FieldReader final : public Fields {
   }
 
   /// Returns the number in a node. word: the word that is allowed instead; empty: none.
-  double number_of(const Node& node, Key key, Range range, std::string_view meaning,
-                   std::string_view word = "") const {
-    const std::optional<double> value =
-        node.is_scalar() && !node.quoted ? parse_number(node.text) : std::nullopt;
+  double number_of(const Node& node, Key key, Range range, std::string_view meaning, std::string_view word = "") const {
+    const std::optional<double> value = node.is_scalar() && !node.quoted ? parse_number(node.text) : std::nullopt;
     if (!value) {
       const std::string unit = unit_note(key);
-      throw InputError(
-          node.where,
-          fmt::format("{} is {} (must be a number{}{})", name_of(key),
-                      node.is_scalar() ? fmt::format("'{}'", node.text) : "not one value",
-                      word.empty() ? "" : fmt::format(" or {}", word),
-                      unit.empty() ? "" : fmt::format(", the unit is in the key:{}", unit)),
-          decimal_comma_words(node.text) + gauge_words(node.text, key) + "give " + named(meaning));
+      throw InputError(node.where,
+                       fmt::format("{} is {} (must be a number{}{})", name_of(key),
+                                   node.is_scalar() ? fmt::format("'{}'", node.text) : "not one value",
+                                   word.empty() ? "" : fmt::format(" or {}", word),
+                                   unit.empty() ? "" : fmt::format(", the unit is in the key:{}", unit)),
+                       decimal_comma_words(node.text) + gauge_words(node.text, key) + "give " + named(meaning));
     }
     if (!std::isfinite(*value))
       throw InputError(node.where, fmt::format("{} is {} (must be finite)", name_of(key), node.text),
                        "give " + named(meaning));
     if (!range.holds(*value))
-      throw InputError(
-          node.where,
-          fmt::format("{} is {} (must be {}{})", name_of(key), node.text, range.text(), unit_note(key)),
-          "give " + named(meaning));
+      throw InputError(node.where,
+                       fmt::format("{} is {} (must be {}{})", name_of(key), node.text, range.text(), unit_note(key)),
+                       "give " + named(meaning));
     const Unit& unit = unit_of_key(key);
     if (std::abs(*value) > unit.most || (range.low_excluded && range.low == 0 && *value < unit.least()))
       throw InputError(node.where,
@@ -353,18 +345,15 @@ class FieldReader final : public Fields {
     if (node.is_scalar())
       for (std::size_t i = 0; i < words.size(); ++i)
         if (node.text == words[i]) return static_cast<int>(i);
-    throw InputError(node.where,
-                     fmt::format("{} is '{}' (must be {})", name_of(key), node.text, joined(words, " | ")),
+    throw InputError(node.where, fmt::format("{} is '{}' (must be {})", name_of(key), node.text, joined(words, " | ")),
                      "give " + named(meaning));
   }
 
   /// Returns the key that an unknown key probably means; empty if none is near.
   std::string likely_key(const Level& level, const Entry& unknown, std::string& remedy) const {
-    const std::optional<double> value =
-        unknown.value.is_scalar() ? parse_number(unknown.value.text) : std::nullopt;
+    const std::optional<double> value = unknown.value.is_scalar() ? parse_number(unknown.value.text) : std::nullopt;
     for (const std::string& known : level.known)
-      if (const std::string converted = value ? converted_text(unknown.key, *value, known) : "";
-          !converted.empty()) {
+      if (const std::string converted = value ? converted_text(unknown.key, *value, known) : ""; !converted.empty()) {
         remedy = fmt::format("its unit is {}, write '{}'", unit_of_key(known).name, converted);
         return known;
       }
@@ -406,9 +395,7 @@ class FieldReader final : public Fields {
   /// Adds a problem for each unknown or missing key. A key with a wrong name does not count as missing.
   void close(const Level& level) {
     if (level.passed_over) return;
-    const auto path_of = [&](const std::string& key) {
-      return level.path.empty() ? key : level.path + "." + key;
-    };
+    const auto path_of = [&](const std::string& key) { return level.path.empty() ? key : level.path + "." + key; };
     std::vector<std::string> misnamed;
     for (const Entry& entry : level.map->entries) {
       if (std::find(level.known.begin(), level.known.end(), entry.key) != level.known.end()) continue;
@@ -416,10 +403,12 @@ class FieldReader final : public Fields {
       std::string likely = likely_key(level, entry, remedy);
       // In "{percent_of_time: 12,5}", YAML takes the comma as the end of the value.
       if (const Entry* const before = &entry == &level.map->entries.front() ? nullptr : &entry - 1;
-          before && entry.value.kind == Node::Kind::null && entry.key.find_first_not_of("0123456789") == std::string::npos &&
-          !before->value.text.empty() && before->value.text.find_first_not_of("-0123456789") == std::string::npos)
-        likely = "", remedy = fmt::format("write '{}: {}.{}' with a decimal point{}", before->key, before->value.text, entry.key,
-                                          thousands_words(before->value.text + '.' + entry.key, before->value.text + entry.key));
+          before && entry.value.kind == Node::Kind::null &&
+          entry.key.find_first_not_of("0123456789") == std::string::npos && !before->value.text.empty() &&
+          before->value.text.find_first_not_of("-0123456789") == std::string::npos)
+        likely = "",
+        remedy = fmt::format("write '{}: {}.{}' with a decimal point{}", before->key, before->value.text, entry.key,
+                             thousands_words(before->value.text + '.' + entry.key, before->value.text + entry.key));
       misnamed.push_back(likely);
       problems_.add(entry.where, fmt::format("unknown key '{}'", path_of(entry.key)), remedy,
                     likely.empty() ? "" : path_of(likely));
@@ -439,9 +428,7 @@ class FieldReader final : public Fields {
 class FieldEcho final : public Fields {
  public:
   Node finish() { return std::move(levels_.front()); }
-  explicit FieldEcho(const PathText& path_text) : path_text_(path_text) {
-    open("", Node::Kind::map);
-  }
+  explicit FieldEcho(const PathText& path_text) : path_text_(path_text) { open("", Node::Kind::map); }
 
   void text(Key key, std::string& value, Need, std::string_view) override {
     if (!value.empty()) put(key, scalar(value));
@@ -460,13 +447,9 @@ class FieldEcho final : public Fields {
     put(key, scalar(by_word ? std::string(word) : text_in_unit(value, unit_of_key(key))));
   }
 
-  void integer(Key key, int& value, Need, Range, std::string_view) override {
-    put(key, scalar(std::to_string(value)));
-  }
+  void integer(Key key, int& value, Need, Range, std::string_view) override { put(key, scalar(std::to_string(value))); }
 
-  void boolean(Key key, bool& value, Need, std::string_view) override {
-    put(key, scalar(value ? "true" : "false"));
-  }
+  void boolean(Key key, bool& value, Need, std::string_view) override { put(key, scalar(value ? "true" : "false")); }
 
   void vector(Key key, Eigen::Vector3d& value, Need need, std::string_view meaning) override {
     std::vector<double> values(value.begin(), value.end());

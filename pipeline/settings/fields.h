@@ -53,8 +53,7 @@ class Fields {
   template <class Enum>
   static Words words_of() {
     Words words;
-    while (!word(static_cast<Enum>(words.size())).empty())
-      words.push_back(word(static_cast<Enum>(words.size())));
+    while (!word(static_cast<Enum>(words.size())).empty()) words.push_back(word(static_cast<Enum>(words.size())));
     return words;
   }
 
@@ -62,8 +61,8 @@ class Fields {
   virtual void number(Key key, double& value, Need need, Range range, std::string_view meaning) = 0;
   virtual void maybe_number(Key key, std::optional<double>& value, Range range, std::string_view meaning) = 0;
   /// Reads a number, or this word. For the word, `by_word` becomes true and the value does not change.
-  virtual void number_or_word(Key key, double& value, bool& by_word, std::string_view word, Need need,
-                              Range range, std::string_view meaning) = 0;
+  virtual void number_or_word(Key key, double& value, bool& by_word, std::string_view word, Need need, Range range,
+                              std::string_view meaning) = 0;
   virtual void integer(Key key, int& value, Need need, Range range, std::string_view meaning) = 0;
   virtual void boolean(Key key, bool& value, Need need, std::string_view meaning) = 0;
   virtual void vector(Key key, Eigen::Vector3d& value, Need need, std::string_view meaning) = 0;
@@ -117,12 +116,10 @@ class Fields {
 
  protected:
   virtual void choose(Key key, int& index, const Words& words, std::string_view meaning) = 0;
-  virtual void choose_some(Key key, std::vector<int>& indices, const Words& words,
-                           std::string_view meaning) = 0;
+  virtual void choose_some(Key key, std::vector<int>& indices, const Words& words, std::string_view meaning) = 0;
   virtual bool enter(Key key, Need need, bool present, std::string_view meaning, const char* type) = 0;
   virtual void leave() = 0;
-  virtual std::size_t enter_list(Key key, std::size_t count, Need need, std::string_view meaning,
-                                 const char* type) = 0;
+  virtual std::size_t enter_list(Key key, std::size_t count, Need need, std::string_view meaning, const char* type) = 0;
   virtual void enter_item(std::size_t index) = 0;
   virtual void leave_list() = 0;
 };

@@ -12,9 +12,7 @@ namespace {
 /// More problems are not useful to a reader. The messages for a million wrong steps would be longer than their file.
 constexpr std::size_t most_problems = 100;
 
-std::string lines_of(const std::vector<Problem>& problems) {
-  return joined(mapped(problems, &Problem::line), "\n");
-}
+std::string lines_of(const std::vector<Problem>& problems) { return joined(mapped(problems, &Problem::line), "\n"); }
 
 /// Returns whether the path `inner` is equal to `outer` or inside of it: "routing.rings[2]" is inside of "routing".
 bool lies_in(std::string_view inner, std::string_view outer) {
@@ -27,15 +25,14 @@ bool lies_in(std::string_view inner, std::string_view outer) {
 InputErrors::InputErrors(std::vector<Problem> problems)
     : InputError({}, "", ""), problems_(std::move(problems)), text_(lines_of(problems_)) {}
 
-void Problems::add(const Where& where, const std::string& what, const std::string& remedy,
-                   const std::string& key) {
+void Problems::add(const Where& where, const std::string& what, const std::string& remedy, const std::string& key) {
   note({where, key, InputError(where, what, remedy).what()});
 }
 
 void Problems::note(Problem problem) {
   if (!problem.key.empty()) keys_.insert(problem.key);
-  const bool known = std::any_of(problems_.begin(), problems_.end(),
-                                 [&](const Problem& other) { return other.line == problem.line; });
+  const bool known =
+      std::any_of(problems_.begin(), problems_.end(), [&](const Problem& other) { return other.line == problem.line; });
   if (known) return;
   if (problems_.size() < most_problems)
     problems_.push_back(std::move(problem));
@@ -44,17 +41,15 @@ void Problems::note(Problem problem) {
 }
 
 bool Problems::touch(const std::string& key) const {
-  return std::any_of(keys_.begin(), keys_.end(), [&](const std::string& refused) {
-    return lies_in(refused, key) || lies_in(key, refused);
-  });
+  return std::any_of(keys_.begin(), keys_.end(),
+                     [&](const std::string& refused) { return lies_in(refused, key) || lies_in(key, refused); });
 }
 
 void Problems::finish(const std::string& first_file) const {
   if (problems_.empty()) return;
   std::vector<std::string> files{first_file};  // in the order of their first problem
   for (const Problem& problem : problems_)
-    if (std::find(files.begin(), files.end(), problem.where.file) == files.end())
-      files.push_back(problem.where.file);
+    if (std::find(files.begin(), files.end(), problem.where.file) == files.end()) files.push_back(problem.where.file);
   const auto place = [&](const Problem& problem) {
     return std::make_tuple(std::find(files.begin(), files.end(), problem.where.file), problem.where.line,
                            problem.where.column);
@@ -64,8 +59,8 @@ void Problems::finish(const std::string& first_file) const {
                    [&](const Problem& a, const Problem& b) { return place(a) < place(b); });
   if (more_)
     sorted.push_back({Where{first_file, 0, 0}, "",
-                      fmt::format("{}: error: only the first {} problems are shown; correct them first",
-                                  first_file, most_problems)});
+                      fmt::format("{}: error: only the first {} problems are shown; correct them first", first_file,
+                                  most_problems)});
   throw InputErrors(std::move(sorted));
 }
 

@@ -33,8 +33,7 @@ class InputErrors final : public InputError {
 
 class Problems {
  public:
-  void add(const Where& where, const std::string& what, const std::string& remedy,
-           const std::string& key = "");
+  void add(const Where& where, const std::string& what, const std::string& remedy, const std::string& key = "");
 
   /// Calls `act`, which may throw InputError, and adds its problems under `key`. A problem without a known line gets the place
   /// `where`. Returns whether `act` threw nothing.

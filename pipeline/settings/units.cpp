@@ -19,23 +19,38 @@ struct ForeignUnit {
   double factor;
 };
 constexpr double inch = 25.4;  // [mm]
-constexpr ForeignUnit foreign_units[] = {
-    {"cm", "mm", 10},       {"um", "mm", 1e-3},        {"inch", "mm", inch},      {"in", "mm", inch},
-    {"ft", "m", 0.3048},    {"cm2", "mm2", 100},       {"rad", "deg", 1 / degree}, {"rad_per_s", "deg_per_s", 1 / degree},
-    {"rad_per_m", "deg_per_m", 1 / degree},            {"min", "s", 60},          {"us", "ms", 1e-3},
-    {"m_per_s", "mm_per_s", 1e3},                      {"kHz", "Hz", 1e3},        {"g", "kg", 1e-3},
-    {"g_per_m", "kg_per_m", 1e-3},                     {"kg_per_km", "kg_per_m", 1e-3}, {"kN", "N", 1e3},
-    {"N_per_mm", "N_per_m", 1e3},                      {"Nmm2", "Nm2", 1e-6},     {"bar", "MPa", 0.1},
-    {"N_per_mm2", "MPa", 1}, {"1_per_mm", "1_per_m", 1e3},
-    {"days", "hours", 24},  {"years", "hours", 8760}};
+constexpr ForeignUnit foreign_units[] = {{"cm", "mm", 10},
+                                         {"um", "mm", 1e-3},
+                                         {"inch", "mm", inch},
+                                         {"in", "mm", inch},
+                                         {"ft", "m", 0.3048},
+                                         {"cm2", "mm2", 100},
+                                         {"rad", "deg", 1 / degree},
+                                         {"rad_per_s", "deg_per_s", 1 / degree},
+                                         {"rad_per_m", "deg_per_m", 1 / degree},
+                                         {"min", "s", 60},
+                                         {"us", "ms", 1e-3},
+                                         {"m_per_s", "mm_per_s", 1e3},
+                                         {"kHz", "Hz", 1e3},
+                                         {"g", "kg", 1e-3},
+                                         {"g_per_m", "kg_per_m", 1e-3},
+                                         {"kg_per_km", "kg_per_m", 1e-3},
+                                         {"kN", "N", 1e3},
+                                         {"N_per_mm", "N_per_m", 1e3},
+                                         {"Nmm2", "Nm2", 1e-6},
+                                         {"bar", "MPa", 0.1},
+                                         {"N_per_mm2", "MPa", 1},
+                                         {"1_per_mm", "1_per_m", 1e3},
+                                         {"days", "hours", 24},
+                                         {"years", "hours", 8760}};
 
 /// Returns the base unit of a kind, such as length or time. Empty: no other unit is of this kind.
 std::string_view base_of(std::string_view suffix) {
   struct Kind {
     std::string_view suffix, base;
   };
-  for (const Kind& kind : {Kind{"mm", "m"}, Kind{"ms", "s"}, Kind{"mm_per_s", "m_per_s"}, Kind{"mm_per_s2", "m_per_s2"}, Kind{"GPa", "MPa"},
-                           Kind{"N_per_m2", "MPa"}})
+  for (const Kind& kind : {Kind{"mm", "m"}, Kind{"ms", "s"}, Kind{"mm_per_s", "m_per_s"}, Kind{"mm_per_s2", "m_per_s2"},
+                           Kind{"GPa", "MPa"}, Kind{"N_per_m2", "MPa"}})
     if (kind.suffix == suffix) return kind.base;
   return suffix;
 }
@@ -68,7 +83,7 @@ constexpr std::array units{
     Unit{"Nm2", "N m2", 1, 1e7},  // E I of the same bar
     Unit{"mNm", "mN m", 1e-3, 1e9},
     Unit{"MPa", "MPa", 1e6, 1e7},
-    Unit{"GPa", "GPa", 1e9, 1e4},  // diamond: 1e3
+    Unit{"GPa", "GPa", 1e9, 1e4},                // diamond: 1e3
     Unit{"mm3_per_Nm", "mm3/(N m)", 1e-9, 1e3},  // abrasive cloth: 0.1
     Unit{"C", "C", 1, 1e4},
     Unit{"MB", "MB", 1e6, 1e7},
@@ -82,9 +97,8 @@ constexpr std::array units{
 const Unit& unit_of_key(std::string_view key) {
   const Unit* longest = &dimensionless;
   for (const Unit& unit : units)
-    if (key.size() > unit.suffix.size() + 1 && key.back() == unit.suffix.back() &&
-        key.ends_with(unit.suffix) && key[key.size() - unit.suffix.size() - 1] == '_' &&
-        unit.suffix.size() > longest->suffix.size())
+    if (key.size() > unit.suffix.size() + 1 && key.back() == unit.suffix.back() && key.ends_with(unit.suffix) &&
+        key[key.size() - unit.suffix.size() - 1] == '_' && unit.suffix.size() > longest->suffix.size())
       longest = &unit;
   return *longest;
 }
@@ -95,7 +109,8 @@ std::string_view stem_of_key(std::string_view key) {
 }
 
 double square_mm_of_awg(double gauge) {
-  const double diameter = 0.127 * std::pow(92.0, (36 - gauge) / 39);  // [mm], by the definition of the gauge (ASTM B258)
+  const double diameter =
+      0.127 * std::pow(92.0, (36 - gauge) / 39);  // [mm], by the definition of the gauge (ASTM B258)
   return std::numbers::pi / 4 * diameter * diameter;
 }
 
@@ -110,7 +125,8 @@ std::string converted_text(std::string_view written, double value, std::string_v
   for (const ForeignUnit& unit : foreign_units)
     if (unit.suffix == suffix)
       for (const Unit& of : units)
-        if (of.suffix == unit.known && base_of(of.suffix) == base_of(to.suffix)) return text(value * unit.factor * of.to_si / to.to_si);
+        if (of.suffix == unit.known && base_of(of.suffix) == base_of(to.suffix))
+          return text(value * unit.factor * of.to_si / to.to_si);
   for (const Unit& of : units)
     if (of.suffix == suffix && base_of(suffix) == base_of(to.suffix)) return text(value * of.to_si / to.to_si);
   return "";

@@ -109,9 +109,8 @@ const Option* option_named(const Command& command, const std::string& word) {
 /// Returns "'--trial' is no option of improve; did you mean '--trials'?" for the first unknown option with a similar name, or a
 /// message for a number behind a flag, or for an option without its value. Empty: there is none of these.
 std::string meant_option(const Command& program, int argc, char** argv) {
-  const auto called =
-      std::find_if(program.commands.begin(), program.commands.end(),
-                   [&](const Command& command) { return argc > 1 && command.name == argv[1]; });
+  const auto called = std::find_if(program.commands.begin(), program.commands.end(),
+                                   [&](const Command& command) { return argc > 1 && command.name == argv[1]; });
   const Command& command = called == program.commands.end() ? program : *called;
   std::vector<std::string> names{"--help"};
   for (const Option& option : command.options)
@@ -128,13 +127,15 @@ std::string meant_option(const Command& program, int argc, char** argv) {
     const Option* const option = option_named(command, argv[k - 1]);
     if (!option) continue;
     const bool is_flag = std::holds_alternative<bool*>(option->target);
-    if (is_flag && number_in(argv[k])) return fmt::format("'{}' takes no number ({}); leave out '{}'\n", argv[k - 1], option->meaning, argv[k]);
+    if (is_flag && number_in(argv[k]))
+      return fmt::format("'{}' takes no number ({}); leave out '{}'\n", argv[k - 1], option->meaning, argv[k]);
     const std::string word = argv[k], next = k + 1 < argc ? argv[k + 1] : "";
     if (option->value.find('=') != std::string::npos && !next.empty() &&
         (word.ends_with('=') || (word.find('=') == std::string::npos && next[0] == '=')))
       return fmt::format("'{}' needs {} without spaces: write {}{}\n", argv[k - 1], option->value, word + next,
                          next == "=" && k + 2 < argc ? argv[k + 2] : "");
-    if (!is_flag && option_named(command, argv[k])) return fmt::format("'{}' needs {} before '{}'\n", argv[k - 1], option->value, argv[k]);
+    if (!is_flag && option_named(command, argv[k]))
+      return fmt::format("'{}' needs {} before '{}'\n", argv[k - 1], option->value, argv[k]);
   }
   return "";
 }
@@ -165,9 +166,11 @@ Option help_option() { return {"-h,--help", "", "print this help and exit", {}};
 std::vector<Option> last_options(const Command& program) {
   std::vector<Option> options{{"--version", "", "print the version and exit", {}}};
   if (program.commands.empty())
-    options.push_back({"--manual", joined(manual_kinds(), "|"),
+    options.push_back({"--manual",
+                       joined(manual_kinds(), "|"),
                        "print this program's man page, or its completion for a shell",
-                       std::function<void(const std::string&)>(), {.choices = manual_kinds()}});
+                       std::function<void(const std::string&)>(),
+                       {.choices = manual_kinds()}});
   return options;
 }
 
@@ -178,7 +181,8 @@ std::optional<int> read_command_line(const Command& program, int argc, char** ar
   CLI::App app(program.purpose + example, program.name);
   app.set_help_flag(help.names, help.meaning);
   add_options(app, program.options);
-  app.set_version_flag(last[0].names, [&] { return version_text(program.name); }, last[0].meaning);
+  app.set_version_flag(
+      last[0].names, [&] { return version_text(program.name); }, last[0].meaning);
   if (program.commands.empty()) add_manual(app, program, last[1]);
   std::vector<const CLI::App*> commands;
   for (const Command& command : program.commands) {

@@ -17,9 +17,9 @@ namespace dresslife::pipeline {
 
 /// Destination of an option's value. bool: a flag without a value. A list: the option may be given several times. A function: it
 /// gets the text and may throw InputError.
-using Target = std::variant<bool*, int*, std::uint64_t*, double*, std::optional<int>*, std::optional<double>*,
-                            std::string*, std::filesystem::path*, std::vector<std::string>*,
-                            std::function<void(const std::string&)>>;
+using Target =
+    std::variant<bool*, int*, std::uint64_t*, double*, std::optional<int>*, std::optional<double>*, std::string*,
+                 std::filesystem::path*, std::vector<std::string>*, std::function<void(const std::string&)>>;
 
 struct OptionRules {
   bool required = false;
@@ -27,7 +27,7 @@ struct OptionRules {
   std::vector<std::string> choices = {};            ///< the values that are allowed; empty: any
   bool other_values = false;                        ///< other values are allowed too; completions offer the choices
   std::string needs = {};                           ///< another option that is required with this one
-  std::optional<std::string> shown_default = {};    ///< absent: the value of the variable before the command line is read
+  std::optional<std::string> shown_default = {};  ///< absent: the value of the variable before the command line is read
 };
 
 /// An option, or an argument without a dash.
@@ -44,9 +44,9 @@ struct Command {
   std::string name;     ///< "dresslife-sim", "run"
   std::string purpose;  ///< one sentence
   std::vector<Option> options = {};
-  std::function<int()> act = {};        ///< does the work of a command and returns the exit status; throws InputError
-  std::string example = {};             ///< of a program: a complete command line
-  std::vector<Command> commands = {};   ///< of a program: one of them is required
+  std::function<int()> act = {};       ///< does the work of a command and returns the exit status; throws InputError
+  std::string example = {};            ///< of a program: a complete command line
+  std::vector<Command> commands = {};  ///< of a program: one of them is required
 };
 
 /// Returns an option that sets an enumeration by one of its words: "surrogate|random". word(Choice) returns the words.

@@ -21,15 +21,12 @@ constexpr double megabyte = 1 << 20;
 
 std::string shown_megabytes(double megabytes) {
   constexpr double many = 10'000;
-  return megabytes < many ? fmt::format("{:.0f} MB", std::ceil(megabytes))
-                          : fmt::format("{:.3g} GB", megabytes / 1024);
+  return megabytes < many ? fmt::format("{:.0f} MB", std::ceil(megabytes)) : fmt::format("{:.3g} GB", megabytes / 1024);
 }
 
 double row_bytes(const Dataset& dataset, const std::map<std::string, std::size_t>& axes) {
   constexpr double text = 64;  // for a path of names; few are longer
-  double bytes = dataset.type == Type::text                               ? text
-                 : dataset.type == Type::f64 || dataset.type == Type::u64 ? 8
-                                                                          : 4;
+  double bytes = dataset.type == Type::text ? text : dataset.type == Type::f64 || dataset.type == Type::u64 ? 8 : 4;
   for (std::size_t i = 1; i < dataset.shape.size(); ++i) {
     const std::string& axis = dataset.shape[i];
     if (axis.find_first_not_of("0123456789") == std::string::npos) {
@@ -68,9 +65,7 @@ void MemoryNeed::add(double bytes, std::string what, std::string remedy) {
   shares_.push_back({std::max(0.0, bytes), std::move(what), std::move(remedy)});
 }
 
-double MemoryNeed::bytes() const {
-  return sum_of(shares_, &Share::bytes);
-}
+double MemoryNeed::bytes() const { return sum_of(shares_, &Share::bytes); }
 
 const MemoryNeed::Share* MemoryNeed::most() const {
   const Share* most = nullptr;
@@ -128,9 +123,8 @@ void require_memory(const StageCall& call, const MemoryNeed& need, Progress& pro
   if (const std::optional<double> free = free_memory_mb(); free && megabytes > *free)
     refuse(call, need, fmt::format("{} are free", shown_megabytes(*free)),
            "end other programs or run fewer jobs at a time");
-  const std::string words =
-      fmt::format("note: takes about {} of memory{}", shown_megabytes(megabytes),
-                  need.largest().empty() ? "" : fmt::format(", {} of it", need.largest()));
+  const std::string words = fmt::format("note: takes about {} of memory{}", shown_megabytes(megabytes),
+                                        need.largest().empty() ? "" : fmt::format(", {} of it", need.largest()));
   if (call.of_a_study)
     write_stderr(words + "\n");  // into the log of the stage
   else if (megabytes > worth_a_word * machine)

@@ -60,8 +60,7 @@ std::string man_options(const std::vector<Option>& options) {
     if (is_argument(option) && meaning_of(option).empty()) continue;  // the list of arguments shows its name already
     std::string names;
     for (const std::string& name : names_of(option))
-      names += fmt::format("{}\\f{}{}\\fR", names.empty() ? "" : ", ", is_argument(option) ? 'I' : 'B',
-                           troff(name));
+      names += fmt::format("{}\\f{}{}\\fR", names.empty() ? "" : ", ", is_argument(option) ? 'I' : 'B', troff(name));
     if (!option.value.empty()) names += " \\fI" + troff(option.value) + "\\fR";
     std::string meaning = troff(option.meaning);
     const Words& choices = option.rules.choices;
@@ -107,17 +106,16 @@ std::string man_page(const Command& program) {
   if (program.commands.empty()) synopsis = man_synopsis(program.name, program);
   for (const Command& command : program.commands) {
     synopsis += (synopsis.empty() ? "" : ".br\n") + man_synopsis(program.name + " " + command.name, command);
-    commands +=
-        fmt::format(".SS {}\n{}.\n{}", troff(command.name), troff(command.purpose),
+    commands += fmt::format(".SS {}\n{}.\n{}", troff(command.name), troff(command.purpose),
                             man_options(all_options(command, false)));
   }
   return fmt::format(
       ".TH {} 1 \"\" \"dresslife {}\" \"dresslife\"\n.SH NAME\n{} \\- {}\n.SH SYNOPSIS\n{}.SH "
       "DESCRIPTION\n{}\n"
       ".SH OPTIONS\n{}{}{}{}.SH EXAMPLE\n.EX\n{}\n.EE\n",
-      troff(name), version(), troff(program.name), troff(in_short(program.purpose)), synopsis,
-      troff(program.purpose), man_options(all_options(program, true)), commands.empty() ? "" : ".SH COMMANDS\n", commands,
-      man_common, troff(program.example));
+      troff(name), version(), troff(program.name), troff(in_short(program.purpose)), synopsis, troff(program.purpose),
+      man_options(all_options(program, true)), commands.empty() ? "" : ".SH COMMANDS\n", commands, man_common,
+      troff(program.example));
 }
 
 // ---- bash -------------------------------------------------------------------------------------------------
@@ -139,8 +137,7 @@ void add_bash_cases(const std::string& level, const Command& command, bool is_pr
     }
   }
   for (const Command& inner : command.commands) words.push_back(inner.name);
-  options += fmt::format("    '{}') options='{}' words='{}' ;;\n", level, joined(names, " "),
-                         joined(words, " "));
+  options += fmt::format("    '{}') options='{}' words='{}' ;;\n", level, joined(names, " "), joined(words, " "));
 }
 
 std::string function_name(const Command& program) { return "_" + replaced(program.name, '-', "_"); }
@@ -175,15 +172,13 @@ complete -o default -F {1} {0}
 /// Escapes a text for '...' and for the [...] or the parts between : of a specification.
 std::string zsh_text(const std::string& text) {
   std::string escaped = replaced(text, '\'', "'\\''");
-  for (const char special : {'[', ']', ':'})
-    escaped = replaced(escaped, special, std::string("\\") + special);
+  for (const char special : {'[', ']', ':'}) escaped = replaced(escaped, special, std::string("\\") + special);
   return escaped;
 }
 
 std::string zsh_value(const Option& option, const std::string& what) {
   const Words& choices = option.rules.choices;
-  const std::string action =
-      choices.empty() ? std::string("_files") : fmt::format("({})", joined(choices, " "));
+  const std::string action = choices.empty() ? std::string("_files") : fmt::format("({})", joined(choices, " "));
   return fmt::format(":{}:{}", zsh_text(what), action);
 }
 

@@ -91,26 +91,26 @@ Command command_of(const StageInfo& info, StageCall& call, StageFlags& flags) {
       {"input", "", info.input, &call.input, {.required = true}},
       {"-o,--output", "FILE", "where to write " + info.output, &call.output, {.required = !info.may_lack_output}}};
   if (!info.input_is_job)
-    options.push_back({"--job", "JOB.yaml", "take the settings from this job instead of the one in the input",
-                       &call.job_file});
-  options.push_back({"--set", "KEY.PATH=VALUE",
-                     "override a key of the job, for example simulation.segments=80; may be repeated",
-                     &call.sets});
-  options.insert(options.end(), info.options.begin(), info.options.end());
-  options.push_back({"--force", "", "replace files that dresslife did not write; never one that it reads", &flags.force});
-  if (info.part) {
-    options.push_back({"--receipt", "FILE",
-                       "note there from what the output is made, and make it only when that has changed",
-                       &flags.receipt, {.needs = info.input_is_job ? "" : "--job"}});
     options.push_back(
-        {"--same",
-         "FILE",
-         "file with a list of folders that get the same output and receipt, each under its name",
-         &flags.same,
-         {.needs = "--receipt"}});
-  }
+        {"--job", "JOB.yaml", "take the settings from this job instead of the one in the input", &call.job_file});
+  options.push_back({"--set", "KEY.PATH=VALUE",
+                     "override a key of the job, for example simulation.segments=80; may be repeated", &call.sets});
+  options.insert(options.end(), info.options.begin(), info.options.end());
   options.push_back(
-      {"--job-time", "SECONDS", "give up after so long", &call.limits.seconds, {.shown_default = ""}});
+      {"--force", "", "replace files that dresslife did not write; never one that it reads", &flags.force});
+  if (info.part) {
+    options.push_back({"--receipt",
+                       "FILE",
+                       "note there from what the output is made, and make it only when that has changed",
+                       &flags.receipt,
+                       {.needs = info.input_is_job ? "" : "--job"}});
+    options.push_back({"--same",
+                       "FILE",
+                       "file with a list of folders that get the same output and receipt, each under its name",
+                       &flags.same,
+                       {.needs = "--receipt"}});
+  }
+  options.push_back({"--job-time", "SECONDS", "give up after so long", &call.limits.seconds, {.shown_default = ""}});
   options.push_back(
       {"--job-memory", "MB", "take no more memory than this", &call.limits.megabytes, {.shown_default = ""}});
   options.push_back({"--quiet", "", "no progress, no notes", &call.quiet});
@@ -138,8 +138,7 @@ void say(const StageCall& call, Progress& progress, const Warning& warning) {
 }
 
 std::vector<Warning> warnings_in(const FileReader& file) {
-  return file.has_attribute("warnings") ? warnings_from(file.text_attribute("warnings"))
-                                        : std::vector<Warning>{};
+  return file.has_attribute("warnings") ? warnings_from(file.text_attribute("warnings")) : std::vector<Warning>{};
 }
 
 const Format& format_of_output(JobPart part) {
@@ -150,8 +149,7 @@ const Format& format_of_output(JobPart part) {
 void say_known_warnings(const StageCall& call) {
   std::vector<Warning> before;
   if (*call.info.part != JobPart::sim) {
-    const Format& format =
-        format_of_output(*call.info.part == JobPart::strain ? JobPart::sim : JobPart::strain);
+    const Format& format = format_of_output(*call.info.part == JobPart::strain ? JobPart::sim : JobPart::strain);
     before = warnings_in(FileReader(call.input, format, FileReader::Scope::attributes));
   }
   Progress silent(call.info.program, true);
@@ -189,8 +187,8 @@ void run_with_receipt(const StageCall& call, const StageFlags& flags, const Sett
     wanted.made_with.emplace_back(as_seen_from(call.output.parent_path(), file).string(), digests.of(file));
   wanted.input = call.info.input_is_job ? "-" : stored_checksum(call.input).value_or("damaged");
   const std::optional<Receipt> known = read_receipt(flags.receipt);
-  const bool made = known && known->recipe == wanted.recipe && known->input == wanted.input &&
-                    is_as_noted(*known, call.output);
+  const bool made =
+      known && known->recipe == wanted.recipe && known->input == wanted.input && is_as_noted(*known, call.output);
   if (made) {
     say_known_warnings(call);
     wanted.output = known->output;
@@ -208,8 +206,7 @@ void run_with_receipt(const StageCall& call, const StageFlags& flags, const Sett
 /// Memory limit until a stage knows the need of its job (pipeline/stage/memory.h). It is enough to read the job and the input.
 constexpr std::uint64_t enough_to_begin_mb = 64;
 
-void run_body(StageCall& call, const StageFlags& flags,
-              const std::function<void(const StageCall&, Progress&)>& body) {
+void run_body(StageCall& call, const StageFlags& flags, const std::function<void(const StageCall&, Progress&)>& body) {
   limit_time(call.info.program, call.limits.seconds);
   limit_memory(call.limits.megabytes > 0 ? std::max(call.limits.megabytes, enough_to_begin_mb) : 0);
   Progress progress(call.info.program, call.quiet);
@@ -259,7 +256,7 @@ int finish_output(int status) {
   // Libraries do not store the reason of a failed write; writing one more byte fails with the same reason.
   if (output_error == 0 && ::write(STDOUT_FILENO, "\n", 1) < 0) note_failed_output(errno);
   write_stderr(fmt::format("standard output: error: cannot be written{}; free space or name another place\n",
-                   output_error == 0 ? "" : fmt::format(" ({})", std::strerror(output_error))));
+                           output_error == 0 ? "" : fmt::format(" ({})", std::strerror(output_error))));
   return std::max(status, 1);
 }
 
@@ -274,19 +271,19 @@ int guarded(const std::string& program, const std::function<int()>& body) {
     return 1;
   } catch (const std::filesystem::filesystem_error& problem) {
     write_stderr(fmt::format("{}: error: {}; check the folder and its permissions{}\n",
-                     problem.path1().empty() ? program : problem.path1().string(),
-                     problem.code().message(), then_run_again));
+                             problem.path1().empty() ? program : problem.path1().string(), problem.code().message(),
+                             then_run_again));
     return 1;
   } catch (const std::bad_alloc&) {
     write_stderr(fmt::format("{}: {}", program, out_of_memory_words));
     return 1;
   } catch (const std::system_error& problem) {
-    write_stderr(fmt::format("{}: error: the system refuses ({}); run fewer jobs at a time or raise its limits{}\n", program,
-                     problem.what(), then_run_again));
+    write_stderr(fmt::format("{}: error: the system refuses ({}); run fewer jobs at a time or raise its limits{}\n",
+                             program, problem.what(), then_run_again));
     return 1;
   } catch (const std::exception& problem) {
-    write_stderr(fmt::format("{}: error: internal fault ({}); please report it with the job\n", program,
-                     problem.what()));
+    write_stderr(
+        fmt::format("{}: error: internal fault ({}); please report it with the job\n", program, problem.what()));
     return 3;
   }
 }
@@ -321,41 +318,38 @@ Job job_of(const StageCall& call, const FileReader& input, const std::vector<Job
   if (!call.job_file.empty() && call.sets.empty() && without_mark(read_source(call.job_file)) == own_text)
     return read_job(call.job_file);
   const Job own = job_from(parse_yaml(own_text, own_name));
-  const Job job = call.job_file.empty() ? job_from(parse_yaml(own_text, own_name), call.sets)
-                                        : read_job(call.job_file, call.sets);
+  const Job job =
+      call.job_file.empty() ? job_from(parse_yaml(own_text, own_name), call.sets) : read_job(call.job_file, call.sets);
   for (JobPart part : before)
     if (part_text(own, part) != part_text(job, part))
-      throw InputError(input.where(),
-                       fmt::format("was made with other settings of {} than this job has", part_name(part)),
-                       fmt::format("run the stage before again with the same --job and --set, then {}",
-                                   call.info.program));
+      throw InputError(
+          input.where(), fmt::format("was made with other settings of {} than this job has", part_name(part)),
+          fmt::format("run the stage before again with the same --job and --set, then {}", call.info.program));
   if (const auto lines = files_read(input); lines && !call.job_file.empty() && *lines != files_read(job))
     throw InputError(input.where(), "was made with other files beside the job than this job has",
                      fmt::format("run the stage before again with the same --job, then {}", call.info.program));
   return job;
 }
 
-void note_warnings(FileWriter& file, const StageCall& call, Progress& progress,
-                   const std::vector<Warning>& own, const FileReader* before) {
+void note_warnings(FileWriter& file, const StageCall& call, Progress& progress, const std::vector<Warning>& own,
+                   const FileReader* before) {
   for (const Warning& warning : own) say(call, progress, warning);
   if (before && !before->has_attribute("warnings")) return;
-  file.attribute("warnings",
-                 warnings_text(joined(before ? warnings_in(*before) : std::vector<Warning>{}, own)));
+  file.attribute("warnings", warnings_text(joined(before ? warnings_in(*before) : std::vector<Warning>{}, own)));
 }
 
 void stamp(FileWriter& file, const StageCall& call, const Job& job, const std::string& earlier) {
   check_inputs_unchanged(call);
   // The history does not contain the output's name, so that one input gives the same bytes under any name.
-  std::string line = fmt::format("{} {}: {} {}", call.info.program, version(), call.info.program,
-                                 call.input.filename().string());
+  std::string line =
+      fmt::format("{} {}: {} {}", call.info.program, version(), call.info.program, call.input.filename().string());
   if (!call.job_file.empty()) line += " --job " + call.job_file.filename().string();
   for (const std::string& set : call.sets) line += " --set " + set;
   if (call.info.part == JobPart::sim) line += files_read(job);
   const std::filesystem::path& described_by = call.job_file.empty() ? call.input : call.job_file;
   file.attribute("job", stored_job_text(job, described_by.parent_path()));
   file.attribute("history", earlier.empty() ? line : earlier + "\n" + line);
-  file.attribute("input_sha256",
-                 call.input_sha256.valid() ? call.input_sha256.get() : sha256_as_checked(call.input));
+  file.attribute("input_sha256", call.input_sha256.valid() ? call.input_sha256.get() : sha256_as_checked(call.input));
 }
 
 }  // namespace dresslife::pipeline

@@ -25,14 +25,14 @@ struct Job;
 enum class JobPart;
 
 struct StageInfo {
-  std::string program;           ///< "dresslife-sim"
-  std::string purpose;           ///< one sentence for --help
-  std::string input;             ///< name of the positional argument: "JOB.yaml", "motion.h5"
-  std::string output;            ///< name of the argument of -o: "motion.h5"
-  std::string example;           ///< a complete command line
-  bool input_is_job = false;     ///< the input is the job itself; otherwise the stage has --job
-  bool may_lack_output = false;  ///< without -o, no file is written
-  std::vector<Option> options = {};      ///< of this stage only
+  std::string program;               ///< "dresslife-sim"
+  std::string purpose;               ///< one sentence for --help
+  std::string input;                 ///< name of the positional argument: "JOB.yaml", "motion.h5"
+  std::string output;                ///< name of the argument of -o: "motion.h5"
+  std::string example;               ///< a complete command line
+  bool input_is_job = false;         ///< the input is the job itself; otherwise the stage has --job
+  bool may_lack_output = false;      ///< without -o, no file is written
+  std::vector<Option> options = {};  ///< of this stage only
   std::optional<JobPart> part =
       {};  ///< part of the job on which the result depends; std::nullopt: the program is no stage of a study
   /// Results for the receipt of the output, for programs that do not open the output; empty: none.
@@ -79,8 +79,8 @@ Job job_of(const StageCall& call, const FileReader& input, const std::vector<Job
 
 /// Writes the root attribute `warnings`: those of the input file (`before`), then those of this stage. Prints those of this stage
 /// on a terminal, in a study into the log. If the input file has no attribute `warnings`, the output has none either.
-void note_warnings(FileWriter& file, const StageCall& call, Progress& progress,
-                   const std::vector<Warning>& own, const FileReader* before = nullptr);
+void note_warnings(FileWriter& file, const StageCall& call, Progress& progress, const std::vector<Warning>& own,
+                   const FileReader* before = nullptr);
 
 /// Writes the root attributes `job`, `history` and `input_sha256`. earlier: history of the input file; empty: none. Precondition:
 /// it is called directly before commit(). Errors: InputError if an input has changed since the start of the stage.

@@ -69,8 +69,8 @@ void set_recipes(JobState& state, const Job& job, const Programs& programs, Dige
   std::string all;
   for (std::size_t k = 0; k < stage_count; ++k) {
     const std::string text = part_text(job, stages[k].part);
-    state.recipes[k] = recipe_of(text, stages[k].part == JobPart::sim ? files : std::vector<fs::path>{},
-                                 programs[k], digests);
+    state.recipes[k] =
+        recipe_of(text, stages[k].part == JobPart::sim ? files : std::vector<fs::path>{}, programs[k], digests);
     all += text;
   }
   constexpr std::size_t digits = 12;
@@ -83,9 +83,7 @@ void follow_receipts(JobState& state, const fs::path& folder) {
   for (state.next = 0; state.next < stage_count; ++state.next) {
     const Stage& stage = stages[state.next];
     std::optional<Receipt> receipt = read_receipt(folder / receipt_file(stage));
-    if (!receipt || receipt->recipe != state.recipes[state.next] ||
-        receipt->input != state.inputs[state.next])
-      return;
+    if (!receipt || receipt->recipe != state.recipes[state.next] || receipt->input != state.inputs[state.next]) return;
     // After a failure the bytes are always compared: a stage may have found damage that the file times do not show.
     if (!state.failure.empty()) receipt->state = {};
     const FileState now = state_of(folder / stage.output);
@@ -97,8 +95,7 @@ void follow_receipts(JobState& state, const fs::path& folder) {
       }
       return;
     }
-    if (!removed && (now != receipt->state || !receipt->state_suffices()))
-      state.compared.push_back(state.next);
+    if (!removed && (now != receipt->state || !receipt->state_suffices())) state.compared.push_back(state.next);
     if (state.next + 1 < stage_count) state.inputs[state.next + 1] = receipt->output;
     if (state.next + 1 == stage_count) state.results = std::move(receipt->results);
   }
@@ -118,8 +115,8 @@ void find_last(JobState& state, const fs::path& folder) {
         there && begins_with_checksum(folder / last.output) && checksum_of(folder / last.output).has_value();
     return;
   }
-  state.has_last = there ? is_as_noted(*receipt, folder / last.output)
-                         : state.keep == Keep::lives && !receipt->results.empty();
+  state.has_last =
+      there ? is_as_noted(*receipt, folder / last.output) : state.keep == Keep::lives && !receipt->results.empty();
   if (state.has_last) state.results = receipt->results;
 }
 
@@ -155,16 +152,14 @@ std::string rules(const StudyPlaces& places, const StageLimits& limits, const st
     text += fmt::format(
         "rule {0}\n  command = exec {9}\"$$DRESSLIFE_PROGRAMS/{1}\" $job/{2}{3} -o $job/{4} --receipt $job/{5} "
         "{10}--quiet --job-time {6} --job-memory {7}$same 3>&1 > $job/{8} 2>&1\n  description = {0} $job\n\n",
-        stage.name, program_name(stage), stage.input, job, stage.output, receipt_file(stage).string(),
-        limits.seconds, limits.megabytes, (launcher.empty() ? log_file(stage) : launcher_log(stage)).string(),
+        stage.name, program_name(stage), stage.input, job, stage.output, receipt_file(stage).string(), limits.seconds,
+        limits.megabytes, (launcher.empty() ? log_file(stage) : launcher_log(stage)).string(),
         launching(launcher, stage), replaces_files_of_others() ? "--force " : "");
   }
   return text;
 }
 
-std::string target_of(const Stage& stage, const std::string& job) {
-  return job + "/" + beside(stage, ".ran").string();
-}
+std::string target_of(const Stage& stage, const std::string& job) { return job + "/" + beside(stage, ".ran").string(); }
 
 /// (job, stage) folders of the other jobs that get the output, one per line.
 using SameOutput = std::vector<std::array<std::string, stage_count>>;
@@ -185,8 +180,7 @@ std::string chain_of(const Study& study, const StudyPlaces& places, const JobSta
     if (makers[k][stage] != k) continue;
     const std::string before =
         stage == state.next ? "" : ' ' + target_of(stages[stage - 1], study.jobs[makers[k][stage - 1]].name);
-    text += fmt::format("build {}: {}{}\n  job = {}\n", target_of(stages[stage], job), stages[stage].name,
-                        before, job);
+    text += fmt::format("build {}: {}{}\n  job = {}\n", target_of(stages[stage], job), stages[stage].name, before, job);
     if (same[k][stage].empty()) continue;
     const std::string list = job + '/' + beside(stages[stage], ".same").string();
     write_text_if_changed(places.folder / list, same[k][stage], Sync::never);
@@ -227,8 +221,7 @@ std::string changed_since(const Receipt& receipt, const fs::path& folder, const 
 }
 
 /// Returns the reason why a job is not done after a run.
-std::string reason_of(const JobState& state, const fs::path& folder, const BuildResult& result,
-                      const Digests& before) {
+std::string reason_of(const JobState& state, const fs::path& folder, const BuildResult& result, const Digests& before) {
   const Stage& stage = stages[state.next];
   bool begun = false;
   for (const fs::path& log : {log_file(stage), launcher_log(stage)}) {
@@ -239,11 +232,9 @@ std::string reason_of(const JobState& state, const fs::path& folder, const Build
       return log == log_file(stage) ? line : line + then_run_again;  // a launcher's message contains no advice on jobs
   }
   if (!begun)
-    return result.words.empty() ? "it was not reached"
-                                : "it was not reached: " + result.words + "; run again";
+    return result.words.empty() ? "it was not reached" : "it was not reached: " + result.words + "; run again";
   // Below this line the stage wrote no error. The receipt may be older than this run.
-  if (!result.words.empty())
-    return fmt::format("{} was broken off: {}; run again", program_name(stage), result.words);
+  if (!result.words.empty()) return fmt::format("{} was broken off: {}; run again", program_name(stage), result.words);
   const std::optional<Receipt> receipt = read_receipt(folder / receipt_file(stage));
   if (receipt && receipt->recipe != state.recipes[state.next])
     return fmt::format("{}: error: {} while the study ran; let nothing change it meanwhile{}", stage.output,
@@ -315,8 +306,7 @@ class Ninja {
  private:
   static constexpr int not_installed = 127;
 
-  [[noreturn]] static void become_ninja(const StudyPlaces& places, int parallel, const std::string& digests,
-                                        int said) {
+  [[noreturn]] static void become_ninja(const StudyPlaces& places, int parallel, const std::string& digests, int said) {
     const pid_t runner = ::getppid();
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);      // on SIGTERM Ninja ends its stages and waits for them
     if (::getppid() != runner) ::_exit(1);   // the parent process died before prctl()
@@ -330,8 +320,7 @@ class Ninja {
     const std::string jobs = std::to_string(parallel), graph = places.graph().string();
     release_signals();
     if (::chdir(places.folder.c_str()) == 0)
-      ::execlp("ninja", "ninja", "-f", graph.c_str(), "-k", "0", "-j", jobs.c_str(),
-               static_cast<char*>(nullptr));
+      ::execlp("ninja", "ninja", "-f", graph.c_str(), "-k", "0", "-j", jobs.c_str(), static_cast<char*>(nullptr));
     ::_exit(not_installed);
   }
 
@@ -346,10 +335,8 @@ std::string JobState::words() const {
   if (done()) return "done";
   if (!failure.empty()) return "failed   " + failure;
   if (!damaged.empty() && foreign)
-    return fmt::format("foreign  {} was not written by dresslife; move it away, or run with --force",
-                       damaged);
-  if (!damaged.empty())
-    return fmt::format("damaged  {} is not what its stage wrote; run makes it again", damaged);
+    return fmt::format("foreign  {} was not written by dresslife; move it away, or run with --force", damaged);
+  if (!damaged.empty()) return fmt::format("damaged  {} is not what its stage wrote; run makes it again", damaged);
   if (!has_results) return "to do";
   return changed.empty() ? "stale" : "stale    " + changed;
 }
@@ -399,8 +386,7 @@ void look_at(JobState& state, const fs::path& folder) {
   follow_receipts(state, folder);
   find_last(state, folder);
   // The next stage reads the output of the previous stage, which may have been removed. Then that stage runs again.
-  while (!state.done() && state.next > 0 && !state_of(folder / stages[state.next - 1].output).exists())
-    --state.next;
+  while (!state.done() && state.next > 0 && !state_of(folder / stages[state.next - 1].output).exists()) --state.next;
 }
 
 std::vector<Makers> makers_of(const Study& study, const std::vector<JobState>& states) {
@@ -481,14 +467,12 @@ void write_build_graph(const Study& study, const StudyPlaces& places, const std:
     const fs::path folder = places.job(job.name);
     const bool is_new = fs::create_directory(folder);
     make_notes(folder / ".stage");
-    write_text_if_changed(folder / "job.yaml", with_mark(stored_job_text(*job.job, folder), Mark::yaml),
-                          Sync::never);
+    write_text_if_changed(folder / "job.yaml", with_mark(stored_job_text(*job.job, folder), Mark::yaml), Sync::never);
     if (states[k].done()) continue;
     check_notes(folder / ".stage");
     for (const char* result : {"log", "page.html", "preview.html"}) check_replaceable(folder / result);
     for (std::size_t stage = states[k].next; stage < stage_count && !is_new; ++stage)
-      for (const fs::path& log : {log_file(stages[stage]), launcher_log(stages[stage])})
-        remove_ours(folder / log);
+      for (const fs::path& log : {log_file(stages[stage]), launcher_log(stages[stage])}) remove_ours(folder / log);
     graph += chain_of(study, places, states[k], k, makers, same);
   }
   write_text_if_changed(places.folder / places.graph(), graph);
@@ -521,8 +505,8 @@ BuildResult run_build_graph(const StudyPlaces& places, int parallel,
   return result;
 }
 
-void close_run(const Study& study, const StudyPlaces& places, const BuildResult& result,
-               std::vector<JobState>& states, const Digests& before) {
+void close_run(const Study& study, const StudyPlaces& places, const BuildResult& result, std::vector<JobState>& states,
+               const Digests& before) {
   const std::vector<Makers> makers = makers_of(study, states);
   std::vector<std::size_t> unfinished;
   for (std::size_t k = 0; k < states.size(); ++k)
@@ -530,22 +514,21 @@ void close_run(const Study& study, const StudyPlaces& places, const BuildResult&
   for (const std::size_t k : unfinished) {
     const fs::path folder = places.job(study.jobs[k].name);
     for (std::size_t stage = states[k].next; stage < stage_count; ++stage)
-      if (makers[k][stage] != k)
-        give_log(places.job(study.jobs[makers[k][stage]].name), folder, stages[stage]);
+      if (makers[k][stage] != k) give_log(places.job(study.jobs[makers[k][stage]].name), folder, stages[stage]);
     remove_ours(folder / failure_file);
     look_at(states[k], folder);
     remove_leftovers(folder);
     join_logs(folder);
   }
-  for (const std::size_t k :
-       // in a second loop, after all states are known, because removing a hard link changes the times of the other links
-       unfinished) {
+  for (
+      const std::size_t k :
+      // in a second loop, after all states are known, because removing a hard link changes the times of the other links
+      unfinished) {
     const fs::path folder = places.job(study.jobs[k].name);
     if (study.removes_unkept) remove_unkept(states[k], folder);
     if (states[k].done()) continue;
     states[k].failure = reason_of(states[k], folder, result, before);
-    write_text_if_changed(folder / failure_file, failure_key(states[k]) + "\n" + states[k].failure + "\n",
-                          Sync::never);
+    write_text_if_changed(folder / failure_file, failure_key(states[k]) + "\n" + states[k].failure + "\n", Sync::never);
   }
 }
 

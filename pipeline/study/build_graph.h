@@ -27,7 +27,8 @@ inline constexpr std::size_t stage_count = 3;
 struct StudyPlaces {
   std::filesystem::path folder;    ///< DIR/<study>
   std::filesystem::path programs;  ///< folder of dresslife-sim, -strain and -fatigue
-  std::string shard{};  ///< "2_of_8": this run has a graph of its own beside the other runs in the folder; empty: the whole study
+  std::string
+      shard{};  ///< "2_of_8": this run has a graph of its own beside the other runs in the folder; empty: the whole study
 
   /// Paths in `folder`: internal files of a run, and its graph.
   std::filesystem::path notes() const { return shard.empty() ? ".stage" : ".stage/shard_" + shard; }
@@ -46,7 +47,7 @@ struct JobState {
   bool foreign = false;                         ///< whether `damaged` is the user's own file
   std::string failure;                          ///< reason why the last attempt with these recipes failed
   bool has_results = false;                     ///< whether results of any settings exist
-  std::vector<ResultValue> results;                ///< attributes of life.h5, if its receipt contains them
+  std::vector<ResultValue> results;             ///< attributes of life.h5, if its receipt contains them
   /// For a job that is not done: whether a complete result of other settings, files or programs exists.
   bool has_last = false;
   std::string changed;  ///< changes since that result, as text (changes.h); empty: not compared
@@ -112,7 +113,7 @@ BuildResult run_build_graph(const StudyPlaces& places, int parallel,
 
 /// Updates `states` after a run. The reason why a job is still not done is written to its `failure` and to its folder; its
 /// logs are joined into `log`. before: digests of the files and programs at the start of the run.
-void close_run(const Study& study, const StudyPlaces& places, const BuildResult& result,
-               std::vector<JobState>& states, const Digests& before);
+void close_run(const Study& study, const StudyPlaces& places, const BuildResult& result, std::vector<JobState>& states,
+               const Digests& before);
 
 }  // namespace dresslife::pipeline

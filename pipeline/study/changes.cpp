@@ -28,8 +28,7 @@ std::string value_words(const Node* value) {
   constexpr std::size_t longest = 40;
   if (!value || value->kind == Node::Kind::null) return "nothing";
   if (value->is_scalar())
-    return value->text.size() <= longest ? value->text
-                                         : fmt::format("a text of {} letters", value->text.size());
+    return value->text.size() <= longest ? value->text : fmt::format("a text of {} letters", value->text.size());
   if (value->is_map()) return fmt::format("{} keys", value->entries.size());
   if (!is_plain(*value)) return fmt::format("{} entries", value->items.size());
   const std::string list = fmt::format("[{}]", joined(mapped(value->items, &Node::text), ", "));
@@ -52,8 +51,7 @@ class Comparison {
  public:
   void compare(const Node* was, const Node* now, const std::string& path) {
     const bool maps = was && now && was->is_map() && now->is_map();
-    const bool lists =
-        was && now && was->is_list() && now->is_list() && was->items.size() == now->items.size();
+    const bool lists = was && now && was->is_list() && now->is_list() && was->items.size() == now->items.size();
     if (maps)
       compare_maps(*was, *now, path);
     else if (lists && !(is_plain(*was) && is_plain(*now)))
@@ -78,10 +76,8 @@ class Comparison {
 std::vector<std::string> changed_settings(const StudyJob& job, const StudyPlaces& places) {
   const fs::path life = places.life(job.name);
   if (!state_of(life).exists()) return {};
-  const std::string was =
-      FileReader(life, life_format(), FileReader::Scope::attributes).text_attribute("job");
-  const fs::path settings =
-      places.job(job.name) / "job.yaml";  // the present settings of a study that was not expanded
+  const std::string was = FileReader(life, life_format(), FileReader::Scope::attributes).text_attribute("job");
+  const fs::path settings = places.job(job.name) / "job.yaml";  // the present settings of a study that was not expanded
   const std::string now = job.job ? stored_job_text(*job.job, places.job(job.name)) : read_text(settings);
   return changed_keys(parse_yaml(was, life.string()), parse_yaml(now, settings.string()));
 }
@@ -107,8 +103,7 @@ std::vector<std::string> changed_files(const StudyJob& job, const StudyPlaces& p
     for (const fs::path& file : stage == 0 && job.job ? files_beside(*job.job) : std::vector<fs::path>{})
       if (const std::string seen = as_seen_from(folder, file).string();
           std::ranges::none_of(receipt->made_with, [&](const auto& noted) { return noted.first == seen; }))
-        changed.push_back(
-            fmt::format("{} is new beside the program", (folder / seen).lexically_normal().string()));
+        changed.push_back(fmt::format("{} is new beside the program", (folder / seen).lexically_normal().string()));
     later = receipt;
   }
   std::reverse(changed.begin(), changed.end());
@@ -124,8 +119,7 @@ bool is_prose(const std::string& change) {
 /// Returns the changes as text. Precondition: `changed` is not empty.
 std::string words_of(std::vector<std::string> changed) {
   constexpr std::size_t named = 3;
-  std::stable_partition(changed.begin(), changed.end(),
-                        [](const std::string& change) { return !is_prose(change); });
+  std::stable_partition(changed.begin(), changed.end(), [](const std::string& change) { return !is_prose(change); });
   const std::size_t more = changed.size() - std::min(changed.size(), named);
   changed.resize(changed.size() - more);
   return fmt::format("{}{}", joined(changed, "; "), more > 0 ? fmt::format("; and {} more", more) : "");
@@ -143,8 +137,7 @@ FilesAtStart::FilesAtStart(std::vector<std::shared_ptr<const Job>> jobs) : jobs_
 
 void FilesAtStart::check() const {
   const auto changed = [](const fs::path& file, const char* how) {
-    throw FilesChanged({file.string()}, fmt::format("{} during the search", how),
-                       "let nothing change it meanwhile");
+    throw FilesChanged({file.string()}, fmt::format("{} during the search", how), "let nothing change it meanwhile");
   };
   for (const auto& [file, was] : files_) {
     if (state_of(file) == was.first) continue;

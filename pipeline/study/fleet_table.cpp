@@ -26,8 +26,7 @@ Node value_of(const CsvCell& cell, const Where& where) {
   try {
     value = parse_yaml(cell.text, where.file);
   } catch (const InputError&) {
-    throw InputError(where, fmt::format("'{}' is no value", cell.text),
-                     "write it as in a job, in quotes if need be");
+    throw InputError(where, fmt::format("'{}' is no value", cell.text), "write it as in a job, in quotes if need be");
   }
   place_at(value, where);
   return value;
@@ -61,8 +60,7 @@ std::vector<Variant> table_variants(const std::filesystem::path& file) {
   CsvReader reader(text, file.string());
   const CsvRow titles = reader.next();
   if (titles.empty())
-    throw InputError({file.string(), 1, 1}, "holds no table",
-                     "write a line of column titles, then a row per job");
+    throw InputError({file.string(), 1, 1}, "holds no table", "write a line of column titles, then a row per job");
   check_titles(reader, titles, {name_column});
   std::vector<Variant> variants;
   std::map<std::string, int> lines;
@@ -77,8 +75,7 @@ std::vector<Variant> table_variants(const std::filesystem::path& file) {
       throw InputError(reader.where(row.front()), fmt::format("the table has more than {} rows", most_jobs),
                        "split it");
   }
-  if (variants.empty())
-    throw InputError({file.string(), 1, 1}, "has titles and no row", "write a row per job");
+  if (variants.empty()) throw InputError({file.string(), 1, 1}, "has titles and no row", "write a row per job");
   return variants;
 }
 

@@ -31,16 +31,13 @@ long owner_of(int descriptor, const fs::path& file) {
   const bool is_plain = state_of(descriptor, file).exists();
   const ssize_t got = is_plain ? read_some(descriptor, text, note_bytes + 1, 0) : 0;
   if (got < 0) throw DiskError(file.string(), errno);
-  if (!is_plain || got > static_cast<ssize_t>(note_bytes) ||
-      text[std::strspn(text, "0123456789 \n")] != '\0')
+  if (!is_plain || got > static_cast<ssize_t>(note_bytes) || text[std::strspn(text, "0123456789 \n")] != '\0')
     throw InputError({file.string()}, "is there already and is no lock of dresslife's",
                      "move it away, or choose another folder with -o");
   return std::strtol(text, nullptr, 10);
 }
 
-bool lives(long process) {
-  return process <= 0 || ::kill(static_cast<pid_t>(process), 0) == 0 || errno != ESRCH;
-}
+bool lives(long process) { return process <= 0 || ::kill(static_cast<pid_t>(process), 0) == 0 || errno != ESRCH; }
 
 [[noreturn]] void refuse(const fs::path& folder) {
   throw InputError({folder.string()}, fmt::format("cannot be written ({})", std::strerror(errno)),
@@ -48,8 +45,7 @@ bool lives(long process) {
 }
 
 std::string run_of(long process) {
-  return process > 0 ? fmt::format("another run (process {})", process)
-                     : "a run of some of its jobs (--shard)";
+  return process > 0 ? fmt::format("another run (process {})", process) : "a run of some of its jobs (--shard)";
 }
 
 void take(int descriptor, const fs::path& folder, int how) {

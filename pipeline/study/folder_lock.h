@@ -5,7 +5,6 @@
 
 namespace dresslife::pipeline {
 
-
 /// Lock that is held until the program and all stages that it started have ended. Meanwhile no other run writes there.
 class FolderLock {
  public:

@@ -31,7 +31,8 @@ void claim_folder(const fs::path& folder, const fs::path& file) {
   check_source(folder, file);
   make_notes(folder / ".stage");
   // A relative path stays valid in a copy of the folder together with its file.
-  write_text_if_changed(note_of(folder), fs::proximate(fs::canonical(file), fs::canonical(folder)).string(), Sync::never);
+  write_text_if_changed(note_of(folder), fs::proximate(fs::canonical(file), fs::canonical(folder)).string(),
+                        Sync::never);
 }
 
 }  // namespace dresslife::pipeline

@@ -24,7 +24,8 @@ std::uintmax_t bytes_in(const fs::path& folder) {
 }  // namespace
 
 bool is_job_folder(const fs::path& folder) {
-  return kind_of_name(folder) == FileKind::folder && lies_in_notes(folder / ".stage" / "README") && is_ours(folder / "job.yaml");
+  return kind_of_name(folder) == FileKind::folder && lies_in_notes(folder / ".stage" / "README") &&
+         is_ours(folder / "job.yaml");
 }
 
 std::uintmax_t remove_job(const fs::path& folder) {

@@ -27,15 +27,14 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path memory_of(const StudyPlaces& places) { return places.folder / ".stage" / "study"; }
-fs::path settings_of(const StudyPlaces& places, const std::string& job) {
-  return places.job(job) / "job.yaml";
-}
+fs::path settings_of(const StudyPlaces& places, const std::string& job) { return places.job(job) / "job.yaml"; }
 
 /// Returns a digest of all inputs of the expansion that are in no file.
 std::string digest_of(const StudyRequest& request) {
   Xxh3 digest;
   const auto add =
-      [&](const std::string& text) {  // the length stands before each text, so that different lists never give the same bytes
+      [&](const std::string&
+              text) {  // the length stands before each text, so that different lists never give the same bytes
         const std::string whole = fmt::format("{}:{}", text.size(), text);
         digest.add(whole.data(), whole.size());
       };
@@ -101,8 +100,7 @@ std::optional<StudyState> recalled(const StudyRequest& request, const StudyPlace
       FileState settings;
       standing.states.push_back(state_from(lines, job.name, settings));
       standing.states.back().keep = standing.study.keep;
-      if (settings.changed_ns >= written || state_of(settings_of(places, job.name)) != settings)
-        return std::nullopt;
+      if (settings.changed_ns >= written || state_of(settings_of(places, job.name)) != settings) return std::nullopt;
     }
   }
   look_again(standing);
@@ -134,9 +132,9 @@ std::optional<std::string> text_of(const StudyRequest& request, const StudyState
     // A job with ratings needs its own settings to derive the rigs, and the note does not contain them.
     if (!job.failure.empty() || (job.job && has_ratings(*job.job))) return std::nullopt;
     const FileState settings = state_of(settings_of(standing.places, job.name));
-    text += fmt::format("job {} {} {} {} {} {} {} {} {}\n", job.name, state.settings, state.recipes[0],
-                        state.recipes[1], state.recipes[2], settings.size, settings.modified_ns,
-                        settings.changed_ns, settings.inode);
+    text +=
+        fmt::format("job {} {} {} {} {} {} {} {} {}\n", job.name, state.settings, state.recipes[0], state.recipes[1],
+                    state.recipes[2], settings.size, settings.modified_ns, settings.changed_ns, settings.inode);
     for (const std::string& value : job.values) {
       if (!fits_a_line(value)) return std::nullopt;
       text += fmt::format("value {}\n", value);
@@ -184,11 +182,13 @@ StudyState expanded_from(const StudyRequest& request, const std::function<Study(
 }  // namespace
 
 StudyState expanded(const StudyRequest& request) {
-  return expanded_from(request, [&] { return read_study(request.file, request.sets); }, "");
+  return expanded_from(
+      request, [&] { return read_study(request.file, request.sets); }, "");
 }
 
 StudyState expanded(const StudyRequest& request, const Shard& shard) {
-  return expanded_from(request, [&] { return read_study(request.file, request.sets, shard); }, shard.name());
+  return expanded_from(
+      request, [&] { return read_study(request.file, request.sets, shard); }, shard.name());
 }
 
 StudyState standing_of(const StudyRequest& request) {

@@ -32,10 +32,11 @@ std::string mode_name(const UnvalidatedMode& mode) {
 
 std::string mode_note(const UnvalidatedMode& mode) {
   if (!is_credible(mode))
-    return fmt::format("Not predicted: the only known law gives {} bends from straight to the limit of the bend radius, and a published "
-                       "hose endured {} without damage. Keep the maker's bend radius. A bending test by the maker, as strain_life_table "
-                       "of the material of the wall, would give a life.",
-                       readable(mode.bends_at_limit), readable(published_wall_bends));
+    return fmt::format(
+        "Not predicted: the only known law gives {} bends from straight to the limit of the bend radius, and a published "
+        "hose endured {} without damage. Keep the maker's bend radius. A bending test by the maker, as strain_life_table "
+        "of the material of the wall, would give a life.",
+        readable(mode.bends_at_limit), readable(published_wall_bends));
   const std::string words = (mode.mode == UnvalidatedMode::rating ? "A lower bound of its life. " : "") + mode.note;
   return words.substr(0, words.find_last_not_of(' ') + 1);
 }
@@ -71,7 +72,8 @@ std::string cell_legend(const std::vector<ModeLine>& lines) {
   bool unknown = false, none = false;
   for (const ModeLine& line : lines)
     for (const std::string& cell : line.hours) unknown = unknown || cell == "-", none = none || cell == "none";
-  return std::string(none ? " none: so many dresspacks never fail by this mode." : "") + (unknown ? " -: not predicted." : "");
+  return std::string(none ? " none: so many dresspacks never fail by this mode." : "") +
+         (unknown ? " -: not predicted." : "");
 }
 
 std::vector<ModeLine> mode_lines(const RankingRow& row) {
@@ -100,7 +102,8 @@ std::string mode_table(const RankingRow& row, std::size_t width, const std::stri
                                  {"from tool [m]", true, {}},
                                  {"at [s]", true, {}}}};
   for (const ModeLine& line : lines) {
-    const std::array cells{line.mode, line.hours[0], line.hours[1], line.hours[2], line.before_wires, line.from_tool, line.time};
+    const std::array cells{line.mode,         line.hours[0],  line.hours[1], line.hours[2],
+                           line.before_wires, line.from_tool, line.time};
     for (std::size_t i = 0; i < cells.size(); ++i) columns[i].cells.push_back(cells[i]);
   }
   std::string text = indent + table_line(columns, [](const Column& column) { return column.title; });
@@ -118,11 +121,12 @@ std::string mode_legend(const std::vector<RankingRow>& rows, std::size_t width, 
     if (row.has_result() && !row.unvalidated.empty())
       for (ModeLine& line : mode_lines(row)) all.push_back(std::move(line));
   if (all.empty()) return "";
-  return wrapped("† No test confirms the law of this mode: 'replace after' leaves it out." + cell_legend(all) +
-                     " before wires: share of the samples in which the mode comes before broken wires. at: time of its largest load. "
-                     "wires: hours until a conductor has lost its share of wires. The worst wire is that of the shortest median life with the "
-                     "job's own values. It may be in another conductor.",
-                 width, indent);
+  return wrapped(
+      "† No test confirms the law of this mode: 'replace after' leaves it out." + cell_legend(all) +
+          " before wires: share of the samples in which the mode comes before broken wires. at: time of its largest load. "
+          "wires: hours until a conductor has lost its share of wires. The worst wire is that of the shortest median life with the "
+          "job's own values. It may be in another conductor.",
+      width, indent);
 }
 
 }  // namespace dresslife::pipeline

@@ -12,17 +12,17 @@ namespace dresslife::pipeline {
 
 /// One mode in words.
 struct ModeLine {
-  std::string mode;                  ///< "wires of signal cable 7", "abrasion* on link_4"; *: not included in the headline
+  std::string mode;  ///< "wires of signal cable 7", "abrasion* on link_4"; *: not included in the headline
   /// hours by which 10, 50, 90 % have failed by this mode; "over 40,000" beyond the robot's life
   std::array<std::string, 3> hours;
   /// "57 %", below 1 % "0.5 %": share of the samples in which the mode comes before the wires; empty for the wires
   std::string before_wires;
-  std::string with_it;               ///< 'replace after' if this mode were included
-  std::string from_tool;             ///< "0.40": place of the mode, from the tool clamp [m]; empty: not known
-  std::string time;                  ///< "23.1": time of its largest load [s]; empty: not known
-  std::string step;                  ///< program line that runs at `time`; empty: none
-  std::string note;                  ///< further sentences; empty: none
-  bool early = false;                ///< whether 1 of 10 fails by this mode within the robot's life
+  std::string with_it;    ///< 'replace after' if this mode were included
+  std::string from_tool;  ///< "0.40": place of the mode, from the tool clamp [m]; empty: not known
+  std::string time;       ///< "23.1": time of its largest load [s]; empty: not known
+  std::string step;       ///< program line that runs at `time`; empty: none
+  std::string note;       ///< further sentences; empty: none
+  bool early = false;     ///< whether 1 of 10 fails by this mode within the robot's life
 };
 
 /// Returns one line per mode, the wires first. Empty: the row has no percentiles and no other mode.

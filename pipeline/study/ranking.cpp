@@ -18,12 +18,12 @@
 #include "pipeline/base/readable.h"
 #include "pipeline/cable/believable.h"
 #include "pipeline/files/files.h"
+#include "pipeline/job/job.h"
 #include "pipeline/life/first_failure.h"
 #include "pipeline/settings/units.h"
-#include "pipeline/study/ranking_columns.h"
 #include "pipeline/study/mode_table.h"
+#include "pipeline/study/ranking_columns.h"
 #include "pipeline/study/row_warnings.h"
-#include "pipeline/job/job.h"
 #include "pipeline/study/row_words.h"
 #include "pipeline/study/shown_rows.h"
 #include "pipeline/study/study_problems.h"
@@ -50,9 +50,7 @@ class LifeRoot {
   Where where() const { return {result_.life_file.string()}; }
 
  private:
-  const ResultValue* find(const std::string& name) const {
-    return find_in(result_.results, &ResultValue::name, name);
-  }
+  const ResultValue* find(const std::string& name) const { return find_in(result_.results, &ResultValue::name, name); }
   const ResultValue& stored(const std::string& name) const {
     if (const ResultValue* const found = find(name)) return *found;
     throw InputError(where(), fmt::format("attribute '{}' is missing", name),
@@ -68,7 +66,8 @@ void read_scatter(const LifeRoot& file, RankingRow& row) {
   const auto read = [&](const std::string& name, double& value) {
     if (file.has_attribute(name)) value = file.number_attribute(name);
   };
-  const bool plans = file.has_attribute("first_wire_life_hours_p10");  // in older files life_hours_p10 belongs to the first wire
+  const bool plans =
+      file.has_attribute("first_wire_life_hours_p10");  // in older files life_hours_p10 belongs to the first wire
   for (std::size_t i = 0; i < ends.size(); ++i) {
     read(fmt::format("life_hours_{}", ends[i]), plans ? row.planned_hours[i] : row.first_wire_hours[i]);
     if (plans) read(fmt::format("first_wire_life_hours_{}", ends[i]), row.first_wire_hours[i]);
@@ -77,7 +76,8 @@ void read_scatter(const LifeRoot& file, RankingRow& row) {
   if (!plans) return;
   read("life_months_p10", row.planned_months);
   read("robot_life_hours", row.robot_life_hours);
-  for (std::size_t i = 0; i < ends.size(); ++i) read(fmt::format("scatter_life_hours_{}", ends[i]), row.scatter_hours[i]);
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    read(fmt::format("scatter_life_hours_{}", ends[i]), row.scatter_hours[i]);
   if (file.has_attribute("life_response")) {
     row.life_response = file.text_attribute("life_response");
     row.life_shares = file.text_attribute("life_shares");
@@ -117,7 +117,8 @@ void read_unvalidated(const LifeRoot& file, RankingRow& row) {
     try {
       row.unvalidated = unvalidated_from(file.text_attribute("unvalidated_modes"));
     } catch (const std::logic_error& problem) {
-      throw InputError(file.where(), fmt::format("attribute 'unvalidated_modes' is no list of modes ({})", problem.what()),
+      throw InputError(file.where(),
+                       fmt::format("attribute 'unvalidated_modes' is no list of modes ({})", problem.what()),
                        "make the file again with dresslife-fatigue");
     }
     row.not_evaluated = file.text_attribute("not_evaluated");
@@ -154,11 +155,11 @@ RankingRow read_row(const JobResult& result) {
     read_scatter(file, row);
     read_unvalidated(file, row);
     if (file.has_attribute("largest_force_share")) {
-      if (const double share = file.number_attribute("largest_force_share"); share > 0)
-        row.largest_force_share = share;
+      if (const double share = file.number_attribute("largest_force_share"); share > 0) row.largest_force_share = share;
       row.clamp_moment_share = file.number_attribute("clamp_moment_share");
     }
-    if (file.has_attribute("strain_relief_share")) row.strain_relief_share = file.number_attribute("strain_relief_share");
+    if (file.has_attribute("strain_relief_share"))
+      row.strain_relief_share = file.number_attribute("strain_relief_share");
     if (file.has_attribute("moving_places")) row.moving_places = file.number_attribute("moving_places");
     if (file.has_attribute("loose_mesh_error")) row.loose_mesh_error = file.number_attribute("loose_mesh_error");
     if (file.has_attribute("life_hours_mean_stress_kept")) {
@@ -174,8 +175,7 @@ RankingRow read_row(const JobResult& result) {
     if (file.has_attribute("worst_component")) row.worst_component = file.text_attribute("worst_component");
     if (file.has_attribute("worst_dresspack")) row.worst_dresspack = file.text_attribute("worst_dresspack");
     if (file.has_attribute("worst_step")) row.worst_step = file.text_attribute("worst_step");
-    if (file.has_attribute("worst_shear_range"))
-      row.worst_shear_range = file.number_attribute("worst_shear_range");
+    if (file.has_attribute("worst_shear_range")) row.worst_shear_range = file.number_attribute("worst_shear_range");
     if (file.has_attribute("worst_joint")) row.worst_joint = file.text_attribute("worst_joint");
     if (!row.worst_joint.empty()) row.worst_joint_share = file.number_attribute("worst_joint_share");
   } catch (const InputError& problem) {
@@ -207,12 +207,10 @@ std::vector<double> outlived(std::span<const std::vector<double>> lives) {
   std::vector<std::size_t> order = indices_of(lives.size());
   const std::size_t samples = lives.front().size();
   for (std::size_t s = 0; s < samples; ++s) {
-    std::sort(order.begin(), order.end(),
-              [&](std::size_t a, std::size_t b) { return lives[a][s] < lives[b][s]; });
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return lives[a][s] < lives[b][s]; });
     for (std::size_t first = 0, end = 0; first < order.size(); first = end) {
       while (end < order.size() && lives[order[end]][s] == lives[order[first]][s]) ++end;
-      for (std::size_t k = first; k < end; ++k)
-        count[order[k]] += double(first + end - 1) / 2 / double(samples);
+      for (std::size_t k = first; k < end; ++k) count[order[k]] += double(first + end - 1) / 2 / double(samples);
     }
   }
   return count;
@@ -246,7 +244,8 @@ void report_orders(std::vector<RankingRow>& rows) {
   const std::size_t samples = std::clamp(samples_in_all / rows.size(), fewest, life_samples);
   std::map<std::string_view, std::string_view> moved_as;  // the first job by the recipe of its simulation
   std::vector<std::vector<double>> lives = mapped(rows, [&](RankingRow& row) {
-    const std::string_view first = row.simulated.empty() ? row.job : moved_as.try_emplace(row.simulated, row.job).first->second;
+    const std::string_view first =
+        row.simulated.empty() ? row.job : moved_as.try_emplace(row.simulated, row.job).first->second;
     return lives_of(row, std::string(first), samples);
   });
   order_beyond_robot(rows, lives);
@@ -297,8 +296,8 @@ std::vector<std::string> paragraphs(const RankingRow& row) {
   if (!row.has_result()) return all;
   if (row.done())
     if (const std::string kinds = warning_kinds(row); !kinds.empty()) all.push_back("WARNING: " + kinds);
-  all.insert(all.end(), {held_words(row), uncapped_words(row), repeat_words(row), uncertainty_words(row), failure_words(row),
-                         own_values_words(row)});
+  all.insert(all.end(), {held_words(row), uncapped_words(row), repeat_words(row), uncertainty_words(row),
+                         failure_words(row), own_values_words(row)});
   if (!row.not_evaluated.empty() && action_words(row).find(row.not_evaluated) == std::string::npos)
     all.push_back(fmt::format("Not evaluated: {}.", row.not_evaluated));
   if (row.done() && row.relative) all.push_back(relative_words(*row.relative));
@@ -309,8 +308,7 @@ std::vector<std::string> paragraphs(const RankingRow& row) {
 
 std::string one_line(std::string text) {
   std::replace_if(
-      text.begin(), text.end(),
-      [](char letter) { return letter == '\n' || letter == '\r' || letter == '\t'; }, ' ');
+      text.begin(), text.end(), [](char letter) { return letter == '\n' || letter == '\r' || letter == '\t'; }, ' ');
   return text;
 }
 
@@ -329,9 +327,9 @@ const UnvalidatedMode* RankingRow::unvalidated_mode(std::string_view mode) const
 
 std::string relative_words(const RelativeLife& relative) {
   const double hours = relative.hours();
-  return fmt::format("one hour does the damage of {} rated cycles of {}; {} rated: {} ({})", readable(relative.cycles_per_hour),
-                     relative.cable, readable(relative.rated_cycles), hours_text(hours),
-                     relative.rig);
+  return fmt::format("one hour does the damage of {} rated cycles of {}; {} rated: {} ({})",
+                     readable(relative.cycles_per_hour), relative.cable, readable(relative.rated_cycles),
+                     hours_text(hours), relative.rig);
 }
 
 std::vector<RankingRow> read_ranking(const std::vector<JobResult>& results) {
@@ -340,15 +338,13 @@ std::vector<RankingRow> read_ranking(const std::vector<JobResult>& results) {
   return rows;
 }
 
-std::vector<RankingRow> ranking_of(const Study& study, const StudyPlaces& places,
-                                   const std::vector<JobState>& states) {
+std::vector<RankingRow> ranking_of(const Study& study, const StudyPlaces& places, const std::vector<JobState>& states) {
   std::vector<RankingRow> rows = results_of(study, places, states);
   report_orders(rows);
   return rows;
 }
 
-std::vector<RankingRow> results_of(const Study& study, const StudyPlaces& places,
-                                   const std::vector<JobState>& states) {
+std::vector<RankingRow> results_of(const Study& study, const StudyPlaces& places, const std::vector<JobState>& states) {
   std::vector<JobResult> results;
   for (std::size_t k = 0; k < states.size(); ++k) {
     const StudyJob& job = study.jobs[k];
@@ -358,7 +354,9 @@ std::vector<RankingRow> results_of(const Study& study, const StudyPlaces& places
     const bool found = states[k].done() || states[k].has_last;
     if (found && states[k].keep == Keep::lives && !state_of(result.life_file).exists()) result.life_file.clear();
     if (job.failure.empty() && !states[k].done())
-      result.failure = !states[k].failure.empty() ? states[k].failure : states[k].has_last ? "stale" : states[k].words();
+      result.failure = !states[k].failure.empty() ? states[k].failure
+                       : states[k].has_last       ? "stale"
+                                                  : states[k].words();
     results.push_back(std::move(result));
   }
   std::vector<RankingRow> rows = sorted_rows(results);
@@ -377,7 +375,8 @@ std::vector<RankingRow> results_of(const Study& study, const StudyPlaces& places
 
 std::string stale_words(const RankingRow& row) {
   if (row.waits())
-    return "stale: since this result " + (row.changed.empty() ? "its settings, a file or a program changed" : row.changed);
+    return "stale: since this result " +
+           (row.changed.empty() ? "its settings, a file or a program changed" : row.changed);
   return fmt::format("stale: with the present settings it failed: {}{}", row.failure,
                      row.changed.empty() ? "" : "; since this result " + row.changed);
 }
@@ -388,19 +387,17 @@ std::string force_words(const RankingRow& row) {
   if (row.largest_force_share.value_or(0) > believable_share)
     parts.push_back(fmt::format("cables carry {:.2f} of their breaking force", *row.largest_force_share));
   if (row.clamp_moment_share.value_or(0) > believable_share)
-    parts.push_back(fmt::format("bend the clamps {:.2g} times as much as the hose does",
-                                *row.clamp_moment_share));
+    parts.push_back(fmt::format("bend the clamps {:.2g} times as much as the hose does", *row.clamp_moment_share));
   return joined(parts, " and ");
 }
 
 std::string ranking_csv(const std::vector<RankingRow>& rows) {
   std::string text = joined(mapped(ranking_columns(), &RankingColumn::name), ",") + '\n';
   for (const RankingRow& row : rows) {
-    const std::map<std::string_view, std::string> without_result{
-        {"job", row.job},
-        {"status", row.waits() ? row.failure : "failed"},
-        {"message", row.failure},
-        {"settings", row.settings}};
+    const std::map<std::string_view, std::string> without_result{{"job", row.job},
+                                                                 {"status", row.waits() ? row.failure : "failed"},
+                                                                 {"message", row.failure},
+                                                                 {"settings", row.settings}};
     std::vector<std::string> cells;
     for (const RankingColumn& column : ranking_columns()) {
       const auto given = without_result.find(column.name);
@@ -426,16 +423,16 @@ std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width
   for (const std::size_t k : selected.indices) {
     const RankingRow& row = rows[k];
     const std::array<std::string, 7> cells =
-        row.has_result() ? std::array<std::string, 7>{row.rank ? std::to_string(row.rank) : "-",
-                                                      one_line(row.job),
-                                                      std::string(row.stale ? "stale " : "") + plan_mark(row) +
-                                                          shown_life(row, row.headline_hours()),
-                                                      shown_calendar(row),
-                                                      planned_text(row, 1),
-                                                      planned_text(row, 2),
-                                                      bounds_text(row)}
-                         : std::array<std::string, 7>{"-", one_line(row.job), row.waits() ? row.failure : "failed",
-                                                      "", "", "", ""};
+        row.has_result()
+            ? std::array<std::string, 7>{row.rank ? std::to_string(row.rank) : "-",
+                                         one_line(row.job),
+                                         std::string(row.stale ? "stale " : "") + plan_mark(row) +
+                                             shown_life(row, row.headline_hours()),
+                                         shown_calendar(row),
+                                         planned_text(row, 1),
+                                         planned_text(row, 2),
+                                         bounds_text(row)}
+            : std::array<std::string, 7>{"-", one_line(row.job), row.waits() ? row.failure : "failed", "", "", "", ""};
     for (std::size_t i = 0; i < columns.size(); ++i) columns[i].cells.push_back(cells[i]);
   }
   // A name that does not fit into the table is printed on its own line above the job's numbers.
@@ -464,15 +461,19 @@ std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width
     for (const std::string& paragraph : paragraphs(row)) words += below(paragraph);
     if (!words.empty()) details += '\n' + (rows.size() > 1 ? one_line(row.job) + '\n' : "") + words;
   }
-  if (const std::string note = rows.size() > 1 ? marks_note(rows) : ""; !note.empty()) text += wrapped(one_line(note), width, indent);
-  text += wrapped("h: hours of motion. glued .. free: 'replace after' if the parts inside the cables cannot slide, and if they slide "
-                  "without friction.", width, indent);
+  if (const std::string note = rows.size() > 1 ? marks_note(rows) : ""; !note.empty())
+    text += wrapped(one_line(note), width, indent);
+  text += wrapped(
+      "h: hours of motion. glued .. free: 'replace after' if the parts inside the cables cannot slide, and if they slide "
+      "without friction.",
+      width, indent);
   text += details;
   if (const std::string legend = mode_legend(detailed, width, indent); !legend.empty()) text += '\n' + legend;
   std::string estimates;
   for (const std::string& one : estimate_words(rows)) estimates += wrapped(one_line(one), width, "");
   if (!estimates.empty()) text += '\n' + shown(estimates);
-  if (const std::string repeats = different_repeats_words(rows); !repeats.empty()) text += '\n' + wrapped(repeats, width, "");
+  if (const std::string repeats = different_repeats_words(rows); !repeats.empty())
+    text += '\n' + wrapped(repeats, width, "");
   return selected.summary.empty() ? text : text + '\n' + selected.summary;
 }
 

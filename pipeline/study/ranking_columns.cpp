@@ -57,9 +57,7 @@ class Table {
     add_lives(
         "life_hours_{}",
         "by then {} of such dresspacks have failed: `replace after`, `half failed`, `90 % failed` of the table",
-        [](const RankingRow& row) -> const Lives& {
-          return row.planned() ? row.planned_hours : row.first_wire_hours;
-        });
+        [](const RankingRow& row) -> const Lives& { return row.planned() ? row.planned_hours : row.first_wire_hours; });
     add_lives(
         "conductor_life_hours_{}",
         "by then {} have a conductor that has lost its share of wires at one place, by the scatter of wires alone",
@@ -75,8 +73,7 @@ class Table {
     add_rank();
     add_lives("life_hours_{}_all_glued", "life_hours_p10 if everything inside the cables were glued",
               [](const RankingRow& row) -> const Lives& { return row.glued_hours; });
-    add_lives("life_hours_{}_all_free",
-              "life_hours_p10 if everything inside the cables slipped without friction",
+    add_lives("life_hours_{}_all_free", "life_hours_p10 if everything inside the cables slipped without friction",
               [](const RankingRow& row) -> const Lives& { return row.free_hours; });
     add_test();
     add_abrasion();
@@ -84,16 +81,20 @@ class Table {
     add_inspection();
     add_jacket();
     for (std::size_t i = 0; i < ends.size(); ++i)
-      add(where(fmt::format("life_error_{}", ends[i]), "1",
-                i == 0 ? "standard error of life_hours_p10 as a factor, of samples and interpolation"
-                       : fmt::format("the same of life_hours_{}", ends[i]),
-                [i](const RankingRow& row) { return std::isfinite(row.planned_errors[i]); },
-                [i](const RankingRow& row) { return row.planned_errors[i]; }));
+      add(where(
+          fmt::format("life_error_{}", ends[i]), "1",
+          i == 0 ? "standard error of life_hours_p10 as a factor, of samples and interpolation"
+                 : fmt::format("the same of life_hours_{}", ends[i]),
+          [i](const RankingRow& row) { return std::isfinite(row.planned_errors[i]); },
+          [i](const RankingRow& row) { return row.planned_errors[i]; }));
     add_corkscrew_and_ends();
     add_kink();
     for (const auto& [end, share, i] : {std::tuple{"p10", "10", 0u}, std::tuple{"p90", "90", 2u}})
-      add(of_mode(fmt::format("hose_life_hours_{}", end), "h", fmt::format("hose_life_hours until {} % have cracked", share), UnvalidatedMode::wall,
-                  [i = i](const UnvalidatedMode& mode) { return is_credible(mode) ? mode.hours[i] : UnvalidatedMode::unknown; }));
+      add(of_mode(fmt::format("hose_life_hours_{}", end), "h",
+                  fmt::format("hose_life_hours until {} % have cracked", share), UnvalidatedMode::wall,
+                  [i = i](const UnvalidatedMode& mode) {
+                    return is_credible(mode) ? mode.hours[i] : UnvalidatedMode::unknown;
+                  }));
     add(of("moving_places", "1",
            "other computed places of loose cables at which they do not end the repeat where they began it",
            &RankingRow::moving_places));
@@ -141,43 +142,51 @@ class Table {
   }
 
   void add_abrasion() {
-    add_wear("abrasion", UnvalidatedMode::abrasion, "by then {} of such dresspacks are worn through by abrasion; not validated",
-             "abrasion", "on", "what rubs: a link, ring, floor, dresspack or cell");
-    add(of("not_evaluated", "text", "parts of the dresspack and failure modes without a life", &RankingRow::not_evaluated));
+    add_wear("abrasion", UnvalidatedMode::abrasion,
+             "by then {} of such dresspacks are worn through by abrasion; not validated", "abrasion", "on",
+             "what rubs: a link, ring, floor, dresspack or cell");
+    add(of("not_evaluated", "text", "parts of the dresspack and failure modes without a life",
+           &RankingRow::not_evaluated));
   }
 
   void add_rating() {
     constexpr const char* rating = UnvalidatedMode::rating;
-    add_mode_lives("rating_hours_{}",
-                   "in {} the maker's rating of a cable without described wires covers less, a lower bound of its life; not validated", rating);
-    add(of_mode("rating_first_share", "1", "share of the samples in which the wires of other cables outlive the rating", rating,
-                &UnvalidatedMode::first_share));
+    add_mode_lives(
+        "rating_hours_{}",
+        "in {} the maker's rating of a cable without described wires covers less, a lower bound of its life; not validated",
+        rating);
+    add(of_mode("rating_first_share", "1", "share of the samples in which the wires of other cables outlive the rating",
+                rating, &UnvalidatedMode::first_share));
     add(of_mode("rating_of", "text", "that cable", rating, &UnvalidatedMode::place));
   }
 
   void add_inspection() {
     constexpr const char* abrasion = UnvalidatedMode::abrasion;
-    add(of_mode("abrasion_found_share", "1",
-                "share of the dresspacks worn through within the robot's life that a visual check finds before; not validated",
-                abrasion, &UnvalidatedMode::found_share));
-    add(of_mode("abrasion_unseen_share", "1", "share of all dresspacks that wear through within the robot's life, unseen by checks",
-                abrasion, &UnvalidatedMode::unseen_share));
+    add(of_mode(
+        "abrasion_found_share", "1",
+        "share of the dresspacks worn through within the robot's life that a visual check finds before; not validated",
+        abrasion, &UnvalidatedMode::found_share));
+    add(of_mode("abrasion_unseen_share", "1",
+                "share of all dresspacks that wear through within the robot's life, unseen by checks", abrasion,
+                &UnvalidatedMode::unseen_share));
   }
 
   void add_corkscrew_and_ends() {
     constexpr const char* corkscrew = UnvalidatedMode::corkscrew;
     add(of_mode("corkscrew_life_hours_p10", "h",
-                "by then a cable has wound into a corkscrew in 10 % of such dresspacks; inf: none does; not validated", corkscrew,
-                [](const UnvalidatedMode& mode) { return mode.hours[0]; }));
+                "by then a cable has wound into a corkscrew in 10 % of such dresspacks; inf: none does; not validated",
+                corkscrew, [](const UnvalidatedMode& mode) { return mode.hours[0]; }));
     add(of_mode("corkscrew_of", "text", "the cable that is nearest to it", corkscrew, &UnvalidatedMode::place));
     add_position("corkscrew", corkscrew);
-    add(of("strain_relief_share", "1", "largest pull of a cable at a clamp over what EN 50262 asks a strain relief of type A to hold",
+    add(of("strain_relief_share", "1",
+           "largest pull of a cable at a clamp over what EN 50262 asks a strain relief of type A to hold",
            &RankingRow::strain_relief_share));
   }
 
   void add_kink() {
     constexpr const char* kink = UnvalidatedMode::kink;
-    add(of_mode("kink_margin", "1", "radius of the tightest bend over that at which a tube in the dresspack kinks; below 1 it kinks", kink,
+    add(of_mode("kink_margin", "1",
+                "radius of the tightest bend over that at which a tube in the dresspack kinks; below 1 it kinks", kink,
                 &UnvalidatedMode::margin));
     add(of_mode("kink_share", "1", "share of such tubes that kink", kink, &UnvalidatedMode::first_share));
     add(of_mode("kink_of", "text", "the tube that is nearest to its kink", kink, &UnvalidatedMode::place));
@@ -186,8 +195,8 @@ class Table {
 
   void add_jacket() {
     add_wear("jacket", UnvalidatedMode::jacket,
-             "by then a cable's jacket has worn through inside the hose in {} of such dresspacks; not validated", "jacket wear", "of",
-             "that cable");
+             "by then a cable's jacket has worn through inside the hose in {} of such dresspacks; not validated",
+             "jacket wear", "of", "that cable");
   }
 
   void add_worst_wire() {
@@ -195,20 +204,18 @@ class Table {
     add(of("life_repeats", "1", "repeats of the motion until the worst wire breaks, in the median",
            &RankingRow::life_repeats));
     add(of("life_hours", "h", "the same in hours of motion", &RankingRow::life_hours));
-    add(where("worst_segment_from_tool", "1", "segment of the worst wire's place, 1 is nearest to the tool",
-              evaluated, [](const RankingRow& row) { return row.worst_segment_from_tool; }));
-    add(of("worst_component", "text", "path of the worst wire, outermost part first",
-           &RankingRow::worst_component));
+    add(where("worst_segment_from_tool", "1", "segment of the worst wire's place, 1 is nearest to the tool", evaluated,
+              [](const RankingRow& row) { return row.worst_segment_from_tool; }));
+    add(of("worst_component", "text", "path of the worst wire, outermost part first", &RankingRow::worst_component));
     add(of("damage_per_repeat", "1", "of the worst wire", &RankingRow::damage_per_repeat));
-    add(of("life_months", "months", "life_hours at the job's operating hours per week",
-           &RankingRow::life_months));
-    add(of("life_repeats_all_stick", "1", "life_repeats if nothing in the cables slipped and compression lengthened no life (F38)",
+    add(of("life_months", "months", "life_hours at the job's operating hours per week", &RankingRow::life_months));
+    add(of("life_repeats_all_stick", "1",
+           "life_repeats if nothing in the cables slipped and compression lengthened no life (F38)",
            &RankingRow::life_repeats_all_stick));
     add(of("life_repeats_all_free", "1", "life_repeats if everything in the cables slipped without friction",
            &RankingRow::life_repeats_all_free));
-    add(where("worst_position_from_tool_m", "m",
-              "the worst wire's place along the dresspack, from the tool clamp", evaluated,
-              [](const RankingRow& row) { return row.worst_position_from_tool; }));
+    add(where("worst_position_from_tool_m", "m", "the worst wire's place along the dresspack, from the tool clamp",
+              evaluated, [](const RankingRow& row) { return row.worst_position_from_tool; }));
     add(where("worst_time_s", "s", "when the most damaging cycle of the worst wire closes", evaluated,
               [](const RankingRow& row) { return row.worst_time; }));
     add(of("worst_step", "text", "program line that runs then", &RankingRow::worst_step));
@@ -222,8 +229,11 @@ class Table {
 
   void add_hose_and_causes() {
     constexpr const char* wall = UnvalidatedMode::wall;
-    add(of_mode("hose_life_hours", "h", "hours of motion until the hose's wall cracks; not validated. Empty: the law contradicts a published test", wall,
-                [](const UnvalidatedMode& mode) { return is_credible(mode) ? mode.hours[1] : UnvalidatedMode::unknown; }));
+    add(of_mode(
+        "hose_life_hours", "h",
+        "hours of motion until the hose's wall cracks; not validated. Empty: the law contradicts a published test",
+        wall,
+        [](const UnvalidatedMode& mode) { return is_credible(mode) ? mode.hours[1] : UnvalidatedMode::unknown; }));
     add(of_mode("hose_segment_from_tool", "1", "segment of the wall's worst place, 1 is nearest to the tool", wall,
                 &UnvalidatedMode::segment_from_tool));
     add(of_mode("hose_position_from_tool_m", "m", "the same along the dresspack, from the tool clamp", wall,
@@ -235,8 +245,7 @@ class Table {
         "worst_joint_share", "1", "its share of the damage; above 1 if other joints reduce it",
         [](const RankingRow& row) { return !row.worst_joint.empty(); },
         [](const RankingRow& row) { return row.worst_joint_share; }));
-    add(of("worst_dresspack", "text", "dresspack of the worst wire, among several",
-           &RankingRow::worst_dresspack));
+    add(of("worst_dresspack", "text", "dresspack of the worst wire, among several", &RankingRow::worst_dresspack));
     add(of("settings", "text", "digest of the settings that the row belongs to", &RankingRow::settings));
     add(of("largest_force_share", "1", "largest force of a cable over the force that tears it",
            &RankingRow::largest_force_share));
@@ -253,8 +262,7 @@ class Table {
            &RankingRow::hours_without_mean_stress));
     add(where(
         "life_months_p10", "months", "life_hours_p10 at the job's operating hours per week",
-        [](const RankingRow& row) { return row.planned(); },
-        [](const RankingRow& row) { return row.planned_months; }));
+        [](const RankingRow& row) { return row.planned(); }, [](const RankingRow& row) { return row.planned_months; }));
     add(where("life_hours_all_stick", "h", "life_repeats_all_stick in hours of motion", always,
               [](const RankingRow& row) { return row.hours_of(row.life_repeats_all_stick); }));
     add(where("life_hours_all_free", "h", "life_repeats_all_free in hours of motion", always,
@@ -262,15 +270,13 @@ class Table {
   }
 
   void add_failure_and_rating() {
-    add(of("failing_conductor", "text", "conductor that is most likely to fail first",
-           &RankingRow::failing_conductor));
+    add(of("failing_conductor", "text", "conductor that is most likely to fail first", &RankingRow::failing_conductor));
     add(where(
         "failing_position_from_tool_m", "m", "its place along the dresspack, from the tool clamp",
         [](const RankingRow& row) { return !row.failing_conductor.empty(); },
         [](const RankingRow& row) { return row.failing_position_from_tool; }));
-    add(where("rated_cycles_per_hour", "1/h",
-              "cycles of the maker's rig that do the damage of one hour of the program", has_rating,
-              [](const RankingRow& row) { return row.relative->cycles_per_hour; }));
+    add(where("rated_cycles_per_hour", "1/h", "cycles of the maker's rig that do the damage of one hour of the program",
+              has_rating, [](const RankingRow& row) { return row.relative->cycles_per_hour; }));
     add(where("relative_life_hours", "h", "hours until the damage of the rated cycles is reached", has_rating,
               [](const RankingRow& row) { return row.relative->hours(); }));
     add(where("rated_cable", "text", "cable with that rating", has_rating,
@@ -283,8 +289,7 @@ class Table {
     add(of("life_shares", "text", "shares of the uncertainty of life by cause", &RankingRow::life_shares));
     add(of("measure_next", "text", "uncertain parameter with the largest share", &RankingRow::measure_next));
     add(where(
-        "measure_next_share", "1", "its share",
-        [](const RankingRow& row) { return !row.measure_next.empty(); },
+        "measure_next_share", "1", "its share", [](const RankingRow& row) { return !row.measure_next.empty(); },
         [](const RankingRow& row) { return row.measure_next_share; }));
   }
 
@@ -292,12 +297,11 @@ class Table {
     const auto known = [](const RankingRow& row) { return row.warnings.has_value(); };
     add(where("warnings", "1", "how many warnings the job has", known,
               [](const RankingRow& row) { return static_cast<int>(row.warnings->size()); }));
-    add(where("warning_words", "text", "all warnings", known, [](const RankingRow& row) {
-      return joined(mapped(*row.warnings, &Warning::text), "; ");
-    }));
+    add(where("warning_words", "text", "all warnings", known,
+              [](const RankingRow& row) { return joined(mapped(*row.warnings, &Warning::text), "; "); }));
     for (int k = 0; k < warning_kinds_count; ++k) {
       const auto kind = static_cast<WarningKind>(k);
-      if (kind == WarningKind::force) continue;         // the column force_ok contains it
+      if (kind == WarningKind::force) continue;                                      // the column force_ok contains it
       if (kind == WarningKind::other_values || kind == WarningKind::side) continue;  // among the last columns
       add_kind(kind);
     }
@@ -327,8 +331,7 @@ class Table {
   }
 
   void add_test() {
-    add(of("best_test", "text", "uncertain parameter whose test narrows the life most",
-           &RankingRow::best_test));
+    add(of("best_test", "text", "uncertain parameter whose test narrows the life most", &RankingRow::best_test));
     add(of("best_test_life_hours_p10", "h", "life_hours_p10 after that test, if it confirms today's estimate",
            &RankingRow::tested_p10));
     add(of("best_test_life_hours_p90", "h", "life_hours_p90 after it", &RankingRow::tested_p90));

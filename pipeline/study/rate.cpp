@@ -60,14 +60,12 @@ class RatedStudyMaker {
     job["dresspack"] = read_yaml(file_);
     const Node& written = *job.find("dresspack");
     if (!written.is_map() || written.find("motion"))
-      throw InputError({file_.string()}, "holds no dresspack and no cable",
-                       "name a file of the keys of job.dresspack");
+      throw InputError({file_.string()}, "holds no dresspack and no cable", "name a file of the keys of job.dresspack");
     resolve_job(job);
     const Node dresspack = *job.find("dresspack");
     const std::vector<std::string> cables = cables_of(dresspack);
     if (cables.empty())
-      throw InputError({file_.string()}, "holds no cable (a part that holds parts)",
-                       "name another dresspack");
+      throw InputError({file_.string()}, "holds no cable (a part that holds parts)", "name another dresspack");
     for (const std::string& cable : cables) add_cable(dresspack, cable, cables.size() > 1, rigs);
     refuse_common_fault();
     return std::move(made_);
@@ -91,8 +89,8 @@ class RatedStudyMaker {
       Node job = read_yaml(file);
       const Node* motion = job.find("motion");
       const Node* words = motion ? motion->find("name") : nullptr;
-      add({prefix + file.stem().string(), name, words ? words->text : file.stem().string(), 0, ""},
-          std::move(job), cable);
+      add({prefix + file.stem().string(), name, words ? words->text : file.stem().string(), 0, ""}, std::move(job),
+          cable);
     }
     const Node* ratings = cable.find("components")->items.front().find("ratings");
     int number = 0;
@@ -103,8 +101,7 @@ class RatedStudyMaker {
       job.kind = Node::Kind::map;
       job.where = written.where;
       job["motion"]["rig"] = *written.find("rig");
-      add({fmt::format("{}rating_{}", prefix, ++number), name, rig_words(rating.rig), rating.cycles,
-           rating.source},
+      add({fmt::format("{}rating_{}", prefix, ++number), name, rig_words(rating.rig), rating.cycles, rating.source},
           std::move(job), cable);
     }
   }
@@ -145,7 +142,8 @@ int levels_of(const Node& component) {
 std::string rig_words(const Rig& rig) {
   const Node keys = echo_fields(rig);
   const auto has_unit = [](const Entry& entry) { return entry.key != "kind" && entry.key != "cycles_per_minute"; };
-  const auto words = mapped(filtered(keys.entries, has_unit), [](const Entry& entry) { return entry.key + " " + entry.value.text; });
+  const auto words =
+      mapped(filtered(keys.entries, has_unit), [](const Entry& entry) { return entry.key + " " + entry.value.text; });
   return fmt::format("{}: {}", word(rig.kind), joined(words, ", "));
 }
 
@@ -156,8 +154,7 @@ RateStudy rate_study(const fs::path& file, const fs::path& rigs, const std::vect
 CycleLives cycles_of(const RankingRow& row) {
   CycleLives lives{row.life_repeats, row.life_repeats_all_stick, row.life_repeats_all_free, {}};
   for (std::size_t i = 0; i < 3; ++i)
-    lives.conductor[i] =
-        (row.planned() ? row.by_scatter() : row.conductor_hours)[i] * 3600 / row.repeat_seconds;
+    lives.conductor[i] = (row.planned() ? row.by_scatter() : row.conductor_hours)[i] * 3600 / row.repeat_seconds;
   if (std::isnan(row.glued_hours[1])) return lives;
   lives.all_stick = row.glued_hours[1] * 3600 / row.repeat_seconds;
   lives.all_free = row.free_hours[1] * 3600 / row.repeat_seconds;
@@ -166,7 +163,8 @@ CycleLives cycles_of(const RankingRow& row) {
 
 std::string rate_table(const RateStudy& rated, const std::vector<RankingRow>& rows) {
   std::string text, cable;
-  const std::size_t wide = largest_of(rated.tests, std::size_t{46}, [](const RatedTest& test) { return columns_of(test.rig); });
+  const std::size_t wide =
+      largest_of(rated.tests, std::size_t{46}, [](const RatedTest& test) { return columns_of(test.rig); });
   for (const RatedTest& test : rated.tests) {
     if (test.cable != cable) text += fmt::format("{}{}\n", text.empty() ? "" : "\n", test.cable);
     if (test.cable != cable)
@@ -182,8 +180,7 @@ std::string rate_table(const RateStudy& rated, const std::vector<RankingRow>& ro
     std::string maker = test.rated_cycles > 0 ? readable(test.rated_cycles) : "";
     if (const std::string words = verdict(test.rated_cycles, lives.conductor[1]); !words.empty())
       maker += " (" + words + ")";
-    text += fmt::format("  {:<{}} {:>12} {:>27} {:>27}  {}\n", test.rig, wide,
-                        life_text(lives.conductor[1]),
+    text += fmt::format("  {:<{}} {:>12} {:>27} {:>27}  {}\n", test.rig, wide, life_text(lives.conductor[1]),
                         life_text(lives.conductor[0]) + " .. " + life_text(lives.conductor[2]),
                         life_text(lives.all_stick) + " .. " + life_text(lives.all_free), maker);
   }

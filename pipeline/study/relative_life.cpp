@@ -26,8 +26,7 @@ std::string slip_alone(const Job& job, const Node& alone, bool is_part, bool was
   std::vector<Slip> slip = job.strain.slip;
   const auto levels = static_cast<std::size_t>(levels_of(alone.find("components")->items.front()));
   if (slip.size() == 1) slip.resize(levels, slip.front());
-  if (!is_part && !was_alone)
-    slip.insert(slip.begin(), Slip::free);  // the cable's jacket is now a separate level
+  if (!is_part && !was_alone) slip.insert(slip.begin(), Slip::free);  // the cable's jacket is now a separate level
   slip.resize(levels, slip.back());
   return fmt::format("[{}]", joined(mapped(slip, [](Slip one) { return word(one); }), ", "));
 }
@@ -41,8 +40,7 @@ class CableStudyMaker {
       const Node& mounted = list ? list->items[k] : written;
       const Node& dresspack = *mounted.find("dresspack");
       const std::string among_others = list ? mounted.find("name")->text : "";
-      for (const std::string& cable : cables_of(dresspack))
-        add_cable(job, written, dresspack, cable, among_others);
+      for (const std::string& cable : cables_of(dresspack)) add_cable(job, written, dresspack, cable, among_others);
     }
   }
   RatedStudy take() { return std::move(made_); }
@@ -125,8 +123,7 @@ double place_life(const std::filesystem::path& life, const RatedCable& where) {
 std::string relate_one(const RatedCable& rated, const RankingRow& rig, RankingRow& row) {
   if (!rig.done()) return rig.failure;
   const double program = place_life(row.life_file, rated), cycles = place_life(rig.life_file, {});
-  if (std::isnan(program) || std::isnan(cycles))
-    return "life.h5 does not say when conductors fail at one place";
+  if (std::isnan(program) || std::isnan(cycles)) return "life.h5 does not say when conductors fail at one place";
   if (std::isinf(cycles)) return "the model sees no damage in its rig, to which a program could be related";
   const double per_hour = 3600 / row.repeat_seconds * (cycles / program);
   const RelativeLife relative{rated.name, rated.rig, per_hour, rated.rated_cycles};
@@ -139,9 +136,9 @@ std::string relate_one(const RatedCable& rated, const RankingRow& rig, RankingRo
 bool has_ratings(const Job& job) {
   return std::any_of(job.dresspacks.begin(), job.dresspacks.end(), [](const MountedDresspack& mounted) {
     const auto& parts = mounted.dresspack.components;
-    return !mounted.dresspack.ratings.empty() ||
-           std::any_of(parts.begin(), parts.end(),
-                       [](const Component& part) { return !part.plain && !part.ratings.empty(); });
+    return !mounted.dresspack.ratings.empty() || std::any_of(parts.begin(), parts.end(), [](const Component& part) {
+      return !part.plain && !part.ratings.empty();
+    });
   });
 }
 
@@ -163,8 +160,7 @@ std::vector<std::string> relate(const RatedStudy& rated, const std::vector<Ranki
     const RankingRow* const rig = find_in(rigs, &RankingRow::job, cable.rig_job);
     const std::string reason = rig ? relate_one(cable, *rig, *row) : "its rig has not run";
     if (!reason.empty())
-      silent.push_back(
-          fmt::format("{}: no relative life of {} ({}): {}", cable.job, cable.name, cable.rig, reason));
+      silent.push_back(fmt::format("{}: no relative life of {} ({}): {}", cable.job, cable.name, cable.rig, reason));
   }
   return silent;
 }

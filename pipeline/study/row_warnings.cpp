@@ -44,7 +44,8 @@ std::string warning_kinds(const RankingRow& row, bool with_other_values) {
   std::vector<std::string> words;
   for (int k = 0; k < warning_kinds_count; ++k) {
     const auto kind = static_cast<WarningKind>(k);
-    if (const auto count = std::ranges::count(warnings, kind, &Warning::kind); count > 0 && (with_other_values || kind != WarningKind::other_values))
+    if (const auto count = std::ranges::count(warnings, kind, &Warning::kind);
+        count > 0 && (with_other_values || kind != WarningKind::other_values))
       words.push_back(count == 1 ? std::string(title(kind)) : fmt::format("{} x{}", title(kind), count));
   }
   return joined(words, ", ");

@@ -28,17 +28,19 @@ std::string cause_words(const RankingRow& row) {
   const UncertainParameter* const cause = find_in(uncertain_parameters(), &UncertainParameter::name, row.measure_next);
   // Prefer the number in life_shares, which is rounded so that all shares add up to 100 %.
   const std::size_t listed = ("; " + row.life_shares).find("; " + row.measure_next + " ");
-  const double percent = listed == std::string::npos ? 100 * row.measure_next_share
-                                                     : std::strtod(row.life_shares.c_str() + listed + row.measure_next.size() + 1, nullptr);
-  return fmt::format("{:.0f} % of the uncertainty is {}.", percent, cause ? cause->cause : "the scatter from wire to wire");
+  const double percent = listed == std::string::npos
+                             ? 100 * row.measure_next_share
+                             : std::strtod(row.life_shares.c_str() + listed + row.measure_next.size() + 1, nullptr);
+  return fmt::format("{:.0f} % of the uncertainty is {}.", percent,
+                     cause ? cause->cause : "the scatter from wire to wire");
 }
 
 std::string test_words(const RankingRow& row) {
   if (row.life_response.empty() || std::isinf(row.planned_hours[0])) return "";
   const UncertainParameter* const test = find_in(uncertain_parameters(), &UncertainParameter::name, row.best_test);
   if (!test) return "No single test would narrow the range much.";
-  return fmt::format("{} would narrow the range from {} to about {}, if it confirms today's estimate.",
-                     test->test, range_text(row.planned_hours[0], row.planned_hours[2]),
+  return fmt::format("{} would narrow the range from {} to about {}, if it confirms today's estimate.", test->test,
+                     range_text(row.planned_hours[0], row.planned_hours[2]),
                      range_text(row.tested_p10, row.tested_p90));
 }
 
@@ -74,7 +76,8 @@ std::string further_unvalidated(const RankingRow& row) {
   std::map<std::string, double> hours;  // of several parts the earliest hours
   for (const UnvalidatedMode& mode : row.unvalidated)
     if (mode.early_hours() < end && is_credible(mode))
-      hours[mode.mode] = hours.contains(mode.mode) ? std::min(hours[mode.mode], mode.early_hours()) : mode.early_hours();
+      hours[mode.mode] =
+          hours.contains(mode.mode) ? std::min(hours[mode.mode], mode.early_hours()) : mode.early_hours();
   if (const UnvalidatedMode* const first = earlier_unvalidated(row)) hours.erase(first->mode);
   std::vector<std::pair<double, std::string>> by_time;
   for (const auto& [mode, from] : hours) by_time.emplace_back(from, mode);
@@ -93,23 +96,29 @@ std::string first_inspection_words(const RankingRow& row) {
   if (mode->mode == UnvalidatedMode::wall)
     return fmt::format("{} may crack {} after {}: inspect it there.", of, place, wall_life(*mode));
   if (mode->mode == UnvalidatedMode::abrasion)
-    return fmt::format("{} may wear through on {}, {}, after {} (10 .. 90 %, not validated): inspect it there from {} on.", of, mode->place, place,
-                       range_text(mode->hours[0], mode->hours[2]), hours_text(mode->hours[0]));
+    return fmt::format(
+        "{} may wear through on {}, {}, after {} (10 .. 90 %, not validated): inspect it there from {} on.", of,
+        mode->place, place, range_text(mode->hours[0], mode->hours[2]), hours_text(mode->hours[0]));
   if (mode->mode == UnvalidatedMode::jacket)
-    return fmt::format("The jacket of {} may wear through in the hose, {}, after {} (10 .. 90 %, not validated): open the hose there from {} on.", mode->place,
-                       place, range_text(mode->hours[0], mode->hours[2]), hours_text(mode->hours[0]));
+    return fmt::format(
+        "The jacket of {} may wear through in the hose, {}, after {} (10 .. 90 %, not validated): open the hose there from {} on.",
+        mode->place, place, range_text(mode->hours[0], mode->hours[2]), hours_text(mode->hours[0]));
   if (mode->mode == UnvalidatedMode::rating)
-    return fmt::format("The maker's rating of {} covers only {} (10 .. 90 %, not validated): test or replace it by then.", mode->place,
-                       range_text(mode->hours[0], mode->hours[2]));
+    return fmt::format(
+        "The maker's rating of {} covers only {} (10 .. 90 %, not validated): test or replace it by then.", mode->place,
+        range_text(mode->hours[0], mode->hours[2]));
   if (mode->mode == UnvalidatedMode::corkscrew)
-    return fmt::format("Twist may wind {} into a corkscrew in the hose, {}, {}: open the hose there.", mode->place, place,
-                       std::isfinite(mode->hours[2])
-                           ? fmt::format("after {} (10 .. 90 %, not validated)", range_text(mode->hours[0], mode->hours[2]))
-                           : fmt::format("in 1 of 10 dresspacks after {}, and in some never (not validated)", hours_text(mode->hours[0])));
+    return fmt::format(
+        "Twist may wind {} into a corkscrew in the hose, {}, {}: open the hose there.", mode->place, place,
+        std::isfinite(mode->hours[2])
+            ? fmt::format("after {} (10 .. 90 %, not validated)", range_text(mode->hours[0], mode->hours[2]))
+            : fmt::format("in 1 of 10 dresspacks after {}, and in some never (not validated)",
+                          hours_text(mode->hours[0])));
   if (mode->mode == UnvalidatedMode::kink)
     return fmt::format("{}, {}. {} Enlarge the bend radius there, or take a tube with a thicker wall.",
-                       mode->place == "the hose" ? std::string("The hose may kink") : fmt::format("The {} may kink in the hose", mode->place), place,
-                       mode->note);
+                       mode->place == "the hose" ? std::string("The hose may kink")
+                                                 : fmt::format("The {} may kink in the hose", mode->place),
+                       place, mode->note);
   return fmt::format("{} may come before, {}, after {} (not validated): inspect it there.", mode->mode, place,
                      hours_text(mode->early_hours()));
 }
@@ -123,8 +132,8 @@ std::string other_values_words(const RankingRow& row) {
 
 std::string inspection_words(const RankingRow& row) {
   const std::string further = further_unvalidated(row);
-  return joined_words({first_inspection_words(row),
-                       further.empty() ? "" : fmt::format("Inspect also for: {}.", further.substr(2))});
+  return joined_words(
+      {first_inspection_words(row), further.empty() ? "" : fmt::format("Inspect also for: {}.", further.substr(2))});
 }
 
 }  // namespace
@@ -148,14 +157,18 @@ std::string unvalidated_legend(const std::vector<RankingRow>& rows) {
   }
   if (modes.empty()) return "";
   std::vector<std::string> counts;
-  for (const auto& [mode, jobs] : first) counts.push_back(fmt::format("{} in {} job{}", mode, jobs, jobs == 1 ? "" : "s"));
+  for (const auto& [mode, jobs] : first)
+    counts.push_back(fmt::format("{} in {} job{}", mode, jobs, jobs == 1 ? "" : "s"));
   return fmt::format("Not in these hours, because no test confirms their laws: {}.{}", joined(modes, ", "),
-                     counts.empty() ? "" : fmt::format(" * marks jobs in which one of them may come first: {}.", joined(counts, ", ")));
+                     counts.empty()
+                         ? ""
+                         : fmt::format(" * marks jobs in which one of them may come first: {}.", joined(counts, ", ")));
 }
 
 std::string earlier_words(const RankingRow& row) {
   const UnvalidatedMode* const mode = earlier_unvalidated(row);
-  return mode ? fmt::format("{}: from {}{}", mode->mode, hours_text(mode->early_hours()), further_unvalidated(row)) : "";
+  return mode ? fmt::format("{}: from {}{}", mode->mode, hours_text(mode->early_hours()), further_unvalidated(row))
+              : "";
 }
 
 std::string plan_mark(const RankingRow& row) {
@@ -167,15 +180,21 @@ std::string marks_note(const std::vector<RankingRow>& rows) {
   std::map<std::string, std::vector<std::string>> jobs;  // (mark) jobs with this mark
   for (const RankingRow& row : rows)
     if (const std::string mark = plan_mark(row); !mark.empty())
-      jobs[mark].push_back((rows.size() > 1 ? row.job + ", " : "") + (mark == "!" ? warning_kinds(row) : earlier_words(row)));
+      jobs[mark].push_back((rows.size() > 1 ? row.job + ", " : "") +
+                           (mark == "!" ? warning_kinds(row) : earlier_words(row)));
   return joined_words(
-      {jobs["*"].empty() ? "" : fmt::format("* Plan with this number, and inspect for modes that are not validated. {}.", joined(jobs["*"], "; ")),
-       jobs["!"].empty() ? "" : fmt::format("! Do not plan with this number before its warnings are cured. {}.", joined(jobs["!"], "; "))});
+      {jobs["*"].empty() ? ""
+                         : fmt::format("* Plan with this number, and inspect for modes that are not validated. {}.",
+                                       joined(jobs["*"], "; ")),
+       jobs["!"].empty() ? ""
+                         : fmt::format("! Do not plan with this number before its warnings are cured. {}.",
+                                       joined(jobs["!"], "; "))});
 }
 
 bool is_believable(const RankingRow& row) {
   const std::vector<Warning> warnings = warnings_of(row);
-  return std::none_of(warnings.begin(), warnings.end(), [](const Warning& warning) { return spoils_plan(warning.kind); });
+  return std::none_of(warnings.begin(), warnings.end(),
+                      [](const Warning& warning) { return spoils_plan(warning.kind); });
 }
 
 std::string range_text(double low_hours, double high_hours) {
@@ -202,20 +221,22 @@ std::string shown_calendar(const RankingRow& row) {
 std::string uncapped_words(const RankingRow& row) {
   const auto& [tenth, half, most] = row.planned_hours;
   if (!row.planned() || !std::isfinite(tenth) || !(most > row.robot_life_hours)) return "";
-  std::string text = fmt::format("By the model 1 of 10 such dresspacks has failed after {} of motion ({})", hours_text(tenth),
-                                 calendar_text(row.planned_months));
+  std::string text = fmt::format("By the model 1 of 10 such dresspacks has failed after {} of motion ({})",
+                                 hours_text(tenth), calendar_text(row.planned_months));
   if (std::isfinite(half)) text += ", half after " + hours_text(half);
   if (std::isfinite(most)) text += ", 90 % after " + hours_text(most);
   if (!std::isnan(row.glued_hours[0]))
     text += fmt::format("; with everything in the cables glued .. free, 1 of 10 after {}",
                         range_text(row.glued_hours[0], row.free_hours[0]));
-  return text + fmt::format(". Hours beyond the robot's life ({} h) only compare jobs.", readable(row.robot_life_hours));
+  return text +
+         fmt::format(". Hours beyond the robot's life ({} h) only compare jobs.", readable(row.robot_life_hours));
 }
 
 /// Returns a sentence if a life equals one of its bounds, for example with strain.slip free or stick. Empty: it lies between.
 std::string bound_words(const RankingRow& row) {
   constexpr double bounds_apart = 1.1;  // closer bounds give the user no choice
-  constexpr double same = 0.01;         // a job with everything free differs from the bound by at most 0.8 % (strain/measurements.md)
+  constexpr double same =
+      0.01;  // a job with everything free differs from the bound by at most 0.8 % (strain/measurements.md)
   const double life = row.life_repeats, glued = row.life_repeats_all_stick, free = row.life_repeats_all_free;
   if (!(glued > 0) || !(free > bounds_apart * glued) || !std::isfinite(life)) return "";
   const bool is_free = life > free * (1 - same);
@@ -223,32 +244,38 @@ std::string bound_words(const RankingRow& row) {
   // Ratings were compared with tests under friction, so other jobs do not include them (pipeline/resolve/apply_calibration.h).
   const bool has_ratings = row.estimates.find("uncertainty.ratings typical") != std::string::npos;
   const std::string rest =
-      has_ratings ? "best estimate."
-                  : "best estimate. It includes the ratings of cable makers, which this life does not: it may be longer than this life.";
-  return fmt::format("The job's life equals its {} bound{}, at which nothing {} inside the cables. If the job sets strain.slip, leave "
-                     "it out for the {}",
-                     is_free ? "upper" : "lower", has_ratings ? "" : " without the ratings of cable makers", is_free ? "rubs" : "slips",
-                     rest);
+      has_ratings
+          ? "best estimate."
+          : "best estimate. It includes the ratings of cable makers, which this life does not: it may be longer than this life.";
+  return fmt::format(
+      "The job's life equals its {} bound{}, at which nothing {} inside the cables. If the job sets strain.slip, leave "
+      "it out for the {}",
+      is_free ? "upper" : "lower", has_ratings ? "" : " without the ratings of cable makers",
+      is_free ? "rubs" : "slips", rest);
 }
 
 std::string action_words(const RankingRow& row) {
   if (!row.has_result()) return "";
   const double hours = row.headline_hours();
   if (!is_believable(row))
-    return fmt::format("Do not plan with {}: {} (see the warnings).", std::isinf(hours) || outlives_robot(row, hours) ? "this result" : hours_text(hours),
+    return fmt::format("Do not plan with {}: {} (see the warnings).",
+                       std::isinf(hours) || outlives_robot(row, hours) ? "this result" : hours_text(hours),
                        warning_kinds(row));
   if (row.worst_segment_from_tool == 0) return "No wire was evaluated.";
   const std::string inspection = inspection_words(row), bound = bound_words(row), others = other_values_words(row);
   const bool may_fail_before = earlier_unvalidated(row);
   if (std::isinf(hours))
-    return joined_words({inspection, !may_fail_before ? "No replacement is foreseen:" : "For the wires no replacement is foreseen:",
-                         row.planned() ? "in more than 90 % of the samples no mode fails." : "no wire is damaged.", bound, others});
+    return joined_words(
+        {inspection, !may_fail_before ? "No replacement is foreseen:" : "For the wires no replacement is foreseen:",
+         row.planned() ? "in more than 90 % of the samples no mode fails." : "no wire is damaged.", bound, others});
   if (outlives_robot(row, hours))
     return joined_words({inspection,
-                         fmt::format("The {} last longer than the robot ({} h).", may_fail_before ? "wires" : "evaluated parts",
-                                     readable(row.robot_life_hours)),
-                         bound, others, row.not_evaluated.empty() ? "" : fmt::format("Not evaluated: {}.", row.not_evaluated)});
-  return joined_words({fmt::format("Plan a replacement after {} of motion ({}).", hours_text(hours), calendar_text(row.headline_months())),
+                         fmt::format("The {} last longer than the robot ({} h).",
+                                     may_fail_before ? "wires" : "evaluated parts", readable(row.robot_life_hours)),
+                         bound, others,
+                         row.not_evaluated.empty() ? "" : fmt::format("Not evaluated: {}.", row.not_evaluated)});
+  return joined_words({fmt::format("Plan a replacement after {} of motion ({}).", hours_text(hours),
+                                   calendar_text(row.headline_months())),
                        inspection, bound, others});
 }
 
@@ -258,7 +285,8 @@ std::string factor_words(const std::array<double, 3>& errors) {
   std::string words;
   for (std::size_t i = 0; i < shares.size(); ++i)
     if (std::isfinite(errors[i]) && errors[i] >= none)
-      words += fmt::format("{}the {} % value by a factor of {}", words.empty() ? "" : ", ", shares[i], readable(errors[i], 2));
+      words += fmt::format("{}the {} % value by a factor of {}", words.empty() ? "" : ", ", shares[i],
+                           readable(errors[i], 2));
   return words;
 }
 
@@ -267,24 +295,30 @@ std::string uncertainty_words(const RankingRow& row) {
 }
 
 std::string failing_place_words(const RankingRow& row) {
-  return row.failing_conductor.empty() ? "" : fmt::format("{}, {:.2f} m from the tool", row.failing_conductor, row.failing_position_from_tool);
+  return row.failing_conductor.empty()
+             ? ""
+             : fmt::format("{}, {:.2f} m from the tool", row.failing_conductor, row.failing_position_from_tool);
 }
 
 std::string failure_words(const RankingRow& row) {
   if (row.worst_component.empty()) return "No wire was evaluated.";
   if (!is_damaged(row)) return "No wire is damaged.";
-  const std::string first = row.failing_mode.empty()
-                                ? ""
-                                : fmt::format("Fails first{}: {}, in {:.0f} % of the samples{}{}.",
-                                              row.unvalidated.empty() ? "" : " of the validated modes", row.failing_mode,
-                                              100 * row.failing_mode_share, row.failing_conductor.empty() ? "" : ", likeliest ",
-                                              failing_place_words(row));
+  const std::string first =
+      row.failing_mode.empty()
+          ? ""
+          : fmt::format("Fails first{}: {}, in {:.0f} % of the samples{}{}.",
+                        row.unvalidated.empty() ? "" : " of the validated modes", row.failing_mode,
+                        100 * row.failing_mode_share, row.failing_conductor.empty() ? "" : ", likeliest ",
+                        failing_place_words(row));
   const std::string during = row.worst_step.empty() ? "" : ", during '" + row.worst_step + "'";
-  const bool elsewhere = !row.failing_conductor.empty() && !row.worst_component.starts_with(row.failing_conductor + "/");
-  return joined_words({first, fmt::format("{} {}, {:.2f} m from the tool. Its most damaging cycle ends at {:.1f} s{}.",
-                                          elsewhere ? "With the job's own values another wire is the worst:" : "The worst wire is",
-                                          row.worst_component, row.worst_position_from_tool, row.worst_time, during),
-                       joint_words(row)});
+  const bool elsewhere =
+      !row.failing_conductor.empty() && !row.worst_component.starts_with(row.failing_conductor + "/");
+  return joined_words(
+      {first,
+       fmt::format("{} {}, {:.2f} m from the tool. Its most damaging cycle ends at {:.1f} s{}.",
+                   elsewhere ? "With the job's own values another wire is the worst:" : "The worst wire is",
+                   row.worst_component, row.worst_position_from_tool, row.worst_time, during),
+       joint_words(row)});
 }
 
 std::string held_words(const RankingRow& row) {
@@ -298,18 +332,18 @@ std::string held_words(const RankingRow& row) {
 std::string joint_words(const RankingRow& row) {
   if (!row.held_joint.empty()) return "";
   if (!is_damaged(row) || row.worst_joint.empty()) return "";
-  const std::string moved =
-      row.worst_joint == "carrying"
-          ? "The damage follows the swing of the hose more than the position of any axis."
-          : fmt::format("The strain of this wire follows {} most.", row.worst_joint);
-  return moved + " That is a correlation, no cause. This job without the axis shows what it costs: dresslife run JOB -o held --set motion.hold_joint=" +
+  const std::string moved = row.worst_joint == "carrying"
+                                ? "The damage follows the swing of the hose more than the position of any axis."
+                                : fmt::format("The strain of this wire follows {} most.", row.worst_joint);
+  return moved +
+         " That is a correlation, no cause. This job without the axis shows what it costs: dresslife run JOB -o held --set motion.hold_joint=" +
          (row.worst_joint == "carrying" ? "AXIS" : row.worst_joint);
 }
 
 std::string repeat_words(const RankingRow& row) {
   if (!row.planned() || outlives_robot(row, row.planned_hours[0])) return "";
-  return fmt::format("One repeat of the motion takes {} s: 1 of 10 has failed after {} repeats.", readable(row.repeat_seconds),
-                     readable(row.planned_hours[0] * 3600 / row.repeat_seconds));
+  return fmt::format("One repeat of the motion takes {} s: 1 of 10 has failed after {} repeats.",
+                     readable(row.repeat_seconds), readable(row.planned_hours[0] * 3600 / row.repeat_seconds));
 }
 
 std::string different_repeats_words(const std::vector<RankingRow>& rows) {
@@ -321,25 +355,29 @@ std::string different_repeats_words(const std::vector<RankingRow>& rows) {
   }
   constexpr double alike = 1.02;  // below this ratio hours and repeats give the same order within the uncertainty
   if (!(longest > alike * shortest)) return "";
-  return fmt::format("Repeats take {} .. {} s. Compare jobs that do the same work by repeats, not by hours.", readable(shortest),
-                     readable(longest));
+  return fmt::format("Repeats take {} .. {} s. Compare jobs that do the same work by repeats, not by hours.",
+                     readable(shortest), readable(longest));
 }
 
 std::string own_values_words(const RankingRow& row) {
   if (!row.planned() || !std::isfinite(row.first_wire_hours[0])) return "";
-  const std::string words = fmt::format("With the job's own values, by the scatter of wires alone, a first wire breaks after {} (10 .. 90 %).",
-                                        range_text(row.first_wire_hours[0], row.first_wire_hours[2]));
+  const std::string words = fmt::format(
+      "With the job's own values, by the scatter of wires alone, a first wire breaks after {} (10 .. 90 %).",
+      range_text(row.first_wire_hours[0], row.first_wire_hours[2]));
   constexpr double decade = 10;
   // infinite: a tenth of a conductor's wires has no damage, so no life to compare with
   if (std::isinf(row.scatter_hours[1])) return words;
   const double times = row.planned_hours[1] / row.scatter_hours[1];
-  if (std::isinf(times)) return words + " Half of the samples are not damaged: most other values damage the wires less.";
+  if (std::isinf(times))
+    return words + " Half of the samples are not damaged: most other values damage the wires less.";
   if (times > decade)
-    return fmt::format("{} Half of the samples live {} times longer than with these values: most other values damage the wires less.",
-                       words, readable(times, 2));
+    return fmt::format(
+        "{} Half of the samples live {} times longer than with these values: most other values damage the wires less.",
+        words, readable(times, 2));
   if (times < 1 / decade)
-    return fmt::format("{} Half of the samples fail {} times sooner than with these values: most other values damage the wires more.",
-                       words, readable(1 / times, 2));
+    return fmt::format(
+        "{} Half of the samples fail {} times sooner than with these values: most other values damage the wires more.",
+        words, readable(1 / times, 2));
   return words;
 }
 
@@ -367,7 +405,8 @@ std::vector<std::string> estimate_words(const std::vector<RankingRow>& rows) {
   std::vector<std::string> lines;
   for (const auto& [estimates, jobs] : all)
     lines.push_back(fmt::format("ESTIMATE, not in the dresspack{}: {}",
-                                jobs == rows.size() ? "" : fmt::format(" of {} of {} jobs", jobs, rows.size()), estimates));
+                                jobs == rows.size() ? "" : fmt::format(" of {} of {} jobs", jobs, rows.size()),
+                                estimates));
   return lines;
 }
 

@@ -15,8 +15,7 @@ namespace dresslife::pipeline {
 
 namespace {
 
-constexpr const char* ways =
-    "write !normal {mean: M, deviation: S}, !uniform [LOW, HIGH] or !choice [A, B, ...]";
+constexpr const char* ways = "write !normal {mean: M, deviation: S}, !uniform [LOW, HIGH] or !choice [A, B, ...]";
 
 struct Bounds {
   std::vector<double> values;
@@ -39,10 +38,9 @@ struct Sample {
 void describe(Fields& f, Sample& sample) {
   f.integer("jobs", sample.jobs, Need::required, between(1, most_jobs), "The number of samples.");
   f.integer("seed", sample.seed, Need::optional, between(0, 1e9), "The seed of the random numbers.");
-  f.choice(
-      "method", sample.method,
-      "The method of sampling. latin_hypercube: each nth of a distribution once. random: independent "
-      "samples, so that more `jobs` keep the previous ones.");
+  f.choice("method", sample.method,
+           "The method of sampling. latin_hypercube: each nth of a distribution once. random: independent "
+           "samples, so that more `jobs` keep the previous ones.");
 }
 
 }  // namespace
@@ -56,15 +54,13 @@ void describe(Fields& f, Distribution::Normal& normal) {
 
 Distribution::Normal Distribution::normal_from(const std::string& path, const Node& written) {
   Normal normal;
-  read_fields(under("normal", written),
-              Describe([&](Fields& f) { f.group("normal", normal, Need::required, ""); }));
+  read_fields(under("normal", written), Describe([&](Fields& f) { f.group("normal", normal, Need::required, ""); }));
   const auto below = [&](double value) { return normal_share((value - normal.mean) / normal.deviation); };
   normal.share_below = normal.at_least ? below(*normal.at_least) : 0;
   normal.share_within = (normal.at_most ? below(*normal.at_most) : 1) - normal.share_below;
   constexpr double least_share = 1e-6;  // below this share the rounding of shares would dominate the quantiles
   if (!(normal.share_within >= least_share))
-    throw InputError(written.where,
-                     fmt::format("between at_least and at_most of {} lies none of its !normal", path),
+    throw InputError(written.where, fmt::format("between at_least and at_most of {} lies none of its !normal", path),
                      "let them enclose the mean or come near it");
   return normal;
 }
@@ -102,8 +98,7 @@ Node Distribution::value_at(double u) const {
   if (!normal_) return scalar(shortest_text(low_ + u * (high_ - low_)));
   const double share = normal_->share_below + u * normal_->share_within;
   const double value = normal_->mean + normal_->deviation * normal_quantile(share);
-  return scalar(
-      shortest_text(std::clamp(value, normal_->at_least.value_or(value), normal_->at_most.value_or(value))));
+  return scalar(shortest_text(std::clamp(value, normal_->at_least.value_or(value), normal_->at_most.value_or(value))));
 }
 
 std::vector<double> unit_numbers(SamplingMethod method, std::uint64_t seed, const std::string& path,
@@ -113,8 +108,7 @@ std::vector<double> unit_numbers(SamplingMethod method, std::uint64_t seed, cons
   std::vector<double> drawn(count);
   for (double& u : drawn) u = numbers.uniform();
   if (method == SamplingMethod::random) return drawn;
-  for (std::size_t k = 0; k < count; ++k)
-    drawn[k] = (static_cast<double>(k) + drawn[k]) / static_cast<double>(count);
+  for (std::size_t k = 0; k < count; ++k) drawn[k] = (static_cast<double>(k) + drawn[k]) / static_cast<double>(count);
   for (std::size_t k = count; k > 1; --k)  // shuffle of Fisher and Yates
     std::swap(drawn[k - 1], drawn[static_cast<std::size_t>(numbers.uniform() * static_cast<double>(k))]);
   return drawn;
@@ -127,12 +121,10 @@ std::vector<Variant> sampled_variants(const Node& section) {
   Node settings = section;
   std::erase_if(settings.entries, [](const Entry& entry) { return entry.key == "keys"; });
   Sample sample;
-  read_fields(under("sample", settings),
-              Describe([&](Fields& f) { f.group("sample", sample, Need::required, ""); }));
+  read_fields(under("sample", settings), Describe([&](Fields& f) { f.group("sample", sample, Need::required, ""); }));
   const Node* keys = section.find("keys");
   if (!keys || !keys->is_map() || keys->entries.empty())
-    throw InputError(keys ? keys->where : section.where, "sample.keys must be a map of keys to distributions",
-                     ways);
+    throw InputError(keys ? keys->where : section.where, "sample.keys must be a map of keys to distributions", ways);
   std::vector<Variant> variants(static_cast<std::size_t>(sample.jobs));
   for (std::size_t k = 0; k < variants.size(); ++k) variants[k].name = fmt::format("draw_{}", k + 1);
   for (const Entry& key : keys->entries) {

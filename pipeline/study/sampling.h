@@ -56,13 +56,10 @@ class Distribution {
 };
 
 enum class SamplingMethod { latin_hypercube, random };
-constexpr std::string_view word(SamplingMethod value) {
-  return word_at({"latin_hypercube", "random"}, value);
-}
+constexpr std::string_view word(SamplingMethod value) { return word_at({"latin_hypercube", "random"}, value); }
 
 /// Returns `count` numbers in the open interval (0, 1) for the key at a path.
-std::vector<double> unit_numbers(SamplingMethod method, std::uint64_t seed, const std::string& path,
-                                 std::size_t count);
+std::vector<double> unit_numbers(SamplingMethod method, std::uint64_t seed, const std::string& path, std::size_t count);
 
 /// Returns the section `sample` of a study as variants draw_1, draw_2, ... Errors: InputError.
 std::vector<Variant> sampled_variants(const Node& section);

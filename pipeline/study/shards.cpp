@@ -17,7 +17,8 @@ std::string simulated_changes(const Variant& variant) {
   std::string text;
   for (const Change& change : variant.changes) {
     const std::string section = change.path.substr(0, change.path.find('.'));
-    if (section != "strain" && section != "fatigue") text += fmt::format("{}: {}\n", change.path, to_yaml(change.value));
+    if (section != "strain" && section != "fatigue")
+      text += fmt::format("{}: {}\n", change.path, to_yaml(change.value));
   }
   return text;
 }
@@ -58,7 +59,8 @@ std::vector<std::size_t> part_of(const std::vector<Variant>& variants, const Sha
   for (std::size_t k = 0; k < count; ++k) group[k] = firsts.emplace(simulated_changes(variants[k]), k).first->second;
   const std::vector<std::size_t> order = smallest_first(count, [&](std::size_t k) { return group[k]; });
   const auto begin_of = [&](int index) {
-    return static_cast<std::ptrdiff_t>(count * static_cast<std::size_t>(index - 1) / static_cast<std::size_t>(shard.count));
+    return static_cast<std::ptrdiff_t>(count * static_cast<std::size_t>(index - 1) /
+                                       static_cast<std::size_t>(shard.count));
   };
   std::vector<std::size_t> part(order.begin() + begin_of(shard.index), order.begin() + begin_of(shard.index + 1));
   std::sort(part.begin(), part.end());

@@ -26,8 +26,7 @@ std::string recipes_up_to(const JobState& state, std::size_t stage) {
 bool has_up_to(const JobState& state, const fs::path& folder, std::size_t stage) {
   if (state.next <= stage) return false;
   for (std::size_t k = 0; k <= stage; ++k)
-    if ((k == stage || !may_lack(state.keep, k)) && !state_of(folder / files_of_stage(k).output).exists())
-      return false;
+    if ((k == stage || !may_lack(state.keep, k)) && !state_of(folder / files_of_stage(k).output).exists()) return false;
   return true;
 }
 

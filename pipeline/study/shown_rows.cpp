@@ -28,8 +28,7 @@ std::size_t take(const std::vector<RankingRow>& rows, std::size_t begin, std::si
 
 ShownRows shown_rows(const std::vector<RankingRow>& rows) {
   if (rows.size() <= short_ranking) return {indices_of(rows.size()), ""};
-  const auto first_failed =
-      std::partition_point(rows.begin(), rows.end(), [](const auto& row) { return row.done(); });
+  const auto first_failed = std::partition_point(rows.begin(), rows.end(), [](const auto& row) { return row.done(); });
   const auto done = static_cast<std::size_t>(first_failed - rows.begin());
   const auto any = [](const RankingRow&) { return true; };
   std::set<std::size_t> shown;
@@ -38,12 +37,11 @@ ShownRows shown_rows(const std::vector<RankingRow>& rows) {
   const std::size_t of_warning =
       take(rows, 0, done, warned, shown, [](const RankingRow& row) { return !warnings_of(row).empty(); });
   take(rows, done, rows.size(), failed, shown, any);
-  return {
-      {shown.begin(), shown.end()},
-      fmt::format(
-          "{} jobs: {} done, {} of them warned of, {} not done; shown are the best {}, the worst {} and the first "
-          "{} warned of and {} not done, all are in ranking.csv and the report\n",
-          rows.size(), done, of_warning, rows.size() - done, best, worst, warned, failed)};
+  return {{shown.begin(), shown.end()},
+          fmt::format(
+              "{} jobs: {} done, {} of them warned of, {} not done; shown are the best {}, the worst {} and the first "
+              "{} warned of and {} not done, all are in ranking.csv and the report\n",
+              rows.size(), done, of_warning, rows.size() - done, best, worst, warned, failed)};
 }
 
 }  // namespace dresslife::pipeline

@@ -21,12 +21,12 @@
 
 namespace dresslife::pipeline {
 
-int run_stage_program(const std::string& program, const std::vector<std::string>& arguments,
-                      StageWords said) {
+int run_stage_program(const std::string& program, const std::vector<std::string>& arguments, StageWords said) {
   return run_stage_program(program, arguments, std::filesystem::path(said == StageWords::dropped ? "/dev/null" : ""));
 }
 
-int run_stage_program(const std::string& program, const std::vector<std::string>& arguments, const std::filesystem::path& errors) {
+int run_stage_program(const std::string& program, const std::vector<std::string>& arguments,
+                      const std::filesystem::path& errors) {
   const std::string file = (program_folder() / program).string();
   std::vector<char*> words{const_cast<char*>(file.c_str())};
   for (const std::string& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
@@ -50,10 +50,9 @@ int run_stage_program(const std::string& program, const std::vector<std::string>
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (WIFEXITED(status) && WEXITSTATUS(status) != not_there) return WEXITSTATUS(status);
-  throw InputError(
-      {file},
-      WIFSIGNALED(status) ? fmt::format("was killed by signal {}", WTERMSIG(status)) : "cannot be started",
-      "install dresslife's programs into one folder, and look for what kills them");
+  throw InputError({file},
+                   WIFSIGNALED(status) ? fmt::format("was killed by signal {}", WTERMSIG(status)) : "cannot be started",
+                   "install dresslife's programs into one folder, and look for what kills them");
 }
 
 PassingFile::PassingFile(const std::string& name) {

@@ -18,7 +18,8 @@ int run_stage_program(const std::string& program, const std::vector<std::string>
                       StageWords said = StageWords::shown);
 
 /// The same; the program's standard error goes to a file.
-int run_stage_program(const std::string& program, const std::vector<std::string>& arguments, const std::filesystem::path& errors);
+int run_stage_program(const std::string& program, const std::vector<std::string>& arguments,
+                      const std::filesystem::path& errors);
 
 /// A temporary file in its own folder (in TMPDIR, or /tmp) for the results of a program, removed with this object.
 /// Errors: InputError when the file cannot be created.

@@ -19,8 +19,7 @@ namespace dresslife::pipeline {
 namespace {
 
 bool fits_a_folder(char c) {
-  return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-' || c == '.' || c == '+' ||
-         c == '=';
+  return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-' || c == '.' || c == '+' || c == '=';
 }
 
 std::string folder_name(std::string text) {
@@ -36,8 +35,7 @@ std::string folder_name(std::string text) {
 std::string value_name(const std::string& path, const Node& value, std::size_t index) {
   const std::string word = path.substr(path.rfind('.') == std::string::npos ? 0 : path.rfind('.') + 1);
   if (!value.is_scalar()) return fmt::format("{}={}", word, index + 1);
-  const bool starts_with_letter =
-      !value.text.empty() && std::isalpha(static_cast<unsigned char>(value.text[0]));
+  const bool starts_with_letter = !value.text.empty() && std::isalpha(static_cast<unsigned char>(value.text[0]));
   const bool speaks = starts_with_letter && value.text != "true" && value.text != "false";
   const std::string text = speaks && value.text.find('/') != std::string::npos
                                ? std::filesystem::path(value.text).stem().string()
@@ -56,8 +54,7 @@ std::vector<Variant> named_changes(const Node* jobs) {
     if (job.value.kind != Node::Kind::map && job.value.kind != Node::Kind::null)
       throw InputError(job.value.where, fmt::format("job '{}' must be a map of keys to values", job.key),
                        "write {KEY.PATH: VALUE}");
-    for (const Entry& change : job.value.entries)
-      variant.changes.push_back({change.key, change.value, change.where});
+    for (const Entry& change : job.value.entries) variant.changes.push_back({change.key, change.value, change.where});
     variants.push_back(std::move(variant));
   }
   return variants;
@@ -83,16 +80,13 @@ std::vector<Variant> combined(const std::vector<Variant>& variants, const std::v
 std::vector<Variant> all_combinations(std::vector<Variant> variants, const Node* vary) {
   if (!vary) return variants;
   if (!vary->is_map())
-    throw InputError(vary->where, "vary must be a map of keys to lists of values",
-                     "write 'vary: {KEY.PATH: [A, B]}'");
+    throw InputError(vary->where, "vary must be a map of keys to lists of values", "write 'vary: {KEY.PATH: [A, B]}'");
   for (const Entry& key : vary->entries) {
     if (!key.value.is_list() || key.value.items.empty())
-      throw InputError(key.value.where, fmt::format("vary.{} must be a list of values", key.key),
-                       "write [A, B, ...]");
+      throw InputError(key.value.where, fmt::format("vary.{} must be a list of values", key.key), "write [A, B, ...]");
     std::vector<Variant> values;
     for (std::size_t i = 0; i < key.value.items.size(); ++i)
-      values.push_back(
-          {value_name(key.key, key.value.items[i], i), {{key.key, key.value.items[i], key.where}}, {}});
+      values.push_back({value_name(key.key, key.value.items[i], i), {{key.key, key.value.items[i], key.where}}, {}});
     variants = combined(variants, values, key.where);
   }
   return variants;
@@ -101,8 +95,7 @@ std::vector<Variant> all_combinations(std::vector<Variant> variants, const Node*
 std::vector<Variant> variants_of(const Node& study) {
   std::vector<Variant> variants = named_changes(study.find("jobs"));
   if (const Node* table = study.find("table")) {
-    if (!table->is_scalar())
-      throw InputError(table->where, "table must be a file", "write 'table: FLEET.csv'");
+    if (!table->is_scalar()) throw InputError(table->where, "table must be a file", "write 'table: FLEET.csv'");
     variants = combined(variants, table_variants(folder_of(table->where) / table->text), table->where);
   }
   variants = all_combinations(std::move(variants), study.find("vary"));
@@ -125,15 +118,17 @@ std::vector<std::string> varied_of(const Node& study) {
 /// Longest name of a job's folder. File systems allow 255 letters, and files of a job have longer names than its folder.
 constexpr std::size_t longest_name = 200;
 
-StudyJob make_job(const Node& base, const std::string& name, const Variant& variant, const std::vector<std::string>& sets) {
+StudyJob make_job(const Node& base, const std::string& name, const Variant& variant,
+                  const std::vector<std::string>& sets) {
   StudyJob made;
   made.name = name;
   made.values = variant.values;
   try {
     if (made.name.size() > longest_name)
-      throw InputError(base.where,
-                       fmt::format("a job's name has {} letters (at most {} fit a folder)", made.name.size(), longest_name),
-                       "name it under 'jobs', or shorten the values that make its name");
+      throw InputError(
+          base.where,
+          fmt::format("a job's name has {} letters (at most {} fit a folder)", made.name.size(), longest_name),
+          "name it under 'jobs', or shorten the values that make its name");
     Node document = base;
     // Sets a section before its keys: otherwise `vary: {motion: ..}` would overwrite a job's motion.ramp_percent.
     std::vector<Change> changes = variant.changes;
@@ -149,8 +144,7 @@ StudyJob make_job(const Node& base, const std::string& name, const Variant& vari
 void check_keys(const Node& study) {
   if (!study.is_map()) throw InputError(study.where, "holds no study", "write base: and vary: or jobs:");
   refuse_other_kind(study, DocumentKind::study);
-  const std::vector<std::string> known{"name",   "base", "vary", "jobs",  "table",
-                                       "sample", "keep", "free", "limits"};
+  const std::vector<std::string> known{"name", "base", "vary", "jobs", "table", "sample", "keep", "free", "limits"};
   for (const Entry& entry : study.entries) {
     if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
     const std::string near = nearest_word(entry.key, known);

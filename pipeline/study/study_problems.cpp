@@ -24,15 +24,13 @@ std::string problem_words(const Study& study) {
   std::vector<std::string> lines;
   std::map<std::string, std::vector<std::string>> jobs_of;
   for (const StudyJob& job : study.jobs)
-    for (const std::string& line :
-         job.failure.empty() ? std::vector<std::string>{} : problem_lines(job.failure)) {
+    for (const std::string& line : job.failure.empty() ? std::vector<std::string>{} : problem_lines(job.failure)) {
       std::vector<std::string>& jobs = jobs_of[line];
       if (jobs.empty()) lines.push_back(line);
       jobs.push_back(job.name);
     }
   const bool complete = std::all_of(study.jobs.begin(), study.jobs.end(), [&](const StudyJob& job) {
-    return job.failure.empty() ||
-           (problem_lines(job.failure).size() == 1 && jobs_of[job.failure].size() == 1);
+    return job.failure.empty() || (problem_lines(job.failure).size() == 1 && jobs_of[job.failure].size() == 1);
   });
   if (complete) return "";
   std::string text;

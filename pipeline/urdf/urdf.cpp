@@ -120,8 +120,7 @@ class XmlPlaces {
     if (name == "origin") refuse_degrees(attribute(tag, "rpy"), line);
     if (empty) return;
     open_.emplace_back(name, line);
-    if (open_.size() > deepest)
-      fail(line, fmt::format("elements lie more than {} deep in each other", deepest));
+    if (open_.size() > deepest) fail(line, fmt::format("elements lie more than {} deep in each other", deepest));
   }
 
   /// Errors: InputError for an angle of more than a turn. urdfdom does not store the angles.
@@ -130,19 +129,19 @@ class XmlPlaces {
     std::istringstream words(rpy);
     std::vector<double> angles;
     for (double angle = 0; words >> angle;) angles.push_back(angle);
-    if (angles.size() != 3 || std::ranges::all_of(angles, [&](double angle) { return std::abs(angle) <= turn; })) return;
-    throw InputError({file_, line}, fmt::format("rpy=\"{}\" turns by more than {} rad", rpy, turn),
-                     fmt::format("write rpy=\"{:.6g} {:.6g} {:.6g}\" if those were degrees: angles of a URDF are in rad",
-                                 angles[0] / degrees,
-                                 angles[1] / degrees, angles[2] / degrees));
+    if (angles.size() != 3 || std::ranges::all_of(angles, [&](double angle) { return std::abs(angle) <= turn; }))
+      return;
+    throw InputError(
+        {file_, line}, fmt::format("rpy=\"{}\" turns by more than {} rad", rpy, turn),
+        fmt::format("write rpy=\"{:.6g} {:.6g} {:.6g}\" if those were degrees: angles of a URDF are in rad",
+                    angles[0] / degrees, angles[1] / degrees, angles[2] / degrees));
   }
 
   static std::string attribute(const std::string& tag, const std::string& name) {
     std::size_t at = 0;
     while ((at = tag.find(name, at + 1)) != std::string::npos) {
       std::size_t quote = tag.find_first_not_of(" \t\r\n", at + name.size());
-      if (!std::isspace(static_cast<unsigned char>(tag[at - 1])) || quote == std::string::npos ||
-          tag[quote] != '=')
+      if (!std::isspace(static_cast<unsigned char>(tag[at - 1])) || quote == std::string::npos || tag[quote] != '=')
         continue;
       quote = tag.find_first_of("\"'", quote);
       if (quote == std::string::npos) break;
@@ -193,8 +192,7 @@ urdf::ModelInterfaceSharedPtr parse(const std::string& text, const XmlPlaces& pl
     listener.errors.push_back(error.what());
   }
   if (model && model->getRoot()) return model;
-  const std::string words =
-      one_line(listener.errors.empty() ? "it names no reason" : listener.errors.front());
+  const std::string words = one_line(listener.errors.empty() ? "it names no reason" : listener.errors.front());
   throw InputError(places.mentioned(words), fmt::format("is no URDF that can be read (urdfdom: {})", words),
                    "correct it");
 }
@@ -358,8 +356,7 @@ class Chain {
   }
 
   void check_axes() {
-    const auto axes =
-        std::count_if(moved_.begin(), moved_.end(), [](const MovedLink& m) { return !m.joint->mimic; });
+    const auto axes = std::count_if(moved_.begin(), moved_.end(), [](const MovedLink& m) { return !m.joint->mimic; });
     if (axes < 4 || axes > 7)
       fail(file_, fmt::format("has {} axes between its root and its tip (a robot has 4 to 7)", axes),
            "choose another tip");
@@ -374,10 +371,9 @@ class Chain {
                           const urdf::Vector3& lengths) const {
     const double largest = std::max({std::abs(lengths.x), std::abs(lengths.y), std::abs(lengths.z)});
     if (largest > longest_link)
-      fail(where,
-           fmt::format("{} has {:.6g} m (at most {:g} in a link that moves)", what, largest, longest_link),
-           fmt::format("write {}=\"{:g} {:g} {:g}\" if those were millimetres: lengths of a URDF are in m",
-                       attribute, lengths.x / 1e3, lengths.y / 1e3, lengths.z / 1e3));
+      fail(where, fmt::format("{} has {:.6g} m (at most {:g} in a link that moves)", what, largest, longest_link),
+           fmt::format("write {}=\"{:g} {:g} {:g}\" if those were millimetres: lengths of a URDF are in m", attribute,
+                       lengths.x / 1e3, lengths.y / 1e3, lengths.z / 1e3));
   }
 
   /// Finds the drivers of following joints. The limits of a follower reduce those of its driver.
@@ -406,8 +402,7 @@ class Chain {
     for (const MovedLink& moved : moved_) {
       if (moved.driver < 0 || moved.ratio == 0) continue;
       MovedLink& driver = moved_[moved.driver];
-      double low = (moved.lower - moved.offset) / moved.ratio,
-             high = (moved.upper - moved.offset) / moved.ratio;
+      double low = (moved.lower - moved.offset) / moved.ratio, high = (moved.upper - moved.offset) / moved.ratio;
       if (low > high) std::swap(low, high);
       driver.lower = std::max(driver.lower, low);
       driver.upper = std::min(driver.upper, high);
@@ -440,12 +435,9 @@ class Chain {
       tree.number("ratio", moved.ratio).number("offset_deg", moved.offset);
       return tree.done();
     }
-    tree.number("lower_deg", moved.lower)
-        .number("upper_deg", moved.upper)
-        .number("speed_deg_per_s", moved.speed);
-    const auto axis =
-        static_cast<std::size_t>(std::count_if(moved_.begin(), moved_.begin() + static_cast<long>(k),
-                                               [](const MovedLink& m) { return m.driver < 0; }));
+    tree.number("lower_deg", moved.lower).number("upper_deg", moved.upper).number("speed_deg_per_s", moved.speed);
+    const auto axis = static_cast<std::size_t>(std::count_if(moved_.begin(), moved_.begin() + static_cast<long>(k),
+                                                             [](const MovedLink& m) { return m.driver < 0; }));
     Node made = tree.done();
     if (axis < request_.accelerations.size()) {
       Node& acceleration = made["acceleration_deg_per_s2"];
@@ -480,13 +472,12 @@ class Chain {
     for (const auto& collision : link.collision_array)
       if (collision && collision->geometry) {
         if (moves) refuse_large(link, *collision);
-        add_shape(*collision->geometry, frame * transform(collision->origin), places_.of("link", link.name),
-                  shapes);
+        add_shape(*collision->geometry, frame * transform(collision->origin), places_.of("link", link.name), shapes);
       }
     for (const auto& joint : link.child_joints)
       if (joint->type == urdf::Joint::FIXED)
-        gather(*model_.getLink(joint->child_link_name),
-               frame * transform(joint->parent_to_joint_origin_transform), moves, shapes);
+        gather(*model_.getLink(joint->child_link_name), frame * transform(joint->parent_to_joint_origin_transform),
+               moves, shapes);
   }
 
   /// Refuses shapes in millimetres. Meshes are checked when they are read.
@@ -507,13 +498,12 @@ class Chain {
         fail(where,
              fmt::format("a {} of link '{}' has {:.6g} m (at most {:g} in a link that moves)",
                          round ? "sphere" : "cylinder", link.name, std::max(radius, length), longest_link),
-             fmt::format("write radius=\"{:g}\"{} if those were millimetres: lengths of a URDF are in m",
-                         radius / 1e3, round ? "" : fmt::format(" length=\"{:g}\"", length / 1e3)));
+             fmt::format("write radius=\"{:g}\"{} if those were millimetres: lengths of a URDF are in m", radius / 1e3,
+                         round ? "" : fmt::format(" length=\"{:g}\"", length / 1e3)));
     }
   }
 
-  void add_shape(const urdf::Geometry& geometry, const Isometry3d& frame, const Where& where,
-                 Shapes& into) const {
+  void add_shape(const urdf::Geometry& geometry, const Isometry3d& frame, const Where& where, Shapes& into) const {
     const auto capsule = [&](double half, double radius) {
       into.capsules.push_back(Tree(where)
                                   .vector("from_m", frame * Vector3d(0, 0, -half))
@@ -598,9 +588,7 @@ class Chain {
 
 }  // namespace
 
-Node robot_from_urdf(const UrdfRequest& request) {
-  return robot_from_urdf(request, read_source(request.urdf));
-}
+Node robot_from_urdf(const UrdfRequest& request) { return robot_from_urdf(request, read_source(request.urdf)); }
 
 Node robot_from_urdf(const UrdfRequest& request, const std::string& text) {
   const std::string file = request.urdf.string();

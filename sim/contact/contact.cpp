@@ -52,18 +52,16 @@ Vector3 relative_velocity(const RodState& state, std::span<const Twist6> change,
     return (1 - contact.share) * (state.velocity[i] + change[i].linear()) +
            (state.angular_velocity[i] + change[i].angular()).cross(contact.arm) +
            contact.share * (state.velocity[j] + change[j].linear()) +
-           (state.angular_velocity[j] + change[j].angular()).cross(contact.other_arm) -
-           contact.obstacle_velocity;
+           (state.angular_velocity[j] + change[j].angular()).cross(contact.other_arm) - contact.obstacle_velocity;
   }
   const Vector3 velocity = matter(contact.segment) - contact.obstacle_velocity;
   return contact.other < 0 ? velocity : Vector3(velocity - matter(contact.other));
 }
 
-void ContactSolver::set_up(const RodState& state, std::span<const Twist6> change,
-                           const std::vector<Contact>& contacts, double h) {
+void ContactSolver::set_up(const RodState& state, std::span<const Twist6> change, const std::vector<Contact>& contacts,
+                           double h) {
   const size_t rows = 3 * contacts.size();
-  direction_.resize(rows), opposite_.assign(rows, Twist6{}), velocity_.resize(rows),
-      answer_.assign(rows, 0.0);
+  direction_.resize(rows), opposite_.assign(rows, Twist6{}), velocity_.resize(rows), answer_.assign(rows, 0.0);
   for (size_t k = 0; k < contacts.size(); ++k) {
     const Contact& c = contacts[k];
     const auto [first, second] = tangents(c.normal);
@@ -124,8 +122,7 @@ void ContactSolver::change_answer(int row, double change) {
 }
 
 double ContactSolver::press(int row, double h) {
-  const double soft = softness / h,
-               mass = effective_[static_cast<size_t>(row) * direction_.size() + row] + soft;
+  const double soft = softness / h, mass = effective_[static_cast<size_t>(row) * direction_.size() + row] + soft;
   const double next = std::max(0.0, answer_[row] - (velocity_[row] + soft * answer_[row]) / mass);
   const double change = next - answer_[row];
   if (change != 0) change_answer(row, change);
@@ -191,8 +188,7 @@ void ContactSolver::start_from_last_step(const std::vector<Contact>& contacts, d
   }
 }
 
-void ContactSolver::solve(const RodState& state, double h, RodSolver& solver,
-                          std::vector<Contact>& contacts) {
+void ContactSolver::solve(const RodState& state, double h, RodSolver& solver, std::vector<Contact>& contacts) {
   if (contacts.empty()) {
     last_.clear();
     return;

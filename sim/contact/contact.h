@@ -22,12 +22,12 @@ inline constexpr int first_ring = -5;
 
 struct Contact {
   int segment = 0;
-  int other = -1;                     ///< second segment of the contact; -1: none; see also `share`
-  int obstacle = 0;                   ///< robot link, or one of the above
-  Vector3 point = Vector3::Zero();    ///< world [m]
-  Vector3 normal = Vector3::UnitZ();  ///< unit, from the obstacle (the other segment) to the segment
-  double depth = 0;                   ///< > 0: overlap, < 0: gap [m]
-  double friction = 0;                ///< Coulomb's mu
+  int other = -1;                               ///< second segment of the contact; -1: none; see also `share`
+  int obstacle = 0;                             ///< robot link, or one of the above
+  Vector3 point = Vector3::Zero();              ///< world [m]
+  Vector3 normal = Vector3::UnitZ();            ///< unit, from the obstacle (the other segment) to the segment
+  double depth = 0;                             ///< > 0: overlap, < 0: gap [m]
+  double friction = 0;                          ///< Coulomb's mu
   Vector3 obstacle_velocity = Vector3::Zero();  ///< of the obstacle's matter at the point [m/s]
   /// > 0: the touched place lies between the centres of `segment` and `other`, at this share of the way. It moves with
   /// (1 - share) v + w x arm of `segment`, plus share v + w x other_arm of `other`; the arms contain the shares (S15).
@@ -48,8 +48,7 @@ class ContactSolver {
   void solve(const RodState& state, double h, RodSolver& solver, std::vector<Contact>& contacts);
 
  private:
-  void set_up(const RodState& state, std::span<const Twist6> change, const std::vector<Contact>& contacts,
-              double h);
+  void set_up(const RodState& state, std::span<const Twist6> change, const std::vector<Contact>& contacts, double h);
   void condense(const RodSolver& solver, const std::vector<Contact>& contacts);
   void start_from_last_step(const std::vector<Contact>& contacts, double h);
   void iterate(const std::vector<Contact>& contacts, double h);
@@ -57,9 +56,10 @@ class ContactSolver {
   double rub(int row, double limit);
   void change_answer(int row, double change);
 
-  std::vector<Twist6> direction_, opposite_;  // (row): a contact's normal and two tangents in turn; of the other segment
-  std::vector<Twists> response_;              // (segment)
-  std::vector<Twist6> impulse_;               // (segment)
+  std::vector<Twist6> direction_,
+      opposite_;                  // (row): a contact's normal and two tangents in turn; of the other segment
+  std::vector<Twists> response_;  // (segment)
+  std::vector<Twist6> impulse_;   // (segment)
   std::vector<double> effective_, velocity_, answer_;  // (row, row), (row), (row)
   std::vector<Contact> last_;                          // of the previous step
 };

@@ -80,8 +80,8 @@ std::vector<Triangle> scaled_triangles(const std::filesystem::path& file, double
     throw pipeline::InputError(
         {file.string()},
         fmt::format("the mesh is {:.4g} m long with scale {:g} (limit {:g} m)", box.sizes().maxCoeff(), scale, longest),
-        fmt::format("give the mesh scale: {:g} if its unit is the millimetre (in a URDF scale=\"{:g} {:g} {:g}\")", scale / 1e3,
-                    scale / 1e3, scale / 1e3, scale / 1e3));
+        fmt::format("give the mesh scale: {:g} if its unit is the millimetre (in a URDF scale=\"{:g} {:g} {:g}\")",
+                    scale / 1e3, scale / 1e3, scale / 1e3, scale / 1e3));
   return triangles;
 }
 

@@ -9,8 +9,8 @@ namespace {
 
 constexpr int newton_steps = 6;
 constexpr double last_step = 1e-10;  // [segments]
-constexpr int alternations = 8;       // between the nearest points of the axis and of the circle
-constexpr double same_side = 0.9;     // cosine: contact points less than 25 deg apart are merged
+constexpr int alternations = 8;      // between the nearest points of the axis and of the circle
+constexpr double same_side = 0.9;    // cosine: contact points less than 25 deg apart are merged
 
 }  // namespace
 
@@ -58,8 +58,8 @@ double SpanAxis::passage(const Frame& frame) const {
     const Point p = at(place);
     const double through = p.slope.dot(axis);
     if (std::abs(through) < 0.1 * p.slope.norm()) break;  // along the plane: the present place is accurate enough
-    place = std::clamp(place - std::clamp((p.position - frame.position).dot(axis) / through, -1.0, 1.0),
-                       first(), last());
+    place =
+        std::clamp(place - std::clamp((p.position - frame.position).dot(axis) / through, -1.0, 1.0), first(), last());
   }
   return place;
 }
@@ -87,11 +87,7 @@ namespace {
 class Edge {
  public:
   Edge(const SpanAxis& axis, const Frame& frame, double radius, double hose_radius)
-      : axis_(axis),
-        frame_(frame),
-        radius_(radius),
-        hose_radius_(hose_radius),
-        z_(tangent(frame.orientation)) {}
+      : axis_(axis), frame_(frame), radius_(radius), hose_radius_(hose_radius), z_(tangent(frame.orientation)) {}
 
   /// Finds the contacts on both sides of the direction in which the axis is off centre and, for an inclined axis, on both sides
   /// of its inclination.
@@ -101,8 +97,7 @@ class Edge {
     std::vector<Vector3> sides;
     for (const auto& [way, least] : {std::pair{off, 1e-9}, std::pair{askew, 1e-3}})
       if (way.norm() > least)
-        for (const double sign : {1.0, -1.0})
-          lean(sign * way.normalized(), passage, ring, margin, sides, contacts);
+        for (const double sign : {1.0, -1.0}) lean(sign * way.normalized(), passage, ring, margin, sides, contacts);
   }
 
  private:
@@ -143,8 +138,8 @@ class Edge {
 
 }  // namespace
 
-void find_ring_contacts(const Rod& rod, const RodState& state, const RingShape& ring, const Frame& frame,
-                        int number, double margin, double& place, std::vector<Contact>& contacts) {
+void find_ring_contacts(const Rod& rod, const RodState& state, const RingShape& ring, const Frame& frame, int number,
+                        double margin, double& place, std::vector<Contact>& contacts) {
   const Span& span = rod.spans()[ring.span];
   const SpanAxis axis(state, span);
   Contact contact;

@@ -53,7 +53,7 @@ class SpanAxis {
 };
 
 /// Adds the contacts of ring `number`. frame: of the ring in the world. place: where the axis passed the ring before; is updated.
-void find_ring_contacts(const Rod& rod, const RodState& state, const RingShape& ring, const Frame& frame,
-                        int number, double margin, double& place, std::vector<Contact>& contacts);
+void find_ring_contacts(const Rod& rod, const RodState& state, const RingShape& ring, const Frame& frame, int number,
+                        double margin, double& place, std::vector<Contact>& contacts);
 
 }  // namespace dresslife::sim

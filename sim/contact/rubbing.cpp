@@ -24,8 +24,7 @@ Rubbing::Rubbing(const Rod& rod) : rod_(rod) {
     const Span& span = rod.spans()[rod.first_span(d)];
     Cells& cells = cells_.emplace_back();
     cells.first_segment = span.first_segment;
-    for (int k = rod.first_span(d); k < rod.first_span(d + 1); ++k)
-      cells.segments += rod.spans()[k].segments();
+    for (int k = rod.first_span(d); k < rod.first_span(d + 1); ++k) cells.segments += rod.spans()[k].segments();
     const double cell = std::max(least_cell, cell_share * span.properties.diameter);
     cells.per_segment = std::max(1, static_cast<int>(std::lround(span.segment_length / cell)));
     cells.first = cells_in_all_;
@@ -36,8 +35,8 @@ Rubbing::Rubbing(const Rod& rod) : rod_(rod) {
 const Rubbing::Cells& Rubbing::cells_of(int segment) const { return cells_[rod_.span_of(segment).dresspack]; }
 
 // place: in segments of the rod. toward: direction from the axis to the obstacle.
-void Rubbing::rub(Field& field, int segment, double place, bool spread, const Vector3& toward,
-                  const RodState& state, double work) {
+void Rubbing::rub(Field& field, int segment, double place, bool spread, const Vector3& toward, const RodState& state,
+                  double work) {
   const Cells& cells = cells_of(segment);
   const Vector3 local = state.orientation[segment].conjugate() * toward;
   double turn = std::atan2(local.y(), local.x()) / sector_width;
@@ -63,19 +62,16 @@ void Rubbing::add(const std::vector<Contact>& contacts, const RodState& state, d
     Field& field = fields_[c.obstacle];
     if (field.work.empty()) {
       field.work.resize(static_cast<size_t>(cells_in_all_) * sectors);
-      field.sample.resize(cells_in_all_), field.largest.resize(cells_in_all_),
-          field.time.resize(cells_in_all_);
+      field.sample.resize(cells_in_all_), field.largest.resize(cells_in_all_), field.time.resize(cells_in_all_);
     }
     if (c.obstacle <= first_ring) {
       const bool between = c.share > 0;
-      const double place =
-          between ? c.segment + 0.5 + c.share : place_beside(rod_, state, c.segment, c.point, h);
+      const double place = between ? c.segment + 0.5 + c.share : place_beside(rod_, state, c.segment, c.point, h);
       rub(field, between && c.share > 0.5 ? c.other : c.segment, place, false, -c.normal, state, work);
       continue;
     }
     rub(field, c.segment, place_beside(rod_, state, c.segment, c.point, h), true, -c.normal, state, work);
-    if (c.other >= 0)
-      rub(field, c.other, place_beside(rod_, state, c.other, c.point, h), true, c.normal, state, work);
+    if (c.other >= 0) rub(field, c.other, place_beside(rod_, state, c.other, c.point, h), true, c.normal, state, work);
   }
 }
 

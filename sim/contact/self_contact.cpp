@@ -64,8 +64,7 @@ class Search {
     for (const Vector3& end : {b0, b1}) along(i, j, end, a0, a1, first, false);
   }
 
-  void along(int i, int j, const Vector3& end, const Vector3& from, const Vector3& to, size_t first,
-             bool of_i) {
+  void along(int i, int j, const Vector3& end, const Vector3& from, const Vector3& to, size_t first, bool of_i) {
     const Vector3 way = to - from;
     const double share = (end - from).dot(way) / way.squaredNorm();
     if (share <= 0 || share >= 1) return;
@@ -106,15 +105,13 @@ NearestPoints nearest_points(const Vector3& a0, const Vector3& a1, const Vector3
     return length2 > 0 ? std::clamp(numerator / length2, 0.0, 1.0) : 0.0;
   };
   NearestPoints nearest;
-  nearest.a =
-      determinant > parallel * uu * vv ? std::clamp((uv * vw - vv * uw) / determinant, 0.0, 1.0) : 0.5;
+  nearest.a = determinant > parallel * uu * vv ? std::clamp((uv * vw - vv * uw) / determinant, 0.0, 1.0) : 0.5;
   nearest.b = on(vw + nearest.a * uv, vv);
   nearest.a = on(nearest.b * uv - uw, uu);
   return nearest;
 }
 
-double find_self_contacts(const Rod& rod, const RodState& state, double reach,
-                          std::vector<Contact>& contacts) {
+double find_self_contacts(const Rod& rod, const RodState& state, double reach, std::vector<Contact>& contacts) {
   return Search(rod, state, reach, contacts).run();
 }
 

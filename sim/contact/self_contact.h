@@ -21,7 +21,6 @@ NearestPoints nearest_points(const Vector3& a0, const Vector3& a1, const Vector3
 /// spread-out hose: at a distance D of two segments, the next (D - reach)/l segments along the span cannot be near. Returns a
 /// lower bound of the distance between the surfaces of all pairs [m]; infinity without pairs. Until the segments have moved by
 /// this distance there is no contact within `reach`.
-double find_self_contacts(const Rod& rod, const RodState& state, double reach,
-                          std::vector<Contact>& contacts);
+double find_self_contacts(const Rod& rod, const RodState& state, double reach, std::vector<Contact>& contacts);
 
 }  // namespace dresslife::sim

@@ -4,8 +4,7 @@
 
 namespace dresslife::sim {
 
-Touch::Touch(int segments, const std::vector<std::string>& links, int rings)
-    : links_(links.size()), obstacles_(links) {
+Touch::Touch(int segments, const std::vector<std::string>& links, int rings) : links_(links.size()), obstacles_(links) {
   for (const char* other : {"floor", "dresspack", "cell"}) obstacles_.push_back(other);
   for (int k = 1; k <= rings; ++k) obstacles_.push_back("ring " + std::to_string(k));
   const size_t pairs = static_cast<size_t>(segments) * obstacles_.size();

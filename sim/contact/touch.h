@@ -26,15 +26,11 @@ class Touch {
   const std::vector<std::string>& obstacles() const { return obstacles_; }
   size_t column(int obstacle) const;  ///< index in obstacles() of a Contact::obstacle
   // Of the whole motion:
-  const std::vector<double>& work() const { return work_; }  ///< (segment, obstacle) [J]
-  const std::vector<double>& largest_force() const {
-    return largest_force_;
-  }  ///< (segment, obstacle) normal [N]
+  const std::vector<double>& work() const { return work_; }                    ///< (segment, obstacle) [J]
+  const std::vector<double>& largest_force() const { return largest_force_; }  ///< (segment, obstacle) normal [N]
   // Since the previous sample:
-  const std::vector<double>& sample_force() const {
-    return sample_force_;
-  }  ///< (segment) largest of all steps [N]
-  const std::vector<double>& sample_work() const { return sample_work_; }  ///< (segment) [J]
+  const std::vector<double>& sample_force() const { return sample_force_; }  ///< (segment) largest of all steps [N]
+  const std::vector<double>& sample_work() const { return sample_work_; }    ///< (segment) [J]
   const std::vector<std::int32_t>& sample_obstacle() const {
     return sample_obstacle_;
   }  ///< (segment) obstacle with the largest force; -1: none

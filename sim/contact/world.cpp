@@ -150,8 +150,7 @@ struct World::Parts {
 
 // ---- building ---------------------------------------------------------------------------------------------
 
-World::World(const Rod& rod, const WorldSettings& settings, const RodState& start,
-             std::span<const Frame> links)
+World::World(const Rod& rod, const WorldSettings& settings, const RodState& start, std::span<const Frame> links)
     : parts_(std::make_unique<Parts>(rod, settings, start, links)) {
   prepare_ode();
   parts_->build();
@@ -179,8 +178,7 @@ void World::Parts::build() {
     const Span& span = rod.span_of(i);
     const double transverse = span.transverse_inertia;
     dMass mass;
-    dMassSetParameters(&mass, span.segment_mass, 0, 0, 0, transverse, transverse, span.axial_inertia, 0, 0,
-                       0);
+    dMassSetParameters(&mass, span.segment_mass, 0, 0, 0, transverse, transverse, span.axial_inertia, 0, 0, 0);
     const dBodyID body = dBodyCreate(world);
     dBodySetMass(body, &mass);
     dBodySetFiniteRotationMode(body, 1);
@@ -252,8 +250,7 @@ void World::Parts::choose_margin(const ClampFrames& clamps, std::span<const Fram
   for (int e = 0; e < clamps.ends(); ++e) {
     const RodProperties& p = rod.spans()[e / 2].properties;
     if ((e % 2 == 0 && p.slider) || (e % 2 == 1 && p.tool_end == End::free)) continue;  // not prescribed
-    speed2 =
-        std::max(speed2, (clamps.end(e).position - state.clamps.end(e).position).squaredNorm() / (h * h));
+    speed2 = std::max(speed2, (clamps.end(e).position - state.clamps.end(e).position).squaredNorm() / (h * h));
   }
   double obstacle = settings.self_contact ? std::sqrt(speed2) * h : 0;
   const auto consider = [&](int link, const Frame& local, double reach) {
@@ -348,8 +345,7 @@ void World::Parts::collide_with(Shape& shape) {
   if (shape.clear > margin) return;
   const size_t n = capsules.size();
   const double more = shape.bounds.radius + bounds_slack;
-  const double *x = middles[0].data(), *y = middles[1].data(), *z = middles[2].data(),
-               *reach = reaches.data();
+  const double *x = middles[0].data(), *y = middles[1].data(), *z = middles[2].data(), *reach = reaches.data();
   double* beyond = beyonds.data();
   if (shape.link == floor_obstacle) {
     for (size_t i = 0; i < n; ++i) beyond[i] = z[i] - (reach[i] + more);
@@ -485,8 +481,7 @@ StepReport World::advance(const ClampFrames& clamps, std::span<const Frame> link
   return advance(clamps, links, {});
 }
 
-StepReport World::advance(const ClampFrames& clamps, std::span<const Frame> links,
-                          std::span<const Load> loads) {
+StepReport World::advance(const ClampFrames& clamps, std::span<const Frame> links, std::span<const Load> loads) {
   Parts& p = *parts_;
   const std::vector<Frame> still(links.empty() ? p.links : std::vector<Frame>());
   const std::span<const Frame> next = links.empty() ? std::span<const Frame>(still) : links;

@@ -55,8 +55,7 @@ struct StepReport {
 class World {
  public:
   /// Starts from `start`, with the robot links at `links`: one frame per link that shapes can name; may be empty.
-  World(const Rod& rod, const WorldSettings& settings, const RodState& start,
-        std::span<const Frame> links = {});
+  World(const Rod& rod, const WorldSettings& settings, const RodState& start, std::span<const Frame> links = {});
   ~World();
   World(const World&) = delete;
   World& operator=(const World&) = delete;

@@ -87,18 +87,13 @@ std::vector<std::string> words_of_name(std::string_view name) {
 ColumnName column_name(std::string_view name) {
   ColumnName made;
   const std::vector<std::string> words = words_of_name(name);
-  const auto has = [&](const char* word) {
-    return std::find(words.begin(), words.end(), word) != words.end();
-  };
+  const auto has = [&](const char* word) { return std::find(words.begin(), words.end(), word) != words.end(); };
   if (has("rad") || has("radian") || has("radians")) made.unit = ColumnName::Unit::radians;
   if (has("deg") || has("degree") || has("degrees") || name.find("\xC2\xB0") != std::string_view::npos)
     made.unit = ColumnName::Unit::degrees;
-  const bool any_other =
-      std::any_of(words.begin(), words.end(), [](const auto& w) { return among(w, others); });
-  const bool coordinate =
-      std::any_of(words.begin(), words.end(), [](const auto& w) { return among(w, coordinates); });
-  if (!words.empty() &&
-      (among(words[0], times) || (words.size() > 1 && words.back() == "time") || name == "%time")) {
+  const bool any_other = std::any_of(words.begin(), words.end(), [](const auto& w) { return among(w, others); });
+  const bool coordinate = std::any_of(words.begin(), words.end(), [](const auto& w) { return among(w, coordinates); });
+  if (!words.empty() && (among(words[0], times) || (words.size() > 1 && words.back() == "time") || name == "%time")) {
     made.kind = ColumnName::Kind::time;
     made.unit_told = has("s") || has("sec") || has("secs") || has("seconds");
     if (has("ms") || has("msec")) made.seconds = 1e-3;
@@ -135,9 +130,8 @@ std::optional<std::vector<std::size_t>> order_of_axes(const std::vector<std::str
         return text;
       };
       const std::string name = without_blanks(wanted.substr(begin, end - begin));
-      const auto found = std::find_if(names.begin(), names.end(), [&](const std::string& n) {
-        return same_word(without_blanks(n), name);
-      });
+      const auto found = std::find_if(names.begin(), names.end(),
+                                      [&](const std::string& n) { return same_word(without_blanks(n), name); });
       if (found == names.end()) return {};
       order.push_back(static_cast<std::size_t>(found - names.begin()));
       begin = end + 1;
@@ -148,12 +142,9 @@ std::optional<std::vector<std::size_t>> order_of_axes(const std::vector<std::str
     return twice ? std::nullopt : std::optional(order);
   }
   if (names.size() == 1) return std::vector<std::size_t>{0};
-  if (auto order = order_by(names, {{"shoulder", "pan"},
-                                    {"shoulder", "lift"},
-                                    {"elbow"},
-                                    {"wrist", "1"},
-                                    {"wrist", "2"},
-                                    {"wrist", "3"}}))
+  if (auto order = order_by(
+          names,
+          {{"shoulder", "pan"}, {"shoulder", "lift"}, {"elbow"}, {"wrist", "1"}, {"wrist", "2"}, {"wrist", "3"}}))
     return order;
   if (auto order = order_by(names, {{"s"}, {"l"}, {"u"}, {"r"}, {"b"}, {"t"}})) return order;
   for (bool last : {true, false})

@@ -27,7 +27,6 @@ double unit_of_clock(double time);
 
 /// Returns the indices of the names in the order of the robot's axes: order[0] is the index of axis 1. std::nullopt:
 /// the names do not determine the order. wanted: the user's order, names separated by commas; empty: none.
-std::optional<std::vector<std::size_t>> order_of_axes(const std::vector<std::string>& names,
-                                                      const std::string& wanted);
+std::optional<std::vector<std::size_t>> order_of_axes(const std::vector<std::string>& names, const std::string& wanted);
 
 }  // namespace dresslife::sim

@@ -62,9 +62,9 @@ Backup backup_of(const fs::path& program, const std::string& routine) {
                     [](const fs::path& file) { return lower_case(file.extension().string()) == ".sys"; }))
       files.erase(rapid);
   if (files.size() != 1)
-    throw pipeline::InputError(
-        {folder.string()}, files.empty() ? "holds no robot program" : "holds programs of several languages",
-        files.empty() ? "give RAPID, KRL, Fanuc or INFORM files" : "name the folder of one");
+    throw pipeline::InputError({folder.string()},
+                               files.empty() ? "holds no robot program" : "holds programs of several languages",
+                               files.empty() ? "give RAPID, KRL, Fanuc or INFORM files" : "name the folder of one");
   const auto& [language, list] = *files.begin();
   switch (language) {
     case Language::rapid:

@@ -12,14 +12,13 @@ namespace {
 std::string number(double value) { return pipeline::short_decimal(value, 4); }
 
 std::string position(const Vector3& p) {
-  return fmt::format("{} {} {} mm", number(p.x() / millimetre), number(p.y() / millimetre),
-                     number(p.z() / millimetre));
+  return fmt::format("{} {} {} mm", number(p.x() / millimetre), number(p.y() / millimetre), number(p.z() / millimetre));
 }
 
 std::string frame(const Frame& f) {
   const Quaternion& q = f.orientation;
-  return fmt::format("{}, quaternion {} {} {} {}", position(f.position), number(q.w()), number(q.x()),
-                     number(q.y()), number(q.z()));
+  return fmt::format("{}, quaternion {} {} {} {}", position(f.position), number(q.w()), number(q.x()), number(q.y()),
+                     number(q.z()));
 }
 
 /// Returns " (p20: data.mod:4)"; empty: the origin is not known.
@@ -29,8 +28,7 @@ std::string from(const Instruction& instruction, std::string_view part) {
     const std::string file = std::filesystem::path(origin.where.file).filename().string();
     const std::string place = origin.where.line > 0 ? fmt::format("{}:{}", file, origin.where.line) : "";
     if (origin.written.empty() && place.empty()) return "";
-    return fmt::format(" ({}{}{})", origin.written, origin.written.empty() || place.empty() ? "" : ": ",
-                       place);
+    return fmt::format(" ({}{}{})", origin.written, origin.written.empty() || place.empty() ? "" : ": ", place);
   }
   return "";
 }
@@ -72,8 +70,7 @@ std::string speed(const Instruction& instruction) {
 
 std::string zone(const Instruction& instruction) {
   if (instruction.zone.percent > 0) return fmt::format("zone {} %", number(instruction.zone.percent));
-  if (instruction.zone.distance > 0)
-    return fmt::format("zone {} mm", number(instruction.zone.distance / millimetre));
+  if (instruction.zone.distance > 0) return fmt::format("zone {} mm", number(instruction.zone.distance / millimetre));
   return "stop";
 }
 
@@ -88,8 +85,8 @@ std::string named(const char* what, const std::vector<NamedFrame>& list, int ind
 std::vector<std::string> explanation(const Program& program) {
   std::vector<std::string> lines;
   for (const Instruction& i : program.instructions) {
-    std::string line = fmt::format("{}:{}{}: {}", std::filesystem::path(i.where.file).filename().string(),
-                                   i.where.line, i.routine.empty() ? "" : " " + i.routine, i.text);
+    std::string line = fmt::format("{}:{}{}: {}", std::filesystem::path(i.where.file).filename().string(), i.where.line,
+                                   i.routine.empty() ? "" : " " + i.routine, i.text);
     if (i.kind == Instruction::Kind::dwell) {
       lines.push_back(line + fmt::format(" | waits {} s", number(i.dwell)));
       continue;

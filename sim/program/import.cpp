@@ -25,9 +25,7 @@
 namespace dresslife::sim {
 namespace {
 
-Quaternion quaternion_of(const std::vector<double>& q) {
-  return Quaternion(q[0], q[1], q[2], q[3]).normalized();
-}
+Quaternion quaternion_of(const std::vector<double>& q) { return Quaternion(q[0], q[1], q[2], q[3]).normalized(); }
 std::vector<double> numbers_of(const Quaternion& q) { return {q.w(), q.x(), q.y(), q.z()}; }
 std::vector<double> numbers_of(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -41,8 +39,7 @@ std::vector<NamedFrame> frames_of(const std::vector<pipeline::MotionFrame>& writ
 std::vector<pipeline::MotionFrame> frames_of(const std::vector<NamedFrame>& read) {
   std::vector<pipeline::MotionFrame> frames;
   for (const NamedFrame& frame : read)
-    frames.push_back(
-        {frame.name, frame.frame.position, numbers_of(frame.frame.orientation), frame.stationary});
+    frames.push_back({frame.name, frame.frame.position, numbers_of(frame.frame.orientation), frame.stationary});
   return frames;
 }
 
@@ -86,8 +83,7 @@ pipeline::MotionStep step_of(const Instruction& instruction, const Program& prog
     step.position = numbers_of(instruction.target.pose.position);
     step.quaternion = numbers_of(instruction.target.pose.orientation);
     step.configuration = instruction.target.configuration.text();
-    if (instruction.kind == Instruction::Kind::circular)
-      step.via_position = numbers_of(instruction.via.position);
+    if (instruction.kind == Instruction::Kind::circular) step.via_position = numbers_of(instruction.via.position);
   }
   step.external_axes = instruction.target.external_axes;
   if (instruction.tool >= 0) step.tool = program.tools[instruction.tool].name;
@@ -134,18 +130,16 @@ Language language_of(const std::filesystem::path& file) {
   const std::string extension = lower_case(file.extension().string());
   for (const auto& [end, language] : ends)
     if (extension == end) return language;
-  throw pipeline::InputError({file.string()},
-                             fmt::format("is no robot program by its name ('{}')", extension),
-                             "rename it by its language: RAPID (.mod, .prg, .sys, .pgf), KRL (.src, .dat), Fanuc (.ls), INFORM "
-                             "(.jbi), URScript (.script), joints (.csv), ROS (.yaml, .json); or name the folder of a backup");
+  throw pipeline::InputError(
+      {file.string()}, fmt::format("is no robot program by its name ('{}')", extension),
+      "rename it by its language: RAPID (.mod, .prg, .sys, .pgf), KRL (.src, .dat), Fanuc (.ls), INFORM "
+      "(.jbi), URScript (.script), joints (.csv), ROS (.yaml, .json); or name the folder of a backup");
 }
 
 namespace {
 
 Grammar grammar_of(Language language) {
-  return language == Language::krl        ? Grammar::krl
-         : language == Language::urscript ? Grammar::urscript
-                                          : Grammar::rapid;
+  return language == Language::krl ? Grammar::krl : language == Language::urscript ? Grammar::urscript : Grammar::rapid;
 }
 
 /// Parses the files. An error in a routine is reported only if the routine runs, an error outside of routines only if
@@ -154,7 +148,7 @@ Grammar grammar_of(Language language) {
 void parse_files(Code& code, Language language, Problems& problems) {
   for (int file = 0; file < static_cast<int>(code.files.size()); ++file) {
     Problems found;
-    language == Language::rapid ? parse_rapid(code, file, found)
+    language == Language::rapid    ? parse_rapid(code, file, found)
     : language == Language::krl    ? parse_krl(code, file, found)
     : language == Language::inform ? parse_inform(code, file, found)
                                    : parse_urscript(code, file, found);
@@ -178,19 +172,16 @@ void report_nothing(const Program& program, const ImportOptions& options, Proble
   for (const bool may_move : {true, false})
     for (const Skipped& skipped : program.skipped)
       if (skipped.may_move == may_move && ++listed <= listed_reasons)
-        left_out +=
-            fmt::format("{}{} ({}:{})", left_out.empty() ? "" : ", ", skipped.what,
-                        std::filesystem::path(skipped.where.file).filename().string(), skipped.where.line);
-  const std::string routine =
-      options.routine.empty() ? "the routine that it starts with" : "'" + options.routine + "'";
-  problems.add(
-      program.start.file.empty() ? pipeline::Where{program.name} : program.start,
-      fmt::format("moves the robot nowhere: {} runs to its end{}", routine,
-                  left_out.empty() ? ""
-                                   : fmt::format("; {} lines were left out: {}{}", listed, left_out,
-                                                 listed > listed_reasons ? ", ..." : "")),
-      "name the routine that moves it with --routine, or give what it asks for with --value, --assume or "
-      "--module");
+        left_out += fmt::format("{}{} ({}:{})", left_out.empty() ? "" : ", ", skipped.what,
+                                std::filesystem::path(skipped.where.file).filename().string(), skipped.where.line);
+  const std::string routine = options.routine.empty() ? "the routine that it starts with" : "'" + options.routine + "'";
+  problems.add(program.start.file.empty() ? pipeline::Where{program.name} : program.start,
+               fmt::format("moves the robot nowhere: {} runs to its end{}", routine,
+                           left_out.empty() ? ""
+                                            : fmt::format("; {} lines were left out: {}{}", listed, left_out,
+                                                          listed > listed_reasons ? ", ..." : "")),
+               "name the routine that moves it with --routine, or give what it asks for with --value, --assume or "
+               "--module");
 }
 
 /// Notes external axes that move, and the data that the job's robot needs for them: programs only give positions.
@@ -217,15 +208,15 @@ void report_external_axes(Program& program) {
   }
   program.skipped.push_back(
       {program.start,
-       fmt::format("note: external axes move: {} (mm or deg). A job simulates them with robot: {{external_axes: [{}]}}. The "
-                   "direction, the speed and the acceleration are estimates: write those of the axis; kind: rotary for one "
-                   "that turns, carries: nothing for one that does not move the robot",
-                   moving, entries)});
+       fmt::format(
+           "note: external axes move: {} (mm or deg). A job simulates them with robot: {{external_axes: [{}]}}. The "
+           "direction, the speed and the acceleration are estimates: write those of the axis; kind: rotary for one "
+           "that turns, carries: nothing for one that does not move the robot",
+           moving, entries)});
 }
 
 /// Removes the frames that no move uses (frames of passes that are not part of the motion).
-void drop_unused(std::vector<NamedFrame>& frames, int Instruction::*index,
-                 std::vector<Instruction>& instructions) {
+void drop_unused(std::vector<NamedFrame>& frames, int Instruction::*index, std::vector<Instruction>& instructions) {
   std::vector<int> now(frames.size(), -1);
   for (const Instruction& instruction : instructions)
     if (instruction.*index >= 0) now[static_cast<std::size_t>(instruction.*index)] = 0;
@@ -261,7 +252,7 @@ Program read_program(Language language, std::deque<SourceFile> files, const Impo
       Code code;
       code.files = std::move(files);
       code.written_beside = options.written_beside;
-      language == Language::rapid ? add_rapid_types(code)
+      language == Language::rapid    ? add_rapid_types(code)
       : language == Language::krl    ? add_krl_types(code)
       : language == Language::inform ? add_inform_types(code)
                                      : add_urscript_types(code);
@@ -312,8 +303,7 @@ ImportOptions options_of(const pipeline::Motion& motion) {
     if (assumption.take.empty())
       continue;  // an empty answer
     else if (assumption.take == "then" || assumption.take == "else")
-      options.assume[assumption.line] =
-          assumption.take == "then" ? Assumption::then_branch : Assumption::else_branch;
+      options.assume[assumption.line] = assumption.take == "then" ? Assumption::then_branch : Assumption::else_branch;
     else
       options.choose[assumption.line] = assumption.take;
   for (const pipeline::ProgramValue& given : motion.values)
@@ -338,14 +328,12 @@ void add_modules(const pipeline::Motion& motion, bool beside, const std::map<std
   const std::size_t modules = wanted.size();
   if (beside) {
     wanted = add_all(std::move(wanted), pipeline::program_files(motion.program));
-    for (std::size_t i = 0; i < modules; ++i)
-      wanted = add_all(std::move(wanted), pipeline::program_files(wanted[i]));
+    for (std::size_t i = 0; i < modules; ++i) wanted = add_all(std::move(wanted), pipeline::program_files(wanted[i]));
   }
   std::set<std::filesystem::path> known;
   known.insert(std::filesystem::weakly_canonical(motion.program));
   for (const std::filesystem::path& file : wanted)
-    if (known.insert(std::filesystem::weakly_canonical(file)).second)
-      files.push_back(source_of(file, instead));
+    if (known.insert(std::filesystem::weakly_canonical(file)).second) files.push_back(source_of(file, instead));
 }
 
 }  // namespace
@@ -415,8 +403,7 @@ pipeline::Motion motion_of(const Program& program, const pipeline::Motion& defau
   for (pipeline::Warning& warning : left_out)  // independent of the program's folder
     warning.where = std::filesystem::path(warning.where).filename().string();
   motion.left_out = pipeline::joined(std::move(motion.left_out), left_out);
-  for (const Instruction& instruction : program.instructions)
-    motion.steps.push_back(step_of(instruction, program));
+  for (const Instruction& instruction : program.instructions) motion.steps.push_back(step_of(instruction, program));
   // A motion begins at the target of its first move: the robot stands there during dwells before that move.
   const auto first_move =
       std::find_if(motion.steps.begin(), motion.steps.end(), [](const auto& step) { return step.is_move(); });
@@ -465,9 +452,9 @@ void add_to_group(SkippedGroup& group, const Skipped& skipped) {
 std::string waits_note(const Program& program) {
   static const std::set<std::string> waits{"wait",   "waitdi", "waitdo",       "waitgi",   "waitgo",
                                            "waitai", "waitao", "waitsynctask", "waituntil"};
-  const auto count = std::count_if(
-      program.skipped.begin(), program.skipped.end(),
-      [](const Skipped& skipped) { return waits.contains(lower_case(name_and_reason(skipped.what).first)); });
+  const auto count = std::count_if(program.skipped.begin(), program.skipped.end(), [](const Skipped& skipped) {
+    return waits.contains(lower_case(name_and_reason(skipped.what).first));
+  });
   if (count == 0) return "";
   return fmt::format(
       "{} {} 0 s: the cycle is shorter than in the plant. Count no waits in fatigue.operating_hours_per_week, or write their "
@@ -481,9 +468,10 @@ namespace {
 struct NumberDoubt {
   const char *reason, *cause, *remedy;
 };
-constexpr std::array<NumberDoubt, 3> doubts{{{beyond_range, "a digit too many or another unit", "a number within this range"},
-                                             {above_all_speed, "a digit too many", "a percentage up to 100"},
-                                             {tiny_move, "metres instead of millimetres", "a thousand times these numbers if they were metres"}}};
+constexpr std::array<NumberDoubt, 3> doubts{
+    {{beyond_range, "a digit too many or another unit", "a number within this range"},
+     {above_all_speed, "a digit too many", "a percentage up to 100"},
+     {tiny_move, "metres instead of millimetres", "a thousand times these numbers if they were metres"}}};
 
 }  // namespace
 
@@ -508,10 +496,11 @@ std::vector<pipeline::Warning> moves_left_out(const Program& program) {
       warnings.push_back({pipeline::WarningKind::program, group.first.text(), what});
       continue;
     }
-    const auto doubt = std::ranges::find_if(doubts, [&](const NumberDoubt& of) { return group.reason.starts_with(of.reason); });
+    const auto doubt =
+        std::ranges::find_if(doubts, [&](const NumberDoubt& of) { return group.reason.starts_with(of.reason); });
     if (doubt != doubts.end()) {
-      warnings.push_back(pipeline::warning_of(pipeline::WarningKind::program, group.first.text(), what.substr(what.find(": ") + 2),
-                                              doubt->cause, doubt->remedy));
+      warnings.push_back(pipeline::warning_of(pipeline::WarningKind::program, group.first.text(),
+                                              what.substr(what.find(": ") + 2), doubt->cause, doubt->remedy));
       continue;
     }
     warnings.push_back(pipeline::warning_of(
@@ -538,8 +527,7 @@ std::vector<std::string> skipped_lines(const Program& program) {
   for (const auto& [reason, names] : harmless) {
     std::string list;
     for (const auto& [name, count] : names)
-      list +=
-          fmt::format("{}{}{}", list.empty() ? "" : ", ", name, count > 1 ? fmt::format(" x{}", count) : "");
+      list += fmt::format("{}{}{}", list.empty() ? "" : ", ", name, count > 1 ? fmt::format(" x{}", count) : "");
     lines.push_back(fmt::format("skipped: {}: {}", reason, list));
   }
   if (std::string note = waits_note(program); !note.empty()) lines.push_back("note: " + note);

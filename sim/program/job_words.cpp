@@ -32,8 +32,8 @@ std::string in_words_of_a_job(std::string text) {
   if (text.find("--") == std::string::npos) return text;
   // Keys of a job that some remedies name in addition to the option.
   static const std::regex beside(R"( \(motion\.(?:values|assume)(?: in a job)?\))"),
-      module_beside(R"(--module, motion\.modules)"),
-      frames(R"(--frames FILE\.yaml \((motion\.\w+) in a job\))"), frames_beside(R"( \(--frames\))");
+      module_beside(R"(--module, motion\.modules)"), frames(R"(--frames FILE\.yaml \((motion\.\w+) in a job\))"),
+      frames_beside(R"( \(--frames\))");
   text = std::regex_replace(text, beside, "");
   text = std::regex_replace(text, module_beside, "--module");
   text = std::regex_replace(text, frames, "$1");

@@ -105,8 +105,8 @@ class Lines {
         const bool kept = line.now[line.own] == original_[k];
         if (!kept) body += row('-', original_[k], k + 1 == lines_.size());
         for (std::size_t n = 0; n < line.now.size(); ++n)
-          body += row(kept && n == line.own ? ' ' : '+', line.now[n],
-                      k + 1 == lines_.size() && n + 1 == line.now.size());
+          body +=
+              row(kept && n == line.own ? ' ' : '+', line.now[n], k + 1 == lines_.size() && n + 1 == line.now.size());
         now += line.now.size();
       }
       made += fmt::format("@@ -{},{} +{},{} @@\n", begin + 1, end - begin, begin + 1 + added, now) + body;
@@ -164,12 +164,9 @@ struct Writer {
   const Instruction& instruction(const LineChange& change) const {
     const Instruction* found = nullptr;
     for (const Instruction& i : program.instructions) {
-      if (i.where.file != change.where.file || i.where.line != change.where.line ||
-          i.kind == Instruction::Kind::dwell)
+      if (i.where.file != change.where.file || i.where.line != change.where.line || i.kind == Instruction::Kind::dwell)
         continue;
-      if (found &&
-          (found->target.joints != i.target.joints ||
-           found->target.pose.position != i.target.pose.position) &&
+      if (found && (found->target.joints != i.target.joints || found->target.pose.position != i.target.pose.position) &&
           (change.configuration || !change.joints.empty() || !change.point.empty()))
         refuse(change, "it is run with several targets");
       found = &i;
@@ -280,9 +277,7 @@ void change_rapid(Writer& w, const LineChange& change) {
     if (!argument.option) given.push_back(argument);
   if (w.tokens[end].kind == Token::Kind::end) refuse(change, "it has no end");
   const int count = static_cast<int>(given.size());
-  const auto index = [&](int written) {
-    return written == -2 ? count - 1 : written == -3 ? count - 2 : written;
-  };
+  const auto index = [&](int written) { return written == -2 ? count - 1 : written == -3 ? count - 2 : written; };
   if (std::max(signature->target, signature->speed) >= count || index(signature->tool) >= count)
     refuse(change, "it has other arguments than are read");
   const Argument &target = given[static_cast<std::size_t>(signature->target)],
@@ -290,8 +285,7 @@ void change_rapid(Writer& w, const LineChange& change) {
                  &tool = given[static_cast<std::size_t>(index(signature->tool))];
   const Instruction& read = w.instruction(change);
   const std::string target_text(w.text(target.first, target.expression_last));
-  const bool named =
-      target.first == target.expression_last && w.tokens[target.first].kind == Token::Kind::word;
+  const bool named = target.first == target.expression_last && w.tokens[target.first].kind == Token::Kind::word;
   const std::string old_speed(w.text(speed.first, speed.last)), old_tool(w.text(tool.first, tool.last));
   // From the line's end to its begin, so that the columns of the tokens stay valid.
   w.lines.now(w.tokens[end].line) += " ! " + change.reason;
@@ -305,13 +299,14 @@ void change_rapid(Writer& w, const LineChange& change) {
     const Frame& pose = read.target.pose;
     const Vector3 p = pose.position / millimetre;
     const Quaternion& q = pose.orientation;
-    w.replace(
-        target.first, target.expression_last,
-        named ? fmt::format("[{0}.trans,{0}.rot,[{1}],{0}.extax]", target_text, fmt::join(n, ","))
-              : fmt::format("[[{},{},{}],[{},{},{},{}],[{}],{}]", pipeline::short_decimal(p.x(), 6), pipeline::short_decimal(p.y(), 6),
-                            pipeline::short_decimal(p.z(), 6), pipeline::short_decimal(q.w(), 9), pipeline::short_decimal(q.x(), 9), pipeline::short_decimal(q.y(), 9),
-                            pipeline::short_decimal(q.z(), 9), fmt::join(n, ","), rapid_external(read.target)),
-        change);
+    w.replace(target.first, target.expression_last,
+              named ? fmt::format("[{0}.trans,{0}.rot,[{1}],{0}.extax]", target_text, fmt::join(n, ","))
+                    : fmt::format("[[{},{},{}],[{},{},{},{}],[{}],{}]", pipeline::short_decimal(p.x(), 6),
+                                  pipeline::short_decimal(p.y(), 6), pipeline::short_decimal(p.z(), 6),
+                                  pipeline::short_decimal(q.w(), 9), pipeline::short_decimal(q.x(), 9),
+                                  pipeline::short_decimal(q.y(), 9), pipeline::short_decimal(q.z(), 9),
+                                  fmt::join(n, ","), rapid_external(read.target)),
+              change);
   }
   if (!change.joints.empty())
     w.replace(target.first, target.expression_last,
@@ -320,10 +315,9 @@ void change_rapid(Writer& w, const LineChange& change) {
               change);
   if (change.point.empty()) return;
   if (!read.target.external_axes.empty()) refuse(change, "external axes move with it");
-  w.lines.before(w.tokens[name].line,
-                 fmt::format("{}MoveAbsJ [[{}],[9E9,9E9,9E9,9E9,9E9,9E9]],{},z50,{}; ! {}",
-                             indentation(w.lines.at(w.tokens[name].line)), in_degrees(change.point),
-                             old_speed, old_tool, change.reason));
+  w.lines.before(w.tokens[name].line, fmt::format("{}MoveAbsJ [[{}],[9E9,9E9,9E9,9E9,9E9,9E9]],{},z50,{}; ! {}",
+                                                  indentation(w.lines.at(w.tokens[name].line)),
+                                                  in_degrees(change.point), old_speed, old_tool, change.reason));
 }
 
 // ---- KRL ----------------------------------------------------------------------------------------------------------
@@ -342,12 +336,11 @@ void change_krl(Writer& w, const LineChange& change) {
   if (!joint_move) refuse(change, "only PTP is changed");
   std::size_t last = name;  // last token of the target
   int depth = 0;
-  for (std::size_t i = name + 1;
-       w.tokens[i].kind != Token::Kind::line_end && w.tokens[i].kind != Token::Kind::end; ++i) {
+  for (std::size_t i = name + 1; w.tokens[i].kind != Token::Kind::line_end && w.tokens[i].kind != Token::Kind::end;
+       ++i) {
     if (w.tokens[i].text == "{" || w.tokens[i].text == "[") ++depth;
     if (w.tokens[i].text == "}" || w.tokens[i].text == "]") --depth;
-    if (depth == 0 && w.tokens[i].kind == Token::Kind::word && lower_case(w.tokens[i].text).starts_with("c_"))
-      break;
+    if (depth == 0 && w.tokens[i].kind == Token::Kind::word && lower_case(w.tokens[i].text).starts_with("c_")) break;
     last = i;
   }
   if (last == name) refuse(change, "its target is not found");
@@ -392,8 +385,7 @@ std::size_t behind_number(const std::string& line) {
 /// Returns the index of P[3:name] in a line, from `from` on; npos: none. PR[3] (a register) does not match.
 std::size_t find_position(const std::string& line, std::size_t from) {
   for (std::size_t at = line.find("P[", from); at != std::string::npos; at = line.find("P[", at + 1))
-    if (at == 0 || !(std::isalnum(static_cast<unsigned char>(line[at - 1])) || line[at - 1] == '_'))
-      return at;
+    if (at == 0 || !(std::isalnum(static_cast<unsigned char>(line[at - 1])) || line[at - 1] == '_')) return at;
   return std::string::npos;
 }
 
@@ -432,8 +424,8 @@ void change_fanuc_position(Writer& w, const LineChange& change, int number) {
       const std::size_t from = quote + 10, to = std::min(text.find('\'', from), text.size());
       const auto& n = change.configuration->numbers;
       text.replace(from, to - from,
-                   fmt::format("{} {} {}, {}, {}, {}", n.at(0) ? 'F' : 'N', n.at(1) ? 'U' : 'D',
-                               n.at(2) ? 'T' : 'B', n.at(3), n.at(4), n.at(5)));
+                   fmt::format("{} {} {}, {}, {}, {}", n.at(0) ? 'F' : 'N', n.at(1) ? 'U' : 'D', n.at(2) ? 'T' : 'B',
+                               n.at(3), n.at(4), n.at(5)));
     }
     for (std::size_t at = text.find("J", 0); !change.joints.empty() && at != std::string::npos;
          at = text.find("J", at + 1)) {
@@ -492,8 +484,7 @@ void change_fanuc(Writer& w, const LineChange& change) {
     now.replace(from, end - from, fmt::format("{:.0f}", std::max(1.0, std::round(value * *change.speed))));
   }
   constexpr std::size_t longest = 32;  // characters in a remark
-  w.lines.before(
-      line, fmt::format("{}  !{} ;", old.substr(0, behind_number(old)), change.reason.substr(0, longest)));
+  w.lines.before(line, fmt::format("{}  !{} ;", old.substr(0, behind_number(old)), change.reason.substr(0, longest)));
 }
 
 // ---- INFORM and URScript --------------------------------------------------------------------------------------------
@@ -514,8 +505,7 @@ void change_inform(Writer& w, const LineChange& change) {
     now.replace(from, to - from, fmt::format("{:.2f}", std::atof(number->c_str())));
   } else if (axes && read.speed.axis_percent) {  // of SPEED
     const std::size_t behind = now.find_first_of(" \t", now.find_first_not_of(" \t", now.find("MOVJ") + 4));
-    now.insert(std::min(behind, now.size()),
-               fmt::format(" VJ={:.2f}", *read.speed.axis_percent * *change.speed));
+    now.insert(std::min(behind, now.size()), fmt::format(" VJ={:.2f}", *read.speed.axis_percent * *change.speed));
   } else {
     refuse(change, "its speed is not on this line");
   }
@@ -539,8 +529,8 @@ void change_script(Writer& w, const LineChange& change) {
     if (depth == 1 && (text == "," || i == name + 1)) {
       position += text == ",";
       const bool option = w.tokens[i + 2].text == "=";
-      const bool is_v = option ? w.tokens[i + 1].text == "v"
-                               : position == (read.kind == Instruction::Kind::circular ? 3 : 2);
+      const bool is_v =
+          option ? w.tokens[i + 1].text == "v" : position == (read.kind == Instruction::Kind::circular ? 3 : 2);
       if (is_v) first = i + (option ? 3 : 1);
     }
     if (first > 0 && last == 0 && i >= first &&
@@ -560,9 +550,8 @@ void change_script(Writer& w, const LineChange& change) {
 
 }  // namespace
 
-Rewritten rewritten(Language language, const std::string& file, const std::string& bytes,
-                    const Program& program, const std::vector<LineChange>& changes,
-                    const std::string& shown) {
+Rewritten rewritten(Language language, const std::string& file, const std::string& bytes, const Program& program,
+                    const std::vector<LineChange>& changes, const std::string& shown) {
   if (decoded_text(bytes) != bytes)
     throw pipeline::InputError({file}, "is written in another encoding than UTF-8", "save it as UTF-8 first");
   Lines lines(shown, bytes);

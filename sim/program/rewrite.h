@@ -20,12 +20,12 @@
 namespace dresslife::sim {
 
 struct LineChange {
-  pipeline::Where where{};                        ///< line of the instruction
-  std::optional<double> speed{};                  ///< factor of the instruction's speed
+  pipeline::Where where{};                          ///< line of the instruction
+  std::optional<double> speed{};                    ///< factor of the instruction's speed
   std::optional<ArmConfiguration> configuration{};  ///< new configuration of the target
-  std::vector<double> joints{};                   ///< new target [rad]; empty: unchanged
-  std::vector<double> point{};                    ///< additional target before the move [rad]; empty: none
-  std::string reason{};                           ///< some words in ASCII
+  std::vector<double> joints{};                     ///< new target [rad]; empty: unchanged
+  std::vector<double> point{};                      ///< additional target before the move [rad]; empty: none
+  std::string reason{};                             ///< some words in ASCII
 };
 
 struct Rewritten {

@@ -30,13 +30,11 @@ class Rows {
   bool add(std::vector<double> joints, std::optional<double> time, const pipeline::Where& where,
            const std::string& text) {
     if (program_.instructions.size() >= ImportLimits::instructions) {
-      problems_.add(where,
-                    fmt::format("would be move {} (no more are allowed)", ImportLimits::instructions + 1),
+      problems_.add(where, fmt::format("would be move {} (no more are allowed)", ImportLimits::instructions + 1),
                     "thin out the rows");
       return false;
     }
-    if (!program_.instructions.empty() &&
-        joints.size() != program_.instructions.front().target.joints.size()) {
+    if (!program_.instructions.empty() && joints.size() != program_.instructions.front().target.joints.size()) {
       problems_.add(where,
                     fmt::format("has {} angles (the first has {})", joints.size(),
                                 program_.instructions.front().target.joints.size()),
@@ -133,35 +131,30 @@ class Columns {
     if (points)
       return refuse(fmt::format("names points or lengths ({})", pipeline::joined(left_out_, ", ")),
                     "give the angles of the axes, one column each");
-    const bool long_form =
-        axes.size() == 1 && std::any_of(left_out_.begin(), left_out_.end(), [](const auto& name) {
-          return lower_case(name) == "name" || lower_case(name).ends_with("joint_name");
-        });
+    const bool long_form = axes.size() == 1 && std::any_of(left_out_.begin(), left_out_.end(), [](const auto& name) {
+                             return lower_case(name) == "name" || lower_case(name).ends_with("joint_name");
+                           });
     if (long_form)
-      return refuse("lists one joint per line (a column of names)",
-                    "give one column per axis, one line per pose");
+      return refuse("lists one joint per line (a column of names)", "give one column per axis, one line per pose");
     if (axes.empty() || axes.size() > most_axes)
       return refuse(fmt::format("names {} axes", axes.size()), "give one column per axis");
     const std::string wanted = answer(options_, "joints");
     const auto order = order_of_axes(axes, wanted);
     if (!order)
-      return refuse(
-          fmt::format("names axes without their order ({})", pipeline::joined(axes, ", ")),
-          "number them in their names (joint_1 ...), or give --value joints=NAME,NAME,... in the order of "
-          "the robot's axes");
+      return refuse(fmt::format("names axes without their order ({})", pipeline::joined(axes, ", ")),
+                    "number them in their names (joint_1 ...), or give --value joints=NAME,NAME,... in the order of "
+                    "the robot's axes");
     for (std::size_t axis : *order) axes_.push_back(at[axis]);
     for (const std::string& name : left_out_)
       program_.skipped.push_back({where(), fmt::format("column '{}': no angle of an axis", name)});
     for (std::size_t i = 0; i < axes.size() && !wanted.empty(); ++i)
       if (std::find(order->begin(), order->end(), i) == order->end())
-        program_.skipped.push_back(
-            {where(), fmt::format("column '{}': none of the axes asked for", axes[i])});
+        program_.skipped.push_back({where(), fmt::format("column '{}': none of the axes asked for", axes[i])});
   }
 
   void row(const pipeline::CsvRow& cells) {
     if (cells.size() != names_.size())
-      return problems_.add(where(),
-                           fmt::format("has {} cells (there are {} names)", cells.size(), names_.size()),
+      return problems_.add(where(), fmt::format("has {} cells (there are {} names)", cells.size(), names_.size()),
                            "give one number per name");
     if (std::none_of(cells.begin(), cells.end(), [](const auto& cell) { return number_in(cell.text); }))
       return problems_.add(where(), "has no numbers",
@@ -209,17 +202,17 @@ class Columns {
     const std::vector<double> factor = factors();
     if (factor.empty()) {
       number_ = header_;
-      return problems_.add_use({.where = {file_.name(), number_, 1},
-                                .what = "gives angles without a unit (none is too large for radians)",
-                                .remedy = "end the names in deg or rad (joint_1_rad), or give --value unit=deg or unit=rad",
-                                .about = "unit",
-                                .questions = {{Question::Kind::value, "unit", "deg or rad"}}});
+      return problems_.add_use(
+          {.where = {file_.name(), number_, 1},
+           .what = "gives angles without a unit (none is too large for radians)",
+           .remedy = "end the names in deg or rad (joint_1_rad), or give --value unit=deg or unit=rad",
+           .about = "unit",
+           .questions = {{Question::Kind::value, "unit", "deg or rad"}}});
     }
     Rows rows(program_, problems_);
     for (Row& row : rows_) {
       for (std::size_t i = 0; i < factor.size(); ++i) row.angles[i] *= factor[i];
-      if (!rows.add(std::move(row.angles), row.time, {file_.name(), row.line, 1}, file_.line(row.line)))
-        return;
+      if (!rows.add(std::move(row.angles), row.time, {file_.name(), row.line, 1}, file_.line(row.line))) return;
     }
   }
 
@@ -240,8 +233,7 @@ class Columns {
 
 }  // namespace
 
-void read_joint_columns(const SourceFile& file, const ImportOptions& options, Program& program,
-                        Problems& problems) {
+void read_joint_columns(const SourceFile& file, const ImportOptions& options, Program& program, Problems& problems) {
   Columns(file, options, program, problems).run();
 }
 
@@ -280,8 +272,7 @@ bool read_point(const Node& point, const std::vector<std::size_t>& order, std::s
                 Problems& problems) {
   const Node* positions = point.is_map() ? point.find("positions") : nullptr;
   if (!positions || !positions->is_list() || positions->items.size() != names) {
-    problems.add(point.where, fmt::format("has no positions of {} joints", names),
-                 "give one angle per joint [rad]");
+    problems.add(point.where, fmt::format("has no positions of {} joints", names), "give one angle per joint [rad]");
     return !problems.full();
   }
   std::vector<double> joints;
@@ -308,11 +299,9 @@ bool documents_of(const SourceFile& file, std::vector<Node>& documents, Problems
   const std::string& text = file.text();
   int lines = 0;
   for (std::size_t begin = 0; begin < text.size();) {
-    std::size_t end =
-        begin == 0 && text.starts_with("---") ? text.find("\n---", 3) : text.find("\n---", begin);
+    std::size_t end = begin == 0 && text.starts_with("---") ? text.find("\n---", 3) : text.find("\n---", begin);
     end = std::min(end == std::string::npos ? text.size() : end + 1, text.size());
-    const std::string part =
-        std::string(static_cast<std::size_t>(lines), '\n') + text.substr(begin, end - begin);
+    const std::string part = std::string(static_cast<std::size_t>(lines), '\n') + text.substr(begin, end - begin);
     lines += static_cast<int>(
         std::count(text.begin() + static_cast<long>(begin), text.begin() + static_cast<long>(end), '\n'));
     begin = end < text.size() ? std::min(text.find('\n', end), text.size()) : end;
@@ -331,14 +320,13 @@ bool documents_of(const SourceFile& file, std::vector<Node>& documents, Problems
 }
 
 /// Returns the chosen trajectory; null: none, or the choice is not known.
-const Node* chosen_trajectory(const SourceFile& file, const std::vector<Node>& documents,
-                              const ImportOptions& options, Problems& problems) {
+const Node* chosen_trajectory(const SourceFile& file, const std::vector<Node>& documents, const ImportOptions& options,
+                              Problems& problems) {
   std::vector<const Node*> found;
   for (const Node& document : documents) trajectories_in(document, found);
   const auto answered = number_in(answer(options, "trajectory"));
   if (found.empty())
-    problems.add({file.name(), 1, 1}, "holds no trajectory with points",
-                 "give a trajectory_msgs/JointTrajectory");
+    problems.add({file.name(), 1, 1}, "holds no trajectory with points", "give a trajectory_msgs/JointTrajectory");
   else if (answered && *answered >= 1 && *answered <= static_cast<double>(found.size()))
     return found[static_cast<std::size_t>(*answered) - 1];
   else if (found.size() > 1)
@@ -351,8 +339,7 @@ const Node* chosen_trajectory(const SourceFile& file, const std::vector<Node>& d
 
 }  // namespace
 
-void read_ros_trajectory(const SourceFile& file, const ImportOptions& options, Program& program,
-                         Problems& problems) {
+void read_ros_trajectory(const SourceFile& file, const ImportOptions& options, Program& program, Problems& problems) {
   std::vector<Node> documents;
   if (!documents_of(file, documents, problems)) return;
   const Node* trajectory = chosen_trajectory(file, documents, options, problems);
@@ -367,8 +354,7 @@ void read_ros_trajectory(const SourceFile& file, const ImportOptions& options, P
   const auto order = order_of_axes(joints, answer(options, "joints"));
   if (!order)
     return problems.add(
-        names->where,
-        fmt::format("names joints without their order on the robot ({})", pipeline::joined(joints, ", ")),
+        names->where, fmt::format("names joints without their order on the robot ({})", pipeline::joined(joints, ", ")),
         "give --value joints=NAME,NAME,... in the order of the robot's axes");
   Rows rows(program, problems);
   for (const Node& point : points->items)

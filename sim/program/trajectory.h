@@ -21,9 +21,7 @@
 
 namespace dresslife::sim {
 
-void read_joint_columns(const SourceFile& file, const ImportOptions& options, Program& program,
-                        Problems& problems);
-void read_ros_trajectory(const SourceFile& file, const ImportOptions& options, Program& program,
-                         Problems& problems);
+void read_joint_columns(const SourceFile& file, const ImportOptions& options, Program& program, Problems& problems);
+void read_ros_trajectory(const SourceFile& file, const ImportOptions& options, Program& program, Problems& problems);
 
 }  // namespace dresslife::sim

@@ -28,8 +28,8 @@ struct Knot {
 /// Computes the knots for the rows [begin, end] of a run.
 class Smoothing {
  public:
-  Smoothing(const std::vector<double>& times, const std::vector<double>& angles, std::size_t axes,
-            std::size_t begin, std::size_t end)
+  Smoothing(const std::vector<double>& times, const std::vector<double>& angles, std::size_t axes, std::size_t begin,
+            std::size_t end)
       : times_(times), angles_(angles), axes_(axes), begin_(begin), end_(end) {}
 
   std::vector<Knot> knots(double bound, double& largest) {
@@ -84,9 +84,9 @@ class Smoothing {
   }
   Knot row(std::size_t k) const { return {times_[k], value(k), 0, k}; }
   std::size_t first_from(double time) const {
-    return static_cast<std::size_t>(std::lower_bound(times_.begin() + static_cast<long>(begin_),
-                                                     times_.begin() + static_cast<long>(end_), time) -
-                                    times_.begin());
+    return static_cast<std::size_t>(
+        std::lower_bound(times_.begin() + static_cast<long>(begin_), times_.begin() + static_cast<long>(end_), time) -
+        times_.begin());
   }
 
   CubicSpline spline_of(const std::vector<Knot>& knots) const {
@@ -108,8 +108,7 @@ class Smoothing {
   /// Returns the knot from the parabola a + b x + c x^2, x = (t - time)/window, at x = 0. If a side has fewer than two rows: the
   /// nearest row.
   Knot fitted(double time, double window) const {
-    const std::size_t from = first_from(time - window), to = first_from(time + window),
-                      nearest = first_from(time);
+    const std::size_t from = first_from(time - window), to = first_from(time + window), nearest = first_from(time);
     if (nearest < from + 2 || to < nearest + 2) return row(std::clamp(nearest, begin_ + 1, end_ - 1));
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Eigen::MatrixXd right = Eigen::MatrixXd::Zero(3, static_cast<long>(axes_));
@@ -157,7 +156,8 @@ void Course::cut(const Recording& log, const pipeline::Robot& robot) {
       continue;
     }
     const double step = log.times[k] - log.times[k - 1];
-    double share = 0, needed = 0;  // share: of the largest distance in two intervals; needed: [s] for a move at half speed
+    double share = 0,
+           needed = 0;  // share: of the largest distance in two intervals; needed: [s] for a move at half speed
     for (std::size_t i = 0; i < axes_; ++i) {
       const double way = std::abs(log.at(k)[i] - log.at(k - 1)[i]);
       share = std::max(share, way / (2 * log.interval * axes[i].speed));
@@ -187,8 +187,7 @@ void Course::cut(const Recording& log, const pipeline::Robot& robot) {
 }
 
 void Course::smooth(double interval, double still) {
-  const std::vector<double> times = std::move(times_), angles = std::move(angles_),
-                            logged = std::move(logged_);
+  const std::vector<double> times = std::move(times_), angles = std::move(angles_), logged = std::move(logged_);
   const std::vector<std::uint32_t> lines = std::move(lines_);
   times_.clear(), angles_.clear(), logged_.clear(), lines_.clear();
   const auto same = [&](std::size_t k) {
@@ -206,8 +205,7 @@ void Course::smooth(double interval, double still) {
     while (end + 1 < times.size() && !same(end)) ++end;
     const std::size_t first = times_.size() - 1;
     if (interval < fine_rows && end - begin > 2) {
-      const std::vector<Knot> knots =
-          Smoothing(times, angles, axes_, begin, end).knots(still, largest_smoothing);
+      const std::vector<Knot> knots = Smoothing(times, angles, axes_, begin, end).knots(still, largest_smoothing);
       for (std::size_t k = 1; k < knots.size(); ++k)
         add(knots[k].time, knots[k].angles.data(), lines[knots[k].row], logged[knots[k].row]);
     } else {
@@ -235,8 +233,7 @@ void Course::check_speeds(const pipeline::Robot& robot) {
         TooFast& worst = found[i];
         ++worst.knots;
         if (speed[static_cast<long>(i)] > worst.speed)
-          worst = {axes[i].name, speed[static_cast<long>(i)], axes[i].speed, logged_[k], lines_[k],
-                   worst.knots};
+          worst = {axes[i].name, speed[static_cast<long>(i)], axes[i].speed, logged_[k], lines_[k], worst.knots};
       }
     }
   for (TooFast& worst : found)

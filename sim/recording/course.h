@@ -41,8 +41,8 @@ class Course {
   std::size_t axes() const { return axes_; }
   double duration() const { return times_.empty() ? 0 : times_.back(); }  ///< [s]
   Eigen::VectorXd at(double time) const;                                  ///< (axis) [rad]
-  std::uint32_t line(double time) const;                                  ///< line of the log, the last one before this time
-  const std::vector<double>& knots() const { return times_; }             ///< [s]
+  std::uint32_t line(double time) const;                       ///< line of the log, the last one before this time
+  const std::vector<double>& knots() const { return times_; }  ///< [s]
   Eigen::VectorXd knot(std::size_t k) const {
     return Eigen::Map<const Eigen::VectorXd>(&angles_[k * axes_], static_cast<long>(axes_));
   }

@@ -14,8 +14,9 @@ using Eigen::VectorXf;
 constexpr double sample = 0.05;                                             // [s]
 constexpr double longest = 3600;                                            // [s] longest cycle
 constexpr double slowest_step = 0.4, fastest_step = 1.8, free_samples = 3;  // (L1)
-constexpr std::size_t at_the_end = 4;  // number of samples of the last pose that are added, so that a cycle may end there
-constexpr float slow_step = 0.035f;    // [rad] (L2): 2 deg per sample are 40 deg/s
+constexpr std::size_t at_the_end =
+    4;                               // number of samples of the last pose that are added, so that a cycle may end there
+constexpr float slow_step = 0.035f;  // [rad] (L2): 2 deg per sample are 40 deg/s
 constexpr std::size_t tried_ends = 20,
                       tried_repeats = 50;  // limits, because the robot may pass the same pose in other motions
 
@@ -90,8 +91,7 @@ class Places {
     for (int a = -1; a <= 1; ++a)
       for (int b = -1; b <= 1; ++b) {
         const std::uint64_t wanted = key(cell(first_, k) + a, cell(second_, k) + b);
-        auto at = std::lower_bound(sorted_.begin(), sorted_.end(),
-                                   std::pair(wanted, static_cast<std::uint32_t>(from)));
+        auto at = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair(wanted, static_cast<std::uint32_t>(from)));
         for (; at != sorted_.end() && at->first == wanted && near.size() < 4096; ++at)
           if (distance(k, at->second) <= cell_) near.push_back(at->second);
       }
@@ -158,10 +158,8 @@ class Search {
   double nearest(const VectorXf& pose, double expected, double low, double high) const {
     const float pull = static_cast<float>(0.01 * options_.bound * options_.bound);
     double best = expected, least = INFINITY;
-    for (long k = static_cast<long>(low); k <= static_cast<long>(high) && k + 1 < samples_.values.cols();
-         ++k) {
-      const VectorXf step = samples_.values.col(k + 1) - samples_.values.col(k),
-                     off = pose - samples_.values.col(k);
+    for (long k = static_cast<long>(low); k <= static_cast<long>(high) && k + 1 < samples_.values.cols(); ++k) {
+      const VectorXf step = samples_.values.col(k + 1) - samples_.values.col(k), off = pose - samples_.values.col(k);
       const float ahead = static_cast<float>(expected - static_cast<double>(k));
       float u = (step.dot(off) + pull * ahead) / (step.squaredNorm() + pull);
       u = std::clamp(u, std::max(0.f, static_cast<float>(low - static_cast<double>(k))),
@@ -181,12 +179,11 @@ class Search {
       const VectorXf pose = samples_.at(cycle.begin + static_cast<double>(k));
       if (k > 0) {
         if (position + slowest_step > last) return {};
-        position =
-            nearest(pose, position + 1, position + slowest_step, std::min(last, position + fastest_step));
+        position = nearest(pose, position + 1, position + slowest_step, std::min(last, position + fastest_step));
       }
       const double off = (samples_.at(position) - pose).lpNorm<Eigen::Infinity>();
-      if (off > options_.bound || std::abs(position - begin - static_cast<double>(k)) >
-                                      options_.warp * static_cast<double>(k) + free_samples)
+      if (off > options_.bound ||
+          std::abs(position - begin - static_cast<double>(k)) > options_.warp * static_cast<double>(k) + free_samples)
         return {};
       difference = std::max(difference, off);
     }
@@ -217,15 +214,13 @@ class Search {
     for (double position = 0; position + 1 < static_cast<double>(samples_.count());) {
       const std::size_t k = static_cast<std::size_t>(std::lround(position));
       if (progress_ && (k & 1023) == 0)
-        progress_((is_first ? 0 : 0.5) +
-                  0.5 * static_cast<double>(k) / static_cast<double>(samples_.count()));
+        progress_((is_first ? 0 : 0.5) + 0.5 * static_cast<double>(k) / static_cast<double>(samples_.count()));
       if (samples_.step(k) <= slow_step) {
         std::optional<Part> best = repeated(position);
         if (!best && is_first)
           if (const auto found = found_at(k)) {
             known_.push_back(*found);
-            best =
-                Part{known_.size() - 1, found->begin, found->begin + static_cast<double>(found->length), 0};
+            best = Part{known_.size() - 1, found->begin, found->begin + static_cast<double>(found->length), 0};
           }
         if (best) {
           position = best->end;
@@ -260,8 +255,7 @@ class Search {
 
 }  // namespace
 
-Cycles cycles_of(const Course& course, const CycleOptions& options,
-                 const std::function<void(double)>& progress) {
+Cycles cycles_of(const Course& course, const CycleOptions& options, const std::function<void(double)>& progress) {
   const Samples samples(course, static_cast<float>(options.bound / 10));
   Cycles made;
   if (samples.count() < 3) return made;
@@ -273,8 +267,7 @@ Cycles cycles_of(const Course& course, const CycleOptions& options,
   std::vector<std::size_t> order;
   for (std::size_t k = 0; k < search.known(); ++k)
     if (appears[k] > 1) order.push_back(k);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return length[a] > length[b]; });
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return length[a] > length[b]; });
   made.count = order.size();
   for (const Part& part : parts) {
     const auto rank = std::find(order.begin(), order.end(), part.cycle);

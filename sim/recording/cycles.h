@@ -41,7 +41,6 @@ struct Cycles {
 };
 
 /// Returns the cycles of a course. progress: called with the finished share.
-Cycles cycles_of(const Course& course, const CycleOptions& options,
-                 const std::function<void(double)>& progress = {});
+Cycles cycles_of(const Course& course, const CycleOptions& options, const std::function<void(double)>& progress = {});
 
 }  // namespace dresslife::sim

@@ -18,12 +18,11 @@ using pipeline::InputError;
 
 /// Points of a word in favour of the measured position of an axis; every other word has -2 points.
 const std::map<std::string, int, std::less<>> weights{
-    {"actual", 4},    {"act", 4},     {"ist", 4},     {"meas", 4},    {"measured", 4}, {"position", 2},
-    {"positions", 2}, {"pos", 2},     {"q", 2},       {"angle", 2},   {"angles", 2},   {"joint", 1},
-    {"joints", 1},    {"axis", 1},    {"achse", 1},   {"j", 1},       {"a", 1},        {"winkel", 2},
-    {"robot", 0},     {"rob", 0},     {"field", 0},   {"states", 0},  {"state", 0},    {"deg", 0},
-    {"rad", 0},       {"degrees", 0}, {"radians", 0}, {"target", -3}, {"soll", -3},    {"command", -3},
-    {"cmd", -3}};
+    {"actual", 4}, {"act", 4},      {"ist", 4},   {"meas", 4},   {"measured", 4}, {"position", 2}, {"positions", 2},
+    {"pos", 2},    {"q", 2},        {"angle", 2}, {"angles", 2}, {"joint", 1},    {"joints", 1},   {"axis", 1},
+    {"achse", 1},  {"j", 1},        {"a", 1},     {"winkel", 2}, {"robot", 0},    {"rob", 0},      {"field", 0},
+    {"states", 0}, {"state", 0},    {"deg", 0},   {"rad", 0},    {"degrees", 0},  {"radians", 0},  {"target", -3},
+    {"soll", -3},  {"command", -3}, {"cmd", -3}};
 
 struct Group {
   int score = 0;
@@ -81,17 +80,20 @@ LogColumns log_columns(const pipeline::CsvReader& log, const pipeline::CsvRow& c
   const pipeline::Where where = log.where(cells.front());
   if (std::all_of(cells.begin(), cells.end(),
                   [](const CsvCell& cell) { return pipeline::number_in(cell.text).has_value(); }))
-    throw InputError(where, "the log begins with numbers",
-                     "put a line of names first: time,axis_1_deg,axis_2_deg, ..");
+    throw InputError(where, "the log begins with numbers", "put a line of names first: time,axis_1_deg,axis_2_deg, ..");
   for (std::size_t k = 0; k < titles.size(); ++k) {
     const std::vector<std::string> words = words_of_name(titles[k]);
     const ColumnName read = column_name(titles[k]);
     const bool date = words == std::vector<std::string>{"date"} || words == std::vector<std::string>{"datum"};
     if (date && !made.date) made.date = k;
-    const auto is_any_of = [](const std::string& word, std::initializer_list<std::string_view> known) { return std::find(known.begin(), known.end(), word) != known.end(); };
-    const bool stamp = read.kind == ColumnName::Kind::time ||
-                       (!words.empty() && is_any_of(words.back(), {"ts", "timestamp", "datetime", "zeitstempel", "uhrzeit"})) ||
-                       (words.size() == 2 && is_any_of(words[0], {"date", "datum", "time"}) && is_any_of(words[1], {"time", "zeit", "stamp"}));
+    const auto is_any_of = [](const std::string& word, std::initializer_list<std::string_view> known) {
+      return std::find(known.begin(), known.end(), word) != known.end();
+    };
+    const bool stamp =
+        read.kind == ColumnName::Kind::time ||
+        (!words.empty() && is_any_of(words.back(), {"ts", "timestamp", "datetime", "zeitstempel", "uhrzeit"})) ||
+        (words.size() == 2 && is_any_of(words[0], {"date", "datum", "time"}) &&
+         is_any_of(words[1], {"time", "zeit", "stamp"}));
     if (stamp && !date && !made.time) {
       made.time = k;
       if (read.unit_told) made.seconds = read.seconds;
@@ -106,8 +108,7 @@ LogColumns log_columns(const pipeline::CsvReader& log, const pipeline::CsvRow& c
   };
   if (!joints.empty()) {
     const auto order = order_of_axes(titles, with_words(joints));
-    if (!order || order->size() != axes)
-      refuse(fmt::format("joints does not name {} columns of the log", axes));
+    if (!order || order->size() != axes) refuse(fmt::format("joints does not name {} columns of the log", axes));
     made.axes = *order;
   } else {
     for (const auto& [stem, group] : groups) {
@@ -135,8 +136,7 @@ LogColumns log_columns(const pipeline::CsvReader& log, const pipeline::CsvRow& c
         if (k != made.time && k != made.date && column_name(titles[k]).kind == ColumnName::Kind::axis)
           names.push_back(titles[k]), at.push_back(k);
       const auto order = names.size() == axes ? order_of_axes(names, "") : std::nullopt;
-      if (!order)
-        refuse(fmt::format("the log has no {} columns that are the angles of the robot's axes", axes));
+      if (!order) refuse(fmt::format("the log has no {} columns that are the angles of the robot's axes", axes));
       for (const std::size_t k : *order) made.axes.push_back(at[k]);
     }
   }

@@ -17,12 +17,12 @@
 namespace dresslife::sim {
 
 struct LogColumns {
-  std::vector<std::size_t> axes;  ///< columns, in the order of the robot's axes
-  std::vector<std::size_t>
-      names;  ///< columns of the joints' names in the same order; empty: the log contains none
+  std::vector<std::size_t> axes;   ///< columns, in the order of the robot's axes
+  std::vector<std::size_t> names;  ///< columns of the joints' names in the same order; empty: the log contains none
   std::optional<std::size_t> date, time;
   std::optional<double> seconds;  ///< seconds per unit of time, from the column's name; absent: the name gives no unit
-  std::optional<double> radians;  ///< radians per unit of angle, from the columns' names; absent: the names give no unit
+  std::optional<double>
+      radians;  ///< radians per unit of angle, from the columns' names; absent: the names give no unit
 };
 
 /// Returns the columns. joints: the user's names in the order of the axes, separated by commas; empty: none.

@@ -22,8 +22,7 @@ using pipeline::CsvRow;
 using pipeline::InputError;
 
 constexpr double short_stand = 0.5;  // [s] shorter standstills keep their rows
-constexpr double start =
-    0.05;  // [s] rows at the end of a standstill that are kept, because a slow start is no jump
+constexpr double start = 0.05;  // [s] rows at the end of a standstill that are kept, because a slow start is no jump
 // [s], [1]: waits of a process are shorter, and loggers skip only a few rows
 constexpr double shortest_pause = 10, pause_intervals = 100;
 constexpr double longest_interval = 2;            // [s]: a longer interval may hide a move of a robot
@@ -38,9 +37,7 @@ constexpr std::size_t sample_bytes = 65'536;  // some hundred rows
 /// Throws InputError for files that need a converter.
 void refuse_other_kinds(const std::filesystem::path& file, const std::string& begin) {
   const std::string ending = file.extension().string();
-  const auto refuse = [&](const char* what, const char* remedy) {
-    throw InputError({file.string()}, what, remedy);
-  };
+  const auto refuse = [&](const char* what, const char* remedy) { throw InputError({file.string()}, what, remedy); };
   if (ending == ".bag" || begin.starts_with("#ROSBAG"))
     refuse("is a ROS bag", "convert it: rostopic echo -b FILE.bag -p /joint_states > log.csv");
   if (ending == ".db3" || ending == ".mcap")
@@ -61,11 +58,9 @@ void refuse_other_kinds(const std::filesystem::path& file, const std::string& be
 class Rows {
  public:
   Rows(Recording& made, const std::filesystem::path& file, const pipeline::Robot& robot, double still)
-      : made_(made),
-        file_(file),
-        robot_(robot),
-        still_(still),
-        filter_(axes_of(robot), still, [this](LogRow row) { settle(std::move(row)); }) {}
+      : made_(made), file_(file), robot_(robot), still_(still), filter_(axes_of(robot), still, [this](LogRow row) {
+          settle(std::move(row));
+        }) {}
 
   void add(double stamp, std::vector<double> angles, std::uint32_t line) {
     ++made_.rows;
@@ -122,8 +117,7 @@ class Rows {
 
   /// Distributes rows with one stamp until the next stamp.
   void spread(double step) {
-    const double share =
-        std::min(step, coarsest_clock) / static_cast<double>(std::max<std::size_t>(1, same_.size()));
+    const double share = std::min(step, coarsest_clock) / static_cast<double>(std::max<std::size_t>(1, same_.size()));
     for (std::size_t k = 0; k < same_.size(); ++k) {
       same_[k].time += static_cast<double>(k) * share;
       filter_.add(std::move(same_[k]));
@@ -156,8 +150,7 @@ class Rows {
       if (moves) end_stand();
     }
     is_long_ |= !stand_.empty() && row.time - stand_.front().time >= short_stand;
-    while (is_long_ && stand_.size() > 1 && stand_[1].time < row.time - start)
-      stand_.erase(stand_.begin() + 1);
+    while (is_long_ && stand_.size() > 1 && stand_[1].time < row.time - start) stand_.erase(stand_.begin() + 1);
     stand_.push_back(std::move(row));
   }
 
@@ -187,8 +180,9 @@ class Rows {
   std::uint32_t line_outside_ = 0;
   std::size_t rows_outside_ = 0;
   double begin_ = 0, last_stamp_ = 0;
-  std::vector<LogRow> same_;   // rows with one stamp
-  std::vector<LogRow> stand_;  // rows near the first row of a standstill; of a long standstill the first and the last rows
+  std::vector<LogRow> same_;  // rows with one stamp
+  std::vector<LogRow>
+      stand_;  // rows near the first row of a standstill; of a long standstill the first and the last rows
   bool is_long_ = false;
   std::vector<double> intervals_;
 };
@@ -259,12 +253,15 @@ class Pass {
     };
     std::vector<std::string> found;
     for (std::size_t k = 0; k < titles_.size(); ++k) {
-      if (std::ranges::find(columns_.axes, k) != columns_.axes.end() || k == columns_.time || k == columns_.date) continue;
+      if (std::ranges::find(columns_.axes, k) != columns_.axes.end() || k == columns_.time || k == columns_.date)
+        continue;
       const std::vector<std::string> words = stem(titles_[k].text);
       const bool named = std::ranges::any_of(words, [](const std::string& word) {
-        return word == "e" || word == "ext" || word == "external" || word == "eax" || word == "extax" || word == "rail" || word == "track" || word == "extern";
+        return word == "e" || word == "ext" || word == "external" || word == "eax" || word == "extax" ||
+               word == "rail" || word == "track" || word == "extern";
       });
-      if ((named || words == stem(titles_[columns_.axes[0]].text)) && words.size() != words_of_name(titles_[k].text).size())
+      if ((named || words == stem(titles_[columns_.axes[0]].text)) &&
+          words.size() != words_of_name(titles_[k].text).size())
         found.push_back(titles_[k].text);
     }
     return found;
@@ -323,8 +320,7 @@ class Pass {
     const auto order = order_of_axes(names, "");
     if (!order)
       throw InputError(
-          log_.where(row[columns_.names.front()]),
-          "the names of the joints do not give their order on the robot",
+          log_.where(row[columns_.names.front()]), "the names of the joints do not give their order on the robot",
           "give --value joints=NAME,NAME,.. with the columns of the positions in the order of the robot's axes");
     std::vector<std::size_t> axes;
     for (const std::size_t k : *order) axes.push_back(columns_.axes[k]);
@@ -335,22 +331,20 @@ class Pass {
   void leave_out(const CsvRow& row, bool has_time) {
     if (left_out++ > 0) return;
     first_left_out = row.front().line;
-    first_fault_ =
-        row.size() != titles_.size()
-            ? fmt::format("has {} cells (there are {} names)", row.size(), titles_.size())
-            : fmt::format("has no {}", has_time ? "number for every axis" : "time stamp that can be read");
+    first_fault_ = row.size() != titles_.size()
+                       ? fmt::format("has {} cells (there are {} names)", row.size(), titles_.size())
+                       : fmt::format("has no {}", has_time ? "number for every axis" : "time stamp that can be read");
     if (log_.separator() == ',' && row.size() > titles_.size())
       first_fault_ += "; decimal commas need another separator";
   }
 
   void check_faults() const {
     const pipeline::Where where{file_.string(), first_left_out, 1};
-    if (rows_ == 0)
-      throw InputError({file_.string(), 1, 1}, "the log has no rows", "name a log with one row per time");
+    if (rows_ == 0) throw InputError({file_.string(), 1, 1}, "the log has no rows", "name a log with one row per time");
     if (left_out > few_faults && static_cast<double>(left_out) > most_faults * static_cast<double>(rows_))
-      throw InputError(
-          where, fmt::format("{} of {} rows cannot be read; the first one {}", left_out, rows_, first_fault_),
-          "export the log with one number per axis and a time stamp in every row");
+      throw InputError(where,
+                       fmt::format("{} of {} rows cannot be read; the first one {}", left_out, rows_, first_fault_),
+                       "export the log with one number per axis and a time stamp in every row");
     if (left_out == rows_)
       throw InputError(where, "no row can be read; the first one " + first_fault_, "correct the rows");
   }
@@ -366,23 +360,20 @@ class Pass {
 };
 
 /// Returns the factor to rad for a log without a unit: degrees if the angles are too large for radians.
-double unit_by_size(const std::filesystem::path& file, const pipeline::Robot& robot,
-                    const LogOptions& options) {
+double unit_by_size(const std::filesystem::path& file, const pipeline::Robot& robot, const LogOptions& options) {
   constexpr double widest = 4 * std::numbers::pi;  // two turns to either side
   double largest = 0;
   Pass(file, robot, options).run({}, [&](double, const std::vector<double>& angles, std::uint32_t) {
     for (const double angle : angles) largest = std::max(largest, std::abs(angle));
   });
   if (largest > widest) return degree;
-  throw InputError({file.string(), 1, 1},
-                   "the log gives angles without a unit (none is too large for radians)",
+  throw InputError({file.string(), 1, 1}, "the log gives angles without a unit (none is too large for radians)",
                    "give --value unit=deg or --value unit=rad");
 }
 
 }  // namespace
 
-LogSize size_of_log(const std::filesystem::path& file, const pipeline::Robot& robot,
-                    const LogOptions& options) {
+LogSize size_of_log(const std::filesystem::path& file, const pipeline::Robot& robot, const LogOptions& options) {
   const pipeline::PlainFile log(file);
   std::string text = log.beginning(sample_bytes);
   refuse_other_kinds(file, text);
@@ -424,13 +415,14 @@ Recording read_log(const std::filesystem::path& file, const pipeline::Robot& rob
   for (std::size_t k = made.axes; k < made.angles.size(); ++k)
     moves |= std::abs(made.angles[k] - made.angles[k % made.axes]) > options.still;
   if (moves && made.interval > longest_interval)
-    throw InputError({file.string()}, fmt::format("has rows that are {:.3g} s apart (limit {:g} s), between which a robot moves", made.interval, longest_interval),
+    throw InputError({file.string()},
+                     fmt::format("has rows that are {:.3g} s apart (limit {:g} s), between which a robot moves",
+                                 made.interval, longest_interval),
                      "record more often; if its times are milliseconds, divide them by 1000");
   if (made.back > few_faults && static_cast<double>(made.back) > most_faults * static_cast<double>(made.rows))
-    throw InputError(
-        {file.string()},
-        fmt::format("{} of {} rows have an earlier time than the row before", made.back, made.rows),
-        "sort the rows by time");
+    throw InputError({file.string()},
+                     fmt::format("{} of {} rows have an earlier time than the row before", made.back, made.rows),
+                     "sort the rows by time");
   return made;
 }
 

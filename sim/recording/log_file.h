@@ -31,8 +31,8 @@ struct LogOptions {
 /// Rows of a log, without those of standstills.
 struct Recording {
   std::size_t axes = 0;
-  std::vector<AxisOfLog> columns;  ///< (axis)
-  std::string format;              ///< description: separator, times, unit of the angles
+  std::vector<AxisOfLog> columns;     ///< (axis)
+  std::string format;                 ///< description: separator, times, unit of the angles
   std::vector<std::string> external;  ///< titles of columns that seem to be axes beyond those of the robot
   ImpossibleRows impossible;
   std::vector<double> times;         ///< (row) [s], increasing, from 0
@@ -47,7 +47,7 @@ struct Recording {
   int first_back = 0;                ///< line of the first row with a stamp back in time
   int pauses = 0;                    ///< number of pauses without rows, longer than a hundred intervals and 10 s
   double pause_seconds = 0, longest_pause = 0;
-  int line_of_pause = 0;             ///< line after the longest pause
+  int line_of_pause = 0;  ///< line after the longest pause
 
   std::size_t size() const { return times.size(); }
   const double* at(std::size_t row) const { return &angles[row * axes]; }
@@ -58,8 +58,7 @@ struct LogSize {
   double megabytes = 0, rows = 0, seconds = 0;  ///< seconds: 0 if the first rows have no times
 };
 /// Returns the estimated size. Errors: InputError as read_log() for another kind of file and for names of columns.
-LogSize size_of_log(const std::filesystem::path& file, const pipeline::Robot& robot,
-                    const LogOptions& options);
+LogSize size_of_log(const std::filesystem::path& file, const pipeline::Robot& robot, const LogOptions& options);
 
 /// Reads a log. progress: called with the share that is read. Errors: InputError: another kind of file (it names a converter),
 /// names of columns, angles without a unit, invalid times or times more than 2 s apart, a row outside the robot's limits that

@@ -12,14 +12,14 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double near_knots = 1e-3;                     // [s] knots at a smaller distance would give a spline with a large slope
-constexpr double ramp = 0.3;                            // [s] that a robot needs to start or stop
-constexpr double slow = std::numbers::pi / 180;         // [rad/s] a smaller speed needs no ramp
-constexpr double settling = 1;                          // [s]
+constexpr double near_knots = 1e-3;  // [s] knots at a smaller distance would give a spline with a large slope
+constexpr double ramp = 0.3;         // [s] that a robot needs to start or stop
+constexpr double slow = std::numbers::pi / 180;  // [rad/s] a smaller speed needs no ramp
+constexpr double settling = 1;                   // [s]
 // [s] The strains of a motion take 3.4 MB per second (ten loose cables, 64 segments): two motions of 300 s at the same time take
 // 2 GB.
 constexpr double long_rest = 200, longest_rest = 300;
-constexpr std::size_t most_rows_of_a_motion = 50'000;               // half of the limit of a motion
+constexpr std::size_t most_rows_of_a_motion = 50'000;  // half of the limit of a motion
 constexpr double damage_exponent = 5;
 // A faster hose swings farther. In two groups of 10 and 8 cycles of `hard` with loose cables and speeds of +- 5 and 8 %, the damage
 // increased with the powers 3.2 and 2.5 of the speed (correlation 0.9) and did not depend on the ranges.
@@ -97,8 +97,7 @@ void add_ramps(StretchRows& rows, bool begins_at_rest) {
 void close(StretchRows& rows) {
   std::vector<double> moved{0};
   for (std::size_t k = 1; k < rows.count(); ++k)
-    moved.push_back(moved.back() +
-                    (rows.values[k] == rows.values[k - 1] ? 0 : rows.times[k] - rows.times[k - 1]));
+    moved.push_back(moved.back() + (rows.values[k] == rows.values[k - 1] ? 0 : rows.times[k] - rows.times[k - 1]));
   const VectorXd off = rows.values.back() - rows.values.front();
   for (std::size_t k = 0; k < rows.count(); ++k) rows.values[k] -= moved[k] / moved.back() * off;
   rows.values.back() = rows.values.front();
@@ -145,11 +144,11 @@ LogMotion motion_for(const Course& course, const Cycles& cycles, std::span<const
   StretchRows rows = rows_between(course, cycles.parts[made.part].begin, cycles.parts[made.part].end);
   close(rows);
   rows = turned(rows, best_begin(rows));
-  const bool stands = rows.values.back() == rows.values[rows.count() - 2];  // a standstill between its end and its begin
+  const bool stands =
+      rows.values.back() == rows.values[rows.count() - 2];  // a standstill between its end and its begin
   if (stands) {  // waits differ between repeats: the wait is at most the mean
     const double wait = rows.times.back() - rows.times[rows.count() - 2];
-    rows.times.back() -=
-        std::clamp(rows.times.back() - seconds / static_cast<double>(made.count), 0.0, 0.9 * wait);
+    rows.times.back() -= std::clamp(rows.times.back() - seconds / static_cast<double>(made.count), 0.0, 0.9 * wait);
   }
   add_ramps(rows, stands);
   made.times = std::move(rows.times);
@@ -157,15 +156,18 @@ LogMotion motion_for(const Course& course, const Cycles& cycles, std::span<const
   return made;
 }
 
-void add_cycle(const Course& course, const Cycles& cycles, std::size_t cycle, double bound, int recordings, std::vector<LogMotion>& made) {
+void add_cycle(const Course& course, const Cycles& cycles, std::size_t cycle, double bound, int recordings,
+               std::vector<LogMotion>& made) {
   std::vector<DamagedPart> damages;
   double seconds = 0;
   for (std::size_t k = 0; k < cycles.parts.size(); ++k)
     if (const CyclePart& part = cycles.parts[k]; part.cycle == cycle)
-      damages.emplace_back(damage_of(rows_between(course, part.begin, part.end), bound), k), seconds += part.end - part.begin;
+      damages.emplace_back(damage_of(rows_between(course, part.begin, part.end), bound), k),
+          seconds += part.end - part.begin;
   std::sort(damages.begin(), damages.end());
   const double cheap = std::max(few_recordings, recorded_seconds * static_cast<double>(damages.size()) / seconds);
-  const std::size_t count = std::min({damages.size(), static_cast<std::size_t>(recordings), static_cast<std::size_t>(cheap)});
+  const std::size_t count =
+      std::min({damages.size(), static_cast<std::size_t>(recordings), static_cast<std::size_t>(cheap)});
   const std::string name = fmt::format("cycle_{}", cycle + 1);
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t begin = k * damages.size() / count, end = (k + 1) * damages.size() / count;
@@ -252,8 +254,7 @@ std::vector<LogMotion> motions_of(const Course& course, const Cycles& cycles, do
 
 std::string motion_csv(const LogMotion& motion) {
   std::string text = "time_s";
-  for (long axis = 0; axis < motion.rows.front().size(); ++axis)
-    text += fmt::format(",axis_{}_deg", axis + 1);
+  for (long axis = 0; axis < motion.rows.front().size(); ++axis) text += fmt::format(",axis_{}_deg", axis + 1);
   text += '\n';
   for (std::size_t k = 0; k < motion.rows.size(); ++k) {
     text += fmt::format("{:.6f}", motion.times[k]);

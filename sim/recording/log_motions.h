@@ -18,7 +18,7 @@ struct LogMotion {
   double difference = 0;              ///< largest difference of the parts from the cycle [rad]
   bool is_rest = false;
   std::string recording_of;  ///< "cycle_1" for its recordings cycle_1, cycle_1_b; empty: only one recording
-  std::size_t part = 0;  ///< index in Cycles::parts of its source; not used for a rest
+  std::size_t part = 0;      ///< index in Cycles::parts of its source; not used for a rest
 
   double duration() const { return times.back(); }
 };

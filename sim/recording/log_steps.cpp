@@ -12,17 +12,16 @@
 namespace dresslife::sim {
 namespace {
 
-constexpr std::size_t window = 5;        // number of rows
-constexpr double turn_margin = 1.1;      // of the speed (L3)
-constexpr std::size_t most_axes = 8;     // of all orders of up to 8 axes: 40,320
-constexpr double speed_margin = 1.2;     // of an axis' limit, because splines through rows may overshoot
+constexpr std::size_t window = 5;     // number of rows
+constexpr double turn_margin = 1.1;   // of the speed (L3)
+constexpr std::size_t most_axes = 8;  // of all orders of up to 8 axes: 40,320
+constexpr double speed_margin = 1.2;  // of an axis' limit, because splines through rows may overshoot
 
 }  // namespace
 
 bool StepFilter::is_reached(const LogRow& from, const LogRow& to) const {
   for (std::size_t i = 0; i < axes_.size(); ++i)
-    if (std::abs(to.angles[i] - from.angles[i]) >
-        speed_margin * axes_[i].speed * (to.time - from.time) + 2 * still_)
+    if (std::abs(to.angles[i] - from.angles[i]) > speed_margin * axes_[i].speed * (to.time - from.time) + 2 * still_)
       return false;
   return true;
 }
@@ -31,8 +30,7 @@ bool StepFilter::is_possible(const LogRow& before, const LogRow& row, const LogR
   const double h1 = row.time - before.time, h2 = after.time - row.time, h = h1 + h2;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     const double off = std::abs(row.angles[i] - (h2 * before.angles[i] + h1 * after.angles[i]) / h);
-    const double drive =
-        std::min(axes_[i].acceleration * h1 * h2, 2 * turn_margin * axes_[i].speed * h1 * h2 / h);
+    const double drive = std::min(axes_[i].acceleration * h1 * h2, 2 * turn_margin * axes_[i].speed * h1 * h2 / h);
     const double clock = std::abs(after.angles[i] - before.angles[i]) * std::min(h1, h2) / (2 * h);
     if (off > drive + clock + 2 * still_) return false;
   }
@@ -62,8 +60,7 @@ void StepFilter::finish() {
   rows_.clear();
 }
 
-std::vector<std::size_t> better_order(const std::vector<AxisOfLog>& axes,
-                                      const std::vector<double>& fastest) {
+std::vector<std::size_t> better_order(const std::vector<AxisOfLog>& axes, const std::vector<double>& fastest) {
   const auto fits = [&](std::size_t column, std::size_t axis) {
     const Axis& of = axes[axis].axis;
     return axes[column].low >= of.lower - limit_rounding && axes[column].high <= of.upper + limit_rounding &&

@@ -19,7 +19,7 @@ constexpr double degrees = 180 / std::numbers::pi;
 constexpr double seconds_per_second = 2;
 constexpr double megabytes_per_second = 1.3;
 constexpr double reading_per_row = 8e-6;  // [s] of one core: a day at 10 Hz in 5.8 s, 8 h in 2.2 s
-constexpr double last_sample = 0.2;  // [s] by which a simulated motion may be longer, because it ends at a sample
+constexpr double last_sample = 0.2;       // [s] by which a simulated motion may be longer, because it ends at a sample
 
 std::string time_words(double seconds) {
   constexpr double minute = 60, hour = 3600;
@@ -39,12 +39,11 @@ double seconds_of(const std::vector<LogMotion>& motions) {
 std::string study_text(const std::string& name, const std::filesystem::path& base, const Recording& log,
                        const std::vector<std::string>& mounting, const std::vector<LogMotion>& motions) {
   std::string pose, poses;
-  for (std::size_t i = 0; i < log.axes; ++i)
-    pose += fmt::format("{}{:.3f}", i > 0 ? ", " : "", log.at(0)[i] * degrees);
+  for (std::size_t i = 0; i < log.axes; ++i) pose += fmt::format("{}{:.3f}", i > 0 ? ", " : "", log.at(0)[i] * degrees);
   for (const std::string& key : mounting) poses += fmt::format(", {}: [{}]", key, pose);
   std::string text = fmt::format(
-      "# The motions of a log: cycles that repeat, and the rest.\nname: {}\nbase: {}\nkeep: histories\njobs:\n",
-      name, base.string());
+      "# The motions of a log: cycles that repeat, and the rest.\nname: {}\nbase: {}\nkeep: histories\njobs:\n", name,
+      base.string());
   for (const LogMotion& motion : motions)
     text += fmt::format("  {0}: {{motion: {{program: {0}.csv, rows: spline}}{1}}}\n", motion.name, poses);
   return text;
@@ -111,14 +110,14 @@ std::string times_words(const Recording& log, const Course& course) {
   const bool is_slow = ratio < far_below && way > move;
   if (!(ratio > far_beyond || is_slow) || !(log.interval > 0)) return "";
   std::string text =
-      is_slow ? fmt::format("warning: by the times of the log no axis turns faster than {:.2g} % of its limit", 100 * ratio)
-              : fmt::format("warning: by the times of the log an axis turns {:.0f} times as fast as it can", ratio);
+      is_slow
+          ? fmt::format("warning: by the times of the log no axis turns faster than {:.2g} % of its limit", 100 * ratio)
+          : fmt::format("warning: by the times of the log an axis turns {:.0f} times as fast as it can", ratio);
   text += ": they may be in another unit or another rate.";
   for (const double factor : {60.0, 1e3, 1e6, 1e9, 1e-3})
     if (ratio / factor < 1.2 && ratio / factor > 0.02)
-      return text +
-             fmt::format(" Give --value rate_Hz={:.4g} if they are {:g} times as long: a row in {:.3g} s",
-                         1 / (factor * log.interval), factor, factor * log.interval);
+      return text + fmt::format(" Give --value rate_Hz={:.4g} if they are {:g} times as long: a row in {:.3g} s",
+                                1 / (factor * log.interval), factor, factor * log.interval);
   return text + " Give --value rate_Hz=N with the rows per second";
 }
 
@@ -132,8 +131,7 @@ std::vector<std::string> read_words(const Recording& log, const Course& course) 
   const auto add = [&](const std::string& axis, const std::string& of, const std::string& range,
                        const std::string& limits, const std::string& speed, const std::string& limit) {
     lines.push_back(fmt::format("{:<{}}  {}{}  {:>17}  {:>14}  {:>15}  {:>13}", axis, name, of,
-                                std::string(column - pipeline::columns_of(of), ' '), range, limits, speed,
-                                limit));
+                                std::string(column - pipeline::columns_of(of), ' '), range, limits, speed, limit));
   };
   const auto tenths = [](double angle) { return std::round(10 * angle * degrees) / 10 + 0.; };  // + 0. avoids -0.0
   add("axis", "column", "range [deg]", "limits [deg]", "fastest [deg/s]", "limit [deg/s]");
@@ -156,29 +154,27 @@ std::vector<std::string> read_words(const Recording& log, const Course& course) 
 
 std::vector<std::string> log_words(const Recording& log, const Course& course, const Cycles& cycles,
                                    const std::vector<LogMotion>& motions) {
-  std::vector<std::string> lines{
-      fmt::format("{} rows, {:.3g} per second, {}; the robot stands still in {} of it", log.rows,
-                  1 / log.interval, time_words(course.log_seconds), time_words(course.stand_seconds))};
+  std::vector<std::string> lines{fmt::format("{} rows, {:.3g} per second, {}; the robot stands still in {} of it",
+                                             log.rows, 1 / log.interval, time_words(course.log_seconds),
+                                             time_words(course.stand_seconds))};
   if (log.left_out > 0)
-    lines.push_back(fmt::format("{} rows left out, first line {}: numbers are missing", log.left_out,
-                                log.first_left_out));
+    lines.push_back(
+        fmt::format("{} rows left out, first line {}: numbers are missing", log.left_out, log.first_left_out));
   if (log.same_stamp > 0)
-    lines.push_back(fmt::format("{} rows with the time of the row before: equal ones left out, others spread",
-                                log.same_stamp));
+    lines.push_back(
+        fmt::format("{} rows with the time of the row before: equal ones left out, others spread", log.same_stamp));
   if (log.back > 0)
     lines.push_back(
-        fmt::format("{} rows with an earlier time than the row before, first line {}: time continues from there", log.back,
-                    log.first_back));
+        fmt::format("{} rows with an earlier time than the row before, first line {}: time continues from there",
+                    log.back, log.first_back));
   const auto lines_text = [](const std::vector<std::uint32_t>& of) {
     constexpr std::size_t most = 5;
     const auto shown = std::span(of).first(std::min(of.size(), most));
-    return fmt::format("line{} {}{}", of.size() == 1 ? "" : "s", fmt::join(shown, ", "),
-                       of.size() > most ? " .." : "");
+    return fmt::format("line{} {}{}", of.size() == 1 ? "" : "s", fmt::join(shown, ", "), of.size() > most ? " .." : "");
   };
   if (const auto& glitches = log.impossible.glitches; !glitches.empty())
-    lines.push_back(fmt::format(
-        "warning: {} row{} left out, because no axis can get there and back in time: {}",
-        glitches.size(), glitches.size() == 1 ? "" : "s", lines_text(glitches)));
+    lines.push_back(fmt::format("warning: {} row{} left out, because no axis can get there and back in time: {}",
+                                glitches.size(), glitches.size() == 1 ? "" : "s", lines_text(glitches)));
   if (const auto& jumps = log.impossible.jumps; !jumps.empty())
     lines.push_back(fmt::format(
         "warning: {} row{} that no axis could reach stay{} in the motion: {}. Correct the log, or cut it there",
@@ -187,11 +183,12 @@ std::vector<std::string> log_words(const Recording& log, const Course& course, c
     lines.push_back(fmt::format(
         "warning: {} pause{} without rows, {} together, the longest {} before line {}: standing where the robot keeps its "
         "pose, else no time of the log. If the logger was off or a time is wrong, the rates are too low: cut the log there",
-        log.pauses, log.pauses == 1 ? "" : "s", time_words(log.pause_seconds), time_words(log.longest_pause), log.line_of_pause));
+        log.pauses, log.pauses == 1 ? "" : "s", time_words(log.pause_seconds), time_words(log.longest_pause),
+        log.line_of_pause));
   if (course.gaps > 0)
-    lines.push_back(
-        fmt::format("{} gap{} in which the robot moved, {} together, {} not counted", course.gaps, course.gaps == 1 ? "" : "s",
-                    time_words(course.gap_seconds), course.gaps == 1 ? "is" : "are"));
+    lines.push_back(fmt::format("{} gap{} in which the robot moved, {} together, {} not counted", course.gaps,
+                                course.gaps == 1 ? "" : "s", time_words(course.gap_seconds),
+                                course.gaps == 1 ? "is" : "are"));
   lines.push_back(fmt::format("smoothed by at most {:.2g} deg", course.largest_smoothing * degrees));
   for (const TooFast& fast : course.too_fast)
     lines.push_back(fmt::format(
@@ -211,7 +208,8 @@ std::vector<std::string> log_words(const Recording& log, const Course& course, c
                                 course.line(cycles.parts[motion.part].begin)));
   }
   lines.push_back(rests == 0 ? "no rest"
-                             : fmt::format("rest without repeats: {} motion{}, {}", rests, rests == 1 ? "" : "s", time_words(rest)));
+                             : fmt::format("rest without repeats: {} motion{}, {}", rests, rests == 1 ? "" : "s",
+                                           time_words(rest)));
   const double all = seconds_of(motions);
   lines.push_back(fmt::format(
       "estimate for dresslife duty: {} of one core, {} MB. The dresspack changes this by factors; dresslife duty shows the remaining time",

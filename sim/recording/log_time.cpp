@@ -44,8 +44,7 @@ std::optional<double> date_in(std::string_view& text) {
     const bool month_first = text.find('/') != text.npos;
     year = (*found)[2], month = (*found)[month_first ? 0 : 1], of_month = (*found)[month_first ? 1 : 0];
   }
-  const std::chrono::year_month_day date{std::chrono::year(year),
-                                         std::chrono::month(static_cast<unsigned>(month)),
+  const std::chrono::year_month_day date{std::chrono::year(year), std::chrono::month(static_cast<unsigned>(month)),
                                          std::chrono::day(static_cast<unsigned>(of_month))};
   if (year < 1000 || !date.ok()) return {};
   text = rest;

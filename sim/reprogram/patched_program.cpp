@@ -27,15 +27,13 @@ double largest(const std::vector<double>& a, const std::vector<double>& b) {
   return off;
 }
 
-bool same_speed(const std::optional<double>& before, const std::optional<double>& after, double factor,
-                double unit) {
+bool same_speed(const std::optional<double>& before, const std::optional<double>& after, double factor, double unit) {
   if (before.has_value() != after.has_value()) return false;
-  return !before || std::abs(*before * factor - *after) <=
-                        (factor == 1 ? 1e-9 * *before : rounded_speed * unit + 1e-6 * *before);
+  return !before ||
+         std::abs(*before * factor - *after) <= (factor == 1 ? 1e-9 * *before : rounded_speed * unit + 1e-6 * *before);
 }
 
-const pipeline::MotionFrame* frame_of(const std::vector<pipeline::MotionFrame>& list,
-                                      const std::string& name) {
+const pipeline::MotionFrame* frame_of(const std::vector<pipeline::MotionFrame>& list, const std::string& name) {
   for (const pipeline::MotionFrame& frame : list)
     if (frame.name == name) return &frame;
   return nullptr;
@@ -49,9 +47,8 @@ bool same_frame(const std::vector<pipeline::MotionFrame>& a, const std::string& 
 }
 
 /// Returns the difference between two steps apart from a change of the first one's line; empty: none.
-std::string difference(const pipeline::Motion& before, const pipeline::MotionStep& a,
-                       const pipeline::Motion& after, const pipeline::MotionStep& b,
-                       const LineChange* change) {
+std::string difference(const pipeline::Motion& before, const pipeline::MotionStep& a, const pipeline::Motion& after,
+                       const pipeline::MotionStep& b, const LineChange* change) {
   constexpr double mm_per_s = 1e-3, deg_per_s = 0.0174532925199433;
   const double factor = change && change->speed ? *change->speed : 1;
   if (a.path != b.path || a.is_move() != b.is_move()) return "path";
@@ -66,15 +63,13 @@ std::string difference(const pipeline::Motion& before, const pipeline::MotionSte
   double aligned = a.quaternion.empty() ? 1 : 0;
   for (std::size_t i = 0; i < std::min(a.quaternion.size(), b.quaternion.size()); ++i)
     aligned += a.quaternion[i] * b.quaternion[i];
-  if (a.quaternion.size() != b.quaternion.size() || std::abs(std::abs(aligned) - 1) > written)
-    return "orientation";
+  if (a.quaternion.size() != b.quaternion.size() || std::abs(std::abs(aligned) - 1) > written) return "orientation";
   const std::string configuration =
       change && change->configuration && a.joints.empty() ? change->configuration->text() : a.configuration;
   if (configuration != b.configuration) return "configuration";
   if (a.external_axes != b.external_axes) return "external axes";
   if (!same_frame(before.tools, a.tool, after.tools, b.tool)) return "tool";
-  if (!same_frame(before.work_objects, a.work_object, after.work_objects, b.work_object))
-    return "work object";
+  if (!same_frame(before.work_objects, a.work_object, after.work_objects, b.work_object)) return "work object";
   if (!same_speed(a.speed_percent, b.speed_percent, factor, 1) || !same_speed(a.speed, b.speed, factor, 0) ||
       !same_speed(a.tool_speed, b.tool_speed, factor, mm_per_s) ||
       !same_speed(a.turn_speed, b.turn_speed, factor, deg_per_s))
@@ -94,8 +89,7 @@ std::string other_difference(const pipeline::Motion& before, const pipeline::Mot
   std::size_t next = 0;
   for (const pipeline::MotionStep& step : before.steps) {
     const auto change = std::find_if(changes.begin(), changes.end(), [&](const LineChange& c) {
-      return c.where.file == step.where.file && c.where.line == step.where.line &&
-             c.where.column == step.where.column;
+      return c.where.file == step.where.file && c.where.line == step.where.line && c.where.column == step.where.column;
     });
     const LineChange* own = change == changes.end() ? nullptr : &*change;
     if (own && !own->point.empty() && step.is_move()) {
@@ -121,19 +115,17 @@ PatchedProgram patched(const pipeline::Job& job, const ReadProgram& read, const 
   const fs::path folder = is_folder ? job.motion.program : job.motion.program.parent_path();
   for (const std::string& file : files) {
     const fs::path below = fs::proximate(file, folder.empty() ? "." : folder);
-    const Rewritten changed =
-        rewritten(read.language, file, pipeline::read_text(file), read.program, way.changes,
-                  below.empty() ? file : below.generic_string());
+    const Rewritten changed = rewritten(read.language, file, pipeline::read_text(file), read.program, way.changes,
+                                        below.empty() ? file : below.generic_string());
     instead[file] = changed.text;
     made.patch += changed.patch;
   }
   made.motion = motion_of(read_program(job.motion, flange_at(job.robot), instead), job.motion);
   const std::string other = other_difference(read.motion, made.motion, way.changes);
   if (!other.empty())
-    throw pipeline::InputError(
-        way.changes.front().where,
-        fmt::format("cannot be changed by itself: another difference comes with it ({})", other),
-        "change it by hand");
+    throw pipeline::InputError(way.changes.front().where,
+                               fmt::format("cannot be changed by itself: another difference comes with it ({})", other),
+                               "change it by hand");
   return made;
 }
 

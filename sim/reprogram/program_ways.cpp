@@ -45,8 +45,7 @@ class Lines {
       }
       if (step.is_move()) lines_[place->second].moves.push_back(k);
       of_step_.push_back(place->second);
-      if (step.is_move())
-        before = place->second;  // the damage while the robot stands is added to the previous move
+      if (step.is_move()) before = place->second;  // the damage while the robot stands is added to the previous move
       const std::size_t number = numbered.size();
       if (numbered.insert(key + ":" + step.text).second && number < line_damage.size())
         lines_[before].cost += line_damage[number];
@@ -90,9 +89,7 @@ class Ways {
     std::vector<ProgramWay> ways;
     const auto add = [&](std::optional<ProgramWay> way) {
       if (!way) return;
-      const auto same = [&](const ProgramWay& other) {
-        return other.what == way->what && other.lines == way->lines;
-      };
+      const auto same = [&](const ProgramWay& other) { return other.what == way->what && other.lines == way->lines; };
       if (std::none_of(ways.begin(), ways.end(), same)) ways.push_back(*std::move(way));
     };
     std::set<std::size_t> every;
@@ -147,8 +144,7 @@ class Ways {
   }
 
   /// Returns the same tool poses with another configuration of wrist or arm; absent: a line has none, or cannot express it.
-  std::optional<ProgramWay> turned(const pipeline::NamedTurn& turn, const std::set<std::size_t>& from,
-                                   bool all) const {
+  std::optional<ProgramWay> turned(const pipeline::NamedTurn& turn, const std::set<std::size_t>& from, bool all) const {
     const std::set<std::size_t> lines = whole_chains(from);
     ProgramWay way{turn.name, {}, {}};
     if (!all) names(lines, way.lines);
@@ -157,8 +153,7 @@ class Ways {
       std::optional<LineChange> change;
       for (const std::size_t step : lines_.all()[line].moves) {
         std::optional<LineChange> here = turned(turn, step);
-        if (!here ||
-            (change && (change->configuration != here->configuration || change->joints != here->joints)))
+        if (!here || (change && (change->configuration != here->configuration || change->joints != here->joints)))
           return {};
         change = std::move(here);
       }
@@ -187,8 +182,7 @@ class Ways {
     const bool watched = programmed->kind == Kind::abb || programmed->kind == Kind::fanuc;
     if (leads_tool(step.path) && !watched) return change;  // the configuration follows from the begin of the path
     if (!watched && programmed->kind != Kind::kuka) return {};
-    change.configuration =
-        arm_.configuration(Eigen::Map<const Eigen::VectorXd>(other->data(), 6), programmed->kind);
+    change.configuration = arm_.configuration(Eigen::Map<const Eigen::VectorXd>(other->data(), 6), programmed->kind);
     return change;
   }
 
@@ -203,15 +197,13 @@ class Ways {
       std::vector<double> here(6);
       for (int i = 0; i < 6; ++i) here[static_cast<std::size_t>(i)] = (i < 3) == arm_first ? b[i] : a[i];
       const Eigen::Map<const Eigen::VectorXd> on_the_way(here.data(), 6);
-      if ((on_the_way - a).cwiseAbs().maxCoeff() <= none || (on_the_way - b).cwiseAbs().maxCoeff() <= none)
-        return {};
+      if ((on_the_way - a).cwiseAbs().maxCoeff() <= none || (on_the_way - b).cwiseAbs().maxCoeff() <= none) return {};
       if (point && *point != here) return {};
       point = std::move(here);
     }
     if (!point) return {};
-    ProgramWay way{fmt::format("by a point: {} first", arm_first ? "axes 1 to 3" : "axes 4 to 6"),
-                   {lines_.all()[line].name},
-                   {}};
+    ProgramWay way{
+        fmt::format("by a point: {} first", arm_first ? "axes 1 to 3" : "axes 4 to 6"), {lines_.all()[line].name}, {}};
     way.changes.push_back({.where = lines_.all()[line].where, .point = *point, .reason = way.what});
     return way;
   }
@@ -255,8 +247,7 @@ class Ways {
   std::optional<ProgramWay> slower(std::size_t line, double factor) const {
     for (const std::size_t k : lines_.all()[line].moves) {
       const pipeline::MotionStep& step = read_.motion.steps[k];
-      if (step.duration || is_process(step) || !(step.speed || step.speed_percent || step.tool_speed))
-        return {};
+      if (step.duration || is_process(step) || !(step.speed || step.speed_percent || step.tool_speed)) return {};
       if (read_.language == Language::krl && (leads_tool(step.path) || !step.speed_percent)) return {};
     }
     ProgramWay way{fmt::format("at {:.0f} % of its speed", 100 * factor), {lines_.all()[line].name}, {}};
@@ -269,8 +260,8 @@ class Ways {
   const Lines lines_;
   const InverseKinematics arm_;
   const std::vector<pipeline::NamedTurn> turns_;
-  std::vector<Eigen::VectorXd> joints_;  // (step) joint angles at its end; empty: no move
-  std::vector<std::size_t> chain_of_;    // (step)
+  std::vector<Eigen::VectorXd> joints_;          // (step) joint angles at its end; empty: no move
+  std::vector<std::size_t> chain_of_;            // (step)
   std::set<std::pair<std::string, int>> seams_;  // file and line
 };
 

@@ -27,9 +27,8 @@ std::string one_below_the_other(const std::vector<std::string>& lines) {
 void write_ways(const pipeline::Job& job, const std::filesystem::path& life_file, std::size_t most_lines,
                 pipeline::FileWriter& file) {
   if (job.motion.program.empty())
-    throw pipeline::InputError(
-        job.motion.where, "the motion is no robot program",
-        "give a job with motion: {program: FILE}; dresslife reprogram takes steps, too");
+    throw pipeline::InputError(job.motion.where, "the motion is no robot program",
+                               "give a job with motion: {program: FILE}; dresslife reprogram takes steps, too");
   const std::vector<double> cost = cost_of_lines(life_file);
   const ReadProgram read = read_job_program(job);
   std::vector<std::string> whats, lines, motions, patches, refused;

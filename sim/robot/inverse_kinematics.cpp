@@ -72,8 +72,8 @@ Frame InverseKinematics::on_tracks(const Frame& flange, const VectorXd& near) co
 
 void InverseKinematics::check_geometry() {
   if (robot_.joints.size() != 6 || robot_.axes() != 6) {
-    unsupported_ = robot_.axes() == 6 ? "a rod moves some of its joints"
-                                      : fmt::format("it has {} axes, not six", robot_.axes());
+    unsupported_ =
+        robot_.axes() == 6 ? "a rod moves some of its joints" : fmt::format("it has {} axes, not six", robot_.axes());
     return;
   }
   const VectorXd zero = VectorXd::Zero(kinematics_.axes());
@@ -94,8 +94,8 @@ void InverseKinematics::check_geometry() {
   const Vector3 across = axis_[3].cross(axis_[4]);
   wrist_ = point_[4];
   if (across.norm() > rounded_alignment)
-    wrist_ = point_[4] + axis_[4] * (point_[3] - point_[4]).cross(axis_[3]).dot(axis_[4].cross(axis_[3])) /
-                             across.squaredNorm();
+    wrist_ = point_[4] +
+             axis_[4] * (point_[3] - point_[4]).cross(axis_[3]).dot(axis_[4].cross(axis_[3])) / across.squaredNorm();
   const auto off = [&](int i) { return (wrist_ - point_[i]).cross(axis_[i]).norm(); };
   const double leaning = std::abs(axis_[0].dot(axis_[1])), skewed = axis_[1].cross(axis_[2]).norm(),
                apart = std::max({off(3), off(4), off(5)});
@@ -256,8 +256,8 @@ std::string InverseKinematics::beyond_limits(const VectorXd& arm, int turns, Exc
     if (excess(best) <= limit_rounding) continue;
     if (most && excess(best) > most->angle) *most = {joint.name, excess(best)};
     const bool above = best > joint.upper;
-    words += fmt::format("{}{} at {:.1f} deg, {:.1f} deg {} its {:.6g}", words.empty() ? "" : "; ", joint.name, best * 180 / pi,
-                         excess(best) * 180 / pi, above ? "above" : "below",
+    words += fmt::format("{}{} at {:.1f} deg, {:.1f} deg {} its {:.6g}", words.empty() ? "" : "; ", joint.name,
+                         best * 180 / pi, excess(best) * 180 / pi, above ? "above" : "below",
                          (above ? joint.upper : joint.lower) * 180 / pi);
   }
   return words;
@@ -285,17 +285,14 @@ InverseKinematics::Excess InverseKinematics::excess(const Frame& flange, const V
 
 /// Returns whether the angles match. Angles near a boundary of a quadrant or sign match on either side, because programs have few
 /// digits.
-bool InverseKinematics::matches(const VectorXd& joints, const ArmConfiguration& wanted,
-                                bool with_sides) const {
+bool InverseKinematics::matches(const VectorXd& joints, const ArmConfiguration& wanted, bool with_sides) const {
   constexpr double blur = 1e-3;  // [rad]
   const Sides side = sides(joints);
   const auto& n = wanted.numbers;
   const auto in_quadrant = [&](int axis, int quadrant) {
     return joints[axis] >= quadrant * pi / 2 - blur && joints[axis] <= (quadrant + 1) * pi / 2 + blur;
   };
-  const auto negative = [&](int axis, bool wish) {
-    return wish ? joints[axis] < blur : joints[axis] > -blur;
-  };
+  const auto negative = [&](int axis, bool wish) { return wish ? joints[axis] < blur : joints[axis] > -blur; };
   switch (wanted.kind) {
     case ArmConfiguration::Kind::any:
     case ArmConfiguration::Kind::near:
@@ -306,8 +303,8 @@ bool InverseKinematics::matches(const VectorXd& joints, const ArmConfiguration& 
       };
       const double turned = std::cos(joints[3]);
       const bool wrist = n[0] >= 2 ? negative(4, n[0] == 3) : n[0] == 1 ? turned < blur : turned > -blur;
-      return wrist && (!with_sides || (side.front_of_arm == !n[1] && side.front_of_axis == !n[2])) &&
-             within(3, n[3]) && within(5, n[4]) && within(0, n[5]);
+      return wrist && (!with_sides || (side.front_of_arm == !n[1] && side.front_of_axis == !n[2])) && within(3, n[3]) &&
+             within(5, n[4]) && within(0, n[5]);
     }
     case ArmConfiguration::Kind::abb:
       if (!in_quadrant(0, n[0]) || !in_quadrant(3, n[1]) || !in_quadrant(5, n[2])) return false;
@@ -316,16 +313,13 @@ bool InverseKinematics::matches(const VectorXd& joints, const ArmConfiguration& 
     case ArmConfiguration::Kind::kuka:
       for (int axis = 0; axis < 6; ++axis)
         if (!negative(axis, n[1] >> axis & 1)) return false;
-      return side.front_of_axis == !(n[0] & 1) && side.front_of_arm == bool(n[0] & 2) &&
-             negative(4, n[0] & 4);
+      return side.front_of_axis == !(n[0] & 1) && side.front_of_arm == bool(n[0] & 2) && negative(4, n[0] & 4);
     case ArmConfiguration::Kind::fanuc:
       break;
   }
-  const auto turns = [&](int axis, int number) {
-    return std::abs(joints[axis] - 2 * pi * number) < pi + blur;
-  };
-  return negative(4, !n[0]) && side.front_of_arm == bool(n[1]) && side.front_of_axis == bool(n[2]) &&
-         turns(0, n[3]) && turns(3, n[4]) && turns(5, n[5]);
+  const auto turns = [&](int axis, int number) { return std::abs(joints[axis] - 2 * pi * number) < pi + blur; };
+  return negative(4, !n[0]) && side.front_of_arm == bool(n[1]) && side.front_of_axis == bool(n[2]) && turns(0, n[3]) &&
+         turns(3, n[4]) && turns(5, n[5]);
 }
 
 bool InverseKinematics::may_end(const VectorXd& joints, const ArmConfiguration& programmed) const {
@@ -404,9 +398,8 @@ std::optional<VectorXd> InverseKinematics::solve(const Frame& flange, const ArmC
       different += fits;
     }
     if (different > 1 && !open_.empty() && !chosen && configuration.kind != ArmConfiguration::Kind::any) {
-      reason =
-          fmt::format("is reached by {} arms of configuration {}: {}; only joint angles distinguish them",
-                      different, in_words(configuration), open_);
+      reason = fmt::format("is reached by {} arms of configuration {}: {}; only joint angles distinguish them",
+                           different, in_words(configuration), open_);
       return {};
     }
   }

@@ -73,8 +73,7 @@ class InverseKinematics {
                                        const Eigen::VectorXd& near, std::string& reason) const;
 
   /// Returns the arm that continues a path from `near` to a close next point; all axes.
-  std::optional<Eigen::VectorXd> follow(const Frame& flange, const Eigen::VectorXd& near,
-                                        std::string& reason) const;
+  std::optional<Eigen::VectorXd> follow(const Frame& flange, const Eigen::VectorXd& near, std::string& reason) const;
 
   /// The axis that is farthest outside of its limits. axis: empty: none is.
   struct Excess {

@@ -19,11 +19,11 @@ using Eigen::VectorXd;
 using pipeline::MotionStep;
 using pipeline::PathKind;
 
-constexpr double point_distance = 0.01;      // largest distance between points of a path [m]
-constexpr double point_turn = 0.035;         // largest rotation between points [rad]
-constexpr double point_change = 0.1;         // largest change of any joint between points [rad]
-constexpr double shortest = 1e-4;            // share of a path that is not divided further
-constexpr double jump = 0.5;                 // change of a joint between such points at which the path is not continuous [rad]
+constexpr double point_distance = 0.01;  // largest distance between points of a path [m]
+constexpr double point_turn = 0.035;     // largest rotation between points [rad]
+constexpr double point_change = 0.1;     // largest change of any joint between points [rad]
+constexpr double shortest = 1e-4;        // share of a path that is not divided further
+constexpr double jump = 0.5;  // change of a joint between such points at which the path is not continuous [rad]
 constexpr std::size_t most_moves = 200'000;  // in one repeat: five hours at ten moves per second
 constexpr int samples = 24;                  // points on a joint move for the tool's speed
 
@@ -58,13 +58,16 @@ class Layout {
     number(motion_.steps, "");
     const std::string slip = beyond_.empty() ? "" : joint_slip(motion_, robot_);
     for (const auto& [axis, fault] : beyond_)
-      problems_.add(fault.where,
-                    fault.targets == 1
-                        ? fault.worst.what
-                        : fmt::format("{}, the farthest of {} targets outside of its limits", fault.worst.what, fault.targets),
-                    (fault.targets == 1 ? fault.worst.remedy
-                                        : "the program may be one of another robot, or a URDF has other zeros than the controller: name the program's robot, or " + fault.worst.remedy) +
-                        (slip.empty() ? "" : "; if " + slip + ", correct that: then all axes keep their limits"));
+      problems_.add(
+          fault.where,
+          fault.targets == 1
+              ? fault.worst.what
+              : fmt::format("{}, the farthest of {} targets outside of its limits", fault.worst.what, fault.targets),
+          (fault.targets == 1
+               ? fault.worst.remedy
+               : "the program may be one of another robot, or a URDF has other zeros than the controller: name the program's robot, or " +
+                     fault.worst.remedy) +
+              (slip.empty() ? "" : "; if " + slip + ", correct that: then all axes keep their limits"));
     throw_if_any();
     int first = 0;
     expand(motion_.steps, first);
@@ -153,22 +156,21 @@ class Layout {
   Tooling tooling(const MotionStep& step) {
     Tooling made;
     const auto frame = [](const pipeline::MotionFrame& f) {
-      return Frame{
-          f.position,
-          Quaternion(f.quaternion[0], f.quaternion[1], f.quaternion[2], f.quaternion[3]).normalized()};
+      return Frame{f.position,
+                   Quaternion(f.quaternion[0], f.quaternion[1], f.quaternion[2], f.quaternion[3]).normalized()};
     };
     if (const auto* tool = find(tools_, step.tool, "tool", step)) {
       made.tool = frame(*tool);
       made.stationary = tool->stationary;
     }
-    if (const auto* object = find(objects_, step.work_object, "work_object", step))
-      made.object = frame(*object);
+    if (const auto* object = find(objects_, step.work_object, "work_object", step)) made.object = frame(*object);
     return made;
   }
 
   /// of: the axis outside of its limits, or a text that targets with one cause share; targets with the same one are reported
   /// together, by the target with the largest excess [rad]. Empty: the reason.
-  bool refuse(const MotionStep& step, int line, const std::string& reason, const std::string& of = "", double excess = 0) {
+  bool refuse(const MotionStep& step, int line, const std::string& reason, const std::string& of = "",
+              double excess = 0) {
     const bool lacks = step.external_axes.size() > axes_.size() - robot_.axes();
     const std::string remedy =
         lacks
@@ -203,13 +205,12 @@ class Layout {
       for (std::size_t k = 0; k < std::min(most, refused.further.size()); ++k)
         further += fmt::format("{}{}", k == 0 ? "" : ", ", refused.further[k].text());
       if (refused.further.size() > most) further += " ..";
-      problems_.add(
-          refused.where,
-          fmt::format("target of '{}' {}{}", refused.text, refused.reason,
-                      further.empty() ? ""
-                                      : fmt::format(", and {} further target{} ({})", refused.further.size(),
-                                                    refused.further.size() == 1 ? "" : "s", further)),
-          refused.remedy);
+      problems_.add(refused.where,
+                    fmt::format("target of '{}' {}{}", refused.text, refused.reason,
+                                further.empty() ? ""
+                                                : fmt::format(", and {} further target{} ({})", refused.further.size(),
+                                                              refused.further.size() == 1 ? "" : "s", further)),
+                    refused.remedy);
     }
     refused_.clear();
     problems_.throw_if_any();
@@ -232,10 +233,9 @@ class Layout {
       const double unit = axis.turns ? degree : millimetre;
       if (i < static_cast<long>(step.external_axes.size())) values[i] = unit * step.external_axes[i];
       if (values[i] < axis.lower - limit_rounding || values[i] > axis.upper + limit_rounding)
-        refuse(
-            step, line,
-            fmt::format("moves {} to {:.6g} {} (must be within {:.6g} .. {:.6g})", axis.name,
-                        values[i] / unit, axis.turns ? "deg" : "mm", axis.lower / unit, axis.upper / unit));
+        refuse(step, line,
+               fmt::format("moves {} to {:.6g} {} (must be within {:.6g} .. {:.6g})", axis.name, values[i] / unit,
+                           axis.turns ? "deg" : "mm", axis.lower / unit, axis.upper / unit));
     }
     return values;
   }
@@ -255,8 +255,7 @@ class Layout {
     const Tooling tooling = move.tooling = this->tooling(step);
     const VectorXd external = externals(step, line);
     if (!step.joints.empty()) {
-      move.to = joined(Eigen::Map<const VectorXd>(step.joints.data(), static_cast<long>(step.joints.size())),
-                       external);
+      move.to = joined(Eigen::Map<const VectorXd>(step.joints.data(), static_cast<long>(step.joints.size())), external);
       if (leads_tool(step.path) && place_.size() > 0) {
         move.path = ToolPath(tooling, tooling.pose(arm_.flange(place_)), tooling.pose(arm_.flange(move.to)));
         bend(step, line, move);
@@ -282,18 +281,20 @@ class Layout {
   void bend(const MotionStep& step, int line, Move& move) {
     const auto& via = step.via_position;
     if (via.empty() || move.path->bend({via[0], via[1], via[2]})) return;
-    problems_.add(step.where,
-                  fmt::format("'{}' has no circle: its start, the point on the way and its end lie on a line, or two of "
-                              "them are one",
-                              made_.texts[line]),
-                  "correct the point on the way or the end, or write a straight move");
+    problems_.add(
+        step.where,
+        fmt::format("'{}' has no circle: its start, the point on the way and its end lie on a line, or two of "
+                    "them are one",
+                    made_.texts[line]),
+        "correct the point on the way or the end, or write a straight move");
   }
 
   /// Returns the position of the tool at a step's circle_joints, with the external axes of the move's end.
   Vector3 circle_point(const MotionStep& step, const Tooling& tooling, const VectorXd& external) const {
     const auto& angles = step.circle_joints;
     return tooling
-        .pose(arm_.flange(joined(Eigen::Map<const VectorXd>(angles.data(), static_cast<long>(angles.size())), external)))
+        .pose(
+            arm_.flange(joined(Eigen::Map<const VectorXd>(angles.data(), static_cast<long>(angles.size())), external)))
         .position;
   }
 
@@ -306,11 +307,9 @@ class Layout {
     std::string reason;
     const auto configuration = arm_configuration(step.configuration);
     if (!configuration)
-      return refuse(step, line,
-                    fmt::format("has a configuration like none that is read: '{}'", step.configuration));
+      return refuse(step, line, fmt::format("has a configuration like none that is read: '{}'", step.configuration));
     VectorXd near = joined(VectorXd::Zero(static_cast<long>(robot_.axes())), external);
-    if (place_.size() > 0)
-      near.head(place_.size() - external.size()) = place_.head(place_.size() - external.size());
+    if (place_.size() > 0) near.head(place_.size() - external.size()) = place_.head(place_.size() - external.size());
     // On a path the configuration cannot change; the end is found by following the path (lay_path).
     const auto joints =
         arm_.solve(move.tooling.flange(target), path ? ArmConfiguration{} : *configuration, near, reason);
@@ -321,10 +320,9 @@ class Layout {
     bend(step, line, move);
     follow(move);
     if (arm_.unsupported().empty() && !arm_.may_end(move.to, *configuration))
-      return refuse(
-          step, line,
-          fmt::format("is reached along its path in configuration {}, not in {}",
-                      in_words(arm_.configuration(move.to, configuration->kind)), in_words(*configuration)));
+      return refuse(step, line,
+                    fmt::format("is reached along its path in configuration {}, not in {}",
+                                in_words(arm_.configuration(move.to, configuration->kind)), in_words(*configuration)));
     return true;
   }
 
@@ -342,11 +340,10 @@ class Layout {
   }
 
   /// Returns the next point of a path behind u, near enough for a straight leg; absent: no arm continues the path.
-  std::optional<std::pair<double, VectorXd>> advance(const Move& move, double u, double end,
-                                                     const VectorXd& joints) {
+  std::optional<std::pair<double, VectorXd>> advance(const Move& move, double u, double end, const VectorXd& joints) {
     const ToolPath& path = *move.path;
-    double step = std::min(end - u, 1 / std::max({1.0, std::ceil(path.length() / point_distance),
-                                                  std::ceil(path.turn() / point_turn)}));
+    double step = std::min(
+        end - u, 1 / std::max({1.0, std::ceil(path.length() / point_distance), std::ceil(path.turn() / point_turn)}));
     while (true) {
       std::string reason;
       const auto next = arm_.follow(path.flange(u + step), at_share(move, u + step, joints), reason);
@@ -380,8 +377,8 @@ class Layout {
   }
 
   bool stops(std::size_t k) const {
-    return k + 1 >= moves_.size() || moves_[k].dwell > 0 || moves_[k + 1].dwell > 0 ||
-           zone_is_stop(*moves_[k].step) || std::find(stops_.begin(), stops_.end(), k) != stops_.end();
+    return k + 1 >= moves_.size() || moves_[k].dwell > 0 || moves_[k + 1].dwell > 0 || zone_is_stop(*moves_[k].step) ||
+           std::find(stops_.begin(), stops_.end(), k) != stops_.end();
   }
 
   /// Returns the tool's zone at the end of move k [m].
@@ -393,16 +390,15 @@ class Layout {
     const Move& move = moves_[k];
     const double way = tool_way(move);
     const double brake = axis_limit(move.to - move.from, accelerations_) * way;
-    const double speed =
-        overridden() * std::min(step.tool_speed.value_or(INFINITY), axis_limit(move.to - move.from, speeds(step)) * way);
+    const double speed = overridden() * std::min(step.tool_speed.value_or(INFINITY),
+                                                 axis_limit(move.to - move.from, speeds(step)) * way);
     return *step.stop_zone / 100 * speed * speed / (2 * brake);
   }
 
   double tool_way(const Move& move) const {
     if (move.is_path()) return std::max(move.path->length(), 1e-6);
     const Tooling& t = move.tooling;
-    return std::max((t.pose(arm_.flange(move.to)).position - t.pose(arm_.flange(move.from)).position).norm(),
-                    1e-6);
+    return std::max((t.pose(arm_.flange(move.to)).position - t.pose(arm_.flange(move.from)).position).norm(), 1e-6);
   }
 
   /// Returns the largest rate of a share of `way` at which no axis exceeds its limit.
@@ -420,8 +416,7 @@ class Layout {
     VectorXd limits(static_cast<long>(axes_.size()));
     for (long i = 0; i < limits.size(); ++i) limits[i] = axes_[i].speed;
     if (step.speed) return limits;
-    if (step.tool_speed || step.turn_speed || step.duration)
-      return limits * step.speed_percent.value_or(100) / 100;
+    if (step.tool_speed || step.turn_speed || step.duration) return limits * step.speed_percent.value_or(100) / 100;
     return limits * step.speed_percent.value_or(motion_.speed_percent) / 100;
   }
 
@@ -443,9 +438,7 @@ class Layout {
     const MotionStep& step = *move.step;
     const bool angle = !move.is_path() && !next.is_path() && !step.tool_zone && !step.stop_zone;
     const double zone = angle ? step.zone.value_or(motion_.zone) : tool_zone(k);
-    const auto way = [&](const Move& m) {
-      return angle ? (m.to - m.from).lpNorm<Eigen::Infinity>() : tool_way(m);
-    };
+    const auto way = [&](const Move& m) { return angle ? (m.to - m.from).lpNorm<Eigen::Infinity>() : tool_way(m); };
     move.cut_behind = std::min(0.5, zone / way(move));
     next.cut_before = std::min(0.5, zone / way(next));
   }
@@ -473,8 +466,8 @@ class Layout {
     leg.zone = leg.zone_behind = INFINITY;
     leg.path = chain_;
     leg.cruise = axis_limit(leg.direction, speeds(step));
-    leg.acceleration = axis_limit(leg.direction, accelerations_) *
-                       std::min(1.0, step.acceleration_percent.value_or(100) / 100);
+    leg.acceleration =
+        axis_limit(leg.direction, accelerations_) * std::min(1.0, step.acceleration_percent.value_or(100) / 100);
     leg.jerk = step.jerk_percent.value_or(100) / 100;
     if (distance > 0) leg.tool_share = distance / length;
     if (chain_ == 0 && motion_.jerk) {
@@ -488,8 +481,7 @@ class Layout {
     if (step.tool_acceleration && distance > 0)
       leg.acceleration = std::min(leg.acceleration, length * *step.tool_acceleration / distance);
     if (step.speed) leg.cruise = std::min(leg.cruise, *step.speed);
-    if (step.tool_speed && distance > 0)
-      leg.cruise = std::min(leg.cruise, length * *step.tool_speed / distance);
+    if (step.tool_speed && distance > 0) leg.cruise = std::min(leg.cruise, length * *step.tool_speed / distance);
     if (step.turn_speed && turn > 0) leg.cruise = std::min(leg.cruise, length * *step.turn_speed / turn);
     leg.cruise *= overridden();
     if (duration > 0) leg.cruise = std::min(leg.cruise, length / duration);
@@ -530,8 +522,8 @@ class Layout {
       const auto next = advance(move, u, end, last_);
       if (!next) return;
       const double share = next->first - u;
-      add_leg(last_, next->second, share * move.path->length(), share * move.path->turn(),
-              {move.step, move.line}, duration * share / span);
+      add_leg(last_, next->second, share * move.path->length(), share * move.path->turn(), {move.step, move.line},
+              duration * share / span);
       u = next->first;
       last_ = next->second;
     }
@@ -549,8 +541,7 @@ class Layout {
       for (int i = 1; i <= samples; ++i) {
         const Frame now = t.pose(arm_.flange(begin + (end - begin) * (double(i) / samples)));
         distance = std::max(distance, (now.position - before.position).norm() * samples);
-        turn = std::max(turn,
-                        rotation_vector(before.orientation.conjugate() * now.orientation).norm() * samples);
+        turn = std::max(turn, rotation_vector(before.orientation.conjugate() * now.orientation).norm() * samples);
         before = now;
       }
     }
@@ -621,8 +612,8 @@ class Layout {
       VectorXd target = (1 - u) * (1 - u) * begin + 2 * u * (1 - u) * corner + u * u * end;
       if (straight && i < points) {
         std::string reason;
-        const Frame pose = bezier(move.path->pose(1 - move.cut_behind), next.path->pose(0),
-                                  next.path->pose(next.cut_before), u);
+        const Frame pose =
+            bezier(move.path->pose(1 - move.cut_behind), next.path->pose(0), next.path->pose(next.cut_before), u);
         VectorXd near = joints;  // external axes follow the same curve
         const long external = near.size() - static_cast<long>(robot_.axes());
         near.tail(external) = target.tail(external);
@@ -634,8 +625,7 @@ class Layout {
       const Frame now = tooling.pose(arm_.flange(target));
       const Move& driven = u <= 0.5 ? move : next;
       add_leg(joints, target, (now.position - seen.position).norm(),
-              rotation_vector(seen.orientation.conjugate() * now.orientation).norm(),
-              {driven.step, driven.line}, 0);
+              rotation_vector(seen.orientation.conjugate() * now.orientation).norm(), {driven.step, driven.line}, 0);
       joints = target;
       seen = now;
     }

@@ -76,7 +76,6 @@ struct Legs {
 /// Makes the legs of a motion. accelerations: A_i of (M2) [rad/s2]. Errors: InputError at the lines of the program, all together:
 /// no move at the beginning, a target outside the limits, out of reach, not reachable in its configuration or
 /// along its path.
-Legs legs_of(const pipeline::Motion& motion, const pipeline::Robot& robot,
-             const Eigen::VectorXd& accelerations);
+Legs legs_of(const pipeline::Motion& motion, const pipeline::Robot& robot, const Eigen::VectorXd& accelerations);
 
 }  // namespace dresslife::sim

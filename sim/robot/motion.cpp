@@ -141,13 +141,11 @@ class CornerSpeeds {
     // At least a thousandth slower, so that the sweeps terminate.
     if (exit.in > entry.out) {
       corners_[k] = slowed(k, 0.999 * exit.limit, [&](const Corner& c) {
-        return fits(k, c) &&
-               (c.in <= entry.out || long_enough(k, entry.out, entry.after(), c.in, c.before()));
+        return fits(k, c) && (c.in <= entry.out || long_enough(k, entry.out, entry.after(), c.in, c.before()));
       });
     } else {
       corners_[k - 1] = slowed(k - 1, 0.999 * entry.limit, [&](const Corner& c) {
-        return fits(k - 1, c) &&
-               (c.out <= exit.in || long_enough(k, c.out, c.after(), exit.in, exit.before()));
+        return fits(k - 1, c) && (c.out <= exit.in || long_enough(k, c.out, c.after(), exit.in, exit.before()));
       });
     }
     return true;
@@ -183,8 +181,8 @@ class Pieces {
   void add_leg(const Leg& leg, const Corner& entry, const Corner& exit) {
     const double v0 = entry.out, v1 = exit.in, twice = 2 * leg.acceleration;
     const double length = leg.length - entry.after() - exit.before();
-    const double reached = leg.jerk_limit > 0 ? reached_speed(leg, length, v0, v1)
-                                              : std::sqrt((twice * length + v0 * v0 + v1 * v1) / 2);
+    const double reached =
+        leg.jerk_limit > 0 ? reached_speed(leg, length, v0, v1) : std::sqrt((twice * length + v0 * v0 + v1 * v1) / 2);
     const double top = std::max({std::min(leg.cruise, reached), v0, v1});
     const SpeedChange rise = change_on(leg, top - v0), fall = change_on(leg, top - v1);
     const auto way = [&](double v, const SpeedChange& change) {
@@ -230,14 +228,16 @@ std::vector<MotionPiece> spline_pieces(const pipeline::Motion& motion, const std
   for (std::size_t k = 1; k < motion.steps.size(); ++k) {
     const pipeline::MotionStep& step = motion.steps[k];
     if (!step.duration || step.path != pipeline::PathKind::joint || step.dwell > 0)
-      throw pipeline::InputError(step.where, "is no joint move with a duration (motion.rows: spline needs all moves to be)",
+      throw pipeline::InputError(step.where,
+                                 "is no joint move with a duration (motion.rows: spline needs all moves to be)",
                                  "give joint angles with times, or leave out motion.rows");
     times.push_back(times.back() + *step.duration * 100 / motion.override_percent);
   }
   std::vector<MotionPiece> pieces;
   const auto add = [&](std::size_t row, const VectorXd& velocity, const VectorXd& acceleration, const VectorXd& jerk) {
     const int step = static_cast<int>(row) + 1;
-    pieces.push_back({times[row], times[row + 1] - times[row], rows[row], velocity, VectorXd(), step, step, 0.25, acceleration, jerk});
+    pieces.push_back({times[row], times[row + 1] - times[row], rows[row], velocity, VectorXd(), step, step, 0.25,
+                      acceleration, jerk});
   };
   const VectorXd none = VectorXd::Zero(rows.front().size());
   for (std::size_t begin = 0, end; begin + 1 < rows.size(); begin = end) {
@@ -291,8 +291,7 @@ JointMotion::JointMotion(const pipeline::Motion& motion, const pipeline::Robot& 
   Pieces pieces;
   if (motion.rows == pipeline::RecordedRows::spline) pieces.append(spline_pieces(motion, program.targets));
   for (auto begin = program.legs.begin(); begin != program.legs.end();) {
-    const auto end =
-        std::find_if(begin, program.legs.end(), [&](const Leg& leg) { return leg.path != begin->path; });
+    const auto end = std::find_if(begin, program.legs.end(), [&](const Leg& leg) { return leg.path != begin->path; });
     const std::vector<Leg> legs(begin, end);
     if (begin->path == 0)
       add_legs(legs, motion.jerk ? full : accelerations, jerks, pieces);
@@ -311,9 +310,8 @@ JointMotion::JointMotion(const pipeline::Motion& motion, const pipeline::Robot& 
 
 void JointMotion::hold(std::size_t axis) {
   const auto of = static_cast<Eigen::Index>(axis);
-  const auto [low, high] = std::minmax_element(pieces_.begin(), pieces_.end(), [&](const auto& a, const auto& b) {
-    return a.position[of] < b.position[of];
-  });
+  const auto [low, high] = std::minmax_element(
+      pieces_.begin(), pieces_.end(), [&](const auto& a, const auto& b) { return a.position[of] < b.position[of]; });
   const double middle = (low->position[of] + high->position[of]) / 2;
   for (MotionPiece& piece : pieces_) {
     piece.position[of] = middle;

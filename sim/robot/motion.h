@@ -41,15 +41,16 @@ namespace dresslife::sim {
 
 /// One change of velocity (M1), or (with a jerk) a cubic in time.
 struct MotionPiece {
-  double start = 0;                        ///< t0 [s]
-  double duration = 0;                     ///< tau [s]
-  Eigen::VectorXd position;                ///< q0 (joint) [rad]
-  Eigen::VectorXd velocity_before;         ///< V0 (joint) [rad/s]
-  Eigen::VectorXd velocity_change;         ///< V1 - V0 (joint) [rad/s]
-  int step = 0;                            ///< program line
-  int step_after = 0;                      ///< program line of the second half: a blend belongs to two moves
-  double ramp = 0.25;                      ///< r
-  Eigen::VectorXd acceleration{}, jerk{};  ///< of a cubic: acceleration at its begin, constant jerk (joint) [rad/s2, rad/s3]
+  double start = 0;                 ///< t0 [s]
+  double duration = 0;              ///< tau [s]
+  Eigen::VectorXd position;         ///< q0 (joint) [rad]
+  Eigen::VectorXd velocity_before;  ///< V0 (joint) [rad/s]
+  Eigen::VectorXd velocity_change;  ///< V1 - V0 (joint) [rad/s]
+  int step = 0;                     ///< program line
+  int step_after = 0;               ///< program line of the second half: a blend belongs to two moves
+  double ramp = 0.25;               ///< r
+  Eigen::VectorXd acceleration{},
+      jerk{};  ///< of a cubic: acceleration at its begin, constant jerk (joint) [rad/s2, rad/s3]
 };
 
 /// A program as a function of time. Before 0 and after duration() the robot stands still.

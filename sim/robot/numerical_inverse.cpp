@@ -10,10 +10,10 @@ namespace dresslife::sim {
 namespace {
 
 constexpr int steps = 60;  // of one iteration: convergence is quadratic near a solution and slow only at a singular arm
-constexpr int starts = 240;         // at most
+constexpr int starts = 240;  // at most
 // without a new arm: one that is reached from 5 % of the box is missed with the probability 0.95^60 = 5 %
 constexpr int starts_in_vain = 60;
-constexpr double same_arm = 1e-6;   // [rad]
+constexpr double same_arm = 1e-6;  // [rad]
 
 /// Returns the difference (position [m], rotation [rad]) from one pose to the other.
 NumericalInverse::Angles apart(const Frame& from, const Frame& to) {
@@ -57,8 +57,7 @@ Frame NumericalInverse::place(const Angles& joints, Jacobian* jacobian) const {
 
 Frame NumericalInverse::flange(const Angles& joints) const { return place(joints, nullptr); }
 
-std::optional<NumericalInverse::Angles> NumericalInverse::solve(const Frame& flange,
-                                                                const Angles& start) const {
+std::optional<NumericalInverse::Angles> NumericalInverse::solve(const Frame& flange, const Angles& start) const {
   Angles joints = start;
   Jacobian j;
   Angles error = apart(place(joints, &j), flange);

@@ -38,8 +38,8 @@ class NumericalInverse {
   static constexpr double rounding = 1e-11;
 
   /// points, axes (unit), flange: at zero angles. lower, upper: box of the starts [rad].
-  NumericalInverse(const std::array<Vector3, 6>& points, const std::array<Vector3, 6>& axes,
-                   const Frame& flange, const Angles& lower, const Angles& upper);
+  NumericalInverse(const std::array<Vector3, 6>& points, const std::array<Vector3, 6>& axes, const Frame& flange,
+                   const Angles& lower, const Angles& upper);
 
   Frame flange(const Angles& joints) const;  ///< (K4)
 

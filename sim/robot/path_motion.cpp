@@ -14,7 +14,7 @@ constexpr int rounds = 30;                // of reducing the speed where a limit
 constexpr double least_lowering = 0.995;  // of a squared speed, so that the rounds make progress
 // ratio of squared speeds: smaller differences belong to legs of one line, not to two programmed speeds
 constexpr double alike = 1.05;
-constexpr double slowest = 1e-9;          // speed at a leg's end inside a path [rad/s]: the robot never stands still there
+constexpr double slowest = 1e-9;  // speed at a leg's end inside a path [rad/s]: the robot never stands still there
 
 double quotient(const VectorXd& numerator, const VectorXd& denominator) {
   return numerator.cwiseAbs().cwiseQuotient(denominator).maxCoeff();
@@ -29,10 +29,9 @@ class Profile {
     place_.push_back(legs.back().from + legs.back().length * legs.back().direction);
     for (std::size_t k = 0; k <= legs.size(); ++k) {
       slope_.push_back(slope(k));
-      bend_.push_back(k == 0 || k == legs.size()
-                          ? VectorXd::Zero(planned.size())
-                          : VectorXd((legs[k].direction - legs[k - 1].direction).cwiseAbs() /
-                                     ((legs[k].length + legs[k - 1].length) / 2)));
+      bend_.push_back(k == 0 || k == legs.size() ? VectorXd::Zero(planned.size())
+                                                 : VectorXd((legs[k].direction - legs[k - 1].direction).cwiseAbs() /
+                                                            ((legs[k].length + legs[k - 1].length) / 2)));
     }
   }
 
@@ -47,8 +46,7 @@ class Profile {
       const double bent = quotient(bend_[k], curvature_share * planned_);
       squared_[k] = std::max(bent > 0 ? std::min(cruise, 1 / bent) : cruise, slowest * slowest);
     }
-    for (std::size_t k = 0; k < n; ++k)
-      squared_[k + 1] = std::min(squared_[k + 1], reachable(k, squared_[k]));
+    for (std::size_t k = 0; k < n; ++k) squared_[k + 1] = std::min(squared_[k + 1], reachable(k, squared_[k]));
     for (std::size_t k = n; k-- > 0;) squared_[k] = std::min(squared_[k], reachable(k, squared_[k + 1]));
     times_.assign(1, 0);
     for (std::size_t k = 0; k < n; ++k) times_.push_back(times_.back() + time_on(k));
@@ -71,8 +69,7 @@ class Profile {
 
   /// Reduces the squared speed on the legs that are passed between two times to this share of its present value.
   void lower(double from, double to, double share) {
-    for (std::size_t k = leg_at(from); k <= leg_at(to); ++k)
-      lowered_[k] = std::min(lowered_[k], share * now(k));
+    for (std::size_t k = leg_at(from); k <= leg_at(to); ++k) lowered_[k] = std::min(lowered_[k], share * now(k));
   }
 
  private:
@@ -103,9 +100,7 @@ class Profile {
     return least;
   }
   /// Returns the squared speed that can be reached at the other end of leg k, from this squared speed at one end.
-  double reachable(std::size_t k, double from) const {
-    return from + 2 * acceleration(k, from) * legs_[k].length;
-  }
+  double reachable(std::size_t k, double from) const { return from + 2 * acceleration(k, from) * legs_[k].length; }
 
   /// Motion on leg k: acceleration to the top speed, constant speed, deceleration. Only a whole joint move has a separate top
   /// speed.
@@ -179,16 +174,15 @@ double excess(const Controls& c, std::size_t j, const AxisLimits& limits) {
   const double speed = quotient(c.points[j + 1] - c.points[j], limits.speed) / c.step;
   double worst = speed * speed;
   if (j > 0)
-    worst =
-        std::max(worst, quotient(c.points[j + 1] - 2 * c.points[j] + c.points[j - 1], limits.acceleration) /
-                            (c.step * c.step));
+    worst = std::max(
+        worst, quotient(c.points[j + 1] - 2 * c.points[j] + c.points[j - 1], limits.acceleration) / (c.step * c.step));
   return worst;
 }
 
 }  // namespace
 
-std::vector<MotionPiece> path_pieces(std::span<const Leg> legs, const VectorXd& planned,
-                                     const AxisLimits& limits, double smoothing, double start) {
+std::vector<MotionPiece> path_pieces(std::span<const Leg> legs, const VectorXd& planned, const AxisLimits& limits,
+                                     double smoothing, double start) {
   assert(!legs.empty());
   const double least_jerk = std::ranges::min_element(legs, {}, &Leg::jerk)->jerk;
   const double step = smoothing / least_jerk;

@@ -9,7 +9,6 @@ namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
 
-
 }  // namespace
 
 Quaternion from_roll_pitch_yaw(const Vector3& angles) {
@@ -22,8 +21,8 @@ std::vector<Axis> axes_of(const pipeline::Robot& robot) {
     if (joint.follows.empty())
       axes.push_back({joint.name, true, joint.lower, joint.upper, joint.speed, joint.acceleration});
   for (const pipeline::ExternalAxis& axis : robot.external_axes)
-    axes.push_back({axis.name, axis.kind == pipeline::ExternalAxis::Kind::rotary, axis.lower, axis.upper,
-                    axis.speed, axis.acceleration});
+    axes.push_back({axis.name, axis.kind == pipeline::ExternalAxis::Kind::rotary, axis.lower, axis.upper, axis.speed,
+                    axis.acceleration});
   return axes;
 }
 
@@ -76,7 +75,8 @@ std::optional<LimitFault> limit_fault(const pipeline::Robot& robot, std::span<co
   return faults.empty() ? std::nullopt : std::optional(faults.front());
 }
 
-std::vector<LimitFault> limit_faults(const pipeline::Robot& robot, std::span<const double> joints, const std::string& what) {
+std::vector<LimitFault> limit_faults(const pipeline::Robot& robot, std::span<const double> joints,
+                                     const std::string& what) {
   const std::vector<Axis> axes = axes_of(robot);
   if (joints.size() != robot.axes())
     return {{fmt::format("{} has {} joint angles", what, joints.size()),
@@ -89,8 +89,8 @@ std::vector<LimitFault> limit_faults(const pipeline::Robot& robot, std::span<con
     const double excess = above ? joints[k] - axis.upper : axis.lower - joints[k];
     faults.push_back({fmt::format("{} turns {} to {:.6g} deg (must be within {:.6g} .. {:.6g} deg)", what, axis.name,
                                   joints[k] * degrees, axis.lower * degrees, axis.upper * degrees),
-                      fmt::format("turn it {:.4g} deg {}, inside the limits of {}", degrees * excess, above ? "less" : "more",
-                                  robot.name),
+                      fmt::format("turn it {:.4g} deg {}, inside the limits of {}", degrees * excess,
+                                  above ? "less" : "more", robot.name),
                       static_cast<int>(k), excess});
   }
   return faults;

@@ -73,7 +73,8 @@ constexpr double limit_rounding = 1e-9;
 std::optional<LimitFault> limit_fault(const pipeline::Robot& robot, std::span<const double> joints,
                                       const std::string& what);
 /// Returns such a fault for each axis outside of its limits.
-std::vector<LimitFault> limit_faults(const pipeline::Robot& robot, std::span<const double> joints, const std::string& what);
+std::vector<LimitFault> limit_faults(const pipeline::Robot& robot, std::span<const double> joints,
+                                     const std::string& what);
 
 /// Throws the fault of limit_fault() as InputError at `where`.
 void check_joint_limits(const pipeline::Robot& robot, std::span<const double> joints, const std::string& what,

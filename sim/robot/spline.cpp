@@ -70,15 +70,14 @@ void CubicSpline::find_second_derivatives() {
     second_.col(k) -= below / diagonal[k - 1] * second_.col(k - 1);
   }
   second_.col(last - 1) /= diagonal[last - 1];
-  for (long k = last - 2; k >= 1; --k)
-    second_.col(k) = (second_.col(k) - above[k] * second_.col(k + 1)) / diagonal[k];
+  for (long k = last - 2; k >= 1; --k) second_.col(k) = (second_.col(k) - above[k] * second_.col(k + 1)) / diagonal[k];
   if (last == 2) {
     second_.col(0) = second_.col(2) = second_.col(1);
     return;
   }
   second_.col(0) = second_.col(1) + step(0) / step(1) * (second_.col(1) - second_.col(2));
-  second_.col(last) = second_.col(last - 1) +
-                      step(last - 1) / step(last - 2) * (second_.col(last - 1) - second_.col(last - 2));
+  second_.col(last) =
+      second_.col(last - 1) + step(last - 1) / step(last - 2) * (second_.col(last - 1) - second_.col(last - 2));
 }
 
 VectorXd CubicSpline::at(double time) const {

@@ -44,8 +44,7 @@ class ToolPath {
   Frame pose(double u) const {
     const Quaternion turned = from_.orientation.slerp(u, to_.orientation);
     if (angle_ == 0) return {from_.position + u * (to_.position - from_.position), turned};
-    return {centre_ + Quaternion(Eigen::AngleAxisd(u * angle_, axis_)) * Vector3(from_.position - centre_),
-            turned};
+    return {centre_ + Quaternion(Eigen::AngleAxisd(u * angle_, axis_)) * Vector3(from_.position - centre_), turned};
   }
   Frame flange(double u) const { return tooling_.flange(pose(u)); }
 
@@ -85,8 +84,7 @@ class ToolPath {
 /// Returns the quadratic Bezier curve (M6) of a, b and c.
 inline Frame bezier(const Frame& a, const Frame& b, const Frame& c, double u) {
   const Vector3 position = (1 - u) * (1 - u) * a.position + 2 * u * (1 - u) * b.position + u * u * c.position;
-  const Quaternion first = a.orientation.slerp(u, b.orientation),
-                   second = b.orientation.slerp(u, c.orientation);
+  const Quaternion first = a.orientation.slerp(u, b.orientation), second = b.orientation.slerp(u, c.orientation);
   return {position, first.slerp(u, second)};
 }
 

@@ -42,11 +42,10 @@ PolymerLoss polymer_loss(double factor) {
 }
 
 // keep_ and gain_ are a and b of (S22).
-Hysteresis::Hysteresis(double bending_stiffness, const std::vector<FrictionElement>& friction,
-                       double loss_factor, double step) {
+Hysteresis::Hysteresis(double bending_stiffness, const std::vector<FrictionElement>& friction, double loss_factor,
+                       double step) {
   assert(friction.size() <= BendMemory::frictions);
-  for (std::size_t i = 0; i < friction.size(); ++i)
-    friction_[i] = friction[i].stiffness, yield_[i] = friction[i].yield;
+  for (std::size_t i = 0; i < friction.size(); ++i) friction_[i] = friction[i].stiffness, yield_[i] = friction[i].yield;
   const PolymerLoss loss = polymer_loss(loss_factor);
   for (int i = 0; i < BendMemory::relaxations; ++i) {
     const double x = 2 * std::numbers::pi * PolymerLoss::corner[i] * step;  // h / tau_i

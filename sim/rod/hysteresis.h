@@ -24,10 +24,9 @@ struct FrictionElement {
 /// Memory of a link: its bend and the stretches of its elements, at the begin of the last step.
 struct BendMemory {
   static constexpr int frictions = 4, relaxations = 3;
-  Eigen::Vector2d bend = Eigen::Vector2d::Zero();  ///< kappa about d1, d2 [1/m]
+  Eigen::Vector2d bend = Eigen::Vector2d::Zero();                                        ///< kappa about d1, d2 [1/m]
   Eigen::Array<double, frictions, 2> held = Eigen::Array<double, frictions, 2>::Zero();  ///< e_i [1/m]
-  Eigen::Array<double, relaxations, 2> relaxing =
-      Eigen::Array<double, relaxations, 2>::Zero();  ///< e_i [1/m]
+  Eigen::Array<double, relaxations, 2> relaxing = Eigen::Array<double, relaxations, 2>::Zero();  ///< e_i [1/m]
 };
 
 /// Elements of (S21) for a loss factor, for a stiffness of 1 at reference_frequency.
@@ -51,16 +50,13 @@ class Hysteresis {
  public:
   Hysteresis() = default;
   /// bending_stiffness: at 1 Hz, without friction [N m2]; friction: up to BendMemory::frictions elements; step [s].
-  Hysteresis(double bending_stiffness, const std::vector<FrictionElement>& friction, double loss_factor,
-             double step);
+  Hysteresis(double bending_stiffness, const std::vector<FrictionElement>& friction, double loss_factor, double step);
 
   /// Moves `memory` to this bend [1/m]. Returns the moment of all elements there [N m].
   Eigen::Vector2d advance(BendMemory& memory, const Eigen::Vector2d& bend) const;
   double energy(const BendMemory& memory) const;  ///< stored in the elements [J/m]
-  double tangent() const {
-    return tangent_;
-  }  ///< change of moment per bend within a step, without sliding [N m2]
-  double dashpot() const { return dashpot_; }  ///< tau of (S19) [s]
+  double tangent() const { return tangent_; }     ///< change of moment per bend within a step, without sliding [N m2]
+  double dashpot() const { return dashpot_; }     ///< tau of (S19) [s]
 
  private:
   using Frictions = Eigen::Array<double, BendMemory::frictions, 1>;

@@ -33,8 +33,8 @@ inline HalfTurn half_turn(const Quaternion& a, const Quaternion& b) {
   // s = asin(y)/y with y^2 = x. Below 0.0225 (theta < 0.3) its series up to x^6 is exact to rounding.
   double s;
   if (x < 0.0225) {
-    s = 1 + x * (1. / 6 + x * (3. / 40 + x * (15. / 336 + x * (105. / 3456 +
-                                                               x * (945. / 42240 + x * (10395. / 599040))))));
+    s = 1 +
+        x * (1. / 6 + x * (3. / 40 + x * (15. / 336 + x * (105. / 3456 + x * (945. / 42240 + x * (10395. / 599040))))));
   } else {
     const double sine = std::sqrt(x);
     s = std::atan2(sine, cosine) / sine;
@@ -86,8 +86,7 @@ inline LinkArms link_arms(const Vector3& half_a, const Vector3& half_b, double h
 /// Returns the change of the gap for small displacements x and rotations w of the two connected bodies.
 inline Vector3 gap_change(const LinkArms& arms, const Vector3& x_a, const Vector3& w_a, const Vector3& x_b,
                           const Vector3& w_b) {
-  return (x_b - w_b.cross(arms.b)) - (x_a + w_a.cross(arms.a)) -
-         arms.normal.dot(w_b - w_a) * arms.lengthening;
+  return (x_b - w_b.cross(arms.b)) - (x_a + w_a.cross(arms.a)) - arms.normal.dot(w_b - w_a) * arms.lengthening;
 }
 
 /// The two bodies of a link: segment or clamp before (a) and after (b).
@@ -97,9 +96,7 @@ struct LinkEnds {
   Vector3 tangent_a, tangent_b;
   double half_a, half_b;  ///< half a segment on this side; 0 at a clamp [m]
 
-  LinkArms arms() const {
-    return link_arms(half_a * tangent_a, half_b * tangent_b, std::max(half_a, half_b));
-  }
+  LinkArms arms() const { return link_arms(half_a * tangent_a, half_b * tangent_b, std::max(half_a, half_b)); }
   /// Returns the gap (S1) for these arms.
   Vector3 gap(const LinkArms& arms) const { return (*position_b - arms.b) - (*position_a + arms.a); }
 };

@@ -70,14 +70,13 @@ Rod::Rod(const RodProperties& properties) { add(properties, true); }
 Rod::Rod(const std::vector<RodProperties>& spans, const std::vector<int>& first_of_dresspack) {
   assert(!spans.empty());
   for (size_t k = 0; k < spans.size(); ++k)
-    add(spans[k], k == 0 || std::find(first_of_dresspack.begin(), first_of_dresspack.end(),
-                                      static_cast<int>(k)) != first_of_dresspack.end());
+    add(spans[k], k == 0 || std::find(first_of_dresspack.begin(), first_of_dresspack.end(), static_cast<int>(k)) !=
+                                first_of_dresspack.end());
 }
 
 void Rod::add(const RodProperties& p, bool new_dresspack) {
   assert(p.segments >= 2 && p.length > 0 && p.mass_per_length > 0 && p.diameter > 0);
-  assert(p.bending_stiffness > 0 && p.torsional_stiffness > 0 && p.axial_stiffness > 0 &&
-         p.damping_time >= 0);
+  assert(p.bending_stiffness > 0 && p.torsional_stiffness > 0 && p.axial_stiffness > 0 && p.damping_time >= 0);
   assert(p.base_end != End::free);
   Span span;
   span.properties = p;
@@ -113,9 +112,9 @@ void Rod::add(const RodProperties& p, bool new_dresspack) {
 }
 
 int Rod::first_span(int dresspack) const {
-  return static_cast<int>(std::partition_point(spans_.begin(), spans_.end(),
-                                               [&](const Span& span) { return span.dresspack < dresspack; }) -
-                          spans_.begin());
+  return static_cast<int>(
+      std::partition_point(spans_.begin(), spans_.end(), [&](const Span& span) { return span.dresspack < dresspack; }) -
+      spans_.begin());
 }
 
 double Rod::link_arc(int link) const {
@@ -199,17 +198,17 @@ Energy Rod::energy(const RodState& state) const {
     const Vector3& w = state.angular_velocity[i];
     const Span& span = span_of(i);
     const double axial = w.dot(tangent(state.orientation[i]));
-    energy.kinetic += 0.5 * (span.segment_mass * state.velocity[i].squaredNorm() +
-                             span.transverse_inertia * (w.squaredNorm() - axial * axial) +
-                             span.axial_inertia * axial * axial);
+    energy.kinetic +=
+        0.5 * (span.segment_mass * state.velocity[i].squaredNorm() +
+               span.transverse_inertia * (w.squaredNorm() - axial * axial) + span.axial_inertia * axial * axial);
     energy.gravitational -= span.segment_mass * span.properties.gravity.dot(state.position[i]);
   }
   for (size_t k = 0; k < spans_.size(); ++k) add_ends(state, static_cast<int>(k), energy);
   for (int j = 0; j < links(); ++j) {
     if (gap_stiffness_[j] == 0) continue;
     const LinkState link = link_state(state, j);
-    energy.elastic += 0.5 * (state.link_force[j].squaredNorm() / gap_stiffness_[j] +
-                             link.moment.dot(link.turn - rest_turn_[j]));
+    energy.elastic +=
+        0.5 * (state.link_force[j].squaredNorm() / gap_stiffness_[j] + link.moment.dot(link.turn - rest_turn_[j]));
   }
   if (!state.memory.empty()) energy.elastic += stored_in_elements(state);
   return energy;
@@ -239,8 +238,7 @@ void Rod::add_ends(const RodState& state, int k, Energy& energy) const {
   if (p.tip_mass > 0) {
     const int last = span.first_segment + span.segments() - 1;
     const Vector3 tip = tip_frame(state, span).position, arm = tip - state.position[last];
-    energy.kinetic +=
-        0.5 * p.tip_mass * (state.velocity[last] + state.angular_velocity[last].cross(arm)).squaredNorm();
+    energy.kinetic += 0.5 * p.tip_mass * (state.velocity[last] + state.angular_velocity[last].cross(arm)).squaredNorm();
     energy.gravitational -= p.tip_mass * p.gravity.dot(tip);
   }
   if (!p.slider) return;
@@ -429,8 +427,8 @@ class Assembly {
     const LinkTurn turn = link_turn(*a.orientation, *b.orientation);
     const LinkArms& arms = system_.arms[j] = link_arms(a.half, b.half, span_.segment_length / 2);
     const Vector3 force = gap_force(j, a, b, arms);
-    const Vector3 moment = turn_moment(j, turn, *b.angular_velocity - *a.angular_velocity) -
-                           force.dot(arms.lengthening) * arms.normal;
+    const Vector3 moment =
+        turn_moment(j, turn, *b.angular_velocity - *a.angular_velocity) - force.dot(arms.lengthening) * arms.normal;
     const double k = rod_.gap_stiffness(j) * gap_beta * h_ * h_;
     const TurnMatrix turning = turn_matrix(j, turn, k, arms);
     const double taut_a = tautness(j, arms.a), taut_b = tautness(j, arms.b);
@@ -454,8 +452,8 @@ class Assembly {
   }
   Side clamp_side(int end) const {
     const Frame& frame = state_.clamps.end(end);
-    return {&frame.position, &state_.clamp_velocity[end], &state_.clamp_angular_velocity[end],
-            &frame.orientation, Vector3::Zero()};
+    return {&frame.position, &state_.clamp_velocity[end], &state_.clamp_angular_velocity[end], &frame.orientation,
+            Vector3::Zero()};
   }
 
   // Returns (S6), the force on the segment before the link.
@@ -469,8 +467,7 @@ class Assembly {
 
   // Returns (S7), with (S19) for hysteretic bending: the moment on the segment before the link.
   Vector3 turn_moment(int j, const LinkTurn& turn, const Vector3& rate) const {
-    const Vector3 strain =
-        turn.phi - rod_.rest_turn(j) + damping_.cwiseProduct(turn.map.transpose() * rate);
+    const Vector3 strain = turn.phi - rod_.rest_turn(j) + damping_.cwiseProduct(turn.map.transpose() * rate);
     Vector3 moment = rod_.turn_stiffness(j).cwiseProduct(strain);
     if (is_hysteretic(j)) moment.head<2>() += element_moment(j, turn);
     return turn.map * moment;
@@ -508,8 +505,8 @@ class Assembly {
     TurnMatrix m;
     for (int r = 0; r < 3; ++r)
       for (int c = 0; c < 3; ++c)
-        m.value[3 * r + c] = axis * turn.axis[r] * turn.axis[c] + third * g3[r] * g3[c] +
-                             lengthening * n[r] * n[c] + (r == c ? sphere : 0);
+        m.value[3 * r + c] = axis * turn.axis[r] * turn.axis[c] + third * g3[r] * g3[c] + lengthening * n[r] * n[c] +
+                             (r == c ? sphere : 0);
     const Vector3 e = k * arms.lengthening;
     for (int r = 0; r < 3; ++r)
       for (int c = 0; c < 3; ++c) m.along[3 * r + c] = e[r] * n[c];
@@ -526,8 +523,8 @@ class Assembly {
   // Adds a link's contribution to the block of its segment. side +1: the link follows the segment, -1: precedes it. The end
   // moves with v + side w x arm, hence rows (k 1, -side k S), (.., -k S S) with S = skew(arm); and with the
   // lengthening e n.w: -k e n^T.
-  void add_own(int i, double k, const LinkArms& arms, double side, const Vector3& force,
-               const Vector3& moment, const TurnMatrix& turning, double taut) {
+  void add_own(int i, double k, const LinkArms& arms, double side, const Vector3& force, const Vector3& moment,
+               const TurnMatrix& turning, double taut) {
     const Vector3& arm = side > 0 ? arms.a : arms.b;
     TridiagonalBlock& b = system_.block[i];
     const double a2 = arm.squaredNorm();
@@ -592,8 +589,8 @@ class Assembly {
     const double along = d.dot(system_.velocity[first_end_] - state_.clamp_velocity[first_end_]);
     s.coupling = k;
     s.pivot = slider.mass + k + turn_beta * h_ * h_ * slider.spring + turn_theta * h_ * slider.damping;
-    s.right = h_ * (d.dot(pull) - slider.force - slider.spring * s.travel.way -
-                    slider.damping * s.travel.speed + slider.mass * d.dot(p_.gravity)) -
+    s.right = h_ * (d.dot(pull) - slider.force - slider.spring * s.travel.way - slider.damping * s.travel.speed +
+                    slider.mass * d.dot(p_.gravity)) -
               (slider.mass + k) * along;
     TridiagonalBlock& b = system_.block[segment];
     if (s.slides()) {
@@ -667,15 +664,13 @@ bool RodSolver::solve(const RodState& state, const ClampFrames& end, double h, s
     Frame& after = s.end.end(e);
     if (e % 2 == 1 && p.tool_end == End::free) after = before;
     if (e % 2 == 0 && p.slider)
-      after.position +=
-          (state.travel[e / 2].way + h * state.travel[e / 2].speed) * tangent(after.orientation);
+      after.position += (state.travel[e / 2].way + h * state.travel[e / 2].speed) * tangent(after.orientation);
     s.velocity[e] = (after.position - before.position) / h;
     s.angular_velocity[e] = rotation_vector(after.orientation * before.orientation.conjugate()) / h;
   }
   int not_positive = 0;
   for (int k = 0; k < spans; ++k)
-    not_positive +=
-        rod_.spans()[k].properties.slider ? solve_sliding(state, k, loads) : solve_span(state, k, loads);
+    not_positive += rod_.spans()[k].properties.slider ? solve_sliding(state, k, loads) : solve_span(state, k, loads);
   return not_positive == 0;
 }
 
@@ -808,12 +803,11 @@ void RodSolver::finish(RodState& state) {
       const LinkArms& arms = s.arms[link];
       const Vector3 clamp = s.velocity[2 * k + (j > 0)] - state.clamp_velocity[2 * k + (j > 0)];
       const Vector3 none = Vector3::Zero();  // a clamp has no arm, so its rotation does not count
-      const Vector3 change =
-          j == 0 ? gap_change(arms, clamp, none, s.change[i].linear(), s.change[i].angular())
-          : j == span.segments()
-              ? gap_change(arms, s.change[i - 1].linear(), s.change[i - 1].angular(), clamp, none)
-              : gap_change(arms, s.change[i - 1].linear(), s.change[i - 1].angular(), s.change[i].linear(),
-                           s.change[i].angular());
+      const Vector3 change = j == 0 ? gap_change(arms, clamp, none, s.change[i].linear(), s.change[i].angular())
+                             : j == span.segments()
+                                 ? gap_change(arms, s.change[i - 1].linear(), s.change[i - 1].angular(), clamp, none)
+                                 : gap_change(arms, s.change[i - 1].linear(), s.change[i - 1].angular(),
+                                              s.change[i].linear(), s.change[i].angular());
       state.link_force[link] = s.force[link] + (rod_.gap_stiffness(link) * gap_beta * s.step) * change;
     }
   }

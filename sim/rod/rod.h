@@ -48,22 +48,21 @@ struct StiffEnd {
 };
 
 struct RodProperties {
-  int segments = 50;               ///< n >= 2
-  double length = 0;               ///< unstretched, clamp to clamp [m]
-  double mass_per_length = 0;      ///< [kg/m]
-  double diameter = 0;             ///< outer [m]
-  double bending_stiffness = 0;    ///< EI, without friction; with a loss factor: at 1 Hz [N m2]
-  double torsional_stiffness = 0;  ///< GJ [N m2]
-  double axial_stiffness = 0;      ///< EA [N]
-  double damping_time = 0;         ///< Kelvin-Voigt tau of twist, and of bending without a loss factor [s]
-  std::vector<FrictionElement> friction{};  ///< of bending, in addition to EI; at most BendMemory::frictions (S20)
-  double loss_factor = 0;                   ///< of EI, at most most_loss_factor (S21)
-  Vector3 gravity{0, 0, -9.81};    ///< [m/s2]
-  Vector3 rest_curvature =
-      Vector3::Zero();  ///< unloaded kappa1, kappa2, twist in the segment's frame [rad/m]
+  int segments = 50;                         ///< n >= 2
+  double length = 0;                         ///< unstretched, clamp to clamp [m]
+  double mass_per_length = 0;                ///< [kg/m]
+  double diameter = 0;                       ///< outer [m]
+  double bending_stiffness = 0;              ///< EI, without friction; with a loss factor: at 1 Hz [N m2]
+  double torsional_stiffness = 0;            ///< GJ [N m2]
+  double axial_stiffness = 0;                ///< EA [N]
+  double damping_time = 0;                   ///< Kelvin-Voigt tau of twist, and of bending without a loss factor [s]
+  std::vector<FrictionElement> friction{};   ///< of bending, in addition to EI; at most BendMemory::frictions (S20)
+  double loss_factor = 0;                    ///< of EI, at most most_loss_factor (S21)
+  Vector3 gravity{0, 0, -9.81};              ///< [m/s2]
+  Vector3 rest_curvature = Vector3::Zero();  ///< unloaded kappa1, kappa2, twist in the segment's frame [rad/m]
   End base_end = End::clamped;
   End tool_end = End::clamped;
-  double tip_mass = 0;             ///< point mass at the tip of a free tool end [kg]
+  double tip_mass = 0;                   ///< point mass at the tip of a free tool end [kg]
   std::optional<SlidingClamp> slider{};  ///< of the base end
   std::array<StiffEnd, 2> stiff_ends{};  ///< at the base and at the tool end
 
@@ -114,12 +113,12 @@ struct Travel {
 
 /// The state of the chain. Velocities belong to half a step before the time of the positions (leapfrog).
 struct RodState {
-  std::vector<Vector3> position;          ///< (segment) centres [m]
-  std::vector<Quaternion> orientation;    ///< (segment)
-  std::vector<Vector3> velocity;          ///< (segment) [m/s]
-  std::vector<Vector3> angular_velocity;  ///< (segment) world axes [rad/s]
-  ClampFrames clamps;                     ///< at the time of the positions
-  std::vector<Vector3> clamp_velocity = std::vector<Vector3>(2, Vector3::Zero());          ///< (end) [m/s]
+  std::vector<Vector3> position;                                                   ///< (segment) centres [m]
+  std::vector<Quaternion> orientation;                                             ///< (segment)
+  std::vector<Vector3> velocity;                                                   ///< (segment) [m/s]
+  std::vector<Vector3> angular_velocity;                                           ///< (segment) world axes [rad/s]
+  ClampFrames clamps;                                                              ///< at the time of the positions
+  std::vector<Vector3> clamp_velocity = std::vector<Vector3>(2, Vector3::Zero());  ///< (end) [m/s]
   std::vector<Vector3> clamp_angular_velocity = std::vector<Vector3>(2, Vector3::Zero());  ///< (end) [rad/s]
   std::vector<Travel> travel;       ///< (span) of sliding base clamps; 0 for others
   std::vector<Vector3> link_force;  ///< (link) force of link j on segment j - 1 during the last step, (S9) [N]
@@ -163,13 +162,11 @@ class Rod {
   double gap_stiffness(int link) const { return gap_stiffness_[link]; }            ///< [N/m], 0: not connected
   const Vector3& turn_stiffness(int link) const { return turn_stiffness_[link]; }  ///< [N m/rad]
   const Vector3& rest_turn(int link) const { return rest_turn_[link]; }            ///< [rad]
-  double bending_length(int link) const { return bending_length_[link]; }  ///< compliance length (S5) [m]
+  double bending_length(int link) const { return bending_length_[link]; }          ///< compliance length (S5) [m]
   /// Returns the curvature of a link with this turn (LinkState::turn), from both transverse axes [1/m].
-  double curvature(const Vector3& turn, int link) const {
-    return turn.head<2>().norm() / bending_length_[link];
-  }
+  double curvature(const Vector3& turn, int link) const { return turn.head<2>().norm() / bending_length_[link]; }
   bool is_hysteretic() const { return hysteretic_; }  ///< true for any hysteretic span
-  double link_arc(int link) const;  ///< from the dresspack's base clamp [m]
+  double link_arc(int link) const;                    ///< from the dresspack's base clamp [m]
 
   /// Returns a straight, unloaded chain at rest from the base frame along its tangent, with all clamps at its ends.
   RodState straight(const Frame& base) const;
@@ -182,9 +179,7 @@ class Rod {
   double mean_elongation(const RodState& state, const Span& span) const;
   /// Returns the span with the largest mean stretch. mean_elongation(state) is this stretch.
   const Span& most_stretched(const RodState& state) const;
-  double mean_elongation(const RodState& state) const {
-    return mean_elongation(state, most_stretched(state));
-  }
+  double mean_elongation(const RodState& state) const { return mean_elongation(state, most_stretched(state)); }
   /// Returns the tension along the tangent in each link, from RodState::link_force [N].
   std::vector<double> tensions(const RodState& state) const;
   /// Returns the end of the last segment: the tip of a free end [m].

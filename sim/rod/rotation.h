@@ -19,9 +19,7 @@ struct Frame {
   Quaternion orientation = Quaternion::Identity();
 
   Vector3 point(const Vector3& local) const { return position + orientation * local; }
-  Frame operator*(const Frame& local) const {
-    return {point(local.position), orientation * local.orientation};
-  }
+  Frame operator*(const Frame& local) const { return {point(local.position), orientation * local.orientation}; }
 };
 
 inline Frame inverse(const Frame& frame) {

@@ -14,8 +14,8 @@ struct Curve {
 
   Vector3 at(double u) const {
     const double v = 1 - u;
-    return v * v * (1 + 2 * u) * from + u * u * (3 - 2 * u) * to +
-           speed * u * v * (v * from_tangent - u * to_tangent) + 16 * sag * u * u * v * v * sag_direction;
+    return v * v * (1 + 2 * u) * from + u * u * (3 - 2 * u) * to + speed * u * v * (v * from_tangent - u * to_tangent) +
+           16 * sag * u * u * v * v * sag_direction;
   }
   std::vector<Vector3> points(int count) const {
     std::vector<Vector3> list;
@@ -81,16 +81,13 @@ std::vector<Vector3> evenly(const std::vector<Vector3>& points, int parts) {
 }
 
 // Returns q after the smallest rotation that aligns its tangent with t.
-Quaternion transported(const Quaternion& q, const Vector3& t) {
-  return (turn_between(tangent(q), t) * q).normalized();
-}
+Quaternion transported(const Quaternion& q, const Vector3& t) { return (turn_between(tangent(q), t) * q).normalized(); }
 
 }  // namespace
 
 StartCurve start_curve(const Rod& rod, const ClampFrames& clamps, double most_speed, int halvings) {
   const int n = rod.segments(), count = points_per_segment * n;
-  const std::vector<Vector3> joints =
-      evenly(fitted_curve(rod, clamps, most_speed, count, halvings).points(count), n);
+  const std::vector<Vector3> joints = evenly(fitted_curve(rod, clamps, most_speed, count, halvings).points(count), n);
   StartCurve result;
   RodState& state = result.state;
   state = rod.straight(clamps.base);

@@ -51,7 +51,8 @@ Solid solid_of(const Shapes& shapes) {
   Solid solid{shapes.capsules, shapes.boxes, {}};
   for (const pipeline::MeshFile& file : shapes.meshes) {
     if (std::vector<Triangle> triangles = scaled_triangles(file.file, file.scale); !triangles.empty())
-      solid.meshes.push_back({Mesh(std::move(triangles)), {file.position, pipeline::from_roll_pitch_yaw(file.orientation)}});
+      solid.meshes.push_back(
+          {Mesh(std::move(triangles)), {file.position, pipeline::from_roll_pitch_yaw(file.orientation)}});
   }
   return solid;
 }
@@ -101,8 +102,8 @@ BracketFit fit_of(const BracketPlace& place, const Surfaces& surfaces, std::span
     see(surfaces.of_cell(point, most()), -1);
     for (std::size_t link = 0; link < links.size(); ++link)
       if (static_cast<int>(link) != place.link)
-        see(surfaces.of_link(static_cast<int>(link), links[link].orientation.conjugate() * (point - links[link].position),
-                             most()),
+        see(surfaces.of_link(static_cast<int>(link),
+                             links[link].orientation.conjugate() * (point - links[link].position), most()),
             static_cast<int>(link));
   }
   return fit;
@@ -135,10 +136,11 @@ std::optional<ToolSpace> unknown_tool_space(const pipeline::Setup& setup, const 
   ToolSpace space{longest.norm(), last.name, {}};
   const std::string shapes = fmt::format("robot.links.{}.", robot.links.size());
   if (last.capsules.empty())  // a list replaces the existing one
-    space.line = {shapes + "capsules", fmt::format("[{{from_m: {}, to_m: {}, radius_mm: {}}}]", point(begin), point(end), half_width)};
+    space.line = {shapes + "capsules",
+                  fmt::format("[{{from_m: {}, to_m: {}, radius_mm: {}}}]", point(begin), point(end), half_width)};
   else if (last.boxes.empty())
-    space.line = {shapes + "boxes", fmt::format("[{{position_m: {}, sides_m: [{}, {}, {}]}}]", point((begin + end) / 2), 2e-3 * half_width,
-                                                2e-3 * half_width, 2e-3 * half_width)};
+    space.line = {shapes + "boxes", fmt::format("[{{position_m: {}, sides_m: [{}, {}, {}]}}]", point((begin + end) / 2),
+                                                2e-3 * half_width, 2e-3 * half_width, 2e-3 * half_width)};
   return space;
 }
 
@@ -149,7 +151,8 @@ std::string tool_space_note(const std::optional<ToolSpace>& space) {
       "pass through the tool{}",
       1e3 * space->reach, space->link,
       space->line.key.empty() ? ". Add the shape of your tool to those of this link"
-                              : fmt::format(". A line such as {}: {} gives it one (sizes: those of your tool)", space->line.key, space->line.value));
+                              : fmt::format(". A line such as {}: {} gives it one (sizes: those of your tool)",
+                                            space->line.key, space->line.value));
 }
 
 }  // namespace dresslife::sim

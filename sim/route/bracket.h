@@ -39,9 +39,10 @@ class Surfaces {
 
 /// The space of a tool whose shape is not known.
 struct ToolSpace {
-  double reach = 0;         ///< distance of the tool's tip from the flange [m]
-  std::string link;         ///< name of the last link
-  pipeline::KeyValue line;  ///< key of a job and YAML of a shape between flange and tip (ESTIMATE); empty: the link has all kinds of shapes
+  double reach = 0;  ///< distance of the tool's tip from the flange [m]
+  std::string link;  ///< name of the last link
+  pipeline::KeyValue
+      line;  ///< key of a job and YAML of a shape between flange and tip (ESTIMATE); empty: the link has all kinds of shapes
 };
 
 /// Returns the space of the longest tool with a tip that is farther from the shapes of the last link than half of its distance from
@@ -59,10 +60,10 @@ struct BracketPlace {
 };
 
 struct BracketFit {
-  double length = 0;           ///< b [m]; 0 on the surface, or if the link has no shapes
-  double clearance = 0;        ///< c [m]; infinite: no object within 0.3 m
-  int neighbour = -1;          ///< nearest link; -1: the cell
-  std::size_t moment = 0;      ///< index of the link poses
+  double length = 0;                                         ///< b [m]; 0 on the surface, or if the link has no shapes
+  double clearance = 0;                                      ///< c [m]; infinite: no object within 0.3 m
+  int neighbour = -1;                                        ///< nearest link; -1: the cell
+  std::size_t moment = 0;                                    ///< index of the link poses
   double beyond(double most_length, double diameter) const;  ///< (V7)
 };
 

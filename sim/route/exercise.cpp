@@ -30,8 +30,7 @@ double likeness(const RobotKinematics& kinematics, const std::vector<double>& jo
   all.resize(axes, 0.0);
   std::vector<Frame> links(kinematics.links());
   kinematics.link_frames(all, links);
-  const Vector3 up = links[0].orientation * Vector3::UnitZ(),
-                forward = links[0].orientation * Vector3::UnitX();
+  const Vector3 up = links[0].orientation * Vector3::UnitZ(), forward = links[0].orientation * Vector3::UnitX();
   const Vector3 upper = (links[3].position - links[2].position).normalized();
   const Vector3 forearm = (links.back().position - links[3].position).normalized();
   return upper.dot(up) + forearm.dot(forward) - std::abs(forearm.dot(up));
@@ -48,12 +47,8 @@ std::vector<double> home_pose(const pipeline::Robot& robot) {
   const RobotKinematics kinematics(robot);
   std::vector<double> tried = home;
   double best = likeness(kinematics, home, kinematics.axes());
-  const auto first = [](const Axis& axis) {
-    return std::ceil(std::max(axis.lower, -std::numbers::pi) / grid);
-  };
-  const auto last = [](const Axis& axis) {
-    return std::floor(std::min(axis.upper, std::numbers::pi) / grid);
-  };
+  const auto first = [](const Axis& axis) { return std::ceil(std::max(axis.lower, -std::numbers::pi) / grid); };
+  const auto last = [](const Axis& axis) { return std::floor(std::min(axis.upper, std::numbers::pi) / grid); };
   for (double a = first(axes[1]); a <= last(axes[1]); ++a)
     for (double b = first(axes[2]); b <= last(axes[2]); ++b) {
       tried[1] = within(axes[1], a * grid);
@@ -68,8 +63,7 @@ pipeline::Motion exercise(const pipeline::Robot& robot) {
   const std::vector<Axis> axes = driven_axes(robot);
   const std::vector<double> home = home_pose(robot);
   const std::size_t count = axes.size(), wrist = count > 3 ? count - 3 : count;
-  constexpr double body[] = {30 * degree, 15 * degree, 15 * degree},
-                   hand[] = {45 * degree, 45 * degree, 60 * degree};
+  constexpr double body[] = {30 * degree, 15 * degree, 15 * degree}, hand[] = {45 * degree, 45 * degree, 60 * degree};
   pipeline::Motion motion;
   motion.name = "exercise";
   motion.source = "made by dresslife: no program, only what a wrist usually does";

@@ -26,7 +26,7 @@ constexpr int fewest_shown = 24;
 constexpr double shown_a_second = 5;
 // per span: 0.4 s of equilibria; steps of 2 %, as for remedies (sim/run/cures.cpp)
 constexpr int tried_lengths = 16, tried_poses = 8;
-constexpr double before_the_program = -1;          // time of the mounting pose [s]
+constexpr double before_the_program = -1;  // time of the mounting pose [s]
 
 struct ShownMoment {
   double time = 0;
@@ -59,7 +59,8 @@ pipeline::Remedy remedy_near(const pipeline::Setup& setup) {
   const double base = (found->base_clamp->position - now.base_clamp->position).norm(),
                tool = (found->tool_clamp->position - now.tool_clamp->position).norm();
   const std::string places =
-      base + tool > 0 ? fmt::format("clamps {:.0f} and {:.0f} mm from their places, where a bracket can be built", 1e3 * base, 1e3 * tool)
+      base + tool > 0 ? fmt::format("clamps {:.0f} and {:.0f} mm from their places, where a bracket can be built",
+                                    1e3 * base, 1e3 * tool)
                       : "clamps at their places";
   remedy.words = fmt::format(" ({}; keeps all limits in a run)", places);
   return remedy;
@@ -104,7 +105,8 @@ class Previewer {
       return *other_places;
     });
     // Without other limits to cure first: a run finds the same, after minutes.
-    if (!quick.run.checks.empty() && std::ranges::none_of(quick.run.checks, [](const Check& check) { return check.warning; }))
+    if (!quick.run.checks.empty() &&
+        std::ranges::none_of(quick.run.checks, [](const Check& check) { return check.warning; }))
       quick.warnings = pipeline::joined(std::move(quick.warnings), other_stiffness_warnings(job_, quick.run));
     if (robot_ && !robot_->note().empty()) quick.notes.push_back(robot_->note());
     if (robot_)
@@ -118,9 +120,7 @@ class Previewer {
  private:
   const RodProperties& properties(std::size_t span) const { return rod_.spans()[span].properties; }
   bool is_free(std::size_t span) const { return properties(span).tool_end == End::free; }
-  double way(std::size_t moment, std::size_t span) const {
-    return ways_[moment * rod_.spans().size() + span];
-  }
+  double way(std::size_t moment, std::size_t span) const { return ways_[moment * rod_.spans().size() + span]; }
 
   void find_ways() {
     for (const ShownMoment& moment : moments_) {
@@ -150,8 +150,7 @@ class Previewer {
     file.append("/segment/length", std::span<const double>(lengths));
     file.append("/segment/dresspack", std::span<const std::int32_t>(dresspacks));
     file.append("/dresspack/name", std::span<const std::string>(names));
-    if (before.size() > 2)
-      file.append("/clamp/segment", std::span<const std::int32_t>(before.data(), before.size()));
+    if (before.size() > 2) file.append("/clamp/segment", std::span<const std::int32_t>(before.data(), before.size()));
     file.append("/program/text", std::span<const std::string>(path_->step_texts()));
   }
 
@@ -174,8 +173,7 @@ class Previewer {
     for (int k = 1; k <= pieces; ++k) {
       const int wanted =
           so_far.back() > 0 ? static_cast<int>(std::lround(of.segments() * so_far[k] / so_far.back())) : 0;
-      const int up_to =
-          k == pieces ? of.segments() : std::clamp(wanted, done + 2, of.segments() - 2 * (pieces - k));
+      const int up_to = k == pieces ? of.segments() : std::clamp(wanted, done + 2, of.segments() - 2 * (pieces - k));
       RodProperties piece = of.properties;
       piece.slider.reset();
       piece.segments = up_to - done;
@@ -183,8 +181,7 @@ class Previewer {
       if (k < pieces) piece.tool_end = End::clamped, piece.tip_mass = 0;
       const Rod rod(piece);
       const ClampFrames clamps{ends[k - 1], ends[k]};
-      const RodState state =
-          piece.tool_end == End::free ? rod.straight(clamps.base) : start_curve(rod, clamps).state;
+      const RodState state = piece.tool_end == End::free ? rod.straight(clamps.base) : start_curve(rod, clamps).state;
       line.insert(line.end(), state.position.begin(), state.position.end());
       done = up_to;
     }
@@ -227,8 +224,7 @@ class Previewer {
       const int first = rod_.first_span(of.dresspack), count = rod_.first_span(of.dresspack + 1) - first;
       const int clamp = static_cast<int>(span) - first + 1;
       dresspacks.push_back(of.dresspack);
-      names.push_back(
-          count == 1 ? "" : fmt::format("between clamps {} and {} of {}", clamp, clamp + 1, count + 1));
+      names.push_back(count == 1 ? "" : fmt::format("between clamps {} and {} of {}", clamp, clamp + 1, count + 1));
       lengths.push_back(of.properties.length);
       for (const double longest : {way(0, span), std::max(longest_[span].way, way(0, span))}) {
         const WorkingLength here = working_length(longest);
@@ -259,17 +255,15 @@ class Previewer {
     std::vector<double> lengths, radii;
     for (std::size_t span = 0; span < rod_.spans().size(); ++span) {
       const std::vector<RoutedRing> rings = routed_rings(job_);
-      const bool ringed = std::any_of(rings.begin(), rings.end(), [&](const RoutedRing& ring) {
-        return ring.span == static_cast<int>(span);
-      });
+      const bool ringed = std::any_of(rings.begin(), rings.end(),
+                                      [&](const RoutedRing& ring) { return ring.span == static_cast<int>(span); });
       if (is_free(span) || ringed || properties(span).slider || !(longest_[span].way > 0)) continue;
       const WorkingLength range = working_length(std::max(longest_[span].way, way(0, span)));
       const std::vector<Pose> poses = poses_to_try(span);
       for (int k = 0; k < tried_lengths; ++k) {
         RodProperties of = properties(span);
         of.segments = std::min(of.segments, segments);
-        of.length =
-            range.least * std::pow(range.most / range.least, static_cast<double>(k) / (tried_lengths - 1));
+        of.length = range.least * std::pow(range.most / range.least, static_cast<double>(k) / (tried_lengths - 1));
         double most = 0;
         for (const Pose& pose : poses)
           most = std::max(most, curvature_at_rest(of, {pose.clamps.end(static_cast<int>(2 * span)),

@@ -48,9 +48,11 @@ constexpr double farthest =
     4;  // largest distance of a clamp from the link that carries it, if brackets reach so far [diameters]
 constexpr int drawn_places = 2000;  // number of places beside a link until one has a bracket: one second
 constexpr double least_slack = 0.02, most_slack = 0.32;  // share of the length
-constexpr double most_work_of_further = 3e5;  // of each further short run on the average, in the unit of World::work: 0.15 s
-constexpr double most_work_near = 5e6;  // of short runs near a given routing, in the unit of World::work: 2.4 s of processor time
-constexpr int side_by_side = 4;     // short runs at the same time, independent of the number of threads
+constexpr double most_work_of_further =
+    3e5;  // of each further short run on the average, in the unit of World::work: 0.15 s
+constexpr double most_work_near =
+    5e6;  // of short runs near a given routing, in the unit of World::work: 2.4 s of processor time
+constexpr int side_by_side = 4;  // short runs at the same time, independent of the number of threads
 
 struct Candidate {
   std::array<Vector3, places>
@@ -60,7 +62,7 @@ struct Candidate {
   pipeline::Routing routing{};
   Screening screening{};
   double missing = 0;             // violation by geometry
-  RoutingRun short_run{};           // valid if it had a short run
+  RoutingRun short_run{};         // valid if it had a short run
   double missing_in_run = never;  // violation in the short run
   double missing_softer = 0;      // violation with the softer hose; 0 also if the job's own hose violates a limit
   bool whole = false;             // run with the job's own segments and repeats
@@ -69,9 +71,7 @@ struct Candidate {
 class Chance {
  public:
   explicit Chance(std::uint64_t seed) : bits_(seed) {}
-  double between(double low, double high) {
-    return low + (high - low) * static_cast<double>(bits_() >> 11) * 0x1p-53;
-  }
+  double between(double low, double high) { return low + (high - low) * static_cast<double>(bits_() >> 11) * 0x1p-53; }
   std::size_t below(std::size_t count) { return bits_() % count; }
   /// Returns a sum of twelve numbers: nearly normal, and equal on every machine.
   double normal() {
@@ -137,7 +137,8 @@ class Search {
     std::vector<Candidate> kept;
     double size = first_size, work = 0;
     const auto run_all = [&](std::vector<Candidate>& all) {
-      make_short_runs(all, routing_run_segments, routing_run_repeats, wished_in_run, useless_bend(kept, parents, false));
+      make_short_runs(all, routing_run_segments, routing_run_repeats, wished_in_run,
+                      useless_bend(kept, parents, false));
       for (const Candidate& one : all) work += one.short_run.work;
     };
     std::vector<Candidate> first{own};
@@ -179,8 +180,7 @@ class Search {
       report_progress(geometry_share * k / begun, fmt::format("geometry, search {} of {}", k + 1, begun));
       beginnings.push_back(best_of(std::max(10, settings_.tried / begun)));
     }
-    if (std::all_of(beginnings.begin(), beginnings.end(),
-                    [](const Candidate& of) { return of.screening.rejected(); }))
+    if (std::all_of(beginnings.begin(), beginnings.end(), [](const Candidate& of) { return of.screening.rejected(); }))
       return excluded(std::move(beginnings));
     double size = 1;
     int left = settings_.short_runs;
@@ -199,10 +199,11 @@ class Search {
     };
     while (goes_on()) {
       const int done = settings_.short_runs - left;
-      report_progress(geometry_share + (1 - geometry_share) * std::min(1.0, static_cast<double>(done) / settings_.short_runs),
-                      fmt::format("short run {} of at most {}{}", done + 1,
-                                  settings_.short_runs + (found.empty() ? 0 : settings_.further * times_for_more),
-                                  kept.empty() ? "" : nearest_words(kept.front())));
+      report_progress(
+          geometry_share + (1 - geometry_share) * std::min(1.0, static_cast<double>(done) / settings_.short_runs),
+          fmt::format("short run {} of at most {}{}", done + 1,
+                      settings_.short_runs + (found.empty() ? 0 : settings_.further * times_for_more),
+                      kept.empty() ? "" : nearest_words(kept.front())));
       std::vector<Candidate> next;
       const bool begins = !beginnings.empty();
       while (static_cast<int>(next.size()) < (left > 0 ? std::min(side_by_side, left) : side_by_side)) {
@@ -278,18 +279,15 @@ class Search {
 
   static bool rubs(const Candidate& of) { return of.short_run.rubbing > least_rubbing_power; }
 
-  static bool is_found(const Candidate& candidate) {
-    return candidate.whole && candidate.missing_in_run == 0;
-  }
+  static bool is_found(const Candidate& candidate) { return candidate.whole && candidate.missing_in_run == 0; }
 
   static bool has_same_routing(const Candidate& a, const Candidate& b) {
     return a.position == b.position && a.direction == b.direction && a.slack == b.slack;
   }
 
   static void keep(std::vector<Candidate>& kept, Candidate&& next, std::size_t most) {
-    const auto place = std::upper_bound(
-        kept.begin(), kept.end(), next,
-        [](const Candidate& a, const Candidate& b) { return badness(a) < badness(b); });
+    const auto place = std::upper_bound(kept.begin(), kept.end(), next,
+                                        [](const Candidate& a, const Candidate& b) { return badness(a) < badness(b); });
     kept.insert(place, std::move(next));
     if (kept.size() > most) kept.pop_back();
   }
@@ -298,8 +296,8 @@ class Search {
   /// existed.
   bool look_at_first_whole(std::vector<Candidate>& kept) const {
     const auto wanted = kept.begin() + std::min<std::ptrdiff_t>(settings_.count, std::ssize(kept));
-    const auto first = std::find_if(kept.begin(), wanted,
-                                    [](const Candidate& of) { return !of.whole && of.missing_in_run == 0; });
+    const auto first =
+        std::find_if(kept.begin(), wanted, [](const Candidate& of) { return !of.whole && of.missing_in_run == 0; });
     if (first == wanted) return false;
     std::vector<Candidate> one{*first};
     kept.erase(first);
@@ -357,8 +355,9 @@ class Search {
     constexpr int changes = 3;
     const Candidate& parent = kept[chance_.below(std::min<std::size_t>(3, kept.size()))];
     const auto bend = static_cast<std::size_t>(ScreenedLimit::bend);
-    const double lacked =
-        parent.short_run.refusal.empty() ? std::max(0.0, parent.short_run.seen.beyond[bend]) + parent.missing_softer : 0;
+    const double lacked = parent.short_run.refusal.empty()
+                              ? std::max(0.0, parent.short_run.seen.beyond[bend]) + parent.missing_softer
+                              : 0;
     Candidate best;
     best.missing = never;
     for (int k = 0; k < changes || !std::isfinite(best.missing); ++k) {
@@ -379,9 +378,8 @@ class Search {
       const double share = static_cast<double>(k) / tried;
       Candidate next = share < 0.4 ? random() : changed(kept[chance_.below(kept.size())], 2 * (1 - share));
       evaluate(next, kept.size() < parents ? std::numeric_limits<double>::infinity() : kept.back().missing);
-      const auto place =
-          std::upper_bound(kept.begin(), kept.end(), next,
-                           [](const Candidate& a, const Candidate& b) { return a.missing < b.missing; });
+      const auto place = std::upper_bound(kept.begin(), kept.end(), next,
+                                          [](const Candidate& a, const Candidate& b) { return a.missing < b.missing; });
       kept.insert(place, std::move(next));
       if (kept.size() > parents) kept.pop_back();
     }
@@ -395,8 +393,7 @@ class Search {
   Candidate random() {
     Candidate candidate;
     for (int k = 0; k < used(); ++k) candidate.position[k] = beside(k);
-    const Vector3 way =
-        frame(tool).point(candidate.position[tool]) - frame(base).point(candidate.position[base]);
+    const Vector3 way = frame(tool).point(candidate.position[tool]) - frame(base).point(candidate.position[base]);
     for (int k = 0; k < used(); ++k) {
       const Vector3 about = way.normalized() + 0.5 * chance_.normal_vector();
       candidate.direction[k] = (frame(k).orientation.conjugate() * about).normalized();
@@ -446,10 +443,9 @@ class Search {
                         screener_.time_of(nearest.moment));
     throw pipeline::InputError(
         setup_.dresspacks.front().routing.where,
-        fmt::format(
-            "no place within {:.0f} mm of the surface of {} stays clear of the other links and the cell: the "
-            "nearest of {} places {}",
-            1e3 * longest_bracket(), links_[place], drawn_places, why),
+        fmt::format("no place within {:.0f} mm of the surface of {} stays clear of the other links and the cell: the "
+                    "nearest of {} places {}",
+                    1e3 * longest_bracket(), links_[place], drawn_places, why),
         longer + "another link (--from, --to, --ring), or a program that keeps away from it");
   }
 
@@ -474,9 +470,9 @@ class Search {
     Candidate candidate = from;
     for (int k = 0; k < used(); ++k) {
       if (chance_.below(2)) {
-        const Vector3 place =
-            rounded(candidate.position[k] + size * diameter_ * chance_.normal_vector(), millimetre);
-        if (is_same_place(k, place) && bracket(k, place).beyond(longest_bracket(), diameter_) <= 0) candidate.position[k] = place;
+        const Vector3 place = rounded(candidate.position[k] + size * diameter_ * chance_.normal_vector(), millimetre);
+        if (is_same_place(k, place) && bracket(k, place).beyond(longest_bracket(), diameter_) <= 0)
+          candidate.position[k] = place;
       }
       if (chance_.below(2))
         candidate.direction[k] = (candidate.direction[k] + 0.4 * size * chance_.normal_vector()).normalized();
@@ -490,8 +486,7 @@ class Search {
   }
 
   /// to_beat: a larger violation need not be computed exactly.
-  void evaluate(Candidate& candidate, double to_beat,
-               const std::array<double, screened_limits>& wishes = wished) {
+  void evaluate(Candidate& candidate, double to_beat, const std::array<double, screened_limits>& wishes = wished) {
     pipeline::Routing& routing = candidate.routing;
     routing = unchanged_;
     routing.base_clamp = clamp(candidate, base, unchanged_.base_clamp);
@@ -537,9 +532,10 @@ class Search {
     return made;
   }
 
-  pipeline::Setup setup_;  // with the routing that is evaluated
+  pipeline::Setup setup_;        // with the routing that is evaluated
   pipeline::Routing unchanged_;  // what every candidate has
-  std::optional<std::array<Vector3, places>> given_places_;  // places from which clamps move by same_place at most; absent: no limit
+  std::optional<std::array<Vector3, places>>
+      given_places_;  // places from which clamps move by same_place at most; absent: no limit
   const ProposalSettings& settings_;
   const Screener screener_;
   Chance chance_;

@@ -44,8 +44,8 @@ struct ProposalSettings {
 struct Proposal {
   pipeline::Routing routing;
   Screening screening;
-  double missing = 0;   ///< sum of the violations of the wished margins; 0: all are kept
-  RoutingRun short_run;   ///< last short run, if any
+  double missing = 0;    ///< sum of the violations of the wished margins; 0: all are kept
+  RoutingRun short_run;  ///< last short run, if any
 };
 
 /// Returns proposals. setup: the clamps of its first dresspack name the links, and its routing gives the longest bracket; other

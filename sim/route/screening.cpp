@@ -75,9 +75,7 @@ double way_of(const Thread& thread, const Frames& frames) {
   return way;
 }
 
-Quaternion transported(const Quaternion& q, const Vector3& t) {
-  return turn_between(tangent(q), t) * q;
-}
+Quaternion transported(const Quaternion& q, const Vector3& t) { return turn_between(tangent(q), t) * q; }
 
 /// Returns the rotation about the tangent [rad], up to full turns, by transport from frame to chord to frame.
 double turn_by_chords(const Frames& frames) {
@@ -115,8 +113,7 @@ std::vector<RodProperties> pieces_of(const Thread& thread, const Frames& frames,
     if (k + 1 < ways.size()) pieces[k].stiff_ends[1] = {};
     pieces[k].tool_end = tool_end;
     pieces[k].length *= ways[k] / whole;
-    pieces[k].segments =
-        std::max(fewest_segments, static_cast<int>(std::lround(curve_segments * ways[k] / whole)));
+    pieces[k].segments = std::max(fewest_segments, static_cast<int>(std::lround(curve_segments * ways[k] / whole)));
   }
   return pieces;
 }
@@ -161,8 +158,7 @@ double curvature_at_rest(const Thread& thread, const Frames& frames) {
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     const Rod rod(pieces[k]);
     const Equilibrium found = find_equilibrium(rod, {frames[k], frames[k + 1]}, settings);
-    most = std::max(
-        most, found.status == EquilibriumStatus::converged ? largest_curvature(rod, found.state) : no_rest);
+    most = std::max(most, found.status == EquilibriumStatus::converged ? largest_curvature(rod, found.state) : no_rest);
   }
   return most;
 }
@@ -179,8 +175,8 @@ double depth_in(const Shapes& shapes, const Vector3& point, double radius) {
   for (const pipeline::Capsule& capsule : shapes.capsules)
     depth = std::max(depth, radius + capsule.radius - distance_to_axis(point, capsule.from, capsule.to));
   for (const pipeline::Box& box : shapes.boxes)
-    depth = std::max(
-        depth, depth_in_box(point, radius, {box.position, from_roll_pitch_yaw(box.orientation)}, box.sides));
+    depth =
+        std::max(depth, depth_in_box(point, radius, {box.position, from_roll_pitch_yaw(box.orientation)}, box.sides));
   return depth;
 }
 
@@ -200,9 +196,9 @@ bool Screening::rejected() const {
 }
 
 struct Screener::Parts {
-  std::vector<Moment> moments;     // first the moments from the mounting pose to the start
-  std::size_t first = 0;           // index of the first moment of the program
-  std::vector<std::size_t> poses;  // poses with curves, in order
+  std::vector<Moment> moments;       // first the moments from the mounting pose to the start
+  std::size_t first = 0;             // index of the first moment of the program
+  std::vector<std::size_t> poses;    // poses with curves, in order
   std::optional<Surfaces> surfaces;  // for a robot with brackets
   std::vector<Frames> carriers;      // (moment, link), for brackets
 
@@ -224,8 +220,7 @@ Screener::Screener(const pipeline::Setup& setup, bool brackets) : parts_(std::ma
     for (const Moment& moment : parts_->moments) parts_->carriers.push_back(moment.links);
     return;
   }
-  const int count =
-      std::clamp(static_cast<int>(path->duration() * moments_a_second), fewest_moments, most_moments);
+  const int count = std::clamp(static_cast<int>(path->duration() * moments_a_second), fewest_moments, most_moments);
   for (int k = 0; k <= count; ++k) {
     const double time = path->duration() * k / count;
     parts_->moments.push_back({time, {}, path->at(time).clamps});
@@ -346,8 +341,7 @@ void Screener::Parts::see(const pipeline::Setup& setup, const Thread& thread, Sc
   std::vector<double> turns;
   for (std::size_t m = 0; m < moments.size(); ++m) {
     const Frames frames = frames_of(thread, moments[m]);
-    if (const double way = way_of(thread, frames); m >= first && way > longest)
-      longest = way, when = moments[m].time;
+    if (const double way = way_of(thread, frames); m >= first && way > longest) longest = way, when = moments[m].time;
     turn = m == 0 ? turn_by_chords(frames) : near(turn_by_chords(frames), turn);
     turns.push_back(turn);
   }
@@ -378,8 +372,7 @@ void Screener::Parts::see_brackets(const pipeline::Setup& setup, Screening& scre
       const BracketPlace on_link{find_link(setup.robot, place.link, place.where), place.position, radius};
       const BracketFit fit = fit_of(on_link, *surfaces, carriers);
       const double g = fit.beyond(longest_bracket_of(mounted.routing), diameter);
-      if (g > screening.beyond[limit])
-        screening.beyond[limit] = g, screening.time[limit] = moments[fit.moment].time;
+      if (g > screening.beyond[limit]) screening.beyond[limit] = g, screening.time[limit] = moments[fit.moment].time;
     };
     const pipeline::Routing& routing = mounted.routing;
     for (const auto& clamp : {routing.base_clamp, routing.tool_clamp})

@@ -35,9 +35,9 @@ namespace dresslife::sim {
 enum class ScreenedLimit { too_short, too_long, bend, twist, overlap, tension, bracket };
 inline constexpr int screened_limits = 7;
 constexpr std::string_view word(ScreenedLimit value) {
-  return pipeline::word_at({"too short", "too long", "bent too tightly", "twisted too far", "in the robot",
-                            "pulled too hard", "bracket"},
-                           value);
+  return pipeline::word_at(
+      {"too short", "too long", "bent too tightly", "twisted too far", "in the robot", "pulled too hard", "bracket"},
+      value);
 }
 
 /// A routing with a larger violation cannot work: the values are the largest possible errors of the curve, which has no weight
@@ -52,7 +52,7 @@ double distance_to_axis(const Vector3& point, const Vector3& from, const Vector3
 /// Results of the worst span or dresspack for each limit.
 struct Screening {
   std::array<double, screened_limits> beyond;  ///< (limit) g; the most negative number if the limit is not requested
-  std::array<double, screened_limits> time;  ///< (limit) time of the decisive moment [s]
+  std::array<double, screened_limits> time;    ///< (limit) time of the decisive moment [s]
 
   bool rejected() const;  ///< some limit is certainly exceeded
 };

@@ -124,8 +124,7 @@ Verdict verdict_of(Bench& bench, Node document, const Node& changes) {
     pipeline::resolve_job(document);
     const pipeline::Setup setup = pipeline::setup_from(document);
     if (setup.motion.is_prescribed())
-      throw InputError(setup.motion.where, "a prescribed deformation has no routing to screen",
-                       "leave it as it is");
+      throw InputError(setup.motion.where, "a prescribed deformation has no routing to screen", "leave it as it is");
     verdict.screening = bench.screen(setup, document);
     verdict.setup = setup;
   } catch (const InputError& problem) {
@@ -172,8 +171,8 @@ std::string routing_text(const pipeline::Routing& routing) {
   if (!routing.rings.empty()) text += "rings:\n";
   for (const pipeline::GuideRing& ring : routing.rings)
     text += fmt::format("  - {{{}, radius_mm: {:.4g}, width_mm: {:.4g}, friction_coefficient: {:.4g}}}\n",
-                        place_text(ring.link, ring.position, ring.direction), 1e3 * ring.radius,
-                        1e3 * ring.width, ring.friction);
+                        place_text(ring.link, ring.position, ring.direction), 1e3 * ring.radius, 1e3 * ring.width,
+                        ring.friction);
   return text + fmt::format("tool_clamp: {{{}}}\nfree_length_m: {:.3f}\nside: {}\n", clamp(*routing.tool_clamp),
                             routing.free_length, pipeline::word(routing.side));
 }

@@ -36,8 +36,7 @@ void see(Screening& seen, const Check& check) {
 /// Collects the bends of a short run: the largest curvatures of one repeat.
 class Bends {
  public:
-  explicit Bends(const Simulation& simulation)
-      : rod_(simulation.rod()), duration_(simulation.path().duration()) {
+  explicit Bends(const Simulation& simulation) : rod_(simulation.rod()), duration_(simulation.path().duration()) {
     for (const pipeline::MountedDresspack& mounted : simulation.setup().dresspacks)
       least_radius_.push_back(limits_of(mounted.dresspack).least_bend_radius);
     begin();
@@ -68,8 +67,7 @@ class Bends {
     constexpr double straight = 1e-6;  // [1/m], far from every limit, with a finite logarithm
     std::vector<double> g;
     for (std::size_t k = 0; k < sharpest_.size(); ++k)
-      g.push_back(
-          std::log(least_radius_[k / (bend_moments * bend_stretches)] * std::max(sharpest_[k], straight)));
+      g.push_back(std::log(least_radius_[k / (bend_moments * bend_stretches)] * std::max(sharpest_[k], straight)));
     return g;
   }
 
@@ -80,9 +78,7 @@ class Bends {
   }
 
  private:
-  static int part_of(double share, int parts) {
-    return std::clamp(static_cast<int>(share * parts), 0, parts - 1);
-  }
+  static int part_of(double share, int parts) { return std::clamp(static_cast<int>(share * parts), 0, parts - 1); }
   double length_of(int dresspack) const {
     return rod_.link_arc(rod_.spans()[rod_.first_span(dresspack + 1) - 1].last_link());
   }
@@ -100,7 +96,8 @@ RoutingRun short_run_of(pipeline::Setup setup, int segments, int repeats, bool w
   short_run.seen.beyond.fill(-std::numeric_limits<double>::infinity());
   short_run.seen.time.fill(0);
   pipeline::SimulationSettings& settings = setup.simulation;
-  if (settings.choose_time_step && segments < settings.segments) {  // few segments have a larger error than the first step
+  if (settings.choose_time_step &&
+      segments < settings.segments) {  // few segments have a larger error than the first step
     settings.choose_time_step = false;
     settings.time_step = first_step(settings.sample_rate);
   }

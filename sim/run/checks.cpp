@@ -26,9 +26,8 @@ const Extreme& largest(Places places) {
 }
 
 const Extreme& largest_by_size(Places places) {
-  return *std::max_element(places.begin(), places.end(), [](const Extreme& a, const Extreme& b) {
-    return std::abs(a.value) < std::abs(b.value);
-  });
+  return *std::max_element(places.begin(), places.end(),
+                           [](const Extreme& a, const Extreme& b) { return std::abs(a.value) < std::abs(b.value); });
 }
 
 }  // namespace
@@ -46,8 +45,8 @@ void Extreme::see(double candidate, bool larger, double when, int where) {
 }
 
 MotionLimits limits_of(const pipeline::Dresspack& dresspack) {
-  return {pipeline::least_bend_radius(dresspack),
-          dresspack.most_twist.value_or(most_twist), dresspack.most_tension.value_or(unlimited)};
+  return {pipeline::least_bend_radius(dresspack), dresspack.most_twist.value_or(most_twist),
+          dresspack.most_tension.value_or(unlimited)};
 }
 
 MotionChecks::MotionChecks(const Rod& rod, std::vector<MotionLimits> limits)
@@ -93,8 +92,8 @@ void MotionChecks::see_links(const RodState& state, double time) {
     tension_[j].see(pull[j], pull[j] > tension_[j].value, time, j);
   }
   for (Whole& whole : whole_) {
-    whole.most_net_twist.see(whole.net_twist,
-                             std::abs(whole.net_twist) > std::abs(whole.most_net_twist.value), time, -1);
+    whole.most_net_twist.see(whole.net_twist, std::abs(whole.net_twist) > std::abs(whole.most_net_twist.value), time,
+                             -1);
     if (!begun_) whole.net_twist_at_begin = whole.lowest = whole.highest = whole.net_twist;
     whole.lowest = std::min(whole.lowest, whole.net_twist);
     whole.highest = std::max(whole.highest, whole.net_twist);
@@ -132,33 +131,34 @@ std::vector<Check> MotionChecks::table() const {
 
 void MotionChecks::add_lines(int dresspack, std::vector<Check>& checks) const {
   const auto link = [&](const Extreme& e) { return rod_.link_arc(e.place); };
-  const auto segment = [&](const Extreme& e) {
-    return e.place < 0 ? -1 : rod_.span_of(e.place).arc(e.place);
-  };
+  const auto segment = [&](const Extreme& e) { return e.place < 0 ? -1 : rod_.span_of(e.place).arc(e.place); };
   const int first = rod_.spans()[rod_.first_span(dresspack)].first_link;
   const int last = rod_.spans()[rod_.first_span(dresspack + 1) - 1].last_link();
-  const auto of = [&](const std::vector<Extreme>& links) {
-    return Places(links).subspan(first, last + 1 - first);
-  };
-  const Extreme &bend = largest(of(curvature_)), &twist = largest_by_size(of(twist_)),
-                &pull = largest(of(tension_));
+  const auto of = [&](const std::vector<Extreme>& links) { return Places(links).subspan(first, last + 1 - first); };
+  const Extreme &bend = largest(of(curvature_)), &twist = largest_by_size(of(twist_)), &pull = largest(of(tension_));
   const MotionLimits& limits = limits_[dresspack];
   const Whole& whole = whole_[dresspack];
   const double radius = bend.value > 0 ? 1 / bend.value : unlimited;
   const Check lines[] = {
-      {WarningKind::bend_radius, check_name::bend_radius, "m", radius, limits.least_bend_radius, radius < limits.least_bend_radius,
-       bend.time, link(bend)},
-      {WarningKind::twist, check_name::twist, "rad/m", twist.value, limits.most_twist, std::abs(twist.value) > limits.most_twist,
-       twist.time, link(twist)},
-      {{}, check_name::net_twist, "rad", whole.most_net_twist.value, unlimited, false, whole.most_net_twist.time,
-       -1, dresspack, (whole.lowest + whole.highest) / 2},
-      {{}, check_name::twist_left, "rad", whole.net_twist - whole.net_twist_at_begin, unlimited, false,
-       end_, -1},
-      {WarningKind::tension, check_name::tension, "N", pull.value, limits.most_tension, pull.value > limits.most_tension, pull.time,
-       link(pull)},
+      {WarningKind::bend_radius, check_name::bend_radius, "m", radius, limits.least_bend_radius,
+       radius < limits.least_bend_radius, bend.time, link(bend)},
+      {WarningKind::twist, check_name::twist, "rad/m", twist.value, limits.most_twist,
+       std::abs(twist.value) > limits.most_twist, twist.time, link(twist)},
+      {{},
+       check_name::net_twist,
+       "rad",
+       whole.most_net_twist.value,
+       unlimited,
+       false,
+       whole.most_net_twist.time,
+       -1,
+       dresspack,
+       (whole.lowest + whole.highest) / 2},
+      {{}, check_name::twist_left, "rad", whole.net_twist - whole.net_twist_at_begin, unlimited, false, end_, -1},
+      {WarningKind::tension, check_name::tension, "N", pull.value, limits.most_tension,
+       pull.value > limits.most_tension, pull.time, link(pull)},
       {{}, check_name::contact_depth, "m", whole.depth.value, unlimited, false, whole.depth.time, segment(whole.depth)},
-      {{}, check_name::contact_force, "N", whole.force.value, unlimited, false, whole.force.time,
-       segment(whole.force)},
+      {{}, check_name::contact_force, "N", whole.force.value, unlimited, false, whole.force.time, segment(whole.force)},
   };
   checks.insert(checks.end(), std::begin(lines), std::end(lines));
 }

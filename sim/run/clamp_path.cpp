@@ -47,8 +47,7 @@ void add_ways(const std::vector<pipeline::MotionStep>& steps, std::vector<std::p
 }
 
 /// Returns warnings for external axes that the motion moves and the robot does not have. They are assumed to stand still.
-std::vector<pipeline::Warning> missing_external_axes(const pipeline::Motion& motion,
-                                                     const pipeline::Robot& robot) {
+std::vector<pipeline::Warning> missing_external_axes(const pipeline::Motion& motion, const pipeline::Robot& robot) {
   std::vector<std::pair<double, double>> ways;
   add_ways(motion.steps, ways);
   std::vector<pipeline::Warning> warnings;
@@ -56,8 +55,8 @@ std::vector<pipeline::Warning> missing_external_axes(const pipeline::Motion& mot
     if (ways[i].second > ways[i].first)
       warnings.push_back(pipeline::warning_of(
           pipeline::WarningKind::program, "",
-          fmt::format("the program moves external axis {} from {:.6g} to {:.6g} (mm or deg), and it does not move here", i + 1,
-                      ways[i].first, ways[i].second),
+          fmt::format("the program moves external axis {} from {:.6g} to {:.6g} (mm or deg), and it does not move here",
+                      i + 1, ways[i].first, ways[i].second),
           fmt::format("robot.external_axes has {} of them", robot.external_axes.size()),
           "add the entry that dresslife import proposes to robot.external_axes"));
   return warnings;
@@ -85,9 +84,9 @@ std::optional<bool> lies_at_zero(const pipeline::Robot& robot) {
 /// Returns a warning for a program in the language of one maker and a robot of another: zeros and directions of their axes
 /// differ.
 std::vector<pipeline::Warning> other_maker(const pipeline::Motion& motion, const pipeline::Robot& robot) {
-  constexpr std::pair<Language, std::string_view> makers[] = {{Language::rapid, "ABB"},      {Language::krl, "KUKA"},
-                                                              {Language::fanuc, "Fanuc"},    {Language::inform, "Yaskawa"},
-                                                              {Language::inform, "Motoman"}, {Language::urscript, "Universal Robots"}};
+  constexpr std::pair<Language, std::string_view> makers[] = {
+      {Language::rapid, "ABB"},      {Language::krl, "KUKA"},       {Language::fanuc, "Fanuc"},
+      {Language::inform, "Yaskawa"}, {Language::inform, "Motoman"}, {Language::urscript, "Universal Robots"}};
   if (motion.program.empty()) return {};
   const Language language = language_of(motion);
   std::string_view of_program, of_robot;
@@ -96,16 +95,16 @@ std::vector<pipeline::Warning> other_maker(const pipeline::Motion& motion, const
     if (spoken == language) of_program = maker;
     if (!lower_case(robot.name).starts_with(lower_case(maker))) continue;
     // A name such as 'KUKA KR 16-2' is given by hand. One such as 'kuka_kr16' is that of a URDF, which may have its own zeros.
-    if (spoken == language && (language == Language::fanuc || robot.name.starts_with(fmt::format("{} ", maker)))) return {};
+    if (spoken == language && (language == Language::fanuc || robot.name.starts_with(fmt::format("{} ", maker))))
+      return {};
     if (spoken == language)
       same = true;
     else
       of_robot = maker;
   }
   if (of_program.empty()) return {};
-  std::string robot_is,
-      cause = "a job of another robot: the zeros and directions of axes differ between makers",
-      remedy = "robot: the one for which the program was written";
+  std::string robot_is, cause = "a job of another robot: the zeros and directions of axes differ between makers",
+                        remedy = "robot: the one for which the program was written";
   if (!of_robot.empty()) {
     robot_is = robot.name;
   } else if (language == Language::fanuc) {
@@ -117,11 +116,13 @@ std::vector<pipeline::Warning> other_maker(const pipeline::Motion& motion, const
     robot_is = fmt::format("{}, whose lower arm {} where all axes are at 0", robot.name,
                            *lies ? "lies flat" : "stands upright");
     cause = fmt::format("{}: at 0 the lower arm of a robot of {} {}",
-                        same ? "a URDF with other zeros and directions of its axes than those of the controller" : "a job of another robot",
+                        same ? "a URDF with other zeros and directions of its axes than those of the controller"
+                             : "a job of another robot",
                         of_program, *lies ? "stands upright" : "lies flat");
-    if (same) remedy = "robot: an entry of the catalogue (dresslife new lists them), or a URDF with the controller's zeros and directions";
-    remedy +=
-        fmt::format("; or robot.name: {} {}, if its controller has these zeros", of_program, robot.name);
+    if (same)
+      remedy =
+          "robot: an entry of the catalogue (dresslife new lists them), or a URDF with the controller's zeros and directions";
+    remedy += fmt::format("; or robot.name: {} {}, if its controller has these zeros", of_program, robot.name);
   }
   if (robot_is.empty()) return {};
   return {pipeline::warning_of(pipeline::WarningKind::motion, motion.program.filename().string(),
@@ -138,7 +139,8 @@ struct TooFast {
   const pipeline::MotionStep* worst = nullptr;
 };
 
-void add_places(const std::vector<pipeline::MotionStep>& steps, const pipeline::Motion& motion, std::vector<Vector3>& places) {
+void add_places(const std::vector<pipeline::MotionStep>& steps, const pipeline::Motion& motion,
+                std::vector<Vector3>& places) {
   for (const pipeline::MotionStep& step : steps) {
     add_places(step.steps, motion, places);
     if (step.position.size() != 3) continue;
@@ -164,12 +166,13 @@ std::vector<pipeline::Warning> in_the_foot(const pipeline::Motion& motion, const
   for (const Vector3& place : places) farthest = std::max(farthest, place.norm());
   constexpr double of_reach = 0.1;
   if (places.size() < 2 || tools_stand || !robot.external_axes.empty() || farthest > of_reach * reach) return {};
-  return {pipeline::warning_of(pipeline::WarningKind::motion, motion.where.text(),
-                               fmt::format("all positions of the program lie within {:.3g} mm of the origin of the robot's base "
-                                           "(limit {:.3g} mm: a tenth of its reach)",
-                                           1e3 * farthest, 1e3 * of_reach * reach),
-                               "centimetres instead of millimetres, or work objects that are not given",
-                               "positions in millimetres, 10 times these numbers if those were centimetres")};
+  return {pipeline::warning_of(
+      pipeline::WarningKind::motion, motion.where.text(),
+      fmt::format("all positions of the program lie within {:.3g} mm of the origin of the robot's base "
+                  "(limit {:.3g} mm: a tenth of its reach)",
+                  1e3 * farthest, 1e3 * of_reach * reach),
+      "centimetres instead of millimetres, or work objects that are not given",
+      "positions in millimetres, 10 times these numbers if those were centimetres")};
 }
 
 /// before: the previous step; null: none. time: begin of the steps [s]. Returns the time at their end.
@@ -188,10 +191,8 @@ double add_too_fast(const std::vector<pipeline::MotionStep>& steps, const std::v
     const std::size_t count =
         before && step.duration.value_or(0) > 0 ? std::min(step.joints.size(), before->joints.size()) : 0;
     for (std::size_t i = 0; i < std::min(count, axes.size()); ++i) {
-      const double speed = std::abs(step.joints[i] - before->joints[i]) / *step.duration,
-                   ratio = speed / axes[i].speed;
-      if (ratio > worst && ratio > found.ratio)
-        found = {found.count, static_cast<int>(i), ratio, time, speed, &step};
+      const double speed = std::abs(step.joints[i] - before->joints[i]) / *step.duration, ratio = speed / axes[i].speed;
+      if (ratio > worst && ratio > found.ratio) found = {found.count, static_cast<int>(i), ratio, time, speed, &step};
       worst = std::max(worst, ratio);
     }
     found.count += worst > rounding;
@@ -213,8 +214,8 @@ std::vector<pipeline::Warning> too_fast(const pipeline::Motion& motion, const pi
   const char* const name = axis.turns ? "deg/s" : "mm/s";
   return {pipeline::warning_of(
       pipeline::WarningKind::motion, found.worst->where.text(),
-      fmt::format("{} is to move at {:.1f} {} up to {:.6g} s (limit {:.1f} {}){}: the robot takes longer",
-                  axis.name, found.speed / unit, name, found.time, axis.speed / unit, name,
+      fmt::format("{} is to move at {:.1f} {} up to {:.6g} s (limit {:.1f} {}){}: the robot takes longer", axis.name,
+                  found.speed / unit, name, found.time, axis.speed / unit, name,
                   found.count > 1 ? fmt::format(", and {} further steps are too fast", found.count - 1) : ""),
       "times or angles in another unit, or a recording of a faster robot" +
           (slip.empty() ? "" : ", or " + slip + " (then all axes keep their limits and speeds)"),
@@ -248,7 +249,8 @@ bool leads_flange(const std::vector<pipeline::MotionStep>& steps, const pipeline
 /// Returns the note of a run about its program, and about inputs that may be missing or in another unit.
 std::string note_of(const RunMotion& run, double cycle) {
   constexpr double most = 0.5, long_wait = 5,
-                   longest_wait = 20;  // share of the cycle; [s]: grippers take 0.2 to 1 s, spot welds with their guns up to 4 s
+                   longest_wait =
+                       20;  // share of the cycle; [s]: grippers take 0.2 to 1 s, spot welds with their guns up to 4 s
   std::vector<std::string> notes;
   Waits waits;
   add_waits(run.motion.steps, 1, waits);
@@ -258,8 +260,9 @@ std::string note_of(const RunMotion& run, double cycle) {
         "correct it if that was milliseconds or a decimal point is missing",
         waits.time, 100 * waits.time / cycle, cycle, waits.longest->dwell, waits.longest->where.text()));
   if (bool poses = false; leads_flange(run.motion.steps, run.motion, poses) && poses)
-    notes.push_back("The poses of the program lead the flange, because their tool is [0, 0, 0]. Was it taught with a tool? Then give that tool's data, "
-                    "in the program or as motion.tools: without them the flange comes too near to every place");
+    notes.push_back(
+        "The poses of the program lead the flange, because their tool is [0, 0, 0]. Was it taught with a tool? Then give that tool's data, "
+        "in the program or as motion.tools: without them the flange comes too near to every place");
   if (!run.note.empty()) notes.push_back(run.note);
   return pipeline::joined(notes, ". ");
 }
@@ -280,7 +283,8 @@ JointMotion motion_in_time(const RunMotion& run, const pipeline::Setup& setup) {
     std::string words = error.what();
     for (const pipeline::Warning& cause : other_maker(setup.motion, setup.robot))  // of the errors that follow
       words = fmt::format("{}: error: {}\n{}", cause.where, cause.words, words);
-    const auto doubts = pipeline::joined(in_the_foot(run.motion, setup.robot), pipeline::plausibility_of_steps(run.motion));
+    const auto doubts =
+        pipeline::joined(in_the_foot(run.motion, setup.robot), pipeline::plausibility_of_steps(run.motion));
     for (const pipeline::Warning& doubt : doubts) words += "\n" + doubt.line();
     throw pipeline::InputError(words);
   }
@@ -293,17 +297,19 @@ std::unique_ptr<ClampPath> path_of(const pipeline::Setup& setup) {
   return std::make_unique<RobotPath>(setup);
 }
 
-RobotPath::RobotPath(const pipeline::Setup& setup) : RobotPath(setup, run_motion_of(setup.motion, flange_at(setup.robot))) {}
+RobotPath::RobotPath(const pipeline::Setup& setup)
+    : RobotPath(setup, run_motion_of(setup.motion, flange_at(setup.robot))) {}
 
 RobotPath::RobotPath(const pipeline::Setup& setup, const RunMotion& run)
     : kinematics_(setup.robot),
       motion_(motion_in_time(run, setup)),
       doubts_(pipeline::joined(
-          pipeline::joined(
-              pipeline::joined(run.motion.left_out, missing_external_axes(run.motion, setup.robot)),
-              pipeline::joined(pipeline::joined(other_maker(setup.motion, setup.robot), in_the_foot(run.motion, setup.robot)),
-                               too_fast(run.motion, setup.robot))),
-          setup.motion.program.empty() ? std::vector<pipeline::Warning>{} : pipeline::plausibility_of_steps(run.motion))),
+          pipeline::joined(pipeline::joined(run.motion.left_out, missing_external_axes(run.motion, setup.robot)),
+                           pipeline::joined(pipeline::joined(other_maker(setup.motion, setup.robot),
+                                                             in_the_foot(run.motion, setup.robot)),
+                                            too_fast(run.motion, setup.robot))),
+          setup.motion.program.empty() ? std::vector<pipeline::Warning>{}
+                                       : pipeline::plausibility_of_steps(run.motion))),
       note_(note_of(run, motion_.duration())),
       tools_(tool_points(run.motion)) {
   hold_joint(setup);
@@ -318,11 +324,13 @@ RobotPath::RobotPath(const pipeline::Setup& setup, const RunMotion& run)
         Eigen::Map<const Eigen::VectorXd>(routing.mounting_pose.data(), axes);
   }
   for (const pipeline::MountedDresspack& mounted : setup.dresspacks)
-    for (const auto& [key, clamp] : {std::pair{"base_clamp", &mounted.routing.base_clamp}, {"tool_clamp", &mounted.routing.tool_clamp}})
+    for (const auto& [key, clamp] :
+         {std::pair{"base_clamp", &mounted.routing.base_clamp}, {"tool_clamp", &mounted.routing.tool_clamp}})
       if (*clamp) doubt_frame(setup.robot, key, **clamp, pipeline::usual_distance(mounted.routing, mounted.dresspack));
 }
 
-void RobotPath::doubt_frame(const pipeline::Robot& robot, const std::string& key, const pipeline::Clamp& clamp, double usual) {
+void RobotPath::doubt_frame(const pipeline::Robot& robot, const std::string& key, const pipeline::Clamp& clamp,
+                            double usual) {
   const auto away = pipeline::distance_to(robot, clamp.link, clamp.position);
   if (!away || *away <= usual) return;
   for (const auto& [joints, words] : {std::pair<Eigen::VectorXd, const char*>{mounting_pose_, "in the mounting pose"},
@@ -335,11 +343,13 @@ void RobotPath::doubt_frame(const pipeline::Robot& robot, const std::string& key
     });
     doubts_.push_back(pipeline::warning_of(
         pipeline::WarningKind::motion, clamp.where.text(),
-        fmt::format("routing.{}.position_m lies {:.3g} m from all shapes of {} (limit {:.3g}), and beside them as a place in the world {}",
-                    key, *away, clamp.link, usual, words),
+        fmt::format(
+            "routing.{}.position_m lies {:.3g} m from all shapes of {} (limit {:.3g}), and beside them as a place in the world {}",
+            key, *away, clamp.link, usual, words),
         "a place in the frame of the world instead of that of the link",
-        fmt::format("position_m: [{:.3f}, {:.3f}, {:.3f}] and direction: [{:.2f}, {:.2f}, {:.2f}], both in the frame of {}", at.x(), at.y(),
-                    at.z(), to.x(), to.y(), to.z(), clamp.link)));
+        fmt::format(
+            "position_m: [{:.3f}, {:.3f}, {:.3f}] and direction: [{:.2f}, {:.2f}, {:.2f}], both in the frame of {}",
+            at.x(), at.y(), at.z(), to.x(), to.y(), to.z(), clamp.link)));
     clamps_in_world_ = true;
     return;
   }

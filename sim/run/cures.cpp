@@ -30,7 +30,8 @@ constexpr int tried_poses = 8;
 /// steps are finer, 3 %.
 constexpr std::array<int, 4> tried_lengths{16, 8, 8, 8};
 constexpr double margin = 1.05;  // of a limit at rest and in a short run: the full program bends the hose more
-constexpr std::array<std::size_t, 4> most_tried{5, 3, 3, 3};  // (pair of directions) trials by the checks, up to two seconds each
+constexpr std::array<std::size_t, 4> most_tried{
+    5, 3, 3, 3};                   // (pair of directions) trials by the checks, up to two seconds each
 constexpr double most_work = 1e7;  // of all trials of one job, in the unit of World::work: ten seconds
 constexpr int most_segments = 32;  // of a trial: the bend radius has an error of a few percent
 
@@ -78,7 +79,8 @@ class RestTrials {
     for (int k = 0; k < tried_poses - 1; ++k) times.push_back(duration * k / (tried_poses - 1));
     double longest_time = 0;
     for (int k = 0; k <= 1000; ++k)
-      if (const double way = way_at(motion, duration * k / 1000); way > longest_) longest_ = way, longest_time = duration * k / 1000;
+      if (const double way = way_at(motion, duration * k / 1000); way > longest_)
+        longest_ = way, longest_time = duration * k / 1000;
     times.push_back(longest_time);
     for (const double time : times) {
       const Pose pose = motion.path->at(time);
@@ -90,7 +92,8 @@ class RestTrials {
   double longest() const { return longest_; }
   /// turned: (end) whether the clamp points along the mean of its chords. reversed: end that points in the opposite direction;
   /// -1: none. enough: a result above this value may be too small, because the remaining poses are left out.
-  double curvature(double length, const std::array<bool, 2>& turned = {}, int reversed = -1, double enough = infinite) const {
+  double curvature(double length, const std::array<bool, 2>& turned = {}, int reversed = -1,
+                   double enough = infinite) const {
     RodProperties of = properties_;
     of.segments = std::min(of.segments, most_segments);
     of.length = length;
@@ -143,11 +146,12 @@ bool is_among(const Kinds& kinds, const Check& check) {
 
 /// Results of the checks of a changed job.
 struct Trial {
-  bool keeps = false;  ///< it keeps the limits of the requested kinds, and exceeds no limit that the job does not exceed now
-  bool cured = false;  ///< the same, with the margin
-  double radius = 0;   ///< smallest bend radius in the short run [m]; 0: no short run
-  std::string other;    ///< name of a check other than bend radius with an exceeded limit; empty: none
-  std::string refusal;  ///< reason why the short run ended; empty: it did not end early
+  bool keeps =
+      false;  ///< it keeps the limits of the requested kinds, and exceeds no limit that the job does not exceed now
+  bool cured = false;             ///< the same, with the margin
+  double radius = 0;              ///< smallest bend radius in the short run [m]; 0: no short run
+  std::string other;              ///< name of a check other than bend radius with an exceeded limit; empty: none
+  std::string refusal;            ///< reason why the short run ended; empty: it did not end early
   std::optional<double> until{};  ///< time at which the short run ended because of its duration [s]; absent: it did not
 };
 
@@ -161,15 +165,16 @@ Trial trial_of(const CheckedMotion& motion, const pipeline::Setup& changed, cons
              return before.warning && before.kind == check.kind && before.dresspack == dresspack;
            }));
   };
-  const auto rejects = [&](const QuickFindings& found) { return !std::all_of(found.checks.begin(), found.checks.end(), keeps); };
+  const auto rejects = [&](const QuickFindings& found) {
+    return !std::all_of(found.checks.begin(), found.checks.end(), keeps);
+  };
   const double limit = limits_of(changed.dresspacks[static_cast<std::size_t>(dresspack)].dresspack).least_bend_radius;
   const QuickFindings found = findings_unless(changed, rejects, std::min(least_radius, limit), dresspack);
   motion.work += found.run.work;
   Trial trial;
   trial.refusal = found.run.refusal;
   if (!trial.refusal.empty()) return trial;
-  if (const Check* const bend = find(found.run.checks, check_name::bend_radius, dresspack))
-    trial.radius = bend->value;
+  if (const Check* const bend = find(found.run.checks, check_name::bend_radius, dresspack)) trial.radius = bend->value;
   trial.until = found.run.stopped_at;
   trial.keeps = !rejects(found);
   if (trial.keeps && motion.own_stiffness != 1) {
@@ -180,11 +185,12 @@ Trial trial_of(const CheckedMotion& motion, const pipeline::Setup& changed, cons
     trial.keeps = as_it_is.run.refusal.empty() && !rejects(as_it_is);
   }
   trial.cured = trial.keeps && std::none_of(found.checks.begin(), found.checks.end(), [&](const Check& check) {
-    return check.dresspack == dresspack && is_among(kinds, check) && check.name == check_name::bend_radius &&
-           check.value < margin * check.limit;
-  });
+                  return check.dresspack == dresspack && is_among(kinds, check) &&
+                         check.name == check_name::bend_radius && check.value < margin * check.limit;
+                });
   for (const Check& check : found.checks)
-    if (check.dresspack == dresspack && check.warning && check.kind != WarningKind::bend_radius) trial.other = check.name;
+    if (check.dresspack == dresspack && check.warning && check.kind != WarningKind::bend_radius)
+      trial.other = check.name;
   return trial;
 }
 
@@ -225,15 +231,14 @@ class RemedySearch {
     const bool as_it_is = best_.length == routing().free_length && !best_.turned[0] && !best_.turned[1];
     if (as_it_is || (trial.radius > 0 && trial.radius <= now))
       return " (none of those tried bends less than it does now)";
-    const std::string in_run = trial.radius > 0         ? in_words(trial.radius, "m") + " in a short run"
-                               : !trial.refusal.empty() ? "and its short run ends: " + trial.refusal
+    const std::string in_run = trial.radius > 0                ? in_words(trial.radius, "m") + " in a short run"
+                               : !trial.refusal.empty()        ? "and its short run ends: " + trial.refusal
                                : best_.curvature * limit() > 1 ? "too little for a short run"
                                                                : "not tried in a short run";
-    return fmt::format(" (best of those tried: {} m{}, bend radius {} at rest, {}; required: {}{})",
-                       at_least_metres(best_.length),
-                       best_.turned[0] || best_.turned[1] ? " with another direction of a clamp" : "",
-                       radius_words(best_.curvature), in_run, in_words(limit(), "m"),
-                       trial.other.empty() ? "" : "; it passes another limit: " + trial.other);
+    return fmt::format(
+        " (best of those tried: {} m{}, bend radius {} at rest, {}; required: {}{})", at_least_metres(best_.length),
+        best_.turned[0] || best_.turned[1] ? " with another direction of a clamp" : "", radius_words(best_.curvature),
+        in_run, in_words(limit(), "m"), trial.other.empty() ? "" : "; it passes another limit: " + trial.other);
   }
 
  private:
@@ -285,9 +290,8 @@ class RemedySearch {
     if (now >= range.least && now <= range.most) all.push_back(now);
     for (int k = 0; k < count; ++k)
       all.push_back(std::round(1e3 * least * std::pow(most / least, static_cast<double>(k) / (count - 1))) / 1e3);
-    std::stable_sort(all.begin(), all.end(), [&](double a, double b) {
-      return std::abs(std::log(a / now)) < std::abs(std::log(b / now));
-    });
+    std::stable_sort(all.begin(), all.end(),
+                     [&](double a, double b) { return std::abs(std::log(a / now)) < std::abs(std::log(b / now)); });
     return all;
   }
 
@@ -323,8 +327,8 @@ class RemedySearch {
     const std::string near =
         change.trial.cured ? "" : fmt::format(", the bend radius by little: {}", in_words(change.trial.radius, "m"));
     const std::string until = change.trial.until ? fmt::format(" of the first {:.0f} s", *change.trial.until) : "";
-    remedy.words = fmt::format(" (bend radius at rest {}; keeps the limits in a short run{}{})", radius_words(change.curvature),
-                               until, near);
+    remedy.words = fmt::format(" (bend radius at rest {}; keeps the limits in a short run{}{})",
+                               radius_words(change.curvature), until, near);
     return remedy;
   }
 
@@ -348,7 +352,8 @@ std::string limit_remark(const CheckedMotion& motion, const Check& broken) {
   const pipeline::Dresspack& dresspack = mounted_of(motion, broken).dresspack;
   if (dresspack.least_bend_radius) return "";
   return fmt::format("; {} is not given, so that {}: give the maker's radius",
-                     key_of(motion.setup, broken.dresspack, "dresspack.least_bend_radius_mm"), pipeline::bend_rule(dresspack));
+                     key_of(motion.setup, broken.dresspack, "dresspack.least_bend_radius_mm"),
+                     pipeline::bend_rule(dresspack));
 }
 
 /// Returns a remark if the bend is near a clamp without a relief.
@@ -369,19 +374,23 @@ std::string relief_remark(const CheckedMotion& motion, const Check& broken) {
   const int now = motion.setup.simulation.segments;
   const double segments = std::ceil(pipeline::fewest_relief_segments * routing.free_length / relief.length);
   // improve changes no mesh, because lives of two meshes differ by more than a relief may cost
-  const pipeline::BendRelief tried = pipeline::first_relief(dresspack.diameter, dresspack.bending_stiffness, routing.free_length / now);
-  return fmt::format("; a sleeve or spring beside the clamp may spread the bend, which dresslife improve tries: {}.bend_relief={}{}",
-                     key_of(motion.setup, broken.dresspack, std::min_element(bare.begin(), bare.end())->second),
-                     pipeline::relief_text(relief),
-                     segments > now ? fmt::format(" and simulation.segments={:.0f} (with {} it tries four segments, {:.0f} mm)", segments, now, 1e3 * tried.length)
-                                    : "");
+  const pipeline::BendRelief tried =
+      pipeline::first_relief(dresspack.diameter, dresspack.bending_stiffness, routing.free_length / now);
+  return fmt::format(
+      "; a sleeve or spring beside the clamp may spread the bend, which dresslife improve tries: {}.bend_relief={}{}",
+      key_of(motion.setup, broken.dresspack, std::min_element(bare.begin(), bare.end())->second),
+      pipeline::relief_text(relief),
+      segments > now ? fmt::format(" and simulation.segments={:.0f} (with {} it tries four segments, {:.0f} mm)",
+                                   segments, now, 1e3 * tried.length)
+                     : "");
 }
 
 /// Returns "a repeat takes 12.3 s instead of 11.0 s" for another acceleration.
 std::string cycle_words(const CheckedMotion& motion, double percent) {
   pipeline::Setup changed = motion.setup;
   changed.motion.acceleration_percent = percent;
-  return fmt::format("a repeat takes {:.1f} s instead of {:.1f} s", path_of(changed)->duration(), motion.path->duration());
+  return fmt::format("a repeat takes {:.1f} s instead of {:.1f} s", path_of(changed)->duration(),
+                     motion.path->duration());
 }
 
 /// Returns a slower program that keeps the limit, with the longer repeat; empty: none was found. first: acceleration to try first [%].
@@ -393,9 +402,11 @@ Remedy slower(const CheckedMotion& motion, const std::vector<Check>& checks, con
     pipeline::Setup changed = motion.setup;
     changed.motion.acceleration_percent = next;
     if (!cures(motion, changed, {*broken.kind}, broken.dresspack, checks)) continue;
-    return {{{"motion.acceleration_percent", fmt::format("{:.0f}", next)}},
-            fmt::format(" (now {:.0f}; tried in a short run; {})", motion.setup.motion.acceleration_percent, cycle_words(motion, next)),
-            "other clamps for the present program (`dresslife route` searches them, unless it proposed these); or a slower program, "};
+    return {
+        {{"motion.acceleration_percent", fmt::format("{:.0f}", next)}},
+        fmt::format(" (now {:.0f}; tried in a short run; {})", motion.setup.motion.acceleration_percent,
+                    cycle_words(motion, next)),
+        "other clamps for the present program (`dresslife route` searches them, unless it proposed these); or a slower program, "};
   }
   return {};
 }
@@ -403,13 +414,16 @@ Remedy slower(const CheckedMotion& motion, const std::vector<Check>& checks, con
 Cure bend_cure(const CheckedMotion& motion, const std::vector<Check>& checks, const Check& broken) {
   const std::string remark = (motion.rod ? relief_remark(motion, broken) : "") + limit_remark(motion, broken);
   if (!motion.rod)
-    return {"the prescribed deformation bends it so", {{}, "a larger radius in motion.rig or motion.deformation" + remark}};
+    return {"the prescribed deformation bends it so",
+            {{}, "a larger radius in motion.rig or motion.deformation" + remark}};
   const pipeline::Routing& routing = mounted_of(motion, broken).routing;
   if (!can_be_tried(motion, broken.dresspack))
-    return {!routing.rings.empty() ? "it turns around the edge of a guide ring, or its length and its clamps do not suit the motion"
-                                   : "its length and its clamps do not suit the motion",
-            {{}, fmt::format("the {} that `dresslife improve` finds{}",
-                             !routing.rings.empty() ? "routing.rings" : "lengths and clamps", remark)}};
+    return {!routing.rings.empty()
+                ? "it turns around the edge of a guide ring, or its length and its clamps do not suit the motion"
+                : "its length and its clamps do not suit the motion",
+            {{},
+             fmt::format("the {} that `dresslife improve` finds{}",
+                         !routing.rings.empty() ? "routing.rings" : "lengths and clamps", remark)}};
   const RestTrials trials(motion, broken);
   const double k_rest = trials.curvature(trials.length());
   const bool at_rest = k_rest * broken.limit >= 1, swings = !at_rest && broken.name == check_name::bend_radius;
@@ -419,19 +433,24 @@ Cure bend_cure(const CheckedMotion& motion, const std::vector<Check>& checks, co
   if (std::isinf(k_rest)) {
     cause = "its length and its clamps do not suit the motion; no shape at rest was found for the clamps as they are";
   } else if (at_rest) {
-    const bool turns = std::ranges::any_of(remedy.values, [](const pipeline::KeyValue& of) { return of.key.ends_with(".direction"); });
-    cause = remedy.empty() ? "distance and direction of the clamps" : turns ? "directions of the clamps" : "the free length";
+    const bool turns =
+        std::ranges::any_of(remedy.values, [](const pipeline::KeyValue& of) { return of.key.ends_with(".direction"); });
+    cause = remedy.empty() ? "distance and direction of the clamps"
+            : turns        ? "directions of the clamps"
+                           : "the free length";
     // The warning of the check at rest already contains its own radius, with more segments and with twist.
     if (broken.name == check_name::bend_radius)
-      cause += fmt::format(" (already at rest and without the robot its bend radius is {} over the program)", radius_words(k_rest));
+      cause += fmt::format(" (already at rest and without the robot its bend radius is {} over the program)",
+                           radius_words(k_rest));
   } else if (swings) {
     const Check* touch = find(checks, check_name::contact_force, broken.dresspack);
     const bool pressed = touch && touch->value > 0 && std::abs(touch->time - broken.time) < 0.2;
     cause = fmt::format("a swing{}: at rest and free of twist the smallest bend radius over the program is {}",
                         pressed ? " or a contact" : " or its winding around the robot", radius_words(k_rest));
   } else {
-    cause = fmt::format("the shape into which the program leads it: free of twist its smallest bend radius at rest is {}",
-                        radius_words(k_rest));
+    cause =
+        fmt::format("the shape into which the program leads it: free of twist its smallest bend radius at rest is {}",
+                    radius_words(k_rest));
   }
   // a clamp that points away from the other one, and would keep the limit in the opposite direction
   for (const int end : {0, 1}) {
@@ -446,8 +465,9 @@ Cure bend_cure(const CheckedMotion& motion, const std::vector<Check>& checks, co
   }
   if (remedy.empty()) remedy = search.elsewhere();
   if (remedy.empty() && swings)
-    remedy = slower(motion, checks, broken,
-                    motion.setup.motion.acceleration_percent * (1 / broken.limit - k_rest) / (1 / broken.value - k_rest));
+    remedy =
+        slower(motion, checks, broken,
+               motion.setup.motion.acceleration_percent * (1 / broken.limit - k_rest) / (1 / broken.value - k_rest));
   if (remedy.empty()) {
     double least = broken.value;  // a limit that both the checks at rest and the short run would keep
     for (const Check& check : checks)
@@ -456,7 +476,8 @@ Cure bend_cure(const CheckedMotion& motion, const std::vector<Check>& checks, co
     remedy.words = no_other_words(motion, search.best_words(least));
     if (least >= pipeline::tightest_bend_radius(mounted_of(motion, broken).dresspack))
       remedy.words += fmt::format("; or {}: {:.0f} if the maker allows it",
-                                  key_of(motion.setup, broken.dresspack, "dresspack.least_bend_radius_mm"), std::floor(1e3 * least));
+                                  key_of(motion.setup, broken.dresspack, "dresspack.least_bend_radius_mm"),
+                                  std::floor(1e3 * least));
   }
   remedy.words += remark;
   return {cause, remedy};
@@ -476,8 +497,8 @@ Cure twist_cure(const CheckedMotion& motion, const std::vector<Check>& checks, c
   const pipeline::Routing& routing = mounted_of(motion, broken).routing;
   const double most = net ? std::abs(net->value) : 0, centre = net ? net->centre : 0;
   const double half_range = most - std::abs(centre), length = routing.free_length;
-  const std::string cause = fmt::format("the clamps turn it by {:.0f} deg, {:.0f} to either side of {:.0f}", most / degree,
-                                        half_range / degree, centre / degree);
+  const std::string cause = fmt::format("the clamps turn it by {:.0f} deg, {:.0f} to either side of {:.0f}",
+                                        most / degree, half_range / degree, centre / degree);
   // Bend limits that are already exceeded have their own warning.
   const auto keeps = [&](double free_length, double pre_twist) {
     pipeline::Setup changed = motion.setup;
@@ -489,16 +510,19 @@ Cure twist_cure(const CheckedMotion& motion, const std::vector<Check>& checks, c
   const std::string other_link = "the tool clamp on a link that turns less";
   if (half_range < broken.limit * length && std::abs(centre) > 0.02 * most &&
       keeps(length, std::round((routing.pre_twist - centre) / degree) * degree))
-    return {cause, {{{key_of(motion.setup, broken.dresspack, "routing.pre_twist_deg"),
-                      fmt::format("{:.0f}", (routing.pre_twist - centre) / degree)}}}};
+    return {cause,
+            {{{key_of(motion.setup, broken.dresspack, "routing.pre_twist_deg"),
+               fmt::format("{:.0f}", (routing.pre_twist - centre) / degree)}}}};
   const double needed = std::max(half_range / broken.limit, length * std::abs(broken.value) / broken.limit);
   // At most the length that the check of slack allows, because a longer hose would hang into the robot.
   const Check* slack = find(checks, check_name::too_short, broken.dresspack);
   const double span = slack ? free_length_of(motion, *slack) : length;
   const double most_longer = slack ? working_length(span - slack->value).most / span : 1;
-  if (needed > most_longer * length || !keeps(std::ceil(1e3 * needed) / 1e3, routing.pre_twist)) return {cause, {{}, other_link}};
-  return {cause, {{{key_of(motion.setup, broken.dresspack, "routing.free_length_m"), at_least_metres(needed)}},
-                  fmt::format(" (now {:.3f}; tried in a short run), or {}", length, other_link)}};
+  if (needed > most_longer * length || !keeps(std::ceil(1e3 * needed) / 1e3, routing.pre_twist))
+    return {cause, {{}, other_link}};
+  return {cause,
+          {{{key_of(motion.setup, broken.dresspack, "routing.free_length_m"), at_least_metres(needed)}},
+           fmt::format(" (now {:.3f}; tried in a short run), or {}", length, other_link)}};
 }
 
 /// Returns the remedy of a span whose length is not `wanted` [m].
@@ -506,8 +530,9 @@ Remedy other_length(const CheckedMotion& motion, const Check& check, double want
   if (check.position < 0)
     return {{{key_of(motion.setup, check.dresspack, "routing.free_length_m"), fmt::format("{:.3f}", wanted)}}};
   const int clamp = span_at(*motion.rod, check) - motion.rod->first_span(check.dresspack) + 1;
-  return {{}, fmt::format("length between clamps {} and {} ({}): {:.3f}", clamp, clamp + 1,
-                          key_of(motion.setup, check.dresspack, "routing.clamps.at_length_m"), wanted)};
+  return {{},
+          fmt::format("length between clamps {} and {} ({}): {:.3f}", clamp, clamp + 1,
+                      key_of(motion.setup, check.dresspack, "routing.clamps.at_length_m"), wanted)};
 }
 
 Cure slack_cure(const CheckedMotion& motion, const std::vector<Check>& checks, const Check& broken) {
@@ -515,8 +540,8 @@ Cure slack_cure(const CheckedMotion& motion, const std::vector<Check>& checks, c
   const WorkingLength range = working_length(way);
   const bool short_one = broken.name == check_name::too_short;
   const std::string cause =
-      fmt::format("the clamps are {:.3f} m apart, which asks for {:.3f} .. {:.3f} m of hose; it has {:.3f} m", way, range.least,
-                  range.most, length);
+      fmt::format("the clamps are {:.3f} m apart, which asks for {:.3f} .. {:.3f} m of hose; it has {:.3f} m", way,
+                  range.least, range.most, length);
   const double wanted = short_one ? std::ceil(1e3 * range.least) / 1e3 : std::floor(1e3 * range.most) / 1e3;
   Remedy alone = other_length(motion, broken, wanted);
   if (!can_be_tried(motion, broken.dresspack)) return {cause, alone};
@@ -539,22 +564,28 @@ Cure tension_cure(const CheckedMotion& motion, const std::vector<Check>& checks,
   Remedy remedy;
   if (can_be_tried(motion, broken.dresspack)) {
     const RestTrials trials(motion, broken);
-    RemedySearch search(motion, checks, trials, broken.dresspack, {WarningKind::tension, WarningKind::bend_radius, WarningKind::slack});
+    RemedySearch search(motion, checks, trials, broken.dresspack,
+                        {WarningKind::tension, WarningKind::bend_radius, WarningKind::slack});
     remedy = search.remedy();
     if (remedy.empty()) remedy = search.elsewhere();
   }
-  if (remedy.empty()) remedy = slower(motion, checks, broken, motion.setup.motion.acceleration_percent * broken.limit / broken.value);
-  if (remedy.empty()) remedy.words = "other clamps (`dresslife route` searches them, unless it proposed these): no length, direction or slower program that was tried keeps the limit";
-  remedy.words += fmt::format("; or {}: {:.0f} if the maker allows it",
-                              key_of(motion.setup, broken.dresspack, "dresspack.most_tension_N"), std::ceil(broken.value));
+  if (remedy.empty())
+    remedy = slower(motion, checks, broken, motion.setup.motion.acceleration_percent * broken.limit / broken.value);
+  if (remedy.empty())
+    remedy.words =
+        "other clamps (`dresslife route` searches them, unless it proposed these): no length, direction or slower program that was tried keeps the limit";
+  remedy.words +=
+      fmt::format("; or {}: {:.0f} if the maker allows it",
+                  key_of(motion.setup, broken.dresspack, "dresspack.most_tension_N"), std::ceil(broken.value));
   return {"its weight and the acceleration of the program", remedy};
 }
 
 Cure travel_cure(const CheckedMotion& motion, const Check& broken) {
-  return {"the retraction unit is pulled out to its end",
-          {{{key_of(motion.setup, broken.dresspack, "routing.retraction.stroke_m"), at_least_metres(1.1 * broken.limit)}},
-           fmt::format(" or more, or {} longer by as much as it is pulled beyond",
-                       key_of(motion.setup, broken.dresspack, "routing.free_length_m"))}};
+  return {
+      "the retraction unit is pulled out to its end",
+      {{{key_of(motion.setup, broken.dresspack, "routing.retraction.stroke_m"), at_least_metres(1.1 * broken.limit)}},
+       fmt::format(" or more, or {} longer by as much as it is pulled beyond",
+                   key_of(motion.setup, broken.dresspack, "routing.free_length_m"))}};
 }
 
 std::string place_words(const CheckedMotion& motion, const Check& check) {
@@ -594,12 +625,14 @@ Cure cure_of(const CheckedMotion& motion, const std::vector<Check>& checks, cons
 
 std::string obstacle_words(const pipeline::Setup& setup) {
   const pipeline::Cell& cell = setup.cell;
-  return cell.capsules.empty() && cell.boxes.empty() && cell.meshes.empty() ? "the robot" : "the robot or an obstacle of the cell";
+  return cell.capsules.empty() && cell.boxes.empty() && cell.meshes.empty() ? "the robot"
+                                                                            : "the robot or an obstacle of the cell";
 }
 
 pipeline::Warning taut_warning(const CheckedMotion& motion, const ShortRun& run) {
   return pipeline::warning_of(WarningKind::slack, "", run.refusal,
-                              fmt::format("it lies on {}, around which its way is longer than from clamp to clamp", obstacle_words(motion.setup)),
+                              fmt::format("it lies on {}, around which its way is longer than from clamp to clamp",
+                                          obstacle_words(motion.setup)),
                               remedy_for(motion, run.dresspack, *run.taut_at,
                                          "give it more free length, or move a clamp (dresslife preview shows it)"));
 }
@@ -609,19 +642,19 @@ std::string refusal_remedy(const pipeline::Setup& setup, const RoutingRefusal& r
   const std::unique_ptr<ClampPath> path = path_of(setup);
   const pipeline::Routing& routing = setup.dresspacks[static_cast<std::size_t>(refusal.dresspack)].routing;
   if (pipeline::clamps_exchanged(routing, setup.robot))
-    return fmt::format("the links of the clamps may be exchanged: routing.base_clamp.link: {} and routing.tool_clamp.link: {} if so",
-                       routing.tool_clamp->link, routing.base_clamp->link);
+    return fmt::format(
+        "the links of the clamps may be exchanged: routing.base_clamp.link: {} and routing.tool_clamp.link: {} if so",
+        routing.tool_clamp->link, routing.base_clamp->link);
   if (const auto* robot = dynamic_cast<const RobotPath*>(path.get()); robot && robot->clamps_in_world())
     return "give the places of the clamps in the frames of their links (dresslife check computes them)";
-  return remedy_for({setup, {}, &rod, path.get()}, refusal.dresspack, refusal.time.value_or(0),
-                    refusal.remedy)
-      .text();
+  return remedy_for({setup, {}, &rod, path.get()}, refusal.dresspack, refusal.time.value_or(0), refusal.remedy).text();
 }
 
 std::string check_words(const CheckedMotion& motion, const Check& check) {
   const std::string name = pipeline::name_among(motion.setup, static_cast<std::size_t>(check.dresspack));
-  return fmt::format("{}{}{}: {} (limit {}{}){} {}", name, name.empty() ? "" : ", ", check.name, in_words(check.value, check.unit),
-                     in_words(check.limit, check.unit), hand_words(check), place_words(motion, check), motion.moment(check.time));
+  return fmt::format("{}{}{}: {} (limit {}{}){} {}", name, name.empty() ? "" : ", ", check.name,
+                     in_words(check.value, check.unit), in_words(check.limit, check.unit), hand_words(check),
+                     place_words(motion, check), motion.moment(check.time));
 }
 
 /// Warns of segments that are too long beside a pulled clamp. From a clamp, the bend of a hose decays over d = sqrt(E I/T). With
@@ -638,12 +671,15 @@ std::optional<pipeline::Warning> mesh_warning(const CheckedMotion& motion, const
   if (length <= coarse * decay) return {};
   return pipeline::warning_of(
       WarningKind::mesh, "",
-      fmt::format("simulation.segments is {}: a segment{} is {:.0f} mm long (limit {:.0f} mm: {:g} of the length over which a bend decays from "
-                  "a clamp under the largest pull, {:.0f} N {}), so that strains at the clamps are at least 13 % too small and lives there about "
-                  "twice too long or longer",
-                  segments, name.empty() ? "" : " of " + name, 1e3 * length, 1e3 * coarse * decay, coarse, pull.value, motion.moment(pull.time)),
+      fmt::format(
+          "simulation.segments is {}: a segment{} is {:.0f} mm long (limit {:.0f} mm: {:g} of the length over which a bend decays from "
+          "a clamp under the largest pull, {:.0f} N {}), so that strains at the clamps are at least 13 % too small and lives there about "
+          "twice too long or longer",
+          segments, name.empty() ? "" : " of " + name, 1e3 * length, 1e3 * coarse * decay, coarse, pull.value,
+          motion.moment(pull.time)),
       "a coarse mesh, or a bending stiffness that is too small",
-      {{{"simulation.segments", fmt::format("{:.0f}", std::ceil(mounted.routing.free_length / (fine * decay)))}}, ": lives within a tenth"});
+      {{{"simulation.segments", fmt::format("{:.0f}", std::ceil(mounted.routing.free_length / (fine * decay)))}},
+       ": lives within a tenth"});
 }
 
 std::vector<pipeline::Warning> check_warnings(const CheckedMotion& motion, const std::vector<Check>& checks) {

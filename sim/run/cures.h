@@ -38,7 +38,7 @@ struct CheckedMotion {
   /// Returns a remedy with clamps within same_place of theirs, if no length and no direction is one; may be empty.
   std::function<pipeline::Remedy()> other_places = {};
   double own_stiffness = 1;  ///< factor of setup's stiffness at which a remedy must keep the limits, too
-  mutable double work = 0;                    ///< work of the short runs that tried remedies, in the unit of World::work
+  mutable double work = 0;   ///< work of the short runs that tried remedies, in the unit of World::work
   /// (dresspack, kinds of limits) a routing that keeps these; empty: none was found
   mutable std::map<std::pair<int, std::vector<pipeline::WarningKind>>, pipeline::Remedy> remedies{};
 };

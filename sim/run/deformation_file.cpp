@@ -73,15 +73,13 @@ class Reader {
              fmt::format("the first line names the columns, of: {}", pipeline::joined(all, ", ")));
       }
       if (!names[column->quantity].empty())
-        fail(cell.column,
-             fmt::format("column {} beside {} (both say the same)", cell.text, names[column->quantity]),
+        fail(cell.column, fmt::format("column {} beside {} (both say the same)", cell.text, names[column->quantity]),
              "keep one of the two");
       names[column->quantity] = column->name;
       columns_.push_back(column);
     }
     if (names[time].empty()) fail(1, "deformation has no column t_s", "give the time of each row in seconds");
-    if (names[curvature1].empty() && names[curvature2].empty() && names[twist].empty() &&
-        names[elongation].empty())
+    if (names[curvature1].empty() && names[curvature2].empty() && names[twist].empty() && names[elongation].empty())
       fail(1, "deformation has a time and nothing that deforms",
            "add kappa_1_1_per_m, kappa_2_1_per_m, twist_deg_per_m or elongation");
     has_places_ = !names[position].empty();
@@ -89,8 +87,7 @@ class Reader {
 
   void read_row(const CsvRow& cells) {
     if (cells.size() != columns_.size())
-      fail(cells.back().column,
-           fmt::format("row has {} cells (its header has {})", cells.size(), columns_.size()),
+      fail(cells.back().column, fmt::format("row has {} cells (its header has {})", cells.size(), columns_.size()),
            "write one number per column, separated by commas");
     std::array<double, quantities> value{};
     std::array<int, quantities> at{};
@@ -108,8 +105,7 @@ class Reader {
                at[twist] ? at[twist] : std::max(at[curvature1], at[curvature2]));
     if (std::abs(value[elongation]) > most_elongation)
       fail(at[elongation],
-           fmt::format("elongation is {:.6g} (must be -0.5 .. 0.5: relative, 0.01 is one percent)",
-                       value[elongation]),
+           fmt::format("elongation is {:.6g} (must be -0.5 .. 0.5: relative, 0.01 is one percent)", value[elongation]),
            "check its unit, or the E A by which a tension becomes one");
     add(value, at);
   }
@@ -127,9 +123,10 @@ class Reader {
     const double angle = rate.norm() * segment_;
     if (angle > most_turn)
       fail(column,
-           fmt::format("curvature and twist turn a segment of {:.4g} mm by {:.4g} deg (at most 120)",
-                       1e3 * segment_, angle * 180 / EIGEN_PI),
-           fmt::format("check the units, or give simulation.segments: {:.0f}", std::ceil(length_ / segment_ * angle / most_turn)));
+           fmt::format("curvature and twist turn a segment of {:.4g} mm by {:.4g} deg (at most 120)", 1e3 * segment_,
+                       angle * 180 / EIGEN_PI),
+           fmt::format("check the units, or give simulation.segments: {:.0f}",
+                       std::ceil(length_ / segment_ * angle / most_turn)));
   }
 
   void add(const std::array<double, quantities>& value, const std::array<int, quantities>& at) {
@@ -159,18 +156,14 @@ class Reader {
     if (result_.times.empty()) return;
     if (result_.times.size() == 1) places_ = result_.positions.size();
     if (const std::size_t left = result_.times.size() * places_ - result_.states.size(); left > 0)
-      fail(0,
-           fmt::format("time {} s has {} places (the first has {})", result_.times.back(), places_ - left,
-                       places_),
+      fail(0, fmt::format("time {} s has {} places (the first has {})", result_.times.back(), places_ - left, places_),
            "give every time a row for each position_m");
   }
 
   void check_place(double value, std::size_t place, int column) const {
     constexpr double rounding = 1e-6;  // relative to the length, for rounded decimals
     if (value < 0 || value > length_ * (1 + rounding))
-      fail(column,
-           fmt::format("position_m is {} (must lie in 0 .. {}, the dresspack's free_length_m)", value,
-                       length_),
+      fail(column, fmt::format("position_m is {} (must lie in 0 .. {}, the dresspack's free_length_m)", value, length_),
            "measure it from the base clamp along the dresspack");
     if (result_.times.size() == 1) {
       if (place > 0 && value <= result_.positions.back())

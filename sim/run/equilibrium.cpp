@@ -14,9 +14,9 @@ namespace {
 constexpr double largest_turn = 0.5;  // rotation of a segment in one iteration [rad]
 constexpr double saddle_turn = 0.02;  // rotation of a chain at a saddle point [rad]
 constexpr int most_saddles = 10;
-constexpr double least_gain = 1e-4;        // a step must release at least this share of its expected work
-constexpr double shift_factor = 4;         // factor by which the shift increases and decreases
-constexpr double smallest_step = 1e-13;    // share of the length: rounding of positions
+constexpr double least_gain = 1e-4;      // a step must release at least this share of its expected work
+constexpr double shift_factor = 4;       // factor by which the shift increases and decreases
+constexpr double smallest_step = 1e-13;  // share of the length: rounding of positions
 constexpr double settling_work =
     5;  // ESTIMATE: allowed work per step, in steps without contact; a search with more contacts ends earlier
 constexpr double energy_rounding = 1e-12;  // share of the energies, summed over some hundred links
@@ -25,11 +25,7 @@ constexpr double energy_rounding = 1e-12;  // share of the energies, summed over
 class Statics {
  public:
   Statics(const Rod& rod, std::span<const Load> loads)
-      : rod_(rod),
-        loads_(loads),
-        block_(rod.segments()),
-        step_(rod.segments()),
-        pull_(rod.links(), Vector3::Zero()) {}
+      : rod_(rod), loads_(loads), block_(rod.segments()), step_(rod.segments()), pull_(rod.links(), Vector3::Zero()) {}
 
   /// Computes the unbalanced force and torque of every segment; returns EquilibriumSettings::residual.
   double unbalance(const RodState& state);
@@ -107,8 +103,7 @@ Matrix3 turn_curvature(const LinkTurn& turn, const Vector3& moment) {
   const bool small = theta < 0.02;  // series: the next terms are below 1e-11
   const double cotangent = small ? 0 : 1 / std::tan(theta / 2);
   const double c = small ? -theta / 12 - theta * theta * theta / 360 : cotangent / 4 - s * s / (2 * theta);
-  const double slope =
-      small ? theta / 12 + 7 * theta * theta * theta / 1440 : s / theta * (1 - theta / 2 * cotangent);
+  const double slope = small ? theta / 12 + 7 * theta * theta * theta / 1440 : s / theta * (1 - theta / 2 * cotangent);
   const Vector3 u = turn.phi / theta, world_u = turn.axis.normalized();
   const double along = moment.dot(u);
   const Vector3 across = turn.map * (moment - along * u) / s;  // G = R s across u
@@ -145,8 +140,7 @@ void Statics::add_link(const RodState& state, int j) {
   const Vector3 moment = turn.map * local_moment, f = pull_[j];
   const LinkArms arms = ends.arms();
   const double k = rod_.gap_stiffness(j);
-  const Matrix3 h = turn.map * stiffness.asDiagonal() * turn.map.transpose() +
-                    turn_curvature(turn, local_moment) +
+  const Matrix3 h = turn.map * stiffness.asDiagonal() * turn.map.transpose() + turn_curvature(turn, local_moment) +
                     k * arms.excess * arms.normal * arms.normal.transpose();
   const bool between = j > 0 && j < rod_.segments();
   const LengtheningStiffness lengthening =
@@ -180,13 +174,11 @@ int Statics::solve(const RodState& state, double shift) {
     const double transverse = rod_.transverse_inertia(), excess = rod_.axial_inertia() - transverse;
     std::fill(block_[i].diagonal, block_[i].diagonal + 36, 0.0);
     add_block(block_[i].diagonal, shift * rod_.segment_mass() * Matrix3::Identity());
-    add_block(block_[i].diagonal + 21,
-              shift * (transverse * Matrix3::Identity() + excess * t * t.transpose()));
+    add_block(block_[i].diagonal + 21, shift * (transverse * Matrix3::Identity() + excess * t * t.transpose()));
     std::copy_n(unbalanced_[i].value, 6, block_[i].value);
   }
   for (int j = 0; j <= n; ++j) add_link(state, j);
-  if (const double mass = rod_.properties().tip_mass;
-      mass > 0) {  // its weight acts like a link force (S12)
+  if (const double mass = rod_.properties().tip_mass; mass > 0) {  // its weight acts like a link force (S12)
     const Vector3 arm = rod_.tip(state) - state.position.back(), f = mass * rod_.properties().gravity;
     add_block(block_[n - 1].diagonal + 21,
               f.dot(arm) * Matrix3::Identity() - 0.5 * (f * arm.transpose() + arm * f.transpose()));
@@ -243,8 +235,7 @@ void Statics::predict_pull(const RodState& state, double part) {
     const LinkEnds ends = link_ends(rod_, state, j);
     const Twist6 none{};
     const Twist6 &before = j > 0 ? step_[j - 1] : none, &after = j < n ? step_[j] : none;
-    const Vector3 change =
-        gap_change(ends.arms(), before.linear(), before.angular(), after.linear(), after.angular());
+    const Vector3 change = gap_change(ends.arms(), before.linear(), before.angular(), after.linear(), after.angular());
     pull_[j] = rod_.gap_stiffness(j) * (rod_.link_state(state, j).gap + part * change);
   }
 }
@@ -276,8 +267,7 @@ void take_to_rest(const Rod& rod, RodState& state) {
   for (int i = 0; i < rod.segments(); ++i) state.velocity[i].setZero(), state.angular_velocity[i].setZero();
   state.clamp_velocity.assign(2, Vector3::Zero());
   state.clamp_angular_velocity.assign(2, Vector3::Zero());
-  for (int j = 0; j < rod.links(); ++j)
-    state.link_force[j] = rod.gap_stiffness(j) * rod.link_state(state, j).gap;
+  for (int j = 0; j < rod.links(); ++j) state.link_force[j] = rod.gap_stiffness(j) * rod.link_state(state, j).gap;
 }
 
 // Levenberg-Marquardt on (S11). Two properties allow large rotations although stretch is much stiffer than
@@ -327,8 +317,7 @@ class Descent {
         result_.status = EquilibriumStatus::converged;
       else
         step();
-    } else if (shift_ >= least_shift_ && result_.residual < settings_.tolerance &&
-               saddles_++ < most_saddles) {
+    } else if (shift_ >= least_shift_ && result_.residual < settings_.tolerance && saddles_++ < most_saddles) {
       // A symmetric start may lead to a saddle point: a disturbance lets the chain move to a stable side.
       statics_.bend_softly(result_.state, least_shift_);
       result_.state = moved(result_.state, statics_.step(), 1);
@@ -351,8 +340,7 @@ class Descent {
     RodState next = moved(state, statics_.step(), part);
     const Energy energy = rod_.energy(state);
     const double rounding = energy_rounding * (energy.elastic + std::abs(energy.gravitational));
-    if (!settings_.also_unstable &&
-        statics_.energy_change(state, next, part) > -least_gain * work + rounding) {
+    if (!settings_.also_unstable && statics_.energy_change(state, next, part) > -least_gain * work + rounding) {
       raise_shift();
       statics_.start_pull(state);
       return;

@@ -24,7 +24,7 @@ enum class EquilibriumStatus {
 struct Equilibrium {
   EquilibriumStatus status = EquilibriumStatus::not_converged;
   int iterations = 0;
-  double residual = 0;  ///< largest unbalanced force or torque / segment length, over the largest link force
+  double residual = 0;      ///< largest unbalanced force or torque / segment length, over the largest link force
   int negative_pivots = 0;  ///< of the tangent stiffness at the result: 0 = stable
   RodState state;           ///< the equilibrium
 };
@@ -40,8 +40,7 @@ struct EquilibriumSettings {
 
 /// Finds an equilibrium from both clamps. The start is a smooth curve of the right length with parallel-transported frames, with
 /// the shortest uniform twist that fits the tool clamp's roll (|net twist| <= pi).
-Equilibrium find_equilibrium(const Rod& rod, const ClampFrames& clamps,
-                             const EquilibriumSettings& settings = {});
+Equilibrium find_equilibrium(const Rod& rod, const ClampFrames& clamps, const EquilibriumSettings& settings = {});
 
 /// Finds an equilibrium from a given state, for a clamp or load that has moved a little: stays on the same branch and keeps full
 /// turns.
@@ -54,8 +53,7 @@ struct TwistFreeClamp {
   double roll = 0;
   Equilibrium equilibrium;  ///< with the rotated frame in state.clamps.tool
 };
-TwistFreeClamp twist_free_roll(const Rod& rod, const ClampFrames& clamps,
-                               const EquilibriumSettings& settings = {});
+TwistFreeClamp twist_free_roll(const Rod& rod, const ClampFrames& clamps, const EquilibriumSettings& settings = {});
 /// The same from a near result, for example that under another gravity: stays on its branch.
 TwistFreeClamp twist_free_roll(const Rod& rod, const ClampFrames& clamps, const TwistFreeClamp& near,
                                const EquilibriumSettings& settings = {});

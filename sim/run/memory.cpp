@@ -22,24 +22,23 @@ pipeline::MemoryNeed memory_of(const Simulation& simulation, const pipeline::Unc
            "fewer simulation.segments");
   // Acceleration of each step; curvature of every link in the compared half of the windows.
   constexpr double compared = 0.5 / 30, value = sizeof(double);
-  need.add(2 * steps * value + steps * compared * run.links * value,
-           fmt::format("the error of {:.0f} steps", steps),
+  need.add(2 * steps * value + steps * compared * run.links * value, fmt::format("the error of {:.0f} steps", steps),
            "a longer simulation.time_step_ms, or a shorter motion");
-  constexpr double of_a_frame = 7 * value,
-                   grown = 1.5;  // position and orientation; a list that grows by doubling has on average 1.5 times its size
+  constexpr double
+      of_a_frame = 7 * value,
+      grown = 1.5;  // position and orientation; a list that grows by doubling has on average 1.5 times its size
   if (other_stiffness(uncertainty) != 0)
     need.add(grown * of_a_frame * run.samples * static_cast<double>(segments + run.clamp_segment.size()),
              "a motion with another stiffness of the hose",
              "uncertainty.hose_stiffness: 1, or a lower simulation.sample_rate_Hz");
-  need.add(
-      pipeline::file_buffers(pipeline::motion_format(), {{"sample", static_cast<std::size_t>(run.samples)},
-                                                         {"segment", segments},
-                                                         {"clamp", run.clamp_segment.size()},
-                                                         {"joint", static_cast<std::size_t>(run.joints)},
-                                                         {"link", run.link_names.size()},
-                                                         {"hose_link", static_cast<std::size_t>(run.links)},
-                                                         {"line", run.step_texts.size()}}),
-      "what is being written");
+  need.add(pipeline::file_buffers(pipeline::motion_format(), {{"sample", static_cast<std::size_t>(run.samples)},
+                                                              {"segment", segments},
+                                                              {"clamp", run.clamp_segment.size()},
+                                                              {"joint", static_cast<std::size_t>(run.joints)},
+                                                              {"link", run.link_names.size()},
+                                                              {"hose_link", static_cast<std::size_t>(run.links)},
+                                                              {"line", run.step_texts.size()}}),
+           "what is being written");
   return need;
 }
 

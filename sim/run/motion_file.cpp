@@ -9,9 +9,7 @@ namespace dresslife::sim {
 namespace {
 
 void put(std::vector<double>& row, const Vector3& v) { row.insert(row.end(), {v.x(), v.y(), v.z()}); }
-void put(std::vector<double>& row, const Quaternion& q) {
-  row.insert(row.end(), {q.w(), q.x(), q.y(), q.z()});
-}
+void put(std::vector<double>& row, const Quaternion& q) { row.insert(row.end(), {q.w(), q.x(), q.y(), q.z()}); }
 
 }  // namespace
 
@@ -32,17 +30,15 @@ MotionFile::MotionFile(pipeline::FileWriter& file, const RunDescription& descrip
   file_.append("/dresspack/torsional_stiffness", std::span<const double>(description.torsional_stiffness));
   file_.append("/dresspack/axial_stiffness", std::span<const double>(description.axial_stiffness));
   if (description.clamp_segment.size() > 2)
-    file_.append("/clamp/segment", std::span<const std::int32_t>(description.clamp_segment.data(),
-                                                                 description.clamp_segment.size()));
+    file_.append("/clamp/segment",
+                 std::span<const std::int32_t>(description.clamp_segment.data(), description.clamp_segment.size()));
   file_.append("/program/text", std::span<const std::string>(description.step_texts));
   for (const MotionLoop& loop : description.loops)
     file_.append("/program/loop", std::array{loop.begin, loop.round, static_cast<double>(loop.rounds)});
 }
 
 void MotionFile::add(const Sample& sample) {
-  const auto rows = [&](const char* dataset, std::span<const double> values) {
-    file_.append(dataset, values);
-  };
+  const auto rows = [&](const char* dataset, std::span<const double> values) { file_.append(dataset, values); };
   positions_.clear();
   orientations_.clear();
   for (const Vector3& position : sample.state.position) put(positions_, position);
@@ -161,8 +157,7 @@ void MotionFile::add_robot(const Pose& pose) {
                std::span<const double>(pose.joints.data(), static_cast<size_t>(description_.joints)));
   file_.append("/robot/link_pose", std::span<const double>(poses_));
   if (links_named_) return;
-  file_.dataset_attribute("/robot/link_pose", "links",
-                          pipeline::joined(description_.link_names, ","));
+  file_.dataset_attribute("/robot/link_pose", "links", pipeline::joined(description_.link_names, ","));
   links_named_ = true;
 }
 

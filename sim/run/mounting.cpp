@@ -14,22 +14,23 @@ namespace {
 
 constexpr double joint_speed = 20 * EIGEN_PI / 180;  // speed of the fastest axis on the way to the start [rad/s]
 constexpr int settling_steps = 20000;
-constexpr double rest = 1e-5;          // target of the settling [m/s]
-constexpr double near_rest = 2e-2;     // accepted as a start: the hose sways by less than its diameter [m/s]
-constexpr double lean = 0.3;           // of a hose held up: exactly vertical it could stay in an unstable balance
+constexpr double rest = 1e-5;       // target of the settling [m/s]
+constexpr double near_rest = 2e-2;  // accepted as a start: the hose sways by less than its diameter [m/s]
+constexpr double lean = 0.3;        // of a hose held up: exactly vertical it could stay in an unstable balance
 // Between clamps in one plane with the arm a hose rests on both sides, and rounding would choose one. 6 deg choose the same side for
 // clamps that are built some millimetres beside this plane.
 constexpr double lean_to_left = 0.1;
 constexpr double overlap_share = 0.5;  // share of the diameter: smaller overlaps are pushed out while settling
 
-constexpr double roomy = 0.98;  // share of the free length: the remainder is the length to bend when a unit is pulled out
+constexpr double roomy =
+    0.98;  // share of the free length: the remainder is the length to bend when a unit is pulled out
 constexpr double pre_twist_part = 0.5;  // rotation per step [rad]
 
 struct MountedPiece {
   RodState state;
-  double roll = 0;                // roll of its far end
-  double depth = 0;               // largest overlap with an obstacle or another dresspack [m]
-  int through = -1;               // index of the other dresspack, if that overlap is the deepest; -1: robot, cell or floor
+  double roll = 0;   // roll of its far end
+  double depth = 0;  // largest overlap with an obstacle or another dresspack [m]
+  int through = -1;  // index of the other dresspack, if that overlap is the deepest; -1: robot, cell or floor
   int obstacle = floor_obstacle;  // obstacle otherwise, numbered as in Contact
   double place = 0;               // place of the deepest overlap along the piece [m]
   bool found = false;
@@ -59,7 +60,8 @@ void add_shapes(World& world, int link, const Shapes& shapes) {
   for (const pipeline::Box& box : shapes.boxes)
     world.add(link, BoxShape{frame_of(box.position, box.orientation), box.sides});
   for (const pipeline::MeshFile& file : shapes.meshes)
-    world.add(link, std::make_shared<const Mesh>(scaled_triangles(file.file, file.scale)), frame_of(file.position, file.orientation));
+    world.add(link, std::make_shared<const Mesh>(scaled_triangles(file.file, file.scale)),
+              frame_of(file.position, file.orientation));
 }
 
 WorldSettings world_settings(const pipeline::Setup& setup) {
@@ -95,17 +97,17 @@ class Mounting {
  private:
   const pipeline::Routing& routing(int dresspack) const { return setup_.dresspacks[dresspack].routing; }
 
-  [[noreturn]] void fail(
-      int dresspack, const std::string& what,
-      const std::string& remedy =
-          "check the free length and the clamps' places and directions in the mounting pose") const {
-    throw RoutingRefusal(routing(dresspack).where, fmt::format("{} {}", pipeline::dresspack_words(setup_, dresspack), what),
+  [[noreturn]] void fail(int dresspack, const std::string& what,
+                         const std::string& remedy =
+                             "check the free length and the clamps' places and directions in the mounting pose") const {
+    throw RoutingRefusal(routing(dresspack).where,
+                         fmt::format("{} {}", pipeline::dresspack_words(setup_, dresspack), what),
                          remedy + " (dresslife preview shows them)", dresspack);
   }
 
   [[noreturn]] void fail_in_the_way(const Piece& piece, const MountedPiece& held) const {
-    const std::string what = held.through >= 0    ? pipeline::dresspack_words(setup_, held.through)
-                             : held.obstacle >= 0 ? setup_.robot.links[held.obstacle].name
+    const std::string what = held.through >= 0                ? pipeline::dresspack_words(setup_, held.through)
+                             : held.obstacle >= 0             ? setup_.robot.links[held.obstacle].name
                              : held.obstacle == cell_obstacle ? "an obstacle of the cell"
                                                               : "the floor";
     double before = 0;  // length before the piece, along the dresspack
@@ -114,8 +116,8 @@ class Mounting {
     const double deep = 1e3 * held.depth;
     fail(
         piece.dresspack,
-        fmt::format("runs {:.0f} mm deep through {} in the mounting pose, {:.2f} m from its base clamp", deep,
-                    what, before + held.place),
+        fmt::format("runs {:.0f} mm deep through {} in the mounting pose, {:.2f} m from its base clamp", deep, what,
+                    before + held.place),
         fmt::format(
             "bring a clamp {:.0f} mm and more out of its way, turn the clamps' directions away from it, or change the free "
             "length",
@@ -179,8 +181,7 @@ class Mounting {
       ClampFrames at = pose.clamps;
       Frame& base = at.end(2 * span);
       base.position += way * tangent(base.orientation);
-      if (held.tool_end == End::free || shortest_way(rod, at, span, through) < roomy * held.length)
-        return way;
+      if (held.tool_end == End::free || shortest_way(rod, at, span, through) < roomy * held.length) return way;
     }
     return stroke;
   }
@@ -217,14 +218,14 @@ class Mounting {
       piece.properties.slider.reset();
       piece.properties.segments = counts[p];
       piece.properties.length = counts[p] * span.segment_length;
-      if (!last) piece.properties.tool_end = End::clamped, piece.properties.tip_mass = 0, piece.properties.stiff_ends[1] = {};
+      if (!last)
+        piece.properties.tool_end = End::clamped, piece.properties.tip_mass = 0, piece.properties.stiff_ends[1] = {};
       if (p > 0) piece.properties.stiff_ends[0] = {};
       piece.end = ends[p];
       piece.begin_link = p == 0 ? end_links[2 * k] : links[p - 1];
       piece.end_link = links[p];
       piece.twist_free = !last || free_of_twist(k);
-      if (last && k + 1 == rod_.first_span(span.dresspack + 1))
-        piece.pre_twist = routing(span.dresspack).pre_twist;
+      if (last && k + 1 == rod_.first_span(span.dresspack + 1)) piece.pre_twist = routing(span.dresspack).pre_twist;
       if (last && !free_end) piece.clamped_end = 2 * k + 1;
       pieces.push_back(piece);
     }
@@ -237,16 +238,14 @@ class Mounting {
     constexpr int fewest = 2;
     const int pieces = static_cast<int>(ends.size());
     std::vector<double> ways{0};
-    for (const Frame& end : ends)
-      ways.push_back(ways.back() + (end.position - from).norm()), from = end.position;
+    for (const Frame& end : ends) ways.push_back(ways.back() + (end.position - from).norm()), from = end.position;
     std::vector<int> counts;
     int before = 0;
     for (int p = 0; p < pieces; ++p) {
       const double share = given[p] > 0 ? given[p] / span.properties.length : ways[p + 1] / ways.back();
       const int left = fewest * (pieces - 1 - p);
-      const int up_to =
-          std::min(span.segments() - left,
-                   std::max(before + fewest, static_cast<int>(std::lround(share * span.segments()))));
+      const int up_to = std::min(span.segments() - left,
+                                 std::max(before + fewest, static_cast<int>(std::lround(share * span.segments()))));
       counts.push_back((p + 1 == pieces ? span.segments() : up_to) - before);
       if (counts.back() < fewest)
         fail(span.dresspack, "has too few segments for its guide rings (simulation.segments)");
@@ -272,8 +271,7 @@ class Mounting {
     int piece = 0;
     for (int k = 0; k < spans; ++k) {
       state.clamps.end(2 * k) = pieces.clamps.end(2 * piece);
-      for (int left = rod_.spans()[k].segments(); left > 0; ++piece)
-        left -= hung_pieces_[piece].properties.segments;
+      for (int left = rod_.spans()[k].segments(); left > 0; ++piece) left -= hung_pieces_[piece].properties.segments;
       state.clamps.end(2 * k + 1) = pieces.clamps.end(2 * piece - 1);
     }
     state.clamp_velocity.assign(2 * spans, Vector3::Zero());
@@ -371,8 +369,7 @@ class Mounting {
       held.obstacle = deepest.obstacle;
       held.place = (deepest.segment + 0.5) * segment_length;
     }
-    if (properties.tool_end == End::free)
-      held.state.clamps.tool = rod.tip_frame(held.state, rod.spans().front());
+    if (properties.tool_end == End::free) held.state.clamps.tool = rod.tip_frame(held.state, rod.spans().front());
     find_other_dresspacks(piece, held);
     return held;
   }
@@ -388,8 +385,7 @@ class Mounting {
     const Span& last = rod.spans().back();
     for (const Contact& contact : contacts) {
       const int other = rod.span_of(contact.segment).dresspack;  // the contact names the lower segment first
-      if (contact.other < last.first_segment || other == last.dresspack || contact.depth <= held.depth)
-        continue;
+      if (contact.other < last.first_segment || other == last.dresspack || contact.depth <= held.depth) continue;
       held.depth = contact.depth;
       held.through = other;
       held.place = (contact.other - last.first_segment + 0.5) * last.segment_length;
@@ -405,11 +401,13 @@ class Mounting {
       const std::size_t contacts = world->contacts().size();
       const std::string what =
           fmt::format("{} (it still moves at {:.3g} m/s{})",
-                      rod_.dresspacks() > 1 ? "or another does not come to rest" : "does not come to rest", found.residual,
-                      contacts > 0 ? fmt::format(", with {} contacts", contacts) : "");
-      RoutingRefusal refusal(routing(0).where, fmt::format("{} {}", pipeline::dresspack_words(setup_, 0), what),
-                             "check diameter and stiffness of the dresspack, the free length and the clamps' places and "
-                             "directions in the mounting pose (dresslife preview shows them)", 0);
+                      rod_.dresspacks() > 1 ? "or another does not come to rest" : "does not come to rest",
+                      found.residual, contacts > 0 ? fmt::format(", with {} contacts", contacts) : "");
+      RoutingRefusal refusal(
+          routing(0).where, fmt::format("{} {}", pipeline::dresspack_words(setup_, 0), what),
+          "check diameter and stiffness of the dresspack, the free length and the clamps' places and "
+          "directions in the mounting pose (dresslife preview shows them)",
+          0);
       refusal.work = world->work();
       throw refusal;
     }
@@ -422,14 +420,13 @@ class Mounting {
   /// Returns the state after the joint move from the mounting pose to the first waypoint, with smooth begin and end.
   RodState moved_to_start(const RodState& start) const {
     const Eigen::VectorXd from = robot_->mounting_pose(), way = robot_->motion().position(0) - from;
-    const int steps = static_cast<int>(
-        std::ceil(way.lpNorm<Eigen::Infinity>() / (joint_speed * setup_.simulation.time_step)));
+    const int steps =
+        static_cast<int>(std::ceil(way.lpNorm<Eigen::Infinity>() / (joint_speed * setup_.simulation.time_step)));
     const std::unique_ptr<World> world = make_world(setup_, rod_, robot_, start, robot_->pose(from));
     for (int k = 1; k <= steps; ++k) {
       const double u = static_cast<double>(k) / steps;
       const Pose pose = robot_->pose(from + u * u * (3 - 2 * u) * way);
-      if (!world->advance(pose.clamps, pose.links).finite ||
-          rod_.mean_elongation(world->state()) > longest_elongation)
+      if (!world->advance(pose.clamps, pose.links).finite || rod_.mean_elongation(world->state()) > longest_elongation)
         fail(rod_.most_stretched(world->state()).dresspack,
              "is pulled tight on the way from the mounting pose to the first waypoint");
     }

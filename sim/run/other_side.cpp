@@ -41,8 +41,9 @@ std::optional<RodState> end_of(const Simulation& simulation, double most_work) {
 /// The way of a dresspack that was mounted on one side. absent: it cannot be mounted or moved so.
 struct Mounted {
   Side side;
-  bool as_own = false;            ///< mounted in the shape of the job's own run
-  std::optional<double> apart{};  ///< from the job's own run at the end [m]; absent: as_own, or the run was not finished
+  bool as_own = false;  ///< mounted in the shape of the job's own run
+  std::optional<double>
+      apart{};  ///< from the job's own run at the end [m]; absent: as_own, or the run was not finished
 };
 
 std::optional<Mounted> mounted(pipeline::Setup setup, int dresspack, Side side, const Ends& own, double most_work) {
@@ -63,7 +64,8 @@ std::optional<Mounted> mounted(pipeline::Setup setup, int dresspack, Side side, 
 
 }  // namespace
 
-std::vector<pipeline::Warning> other_side_warnings(const pipeline::Setup& job, double time_step, const Ends& own, double most_work) {
+std::vector<pipeline::Warning> other_side_warnings(const pipeline::Setup& job, double time_step, const Ends& own,
+                                                   double most_work) {
   pipeline::Setup setup = job;
   setup.simulation.choose_time_step = false;
   setup.simulation.time_step = time_step;
@@ -82,17 +84,19 @@ std::vector<pipeline::Warning> other_side_warnings(const pipeline::Setup& job, d
                       key = pipeline::line_key(setup, static_cast<std::size_t>(d), "routing.side");
     pipeline::Remedy remedy;
     if (on_left || on_right) remedy.values = {{key, std::string(pipeline::word(on_left ? Side::left : Side::right))}};
-    remedy.words = fmt::format("{}the side on which it is mounted. Compare both ({}: [left, right] under `vary` of a study): their lives can differ by "
-                               "a factor of 100",
-                               remedy.values.empty() ? "routing.side: " : ", or ", key);
+    remedy.words = fmt::format(
+        "{}the side on which it is mounted. Compare both ({}: [left, right] under `vary` of a study): their lives can differ by "
+        "a factor of 100",
+        remedy.values.empty() ? "routing.side: " : ", or ", key);
     warnings.push_back(pipeline::warning_of(
         pipeline::WarningKind::side, "",
-        fmt::format("{} can be mounted in two shapes, and moves differently in each: at the end of a repeat they are {:.0f} mm "
-                    "apart. This run has the one {}",
-                    name, 1e3 * apart,
-                    on_left    ? "on the left, seen from the base clamp to the tool clamp"
-                    : on_right ? "on the right, seen from the base clamp to the tool clamp"
-                               : "between left and right"),
+        fmt::format(
+            "{} can be mounted in two shapes, and moves differently in each: at the end of a repeat they are {:.0f} mm "
+            "apart. This run has the one {}",
+            name, 1e3 * apart,
+            on_left    ? "on the left, seen from the base clamp to the tool clamp"
+            : on_right ? "on the right, seen from the base clamp to the tool clamp"
+                       : "between left and right"),
         "the clamps lie in one plane with the arm, so that the hose rests on both sides", remedy));
   }
   return warnings;

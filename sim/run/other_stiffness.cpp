@@ -41,9 +41,7 @@ struct RecordedMotion {
   }
 
  private:
-  static void put(std::vector<double>& row, const Vector3& v) {
-    row.insert(row.end(), {v.x(), v.y(), v.z()});
-  }
+  static void put(std::vector<double>& row, const Vector3& v) { row.insert(row.end(), {v.x(), v.y(), v.z()}); }
   static void put(std::vector<double>& row, const Quaternion& q) {
     row.insert(row.end(), {q.w(), q.x(), q.y(), q.z()});
   }
@@ -59,7 +57,9 @@ pipeline::Setup setup_with(const pipeline::Job& job, double factor, double time_
   return setup;
 }
 
-const pipeline::UncertainParameter& stiffness() { return pipeline::uncertain_parameters()[index_of(Uncertain::hose_stiffness)]; }
+const pipeline::UncertainParameter& stiffness() {
+  return pipeline::uncertain_parameters()[index_of(Uncertain::hose_stiffness)];
+}
 double factor_of(double z) { return stiffness().value(z); }
 
 /// Returns WHAT of a message "WHERE: error: WHAT; REMEDY": place and remedy are those of the changed job, which the user does not see.
@@ -81,8 +81,8 @@ Warning refused(const std::string& side, double z, double recorded, const std::s
                 side == "softer" ? "soft" : "stiff", factor_of(recorded));
   return pipeline::warning_of(
       pipeline::WarningKind::slack, "",
-      fmt::format("with {:.2g} times the hose's bending stiffness the simulation is refused ({}). {}",
-                  factor_of(z), problem, lives),
+      fmt::format("with {:.2g} times the hose's bending stiffness the simulation is refused ({}). {}", factor_of(z),
+                  problem, lives),
       "the routing leaves this hose no room for another stiffness",
       "more free length; or measure the hose, and give bending_stiffness_Nm2 and a smaller uncertainty.hose_stiffness");
 }
@@ -105,7 +105,7 @@ double load_of(const Check& check) {
 Warning beyond_warning(const pipeline::Job& job, const OtherRun& at, const Check& broken, double share) {
   const Rod rod = rod_of(at.setup);
   const std::unique_ptr<ClampPath> path = path_of(at.setup);
-  const CheckedMotion motion{at.setup, [&](double time) { return path->moment(time); }, &rod, path.get(), {},
+  const CheckedMotion motion{at.setup,           [&](double time) { return path->moment(time); }, &rod, path.get(), {},
                              1 / factor_of(at.z)};
   Cure cure = cure_of(motion, at.checks, broken);
   cure.cause += "; all radii here are with this stiffness";
@@ -114,15 +114,16 @@ Warning beyond_warning(const pipeline::Job& job, const OtherRun& at, const Check
       pipeline::WarningKind::other_values, "",
       fmt::format("with {} {}; about {} of such dresspacks exceed this limit (interpolated between the simulated "
                   "stiffnesses); with the job's own stiffness none does",
-                  pipeline::value_words(stiffness(), at.z, job.simulation.stiffness_factor), check_words(motion, broken),
-                  pipeline::percent_words(share)),
+                  pipeline::value_words(stiffness(), at.z, job.simulation.stiffness_factor),
+                  check_words(motion, broken), pipeline::percent_words(share)),
       cure.cause, cure.remedy);
   warning.amount = share;
   return warning;
 }
 
 /// Returns a warning for each limit that a run exceeds and the job's own run keeps. own: checks of the job's own run.
-std::vector<Warning> beyond_warnings(const pipeline::Job& job, const std::vector<Check>& own, const std::vector<OtherRun>& others) {
+std::vector<Warning> beyond_warnings(const pipeline::Job& job, const std::vector<Check>& own,
+                                     const std::vector<OtherRun>& others) {
   std::vector<Warning> warnings;
   const double deviation = stiffness().z_of(job.uncertainty.spread[index_of(Uncertain::hose_stiffness)]);
   for (std::size_t k = 0; k < own.size(); ++k) {
@@ -143,7 +144,8 @@ std::vector<Warning> beyond_warnings(const pipeline::Job& job, const std::vector
 
 /// Returns a warning if the motion is periodic with the job's own stiffness, and not with another one. distances: (z of such a stiffness)
 /// RunSummary::distance [m].
-std::vector<Warning> periodic_warnings(const pipeline::Job& job, bool own_is_periodic, const std::map<double, double>& distances) {
+std::vector<Warning> periodic_warnings(const pipeline::Job& job, bool own_is_periodic,
+                                       const std::map<double, double>& distances) {
   if (!own_is_periodic) return {};
   std::string words;
   double farthest = 0;
@@ -155,9 +157,10 @@ std::vector<Warning> periodic_warnings(const pipeline::Job& job, bool own_is_per
   if (words.empty()) return {};
   return {pipeline::warning_of(
       pipeline::WarningKind::other_values, "",
-      fmt::format("the motion begins its last repeat {} from where it ends it (limit simulation.periodic_tolerance_mm {:.3g}), and the "
-                  "lives of such dresspacks count this change in each repeat; with the job's own stiffness it keeps the limit",
-                  words, 1e3 * job.simulation.periodic_tolerance),
+      fmt::format(
+          "the motion begins its last repeat {} from where it ends it (limit simulation.periodic_tolerance_mm {:.3g}), and the "
+          "lives of such dresspacks count this change in each repeat; with the job's own stiffness it keeps the limit",
+          words, 1e3 * job.simulation.periodic_tolerance),
       "friction and contact leave the dresspack several resting places",
       fmt::format("simulation.periodic_tolerance_mm: {:g} if repeats may differ so{}", std::ceil(2e4 * farthest) / 10,
                   pipeline::measurement_words(stiffness(), job.uncertainty)))};
@@ -169,7 +172,8 @@ using Runner = std::function<std::vector<Check>(const pipeline::Setup& setup, co
 
 /// Returns a warning for each limit that the job keeps with its own stiffness and exceeds with another one, and for each side that does
 /// not run.
-std::vector<Warning> warnings_of_others(const pipeline::Job& job, const std::vector<Check>& own, double time_step, const Runner& run) {
+std::vector<Warning> warnings_of_others(const pipeline::Job& job, const std::vector<Check>& own, double time_step,
+                                        const Runner& run) {
   const double reach = pipeline::other_stiffness(job.uncertainty);
   std::vector<Warning> warnings;
   std::vector<OtherRun> others;
@@ -195,7 +199,8 @@ std::vector<Warning> warnings_of_others(const pipeline::Job& job, const std::vec
 
 }  // namespace
 
-std::vector<Warning> write_other_stiffnesses(const pipeline::Job& job, const RunSummary& own, pipeline::FileWriter& file) {
+std::vector<Warning> write_other_stiffnesses(const pipeline::Job& job, const RunSummary& own,
+                                             pipeline::FileWriter& file) {
   std::map<double, double> distances;
   std::vector<Warning> warnings =
       warnings_of_others(job, own.checks, own.time_step, [&](const pipeline::Setup& setup, const char* name, double z) {
@@ -211,7 +216,9 @@ std::vector<Warning> write_other_stiffnesses(const pipeline::Job& job, const Run
   return pipeline::joined(std::move(warnings), periodic_warnings(job, own.periodic, distances));
 }
 
-double softer_hose(const pipeline::Uncertainty& uncertainty) { return factor_of(-pipeline::other_stiffness(uncertainty)); }
+double softer_hose(const pipeline::Uncertainty& uncertainty) {
+  return factor_of(-pipeline::other_stiffness(uncertainty));
+}
 
 std::vector<Warning> other_stiffness_warnings(const pipeline::Job& job, const ShortRun& own) {
   std::map<double, double> distances;

@@ -17,7 +17,8 @@ namespace dresslife::sim {
 /// `hard` at 0.7 times the stiffness was a hundredth. Returns a warning for each side whose simulation is refused. It is then
 /// recorded at half the change; if that is refused, too, its group is absent. Returns a warning for each limit that a side exceeds
 /// and the job's own run keeps, also that of the distance between repeats.
-std::vector<pipeline::Warning> write_other_stiffnesses(const pipeline::Job& job, const RunSummary& own, pipeline::FileWriter& file);
+std::vector<pipeline::Warning> write_other_stiffnesses(const pipeline::Job& job, const RunSummary& own,
+                                                       pipeline::FileWriter& file);
 
 /// Returns the stiffness of the softer hose as a share of the job's; 1: the job's uncertainty needs none.
 double softer_hose(const pipeline::Uncertainty& uncertainty);

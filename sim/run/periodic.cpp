@@ -45,7 +45,8 @@ double state_distance(const Rod& rod, const RodState& a, const RodState& b) {
   return largest;
 }
 
-LeftOutRounds::LeftOutRounds(const Rod& rod, const ClampPath& path, double tolerance) : rod_(rod), tolerance_(tolerance) {
+LeftOutRounds::LeftOutRounds(const Rod& rod, const ClampPath& path, double tolerance)
+    : rod_(rod), tolerance_(tolerance) {
   if (const auto* robot = dynamic_cast<const RobotPath*>(&path)) loops_ = loops_of(robot->motion());
 }
 

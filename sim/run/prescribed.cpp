@@ -32,8 +32,7 @@ Quaternion turn(const PrescribedDeformation& deformation, std::size_t sample, do
   for (int k = 0; k < steps; ++k) {
     const double middle = from + (k + 0.5) * h;
     const Vector3 first = deformation.at(sample, middle - off).rate, second = deformation.at(sample, middle + off).rate;
-    whole = whole *
-            rotation(h / 2 * (first + second) + std::sqrt(3.0) / 12 * h * h * Vector3(first.cross(second)));
+    whole = whole * rotation(h / 2 * (first + second) + std::sqrt(3.0) / 12 * h * h * Vector3(first.cross(second)));
   }
   return whole.normalized();
 }
@@ -42,8 +41,13 @@ Quaternion turn(const PrescribedDeformation& deformation, std::size_t sample, do
 class Extremes {
  public:
   Extremes(const PrescribedDeformation& deformation, const pipeline::Dresspack& dresspack, int n, double length)
-      : deformation_(deformation), limits_(limits_of(dresspack)), stiffness_(axial_stiffness(dresspack)),
-        step_(length / n), curvature(n + 1), twist(n + 1), tension(n + 1) {}
+      : deformation_(deformation),
+        limits_(limits_of(dresspack)),
+        stiffness_(axial_stiffness(dresspack)),
+        step_(length / n),
+        curvature(n + 1),
+        twist(n + 1),
+        tension(n + 1) {}
 
   void see(std::size_t sample) {
     const double time = deformation_.times[sample];
@@ -64,12 +68,12 @@ class Extremes {
     };
     const Extreme bend = of(curvature), turn = of(twist), pull = of(tension);
     const double radius = bend.value > 0 ? 1 / bend.value : std::numeric_limits<double>::infinity();
-    return {{WarningKind::bend_radius, check_name::bend_radius, "m", radius, limits_.least_bend_radius, radius < limits_.least_bend_radius,
-             bend.time, bend.place * step_},
-            {WarningKind::twist, check_name::twist, "rad/m", turn.value, limits_.most_twist, std::abs(turn.value) > limits_.most_twist,
-             turn.time, turn.place * step_},
-            {WarningKind::tension, check_name::tension, "N", pull.value, limits_.most_tension, pull.value > limits_.most_tension,
-             pull.time, pull.place * step_}};
+    return {{WarningKind::bend_radius, check_name::bend_radius, "m", radius, limits_.least_bend_radius,
+             radius < limits_.least_bend_radius, bend.time, bend.place * step_},
+            {WarningKind::twist, check_name::twist, "rad/m", turn.value, limits_.most_twist,
+             std::abs(turn.value) > limits_.most_twist, turn.time, turn.place * step_},
+            {WarningKind::tension, check_name::tension, "N", pull.value, limits_.most_tension,
+             pull.value > limits_.most_tension, pull.time, pull.place * step_}};
   }
 
  private:
@@ -136,8 +140,7 @@ RodState posed(const PrescribedDeformation& deformation, std::size_t sample, int
   for (int i = 0; i <= n; ++i) {
     const bool at_clamp = i == 0 || i == n;
     const double half = i == n ? 0 : l / 2, centre = i == n ? length : (i + 0.5) * l;
-    const Quaternion next =
-        (before.orientation * turn(deformation, sample, centre_before, centre, l / 8)).normalized();
+    const Quaternion next = (before.orientation * turn(deformation, sample, centre_before, centre, l / 8)).normalized();
     const Vector3 t = tangent(before.orientation), t_next = tangent(next);
     const double arm = at_clamp ? 1 : 1 + (1 - t.dot(t_next)) / 12;  // (S17)
     const double gap = deformation.at(sample, (centre_before + centre) / 2).elongation * (centre - centre_before);
@@ -187,8 +190,18 @@ std::vector<pipeline::Warning> write_prescribed(const pipeline::Setup& setup, pi
       net_twist += l * here.rate.z();
     }
     const Energy energy{0, elastic_energy(deformation, k, dresspack, axial, n, l), 0};
-    motion.add({deformation.times[k], deformation.steps[k], state, {state.clamps.base, state.clamps.tool}, {}, {},
-                energy, tension, 0, 0, net_twist, untouched});
+    motion.add({deformation.times[k],
+                deformation.steps[k],
+                state,
+                {state.clamps.base, state.clamps.tool},
+                {},
+                {},
+                energy,
+                tension,
+                0,
+                0,
+                net_twist,
+                untouched});
     extremes.see(k);
     if (progress) progress((k + 1.0) / static_cast<double>(samples));
   }

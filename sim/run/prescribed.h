@@ -34,7 +34,7 @@ struct PrescribedDeformation {
   std::vector<int> steps;               ///< (sample) line of the program
   std::vector<std::string> step_texts;  ///< (line)
   std::vector<double> positions;        ///< (place) from the base clamp, increasing [m]; one place: the whole length
-  std::vector<State> states;  ///< (sample, place); linear between places, constant beyond the outermost ones
+  std::vector<State> states;            ///< (sample, place); linear between places, constant beyond the outermost ones
 
   State at(std::size_t sample, double position) const;
 };

@@ -30,11 +30,12 @@ constexpr int rest_moments = 1000;     // of the program; equilibria are compute
 constexpr int mounting_moments = 100;  // of the move from the mounting pose to the program
 // Rotation between two equilibria: far below half a turn, at which the direction of rotation would be ambiguous.
 constexpr double rest_turn = 20 * degree;
-constexpr double rest_way = 0.05;  // displacement between two equilibria as a share of the length: the sag of a hose is as large
+constexpr double rest_way =
+    0.05;  // displacement between two equilibria as a share of the length: the sag of a hose is as large
 constexpr double short_run_work =
     5e6;  // 2.4 s of processor time, measured: two repeats of three minutes, 64 segments without contact
 constexpr double lead_in_share = 0.5;  // share for the lead-in: a motion that takes longer runs once, from rest
-constexpr double same_radius = 0.05;  // relative error of a bend radius with few segments
+constexpr double same_radius = 0.05;   // relative error of a bend radius with few segments
 constexpr double coarse_radius = 0.1;  // ESTIMATE: relative error of a bend radius in a coarse run
 
 pipeline::Setup with_segments(pipeline::Setup setup, int most) {
@@ -59,7 +60,8 @@ class QuickChecks {
         rest_rod_(rod_of(with_segments(setup, rest_segments))),
         path_(path_of(setup)),
         robot_(dynamic_cast<const RobotPath*>(path_.get())),
-        longest_(longest.empty() ? longest_ways(setup, rod_, *path_, setup.simulation.time_step) : std::move(longest)) {}
+        longest_(longest.empty() ? longest_ways(setup, rod_, *path_, setup.simulation.time_step) : std::move(longest)) {
+  }
 
   QuickFindings findings() {
     QuickFindings found;
@@ -76,17 +78,21 @@ class QuickChecks {
           "The short run of the checks was left out. Correct the clamps first: the other limits follow from them");
       return found;
     }
-    if (std::ranges::any_of(found.checks, [](const Check& check) { return check.name == check_name::too_long && check.value > 2 * check.limit; })) {
-      found.notes.push_back("The short run of the checks was left out, because the hose is far too long. Correct the length first");
+    if (std::ranges::any_of(found.checks, [](const Check& check) {
+          return check.name == check_name::too_long && check.value > 2 * check.limit;
+        })) {
+      found.notes.push_back(
+          "The short run of the checks was left out, because the hose is far too long. Correct the length first");
       return found;
     }
     found.run = short_run(setup_, short_run_segments);
     add_rests(found, true);
     add_run(found);
     if (found.run.stopped_at)
-      found.notes.push_back(fmt::format("The short run of the checks ended after {:.3g} s of {:.6g} s, because the program is long "
-                                        "or the dresspack touches much. `dresslife run` checks all of it",
-                                        *found.run.stopped_at, path_->duration()));
+      found.notes.push_back(
+          fmt::format("The short run of the checks ended after {:.3g} s of {:.6g} s, because the program is long "
+                      "or the dresspack touches much. `dresslife run` checks all of it",
+                      *found.run.stopped_at, path_->duration()));
     add_rubbing(found.run, found.notes);
     if (found.run.refusal.empty() && !found.run.stopped_at) {
       pipeline::Setup few = with_segments(setup_, short_run_segments);
@@ -100,7 +106,8 @@ class QuickChecks {
     return found;
   }
 
-  QuickFindings findings_unless(const std::function<bool(const QuickFindings&)>& rejects, double useless_below, int dresspack) {
+  QuickFindings findings_unless(const std::function<bool(const QuickFindings&)>& rejects, double useless_below,
+                                int dresspack) {
     QuickFindings found;
     add_slack(found.checks);
     const std::vector<Check> slack = found.checks;
@@ -109,7 +116,8 @@ class QuickChecks {
     const double work = found.run.work;
     add_run(found);
     for (Check& check : found.checks)
-      if (check.name == check_name::tension || (check.name == check_name::bend_radius && check.value > (1 - coarse_radius) * check.limit))
+      if (check.name == check_name::tension ||
+          (check.name == check_name::bend_radius && check.value > (1 - coarse_radius) * check.limit))
         check.warning = false;
     if (!found.run.refusal.empty() || rejects(found)) return found;
     found.checks = slack;
@@ -138,7 +146,8 @@ class QuickChecks {
     if (!cured.empty() && std::ranges::any_of(found.others, [](const pipeline::Warning& other) {
           return other.words.find(" instead of ") != std::string::npos;
         }))
-      found.notes.push_back("Correct the doubtful numbers of the program first: the limits that the dresspack passes may follow from them");
+      found.notes.push_back(
+          "Correct the doubtful numbers of the program first: the limits that the dresspack passes may follow from them");
     return {pipeline::joined(std::move(found.others), cured), std::move(found.notes), std::move(found.run)};
   }
 
@@ -181,7 +190,8 @@ class QuickChecks {
   /// Adds the least and the most slack of the spans of each dresspack at the largest straight way over the program.
   void add_slack(std::vector<Check>& checks) const {
     for (int d = 0; d < rod_.dresspacks(); ++d) {
-      const auto first = static_cast<std::size_t>(rod_.first_span(d)), end = static_cast<std::size_t>(rod_.first_span(d + 1));
+      const auto first = static_cast<std::size_t>(rod_.first_span(d)),
+                 end = static_cast<std::size_t>(rod_.first_span(d + 1));
       const auto share = [&](std::size_t span) { return 1 - longest_[span].way / properties(span).length; };
       std::size_t tight = end, loose = end;
       for (std::size_t span = first; span < end; ++span) {
@@ -191,8 +201,8 @@ class QuickChecks {
       }
       if (tight == end || properties(tight).slider) continue;  // only a run knows the travel of the retraction unit
       const auto add = [&](const char* name, std::size_t span, double limit, bool broken) {
-        checks.push_back({WarningKind::slack, name, "m", share(span) * properties(span).length, limit, broken, longest_[span].time,
-                          middle(span), d});
+        checks.push_back({WarningKind::slack, name, "m", share(span) * properties(span).length, limit, broken,
+                          longest_[span].time, middle(span), d});
       };
       add(check_name::too_short, tight, least_slack_share * properties(tight).length, share(tight) < least_slack_share);
       add(check_name::too_long, loose, most_slack_share * properties(loose).length, share(loose) > most_slack_share);
@@ -300,16 +310,22 @@ class QuickChecks {
       if (all[k] == 0) result.begin = found;
       checks.see(found, {}, all[k] * path_->duration());
     };
-    if (resting) look(0);
-    else result.unfound = 0;
+    if (resting)
+      look(0);
+    else
+      result.unfound = 0;
     for (std::size_t now = 0; resting && now + 1 < all.size();) {
       const ClampFrames here = rolled_clamps(of, all[now], result.roll);
       std::size_t next = now + 1;
-      while (next + 1 < all.size() && all[next] != 0 && !moved(here, rolled_clamps(of, all[next], result.roll), of.properties.length))
+      while (next + 1 < all.size() && all[next] != 0 &&
+             !moved(here, rolled_clamps(of, all[next], result.roll), of.properties.length))
         ++next;
-      while (!(resting = follow(rolled_clamps(of, all[next], result.roll))) && next > now + 1) next = now + (next - now) / 2;
-      if (resting) look(now = next);
-      else result.unfound = std::max(0.0, all[next]) * path_->duration();
+      while (!(resting = follow(rolled_clamps(of, all[next], result.roll))) && next > now + 1)
+        next = now + (next - now) / 2;
+      if (resting)
+        look(now = next);
+      else
+        result.unfound = std::max(0.0, all[next]) * path_->duration();
     }
     if (!result.unfound) result.checks = checks.table();
     return result;
@@ -317,7 +333,8 @@ class QuickChecks {
 
   /// Returns the equilibria for the shapes of a span; the first shape is the one nearest to the start of a run. all_shapes: whether
   /// the others are followed, too.
-  std::vector<Rests> all_rests(std::size_t span, double base_roll, const std::optional<RodState>& begin, bool all_shapes) const {
+  std::vector<Rests> all_rests(std::size_t span, double base_roll, const std::optional<RodState>& begin,
+                               bool all_shapes) const {
     const Span& of = rod_.spans()[span];
     const pipeline::MountedDresspack& mounted = setup_.dresspacks[static_cast<std::size_t>(of.dresspack)];
     const auto between = span - static_cast<std::size_t>(rod_.first_span(of.dresspack));
@@ -325,10 +342,12 @@ class QuickChecks {
     const bool twist_free =
         robot_ && !(last ? *mounted.routing.tool_clamp : mounted.routing.clamps[between].clamp).roll;
     const Span &few = rest_rod_.spans()[span], &run = short_rod_.spans()[span];
-    const Resting resting{few.properties, span, base_roll, last ? mounted.routing.pre_twist : 0, limits_of(mounted.dresspack)};
+    const Resting resting{few.properties, span, base_roll, last ? mounted.routing.pre_twist : 0,
+                          limits_of(mounted.dresspack)};
     const std::vector<double> all = moments();
     const std::vector<double> mounting(all.begin(), std::find(all.begin(), all.end(), 0.0) + 1);
-    std::vector<TwistFreeClamp> shapes = rest_shapes(few.properties, rolled_clamps(resting, all.front(), 0), twist_free, rest_settings());
+    std::vector<TwistFreeClamp> shapes =
+        rest_shapes(few.properties, rolled_clamps(resting, all.front(), 0), twist_free, rest_settings());
     if (shapes.empty()) return {{{}, {}, 0, 0.0}};
     if (begin && shapes.size() > 1) {
       std::vector<double> distances;
@@ -349,7 +368,8 @@ class QuickChecks {
     double most = 0;
     for (int i = 0; i < few.segments(); ++i) {
       const int beside = run.first_segment + static_cast<int>((i + 0.5) * run.segments() / few.segments());
-      most = std::max(most, (rest.position[static_cast<std::size_t>(i)] - begin.position[static_cast<std::size_t>(beside)]).norm());
+      most = std::max(
+          most, (rest.position[static_cast<std::size_t>(i)] - begin.position[static_cast<std::size_t>(beside)]).norm());
     }
     return most;
   }
@@ -360,16 +380,18 @@ class QuickChecks {
     for (int d = 0; d < rod_.dresspacks(); ++d) {
       std::optional<Check> bend, twist, net;
       double roll = 0;
-      for (auto span = static_cast<std::size_t>(rod_.first_span(d)); span < static_cast<std::size_t>(rod_.first_span(d + 1)); ++span) {
-        const bool ringed = std::any_of(rings.begin(), rings.end(), [&](const RoutedRing& ring) {
-          return ring.span == static_cast<int>(span);
-        });
+      for (auto span = static_cast<std::size_t>(rod_.first_span(d));
+           span < static_cast<std::size_t>(rod_.first_span(d + 1)); ++span) {
+        const bool ringed = std::any_of(rings.begin(), rings.end(),
+                                        [&](const RoutedRing& ring) { return ring.span == static_cast<int>(span); });
         const double base_roll = std::exchange(roll, 0);
-        if (is_free(span) || ringed || properties(span).slider || longest_[span].way >= properties(span).length) continue;
+        if (is_free(span) || ringed || properties(span).slider || longest_[span].way >= properties(span).length)
+          continue;
         const std::vector<Rests> shapes = all_rests(span, base_roll, result.run.begin, all_shapes);
         roll = shapes.front().roll;
         // If a short run has followed the motion, a missing equilibrium is no fault.
-        if (shapes.front().unfound && !result.run.refusal.empty()) result.others.push_back(no_rest(d, *shapes.front().unfound));
+        if (shapes.front().unfound && !result.run.refusal.empty())
+          result.others.push_back(no_rest(d, *shapes.front().unfound));
         add_shapes_note(d, shapes, result.notes);
         std::optional<Check> net_here;
         for (Check check : shapes.front().checks) {
@@ -392,26 +414,28 @@ class QuickChecks {
     std::vector<double> radii;
     for (const Rests& shape : shapes)
       for (const Check& check : shape.checks)
-        if (check.name == check_name::bend_radius &&
-            std::none_of(radii.begin(), radii.end(), [&](double r) { return std::abs(r - check.value) <= same_radius * r; }))
+        if (check.name == check_name::bend_radius && std::none_of(radii.begin(), radii.end(), [&](double r) {
+              return std::abs(r - check.value) <= same_radius * r;
+            }))
           radii.push_back(check.value);
     if (radii.size() < 2) return;
     std::string others;
-    for (std::size_t k = 1; k < radii.size(); ++k) others += fmt::format("{}{:.0f}", k == 1 ? "" : ", ", 1e3 * radii[k]);
-    const double limit =
-        limits_of(setup_.dresspacks[static_cast<std::size_t>(dresspack)].dresspack).least_bend_radius;
+    for (std::size_t k = 1; k < radii.size(); ++k)
+      others += fmt::format("{}{:.0f}", k == 1 ? "" : ", ", 1e3 * radii[k]);
+    const double limit = limits_of(setup_.dresspacks[static_cast<std::size_t>(dresspack)].dresspack).least_bend_radius;
     notes.push_back(fmt::format(
         "Between these clamps {} can rest in {} different shapes. A run begins in the first one. There its smallest bend radius "
         "over the program is {:.0f} mm, in the other{} {} mm (limit {:.4g} mm). After mounting, bring the hose into the first shape: "
         "dresslife preview draws it",
-        pipeline::dresspack_words(setup_, dresspack), radii.size(), 1e3 * radii.front(), radii.size() > 2 ? "s" : "", others,
-        1e3 * limit));
+        pipeline::dresspack_words(setup_, dresspack), radii.size(), 1e3 * radii.front(), radii.size() > 2 ? "s" : "",
+        others, 1e3 * limit));
   }
 
   pipeline::Warning no_rest(int dresspack, double time) const {
     return pipeline::warning_of(
         WarningKind::bend_radius, "",
-        fmt::format("{} has no shape at rest that was found, {}", pipeline::dresspack_words(setup_, dresspack), moment(time)),
+        fmt::format("{} has no shape at rest that was found, {}", pipeline::dresspack_words(setup_, dresspack),
+                    moment(time)),
         "clamps that are exchanged or turned the wrong way, or a length that is too short for the way around the robot",
         fmt::format("the links, positions and directions of the clamps as they are built; or more {}",
                     setup_.dresspacks.size() > 1 ? "free length" : "routing.free_length_m"));
@@ -448,12 +472,15 @@ class QuickChecks {
       for (const RubbedPatch& patch : run.rubbed)
         if (patch.dresspack == d && patch.obstacle == worst && (!most || patch.work > most->work)) most = &patch;
       const std::string& name = run.obstacles[worst];
-      const std::string on = name == "cell" || name == "floor" ? "the " + name : name == "dresspack" ? "a dresspack" : name;
+      const std::string on = name == "cell" || name == "floor" ? "the " + name
+                             : name == "dresspack"             ? "a dresspack"
+                                                               : name;
       notes.push_back(fmt::format(
           "In the short run {} rubs on {} with {:.2g} W (mean of normal force times sliding speed), most {:.0f} mm from the base clamp, {}. "
           "`dresslife run` predicts the hours until the hose is worn through, which may be the shortest life. A routing without "
           "this contact avoids the wear",
-          pipeline::dresspack_words(setup_, d), on, work[worst] / run.seconds, 1e3 * most->position, moment(most->time)));
+          pipeline::dresspack_words(setup_, d), on, work[worst] / run.seconds, 1e3 * most->position,
+          moment(most->time)));
     }
   }
 
@@ -482,13 +509,15 @@ ShortRun short_run(pipeline::Setup setup, int segments, double useless_below, in
     const Simulation simulation(with_segments(std::move(setup), segments));
     result.begin = simulation.start();
     RunSinks sinks{[&](const Sample& sample) { result.end = sample.state; }};
-    if (!simulation.setup().simulation.choose_time_step) sinks.wanted = Wanted::checks;  // a choice needs the error of the step
+    if (!simulation.setup().simulation.choose_time_step)
+      sinks.wanted = Wanted::checks;  // a choice needs the error of the step
     sinks.goes_on = [&](double work, bool leads_in) {
       return (result.work += work) <= (leads_in ? lead_in_share : 1) * short_run_work;
     };
     sinks.still_of_use = [&](const MotionChecks& checks) {
       for (int j = 0; j < simulation.rod().links(); ++j)
-        if (simulation.rod().span_of_link(j).dresspack == of && checks.curvature()[j].value * useless_below > 1) return false;
+        if (simulation.rod().span_of_link(j).dresspack == of && checks.curvature()[j].value * useless_below > 1)
+          return false;
       return true;
     };
     RunSummary summary = simulation.run(sinks);

@@ -27,19 +27,20 @@ namespace dresslife::sim {
 /// One run of a motion: with the start of a full run, and at most two repeats.
 struct ShortRun {
   std::vector<Check> checks;
-  bool periodic = false;               ///< the motion does not return, or its last repeat began and ended in the same state
-  double distance = 0;                 ///< as in RunSummary [m]
+  bool periodic = false;  ///< the motion does not return, or its last repeat began and ended in the same state
+  double distance = 0;    ///< as in RunSummary [m]
   std::vector<RubbedPatch> rubbed;     ///< as in RunSummary
   std::vector<std::string> obstacles;  ///< names, indexed by RubbedPatch::obstacle
   double seconds = 0;                  ///< as in RunSummary [s]
-  std::string refusal;               ///< reason why it does not run; empty: it runs
-  std::optional<double> taut_at;     ///< time at which a dresspack is pulled taut [s]; absent: it is not
-  std::optional<double> stopped_at;  ///< time at which the run was stopped because of its duration [s]; absent: it was not
-  double work = 0;                   ///< in the unit of World::work
-  double time_step = 0;              ///< [s]
-  int dresspack = 0;                 ///< index of the refused dresspack
-  std::optional<RodState> begin;     ///< state at the begin; absent: the run did not begin
-  RodState end;                      ///< last state of the last repeat
+  std::string refusal;                 ///< reason why it does not run; empty: it runs
+  std::optional<double> taut_at;       ///< time at which a dresspack is pulled taut [s]; absent: it is not
+  std::optional<double>
+      stopped_at;                 ///< time at which the run was stopped because of its duration [s]; absent: it was not
+  double work = 0;                ///< in the unit of World::work
+  double time_step = 0;           ///< [s]
+  int dresspack = 0;              ///< index of the refused dresspack
+  std::optional<RodState> begin;  ///< state at the begin; absent: the run did not begin
+  RodState end;                   ///< last state of the last repeat
 };
 
 /// Segments of each dresspack: at rest, where so few give the bend within a few percent; and at most in the short run, where

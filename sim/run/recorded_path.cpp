@@ -55,10 +55,9 @@ class Rows {
   }
 
   void add(const CsvRow& cells) {
-    const bool header =
-        times.empty() && !header_seen_ && std::none_of(cells.begin(), cells.end(), [](const CsvCell& cell) {
-          return pipeline::number_in(cell.text).has_value();
-        });
+    const bool header = times.empty() && !header_seen_ &&
+                        std::none_of(cells.begin(), cells.end(),
+                                     [](const CsvCell& cell) { return pipeline::number_in(cell.text).has_value(); });
     if (header) {
       header_seen_ = true;
       return;
@@ -96,18 +95,16 @@ class Rows {
   void join_quaternion(Eigen::Matrix<double, columns - 1, 1>& pose, int first, int column) const {
     auto q = pose.segment<4>(first);
     if (std::abs(q.norm() - 1) > length_tolerance)
-      fail(column,
-           fmt::format("quaternion has length {:.6g} (must be 1 within {})", q.norm(), length_tolerance),
+      fail(column, fmt::format("quaternion has length {:.6g} (must be 1 within {})", q.norm(), length_tolerance),
            "write a unit quaternion, w first");
     q.normalize();
     if (poses.empty()) return;
     const double dot = q.dot(poses.back().segment<4>(first));
     if (std::abs(dot) < smallest_dot)
-      fail(
-          column,
-          fmt::format("clamp turns by {:.1f} deg from the row before (more than 120: which way is not clear)",
-                      2 * std::acos(std::abs(dot)) * 180 / EIGEN_PI),
-          "write rows closer in time");
+      fail(column,
+           fmt::format("clamp turns by {:.1f} deg from the row before (more than 120: which way is not clear)",
+                       2 * std::acos(std::abs(dot)) * 180 / EIGEN_PI),
+           "write rows closer in time");
     if (dot < 0) q = -q;
   }
 

@@ -83,8 +83,7 @@ class Expansion {
   /// Adds 0, +1, 0, -1, 0 in equal steps, with a line of the program for each of the four parts.
   template <class AtLevel>
   void to_either_side(const std::string& there, const std::string& back, const AtLevel& at) {
-    const std::string texts[] = {"to +" + there, "from +" + there + back, "to -" + there,
-                                 "from -" + there + back};
+    const std::string texts[] = {"to +" + there, "from +" + there + back, "to -" + there, "from -" + there + back};
     for (int way = 0; way < 4; ++way) {
       line(texts[way]);
       for (int k = way == 0 ? 0 : 1; k <= quarter; ++k) {
@@ -118,8 +117,7 @@ class Expansion {
   void swivel() {
     const double stiffness = pipeline::bending_stiffness(dresspack_);
     if (stiffness <= 0)
-      throw InputError(rig_.where,
-                       "a swivel bends a cable without bending stiffness (its bend radius is not known)",
+      throw InputError(rig_.where, "a swivel bends a cable without bending stiffness (its bend radius is not known)",
                        "give dresspack.bending_stiffness_Nm2, or the cable its wires");
     if (*rig_.weight == 0)
       throw InputError(rig_.where, "weight_kg is 0 (what pulls on a cable in a swivel bends it at the clip)",
@@ -162,12 +160,11 @@ class Expansion {
   template <class Bend>
   void sweep(const std::string& there, const std::string& back, const Bend& bend) {
     if (way_.sweep < edge_)
-      throw InputError(
-          rig_.where,
-          fmt::format("travel_m is {:.4g} (too short to bend or straighten any cable wholly, {:.4g} m of "
-                      "cable pass the bend's edge, {} segments follow {:.4g})",
-                      *rig_.travel, way_.sweep, segments_, edge_),
-          fmt::format("give simulation.segments: {} or more travel", segments_for(edge_ / way_.sweep)));
+      throw InputError(rig_.where,
+                       fmt::format("travel_m is {:.4g} (too short to bend or straighten any cable wholly, {:.4g} m of "
+                                   "cable pass the bend's edge, {} segments follow {:.4g})",
+                                   *rig_.travel, way_.sweep, segments_, edge_),
+                       fmt::format("give simulation.segments: {} or more travel", segments_for(edge_ / way_.sweep)));
     places();
     const int steps = static_cast<int>(std::ceil(way_.sweep / (segment_ / 2)));
     for (int way = 0; way < 2; ++way) {
@@ -182,27 +179,23 @@ class Expansion {
   void rolling_flex() {
     const double radius = this->radius();
     const FlexShares shares = flex_shares(radius, *rig_.travel);
-    sweep(
-        fmt::format(
-            "stroke there: {:.0f} % of the cable are bent and straightened in each stroke, {:.0f} % in every "
-            "second",
-            100 * shares.each_stroke, 100 * shares.each_cycle),
-        "stroke back",
-        [&](double position, double at) { return bent_between(position, at, at + way_.bend) / radius; });
+    sweep(fmt::format("stroke there: {:.0f} % of the cable are bent and straightened in each stroke, {:.0f} % in every "
+                      "second",
+                      100 * shares.each_stroke, 100 * shares.each_cycle),
+          "stroke back",
+          [&](double position, double at) { return bent_between(position, at, at + way_.bend) / radius; });
   }
 
   void two_pulley() {
     const double radius = this->radius(), half = way_.bend / 2;
     sweep("carriage there", "carriage back", [&](double position, double at) {
-      return (bent_between(position, at, at + half) - bent_between(position, at + half, at + 2 * half)) /
-             radius;
+      return (bent_between(position, at, at + half) - bent_between(position, at + half, at + 2 * half)) / radius;
     });
   }
 
   void tick_tock() {
     if (way_.bend < 2 * edge_)
-      throw InputError(rig_.where,
-                       fmt::format("{} segments cannot follow the cable onto the mandrel", segments_),
+      throw InputError(rig_.where, fmt::format("{} segments cannot follow the cable onto the mandrel", segments_),
                        fmt::format("give simulation.segments: {}", segments_for(2 * edge_ / way_.bend)));
     const double radius = this->radius();
     places();
@@ -216,8 +209,7 @@ class Expansion {
   }
 
   void spread_over_cycle() {
-    const double cycle = 60 / rig_.cycles_per_minute,
-                 intervals = static_cast<double>(result_.times.size() - 1);
+    const double cycle = 60 / rig_.cycles_per_minute, intervals = static_cast<double>(result_.times.size() - 1);
     for (double& time : result_.times) time *= cycle / intervals;
   }
 
@@ -226,9 +218,10 @@ class Expansion {
     for (const State& state : result_.states) worst = std::max(worst, state.rate.norm() * segment_);
     if (worst > most_turn)
       throw InputError(rig_.where,
-                       fmt::format("the rig turns a segment of {:.4g} mm by {:.4g} deg (at most 120)",
-                                   1e3 * segment_, worst * degrees),
-                       fmt::format("check the rig's twist, angle and weight, or give simulation.segments: {}", segments_for(worst / most_turn)));
+                       fmt::format("the rig turns a segment of {:.4g} mm by {:.4g} deg (at most 120)", 1e3 * segment_,
+                                   worst * degrees),
+                       fmt::format("check the rig's twist, angle and weight, or give simulation.segments: {}",
+                                   segments_for(worst / most_turn)));
   }
 
   const Rig& rig_;

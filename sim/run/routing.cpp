@@ -11,8 +11,7 @@
 namespace dresslife::sim {
 namespace {
 
-RodProperties properties_of(const pipeline::MountedDresspack& mounted,
-                            const pipeline::SimulationSettings& settings) {
+RodProperties properties_of(const pipeline::MountedDresspack& mounted, const pipeline::SimulationSettings& settings) {
   const pipeline::Dresspack& hose = mounted.dresspack;
   RodProperties properties;
   properties.segments = settings.segments;
@@ -39,14 +38,13 @@ std::vector<RodProperties> spans_of(const RodProperties& whole, const pipeline::
   std::vector<RodProperties> spans;
   double begin = 0;
   for (const double end : ends) {
-    const auto before = [&](double s) {
-      return static_cast<int>(std::lround(whole.segments * s / whole.length));
-    };
+    const auto before = [&](double s) { return static_cast<int>(std::lround(whole.segments * s / whole.length)); };
     RodProperties span = whole;
     span.length = end - begin;
     span.segments = std::max(fewest_segments, before(end) - before(begin));
     const std::array<pipeline::BendRelief, 2> relief = reliefs[spans.size()];
-    span.stiff_ends = {StiffEnd{relief[0].length, relief[0].stiffness}, StiffEnd{relief[1].length, relief[1].stiffness}};
+    span.stiff_ends = {StiffEnd{relief[0].length, relief[0].stiffness},
+                       StiffEnd{relief[1].length, relief[1].stiffness}};
     spans.push_back(span);
     begin = end;
   }
@@ -71,8 +69,7 @@ Rod rod_of(const pipeline::Setup& setup) {
   std::vector<int> first_of_dresspack;
   for (const pipeline::MountedDresspack& mounted : setup.dresspacks) {
     first_of_dresspack.push_back(static_cast<int>(all.size()));
-    const std::vector<RodProperties> spans =
-        spans_of(properties_of(mounted, setup.simulation), mounted.routing);
+    const std::vector<RodProperties> spans = spans_of(properties_of(mounted, setup.simulation), mounted.routing);
     all.insert(all.end(), spans.begin(), spans.end());
   }
   return Rod(all, first_of_dresspack);
@@ -84,10 +81,10 @@ std::vector<RoutedRing> routed_rings(const pipeline::Setup& setup) {
   for (const pipeline::MountedDresspack& mounted : setup.dresspacks) {
     const pipeline::Routing& routing = mounted.routing;
     for (const pipeline::GuideRing& ring : routing.rings) {
-      const auto before = std::count_if(routing.clamps.begin(), routing.clamps.end(),
-                                        [&](const pipeline::IntermediateClamp& clamp) {
-                                          return ring.at_length && clamp.at_length <= *ring.at_length;
-                                        });
+      const auto before =
+          std::count_if(routing.clamps.begin(), routing.clamps.end(), [&](const pipeline::IntermediateClamp& clamp) {
+            return ring.at_length && clamp.at_length <= *ring.at_length;
+          });
       routed.push_back({ring, first_span + static_cast<int>(before)});
     }
     first_span += static_cast<int>(routing.clamps.size()) + 1;

@@ -28,17 +28,15 @@ void check_size(const pipeline::Setup& setup, double duration, int segments) {
   const pipeline::SimulationSettings& settings = setup.simulation;
   const double steps = duration / settings.time_step, values = duration * settings.sample_rate * segments;
   if (!(steps <= most_steps))
-    throw InputError(
-        setup.motion.where,
-        fmt::format("one repeat of the motion takes {:.6g} s, {:.3g} steps of {:.4g} ms (at most {:.0e})",
-                    duration, steps, 1e3 * settings.time_step, most_steps),
-        "look for a long dwell or many repeats, or choose a longer simulation.time_step_ms");
+    throw InputError(setup.motion.where,
+                     fmt::format("one repeat of the motion takes {:.6g} s, {:.3g} steps of {:.4g} ms (at most {:.0e})",
+                                 duration, steps, 1e3 * settings.time_step, most_steps),
+                     "look for a long dwell or many repeats, or choose a longer simulation.time_step_ms");
   if (!(values <= most_values))
-    throw InputError(
-        setup.motion.where,
-        fmt::format("one repeat of the motion takes {:.6g} s: {:.3g} samples of {} segments, {:.0f} GB",
-                    duration, duration * settings.sample_rate, segments, 136e-9 * values),
-        "choose a lower simulation.sample_rate_Hz or fewer segments, or split the motion");
+    throw InputError(setup.motion.where,
+                     fmt::format("one repeat of the motion takes {:.6g} s: {:.3g} samples of {} segments, {:.0f} GB",
+                                 duration, duration * settings.sample_rate, segments, 136e-9 * values),
+                     "choose a lower simulation.sample_rate_Hz or fewer segments, or split the motion");
 }
 
 std::vector<MotionLimits> limits_of(const pipeline::Setup& setup) {
@@ -57,15 +55,12 @@ void describe_dresspack(RunDescription& description, const pipeline::MountedDres
   description.axial_stiffness.push_back(mounted.dresspack.axial_stiffness);
 }
 
-Simulation::Simulation(const pipeline::Setup& setup)
-    : setup_(setup), rod_(rod_of(setup_)), path_(path_of(setup_)) {
-  if (setup_.simulation.choose_time_step)
-    setup_.simulation.time_step = first_step(setup_.simulation.sample_rate);
+Simulation::Simulation(const pipeline::Setup& setup) : setup_(setup), rod_(rod_of(setup_)), path_(path_of(setup_)) {
+  if (setup_.simulation.choose_time_step) setup_.simulation.time_step = first_step(setup_.simulation.sample_rate);
   robot_ = dynamic_cast<RobotPath*>(path_.get());
   check_size(setup_, path_->duration(), rod_.segments());
   description_.samples = intervals(path_->duration(), setup_.simulation.sample_rate) + 1;
-  for (const pipeline::MountedDresspack& mounted : setup_.dresspacks)
-    describe_dresspack(description_, mounted);
+  for (const pipeline::MountedDresspack& mounted : setup_.dresspacks) describe_dresspack(description_, mounted);
   for (double& stiffness : description_.bending_stiffness) stiffness *= setup_.simulation.stiffness_factor;
   for (int i = 0; i < rod_.segments(); ++i) {
     description_.dresspack.push_back(rod_.span_of(i).dresspack);
@@ -103,13 +98,13 @@ void Simulation::check_reach() const {
   const Span& span = rod_.spans()[where];
   const double length = span.properties.length;
   const std::string between = between_clamps(span);
-  throw RoutingRefusal(
-      setup_.dresspacks[span.dresspack].routing.where,
-      fmt::format("{} is {:.1f} mm too short {} ({} {}, the clamps are {:.4f} m apart there)",
-                  pipeline::dresspack_words(setup_, span.dresspack), 1e3 * worst, moment(when),
-                  between.empty() ? "routing.free_length_m is" : "its length" + between + " is", length,
-                  length + worst),
-      "give it more free length, with slack to bend, or move a clamp (dresslife preview shows it)", span.dresspack, when);
+  throw RoutingRefusal(setup_.dresspacks[span.dresspack].routing.where,
+                       fmt::format("{} is {:.1f} mm too short {} ({} {}, the clamps are {:.4f} m apart there)",
+                                   pipeline::dresspack_words(setup_, span.dresspack), 1e3 * worst, moment(when),
+                                   between.empty() ? "routing.free_length_m is" : "its length" + between + " is",
+                                   length, length + worst),
+                       "give it more free length, with slack to bend, or move a clamp (dresslife preview shows it)",
+                       span.dresspack, when);
 }
 
 std::string Simulation::between_clamps(const Span& span) const {
@@ -134,8 +129,9 @@ void Simulation::check_taut(const RodState& state, double time) const {
       fmt::format("{} is pulled tight{} {}: {:.1f} mm are missing (it is stretched by {:.1f} %)",
                   pipeline::dresspack_words(setup_, span.dresspack), between_clamps(span), moment(time),
                   1e3 * elongation * span.properties.length, 1e2 * elongation),
-      fmt::format("give it more free length, or keep the motion from winding it around {} (dresslife preview shows the clamps)",
-                  obstacle_words(setup_)),
+      fmt::format(
+          "give it more free length, or keep the motion from winding it around {} (dresslife preview shows the clamps)",
+          obstacle_words(setup_)),
       span.dresspack, time);
 }
 
@@ -154,8 +150,8 @@ struct Simulation::Repeat {
       : checks(s.rod_, limits_of(s.setup_)),
         error(
             s.rod_, *s.path_,
-            [&s](const RodState& state, const Pose& pose, double h) { return s.world_at(state, pose, h); },
-            step, (s.description_.samples - 1) * s.steps_per_sample(step)) {}
+            [&s](const RodState& state, const Pose& pose, double h) { return s.world_at(state, pose, h); }, step,
+            (s.description_.samples - 1) * s.steps_per_sample(step)) {}
   MotionChecks checks;
   StepError error;
   std::vector<RubbedPatch> rubbed;
@@ -232,8 +228,8 @@ RunSummary Simulation::run(const RunSinks& sinks) const {
     summary.periodic = summary.returns && summary.distance <= settings.periodic_tolerance;
     if (choose) {  // (R11), once, after the first repeat
       choose = false;
-      const double step = chosen_step(summary.time_step, repeat.error.estimate(),
-                                      settings.curvature_error / 100, settings.sample_rate);
+      const double step =
+          chosen_step(summary.time_step, repeat.error.estimate(), settings.curvature_error / 100, settings.sample_rate);
       if (std::abs(step - summary.time_step) > same_step) {
         summary.time_step = step;
         world = world_at(summary.returns ? world->state() : start_, path_->at(0), step);
@@ -260,8 +256,7 @@ std::vector<double> Simulation::pulled_out(const RodState& state) const {
   return ways;
 }
 
-std::optional<double> Simulation::run_once(World& world, Repeat& repeat, const RunSinks& sinks,
-                                           bool last) const {
+std::optional<double> Simulation::run_once(World& world, Repeat& repeat, const RunSinks& sinks, bool last) const {
   const double step = world.time_step();
   const int per_sample = steps_per_sample(step);
   MotionChecks& checks = repeat.checks;
@@ -286,8 +281,7 @@ std::optional<double> Simulation::run_once(World& world, Repeat& repeat, const R
     rubbing.end_sample(time);
   };
   const auto ways = [&] {
-    return pose.rings.empty() ? std::vector<double>{}
-                              : shortest_ways(setup_, rod_, world.state().clamps, pose.rings);
+    return pose.rings.empty() ? std::vector<double>{} : shortest_ways(setup_, rod_, world.state().clamps, pose.rings);
   };
   checks.see(world.state(), {}, 0, ways());
   repeat.error.see(0, world.state());
@@ -349,17 +343,16 @@ std::vector<pipeline::Warning> warnings_of(const Simulation& simulation, const R
     warnings.back().amount = summary.distance / settings.periodic_tolerance;
   }
   warnings = pipeline::joined(std::move(warnings), one_link_warnings(simulation.setup()));
-  return pipeline::joined(
-      warnings, check_warnings({simulation.setup(), [&](double time) { return simulation.moment(time); },
-                                &simulation.rod(), &simulation.path()},
-                               summary.checks));
+  return pipeline::joined(warnings,
+                          check_warnings({simulation.setup(), [&](double time) { return simulation.moment(time); },
+                                          &simulation.rod(), &simulation.path()},
+                                         summary.checks));
 }
 
 std::string repeats_note(const RunSummary& summary) {
   if (summary.repeats < 2 || (summary.returns && !summary.periodic)) return "";
-  return fmt::format(
-      "note: the motion is periodic after {} repeats ({:.2g} mm apart); the last one is evaluated",
-      summary.repeats, 1e3 * summary.distance);
+  return fmt::format("note: the motion is periodic after {} repeats ({:.2g} mm apart); the last one is evaluated",
+                     summary.repeats, 1e3 * summary.distance);
 }
 
 }  // namespace dresslife::sim

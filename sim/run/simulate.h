@@ -69,9 +69,10 @@ struct RunSummary {
   int repeats = 1;        ///< number of repeats that were run, including the lead-in; the last one is the result
   bool returns = false;   ///< the motion ends at its begin
   bool periodic = false;  ///< the last repeat began and ended in the same state
-  std::optional<double> stopped_at;  ///< time of a repeat at which a sink ended the run [s]: the checks are valid until then
-  double distance = 0;    ///< distance of the states at the last repeat's begin and end (R8) [m]
-  double time_step = 0;   ///< [s]
+  std::optional<double>
+      stopped_at;        ///< time of a repeat at which a sink ended the run [s]: the checks are valid until then
+  double distance = 0;   ///< distance of the states at the last repeat's begin and end (R8) [m]
+  double time_step = 0;  ///< [s]
   /// Estimated relative error of curvature by the step, in the liveliest seconds of the last repeat (R10);
   /// NaN: the simulation with half the step breaks down.
   double curvature_error = 0;

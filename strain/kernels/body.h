@@ -21,9 +21,10 @@ struct Descent {
 
 /// Returns the part of step k in its parent `rod`. free_strain: its strain without friction. held: the strain that friction holds
 /// of its deviation, at this sample. Not inlined, because copies at every call would be most of the compile time.
-__attribute__((noinline, flatten)) ComponentState<Pack> step_down(
-    const ComponentState<Pack>& rod, const NestingLevel& step, const Placement& place,
-    const ComponentState<double>& rest, const Pack& free_strain, const double* held) {
+__attribute__((noinline, flatten)) ComponentState<Pack> step_down(const ComponentState<Pack>& rod,
+                                                                  const NestingLevel& step, const Placement& place,
+                                                                  const ComponentState<double>& rest,
+                                                                  const Pack& free_strain, const double* held) {
   const ComponentState<Pack> glued = child(rod, place);
   if (step.slide.sliding == Sliding::glued) {
     if (step.slide.radial_share == 1) return glued;
@@ -44,8 +45,8 @@ __attribute__((noinline, flatten)) ComponentState<Pack> step_down(
 inline const double* at_sample(const double* row, std::size_t sample) { return row ? row + sample : nullptr; }
 
 /// Returns the parent of level `level` with the ancestor of level `turned_level` moved by `turn` sixths of its pitch.
-inline ComponentState<Pack> turned_parent(const BundlePointers& nesting, const Descent& descent,
-                                          int turned_level, int level, int turn, std::size_t sample) {
+inline ComponentState<Pack> turned_parent(const BundlePointers& nesting, const Descent& descent, int turned_level,
+                                          int level, int turn, std::size_t sample) {
   const int first = turned_level - 1;
   ComponentState<Pack> rod = descent.rods[first];
   for (int k = first; k < level; ++k)
@@ -55,8 +56,8 @@ inline ComponentState<Pack> turned_parent(const BundlePointers& nesting, const D
 }
 
 /// Returns the axial strain of a component that slides. level: of its parent (0 = the dresspack).
-inline Pack free_strain(const BundlePointers& nesting, const Descent& descent, int level,
-                        const Placement& place, const SlidingNumbers& slide, std::size_t sample) {
+inline Pack free_strain(const BundlePointers& nesting, const Descent& descent, int level, const Placement& place,
+                        const SlidingNumbers& slide, std::size_t sample) {
   switch (slide.sliding) {
     case Sliding::glued:
       break;
@@ -85,16 +86,15 @@ inline void load_parent(const BundlePointers& nesting, std::size_t sample, Compo
 }
 
 /// Computes the first `steps` parts of the nesting; with a given parent only the last of them.
-inline void descend(const BundlePointers& nesting, const DeformationColumns& in, std::size_t sample,
-                    Descent& descent, int steps) {
+inline void descend(const BundlePointers& nesting, const DeformationColumns& in, std::size_t sample, Descent& descent,
+                    int steps) {
   const int known = nesting.parent ? nesting.step_count - 1 : 0;
   if (nesting.parent)
     load_parent(nesting, sample, descent.rods[known]);
   else
-    descent.rods[0] =
-        uniform_rod<Pack>(load<Pack>(in.elongation + sample), load<Pack>(in.curvature1 + sample),
-                          load<Pack>(in.curvature2 + sample), load<Pack>(in.twist + sample),
-                          nesting.order + nesting.step_count);
+    descent.rods[0] = uniform_rod<Pack>(load<Pack>(in.elongation + sample), load<Pack>(in.curvature1 + sample),
+                                        load<Pack>(in.curvature2 + sample), load<Pack>(in.twist + sample),
+                                        nesting.order + nesting.step_count);
   for (int k = known; k < steps; ++k) {
     const NestingLevel& step = nesting.steps[k];
     descent.free_strain[k] = free_strain(nesting, descent, k, step.place, step.slide, sample);
@@ -103,8 +103,7 @@ inline void descend(const BundlePointers& nesting, const DeformationColumns& in,
   }
 }
 
-inline void descend(const BundlePointers& nesting, const DeformationColumns& in, std::size_t sample,
-                    Descent& descent) {
+inline void descend(const BundlePointers& nesting, const DeformationColumns& in, std::size_t sample, Descent& descent) {
   descend(nesting, in, sample, descent, nesting.step_count);
 }
 
@@ -118,9 +117,9 @@ void deviations(const BundlePointers& nesting, int turn, int turned_level, const
     Descent descent;
     descend(nesting, in, first + t, descent, last);
     const Pack mean = free_strain(nesting, descent, last, step.place, step.slide, first + t);
-    const ComponentState<Pack> parent =
-        turn < 0 || turned_level == 0 ? descent.rods[last]
-                                      : turned_parent(nesting, descent, turned_level, last, turn, first + t);
+    const ComponentState<Pack> parent = turn < 0 || turned_level == 0
+                                            ? descent.rods[last]
+                                            : turned_parent(nesting, descent, turned_level, last, turn, first + t);
     const ComponentState<Pack> glued = child(parent, place);
     const Series<Pack> ratio = glued.stretch * (constant_series(1.0, rest.stretch.order) / rest.stretch);
     store(mean, out + t);
@@ -132,14 +131,14 @@ void deviations(const BundlePointers& nesting, int turn, int turned_level, const
 }
 
 inline FibreShape shape_of(const Fibre& fibre, const WireNode& node) {
-  return fibre.on_axis ? FibreShape{}
-                       : fibre_shape(node.place.kinematics, node.rest, node.wire_radius, fibre.phi_sine,
-                                     fibre.phi_cosine);
+  return fibre.on_axis
+             ? FibreShape{}
+             : fibre_shape(node.place.kinematics, node.rest, node.wire_radius, fibre.phi_sine, fibre.phi_cosine);
 }
 
 /// Computes the strains of one node's fibres at a pack of samples. sliding: its axial strain if it slides.
-inline void strains_of_node(const BundlePointers& nesting, const ComponentState<Pack>& parent,
-                            const WireNode& node, const Pack& sliding, Pack* strain) {
+inline void strains_of_node(const BundlePointers& nesting, const ComponentState<Pack>& parent, const WireNode& node,
+                            const Pack& sliding, Pack* strain) {
   const WireState<Pack> wire = wire_state(parent, node.place);
   Pack axial = node.slide.radial_share * (wire.stretch * node.inverse_rest_stretch - 1.0);
   Pack bend1 = wire.bend1, bend2 = wire.bend2;
@@ -155,9 +154,8 @@ inline void strains_of_node(const BundlePointers& nesting, const ComponentState<
   bend1 -= node.rest.bend1;
   bend2 -= node.rest.bend2;
   for (int f = 0; f < nesting.fibre_count; ++f) {
-    strain[f] = nesting.fibres[f].on_axis
-                    ? axial
-                    : fibre_strain(shape_of(nesting.fibres[f], node), axial, bend1, bend2);
+    strain[f] =
+        nesting.fibres[f].on_axis ? axial : fibre_strain(shape_of(nesting.fibres[f], node), axial, bend1, bend2);
   }
 }
 
@@ -165,16 +163,14 @@ constexpr int most_fibres = 64;
 constexpr double inverse_root_3 = 0.57735026918962576;
 
 __attribute__((flatten)) void node_strains(const BundlePointers& nesting, const DeformationColumns& in,
-                                           std::size_t first, std::size_t count, double* out,
-                                           std::size_t stride) {
+                                           std::size_t first, std::size_t count, double* out, std::size_t stride) {
   for (std::size_t t = 0; t < count; t += pack_size) {
     Descent descent;
     descend(nesting, in, first + t, descent);
     Pack strain[most_fibres];
     for (int n = 0; n < nesting.node_count; ++n) {
       const WireNode& node = nesting.nodes[n];
-      const Pack sliding =
-          free_strain(nesting, descent, nesting.step_count, node.place, node.slide, first + t);
+      const Pack sliding = free_strain(nesting, descent, nesting.step_count, node.place, node.slide, first + t);
       strains_of_node(nesting, descent.rods[nesting.step_count], node, sliding, strain);
       for (int f = 0; f < nesting.fibre_count; ++f)
         store(strain[f], out + (static_cast<std::size_t>(n) * nesting.fibre_count + f) * stride + t);
@@ -183,8 +179,7 @@ __attribute__((flatten)) void node_strains(const BundlePointers& nesting, const 
 }
 
 inline double shear_by_twist(const WireNode& node) {
-  return inverse_root_3 * node.strain_factor * node.shear_radius /
-         rest_length(node.place.kinematics, node.rest);
+  return inverse_root_3 * node.strain_factor * node.shear_radius / rest_length(node.place.kinematics, node.rest);
 }
 
 /// Computes the ingredients of the strain of a node (see Ingredient).
@@ -208,8 +203,8 @@ inline bool same_over_pitch(const WireNode& a, const WireNode& b) {
          a.slide.mean_rest_rate == b.slide.mean_rest_rate && a.slide.radial_share == b.slide.radial_share;
 }
 
-void node_ingredients(const BundlePointers& nesting, const DeformationColumns& in, std::size_t first,
-                      std::size_t count, double* out, std::size_t stride) {
+void node_ingredients(const BundlePointers& nesting, const DeformationColumns& in, std::size_t first, std::size_t count,
+                      double* out, std::size_t stride) {
   const int kinds = ingredients(nesting.fibre_count);
   Pack values[ingredients(most_fibres)];
   for (std::size_t t = 0; t < count; t += pack_size) {
@@ -221,8 +216,7 @@ void node_ingredients(const BundlePointers& nesting, const DeformationColumns& i
       if (n == 0 || !same_over_pitch(nesting.nodes[n - 1], node))
         sliding = free_strain(nesting, descent, nesting.step_count, node.place, node.slide, first + t);
       ingredients_of_node(nesting, descent, node, sliding, values);
-      for (int k = 0; k < kinds; ++k)
-        store(values[k], out + (static_cast<std::size_t>(n) * kinds + k) * stride + t);
+      for (int k = 0; k < kinds; ++k) store(values[k], out + (static_cast<std::size_t>(n) * kinds + k) * stride + t);
     }
   }
 }
@@ -339,8 +333,7 @@ struct ParentAt {
     const FloatPack q = (twisting + stretch_by * (stretch + helix.stretch0)) * helix.inverse_pitch0;
     const FloatPack root = inverse_root(1.0f + q), inverse2 = root * root * helix.inverse_pitch0;
     const FloatPack first = q * inverse(1.0f + (1.0f + q) * root);
-    const FloatPack bend =
-        helix.radius * helix.radius * (bend1 * bend1 + bend2 * bend2) * (inverse2 * inverse2);
+    const FloatPack bend = helix.radius * helix.radius * (bend1 * bend1 + bend2 * bend2) * (inverse2 * inverse2);
     const FloatPack second = 0.25f * A * bend * (1.0f + 0.1875f * bend * (4.0f * y2 - A));
     return first + (second - helix.second0) * (1.0f + first) * helix.inverse_one_and_second0;
   }
@@ -362,8 +355,8 @@ inline float* waiting_place(float* out, int node, int kinds, std::size_t stride)
 
 /// Returns whether the last part's state follows from its parent's rows alone, see part_from().
 inline bool rows_suffice(const BundlePointers& nesting) {
-  return nesting.parent_rows != nullptr && single_suffices(nesting.steps[nesting.step_count - 1],
-                                                           nesting.nodes, nesting.node_count, nesting.order);
+  return nesting.parent_rows != nullptr &&
+         single_suffices(nesting.steps[nesting.step_count - 1], nesting.nodes, nesting.node_count, nesting.order);
 }
 
 /// The rows of PartRow of a part.
@@ -371,9 +364,7 @@ struct RowsOfParent {
   const float* rows;
   std::size_t stride;
 
-  inline FloatPack operator()(int row, std::size_t t) const {
-    return load<FloatPack>(rows + row * stride + t);
-  }
+  inline FloatPack operator()(int row, std::size_t t) const { return load<FloatPack>(rows + row * stride + t); }
 };
 
 /// The rows of PartRow of the dresspack: uniform; at rest only its curvature is not zero.
@@ -415,8 +406,8 @@ struct RowsOfDresspack {
 /// for a sliding part times its factor, which has the slope w0 - w: (1 + strain) of the rest's, w0. Precondition of slopes:
 /// slopes_in_single().
 template <Sliding how, bool slopes, class Source>
-void part_from(const Source& of, const BundlePointers& nesting, std::size_t first, std::size_t count,
-               float* rows, std::size_t stride) {
+void part_from(const Source& of, const BundlePointers& nesting, std::size_t first, std::size_t count, float* rows,
+               std::size_t stride) {
   const NestingLevel& step = nesting.steps[nesting.step_count - 1];
   const PartAtRest parent0(nesting, nesting.step_count - 1), rest(nesting, nesting.step_count);
   const HelixNumbers helix(step.place, parent0);
@@ -453,8 +444,8 @@ void part_from(const Source& of, const BundlePointers& nesting, std::size_t firs
         along = (1.0f + strain) * root;
       }
     } else {
-      strain = share * (how == Sliding::over_pitch ? p.mean_over_pitch(helix)
-                                                   : in_single(step.slide.clamp_strain + first + t));
+      strain = share *
+               (how == Sliding::over_pitch ? p.mean_over_pitch(helix) : in_single(step.slide.clamp_strain + first + t));
       if (held) strain += in_single(held + first + t);
       m = (strain - q) * (root * root);
       along = (1.0f + strain) * root;
@@ -462,8 +453,7 @@ void part_from(const Source& of, const BundlePointers& nesting, std::size_t firs
     const FloatPack N = p.turning * p.sigma + y * X, M = p.sigma * p.stretch;
     const FloatPack N_by = R * p.twist_by * (p.sigma + helix.sigma0) + y_by * X + y0 * X_by;
     const FloatPack M_by = p.twist_by * p.stretch + helix.sigma0 * p.stretch_by;
-    const FloatPack y_slope = of(stretch_slope, t) +
-                              R * (of(bend1_slope, t) * sine - of(bend2_slope, t) * cosine) +
+    const FloatPack y_slope = of(stretch_slope, t) + R * (of(bend1_slope, t) * sine - of(bend2_slope, t) * cosine) +
                               R * helix.turn_rate * radial;
     const FloatPack over_V2 = root * root * inverse_V0_squared;
     const FloatPack angle_slope = R * (of(twist_slope, t) * y - p.sigma * y_slope) * over_V2;
@@ -491,8 +481,8 @@ void part_from(const Source& of, const BundlePointers& nesting, std::size_t firs
 }
 
 template <bool slopes, class Source>
-void part_from(const Source& of, const BundlePointers& nesting, std::size_t first, std::size_t count,
-               float* rows, std::size_t stride) {
+void part_from(const Source& of, const BundlePointers& nesting, std::size_t first, std::size_t count, float* rows,
+               std::size_t stride) {
   const Sliding how = nesting.steps[nesting.step_count - 1].slide.sliding;
   if (how == Sliding::glued)
     part_from<Sliding::glued, slopes>(of, nesting, first, count, rows, stride);
@@ -511,8 +501,8 @@ void part_rows_of_dresspack(const BundlePointers& nesting, const DeformationColu
     part_from<false>(of, nesting, first, count, rows, stride);
 }
 
-void fill_from_rows(const BundlePointers& nesting, std::size_t first, std::size_t count, PartState& state,
-                    float* out, std::size_t stride, int kinds) {
+void fill_from_rows(const BundlePointers& nesting, std::size_t first, std::size_t count, PartState& state, float* out,
+                    std::size_t stride, int kinds) {
   part_from<false>(RowsOfParent{nesting.parent_rows + first, nesting.parent_stride}, nesting, first, count,
                    state.rows[0], chunk);
   for (int n = 0; n < nesting.node_count; ++n)
@@ -524,9 +514,9 @@ void fill_from_rows(const BundlePointers& nesting, std::size_t first, std::size_
 
 /// Fills the state for samples [first, first + count), and stores the strains of nodes that slide from afar at their
 /// waiting_place().
-__attribute__((flatten)) void fill_part(const BundlePointers& nesting, const DeformationColumns& in,
-                                        std::size_t first, std::size_t count, PartState& state, float* out,
-                                        std::size_t stride, int kinds) {
+__attribute__((flatten)) void fill_part(const BundlePointers& nesting, const DeformationColumns& in, std::size_t first,
+                                        std::size_t count, PartState& state, float* out, std::size_t stride,
+                                        int kinds) {
   if (rows_suffice(nesting)) return fill_from_rows(nesting, first, count, state, out, stride, kinds);
   const std::size_t whole_packs = (count + float_pack_size - 1) / float_pack_size * float_pack_size;
   const int steps = nesting.step_count;
@@ -642,8 +632,7 @@ struct LayerAt : ParentAt {
     if constexpr (thesis)
       return {layer.radial_share * ((thesis_strain(layer.radius * X) - n.strain0) * n.inverse_rest_stretch),
               -cosine * radial, cosine_squared * X, sine_cosine * X, FloatPack{} + 1.0f};
-    const FloatPack y = stretch + layer.radius * X, V2 = turning * turning + y * y,
-                    inverse_V = inverse_root(V2);
+    const FloatPack y = stretch + layer.radius * X, V2 = turning * turning + y * y, inverse_V = inverse_root(V2);
     const FloatPack y_change = stretch_by + layer.radius * (bend1_by * n.sine - bend2_by * n.cosine);
     const FloatPack q = (twisting + y_change * (y + n.y0)) * n.inverse_V0_squared;
     const FloatPack scale = layer.c * inverse_V;
@@ -654,13 +643,11 @@ struct LayerAt : ParentAt {
     state.twist = scale * sigma * stretch;
     state.inverse_stretch = layer.inverse_c * inverse_V;
     if constexpr (with_bend1) {
-      const FloatPack y_slope =
-          part(stretch_slope, t) +
-          layer.radius * (part(bend1_slope, t) * n.sine - part(bend2_slope, t) * n.cosine) +
-          layer.radius * layer.turn_rate * radial;
+      const FloatPack y_slope = part(stretch_slope, t) +
+                                layer.radius * (part(bend1_slope, t) * n.sine - part(bend2_slope, t) * n.cosine) +
+                                layer.radius * layer.turn_rate * radial;
       state.bend1 =
-          layer.c *
-          (layer.radius * (part(twist_slope, t) * y - sigma * y_slope) * inverse_V * inverse_V - radial);
+          layer.c * (layer.radius * (part(twist_slope, t) * y - sigma * y_slope) * inverse_V * inverse_V - radial);
     }
     return state;
   }
@@ -672,16 +659,13 @@ struct LayerAt : ParentAt {
   /// Returns the mean of the glued strain over the pitch.
   inline FloatPack mean_strain_over_pitch() const {
     if constexpr (thesis)
-      return layer.radial_share *
-             ((thesis_strain(FloatPack{}) - layer.mean_strain0) * layer.inverse_mean_rest_rate);
+      return layer.radial_share * ((thesis_strain(FloatPack{}) - layer.mean_strain0) * layer.inverse_mean_rest_rate);
     return layer.radial_share * mean_over_pitch(layer);
   }
 
   /// Returns the factor that keeps the curvature per path length (W11); 1 where it does not apply.
-  inline FloatPack curvature_factor(const FloatPack& axial, const NodeNumbers& n,
-                                    const NodeState& node) const {
-    return layer.sticks || thesis ? FloatPack{} + 1.0f
-                                  : (1.0f + axial) * n.rest_stretch * node.inverse_stretch;
+  inline FloatPack curvature_factor(const FloatPack& axial, const NodeNumbers& n, const NodeState& node) const {
+    return layer.sticks || thesis ? FloatPack{} + 1.0f : (1.0f + axial) * n.rest_stretch * node.inverse_stretch;
   }
 
   /// Computes the strain of each node if the layer slides; 0 if it is glued. waiting: strains that fill_part() stored for this
@@ -736,8 +720,7 @@ void sliding_strains_of_layer(const FiveNodes& layer, const PartState& part, std
       const NodeNumbers& node = layer.node[n];
       const FloatPack X = at.bend1 * node.sine - at.bend2 * node.cosine, y = at.stretch + layer.radius * X;
       const FloatPack over_V2 = inverse(turning2 + y * y);
-      bend2[n] =
-          (turning_sigma + y * X) * over_V2 * ((1.0f + axial[n]) * node.rest_stretch) - node.rest_bend2;
+      bend2[n] = (turning_sigma + y * X) * over_V2 * ((1.0f + axial[n]) * node.rest_stretch) - node.rest_bend2;
       axial[n] *= factor_of_wall;
     }
     for (int f = 0; f < nesting.fibre_count; ++f) {
@@ -753,8 +736,7 @@ template <bool thesis, bool with_bend1, Sliding how>
 void strains_of_layer(const FiveNodes& layer, const PartState& part, std::size_t count, float* out,
                       std::size_t stride) {
   constexpr bool glued = how == Sliding::glued;
-  if constexpr (!thesis && !with_bend1 && !glued)
-    return sliding_strains_of_layer<how>(layer, part, count, out, stride);
+  if constexpr (!thesis && !with_bend1 && !glued) return sliding_strains_of_layer<how>(layer, part, count, out, stride);
   const FiveToWaves to_waves;
   const BundlePointers& nesting = layer.nesting;
   const auto factor_of_wall = static_cast<float>(layer.nodes[0].strain_factor);
@@ -824,8 +806,7 @@ void deviations_of_layer(const FiveNodes& layer, const PartState& part, std::siz
     const LayerAt<thesis, false> at(layer, part, t);
     FloatPack sliding[waves_per_layer], away[waves_per_layer];
     at.sliding(how, out, stride, sliding);
-    for (int n = 0; n < waves_per_layer; ++n)
-      away[n] = factor_of_wall * at(layer.node[n]).strain - sliding[n];
+    for (int n = 0; n < waves_per_layer; ++n) away[n] = factor_of_wall * at(layer.node[n]).strain - sliding[n];
     to_waves.store_waves(sliding, out + mean_strain * waves_per_layer * stride + t, stride);
     to_waves.store_waves(away, out + deviation * waves_per_layer * stride + t, stride);
   }
@@ -873,15 +854,13 @@ constexpr BySliding ingredients_by_sliding{ingredients_of_layer<thesis, with_ben
                                            ingredients_of_layer<thesis, with_bend1, Sliding::clamp_to_clamp>,
                                            ingredients_of_layer<thesis, with_bend1, Sliding::along_ancestor>};
 template <bool thesis>
-constexpr BySliding deviations_by_sliding{deviations_of_layer<thesis, Sliding::glued>,
-                                          deviations_of_layer<thesis, Sliding::over_pitch>,
-                                          deviations_of_layer<thesis, Sliding::clamp_to_clamp>,
-                                          deviations_of_layer<thesis, Sliding::along_ancestor>};
+constexpr BySliding deviations_by_sliding{
+    deviations_of_layer<thesis, Sliding::glued>, deviations_of_layer<thesis, Sliding::over_pitch>,
+    deviations_of_layer<thesis, Sliding::clamp_to_clamp>, deviations_of_layer<thesis, Sliding::along_ancestor>};
 
 /// Runs `by` over all layers, chunk by chunk. Layers of `sliding` with closed forms use these instead. kinds: waves per layer.
-void over_layers(const BundlePointers& nesting, const DeformationColumns& in, std::size_t first,
-                 std::size_t count, int kinds, float* out, std::size_t stride, const SlidingLayer* sliding,
-                 const BySliding& by) {
+void over_layers(const BundlePointers& nesting, const DeformationColumns& in, std::size_t first, std::size_t count,
+                 int kinds, float* out, std::size_t stride, const SlidingLayer* sliding, const BySliding& by) {
   const int layers = nesting.node_count / waves_per_layer;
   const PartAtRest at_rest(nesting, nesting.step_count);
   const std::size_t per_layer = static_cast<std::size_t>(kinds) * waves_per_layer * stride;
@@ -909,8 +888,8 @@ bool is_thesis(const BundlePointers& nesting) {
   return nesting.node_count > 0 && is_thesis(nesting.nodes[0].place.kinematics);
 }
 
-void layer_waves(const BundlePointers& nesting, const DeformationColumns& in, std::size_t first,
-                 std::size_t count, float* out, std::size_t stride) {
+void layer_waves(const BundlePointers& nesting, const DeformationColumns& in, std::size_t first, std::size_t count,
+                 float* out, std::size_t stride) {
   over_layers(nesting, in, first, count, nesting.fibre_count, out, stride, nesting.sliding,
               is_thesis(nesting)  ? strains_by_sliding<true, true>
               : nesting.order > 0 ? strains_by_sliding<false, true>
@@ -919,8 +898,8 @@ void layer_waves(const BundlePointers& nesting, const DeformationColumns& in, st
 
 /// Computes the strains of one node with one fibre. out: contains the strain from fill_part() if the node slides from afar.
 template <bool thesis, bool with_bend1>
-void strains_of_one(const BundlePointers& nesting, const WireNode& of, const PartAtRest& at_rest,
-                    const PartState& part, std::size_t count, float* out) {
+void strains_of_one(const BundlePointers& nesting, const WireNode& of, const PartAtRest& at_rest, const PartState& part,
+                    std::size_t count, float* out) {
   const LayerNumbers layer(of, at_rest);
   const NodeNumbers number(of, at_rest);
   const Sliding how = of.slide.sliding;
@@ -954,16 +933,16 @@ void node_strains_in_single(const BundlePointers& nesting, const DeformationColu
   }
 }
 
-void ingredient_waves(const BundlePointers& nesting, const DeformationColumns& in, std::size_t first,
-                      std::size_t count, float* out, std::size_t stride) {
+void ingredient_waves(const BundlePointers& nesting, const DeformationColumns& in, std::size_t first, std::size_t count,
+                      float* out, std::size_t stride) {
   over_layers(nesting, in, first, count, ingredients(nesting.fibre_count), out, stride, nullptr,
               is_thesis(nesting)  ? ingredients_by_sliding<true, true>
               : nesting.order > 0 ? ingredients_by_sliding<false, true>
                                   : ingredients_by_sliding<false, false>);
 }
 
-void deviation_waves(const BundlePointers& nesting, const DeformationColumns& in, std::size_t first,
-                     std::size_t count, float* out, std::size_t stride) {
+void deviation_waves(const BundlePointers& nesting, const DeformationColumns& in, std::size_t first, std::size_t count,
+                     float* out, std::size_t stride) {
   over_layers(nesting, in, first, count, deviation + 1, out, stride, nullptr,
               is_thesis(nesting) ? deviations_by_sliding<true> : deviations_by_sliding<false>);
 }
@@ -976,9 +955,7 @@ __attribute__((flatten)) void add_path_rates(const BundlePointers& nesting, cons
     descend(nesting, in, first + t, descent);
     for (int n = 0; n < nesting.node_count; ++n) {
       double* to = sum + static_cast<std::size_t>(n) * stride + t;
-      store(
-          Pack(load<Pack>(to) + weight * path_rate(descent.rods[nesting.step_count], nesting.nodes[n].place)),
-          to);
+      store(Pack(load<Pack>(to) + weight * path_rate(descent.rods[nesting.step_count], nesting.nodes[n].place)), to);
     }
   }
 }
@@ -1050,8 +1027,8 @@ struct SlipRange {
   }
 };
 
-void mix_pack(MixedLanes& state, int lane, const float* waves, std::size_t stride, std::size_t count,
-              int fibres, float* out) {
+void mix_pack(MixedLanes& state, int lane, const float* waves, std::size_t stride, std::size_t count, int fibres,
+              float* out) {
   const Around around(state.shape, lane);
   const std::size_t per_kind = waves_per_layer * stride;
   const FloatPack zero{};
@@ -1065,8 +1042,7 @@ void mix_pack(MixedLanes& state, int lane, const float* waves, std::size_t strid
         state.scales ? (1.0f + axial) / (1.0f + (mean + away) * state.inverse_radial_share) : zero + 1.0f;
     FloatPack torsion{};
     if (state.with_shear)
-      torsion = around.at(waves + shear * per_kind, stride, t) * scale -
-                load<FloatPack>(state.rest[0].data() + lane);
+      torsion = around.at(waves + shear * per_kind, stride, t) * scale - load<FloatPack>(state.rest[0].data() + lane);
     for (int f = 0; f < fibres; ++f) {
       FloatPack strain = axial, sheared = torsion;
       if (!state.on_axis) {
@@ -1115,8 +1091,8 @@ void mix_plain(MixedLanes* const* states, int lane, const float* waves, std::siz
   for (int k = 0; k < side; ++k) store(sliders[k].slip, states[k]->slip + lane);
 }
 
-void mix(MixedLanes& state, MixedLanes* images, const float* waves, std::size_t stride, std::size_t count,
-         int fibres, float* out, float* images_out) {
+void mix(MixedLanes& state, MixedLanes* images, const float* waves, std::size_t stride, std::size_t count, int fibres,
+         float* out, float* images_out) {
   static_assert(mean_strain == 0);
   const bool plain = fibres == 1 && state.scales && !state.with_shear && !state.on_axis;
   MixedLanes* const states[] = {&state, images};
@@ -1142,14 +1118,12 @@ void settle_packs(const MixedRun* runs, int lane, std::size_t stride, std::size_
   for (int k = 0; k < together; ++k) {
     around[k] = Around(runs[k].state->shape, lane);
     sliders[k] = Sliders(*runs[k].state, lane);
-    range[k] = {load<FloatPack>(runs[k].state->least_slip + lane),
-                load<FloatPack>(runs[k].state->most_slip + lane)};
+    range[k] = {load<FloatPack>(runs[k].state->least_slip + lane), load<FloatPack>(runs[k].state->most_slip + lane)};
   }
   for (std::size_t t = count; t-- > 0;)
     for (int k = 0; k < together; ++k) {
       const FloatPack mean = around[k].at(runs[k].waves + mean_strain * waves_per_layer * stride, stride, t);
-      range[k].before(sliders[k], mean,
-                      around[k].at(runs[k].waves + deviation * waves_per_layer * stride, stride, t));
+      range[k].before(sliders[k], mean, around[k].at(runs[k].waves + deviation * waves_per_layer * stride, stride, t));
     }
   for (int k = 0; k < together; ++k) {
     store(range[k].least, runs[k].state->least_slip + lane);

@@ -60,8 +60,8 @@ struct WireNode {
   double inverse_rest_stretch = 1;  ///< 1 / stretch at rest
   WireState<double> rest;
   SlidingNumbers slide;
-  double wire_radius = 0;   ///< radius of its fibres [m]; 0 for the hose's wall, which bends with the dresspack only
-  double shear_radius = 0;  ///< radius at which torsion causes shear [m]
+  double wire_radius = 0;    ///< radius of its fibres [m]; 0 for the hose's wall, which bends with the dresspack only
+  double shear_radius = 0;   ///< radius at which torsion causes shear [m]
   double strain_factor = 1;  ///< of a corrugated wall
 };
 
@@ -76,7 +76,7 @@ struct BundleNesting {
   std::vector<WireNode> nodes;        ///< for waves: waves_per_layer nodes per layer, evenly spaced
   std::vector<SlidingLayer> sliding;  ///< (layer); empty: all waves come from nodes
   std::vector<Fibre> fibres;
-  int order = 0;                  ///< order of the part's state: 1 if fibres depend on bend1
+  int order = 0;                             ///< order of the part's state: 1 if fibres depend on bend1
   ComponentState<double> dresspack_at_rest;  ///< (W25) in the shape as delivered
 };
 
@@ -117,8 +117,7 @@ inline namespace DRESSLIFE_MACHINE {
 /// Returns whether waves in a part need its parent in single precision only. last: the step to the part. nodes: in the part.
 /// order: of the part's own series.
 inline bool single_suffices(const NestingLevel& last, const WireNode* nodes, int node_count, int order) {
-  bool suffice =
-      order == 0 && !is_thesis(last.place.kinematics) && last.slide.sliding != Sliding::along_ancestor;
+  bool suffice = order == 0 && !is_thesis(last.place.kinematics) && last.slide.sliding != Sliding::along_ancestor;
   for (int n = 0; n < node_count; ++n) suffice &= nodes[n].slide.sliding != Sliding::along_ancestor;
   return suffice;
 }
@@ -139,9 +138,9 @@ constexpr std::size_t part_state_rows(int order) { return 4 * (static_cast<std::
 struct LaneState {
   alignas(64) float shape[waves_per_layer - 1][lanes];  ///< sin, cos, sin 2, cos 2 of each wire's angle
   alignas(64) float edge[lanes];                        ///< edge of the hysteresis (turning.h)
-  alignas(64) float top_edge[lanes];  ///< edge started on a peak, used while wires are undecided
-  alignas(64) float extreme[lanes];   ///< furthest strain since the last turn
-  alignas(64) float top[lanes];       ///< highest strain of a wire that has not yet moved by the gate
+  alignas(64) float top_edge[lanes];                    ///< edge started on a peak, used while wires are undecided
+  alignas(64) float extreme[lanes];                     ///< furthest strain since the last turn
+  alignas(64) float top[lanes];                         ///< highest strain of a wire that has not yet moved by the gate
   alignas(64) float last[lanes];
   alignas(64) std::int32_t extreme_at[lanes];
   alignas(64) std::int32_t top_at[lanes];
@@ -229,8 +228,8 @@ struct Kernels {
   void (*node_strains)(const BundlePointers&, const DeformationColumns&, std::size_t first, std::size_t count,
                        double* out, std::size_t stride);
   /// Computes strains of nodes with one fibre in single precision, to out[node * stride + t].
-  void (*node_strains_in_single)(const BundlePointers&, const DeformationColumns&, std::size_t first,
-                                 std::size_t count, float* out, std::size_t stride);
+  void (*node_strains_in_single)(const BundlePointers&, const DeformationColumns&, std::size_t first, std::size_t count,
+                                 float* out, std::size_t stride);
   /// Computes the waves of every wire layer and fibre, to out[((layer * fibres + fibre) * waves_per_layer + wave) *
   /// stride + t].
   void (*layer_waves)(const BundlePointers&, const DeformationColumns&, std::size_t first, std::size_t count,
@@ -238,37 +237,37 @@ struct Kernels {
   /// Computes mean strain (row 0) and deviation of the last part of a nesting, glued to its parent, as a series in its length
   /// (rows 1 ..), to out[row * stride + t]. turn >= 0: for the part moved by that many sixths of the pitch of the ancestor at
   /// `turned_level`; turned_level 0: of its own pitch.
-  void (*deviations)(const BundlePointers&, int turn, int turned_level, const DeformationColumns&,
-                     std::size_t first, std::size_t count, double* out, std::size_t stride);
+  void (*deviations)(const BundlePointers&, int turn, int turned_level, const DeformationColumns&, std::size_t first,
+                     std::size_t count, double* out, std::size_t stride);
   /// Computes states of the last part of a nesting, to out[row * stride + t], see part_state_rows(), and to
   /// rows[PartRow * stride + t] (null: not written). Order 0: without slopes.
   void (*part_states)(const BundlePointers&, const DeformationColumns&, std::size_t first, std::size_t count,
                       double* out, float* rows, std::size_t stride);
   /// Computes the rows of PartRow of the only part of a nesting, completely in single precision. Precondition: exact kinematics,
   /// no strain held by friction.
-  void (*part_rows_of_dresspack)(const BundlePointers&, const DeformationColumns&, std::size_t first,
-                                 std::size_t count, float* rows, std::size_t stride);
+  void (*part_rows_of_dresspack)(const BundlePointers&, const DeformationColumns&, std::size_t first, std::size_t count,
+                                 float* rows, std::size_t stride);
   /// Computes the ingredients of every node, to out[(node * ingredients + ingredient) * stride + t].
-  void (*node_ingredients)(const BundlePointers&, const DeformationColumns&, std::size_t first,
-                           std::size_t count, double* out, std::size_t stride);
+  void (*node_ingredients)(const BundlePointers&, const DeformationColumns&, std::size_t first, std::size_t count,
+                           double* out, std::size_t stride);
   /// Computes waves of the ingredients of every layer, to out[((layer * ingredients + ingredient) * waves_per_layer +
   /// wave) * stride + t].
-  void (*ingredient_waves)(const BundlePointers&, const DeformationColumns&, std::size_t first,
-                           std::size_t count, float* out, std::size_t stride);
+  void (*ingredient_waves)(const BundlePointers&, const DeformationColumns&, std::size_t first, std::size_t count,
+                           float* out, std::size_t stride);
   /// Computes waves of mean strain and deviation only, to out[(layer * 2 + ingredient) * waves_per_layer * stride +
   /// wave * stride + t].
-  void (*deviation_waves)(const BundlePointers&, const DeformationColumns&, std::size_t first,
-                          std::size_t count, float* out, std::size_t stride);
+  void (*deviation_waves)(const BundlePointers&, const DeformationColumns&, std::size_t first, std::size_t count,
+                          float* out, std::size_t stride);
   /// Composes the strains of sixteen wires, fibre by fibre, to out[(fibre * count + t) * lanes + lane]. waves: of the ingredients
   /// of one layer. images: wires at the opposite angles, whose strains go to images_out; null: none.
-  void (*mix)(MixedLanes&, MixedLanes* images, const float* waves, std::size_t stride, std::size_t count,
-              int fibres, float* out, float* images_out);
+  void (*mix)(MixedLanes&, MixedLanes* images, const float* waves, std::size_t stride, std::size_t count, int fibres,
+              float* out, float* images_out);
   /// Narrows least_slip .. most_slip by these samples. Call with blocks from the end of the motion backward. waves: mean strain
   /// and deviation of the wires' layer.
   void (*settle)(const MixedRun*, std::size_t runs, std::size_t stride, std::size_t count);
   /// Adds path rates of the nodes, for means along the dresspack: sum[node * stride + t] += weight * rate.
-  void (*add_path_rates)(const BundlePointers&, const DeformationColumns&, std::size_t first,
-                         std::size_t count, double weight, double* sum, std::size_t stride);
+  void (*add_path_rates)(const BundlePointers&, const DeformationColumns&, std::size_t first, std::size_t count,
+                         double weight, double* sum, std::size_t stride);
   /// Scans the next `count` samples of several runs, from their waves.
   void (*scan)(const LaneRun*, std::size_t runs, std::size_t count);
   /// Scans the next `count` samples of several runs, from their strains.

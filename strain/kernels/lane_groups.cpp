@@ -12,8 +12,7 @@ int registers(int wires, int at_once) { return (wires + at_once - 1) / at_once; 
 
 /// Adds a group of wires `first` to `last` and a group of their images. The wires `alone` have no images and join the first
 /// group.
-void add_mirrored(std::vector<LaneGroup>& groups, int count, int first, int last,
-                  const std::vector<int>& alone) {
+void add_mirrored(std::vector<LaneGroup>& groups, int count, int first, int last, const std::vector<int>& alone) {
   LaneGroup wires, images;
   for (int wire = first; wire <= last; ++wire) {
     wires.wires.push_back(wire);

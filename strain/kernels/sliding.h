@@ -22,8 +22,7 @@ struct alignas(64) BendShape {
       const FloatPack bend1 = part(part_bend1, t), bend2 = part(part_bend2, t);
       const FloatPack P = of.turn_cosine * bend1 + of.turn_sine * bend2;
       const FloatPack Q = of.turn_sine * bend1 - of.turn_cosine * bend2;
-      const FloatPack P2 = P * P, Q2 = Q * Q,
-                      square = part(stretch_change, t) * (part(part_stretch, t) + of.stretch0);
+      const FloatPack P2 = P * P, Q2 = Q * Q, square = part(stretch_change, t) * (part(part_stretch, t) + of.stretch0);
       const FloatPack values[rows_in_all] = {
           P, Q, 2.0f * P * Q, Q2 - P2, P * (3.0f * Q2 - P2), Q * (Q2 - 3.0f * P2), P2 + Q2, square};
       for (int row = 0; row < rows_in_all; ++row) store(values[row], rows[row] + t);
@@ -108,8 +107,7 @@ void closed_strains_of_fibre(const SlidingLayer& layer, const SlidingFibre& fibr
     const FloatPack cosine2 = second * shape(BendShape::cosine2, t) - of.second_wave0;
     const FloatPack sine3 = third * shape(BendShape::sine3, t);
     const FloatPack cosine3 = third * shape(BendShape::cosine3, t) - by.third0;
-    const FloatPack felt_mean =
-        by.mean_of_mean * mean + by.mean_of_first * cosine + by.mean_of_second * cosine2;
+    const FloatPack felt_mean = by.mean_of_mean * mean + by.mean_of_first * cosine + by.mean_of_second * cosine2;
     const FloatPack felt_sine = by.sine_of_sine * sine + by.first_of_second * sine2;
     const FloatPack felt_cosine =
         by.cosine_of_cosine * cosine + by.first_of_second * cosine2 + by.cosine_of_mean * mean;
@@ -125,13 +123,12 @@ void closed_strains_of_fibre(const SlidingLayer& layer, const SlidingFibre& fibr
 }
 
 /// Waves of the strain of the layer's fibres, like strains_of_layer().
-void closed_strains_of_layer(const SlidingLayer& layer, int fibre_count, const PartState& part,
-                             const BendShape& shape, std::size_t count, float* out, std::size_t stride) {
+void closed_strains_of_layer(const SlidingLayer& layer, int fibre_count, const PartState& part, const BendShape& shape,
+                             std::size_t count, float* out, std::size_t stride) {
   SlidingState state;
   state.fill(layer, part, shape, count);
   for (int f = 0; f < fibre_count; ++f)
-    closed_strains_of_fibre(layer, layer.fibres[f], state, shape, count, out + f * waves_per_layer * stride,
-                            stride);
+    closed_strains_of_fibre(layer, layer.fibres[f], state, shape, count, out + f * waves_per_layer * stride, stride);
 }
 
 }  // namespace

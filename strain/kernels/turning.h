@@ -252,8 +252,7 @@ struct Scan {
     const IntPack rising = select(moves_on, select(rises, IntPack{} - 1, IntPack{}), rose);
     const FloatPack edge = load<FloatPack>(state.edge + lane);
     store(rising, state.rises + lane);
-    store(select(moves_on, first + sample_of(last), load<IntPack>(state.extreme_at + lane)),
-          state.extreme_at + lane);
+    store(select(moves_on, first + sample_of(last), load<IntPack>(state.extreme_at + lane)), state.extreme_at + lane);
     store(select(nonzero(rising), edge, edge - state.below_gate), state.extreme + lane);
   }
 
@@ -302,8 +301,8 @@ struct Scan {
 
 /// Computes the strains of samples [from, from + count) and the movements of the edges.
 template <class Strains, class One>
-inline __attribute__((always_inline)) void follow(const Strains& strains, One* scans, std::size_t from,
-                                                  int count, Moves* moves) {
+inline __attribute__((always_inline)) void follow(const Strains& strains, One* scans, std::size_t from, int count,
+                                                  Moves* moves) {
   constexpr int side = Strains::side;
   FloatPack edge[side], gate[side], x[side];
   WordRecord up[side], down[side];
@@ -350,8 +349,7 @@ void scan_packs(const Strains& strains, const PackOf* packs, std::size_t count) 
     for (int k = 0; k < side; ++k) scans[k].turn(moves[k], from, here);
   }
   for (int k = 0; k < side; ++k)
-    store(Shape(scans[k].state, scans[k].lane).at(scans[k].source, count - 1),
-          scans[k].state.last + scans[k].lane);
+    store(Shape(scans[k].state, scans[k].lane).at(scans[k].source, count - 1), scans[k].state.last + scans[k].lane);
 }
 
 template <class Shape, class Source>
@@ -470,8 +468,8 @@ void rank_packs(const Strains& strains, const PackOf* packs, std::size_t count) 
 template <class Shape, class Source>
 void rank_all(const LaneRun* runs, std::size_t run_count, std::size_t count) {
   constexpr int most = float_pack_size == 16 ? 4 : 2;
-  for_packs<most, Shape, Source>(
-      runs, run_count, [&](const auto& strains, const PackOf* packs) { rank_packs(strains, packs, count); });
+  for_packs<most, Shape, Source>(runs, run_count,
+                                 [&](const auto& strains, const PackOf* packs) { rank_packs(strains, packs, count); });
   for (const LaneRun* run = runs; run != runs + run_count; ++run)
     run->state->sample += static_cast<std::int32_t>(count);
 }

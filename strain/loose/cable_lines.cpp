@@ -8,10 +8,8 @@ namespace dresslife::strain {
 
 using Eigen::Vector2d;
 
-CableLines::CableLines(const std::vector<LooseCable>& cables, const HoseLine& hose, double rest_curvature,
-                       Use use)
-    : cables_(cables),
-      rest_curvature_(rest_curvature) {
+CableLines::CableLines(const std::vector<LooseCable>& cables, const HoseLine& hose, double rest_curvature, Use use)
+    : cables_(cables), rest_curvature_(rest_curvature) {
   assert(!cables.empty());
   batch_.nodes = hose.nodes();
   batch_.lanes = (cables.size() + most_lanes - 1) / most_lanes * most_lanes;
@@ -56,11 +54,9 @@ void CableLines::point_at_rows() {
   batch_.friction = lanes(friction), batch_.line_load = lanes(line_load), batch_.stick = lanes(stick);
   batch_.around = nodes(around), batch_.stretch = nodes(stretch), batch_.most_friction = nodes(most_friction);
   batch_.free_length_rate = lanes(free_length_rate), batch_.slipped = lanes(slipped);
-  batch_.least_strain = lanes(least_strain), batch_.most_strain = lanes(most_strain),
-  batch_.counts = lanes(counts);
+  batch_.least_strain = lanes(least_strain), batch_.most_strain = lanes(most_strain), batch_.counts = lanes(counts);
   batch_.strain = lanes(strain), batch_.tension = lanes(tension), batch_.stiffness = lanes(stiffness);
-  batch_.rest = nodes(rest), batch_.place = nodes(place_at), batch_.before = nodes(before),
-  batch_.path = nodes(path);
+  batch_.rest = nodes(rest), batch_.place = nodes(place_at), batch_.before = nodes(before), batch_.path = nodes(path);
   batch_.press = press_.data();
 }
 
@@ -86,8 +82,7 @@ void CableLines::lay(std::size_t k) {
     put(laid, i, k, angle == 0 ? a0 : turned(a0, {std::cos(angle), std::sin(angle)}));
   }
   for (std::size_t i = 0; i <= last; ++i) {  // mirror image beyond a clamp
-    const Vector2d one = vector(laid, i > 0 ? i - 1 : 1, k),
-                   other = vector(laid, i < last ? i + 1 : last - 1, k);
+    const Vector2d one = vector(laid, i > 0 ? i - 1 : 1, k), other = vector(laid, i < last ? i + 1 : last - 1, k);
     put(laid_bent, i, k, inverse * (one - 2 * vector(laid, i, k) + other));
   }
 }
@@ -122,7 +117,8 @@ HoseFrame frame_of(const HoseLine& hose) { return {hose.turn.front().data(), hos
 }  // namespace
 
 LineMemory CableLines::memory() {
-  return {node_rows_[laid].data(), node_rows_[laid_bent].data(), node_rows_[frame_at].data(), node_rows_[velocity].data()};
+  return {node_rows_[laid].data(), node_rows_[laid_bent].data(), node_rows_[frame_at].data(),
+          node_rows_[velocity].data()};
 }
 
 LineAnswer CableLines::answer() {
@@ -146,8 +142,8 @@ void CableLines::take_friction(const CableLines& from, std::span<const std::size
     }
 }
 
-void CableLines::begin(const HoseLine& hose, std::span<const Frame* const> frames, double time,
-                       bool goes_on, bool rubs) {
+void CableLines::begin(const HoseLine& hose, std::span<const Frame* const> frames, double time, bool goes_on,
+                       bool rubs) {
   batch_.curvature = hose.curvature.front().data();
   batch_.pull = hose.pull.front().data();
   batch_.elongation = hose.elongation.data();
@@ -203,12 +199,13 @@ void CableLines::put_state(const HoseLine& hose, std::size_t k, CableState& stat
     state.offset[2 * i] = from_place.x();
     state.offset[2 * i + 1] = from_place.y();
   }
-  const double q =
-      std::max(0.0, cables_[k].axial_stiffness * state.strain) * std::pow(hose.spacing, 2) / cables_[k].bending_stiffness;
+  const double q = std::max(0.0, cables_[k].axial_stiffness * state.strain) * std::pow(hose.spacing, 2) /
+                   cables_[k].bending_stiffness;
   for (const std::size_t clamp : {0, 1}) {
-    const std::size_t at = clamp == 0 ? 0 : nodes - 1, next = clamp == 0 ? 1 : nodes - 2, after = clamp == 0 ? 2 : nodes - 3;
-    const Vector2d of_hose =
-        turned_back(bend_at_clamp(vector(bends, at, k), vector(bends, next, k), vector(bends, after, k), q), hose.turn[at]);
+    const std::size_t at = clamp == 0 ? 0 : nodes - 1, next = clamp == 0 ? 1 : nodes - 2,
+                      after = clamp == 0 ? 2 : nodes - 3;
+    const Vector2d of_hose = turned_back(
+        bend_at_clamp(vector(bends, at, k), vector(bends, next, k), vector(bends, after, k), q), hose.turn[at]);
     state.clamped[2 * clamp] = -of_hose.y();
     state.clamped[2 * clamp + 1] = of_hose.x() + rest_curvature_;
   }

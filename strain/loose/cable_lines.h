@@ -35,8 +35,8 @@ namespace dresslife::strain {
 ///     B' = B/sqrt(1 + q/4).
 /// at_clamp, next, after_next: curvature at the clamp and at the next two nodes [1/m]; the slow variation is taken as linear.
 /// q: 0 for a cable without tension; then an eighth of the second difference is added.
-Eigen::Vector2d bend_at_clamp(const Eigen::Vector2d& at_clamp, const Eigen::Vector2d& next, const Eigen::Vector2d& after_next,
-                              double q);
+Eigen::Vector2d bend_at_clamp(const Eigen::Vector2d& at_clamp, const Eigen::Vector2d& next,
+                              const Eigen::Vector2d& after_next, double q);
 
 class CableLines {
  public:
@@ -76,13 +76,15 @@ class CableLines {
 
   /// Continues from the state of another object with the same numbers of cables and nodes. Call before the first sample.
   void go_on_from(const CableLines& other);
-  void feed_in(double share);  ///< see CableTension
+  void feed_in(double share);                                                         ///< see CableTension
   void shorten(std::size_t cable, double share) { tensions_[cable].shorten(share); }  ///< see CableTension
 
   /// Error by the distance h of the nodes: second differences of a wave have a curvature a that is wrong by h^2 a'' / 12. bent()
   /// and missed() are the squares of curvature and error, summed over nodes and over the samples whose state was asked for.
-  double bent(std::size_t cable) const { return lane_rows_[bent_sum * batch_.lanes + cable]; }      ///< of curvature [1/m2]
-  double missed(std::size_t cable) const { return lane_rows_[missed_sum * batch_.lanes + cable]; }  ///< of h^2 a'' / 12 [1/m2]
+  double bent(std::size_t cable) const { return lane_rows_[bent_sum * batch_.lanes + cable]; }  ///< of curvature [1/m2]
+  double missed(std::size_t cable) const {
+    return lane_rows_[missed_sum * batch_.lanes + cable];
+  }  ///< of h^2 a'' / 12 [1/m2]
 
   static constexpr int most_iterations = 600;            ///< per sample; usually 2 to 60, more in a snap
   static constexpr int most_iterations_at_start = 2000;  ///< from its place to its first rest
@@ -90,14 +92,49 @@ class CableLines {
  private:
   /// Rows with one value per lane.
   enum OfLane {
-    bending_stiffness, axial_stiffness, mass_per_length, wall_stiffness, play, farthest, nearest, gap, per_radius, drag,
-    friction, line_load, stick, free_length_rate, slipped, least_strain, most_strain, counts, strain, tension, stiffness,
-    mean_gain, bent_sum, missed_sum, lane_rows
+    bending_stiffness,
+    axial_stiffness,
+    mass_per_length,
+    wall_stiffness,
+    play,
+    farthest,
+    nearest,
+    gap,
+    per_radius,
+    drag,
+    friction,
+    line_load,
+    stick,
+    free_length_rate,
+    slipped,
+    least_strain,
+    most_strain,
+    counts,
+    strain,
+    tension,
+    stiffness,
+    mean_gain,
+    bent_sum,
+    missed_sum,
+    lane_rows
   };
   /// Rows with a vector per node, each (node, 2, lane): of LineBatch, LineMemory and LineAnswer.
   enum OfNode {
-    laid, laid_bent, rest, path, place_at, before, velocity, frame_at, bends, hose_bends, offset, around,
-    stretch, most_friction, node_rows
+    laid,
+    laid_bent,
+    rest,
+    path,
+    place_at,
+    before,
+    velocity,
+    frame_at,
+    bends,
+    hose_bends,
+    offset,
+    around,
+    stretch,
+    most_friction,
+    node_rows
   };
 
   void lay(std::size_t k);

@@ -13,7 +13,7 @@ constexpr int most_rounds = 200;     // then at most so many rounds until all ca
 // Cables that do not come to rest at a sample, because they snap far, get the time of so many samples in which the hose stands still.
 // Eight suffice in all of 24 cases with bends and twists of up to 8 1/m (rms) from sample to sample (strain/measurements.md).
 constexpr int most_pauses = 8;
-constexpr double settled = 1e-7;     // change of strain in a round: 0.1 N of a cable of 1 MN
+constexpr double settled = 1e-7;  // change of strain in a round: 0.1 N of a cable of 1 MN
 // Relative change of curvature that the rest of a lead-in may still cause in cables that stop. It changes a life by 9 % (exponent
 // 1/0.112 of copper), an eighth of the least stated error, a factor of two.
 constexpr double same_cycle = 1e-2;
@@ -21,8 +21,7 @@ constexpr double same_cycle = 1e-2;
 }  // namespace
 
 double winding_radius(const LooseCable& cable) {
-  return std::min(cable.play,
-                  cable.ring == no_ring ? cable.farthest : std::hypot(cable.place[0], cable.place[1]));
+  return std::min(cable.play, cable.ring == no_ring ? cable.farthest : std::hypot(cable.place[0], cable.place[1]));
 }
 
 std::size_t elements_of_waves(const std::vector<LooseCable>& cables, double length) {
@@ -30,15 +29,15 @@ std::size_t elements_of_waves(const std::vector<LooseCable>& cables, double leng
   double piece = length / least;
   for (const LooseCable& cable : cables)
     if (const double room = winding_radius(cable); room > 0)
-      piece = std::min(
-          piece, std::sqrt(12 * missed) / (std::sqrt(2 * cable.slack) / room + std::abs(cable.lay_rate)));
+      piece = std::min(piece, std::sqrt(12 * missed) / (std::sqrt(2 * cable.slack) / room + std::abs(cable.lay_rate)));
   return static_cast<std::size_t>(std::ceil(length / piece));
 }
 
 LooseCables::LooseCables(const std::vector<LooseCable>& cables, const LooseSettings& settings)
     : settings_(settings),
       hose_(settings.length, settings.elements),
-      lines_(cables, hose_, settings.rest_curvature, settings.presses ? CableLines::Use::presses : CableLines::Use::rests),
+      lines_(cables, hose_, settings.rest_curvature,
+             settings.presses ? CableLines::Use::presses : CableLines::Use::rests),
       bench_(hose_),
       frames_(cables.size(), &hose_.turn),
       states_(cables.size()) {
@@ -106,7 +105,7 @@ namespace {
 double relative_difference(std::size_t cables, const auto& one_at, const auto& other_at) {
   double difference = 0, bent = 0;
   for (std::size_t k = 0; k < cables; ++k) {
-    const std::vector<double> &one = one_at(k), &other = other_at(k);
+    const std::vector<double>&one = one_at(k), &other = other_at(k);
     for (std::size_t i = 0; i < one.size(); ++i) {
       difference += std::pow(one[i] - other[i], 2);
       bent += std::pow(one[i], 2);
@@ -146,7 +145,7 @@ ChangedPlace LooseCables::most_changed() const {
   ChangedPlace most;
   double most_sum = 0;
   for (std::size_t k = 0; k < cables(); ++k) {
-    const std::vector<double> &end = states_[k].curvature, &begin = begun_[k];
+    const std::vector<double>&end = states_[k].curvature, &begin = begun_[k];
     double sum = 0, largest = 0;
     std::size_t node = 0;
     for (std::size_t i = 0; i < end.size(); ++i) {
@@ -190,8 +189,7 @@ void LooseCables::advance(std::span<LooseCables* const> all, std::span<const Hos
 /// found is that of an excess length fed in step by step. A wound ring starts with all of it.
 void LooseCables::settle(double step) {
   double before = without_limit;
-  for (int round = wound_ ? feeding_rounds : 0; round < feeding_rounds + (wound_ ? 1 : most_rounds);
-       ++round) {
+  for (int round = wound_ ? feeding_rounds : 0; round < feeding_rounds + (wound_ ? 1 : most_rounds); ++round) {
     const double share = std::min(1.0, static_cast<double>(round) / feeding_rounds);
     feed_in(share);
     LooseCables* const alone = this;

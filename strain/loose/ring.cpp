@@ -44,20 +44,17 @@ std::size_t negative_eigenvalues(const Eigen::MatrixXd& matrix) {
 void eliminate(const std::vector<double>& bands, std::size_t rows, Eigen::VectorXd& right) {
   const auto at = [&](std::size_t i) -> double& { return right[static_cast<Eigen::Index>(i)]; };
   for (std::size_t i = 0; i < rows; ++i)
-    for (std::size_t below = 1; below <= 2 && i + below < rows; ++below)
-      at(i + below) -= bands[3 * i + below] * at(i);
+    for (std::size_t below = 1; below <= 2 && i + below < rows; ++below) at(i + below) -= bands[3 * i + below] * at(i);
 }
 void substitute(const std::vector<double>& bands, std::size_t rows, Eigen::VectorXd& right) {
   const auto at = [&](std::size_t i) -> double& { return right[static_cast<Eigen::Index>(i)]; };
   for (std::size_t i = rows; i-- > 0;)
-    for (std::size_t below = 1; below <= 2 && i + below < rows; ++below)
-      at(i) -= bands[3 * i + below] * at(i + below);
+    for (std::size_t below = 1; below <= 2 && i + below < rows; ++below) at(i) -= bands[3 * i + below] * at(i + below);
 }
 
 }  // namespace
 
-std::vector<double> random_winding(std::size_t nodes, double length, double radius, double slack,
-                                   std::uint64_t seed) {
+std::vector<double> random_winding(std::size_t nodes, double length, double radius, double slack, std::uint64_t seed) {
   constexpr int waves = 4;  // half waves along the hose: shorter ones relax within a second
   pipeline::RandomNumbers random(seed);
   std::vector<double> turn(nodes, 0.0);
@@ -116,14 +113,12 @@ Eigen::VectorXd Ring::newton_turn() {
   const auto count = static_cast<Eigen::Index>(lines_.count());
   using Table = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const auto by_cable = [&](const LaneRows& of, std::size_t in_all) {
-    return Eigen::Map<const Table, 0, Eigen::OuterStride<>>(
-        of.data(), static_cast<Eigen::Index>(in_all), count,
-        Eigen::OuterStride<>(static_cast<Eigen::Index>(lanes)));
+    return Eigen::Map<const Table, 0, Eigen::OuterStride<>>(of.data(), static_cast<Eigen::Index>(in_all), count,
+                                                            Eigen::OuterStride<>(static_cast<Eigen::Index>(lanes)));
   };
   const auto scaled = by_cable(scaled_, rows), soft = by_cable(products_, lines_.count());
   Eigen::VectorXd root(count);  // square roots of each cable's stiffness against its mean gain
-  for (Eigen::Index k = 0; k < count; ++k)
-    root[k] = std::sqrt(lines_.batch().stiffness[k] / lines_.batch().length);
+  for (Eigen::Index k = 0; k < count; ++k) root[k] = std::sqrt(lines_.batch().stiffness[k] / lines_.batch().length);
   double largest = 0;
   for (std::size_t i = 0; i < rows; ++i) largest = std::max(largest, std::abs(bands_[3 * i]));
   for (double shift = 0;; shift = shift == 0 ? least_shift * largest : 4 * shift) {
@@ -136,8 +131,8 @@ Eigen::VectorXd Ring::newton_turn() {
     std::copy(gained_.data(), gained_.data() + rows * lanes, eliminated_.data());
     loose_kernels().eliminate_turn(factors_.data(), rows, lines_.batch(), eliminated_.data(), scaled_.data());
     loose_kernels().products(eliminated_.data(), scaled_.data(), rows, lines_.batch(), products_.data());
-    const Eigen::MatrixXd whole = Eigen::MatrixXd::Identity(count, count) +
-                                  root.asDiagonal() * (soft + soft.transpose()) / 2 * root.asDiagonal();
+    const Eigen::MatrixXd whole =
+        Eigen::MatrixXd::Identity(count, count) + root.asDiagonal() * (soft + soft.transpose()) / 2 * root.asDiagonal();
     // The whole matrix is positive definite if the numbers of negative eigenvalues of the two are equal (Haynsworth).
     if (negative > 0 && negative_eigenvalues(whole) != negative) continue;
     const Eigen::VectorXd pulled =

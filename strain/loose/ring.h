@@ -18,8 +18,7 @@ namespace dresslife::strain {
 
 /// Returns a random smooth winding of a ring, 0 with its slope at both clamps (node) [rad]. radius: of the ring. In a straight
 /// hose it needs as much length as the slack (a share of the length).
-std::vector<double> random_winding(std::size_t nodes, double length, double radius, double slack,
-                                   std::uint64_t seed);
+std::vector<double> random_winding(std::size_t nodes, double length, double radius, double slack, std::uint64_t seed);
 
 class Ring {
  public:
@@ -28,16 +27,16 @@ class Ring {
   void wind(const std::vector<double>& turn) { psi_ = turn; }
   /// Continues from the state of another ring with the same numbers of cables and nodes. Call before the first sample.
   void go_on_from(const Ring& other);
-  void feed_in(double share) { lines_.feed_in(share); }  ///< see CableTension
-  void shorten(std::size_t cable, double share) {
-    lines_.shorten(cable, share);
-  }  ///< see CableTension
+  void feed_in(double share) { lines_.feed_in(share); }                            ///< see CableTension
+  void shorten(std::size_t cable, double share) { lines_.shorten(cable, share); }  ///< see CableTension
 
   /// Turns to the minimum at the next sample. time: since the previous sample [s]. goes_on: starts with the turning rate of the
   /// previous sample. Returns whether the ring has come to rest.
   bool advance(const HoseLine& hose, double time, bool goes_on);
   /// Takes over the friction of its cables. numbers: their numbers among all. Call before advance().
-  void take_friction(const CableLines& from, std::span<const std::size_t> numbers) { lines_.take_friction(from, numbers); }
+  void take_friction(const CableLines& from, std::span<const std::size_t> numbers) {
+    lines_.take_friction(from, numbers);
+  }
   /// Returns the turn against the hose in the last advance() (node) [rad].
   const std::vector<double>& last_turn() const { return turned_; }
   /// Returns cosine and sine of phi + psi (node): the frame in which the places of its cables are constant.
@@ -48,8 +47,8 @@ class Ring {
   Eigen::VectorXd newton_turn();
   double step(const HoseLine& hose);
 
-  CableLines lines_;                    ///< the cables, each at its place in the ring
-  std::vector<double> psi_, velocity_;  ///< (node) turn against the hose [rad], [rad/s]
+  CableLines lines_;                     ///< the cables, each at its place in the ring
+  std::vector<double> psi_, velocity_;   ///< (node) turn against the hose [rad], [rad/s]
   std::vector<double> before_, turned_;  ///< (node) psi_ at the previous sample, change since then
   std::vector<Eigen::Vector2d> frame_;
   std::vector<double> bands_, factors_;  ///< (row, 3) diagonal and its two neighbours; row: an inner node

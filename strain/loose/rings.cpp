@@ -10,8 +10,7 @@ namespace dresslife::strain {
 void fit_in_hose(std::vector<LooseCable>& cables, const HoseSection& section) {
   std::vector<pipeline::CableSpot> spots;
   for (const LooseCable& cable : cables) spots.push_back({cable.place, cable.radius, cable.play < without_limit});
-  const std::vector<pipeline::CableRoom> rooms =
-      pipeline::rooms_of(spots, section.inner_radius, section.core_radius);
+  const std::vector<pipeline::CableRoom> rooms = pipeline::rooms_of(spots, section.inner_radius, section.core_radius);
   for (std::size_t k = 0; k < cables.size(); ++k) {
     LooseCable& cable = cables[k];
     if (spots[k].own_play) {

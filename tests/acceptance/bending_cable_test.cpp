@@ -78,8 +78,7 @@ Line fit(const std::vector<double>& x, const std::vector<double>& y) {
 struct WireShares {
   double stretch, bend, twist;
 };
-WireShares shares_of(double conductor_radius, double conductor_phase, double wire_helix_radius,
-                     double wire_phase) {
+WireShares shares_of(double conductor_radius, double conductor_phase, double wire_helix_radius, double wire_phase) {
   const double sc = std::sin(conductor_lay), cc = std::cos(conductor_lay), sw = std::sin(wire_lay),
                cw = std::cos(wire_lay);
   const double conductor = cc * cc * conductor_radius * std::sin(conductor_phase);
@@ -87,8 +86,8 @@ WireShares shares_of(double conductor_radius, double conductor_phase, double wir
                torsion = sc * cc * std::sin(conductor_phase);
   const double across = binormal * std::sin(wire_phase) - normal * std::cos(wire_phase);
   return {cw * cw * (conductor + wire_helix_radius * across) + wire_helix_radius * sw * cw * torsion,
-          wire_radius * std::hypot((normal * std::sin(wire_phase) + binormal * std::cos(wire_phase)) * cw,
-                                   across * cw * cw),
+          wire_radius *
+              std::hypot((normal * std::sin(wire_phase) + binormal * std::cos(wire_phase)) * cw, across * cw * cw),
           wire_radius * std::abs(across * sw * cw)};
 }
 
@@ -106,8 +105,7 @@ TEST_CASE("bending test with the thesis' model") {
   WireShares worst{0, 0, 0};
   for (int i = 0; i < 720; ++i)
     for (int j = 0; j < 720; ++j) {
-      const WireShares shares =
-          shares_of(2.825e-3, i * std::numbers::pi / 360, 0.75e-3, j * std::numbers::pi / 360);
+      const WireShares shares = shares_of(2.825e-3, i * std::numbers::pi / 360, 0.75e-3, j * std::numbers::pi / 360);
       if (shares.stretch > worst.stretch) worst = shares;
     }
   // With seven conductors the nearest one is up to half of 360/7 degrees from the worst phase: the slope is between
@@ -115,8 +113,7 @@ TEST_CASE("bending test with the thesis' model") {
   const double effective_radius = std::abs(line.slope);
   CHECK(effective_radius <= worst.stretch * 1.001);
   CHECK(effective_radius >= worst.stretch * std::cos(std::numbers::pi / 7));
-  CHECK(youngs_modulus * effective_radius * 0.25 ==
-        Approx(youngs_modulus * worst.stretch * 0.25).epsilon(0.1));
+  CHECK(youngs_modulus * effective_radius * 0.25 == Approx(youngs_modulus * worst.stretch * 0.25).epsilon(0.1));
 
   // Figure 14: the wire's stretch is much larger than its own bend and twist.
   CHECK(worst.stretch > 20 * worst.bend);

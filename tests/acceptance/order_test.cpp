@@ -88,17 +88,20 @@ TEST_CASE("an order changes with inputs within their uncertainty only if its cer
   std::string study = "base: " + base_job + "\njobs:\n";
   for (const auto& [input, key] : inputs)
     for (const std::string& program : programs)
-      study += "  " + program + "_" + input + ": {motion: " + program +
-               (input == "dwell" ? "_dwell.yaml" : ".yaml") + ", simulation.most_repeats: 2" +
-               (input == "mesh" ? "" : ", simulation.segments: 16, simulation.sample_rate_Hz: 12.5, strain.cable_elements_per_segment: 1") + (key.empty() ? "" : ", " + key) + "}\n";
+      study +=
+          "  " + program + "_" + input + ": {motion: " + program + (input == "dwell" ? "_dwell.yaml" : ".yaml") +
+          ", simulation.most_repeats: 2" +
+          (input == "mesh"
+               ? ""
+               : ", simulation.segments: 16, simulation.sample_rate_Hz: 12.5, strain.cable_elements_per_segment: 1") +
+          (key.empty() ? "" : ", " + key) + "}\n";
   must_run(scratch, "dresslife", "run '" + scratch.write("order.yaml", study).string() + "'");
 
   // (input) of handling and rolling
   std::map<std::string, std::array<Lives, 2>> lives;
   for (const auto& [input, key] : inputs)
     for (std::size_t k = 0; k < programs.size(); ++k)
-      lives[input][k] =
-          lives_of(scratch / ("runs/order/" + programs[k] + "_" + input + "/life.h5"), programs[k]);
+      lives[input][k] = lives_of(scratch / ("runs/order/" + programs[k] + "_" + input + "/life.h5"), programs[k]);
   const auto certainty = [](const std::array<Lives, 2>& of) {
     const double share = share_outliving(of[0].samples, of[1].samples);
     return std::max(share, 1 - share);
@@ -127,8 +130,10 @@ TEST_CASE("the certainty of an order contains that the hose is twice as stiff") 
   std::string study = "base: " + base_job + "\njobs:\n";
   for (const auto& [job, keys] : jobs)
     for (const std::string factor : {"", "2"})
-      study += "  " + job + factor + ": {" + keys + ", simulation.segments: 16, simulation.sample_rate_Hz: 12.5, simulation.most_repeats: 2" +
-               (factor.empty() ? "" : ", uncertainty.hose_stiffness: 1, simulation.stiffness_factor: " + factor) + "}\n";
+      study += "  " + job + factor + ": {" + keys +
+               ", simulation.segments: 16, simulation.sample_rate_Hz: 12.5, simulation.most_repeats: 2" +
+               (factor.empty() ? "" : ", uncertainty.hose_stiffness: 1, simulation.stiffness_factor: " + factor) +
+               "}\n";
   Scratch scratch;
   must_run(scratch, "dresslife", "run '" + scratch.write("stiffness.yaml", study).string() + "'");
   /// Returns the share of samples in which side_panel lives longer.
@@ -142,6 +147,6 @@ TEST_CASE("the certainty of an order contains that the hose is twice as stiff") 
   CAPTURE(stated, known, stiffer);
   constexpr double common_samples = 0.05;  // ten standard errors of a share of 10,000 samples
   CHECK(known > stated + common_samples);  // otherwise nothing is tested
-  CHECK(stiffer < 0.5);            // the order is reversed
-  CHECK(stated < separated_share);  // still larger than over full simulations (sim/measurements.md)
+  CHECK(stiffer < 0.5);                    // the order is reversed
+  CHECK(stated < separated_share);         // still larger than over full simulations (sim/measurements.md)
 }

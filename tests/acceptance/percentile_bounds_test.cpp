@@ -3,11 +3,11 @@
 // fatigue/measurements.md has the results of more jobs.
 #include <fmt/format.h>
 
-#include "tests/catch.h"
 #include <cmath>
 #include <cstdlib>
 #include <map>
 #include <vector>
+#include "tests/catch.h"
 
 #include "tests/cli/process.h"
 
@@ -91,7 +91,8 @@ std::string swings(double curvature, double twist, double phase) {
     for (int place = 0; place < places; ++place) {
       const double t = 0.4 * k, s = 0.25 * place, turn = 2 * M_PI * k / (samples - 1);
       text += fmt::format("{},{},{},{},{},0\n", t, s, curvature * std::sin(turn) * (1 - 0.5 * s),
-                          curvature * (1 + 0.4 * std::cos(2 * turn + phase)) * s, twist * std::sin(turn + phase) - twist * std::sin(phase));
+                          curvature * (1 + 0.4 * std::cos(2 * turn + phase)) * s,
+                          twist * std::sin(turn + phase) - twist * std::sin(phase));
     }
   return text;
 }
@@ -145,21 +146,24 @@ TEST_CASE("bounds of p10, p50 and p90 lie on both sides of them in random jobs")
            "material: !choice [copper, copper_halved, copper_hard_drawn]\n    strain.surface_fibres: !choice [0, 1]\n"
            "    fatigue.mean_stress: !choice [none, swt]\n    fatigue.scatter_log10: !uniform [0.05, 0.4]\n";
   };
-  scratch.write("hoses.yaml", fmt::format("base: hose.yaml\nsample:\n  jobs: {}\n  seed: {}\n  keys:\n"
-                                          "    motion.deformation: !choice [calm.csv, bent.csv, twisted.csv]\n    {}slack_percent: "
-                                          "!uniform [0.1, 3]\n{}",
-                                          hose_jobs, seed, cable, inside(conductor, wire)));
-  scratch.write("rigs.yaml",
-                fmt::format("base: rig.yaml\nsample:\n  jobs: {}\n  seed: {}\n  keys:\n    motion.rig: !choice [{}]\n{}", rig_jobs,
-                            seed,
-                            "{kind: torsion, twist_deg_per_m: 90}, {kind: rolling_flex, radius_diameters: 8, travel_m: 1}, "
-                            "{kind: tick_tock, radius_diameters: 6}, {kind: two_pulley, pulley_diameter_mm: 150}",
-                            inside(conductor, wire)));
+  scratch.write("hoses.yaml",
+                fmt::format("base: hose.yaml\nsample:\n  jobs: {}\n  seed: {}\n  keys:\n"
+                            "    motion.deformation: !choice [calm.csv, bent.csv, twisted.csv]\n    {}slack_percent: "
+                            "!uniform [0.1, 3]\n{}",
+                            hose_jobs, seed, cable, inside(conductor, wire)));
+  scratch.write(
+      "rigs.yaml",
+      fmt::format("base: rig.yaml\nsample:\n  jobs: {}\n  seed: {}\n  keys:\n    motion.rig: !choice [{}]\n{}",
+                  rig_jobs, seed,
+                  "{kind: torsion, twist_deg_per_m: 90}, {kind: rolling_flex, radius_diameters: 8, travel_m: 1}, "
+                  "{kind: tick_tock, radius_diameters: 6}, {kind: two_pulley, pulley_diameter_mm: 150}",
+                  inside(conductor, wire)));
   const std::size_t parts = hose_job.find("    - name: cable");
   const std::string held_cable = hose_job.substr(parts, hose_job.find("routing:") - parts);
-  std::string rig = "motion: {rig: {kind: torsion, twist_deg_per_m: 90}}\ndresspack:\n  name: cable\n  source: made for the tests\n"
-                    "  cable_alone: true\n  diameter_mm: 10\n  components:\n" +
-                    held_cable;
+  std::string rig =
+      "motion: {rig: {kind: torsion, twist_deg_per_m: 90}}\ndresspack:\n  name: cable\n  source: made for the tests\n"
+      "  cable_alone: true\n  diameter_mm: 10\n  components:\n" +
+      held_cable;
   rig.replace(rig.find("      count: 2\n"), 15, "");
   rig.replace(rig.find("helix_radius_mm: 10"), 19, "helix_radius_mm: 0");
   scratch.write("rig.yaml", rig);
@@ -171,8 +175,9 @@ TEST_CASE("bounds of p10, p50 and p90 lie on both sides of them in random jobs")
   }
   CHECK(found.jobs == hose_jobs + rig_jobs);
   CHECK(found.compared == 6 * found.jobs);
-  WARN("seed " << seed << ": " << found.beyond << " of " << found.compared << " bounds lie on the wrong side by more than "
-               << 100 * allowed << " %, by " << 100 * found.worst << " % at worst\n"
+  WARN("seed " << seed << ": " << found.beyond << " of " << found.compared
+               << " bounds lie on the wrong side by more than " << 100 * allowed << " %, by " << 100 * found.worst
+               << " % at worst\n"
                << found.list);
   CHECK(found.beyond == 0);
 }

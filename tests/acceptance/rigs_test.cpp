@@ -45,8 +45,7 @@ std::string wire_job(const std::string& motion, double helix_radius_mm, double l
   diameter_mm: 10
   components: [{name: wire, count: )" +
          std::to_string(helix_radius_mm > 0 ? 6 : 1) + ", radius_mm: " + std::to_string(radius_mm) +
-         ", helix_radius_mm: " + std::to_string(helix_radius_mm) +
-         ", lay_angle_deg: " + std::to_string(lay_deg) +
+         ", helix_radius_mm: " + std::to_string(helix_radius_mm) + ", lay_angle_deg: " + std::to_string(lay_deg) +
          ", material: copper}]\nstrain: {slip: stick, gate: 0}\nsimulation: {segments: 30}\n";
 }
 
@@ -54,15 +53,13 @@ std::string wire_job(const std::string& motion, double helix_radius_mm, double l
 
 TEST_CASE("prescribed deformation: what is uniform along the dresspack is found again to rounding") {
   Scratch scratch;
-  scratch.write(
-      "d.csv",
-      "t_s,kappa_1_1_per_m,kappa_2_1_per_m,twist_deg_per_m,elongation\n0,0,0,0,0\n1,12,-7,180,0.004\n"
-      "2,-3,20,-360,-0.01\n3,0,0,0,0\n");
+  scratch.write("d.csv",
+                "t_s,kappa_1_1_per_m,kappa_2_1_per_m,twist_deg_per_m,elongation\n0,0,0,0,0\n1,12,-7,180,0.004\n"
+                "2,-3,20,-360,-0.01\n3,0,0,0,0\n");
   scratch.write("job.yaml", wire_job("{deformation: d.csv}", 2, 20, 0.1));
   strain_of(scratch, "job.yaml");
   const Found found = found_in(scratch);
-  const double k1[] = {0, 12, -3, 0}, k2[] = {0, -7, 20, 0}, twist[] = {0, pi, -2 * pi, 0},
-               e[] = {0, .004, -.01, 0};
+  const double k1[] = {0, 12, -3, 0}, k2[] = {0, -7, 20, 0}, twist[] = {0, pi, -2 * pi, 0}, e[] = {0, .004, -.01, 0};
   // From positions kept to 5e-13 m over links of 20 mm, and from the file's single precision.
   constexpr double rounding = 1e-10, of_the_file = 0x1p-24;
   const auto is = [](double value, double exact) {
@@ -84,9 +81,8 @@ TEST_CASE("prescribed deformation: what changes along it is found again as of a 
     for (int t = 0; t < 2; ++t)
       for (int k = 0; k <= 600; ++k) {
         const double s = k / 1000.0;
-        csv += std::to_string(t) + "," + std::to_string(s) + "," +
-               std::to_string(5 * std::sin(2 * pi * s / 0.6)) + "," +
-               std::to_string(3 * std::cos(2 * pi * s / 0.6)) + "\n";
+        csv += std::to_string(t) + "," + std::to_string(s) + "," + std::to_string(5 * std::sin(2 * pi * s / 0.6)) +
+               "," + std::to_string(3 * std::cos(2 * pi * s / 0.6)) + "\n";
       }
     scratch.write("d.csv", csv);
     scratch.write("job.yaml", wire_job("{deformation: d.csv}", 2, 20, 0.1));
@@ -116,12 +112,9 @@ TEST_CASE("torsion rig: a glued wire's strain is the closed one") {
   strain.read_rows("/probe/strain", 0, 1, history);
   REQUIRE(history.size() == 4);
   const double lay = 20 * pi / 180;
-  const auto closed = [&](double twist) {
-    return std::cos(lay) * std::hypot(std::tan(lay) + 2e-3 * twist, 1) - 1;
-  };
-  constexpr double single =
-      3e-6;  // of the largest strain, which the stage computes in single precision (W26)
-  constexpr double kept = 5e-8;  // resolution of turning points in the file
+  const auto closed = [&](double twist) { return std::cos(lay) * std::hypot(std::tan(lay) + 2e-3 * twist, 1) - 1; };
+  constexpr double single = 3e-6;  // of the largest strain, which the stage computes in single precision (W26)
+  constexpr double kept = 5e-8;    // resolution of turning points in the file
   CHECK(std::abs(history[1] - closed(pi)) < single * closed(pi) + kept);
   CHECK(std::abs(history[2] - closed(-pi)) < single * std::abs(closed(-pi)) + kept);
 }
@@ -203,14 +196,16 @@ TEST_CASE("rolling flex: strains even out over the cable of the test, not over t
   // either side differ by 2.5 % in lay angle, which is 0.1 % in strain.
   const auto life = [](double lay_mm) {
     Scratch scratch;
-    scratch.write("job.yaml",
-                  "motion: {rig: {kind: rolling_flex, radius_mm: 11, travel_m: 1}}\n"
-                  "dresspack: {cable: {name: lead, source: made for the tests, data_sheet: {cores: 3, cross_section_mm2: 0.09, "
-                  "wire_diameter_mm: 0.08, outer_diameter_mm: 2.2, jacket_thickness_mm: 0.4, lay_length_mm: " +
-                      std::to_string(lay_mm) + "}}}\nuncertainty: {enabled: false}\n");
+    scratch.write(
+        "job.yaml",
+        "motion: {rig: {kind: rolling_flex, radius_mm: 11, travel_m: 1}}\n"
+        "dresspack: {cable: {name: lead, source: made for the tests, data_sheet: {cores: 3, cross_section_mm2: 0.09, "
+        "wire_diameter_mm: 0.08, outer_diameter_mm: 2.2, jacket_thickness_mm: 0.4, lay_length_mm: " +
+            std::to_string(lay_mm) + "}}}\nuncertainty: {enabled: false}\n");
     return life_of(scratch, "job.yaml");
   };
-  CHECK(life(24.1) / life(23.5) == Approx(1).epsilon(0.1));  // the tenth power of the strain, and an equal part from phases
+  CHECK(life(24.1) / life(23.5) ==
+        Approx(1).epsilon(0.1));  // the tenth power of the strain, and an equal part from phases
 }
 
 TEST_CASE("swivel and tick-tock: the life does not depend on the number of turns in the evaluated part") {
@@ -218,11 +213,13 @@ TEST_CASE("swivel and tick-tock: the life does not depend on the number of turns
   // edge decides the bend, so only the lay angle differs, by 5 %.
   const auto life = [](const std::string& rig, const std::string& lay_mm) {
     Scratch scratch;
-    scratch.write("job.yaml",
-                  "motion: {rig: {" + rig + "}}\n"
-                  "dresspack: {cable: {name: cable, source: made for the tests, data_sheet: {cores: 7, cross_section_mm2: 0.5, "
-                  "wire_diameter_mm: 0.1, outer_diameter_mm: 8.2, jacket_thickness_mm: 1.1, lay_length_mm: " +
-                      lay_mm + "}}}\nuncertainty: {enabled: false}\n");
+    scratch.write(
+        "job.yaml",
+        "motion: {rig: {" + rig +
+            "}}\n"
+            "dresspack: {cable: {name: cable, source: made for the tests, data_sheet: {cores: 7, cross_section_mm2: 0.5, "
+            "wire_diameter_mm: 0.1, outer_diameter_mm: 8.2, jacket_thickness_mm: 1.1, lay_length_mm: " +
+            lay_mm + "}}}\nuncertainty: {enabled: false}\n");
     return life_of(scratch, "job.yaml");
   };
   const std::string swivel = "kind: swivel, angle_deg: 45, weight_kg: 2, radius_mm: 80";

@@ -44,8 +44,7 @@ std::map<std::string, Row> run_study(const Scratch& scratch, const std::string& 
 
 const std::string config = std::string(DRESSLIFE_SOURCE_DIR) + "/config/";
 double hours_of(const fs::path& life, const std::string& attribute) {
-  return dresslife::pipeline::FileReader(life, dresslife::pipeline::life_format())
-      .number_attribute(attribute);
+  return dresslife::pipeline::FileReader(life, dresslife::pipeline::life_format()).number_attribute(attribute);
 }
 
 /// Returns the lines of the README's table of this study, with single spaces, beginning with its header.
@@ -74,7 +73,8 @@ void check_first_job(const Scratch& scratch) {
   // The line of the table without its rank, and the job's name.
   const auto line_of = [](const std::string& text) {
     std::smatch found;
-    const bool there = std::regex_search(text, found, std::regex("\\n *[0-9]+  spot_robot_1 +(\\*?(over )?[0-9][^\\n]*)"));
+    const bool there =
+        std::regex_search(text, found, std::regex("\\n *[0-9]+  spot_robot_1 +(\\*?(over )?[0-9][^\\n]*)"));
     return there ? std::regex_replace(found[1].str(), std::regex(" +"), " ") : std::string("no such line");
   };
   CHECK(line_of(page) == line_of(outcome.out));
@@ -83,7 +83,9 @@ void check_first_job(const Scratch& scratch) {
   CHECK(page.find("\n    " + std::regex_replace(action, std::regex("\n"), "\n    ") + "\n") != std::string::npos);
   // "the model says 18 years for `spot_robot_1`"
   std::smatch years;
-  REQUIRE(std::regex_search(outcome.out, years, std::regex("has\\s+failed\\s+after\\s+[0-9,]+\\s+h\\s+of\\s+motion\\s+\\(([0-9]+)\\s+years\\)")));
+  REQUIRE(std::regex_search(
+      outcome.out, years,
+      std::regex("has\\s+failed\\s+after\\s+[0-9,]+\\s+h\\s+of\\s+motion\\s+\\(([0-9]+)\\s+years\\)")));
   CHECK(page.find("the model says " + years[1].str() + " years for `spot_robot_1`") != std::string::npos);
 }
 
@@ -102,8 +104,7 @@ TEST_CASE("two robots, shipped study: the table and the first job of the README,
     INFO(line << "\n" << printed);
     CHECK(printed.find(line + "\n") != std::string::npos);
   }
-  for (const char* other : {"spot_robot_1", "spot_robot_2", "easy"})
-    CHECK(rows["hard"].repeats < rows[other].repeats);
+  for (const char* other : {"spot_robot_1", "spot_robot_2", "easy"}) CHECK(rows["hard"].repeats < rows[other].repeats);
   // The thesis' place near the head is that of cables glued to the hose (below). For loose cables the hose's own bending decides,
   // and it is largest in the middle of the arch over the forearm.
 
@@ -128,11 +129,14 @@ jobs:
     // All starts of this job's cables come to one rest. Other jobs have several, and slip inside changes which is the median.
     const std::string strain = inside + "_strain.h5", life = inside + "_life.h5";
     must_run(scratch, "dresslife-strain",
-             "'" + (job / "motion.h5").string() + "' --quiet --set 'strain.slip=[friction, " + inside + ", " + inside + "]' -o " + strain);
+             "'" + (job / "motion.h5").string() + "' --quiet --set 'strain.slip=[friction, " + inside + ", " + inside +
+                 "]' -o " + strain);
     must_run(scratch, "dresslife-fatigue", strain + " --quiet -o " + life);
-    double bound = hours_of(job / "life.h5", "life_hours_all_" + inside), hours = hours_of(scratch / life, "life_hours");
+    double bound = hours_of(job / "life.h5", "life_hours_all_" + inside),
+           hours = hours_of(scratch / life, "life_hours");
     REQUIRE(std::isfinite(hours));
-    if (inside == "stick") {  // compression lengthens no life of this bound (F38), so it is that of the run only without mean stress
+    if (inside ==
+        "stick") {  // compression lengthens no life of this bound (F38), so it is that of the run only without mean stress
       CHECK(bound <= (1 + stated) * hours);
       const std::string without = " --set fatigue.mean_stress=none --quiet -o ";
       must_run(scratch, "dresslife-fatigue", "'" + (job / "strain.h5").string() + "'" + without + "bound.h5");
@@ -170,8 +174,7 @@ TEST_CASE(
 TEST_CASE("the life of the easy program has converged in segments and time step") {
   constexpr double most_change = 0.1;  // 1 % in strain, at a fatigue exponent near 9
   Scratch scratch;
-  const fs::path study =
-      scratch.write("convergence.yaml", "base: " + config + R"(jobs/irb6640_spot_welding.yaml
+  const fs::path study = scratch.write("convergence.yaml", "base: " + config + R"(jobs/irb6640_spot_welding.yaml
 jobs:
   shipped: {}
   twice_the_segments: {simulation.segments: 128}

@@ -19,8 +19,8 @@ int main(int argc, char** argv) {
   rusage usage{};
   if (child < 0 || ::wait4(child, &status, 0, &usage) < 0) return 3;
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  const double cpu = usage.ru_utime.tv_sec + usage.ru_stime.tv_sec +
-                     1e-6 * (usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+  const double cpu =
+      usage.ru_utime.tv_sec + usage.ru_stime.tv_sec + 1e-6 * (usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
   std::printf("%.4f %.4f %.1f\n", cpu, wall, usage.ru_maxrss / 1024.0);
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
 }

@@ -88,8 +88,7 @@ int main(int argc, char** argv) {
   const std::string text =
       fmt::format("base: job.yaml\nvary:\n  dresspack.bending_stiffness_Nm2: {}\n  simulation.segments: {}\n",
                   values(side, 2, 0.01), values(side, 20, 1));
-  const StudyRequest request{
-      folder.write("many.yaml", text), {}, folder.path / "runs", folder.path / "programs"};
+  const StudyRequest request{folder.write("many.yaml", text), {}, folder.path / "runs", folder.path / "programs"};
   StudyState standing;
   const auto write = [&] {
     write_build_graph(standing.study, standing.places, standing.states);
@@ -112,8 +111,7 @@ int main(int argc, char** argv) {
   if (built.executed != 3 * jobs) return 1;
   std::printf("overhead_ms_per_job %.3f\n", 1e3 * wall / jobs);
   std::printf("overhead_processor_ms_per_job %.3f\n", 1e3 * processor / jobs);
-  processor =
-      processor_seconds(RUSAGE_SELF, [&] { wall = seconds([&] { standing = standing_of(request); }); });
+  processor = processor_seconds(RUSAGE_SELF, [&] { wall = seconds([&] { standing = standing_of(request); }); });
   if (!standing.remembered || !standing.all_done()) return 1;
   std::printf("noop_10k_s %.3f\nnoop_10k_processor_s %.3f\n", scale * wall, scale * processor);
   folder.write("many.yaml", "# changed\n" + text);

@@ -41,7 +41,6 @@ int main() {
   const double n40 = seconds_per_step(40), n240 = seconds_per_step(240), n30 = seconds_per_step(30);
   std::printf("sim_cpu_s_per_s_n40 %.5f\n", n40 / 0.005);
   for (const int n : {20, 40})
-    std::printf("sim_rms_curvature_error_n%d %.5f\n", n,
-                test::rms_curvature_error(test::run_driven_cable(n, 0.005)));
+    std::printf("sim_rms_curvature_error_n%d %.5f\n", n, test::rms_curvature_error(test::run_driven_cable(n, 0.005)));
   std::printf("sim_cost_ratio_n240_n30 %.3f\n", (n240 / 240) / (n30 / 30));
 }

@@ -34,10 +34,10 @@ strain::DeformationHistory moving(double size) {
     for (std::size_t t = 0; t < samples; ++t) {
       const double x = (i + 0.5) / segments, time = 0.04 * t, since = std::fmod(time, 2.0);
       const double swing = 0.2 * std::exp(-2 * since) * std::sin(9 * since);
-      history.set(i, t,
-                  {size * (2 * std::sin(6 * x + 0.7 * time) + 1 + swing),
-                   size * (2 * std::cos(3 * x - 0.5 * time) + swing), size * 3 * std::sin(0.3 * time + x),
-                   size * 1e-4 * std::sin(time)});
+      history.set(
+          i, t,
+          {size * (2 * std::sin(6 * x + 0.7 * time) + 1 + swing), size * (2 * std::cos(3 * x - 0.5 * time) + swing),
+           size * 3 * std::sin(0.3 * time + x), size * 1e-4 * std::sin(time)});
     }
   return history;
 }

@@ -23,9 +23,8 @@ inline std::string in_browser(const Scratch& scratch, const std::string& page, c
   scratch.write("script.js", script);
   const Outcome seen = run_shell(
       scratch,
-      fmt::format(
-          "timeout 300 node '{}/tests/cli/browser.js' \"$(command -v chromium)\" '{}' \"$(cat script.js)\"",
-          DRESSLIFE_SOURCE_DIR, (scratch / page).string()));
+      fmt::format("timeout 300 node '{}/tests/cli/browser.js' \"$(command -v chromium)\" '{}' \"$(cat script.js)\"",
+                  DRESSLIFE_SOURCE_DIR, (scratch / page).string()));
   INFO(seen.err);
   REQUIRE(seen.status == 0);
   return seen.out;

@@ -25,9 +25,8 @@ const std::string wire_job =
     "components: [{name: strand, radius_mm: 0.1, helix_radius_mm: 0, material: copper_halved}]}}}";
 
 std::string row(const std::string& name, const std::string& more, const std::string& job = wire_job) {
-  return "  - name: " + name + "\n    job: " + job +
-         "\n    what: pulled\n    source: made for the tests\n" + (more.find("cycles:") == std::string::npos ? "" : "    criterion: first_wire\n") +
-         more;
+  return "  - name: " + name + "\n    job: " + job + "\n    what: pulled\n    source: made for the tests\n" +
+         (more.find("cycles:") == std::string::npos ? "" : "    criterion: first_wire\n") + more;
 }
 
 /// Returns the number after `key: ` in the entry of a parameter.
@@ -56,10 +55,9 @@ TEST_CASE("calibrate: wires that lived longer than predicted lengthen what a job
   scratch.write("job.yaml", wire_job);
   const double before = life_hours(scratch, "");
   const double cycles = before * 3600 / 2;  // 30 per minute
-  scratch.write("o.yaml",
-                "observations:\n" +
-                    row("long", "    cycles: " + std::to_string(10 * cycles) +
-                                    "\n    outcome: broken\n    specimens: 3\n    unshared_log10: 0.05\n"));
+  scratch.write("o.yaml", "observations:\n" +
+                              row("long", "    cycles: " + std::to_string(10 * cycles) +
+                                              "\n    outcome: broken\n    specimens: 3\n    unshared_log10: 0.05\n"));
   const Outcome outcome = must_run(scratch, "dresslife", "calibrate o.yaml --quiet");
   INFO(outcome.err);
   CHECK(outcome.out.find("friction_inside") != std::string::npos);
@@ -75,42 +73,41 @@ TEST_CASE("calibrate: wires that lived longer than predicted lengthen what a job
   CHECK(after > 4 * before);
   CHECK(after < 13 * before);
   // Friction that was learned with slipping parts is not valid for parts that stick.
-  const Outcome other_slip = run(scratch, "dresslife", "check job.yaml --set calibration=runs/calibrate_o/calibration.yaml --set strain.slip=stick");
+  const Outcome other_slip =
+      run(scratch, "dresslife",
+          "check job.yaml --set calibration=runs/calibrate_o/calibration.yaml --set strain.slip=stick");
   CHECK(other_slip.status == 1);
-  CHECK(other_slip.err.find("was learned with strain.slip: friction (this job has stick); set strain.slip as") != std::string::npos);
+  CHECK(other_slip.err.find("was learned with strain.slip: friction (this job has stick); set strain.slip as") !=
+        std::string::npos);
   // The second call has nothing to compute and prints the same text. With other rows it learns again, and the job runs again.
   const Outcome again = run(scratch, "dresslife", "calibrate o.yaml");
   CHECK(again.out == outcome.out);
   CHECK(again.err.find(" ran\n") == std::string::npos);
-  scratch.write("o.yaml", "observations:\n" + row("as_predicted", "    cycles: " + std::to_string(cycles) +
-                                                                     "\n    outcome: broken\n"));
+  scratch.write("o.yaml", "observations:\n" +
+                              row("as_predicted", "    cycles: " + std::to_string(cycles) + "\n    outcome: broken\n"));
   must_run(scratch, "dresslife", "calibrate o.yaml --quiet");
   const double other = life_hours(scratch, "--set calibration=runs/calibrate_o/calibration.yaml");
   CHECK(other > 0.5 * before);
   CHECK(other < 2 * before);
 }
 
-TEST_CASE(
-    "calibrate: a bending test with 5 % of noise gives the friction, at 1.6 times the shipped pressures") {
+TEST_CASE("calibrate: a bending test with 5 % of noise gives the friction, at 1.6 times the shipped pressures") {
   // Thirty weights in a first bend and on the way back.
   Scratch scratch;
   const std::string cable =
       "dresspack: {cable: {from: spot_welding, part: signal cable}}\nstrain: {slip: [free, friction, friction]";
-  scratch.write("job.yaml", "motion: {rig: {kind: axial, elongation_percent: 0.01}}\n" + cable +
-                                ", friction_factor: 1.6}\n");
+  scratch.write("job.yaml",
+                "motion: {rig: {kind: axial, elongation_percent: 0.01}}\n" + cable + ", friction_factor: 1.6}\n");
   must_run(scratch, "dresslife-sim", "job.yaml -o motion.h5 --quiet");
   must_run(scratch, "dresslife-strain", "motion.h5 -o strain.h5 --quiet");
   const FileReader strain(scratch / "strain.h5", strain_format());
-  const auto curvature = strain.read<double>("/bending/curvature"),
-             moment = strain.read<double>("/bending/moment");
+  const auto curvature = strain.read<double>("/bending/curvature"), moment = strain.read<double>("/bending/moment");
   CHECK(moment.front() < moment.back());
   const auto first = [&](double k) { return std::exp(log_moment(curvature, moment, k)); };
   std::mt19937 random(4);
   std::normal_distribution<double> number;
   std::string table = "curvature_1_per_m,moment_Nm\n";
-  const auto add = [&](double k, double m) {
-    table += fmt::format("{},{}\n", k, m * (1 + 0.05 * number(random)));
-  };
+  const auto add = [&](double k, double m) { table += fmt::format("{},{}\n", k, m * (1 + 0.05 * number(random))); };
   for (double k = 0.1; k < 1.55; k += 0.1) add(k, first(k));
   for (double k = 1.4; k > -0.05; k -= 0.1) add(k, first(1.5) - 2 * first((1.5 - k) / 2));
   scratch.write("bend.csv", table);
@@ -140,8 +137,7 @@ TEST_CASE(
   CHECK(learned(swung, "friction_inside", "value_p10") < 1.6);
   CHECK(learned(swung, "friction_inside", "value_p90") > 1.6);
 
-  CHECK(run(scratch, "dresslife", "validate o.yaml").err.find("holds no observed lives") !=
-        std::string::npos);
+  CHECK(run(scratch, "dresslife", "validate o.yaml").err.find("holds no observed lives") != std::string::npos);
 }
 
 TEST_CASE("calibrate: the prior predicts the hours that a run predicts") {
@@ -151,8 +147,10 @@ TEST_CASE("calibrate: the prior predicts the hours that a run predicts") {
       "{motion: {rig: {kind: torsion, length_m: 1, twist_deg_per_m: 180}}, dresspack: spot_welding, strain: {cable_elements_per_segment: 2}}";
   scratch.write("job.yaml", job);
   must_run(scratch, "dresslife", "run job.yaml --quiet --set uncertainty.ratings=none");
-  scratch.write("o.yaml", "observations:\n  - name: one\n    job: " + job +
-                              "\n    what: twisted\n    source: made for the tests\n    hours: 1\n    outcome: run_out\n    unshared_log10: 0.01\n");
+  scratch.write(
+      "o.yaml",
+      "observations:\n  - name: one\n    job: " + job +
+          "\n    what: twisted\n    source: made for the tests\n    hours: 1\n    outcome: run_out\n    unshared_log10: 0.01\n");
   const Outcome outcome = must_run(scratch, "dresslife", "calibrate o.yaml --quiet");
   INFO(outcome.out << outcome.err);
   std::string line = outcome.out.substr(outcome.out.find("\none ") + 5);
@@ -190,8 +188,7 @@ TEST_CASE("calibrate: a maintenance system's table in one command teaches the jo
     return day_text(*day_from("2000-01-03") + std::chrono::days(std::llround(7 * hours / 0.1)));
   };
   std::string table = "Robot;Installed;Replaced;Reason\n";
-  for (int k = 0; k < 10; ++k)
-    table += fmt::format("R{};03.01.2000;{};failed\n", k, day(before * (8 + 0.4 * k)));
+  for (int k = 0; k < 10; ++k) table += fmt::format("R{};03.01.2000;{};failed\n", k, day(before * (8 + 0.4 * k)));
   table += "R0;" + day(before * 8) + ";;\nR1;" + day(before * 8.4) + ";;\n";
   scratch.write("plant.csv", table);
   const std::string command = "calibrate plant.csv --quiet --records-since 2000-01-03 --today " + day(before * 13);
@@ -212,18 +209,24 @@ TEST_CASE("calibrate: a maintenance system's table in one command teaches the jo
   for (int k = 0; k < 8; ++k) alive += fmt::format("R{},2000-01-03,\n", k);
   scratch.write("alive.csv", alive);
   const auto of_alive = [&](double since) {
-    return must_run(scratch, "dresslife", "calibrate alive.csv --job job.yaml --quiet --today " + day(before * 30) + " --records-since " + day(before * since)).out;
+    return must_run(scratch, "dresslife",
+                    "calibrate alive.csv --job job.yaml --quiet --today " + day(before * 30) + " --records-since " +
+                        day(before * since))
+        .out;
   };
   const std::string late = of_alive(28), all = of_alive(0);
   INFO(late << all);
   CHECK(late.find("warning: 'job': 8 dresspacks were in use when the records begin") != std::string::npos);
   CHECK(all.find("were in use when the records begin") == std::string::npos);
-  CHECK(all.find("warning: 'job': fewer failures than predicted (0 of 8 failed): without any observation (makers' ratings, too) 1 of ") != std::string::npos);
-  CHECK(run(scratch, "dresslife", "calibrate plant.csv --job job.yaml --records-since soon").err.find("'soon' is no date") !=
-        std::string::npos);
+  CHECK(
+      all.find(
+          "warning: 'job': fewer failures than predicted (0 of 8 failed): without any observation (makers' ratings, too) 1 of ") !=
+      std::string::npos);
+  CHECK(run(scratch, "dresslife", "calibrate plant.csv --job job.yaml --records-since soon")
+            .err.find("'soon' is no date") != std::string::npos);
   scratch.write("o.yaml", "observations:\n" + row("as_predicted", "    cycles: 5\n"));
-  CHECK(run(scratch, "dresslife", "calibrate o.yaml --job job.yaml").err.find("--job: error: is of a maintenance system's table") !=
-        std::string::npos);
+  CHECK(run(scratch, "dresslife", "calibrate o.yaml --job job.yaml")
+            .err.find("--job: error: is of a maintenance system's table") != std::string::npos);
 }
 
 TEST_CASE("calibrate: rows that cannot be used are named at their place") {
@@ -237,14 +240,12 @@ TEST_CASE("calibrate: rows that cannot be used are named at their place") {
   const auto has = [](const std::string& text, const std::string& words) {
     return text.find(words) != std::string::npos;
   };
-  CHECK(has(
-      refused("observations:\n" + row("x", "    outcome: broken\n")),
-      "o.yaml:2:5: error: 'x' must have either cycles or hours (or stiffness_Nm2, decrement or bending)"));
+  CHECK(has(refused("observations:\n" + row("x", "    outcome: broken\n")),
+            "o.yaml:2:5: error: 'x' must have either cycles or hours (or stiffness_Nm2, decrement or bending)"));
   CHECK(has(refused("observations:\n" + row("d", "    decrement: 0.1\n    decrement_without_slip: 0.1\n")),
             "o.yaml:2:5: error: 'd': nothing of decrement is left for slip; give"));
-  CHECK(
-      has(refused("observations:\n" + row("e", "    cycles: 5\n    decrement_without_slip: 0.1\n")),
-          "o.yaml:8:5: error: 'e': decrement_without_slip has no effect on a row with cycles; leave it out"));
+  CHECK(has(refused("observations:\n" + row("e", "    cycles: 5\n    decrement_without_slip: 0.1\n")),
+            "o.yaml:8:5: error: 'e': decrement_without_slip has no effect on a row with cycles; leave it out"));
   std::string job = wire_job;
   job.insert(job.size() - 1, ", fatigue: {strength_factor: 2}");
   CHECK(has(refused("observations:\n" + row("ok", "    cycles: 5\n") + row("y", "    cycles: 5\n", job)),
@@ -252,9 +253,10 @@ TEST_CASE("calibrate: rows that cannot be used are named at their place") {
   CHECK(has(refused("observations:\n" + row("z", "    cycles: 5\n", "nowhere.yaml")), "nowhere.yaml"));
   job = wire_job;
   job.insert(job.size() - 1, ", uncertainty: {friction_inside: 2}");
-  CHECK(has(refused("observations:\n" + row("ok", "    cycles: 5\n") + row("u", "    cycles: 5\n", job)),
-            "o.yaml:8:5: error: 'u': its job gives other uncertainties than the first job, but all rows of a calibration must have "
-            "the same; give"));
+  CHECK(has(
+      refused("observations:\n" + row("ok", "    cycles: 5\n") + row("u", "    cycles: 5\n", job)),
+      "o.yaml:8:5: error: 'u': its job gives other uncertainties than the first job, but all rows of a calibration must have "
+      "the same; give"));
   job = wire_job;
   job.replace(job.find("copper_halved"), 13, "unobtainium");
   CHECK(has(refused("observations:\n" + row("m", "    cycles: 5\n", job)), "'m': its job cannot be made"));

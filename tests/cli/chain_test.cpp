@@ -117,14 +117,11 @@ TEST_CASE("a hose with a profile and critical planes from a job file to the life
 
   // The plane across the axis is among the evaluated planes: no wire lives longer than by its strain alone, apart from the effect
   // of the gate.
-  REQUIRE(strain(scratch, "--quiet --set strain.equivalent=axial --set strain.gate=0", "axial.h5").status ==
-          0);
+  REQUIRE(strain(scratch, "--quiet --set strain.equivalent=axial --set strain.gate=0", "axial.h5").status == 0);
   must_run(scratch, "dresslife-fatigue", "axial.h5 -o axial_life.h5 --quiet");
-  const auto axial =
-      pipeline::FileReader(scratch / "axial_life.h5", pipeline::life_format()).read<double>("/damage");
+  const auto axial = pipeline::FileReader(scratch / "axial_life.h5", pipeline::life_format()).read<double>("/damage");
   REQUIRE(axial.size() == damage.size());
-  constexpr double single =
-      1e-4;  // strains in single precision by two algorithms, times the slope of the life curve
+  constexpr double single = 1e-4;  // strains in single precision by two algorithms, times the slope of the life curve
   for (std::size_t k = 0; k < site.size(); ++k) CHECK(judged[k] >= axial[site[k]] * (1 - single));
 
   const Outcome wrong = strain(scratch, "--set strain.equivalent=planes");
@@ -138,9 +135,8 @@ TEST_CASE("friction gives the same bytes twice and with any number of threads") 
   std::string job = content(scratch / "job.yaml");
   for (const std::string part : {"helix_radius_mm: 10\n", "lay_angle_deg: 15, "}) {
     const bool own_line = part.ends_with('\n');
-    const std::string friction = own_line
-                                     ? "      friction_coefficient: 0.3\n      radial_line_load_N_per_m: 30\n"
-                                     : "friction_coefficient: 0.3, radial_line_load_N_per_m: 5, ";
+    const std::string friction = own_line ? "      friction_coefficient: 0.3\n      radial_line_load_N_per_m: 30\n"
+                                          : "friction_coefficient: 0.3, radial_line_load_N_per_m: 5, ";
     job.insert(job.find(part) + part.size(), friction);
   }
   job.replace(job.find("slip: stick"), std::string("slip: stick").size(), "slip: friction");

@@ -20,10 +20,14 @@ TEST_CASE("check: a job without faults, one whose slip is a bound, one that is t
   INFO(bound.out << bound.err);
   CHECK(bound.status == 0);
   CHECK(bound.out.find("strain.slip is stick") != std::string::npos);
-  CHECK(unwrapped(bound.out).find("The dresspack was checked at rest and in short runs, also with a softer and a stiffer hose. A run may also warn of strains") != std::string::npos);
+  CHECK(
+      unwrapped(bound.out).find(
+          "The dresspack was checked at rest and in short runs, also with a softer and a stiffer hose. A run may also warn of strains") !=
+      std::string::npos);
   std::istringstream lines(bound.out);
   for (std::string line; std::getline(lines, line);) CHECK(line.size() <= 120);
-  const Outcome narrow = run_shell(scratch, "script -qec \"stty cols 70; '" DRESSLIFE_BIN_DIR "/dresslife' check job.yaml\" /dev/null");
+  const Outcome narrow =
+      run_shell(scratch, "script -qec \"stty cols 70; '" DRESSLIFE_BIN_DIR "/dresslife' check job.yaml\" /dev/null");
   CHECK(narrow.status == 0);
   std::size_t longest = 0;
   std::istringstream narrow_lines(replaced_all(narrow.out, "\r", ""));
@@ -69,8 +73,10 @@ TEST_CASE("check: what it warns of in the shipped jobs, a run warns of, too") {
     if (entry.path().extension() == ".yaml") jobs.emplace_back(entry.path().stem().string(), "");
   for (const char* slip : {"stick", "free"}) {  // only bounds are computed: a note, which no run repeats as a warning
     const JobCheck bound = check_of(config / "jobs/bending_cable.yaml", {fmt::format("strain.slip={}", slip)});
-    CHECK(std::any_of(bound.notes.begin(), bound.notes.end(), [](const std::string& note) { return note.find("is a bound") != note.npos; }));
-    CHECK(std::none_of(bound.warnings.begin(), bound.warnings.end(), [](const Warning& w) { return w.kind == WarningKind::strain; }));
+    CHECK(std::any_of(bound.notes.begin(), bound.notes.end(),
+                      [](const std::string& note) { return note.find("is a bound") != note.npos; }));
+    CHECK(std::none_of(bound.warnings.begin(), bound.warnings.end(),
+                       [](const Warning& w) { return w.kind == WarningKind::strain; }));
   }
   for (const char* motion : {"easy", "hard", "spot_robot_2"}) jobs.emplace_back("irb6640_spot_welding", motion);
   REQUIRE(jobs.size() > 8);

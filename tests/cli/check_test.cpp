@@ -50,12 +50,10 @@ TEST_CASE("scripts/check refuses what breaks an arrow, a home or a rule, and say
       {"sim/rod/rod.h", "#include \"sim/run/simulate.h\"", "sim/rod may include itself\n"},
       {"sim/program/krl/krl.cpp", "#include \"sim/robot/robot.h\"",
        "sim/program/krl may include itself and: sim/program/interpreter"},
-      {"fatigue/kernels/lockstep.h", "#include \"fatigue/damage.h\"",
-       "fatigue/kernels may include itself and: "},
+      {"fatigue/kernels/lockstep.h", "#include \"fatigue/damage.h\"", "fatigue/kernels may include itself and: "},
       {"pipeline/job/job.cpp", "#include \"pipeline/files/files.h\"",
        "pipeline/job may include itself and: settings base"},
-      {"pipeline/base/threads.cpp", "#include \"pipeline/job/job.h\"",
-       "pipeline/base may include itself\n"},
+      {"pipeline/base/threads.cpp", "#include \"pipeline/job/job.h\"", "pipeline/base may include itself\n"},
       {"pipeline/stage/stage.cpp", "#include \"pipeline/study/study.h\"",
        "pipeline/stage may include itself and: files resolve job settings base"},
       {"fatigue/damage.cpp", "#include <hdf5.h>", "'hdf5' is included outside its home"},
@@ -85,9 +83,8 @@ TEST_CASE("scripts/check refuses what breaks an arrow, a home or a rule, and say
 TEST_CASE("scripts/check lets a short comment line end a paragraph or a sentence, or stand in a table") {
   const std::string full =
       "// A first line so full that a formatter with a smaller limit of columns would have to wrap its words,";
-  const std::string ends[] = {"// its end", "// its end\n//\n// and a paragraph",
-                              "// it ends.\n// So another.", "// the list:\n//   an item",
-                              "//   a row\n//   another row"};
+  const std::string ends[] = {"// its end", "// its end\n//\n// and a paragraph", "// it ends.\n// So another.",
+                              "// the list:\n//   an item", "//   a row\n//   another row"};
   Scratch scratch;
   copy_tree(scratch);
   for (const std::string& end : ends) add_line(scratch, "sim/rod/rod.h", full + "\n" + end + "\n");

@@ -6,9 +6,7 @@
 
 using namespace dresslife::tests;
 
-namespace {
-
-}  // namespace
+namespace {}  // namespace
 
 TEST_CASE("draw lists a dresspack's layers, what they add up to and what overlaps") {
   Scratch scratch;
@@ -17,8 +15,7 @@ TEST_CASE("draw lists a dresspack's layers, what they add up to and what overlap
   // 10 cables of 7 conductors of 92 wires of 0.15 mm.
   CHECK(drawn.out.find("6440 wires of 113.8 mm2") != std::string::npos);
   // Ten times the 0.0019, 0.226 and 4.14 N m2 of an independent calculation for one cable.
-  CHECK(drawn.out.find(
-            "0.0187 when all slide, 2.26 when parts of level 2 are solid, 41.4 when parts of level 1") !=
+  CHECK(drawn.out.find("0.0187 when all slide, 2.26 when parts of level 2 are solid, 41.4 when parts of level 1") !=
         std::string::npos);
   CHECK(drawn.err.find("the 7 parts 'conductor' are 2.254 mm apart") != std::string::npos);
 
@@ -49,8 +46,7 @@ TEST_CASE("draw shows what a dresspack holds beside wires, and says that it has 
   CHECK(count_of(picture, "class=\"air\"") == 1);
 }
 
-TEST_CASE(
-    "draw shows two cables that lie in each other in the colour of a warning, and refuses two in one place") {
+TEST_CASE("draw shows two cables that lie in each other in the colour of a warning, and refuses two in one place") {
   Scratch scratch;
   const auto hose = [&](int angle) {
     std::string text =
@@ -94,7 +90,8 @@ TEST_CASE("a cable needs no more than its data sheet's line, and is as wide as t
 
 TEST_CASE("draw: a cable alone has the mass of its construction") {
   Scratch scratch;
-  scratch.write("cable.yaml", "cable: {name: lead, source: test, data_sheet: \"4G2.5, class 6, outer diameter 12.1 mm\"}\n");
+  scratch.write("cable.yaml",
+                "cable: {name: lead, source: test, data_sheet: \"4G2.5, class 6, outer diameter 12.1 mm\"}\n");
   const std::string drawn = must_run(scratch, "dresslife", "draw cable.yaml").out;
   INFO(drawn);
   // 9.97 mm2 of wires of 8900 kg/m3 and the remaining 105 mm2 of 1200 kg/m3: 0.2148 kg/m. Lays add 2 % to the copper.
@@ -135,8 +132,10 @@ TEST_CASE("draw: the dresspack of a job, of a job with several none, with their 
   CHECK(must_run(scratch, "dresslife", "draw job.yaml").out == must_run(scratch, "dresslife", "draw hose.yaml").out);
   scratch.write("one_key.yaml", "dresspack: hose.yaml\ndresspack.components.3.count: 1\n");
   CHECK(must_run(scratch, "dresslife", "draw one_key.yaml").out.find("     1 air hose ") != std::string::npos);
-  scratch.write("two.yaml", "dresspacks:\n  - {name: a, dresspack: hose.yaml}\n  - {name: b, dresspack: control_cable}\n");
+  scratch.write("two.yaml",
+                "dresspacks:\n  - {name: a, dresspack: hose.yaml}\n  - {name: b, dresspack: control_cable}\n");
   const Outcome two = run(scratch, "dresslife", "draw two.yaml");
   CHECK(two.status == 1);
-  CHECK(two.err == "two.yaml:2:3: error: is a job with 2 dresspacks (one is drawn); name one of them: hose.yaml, control_cable\n");
+  CHECK(two.err ==
+        "two.yaml:2:3: error: is a job with 2 dresspacks (one is drawn); name one of them: hose.yaml, control_cable\n");
 }

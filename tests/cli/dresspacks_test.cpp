@@ -39,8 +39,8 @@ const std::string thick = hose(40,
                                "{name: cable, count: 2, radius_mm: 5, helix_radius_mm: 10, components: "
                                "[{name: wire, count: 6, radius_mm: 0.1, "
                                "helix_radius_mm: 2, lay_angle_deg: 15, material: copper}]}");
-const std::string thin = hose(
-    20, "{name: core, count: 4, radius_mm: 0.1, helix_radius_mm: 4, lay_angle_deg: 20, material: copper}");
+const std::string thin =
+    hose(20, "{name: core, count: 4, radius_mm: 0.1, helix_radius_mm: 4, lay_angle_deg: 20, material: copper}");
 
 /// Returns a routing along the axis, at the lateral distance `beside`.
 std::string routing(double length, double beside) {
@@ -54,10 +54,9 @@ std::string job_of(const std::string& dresspacks) { return robot + dresspacks + 
 
 /// Returns the damage of the worst wire of each dresspack of a job.
 std::vector<double> damage_of(const Scratch& scratch, const std::string& job) {
-  for (const auto& [program, files] :
-       {std::pair<std::string, std::string>{"sim", ".yaml -o " + job + ".motion.h5"},
-        {"strain", ".motion.h5 -o " + job + ".strain.h5"},
-        {"fatigue", ".strain.h5 -o " + job + ".life.h5"}}) {
+  for (const auto& [program, files] : {std::pair<std::string, std::string>{"sim", ".yaml -o " + job + ".motion.h5"},
+                                       {"strain", ".motion.h5 -o " + job + ".strain.h5"},
+                                       {"fatigue", ".strain.h5 -o " + job + ".life.h5"}}) {
     must_run(scratch, "dresslife-" + program, job + files);
   }
   const pipeline::FileReader life(scratch / (job + ".life.h5"), pipeline::life_format());
@@ -69,9 +68,8 @@ std::vector<double> damage_of(const Scratch& scratch, const std::string& job) {
 TEST_CASE("two dresspacks far apart live as long as each alone") {
   Scratch scratch;
   const std::string here = routing(1.1, 0), there = routing(1.15, 0.6);
-  scratch.write("both.yaml",
-                job_of("dresspacks:\n  - {name: hose, dresspack: " + thick + ", routing: " + here +
-                       "}\n  - {name: cable, dresspack: " + thin + ", routing: " + there + "}\n"));
+  scratch.write("both.yaml", job_of("dresspacks:\n  - {name: hose, dresspack: " + thick + ", routing: " + here +
+                                    "}\n  - {name: cable, dresspack: " + thin + ", routing: " + there + "}\n"));
   scratch.write("first.yaml", job_of("dresspack: " + thick + "\nrouting: " + here + "\n"));
   scratch.write("second.yaml", job_of("dresspack: " + thin + "\nrouting: " + there + "\n"));
   const auto both = damage_of(scratch, "both"), first = damage_of(scratch, "first"),
@@ -122,9 +120,9 @@ TEST_CASE("the relative life of a rated cable is the same beside another dresspa
 
 TEST_CASE("a study of two dresspacks ranks by the worse and reports which it is") {
   Scratch scratch;
-  scratch.write("job.yaml", job_of("dresspacks:\n  - {name: hose, dresspack: " + thick + ", routing: " +
-                                   routing(1.1, 0) + "}\n  - {name: cable, dresspack: " + thin +
-                                   ", routing: " + routing(1.15, 0.6) + "}\n"));
+  scratch.write("job.yaml",
+                job_of("dresspacks:\n  - {name: hose, dresspack: " + thick + ", routing: " + routing(1.1, 0) +
+                       "}\n  - {name: cable, dresspack: " + thin + ", routing: " + routing(1.15, 0.6) + "}\n"));
   scratch.write("study.yaml", "base: job.yaml\nvary: {dresspacks.2.routing.free_length_m: [1.15, 1.3]}\n");
   const Outcome outcome = must_run(scratch, "dresslife", "run study.yaml");
   INFO(outcome.err << outcome.out);

@@ -32,8 +32,9 @@ void write_study(const Scratch& scratch) {
   job.replace(job.find("strain: {slip: stick}"), 21, "strain: {slip: stick}\nfatigue: {robot_life_hours: 1.0e+7}");
   scratch.write("job.yaml", job);
   std::string swing = content(scratch / "poses.csv");
-  scratch.write("study.yaml", "base: job.yaml\njobs:\n  one: {}\n  other: {motion.clamp_poses: twin.csv}\n"
-                              "  stiff: {dresspack.bending_stiffness_Nm2: 3}\n");
+  scratch.write("study.yaml",
+                "base: job.yaml\njobs:\n  one: {}\n  other: {motion.clamp_poses: twin.csv}\n"
+                "  stiff: {dresspack.bending_stiffness_Nm2: 3}\n");
   scratch.write("twin.csv", swing);
 }
 
@@ -44,15 +45,20 @@ TEST_CASE("programs of a duty that start in different poses ask for the pose in 
   // The check comes before the simulation, which would refuse this length.
   const auto warned = [&](const std::string& angle, const std::string& pose) {
     const std::string home = "{joints_deg: [0, -10, 10, 0, 25, 0]}", away = "{joints_deg: [5, -10, 10, 0, 25, 0]}";
-    scratch.write("job.yaml", "robot: abb_irb6640_185_280\ndresspack: handling\nrouting:\n"
-                              "  base_clamp: {link: link_3, position_m: [-0.1, 0, 0.45], direction: [1, 0, 0.45]}\n"
-                              "  tool_clamp: {link: link_6, position_m: [0.144, 0, 0.174], direction: [1, 0, -0.45]}\n"
-                              "  free_length_m: 0.2\n" + pose + "motion: {steps: [" + home + ", " + away + "]}\n");
-    scratch.write("study.yaml", "base: job.yaml\njobs:\n  one: {}\n  other: {motion.steps: [{joints_deg: [0, -10, 10, 0, 25, " +
-                                    angle + "]}, " + away + "]}\n");
-    scratch.write("duties.yaml", "study: study.yaml\nduties:\n  - name: d\n    programs: [{job: one, percent_of_time: 50}, "
-                                 "{job: other, percent_of_time: 50}]\n");
-    return run(scratch, "dresslife", "duty duties.yaml").err.find("routing.mounting_pose_deg: the joint angles") != std::string::npos;
+    scratch.write("job.yaml",
+                  "robot: abb_irb6640_185_280\ndresspack: handling\nrouting:\n"
+                  "  base_clamp: {link: link_3, position_m: [-0.1, 0, 0.45], direction: [1, 0, 0.45]}\n"
+                  "  tool_clamp: {link: link_6, position_m: [0.144, 0, 0.174], direction: [1, 0, -0.45]}\n"
+                  "  free_length_m: 0.2\n" +
+                      pose + "motion: {steps: [" + home + ", " + away + "]}\n");
+    scratch.write("study.yaml",
+                  "base: job.yaml\njobs:\n  one: {}\n  other: {motion.steps: [{joints_deg: [0, -10, 10, 0, 25, " +
+                      angle + "]}, " + away + "]}\n");
+    scratch.write("duties.yaml",
+                  "study: study.yaml\nduties:\n  - name: d\n    programs: [{job: one, percent_of_time: 50}, "
+                  "{job: other, percent_of_time: 50}]\n");
+    return run(scratch, "dresslife", "duty duties.yaml").err.find("routing.mounting_pose_deg: the joint angles") !=
+           std::string::npos;
   };
   CHECK_FALSE(warned("15", ""));
   CHECK(warned("25", ""));
@@ -80,22 +86,26 @@ routing:
 simulation: {segments: 8, sample_rate_Hz: 25}
 strain: {slip: stick}
 )");
-  scratch.write("study.yaml", "base: job.yaml\njobs:\n  one: {}\n  same: {motion: same.mod}\n  away: {motion: away.mod}\n");
+  scratch.write("study.yaml",
+                "base: job.yaml\njobs:\n  one: {}\n  same: {motion: same.mod}\n  away: {motion: away.mod}\n");
   const auto errors = [&](const std::string& programs) {
     scratch.write("duties.yaml", "study: study.yaml\nduties:\n  - {name: d, programs: [" + programs + "]}\n");
     return must_run(scratch, "dresslife", "duty duties.yaml --quiet").err;
   };
   const std::string one = "{job: one, percent_of_time: 40}", same = "{job: same, percent_of_time: 30}",
-                    away = "{job: away, percent_of_time: 30}", mounted = "is mounted without twist in the first pose of 'one'";
+                    away = "{job: away, percent_of_time: 30}",
+                    mounted = "is mounted without twist in the first pose of 'one'";
   CHECK(errors(one).find("mounted without twist") == std::string::npos);
   CHECK(errors(one + ", " + same).find("mounted without twist") == std::string::npos);
   const std::string warned = errors(one + ", " + same + ", " + away);
-  CHECK(warned.find(mounted + " and again in that of 'away' (an axis differs by more than 20 deg)") != std::string::npos);
+  CHECK(warned.find(mounted + " and again in that of 'away' (an axis differs by more than 20 deg)") !=
+        std::string::npos);
   CHECK(warned.find("mounted without twist") == warned.rfind("mounted without twist"));
   // The page contains the warnings for which it says not to plan.
   scratch.write("job.yaml", content(scratch / "job.yaml") + "dresspack.least_bend_radius_mm: 590\n");
   errors(one);
-  CHECK(content(scratch / "runs/study/duty_duties.html").find("<p class=\"failed\">one: smallest bend radius: ") != std::string::npos);
+  CHECK(content(scratch / "runs/study/duty_duties.html").find("<p class=\"failed\">one: smallest bend radius: ") !=
+        std::string::npos);
 }
 
 TEST_CASE("a duty of one program in all of the time has the life of its job, and so have two equal programs") {
@@ -112,26 +122,32 @@ duties:
   const Outcome outcome = must_run(scratch, "dresslife", "duty duties.yaml --quiet");
   INFO(outcome.out << outcome.err);
   must_run(scratch, "dresslife", "run study.yaml --quiet");
-  const std::string ranking = content(scratch / "runs/study/ranking.csv"), duty = content(scratch / "runs/study/duty_duties.csv");
+  const std::string ranking = content(scratch / "runs/study/ranking.csv"),
+                    duty = content(scratch / "runs/study/duty_duties.csv");
   constexpr double kept_digits = 2e-5;  // a life response has six digits of log10 of a life: 5e-6 ln 10
   for (const char* p : {"p10", "p50", "p90"}) {
     const double life = number(cell(ranking, "one,", std::string("life_hours_") + p));
     REQUIRE(std::isfinite(life));
     CHECK(number(cell(duty, "alone,one", std::string("life_hours_") + p)) == Approx(life).epsilon(kept_digits));
-    CHECK(cell(duty, "beside none,one", std::string("life_hours_") + p) == cell(duty, "alone,one", std::string("life_hours_") + p));
+    CHECK(cell(duty, "beside none,one", std::string("life_hours_") + p) ==
+          cell(duty, "alone,one", std::string("life_hours_") + p));
     CHECK(number(cell(duty, "halves,other", std::string("life_hours_") + p)) == Approx(life).epsilon(kept_digits));
   }
   CHECK(outcome.out.find("These hours begin now") != std::string::npos);
-  CHECK(run(scratch, "dresslife", "duty duties.yaml --json --quiet").out.find("\"duty\":\"alone\"") != std::string::npos);
+  CHECK(run(scratch, "dresslife", "duty duties.yaml --json --quiet").out.find("\"duty\":\"alone\"") !=
+        std::string::npos);
 }
 
-TEST_CASE("programs in their order: a program after itself adds nothing, one after another adds cycles across the change") {
+TEST_CASE(
+    "programs in their order: a program after itself adds nothing, one after another adds cycles across the change") {
   const Scratch scratch;
   // In each program the hose bends to one side. Between the programs it moves from one side to the other.
   const auto motion = [](const std::string& to, const std::string& at) {
-    return "{speed_percent: 20, steps: [{joints_deg: [" + to + "]}, {joints_deg: [" + at + "]}, {dwell_s: 1}, {joints_deg: [" + to + "]}]}";
+    return "{speed_percent: 20, steps: [{joints_deg: [" + to + "]}, {joints_deg: [" + at +
+           "]}, {dwell_s: 1}, {joints_deg: [" + to + "]}]}";
   };
-  const std::string left = motion("0, -10, 10, 0, 35, 30", "0, -10, 10, 0, 35, 50"), right = motion("0, -10, 10, 0, 35, -30", "0, -10, 10, 0, 35, -50");
+  const std::string left = motion("0, -10, 10, 0, 35, 30", "0, -10, 10, 0, 35, 50"),
+                    right = motion("0, -10, 10, 0, 35, -30", "0, -10, 10, 0, 35, -50");
   scratch.write("job.yaml", R"(robot: abb_irb6640_185_280
 motion: easy
 dresspack: handling
@@ -144,17 +160,21 @@ simulation: {segments: 12, sample_rate_Hz: 25}
 strain: {slip: stick}
 fatigue: {robot_life_hours: 1.0e+7}
 )");
-  scratch.write("study.yaml", "base: job.yaml\njobs:\n  left: {motion: " + left + "}\n  same: {motion: " + left + "}\n  right: {motion: " + right + "}\n");
-  const std::string programs = "    programs: [{job: left, repeats_per_hour: 60}, {job: same, repeats_per_hour: 60}, {job: right, repeats_per_hour: 60}]\n";
-  scratch.write("duties.yaml", "study: study.yaml\nduties:\n  - name: apart\n" + programs +
-                                   "  - name: after itself\n" + programs + "    order: [{job: left}, {job: same}]\n" +
-                                   "  - name: in turns\n" + programs + "    order: [{job: left}, {job: right}]\n" +
-                                   "  - name: batches\n" + programs + "    order: [{job: left, repeats: 10}, {job: right, repeats: 10}]\n");
+  scratch.write("study.yaml", "base: job.yaml\njobs:\n  left: {motion: " + left + "}\n  same: {motion: " + left +
+                                  "}\n  right: {motion: " + right + "}\n");
+  const std::string programs =
+      "    programs: [{job: left, repeats_per_hour: 60}, {job: same, repeats_per_hour: 60}, {job: right, repeats_per_hour: 60}]\n";
+  scratch.write("duties.yaml", "study: study.yaml\nduties:\n  - name: apart\n" + programs + "  - name: after itself\n" +
+                                   programs + "    order: [{job: left}, {job: same}]\n" + "  - name: in turns\n" +
+                                   programs + "    order: [{job: left}, {job: right}]\n" + "  - name: batches\n" +
+                                   programs + "    order: [{job: left, repeats: 10}, {job: right, repeats: 10}]\n");
   const Outcome outcome = run(scratch, "dresslife", "duty duties.yaml --quiet");
   INFO(outcome.out << outcome.err);
   REQUIRE(outcome.status == 0);
   const std::string table = content(scratch / "runs/study/duty_duties.csv");
-  const auto damage = [&](const std::string& duty) { return 1 / number(cell(table, duty + ",left", "life_hours_p50")); };
+  const auto damage = [&](const std::string& duty) {
+    return 1 / number(cell(table, duty + ",left", "life_hours_p50"));
+  };
   const double apart = damage("apart");
   REQUIRE(apart > 0);
   constexpr double by_rows = 0.02;  // a spline through rows at 25 Hz changes the swing of the hose
@@ -168,9 +188,12 @@ fatigue: {robot_life_hours: 1.0e+7}
   CHECK(content(scratch / "runs/study/ranking.csv").find("left+right") == std::string::npos);
   // An order is refused if the joint angles of the programs are unknown.
   write_study(scratch);
-  scratch.write("duties.yaml", "study: study.yaml\nduties:\n  - name: d\n    order: [{job: one}, {job: other}]\n    programs: [{job: one, percent_of_time: 5}, "
-                               "{job: other, percent_of_time: 5}]\n");
-  CHECK(run(scratch, "dresslife", "duty duties.yaml -o other --quiet").err.find("no robot moves in 'one'") != std::string::npos);
+  scratch.write(
+      "duties.yaml",
+      "study: study.yaml\nduties:\n  - name: d\n    order: [{job: one}, {job: other}]\n    programs: [{job: one, percent_of_time: 5}, "
+      "{job: other, percent_of_time: 5}]\n");
+  CHECK(run(scratch, "dresslife", "duty duties.yaml -o other --quiet").err.find("no robot moves in 'one'") !=
+        std::string::npos);
 }
 
 TEST_CASE("duties that cannot be added up are refused before anything runs") {
@@ -183,10 +206,12 @@ TEST_CASE("duties that cannot be added up are refused before anything runs") {
     CHECK(outcome.out.empty());
     return outcome.err;
   };
-  CHECK(refusal("[{job: one, percent_of_time: 5}, {job: stiff, percent_of_time: 5}]").find("differ in dresspack") != std::string::npos);
+  CHECK(refusal("[{job: one, percent_of_time: 5}, {job: stiff, percent_of_time: 5}]").find("differ in dresspack") !=
+        std::string::npos);
   CHECK(refusal("[{job: onee, percent_of_time: 5}]").find("did you mean 'one'?") != std::string::npos);
   const std::string too_many = refusal("[{job: one, repeats_per_hour: 10000}, {job: other, percent_of_time: 5}]");
-  CHECK_THAT(too_many, Catch::Contains("duties.yaml:3") && Catch::Contains("minutes of each hour (10,000 x") && Catch::Contains("of 'other'"));
+  CHECK_THAT(too_many, Catch::Contains("duties.yaml:3") && Catch::Contains("minutes of each hour (10,000 x") &&
+                           Catch::Contains("of 'other'"));
   CHECK_FALSE(fs::exists(scratch / "runs"));
   const std::string outlived = refusal("[{job: one, percent_of_time: 5}]", "    history: [{duty: d, hours: 9.0e+6}]\n");
   CHECK(outlived.find("the model contradicts this dresspack") != std::string::npos);
@@ -196,12 +221,14 @@ TEST_CASE("duties that cannot be added up are refused before anything runs") {
         std::string::npos);
 }
 
-TEST_CASE("a plan names what to replace in a window, writes a table and a calendar, and refuses what it does not know") {
+TEST_CASE(
+    "a plan names what to replace in a window, writes a table and a calendar, and refuses what it does not know") {
   const Scratch scratch;
   write_study(scratch);
   // With a known stiffness lives have no residual, so that old dresspacks fail more often than new ones.
   scratch.write("job.yaml", content(scratch / "job.yaml") + "uncertainty: {hose_stiffness: 1}\n");
-  scratch.write("duties.yaml", "study: study.yaml\nduties: [{name: d, programs: [{job: one, percent_of_time: 0.1}]}]\n");
+  scratch.write("duties.yaml",
+                "study: study.yaml\nduties: [{name: d, programs: [{job: one, percent_of_time: 0.1}]}]\n");
   scratch.write("fleet.csv", "name,duty,installed\nnew one,d,\nold one,d,2026-11-22\n");
   const std::string plan = "plan fleet.csv --duties duties.yaml --today 2026-11-23 --quiet --windows ";
   const Outcome outcome = must_run(scratch, "dresslife", plan + "2026-12-21..2026-12-23,2027-03-01");
@@ -212,8 +239,11 @@ TEST_CASE("a plan names what to replace in a window, writes a table and a calend
   CHECK(number(cell(table, "new one", "fails_before_first_window")) > 0);
   CHECK(content(scratch / "runs/study/plan_fleet.ics").find("DTSTART;VALUE=DATE:20261221") != std::string::npos);
   // With costs, a test has a value, and a plan of another fleet is compared.
-  scratch.write("fleet.csv", "name,duty,installed,planned_cost,unplanned_cost\nnew one,d,,10,90\nold one,d,2026-11-22,10,90\n");
-  scratch.write("other.csv", "name,duty,installed,planned_cost,unplanned_cost\nnew one,d,,10,90\nold one,d,2026-11-22,10,90\nmore,d,,10,90\n");
+  scratch.write("fleet.csv",
+                "name,duty,installed,planned_cost,unplanned_cost\nnew one,d,,10,90\nold one,d,2026-11-22,10,90\n");
+  scratch.write(
+      "other.csv",
+      "name,duty,installed,planned_cost,unplanned_cost\nnew one,d,,10,90\nold one,d,2026-11-22,10,90\nmore,d,,10,90\n");
   const Outcome beside = must_run(scratch, "dresslife", plan + "2026-12-21 --what-if other.csv");
   INFO(beside.out << beside.err);
   CHECK((beside.out.find("A test before the first window saves, on average, until") != std::string::npos ||
@@ -224,21 +254,26 @@ TEST_CASE("a plan names what to replace in a window, writes a table and a calend
   const std::string json = run(scratch, "dresslife", plan + "2026-12-21 --what-if other.csv --json").out;
   CHECK(json.starts_with("{\"plan\":[{\"name\":\"new one\""));
   CHECK(json.find(",\"what_if\":[{\"name\":\"new one\"") != std::string::npos);
-  CHECK(must_run(scratch, "dresslife", plan + "2026-12-21 --what-if other.csv --what-if-from 2027-01-01").out.find("What if other from 2027-01-01 were the fleet") !=
-        std::string::npos);
-  CHECK(run(scratch, "dresslife", plan + "2026-12-21 --what-if other.csv --what-if-from 2026-11-01").err.find("is before 2026-11-23, the first day of the plan") !=
-        std::string::npos);
+  CHECK(must_run(scratch, "dresslife", plan + "2026-12-21 --what-if other.csv --what-if-from 2027-01-01")
+            .out.find("What if other from 2027-01-01 were the fleet") != std::string::npos);
+  CHECK(run(scratch, "dresslife", plan + "2026-12-21 --what-if other.csv --what-if-from 2026-11-01")
+            .err.find("is before 2026-11-23, the first day of the plan") != std::string::npos);
   const Outcome late = run(scratch, "dresslife", plan + "2026-12-21 --what-if other.csv --what-if-from 2028-01-01");
   CHECK(late.status == 1);
   CHECK(late.err.find("2028-01-01 is not before 2027-12-21, the end of the plan") != std::string::npos);
-  CHECK(run(scratch, "dresslife", plan + "2026-12-21 --what-if-from 2027-01-01").err.find("add --what-if OTHER.csv") != std::string::npos);
-  scratch.write("other.csv", "name,duty,installed\nmore,d,\n");
-  CHECK(run(scratch, "dresslife", plan + "2026-12-21 --what-if other.csv").err.find("other.csv:1:1: error: has no costs, but fleet.csv has some") !=
+  CHECK(run(scratch, "dresslife", plan + "2026-12-21 --what-if-from 2027-01-01").err.find("add --what-if OTHER.csv") !=
         std::string::npos);
+  scratch.write("other.csv", "name,duty,installed\nmore,d,\n");
+  CHECK(run(scratch, "dresslife", plan + "2026-12-21 --what-if other.csv")
+            .err.find("other.csv:1:1: error: has no costs, but fleet.csv has some") != std::string::npos);
   // With another setting the same folder takes the results, and a note says so.
   const Outcome changed = must_run(scratch, "dresslife", plan + "2026-12-21 --set fatigue.failed_wires_percent=20");
   INFO(changed.err);
-  CHECK(unwrapped(changed.err).find("note: 3 earlier results are replaced. Changed since that of 'one': fatigue.failed_wires_percent 10 -> 20") != std::string::npos);
+  CHECK(
+      unwrapped(changed.err)
+          .find(
+              "note: 3 earlier results are replaced. Changed since that of 'one': fatigue.failed_wires_percent 10 -> 20") !=
+      std::string::npos);
   CHECK(run(scratch, "dresslife", plan + "2026-12-21").err.find("3 earlier results are replaced") != std::string::npos);
   CHECK(run(scratch, "dresslife", plan + "2026-12-21").err.find("earlier result") == std::string::npos);
   // Twenty dresspacks that have lived for 32 weeks leave 12 of 1,000 samples, and 50 of 4,000. For three years none remains.

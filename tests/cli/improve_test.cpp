@@ -58,15 +58,18 @@ TEST_CASE("improve finds a job that lives longer, and says by what") {
   INFO(told.out << told.err);
   CHECK(told.out.find("As it is: ") == 0);
   CHECK(told.out.find("    --set 'routing.free_length_m=0.9") != std::string::npos);
-  CHECK_THAT(told.out, Catch::Contains("\nThe wires live ") || Catch::Contains("\nIn both the wires outlive the robot ("));
+  CHECK_THAT(told.out,
+             Catch::Contains("\nThe wires live ") || Catch::Contains("\nIn both the wires outlive the robot ("));
   const std::string table = content(scratch / "runs/better_improve/improve.csv");
   CHECK(lines_of(table) == 11);  // including its header
   CHECK(table.find("\n0,1,") != std::string::npos);
   CHECK(fs::exists(scratch / "runs/better_improve/report.html"));
   CHECK(fs::exists(scratch / "runs/better_improve/before/life.h5"));
   // Its page compares both, and states the effect of mounting errors in the length (a recording moves this job's clamps).
-  CHECK(told.out.find("With a clamp or length off by 10 mm, a clamp tilted by 5.7 deg or an end turned by 10 deg the wires live at least ") !=
-        std::string::npos);
+  CHECK(
+      told.out.find(
+          "With a clamp or length off by 10 mm, a clamp tilted by 5.7 deg or an end turned by 10 deg the wires live at least ") !=
+      std::string::npos);
   const std::string page = content(scratch / "runs/better_improve/improve.html");
   CHECK(page.find("<iframe src=\"before/page.html\"") != std::string::npos);
   CHECK(page.find("<td><code>routing.free_length_m</code></td><td>0.9</td><td>0.9") != std::string::npos);
@@ -86,8 +89,7 @@ TEST_CASE("improve finds a job that lives longer, and says by what") {
     CHECK((notes.contains(note) && notes.at(note) == time));
   }
   CHECK(run(scratch, "dresslife", "run better.yaml --quiet").status == 0);
-  const Outcome chance =
-      run(scratch, "dresslife", "improve better.yaml --trials 10 --quiet --method random -o chance");
+  const Outcome chance = run(scratch, "dresslife", "improve better.yaml --trials 10 --quiet --method random -o chance");
   CHECK(chance.status == 0);
   CHECK(content(scratch / "chance/better_improve/improve.csv") != table);
 }
@@ -127,18 +129,22 @@ free:
 TEST_CASE("improve states the worst life within the tolerance of a turned end, as its neighbours live it") {
   Scratch scratch;
   write_turned_study(scratch);
-  const Outcome told = must_run(scratch, "dresslife", "improve turn.yaml --trials 3 --short-runs 0 --off 0 --off-deg 10 --quiet");
+  const Outcome told =
+      must_run(scratch, "dresslife", "improve turn.yaml --trials 3 --short-runs 0 --off 0 --off-deg 10 --quiet");
   INFO(told.out);
   std::smatch stated, turn;
-  REQUIRE(std::regex_search(told.out, stated, std::regex("With an end turned by 10 deg the wires live at least ([0-9.]+) times as long")));
+  REQUIRE(std::regex_search(
+      told.out, stated, std::regex("With an end turned by 10 deg the wires live at least ([0-9.]+) times as long")));
   REQUIRE(std::regex_search(told.out, turn, std::regex("--set 'routing.pre_twist_deg=([-0-9.]+)'")));
   const double best = std::stod(turn[1]);
   std::string reliefs;  // of the winner, for its neighbours
   const std::regex relief("    (--set '[^']*bend_relief=[^']*')");
-  for (std::sregex_iterator found(told.out.begin(), told.out.end(), relief), end; found != end; ++found) reliefs += " " + (*found)[1].str();
+  for (std::sregex_iterator found(told.out.begin(), told.out.end(), relief), end; found != end; ++found)
+    reliefs += " " + (*found)[1].str();
   const auto life = [&](double degrees) {
     const std::string at = std::to_string(degrees);
-    must_run(scratch, "dresslife", "run turn.yaml --quiet -o 'at " + at + "' --set routing.pre_twist_deg=" + at + reliefs);
+    must_run(scratch, "dresslife",
+             "run turn.yaml --quiet -o 'at " + at + "' --set routing.pre_twist_deg=" + at + reliefs);
     return FileReader(scratch / ("at " + at) / "turn/turn/life.h5", life_format()).number_attribute("life_hours_p10");
   };
   const double worst = std::min({life(best), life(best - 10), life(best + 10)}) / life(best);
@@ -170,22 +176,29 @@ TEST_CASE("improve writes the best as drawn before it is verified, and a killed 
   Scratch scratch;
   write_turned_study(scratch);
   std::string job = content(scratch / "job.yaml");
-  scratch.write("job.yaml", job + "dresspack.least_bend_radius_mm: 30\ndresspack.most_twist_deg_per_m: 300\nstrain: {slip: free}\n"
-                                  "fatigue: {robot_life_hours: 10000000}\n");
+  scratch.write("job.yaml",
+                job +
+                    "dresspack.least_bend_radius_mm: 30\ndresspack.most_twist_deg_per_m: 300\nstrain: {slip: free}\n"
+                    "fatigue: {robot_life_hours: 10000000}\n");
   const std::string line =
       "improve job.yaml --free 'routing.pre_twist_deg=-40 .. 60' --trials 3 --short-runs 0 --off 0 --off-deg 10 --quiet -j 1";
-  const Outcome killed = run_shell(scratch, "'" DRESSLIFE_BIN_DIR "/dresslife' " + line + " & pid=$!\n"
-                                            "for k in $(seq 3000); do\n"
-                                            "  grep -qs 'Not yet verified within the mounting tolerance' job_improved.yaml && break\n"
-                                            "  kill -0 $pid || break\n"
-                                            "  sleep 0.1\n"
-                                            "done\n"
-                                            "kill -9 $pid; wait $pid; echo $?");
+  const Outcome killed =
+      run_shell(scratch, "'" DRESSLIFE_BIN_DIR "/dresslife' " + line +
+                             " & pid=$!\n"
+                             "for k in $(seq 3000); do\n"
+                             "  grep -qs 'Not yet verified within the mounting tolerance' job_improved.yaml && break\n"
+                             "  kill -0 $pid || break\n"
+                             "  sleep 0.1\n"
+                             "done\n"
+                             "kill -9 $pid; wait $pid; echo $?");
   INFO(killed.out << killed.err);
   REQUIRE(killed.out.ends_with("137\n"));
   const std::string early = content(scratch / "job_improved.yaml");
-  CHECK_THAT(early, Catch::Contains("# Not yet verified within the mounting tolerance. The command replaces this file at its end.\n"));
-  CHECK_THAT(must_run(scratch, "dresslife", "show job_improved.yaml").out, Catch::Contains("pre_twist_deg: "));  // a complete job
+  CHECK_THAT(early,
+             Catch::Contains(
+                 "# Not yet verified within the mounting tolerance. The command replaces this file at its end.\n"));
+  CHECK_THAT(must_run(scratch, "dresslife", "show job_improved.yaml").out,
+             Catch::Contains("pre_twist_deg: "));  // a complete job
   const auto notes = notes_of(scratch / "runs/job_improve");
   const Outcome ended = must_run(scratch, "dresslife", line);
   CHECK_THAT(ended.out, Catch::Contains("\nShort job: job_improved.yaml\n"));
@@ -201,7 +214,8 @@ TEST_CASE("improve writes the best as drawn before it is verified, and a killed 
 TEST_CASE("a search whose file changes ends with what it found, and names the file") {
   Scratch scratch;
   write_small_study(scratch);
-  const Outcome ended = run_shell(scratch, "'" DRESSLIFE_BIN_DIR "/dresslife' improve better.yaml --trials 200 --quiet -j 2 &\n"
+  const Outcome ended = run_shell(scratch, "'" DRESSLIFE_BIN_DIR
+                                           "/dresslife' improve better.yaml --trials 200 --quiet -j 2 &\n"
                                            "pid=$!\n"
                                            "for k in $(seq 600); do\n"
                                            "  [ -e runs/better_improve/trial_0006/.stage/fatigue.receipt ] && break\n"
@@ -210,9 +224,11 @@ TEST_CASE("a search whose file changes ends with what it found, and names the fi
                                            "echo '# of another day' >> poses.csv; wait $pid");
   INFO(ended.out << ended.err);
   CHECK(ended.status == 1);
-  CHECK(ended.err.find("poses.csv: error: has changed during the search; let nothing change it meanwhile, then run again\n") !=
+  CHECK(ended.err.find(
+            "poses.csv: error: has changed during the search; let nothing change it meanwhile, then run again\n") !=
         std::string::npos);
-  CHECK(std::regex_search(ended.out, std::regex("^The best of the [0-9]+ trials before is trial [0-9]+: [^\n]* all limits kept;")));
+  CHECK(std::regex_search(
+      ended.out, std::regex("^The best of the [0-9]+ trials before is trial [0-9]+: [^\n]* all limits kept;")));
   CHECK(ended.out.find("\n    --set 'routing.free_length_m=0.") != std::string::npos);
   CHECK(lines_of(content(scratch / "runs/better_improve/improve.csv")) > 5);
 }
@@ -220,24 +236,27 @@ TEST_CASE("a search whose file changes ends with what it found, and names the fi
 TEST_CASE("improve and route keep the results of jobs of one name in two folders apart") {
   Scratch scratch;
   for (const char* folder : {"a", "b"})
-    scratch.write(std::string(folder) + "/job.yaml", "robot: abb_irb6640_185_280\ndresspack: sensor_cable\nmotion: easy\n");
+    scratch.write(std::string(folder) + "/job.yaml",
+                  "robot: abb_irb6640_185_280\ndresspack: sensor_cable\nmotion: easy\n");
   for (const std::string command : {"improve", "route"}) {
     const std::string few = command == "route" ? " --tried 1 --off 0" : "";
     run(scratch, "dresslife", command + " a/job.yaml --quiet --short-runs 1" + few);  // the result does not matter
     const Outcome refused = run(scratch, "dresslife", command + " b/job.yaml --quiet --short-runs 1" + few);
     CHECK(refused.status == 1);
-    CHECK_THAT(refused.err, Catch::Contains("runs/job_" + command +
-                                            ": error: holds the results of another file, a/job.yaml, not of b/job.yaml; choose another "
-                                            "folder with -o FOLDER; to replace those results, run with --force\n"));
+    CHECK_THAT(
+        refused.err,
+        Catch::Contains("runs/job_" + command +
+                        ": error: holds the results of another file, a/job.yaml, not of b/job.yaml; choose another "
+                        "folder with -o FOLDER; to replace those results, run with --force\n"));
   }
 }
 
 TEST_CASE("improve prints the Pareto front of two objectives, which may contain the original jobs") {
   Scratch scratch;
   write_small_study(scratch);
-  const Outcome told =
-      must_run(scratch, "dresslife",
-               "improve better.yaml --trials 4 --short-runs 0 --second hose_length --off 0 --quiet");  // the fifth: 1 mm shorter, not worse
+  const Outcome told = must_run(
+      scratch, "dresslife",
+      "improve better.yaml --trials 4 --short-runs 0 --second hose_length --off 0 --quiet");  // the fifth: 1 mm shorter, not worse
   INFO(told.out << told.err);
   CHECK(told.out.find("\nLongest lives for their hose_length:\n") != std::string::npos);
   CHECK(told.out.find("\n    as it is  ") != std::string::npos);
@@ -258,12 +277,10 @@ TEST_CASE("improve takes a job, and names of shipped ones") {
   // In a job that is moved by a recording only the length can change.
   const Outcome job = run(scratch, "dresslife", "improve job.yaml --trials 2 --short-runs 0 --off 0 --quiet");
   INFO(job.out << job.err);
-  CHECK(content(scratch / "runs/job_improve/improve.csv").find(",routing.free_length_m\n") !=
-        std::string::npos);
+  CHECK(content(scratch / "runs/job_improve/improve.csv").find(",routing.free_length_m\n") != std::string::npos);
   const Outcome shipped = run(scratch, "dresslife", "improve irb6640_spot_welding --free nonsense");
   CHECK(shipped.err.find("--free nonsense: error: ") == 0);
-  CHECK(run(scratch, "dresslife", "status irb6640_spot_welding").out.find("irb6640_spot_welding") !=
-        std::string::npos);
+  CHECK(run(scratch, "dresslife", "status irb6640_spot_welding").out.find("irb6640_spot_welding") != std::string::npos);
 }
 
 TEST_CASE("improve refuses what it cannot search") {
@@ -276,8 +293,8 @@ TEST_CASE("improve refuses what it cannot search") {
   CHECK(run(scratch, "dresslife", "improve better.yaml --free nonsense").status == 1);
   CHECK(run(scratch, "dresslife", "improve better.yaml --trials 1").status == 2);
   scratch.write("bad.yaml", "base: job.yaml\nfree: {routing.free_length_m: 1 .. 2}\nlimits: {force_N: 4}\n");
-  CHECK(run(scratch, "dresslife", "improve bad.yaml")
-            .err.find("bad.yaml:3:10: error: unknown key 'limits.force_N'") == 0);
+  CHECK(run(scratch, "dresslife", "improve bad.yaml").err.find("bad.yaml:3:10: error: unknown key 'limits.force_N'") ==
+        0);
   // No trial keeps the limit, and the exit status states this. If it is exceeded by far, no trial is run.
   const auto improved = [&](const std::string& radius) {
     return run(scratch, "dresslife",
@@ -292,10 +309,8 @@ TEST_CASE("improve refuses what it cannot search") {
   INFO(none.out);
   CHECK(none.out.find("No other job that keeps all limits was found in 3 trials and ") != std::string::npos);
   CHECK(none.out.find("\nNo trial keeps bend radius: the best violates it by ") != std::string::npos);
-  CHECK(
-      none.out.find(
-          "\nA free key is at the end of its range: routing.free_length_m, at least 0.85; widen it\n") !=
-      std::string::npos);
+  CHECK(none.out.find("\nA free key is at the end of its range: routing.free_length_m, at least 0.85; widen it\n") !=
+        std::string::npos);
 }
 
 TEST_CASE("reprogram tries the costly lines in other ways, and names them by file and line") {
@@ -317,10 +332,14 @@ routing:
   free_length_m: 2.035
 simulation: {segments: 12, sample_rate_Hz: 25, most_repeats: 2}
 )");
-  const Outcome ways = must_run(scratch, "dresslife", "reprogram job.yaml --quiet --lines 1 --set uncertainty.enabled=false");
+  const Outcome ways =
+      must_run(scratch, "dresslife", "reprogram job.yaml --quiet --lines 1 --set uncertainty.enabled=false");
   INFO(ways.out << ways.err);
   const std::string table = content(scratch / "runs/job_reprogram/as_it_is.csv");
-  CHECK(table.find("lines,way,life_hours_p10,times_as_long,cycle_s,cycle_won_s,beyond,sets,patch,first_mode,first_mode_hours,doubt\n") == 0);
+  CHECK(
+      table.find(
+          "lines,way,life_hours_p10,times_as_long,cycle_s,cycle_won_s,beyond,sets,patch,first_mode,first_mode_hours,doubt\n") ==
+      0);
   CHECK(table.find("\nall lines,") != std::string::npos);
   CHECK(table.find("wrist over: ") != std::string::npos);
   CHECK(table.find("\nshort.yaml:") != std::string::npos);
@@ -388,9 +407,8 @@ strain: {cable_elements_per_segment: 1, surface_fibres: 0}
   scratch.write("steps.yaml",
                 "robot: abb_irb6640_185_280\nmotion: hard\n" +
                     content(scratch / "job.yaml").substr(content(scratch / "job.yaml").find("dresspack: ")));
-  CHECK_THAT(
-      run(scratch, "dresslife-import", "steps.yaml -o ways.h5" + life).err,
-      Catch::Contains("error: the motion is no robot program; give a job with motion: {program: FILE}"));
+  CHECK_THAT(run(scratch, "dresslife-import", "steps.yaml -o ways.h5" + life).err,
+             Catch::Contains("error: the motion is no robot program; give a job with motion: {program: FILE}"));
   CHECK(run(scratch, "dresslife-import", "job.yaml -o ways.h5 --lines 1" + life).status == 0);
   CHECK(run(scratch, "dresslife", "show ways.h5").out.find("dresslife-ways version 1") != std::string::npos);
 }

@@ -11,10 +11,9 @@ namespace {
 /// Runs a shell command in the scratch folder, without environment variables that name a catalogue.
 Outcome shell(const Scratch& scratch, const std::string& command) {
   const fs::path out = scratch / ".out", err = scratch / ".err";
-  scratch.write(".command",
-                "cd '" + scratch.folder().string() + "'\nunset DRESSLIFE_CONFIG\n" + command + "\n");
-  const std::string line = "bash '" + (scratch / ".command").string() + "' >'" + out.string() + "' 2>'" +
-                           err.string() + "' </dev/null";
+  scratch.write(".command", "cd '" + scratch.folder().string() + "'\nunset DRESSLIFE_CONFIG\n" + command + "\n");
+  const std::string line =
+      "bash '" + (scratch / ".command").string() + "' >'" + out.string() + "' 2>'" + err.string() + "' </dev/null";
   const int status = std::system(line.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(out), content(err)};
 }
@@ -22,8 +21,7 @@ Outcome shell(const Scratch& scratch, const std::string& command) {
 /// Installs under `first`, then moves the installation to `place`, so that a path stored at installation is invalid.
 void install(const Scratch& scratch, const std::string& place) {
   const Outcome installed =
-      shell(scratch,
-            "cmake --install '" DRESSLIFE_BIN_DIR "/..' --prefix first --strip && mv first '" + place + "'");
+      shell(scratch, "cmake --install '" DRESSLIFE_BIN_DIR "/..' --prefix first --strip && mv first '" + place + "'");
   INFO(installed.out << installed.err);
   REQUIRE(installed.status == 0);
 }
@@ -33,21 +31,20 @@ const char* const programs[] = {"dresslife", "dresslife-sim", "dresslife-strain"
 
 }  // namespace
 
-TEST_CASE(
-    "an installation has programs, catalogue, pages, manuals, completions and licence in their places") {
+TEST_CASE("an installation has programs, catalogue, pages, manuals, completions and licence in their places") {
   Scratch scratch;
   install(scratch, "place");
   for (const std::string program : programs)
     for (const std::string& file :
-         {"bin/" + program, "share/man/man1/" + program + ".1.gz",
-          "share/bash-completion/completions/" + program, "share/zsh/site-functions/_" + program})
+         {"bin/" + program, "share/man/man1/" + program + ".1.gz", "share/bash-completion/completions/" + program,
+          "share/zsh/site-functions/_" + program})
       CHECK(fs::exists(scratch / "place" / file));
-  for (const std::string file : {"config/README.md", "config/jobs/irb6640_spot_welding.yaml",
-                                 "config/robots/abb_irb6640_185_280.yaml"})
+  for (const std::string file :
+       {"config/README.md", "config/jobs/irb6640_spot_welding.yaml", "config/robots/abb_irb6640_185_280.yaml"})
     CHECK(fs::exists(scratch / "place/share/dresslife" / file));
-  for (const std::string page : {"copyright", "README.md", "CHANGELOG.md", "sim/README.md",
-                                 "sim/program/README.md", "strain/README.md", "fatigue/README.md",
-                                 "pipeline/README.md", "config/README.md", "config/studies/two_robots.png"})
+  for (const std::string page :
+       {"copyright", "README.md", "CHANGELOG.md", "sim/README.md", "sim/program/README.md", "strain/README.md",
+        "fatigue/README.md", "pipeline/README.md", "config/README.md", "config/studies/two_robots.png"})
     CHECK(fs::exists(scratch / "place/share/doc/dresslife" / page));
 }
 
@@ -83,15 +80,13 @@ TEST_CASE(
 
   fs::create_directories(scratch / "links");
   fs::create_symlink("../a place/bin/dresslife", scratch / "links/dresslife");
-  const std::string calls[] = {"'a place/bin/dresslife'", "links/dresslife",
-                               "PATH='a place/bin':$PATH dresslife"};
+  const std::string calls[] = {"'a place/bin/dresslife'", "links/dresslife", "PATH='a place/bin':$PATH dresslife"};
   std::string ranking;
   for (const std::string& call : calls) {
     const Outcome outcome = shell(scratch, "rm -rf runs; " + call + " run study.yaml");
     INFO(call << "\n" << outcome.err << outcome.out);
     REQUIRE(outcome.status == 0);
-    CHECK(content(scratch / "runs/study/study/job.yaml").find("youngs_modulus_GPa: 111") !=
-          std::string::npos);
+    CHECK(content(scratch / "runs/study/study/job.yaml").find("youngs_modulus_GPa: 111") != std::string::npos);
     if (ranking.empty()) ranking = content(scratch / "runs/study/ranking.csv");
     CHECK(content(scratch / "runs/study/ranking.csv") == ranking);
   }
@@ -112,11 +107,9 @@ TEST_CASE("studies and jobs of the catalogue go by their names") {
   const Outcome unknown = run(scratch, "dresslife", "status two_robot");
   CHECK(unknown.status == 1);
   CHECK(unknown.err.find("two_robot: error: is no file, and ") == 0);
-  CHECK(
-      unknown.err.find(
-          "config holds no jobs/two_robot.yaml or studies/two_robot.yaml; did you mean 'two_robots'? Else write the "
-          "path of a YAML file\n") !=
-      std::string::npos);
+  CHECK(unknown.err.find(
+            "config holds no jobs/two_robot.yaml or studies/two_robot.yaml; did you mean 'two_robots'? Else write the "
+            "path of a YAML file\n") != std::string::npos);
 }
 
 TEST_CASE("programs without their catalogue say what is missing, unless the job needs none") {
@@ -126,10 +119,9 @@ TEST_CASE("programs without their catalogue say what is missing, unless the job 
   fs::rename(scratch / "place/share/dresslife/config", scratch / "kept");
   const Outcome without = shell(scratch, "place/bin/dresslife show job.yaml");
   CHECK(without.status == 1);
-  CHECK(without.err ==
-        (scratch / "place/share/dresslife/config").string() +
-            ": error: does not exist (the catalogue is in share/, beside the programs' bin/); move both "
-            "together, or let DRESSLIFE_CONFIG name the catalogue\n");
+  CHECK(without.err == (scratch / "place/share/dresslife/config").string() +
+                           ": error: does not exist (the catalogue is in share/, beside the programs' bin/); move both "
+                           "together, or let DRESSLIFE_CONFIG name the catalogue\n");
   CHECK(shell(scratch, "DRESSLIFE_CONFIG=kept place/bin/dresslife show job.yaml").status == 0);
   fs::create_directories(scratch / "materials");
   fs::copy(scratch / "kept/materials/copper.yaml", scratch / "materials/copper.yaml");
@@ -143,8 +135,8 @@ TEST_CASE("bash completes commands, options and their words") {
   const auto completed = [&](const std::string& program, const std::string& words) {
     const std::string function = program == "dresslife" ? "_dresslife" : "_dresslife_sim";
     scratch.write("try.sh", "source '" DRESSLIFE_BIN_DIR "/../share/bash-completion/completions/" + program +
-                                "'\nCOMP_WORDS=(" + words + ")\nCOMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n" +
-                                function + "\necho ${COMPREPLY[@]}\n");
+                                "'\nCOMP_WORDS=(" + words + ")\nCOMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n" + function +
+                                "\necho ${COMPREPLY[@]}\n");
     const Outcome outcome = shell(scratch, "bash try.sh");
     CHECK(outcome.err == "");
     return outcome.out;

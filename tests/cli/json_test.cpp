@@ -41,8 +41,10 @@ assert json.load(open("states.json")) == [{"job": row["job"], "state": "done"} f
   const std::string program = "'" DRESSLIFE_BIN_DIR "/dresslife'";
   const Outcome outcome = run_shell(
       scratch, "set -e; " + program + " run study.yaml --json --quiet -n >dry.json; " + program +
-                   " run study.yaml --json --quiet >ranking.json; " + program + " run study.yaml --json --quiet -n >nothing.json; " + program +
-                   " show job.yaml --json >job.json; " + program + " check job.yaml --set dresspack.bending_stiffness_Nm2=0.03 --json >check.json; " + program + " status study.yaml --json >states.json; python3 compare.py");
+                   " run study.yaml --json --quiet >ranking.json; " + program +
+                   " run study.yaml --json --quiet -n >nothing.json; " + program + " show job.yaml --json >job.json; " +
+                   program + " check job.yaml --set dresspack.bending_stiffness_Nm2=0.03 --json >check.json; " +
+                   program + " status study.yaml --json >states.json; python3 compare.py");
   // No progress. Warnings remain, because they concern the validity of the result.
   std::istringstream lines(outcome.err);
   for (std::string line; std::getline(lines, line);) CHECK(line.find(": warning: ") != std::string::npos);

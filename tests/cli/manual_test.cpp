@@ -9,8 +9,8 @@ using namespace dresslife::tests;
 TEST_CASE("the references of keys, files and columns are fresh") {
   Scratch scratch;
   const std::string marker = "<!-- generated below this line by scripts/manual: do not edit -->\n";
-  for (const auto& [page, what] :
-       {std::pair{"config/keys.md", "keys"}, std::pair{"pipeline/files/formats.md", "files"}, std::pair{"pipeline/study/ranking.md", "ranking.csv"}}) {
+  for (const auto& [page, what] : {std::pair{"config/keys.md", "keys"}, std::pair{"pipeline/files/formats.md", "files"},
+                                   std::pair{"pipeline/study/ranking.md", "ranking.csv"}}) {
     const std::string text = content(fs::path(DRESSLIFE_SOURCE_DIR) / page);
     const std::size_t at = text.find(marker);
     REQUIRE(at != std::string::npos);
@@ -36,11 +36,14 @@ TEST_CASE("manual prints one key, by its path, the end of its path or its name")
   CHECK(paths("base_clamp.link") == "routing.base_clamp.link ");
   CHECK(paths("routing.tool_clamp.link").find("routing.base_clamp.link ") != std::string::npos);  // the same keys
   const Outcome text = run(scratch, "dresslife", "manual free_length_m");
-  CHECK(text.out ==
-        "routing.free_length_m\n  The free length of the dresspack between the clamps.\n  allowed: > 0, unit m\n  default: "
-        "required\n");
-  CHECK(run(scratch, "dresslife", "manual data_sheet").out.find("Examples:\n    data_sheet: 7 x 0.5 mm2,") != std::string::npos);
-  CHECK(run(scratch, "dresslife", "manual place").out.find("'place: auto'") != std::string::npos);  // a short form of keys
+  CHECK(
+      text.out ==
+      "routing.free_length_m\n  The free length of the dresspack between the clamps.\n  allowed: > 0, unit m\n  default: "
+      "required\n");
+  CHECK(run(scratch, "dresslife", "manual data_sheet").out.find("Examples:\n    data_sheet: 7 x 0.5 mm2,") !=
+        std::string::npos);
+  CHECK(run(scratch, "dresslife", "manual place").out.find("'place: auto'") !=
+        std::string::npos);  // a short form of keys
   const Outcome unknown = run(scratch, "dresslife", "manual slack_procent");
   CHECK(unknown.status == 1);
   CHECK(unknown.err.find("did you mean 'slack_percent'?") != std::string::npos);

@@ -18,8 +18,7 @@ void check_refused(const Scratch& scratch, const Outcome& outcome, const std::st
   CHECK(outcome.err.find(words) == 0);
   CHECK(outcome.err.find("; ") != std::string::npos);  // a remedy follows
   CHECK_FALSE(fs::exists(scratch / output));
-  for (const auto& entry : fs::directory_iterator(scratch.folder()))
-    CHECK(entry.path().extension() != ".part");
+  for (const auto& entry : fs::directory_iterator(scratch.folder())) CHECK(entry.path().extension() != ".part");
 }
 
 }  // namespace
@@ -38,8 +37,7 @@ TEST_CASE("dresslife-sim refuses a job with one line that names the place") {
        "job.yaml:20:18: error: routing.free_length_m is '0.9 m' (must be a number"},
       {"free_length_m: 0.9", "free_length_m: .nan",
        "job.yaml:20:18: error: routing.free_length_m is .nan (must be finite)"},
-      {"free_length_m: 0.9", "free_length_m: -1",
-       "job.yaml:20:18: error: routing.free_length_m is -1 (must be > 0 m)"},
+      {"free_length_m: 0.9", "free_length_m: -1", "job.yaml:20:18: error: routing.free_length_m is -1 (must be > 0 m)"},
       {"free_length_m: 0.9", "free_length_m: 0.9\n  free_length_m: 1",
        "job.yaml:21:3: error: duplicate key 'free_length_m'"},
       {"routing:\n  free_length_m: 0.9\n", "", "job.yaml:1:1: error: routing is missing"},
@@ -73,8 +71,7 @@ TEST_CASE("dresslife-sim refuses what is not there") {
 TEST_CASE("dresslife-sim says when, in which step and by how much a dresspack is too short") {
   Scratch scratch;
   write_small_job(scratch);
-  scratch.write("job.yaml",
-                edited(content(scratch / "job.yaml"), "free_length_m: 0.9", "free_length_m: 0.75"));
+  scratch.write("job.yaml", edited(content(scratch / "job.yaml"), "free_length_m: 0.9", "free_length_m: 0.75"));
   const Outcome outcome = run(scratch, "dresslife-sim", "job.yaml -o motion.h5");
   check_refused(scratch, outcome, "job.yaml:", "motion.h5");
   CHECK(outcome.err.find("too short") != std::string::npos);
@@ -95,8 +92,8 @@ TEST_CASE("the later stages refuse files that are not theirs, cut off or damaged
                 "text.h5: error: is not an HDF5 file", "strain.h5");
   check_refused(scratch, run(scratch, "dresslife-fatigue", "motion.h5 -o life.h5"),
                 "motion.h5: error: holds 'dresslife-motion' ('dresslife-strain' is expected)", "life.h5");
-  check_refused(scratch, run(scratch, "dresslife-strain", "none.h5 -o strain.h5"),
-                "none.h5: error: is not there", "strain.h5");
+  check_refused(scratch, run(scratch, "dresslife-strain", "none.h5 -o strain.h5"), "none.h5: error: is not there",
+                "strain.h5");
   check_refused(scratch, run(scratch, "dresslife-strain", "motion.h5 -o motion.h5"),
                 "motion.h5: error: is one of the files that are read", "strain.h5");
   CHECK(content(scratch / "motion.h5") == whole);
@@ -115,10 +112,11 @@ TEST_CASE("a command that does not exist is answered with the nearest one") {
 
 TEST_CASE("import writes what a program asks to one file, reads it back filled in, and replaces none") {
   const Scratch scratch;
-  scratch.write("cell.mod",
-                "MODULE cell\n  CONST jointtarget home := [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n  PROC main()\n"
-                "    MoveAbsJ home, v500, fine, tool0;\n    IF ready() THEN\n      MoveJ pick, v100, fine, gun;\n    ENDIF\n"
-                "  ENDPROC\nENDMODULE\n");
+  scratch.write(
+      "cell.mod",
+      "MODULE cell\n  CONST jointtarget home := [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n  PROC main()\n"
+      "    MoveAbsJ home, v500, fine, tool0;\n    IF ready() THEN\n      MoveJ pick, v100, fine, gun;\n    ENDIF\n"
+      "  ENDPROC\nENDMODULE\n");
   const std::string call = "cell.mod -o cell.yaml --answers answers.yaml";
   const Outcome asked = run(scratch, "dresslife", "import " + call);
   CHECK(asked.status == 1);
@@ -131,9 +129,8 @@ TEST_CASE("import writes what a program asks to one file, reads it back filled i
   CHECK(run(scratch, "dresslife-import", call).status == 1);
   CHECK(content(scratch / "answers.yaml") == half);
   CHECK_FALSE(fs::exists(scratch / "cell.yaml"));
-  std::string whole =
-      edited(half, "{name: 'pick', value: ''}",
-             "{name: 'pick', value: '[[600,0,900],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]'}");
+  std::string whole = edited(half, "{name: 'pick', value: ''}",
+                             "{name: 'pick', value: '[[600,0,900],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]'}");
   whole = edited(whole, "{name: 'gun', position_mm: []", "{name: 'gun', position_mm: [0, 0, 150]");
   scratch.write("answers.yaml", whole);
   const Outcome read = run(scratch, "dresslife-import", call);

@@ -12,9 +12,7 @@ namespace {
 
 bool has(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
 
-Outcome make(const Scratch& scratch, const std::string& options) {
-  return run(scratch, "dresslife", "new " + options);
-}
+Outcome make(const Scratch& scratch, const std::string& options) { return run(scratch, "dresslife", "new " + options); }
 
 /// While it exists, programs take this catalogue.
 class CatalogueOf {
@@ -39,8 +37,7 @@ TEST_CASE("new: without options it lists what can be chosen, and writes nothing"
   CHECK(has(listed.out, "  easy                    Gentle handling\n"));
   for (const char* shelf : {"robots", "programs", "dresspacks"})
     for (const auto& entry : fs::directory_iterator(fs::path(DRESSLIFE_SOURCE_DIR) / "config" / shelf))
-      if (entry.path().extension() == ".yaml")
-        CHECK(has(listed.out, "  " + entry.path().stem().string() + " "));
+      if (entry.path().extension() == ".yaml") CHECK(has(listed.out, "  " + entry.path().stem().string() + " "));
   const Outcome lacking = make(scratch, "job.yaml");
   CHECK(lacking.status == 1);
   CHECK(has(lacking.err, "lacks --robot (nothing was written)"));
@@ -83,8 +80,7 @@ TEST_CASE("new: a job is the user's once it is edited") {
 TEST_CASE("new: proposed clamps pass check, and files are named from the job's folder") {
   Scratch scratch;
   write_short_program(scratch);
-  const Outcome made =
-      make(scratch, "--robot fanuc_m20ia --program mine.yaml --dresspack handling cell/job.yaml");
+  const Outcome made = make(scratch, "--robot fanuc_m20ia --program mine.yaml --dresspack handling cell/job.yaml");
   INFO(made.out << made.err);
   REQUIRE(made.status == 0);
   const std::string text = content(scratch / "cell/job.yaml");
@@ -100,7 +96,8 @@ TEST_CASE("new: what the search refuses names no temporary file") {
   Scratch scratch;
   write_short_program(scratch);
   const std::string robot = content(fs::path(DRESSLIFE_SOURCE_DIR) / "config/robots/kuka_kr16_2.yaml");
-  scratch.write("fat.yaml", replaced_all(robot, "radius_mm: 77}", "radius_mm: 900}"));  // its link_4 encloses all places for a clamp
+  scratch.write("fat.yaml", replaced_all(robot, "radius_mm: 77}",
+                                         "radius_mm: 900}"));  // its link_4 encloses all places for a clamp
   const Outcome made = make(scratch, "--robot ./fat.yaml --program mine.yaml --dresspack handling job.yaml");
   INFO(made.err);
   CHECK(made.status == 1);
@@ -138,14 +135,17 @@ ENDMODULE
 
 TEST_CASE("new and check say of a dresspack what no routing cures, and list what its data sheet leaves out") {
   Scratch scratch;
-  scratch.write("hose.yaml",
-                "name: hose\nsource: a catalogue\ndiameter_mm: 29\ninner_diameter_mm: 23\nhose_material: hose_polyamide\n"
-                "least_bend_radius_mm: 110\ncomponents:\n"
-                "  - {name: lead, helix_radius_mm: 0, data_sheet: '7 x 0.5 mm2, outer diameter 8.2 mm'}\n");
+  scratch.write(
+      "hose.yaml",
+      "name: hose\nsource: a catalogue\ndiameter_mm: 29\ninner_diameter_mm: 23\nhose_material: hose_polyamide\n"
+      "least_bend_radius_mm: 110\ncomponents:\n"
+      "  - {name: lead, helix_radius_mm: 0, data_sheet: '7 x 0.5 mm2, outer diameter 8.2 mm'}\n");
   write_short_program(scratch);
-  const std::string doubt = "hose.yaml:1:1: warning: the smooth wall of the hose (29 mm outside, 23 mm inside) has E I 34.6 N m2",
-                    estimate = "ESTIMATE, not in the dresspack: data_sheet of lead: conductor_class 6 (class 5 has wires of 0.2 mm: lives in bending 2 to about 4 times shorter), "
-                               "wire_diameter_mm 0.15, ";
+  const std::string
+      doubt = "hose.yaml:1:1: warning: the smooth wall of the hose (29 mm outside, 23 mm inside) has E I 34.6 N m2",
+      estimate =
+          "ESTIMATE, not in the dresspack: data_sheet of lead: conductor_class 6 (class 5 has wires of 0.2 mm: lives in bending 2 to about 4 times shorter), "
+          "wire_diameter_mm 0.15, ";
   const Outcome made = make(scratch, "--robot kuka_kr16_2 --program mine.yaml --dresspack hose.yaml job.yaml");
   INFO(made.out << made.err);
   REQUIRE(made.status == 0);
@@ -157,11 +157,13 @@ TEST_CASE("new and check say of a dresspack what no routing cures, and list what
   CHECK(has(unwrapped(check.out), estimate));
 }
 
-TEST_CASE("new: where no routing keeps all limits, the warnings that remain stand on the terminal and in the job, as check gives them") {
+TEST_CASE(
+    "new: where no routing keeps all limits, the warnings that remain stand on the terminal and in the job, as check gives them") {
   Scratch scratch;
   write_short_program(scratch);
   std::string hose = content(fs::path(DRESSLIFE_SOURCE_DIR) / "config/dresspacks/spot_welding.yaml");
-  hose.insert(hose.find("\ndiameter_mm:"), "\nleast_bend_radius_mm: 400");  // more than a swinging hose keeps; at rest there are routings
+  hose.insert(hose.find("\ndiameter_mm:"),
+              "\nleast_bend_radius_mm: 400");  // more than a swinging hose keeps; at rest there are routings
   scratch.write("hose.yaml", hose);
   const Outcome made = make(scratch, "--robot abb_irb6640_185_280 --program mine.yaml --dresspack hose.yaml job.yaml");
   INFO(made.out << made.err);
@@ -206,14 +208,19 @@ TEST_CASE("new: clamps of which none runs are left to be filled in, without a pl
   };
   std::string arm = "<robot name=\"arm\"><link name=\"base_link\"/>";
   std::string parent = "base_link";
-  for (const Axis& of : {Axis{"1", "0 0 0.675", "0 0 -1", 3.2289, 2.7227}, {"2", "0.26 0 0", "0 1 0", 2.7053, 2.7227},
-                         {"3", "0.68 0 0", "0 1 0", 2.6878, 2.7227}, {"4", "0.67 0 -0.035", "-1 0 0", 6.1087, 5.7596},
-                         {"5", "0 0 0", "0 1 0", 2.2689, 5.7596}, {"6", "0.158 0 0", "-1 0 0", 6.1087, 10.7338}}) {
+  for (const Axis& of : {Axis{"1", "0 0 0.675", "0 0 -1", 3.2289, 2.7227},
+                         {"2", "0.26 0 0", "0 1 0", 2.7053, 2.7227},
+                         {"3", "0.68 0 0", "0 1 0", 2.6878, 2.7227},
+                         {"4", "0.67 0 -0.035", "-1 0 0", 6.1087, 5.7596},
+                         {"5", "0 0 0", "0 1 0", 2.2689, 5.7596},
+                         {"6", "0.158 0 0", "-1 0 0", 6.1087, 10.7338}}) {
     const std::string link = std::string("link_") + of.name;
-    arm += "<link name=\"" + link + "\"><collision><geometry><cylinder radius=\"0.08\" length=\"0.3\"/></geometry></collision></link>";
-    arm += "<joint name=\"joint_" + std::string(of.name) + "\" type=\"revolute\"><parent link=\"" + parent + "\"/><child link=\"" + link +
-           "\"/><origin xyz=\"" + of.place + "\"/><axis xyz=\"" + of.axis + "\"/><limit effort=\"1\" lower=\"" +
-           std::to_string(-of.limit) + "\" upper=\"" + std::to_string(of.limit) + "\" velocity=\"" + std::to_string(of.speed) + "\"/></joint>";
+    arm += "<link name=\"" + link +
+           "\"><collision><geometry><cylinder radius=\"0.08\" length=\"0.3\"/></geometry></collision></link>";
+    arm += "<joint name=\"joint_" + std::string(of.name) + "\" type=\"revolute\"><parent link=\"" + parent +
+           "\"/><child link=\"" + link + "\"/><origin xyz=\"" + of.place + "\"/><axis xyz=\"" + of.axis +
+           "\"/><limit effort=\"1\" lower=\"" + std::to_string(-of.limit) + "\" upper=\"" + std::to_string(of.limit) +
+           "\" velocity=\"" + std::to_string(of.speed) + "\"/></joint>";
     parent = link;
   }
   scratch.write("arm.urdf", arm + "</robot>\n");
@@ -260,8 +267,7 @@ TEST_CASE("new: names that are no names are answered with those that are near") 
             "--robot: error: 'kuka_kr162' is not in the catalogue (config/robots); did "
             "you mean 'kuka_kr16_2'? one of: "));
   CHECK(has(refused("--robot kuka_kr16_2 --dresspack spotwelding"), "did you mean 'spot_welding'?"));
-  CHECK(
-      has(refused("--robot kuka_kr16_2 --program hrad"), "--program: error: 'hrad' is not in the catalogue"));
+  CHECK(has(refused("--robot kuka_kr16_2 --program hrad"), "--program: error: 'hrad' is not in the catalogue"));
   CHECK(has(refused("--robot nowhere.urdf"), "nowhere.urdf"));
   // A program that the robot cannot run.
   CHECK(has(refused("--robot kuka_kr210_l150 --program easy"), "nothing was written"));

@@ -64,8 +64,7 @@ const char* what_a_reader_does = R"(
 
 }  // namespace
 
-TEST_CASE(
-    "a run writes a page for each job, the report links to it, and it is written again only when needed") {
+TEST_CASE("a run writes a page for each job, the report links to it, and it is written again only when needed") {
   Scratch scratch;
   write_small_job(scratch);
   must_run(scratch, "dresslife", "run job.yaml");
@@ -86,13 +85,10 @@ TEST_CASE(
   CHECK(fs::exists(page));
   const Outcome nothing = run(scratch, "dresslife", "page runs/job");
   CHECK(nothing.status == 1);
-  CHECK(nothing.err ==
-        "runs/job: error: holds no life.h5; name the folder of a job that is done: runs/STUDY/JOB\n");
+  CHECK(nothing.err == "runs/job: error: holds no life.h5; name the folder of a job that is done: runs/STUDY/JOB\n");
 
   // Without three.js a run succeeds as well.
-  REQUIRE(
-      run_shell(scratch, "DRESSLIFE_THREE=/nowhere '" DRESSLIFE_BIN_DIR "/dresslife' run job.yaml").status ==
-      0);
+  REQUIRE(run_shell(scratch, "DRESSLIFE_THREE=/nowhere '" DRESSLIFE_BIN_DIR "/dresslife' run job.yaml").status == 0);
   CHECK(content(page).size() < 500'000);
 
   // The page of an outdated result is marked with what changed. With the original settings the mark is removed.
@@ -104,8 +100,7 @@ TEST_CASE(
     const std::string text = content(page), open = "<p class=\"failed\" id=\"stale\">";
     const std::size_t at = text.find(open);
     CHECK(text.find(open, at + 1) == std::string::npos);
-    return at == std::string::npos ? ""
-                                   : text.substr(at + open.size(), text.find("</p>", at) - at - open.size());
+    return at == std::string::npos ? "" : text.substr(at + open.size(), text.find("</p>", at) - at - open.size());
   };
   CHECK(mark("0.9") == "");
   const std::string unmarked = content(page);
@@ -116,8 +111,7 @@ TEST_CASE(
 
   // Files of different motions make no page.
   must_run(scratch, "dresslife-sim", "job.yaml --set simulation.segments=10 -o other.h5");
-  fs::copy_file(scratch / "other.h5", scratch / "runs/job/job/motion.h5",
-                fs::copy_options::overwrite_existing);
+  fs::copy_file(scratch / "other.h5", scratch / "runs/job/job/motion.h5", fs::copy_options::overwrite_existing);
   const Outcome mixed = run(scratch, "dresslife", "page runs/job/job");
   CHECK(mixed.status == 1);
   CHECK(mixed.err.find("they are not of one job") != std::string::npos);
@@ -140,8 +134,8 @@ TEST_CASE("the page in a browser: no complaints, a picture, play and clicks, the
   double damage = 0, hours = 0, of_cycles = 0;
   std::string across, worst, sampled;
   double of_worst = 0;
-  words >> colours >> segment >> jumped >> playing >> moved >> stopped >> histories >> damage >> hours >>
-      frame >> coloured >> shapes >> of_cycles >> across >> worst >> of_worst >> sampled;
+  words >> colours >> segment >> jumped >> playing >> moved >> stopped >> histories >> damage >> hours >> frame >>
+      coloured >> shapes >> of_cycles >> across >> worst >> of_worst >> sampled;
   WARN("a frame took " << frame << " ms");
   CHECK(colours == "true");
   CHECK(segment == "3");
@@ -150,8 +144,7 @@ TEST_CASE("the page in a browser: no complaints, a picture, play and clicks, the
   CHECK(moved == "true");
   CHECK(stopped == "false");
   CHECK(histories == "true");
-  const dresslife::pipeline::FileReader life(scratch / "runs/job/job/life.h5",
-                                             dresslife::pipeline::life_format());
+  const dresslife::pipeline::FileReader life(scratch / "runs/job/job/life.h5", dresslife::pipeline::life_format());
   CHECK(damage == life.read<double>("/segment/damage").at(3));
   CHECK(hours == life.number_attribute("life_hours"));
   CHECK(coloured == "rate");
@@ -187,8 +180,8 @@ TEST_CASE("pages print the numbers of the files: hours, shares of damage, draws"
     holds(page, fmt::format("<p><b>Do not plan with {}: ", dresslife::pipeline::hours_text(hours)));
     holds(page, fmt::format("Half have failed after {}, ", printed_hours(life.number_attribute("life_hours_p50"))));
     holds(page, fmt::format("The median of the worst wire is {} h.", printed(life.number_attribute("life_hours"))));
-    holds(report, fmt::format("data-value=\"{}\"><b>!{}</b>", dresslife::pipeline::shortest_text(hours),
-                              printed(hours)));
+    holds(report,
+          fmt::format("data-value=\"{}\"><b>!{}</b>", dresslife::pipeline::shortest_text(hours), printed(hours)));
     // Shares of the damage near clamps and in layers.
     const auto clamps = life.read<double>("/clamp/damage"), layers = life.read<double>("/layer/damage");
     const auto names = life.read<std::string>("/clamp/name");
@@ -248,8 +241,7 @@ TEST_CASE("the page of a study in a browser: sorted, filtered, two jobs side by 
   CHECK(settings.find("routing.free_length_m_0.92_0.88") != std::string::npos);
 }
 
-TEST_CASE(
-    "the page of a study of 2,000 jobs in a browser: a hundred rows at once, sorted and filtered over all") {
+TEST_CASE("the page of a study of 2,000 jobs in a browser: a hundred rows at once, sorted and filtered over all") {
   Scratch scratch;
   dresslife::pipeline::RankingRow row;
   row.damage_per_repeat = 1e-4;

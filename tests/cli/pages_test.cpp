@@ -1,9 +1,9 @@
 // The pages of the project: the real reader reads every YAML example, and every command runs.
 
-#include "tests/catch.h"
 #include <map>
 #include <regex>
 #include <set>
+#include "tests/catch.h"
 
 #include "pipeline/advise/plan/duty.h"
 #include "pipeline/job/job.h"
@@ -55,7 +55,8 @@ const std::map<std::string, std::string> instead{
     {"dresslife check JOB.yaml", "dresslife check irb6640_spot_welding --set simulation.segments=16"},
     {"dresslife preview JOB.yaml", "dresslife preview irb6640_spot_welding"},
     {"dresslife route ROBOT_OR_JOB",
-     "dresslife route abb_irb4600_60_205 --scale 0.5 --tried 60 --short-runs 20 --seed 2 --set uncertainty.enabled=false" + quick},
+     "dresslife route abb_irb4600_60_205 --scale 0.5 --tried 60 --short-runs 20 --seed 2 --set uncertainty.enabled=false" +
+         quick},
     {"dresslife run JOB.yaml", "dresslife run irb6640_spot_welding" + quick},
     {"dresslife improve JOB_OR_STUDY",
      "dresslife improve side_panel --trials 2 --short-runs 0 --off 0 --set uncertainty.enabled=false" + quick},
@@ -67,11 +68,9 @@ const std::map<std::string, std::string> instead{
      "2027-07-12..2027-08-01,2027-12-20..2028-01-02" +
          quick},
     {"dresslife reprogram JOB_OR_STUDY", "not run"},  // tests/cli/improve_test
-    {"dresslife-sim JOB.yaml -o motion.h5",
-     "dresslife-sim CONFIG/jobs/irb6640_spot_welding.yaml -o motion.h5" + quick},
+    {"dresslife-sim JOB.yaml -o motion.h5", "dresslife-sim CONFIG/jobs/irb6640_spot_welding.yaml -o motion.h5" + quick},
     {"dresslife-strain motion.h5 -o strain.h5", "dresslife-strain motion.h5 -o strain.h5"},
-    {"dresslife-fatigue strain.h5 -o life.h5",
-     "not run"},  // its page comes before the page that makes strain.h5
+    {"dresslife-fatigue strain.h5 -o life.h5", "not run"},  // its page comes before the page that makes strain.h5
     {"dresslife validate config/observations/published.yaml", "dresslife validate two_published.yaml"},
     {"dresslife validate config/observations/ratings.yaml", "not run"},  // like the file before
     {"dresslife validate config/observations/laws.yaml", "dresslife validate CONFIG/observations/laws.yaml"},
@@ -96,11 +95,10 @@ const std::map<std::string, std::string> instead{
      "dresslife preview irb6640_spot_welding --set routing.free_length_m=1.6 -o short.html"},
     {"dresslife draw NAME -o FILE.svg", "dresslife draw handling -o handling.svg"},
     {"dresslife show JOB.yaml", "dresslife show irb6640_spot_welding"},
-    {"dresslife import PROGRAM -o motion.yaml",
-     "dresslife import CONFIG/programs/pick_and_place.src -o motion.yaml"},
-    {"dresslife import LOG.csv --log JOB.yaml -o shift.yaml", "not run"},  // tests/cli/log_test
+    {"dresslife import PROGRAM -o motion.yaml", "dresslife import CONFIG/programs/pick_and_place.src -o motion.yaml"},
+    {"dresslife import LOG.csv --log JOB.yaml -o shift.yaml", "not run"},       // tests/cli/log_test
     {"dresslife export runs/two_robots/hard --paraview hard.xdmf", "not run"},  // tests/cli/paraview_test
-    {"dresslife plot JOB --what bending", "not run"},  // tests/cli/plot_test
+    {"dresslife plot JOB --what bending", "not run"},                           // tests/cli/plot_test
     {"dresslife show FILE.h5", "dresslife show motion.h5"},
     {"dresslife submit STUDY", "not run"},  // needs a cluster: tests/pipeline/study
     {"dresslife run --launcher WORDS", "not run"},
@@ -139,8 +137,7 @@ std::vector<Piece> pieces_of(const fs::path& page) {
     } else if (yaml) {
       pieces.back().text += line + "\n";
     } else if (fenced || line.starts_with("    ")) {
-      if (const std::string command = command_of(line); !command.empty())
-        pieces.push_back({false, command, number});
+      if (const std::string command = command_of(line); !command.empty()) pieces.push_back({false, command, number});
     } else {
       for (std::sregex_iterator found(line.begin(), line.end(), quoted), end; found != end; ++found)
         if (const std::string command = command_of((*found)[1]); !command.empty())
@@ -222,8 +219,8 @@ void check_program(const std::string& command) {
 /// Runs a command of a page, or its substitute.
 void try_command(const Scratch& scratch, const std::string& command) {
   const auto known = instead.find(command);
-  const bool bare = command.find(' ') == command.rfind(' ') && command.find_first_of(".=/ ", command.find(' ') + 1) ==
-                                                                    std::string::npos;
+  const bool bare = command.find(' ') == command.rfind(' ') &&
+                    command.find_first_of(".=/ ", command.find(' ') + 1) == std::string::npos;
   if (known == instead.end() && (bare || command.starts_with("scripts/"))) return check_program(command);
   INFO("a page's command that this test does not know: add it to `instead`");
   REQUIRE(known != instead.end());
@@ -235,8 +232,9 @@ void try_command(const Scratch& scratch, const std::string& command) {
   INFO(outcome.out);
   INFO(outcome.err);
   // A routing with fast settings may exceed a limit. Then `improve` ends with 1 and reports that no other job keeps them.
-  CHECK((outcome.status == 0 || (outcome.status == 1 && command.find("improve") != std::string::npos &&
-                                 outcome.out.find("No other job that keeps all limits was found") != std::string::npos)));
+  CHECK(
+      (outcome.status == 0 || (outcome.status == 1 && command.find("improve") != std::string::npos &&
+                               outcome.out.find("No other job that keeps all limits was found") != std::string::npos)));
 }
 
 }  // namespace

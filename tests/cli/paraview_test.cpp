@@ -90,8 +90,8 @@ Read read_by_paraview(const Scratch& scratch) {
 }
 
 /// Returns the numbers `first`, `first` + `stride`, ... of a row of `width` numbers.
-std::vector<double> part(const std::vector<double>& all, std::size_t row, std::size_t width,
-                         std::size_t first = 0, std::size_t stride = 1) {
+std::vector<double> part(const std::vector<double>& all, std::size_t row, std::size_t width, std::size_t first = 0,
+                         std::size_t stride = 1) {
   std::vector<double> taken;
   for (std::size_t k = row * width + first; k < (row + 1) * width; k += stride) taken.push_back(all[k]);
   return taken;
@@ -116,8 +116,7 @@ TEST_CASE("ParaView reads every moment of a job: places, fields and links as its
              tension = motion.read<double>("/tension"), pose = motion.read<double>("/robot/link_pose"),
              curvature = strain.read<double>("/deformation/curvature"),
              twist = strain.read<double>("/deformation/twist"),
-             elongation = strain.read<double>("/deformation/elongation"),
-             damage = life.read<double>("/segment/damage");
+             elongation = strain.read<double>("/deformation/elongation"), damage = life.read<double>("/segment/damage");
   REQUIRE(read.times.size() == times.size());
   const std::size_t segments = damage.size();
   REQUIRE(segments == 16);
@@ -142,10 +141,9 @@ TEST_CASE("ParaView reads every moment of a job: places, fields and links as its
     const Eigen::Quaterniond turned(p[3], p[4], p[5], p[6]);
     const Eigen::Vector3d at(p[0], p[1], p[2]);
     for (const auto& [point, own] : {std::pair{0, capsule[0]}, {1, capsule[1]}, {2, corner}})
-      REQUIRE(
-          (Eigen::Map<const Eigen::Vector3d>(&links[3 * static_cast<std::size_t>(point)]) - at - turned * own)
-              .cwiseAbs()
-              .maxCoeff() < text_rounding);
+      REQUIRE((Eigen::Map<const Eigen::Vector3d>(&links[3 * static_cast<std::size_t>(point)]) - at - turned * own)
+                  .cwiseAbs()
+                  .maxCoeff() < text_rounding);
     farthest = std::max(farthest, std::abs(links[1] - read.rows.at("robot places")[0][1]));
     REQUIRE(row("robot link") == std::vector<double>{1, 1});
     REQUIRE(row("robot radius_[m]")[0] == Approx(0.05).epsilon(1e-6));

@@ -16,11 +16,9 @@ TEST_CASE("plot draws each figure of a job into a file that needs no page") {
   const std::string job = "runs/job/job";
   const std::pair<std::string, std::string> figures[] = {
       {"strain", "class=\"curve\""},      {"cycles", "class=\"bar\""},      {"damage", "class=\"bar-hot\""},
-      {"deformation", "class=\"curve\""}, {"curvature", "class=\"curve\""},
-      {"scene", "class=\"hose-hot\""}};
+      {"deformation", "class=\"curve\""}, {"curvature", "class=\"curve\""}, {"scene", "class=\"hose-hot\""}};
   for (const auto& [what, draws] : figures) {
-    const Outcome drawn =
-        run(scratch, "dresslife", "plot " + job + " --what " + what + " -o " + what + ".svg");
+    const Outcome drawn = run(scratch, "dresslife", "plot " + job + " --what " + what + " -o " + what + ".svg");
     INFO(what << drawn.err);
     CHECK(drawn.status == 0);
     const std::string picture = unmarked_content(scratch / (what + ".svg"));
@@ -36,9 +34,7 @@ TEST_CASE("plot draws each figure of a job into a file that needs no page") {
   CHECK(content(scratch / "gone.svg").find(", straight between its turning points") != std::string::npos);
   fs::rename(scratch / "away.h5", scratch / "runs/job/job/strain.h5");
   // Any file of a job represents its folder.
-  CHECK(
-      run(scratch, "dresslife", "plot " + job + "/strain.h5 --what deformation --time 0.5 -o d.svg").status ==
-      0);
+  CHECK(run(scratch, "dresslife", "plot " + job + "/strain.h5 --what deformation --time 0.5 -o d.svg").status == 0);
   CHECK(content(scratch / "d.svg").find("at 0.50 s") != std::string::npos);
 
   const Outcome no_result = run(scratch, "dresslife", "plot job.yaml --what strain -o s.svg");
@@ -55,11 +51,13 @@ TEST_CASE("plot draws the moment over curvature of a hose and its cable") {
   write_small_job(scratch);
   must_run(scratch, "dresslife", "run job.yaml --quiet");
   const std::string plot = "plot runs/job/job --what bending -o bending.svg";
-  CHECK(run(scratch, "dresslife", plot).err.find("strain.h5: error: comes from a job without friction in its cables (strain.slip); set") !=
+  CHECK(run(scratch, "dresslife", plot)
+            .err.find("strain.h5: error: comes from a job without friction in its cables (strain.slip); set") !=
         std::string::npos);
   scratch.write("dresspacks/thin.yaml", thin_hose);
-  must_run(scratch, "dresslife", "run job.yaml --quiet --set strain.slip=friction --set dresspack=thin --set uncertainty.enabled=false "
-                                  "--set simulation.sample_rate_Hz=20");
+  must_run(scratch, "dresslife",
+           "run job.yaml --quiet --set strain.slip=friction --set dresspack=thin --set uncertainty.enabled=false "
+           "--set simulation.sample_rate_Hz=20");
   must_run(scratch, "dresslife", plot);
   // E I without friction: the polymer, and six wires of copper, each about its own axis on a lay of 15 degrees (within 1 % of
   // the sum). Held wires have E A R^2/2 in addition.
@@ -69,15 +67,15 @@ TEST_CASE("plot draws the moment over curvature of a hose and its cable") {
                wire = 117e9 * pi / 4 * std::pow(1e-4, 4);
   CHECK(std::stod(bending.substr(bending.find(words) + words.size())) == Approx(polymer + 6 * wire).epsilon(0.01));
   const double held = std::stod(bending.substr(bending.find("sliding, ", bending.find(words)) + 9));
-  CHECK(held == Approx(polymer + 6 * (wire + 117e9 * pi * 1e-8 * 1e-6 / 2 * std::pow(std::cos(pi / 12), 3))).epsilon(0.05));
+  CHECK(held ==
+        Approx(polymer + 6 * (wire + 117e9 * pi * 1e-8 * 1e-6 / 2 * std::pow(std::cos(pi / 12), 3))).epsilon(0.05));
 }
 
 TEST_CASE("show reports what lies in a file, with shapes, units, ranges and meanings") {
   Scratch scratch;
   write_small_job(scratch);
   must_run(scratch, "dresslife", "run job.yaml --quiet");
-  for (const auto& [kind, version] :
-       {std::pair<std::string, int>{"motion", 1}, {"strain", 2}, {"life", 1}}) {
+  for (const auto& [kind, version] : {std::pair<std::string, int>{"motion", 1}, {"strain", 2}, {"life", 1}}) {
     const Outcome shown = run(scratch, "dresslife", "show runs/job/job/" + kind + ".h5");
     INFO(shown.err);
     CHECK(shown.status == 0);
@@ -99,12 +97,10 @@ TEST_CASE("export names every moment for ParaView, and writes over no file but i
   must_run(scratch, "dresslife", "export runs/job/job --paraview job.xdmf");
   const std::string text = content(scratch / "job.xdmf");
   std::size_t moments = 0;
-  for (std::size_t at = text.find("<Time "); at != std::string::npos; at = text.find("<Time ", at + 1))
-    ++moments;
+  for (std::size_t at = text.find("<Time "); at != std::string::npos; at = text.find("<Time ", at + 1)) ++moments;
   const std::string samples = run(scratch, "dresslife", "show runs/job/job/motion.h5").out;
   CHECK(samples.find("(sample " + std::to_string(moments) + ")") != std::string::npos);
-  for (const std::string dataset :
-       {"motion.h5:/tension", "strain.h5:/deformation/twist", "life.h5:/segment/damage"})
+  for (const std::string dataset : {"motion.h5:/tension", "strain.h5:/deformation/twist", "life.h5:/segment/damage"})
     CHECK(text.find("runs/job/job/" + dataset) != std::string::npos);
   CHECK(run(scratch, "dresslife", "export runs/job/job --paraview job.yaml").status == 1);
   scratch.write("mine.xdmf", "keep: me\n");

@@ -32,8 +32,7 @@ TEST_CASE("preview reports how far the clamps are apart and which lengths suit")
   CHECK(run(scratch, "dresslife", "preview job.yaml").status == 0);
   const Outcome over = run(scratch, "dresslife", "preview job.yaml -o job.yaml");
   CHECK(over.status == 1);
-  CHECK(over.err ==
-        "job.yaml: error: is one of the files that are read; name another place with -o\n");
+  CHECK(over.err == "job.yaml: error: is one of the files that are read; name another place with -o\n");
   const Outcome wrong = run(scratch, "dresslife", "preview job.yaml --set routing.free_length_m=-1");
   CHECK(wrong.status == 1);
   CHECK(wrong.err.find("routing.free_length_m is -1") != std::string::npos);
@@ -127,10 +126,11 @@ TEST_CASE("a click on a link shows a clamp there, and a clamp that is dragged re
   if (seen.empty()) return;
   INFO(seen);
   CHECK(seen.find("\"problems\":[]") != std::string::npos);
-  CHECK_THAT(seen, Catch::Contains("base_clamp: {link: link_3, position_m: [-0.1, 0, 0.45], direction: [0.912, 0, 0.41]}") &&
-                       Catch::Contains("m apart, farthest at ") && Catch::Contains("2.035 m is long enough") &&
-                       Catch::Contains("base_clamp: {link: link_2, position_m: [") && Catch::Contains(" | true | ") &&
-                       Catch::Contains("tool_clamp: {link: link_5, position_m: [") && Catch::Contains("clearance "));
+  CHECK_THAT(seen,
+             Catch::Contains("base_clamp: {link: link_3, position_m: [-0.1, 0, 0.45], direction: [0.912, 0, 0.41]}") &&
+                 Catch::Contains("m apart, farthest at ") && Catch::Contains("2.035 m is long enough") &&
+                 Catch::Contains("base_clamp: {link: link_2, position_m: [") && Catch::Contains(" | true | ") &&
+                 Catch::Contains("tool_clamp: {link: link_5, position_m: [") && Catch::Contains("clearance "));
 }
 
 TEST_CASE("a run shows the jobs that the simulation refuses, until they are mended") {
@@ -167,9 +167,8 @@ TEST_CASE("the preview's file: curves of the right length from clamp to clamp") 
              fmt::format("job.yaml --preview -o preview.h5 --set simulation.segments={}", segments));
     const FileReader file(scratch / "preview.h5", preview_format());
     CHECK(file.text_attribute("refusal").empty());
-    const auto centres = file.read<double>("/segment/position"),
-               clamps = file.read<double>("/clamp/position"), ways = file.read<double>("/span/way"),
-               times = file.read<double>("/time");
+    const auto centres = file.read<double>("/segment/position"), clamps = file.read<double>("/clamp/position"),
+               ways = file.read<double>("/span/way"), times = file.read<double>("/time");
     REQUIRE(ways.size() == times.size());
     CHECK(times.front() == 0);
     CHECK(times.back() == Approx(1));

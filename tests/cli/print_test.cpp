@@ -78,8 +78,8 @@ void check_page(const Scratch& scratch, const std::string& page) {
   INFO(page);
   const std::string seen =
       in_browser(scratch, page,
-                 fmt::format("{}{}const paper = await settled();\n{}return paper + ' | ' + await settled();",
-                             faults, on_paper, on_a_phone));
+                 fmt::format("{}{}const paper = await settled();\n{}return paper + ' | ' + await settled();", faults,
+                             on_paper, on_a_phone));
   if (seen.empty()) return;
   INFO(seen);
   CHECK(result_of(seen) == " | ");
@@ -106,9 +106,9 @@ TEST_CASE("the page of an improvement can be printed and read on a phone, its ch
   dresslife::pipeline::ImprovementStory story;
   story.name = "hose";
   story.second_title = "free length [m]";
-  story.changes = {
-      {"dresspack.components.1.routing.base_clamp.position_m", "[0.1, 0.2, 0.3]", "[0.15, 0.2, 0.3]"}};
-  story.before = story.after = ImprovementStory::Lives{"", "all kept", "jacket wear from 5,890 h, abrasion of the outer hose from 25,000 h", 100, 1000, 1e9};
+  story.changes = {{"dresspack.components.1.routing.base_clamp.position_m", "[0.1, 0.2, 0.3]", "[0.15, 0.2, 0.3]"}};
+  story.before = story.after = ImprovementStory::Lives{
+      "", "all kept", "jacket wear from 5,890 h, abrasion of the outer hose from 25,000 h", 100, 1000, 1e9};
   for (int trial = 0; trial < 60; ++trial)
     story.points.push_back({trial, true, trial % 3 != 0, 100.0 * (1 + trial * 37 % 60), "bend radius"});
   story.front = {{2.0, 100}, {2.1, 2000}, {2.2, 4000}};
@@ -122,14 +122,18 @@ TEST_CASE("the pages of a plan and of duties can be sorted, printed and read on 
   Scratch scratch;
   LifeTable table{2, 100, {}, 40000, 80};
   for (const double scale : {2000.0, 9000.0})
-    for (int d = 0; d < 100; ++d) table.hours.push_back(static_cast<float>(scale * std::pow(-std::log1p(-(d + 0.5) / 100), 0.4)));
+    for (int d = 0; d < 100; ++d)
+      table.hours.push_back(static_cast<float>(scale * std::pow(-std::log1p(-(d + 0.5) / 100), 0.4)));
   Fleet fleet;
   fleet.has_costs = true;
   const Day today = *day_from("2026-11-23");
   for (int i = 0; i < 120; ++i)
-    fleet.rows.push_back({{}, fmt::format("robot with a long name in hall {}", i), "day", today - std::chrono::days(3 * i), {}, 1, 10});
-  const Plan plan = plan_of(fleet, {{"day", table}}, windows_from("2027-02-12..2027-02-21,2027-07-12", today), today, {0.1, true});
-  scratch.write("plan.html", plan_page("line", fleet, plan, {{"A doubt."}, "Saves:\n  10  a\n", {"A note."}}, "plan.csv"));
+    fleet.rows.push_back(
+        {{}, fmt::format("robot with a long name in hall {}", i), "day", today - std::chrono::days(3 * i), {}, 1, 10});
+  const Plan plan =
+      plan_of(fleet, {{"day", table}}, windows_from("2027-02-12..2027-02-21,2027-07-12", today), today, {0.1, true});
+  scratch.write("plan.html",
+                plan_page("line", fleet, plan, {{"A doubt."}, "Saves:\n  10  a\n", {"A note."}}, "plan.csv"));
   check_page(scratch, "plan.html");
   const std::string sorted = in_browser(scratch, "plan.html", R"(
     const first = () => evaluate(`document.querySelector('#ranking tbody tr').cells[1].textContent.split(' ').pop()`);
@@ -141,10 +145,16 @@ TEST_CASE("the pages of a plan and of duties can be sorted, printed and read on 
     return seen.join(' ');)");
   if (!sorted.empty()) CHECK(result_of(sorted) == "119 0");  // by age
   DutyResult duty;
-  duty.name = "day", duty.robot_life_hours = 40000, duty.modes = {"wires"}, duty.damage.same_place = {1}, duty.changes = {1};
+  duty.name = "day", duty.robot_life_hours = 40000, duty.modes = {"wires"}, duty.damage.same_place = {1},
+  duty.changes = {1};
   duty.lives.percentiles = {900, 20000, 3e6}, duty.lives.share = {0.9, 0.1};
   for (const char* job : {"a_program_with_a_name_that_is_long", "idle"})
-    duty.parts.push_back({job, 5, 0.3, {1e3, 1e4, HUGE_VAL}, {500, 1e4, 2e6}, {{0, {1e3, 1e4, HUGE_VAL}}, {0.3, {900, 20000, 3e6}}, {0.6, {450, 1e4, 1e6}}}});
+    duty.parts.push_back({job,
+                          5,
+                          0.3,
+                          {1e3, 1e4, HUGE_VAL},
+                          {500, 1e4, 2e6},
+                          {{0, {1e3, 1e4, HUGE_VAL}}, {0.3, {900, 20000, 3e6}}, {0.6, {450, 1e4, 1e6}}}});
   scratch.write("duty.html", duty_page("line", {duty}, "duty.csv"));
   check_page(scratch, "duty.html");
 }

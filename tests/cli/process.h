@@ -49,9 +49,7 @@ inline int rounds(int times) {
 }
 
 /// Returns a file's text after its first line, the mark of ownership.
-inline std::string unmarked_content(const fs::path& file) {
-  return std::string(pipeline::without_mark(content(file)));
-}
+inline std::string unmarked_content(const fs::path& file) { return std::string(pipeline::without_mark(content(file))); }
 
 /// Writes job.yaml: a fast job without a robot. A short cable hangs between two clamps, one of which swings for one second.
 void write_small_job(const Scratch& scratch);

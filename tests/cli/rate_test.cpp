@@ -85,8 +85,8 @@ TEST_CASE("rate: a cable's lives in every shipped rig stand beside its maker's r
   CHECK(life("rating_1") < life("torsion"));
   CHECK(run(scratch, "dresslife", "rate lead.yaml").err.find(" ran\n") == std::string::npos);
 
-  scratch.write("hose.yaml", std::string(cable).substr(0, std::string(cable).find("components:")) +
-                                 "inner_diameter_mm: 5\n");
+  scratch.write("hose.yaml",
+                std::string(cable).substr(0, std::string(cable).find("components:")) + "inner_diameter_mm: 5\n");
   const Outcome empty = run(scratch, "dresslife", "rate hose.yaml");
   CHECK(empty.status == 1);
   CHECK(empty.err.find("hose.yaml: error: holds no cable (a part that holds parts); name another") !=
@@ -177,15 +177,13 @@ TEST_CASE("validate: run-outs and breaks are judged, and a model without a failu
   };
   CHECK(refused("observations: []\n").find("holds no observations; write 'observations:' and a list") !=
         std::string::npos);
-  CHECK(
-      refused("observations:\n" + one("x", "    outcome: broken\n"))
-          .find(
-              "'x' must have either cycles or hours (or stiffness_Nm2, decrement or bending); give one of them") !=
-      std::string::npos);
+  CHECK(refused("observations:\n" + one("x", "    outcome: broken\n"))
+            .find("'x' must have either cycles or hours (or stiffness_Nm2, decrement or bending); give one of them") !=
+        std::string::npos);
   CHECK(refused("observations:\n" + one("a", "    cycles: 5\n") + one("a", "    cycles: 5\n"))
             .find("two observations are named 'a'") != std::string::npos);
-  CHECK(refused("observations:\n" + one("a/b", "    cycles: 5\n"))
-            .find("is not made of letters, digits and _") != std::string::npos);
+  CHECK(refused("observations:\n" + one("a/b", "    cycles: 5\n")).find("is not made of letters, digits and _") !=
+        std::string::npos);
 }
 
 TEST_CASE("validate: the shipped table is what the code says") {
@@ -195,7 +193,8 @@ TEST_CASE("validate: the shipped table is what the code says") {
                           content(source + "/config/observations/ratings.yaml");
   Scratch scratch;
   std::string some = "observations:\n";
-  const std::vector<std::string> names{"wire_limit", "sheet_76_MPa", "wire_300_MPa", "clip_5_deg", "seventh_axis_torsion"};
+  const std::vector<std::string> names{"wire_limit", "sheet_76_MPa", "wire_300_MPa", "clip_5_deg",
+                                       "seventh_axis_torsion"};
   for (const std::string& name : names) {
     const std::size_t at = all.find("  - name: " + name + "\n");
     REQUIRE(at != std::string::npos);

@@ -26,8 +26,8 @@ std::string rating(int twist, const std::string& cycles) {
 /// Returns a job with a cable in torsion, and its ratings.
 std::string twisted(int twist, const std::string& ratings) {
   return "motion: {rig: {kind: torsion, twist_deg_per_m: " + std::to_string(twist) +
-         "}}\ndresspack: {cable: {name: lead, source: test, radius_mm: 3, components: [" + core(3) +
-         "], ratings: [" + ratings + "]}}\n";
+         "}}\ndresspack: {cable: {name: lead, source: test, radius_mm: 3, components: [" + core(3) + "], ratings: [" +
+         ratings + "]}}\n";
 }
 
 struct Relative {
@@ -65,8 +65,7 @@ Relative run_one(const Scratch& scratch, const std::string& name, const std::str
 
 }  // namespace
 
-TEST_CASE(
-    "relative life: a program that is the rig itself does one rated cycle per cycle, whatever the settings") {
+TEST_CASE("relative life: a program that is the rig itself does one rated cycle per cycle, whatever the settings") {
   Scratch scratch;
   for (const std::string settings :
        {"",
@@ -82,8 +81,7 @@ TEST_CASE(
   // Nothing is computed twice, and commands that only report print the same.
   CHECK(run(scratch, "dresslife", "run own.yaml").err.find("own: nothing to do") != std::string::npos);
   const std::string before = content(scratch / "runs/own/ranking.csv");
-  CHECK(run(scratch, "dresslife", "report own.yaml").out.find("1,800 rated cycles of lead") !=
-        std::string::npos);
+  CHECK(run(scratch, "dresslife", "report own.yaml").out.find("1,800 rated cycles of lead") != std::string::npos);
   CHECK(content(scratch / "runs/own/ranking.csv") == before);
 }
 

@@ -13,9 +13,9 @@ namespace {
 /// Returns the number of receipts of stages below a folder; 0: no stage has run.
 std::size_t results_in(const fs::path& folder) {
   if (!fs::exists(folder)) return 0;
-  return static_cast<std::size_t>(
-      std::count_if(fs::recursive_directory_iterator(folder), {},
-                    [](const auto& entry) { return entry.path().extension() == ".receipt"; }));
+  return static_cast<std::size_t>(std::count_if(fs::recursive_directory_iterator(folder), {}, [](const auto& entry) {
+    return entry.path().extension() == ".receipt";
+  }));
 }
 
 }  // namespace
@@ -53,8 +53,9 @@ TEST_CASE("route writes a job that runs, from a robot and a hose") {
         "name another place with -o, or replace it with --force\n");
 
   // The job's own routing is no answer to the question for another link.
-  const Outcome other = must_run(scratch, "dresslife",
-                                 "route found.yaml --from link_4 --scale 1 --tried 60 --short-runs 15 --off 0 --quiet --job other.yaml");
+  const Outcome other =
+      must_run(scratch, "dresslife",
+               "route found.yaml --from link_4 --scale 1 --tried 60 --short-runs 15 --off 0 --quiet --job other.yaml");
   INFO(other.out << other.err);
   CHECK(other.out.find("base_clamp: {link: link_4, ") == 0);
   CHECK(other.out.find("own routing") == std::string::npos);
@@ -71,16 +72,14 @@ TEST_CASE("route finds clamps for a shipped hose that keep all limits in the who
   CHECK(told.out.find("one of the same make at 50 % of its size, 30 mm wide") != std::string::npos);
   CHECK(told.out.find("It keeps all limits in a run") != std::string::npos);
   // The job keeps the bracket's limit, and its preview checks it.
-  CHECK_THAT(content(scratch / "abb_irb4600_60_205_routed.yaml"),
-             Catch::Contains("longest_bracket_mm: 145\n"));
-  CHECK_THAT(content(scratch / "abb_irb4600_60_205_routed_preview.html"),
-             Catch::Contains("\"most_bracket\":0.145"));
+  CHECK_THAT(content(scratch / "abb_irb4600_60_205_routed.yaml"), Catch::Contains("longest_bracket_mm: 145\n"));
+  CHECK_THAT(content(scratch / "abb_irb4600_60_205_routed_preview.html"), Catch::Contains("\"most_bracket\":0.145"));
 }
 
 TEST_CASE("route refuses what it cannot route") {
   Scratch scratch;
-  CHECK(run(scratch, "dresslife", "route nothing_like_it")
-            .err.find("'nothing_like_it' is not in the catalogue") != std::string::npos);
+  CHECK(run(scratch, "dresslife", "route nothing_like_it").err.find("'nothing_like_it' is not in the catalogue") !=
+        std::string::npos);
   CHECK(run(scratch, "dresslife", "route abb_irb2600_12_165 --scale big").err ==
         "--scale: error: 'big' is neither auto nor a number from 0.05 to 2; write one\n");
   CHECK(run(scratch, "dresslife", "route abb_irb2600_12_165 --ring link_9 --scale 1").status == 1);
@@ -98,10 +97,8 @@ TEST_CASE("route and improve refuse a cable that no routing can give room, befor
     CHECK(told.status == 1);
     CHECK(told.out.empty());
     CHECK_THAT(told.err,
-               Catch::StartsWith(
-                   "hose.yaml:13:5: error: no routing can keep the limits: 'cable' is compressed with "));
-    CHECK_THAT(told.err, Catch::Contains(" % of its breaking force (") &&
-                             Catch::Contains("Remedy: slack_percent: ") &&
+               Catch::StartsWith("hose.yaml:13:5: error: no routing can keep the limits: 'cable' is compressed with "));
+    CHECK_THAT(told.err, Catch::Contains(" % of its breaking force (") && Catch::Contains("Remedy: slack_percent: ") &&
                              Catch::Contains("; correct the dresspack before the search\n"));
     CHECK_FALSE(fs::exists(scratch / "found.yaml"));
     for (const char* folder : {"runs/abb_irb2600_12_165_route", "runs/job_improve"})
@@ -109,8 +106,7 @@ TEST_CASE("route and improve refuse a cable that no routing can give room, befor
   };
   const std::string quick =
       " --scale 1 --tried 20 --short-runs 4 --off 0 --quiet --set simulation.segments=12 --set uncertainty.enabled=false";
-  refused(
-      run(scratch, "dresslife", "route abb_irb2600_12_165 --dresspack ./hose.yaml --job found.yaml" + quick));
+  refused(run(scratch, "dresslife", "route abb_irb2600_12_165 --dresspack ./hose.yaml --job found.yaml" + quick));
   const std::string job = R"(robot: abb_irb2600_12_165
 motion: {name: nod, source: mine, steps: [{joints_deg: [0, 0, 0, 0, 30, 0]}, {joints_deg: [20, 0, 0, 0, 60, 90]}]}
 dresspack: ./hose.yaml
@@ -137,8 +133,7 @@ uncertainty: {enabled: false}
   for (const char* cure : {"./hose.yaml --set dresspack.components.1.slack_percent=5.8",
                            "./hose.yaml --set strain.slip=stick", "./sound.yaml"}) {
     const Outcome cured =
-        run(scratch, "dresslife",
-            std::string("route abb_irb2600_12_165 --job found.yaml --dresspack ") + cure + quick);
+        run(scratch, "dresslife", std::string("route abb_irb2600_12_165 --job found.yaml --dresspack ") + cure + quick);
     INFO(cured.err);
     CHECK_THAT(cured.err, !Catch::Contains("no routing can keep the limits"));
     CHECK(fs::exists(scratch / "found.yaml"));
@@ -159,10 +154,9 @@ TEST_CASE("a search that ends without a routing names the limit that decides, an
   INFO(failed.err);
   CHECK(failed.status == 1);
   CHECK_FALSE(fs::exists(scratch / "found.yaml"));
-  CHECK_THAT(
-      failed.err,
-      Catch::Contains("error: no routing was found that runs; the limit that decides: bend radius, ") &&
-          Catch::Contains(" mm of at least 3000 mm; "));
+  CHECK_THAT(failed.err,
+             Catch::Contains("error: no routing was found that runs; the limit that decides: bend radius, ") &&
+                 Catch::Contains(" mm of at least 3000 mm; "));
   const std::string key = "dresspack.least_bend_radius_mm: ";
   const std::size_t at = failed.err.find(key);
   REQUIRE(at != std::string::npos);
@@ -179,9 +173,8 @@ TEST_CASE("a search that ends without a routing names the limit that decides, an
 TEST_CASE("screen grades every change of a job, and says which is no job") {
   Scratch scratch;
   write_small_job(scratch);
-  scratch.write(
-      "list.yaml",
-      "- {routing.free_length_m: 0.9}\n- {routing.free_length_m: 0.7}\n- {routing.free_length_m: -1}\n");
+  scratch.write("list.yaml",
+                "- {routing.free_length_m: 0.9}\n- {routing.free_length_m: 0.7}\n- {routing.free_length_m: -1}\n");
   must_run(scratch, "dresslife-sim", "job.yaml --screen list.yaml -o screening.h5 --quiet");
   const Outcome shown = run(scratch, "dresslife", "show screening.h5");
   INFO(shown.out + shown.err);
@@ -209,12 +202,11 @@ TEST_CASE("screen grades every change of a job, and says which is no job") {
   REQUIRE(bends.size() == 3 * static_cast<std::size_t>(row));
   CHECK(*std::max_element(bends.begin(), bends.begin() + row) ==
         Approx(in_a_run[bend]).margin(0.02));  // the run also checks between samples
-  CHECK(std::all_of(bends.begin() + row, bends.end(),
-                    [](double g) { return g == 0; }));  // of candidates that do not run
+  CHECK(
+      std::all_of(bends.begin() + row, bends.end(), [](double g) { return g == 0; }));  // of candidates that do not run
   CHECK(std::vector(in_a_run.begin() + limits, in_a_run.end()) ==
         std::vector(by_geometry.begin() + limits, by_geometry.end()));
-  const auto refused =
-      FileReader(scratch / "screening.h5", screening_format()).read<std::string>("/candidate/refusal");
+  const auto refused = FileReader(scratch / "screening.h5", screening_format()).read<std::string>("/candidate/refusal");
   CHECK(refused[0].empty());
   CHECK(refused[1].find("too short") != std::string::npos);
   CHECK(run(scratch, "dresslife-sim", "job.yaml --screen job.yaml -o screening.h5 --quiet").status == 1);

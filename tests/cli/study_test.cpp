@@ -25,9 +25,7 @@ TEST_CASE("a study runs every job, and again only what changed") {
   Scratch scratch;
   write_small_job(scratch);
   scratch.write("study.yaml", study_text);
-  auto run_study = [&](const std::string& more = "") {
-    return run(scratch, "dresslife", "run study.yaml " + more);
-  };
+  auto run_study = [&](const std::string& more = "") { return run(scratch, "dresslife", "run study.yaml " + more); };
 
   const Outcome first = run_study();
   INFO(first.err << first.out);
@@ -39,15 +37,13 @@ TEST_CASE("a study runs every job, and again only what changed") {
   for (const std::string file : {"ranking.csv", "report.html", "build.ninja"})
     CHECK(fs::exists(scratch / ("runs/study/" + file)));
   CHECK(content(scratch / "runs/study/ranking.csv")
-            .rfind("job,life_repeats,life_hours,worst_segment_from_tool,worst_component,damage_per_repeat",
-                   0) == 0);
+            .rfind("job,life_repeats,life_hours,worst_segment_from_tool,worst_component,damage_per_repeat", 0) == 0);
   CHECK(first.out.find("runs/study/report.html") != std::string::npos);
   // The picture of the worst time shows every segment once, in two halves, with one segment marked.
   const std::string report = content(scratch / "runs/study/report.html");
   const auto count = [&](const std::string& words) {
     int found = 0;
-    for (std::size_t at = report.find(words); at != std::string::npos; at = report.find(words, at + 1))
-      ++found;
+    for (std::size_t at = report.find(words); at != std::string::npos; at = report.find(words, at + 1)) ++found;
     return found;
   };
   CHECK(count("<line class=\"hose-hot\"") == 2 * 2);
@@ -86,7 +82,8 @@ TEST_CASE("a dry run of a new study makes nothing") {
   const Outcome dry = run(scratch, "dresslife", "run -n study.yaml");
   CHECK(dry.status == 0);
   CHECK(dry.out.find("2 of 2 jobs to make; nothing was run\n") != std::string::npos);
-  CHECK(run(scratch, "dresslife", "run -n --shard 2/2 study.yaml").out.find("1 of 1 jobs to make") != std::string::npos);
+  CHECK(run(scratch, "dresslife", "run -n --shard 2/2 study.yaml").out.find("1 of 1 jobs to make") !=
+        std::string::npos);
   CHECK_FALSE(fs::exists(scratch / "runs"));
 }
 
@@ -176,8 +173,7 @@ TEST_CASE("a stale job keeps its last result, and status says which key, file or
   const std::string marked = report();
   CHECK(lives_of(marked) == lives_of(ranking));
   CHECK(marked.find(",done,") == std::string::npos);
-  CHECK(marked.find(",stale,stale: since this result fatigue.stress cyclic -> elastic,") !=
-        std::string::npos);
+  CHECK(marked.find(",stale,stale: since this result fatigue.stress cyclic -> elastic,") != std::string::npos);
   const std::string page = content(scratch / "runs/study/report.html");
   CHECK(page.find("2 stale") != std::string::npos);
   CHECK(page.find("Damage along the dresspack") != std::string::npos);
@@ -215,8 +211,7 @@ TEST_CASE("a study that cannot be read is refused with its place") {
     CHECK(outcome.err.find(words) == 0);
   };
   refused("vary: {motion: [a]}\n", "study.yaml:1:1: error: base is missing");
-  refused("base: job.yaml\nvery: {}\n",
-          "study.yaml:2:1: error: unknown key 'very' of a study; did you mean 'vary'?");
+  refused("base: job.yaml\nvery: {}\n", "study.yaml:2:1: error: unknown key 'very' of a study; did you mean 'vary'?");
   refused("base: job.yaml\nvary: {simulation.segments: 8}\n",
           "study.yaml:2:29: error: vary.simulation.segments must be a list of values");
   refused("base: none.yaml\n", "study.yaml:1:7: error: there is no file 'none.yaml'");
@@ -287,7 +282,8 @@ TEST_CASE("two files of one name do not replace each other's results") {
   // An edited file, a copy of all files at another place, and a moved file keep their folder.
   scratch.write("a/job.yaml", "# a remark\n" + content(scratch / "a/job.yaml"));
   CHECK(stages_ran(run(scratch, "dresslife", "run a/job.yaml")) == "0");
-  CHECK(run_shell(scratch, "mkdir copy && cp -rp a runs copy && cd copy && '" DRESSLIFE_BIN_DIR "/dresslife' status a/job.yaml")
+  CHECK(run_shell(scratch,
+                  "mkdir copy && cp -rp a runs copy && cd copy && '" DRESSLIFE_BIN_DIR "/dresslife' status a/job.yaml")
             .status == 0);
   fs::rename(scratch / "a", scratch / "moved");
   CHECK(run(scratch, "dresslife", "status moved/job.yaml").status == 0);
@@ -305,10 +301,12 @@ TEST_CASE("a stale result says what changed, also of settings that are not kept 
   scratch.write("lives.yaml", "base: job.yaml\nkeep: lives\njobs: {one: {}}\n");
   must_run(scratch, "dresslife", "run lives.yaml --quiet");
   scratch.write("job.yaml", job + "fatigue: {stress: elastic}\n");
-  CHECK(run(scratch, "dresslife", "status lives.yaml").out.find("stale    its settings have changed (keep: lives keeps no old ones)\n") !=
-        std::string::npos);
+  CHECK(run(scratch, "dresslife", "status lives.yaml")
+            .out.find("stale    its settings have changed (keep: lives keeps no old ones)\n") != std::string::npos);
 
-  scratch.write("weld.src", "DEF weld()\nPTP {A1 0,A2 -90,A3 90,A4 0,A5 60,A6 0}\nPTP {A1 20,A2 -90,A3 90,A4 0,A5 60,A6 0}\ngrip()\nEND\n");
+  scratch.write(
+      "weld.src",
+      "DEF weld()\nPTP {A1 0,A2 -90,A3 90,A4 0,A5 60,A6 0}\nPTP {A1 20,A2 -90,A3 90,A4 0,A5 60,A6 0}\ngrip()\nEND\n");
   scratch.write("cell.yaml",
                 "robot: kuka_kr16_2\nmotion: weld.src\ndresspack: sensor_cable\nrouting:\n"
                 "  base_clamp: {link: link_3, position_m: [0.083, 0.037, 0.191], direction: [0.87, 0.47, 0.17]}\n"
@@ -333,5 +331,6 @@ TEST_CASE("the preview of a job that failed says nothing beside the table's reas
   const Outcome failed = run(scratch, "dresslife", "run bad.yaml --quiet");
   CHECK(failed.status == 1);
   CHECK(failed.out.find("bad.src:2:11: error: ") != std::string::npos);
-  CHECK(failed.err == "bad.yaml: error: 1 of 1 jobs failed (their reasons are in the table); see the log in each job's folder\n");
+  CHECK(failed.err ==
+        "bad.yaml: error: 1 of 1 jobs failed (their reasons are in the table); see the log in each job's folder\n");
 }

@@ -45,13 +45,12 @@ void write_jobs(const Scratch& scratch) {
   scratch.write("cable.yaml", "motion: {clamp_poses: poses.csv}\n" + dresspack +
                                   "routing: {free_length_m: 0.9}\nsimulation: {" + small_steps +
                                   "}\nstrain: {slip: stick}\n");
-  scratch.write(
-      "spot.mod",
-      "MODULE spot\n"
-      "CONST jointtarget a:=[[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
-      "CONST jointtarget b:=[[5,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
-      "PROC main()\n  MoveAbsJ a,v1000,fine,tool0;\n  SpeedRefresh 0;\n  MoveAbsJ b,v1000,fine,tool0;\n"
-      "  MoveAbsJ a,v1000,fine,tool0;\nENDPROC\nENDMODULE\n");
+  scratch.write("spot.mod",
+                "MODULE spot\n"
+                "CONST jointtarget a:=[[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
+                "CONST jointtarget b:=[[5,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
+                "PROC main()\n  MoveAbsJ a,v1000,fine,tool0;\n  SpeedRefresh 0;\n  MoveAbsJ b,v1000,fine,tool0;\n"
+                "  MoveAbsJ a,v1000,fine,tool0;\nENDPROC\nENDMODULE\n");
   scratch.write("robot.yaml",
                 "robot: abb_irb6640_185_280\nmotion: {program: spot.mod}\n" + dresspack +
                     "routing:\n"
@@ -62,8 +61,7 @@ void write_jobs(const Scratch& scratch) {
 }
 
 std::vector<Warning> warnings_in(const fs::path& life) {
-  return warnings_from(
-      FileReader(life, life_format(), FileReader::Scope::attributes).text_attribute("warnings"));
+  return warnings_from(FileReader(life, life_format(), FileReader::Scope::attributes).text_attribute("warnings"));
 }
 
 /// Returns the lines of a job that the remedies of warnings propose: "strain.friction_factor: 2.5".
@@ -90,10 +88,11 @@ TEST_CASE("a warning on a setting appears when only this setting changes, and go
       if (warning.words.find(words) != std::string::npos) return true;
     return false;
   };
-  for (const auto& [set, words] : {std::pair<std::string, std::string>{"strain.gate=0.0003", "strain.gate is 0.0003"},
-                                   {"fatigue.endurance_strain=0.03", "fatigue.endurance_strain is 0.03"},
-                                   {"uncertainty.slack=80", "uncertainty.slack is 80"},
-                                   {"'dresspack.sleeve={thickness_mm: 0.001, material: polyurethane}'", "thickness_mm of the sleeve"}}) {
+  for (const auto& [set, words] :
+       {std::pair<std::string, std::string>{"strain.gate=0.0003", "strain.gate is 0.0003"},
+        {"fatigue.endurance_strain=0.03", "fatigue.endurance_strain is 0.03"},
+        {"uncertainty.slack=80", "uncertainty.slack is 80"},
+        {"'dresspack.sleeve={thickness_mm: 0.001, material: polyurethane}'", "thickness_mm of the sleeve"}}) {
     CAPTURE(set);
     CHECK_FALSE(warned("", words));
     CHECK(warned(" --set " + set, words));
@@ -104,8 +103,10 @@ TEST_CASE("a warning on a setting appears when only this setting changes, and go
 TEST_CASE("run names file, line and column of a setting that causes a warning") {
   Scratch scratch;
   write_small_job(scratch);
-  scratch.write("job.yaml", replaced_all(content(scratch / "job.yaml"), "strain: {slip: stick}", "strain: {slip: stick, gate: 0.0003}"));
-  CHECK_THAT(must_run(scratch, "dresslife", "run job.yaml").err, Contains("job: warning: job.yaml:24:29: strain.gate is 0.0003"));
+  scratch.write("job.yaml", replaced_all(content(scratch / "job.yaml"), "strain: {slip: stick}",
+                                         "strain: {slip: stick, gate: 0.0003}"));
+  CHECK_THAT(must_run(scratch, "dresslife", "run job.yaml").err,
+             Contains("job: warning: job.yaml:24:29: strain.gate is 0.0003"));
 }
 
 TEST_CASE("a remedy is a line that the job takes: of a shipped dresspack, of one of several, of a part of a cable") {
@@ -116,15 +117,17 @@ TEST_CASE("a remedy is a line that the job takes: of a shipped dresspack, of one
   const std::string shipped = job.substr(0, begin) + "dresspack: handling\n" + job.substr(routing);
   std::string nested = job.substr(routing, end - routing);
   for (std::size_t at = 0; (at = nested.find('\n', at)) != std::string::npos; at += 5) nested.replace(at, 1, "\n    ");
-  const std::string several =
-      job.substr(0, begin) + "dresspacks:\n  - name: main hose\n    dresspack: handling\n    " + nested + "\n" + job.substr(end);
+  const std::string several = job.substr(0, begin) + "dresspacks:\n  - name: main hose\n    dresspack: handling\n    " +
+                              nested + "\n" + job.substr(end);
   const auto tight = [](const std::string& pack) {  // no room for this slack
     return fmt::format("{0}.components.2.slack_percent: 2\n{0}.components.2.play_mm: 0.5\n", pack);
   };
   std::size_t pasted = 0;
-  for (const auto& [text, pack] : {std::pair{shipped, std::string("dresspack")}, {several, std::string("dresspacks.1.dresspack")}}) {
+  for (const auto& [text, pack] :
+       {std::pair{shipped, std::string("dresspack")}, {several, std::string("dresspacks.1.dresspack")}}) {
     scratch.write("job.yaml", text + tight(pack));
-    const Outcome before = run(scratch, "dresslife", "run job.yaml --set strain.slip=friction --set uncertainty.enabled=false");
+    const Outcome before =
+        run(scratch, "dresslife", "run job.yaml --set strain.slip=friction --set uncertainty.enabled=false");
     CAPTURE(text, before.out, before.err);
     REQUIRE(before.status == 0);
     CHECK(before.err.find(pack + ".components.2: 'control cable' is compressed with ") != std::string::npos);
@@ -149,12 +152,14 @@ TEST_CASE("a cable without slack: check proposes a value, with which neither che
   const Scratch scratch;
   write_jobs(scratch);
   const std::string job = content(scratch / "robot.yaml");
-  scratch.write("job.yaml", job.substr(0, job.find("dresspack:")) + "dresspack: handling\n" + job.substr(job.find("routing:")));
+  scratch.write("job.yaml",
+                job.substr(0, job.find("dresspack:")) + "dresspack: handling\n" + job.substr(job.find("routing:")));
   const std::string proposed = "dresspack.components.2.slack_percent: 1";
   for (const double slack : {0.0, 1.0}) {
-    const std::string sets =
-        fmt::format("job.yaml --set strain.slip=friction --set uncertainty.enabled=false --set strain.surface_fibres=0 "
-                    "--set strain.cable_elements_per_segment=1 --set dresspack.components.2.slack_percent={}", slack);
+    const std::string sets = fmt::format(
+        "job.yaml --set strain.slip=friction --set uncertainty.enabled=false --set strain.surface_fibres=0 "
+        "--set strain.cable_elements_per_segment=1 --set dresspack.components.2.slack_percent={}",
+        slack);
     const Outcome check = run(scratch, "dresslife", "check " + sets), ran = run(scratch, "dresslife", "run " + sets);
     CAPTURE(slack, check.out, ran.out, ran.err);
     CHECK(lines_in(check.out).contains(proposed) == (slack < 1));
@@ -173,8 +178,7 @@ TEST_CASE("every warning of a stage reaches its log, the terminal, ranking.csv a
       {"cable", "--set dresspack.most_tension_N=0.01 --set dresspack.bending_stiffness_Nm2=0.02", "tension",
        "largest tension: "},
       {"cable", "--set routing.free_length_m=1.3", "slack", "least slack, length too long"},
-      {"cable", "--set simulation.periodic_tolerance_mm=1e-9", "periodic",
-       "after 2 repeats the motion still begins"},
+      {"cable", "--set simulation.periodic_tolerance_mm=1e-9", "periodic", "after 2 repeats the motion still begins"},
       {"cable", "", "overlap", "the 66 parts 'wire' are 0.1839 mm apart"},
       {"robot", "", "force", "that is unrealistic: do not plan with the hours"},
       {"cable", "", "material", "material odd: K' 100 MPa"},

@@ -29,8 +29,7 @@ void make(const StageCall& call, const std::string& stage) {
   const fs::path folder = call.output.parent_path();
   std::ofstream(folder / "calls", std::ios::app) << stage << '\n';
   while (fs::exists(folder / ("wait-" + stage))) std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  if (fs::exists(folder / ("fail-" + stage)))
-    throw InputError({"job.yaml", 1, 1}, stage + " broke", "correct it");
+  if (fs::exists(folder / ("fail-" + stage))) throw InputError({"job.yaml", 1, 1}, stage + " broke", "correct it");
   if (fs::exists(folder / ("silent-" + stage))) std::_Exit(3);
   const Job job = read_job(call.info.input_is_job ? call.input : call.job_file, call.sets);
   std::string made = part_text(job, *call.info.part);
@@ -59,8 +58,7 @@ int main(int argc, char** argv) {
                                : stage == "strain" ? JobPart::strain
                                                    : JobPart::fatigue,
                        .results = [&](const fs::path& output) {
-                         return stage == "fatigue" ? results_in(output, life_format())
-                                                   : std::vector<ResultValue>();
+                         return stage == "fatigue" ? results_in(output, life_format()) : std::vector<ResultValue>();
                        }};
   return run_stage(info, argc, argv, [&](const StageCall& call, Progress&) { make(call, stage); });
 }

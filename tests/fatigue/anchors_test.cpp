@@ -44,9 +44,7 @@ double cycles(const Material& m, MeanStress rule, const CycleLoad& load) {
   return StrainLife(m, rule).reversals(load) / 2;
 }
 
-double reversed_strain(const Material& m, double amplitude) {
-  return cycles(m, MeanStress::none, {amplitude, 0, 0});
-}
+double reversed_strain(const Material& m, double amplitude) { return cycles(m, MeanStress::none, {amplitude, 0, 0}); }
 
 double reversed_stress(const Material& m, double amplitude) {
   return reversed_strain(m, CyclicCurve(m).strain(amplitude));

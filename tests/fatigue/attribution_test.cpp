@@ -29,8 +29,7 @@ struct Wandering {
   Wandering() {
     for (std::size_t t = 0; t < samples; ++t) {
       const double s = 2 * std::numbers::pi * double(t) / double(samples);
-      position.insert(position.end(),
-                      {0.9 * std::sin(3 * s), 0.4 + 0.7 * std::cos(5 * s), 0.5 * std::sin(7 * s + 1)});
+      position.insert(position.end(), {0.9 * std::sin(3 * s), 0.4 + 0.7 * std::cos(5 * s), 0.5 * std::sin(7 * s + 1)});
     }
   }
   double at(std::size_t t, std::size_t joint) const { return position[3 * t + joint]; }
@@ -72,9 +71,8 @@ TEST_CASE("attribution: joints of a linear strain cost what they contribute") {
 
 TEST_CASE("attribution: a quadratic strain is followed exactly from any sample to any other") {
   const Wandering motion;
-  const auto strain = motion.strain([](double a, double b, double c) {
-    return 0.003 + 0.01 * a + 0.02 * a * b - 0.005 * c * c + 0.004 * b;
-  });
+  const auto strain = motion.strain(
+      [](double a, double b, double c) { return 0.003 + 0.01 * a + 0.02 * a * b - 0.005 * c * c + 0.004 * b; });
   const StrainOfJoints surface(motion.position, known(strain), {true, true, true});
   std::mt19937 random(5);
   for (int draw = 0; draw < 200; ++draw) {
@@ -89,15 +87,15 @@ TEST_CASE("attribution: the explained share is that of the variance which joints
   std::vector<double> strain = motion.strain([](double a, double, double) { return 0.01 * a; });
   for (std::size_t t = 0; t < strain.size(); ++t)
     strain[t] += 0.009 * std::sin(2 * std::numbers::pi * 40 * double(t) / double(motion.samples));
-  CHECK(StrainOfJoints(motion.position, known(strain), {true, true, true}).explained() == Approx(0.5).margin(ridge_pull));
+  CHECK(StrainOfJoints(motion.position, known(strain), {true, true, true}).explained() ==
+        Approx(0.5).margin(ridge_pull));
 }
 
 TEST_CASE("attribution: a few known samples make the same surface") {
   const Wandering motion;
   const auto strain = motion.strain([](double a, double b, double) { return 0.01 * a - 0.02 * a * b; });
   std::vector<Reversal> few;
-  for (std::size_t t = 0; t < motion.samples; t += 37)
-    few.push_back({strain[t], static_cast<std::int64_t>(t)});
+  for (std::size_t t = 0; t < motion.samples; t += 37) few.push_back({strain[t], static_cast<std::int64_t>(t)});
   const StrainOfJoints all(motion.position, known(strain), {true, true, true});
   const StrainOfJoints some(motion.position, few, {true, true, true});
   for (std::size_t joint = 0; joint < 3; ++joint)
@@ -125,16 +123,15 @@ TEST_CASE("attribution: shares of the joints and of carrying add up to the damag
   // and line by line
   const auto by_line = damage_by_step(damage_over_time(cycles, motion.samples, Moment::closes), step, 3);
   for (std::size_t line = 0; line < 3; ++line)
-    CHECK(std::accumulate(by_joint.by_line.begin() + 4 * line, by_joint.by_line.begin() + 4 * (line + 1),
-                          0.0) == Approx(by_line[line]).epsilon(same_sum));
+    CHECK(std::accumulate(by_joint.by_line.begin() + 4 * line, by_joint.by_line.begin() + 4 * (line + 1), 0.0) ==
+          Approx(by_line[line]).epsilon(same_sum));
 }
 
 TEST_CASE("attribution: a joint that moves against the others relieves") {
   // One swing: the first joint contributes 3, the second -1.
   std::vector<double> position, strain;
   for (int t = 0; t <= 40; ++t) {
-    const double s = std::sin(2 * std::numbers::pi * t / 40),
-                 wiggle = 0.3 * std::sin(2 * std::numbers::pi * t / 8);
+    const double s = std::sin(2 * std::numbers::pi * t / 40), wiggle = 0.3 * std::sin(2 * std::numbers::pi * t / 8);
     position.insert(position.end(), {s, s + wiggle});
     strain.push_back(0.003 * s - 0.001 * (s + wiggle));
   }
@@ -190,8 +187,7 @@ TEST_CASE("attribution: segments count for the nearest clamp") {
   CHECK(damage_by_clamp(damage, length, std::vector{0.0, 1.0}) == std::vector<double>{7, 8});
   CHECK(damage_by_clamp(damage, length, std::vector{0.0, 0.3, 0.6, 1.0}) == std::vector<double>{1, 2, 4, 8});
   CHECK(damage_by_clamp(damage, length, std::vector{0.0, 0.3}) == std::vector<double>{1, 14});
-  CHECK(damage_by_clamp(damage, length, std::vector{0.0, 0.9}) ==
-        std::vector<double>{3, 12});  // 0.45 is half-way
+  CHECK(damage_by_clamp(damage, length, std::vector{0.0, 0.9}) == std::vector<double>{3, 12});  // 0.45 is half-way
   CHECK(damage_by_clamp(damage, length, std::vector{0.0, 0.01, 1.0}) == std::vector<double>{0, 7, 8});
 }
 
@@ -210,9 +206,8 @@ TEST_CASE("attribution: damage by clamp is that of the nearest one and adds up t
     double centre = 0;
     for (std::size_t k = 0; k < length.size(); ++k) {
       centre += length[k] / 2;
-      const auto best = std::min_element(at.begin(), at.end(), [&](double a, double b) {
-        return std::abs(a - centre) < std::abs(b - centre);
-      });
+      const auto best = std::min_element(
+          at.begin(), at.end(), [&](double a, double b) { return std::abs(a - centre) < std::abs(b - centre); });
       nearest[best - at.begin()] += damage[k];
       centre += length[k] / 2;
     }
@@ -232,8 +227,7 @@ TEST_CASE("attribution: clamps between the ends are reported with their links an
   routing.clamps[1].at_length = 1.25;
   const auto told = [&] {
     std::string text;
-    for (const ClampPlace& clamp : clamps_of(routing, 2))
-      text += fmt::format("{} at {}; ", clamp.name, clamp.at);
+    for (const ClampPlace& clamp : clamps_of(routing, 2)) text += fmt::format("{} at {}; ", clamp.name, clamp.at);
     return text;
   };
   CHECK(told() == "base clamp at 0; clamp 1 on link_4 at 0.5; clamp 2 on link_5 at 1.25; tool clamp at 2; ");

@@ -41,9 +41,13 @@ struct Cable {
   double limit() const { return pipeline::believable_share * force.strength(); }
   /// Returns the force of the cable with this slack where its path is longest, and where it is shortest [N].
   double pulled(double slack) const { return force.force(std::max(0.0, facts.most_gain - slack)); }
-  double pressed(double slack) const { return pipeline::force_of_excess(force, slack - std::min(0.0, facts.least_gain), facts.room); }
+  double pressed(double slack) const {
+    return pipeline::force_of_excess(force, slack - std::min(0.0, facts.least_gain), facts.room);
+  }
   /// Returns the bend radius of the helix that it then makes, over its diameter.
-  double bend(double slack) const { return facts.room / (2 * (slack - facts.least_gain)) / (2 * facts.component->radius); }
+  double bend(double slack) const {
+    return facts.room / (2 * (slack - facts.least_gain)) / (2 * facts.component->radius);
+  }
 };
 
 struct Proposed {
@@ -53,14 +57,18 @@ std::optional<Proposed> proposed_by(const std::string& remedy) {
   const std::string key = "dresspack.components.2.slack_percent: ";
   if (!remedy.starts_with(key)) return {};
   const std::size_t open = remedy.find('('), dots = remedy.find(" .. ");
-  return Proposed{std::stod(remedy.substr(key.size())), std::stod(remedy.substr(open + 1)), std::stod(remedy.substr(dots + 4))};
+  return Proposed{std::stod(remedy.substr(key.size())), std::stod(remedy.substr(open + 1)),
+                  std::stod(remedy.substr(dots + 4))};
 }
 
 }  // namespace
 
-TEST_CASE("cures: a proposed slack keeps force and bend radius, a smaller or larger one does not, and if none is proposed none keeps them") {
+TEST_CASE(
+    "cures: a proposed slack keeps force and bend radius, a smaller or larger one does not, and if none is proposed none keeps them") {
   std::mt19937 random(2);
-  const auto between = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  const auto between = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
   int found = 0, none = 0, bends_less = 0;
   for (int round = 0; round < 80; ++round) {
     Cable cable;
@@ -73,9 +81,12 @@ TEST_CASE("cures: a proposed slack keeps force and bend radius, a smaller or lar
     const auto holds = [&](double of) {
       return cable.pulled(of) <= cable.limit() && cable.pressed(of) <= cable.limit() && of <= pipeline::largest_slack;
     };
-    const auto keeps = [&](double of) { return holds(of) && (of <= facts.least_gain || cable.bend(of) >= 10); };  // ten diameters: the usual rule
+    const auto keeps = [&](double of) {
+      return holds(of) && (of <= facts.least_gain || cable.bend(of) >= 10);
+    };  // ten diameters: the usual rule
     CAPTURE(round, remedy);
-    if (remedy.starts_with("motion.acceleration_percent: 40 (now 80), or dresspack.components.2.friction_coefficient")) {
+    if (remedy.starts_with(
+            "motion.acceleration_percent: 40 (now 80), or dresspack.components.2.friction_coefficient")) {
       CHECK((cable.pulled(slack) <= cable.limit() && cable.pressed(slack) <= cable.limit()));
     } else if (const auto proposed = proposed_by(remedy)) {
       ++found;
@@ -85,7 +96,8 @@ TEST_CASE("cures: a proposed slack keeps force and bend radius, a smaller or lar
       constexpr double digit = 0.11;  // two digits, rounded to the safe side, are at most a tenth away
       CHECK((low == 0 || !keeps(low / (1 + digit))));
       CHECK(!keeps(high * (1 + digit)));
-      CHECK(proposed->proposed == (cable.dresspack.components[1].laying.slack < proposed->low ? proposed->low : proposed->high));
+      CHECK(proposed->proposed ==
+            (cable.dresspack.components[1].laying.slack < proposed->low ? proposed->low : proposed->high));
     } else {
       bool any = false;
       for (double of = 0; of <= pipeline::largest_slack; of += 1e-3) any = any || keeps(of);
@@ -110,7 +122,9 @@ TEST_CASE("cures: a proposed slack keeps force and bend radius, a smaller or lar
 TEST_CASE("cures: what holds a cable or sticks to it goes before its slack") {
   Cable cable;
   cable.facts.least_gain = -0.004, cable.facts.most_gain = 0.03, cable.facts.room = 4e-3;
-  const auto cure = [&](bool sticks = false, bool compressed = false) { return cure_of(cable.facts, cable.force, sticks, compressed, 1); };
+  const auto cure = [&](bool sticks = false, bool compressed = false) {
+    return cure_of(cable.facts, cable.force, sticks, compressed, 1);
+  };
   CHECK(cure(true).remedy == "strain.slip: friction");
   pipeline::Component& part = cable.dresspack.components[1];
   part.laying.slack = 0.2, cable.facts.winding_slack = 0.008;  // the usual 1 % is more
@@ -123,11 +137,16 @@ TEST_CASE("cures: what holds a cable or sticks to it goes before its slack") {
   CHECK_THAT(cure().cause, Catch::Contains("it has 1e+02 mm of room and 0.2 % of slack, and its path gets"));
   part.laying.position = pipeline::Position::held;
   CHECK_THAT(cure().cause, Catch::Contains("while its path changes by -0.4 .. 3 %"));
-  CHECK_THAT(cure().remedy, Catch::Contains("dresspack.inner_diameter_mm: 42.5 (ESTIMATE) if it lies in a hose, else dresspack.components.2.base_grip_N"));
+  CHECK_THAT(
+      cure().remedy,
+      Catch::Contains(
+          "dresspack.inner_diameter_mm: 42.5 (ESTIMATE) if it lies in a hose, else dresspack.components.2.base_grip_N"));
   cable.dresspack.inner_diameter = 0.044;
-  CHECK_THAT(cure().remedy, Catch::StartsWith("dresspack.components.2.position: loose, or dresspack.components.2.slack_percent: "));
+  CHECK_THAT(cure().remedy,
+             Catch::StartsWith("dresspack.components.2.position: loose, or dresspack.components.2.slack_percent: "));
   cable.facts.room = 0;
-  CHECK_THAT(cure().remedy, Catch::StartsWith("dresspack.components.2.position: loose, or dresspack.components.2.base_grip_N"));
+  CHECK_THAT(cure().remedy,
+             Catch::StartsWith("dresspack.components.2.position: loose, or dresspack.components.2.base_grip_N"));
   cable.facts.has_room = false;
   CHECK_THAT(cure().remedy, Catch::StartsWith("dresspack.components.2.slack_percent (run dresslife-strain again"));
 }

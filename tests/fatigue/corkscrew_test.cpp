@@ -51,8 +51,7 @@ TEST_CASE("corkscrew: the closed form is the least torque of all wave numbers") 
             Approx(least_torque(cable(), compression, curvature)).epsilon(steps).margin(steps));
 }
 
-TEST_CASE(
-    "corkscrew: compression alone makes a helix of curvature r P / (2 E I), which is tight at its limit") {
+TEST_CASE("corkscrew: compression alone makes a helix of curvature r P / (2 E I), which is tight at its limit") {
   const BoredCable of = cable();
   const double force = 2 * of.bending * of.tightest / of.room, rounding = 1e-12;
   CHECK(of.torque_to_tighten(force) == Approx(0).margin(rounding));

@@ -122,8 +122,7 @@ TEST_CASE("published strain blocks: loops, stresses, lives and damage") {
         CHECK(cycles[i].cycle.mean() == Approx(loop.mean).epsilon(published).margin(1e-15));
         CHECK(cycles[i].stress_max == Approx(loop.stress_max).epsilon(published));
         CHECK(cycles[i].stress_mean == Approx(loop.stress_mean).epsilon(published).margin(1e-9));
-        CHECK(cycles[i].stress_max - cycles[i].stress_mean ==
-              Approx(loop.stress_amplitude).epsilon(published));
+        CHECK(cycles[i].stress_max - cycles[i].stress_mean == Approx(loop.stress_amplitude).epsilon(published));
         CHECK(1 / cycles[i].damage == Approx(lives[i]).epsilon(published));
       }
       const double damage = mean_stress == MeanStress::swt      ? block.swt
@@ -145,8 +144,7 @@ TEST_CASE("stress along a history is that of its cycles where it turns, whatever
     for (int k = 1; k <= between; ++k) history.push_back(from + (to - from) * k / between);
   }
   std::vector<Reversal> turns;
-  for (std::size_t k = 0; k < history.size(); k += between)
-    turns.push_back({history[k], static_cast<std::int64_t>(k)});
+  for (std::size_t k = 0; k < history.size(); k += between) turns.push_back({history[k], static_cast<std::int64_t>(k)});
   for (const auto counting : {pipeline::Counting::repeating, pipeline::Counting::half_cycles})
     for (const auto rule : {pipeline::Stress::cyclic, pipeline::Stress::elastic}) {
       pipeline::Fatigue settings;
@@ -175,8 +173,7 @@ TEST_CASE("a constant amplitude's life is the curve's life") {
   for (const float amplitude : {0.0005f, 0.001f, 0.01f, 0.025f}) {
     const double one = counter(std::vector<float>{0, amplitude, -amplitude, 0}, workspace);
     CHECK(one == Approx(life.damage({amplitude, 0, 0})).epsilon(DamageCounter::table_error));
-    CHECK(life_in_repeats(one) ==
-          Approx(life.reversals({amplitude, 0, 0}) / 2).epsilon(DamageCounter::table_error));
+    CHECK(life_in_repeats(one) == Approx(life.reversals({amplitude, 0, 0}) / 2).epsilon(DamageCounter::table_error));
   }
 }
 
@@ -191,8 +188,7 @@ TEST_CASE("tables agree with the exact evaluation for every combination of setti
   int compared = 0;
   for (const auto& m : {copper(), aluminium(), hard, given}) {
     for (const auto stress : {Stress::cyclic, Stress::elastic}) {
-      for (const auto mean_stress :
-           {MeanStress::none, MeanStress::morrow, MeanStress::swt, MeanStress::walker}) {
+      for (const auto mean_stress : {MeanStress::none, MeanStress::morrow, MeanStress::swt, MeanStress::walker}) {
         for (const auto counting : {Counting::repeating, Counting::half_cycles}) {
           pipeline::Fatigue settings;
           settings.stress = stress, settings.mean_stress = mean_stress, settings.counting = counting;
@@ -228,7 +224,8 @@ TEST_CASE("without the effect of compression each cycle has at least the damage 
       pipeline::Fatigue settings;
       settings.mean_stress = mean_stress, settings.counting = counting;
       const DamageCounter by_rule(copper(), settings);
-      const DamageCounter safe(copper(), settings, pipeline::instruction_set(), most_reversals, Compression::without_effect);
+      const DamageCounter safe(copper(), settings, pipeline::instruction_set(), most_reversals,
+                               Compression::without_effect);
       const StrainLife life(copper(), mean_stress);
       int larger = 0;
       for (int trial = 0; trial < 60; ++trial) {
@@ -396,8 +393,7 @@ TEST_CASE("damage stands where its cycle ends, in the original order of time") {
   CHECK((cycles[1].cycle.begin.sample == 3 && cycles[1].cycle.end.sample == 0));
   const auto in_time = damage_over_time(cycles, 5);
   CHECK(in_time == std::vector<double>{cycles[1].damage, 0, cycles[0].damage, 0, 0});
-  CHECK(damage_over_time(cycles, 5, Moment::opens) ==
-        std::vector<double>{0, cycles[0].damage, 0, cycles[1].damage, 0});
+  CHECK(damage_over_time(cycles, 5, Moment::opens) == std::vector<double>{0, cycles[0].damage, 0, cycles[1].damage, 0});
 }
 
 TEST_CASE("histories without cycles do no damage") {

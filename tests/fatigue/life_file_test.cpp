@@ -42,8 +42,7 @@ constexpr double duration = 50;  // of the motion below [s]
 struct Folder {
   Folder() { std::filesystem::create_directories(path); }
   ~Folder() { std::filesystem::remove_all(path); }
-  std::filesystem::path path =
-      std::filesystem::temp_directory_path() / fmt::format("dresslife-life-{}", ::getpid());
+  std::filesystem::path path = std::filesystem::temp_directory_path() / fmt::format("dresslife-life-{}", ::getpid());
 };
 
 struct Site {
@@ -75,13 +74,12 @@ struct StrainFile {
   std::vector<Jacket> jackets;  // patches of 5 mm in one sector of 10 degrees; empty: no table
   struct Cable {
     std::int32_t span;
-    std::vector<double> place;  // base d1, d2, tool d1, d2 [m]
-    std::array<double, 3>
-        strain;  // largest, at the base and at the tool clamp; at the last sample, with linear rise
+    std::vector<double> place;     // base d1, d2, tool d1, d2 [m]
+    std::array<double, 3> strain;  // largest, at the base and at the tool clamp; at the last sample, with linear rise
   };
   std::vector<Cable> cables;        // of the job's first component
-  double room = 0;              // of each cable [m]; 0: no table
-  double twist = 0;             // of all segments at the last sample, with linear rise [rad/m]
+  double room = 0;                  // of each cable [m]; 0: no table
+  double twist = 0;                 // of all segments at the last sample, with linear rise [rad/m]
   std::vector<double> hose_moment;  // (span) at the last sample, as the strains
   double varied_force = 0;          // of each cable at another friction on the hose [N]; 0: no variation
   std::uint32_t varied_sample = 40;
@@ -93,12 +91,10 @@ struct StrainFile {
 
 /// 0, a, -a, 0 at samples 0, 20, 60, 100: one closed cycle of amplitude a.
 Site swing(int segment, std::string component, float amplitude, std::string material = "copper") {
-  return {
-      segment, std::move(component), std::move(material), {0, amplitude, -amplitude, 0}, {0, 20, 60, 100}};
+  return {segment, std::move(component), std::move(material), {0, amplitude, -amplitude, 0}, {0, 20, 60, 100}};
 }
 
-void write_set(FileWriter& file, const std::string& group, const std::vector<Site>& sites,
-               std::uint64_t wrong_offset) {
+void write_set(FileWriter& file, const std::string& group, const std::vector<Site>& sites, std::uint64_t wrong_offset) {
   std::vector<std::int32_t> segment;
   std::vector<std::string> component, material;
   std::vector<std::uint64_t> offset{0};
@@ -299,8 +295,7 @@ TEST_CASE("life.h5: damage of every site, and the worst one's life, place, momen
   const auto damage = life.read<double>("/damage"), lives = life.read<double>("/life");
   REQUIRE(damage.size() == 6);
   for (std::size_t site = 0; site < 5; ++site) {
-    CHECK(damage[site] ==
-          Approx(exact_damage(f.sites[site], test_job())).epsilon(DamageCounter::table_error));
+    CHECK(damage[site] == Approx(exact_damage(f.sites[site], test_job())).epsilon(DamageCounter::table_error));
     CHECK(lives[site] == 1 / damage[site]);
   }
   CHECK(damage[5] == 0);
@@ -314,16 +309,14 @@ TEST_CASE("life.h5: damage of every site, and the worst one's life, place, momen
   CHECK(life.number_attribute("life_repeats") == 1 / damage[3]);
   CHECK(life.number_attribute("repeat_seconds") == duration);
   CHECK(life.number_attribute("life_hours") == Approx(duration / 3600 / damage[3]));
-  CHECK(life.number_attribute("life_months") ==
-        Approx(duration / 3600 / damage[3] / 80 / (365.2425 / 12 / 7)));
+  CHECK(life.number_attribute("life_months") == Approx(duration / 3600 / damage[3] / 80 / (365.2425 / 12 / 7)));
   CHECK(life.number_attribute("worst_segment_from_tool") == 2);
   CHECK(life.number_attribute("worst_position_from_tool") == Approx(0.4 + 0.3 / 2));
   CHECK(life.text_attribute("worst_component") == "cable 2/layer 1/wire 7");
   CHECK(life.number_attribute("worst_time") == Approx(30));  // the large cycle ends at sample 60
   CHECK(life.text_attribute("worst_step") == "weld");
-  CHECK_THAT(result.notes.summary,
-             Catch::Contains("until cable 2/layer 1/wire 7 breaks, 0.55 m from the tool, worst "
-                             "during 'weld'"));
+  CHECK_THAT(result.notes.summary, Catch::Contains("until cable 2/layer 1/wire 7 breaks, 0.55 m from the tool, worst "
+                                                   "during 'weld'"));
   CHECK(result.notes.warnings.empty());
 }
 
@@ -335,8 +328,7 @@ TEST_CASE("life.h5: cycles, time, steps, segments and layers add up") {
 
   const auto site = life.read<std::uint32_t>("/cycles/site");
   const auto cycle_damage = life.read<double>("/cycles/damage");
-  CHECK(site ==
-        std::vector<std::uint32_t>{3, 3, 4, 2, 1, 0});  // worst first; the undamaged site is not listed
+  CHECK(site == std::vector<std::uint32_t>{3, 3, 4, 2, 1, 0});  // worst first; the undamaged site is not listed
   CHECK(cycle_damage[0] + cycle_damage[1] == Approx(damage[3]).epsilon(same_sum));
   CHECK(life.read<std::uint32_t>("/cycles/begin")[0] == 30);
   CHECK(life.read<std::uint32_t>("/cycles/end")[0] == 40);
@@ -393,16 +385,14 @@ TEST_CASE("life.h5: forces of the cables by span, and the span where they ask mo
     // The first span: one cable, with the larger moment at the lever of the base clamp or of the tool clamp.
     const double first = std::max(0.02 * std::abs(force.force(-1e-4)), 0.01 * std::abs(force.force(-3e-4)));
     const double base = std::hypot(0.01 * force.force(8e-5), 0.015 * force.force(2e-4)),
-                 tool = std::hypot(0.01 * force.force(-5e-5) + 0.004 * force.force(1e-4),
-                                   0.003 * force.force(1e-4));
+                 tool = std::hypot(0.01 * force.force(-5e-5) + 0.004 * force.force(1e-4), 0.003 * force.force(1e-4));
     const double second = std::max(base, tool);
     const bool in_first = first / of_first > second / 0.1;
     CHECK(in_first == (of_first < 1));  // the test covers both cases
     CHECK(life.number_attribute("clamp_moment_share") == Approx(in_first ? first / of_first : second / 0.1));
     CHECK(life.read<double>("/clamp/cable_moment").back() == Approx(in_first ? first : second));
     CHECK(life.read<double>("/clamp/hose_moment")[50] == Approx((in_first ? of_first : 0.1) / 2));
-    CHECK(life.number_attribute("largest_force_share") ==
-          Approx(std::abs(force.force(-3e-4)) / force.strength()));
+    CHECK(life.number_attribute("largest_force_share") == Approx(std::abs(force.force(-3e-4)) / force.strength()));
     // Of 10 mm. The largest force acts only at the third cable's base clamp.
     CHECK(life.number_attribute("strain_relief_share") == Approx(force.force(2e-4) / 42));
     const auto warns = [&](const std::string& words) {
@@ -426,9 +416,11 @@ TEST_CASE("life.h5: forces of the cables by span, and the span where they ask mo
   f.varied_force = 0.9 * pipeline::believable_share * force.strength();
   CHECK(of_others() == "");
   f.varied_force = 0.5 * force.strength();
-  CHECK_THAT(of_others(), Catch::Contains("with 2.8 times the friction of the cables on their hose (strain.hose_friction_factor: 2.83) "
-                                          "'cable 1' is pulled with 50 % of its breaking force") &&
-                              Catch::Contains(", 0.25 m from the base clamp, "));
+  CHECK_THAT(
+      of_others(),
+      Catch::Contains("with 2.8 times the friction of the cables on their hose (strain.hose_friction_factor: 2.83) "
+                      "'cable 1' is pulled with 50 % of its breaking force") &&
+          Catch::Contains(", 0.25 m from the base clamp, "));
   f.varied_sample = samples;
   CHECK_THROWS_WITH(of_others(), Catch::Contains("/variation/tension_sample or clamp_moment_place of variation 1"));
   f.varied_sample = 40, f.cables[1].span = 2;
@@ -442,8 +434,7 @@ TEST_CASE("life.h5: the bounds are the lives of their own sites") {
   mixed.strain.slip = {pipeline::Slip::stick, pipeline::Slip::free};
   const Result result = run(folder, f, mixed);
   const FileReader life(result.file, pipeline::life_format());
-  const double stick = 1 / exact_damage(f.stick[0], test_job()),
-               free = 1 / exact_damage(f.free[1], test_job());
+  const double stick = 1 / exact_damage(f.stick[0], test_job()), free = 1 / exact_damage(f.free[1], test_job());
   CHECK(life.number_attribute("life_repeats_all_stick") == Approx(stick).epsilon(DamageCounter::table_error));
   CHECK(life.number_attribute("life_repeats_all_free") == Approx(free).epsilon(DamageCounter::table_error));
   CHECK(life.number_attribute("life_hours_all_free") ==
@@ -538,27 +529,23 @@ TEST_CASE("life.h5: percentiles of the first wire and of the conductors") {
   // Four wires, each represented by its worst segment.
   const std::vector<double> wires{damage[2], damage[1], damage[3], damage[4]};
   const double half = life_until(wires, 1, {job.fatigue.scatter_log10, job.fatigue.scatter_shared}, 0.5);
-  CHECK(life.number_attribute("first_wire_life_hours_p50") ==
-        Approx(hours(half, duration)).epsilon(same_sum));
+  CHECK(life.number_attribute("first_wire_life_hours_p50") == Approx(hours(half, duration)).epsilon(same_sum));
   CHECK(half < life.number_attribute("life_repeats"));
   const auto lives = life.read<double>("/conductor/life");
   REQUIRE(lives.size() == 2 * 9);
-  CHECK(lives[9 + 6 + 2] == life_until(std::vector{damage[3], damage[4]}, 2,
-                                       {job.fatigue.scatter_log10, job.fatigue.scatter_shared}, 0.9));
+  CHECK(lives[9 + 6 + 2] ==
+        life_until(std::vector{damage[3], damage[4]}, 2, {job.fatigue.scatter_log10, job.fatigue.scatter_shared}, 0.9));
 
   job.fatigue.scatter_log10 = 0;
   const Result exact = run(folder, example(), job, "exact.h5");
   const FileReader sharp(exact.file, pipeline::life_format());
   for (const char* end : {"p10", "p50", "p90"}) {
-    CHECK(sharp.number_attribute(fmt::format("first_wire_life_hours_{}", end)) ==
-          sharp.number_attribute("life_hours"));
+    CHECK(sharp.number_attribute(fmt::format("first_wire_life_hours_{}", end)) == sharp.number_attribute("life_hours"));
     // Two wires in a conductor: 10 % are one wire, so a break at one place is a break anywhere.
-    CHECK(sharp.number_attribute(fmt::format("life_hours_{}", end)) ==
-          Approx(sharp.number_attribute("life_hours")));
+    CHECK(sharp.number_attribute(fmt::format("life_hours_{}", end)) == Approx(sharp.number_attribute("life_hours")));
   }
   CHECK(sharp.text_attribute("failing_conductor") == "cable 2");
-  CHECK(sharp.number_attribute("failing_position_from_tool") ==
-        sharp.number_attribute("worst_position_from_tool"));
+  CHECK(sharp.number_attribute("failing_position_from_tool") == sharp.number_attribute("worst_position_from_tool"));
   CHECK(sharp.number_attribute("life_months_p10") == Approx(sharp.number_attribute("life_months")));
   job.fatigue.load_sharing = true;
   const Result shared = run(folder, example(), job, "shared.h5");
@@ -678,15 +665,12 @@ TEST_CASE("life.h5: the damage is divided among the joints and reported by clamp
   for (std::size_t t = 0; t < samples; ++t) {
     // The probe's strain is 1000 + sample. It consists only of the contributions of axes 2 and 3, 3 to 1 over the motion.
     const double s = double(t);
-    f.joints.insert(f.joints.end(),
-                    {std::sin(s), 0.02 * s + 0.1 * std::sin(0.3 * s), 0.1 * std::sin(0.3 * s)});
+    f.joints.insert(f.joints.end(), {std::sin(s), 0.02 * s + 0.1 * std::sin(0.3 * s), 0.1 * std::sin(0.3 * s)});
   }
   const Result result = run(folder, f, job);
   const FileReader life(result.file, pipeline::life_format());
-  CHECK(life.read<std::string>("/joint/name") ==
-        std::vector<std::string>{"axis 1", "axis 2", "axis 3", "carrying"});
-  const auto damage = life.read<double>("/joint/damage"),
-             by_line = life.read<double>("/program/joint_damage"),
+  CHECK(life.read<std::string>("/joint/name") == std::vector<std::string>{"axis 1", "axis 2", "axis 3", "carrying"});
+  const auto damage = life.read<double>("/joint/damage"), by_line = life.read<double>("/program/joint_damage"),
              line = life.read<double>("/program/damage");
   REQUIRE(damage.size() == 4);
   CHECK(damage[0] == 0);  // the joint lies below the base clamp
@@ -732,8 +716,7 @@ TEST_CASE("life.h5: critical planes of the likely worst wires stand for the equi
   const auto wave = [](float amplitude, double phase) {
     std::vector<float> values;
     for (std::size_t t = 0; t < samples; ++t)
-      values.push_back(amplitude *
-                       static_cast<float>(std::sin(2 * M_PI * double(t) / (samples - 1) + phase)));
+      values.push_back(amplitude * static_cast<float>(std::sin(2 * M_PI * double(t) / (samples - 1) + phase)));
     return values;
   };
   const Result plain = run(folder, f, job, "plain.h5");
@@ -748,8 +731,7 @@ TEST_CASE("life.h5: critical planes of the likely worst wires stand for the equi
                                          job.dresspacks[0].dresspack.materials[0], job.fatigue));
   };
   constexpr double single = 1e-5;  // histories in single precision; 101 samples include the peaks
-  CHECK(damage[0] ==
-        Approx(exact(eps * ((1 - 0.34) / 2 + 1.34))).epsilon(DamageCounter::table_error + single));
+  CHECK(damage[0] == Approx(exact(eps * ((1 - 0.34) / 2 + 1.34))).epsilon(DamageCounter::table_error + single));
   CHECK(damage[3] == Approx(exact(0.02)).epsilon(DamageCounter::table_error + single));
   CHECK(life.read<std::uint32_t>("/plane/site") == std::vector<std::uint32_t>{0, 3});
   constexpr double rounding = 1e-9;
@@ -783,8 +765,7 @@ TEST_CASE("life.h5: critical planes of the likely worst wires stand for the equi
   CHECK(less[3] > less[4]);
   f = first;
   // The file has the same bytes with any number of threads.
-  const auto alone = bytes(run(folder, f, job, "one.h5").file),
-             shared = bytes(run(folder, f, job, "three.h5", 3).file);
+  const auto alone = bytes(run(folder, f, job, "one.h5").file), shared = bytes(run(folder, f, job, "three.h5", 3).file);
   const bool same = alone == shared;
   CHECK(same);
   f.fibres[1].site = 77;
@@ -808,8 +789,7 @@ TEST_CASE("life.h5: out of phase shear opens no plane further than the strain al
   const Result alone = run(folder, f, job, "alone.h5");
   constexpr double single = 1e-5;
   CHECK(FileReader(shifted.file, pipeline::life_format()).number_attribute("life_repeats") ==
-        Approx(FileReader(alone.file, pipeline::life_format()).number_attribute("life_repeats"))
-            .epsilon(single));
+        Approx(FileReader(alone.file, pipeline::life_format()).number_attribute("life_repeats")).epsilon(single));
 }
 
 TEST_CASE("life.h5: the shear of the worst wire is reported from its probe") {
@@ -849,20 +829,20 @@ TEST_CASE("life.h5: the hose's wall is reported beside the wires and not among t
   CHECK(life.number_attribute("hose_position_from_tool") == Approx(0.4 + 0.3 + 0.1));
   CHECK(life.number_attribute("hose_time") == Approx(30));
   CHECK(life.text_attribute("hose_step") == "weld");
-  CHECK(life.read<std::uint32_t>("/hose/worst_site") ==
-        std::vector<std::uint32_t>{0xffffffff, 7, 0xffffffff, 6});
+  CHECK(life.read<std::uint32_t>("/hose/worst_site") == std::vector<std::uint32_t>{0xffffffff, 7, 0xffffffff, 6});
   CHECK(life.read<double>("/hose/damage")[1] == life.read<double>("/damage")[7]);
-  CHECK_THAT(
-      result.notes.summary,
-      Catch::Contains("breaks") && Catch::EndsWith("the life of the hose's wall is not predicted"));  // 64 h from a life curve that is not credible
+  CHECK_THAT(result.notes.summary,
+             Catch::Contains("breaks") &&
+                 Catch::EndsWith(
+                     "the life of the hose's wall is not predicted"));  // 64 h from a life curve that is not credible
   // Strains are kept to 7 decimals above the least of their pack. Other sites change this least value. The error is multiplied
   // by the slope of the life.
   constexpr double packed = 1e-5;
   // Results for wires do not depend on the wall, although the wall's life is shorter.
   CHECK_FALSE(wires.has_attribute("hose_life_hours"));
   CHECK(life.number_attribute("hose_life_hours") < life.number_attribute("life_hours"));
-  for (const char* name : {"life_hours", "life_hours_all_stick", "life_hours_all_free", "worst_site",
-                           "life_hours_p10", "life_hours_p90", "conductor_life_hours_p50"})
+  for (const char* name : {"life_hours", "life_hours_all_stick", "life_hours_all_free", "worst_site", "life_hours_p10",
+                           "life_hours_p90", "conductor_life_hours_p50"})
     CHECK(life.number_attribute(name) == Approx(wires.number_attribute(name)).epsilon(packed));
   for (const char* dataset : {"/layer/component", "/conductor/component"})
     CHECK(life.read<std::string>(dataset) == wires.read<std::string>(dataset));
@@ -961,9 +941,9 @@ TEST_CASE("sites are visited in order with their own strains, also over many blo
   sites.for_each_block([&](const SiteSet::Block& block, const std::function<void()>& read_ahead) {
     for (std::size_t site = block.begin; site < block.end; ++site, ++visited) {
       const std::span<const float> strains = block.strains_of(site);
-      all_equal = all_equal && site == visited &&
-                  std::equal(strains.begin(), strains.end(), f.sites[site].strain.begin(),
-                             f.sites[site].strain.end(), same);
+      all_equal =
+          all_equal && site == visited &&
+          std::equal(strains.begin(), strains.end(), f.sites[site].strain.begin(), f.sites[site].strain.end(), same);
     }
     read_ahead();
   });
@@ -993,8 +973,7 @@ TEST_CASE("uncertainty: the planner's lives widen about those of the scatter, wh
   CHECK_FALSE(without.has_attribute("scatter_life_hours_p10"));
   CHECK_FALSE(without.has_attribute("life_response"));
   for (const std::string end : {"p10", "p50", "p90"})
-    CHECK(with.number_attribute("scatter_life_hours_" + end) ==
-          without.number_attribute("life_hours_" + end));
+    CHECK(with.number_attribute("scatter_life_hours_" + end) == without.number_attribute("life_hours_" + end));
   CHECK(with.number_attribute("life_hours_p10") < without.number_attribute("life_hours_p10"));
   CHECK(with.number_attribute("life_hours_p90") > without.number_attribute("life_hours_p90"));
   CHECK(with.number_attribute("life_hours") == without.number_attribute("life_hours"));
@@ -1016,8 +995,9 @@ TEST_CASE("uncertainty: one wire strained far above its neighbours leaves a cond
     f.sites.push_back(swing(2, "cable 2/layer 1/wire 8", of_other));
     const FileReader life(run(folder, f, job).file, pipeline::life_format());
     const auto response = pipeline::LifeResponse::from_text(life.text_attribute("life_response"));
-    return std::pair(response.planned[response.planned.size() / 2][1] - std::log10(life.number_attribute("life_repeats")),
-                     std::log10(life.number_attribute("scatter_life_hours_p50") / life.number_attribute("life_hours")));
+    return std::pair(
+        response.planned[response.planned.size() / 2][1] - std::log10(life.number_attribute("life_repeats")),
+        std::log10(life.number_attribute("scatter_life_hours_p50") / life.number_attribute("life_hours")));
   };
   constexpr double digits = 1e-4;  // of the text, in decades
   const auto [near, by_scatter] = ahead(0.009f);
@@ -1052,8 +1032,7 @@ TEST_CASE("uncertainty: the response equals the results of the stage with the ch
       pipeline::Job moved = test_job();
       moved.fatigue.strength_factor =
           pipeline::uncertain_parameters()[index_of(pipeline::Uncertain::strength)].value(strength);
-      moved.fatigue.slope_change =
-          pipeline::uncertain_parameters()[index_of(pipeline::Uncertain::slope)].value(slope);
+      moved.fatigue.slope_change = pipeline::uncertain_parameters()[index_of(pipeline::Uncertain::slope)].value(slope);
       const FileReader again(run(folder, example(), moved, "moved.h5").file, pipeline::life_format());
       constexpr double digits = 1e-5;  // of the text, in decades
       CHECK(pipeline::LifeSurface(response).change(z) ==
@@ -1130,15 +1109,16 @@ TEST_CASE("life.h5: abrasion stands beside the wires with its place, its time an
   CHECK_THAT(result.notes.summary, Catch::Contains("; the surface lasts "));
   CHECK(modes[0].found_share > 0);
   CHECK_THAT(modes[0].note, Catch::Contains("A visual check every 2 weeks finds "));
-  CHECK(modes[0].visible_from == Approx(std::pow(0.5, 1.5)).epsilon(1e-3));  // area of half the depth; four digits in the text
-  job.inspection.visible_depth_percent = 100;  // visible only at failure: no check finds it
+  CHECK(modes[0].visible_from ==
+        Approx(std::pow(0.5, 1.5)).epsilon(1e-3));  // area of half the depth; four digits in the text
+  job.inspection.visible_depth_percent = 100;       // visible only at failure: no check finds it
   const auto unseen = modes_of(FileReader(run(folder, f, job, "unseen.h5").file, pipeline::life_format()));
   CHECK(unseen[0].hours == modes[0].hours);
   CHECK(unseen[0].found_share == 0);
   const double worn = std::log10(job.fatigue.robot_life_hours / hours(repeats, duration)) / spread;
   CHECK(unseen[0].unseen_share == Approx(pipeline::normal_share(worn)).margin(strata));
-  CHECK_THAT(modes[0].note,
-             Catch::StartsWith(fmt::format("By the model {:.0f} % of the dresspacks", 100 * pipeline::normal_share(worn))));
+  CHECK_THAT(modes[0].note, Catch::StartsWith(fmt::format("By the model {:.0f} % of the dresspacks",
+                                                          100 * pipeline::normal_share(worn))));
   job.inspection.interval_weeks = 0;
   const auto unchecked = modes_of(FileReader(run(folder, f, job, "unchecked.h5").file, pipeline::life_format()));
   CHECK(std::isnan(unchecked[0].unseen_share));
@@ -1161,9 +1141,11 @@ TEST_CASE("life.h5: abrasion stands beside the wires with its place, its time an
   CHECK(modes_of(partial).size() == 1);
   CHECK_THAT(names_in(partial), Catch::Contains("abrasion on arm,"));
   job.robot.links.resize(5), job.robot.joints.resize(5);  // the third has a shape, the second and the fifth are short
-  for (std::size_t k = 1; k < 5; ++k) job.robot.links[k].name = fmt::format("link_{}", k), job.robot.joints[k].origin = {k % 3 == 1 ? 0.05 : 0.3, 0, 0};
+  for (std::size_t k = 1; k < 5; ++k)
+    job.robot.links[k].name = fmt::format("link_{}", k), job.robot.joints[k].origin = {k % 3 == 1 ? 0.05 : 0.3, 0, 0};
   job.robot.links[1].capsules.clear(), job.robot.links[2].boxes.emplace_back();
-  CHECK_THAT(names_in(FileReader(run(folder, f, job, "some.h5").file, pipeline::life_format())), Catch::Contains("abrasion on arm and link_3,"));
+  CHECK_THAT(names_in(FileReader(run(folder, f, job, "some.h5").file, pipeline::life_format())),
+             Catch::Contains("abrasion on arm and link_3,"));
   job.simulation.self_contact = false;
   CHECK_FALSE(is_known("not_on_itself.h5"));
   job.simulation.self_contact = true, job.simulation.contact = false;
@@ -1171,8 +1153,9 @@ TEST_CASE("life.h5: abrasion stands beside the wires with its place, its time an
   job.simulation.contact = true;
 
   f.rubbed[1] = {-0.15, 10, 30};
-  CHECK_THROWS_WITH(run(folder, f, job, "damaged.h5"),
-                    Catch::Contains("/rubbing: row 2 is no patch of a dresspack; make the file again with dresslife-strain"));
+  CHECK_THROWS_WITH(
+      run(folder, f, job, "damaged.h5"),
+      Catch::Contains("/rubbing: row 2 is no patch of a dresspack; make the file again with dresslife-strain"));
 }
 
 TEST_CASE("life.h5: a twist that every repeat leaves winds a loose cable into a corkscrew") {
@@ -1212,7 +1195,8 @@ TEST_CASE("life.h5: a twist that every repeat leaves winds a loose cable into a 
   const auto [recorded, unknown] = coil_of("recorded.h5");  // without joints the twist that a repeat leaves is unknown
   CHECK(std::isinf(recorded[0].hours[0]));
   CHECK_THAT(unknown, Catch::Contains("corkscrew after many repeats"));
-  for (std::size_t t = 0; t < samples; ++t) f.joints.push_back(2 * std::numbers::pi * static_cast<double>(t) / (samples - 1));
+  for (std::size_t t = 0; t < samples; ++t)
+    f.joints.push_back(2 * std::numbers::pi * static_cast<double>(t) / (samples - 1));
   const auto [wound, other] = coil_of("wound.h5");
   REQUIRE(wound.size() == 1);
   CHECK_THAT(other, !Catch::Contains("corkscrew"));
@@ -1281,14 +1265,16 @@ TEST_CASE("life.h5: of the cables in a hose the one whose jacket is worn through
   CHECK(modes[0].position_from_tool == Approx(0.85));
   CHECK(modes[0].step == "weld");
   // A(t, 0) l / (k N s), with a footprint of ten diameters
-  const double area = 4.0 / 3 * 1e-3 * std::sqrt(2 * cable.radius * 1e-3), repeats = area * 20 * cable.radius / (1e-14 * 1e4);
+  const double area = 4.0 / 3 * 1e-3 * std::sqrt(2 * cable.radius * 1e-3),
+               repeats = area * 20 * cable.radius / (1e-14 * 1e4);
   constexpr double strata = 1e-3;  // 10,000 samples
   CHECK(modes[0].hours[1] == Approx(hours(repeats, duration)).epsilon(strata));
   job.cell.temperature = 43;
   CHECK(jackets_of("warm.h5").first[0].hours[1] == Approx(modes[0].hours[1] / std::exp(0.0175 * 20)).epsilon(strata));
   f.jackets[1].cable = 2;
-  CHECK_THROWS_WITH(run(folder, f, job, "damaged.h5"),
-                    Catch::Contains("/jacket: row 2 is no patch of a dresspack; make the file again with dresslife-strain"));
+  CHECK_THROWS_WITH(
+      run(folder, f, job, "damaged.h5"),
+      Catch::Contains("/jacket: row 2 is no patch of a dresspack; make the file again with dresslife-strain"));
   f.jackets[1] = {1, 0.15, 1e4, 1000};
   CHECK_THROWS_WITH(run(folder, f, job, "late.h5"), Catch::Contains("/jacket: row 2 is of no sample"));
   f.jackets.clear(), dresspack.inner_diameter.reset();
@@ -1304,7 +1290,8 @@ TEST_CASE("life.h5: a cable without described wires has the life of its rating, 
   pipeline::Rating bends;
   bends.rig.kind = pipeline::RigKind::tick_tock, bends.rig.radius = 0.1, bends.cycles = 1e6, bends.source = "test";
   pipeline::Component power;
-  power.name = "power cable", power.radius = 0.01, power.plain = pipeline::PlainPart{pipeline::PlainKind::cable, {}, {}, {}, {}, {}};
+  power.name = "power cable", power.radius = 0.01,
+  power.plain = pipeline::PlainPart{pipeline::PlainKind::cable, {}, {}, {}, {}, {}};
   dresspack.components.push_back(power);
   dresspack.components.front().ratings = {bends};  // in addition to its wires
   const auto rated_modes = [&](const FileReader& life) {
@@ -1324,16 +1311,19 @@ TEST_CASE("life.h5: a cable without described wires has the life of its rating, 
   const auto modes = rated_modes(life);
   REQUIRE(modes.size() == 1);
   CHECK(modes[0].place == "power cable");
-  CHECK((modes[0].time == Approx(0.2 * duration) || modes[0].time == Approx(0.6 * duration)));  // the bends to either side
+  CHECK((modes[0].time == Approx(0.2 * duration) ||
+         modes[0].time == Approx(0.6 * duration)));  // the bends to either side
   CHECK(modes[0].note == "Its rating is of bending alone: twist is not evaluated.");
   CHECK_THAT(life.text_attribute("not_evaluated"), Catch::StartsWith("twist of power cable, abrasion"));
-  constexpr double strata = 1e-3;  // 10,000 samples
+  constexpr double strata = 1e-3;       // 10,000 samples
   const double ratio = (1 / 0.11) / 5;  // the rig's curvature refers to the axis
   CHECK(modes[0].hours[1] == Approx(hours(1e6 * std::pow(ratio, 5), duration)).epsilon(strata));
-  CHECK(std::log10(modes[0].hours[2] / modes[0].hours[0]) == Approx(2 * 1.28155 * 1.5 * std::log10(ratio)).epsilon(strata));
+  CHECK(std::log10(modes[0].hours[2] / modes[0].hours[0]) ==
+        Approx(2 * 1.28155 * 1.5 * std::log10(ratio)).epsilon(strata));
 }
 
-TEST_CASE("life.h5: a smooth tube kinks where the tightest bend passes its radius, in the share of tubes that kink there") {
+TEST_CASE(
+    "life.h5: a smooth tube kinks where the tightest bend passes its radius, in the share of tubes that kink there") {
   const Folder folder;
   pipeline::Job job = test_job();
   pipeline::Dresspack& dresspack = job.dresspacks[0].dresspack;
@@ -1363,8 +1353,10 @@ TEST_CASE("life.h5: a smooth tube kinks where the tightest bend passes its radiu
     CHECK_THAT(wide.note, Catch::Contains("Tubes of PTFE with thick walls kink at up to five times that"));
     CHECK(wide.time == Approx(0.2 * duration));
     CHECK(std::isinf(wide.hours[0]));
-    CHECK(wide.first_share == Approx(0.0013).margin(2e-4));  // of a factor of 2 in 3.01 deviations of 0.1, of 10,000 strata
-    CHECK_THAT(life.text_attribute("not_evaluated"), Catch::StartsWith("fatigue and pressure of air hose, fatigue and pressure of water hose, abrasion"));
+    CHECK(wide.first_share ==
+          Approx(0.0013).margin(2e-4));  // of a factor of 2 in 3.01 deviations of 0.1, of 10,000 strata
+    CHECK_THAT(life.text_attribute("not_evaluated"),
+               Catch::StartsWith("fatigue and pressure of air hose, fatigue and pressure of water hose, abrasion"));
   }
   f.curvature = 1 / (kinks_at + 0.01);
   const auto near = kink_of(FileReader(run(folder, f, job, "near.h5").file, pipeline::life_format()));

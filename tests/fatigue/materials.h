@@ -5,8 +5,8 @@
 
 namespace dresslife::fatigue_tests {
 
-inline pipeline::Material material(double youngs_modulus, double fatigue_strength, double b,
-                                   double fatigue_ductility, double c) {
+inline pipeline::Material material(double youngs_modulus, double fatigue_strength, double b, double fatigue_ductility,
+                                   double c) {
   pipeline::Material m;
   m.name = "test metal";
   m.youngs_modulus = youngs_modulus;

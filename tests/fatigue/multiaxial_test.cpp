@@ -65,8 +65,7 @@ TEST_CASE("critical plane: in phase, its normal is the principal direction") {
   const double eps = 0.003, gamma = std::sqrt(3) * (1 + m.poisson_ratio) * eps;
   const CriticalPlane plane = critical_plane(swing(eps, 0.2), swing(gamma, 0.2), m, {});
   CHECK(plane.theta == Approx(pi / 6).epsilon(rounding));
-  const double principal =
-      eps * (1 - m.poisson_ratio) / 2 + std::hypot(eps * (1 + m.poisson_ratio), gamma) / 2;
+  const double principal = eps * (1 - m.poisson_ratio) / 2 + std::hypot(eps * (1 + m.poisson_ratio), gamma) / 2;
   CHECK(plane.damage == Approx(damage_of_history(swing(principal, 0.2), m)).epsilon(rounding));
   // Mirrored shear has the mirrored critical plane.
   const CriticalPlane mirrored = critical_plane(swing(eps, 0.2), swing(-gamma, 0.2), m, {});
@@ -84,8 +83,7 @@ TEST_CASE("critical plane: out of phase no plane sees both loads at once") {
   CHECK(shifted >= strain_alone * (1 - rounding));
 }
 
-TEST_CASE(
-    "critical plane: 90 degrees out of phase with gamma = (1 + nu) eps is no worse than the strain alone") {
+TEST_CASE("critical plane: 90 degrees out of phase with gamma = (1 + nu) eps is no worse than the strain alone") {
   // Mohr's circle then rotates with constant size (Kanazawa, Miller and Brown 1977): the radius of strain and half shear is
   // always (1 + nu) eps / 2. Every plane has the same shear, and the largest normal strain is eps, across the axis. In phase
   // the same loads stretch a plane by eps ((1 - nu) + sqrt(2) (1 + nu)) / 2.

@@ -13,7 +13,8 @@ namespace dresslife::fatigue_tests {
 inline pipeline::Format part_of_strain(const std::vector<std::string_view>& datasets) {
   pipeline::Format part = pipeline::strain_format();
   part.attributes.clear();
-  std::erase_if(part.datasets, [&](const pipeline::Dataset& one) { return std::ranges::find(datasets, one.path) == datasets.end(); });
+  std::erase_if(part.datasets,
+                [&](const pipeline::Dataset& one) { return std::ranges::find(datasets, one.path) == datasets.end(); });
   for (pipeline::Dataset& one : part.datasets) one.may_be_absent = true;
   return part;
 }

@@ -61,8 +61,7 @@ TEST_CASE("places: one segment is the conductors' own share, in one place or any
     const Scatter scatter{0.2, shared};
     const FirstPlace first = lives_of(pack, 25, scatter);
     const Percentiles anywhere = first_conductor_lives(pack.bundles, 25, scatter);
-    for (std::size_t i = 0; i < first.lives.size(); ++i)
-      CHECK(first.lives[i] == Approx(anywhere[i]).epsilon(left_out));
+    for (std::size_t i = 0; i < first.lives.size(); ++i) CHECK(first.lives[i] == Approx(anywhere[i]).epsilon(left_out));
     CHECK(first.soonest.at(0).conductor == 0);
     CHECK(first.soonest.at(0).segment == 0);
   }
@@ -119,13 +118,11 @@ TEST_CASE("places: reported lives are shorter than sampled ones, and near them")
         double first = infinity;
         for (std::size_t c = 0; c < 5; ++c) {
           std::vector<double> factors;
-          for (int w = 0; w < 30; ++w)
-            factors.push_back(std::pow(10, common + scatter.own() * normal(random)));
+          for (int w = 0; w < 30; ++w) factors.push_back(std::pow(10, common + scatter.own() * normal(random)));
           for (std::size_t g = 0; g < 15; ++g) {
             breaks.clear();
             for (std::size_t w = 0; w < 30; ++w) breaks.push_back(factors[w] / turning(c, g, w));
-            std::nth_element(breaks.begin(), breaks.begin() + static_cast<std::ptrdiff_t>(count - 1),
-                             breaks.end());
+            std::nth_element(breaks.begin(), breaks.begin() + static_cast<std::ptrdiff_t>(count - 1), breaks.end());
             first = std::min(first, breaks[count - 1]);
           }
         }
@@ -135,9 +132,7 @@ TEST_CASE("places: reported lives are shorter than sampled ones, and near them")
       for (std::size_t i = 0; i < percentiles.size(); ++i) {
         const double share = percentiles[i], sampling = 4.5 * std::sqrt(share * (1 - share) / draws);
         const auto sooner = [&](double life) {
-          return double(
-                     std::count_if(lives.begin(), lives.end(), [&](double drawn) { return drawn < life; })) /
-                 draws;
+          return double(std::count_if(lives.begin(), lives.end(), [&](double drawn) { return drawn < life; })) / draws;
         };
         INFO(percent << " " << shared << " " << share << " " << told.lives[i]);
         CHECK(sooner(told.lives[i]) < share + sampling);        // the predicted life is not longer than the sampled one
@@ -171,8 +166,7 @@ TEST_CASE("places: those left out do not move the life") {
   const double own = scatter.own() * std::log(10);
   std::vector<Wires> wires;
   for (std::size_t c = 0; c < 20; ++c)
-    for (std::size_t g = 0; g < 50; ++g)
-      wires.emplace_back(std::span(pack.places[c].damage).subspan(g * 10, 10));
+    for (std::size_t g = 0; g < 50; ++g) wires.emplace_back(std::span(pack.places[c].damage).subspan(g * 10, 10));
   std::vector<Wires> anywhere;
   for (const ConductorWires& bundle : pack.bundles) anywhere.emplace_back(bundle.damage);
   all.emplace_back(
@@ -180,16 +174,14 @@ TEST_CASE("places: those left out do not move the life") {
         double none = 1;
         for (std::size_t c = 0; c < 20; ++c) {
           double of_it = 1;
-          for (std::size_t g = 0; g < 50; ++g)
-            of_it *= 1 - wires[c * 50 + g].failed(log_time, 2, own, memory);
+          for (std::size_t g = 0; g < 50; ++g) of_it *= 1 - wires[c * 50 + g].failed(log_time, 2, own, memory);
           none *= std::max(of_it, 1 - anywhere[c].failed(log_time, 2, own, memory));
         }
         return 1 - none;
       },
       std::log(1e3) - 9, std::log(1e3) + 9, scatter.common() * std::log(10));
   const Percentiles whole = first_of(all);
-  for (std::size_t i = 0; i < whole.size(); ++i)
-    CHECK(some.lives[i] == Approx(whole[i]).epsilon(straight_pieces));
+  for (std::size_t i = 0; i < whole.size(); ++i) CHECK(some.lives[i] == Approx(whole[i]).epsilon(straight_pieces));
 }
 
 TEST_CASE("places: dresspacks scatter apart, and broken wires that leave their load shorten lives") {
@@ -215,11 +207,9 @@ TEST_CASE("places: damage of all wires everywhere, by conductor, segment and wir
   TextColumn component;
   component.values = {"a/layer 1/w 1", "a/layer 2/w 1", "b/w 1", "hose 1"};
   component.index = {0, 1, 2, 0, 1, 0, 3};
-  const std::vector<std::size_t> segment{0, 0, 0, 1,
-                                         1, 1, 1};  // a wire with two fibres counts by its worse fibre
+  const std::vector<std::size_t> segment{0, 0, 0, 1, 1, 1, 1};  // a wire with two fibres counts by its worse fibre
   const Conductors conductors = conductors_of(all, component, layers);
-  const auto places =
-      places_of(all, component, conductors, 2, [&](std::size_t site) { return segment[site]; });
+  const auto places = places_of(all, component, conductors, 2, [&](std::size_t site) { return segment[site]; });
   REQUIRE(places.size() == 2);
   CHECK(places[0].damage == std::vector<double>{0.1, 0.5, 0.7, 0.4});
   CHECK(places[1].damage == std::vector<double>{0.3, 0.0});

@@ -34,8 +34,7 @@ std::ifstream open_data(const std::string& name) {
 Numbers two_sines() {
   Numbers series;
   for (int i = 0; i <= 1000; ++i) {
-    series.push_back(0.8 * std::sin(0.01 * std::numbers::pi * i) +
-                     0.2 * std::sin(0.032 * std::numbers::pi * i));
+    series.push_back(0.8 * std::sin(0.01 * std::numbers::pi * i) + 0.2 * std::sin(0.032 * std::numbers::pi * i));
   }
   return series;
 }
@@ -168,8 +167,7 @@ TEST_CASE("published histories: reversals, four-point, residue, repeating and ha
     const FourPoint four = four_point(reversals);
     check_equal(from_to(four.closed), h.at("closed"), tolerance);
     Numbers samples, residue, half;
-    for (const Cycle& c : four.closed)
-      samples.insert(samples.end(), {double(c.begin.sample), double(c.end.sample)});
+    for (const Cycle& c : four.closed) samples.insert(samples.end(), {double(c.begin.sample), double(c.end.sample)});
     check_equal(samples, h.at("closed_index"), exact);
     for (const Reversal& r : four.residue) residue.push_back(r.strain);
     check_equal(residue, h.at("residue"), tolerance);
@@ -229,10 +227,9 @@ TEST_CASE("residue 2 7 of 2 5 3 7: one cycle when repeated, half a cycle when no
 
 TEST_CASE("half cycles are refused where rises and falls do not alternate") {
   const std::vector<Reversal> rises_twice{{0, 0}, {1, 1}, {1, 2}, {3, 3}, {2, 4}};
-  CHECK_THROWS_WITH(
-      count_half_cycles(rises_twice),
-      Catch::Contains("reversal 3 of a strain history continues from 1 to 3 in the direction of the "
-                      "one before"));
+  CHECK_THROWS_WITH(count_half_cycles(rises_twice),
+                    Catch::Contains("reversal 3 of a strain history continues from 1 to 3 in the direction of the "
+                                    "one before"));
   const std::vector<Reversal> plateau{{0, 0}, {3, 1}, {3, 2}, {2, 3}};
   CHECK(count_half_cycles(plateau).size() == 2);
   CHECK(count_half_cycles(std::vector<Reversal>{}).empty());
@@ -258,8 +255,7 @@ TEST_CASE("cutting a history into pieces changes nothing") {
     const FourPoint whole = four_point(find_reversals(series));
     for (std::size_t a = 0; a <= series.size(); ++a) {
       for (std::size_t b = a; b <= series.size(); ++b) {
-        ReversalFinder
-            finder;  // state continues over pieces [0, a), [a, b), [b, end), each counted at once
+        ReversalFinder finder;  // state continues over pieces [0, a), [a, b), [b, end), each counted at once
         FourPointCounter counter;
         std::vector<Cycle> closed;
         for (const auto& [from, to] : {std::pair{std::size_t{0}, a}, {a, b}, {b, series.size()}}) {
@@ -287,8 +283,7 @@ TEST_CASE("repeating history agrees with Rychlik's definition") {
   }
 }
 
-TEST_CASE(
-    "repeating history: four-point with its residue repeated, and every start of the period, give the same") {
+TEST_CASE("repeating history: four-point with its residue repeated, and every start of the period, give the same") {
   std::mt19937 random(12);
   for (int trial = 0; trial < 300; ++trial) {
     Numbers series = random_walk(random, 3 + trial % 40, 6);  // few levels: many ties
@@ -308,13 +303,11 @@ TEST_CASE("every range of a history is in exactly one cycle") {
   for (int trial = 0; trial < 100; ++trial) {
     const auto reversals = find_reversals(random_walk(random, 50, 20));
     double path = 0, counted = 0, closed_path = 0, closed = 0;
-    for (std::size_t i = 1; i < reversals.size(); ++i)
-      path += std::fabs(reversals[i].strain - reversals[i - 1].strain);
+    for (std::size_t i = 1; i < reversals.size(); ++i) path += std::fabs(reversals[i].strain - reversals[i - 1].strain);
     for (const Cycle& c : count_half_cycles(reversals)) counted += 2 * c.count * c.range();
     CHECK(counted == path);
     const auto period = rotate_to_largest(reversals);
-    for (std::size_t i = 1; i < period.size(); ++i)
-      closed_path += std::fabs(period[i].strain - period[i - 1].strain);
+    for (std::size_t i = 1; i < period.size(); ++i) closed_path += std::fabs(period[i].strain - period[i - 1].strain);
     for (const Cycle& c : count_repeating(reversals)) closed += 2 * c.range();
     CHECK(closed == closed_path);
   }
@@ -335,10 +328,8 @@ TEST_CASE("differences far below what their product can hold still turn the hist
 }
 
 TEST_CASE("numbers that are not finite are refused") {
-  for (const double bad :
-       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-    CHECK_THROWS_WITH(
-        find_reversals(Numbers{0, 1, bad, 0}),
-        Catch::Contains("sample 2 of a strain history is") && Catch::Contains("must be finite"));
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    CHECK_THROWS_WITH(find_reversals(Numbers{0, 1, bad, 0}),
+                      Catch::Contains("sample 2 of a strain history is") && Catch::Contains("must be finite"));
   }
 }

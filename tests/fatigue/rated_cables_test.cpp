@@ -37,8 +37,7 @@ pipeline::Component cable(std::vector<pipeline::Rating> ratings) {
 SegmentMotion motion(const std::vector<double>& bends, const std::vector<double>& twists, double angle = 0) {
   SegmentMotion segment;
   for (const double bend : bends)
-    segment.curvature1.push_back(bend * std::cos(angle)),
-        segment.curvature2.push_back(bend * std::sin(angle));
+    segment.curvature1.push_back(bend * std::cos(angle)), segment.curvature2.push_back(bend * std::sin(angle));
   segment.twist = twists;
   return segment;
 }
@@ -53,15 +52,14 @@ const std::vector<double> none(5, 0.0);
 
 TEST_CASE("rating: a motion that is the rig's cycle lasts what the maker promises") {
   const double on_mandrel = 1 / (0.1 + radius);
-  CHECK(repeats(cable({rating(RigKind::rolling_flex, 0.1)}), motion({0, 10, 10, 0, 0}, none)) ==
-        Approx(rated));
+  CHECK(repeats(cable({rating(RigKind::rolling_flex, 0.1)}), motion({0, 10, 10, 0, 0}, none)) == Approx(rated));
   CHECK(repeats(cable({rating(RigKind::tick_tock, 0.1)}), motion({0, on_mandrel, 0, -on_mandrel, 0}, none)) ==
         Approx(rated));
   CHECK(repeats(cable({rating(RigKind::torsion, 3)}), motion(none, {0, 3, 0, -3, 0})) == Approx(rated));
   // Each stroke of the carriage bends the cable to both sides, and straightens it in between.
   CHECK(repeats(cable({rating(RigKind::two_pulley, 0.1)}),
-                motion({0, -on_mandrel, on_mandrel, 0, on_mandrel, -on_mandrel, 0},
-                       std::vector<double>(7, 0.0))) == Approx(rated));
+                motion({0, -on_mandrel, on_mandrel, 0, on_mandrel, -on_mandrel, 0}, std::vector<double>(7, 0.0))) ==
+        Approx(rated));
   pipeline::Rating far = rating(RigKind::rolling_flex, 0.1);
   far.rig.travel = 8;  // bent and straightened in each stroke, so that one bend is half a cycle
   CHECK(repeats(cable({far}), motion({0, 10, 0, 0, 0}, none)) == Approx(2 * rated));
@@ -106,10 +104,10 @@ TEST_CASE(
   const SegmentMotion both = motion({0, 10, 0, 0, 0}, {0, 3, 0, -3, 0});
   CHECK(repeats(cable({rating(RigKind::rolling_flex, 0.1), rating(RigKind::rolling_flex, 0.2)}), both) ==
         Approx(rated));
-  CHECK(repeats(cable({rating(RigKind::rolling_flex, 0.1), rating(RigKind::rolling_flex, 0.1, 3 * rated)}),
-                both) == Approx(3 * rated));
-  const RatedLife life = rated_life(
-      cable({rating(RigKind::rolling_flex, 0.1), rating(RigKind::torsion, 3, 3 * rated)}), {&both, 1});
+  CHECK(repeats(cable({rating(RigKind::rolling_flex, 0.1), rating(RigKind::rolling_flex, 0.1, 3 * rated)}), both) ==
+        Approx(3 * rated));
+  const RatedLife life =
+      rated_life(cable({rating(RigKind::rolling_flex, 0.1), rating(RigKind::torsion, 3, 3 * rated)}), {&both, 1});
   CHECK(life.repeats == Approx(0.75 * rated));
   CHECK(life.twist_share == Approx(0.25));
   const RatedLife twisted = rated_life(cable({rating(RigKind::torsion, 3)}), {&both, 1});

@@ -23,8 +23,7 @@ namespace {
 
 constexpr double promised = 1e-5;        // of a life with smooth damage (relaxation.h)
 constexpr double promised_short = 5e-4;  // of a life shorter than a hundred repeats
-constexpr std::array<MeanStress, 4> rules{MeanStress::none, MeanStress::swt, MeanStress::morrow,
-                                          MeanStress::walker};
+constexpr std::array<MeanStress, 4> rules{MeanStress::none, MeanStress::swt, MeanStress::morrow, MeanStress::walker};
 
 pipeline::Material soft_copper() {
   auto m = material(117e9, 491.5e6, -0.112, 1.215, -0.6);
@@ -55,8 +54,7 @@ std::vector<float> busy_swing(double amplitude, double offset) {
 
 std::vector<Reversal> reversals_of(const std::vector<float>& strains) {
   std::vector<Reversal> reversals;
-  for (const float strain : strains)
-    reversals.push_back({strain, static_cast<std::int64_t>(reversals.size())});
+  for (const float strain : strains) reversals.push_back({strain, static_cast<std::int64_t>(reversals.size())});
   return reversals;
 }
 
@@ -145,8 +143,7 @@ TEST_CASE("relaxation: limits of a life") {
   CHECK(rough_relaxing_life(std::pow(10, -1e-4), std::pow(5.5, -1e-4),
                             [](double share) { return share > 0.5 ? 0.0 : 1e-3; }) == 1e15);
   // No damage at first, because of compression; all of the damage later.
-  const double late =
-      relaxing_life(-0.5, each([](double share) { return share > 0.1 ? 0.0 : 1e-4 * (0.1 - share); }));
+  const double late = relaxing_life(-0.5, each([](double share) { return share > 0.1 ? 0.0 : 1e-4 * (0.1 - share); }));
   CHECK(late > 1e5);
   CHECK(late < 1.1e5);
 }
@@ -175,7 +172,8 @@ TEST_CASE("relaxation: a constant strain is forgotten by a history that is old")
         CHECK(relaxed(busy_swing(amplitude, offset), memory) == Approx(alone).epsilon(rounding));
       }
       if (rule == MeanStress::none) continue;
-      CHECK(kept(busy_swing(amplitude, 0.012), memory) > 1.05 * alone);  // the effect of an offset that complete relaxation removes
+      CHECK(kept(busy_swing(amplitude, 0.012), memory) >
+            1.05 * alone);  // the effect of an offset that complete relaxation removes
       CHECK(kept(busy_swing(amplitude, -0.012), memory) < alone / 1.05);
     }
   }
@@ -204,8 +202,7 @@ TEST_CASE(
       }
 }
 
-TEST_CASE(
-    "relaxation: a history that reaches its largest strain again has the stress there that it had before") {
+TEST_CASE("relaxation: a history that reaches its largest strain again has the stress there that it had before") {
   // Bends of a rig are equal to the last bit: two equal loops, each with all of the remaining offset.
   constexpr double as_tables = DamageCounter::table_error;
   const pipeline::Material m = soft_copper();
@@ -221,8 +218,7 @@ TEST_CASE(
         DamageCounter::Workspace workspace;
         for (const double share : {1.0, 0.5, 0.0}) {
           INFO(word(rule) << ", sign " << sign << ", share " << share);
-          CHECK(counter(twice, workspace, share) ==
-                Approx(2 * counter(once, workspace, share)).epsilon(as_tables));
+          CHECK(counter(twice, workspace, share) == Approx(2 * counter(once, workspace, share)).epsilon(as_tables));
           CHECK(counter(with_nooks, workspace, share) ==
                 Approx(sum_of_damage(evaluate_cycles(reversals_of(with_nooks), m, with(rule), share)))
                     .epsilon(as_tables));
@@ -290,10 +286,12 @@ TEST_CASE("relaxation: without the effect of compression a compressed wire lives
   for (const MeanStress rule : rules)
     for (const float range : {4e-4f, 8e-3f}) {  // below and above the threshold
       const DamageCounter by_rule(soft_copper(), with(rule));
-      const DamageCounter safe(soft_copper(), with(rule), pipeline::instruction_set(), most_reversals, Compression::without_effect);
+      const DamageCounter safe(soft_copper(), with(rule), pipeline::instruction_set(), most_reversals,
+                               Compression::without_effect);
       const std::vector<float> compressed{0, -range}, pulled{0, range}, symmetric{range / 2, -range / 2};
       INFO(int(rule) << " " << range);
-      CHECK(safe.settled_damage(compressed, memory) == Approx(by_rule.settled_damage(symmetric, memory)).epsilon(promised));
+      CHECK(safe.settled_damage(compressed, memory) ==
+            Approx(by_rule.settled_damage(symmetric, memory)).epsilon(promised));
       CHECK(safe(compressed, memory) == Approx(by_rule(symmetric, memory)).epsilon(promised));
       CHECK(safe.settled_damage(pulled, memory) == Approx(by_rule.settled_damage(pulled, memory)).epsilon(promised));
       if (range < 1e-3f)  // the mean stress stays

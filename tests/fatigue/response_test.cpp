@@ -41,8 +41,7 @@ struct Rests {
     response.knowledge = pipeline::prior_of({});
     response.planned = {{5.9, 6, 6.1}};
     response.worst_life = {6, of_one, of_two, of_two - 2, of_two + 1, of_two - 2, of_two + 1};
-    for (const VariedStrains& at : varied)
-      response.points.push_back(at.z), response.inside.push_back(at.inside);
+    for (const VariedStrains& at : varied) response.points.push_back(at.z), response.inside.push_back(at.inside);
     fatigue::put_rests(response, varied, starts);
   }
 };
@@ -97,8 +96,7 @@ TEST_CASE("rests: lives beyond anything physical shorten no other life") {
   response.planned = {{16, 16, 16}};
   response.worst_life = {16, 18.1, 10.7, 4.3};
   response.bound[static_cast<std::size_t>(Inside::glued)] = 4;
-  for (const VariedStrains& at : varied)
-    response.points.push_back(at.z), response.inside.push_back(at.inside);
+  for (const VariedStrains& at : varied) response.points.push_back(at.z), response.inside.push_back(at.inside);
   fatigue::put_rests(response, varied, {3, 1, 1});
   const double most = 5 * std::log10(1 + std::pow(10, (4 - 10.7) / 5));  // by the strain of the worst rest
   pipeline::ParameterPoint z{};
@@ -125,12 +123,15 @@ TEST_CASE("rests: each strength and slope of the material has its own lives, and
   CHECK(response.points[2][rest] == Approx(pipeline::normal_quantile(0.5 / 8) - zero));
   CHECK(response.knowledge.mean[rest] == Approx(-zero));
   for (std::size_t node = 0; node < 6; ++node)
-    CHECK(response.worst_life[18 + node] == Approx(pipeline::together(own[12 + node], std::array{own[18 + node], own[node]})));
+    CHECK(response.worst_life[18 + node] ==
+          Approx(pipeline::together(own[12 + node], std::array{own[18 + node], own[node]})));
 }
 
-TEST_CASE("variations are read as written, with the wires that count, and each number that the file does not hold is refused") {
-  const pipeline::Format format = fatigue_tests::part_of_strain({"/variation/z", "/variation/inside", "/variation/rest", "/variation/stiffness", "/start/rest",
-                                                               "/variation/row/variation", "/variation/row/site", "/variation/row/turning", "/variation/strain"});
+TEST_CASE(
+    "variations are read as written, with the wires that count, and each number that the file does not hold is refused") {
+  const pipeline::Format format = fatigue_tests::part_of_strain(
+      {"/variation/z", "/variation/inside", "/variation/rest", "/variation/stiffness", "/start/rest",
+       "/variation/row/variation", "/variation/row/site", "/variation/row/turning", "/variation/strain"});
   const pipeline::Scratch folder;
   const std::vector<double> z{0, 1, 2, 3, 4, -5, -6, -7, -8, -9, 10, 11, 12, 13, 14}, stiffness{0.5, 0, -0.5};
   const std::vector<std::int32_t> inside{0, 2, 1}, rest_of{1, 0, 2}, start{0, 2, 1, 1};
@@ -140,7 +141,8 @@ TEST_CASE("variations are read as written, with the wires that count, and each n
     const auto [of_inside, of_rest, of_start, of_variation, of_site, of_turning] = std::tuple(lists...);
     {
       pipeline::FileWriter file(folder / "strain.h5", format);
-      file.append("/variation/z", z), file.append("/variation/inside", of_inside), file.append("/variation/rest", of_rest);
+      file.append("/variation/z", z), file.append("/variation/inside", of_inside),
+          file.append("/variation/rest", of_rest);
       file.append("/variation/stiffness", stiffness), file.append("/start/rest", of_start);
       file.append("/variation/row/variation", of_variation), file.append("/variation/row/site", of_site);
       file.append("/variation/row/turning", of_turning), file.append("/variation/strain", strain);
@@ -175,14 +177,20 @@ TEST_CASE("variations are read as written, with the wires that count, and each n
   };
   const auto refusal = [&](const auto&... lists) { return pipeline::message_of([&] { reads(lists...); }); };
   for (const std::int32_t wrong : {-1, 3}) {
-    CHECK_THAT(refusal(changed(inside, 1, wrong), rest_of, start, variation, site, turning), Catch::Contains("/variation/inside is " + std::to_string(wrong)));
-    CHECK_THAT(refusal(inside, changed(rest_of, 1, wrong), start, variation, site, turning), Catch::Contains("/variation/rest is " + std::to_string(wrong)));
+    CHECK_THAT(refusal(changed(inside, 1, wrong), rest_of, start, variation, site, turning),
+               Catch::Contains("/variation/inside is " + std::to_string(wrong)));
+    CHECK_THAT(refusal(inside, changed(rest_of, 1, wrong), start, variation, site, turning),
+               Catch::Contains("/variation/rest is " + std::to_string(wrong)));
     const std::int32_t of_start = wrong < 0 ? wrong : 4;
-    CHECK_THAT(refusal(inside, rest_of, changed(start, 2, of_start), variation, site, turning), Catch::Contains("/start/rest is " + std::to_string(of_start)));
+    CHECK_THAT(refusal(inside, rest_of, changed(start, 2, of_start), variation, site, turning),
+               Catch::Contains("/start/rest is " + std::to_string(of_start)));
   }
-  CHECK_THAT(refusal(inside, rest_of, start, changed(variation, 1, 3u), site, turning), Catch::Contains("/variation/row names"));
-  CHECK_THAT(refusal(inside, rest_of, start, variation, changed(site, 1, 4u), turning), Catch::Contains("/variation/row names"));
-  CHECK_THAT(refusal(inside, rest_of, start, variation, site, changed(turning, 3, 3u)), Catch::Contains("/variation/row names"));
+  CHECK_THAT(refusal(inside, rest_of, start, changed(variation, 1, 3u), site, turning),
+             Catch::Contains("/variation/row names"));
+  CHECK_THAT(refusal(inside, rest_of, start, variation, changed(site, 1, 4u), turning),
+             Catch::Contains("/variation/row names"));
+  CHECK_THAT(refusal(inside, rest_of, start, variation, site, changed(turning, 3, 3u)),
+             Catch::Contains("/variation/row names"));
 }
 
 TEST_CASE("rests: they have a share in the causes when starts differ, and none when they agree") {
@@ -216,8 +224,9 @@ struct Sites {
   }
   static std::string material(std::size_t site) { return site / 3 % 2 == 0 ? "copper" : "aluminium"; }
   static const pipeline::Format& format() {
-    static const pipeline::Format part = fatigue_tests::part_of_strain(
-        {"/site/segment", "/site/component", "/site/material", "/reversal/strain", "/reversal/offset", "/segment/length"});
+    static const pipeline::Format part =
+        fatigue_tests::part_of_strain({"/site/segment", "/site/component", "/site/material", "/reversal/strain",
+                                       "/reversal/offset", "/segment/length"});
     return part;
   }
   void write(const std::filesystem::path& path) const {
@@ -247,7 +256,8 @@ struct Sites {
       double sum = 0;
       for (const fatigue::DamagingCycle& c : fatigue::evaluate_cycles(reversals, m, moved.fatigue, share)) {
         const double compressive = safe ? std::min(c.stress_mean, 0.0) : 0;
-        sum += c.cycle.count * life.damage({c.cycle.range() / 2, c.stress_max - compressive, c.stress_mean - compressive});
+        sum +=
+            c.cycle.count * life.damage({c.cycle.range() / 2, c.stress_max - compressive, c.stress_mean - compressive});
       }
       return sum;
     };
@@ -273,7 +283,8 @@ TEST_CASE("response: every point has the life of its worst wire, with every stre
     const auto history = [&](std::size_t k, double times) {
       const double a = times * size(random), offset = (k % 2 ? 0.8 : -0.8) * a;
       std::vector<float> turns{0, float(a + offset)};
-      for (std::size_t inner = 0; inner < k % 4; ++inner) turns.insert(turns.end(), {float(0.3 * a + offset), float(0.5 * a + offset)});
+      for (std::size_t inner = 0; inner < k % 4; ++inner)
+        turns.insert(turns.end(), {float(0.3 * a + offset), float(0.5 * a + offset)});
       turns.insert(turns.end(), {float(offset - a), 0});
       return turns;
     };
@@ -284,7 +295,8 @@ TEST_CASE("response: every point has the life of its worst wire, with every stre
     for (std::size_t v = 0; v < 4; ++v) {
       varied[v].z[v] = 1.5 - double(v);
       varied[v].inside = static_cast<Inside>(v % 3);
-      for (std::size_t k = v; k < 40; k += v + 2) varied[v].site.push_back(k), varied[v].strains.push_back(history(k, 1 + 0.3 * double(v)));
+      for (std::size_t k = v; k < 40; k += v + 2)
+        varied[v].site.push_back(k), varied[v].strains.push_back(history(k, 1 + 0.3 * double(v)));
     }
     sites.write(sites.folder / "strain.h5");
     const pipeline::FileReader file(sites.folder / "strain.h5", Sites::format());
@@ -306,7 +318,8 @@ TEST_CASE("response: every point has the life of its worst wire, with every stre
         for (std::size_t k = 0; k < at.site.size(); ++k)
           worst = std::max(worst, sites.damage(at.site[k], at.strains[k], moved, at.inside == Inside::glued));
         CAPTURE(relaxes, point, node);
-        CHECK(response.worst_life[point * nodes + node] == Approx(-std::log10(worst)).margin(fatigue::DamageCounter::table_error));
+        CHECK(response.worst_life[point * nodes + node] ==
+              Approx(-std::log10(worst)).margin(fatigue::DamageCounter::table_error));
       }
     }
   }

@@ -16,8 +16,7 @@ using namespace dresslife::fatigue;
 namespace {
 
 constexpr double rounding = 1e-12;  // relative: some hundred sums and products of doubles
-constexpr double bisected =
-    1e-8;  // relative: lives are found to 1e-10; the slope of a share is at most 100
+constexpr double bisected = 1e-8;   // relative: lives are found to 1e-10; the slope of a share is at most 100
 constexpr double one_deviation = 0.8413447460685429;  // Phi(1)
 
 /// Returns a bundle of wires with these median lives.
@@ -69,8 +68,7 @@ TEST_CASE("scatter: percentiles of one wire, of the first and of the last of equ
   constexpr double z90 = 1.2815515655446004;
   const double s = 0.25;
   CHECK(life_until(std::vector{1 / 800.0}, 1, s, 0.5) == Approx(800).epsilon(bisected));
-  CHECK(life_until(std::vector{1 / 800.0}, 1, s, 0.9) ==
-        Approx(800 * std::pow(10, s * z90)).epsilon(bisected));
+  CHECK(life_until(std::vector{1 / 800.0}, 1, s, 0.9) == Approx(800 * std::pow(10, s * z90)).epsilon(bisected));
   const std::vector<double> equal(40, 1 / 800.0);
   for (const double share : percentiles) {
     // 1 - (1-p)^n = share, p^n = share
@@ -124,14 +122,12 @@ TEST_CASE("scatter: drawing agrees with the closed form where nothing is shared"
       const std::size_t counts[]{1, 2, n};
       for (std::size_t failure = 0; failure < failures; ++failure) {
         std::vector<double> p;
-        for (const double d : bundles[k].damage)
-          p.push_back(broken_share(drawn.conductor[k][failure][i], 1 / d, 0.2));
+        for (const double d : bundles[k].damage) p.push_back(broken_share(drawn.conductor[k][failure][i], 1 / d, 0.2));
         CHECK(std::fabs(at_least(p, counts[failure]) - q) < place);
       }
     }
     const Percentiles first = first_conductor_lives(bundles, 40, 0.2);
-    CHECK(std::fabs(std::log10(drawn.first_conductor[i] / first[i])) <
-          0.2 * place / 0.1);  // density >= 0.1 / s
+    CHECK(std::fabs(std::log10(drawn.first_conductor[i] / first[i])) < 0.2 * place / 0.1);  // density >= 0.1 / s
   }
 }
 
@@ -215,8 +211,7 @@ TEST_CASE("scatter: percentiles are continuous in the common share, and spread w
   Percentiles before{};
   for (double shared = 0; shared <= 1; shared += 0.02) {
     Percentiles now;
-    for (std::size_t i = 0; i < now.size(); ++i)
-      now[i] = life_until(damage, 1, {0.2, shared}, percentiles[i]);
+    for (std::size_t i = 0; i < now.size(); ++i) now[i] = life_until(damage, 1, {0.2, shared}, percentiles[i]);
     if (shared > 0) {
       CHECK(now[2] / now[0] > before[2] / before[0]);
       for (std::size_t i = 0; i < now.size(); ++i) CHECK(now[i] == Approx(before[i]).epsilon(0.25));
@@ -229,12 +224,10 @@ TEST_CASE("scatter: dresspacks have no factor in common") {
   const Scatter scatter{0.2, 1};
   const std::vector<std::vector<double>> two{{1e-3, 1e-3}, {}, {1e-3}};
   // The first of two independent lives: 1 - (1 - p)^2 = 1/2.
-  CHECK(broken_share(first_wire_lives(two, scatter)[1], 1000, 0.2) ==
-        Approx(1 - std::sqrt(0.5)).epsilon(1e-6));
+  CHECK(broken_share(first_wire_lives(two, scatter)[1], 1000, 0.2) == Approx(1 - std::sqrt(0.5)).epsilon(1e-6));
   std::vector<ConductorWires> bundles{wires({1000, 2000}), wires({1000})};
   bundles[1].dresspack = 2;
-  CHECK(first_conductor_lives(bundles, 10, scatter)[1] ==
-        Approx(first_wire_lives(two, scatter)[1]).epsilon(1e-6));
+  CHECK(first_conductor_lives(bundles, 10, scatter)[1] == Approx(first_wire_lives(two, scatter)[1]).epsilon(1e-6));
   CHECK(first_wire_lives(std::vector<std::vector<double>>{{0, 0}}, scatter)[0] == infinity);
 }
 
@@ -246,7 +239,6 @@ TEST_CASE("scatter: drawing with a common part agrees with the closed form") {
   const Percentiles first = first_conductor_lives(bundles, 40, scatter);
   for (std::size_t i = 0; i < percentiles.size(); ++i) {
     const double q = percentiles[i], place = 4.5 * std::sqrt(q * (1 - q) / draws);
-    CHECK(std::fabs(std::log10(drawn.first_conductor[i] / first[i])) <
-          0.2 * place / 0.1);  // density >= 0.1 / s
+    CHECK(std::fabs(std::log10(drawn.first_conductor[i] / first[i])) < 0.2 * place / 0.1);  // density >= 0.1 / s
   }
 }

@@ -51,10 +51,8 @@ TEST_CASE("Morrow and SWT lives of published constants") {
     CHECK(morrow.reversals({amplitude, 0, -150}) == Approx(reversals).epsilon(published));
   }
   const StrainLife swt(lcf_steel, MeanStress::swt);
-  for (const auto& [parameter, reversals] : {std::pair{0.3, 7296780.92600749},
-                                             {1.0, 49895.1213711346},
-                                             {3.0, 3368.03902870194},
-                                             {10.0, 380.840947408087}}) {
+  for (const auto& [parameter, reversals] :
+       {std::pair{0.3, 7296780.92600749}, {1.0, 49895.1213711346}, {3.0, 3368.03902870194}, {10.0, 380.840947408087}}) {
     CHECK(swt.reversals({0.01, parameter / 0.01, 0}) == Approx(reversals).epsilon(published));
   }
 }
@@ -92,11 +90,10 @@ TEST_CASE("life undoes load over the whole range of reversals, for every mean st
       CHECK(none.reversals({none.coffin_manson()(reversals), 0, 0}) == Approx(reversals).epsilon(round_trip));
       CHECK(swt.reversals({0.5, swt.swt()(reversals) / 0.5, 0}) == Approx(reversals).epsilon(round_trip));
       for (const double mean : {-0.5, 0.0, 0.3, 0.9}) {  // shares of sf'; (F7) written explicitly
-        const double amplitude = (1 - mean) * m.fatigue_strength / m.youngs_modulus *
-                                     std::pow(reversals, m.fatigue_strength_exponent) +
-                                 m.fatigue_ductility * std::pow(reversals, m.fatigue_ductility_exponent);
-        CHECK(morrow.reversals({amplitude, 0, mean * m.fatigue_strength}) ==
-              Approx(reversals).epsilon(round_trip));
+        const double amplitude =
+            (1 - mean) * m.fatigue_strength / m.youngs_modulus * std::pow(reversals, m.fatigue_strength_exponent) +
+            m.fatigue_ductility * std::pow(reversals, m.fatigue_ductility_exponent);
+        CHECK(morrow.reversals({amplitude, 0, mean * m.fatigue_strength}) == Approx(reversals).epsilon(round_trip));
       }
     }
   }
@@ -160,10 +157,8 @@ TEST_CASE("Walker: (8) at zero mean, SWT's amplitude at gamma 1/2, no mean stres
     for (const double mean : {70e6, -40e6}) {
       const double max = 150e6, amplitude = max - mean;
       const double equivalent = std::pow(max, 1 - gamma) * std::pow(amplitude, gamma);
-      CHECK(
-          StrainLife(elastic, MeanStress::walker).reversals({amplitude / elastic.youngs_modulus, max, mean}) ==
-          Approx(std::pow(equivalent / elastic.fatigue_strength, 1 / -0.112))
-              .epsilon(1e-4));  // 1e-9 of ductility
+      CHECK(StrainLife(elastic, MeanStress::walker).reversals({amplitude / elastic.youngs_modulus, max, mean}) ==
+            Approx(std::pow(equivalent / elastic.fatigue_strength, 1 / -0.112)).epsilon(1e-4));  // 1e-9 of ductility
     }
   }
 }

@@ -30,8 +30,8 @@ constexpr std::size_t hose_friction = index_of(Uncertain::friction_hose), slack 
 struct Variation {
   std::array<double, pipeline::strain_parameters> z{};
   std::int32_t rest = 0;
-  std::array<double, cables> tension{};      // over the limit of each cable
-  std::array<double, spans> moment{};        // of the cables over the limit by the hose
+  std::array<double, cables> tension{};  // over the limit of each cable
+  std::array<double, spans> moment{};    // of the cables over the limit by the hose
   std::int32_t inside = 0;
 };
 
@@ -64,12 +64,15 @@ struct Varied {
     }
   }
 
-  static double hose_moment(std::size_t variation, std::size_t span) { return 2.0 + double(variation) + 7 * double(span); }
+  static double hose_moment(std::size_t variation, std::size_t span) {
+    return 2.0 + double(variation) + 7 * double(span);
+  }
 
   std::vector<pipeline::Warning> warnings() const {
     static const pipeline::Format format = fatigue_tests::part_of_strain(
-        {"/time", "/program/step", "/program/text", "/start/rest", "/variation/z", "/variation/stiffness", "/variation/rest", "/variation/inside",
-         "/variation/tension", "/variation/tension_place", "/variation/tension_sample", "/variation/clamp_moment", "/variation/clamp_moment_place",
+        {"/time", "/program/step", "/program/text", "/start/rest", "/variation/z", "/variation/stiffness",
+         "/variation/rest", "/variation/inside", "/variation/tension", "/variation/tension_place",
+         "/variation/tension_sample", "/variation/clamp_moment", "/variation/clamp_moment_place",
          "/variation/clamp_moment_tension"});
     const auto path = folder / "strain.h5";
     {
@@ -77,7 +80,8 @@ struct Varied {
       file.set_axis("cable", cables), file.set_axis("cable_span", spans);
       std::vector<double> time;
       std::vector<std::int32_t> step;
-      for (std::size_t t = 0; t < 10 * all.size() + 10; ++t) time.push_back(0.5 * double(t)), step.push_back(std::int32_t(t % 2));
+      for (std::size_t t = 0; t < 10 * all.size() + 10; ++t)
+        time.push_back(0.5 * double(t)), step.push_back(std::int32_t(t % 2));
       file.append("/time", time), file.append("/program/step", step);
       file.append("/program/text", std::vector<std::string>{"even", "odd"});
       if (!rest_of_start.empty()) file.append("/start/rest", rest_of_start);
@@ -95,8 +99,10 @@ struct Varied {
           sample.push_back(static_cast<std::uint32_t>(10 * v + k + wrong_sample));
         }
         for (std::size_t span = 0; span < spans; ++span) {
-          moments.insert(moments.end(), {of.moment[span] * pipeline::believable_share * hose_moment(v, span), hose_moment(v, span)});
-          places.insert(places.end(), {static_cast<std::uint32_t>(10 * v + 5 + span), static_cast<std::uint32_t>(2 - span + wrong_cable)});
+          moments.insert(moments.end(),
+                         {of.moment[span] * pipeline::believable_share * hose_moment(v, span), hose_moment(v, span)});
+          places.insert(places.end(), {static_cast<std::uint32_t>(10 * v + 5 + span),
+                                       static_cast<std::uint32_t>(2 - span + wrong_cable)});
           pulls.push_back(span == 0 ? 12 : -13);
         }
         file.append("/variation/tension", tension), file.append("/variation/tension_place", place);
@@ -149,11 +155,14 @@ double number_after(const std::string& text, const std::string& words) {
 TEST_CASE("forces at other values: the share, the leading cause and its worst cable are those of all variations") {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> of_load(0, 1.6);
-  const std::vector<std::pair<std::size_t, double>> nodes{{hose_friction, 1.5}, {slack, 1.5}, {play, 1.5}, {grip, 1.5}, {stiffness, 1.65}};
+  const std::vector<std::pair<std::size_t, double>> nodes{
+      {hose_friction, 1.5}, {slack, 1.5}, {play, 1.5}, {grip, 1.5}, {stiffness, 1.65}};
   int warned = 0, several = 0;
   Varied varied;
-  varied.job.uncertainty.spread[slack] = 2.25, varied.job.uncertainty.spread[grip] = std::sqrt(2.0);  // deviations of z: 2 and 0.5
-  varied.job.strain.factors.hose_friction = 0.5, varied.job.strain.factors.slack = 1.1, varied.job.strain.factors.play = 1.2;
+  varied.job.uncertainty.spread[slack] = 2.25,
+  varied.job.uncertainty.spread[grip] = std::sqrt(2.0);  // deviations of z: 2 and 0.5
+  varied.job.strain.factors.hose_friction = 0.5, varied.job.strain.factors.slack = 1.1,
+  varied.job.strain.factors.play = 1.2;
   varied.job.strain.factors.grip = 1.3, varied.job.simulation.stiffness_factor = 1.4;
   const std::vector<double> own_values{0.5, 1.1, 1.2, 1.3, 1.4}, deviations{1, 2, 1, 0.5, 1};
   for (int round = 0; round < 30; ++round) {
@@ -181,12 +190,16 @@ TEST_CASE("forces at other values: the share, the leading cause and its worst ca
       for (std::size_t c = 1; c < cables; ++c)
         if (std::abs(at.tension[c]) > std::abs(at.tension[cable])) cable = c;
       const double value = pipeline::uncertain_parameters()[parameter].value(at.z[parameter]);
-      expected = fmt::format("{}: {:.3g}) 'cable {}' is {} with {:.0f} % of its breaking force", pipeline::uncertain_parameters()[parameter].key,
-                             own_values[k] * value, cable + 1, at.tension[cable] < 0 ? "compressed" : "pulled",
+      expected = fmt::format("{}: {:.3g}) 'cable {}' is {} with {:.0f} % of its breaking force",
+                             pipeline::uncertain_parameters()[parameter].key, own_values[k] * value, cable + 1,
+                             at.tension[cable] < 0 ? "compressed" : "pulled",
                              100 * pipeline::believable_share * std::abs(at.tension[cable]));
       const std::size_t sample = 10 * (worst - 1) + cable;
-      expected += "\n" + (cable == 2 ? std::string("over its whole length") : fmt::format("{:.2f} m from the base clamp", 0.1 * double(worst - 1) + 0.01 * double(cable)));
-      expected += fmt::format("\nat {:.3f} s, program step {} '{}'", 0.5 * double(sample), sample % 2 + 1, sample % 2 ? "odd" : "even");
+      expected += "\n" + (cable == 2 ? std::string("over its whole length")
+                                     : fmt::format("{:.2f} m from the base clamp",
+                                                   0.1 * double(worst - 1) + 0.01 * double(cable)));
+      expected += fmt::format("\nat {:.3f} s, program step {} '{}'", 0.5 * double(sample), sample % 2 + 1,
+                              sample % 2 ? "odd" : "even");
     }
     const std::string text = varied.text();
     INFO(text);
@@ -217,10 +230,12 @@ TEST_CASE("forces at other values: of two parameters together only if neither ex
   both.z[play] = 1.5, both.tension = {1.5, -0.9, 0};
   // The load is 1 half-way from the job's 0.5 to 1.5: at -0.75 and 0.75, each with a quarter of the standard normal distribution.
   const double share = std::pow(pipeline::normal_share(-0.75), 2);
-  CHECK_THAT(varied.text(), Catch::Contains("(strain.slack_factor: 0.544) and 1.7 times") && Catch::Contains("(strain.play_factor: 1.66) 'cable 1' is pulled") &&
+  CHECK_THAT(varied.text(), Catch::Contains("(strain.slack_factor: 0.544) and 1.7 times") &&
+                                Catch::Contains("(strain.play_factor: 1.66) 'cable 1' is pulled") &&
                                 Catch::Contains(fmt::format("about {:.0f} % of such dresspacks", 100 * share)));
   varied.all[1].tension[2] = -1.4;  // play by itself
-  CHECK_THAT(varied.text(), Catch::Contains("(strain.play_factor: 0.604) 'cable 3' is compressed") && !Catch::Contains("slack_factor"));
+  CHECK_THAT(varied.text(), Catch::Contains("(strain.play_factor: 0.604) 'cable 3' is compressed") &&
+                                !Catch::Contains("slack_factor"));
   varied.all[1].tension[2] = 0, varied.all[2].tension[0] = 1;  // at the limit, not beyond it
   CHECK(varied.text() == "");
 }
@@ -230,8 +245,9 @@ TEST_CASE("forces at other values: rests count by their starts, and variations i
   varied.rest_of_start = {0, 0, 1, 2, 2, 2, 0, 1};
   for (const int rest : {1, 2}) varied.add(slack, 0).rest = rest;
   varied.all[0].tension = {0, 1.2, 0}, varied.all[1].tension = {0.9, 0.9, 0.9};
-  CHECK_THAT(varied.text(), Catch::Contains("with another of the places at which the loose cables come to rest 'cable 2' is pulled") &&
-                                Catch::Contains("about 25 % of such dresspacks"));
+  CHECK_THAT(varied.text(),
+             Catch::Contains("with another of the places at which the loose cables come to rest 'cable 2' is pulled") &&
+                 Catch::Contains("about 25 % of such dresspacks"));
   varied.all[1].tension = {0.9, 0.9, -1.1};
   CHECK_THAT(varied.text(), Catch::Contains("about 62 % of such dresspacks") && Catch::Contains("'cable 2' is pulled"));
   for (Variation& of : varied.all) of.inside = 1;
@@ -240,15 +256,22 @@ TEST_CASE("forces at other values: rests count by their starts, and variations i
   CHECK(varied.text() == "");
 }
 
-TEST_CASE("forces at other values: moments at a clamp name their span, moment and cable, and limits that the job exceeds are left out") {
+TEST_CASE(
+    "forces at other values: moments at a clamp name their span, moment and cable, and limits that the job exceeds are left out") {
   Varied varied;
   varied.add(grip, -1.5).moment = {0.3, 0.9}, varied.add(grip, 1.5).moment = {1.3, 1.9};
   // The larger load is 0.9, 0.4 and 1.9 at -1.5, 0 and 1.5: it is 1 at -1.8 and 0.6.
-  CHECK_THAT(varied.text(), Catch::Contains("bend a clamp with 0.38 times the moment of the hose (3.80 of 10.0 N m, limit 0.2 times) at 8.000 s, program step "
-                                            "1 'even', which is unrealistic; 'cable 2' presses most, with 13.0 N") &&
-                                Catch::Contains(fmt::format("about {:.0f} % of such", 100 * (pipeline::normal_share(-0.6) + pipeline::normal_share(-1.8)))));
+  CHECK_THAT(
+      varied.text(),
+      Catch::Contains(
+          "bend a clamp with 0.38 times the moment of the hose (3.80 of 10.0 N m, limit 0.2 times) at 8.000 s, program step "
+          "1 'even', which is unrealistic; 'cable 2' presses most, with 13.0 N") &&
+          Catch::Contains(fmt::format("about {:.0f} % of such",
+                                      100 * (pipeline::normal_share(-0.6) + pipeline::normal_share(-1.8)))));
   varied.all[1].moment = {1.9, 1.3};
-  CHECK_THAT(varied.text(), Catch::Contains("(1.14 of 3.00 N m") && Catch::Contains("at 7.500 s, program step 2 'odd'") && Catch::Contains("'cable 3' pulls most, with 12.0 N"));
+  CHECK_THAT(varied.text(), Catch::Contains("(1.14 of 3.00 N m") &&
+                                Catch::Contains("at 7.500 s, program step 2 'odd'") &&
+                                Catch::Contains("'cable 3' pulls most, with 12.0 N"));
   varied.all[1].tension = {0, 0, 3};
   CHECK(varied.warnings().size() == 2);
   varied.own.moment = 1.01 * pipeline::believable_share;
@@ -281,9 +304,13 @@ TEST_CASE("forces at other values: the slack that cures them is the present one 
     CHECK_THAT(varied.text(), Catch::Contains(words));
   };
   // 2 times 1.5^1.5 = 3.67, rounded up, and 2 / 1.5^1.5 = 1.09, rounded down
-  cures(slack, -1.5, 1.4, "too little slack: 1.09 % instead of 2 %. Remedy: dresspack.components.2.slack_percent: 3.7 (now 2");
-  cures(slack, 1.5, -1.4, "too much slack: 3.67 % instead of 2 %. Remedy: dresspack.components.2.slack_percent: 1 (now 2");
-  cures(hose_friction, 1.5, 1.4, "friction keeps the cable from moving its slack to the bends that need it. Remedy: dresspack.components.2.slack_percent: 3.4 (now 2; not tried)");
+  cures(slack, -1.5, 1.4,
+        "too little slack: 1.09 % instead of 2 %. Remedy: dresspack.components.2.slack_percent: 3.7 (now 2");
+  cures(slack, 1.5, -1.4,
+        "too much slack: 3.67 % instead of 2 %. Remedy: dresspack.components.2.slack_percent: 1 (now 2");
+  cures(
+      hose_friction, 1.5, 1.4,
+      "friction keeps the cable from moving its slack to the bends that need it. Remedy: dresspack.components.2.slack_percent: 3.4 (now 2; not tried)");
   cures(hose_friction, 1.5, -1.4, "Likely cause: slack, play, grips or position of the cable");
   cable.laying.slack = 3;  // 3 times 1.5^1.5 is more than any usual slack
   cures(slack, -1.5, 1.4, "Likely cause: slack, play, grips or position of the cable");

@@ -54,10 +54,12 @@ TEST_CASE("wall: lives over the samples have the closed form of a curve of one s
   CHECK(deviation == Approx(std::hypot(per_deviation, job.fatigue.scatter_log10)).epsilon(0.01));
   job.robot.joints.resize(6);  // swings
   CHECK(moments(pipeline::first_failures({swinging(job)}, "")).second ==
-        Approx(std::hypot(per_deviation, job.fatigue.scatter_log10, std::log10(job.uncertainty.spread[index_of(pipeline::Uncertain::motion)])))
+        Approx(std::hypot(per_deviation, job.fatigue.scatter_log10,
+                          std::log10(job.uncertainty.spread[index_of(pipeline::Uncertain::motion)])))
             .epsilon(0.01));
   job.robot.joints.clear(), job.uncertainty.enabled = false;
-  CHECK(moments(pipeline::first_failures({swinging(job)}, "")).second == Approx(job.fatigue.scatter_log10).epsilon(0.01));
+  CHECK(moments(pipeline::first_failures({swinging(job)}, "")).second ==
+        Approx(job.fatigue.scatter_log10).epsilon(0.01));
 }
 
 TEST_CASE("wall: a calibration moves the hoses of its life curve, and no others") {

@@ -17,8 +17,7 @@ constexpr double rate = 1e-14;  // 1e-5 mm3/(N m)
 pipeline::Material polymer() {
   pipeline::Material material;
   material.name = "polymer";
-  material.wear = {{pipeline::Counterface::robot, rate, 5, "test"},
-                   {pipeline::Counterface::ring, rate / 2, 3, "test"}};
+  material.wear = {{pipeline::Counterface::robot, rate, 5, "test"}, {pipeline::Counterface::ring, rate / 2, 3, "test"}};
   return material;
 }
 
@@ -88,8 +87,7 @@ TEST_CASE("wear: a hose rubbed over an edge at constant force is worn through wh
     // Sliding over a length greater than the footprint wears by the force per length.
     const Abrasion line = abrasion({layer, &material}, rubbed(force * way, 0.5, 0.74, 0.005, 71, 1));
     CHECK(line.repeats == Approx(4 * one.repeats));
-    const Abrasion ring =
-        abrasion({layer, &material}, rubbed(force * way, 0.5, 0.505, 0.005, 3, 1, "ring 1"));
+    const Abrasion ring = abrasion({layer, &material}, rubbed(force * way, 0.5, 0.505, 0.005, 3, 1, "ring 1"));
     CHECK(ring.repeats == Approx(one.repeats / 4 * 2));  // a quarter of the footprint, half the rate
   }
 }
@@ -143,8 +141,7 @@ TEST_CASE("wear: cells of other lengths give the same life, and several obstacle
   CHECK(together.obstacle == "link_5");
 }
 
-TEST_CASE(
-    "wear: the spread of a life is that of the rate and the thickness, nothing that rubs wears nothing") {
+TEST_CASE("wear: the spread of a life is that of the rate and the thickness, nothing that rubs wears nothing") {
   const pipeline::Material material = polymer();
   const Abrasion one = abrasion({smooth(), &material}, rubbed(10, 0.5, 0.505, 0.005, 3, 1));
   // The area of a line contact grows with the depth to the power 3/2.

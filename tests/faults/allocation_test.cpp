@@ -61,8 +61,8 @@ TEST_CASE("an allocation that fails, or all from one on, ends each program with 
         }
         REQUIRE_FALSE(holds_parts(scratch.folder()));
       }
-    std::cout << call.program << ' ' << call.arguments.substr(0, call.arguments.find(' ')) << ": " << refused
-              << " of " << refused + whole << " refused, of " << total << " allocations\n";
+    std::cout << call.program << ' ' << call.arguments.substr(0, call.arguments.find(' ')) << ": " << refused << " of "
+              << refused + whole << " refused, of " << total << " allocations\n";
     CHECK(refused > 0);
   }
 }

@@ -14,25 +14,24 @@ namespace {
 struct Command {
   std::string program, arguments;
 };
-const std::vector<Command> commands{
-    {"dresslife", "status study.yaml"},
-    {"dresslife", "report study.yaml"},
-    {"dresslife", "page runs/study/a"},
-    {"dresslife", "plot runs/study/a --what cycles -o cycles.svg"},
-    {"dresslife", "export runs/study/a --paraview job.xdmf"},
-    {"dresslife", "preview job.yaml -o job.html"},
-    {"dresslife", "draw hose.yaml -o hose.svg"},
-    {"dresslife", "show job.yaml"},
-    {"dresslife", "show runs/study/a"},
-    {"dresslife", "check job.yaml"},
-    {"dresslife", "new --robot abb_irb6640_185_280 --program swing.mod new.yaml"},
-    {"dresslife", "submit study.yaml --only-write"},
-    {"dresslife", "clean lives.yaml"},
-    {"dresslife", "run study.yaml --quiet"},
-    {"dresslife-sim", "job.yaml --preview -o preview.h5 --quiet"},
-    {"dresslife-sim", "job.yaml --screen list.yaml -o screening.h5 --quiet"},
-    {"dresslife-import", "swing.mod -o swing.yaml"},
-    {"dresslife-import", "asks.mod -o asks.yaml --answers answers.yaml"}};
+const std::vector<Command> commands{{"dresslife", "status study.yaml"},
+                                    {"dresslife", "report study.yaml"},
+                                    {"dresslife", "page runs/study/a"},
+                                    {"dresslife", "plot runs/study/a --what cycles -o cycles.svg"},
+                                    {"dresslife", "export runs/study/a --paraview job.xdmf"},
+                                    {"dresslife", "preview job.yaml -o job.html"},
+                                    {"dresslife", "draw hose.yaml -o hose.svg"},
+                                    {"dresslife", "show job.yaml"},
+                                    {"dresslife", "show runs/study/a"},
+                                    {"dresslife", "check job.yaml"},
+                                    {"dresslife", "new --robot abb_irb6640_185_280 --program swing.mod new.yaml"},
+                                    {"dresslife", "submit study.yaml --only-write"},
+                                    {"dresslife", "clean lives.yaml"},
+                                    {"dresslife", "run study.yaml --quiet"},
+                                    {"dresslife-sim", "job.yaml --preview -o preview.h5 --quiet"},
+                                    {"dresslife-sim", "job.yaml --screen list.yaml -o screening.h5 --quiet"},
+                                    {"dresslife-import", "swing.mod -o swing.yaml"},
+                                    {"dresslife-import", "asks.mod -o asks.yaml --answers answers.yaml"}};
 /// Writes results of a study and files of the user beside them.
 void write_inputs(const Scratch& scratch) {
   write_small_job(scratch);
@@ -44,8 +43,7 @@ void write_inputs(const Scratch& scratch) {
   scratch.write("swing.mod", module + "  ENDPROC\nENDMODULE\n");
   scratch.write(
       "asks.mod",
-      module +
-          "    IF di1=1 THEN\n      MoveAbsJ home, v100, fine, tool0;\n    ENDIF\n  ENDPROC\nENDMODULE\n");
+      module + "    IF di1=1 THEN\n      MoveAbsJ home, v100, fine, tool0;\n    ENDIF\n  ENDPROC\nENDMODULE\n");
   scratch.write("list.yaml", "- {routing.free_length_m: 0.95}\n");
   must_run(scratch, "dresslife", "run study.yaml --quiet");
   // A study that keeps fewer files has the same results.
@@ -82,8 +80,7 @@ TEST_CASE(
       if (!is_long && random() % 4 != 0) continue;
       const auto fail_at = [&](int at) {
         restore(scratch, before);
-        return run_failing(scratch, Fault{kind.call, at, kind.mode, kind.path}, command.program,
-                           command.arguments);
+        return run_failing(scratch, Fault{kind.call, at, kind.mode, kind.path}, command.program, command.arguments);
       };
       fail_at(0);
       const int total = calls_counted(scratch);
@@ -92,8 +89,8 @@ TEST_CASE(
       for (const int at : some_of(total, rounds(2), random)) {
         const Outcome outcome = fail_at(at);
         const std::map<std::string, std::string> now = files_in(scratch.folder());
-        INFO(command.program << ' ' << command.arguments << ": " << kind.call << ' ' << kind.mode << ' ' << at
-                             << " of " << total << ": " << outcome.status << '\n'
+        INFO(command.program << ' ' << command.arguments << ": " << kind.call << ' ' << kind.mode << ' ' << at << " of "
+                             << total << ": " << outcome.status << '\n'
                              << outcome.err);
         REQUIRE((outcome.status == 0 || outcome.status == 1));
         REQUIRE_FALSE(holds_parts(scratch.folder()));
@@ -113,9 +110,8 @@ TEST_CASE(
         for (const auto& [name, bytes] : before) {
           INFO(name);
           const bool as_it_was = now.contains(name) && now.at(name) == bytes;
-          const bool as_it_is_to_be = after.contains(name)
-                                          ? now.contains(name) && now.at(name) == after.at(name)
-                                          : !now.contains(name);
+          const bool as_it_is_to_be =
+              after.contains(name) ? now.contains(name) && now.at(name) == after.at(name) : !now.contains(name);
           REQUIRE((as_it_was || as_it_is_to_be || is_a_note(name) || name.ends_with(".html")));
         }
         for (const auto& [name, bytes] : now) {

@@ -31,14 +31,14 @@ inline Outcome run_failing(const Scratch& scratch, const Fault& fault, const std
                            const std::string& arguments) {
   return run_with(scratch,
                   // lets a program with sanitizers preload a library
-                  "env ASAN_OPTIONS=verify_asan_link_order=0 FAULT_CALL=" + fault.call + " FAULT_AT=" +
-                      std::to_string(fault.at) + " FAULT_MODE=" + fault.mode + " FAULT_PATH='" + fault.path +
-                      "' FAULT_MORE=" + fault.more + " FAULT_PROGRAM=" + program + " FAULT_COUNT='" +
+                  "env ASAN_OPTIONS=verify_asan_link_order=0 FAULT_CALL=" + fault.call +
+                      " FAULT_AT=" + std::to_string(fault.at) + " FAULT_MODE=" + fault.mode + " FAULT_PATH='" +
+                      fault.path + "' FAULT_MORE=" + fault.more + " FAULT_PROGRAM=" + program + " FAULT_COUNT='" +
                       (scratch / "count").string() + "' LD_PRELOAD='" DRESSLIFE_FAILING_CALLS "' timeout 300",
                   program, arguments);
 }
-inline Outcome run_failing(const Scratch& scratch, const std::string& call, int at,
-                           const std::string& program, const std::string& arguments) {
+inline Outcome run_failing(const Scratch& scratch, const std::string& call, int at, const std::string& program,
+                           const std::string& arguments) {
   return run_failing(scratch, Fault{call, at}, program, arguments);
 }
 
@@ -109,8 +109,8 @@ inline bool is_of_the_test(const std::string& name) {
 }
 /// Returns whether a file holds notes of the runner, which later runs repair.
 inline bool is_a_note(const std::string& name) {
-  return name.find(".stage") != std::string::npos || name.ends_with(".lock") ||
-         name.ends_with("build.ninja") || name.ends_with("/log");
+  return name.find(".stage") != std::string::npos || name.ends_with(".lock") || name.ends_with("build.ninja") ||
+         name.ends_with("/log");
 }
 
 inline std::map<std::string, std::string> files_in(const fs::path& folder) {

@@ -59,14 +59,12 @@ void write_long_poses(const Scratch& scratch) {
 TEST_CASE("what a job says it takes is what it takes, within a factor") {
   std::string rubbing;  // friction of cables in the hose and of wires in cables
   for (const std::string part : {"1", "1.components.1"})
-    rubbing += "--set dresspack.components." + part +
-               ".friction_coefficient=0.2 --set dresspack.components." + part +
+    rubbing += "--set dresspack.components." + part + ".friction_coefficient=0.2 --set dresspack.components." + part +
                ".radial_line_load_N_per_m=100 ";
   const std::vector<std::string> jobs{
       "",
       "--set simulation.sample_rate_Hz=200 --set simulation.segments=60",
-      "--set simulation.sample_rate_Hz=200 --set simulation.segments=40 --set strain.slip=friction " +
-          rubbing,
+      "--set simulation.sample_rate_Hz=200 --set simulation.segments=40 --set strain.slip=friction " + rubbing,
       "--set simulation.sample_rate_Hz=200 --set strain.slip=free --set strain.surface_fibres=8",
   };
   for (const std::string& sets : jobs) {
@@ -81,8 +79,7 @@ TEST_CASE("what a job says it takes is what it takes, within a factor") {
       const Peak peak = peak_of(scratch, program, line);
       INFO(program << ' ' << line);
       REQUIRE(peak.status == 0);
-      std::cout << program << ' ' << sets << ": says " << estimate << " MB, took " << peak.megabytes
-                << " MB\n";
+      std::cout << program << ' ' << sets << ": says " << estimate << " MB, took " << peak.megabytes << " MB\n";
       CHECK(estimate < dresslife::pipeline::memory_factor * peak.megabytes);
       CHECK(peak.megabytes < dresslife::pipeline::memory_factor * estimate);
     }
@@ -124,8 +121,7 @@ TEST_CASE("more than can be numbered or held is refused before time is spent on 
   const Scratch scratch;
   write_small_job(scratch);
   must_run(scratch, "dresslife-sim", "job.yaml -o motion.h5 --quiet");
-  const auto refused = [&](const std::string& program, const std::string& arguments,
-                           const std::string& words) {
+  const auto refused = [&](const std::string& program, const std::string& arguments, const std::string& words) {
     const Outcome outcome = run(scratch, program, arguments + " -o out.h5 --job-time 30");
     INFO(program << ' ' << arguments << ": " << outcome.err);
     CHECK(outcome.status == 1);
@@ -133,26 +129,23 @@ TEST_CASE("more than can be numbered or held is refused before time is spent on 
     CHECK_FALSE(fs::exists(scratch / "out.h5"));
   };
   // A thousand strands of a thousand ropes of a thousand wires, too thin to touch: 1e9 wires in 12 segments.
-  const std::string wires =
-      "{name: wire, count: 1000, radius_mm: 1e-9, helix_radius_mm: 1e-5, material: copper}";
+  const std::string wires = "{name: wire, count: 1000, radius_mm: 1e-9, helix_radius_mm: 1e-5, material: copper}";
   const std::string ropes =
       "{name: rope, count: 1000, radius_mm: 2e-5, helix_radius_mm: 0.01, components: [" + wires + "]}";
   const auto strands = [&](int count) {
-    return "[{name: strand, count: " + std::to_string(count) +
-           ", radius_mm: 0.011, helix_radius_mm: 4, components: [" + ropes + "]}]";
+    return "[{name: strand, count: " + std::to_string(count) + ", radius_mm: 0.011, helix_radius_mm: 4, components: [" +
+           ropes + "]}]";
   };
-  refused(
-      "dresslife-strain", "motion.h5 --job job.yaml --set 'dresspack.components=" + strands(1000) + "'",
-      "has 1.2e+10 sites, fibres of wires in segments (strain.h5 numbers at most 4294967294); choose fewer");
+  refused("dresslife-strain", "motion.h5 --job job.yaml --set 'dresspack.components=" + strands(1000) + "'",
+          "has 1.2e+10 sites, fibres of wires in segments (strain.h5 numbers at most 4294967294); choose fewer");
   // A tenth of these wires can be numbered, but not stored.
   refused("dresslife-strain",
           "motion.h5 --job job.yaml --job-memory 4000 --set 'dresspack.components=" + strands(100) + "'",
           " of it (--job-memory allows 4000 MB); choose fewer of them (dresspack.components), ");
   for (const char* repeats : {"2147483647", "2147483648", "3000000000"})
-    refused(
-        "dresslife-sim",
-        std::string("job.yaml --set 'motion={steps: [{repeat: ") + repeats + ", steps: [{dwell_s: 1}]}]}'",
-        "motion.steps[1].repeat is ");
+    refused("dresslife-sim",
+            std::string("job.yaml --set 'motion={steps: [{repeat: ") + repeats + ", steps: [{dwell_s: 1}]}]}'",
+            "motion.steps[1].repeat is ");
   refused("dresslife-sim", "job.yaml --set simulation.segments=3000000000",
           "simulation.segments is 3000000000 (must be ");
 }

@@ -70,7 +70,8 @@ TEST_CASE("each read, search and lock that fails in a stage fails it with a mess
   }
 }
 
-TEST_CASE("each read and search of a file that fails in a command over results is reported, and no state or page is false") {
+TEST_CASE(
+    "each read and search of a file that fails in a command over results is reported, and no state or page is false") {
   Scratch scratch;
   write_small_job(scratch);
   scratch.write("study.yaml", "base: job.yaml\nvary: {dresspack.bending_stiffness_Nm2: [2, 3]}\n");
@@ -82,7 +83,9 @@ TEST_CASE("each read and search of a file that fails in a command over results i
   std::mt19937 random(seed);
   int refused = 0, whole = 0;
   for (const std::string command : {"status study.yaml", "report study.yaml", "run study.yaml --quiet"})
-    for (const Kind& kind : {Kind{"read", "EIO", "runs/study"}, {"read", "end", ".h5"}, {"look", "EIO", "runs/study"},
+    for (const Kind& kind : {Kind{"read", "EIO", "runs/study"},
+                             {"read", "end", ".h5"},
+                             {"look", "EIO", "runs/study"},
                              {"open", "EIO", "runs/study"}}) {
       const auto fail_at = [&](int at) {
         // A missing page is made again, which needs all files.

@@ -21,7 +21,8 @@ const std::vector<Command> commands{
     {"duty duties.yaml --quiet", "job"},
     {"plan fleet.csv --duties duties.yaml --today 2026-11-23 --windows 2027-01-05 --quiet", "job"},
     {"improve better.yaml --trials 2 --short-runs 2 --off 0 --quiet", "better_improve"},
-    {"reprogram robot.yaml --lines 1 --quiet --set uncertainty.enabled=false", "robot_reprogram"},  // the others vary inputs
+    {"reprogram robot.yaml --lines 1 --quiet --set uncertainty.enabled=false",
+     "robot_reprogram"},  // the others vary inputs
     {"route abb_irb2600_12_165 --dresspack ./hose.yaml --tried 20 --short-runs 2 --off 0 --quiet "
      "--set simulation.segments=8 --job found.yaml",
      "abb_irb2600_12_165_route"}};
@@ -94,8 +95,7 @@ TEST_CASE("searches and comparisons under failing calls: each is right, or refus
   std::mt19937 random(seed);
   std::cout << "failing calls of searches with seed " << seed << '\n';
   const bool is_long = rounds(1) > 1;
-  for (const Command& command : commands)
-    DYNAMIC_SECTION(command.arguments.substr(0, command.arguments.find(' '))) {
+  for (const Command& command : commands) DYNAMIC_SECTION(command.arguments.substr(0, command.arguments.find(' '))) {
       Scratch scratch;
       write_inputs(scratch);
       const std::map<std::string, std::string> inputs = files_in(scratch.folder());
@@ -137,8 +137,7 @@ TEST_CASE("searches and comparisons under failing calls: each is right, or refus
           const int total = calls_counted(scratch);
           if (total == 0) continue;
           calls += total;
-          for (const int at :
-               some_of(total, before == &half ? rounds(2) : std::max(1, rounds(1) / 4), random)) {
+          for (const int at : some_of(total, before == &half ? rounds(2) : std::max(1, rounds(1) / 4), random)) {
             const Outcome outcome = fail_at(at);
             INFO(kind.call << ' ' << kind.mode << ' ' << at << " of " << total << " (" << more << " more), "
                            << (before == &half ? "resumed" : "from nothing") << ": " << outcome.status << '\n'
@@ -146,8 +145,7 @@ TEST_CASE("searches and comparisons under failing calls: each is right, or refus
             REQUIRE((outcome.status == 0 || outcome.status == 1));
             REQUIRE_FALSE(holds_parts(scratch.folder()));
             for (const auto& [name, bytes] : inputs) REQUIRE(content(scratch / name) == bytes);
-            if (before == &half)
-              REQUIRE(content(scratch / ("runs/" + command.results + "/notes.txt")) == "mine\n");
+            if (before == &half) REQUIRE(content(scratch / ("runs/" + command.results + "/notes.txt")) == "mine\n");
             scratch.write("runs/" + command.results + "/notes.txt", "mine\n");
             if (outcome.status == 0) {
               check_after(outcome);
@@ -162,8 +160,8 @@ TEST_CASE("searches and comparisons under failing calls: each is right, or refus
             }
           }
         }
-      std::cout << command.arguments.substr(0, command.arguments.find(' ')) << ": " << refused << " refused, "
-                << whole << " whole, 0 false, 0 lost, of " << calls << " calls\n";
+      std::cout << command.arguments.substr(0, command.arguments.find(' ')) << ": " << refused << " refused, " << whole
+                << " whole, 0 false, 0 lost, of " << calls << " calls\n";
     }
 }
 

@@ -58,8 +58,7 @@ class Slurm {
   explicit Slurm(const Scratch& scratch) : scratch_(scratch), folder_(scratch / "slurm") {
     for (const char* program : {"munged", "slurmctld", "slurmd", "sbatch", "srun"})
       if (run_shell(scratch, std::string("PATH=$PATH:/usr/sbin command -v ") + program).status != 0)
-        why_not_ =
-            std::string(program) + " is not installed (apt-get install munge slurmctld slurmd slurm-client)";
+        why_not_ = std::string(program) + " is not installed (apt-get install munge slurmctld slurmd slurm-client)";
     if (why_not_.empty() && ::geteuid() != 0) why_not_ = "slurmd runs as root only";
     if (why_not_.empty()) begin();
   }
@@ -77,10 +76,9 @@ class Slurm {
   }
   /// Returns state and exit code of a job: "PENDING", "COMPLETED 0:0", ... For an array job: the distinct lines of all its tasks.
   std::string state(const std::string& job) const {
-    return shell(
-               "timeout 20 scontrol show job " + job +
-               " | sed -n 's/.*JobState=\\([A-Z_]*\\).*/\\1/p; s/.*ExitCode=\\([0-9:]*\\).*/\\1/p' | paste "
-               "-sd ' \\n' | sort -u")
+    return shell("timeout 20 scontrol show job " + job +
+                 " | sed -n 's/.*JobState=\\([A-Z_]*\\).*/\\1/p; s/.*ExitCode=\\([0-9:]*\\).*/\\1/p' | paste "
+                 "-sd ' \\n' | sort -u")
         .out;
   }
   bool node_is(const std::string& word) const {
@@ -93,8 +91,7 @@ class Slurm {
   static bool no_steps() {
     bury();
     const std::vector<Process> all = all_below();
-    return std::none_of(all.begin(), all.end(),
-                        [](const Process& one) { return one.name.starts_with("slurmstepd"); });
+    return std::none_of(all.begin(), all.end(), [](const Process& one) { return one.name.starts_with("slurmstepd"); });
   }
   std::string logs() const {
     std::string text;
@@ -132,18 +129,17 @@ class Slurm {
     // down stays down until a command changes it.
     scratch_.write(
         "slurm/slurm.conf",
-        fmt::format(
-            "ClusterName=test\nSlurmctldHost=localhost(127.0.0.1)\nSlurmUser=root\nSlurmdUser=root\n"
-            "AuthType=auth/munge\nAuthInfo=socket={0}/munge.socket,cred_expire=5\n"
-            "SlurmctldPort={1}\nSlurmdPort={2}\nStateSaveLocation={0}/state\nSlurmdSpoolDir={0}/spool\n"
-            "SlurmctldPidFile={0}/slurmctld.pid\nSlurmdPidFile={0}/slurmd.pid\nMailProg=/bin/true\n"
-            "ProctrackType=proctrack/linuxproc\nTaskPlugin=task/none\nMpiDefault=none\n"
-            "JobAcctGatherType=jobacct_gather/none\nAccountingStorageType=accounting_storage/none\n"
-            "SelectType=select/cons_tres\nSelectTypeParameters=CR_Core_Memory\nReturnToService=1\n"
-            "KillWait=1\nSchedulerParameters=batch_sched_delay=0,sched_interval=1\n"
-            "NodeName=localhost NodeAddr=127.0.0.1 CPUs={3} RealMemory=1024 State=UNKNOWN\n"
-            "PartitionName=all Nodes=ALL Default=YES\n",
-            here, free_port(), free_port(), cpus()));
+        fmt::format("ClusterName=test\nSlurmctldHost=localhost(127.0.0.1)\nSlurmUser=root\nSlurmdUser=root\n"
+                    "AuthType=auth/munge\nAuthInfo=socket={0}/munge.socket,cred_expire=5\n"
+                    "SlurmctldPort={1}\nSlurmdPort={2}\nStateSaveLocation={0}/state\nSlurmdSpoolDir={0}/spool\n"
+                    "SlurmctldPidFile={0}/slurmctld.pid\nSlurmdPidFile={0}/slurmd.pid\nMailProg=/bin/true\n"
+                    "ProctrackType=proctrack/linuxproc\nTaskPlugin=task/none\nMpiDefault=none\n"
+                    "JobAcctGatherType=jobacct_gather/none\nAccountingStorageType=accounting_storage/none\n"
+                    "SelectType=select/cons_tres\nSelectTypeParameters=CR_Core_Memory\nReturnToService=1\n"
+                    "KillWait=1\nSchedulerParameters=batch_sched_delay=0,sched_interval=1\n"
+                    "NodeName=localhost NodeAddr=127.0.0.1 CPUs={3} RealMemory=1024 State=UNKNOWN\n"
+                    "PartitionName=all Nodes=ALL Default=YES\n",
+                    here, free_port(), free_port(), cpus()));
   }
 
   /// Starts a daemon as a child process, which ends with this process. The daemon's output goes into `log`.
@@ -161,12 +157,10 @@ class Slurm {
     begun_ = true;
     ::prctl(PR_SET_CHILD_SUBREAPER, 1);  // this process adopts processes that the daemons leave, so end() can kill them
     write_conf();
-    run_shell(scratch_,
-              "head -c 128 /dev/urandom > slurm/munge.key && chmod 600 slurm/munge.key && chmod 755 . slurm");
+    run_shell(scratch_, "head -c 128 /dev/urandom > slurm/munge.key && chmod 600 slurm/munge.key && chmod 755 . slurm");
     const std::string here = "'" + folder_.string() + "'/";
-    start("munged --foreground --force --key-file=" + here + "munge.key --socket=" + here +
-              "munge.socket --pid-file=" + here + "munged.pid --log-file=" + here +
-              "munged.words --seed-file=" + here + "munge.seed",
+    start("munged --foreground --force --key-file=" + here + "munge.key --socket=" + here + "munge.socket --pid-file=" +
+              here + "munged.pid --log-file=" + here + "munged.words --seed-file=" + here + "munge.seed",
           "munged.log");
     constexpr int patience_s = 60;
     if (!within(patience_s, [&] { return fs::exists(folder_ / "munge.socket"); })) {

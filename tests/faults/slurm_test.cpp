@@ -1,7 +1,7 @@
 // Studies in a queue: a real Slurm on one node, started by the test.
 
-#include "tests/catch.h"
 #include "tests/faults/slurm.h"
+#include "tests/catch.h"
 #include "tests/pipeline/sample_job.h"
 
 using namespace dresslife::tests;
@@ -13,10 +13,9 @@ constexpr int long_enough_s = 120;
 void write_cluster(const Scratch& scratch, const std::string& name, int tasks, int most_stages) {
   scratch.write(
       name,
-      fmt::format(
-          "name: test\nsource: made for the tests\ntasks: {}\nmemory_MB: 256\nmost_stages: {}\n"
-          "launcher: srun --quiet --ntasks=1 --cpus-per-task=1 --exact\nsubmit: timeout 20 sbatch --parsable\n",
-          tasks, most_stages));
+      fmt::format("name: test\nsource: made for the tests\ntasks: {}\nmemory_MB: 256\nmost_stages: {}\n"
+                  "launcher: srun --quiet --ntasks=1 --cpus-per-task=1 --exact\nsubmit: timeout 20 sbatch --parsable\n",
+                  tasks, most_stages));
 }
 
 /// Returns the last number after "job " in the output of a submission.
@@ -98,13 +97,14 @@ TEST_CASE("Slurm: a submitted study outlives its node, passes on how stages end,
   // The real stages. There are more of them than an allocation may start, so each job is a shard with its own allocation.
   write_small_job(scratch);
   write_cluster(scratch, "small.yaml", 1, 3);
-  scratch.write("shards.yaml", "base: job.yaml\njobs: {soft: {dresspack.bending_stiffness_Nm2: 2}, usual: {}, other: {motion.clamp_poses: other.csv}}\n");
+  scratch.write(
+      "shards.yaml",
+      "base: job.yaml\njobs: {soft: {dresspack.bending_stiffness_Nm2: 2}, usual: {}, other: {motion.clamp_poses: other.csv}}\n");
   scratch.write("other.csv", replaced_all(content(scratch / "poses.csv"), "0.05,", "0.06,"));
   const Outcome whole = must_run(scratch, "dresslife", "run shards.yaml -o whole --quiet");
   CHECK_THAT(must_run(scratch, "dresslife", "submit shards.yaml --only-write --cluster small.yaml -o written").out,
              Catch::Contains("--array=1-3 ") && Catch::Contains("--dependency=afterany:NUMBER "));
-  const Outcome array =
-      slurm.shell("'" DRESSLIFE_BIN_DIR "/dresslife' submit shards.yaml --cluster small.yaml");
+  const Outcome array = slurm.shell("'" DRESSLIFE_BIN_DIR "/dresslife' submit shards.yaml --cluster small.yaml");
   INFO(array.out << array.err);
   CHECK(array.out.find(" of 3 shards") != std::string::npos);
   const std::string ranks = job_of(array);
@@ -113,19 +113,21 @@ TEST_CASE("Slurm: a submitted study outlives its node, passes on how stages end,
   INFO(content(scratch / "runs/shards/submit.log"));
   REQUIRE(ranked);
   for (const char* shard : {"1_of_3", "2_of_3", "3_of_3"}) {
-    const std::string graph =
-        content(scratch / "runs/shards/.stage" / (std::string("shard_") + shard) / "build.ninja");
+    const std::string graph = content(scratch / "runs/shards/.stage" / (std::string("shard_") + shard) / "build.ninja");
     CHECK(graph.find(": fatigue ") != std::string::npos);
     CHECK(graph.find(": fatigue ") == graph.rfind(": fatigue "));
   }
   CHECK(content(scratch / "runs/shards/ranking.csv") == content(scratch / "whole/shards/ranking.csv"));
 
   // The plan of a fleet uses these results.
-  scratch.write("duties.yaml", "study: shards.yaml\nduties:\n  - {name: one, programs: [{job: soft, percent_of_time: 0.1}]}\n"
-                               "  - {name: two, programs: [{job: usual, percent_of_time: 0.1}, {job: other, percent_of_time: 0.1}]}\n");
+  scratch.write(
+      "duties.yaml",
+      "study: shards.yaml\nduties:\n  - {name: one, programs: [{job: soft, percent_of_time: 0.1}]}\n"
+      "  - {name: two, programs: [{job: usual, percent_of_time: 0.1}, {job: other, percent_of_time: 0.1}]}\n");
   scratch.write("fleet.csv", "name,duty,installed\na,one,2026-11-20\nb,two,2026-11-20\n");
   const auto plan = [&](const std::string& out) {
-    must_run(scratch, "dresslife", "plan fleet.csv --duties duties.yaml --today 2026-11-23 --windows 2026-12-21 --quiet -o " + out);
+    must_run(scratch, "dresslife",
+             "plan fleet.csv --duties duties.yaml --today 2026-11-23 --windows 2026-12-21 --quiet -o " + out);
     return content(scratch / out / "shards/plan_fleet.csv");
   };
   CHECK(plan("runs") == plan("whole"));

@@ -97,8 +97,7 @@ TEST_CASE("a file that may not grow ends no stage with a signal, and leaves noth
       const Outcome outcome = run_with(scratch, "ulimit -f " + std::to_string(size) + ";", stage.program,
                                        stage.command("out/" + stage.output) + " 2>&1 | cat >&2; exit 0");
       INFO(stage.program << " " << size << ": " << outcome.err);
-      CHECK(outcome.err.find("cannot be written (File too large); free space on the disk") !=
-            std::string::npos);
+      CHECK(outcome.err.find("cannot be written (File too large); free space on the disk") != std::string::npos);
       CHECK(outcome.err.find("egmentation") == std::string::npos);
       CHECK(entries(scratch / "out") == 0);
       ++tried;
@@ -113,8 +112,7 @@ TEST_CASE("two writers of one output: both end well, and the file is whole") {
   fs::create_directories(scratch / "out");
   for (const Stage& stage : stages)
     for (int round = 0; round < rounds(6); ++round) {
-      const std::string call =
-          "'" DRESSLIFE_BIN_DIR "/" + stage.program + "' " + stage.command("out/" + stage.output);
+      const std::string call = "'" DRESSLIFE_BIN_DIR "/" + stage.program + "' " + stage.command("out/" + stage.output);
       const Outcome outcome =
           run_shell(scratch, call + " & first=$!; " + call + "; second=$?; wait $first && exit $second");
       INFO(stage.program << ": " << outcome.err);
@@ -252,13 +250,11 @@ TEST_CASE("closed and full streams are survived and reported by the exit status"
   CHECK(content(scratch / "s.h5") == chain.files.at("strain.h5"));  // no message was written into it
   scratch.write("study.yaml", "base: job.yaml\n");
   must_run(scratch, "dresslife", "run study.yaml");
-  for (const std::string what :
-       {"run study.yaml", "status study.yaml", "report study.yaml", "manual keys", "--help"}) {
+  for (const std::string what : {"run study.yaml", "status study.yaml", "report study.yaml", "manual keys", "--help"}) {
     const Outcome full = run_shell(scratch, bin + "' " + what + " > /dev/full");
     INFO(what << full.err);
     CHECK(full.status == 1);
-    CHECK(full.err.find("standard output: error: cannot be written (No space left on device)") !=
-          std::string::npos);
+    CHECK(full.err.find("standard output: error: cannot be written (No space left on device)") != std::string::npos);
   }
 }
 
@@ -269,9 +265,8 @@ TEST_CASE("with too few threads a stage does the work on those that it has") {
   const Scratch& scratch = chain.scratch;
   // Each thread needs a stack of 8 MB: with these limits of address space some threads cannot start.
   for (const int kilobytes : {70000, 76500, 90000, 120000, 200000}) {
-    const Outcome outcome =
-        run_with(scratch, "ulimit -v " + std::to_string(kilobytes) + "; DRESSLIFE_THREADS=8",
-                 "dresslife-fatigue", "strain.h5 -o few.h5");
+    const Outcome outcome = run_with(scratch, "ulimit -v " + std::to_string(kilobytes) + "; DRESSLIFE_THREADS=8",
+                                     "dresslife-fatigue", "strain.h5 -o few.h5");
     INFO(kilobytes << ": " << outcome.status << outcome.err);
     CHECK(outcome.status < ended_by_signal);
     if (outcome.status == 0)

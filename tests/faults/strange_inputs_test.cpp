@@ -101,8 +101,7 @@ TEST_CASE("a pipe, a device, a socket and a terabyte of nothing are refused as a
     const auto replaced = [](std::string text, const std::string& by) {
       return text.replace(text.find("INPUT"), 5, by);
     };
-    if (reader.arguments.starts_with("motion.h5"))
-      must_run(scratch, "dresslife-sim", "job.yaml -o motion.h5");
+    if (reader.arguments.starts_with("motion.h5")) must_run(scratch, "dresslife-sim", "job.yaml -o motion.h5");
     for (const std::string& name : make_strange_files(scratch, reader.ending)) {
       if (rounds(1) == 1 && random() % 3 != 0) continue;
       std::string arguments = reader.arguments;
@@ -114,7 +113,8 @@ TEST_CASE("a pipe, a device, a socket and a terabyte of nothing are refused as a
         const std::string job = content(scratch / "job.yaml");
         scratch.write("named.yaml", replaced(reader.beside, name) + job.substr(job.find("dresspack:")));
       }
-      constexpr const char* longest = "timeout -s KILL 20";  // [s] on a busy machine; each usually takes a tenth of a second
+      constexpr const char* longest =
+          "timeout -s KILL 20";  // [s] on a busy machine; each usually takes a tenth of a second
       const Outcome outcome = run_with(scratch, longest, reader.program, arguments);
       INFO(reader.program << ' ' << arguments << ": " << outcome.status << '\n' << outcome.err);
       CHECK(outcome.status == 1);
@@ -131,8 +131,9 @@ TEST_CASE("a pipe, a device, a socket and a terabyte of nothing are refused as a
 }
 
 TEST_CASE("a strange file in the place of a result stops nothing but what needs it, and nothing waits for it") {
-  for (const std::string name : {"motion.h5", "strain.h5", "life.h5", "page.html", "job.yaml", "log", ".stage/sim.receipt",
-                                 ".stage/failure", "../ranking.csv", "../report.html", "../.stage/study", "../.lock"}) {
+  for (const std::string name :
+       {"motion.h5", "strain.h5", "life.h5", "page.html", "job.yaml", "log", ".stage/sim.receipt", ".stage/failure",
+        "../ranking.csv", "../report.html", "../.stage/study", "../.lock"}) {
     Scratch scratch;
     write_small_job(scratch);
     scratch.write("study.yaml", "base: job.yaml\njobs: {a: {}}\n");
@@ -140,8 +141,9 @@ TEST_CASE("a strange file in the place of a result stops nothing but what needs 
     const fs::path file = scratch / ("runs/study/a/" + name);
     fs::remove(file);
     REQUIRE(::mkfifo(file.c_str(), 0600) == 0);
-    for (const std::string command : {"status study.yaml", "report study.yaml", "page runs/study/a", "show runs/study/a",
-                                      "plot runs/study/a --what cycles -o p.svg", "run study.yaml", "clean study.yaml"}) {
+    for (const std::string command :
+         {"status study.yaml", "report study.yaml", "page runs/study/a", "show runs/study/a",
+          "plot runs/study/a --what cycles -o p.svg", "run study.yaml", "clean study.yaml"}) {
       const Outcome outcome = run_with(scratch, "timeout -s KILL 20", "dresslife", command);
       INFO(name << ": " << command << ": " << outcome.status << outcome.err);
       CHECK((outcome.status == 0 || outcome.status == 1));
@@ -209,8 +211,8 @@ TEST_CASE("three million values and a hundred megabytes of comment are refused b
   scratch.write("list.yaml", list + "1]\n" + job);
   for (const char* name : {"comment.yaml", "list.yaml"}) {
     // Half a second of time, and memory of the text's size.
-    const Outcome outcome = run_with(scratch, "ulimit -t 4; ulimit -v 800000;", "dresslife",
-                                     std::string("show ") + name);
+    const Outcome outcome =
+        run_with(scratch, "ulimit -t 4; ulimit -v 800000;", "dresslife", std::string("show ") + name);
     INFO(outcome.err);
     CHECK(outcome.status == 1);
     CHECK(is_one_error(outcome.err));

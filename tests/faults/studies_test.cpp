@@ -111,8 +111,7 @@ TEST_CASE("whatever is killed when, a resumed study has the results of an undist
   std::cout << "; " << kills << " resumed at once to the same bytes\n";
 }
 
-TEST_CASE(
-    "each write, sync, close and rename of the runner that fails is reported, and no old page stands as new") {
+TEST_CASE("each write, sync, close and rename of the runner that fails is reported, and no old page stands as new") {
   Scratch scratch;
   write_small_job(scratch);
   scratch.write("study.yaml", edited(study_text, "[2, 3, 4]", "[2, 3]"));
@@ -155,15 +154,13 @@ TEST_CASE(
       for (const auto& [name, bytes] : now) {
         INFO(name);
         if (ranked && fs::path(name).filename() == "page.html")
-          REQUIRE(((good.contains(name) && bytes == good.at(name)) ||
-                   bytes.find("id=\"stale\"") != std::string::npos));
+          REQUIRE(((good.contains(name) && bytes == good.at(name)) || bytes.find("id=\"stale\"") != std::string::npos));
       }
       const Outcome resumed = run_study(scratch);
       INFO(resumed.out << resumed.err);
       REQUIRE(resumed.status == status);
       auto after = results(scratch / "runs/study");
-      if (status !=
-          0) {  // an outdated page that cannot be marked is removed; the report does not link to it
+      if (status != 0) {  // an outdated page that cannot be marked is removed; the report does not link to it
         for (const auto& [name, bytes] : good)
           if (fs::path(name).filename() == "page.html") after.emplace(name, bytes);
         after["report.html"] = good.at("report.html");
@@ -175,8 +172,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE(
-    "a page of another result than the ranking's says so or goes, and one that cannot be made fails the run") {
+TEST_CASE("a page of another result than the ranking's says so or goes, and one that cannot be made fails the run") {
   Scratch scratch;
   write_small_job(scratch);
   const std::string job = content(scratch / "job.yaml");
@@ -199,8 +195,7 @@ TEST_CASE(
 
   scratch.write("study.yaml", std::string("keep: lives\n") + study_text);
   REQUIRE(run_study(scratch).status == 0);
-  CHECK(content(page).find("id=\"stale\">ranking.csv has the present result; the files") !=
-        std::string::npos);
+  CHECK(content(page).find("id=\"stale\">ranking.csv has the present result; the files") != std::string::npos);
   scratch.write("study.yaml", study_text);
   REQUIRE(run_study(scratch).status == 0);
   CHECK(content(page) == right);
@@ -218,9 +213,9 @@ TEST_CASE("a runner that is killed takes its stages along") {
   write_small_job(scratch);
   scratch.write("study.yaml", "base: job.yaml\n");
   // A minute of work.
-  const pid_t runner = start(
-      scratch, "dresslife",
-      {"run", "study.yaml", "--set", "simulation.time_step_ms=0.01", "--set", "simulation.segments=400"});
+  const pid_t runner =
+      start(scratch, "dresslife",
+            {"run", "study.yaml", "--set", "simulation.time_step_ms=0.01", "--set", "simulation.segments=400"});
   std::vector<pid_t> all;
   for (int k = 0; k < 1000 && all.size() < 3; ++k) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -249,9 +244,8 @@ jobs:
 )");
   const Outcome slow = run_study(scratch, "--job-time 3 -j 2");
   CHECK(slow.status == 1);
-  CHECK(
-      slow.out.find("dresslife-sim: error: took longer than 3 s (--job-time); look for an endless motion") !=
-      std::string::npos);
+  CHECK(slow.out.find("dresslife-sim: error: took longer than 3 s (--job-time); look for an endless motion") !=
+        std::string::npos);
   const std::string ranking = content(scratch / "runs/study/ranking.csv");
   CHECK(ranking.find("\ngood,") != std::string::npos);
   CHECK(ranking.find("\nendless,,,,,,,,,,,,failed,") != std::string::npos);
@@ -276,8 +270,8 @@ TEST_CASE("status and report work beside a run and where nothing may be written,
   CHECK(changed.err.find("ranking.csv and report.html stay as the last run left them (of 3 jobs there are no results "
                          "with these --set)") != std::string::npos);
   CHECK(results(scratch / "runs/study") == before);
-  CHECK(run(scratch, "dresslife", "status study.yaml --set fatigue.stress=elastic")
-            .out.find("0 of 3 jobs done") != std::string::npos);
+  CHECK(run(scratch, "dresslife", "status study.yaml --set fatigue.stress=elastic").out.find("0 of 3 jobs done") !=
+        std::string::npos);
   // Changed settings of the study: the files keep the last results, with a mark.
   const std::string job = content(scratch / "job.yaml");
   scratch.write("job.yaml", job + "fatigue: {stress: elastic}\n");
@@ -291,11 +285,10 @@ TEST_CASE("status and report work beside a run and where nothing may be written,
   // Another process holds the folder's lock.
   const int lock = ::open((scratch / "runs/study/.lock").c_str(), O_RDWR | O_CLOEXEC);
   REQUIRE(lock >= 0);
-  REQUIRE(::pwrite(lock, (std::to_string(::getpid()) + "\n").c_str(), std::to_string(::getpid()).size() + 1,
-                   0) > 0);
+  REQUIRE(::pwrite(lock, (std::to_string(::getpid()) + "\n").c_str(), std::to_string(::getpid()).size() + 1, 0) > 0);
   REQUIRE(::flock(lock, LOCK_EX | LOCK_NB) == 0);
-  CHECK(run_study(scratch).err.find("is in use by another run (process " + std::to_string(::getpid()) +
-                                    ")") != std::string::npos);
+  CHECK(run_study(scratch).err.find("is in use by another run (process " + std::to_string(::getpid()) + ")") !=
+        std::string::npos);
   CHECK(run(scratch, "dresslife", "status study.yaml").out.find("3 of 3 jobs done") != std::string::npos);
   CHECK(run(scratch, "dresslife", "report study.yaml").status == 0);
   ::close(lock);
@@ -323,11 +316,9 @@ TEST_CASE("a changed input counts whatever its date, a damaged or foreign result
   CHECK(results(scratch / "runs/study") == before);
 
   const std::string one = "runs/study/bending_stiffness_Nm2=2/", two = "runs/study/bending_stiffness_Nm2=3/";
-  fs::copy_file(scratch / (one + "life.h5"), scratch / (two + "life.h5"),
-                fs::copy_options::overwrite_existing);
+  fs::copy_file(scratch / (one + "life.h5"), scratch / (two + "life.h5"), fs::copy_options::overwrite_existing);
   const Outcome status = run(scratch, "dresslife", "status study.yaml");
-  CHECK(status.out.find("damaged  life.h5 is not what its stage wrote; run makes it again") !=
-        std::string::npos);
+  CHECK(status.out.find("damaged  life.h5 is not what its stage wrote; run makes it again") != std::string::npos);
   const Outcome report = run(scratch, "dresslife", "report study.yaml");
   CHECK(report.status == 1);  // the copy belongs to no job
   const Outcome mended = run_study(scratch);
@@ -359,11 +350,9 @@ TEST_CASE("names and texts are text, wherever they go") {
     scratch.write("study.yaml", "base: job.yaml\njobs: {" + name + ": {}}\n");
     const Outcome outcome = run_study(scratch);
     CHECK(outcome.status == 1);
-    CHECK(outcome.err.find("a job is named '" + name + "' (a file of the study itself)") !=
-          std::string::npos);
+    CHECK(outcome.err.find("a job is named '" + name + "' (a file of the study itself)") != std::string::npos);
   }
-  scratch.write("study.yaml",
-                "base: job.yaml\njobs: {-x: {}, --help: {}, '=1+1': {}, \"e\\e[31mred\": {}}\n");
+  scratch.write("study.yaml", "base: job.yaml\njobs: {-x: {}, --help: {}, '=1+1': {}, \"e\\e[31mred\": {}}\n");
   const Outcome odd = run_study(scratch, "-o 'odd | folder\n $x'");
   INFO(odd.out << odd.err);
   CHECK(odd.status == 0);
@@ -390,8 +379,7 @@ TEST_CASE("absurd values are refused where they are read, by their keys") {
   refused("routing.free_length_m=1e200", "routing.free_length_m is 1e200 (its size must be 1e-12 .. 1000 m)");
   refused("routing.free_length_m=1e-320", "(its size must be 1e-12 .. 1000 m)");
   refused("simulation.gravity_m_per_s2=[0,0,-1e308]", "(its size must be 0 .. 1000 m/s2)");
-  refused("'cell={capsules: [{from_m: [0,0,0], to_m: [0,0,1e300], radius_mm: 1}]}'",
-          "(its size must be 0 .. 1000 m)");
+  refused("'cell={capsules: [{from_m: [0,0,0], to_m: [0,0,1e300], radius_mm: 1}]}'", "(its size must be 0 .. 1000 m)");
   // As long as the keys allow, and longer than memory can hold.
   scratch.write("long.csv", "0,0,0,1,1,0,0,0,0.8,0,1,1,0,0,0\n9e9,0,0,1,1,0,0,0,0.8,0,1,1,0,0,0\n");
   refused("motion.clamp_poses=long.csv", "(at most 1e+08)");
@@ -401,8 +389,9 @@ TEST_CASE("a run that finds nothing to do leaves every file as it is, whatever t
   const std::map<std::string, std::string> studies{
       {"one key", "vary: {dresspack.bending_stiffness_Nm2: [2, 3]}\n"},
       {"two keys", "vary: {routing.free_length_m: [0.9, 0.95], strain.gate: [0.0005, 0.001]}\n"},
-      {"jobs and a key", "jobs: {soft: {dresspack.bending_stiffness_Nm2: 1}, as_it_is: {}}\n"
-                         "vary: {strain.gate: [0.0005, 0.001]}\n"},
+      {"jobs and a key",
+       "jobs: {soft: {dresspack.bending_stiffness_Nm2: 1}, as_it_is: {}}\n"
+       "vary: {strain.gate: [0.0005, 0.001]}\n"},
       {"draws", "sample: {jobs: 2, seed: 1, keys: {routing.free_length_m: !normal {mean: 0.92, deviation: 0.01}}}\n"}};
   for (const auto& [what, text] : studies) {
     Scratch scratch;
@@ -434,7 +423,8 @@ TEST_CASE("a study that is moved with its files stays up to date, whatever stand
   REQUIRE(dresslife("plant", "run study.yaml").status == 0);
   for (const auto& entry : fs::recursive_directory_iterator(scratch / "plant/runs")) {
     INFO(entry.path());
-    const bool is_of_this_machine = entry.path().filename() == "study";  // a file of search results for this machine only
+    const bool is_of_this_machine =
+        entry.path().filename() == "study";  // a file of search results for this machine only
     if (entry.is_regular_file() && !is_of_this_machine)
       CHECK(content(entry.path()).find(scratch.folder().string()) == std::string::npos);
   }

@@ -17,22 +17,23 @@ struct Command {
   std::string program, arguments;
   bool after_a_run = false;  ///< requires results
 };
-const std::vector<Command> commands{{"dresslife", "run study.yaml -j 2 --quiet"},
-                                    {"dresslife", "run study.yaml -j 2 --quiet --set strain.gate=0.0007", true},
-                                    {"dresslife", "report study.yaml", true},
-                                    {"dresslife", "duty duties.yaml --quiet", true},
-                                    {"dresslife", "plan fleet.csv --duties duties.yaml --today 2026-11-23 --windows 2027-01-05 --quiet", true},
-                                    {"dresslife", "submit study.yaml --only-write"},
-                                    {"dresslife", "page runs/study/a", true},
-                                    {"dresslife", "plot runs/study/a --what cycles -o cycles.svg", true},
-                                    {"dresslife", "export runs/study/a --paraview job.xdmf", true},
-                                    {"dresslife", "preview job.yaml -o job.html"},
-                                    {"dresslife", "draw hose.yaml -o hose.svg"},
-                                    {"dresslife-sim", "job.yaml -o motion.h5"},
-                                    {"dresslife-sim", "job.yaml -o motion.h5 --receipt sim.receipt"},
-                                    {"dresslife-strain", "runs/study/a/motion.h5 -o strain.h5", true},
-                                    {"dresslife-fatigue", "runs/study/a/strain.h5 -o life.h5", true},
-                                    {"dresslife-import", "swing.mod -o swing.yaml"}};
+const std::vector<Command> commands{
+    {"dresslife", "run study.yaml -j 2 --quiet"},
+    {"dresslife", "run study.yaml -j 2 --quiet --set strain.gate=0.0007", true},
+    {"dresslife", "report study.yaml", true},
+    {"dresslife", "duty duties.yaml --quiet", true},
+    {"dresslife", "plan fleet.csv --duties duties.yaml --today 2026-11-23 --windows 2027-01-05 --quiet", true},
+    {"dresslife", "submit study.yaml --only-write"},
+    {"dresslife", "page runs/study/a", true},
+    {"dresslife", "plot runs/study/a --what cycles -o cycles.svg", true},
+    {"dresslife", "export runs/study/a --paraview job.xdmf", true},
+    {"dresslife", "preview job.yaml -o job.html"},
+    {"dresslife", "draw hose.yaml -o hose.svg"},
+    {"dresslife-sim", "job.yaml -o motion.h5"},
+    {"dresslife-sim", "job.yaml -o motion.h5 --receipt sim.receipt"},
+    {"dresslife-strain", "runs/study/a/motion.h5 -o strain.h5", true},
+    {"dresslife-fatigue", "runs/study/a/strain.h5 -o life.h5", true},
+    {"dresslife-import", "swing.mod -o swing.yaml"}};
 /// Commands that run stages for seconds: tested only in the long form.
 const std::vector<Command> long_commands{{"dresslife", "rate hose.yaml"}, {"dresslife", "validate lives.yaml"}};
 
@@ -43,10 +44,11 @@ void write_inputs(const Scratch& scratch) {
   scratch.write("duties.yaml", "study: study.yaml\nduties: [{name: d, programs: [{job: a, percent_of_time: 0.1}]}]\n");
   scratch.write("fleet.csv", "name,duty,installed\nr,d,\n");
   write_small_hose(scratch);
-  scratch.write("lives.yaml",
-                "observations:\n  - name: flex\n    what: data sheet\n    job:\n      motion: {rig: {kind: rolling_flex, "
-                "radius_diameters: 10, travel_m: 1}}\n      dresspack: {cable: control_cable}\n    cycles: 1e+7\n    outcome: "
-                "rating\n    source: made for the tests\n");
+  scratch.write(
+      "lives.yaml",
+      "observations:\n  - name: flex\n    what: data sheet\n    job:\n      motion: {rig: {kind: rolling_flex, "
+      "radius_diameters: 10, travel_m: 1}}\n      dresspack: {cable: control_cable}\n    cycles: 1e+7\n    outcome: "
+      "rating\n    source: made for the tests\n");
   scratch.write("swing.mod",
                 "MODULE swing\n"
                 "  CONST jointtarget home := [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
@@ -59,10 +61,10 @@ std::map<std::string, std::string> things_in(const fs::path& folder) {
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     const std::string name = fs::relative(entry.path(), folder).string();
     if (name == ".out" || name == ".err" || name == "call.sh") continue;
-    things[name] = entry.is_symlink()         ? "link to " + fs::read_symlink(entry.path()).string()
-                   : entry.is_directory()     ? "folder"
-                   : entry.is_regular_file()  ? "file " + content(entry.path())
-                                              : "device or pipe";
+    things[name] = entry.is_symlink()        ? "link to " + fs::read_symlink(entry.path()).string()
+                   : entry.is_directory()    ? "folder"
+                   : entry.is_regular_file() ? "file " + content(entry.path())
+                                             : "device or pipe";
   }
   return things;
 }
@@ -132,7 +134,8 @@ TEST_CASE("no command replaces, empties or removes what is not ours, and each na
           if (thing == Thing::file) {
             REQUIRE(outcome.status == 1);
             const std::string named = name.substr(0, name.find(".stage/"));
-            std::string answer = outcome.err + outcome.out;  // the table of a study's jobs states the reason in wrapped lines
+            std::string answer =
+                outcome.err + outcome.out;  // the table of a study's jobs states the reason in wrapped lines
             answer.erase(std::remove_if(answer.begin(), answer.end(), [](char c) { return c == ' ' || c == '\n'; }),
                          answer.end());
             REQUIRE(answer.find(fs::path(named).filename().string()) != std::string::npos);
@@ -226,7 +229,8 @@ TEST_CASE("force: it replaces a file of the user, and never one that the command
     const Outcome outcome = run(scratch, "dresslife", "run study.yaml");
     INFO(name << ": " << outcome.out << outcome.err);
     CHECK(outcome.status == 1);
-    CHECK(outcome.out.find("a/" + name + ": error: is there already and was not written by dresslife") != std::string::npos);
+    CHECK(outcome.out.find("a/" + name + ": error: is there already and was not written by dresslife") !=
+          std::string::npos);
     CHECK(content(scratch / ("runs/study/a/" + name)) == "mine\n");
     fs::remove_all(scratch / "runs");
   }

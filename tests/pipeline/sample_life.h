@@ -18,20 +18,20 @@ struct SampleLife {
   double repeats = 12000;  ///< life of the worst wire; infinite: no damage
   int segments = 50, lines = 28, samples = 4500;
   int worst_from_tool = 3;
-  bool causes = false;    ///< whether the file contains the damage by joint
-  double hose_hours = 0;  ///< until the hose's wall cracks; 0: not evaluated
-  std::string unvalidated{};  ///< unvalidated_text(); empty: file of an older version
+  bool causes = false;          ///< whether the file contains the damage by joint
+  double hose_hours = 0;        ///< until the hose's wall cracks; 0: not evaluated
+  std::string unvalidated{};    ///< unvalidated_text(); empty: file of an older version
   std::string wall_response{};  ///< empty: no wall
   double planned_hours =
       0;  ///< time until in 10 % of cases a conductor has lost its share of wires at one place; 0: file of an older version
   double robot_life_hours = 0;  ///< fatigue.robot_life_hours; 0: no robot moves
-  std::string
-      life_response{};  ///< LifeResponse::text(); empty: nothing is uncertain. Used only with planned_hours
-  bool wires = true;    ///< false: the dresspack contains no wires
+  std::string life_response{};  ///< LifeResponse::text(); empty: nothing is uncertain. Used only with planned_hours
+  bool wires = true;            ///< false: the dresspack contains no wires
   std::vector<std::string>
       dresspacks{};  ///< two names: each dresspack has half of the segments, the worst wire lies in the second
   std::vector<std::pair<std::string, double>> more_sites{};  ///< sites in the worst segment: path, damage
-  std::vector<std::pair<std::string, double>> conductors{};  ///< path, repeats until it fails at one place; empty: file of an older version
+  std::vector<std::pair<std::string, double>>
+      conductors{};  ///< path, repeats until it fails at one place; empty: file of an older version
   std::string worst_component = "signal cable 3/conductor 2/layer 1/wire 17";
   std::string line_name = "weld spot";
   std::string job = "robot:\n  name: <R&D> \"two\"\n";
@@ -42,8 +42,7 @@ inline void write_sample_life(const std::filesystem::path& file, const SampleLif
   constexpr double rate = 25, free_length = 2.4;  // [Hz], [m]
   const bool damaged = sample.wires && std::isfinite(sample.repeats);
   const double damage = damaged ? 1 / sample.repeats : 0;
-  const auto segments = static_cast<std::size_t>(sample.segments),
-             lines = static_cast<std::size_t>(sample.lines),
+  const auto segments = static_cast<std::size_t>(sample.segments), lines = static_cast<std::size_t>(sample.lines),
              samples = static_cast<std::size_t>(sample.samples);
   const std::size_t worst_segment = segments - static_cast<std::size_t>(sample.worst_from_tool);
 
@@ -51,17 +50,15 @@ inline void write_sample_life(const std::filesystem::path& file, const SampleLif
   std::vector<std::int32_t> step(samples);
   std::vector<std::string> text;
   for (std::size_t line = 0; line < lines; ++line)
-    text.push_back(line % 7 == 0
-                       ? "home"
-                       : sample.line_name + " " + std::to_string(line) + ": swing the gun past the fixture");
+    text.push_back(line % 7 == 0 ? "home"
+                                 : sample.line_name + " " + std::to_string(line) + ": swing the gun past the fixture");
   for (std::size_t k = 0; k < samples; ++k) {
     time[k] = static_cast<double>(k) / rate;
     // Moves have different lengths. The program runs through its lines about three times.
     const double progress =
         3.0 * static_cast<double>(lines * k) / static_cast<double>(samples) + 0.4 * std::sin(0.3 * time[k]);
     step[k] = static_cast<std::int32_t>(std::clamp(progress, 0.0, 3.0 * sample.lines - 1)) % sample.lines;
-    const double swing =
-        std::sin(1.1 * time[k]) + 0.5 * std::sin(2.7 * time[k] + 1) + (step[k] % 5 == 2 ? 1.2 : 0.0);
+    const double swing = std::sin(1.1 * time[k]) + 0.5 * std::sin(2.7 * time[k] + 1) + (step[k] % 5 == 2 ? 1.2 : 0.0);
     strain[k] = damaged || !sample.wires ? 0.004 * swing * (sample.wires ? 1 : 0) : 1e-5 * swing;
   }
   std::vector<std::uint32_t> cycle_site, begin, end;
@@ -119,12 +116,10 @@ inline void write_sample_life(const std::filesystem::path& file, const SampleLif
   put(writer, "/segment/length", std::vector<double>(segments, free_length / sample.segments));
   put(writer, "/segment/worst_site", std::vector<std::uint32_t>(segments, sample.wires ? 0u : 4294967295u));
   put(writer, "/segment/damage", segment_damage);
-  const std::vector<std::string> layers{"signal cable/conductor/layer 1/wire",
-                                        "signal cable/conductor/layer 2/wire"};
+  const std::vector<std::string> layers{"signal cable/conductor/layer 1/wire", "signal cable/conductor/layer 2/wire"};
   put(writer, "/layer/component", sample.wires ? layers : std::vector<std::string>{});
   put(writer, "/layer/worst_site", std::vector<std::uint32_t>(sample.wires ? 2 : 0, 0));
-  put(writer, "/layer/damage",
-      sample.wires ? std::vector<double>{damage, damage / 3} : std::vector<double>{});
+  put(writer, "/layer/damage", sample.wires ? std::vector<double>{damage, damage / 3} : std::vector<double>{});
   if (!sample.conductors.empty()) {
     std::vector<std::string> paths;
     std::vector<double> lives;
@@ -149,8 +144,7 @@ inline void write_sample_life(const std::filesystem::path& file, const SampleLif
     std::vector<double> near{damage, 3 * damage};
     if (!sample.dresspacks.empty()) {
       for (std::string& clamp : clamps) clamp = sample.dresspacks[1] + ", " + clamp;
-      clamps.insert(clamps.begin(),
-                    {sample.dresspacks[0] + ", base clamp", sample.dresspacks[0] + ", tool clamp"});
+      clamps.insert(clamps.begin(), {sample.dresspacks[0] + ", base clamp", sample.dresspacks[0] + ", tool clamp"});
       near.insert(near.begin(), {damage / 2, damage / 8});
     }
     put(writer, "/clamp/name", clamps);
@@ -181,22 +175,19 @@ inline void write_sample_life(const std::filesystem::path& file, const SampleLif
   writer.attribute("life_hours_all_stick", hours(repeats / 400));
   writer.attribute("life_hours_all_free", hours(repeats * 1.5));
   writer.attribute("worst_site", sample.wires ? 0.0 : -1.0);
-  writer.attribute("worst_segment_from_tool",
-                   sample.wires ? static_cast<double>(sample.worst_from_tool) : 0.0);
+  writer.attribute("worst_segment_from_tool", sample.wires ? static_cast<double>(sample.worst_from_tool) : 0.0);
   writer.attribute("worst_position_from_tool",
                    sample.wires ? (sample.worst_from_tool - 0.5) * free_length / sample.segments : 0.0);
   writer.attribute("worst_component", sample.wires ? sample.worst_component : "");
   writer.attribute("worst_time", damaged ? time[end[0]] : 0.0);
   writer.attribute("worst_step", damaged ? text[static_cast<std::size_t>(step[end[0]])] : "");
   if (sample.planned_hours > 0) {
-    for (const auto& [percentile, factor] :
-         {std::pair{"p10", 1.0}, std::pair{"p50", 1.5}, std::pair{"p90", 2.5}}) {
+    for (const auto& [percentile, factor] : {std::pair{"p10", 1.0}, std::pair{"p50", 1.5}, std::pair{"p90", 2.5}}) {
       writer.attribute(std::string("life_hours_") + percentile, factor * sample.planned_hours);
       writer.attribute(std::string("first_wire_life_hours_") + percentile, factor * sample.planned_hours / 4);
     }
     if (!sample.life_response.empty()) {
-      for (const auto& [percentile, factor] :
-           {std::pair{"p10", 2.0}, std::pair{"p50", 2.5}, std::pair{"p90", 3.0}})
+      for (const auto& [percentile, factor] : {std::pair{"p10", 2.0}, std::pair{"p50", 2.5}, std::pair{"p90", 3.0}})
         writer.attribute(std::string("scatter_life_hours_") + percentile, factor * sample.planned_hours);
       writer.attribute("life_response", sample.life_response);
       writer.attribute("life_shares", "friction_inside 53 %; strength 29 %; other 18 %");
@@ -208,8 +199,7 @@ inline void write_sample_life(const std::filesystem::path& file, const SampleLif
     }
     writer.attribute("failing_mode", "wires of signal cable");
     writer.attribute("failing_mode_share", 0.75);
-    for (const auto& [percentile, factor] :
-         {std::pair{"p10", 1.0}, std::pair{"p50", 1.5}, std::pair{"p90", 2.5}}) {
+    for (const auto& [percentile, factor] : {std::pair{"p10", 1.0}, std::pair{"p50", 1.5}, std::pair{"p90", 2.5}}) {
       writer.attribute(std::string("life_hours_") + percentile + "_all_glued", factor * sample.planned_hours / 10);
       writer.attribute(std::string("life_hours_") + percentile + "_all_free", factor * sample.planned_hours * 10);
     }
@@ -237,8 +227,7 @@ inline void write_sample_life(const std::filesystem::path& file, const SampleLif
   writer.attribute("job", sample.job);
   writer.attribute(
       "history",
-      std::string(
-          "dresslife-sim 1: dresslife-sim job.yaml\ndresslife-fatigue 1: dresslife-fatigue strain.h5"));
+      std::string("dresslife-sim 1: dresslife-sim job.yaml\ndresslife-fatigue 1: dresslife-fatigue strain.h5"));
   writer.attribute("input_sha256", std::string(64, '0'));
   writer.commit();
 }

@@ -11,14 +11,17 @@ namespace dresslife::pipeline {
 
 /// Two samples of three segments that bend by `most` 1/m at most; without wires. of_cables: largest curvature of the cables; 0: as of an
 /// older file.
-inline void write_sample_strain(const std::filesystem::path& name, const std::string& job, double most, double of_cables) {
+inline void write_sample_strain(const std::filesystem::path& name, const std::string& job, double most,
+                                double of_cables) {
   FileWriter file(name, strain_format());
   file.set_axis("level", 1), file.set_axis("segment", 3), file.set_axis("sample", 2);
   file.append("/time", std::vector<double>{0, 1});
   file.append("/program/step", std::vector<std::int32_t>{0, 0});
   file.append("/program/text", std::vector<std::string>{"home"});
-  for (const char* of_segment : {"/segment/length", "/segment/wires_at"}) file.append(of_segment, std::vector<double>(3, 0.2));
-  file.append("/deformation/curvature", std::vector<float>{0.1f, 0, 0, 0.2f, 0.1f, 0, 0, 0.1f, float(-0.6 * most), float(0.8 * most), 0, 0});
+  for (const char* of_segment : {"/segment/length", "/segment/wires_at"})
+    file.append(of_segment, std::vector<double>(3, 0.2));
+  file.append("/deformation/curvature",
+              std::vector<float>{0.1f, 0, 0, 0.2f, 0.1f, 0, 0, 0.1f, float(-0.6 * most), float(0.8 * most), 0, 0});
   file.append("/deformation/twist", std::vector<float>{0, 0.5f, 0, -2, 1, 0});
   file.append("/deformation/elongation", std::vector<float>(6));
   for (const std::string set : {"", "/bound_stick", "/bound_free"}) {

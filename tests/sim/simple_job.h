@@ -42,10 +42,8 @@ inline pipeline::Job simple_job() {
   job.dresspacks[0].dresspack.damping_time = 0.01;
   job.dresspacks[0].dresspack.friction = 0.3;
   job.dresspacks[0].routing.free_length = 1;
-  job.dresspacks[0].routing.base_clamp =
-      pipeline::Clamp{"bench", {0, 0, 1}, {1, 0, 0}, {}, {"job.yaml", 9, 3}};
-  job.dresspacks[0].routing.tool_clamp =
-      pipeline::Clamp{"spindle", {0.9, 0, 1}, {1, 0, 0}, {}, {"job.yaml", 10, 3}};
+  job.dresspacks[0].routing.base_clamp = pipeline::Clamp{"bench", {0, 0, 1}, {1, 0, 0}, {}, {"job.yaml", 9, 3}};
+  job.dresspacks[0].routing.tool_clamp = pipeline::Clamp{"spindle", {0.9, 0, 1}, {1, 0, 0}, {}, {"job.yaml", 10, 3}};
   // The axis passes through both clamps, so its rotation only twists the hose.
   job.robot.joints[0].origin = {0, 0, 1};
   job.dresspacks[0].routing.tool_clamp->position = {0.9, 0, 0};

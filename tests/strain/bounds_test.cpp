@@ -25,10 +25,9 @@ DeformationHistory moving() {
   for (std::size_t i = 0; i < segments; ++i)
     for (std::size_t t = 0; t < samples; ++t) {
       const double x = (i + 0.5) / segments, y = 0.03 * t;
-      history.set(
-          i, t,
-          {3 * std::sin(5 * x) + (1 + x) * std::sin(0.7 * y), 2 * std::cos(3 * x) + std::cos(1.1 * y + x),
-           2 * std::sin(0.3 * y + x), 3e-3 * x + 1e-4 * std::sin(y)});
+      history.set(i, t,
+                  {3 * std::sin(5 * x) + (1 + x) * std::sin(0.7 * y), 2 * std::cos(3 * x) + std::cos(1.1 * y + x),
+                   2 * std::sin(0.3 * y + x), 3e-3 * x + 1e-4 * std::sin(y)});
     }
   return history;
 }
@@ -111,14 +110,12 @@ TEST_CASE("a bound's shortest life is that of all wires under that slip") {
 namespace {
 
 /// Returns the strain of the outward fibre of a glued wire (sample), by the plain recursion in double precision.
-std::vector<double> plain_history(const Construction& construction, const Bundle& bundle, int layer,
-                                  int number, const DeformationHistory& history, std::size_t segment,
-                                  double arc) {
+std::vector<double> plain_history(const Construction& construction, const Bundle& bundle, int layer, int number,
+                                  const DeformationHistory& history, std::size_t segment, double arc) {
   std::vector<double> strains;
   for (std::size_t t = 0; t < history.samples(); ++t) {
     const DeformationColumns c = history.columns(segment);
-    ComponentState<double> rod =
-        uniform_rod<double>(c.elongation[t], c.curvature1[t], c.curvature2[t], c.twist[t], 5);
+    ComponentState<double> rod = uniform_rod<double>(c.elongation[t], c.curvature1[t], c.curvature2[t], c.twist[t], 5);
     ComponentState<double> rest = uniform_rod<double>(0, 0, 0, 0, 5);
     const auto go_down = [&](const Placement& place) {
       rod = child(rod, place);
@@ -130,15 +127,14 @@ std::vector<double> plain_history(const Construction& construction, const Bundle
     }
     go_down(construction.placement(layer, number, bundle.part, arc));
     const double radius = construction.layers()[layer].part_radius;
-    strains.push_back((rod.stretch.at[0] + radius * rod.bend2.at[0]) /
-                          (rest.stretch.at[0] + radius * rest.bend2.at[0]) -
-                      1);
+    strains.push_back(
+        (rod.stretch.at[0] + radius * rod.bend2.at[0]) / (rest.stretch.at[0] + radius * rest.bend2.at[0]) - 1);
   }
   return strains;
 }
 
-std::vector<double> damage_of_sites(const Construction& construction, const DeformationHistory& history,
-                                    Slip slip, double gate) {
+std::vector<double> damage_of_sites(const Construction& construction, const DeformationHistory& history, Slip slip,
+                                    double gate) {
   const dresslife::fatigue::DamageCounter counter(test_dresspacks::copper(), {});
   dresslife::fatigue::DamageCounter::Workspace workspace;
   dresslife::pipeline::Strain settings;
@@ -180,7 +176,8 @@ TEST_CASE("the damage of a wire is that of a plain reference in double precision
     for (const Bundle& bundle : construction.bundles())
       for (const int layer : bundle.wire_layers)
         for (int number = 1; number <= construction.layers()[layer].count; ++number, ++site) {
-          if (damage[site] < largest / 100 || site % 7 != 0) continue;  // only wires with considerable damage, a sample of them
+          if (damage[site] < largest / 100 || site % 7 != 0)
+            continue;  // only wires with considerable damage, a sample of them
           const auto strains = plain_history(construction, bundle, layer, number, history, segment,
                                              (static_cast<double>(segment) + 0.5) * 2 / segments);
           const double plain = dresslife::fatigue::sum_of_damage(
@@ -209,8 +206,7 @@ TEST_CASE("the default gate changes no damage that counts by a thousandth") {
     }
   for (const Slip slip : {Slip::free, Slip::stick}) {
     const std::vector<double> all = damage_of_sites(construction, history, slip, hardly_any_gate);
-    const std::vector<double> gated =
-        damage_of_sites(construction, history, slip, dresslife::pipeline::Strain{}.gate);
+    const std::vector<double> gated = damage_of_sites(construction, history, slip, dresslife::pipeline::Strain{}.gate);
     const double largest = *std::max_element(all.begin(), all.end());
     double worst = 0;
     for (std::size_t k = 0; k < all.size(); ++k)
@@ -275,8 +271,7 @@ TEST_CASE("planes are judged for the wires that are damaged most") {
   std::map<std::pair<int, int>, double> worst, worst_judged;
   for (std::size_t site = 0; site < damage.size(); ++site) {
     worst[layer_of[site]] = std::max(worst[layer_of[site]], damage[site]);
-    if (judged.contains(site))
-      worst_judged[layer_of[site]] = std::max(worst_judged[layer_of[site]], damage[site]);
+    if (judged.contains(site)) worst_judged[layer_of[site]] = std::max(worst_judged[layer_of[site]], damage[site]);
   }
   CHECK(worst.size() == 5 * segments);
   for (const auto& [layer, most] : worst) {

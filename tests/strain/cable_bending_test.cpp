@@ -4,9 +4,9 @@
 
 #include "pipeline/base/constants.h"
 #include "strain/construction.h"
-#include "tests/strain/strand_bending.h"
 #include "tests/catch.h"
 #include "tests/strain/dresspacks.h"
+#include "tests/strain/strand_bending.h"
 
 using namespace dresslife;
 using namespace dresslife::strain;
@@ -70,12 +70,11 @@ TEST_CASE("a cable's closed ends: free, wires stuck, all stuck") {
       const double V2 = 1 + R * R * turning * turning, many = 7 * wire.count / wire_cosine;
       wires += many * EA * std::pow(R / V2, 2) / 2 * in_cable.bending;
       const double by_torsion = R * R * turning / V2;
-      free += many * (EI * in_cable.bending +
-                      (EI / (1 + poisson_ratio) + EA * by_torsion * by_torsion) * in_cable.torsion);
+      free +=
+          many * (EI * in_cable.bending + (EI / (1 + poisson_ratio) + EA * by_torsion * by_torsion) * in_cable.torsion);
       conductor_EA += wire.count * EA * std::pow(wire_cosine, 3);
     }
-    const double conductors =
-        7 * conductor_EA * std::pow(cosine, 3) * std::pow(conductor.helix_radius, 2) / 2;
+    const double conductors = 7 * conductor_EA * std::pow(cosine, 3) * std::pow(conductor.helix_radius, 2) / 2;
     // The wires' curvature is smaller than the conductor's by sin^2 of their own 5 degrees.
     constexpr double wires_lay = 0.01;
     CHECK(bending.free_stiffness() == Approx(free).epsilon(wires_lay));
@@ -104,8 +103,7 @@ TEST_CASE("a cable of wires alone is the strand that its sliders make") {
   for (const double jacket : {0.0, 1e9}) {
     cable.components[0].jacket_stiffness = jacket;
     const CableBending bending(dresspack, cable);
-    Strand strand{
-        {{12, 75e-6, youngs_modulus, 0.0003, 10 * degree, 20, jacket}}, 0, 0.3, true};
+    Strand strand{{{12, 75e-6, youngs_modulus, 0.0003, 10 * degree, 20, jacket}}, 0, 0.3, true};
     StrandBending sliders(strand);
     for (const double curvature : {0.01, 1.0, 5.0, 20.0}) {
       const double held = bending.moment(curvature, 1) - bending.moment(curvature, 0);
@@ -152,8 +150,7 @@ TEST_CASE("a stiffness that no friction gives is refused with the two it could h
   CHECK_THROWS_WITH(friction_level(dresspack, cable), Catch::Contains("lies straight beside the axis"));
 }
 
-TEST_CASE(
-    "a cable held by friction needs less moment to bend than one that sticks, and never less than free") {
+TEST_CASE("a cable held by friction needs less moment to bend than one that sticks, and never less than free") {
   const Dresspack dresspack = pressed_dresspack();
   const CableBending bending(dresspack, dresspack.components[0]);
   double before = 0;

@@ -57,8 +57,8 @@ Dresspack thesis_hose() {
 /// Deformation of a hose on a wrist that swings from side to side and twists. z: share of the length; turn: share of the cycle.
 Deformation swing(double z, double turn) {
   const double w = 2 * pi * turn;
-  return {(0.8 + 0.4 * std::sin(w)) * std::sin(pi * z), 0.5 * std::cos(w) * std::cos(pi * z / 2),
-          0.4 * std::sin(w), 1e-4 * std::cos(w)};
+  return {(0.8 + 0.4 * std::sin(w)) * std::sin(pi * z), 0.5 * std::cos(w) * std::cos(pi * z / 2), 0.4 * std::sin(w),
+          1e-4 * std::cos(w)};
 }
 
 Deformation operator*(double size, const Deformation& d) {
@@ -86,15 +86,13 @@ struct Run {
         paths(construction, plan_slip(construction, {slip, Slip::free}, length),
               {.rub = slip == Slip::friction, .elements_per_segment = pieces}, lengths, arcs, samples) {
     for (std::size_t t = 0; t < samples; ++t)
-      for (std::size_t i = 0; i < segments; ++i)
-        history.set(i, t, motion(arcs[i] / length, t));
+      for (std::size_t i = 0; i < segments; ++i) history.set(i, t, motion(arcs[i] / length, t));
     paths.add({history});
     paths.finish();
   }
   static std::vector<double> centres() {
     std::vector<double> arcs;
-    for (std::size_t i = 0; i < segments; ++i)
-      arcs.push_back((static_cast<double>(i) + 0.5) * length / segments);
+    for (std::size_t i = 0; i < segments; ++i) arcs.push_back((static_cast<double>(i) + 0.5) * length / segments);
     return arcs;
   }
   double strain(std::size_t cable, std::size_t segment, std::size_t sample) {
@@ -137,8 +135,7 @@ Dresspack held_hose() {
 
 }  // namespace
 
-TEST_CASE(
-    "a part without wires takes room, stays in its ring and pulls as a tube, and no wire of it is evaluated") {
+TEST_CASE("a part without wires takes room, stays in its ring and pulls as a tube, and no wire of it is evaluated") {
   constexpr double beside = 0.7;                    // [rad]
   const auto widest_way = [](double tube_radius) {  // of a cable along the circle, beside the tube
     Dresspack dresspack = thesis_hose();
@@ -195,8 +192,7 @@ TEST_CASE("a held cable has the mean stretch of its place, less its slack") {
         const double theta = 2 * pi * static_cast<double>(k) / 10, R = 0.01845;
         for (std::size_t i = 0; i < segments; ++i) {
           const Deformation d = swing(run.arcs[i] / length, static_cast<double>(t) / 20);
-          const double y =
-              1 + d.elongation + R * (d.curvature1 * std::sin(theta) - d.curvature2 * std::cos(theta));
+          const double y = 1 + d.elongation + R * (d.curvature1 * std::sin(theta) - d.curvature2 * std::cos(theta));
           path += std::hypot(y, R * d.twist) / segments;
         }
         CHECK(run.strain(k, 17, t) == Approx(path / (1 + slack / 100) - 1).margin(1e-12));
@@ -219,7 +215,8 @@ TEST_CASE("a loose cable with next to no play has the strain of a held one") {
   for (std::size_t k = 0; k < 10; ++k)
     for (std::size_t t = 0; t < 10; ++t)
       CHECK(loose.strain(k, 3, t) == Approx(held.strain(k, 3, t)).margin(0.01 * largest));
-  double bend = 0;  // of the hose; off the axis a cable's curvature differs by R kappa = 0.2 %, and little within play and wall
+  double bend =
+      0;  // of the hose; off the axis a cable's curvature differs by R kappa = 0.2 %, and little within play and wall
   for (std::size_t i = 0; i < segments; ++i)
     for (std::size_t t = 0; t < 10; ++t) {
       const Deformation of = size * swing(loose.arcs[i] / length, static_cast<double>(t) / 20);
@@ -231,8 +228,7 @@ TEST_CASE("a loose cable with next to no play has the strain of a held one") {
   }
 }
 
-TEST_CASE(
-    "at a known end a loose cable's curvature is that at the clamp, and converges with the pieces' square") {
+TEST_CASE("at a known end a loose cable's curvature is that at the clamp, and converges with the pieces' square") {
   constexpr std::size_t samples = 20;
   Dresspack dresspack = thesis_hose();
   dresspack.components[0].laying.slack = 1;
@@ -244,8 +240,7 @@ TEST_CASE(
   double differs_from_mean = 0;
   for (const std::size_t pieces : {2, 4, 8}) {
     CablePaths paths(run.construction, plan_slip(run.construction, {Slip::free, Slip::free}, length),
-                     {.elements_per_segment = pieces, .known_ends = {true, true}}, run.lengths, run.arcs,
-                     samples);
+                     {.elements_per_segment = pieces, .known_ends = {true, true}}, run.lengths, run.arcs, samples);
     paths.add({run.history, {}, 0.04, ends});
     paths.finish();
     bent.emplace_back();
@@ -359,8 +354,7 @@ TEST_CASE("strains change smoothly with the lay from straight to ten degrees") {
   for (std::size_t i = 1; i < ranges.size(); ++i) CHECK(std::abs(ranges[i] - ranges[i - 1]) < 0.05 * largest);
 }
 
-TEST_CASE(
-    "strains of loose cables change no more than slack does, whatever grips, friction and play beside it") {
+TEST_CASE("strains of loose cables change no more than slack does, whatever grips, friction and play beside it") {
   constexpr double step = 0.001;  // of slack
   for (const double grip : {50.0, 500.0, without_limit})
     for (const Slip slip : {Slip::free, Slip::friction})
@@ -375,8 +369,7 @@ TEST_CASE(
             for (const std::size_t segment : {std::size_t{0}, segments / 2})
               for (std::size_t t = 0; t < 10; ++t) strains.push_back(run.strain(k, segment, t));
           double moved = 0;
-          for (std::size_t i = 0; i < before.size(); ++i)
-            moved = std::max(moved, std::abs(strains[i] - before[i]));
+          for (std::size_t i = 0; i < before.size(); ++i) moved = std::max(moved, std::abs(strains[i] - before[i]));
           INFO("grip " << grip << " N, play " << play << " m, slack " << slack << ", friction "
                        << (slip == Slip::friction));
           for (const double strain : strains) REQUIRE(std::isfinite(strain));
@@ -388,8 +381,7 @@ TEST_CASE(
       }
 }
 
-TEST_CASE(
-    "where loose cables bend converges with the square of their pieces' length, within twice what is reported") {
+TEST_CASE("where loose cables bend converges with the square of their pieces' length, within twice what is reported") {
   constexpr std::size_t samples = 20;
   Dresspack dresspack = thesis_hose();
   dresspack.components[0].laying.slack = 1;
@@ -453,8 +445,8 @@ TEST_CASE("one cycle ends as one of many, whether it closes at once or little by
     double apart = 0;
     for (const std::size_t segment : {0, 31, 63})
       for (std::size_t t = 0; t < cycle; ++t)
-        apart = std::max(
-            apart, std::abs(one.strain(0, segment, t) - many.strain(0, segment, (cycles - 1) * cycle + t)));
+        apart =
+            std::max(apart, std::abs(one.strain(0, segment, t) - many.strain(0, segment, (cycles - 1) * cycle + t)));
     CHECK(apart < settled);
     CHECK(one.paths.grip_slip(0)[0] > 1e-3);  // of the strain of 5e-3 in 2 m
     CHECK(one.paths.grip_slip(0)[0] == Approx(many.paths.grip_slip(0)[0] / cycles).margin(length * settled));
@@ -465,11 +457,13 @@ TEST_CASE("a repeat that its last quarter does not lead to begins with no memory
   // Grips and strong friction: the held strain depends on the first sample. Without a new start the first cable ends at another
   // strain (difference 2e-3). If the motion stops too early, the cycle has not closed.
   constexpr std::size_t cycle = 8, cycles = 8;
-  constexpr double shapes[cycle][3] = {{-0.62, -0.51, 0.92}, {-0.76, -0.87, 0.68},  {0.64, 0.60, 0.35},    {0.37, -0.07, -0.31},
-                                       {0.95, -0.48, 0.33},  {1.41, -1.44, -0.19}, {-2.30, -1.67, 1.62}, {-0.74, 1.04, 0.66}};
+  constexpr double shapes[cycle][3] = {{-0.62, -0.51, 0.92}, {-0.76, -0.87, 0.68}, {0.64, 0.60, 0.35},
+                                       {0.37, -0.07, -0.31}, {0.95, -0.48, 0.33},  {1.41, -1.44, -0.19},
+                                       {-2.30, -1.67, 1.62}, {-0.74, 1.04, 0.66}};
   const auto motion = [&](double z, std::size_t t) {
     const auto& of = shapes[t % cycle];
-    return Deformation{0, 0.54 * (of[0] * std::sin(pi * z) + of[1] * std::cos(pi * z) + of[2] * std::sin(2 * pi * z)), 0, 0};
+    return Deformation{0, 0.54 * (of[0] * std::sin(pi * z) + of[1] * std::cos(pi * z) + of[2] * std::sin(2 * pi * z)),
+                       0, 0};
   };
   Dresspack dresspack = held_hose();
   dresspack.components[0].friction = 0.3;
@@ -505,8 +499,7 @@ TEST_CASE("forces of held cables are reported beside their moment on the hose") 
   CHECK(pulls_of(loose.paths).force_share < 0.2);
 }
 
-TEST_CASE(
-    "a twisted cable that shortens as its wires ask for pulls at nothing, one that is held as they do") {
+TEST_CASE("a twisted cable that shortens as its wires ask for pulls at nothing, one that is held as they do") {
   // Wires on one helix keep their length if hypot(tan(alpha) + R t, 1 + e) = 1 / cos(alpha).
   constexpr double R = 0.003, alpha = 20 * test_dresspacks::degree, twist = 2 * pi;  // [rad/m]: 360 deg/m
   Dresspack dresspack = thesis_hose();
@@ -597,8 +590,7 @@ TEST_CASE("forces of cables that stick to the hose are reported, too") {
       CHECK(pulls.tension[k][0] == Approx(force.force(kappa * away)).margin(1e-6));
       moment += force.force(kappa * away) * away;
     }
-    CHECK(pulls.force_share ==
-          Approx(force.force(kappa * 0.01845 * std::sin(72 * pi / 180)) / force.strength()));
+    CHECK(pulls.force_share == Approx(force.force(kappa * 0.01845 * std::sin(72 * pi / 180)) / force.strength()));
     // the moment at a clamp comes only from a bend beside it
     CHECK(pulls.moment[0] == Approx(bent == 0 ? moment : 0).margin(1e-6));
   }
@@ -652,8 +644,7 @@ TEST_CASE("with friction along it a cable's largest force counts, wherever it is
   double ends = 0;
   for (std::size_t k = 0; k < 10; ++k)
     for (const std::size_t i : {std::size_t{0}, segments - 1})
-      for (std::size_t t = 0; t < 20; ++t)
-        ends = std::max(ends, std::abs(force.force(run.pulling_strain(k, i, t))));
+      for (std::size_t t = 0; t < 20; ++t) ends = std::max(ends, std::abs(force.force(run.pulling_strain(k, i, t))));
   CHECK(ends < 0.99 * largest);  // otherwise the two cases would not differ
 }
 
@@ -677,7 +668,8 @@ TEST_CASE("the same cables come out in blocks of any size") {
   CHECK(pulls_of(paths).tension == pulls_of(whole.paths).tension);
 }
 
-TEST_CASE("equal cables rest at shared places, those that differ in slack or pressure do not, and all get what they get alone") {
+TEST_CASE(
+    "equal cables rest at shared places, those that differ in slack or pressure do not, and all get what they get alone") {
   const auto hose = [](double load, double slack) {
     Dresspack dresspack = thesis_hose();
     dresspack.components[0].laying.slack = slack;
@@ -692,9 +684,9 @@ TEST_CASE("equal cables rest at shared places, those that differ in slack or pre
   std::list<CablePaths> paths;
   std::vector<CablePaths*> all;
   for (const Run& run : alone) {
-    all.push_back(&paths.emplace_back(
-        run.construction, plan_slip(run.construction, {Slip::friction, Slip::free}, length),
-        CablesInJob{.rub = true, .elements_per_segment = 1}, run.lengths, run.arcs, 20));
+    all.push_back(&paths.emplace_back(run.construction,
+                                      plan_slip(run.construction, {Slip::friction, Slip::free}, length),
+                                      CablesInJob{.rub = true, .elements_per_segment = 1}, run.lengths, run.arcs, 20));
     all.back()->share_loose(*all.front());
   }
   CHECK(all[1]->shares_loose(*all[0]));
@@ -771,14 +763,16 @@ TEST_CASE("the path of a loose cable grows as its own curve does, less what its 
       dresslife::pipeline::Component& cable = dresspack.components[0];
       cable.count = 1, cable.lay_angle = lay, cable.phase = 0.7;
       cable.laying.position = Position::loose, cable.laying.play = 1e-3, cable.laying.slack = 0;
-      Run run(dresspack, Slip::free, 30, 1, [&](double z, std::size_t t) { return sign * std::min(1.0, double(t) / 20) * bend(z); });
+      Run run(dresspack, Slip::free, 30, 1,
+              [&](double z, std::size_t t) { return sign * std::min(1.0, double(t) / 20) * bend(z); });
       const double radius = cable.helix_radius, rate = std::tan(lay) / radius;
       double longer = 0, bent = 0;
       constexpr int steps = 20000;
       for (int k = 0; k < steps; ++k) {
         const double z = (k + 0.5) / steps, angle = 0.7 + rate * z * length;
         const Deformation d = sign * bend(z);
-        const double along = 1 + d.elongation + radius * (d.curvature1 * std::sin(angle) - d.curvature2 * std::cos(angle));
+        const double along =
+            1 + d.elongation + radius * (d.curvature1 * std::sin(angle) - d.curvature2 * std::cos(angle));
         longer += std::hypot(along, radius * rate) / steps;
         bent += std::hypot(d.curvature1, d.curvature2) / steps;
       }

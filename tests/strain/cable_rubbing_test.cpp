@@ -88,8 +88,7 @@ TEST_CASE("a cable that is drawn over an arc rubs with its tension, the arc's cu
   constexpr double a = 0.01, curvature = 0.8, grip = 10;
   constexpr std::size_t samples = 201, segments = 64;
   const Run run(drawn(grip), segments, samples, [](double, std::size_t t) {
-    return Deformation{0, curvature, 0,
-                       a * std::sin(2 * std::numbers::pi * static_cast<double>(t) / (samples - 1))};
+    return Deformation{0, curvature, 0, a * std::sin(2 * std::numbers::pi * static_cast<double>(t) / (samples - 1))};
   });
   const std::vector<double> work = run.work_per_length(0);
   // The cable's elastic strain is below a thousandth of a. The tension of a segment differs from the tension at its middle by
@@ -97,12 +96,11 @@ TEST_CASE("a cable that is drawn over an arc rubs with its tension, the arc's cu
   constexpr double discrete = 0.015;
   for (const std::size_t i : {3u, 20u, 40u, 55u}) {
     const double x = run.arcs()[i];
-    CHECK(work[i] == Approx(grip * std::exp(friction * curvature * x) * curvature * 2 * a * (length - x))
-                         .epsilon(discrete));
+    CHECK(work[i] ==
+          Approx(grip * std::exp(friction * curvature * x) * curvature * 2 * a * (length - x)).epsilon(discrete));
   }
   // The cable touches on the inside of the bend. The axis bends toward (k2, -k1), which is d1 here.
-  for (const CableRubbing::Patch& patch : run.paths.rubbing(0)->patches())
-    CHECK(patch.angle < CableRubbing::width());
+  for (const CableRubbing::Patch& patch : run.paths.rubbing(0)->patches()) CHECK(patch.angle < CableRubbing::width());
 }
 
 TEST_CASE("a hose that does not move wears no jacket") {
@@ -126,8 +124,7 @@ TEST_CASE("jackets rub by as much with twice the segments") {
   const auto motion = [](double arc, std::size_t t) {
     const double z = arc / length, w = 2 * std::numbers::pi * static_cast<double>(t) / (samples - 1);
     return Deformation{(0.8 + 0.4 * std::sin(w)) * std::sin(std::numbers::pi * z),
-                       0.5 * std::cos(w) * std::cos(std::numbers::pi * z / 2), 0.4 * std::sin(w),
-                       1e-4 * std::cos(w)};
+                       0.5 * std::cos(w) * std::cos(std::numbers::pi * z / 2), 0.4 * std::sin(w), 1e-4 * std::cos(w)};
   };
   // The mean over a footprint of ten diameters, from which wear is computed.
   const auto largest = [&](std::size_t segments) {
@@ -178,8 +175,8 @@ TEST_CASE("a cable that moves around its hose rubs with its pressure, on the sid
   for (std::size_t t = 0; t <= steps; ++t) {
     const double angle = 2 * std::numbers::pi * static_cast<double>(t) / steps;
     rubbing.move_across(t, in_ring(),
-                        pressed_at(radius * std::cos(angle), radius * std::sin(angle), press, elements + 1),
-                        load, spacing);
+                        pressed_at(radius * std::cos(angle), radius * std::sin(angle), press, elements + 1), load,
+                        spacing);
   }
   double sum = 0;
   const double whole = (press + load) * 2 * std::numbers::pi * radius * elements * spacing;
@@ -188,8 +185,8 @@ TEST_CASE("a cable that moves around its hose rubs with its pressure, on the sid
     CHECK(patch.work ==
           Approx(whole / segments / CableRubbing::sectors).epsilon(0.11));  // one of ten steps at a sector's border
     // At the wall the cable touches with its outer side, at the core with its inner side.
-    const double passed = static_cast<double>(patch.sample) * 2 * std::numbers::pi / steps +
-                          (radius > 18e-3 ? 0 : std::numbers::pi);
+    const double passed =
+        static_cast<double>(patch.sample) * 2 * std::numbers::pi / steps + (radius > 18e-3 ? 0 : std::numbers::pi);
     CHECK(std::abs(std::remainder(passed - patch.angle, 2 * std::numbers::pi)) <= CableRubbing::width());
   }
   CHECK(sum == Approx(whole).epsilon(1e-4));  // chords of 1 degree

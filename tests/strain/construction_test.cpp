@@ -33,8 +33,7 @@ TEST_CASE("the thesis' dresspack has 10 cables, 70 conductors and 6440 wires wit
     for (const int layer : bundle.wire_layers) wires += construction.layers()[layer].count;
   CHECK(wires == 6440);
   const Bundle& bundle = construction.bundles()[2 * 7 + 1];
-  CHECK(construction.wire_path(bundle.wire_layers[0], 17, bundle.part) ==
-        "signal cable 3/conductor 2/layer 1/wire 17");
+  CHECK(construction.wire_path(bundle.wire_layers[0], 17, bundle.part) == "signal cable 3/conductor 2/layer 1/wire 17");
   CHECK(construction.layers()[bundle.wire_layers[0]].lay_angle == Approx(-5 * degree));
 }
 
@@ -59,8 +58,8 @@ TEST_CASE("the thesis' phase of a wire is counted against its conductor's, witho
   const double conductor_phase = 2 * pi / 7 + arc * std::tan(25 * degree) / 0.002825 + pi;
   CHECK(apart(construction.phase(conductor.layer, 2, conductor.parent, arc), conductor_phase) < rounding);
   CHECK(apart(construction.phase(bundle.wire_layers[0], 4, bundle.part, arc),
-              2 * pi * 3 / 31 + arc / std::cos(25 * degree) * std::tan(5 * degree) / 0.00075 + pi -
-                  conductor_phase) < rounding);
+              2 * pi * 3 / 31 + arc / std::cos(25 * degree) * std::tan(5 * degree) / 0.00075 + pi - conductor_phase) <
+        rounding);
 }
 
 TEST_CASE("components that cannot be are refused with the reason") {
@@ -97,8 +96,7 @@ TEST_CASE("free components slide over their pitch, or from clamp to clamp when s
   CHECK(plan[0].sliding == Sliding::clamp_to_clamp);  // cables
   CHECK(plan[1].sliding == Sliding::over_pitch);      // conductors
   CHECK(plan[2].sliding == Sliding::over_pitch);      // wires
-  for (const LayerSlip& slip : plan_slip(construction, {Slip::stick}, 2.0))
-    CHECK(slip.sliding == Sliding::glued);
+  for (const LayerSlip& slip : plan_slip(construction, {Slip::stick}, 2.0)) CHECK(slip.sliding == Sliding::glued);
 
   const auto mixed = plan_slip(construction, {Slip::stick, Slip::free, Slip::stick}, 2.0);
   CHECK(mixed[0].sliding == Sliding::glued);

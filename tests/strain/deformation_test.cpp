@@ -15,8 +15,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double rounding =
-    1e-9;  // differences of poses of order one over links of order 1e-2; machine epsilon 2e-16
+constexpr double rounding = 1e-9;  // differences of poses of order one over links of order 1e-2; machine epsilon 2e-16
 
 /// Poses of a chain, and the storage of the numbers to which a ChainPose points.
 struct Chain {
@@ -33,9 +32,7 @@ struct Chain {
 };
 
 void append(std::vector<double>& to, const Vector3d& v) { to.insert(to.end(), {v.x(), v.y(), v.z()}); }
-void append(std::vector<double>& to, const Quaterniond& q) {
-  to.insert(to.end(), {q.w(), q.x(), q.y(), q.z()});
-}
+void append(std::vector<double>& to, const Quaterniond& q) { to.insert(to.end(), {q.w(), q.x(), q.y(), q.z()}); }
 
 using Rate = std::function<Vector3d(double s)>;  // rotation rate in the body frame [1/m]
 
@@ -242,8 +239,7 @@ TEST_CASE("ends move to clamps only where a curve through the links is known") {
 TEST_CASE("few or unequal segments are measured too") {
   const Rate rate = [](double) { return Vector3d(1, -2, 3); };
   for (const int segments : {1, 2, 3, 5})
-    CHECK(worst_error(chain_on_curve(0.2, segments, rate), rate, DeformationMeasure::rotation_vector) <
-          rounding);
+    CHECK(worst_error(chain_on_curve(0.2, segments, rate), rate, DeformationMeasure::rotation_vector) < rounding);
 }
 
 TEST_CASE("the thesis' measure converges at second order inside the chain") {
@@ -272,8 +268,7 @@ TEST_CASE("a stretched dresspack shows its elongation in both measures") {
   const Chain chain = chain_on_curve(
       1, 20, [](double) { return Vector3d::Zero().eval(); }, stretch);
   for (const auto measure : {DeformationMeasure::rotation_vector, DeformationMeasure::thesis})
-    for (const Deformation& d : chain.measure(measure))
-      CHECK(d.elongation == Approx(stretch - 1).epsilon(1e-9));
+    for (const Deformation& d : chain.measure(measure)) CHECK(d.elongation == Approx(stretch - 1).epsilon(1e-9));
 }
 
 TEST_CASE("a quaternion and its negative are the same pose") {
@@ -282,6 +277,5 @@ TEST_CASE("a quaternion and its negative are the same pose") {
   const auto before = chain.measure(DeformationMeasure::rotation_vector);
   for (std::size_t i = 4; i < 8; ++i) chain.orientation[i] = -chain.orientation[i];
   const auto after = chain.measure(DeformationMeasure::rotation_vector);
-  for (std::size_t i = 0; i < before.size(); ++i)
-    CHECK(after[i].twist == Approx(before[i].twist).margin(rounding));
+  for (std::size_t i = 0; i < before.size(); ++i) CHECK(after[i].twist == Approx(before[i].twist).margin(rounding));
 }

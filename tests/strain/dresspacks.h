@@ -11,8 +11,8 @@ using dresslife::pipeline::Component;
 using dresslife::pipeline::Dresspack;
 using dresslife::pipeline::Hand;
 
-inline Component part(const std::string& name, int count, double radius, double helix_radius,
-                      double lay_angle_deg, Hand hand = Hand::right) {
+inline Component part(const std::string& name, int count, double radius, double helix_radius, double lay_angle_deg,
+                      Hand hand = Hand::right) {
   Component component;
   component.name = name;
   component.count = count;
@@ -23,8 +23,8 @@ inline Component part(const std::string& name, int count, double radius, double 
   return component;
 }
 
-inline Component wires(const std::string& label, int count, double radius, double helix_radius,
-                       double lay_angle_deg, Hand hand) {
+inline Component wires(const std::string& label, int count, double radius, double helix_radius, double lay_angle_deg,
+                       Hand hand) {
   Component component = part("wire", count, radius, helix_radius, lay_angle_deg, hand);
   component.layer = label;
   component.material = "copper";

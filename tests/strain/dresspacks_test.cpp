@@ -20,7 +20,7 @@ using pipeline::Scratch;
 namespace {
 
 constexpr std::size_t samples = 60;
-constexpr double packing = 1.1e-7;   // turning points are kept in steps of 5e-8 of strain above the least of their chunk
+constexpr double packing = 1.1e-7;  // turning points are kept in steps of 5e-8 of strain above the least of their chunk
 constexpr double of_packing = 1e-4;  // of a damage: 5e-8 of strains of 1e-2, to the power of 8 at most
 
 /// A dresspack that bends and twists uniformly, with the amplitude of its motion.
@@ -106,8 +106,7 @@ std::string block(const std::string& from, const std::string& to) {
   const std::size_t begin = pipeline::sample_job.find(from);
   return pipeline::sample_job.substr(begin, pipeline::sample_job.find(to) - begin);
 }
-const std::string thick_block = block("dresspack:", "routing:"),
-                  routing_block = block("routing:", "simulation:");
+const std::string thick_block = block("dresspack:", "routing:"), routing_block = block("routing:", "simulation:");
 std::string routing_of(const Hose& hose) {
   std::string text = routing_block;
   const std::string own = "free_length_m: 1.2";
@@ -144,8 +143,8 @@ std::string item(const Hose& hose, const std::string& dresspack) {
 const std::string both = "dresspacks:\n" + item(thick, thick_block) + item(thin, thin_block);
 
 /// Evaluates motion.h5 to strain.h5 and to life.h5. All three names begin with `stem`.
-void evaluate(const Scratch& scratch, const std::string& stem, const pipeline::Job& job,
-              std::size_t threads = 1, std::size_t history_bytes = strain::default_history_bytes) {
+void evaluate(const Scratch& scratch, const std::string& stem, const pipeline::Job& job, std::size_t threads = 1,
+              std::size_t history_bytes = strain::default_history_bytes) {
   {
     const FileReader motion(scratch / (stem + ".motion.h5"), pipeline::motion_format());
     FileWriter file(scratch / (stem + ".strain.h5"), pipeline::strain_format());
@@ -168,8 +167,7 @@ double furthest(const std::vector<float>& a, const std::vector<float>& b) {
 
 /// Returns a dataset of the first file followed by the same dataset of the second file.
 template <class T>
-std::vector<T> one_after_the_other(const FileReader& first, const FileReader& second,
-                                   const std::string& dataset) {
+std::vector<T> one_after_the_other(const FileReader& first, const FileReader& second, const std::string& dataset) {
   std::vector<T> values = first.read<T>(dataset);
   const std::vector<T> more = second.read<T>(dataset);
   values.insert(values.end(), more.begin(), more.end());
@@ -210,24 +208,20 @@ TEST_CASE("two dresspacks in one file have the strains and lives of two files") 
       const auto helix = all.read<double>(site + "helix"), own = second.read<double>(site + "helix");
       REQUIRE(helix.size() == 6 * sites);
       for (std::size_t k = of_first; k < sites; ++k)
-        for (std::size_t i = 0; i < 6; ++i)
-          CHECK(helix[6 * k + i] == (i < 3 ? own[3 * (k - of_first) + i] : 0));
+        for (std::size_t i = 0; i < 6; ++i) CHECK(helix[6 * k + i] == (i < 3 ? own[3 * (k - of_first) + i] : 0));
     }
-    CHECK(furthest(all.read<float>("/probe/strain"),
-                   one_after_the_other<float>(first, second, "/probe/strain")) < packing);
-    const auto probe = all.read<std::uint32_t>("/probe/site"),
-               own = second.read<std::uint32_t>("/probe/site");
+    CHECK(furthest(all.read<float>("/probe/strain"), one_after_the_other<float>(first, second, "/probe/strain")) <
+          packing);
+    const auto probe = all.read<std::uint32_t>("/probe/site"), own = second.read<std::uint32_t>("/probe/site");
     const std::size_t probes = first.rows("/probe/site");
     REQUIRE(probe.size() == probes + own.size());
-    for (std::size_t k = 0; k < own.size(); ++k)
-      CHECK(probe[probes + k] == own[k] + first.rows("/site/segment"));
+    for (std::size_t k = 0; k < own.size(); ++k) CHECK(probe[probes + k] == own[k] + first.rows("/site/segment"));
     CHECK(all.read<std::int32_t>("/segment/dresspack")[8] == 1);
   }
   const FileReader all(scratch / "both.life.h5", pipeline::life_format()),
       first(scratch / "thick.life.h5", pipeline::life_format()),
       second(scratch / "thin.life.h5", pipeline::life_format());
-  for (const char* dataset :
-       {"/damage", "/segment/damage", "/layer/damage", "/clamp/damage", "/dresspack/damage"}) {
+  for (const char* dataset : {"/damage", "/segment/damage", "/layer/damage", "/clamp/damage", "/dresspack/damage"}) {
     CAPTURE(dataset);
     const auto damage = all.read<double>(dataset), own = one_after_the_other<double>(first, second, dataset);
     REQUIRE(damage.size() == own.size());
@@ -245,8 +239,8 @@ TEST_CASE("two dresspacks in one file have the strains and lives of two files") 
   const std::string name = worse_first ? "main hose" : "sensor cable";
   CHECK(all.text_attribute("worst_dresspack") == name);
   CHECK(first.text_attribute("worst_dresspack").empty());
-  for (const char* attribute : {"life_hours", "worst_segment_from_tool", "worst_position_from_tool",
-                                "worst_time", "life_repeats_all_stick"})
+  for (const char* attribute :
+       {"life_hours", "worst_segment_from_tool", "worst_position_from_tool", "worst_time", "life_repeats_all_stick"})
     CHECK(all.number_attribute(attribute) ==
           Approx(std::string(attribute) == "life_repeats_all_stick"
                      ? std::min(first.number_attribute(attribute), second.number_attribute(attribute))
@@ -276,16 +270,14 @@ TEST_CASE("what does not fit together among several dresspacks is reported") {
   const Scratch scratch;
   write_motion(scratch / "both.motion.h5", {thick, thin});
   write_motion(scratch / "thick.motion.h5", {thick});
-  CHECK_THAT(
-      pipeline::message_of([&] { evaluate(scratch, "both", job_of(both, {"core 2"})); }),
-      Catch::Contains("strain.probes: 'core 2' does not begin with the name of a dresspack; begin it with "
-                      "'main hose/'"));
+  CHECK_THAT(pipeline::message_of([&] { evaluate(scratch, "both", job_of(both, {"core 2"})); }),
+             Catch::Contains("strain.probes: 'core 2' does not begin with the name of a dresspack; begin it with "
+                             "'main hose/'"));
   CHECK_THAT(pipeline::message_of([&] { evaluate(scratch, "both", job_of(both, {"sensor cable/cor 2"})); }),
              Catch::Contains("strain.probes: no wire is called 'sensor cable/cor 2'") &&
                  Catch::Contains("write it like 'sensor cable/core 1'"));
-  CHECK_THAT(
-      pipeline::message_of([&] { evaluate(scratch, "thick", job_of(both, {"main hose/cable 1/wire 1"})); }),
-      Catch::Contains("holds 1 dresspacks (its job has 2)"));
+  CHECK_THAT(pipeline::message_of([&] { evaluate(scratch, "thick", job_of(both, {"main hose/cable 1/wire 1"})); }),
+             Catch::Contains("holds 1 dresspacks (its job has 2)"));
   pipeline::Job bare = job_of(both, {"main hose/cable 1/wire 1"});
   bare.dresspacks[1].dresspack.components.clear();
   CHECK_THAT(pipeline::message_of([&] { evaluate(scratch, "both", bare); }),

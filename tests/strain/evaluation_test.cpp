@@ -25,8 +25,8 @@ DeformationHistory moving(std::size_t segments, std::size_t samples) {
     for (std::size_t t = 0; t < samples; ++t) {
       const double x = (i + 0.5) / segments, y = 0.05 * t;
       history.set(i, t,
-                  {3 * std::sin(2 * pi * x + 0.7 * y) + 2, 3 * std::cos(3 * x - 0.5 * y),
-                   4 * std::sin(0.3 * y + x), 1e-4 * std::sin(y)});
+                  {3 * std::sin(2 * pi * x + 0.7 * y) + 2, 3 * std::cos(3 * x - 0.5 * y), 4 * std::sin(0.3 * y + x),
+                   1e-4 * std::sin(y)});
     }
   return history;
 }
@@ -48,10 +48,9 @@ void join(SiteRows& all, const SiteRows& more) {
   add(all.sample, more.sample);
 }
 
-Results evaluate(const Construction& construction, const Settings& settings,
-                 const DeformationHistory& history, std::size_t segments, double length = 2) {
-  Evaluation evaluation(construction, settings, std::vector<double>(segments, length / segments),
-                        history.samples());
+Results evaluate(const Construction& construction, const Settings& settings, const DeformationHistory& history,
+                 std::size_t segments, double length = 2) {
+  Evaluation evaluation(construction, settings, std::vector<double>(segments, length / segments), history.samples());
   evaluation.add({history});
   Results results;
   Sink sink;
@@ -71,8 +70,7 @@ Settings settings_with(Slip slip, Kinematics kinematics = Kinematics::exact) {
   return settings;
 }
 
-ComponentState<double> dresspack_rod(const DeformationHistory& history, std::size_t segment, std::size_t t,
-                                     int order) {
+ComponentState<double> dresspack_rod(const DeformationHistory& history, std::size_t segment, std::size_t t, int order) {
   const DeformationColumns c = history.columns(segment);
   return uniform_rod<double>(c.elongation[t], c.curvature1[t], c.curvature2[t], c.twist[t], order);
 }
@@ -95,8 +93,7 @@ std::vector<Link> links_to(const Construction& construction, const Bundle& bundl
 /// Returns the strain of a wire's outward fibre if everything is glued, by the plain recursion.
 double glued_strain(const Construction& construction, const std::vector<Link>& links, double arc,
                     const DeformationHistory& history, std::size_t segment, std::size_t t) {
-  ComponentState<double> rod = dresspack_rod(history, segment, t, 5),
-                         rest = uniform_rod<double>(0, 0, 0, 0, 5);
+  ComponentState<double> rod = dresspack_rod(history, segment, t, 5), rest = uniform_rod<double>(0, 0, 0, 0, 5);
   for (const Link& link : links) {
     const Placement place = construction.placement(link.layer, link.number, link.parent, arc);
     rod = child(rod, place);
@@ -105,8 +102,7 @@ double glued_strain(const Construction& construction, const std::vector<Link>& l
   const double radius = construction.layers()[links.back().layer].part_radius;
   const bool exact = construction.kinematics() == Kinematics::exact;
   if (!exact) return rod.stretch.at[0] / rest.stretch.at[0] - 1 + radius * rod.bend1.at[0];
-  return (rod.stretch.at[0] + radius * rod.bend2.at[0]) / (rest.stretch.at[0] + radius * rest.bend2.at[0]) -
-         1;
+  return (rod.stretch.at[0] + radius * rod.bend2.at[0]) / (rest.stretch.at[0] + radius * rest.bend2.at[0]) - 1;
 }
 
 /// Returns the largest difference of all sites' turning points from `reference(site's links, segment, sample)`, divided by
@@ -147,14 +143,12 @@ TEST_CASE("every wire's turning points are those of the full recursion when all 
   const DeformationHistory history = moving(few_segments, some_samples);
   for (const Kinematics kinematics : {Kinematics::exact, Kinematics::thesis}) {
     const Construction construction(thesis_dresspack(), kinematics);
-    const Results results =
-        evaluate(construction, settings_with(Slip::stick, kinematics), history, few_segments);
+    const Results results = evaluate(construction, settings_with(Slip::stick, kinematics), history, few_segments);
     REQUIRE(results.sites.segment.size() == 6440 * few_segments);
-    const double difference =
-        worst_difference(construction, results.sites, few_segments,
-                         [&](const auto& links, std::size_t segment, std::size_t t) {
-                           return glued_strain(construction, links, centre(segment), history, segment, t);
-                         });
+    const double difference = worst_difference(
+        construction, results.sites, few_segments, [&](const auto& links, std::size_t segment, std::size_t t) {
+          return glued_strain(construction, links, centre(segment), history, segment, t);
+        });
     CHECK(difference < wave_tolerance);
   }
 }
@@ -217,13 +211,12 @@ TEST_CASE("free components have the mean of their glued strain and keep their ow
         const Placement in_dresspack = placed(links[0], segment, 0), in_cable = placed(links[1], segment, 0),
                         in_conductor = placed(links[2], segment, 0);
         const ComponentState<double> cable_rest = child(at_rest, in_dresspack);
-        const ComponentState<double> cable = scaled(
-            child(dresspack_rod(history, segment, t, 5), in_dresspack), cable_mean(links[0], t), cable_rest);
+        const ComponentState<double> cable =
+            scaled(child(dresspack_rod(history, segment, t, 5), in_dresspack), cable_mean(links[0], t), cable_rest);
         const ComponentState<double> conductor_rest = child(cable_rest, in_cable);
         const double conductor_strain =
             over_phases(cable, links[1], segment) / over_phases(cable_rest, links[1], segment) - 1;
-        const ComponentState<double> conductor =
-            scaled(child(cable, in_cable), conductor_strain, conductor_rest);
+        const ComponentState<double> conductor = scaled(child(cable, in_cable), conductor_strain, conductor_rest);
         const ComponentState<double> wire_rest = child(conductor_rest, in_conductor);
         const double wire_strain =
             over_phases(conductor, links[2], segment) / over_phases(conductor_rest, links[2], segment) - 1;
@@ -254,11 +247,9 @@ TEST_CASE("straight wires in a helical conductor take the mean of a walk along i
   const double difference = worst_difference(
       construction, results.sites, few_segments, [&](const auto& links, std::size_t segment, std::size_t t) {
         double path = 0, rest_path = 0;
-        for (int k = 0; k < steps;
-             ++k) {  // along one pitch of the conductor, with the deformation of this segment
+        for (int k = 0; k < steps; ++k) {  // along one pitch of the conductor, with the deformation of this segment
           const double arc = centre(segment) + pitch * k / steps;
-          ComponentState<double> rod = dresspack_rod(history, segment, t, 5),
-                                 rest = uniform_rod<double>(0, 0, 0, 0, 5);
+          ComponentState<double> rod = dresspack_rod(history, segment, t, 5), rest = uniform_rod<double>(0, 0, 0, 0, 5);
           for (const Link& link : links) {
             const Placement place = construction.placement(link.layer, link.number, link.parent, arc);
             rod = child(rod, place);
@@ -293,7 +284,8 @@ TEST_CASE("straight wires that slide in a straight core that slides have its str
   REQUIRE(free.size() == glued.size());
   double largest = 0, difference = 0;
   for (std::size_t k = 0; k < free.size(); ++k)
-    largest = std::max<double>(largest, std::abs(glued[k])), difference = std::max<double>(difference, std::abs(free[k] - glued[k]));
+    largest = std::max<double>(largest, std::abs(glued[k])),
+    difference = std::max<double>(difference, std::abs(free[k] - glued[k]));
   CHECK(largest > 0.0025 * curvature);  // most of it from the core, which is 2.8 mm from the axis
   CHECK(difference < wave_tolerance * largest);
 }
@@ -321,8 +313,7 @@ TEST_CASE("at a bend radius of 100 mm a glued wire sees thirty times what a slip
   const double cosine = std::cos(25 * degree), sine = std::sin(25 * degree);
   const double conductor = cosine * cosine * 0.002825 * curvature;
   const double bend = std::pow(cosine, 4) * curvature;
-  const double own_curvature =
-      sine * sine / 0.002825;  // of the undeformed conductor, which its stretch rotates
+  const double own_curvature = sine * sine / 0.002825;  // of the undeformed conductor, which its stretch rotates
   const double glued = conductor + 0.00075 * (bend - own_curvature * conductor) + 75e-6 * bend;
   constexpr double second_order = 0.03;  // of the strain: products of 3 % strains with angles of the lay
   CHECK(largest(Slip::stick, Kinematics::exact, 1) == Approx(glued).epsilon(second_order));
@@ -368,8 +359,7 @@ TEST_CASE("the bounds hold the worst wires, and each segment's worst site is a p
     double probed = 0;
     for (const Probe& probe : free.probes) {
       const auto [low, high] = std::minmax_element(probe.strain.begin(), probe.strain.end());
-      if (free.sites.segment[probe.site] == static_cast<int>(segment))
-        probed = std::max(probed, *high - *low);
+      if (free.sites.segment[probe.site] == static_cast<int>(segment)) probed = std::max(probed, *high - *low);
     }
     CHECK(probed == Approx(largest_range(free.sites, segment)).epsilon(1e-3));
   }
@@ -380,8 +370,7 @@ TEST_CASE("the bounds hold the worst wires, and each segment's worst site is a p
     // which may be the same wire. One more probe was named in the settings.
     REQUIRE(results->probes.size() > few_segments);
     REQUIRE(results->probes.size() <= 5 * few_segments + 1);
-    CHECK(results->sites.component[results->probes.back().site] ==
-          "signal cable 3/conductor 2/layer 1/wire 17");
+    CHECK(results->sites.component[results->probes.back().site] == "signal cable 3/conductor 2/layer 1/wire 17");
     CHECK(results->sites.segment[results->probes.back().site] == few_segments - 1);
   }
 }
@@ -447,8 +436,8 @@ Dresspack laid_dresspack(double cable_lay_angle_deg, double rest_curvature) {
 /// Returns the largest difference of the waves of a bundle's layers, and of its nodes one by one, from the strains of their
 /// nodes in double precision, divided by the largest strain. start: source of the part's state.
 enum class Start { dresspack, parent, parent_in_single };
-double error_of_waves(const Kernels& set, const Construction& construction, const std::vector<Slip>& slip,
-                      int fibres, Start start) {
+double error_of_waves(const Kernels& set, const Construction& construction, const std::vector<Slip>& slip, int fibres,
+                      Start start) {
   const std::size_t samples = 250, stride = padded(samples);  // not a multiple of any register
   const DeformationHistory history = moving(1, samples);
   const auto plan = plan_slip(construction, slip, 2.0);
@@ -481,8 +470,7 @@ double error_of_waves(const Kernels& set, const Construction& construction, cons
   }
   set.layer_waves(from, history.columns(0), 0, samples, waves.data(), stride);
   std::vector<float> one_by_one(fibres == 1 ? strains.size() : 0);
-  if (fibres == 1)
-    set.node_strains_in_single(from, history.columns(0), 0, samples, one_by_one.data(), stride);
+  if (fibres == 1) set.node_strains_in_single(from, history.columns(0), 0, samples, one_by_one.data(), stride);
   double largest = 0, worst = 0;
   for (std::size_t row = 0; row < strains.size() / stride; ++row)
     for (std::size_t t = 0; t < samples; ++t) {
@@ -493,8 +481,7 @@ double error_of_waves(const Kernels& set, const Construction& construction, cons
                             wave[3 * stride] * std::sin(2 * turn) + wave[4 * stride] * std::cos(2 * turn);
       largest = std::max(largest, std::abs(strains[row * stride + t]));
       worst = std::max(worst, std::abs(strain - strains[row * stride + t]));
-      if (fibres == 1)
-        worst = std::max(worst, std::abs(one_by_one[row * stride + t] - strains[row * stride + t]));
+      if (fibres == 1) worst = std::max(worst, std::abs(one_by_one[row * stride + t] - strains[row * stride + t]));
     }
   return worst / largest;
 }
@@ -521,8 +508,7 @@ TEST_CASE("waves in single precision are the strains of their nodes on every ins
                 const bool exact = kinematics == Kinematics::exact;
                 if (start == Start::parent_in_single && !(exact && fibres == 1)) continue;
                 const double error = error_of_waves(*set, construction, slip, fibres, start);
-                CAPTURE(set->machine, kinematics, slip, fibres, start, rest_curvature, cable_lay_angle,
-                        error);
+                CAPTURE(set->machine, kinematics, slip, fibres, start, rest_curvature, cable_lay_angle, error);
                 CHECK(error < (rest_curvature != 0 && !exact ? difference : single));
               }
       }
@@ -539,15 +525,14 @@ TEST_CASE("a cable's state and its slopes in single precision are those in doubl
       for (const Slip slip : {Slip::stick, Slip::free})
         for (const Kernels* set : kernels_of_this_machine()) {
           const Construction construction(laid_dresspack(lay_angle, rest_curvature), Kinematics::exact);
-          BundleNesting nesting = nesting_to(construction, plan_slip(construction, {slip}, 2.0), second_cable,
-                                             0.1, surface_fibres(1));
+          BundleNesting nesting =
+              nesting_to(construction, plan_slip(construction, {slip}, 2.0), second_cable, 0.1, surface_fibres(1));
           REQUIRE(nesting.steps.size() == 1);
           nesting.order = 1;
           nesting.steps[0].slide.clamp_strain = clamp_strain.data();
           std::vector<double> states(part_state_rows(1) * stride);
           std::vector<float> of_double(part_rows * stride), rows(part_rows * stride);
-          set->part_states(pointers(nesting), history.columns(0), 0, samples, states.data(), of_double.data(),
-                           stride);
+          set->part_states(pointers(nesting), history.columns(0), 0, samples, states.data(), of_double.data(), stride);
           set->part_rows_of_dresspack(pointers(nesting), history.columns(0), 0, samples, rows.data(), stride);
           for (std::size_t row = 0; row < part_rows; ++row) {
             double largest = 0, worst = 0;
@@ -559,7 +544,8 @@ TEST_CASE("a cable's state and its slopes in single precision are those in doubl
             CAPTURE(set->machine, rest_curvature, lay_angle, slip, row, worst, largest);
             CHECK(worst <= single * largest);
             const bool none = lay_angle == 0 || (row == stretch_slope && slip == Slip::free);
-            CHECK((largest > 0 || none));  // the slope of a sliding part's stretch is 0; rows of straight parts may be 0
+            CHECK(
+                (largest > 0 || none));  // the slope of a sliding part's stretch is 0; rows of straight parts may be 0
           }
         }
 }

@@ -34,10 +34,7 @@ struct WiresInSpace {
 
   WiresInSpace(double at_radius, double lay_deg, double of_part, double part_lay_deg, double wave,
                std::size_t cells_in_wave, int waves)
-      : radius(at_radius),
-        lay_angle(lay_deg * degree),
-        part_radius(of_part),
-        part_lay(part_lay_deg * degree) {
+      : radius(at_radius), lay_angle(lay_deg * degree), part_radius(of_part), part_lay(part_lay_deg * degree) {
     per_cable_length = 1 / (std::cos(lay_angle) * std::cos(part_lay));
     cell = wave / static_cast<double>(cells_in_wave);
     const std::size_t cells = cells_in_wave * waves;
@@ -53,8 +50,7 @@ struct WiresInSpace {
   double rate(double along, const space_curve::Vector& bend) const {
     const double in_part = along * std::cos(lay_angle), in_cable = in_part * std::cos(part_lay);
     std::vector<space_curve::Level> levels;
-    if (part_radius > 0)
-      levels.push_back({part_radius, part_lay, in_cable * std::tan(part_lay) / part_radius});
+    if (part_radius > 0) levels.push_back({part_radius, part_lay, in_cable * std::tan(part_lay) / part_radius});
     const auto strain = [&] {
       constexpr long double little = 1e-4L;
       const space_curve::Curves rest{1, space_curve::Vector(0, 0, 0), levels}, bent{1, bend * little, levels};
@@ -101,8 +97,7 @@ Dresspack strand() {
 }
 /// waves: number of waves, so large that the ends, which do not slide, do not influence the wave in the middle.
 WiresInSpace wires_of_strand(int waves) {
-  WiresInSpace wires(wire_radius, wire_lay, 0, 0, 2 * pi * wire_radius / std::sin(wire_lay * degree), 96,
-                     waves);
+  WiresInSpace wires(wire_radius, wire_lay, 0, 0, 2 * pi * wire_radius / std::sin(wire_lay * degree), 96, waves);
   wires.limit = friction * line_load / wires.EA;
   return wires;
 }
@@ -131,8 +126,7 @@ TEST_CASE("moment of a strand: the closed form is that of wires that slide as li
   const double top = held(most);
   for (double curvature = most; curvature > -most * 1.001; curvature -= 0.1) {
     wire.move(wires.glued(curvature, 0));  // Masing: twice the curve of the first bend, from the tip
-    CHECK(wire_count * wires.moment(wire) ==
-          Approx(top - 2 * held((most - curvature) / 2)).margin(cells * top));
+    CHECK(wire_count * wires.moment(wire) == Approx(top - 2 * held((most - curvature) / 2)).margin(cells * top));
   }
 }
 
@@ -217,8 +211,7 @@ TEST_CASE("a bend that changes along the cable: the closed form where a wave is 
       const double reach = t <= 6 ? t / 6.0 : t <= 18 ? 1 - (t - 6) / 6.0 : -1 + (t - 18) / 6.0;
       for (std::size_t i = 0; i < many; ++i) {
         const double at = (static_cast<double>(i) + 0.5) * cell;
-        glued[i] =
-            size * cap * reach * std::cos(2 * pi * at / bend + 0.2) * std::cos(2 * pi * at / wave + 0.3);
+        glued[i] = size * cap * reach * std::cos(2 * pi * at / bend + 0.2) * std::cos(2 * pi * at / wave + 0.3);
       }
       wire.move(glued);
       for (std::size_t i = many / 4; t >= 6 && i < 3 * many / 4; ++i)
@@ -241,8 +234,7 @@ TEST_CASE("a bend that changes along the cable: the closed form where a wave is 
   }
 }
 
-TEST_CASE(
-    "any history of bending: sliders follow the worst wire of a layer, and no wire sees more than they say") {
+TEST_CASE("any history of bending: sliders follow the worst wire of a layer, and no wire sees more than they say") {
   const WiresInSpace wires = wires_of_strand(5);
   const double amplitude = std::hypot(wires.by_bend1[0], wires.by_bend2[0]);
   const double cap = wires.limit * wires.cell * 96 / 4;  // (W16)
@@ -256,8 +248,7 @@ TEST_CASE(
       {"in one plane", [](double x) { return std::pair(std::sin(2 * pi * x), 0.0); }},
       {"round", [](double x) { return std::pair(std::cos(2 * pi * x), std::sin(2 * pi * x)); }},
       {"ellipse", [](double x) { return std::pair(std::cos(2 * pi * x), 0.3 * std::sin(2 * pi * x)); }},
-      {"round, off centre",
-       [](double x) { return std::pair(2 + std::cos(2 * pi * x), std::sin(2 * pi * x)); }}};
+      {"round, off centre", [](double x) { return std::pair(2 + std::cos(2 * pi * x), std::sin(2 * pi * x)); }}};
   for (int k = 0; k < 4; ++k) {
     std::array<double, 12> c;
     for (double& value : c) value = part(random);
@@ -286,8 +277,7 @@ TEST_CASE(
         const std::vector<double> glued = wires.glued(bend1 * scale, bend2 * scale);
         wire.move(glued);
         for (std::size_t i = 0; i < around; ++i) {
-          const double held = sliders[i].next(glued[wires.first + i], cap),
-                       line = wire.strain()[wires.first + i];
+          const double held = sliders[i].next(glued[wires.first + i], cap), line = wire.strain()[wires.first + i];
           if (t < samples) continue;  // friction settles in the first repeat
           low[i] = std::min(low[i], line), high[i] = std::max(high[i], line);
           slider_low[i] = std::min(slider_low[i], held), slider_high[i] = std::max(slider_high[i], held);

@@ -168,8 +168,7 @@ TEST_CASE("friction gives the same numbers twice, and however the motion comes i
   const Results once = evaluate(rubbing(0.5, 300), settings);
   for (const std::size_t block : {0, 7, 64, 299}) {
     const Results again = evaluate(rubbing(0.5, 300), settings, block);
-    const bool same =
-        again.strain == once.strain && again.sample == once.sample && again.turning == once.turning;
+    const bool same = again.strain == once.strain && again.sample == once.sample && again.turning == once.turning;
     CHECK(same);
     REQUIRE(again.probes.size() == once.probes.size());
     for (std::size_t p = 0; p < once.probes.size(); ++p) {
@@ -183,8 +182,7 @@ TEST_CASE("friction gives the same numbers twice, and however the motion comes i
 TEST_CASE("what friction holds of a part is the same after any other and lies where that of its level lay") {
   const Dresspack dresspack = rubbing(0.3);
   const Construction construction(dresspack, Kinematics::exact);
-  const std::vector<double> lengths(segments, 2.0 / segments),
-      arcs{1.0 / segments, 3.0 / segments, 5.0 / segments};
+  const std::vector<double> lengths(segments, 2.0 / segments), arcs{1.0 / segments, 3.0 / segments, 5.0 / segments};
   ClampMeans means(construction, plan_slip(construction, {Slip::friction}, 2.0), lengths, arcs, samples);
   const DeformationHistory history = moving();
   CablePaths cables(construction, means.plan(), {.rub = true}, lengths, arcs, samples);
@@ -239,15 +237,14 @@ TEST_CASE("friction on some levels has its limits there, whatever the other leve
     for (Slip& level : loose) level = level == friction ? free : level;
     CHECK(difference(evaluate(rubbing(endless_friction, 1e6), settings_with(slip)),
                      evaluate(rubbing(0), settings_with(glued))) < rounding);
-    CHECK(difference(evaluate(rubbing(no_friction), settings_with(slip)),
-                     evaluate(rubbing(0), settings_with(loose))) < rounding);
+    CHECK(difference(evaluate(rubbing(no_friction), settings_with(slip)), evaluate(rubbing(0), settings_with(loose))) <
+          rounding);
   }
   // Between the limits: the larger the friction, the closer to stick.
   const Results stuck = evaluate(rubbing(0), settings_with({free, stick, free}));
   double last = 1e9;
   for (const double load : {0.0, 50.0, 200.0, 1000.0, 1e5, 1e7}) {
-    const double away =
-        difference(evaluate(rubbing(0.5, load), settings_with({free, friction, free})), stuck);
+    const double away = difference(evaluate(rubbing(0.5, load), settings_with({free, friction, free})), stuck);
     CHECK(away <= last * (1 + rounding));
     last = away;
   }
@@ -324,8 +321,7 @@ TEST_CASE("straight wires in a helical conductor, too, stick by endless friction
   mixed.components[0].friction = mixed.components[0].components[0].friction = endless_friction;
   mixed.components[0].radial_line_load = mixed.components[0].components[0].radial_line_load = 1e6;
   CHECK(difference(evaluate(mixed, friction),
-                   evaluate(straight(0, 0), settings_with({Slip::stick, Slip::stick, Slip::free}))) <
-        rounding);
+                   evaluate(straight(0, 0), settings_with({Slip::stick, Slip::stick, Slip::free}))) < rounding);
 }
 
 TEST_CASE("sites and probes agree where friction holds some of the strain") {
@@ -343,8 +339,7 @@ TEST_CASE("sites and probes agree where friction holds some of the strain") {
     for (const Probe& probe : results.probes) {
       const auto [low, high] = std::minmax_element(probe.strain.begin(), probe.strain.end());
       for (std::size_t k = begin[probe.site]; k < begin[probe.site + 1]; ++k)
-        REQUIRE(std::abs(results.strain[k] - probe.strain[results.sample[k]]) <
-                wave_tolerance * (*high - *low));
+        REQUIRE(std::abs(results.strain[k] - probe.strain[results.sample[k]]) < wave_tolerance * (*high - *low));
     }
   }
 }
@@ -423,8 +418,7 @@ TEST_CASE("a slider's slip at the end of a repeat is found backward from its las
     for (int history = 0; history < 50; ++history) {
       std::vector<double> deviation(100), cap(100);
       for (double& of : deviation) of = part(random);
-      for (double& of : cap)
-        of = most == 0 || most == glued ? most : most * (1 - 0.3 * std::abs(part(random)));
+      for (double& of : cap) of = most == 0 || most == glued ? most : most * (1 - 0.3 * std::abs(part(random)));
       Slider slider;
       for (std::size_t t = 0; t < 100; ++t) slider.next(deviation[t], cap[t]);
       const double found = settled_slip(
@@ -437,8 +431,7 @@ TEST_CASE("a slider's slip at the end of a repeat is found backward from its las
 TEST_CASE("a motion's slip settles: the strain at its end leads on to that at its start") {
   // The motion is closed, so a settled slider returns to its state. The first sample follows from the last.
   const Results results = evaluate(rubbing(0.5, 300), settings_with({Slip::friction}));
-  for (const Probe& probe : results.probes)
-    CHECK(std::abs(probe.strain.front() - probe.strain.back()) < 1e-12);
+  for (const Probe& probe : results.probes) CHECK(std::abs(probe.strain.front() - probe.strain.back()) < 1e-12);
 }
 
 TEST_CASE("slip that only the beginning of a motion makes is found from its end") {
@@ -453,16 +446,15 @@ TEST_CASE("slip that only the beginning of a motion makes is found from its end"
     }
   const Dresspack dresspack = rubbing(0.5, 300);
   const Construction construction(dresspack, Kinematics::exact);
-  Evaluation evaluation(construction, settings_with({Slip::friction}),
-                        std::vector<double>(segments, 2.0 / segments), samples);
+  Evaluation evaluation(construction, settings_with({Slip::friction}), std::vector<double>(segments, 2.0 / segments),
+                        samples);
   evaluation.add({history});
   const Results results = results_of(evaluation, history);
   REQUIRE(results.probes.size() >= 2);
   // Probes go through the motion twice, from its begin and in double precision.
   for (const Probe& probe : results.probes) {
     const auto site = static_cast<std::ptrdiff_t>(probe.site);
-    std::uint64_t k =
-        std::accumulate(results.turning.begin(), results.turning.begin() + site, std::uint64_t{0});
+    std::uint64_t k = std::accumulate(results.turning.begin(), results.turning.begin() + site, std::uint64_t{0});
     const auto [low, high] = std::ranges::minmax(probe.strain);
     constexpr double waves = 2e-4;  // of the range: (W13) with friction, and single precision
     for (const std::uint64_t end = k + results.turning[probe.site]; k < end; ++k)
@@ -555,8 +547,7 @@ TEST_CASE("the hose's wall: stretch, bending and twist of a tube, times its corr
     CHECK(places == hose_places);
     const double along = 1 + stretch + R * curvature, fibre = 0.5 * (std::hypot(along, R * twist) - 1);
     const double gamma = 0.5 * R * twist * (1 + stretch) / std::hypot(along, R * twist);
-    const double expected =
-        equivalent == Equivalent::axial ? fibre : std::sqrt(fibre * fibre + gamma * gamma / 3);
+    const double expected = equivalent == Equivalent::axial ? fibre : std::sqrt(fibre * fibre + gamma * gamma / 3);
     constexpr double third_harmonic = 1e-3;  // of the shear of an inclined fibre
     CHECK(highest == Approx(expected).epsilon(third_harmonic));
   }
@@ -608,8 +599,7 @@ TEST_CASE("a jacket that gives nothing holds all, and one that gives holds its s
   CHECK(off_their_probes(evaluate(dresspack, rubs)) < third_harmonic);
   // Other kinds of slip do not use the jacket's stiffness.
   for (const Slip slip : {Slip::stick, Slip::free})
-    CHECK(evaluate(dresspack, settings_with({slip})).strain ==
-          evaluate(rubbing(0), settings_with({slip})).strain);
+    CHECK(evaluate(dresspack, settings_with({slip})).strain == evaluate(rubbing(0), settings_with({slip})).strain);
 
   CHECK(elastic_share(0, 2000, 0.05) == 0);
   // The deviation eps(x) = A sin(2 pi x/s) of a bar (E A) on a spring bed (k): E A u'' = k (u - u_parent) with
@@ -677,12 +667,8 @@ TEST_CASE("a helix keeps its share of strain where its bed gives") {
 
 TEST_CASE("a bed that gives takes its share of conductors and wires in every way of sliding") {
   using enum Slip;
-  for (const std::vector<Slip>& slip : {std::vector{stick},
-                                        {free},
-                                        {friction},
-                                        {free, stick, free},
-                                        {stick, free, stick},
-                                        {free, friction, stick}}) {
+  for (const std::vector<Slip>& slip :
+       {std::vector{stick}, {free}, {friction}, {free, stick, free}, {stick, free, stick}, {free, friction, stick}}) {
     CAPTURE(static_cast<int>(slip[0]), slip.size());
     Settings settings = settings_with(slip);
     Dresspack dresspack = rubbing(0.3);
@@ -729,17 +715,22 @@ TEST_CASE("a bed that gives takes its share of conductors and wires in every way
   CHECK(strain_of_pulled(dresspack, free) == Approx(share * rigid).epsilon(twisting));
 }
 
-TEST_CASE("the length over which a hose's bend changes is the wave of a sine along it, whatever its amplitude and its mean") {
+TEST_CASE(
+    "the length over which a hose's bend changes is the wave of a sine along it, whatever its amplitude and its mean") {
   constexpr std::size_t pieces = 64, moments = 9;
   constexpr double whole = 2, wave = 0.5;  // [m]
   const Construction construction(rubbing(0.3), Kinematics::exact);
   for (const double amplitude : {0.1, 3.0}) {
-    Evaluation evaluation(construction, settings_with({Slip::friction}), std::vector<double>(pieces, whole / pieces), moments);
+    Evaluation evaluation(construction, settings_with({Slip::friction}), std::vector<double>(pieces, whole / pieces),
+                          moments);
     DeformationHistory history(pieces, moments);
     for (std::size_t i = 0; i < pieces; ++i)
       for (std::size_t t = 0; t < moments; ++t) {
-        const double z = whole * (static_cast<double>(i) + 0.5) / pieces, w = 2 * pi * static_cast<double>(t) / (moments - 1);
-        history.set(i, t, {2 + amplitude * std::sin(w) * std::sin(2 * pi * z / wave), 0, 0, 0});  // a constant bend does not count
+        const double z = whole * (static_cast<double>(i) + 0.5) / pieces,
+                     w = 2 * pi * static_cast<double>(t) / (moments - 1);
+        history.set(
+            i, t,
+            {2 + amplitude * std::sin(w) * std::sin(2 * pi * z / wave), 0, 0, 0});  // a constant bend does not count
       }
     evaluation.add({history});
     evaluation.end_first_pass();
@@ -749,7 +740,8 @@ TEST_CASE("the length over which a hose's bend changes is the wave of a sine alo
   }
 }
 
-TEST_CASE("with friction every fibre of a wire has the turning points of its own history, whatever the number of fibres") {
+TEST_CASE(
+    "with friction every fibre of a wire has the turning points of its own history, whatever the number of fibres") {
   const DeformationHistory history = moving();
   const Dresspack dresspack = rubbing(0.4, 100);
   const Construction construction(dresspack, Kinematics::exact);
@@ -781,8 +773,10 @@ TEST_CASE("with friction every fibre of a wire has the turning points of its own
     double differs = 0, varies = 0;
     for (std::size_t k = 0; k < sites.size(); ++k) {
       const std::size_t row = evaluation.row_of(0, sites[k]);
-      const auto [low, high] = std::minmax_element(rows.strain.begin() + std::ptrdiff_t(begin[row]), rows.strain.begin() + std::ptrdiff_t(begin[row + 1]));
-      const auto [own_low, own_high] = std::minmax_element(alone.strain.begin() + std::ptrdiff_t(at), alone.strain.begin() + std::ptrdiff_t(at + alone.turning[k]));
+      const auto [low, high] = std::minmax_element(rows.strain.begin() + std::ptrdiff_t(begin[row]),
+                                                   rows.strain.begin() + std::ptrdiff_t(begin[row + 1]));
+      const auto [own_low, own_high] = std::minmax_element(
+          alone.strain.begin() + std::ptrdiff_t(at), alone.strain.begin() + std::ptrdiff_t(at + alone.turning[k]));
       at += alone.turning[k];
       differs = std::max({differs, std::abs(double(*low) - *own_low), std::abs(double(*high) - *own_high)});
       varies = std::max(varies, double(*high) - *low);

@@ -14,8 +14,7 @@ TEST_CASE("memory: samples and sites beyond what strain.h5 numbers are refused w
   CHECK(refusal(4294967295.0, 1) ==
         "motion.h5: error: holds 4.295e+09 samples (strain.h5 numbers at most 4294967294); choose a lower "
         "simulation.sample_rate_Hz, or split the motion");
-  CHECK(
-      refusal(1, 4294967295.0) ==
-      "motion.h5: error: has 4.295e+09 sites, fibres of wires in segments (strain.h5 numbers at most 4294967294); "
-      "choose fewer simulation.segments or strain.surface_fibres, or split the dresspack");
+  CHECK(refusal(1, 4294967295.0) ==
+        "motion.h5: error: has 4.295e+09 sites, fibres of wires in segments (strain.h5 numbers at most 4294967294); "
+        "choose fewer simulation.segments or strain.surface_fibres, or split the dresspack");
 }

@@ -141,8 +141,7 @@ TEST_CASE("sixteen wires side by side turn where each turns alone") {
           LaneRun run = scan.next(count, lists);
           std::vector<float> block(waves_per_layer * block_samples);
           for (int w = 0; w < waves_per_layer; ++w)
-            std::copy_n(wave[w].begin() + static_cast<std::ptrdiff_t>(from), count,
-                        block.begin() + w * block_samples);
+            std::copy_n(wave[w].begin() + static_cast<std::ptrdiff_t>(from), count, block.begin() + w * block_samples);
           run.waves = block.data();
           machine->scan(&run, 1, count);
           scan.done(lists);
@@ -152,9 +151,9 @@ TEST_CASE("sixteen wires side by side turn where each turns alone") {
         for (std::size_t j = 0; j < wires; ++j) {
           std::vector<float> history(samples);
           for (std::size_t t = 0; t < samples; ++t)
-            history[t] = static_cast<float>(
-                wave[0][t] + wave[1][t] * std::sin(angles[j]) + wave[2][t] * std::cos(angles[j]) +
-                wave[3][t] * std::sin(2 * angles[j]) + wave[4][t] * std::cos(2 * angles[j]));
+            history[t] =
+                static_cast<float>(wave[0][t] + wave[1][t] * std::sin(angles[j]) + wave[2][t] * std::cos(angles[j]) +
+                                   wave[3][t] * std::sin(2 * angles[j]) + wave[4][t] * std::cos(2 * angles[j]));
           const Kept alone = filter(history, gate);
           constexpr float float_rounding = 2e-5f;  // five products of order ten in single precision
           const Kept together = kept(lists[j]);
@@ -242,8 +241,8 @@ TEST_CASE("wires ranked without turning points have the measures of their turnin
         // the first turning point of the list. Its first range then begins at the first sample instead.
         const double next = points.size() > 2 ? std::abs(points[2] - points[1]) : 0.0f;
         const double first = std::max<double>(std::abs(points[1] - points[0]), next) + gate;
-        CHECK(std::abs(of.cycle_sum - sum) <= rounding * sum + cube(largest * (first + gate)) -
-                                                  cube(largest * std::max(0.0, first - 2 * gate)));
+        CHECK(std::abs(of.cycle_sum - sum) <=
+              rounding * sum + cube(largest * (first + gate)) - cube(largest * std::max(0.0, first - 2 * gate)));
         CHECK(std::abs(of.range_sum - of_ranges) <=
               rounding * of_ranges + cube(first + gate) - cube(std::max(0.0, first - 2 * gate)));
       }

@@ -69,8 +69,7 @@ void append(std::vector<float>& history, const std::vector<float>& part, std::si
   for (std::size_t k = 0; k < times; ++k) history.insert(history.end(), part.begin(), part.end());
 }
 
-TEST_CASE(
-    "shortening: the turning points of the whole motion count the same cycles as those of its whole history") {
+TEST_CASE("shortening: the turning points of the whole motion count the same cycles as those of its whole history") {
   const unsigned seed = GENERATE(range(0u, 200u));
   const float gate = GENERATE(0.0f, 5e-4f, 2e-3f, 1e-2f);
   CAPTURE(seed, gate);
@@ -110,8 +109,7 @@ TEST_CASE("shortening: pieces cover the motion, and a history keeps the samples 
   REQUIRE(shortening.pieces().size() == 5);
   CHECK(shortening.samples() == 40);
   std::size_t next = 0;
-  for (const Shortening::Piece& piece : shortening.pieces())
-    CHECK(piece.first == std::exchange(next, piece.end));
+  for (const Shortening::Piece& piece : shortening.pieces()) CHECK(piece.first == std::exchange(next, piece.end));
   CHECK(next == 100);
   DeformationHistory whole(1, 100);
   for (std::size_t t = 0; t < 100; ++t) whole.set(0, t, {double(t), 2.0 * t, 3.0 * t, 4.0 * t});
@@ -138,8 +136,7 @@ TEST_CASE("equal parts: several rounds, if one round is not a whole number of sa
   REQUIRE(halves);
   CHECK(halves->length == 101);
   CHECK(halves->count == 4);
-  const auto drifting =
-      equal_parts({0, 50.09, 100}, 1);  // one part less than this and the jump exceeds half a sample
+  const auto drifting = equal_parts({0, 50.09, 100}, 1);  // one part less than this and the jump exceeds half a sample
   REQUIRE(drifting);
   CHECK(static_cast<double>(drifting->count - 1) * std::abs(drifting->drift) <= 0.5);
   CHECK(drifting->left_out() > 40 * 50);

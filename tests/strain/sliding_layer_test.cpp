@@ -44,9 +44,9 @@ DeformationHistory anything(double curvature, double twist, double elongation) {
   std::uniform_real_distribution<double> any(-1, 1);
   DeformationHistory history(1, samples);
   for (std::size_t t = 0; t < samples; ++t)
-    history.set(0, t,
-                {curvature * any(generator), curvature * any(generator), twist * any(generator),
-                 elongation * any(generator)});
+    history.set(
+        0, t,
+        {curvature * any(generator), curvature * any(generator), twist * any(generator), elongation * any(generator)});
   return history;
 }
 
@@ -62,12 +62,10 @@ struct Wires {
     nesting = nesting_to(construction, plan, bundle.part, arc, surface_fibres(1));
     for (NestingLevel& step : nesting.steps) step.slide.clamp_strain = clamp_strain.data();
     layers = bundle.wire_layers.size();
-    for (const int layer : bundle.wire_layers)
-      add_wire_layer(construction, plan, nesting, layer, bundle.part, arc);
+    for (const int layer : bundle.wire_layers) add_wire_layer(construction, plan, nesting, layer, bundle.part, arc);
     for (const int layer : bundle.wire_layers)
       for (int k = 0; k < angles; ++k)
-        around.push_back(
-            node_at(construction, plan, nesting, layer, 1, bundle.part, arc, 2 * pi * k / angles));
+        around.push_back(node_at(construction, plan, nesting, layer, 1, bundle.part, arc, 2 * pi * k / angles));
   }
 
   std::vector<float> waves(const Kernels& set, const DeformationHistory& history) const {
@@ -99,8 +97,7 @@ double worst_error(const Wires& wires, const std::vector<float>& waves, const st
       for (int k = 0; k < angles; ++k) {
         const double strain = strains[(layer * angles + k) * stride + t], angle = 2 * pi * k / angles;
         largest = std::max(largest, std::abs(strain));
-        const double shape[] = {0.5, std::sin(angle), std::cos(angle), std::sin(2 * angle),
-                                std::cos(2 * angle)};
+        const double shape[] = {0.5, std::sin(angle), std::cos(angle), std::sin(2 * angle), std::cos(2 * angle)};
         for (int w = 0; w < waves_per_layer; ++w) exact[w] += 2.0 / angles * strain * shape[w];
       }
       double sum = 0;

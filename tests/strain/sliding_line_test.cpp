@@ -31,8 +31,7 @@ double mean(const std::vector<double>& of, const std::vector<double>& lengths) {
 
 TEST_CASE("without friction a sliding part has one strain, with boundless friction its own everywhere") {
   std::mt19937 random(1);
-  const auto lengths = random_numbers(random, 20, 0.01, 0.05),
-             unslid = random_numbers(random, 20, -0.02, 0.02);
+  const auto lengths = random_numbers(random, 20, 0.01, 0.05), unslid = random_numbers(random, 20, -0.02, 0.02);
   SlidingLine free(lengths, stiffness, without_limit, without_limit);
   free.next(unslid, std::vector<double>(20, 0.0));
   SlidingLine glued(lengths, stiffness, without_limit, without_limit);
@@ -104,8 +103,7 @@ TEST_CASE("over closed loops friction only takes energy, and without it a part c
   constexpr std::size_t n = 30;
   const std::vector<double> lengths(n, 0.05);
   for (int trial = 0; trial < 20; ++trial) {
-    const auto one = random_numbers(random, n, -0.003, 0.003),
-               other = random_numbers(random, n, -0.003, 0.003);
+    const auto one = random_numbers(random, n, -0.003, 0.003), other = random_numbers(random, n, -0.003, 0.003);
     const auto limits = random_numbers(random, n, 0, trial == 0 ? 0 : 100);
     SlidingLine line(lengths, stiffness, trial % 2 ? 500 : without_limit, without_limit);
     double work = 0;  // of the path on the part, over one loop after the settling loops
@@ -113,14 +111,13 @@ TEST_CASE("over closed loops friction only takes energy, and without it a part c
     for (int t = 0; t <= 21 * 200; ++t) {
       std::vector<double> unslid(n);
       for (std::size_t i = 0; i < n; ++i)
-        unslid[i] = one[i] * std::sin(2 * std::numbers::pi * t / 200) +
-                    other[i] * std::cos(4 * std::numbers::pi * t / 200);
+        unslid[i] =
+            one[i] * std::sin(2 * std::numbers::pi * t / 200) + other[i] * std::cos(4 * std::numbers::pi * t / 200);
       line.next(unslid, limits);
       if (t == 20 * 200) first.assign(line.force().begin(), line.force().end());
       for (std::size_t i = 0; i < n; ++i) {
         const double force = line.force()[i];
-        if (t > 20 * 200)
-          work += (force + stiffness * before_strain[i]) / 2 * lengths[i] * (unslid[i] - before[i]);
+        if (t > 20 * 200) work += (force + stiffness * before_strain[i]) / 2 * lengths[i] * (unslid[i] - before[i]);
         before_strain[i] = line.strain(i);
         before[i] = unslid[i];
       }
@@ -149,8 +146,7 @@ TEST_CASE("soft parts whose limits are reached together come to an end, within a
       if (seed % 5 == 0)
         for (double& one : unslid) one = 0.2 * draw();
       line.next(unslid, limits);
-      REQUIRE(std::abs(line.force()[0]) <=
-              grip * (1 + 1e-5) + rounding);  // the soft end's millionth, and a margin
+      REQUIRE(std::abs(line.force()[0]) <= grip * (1 + 1e-5) + rounding);  // the soft end's millionth, and a margin
       for (std::size_t i = 1; i < n; ++i)
         REQUIRE(std::abs(line.force()[i] - line.force()[i - 1]) <= limits[i] + rounding);
     }

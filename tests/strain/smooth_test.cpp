@@ -95,12 +95,9 @@ std::vector<Key> keys(Position position) {
       {"grip_N", 30, 1000, [](Component& c, double v) { c.laying.base_grip = c.laying.tool_grip = v; }},
       {"friction_coefficient", 0.05, 0.6, [](Component& c, double v) { c.friction = v; }},
       {"radial_line_load_N_per_m", 1, 100, [](Component& c, double v) { c.radial_line_load = v; }},
-      {"measured_bending_stiffness_Nm2", 0.05, 0.08,
-       [](Component& c, double v) { c.measured_bending_stiffness = v; }},
-      {"radial_stiffness_N_per_m2", 1e9, 1e11,
-       [](Component& c, double v) { c.components[0].radial_stiffness = v; }},
-      {"jacket_stiffness_N_per_m2", 1e5, 3e7,
-       [](Component& c, double v) { c.components[0].jacket_stiffness = v; }},
+      {"measured_bending_stiffness_Nm2", 0.05, 0.08, [](Component& c, double v) { c.measured_bending_stiffness = v; }},
+      {"radial_stiffness_N_per_m2", 1e9, 1e11, [](Component& c, double v) { c.components[0].radial_stiffness = v; }},
+      {"jacket_stiffness_N_per_m2", 1e5, 3e7, [](Component& c, double v) { c.components[0].jacket_stiffness = v; }},
       {"lay_angle_rad", 0.5 * degree, 8 * degree, [](Component& c, double v) { c.lay_angle = v; }}};
   if (position == Position::loose)
     all.push_back({"play_m", 1e-3, 8e-3, [](Component& c, double v) { c.laying.play = v; }});

@@ -19,9 +19,8 @@ using pipeline::Scratch;
 namespace {
 
 constexpr std::size_t samples = 24;
-constexpr double l = 0.1;  // of a segment [m]
-using Rate =
-    std::function<Eigen::Vector3d(double arc, std::size_t sample)>;  ///< of rotation along the hose [1/m]
+constexpr double l = 0.1;                                                     // of a segment [m]
+using Rate = std::function<Eigen::Vector3d(double arc, std::size_t sample)>;  ///< of rotation along the hose [1/m]
 
 /// Writes a hose with this number of segments per span. Its segments lie along a curve, and a clamp separates the spans.
 void write_motion(const std::filesystem::path& name, const std::vector<int>& spans, double first_arc,
@@ -55,8 +54,7 @@ void write_motion(const std::filesystem::path& name, const std::vector<int>& spa
         put(position, orientation);
         const Eigen::Vector3d from = tangent();
         if (i + 1 < n) {
-          advance(
-              l);  // the ends meet a little outside a bend (sim/rod/theory.md, S17)
+          advance(l);  // the ends meet a little outside a bend (sim/rod/theory.md, S17)
           x += l / 2 * (1 + (1 - from.dot(tangent())) / 12) * (from + tangent());
         }
       }
@@ -128,9 +126,7 @@ Strains evaluate(const std::filesystem::path& motion, pipeline::Job job) {
 TEST_CASE("wires beside a clamp have the strain at the clamp, where a hose bends most") {
   const Scratch scratch;
   constexpr double decay = 3 * l;  // decay length of a hose's bend at its clamps under tension, sqrt(E I / T)
-  const auto bend = [](double arc, std::size_t t) {
-    return 2 * std::exp(-arc / decay) * std::sin(0.3 * double(t));
-  };
+  const auto bend = [](double arc, std::size_t t) { return 2 * std::exp(-arc / decay) * std::sin(0.3 * double(t)); };
   // The simulated chain bends at links, by the curvature there over 5/12 of a segment at a clamp and 13/12 at the next link.
   // Each call gives the middle of a link's length. At a clamp this length is half a segment.
   write_motion(scratch / "motion", {10}, 0, [&](double arc, std::size_t t) {
@@ -139,8 +135,8 @@ TEST_CASE("wires beside a clamp have the strain at the clamp, where a hose bends
     const double link = at_clamp ? (arc < l ? 0 : 10 * l) : arc;
     return Eigen::Vector3d(0, (at_clamp ? 5. / 6 : next ? 13. / 12 : 1) * bend(link, t), 0);
   });
-  const pipeline::Job job = job_with(straight_wires, {"strain.slip=stick", "strain.surface_fibres=0",
-                                                      "strain.gate=1e-6", "strain.probes=[]"});
+  const pipeline::Job job = job_with(
+      straight_wires, {"strain.slip=stick", "strain.surface_fibres=0", "strain.gate=1e-6", "strain.probes=[]"});
   const Strains found = evaluate(scratch / "motion", job);
   const FileReader file(scratch / "motion.strain", pipeline::strain_format());
   std::vector<double> places = file.read<double>("/segment/wires_at"), expected{0};
@@ -157,8 +153,7 @@ TEST_CASE("wires beside a clamp have the strain at the clamp, where a hose bends
     range[found.segment[site]] = std::max<double>(range[found.segment[site]], *high - *low);
   }
   for (std::size_t t = 0; t < samples; ++t)
-    lowest = std::min(lowest, std::sin(0.3 * double(t))),
-    highest = std::max(highest, std::sin(0.3 * double(t)));
+    lowest = std::min(lowest, std::sin(0.3 * double(t))), highest = std::max(highest, std::sin(0.3 * double(t)));
   // Two of six wires lie 18 mm from the axis of the bend. The parabola through an exponential that decays over three segments is
   // 1.1 % too low at the clamp. The curvature at the centre of the first segment is 15 % lower than at its clamp.
   for (const std::size_t segment : {0, 1, 5})
@@ -173,8 +168,7 @@ TEST_CASE("straight wires slide from one clamp to the next and no further") {
     const double wave = std::sin(0.6 * t);
     return Eigen::Vector3d(arc < 0.7 ? 2 * wave : 0.2 * wave, 0.5 * wave * arc, arc > 0.8 ? 1.5 * wave : 0);
   };
-  const pipeline::Job job =
-      job_with(straight_wires, {"strain.slip=free", "strain.probes=[]", "strain.gate=1e-7"});
+  const pipeline::Job job = job_with(straight_wires, {"strain.slip=free", "strain.probes=[]", "strain.gate=1e-7"});
   write_motion(scratch / "whole.h5", {6, 8}, 0, rate);
   write_motion(scratch / "first.h5", {6}, 0, rate);
   const Strains whole = evaluate(scratch / "whole.h5", job), first = evaluate(scratch / "first.h5", job);
@@ -183,14 +177,12 @@ TEST_CASE("straight wires slide from one clamp to the next and no further") {
   CHECK(whole.segment.back() == 13);
   // The strains of the first span are bit-identical to those of the first span alone.
   const std::size_t points = first.strain.size();
-  CHECK(std::vector<float>(whole.strain.begin(), whole.strain.begin() + static_cast<long>(points)) ==
-        first.strain);
+  CHECK(std::vector<float>(whole.strain.begin(), whole.strain.begin() + static_cast<long>(points)) == first.strain);
   // The axial strain of a slipped wire is constant within a span (its own bending is 1e-4 of it). Compared: the largest strain
   // of each segment, equal within a span, different across the clamp.
   const auto largest = [](const Strains& s, std::size_t site) {
     float most = 0;
-    for (std::size_t k = s.offset[site]; k < s.offset[site + 1]; ++k)
-      most = std::max(most, std::abs(s.strain[k]));
+    for (std::size_t k = s.offset[site]; k < s.offset[site + 1]; ++k) most = std::max(most, std::abs(s.strain[k]));
     return most;
   };
   const float near = largest(whole, 0), far = largest(whole, 13 * 6);
@@ -208,10 +200,9 @@ TEST_CASE("probes and segments count through the spans") {
   const Scratch scratch;
   const Rate rate = [](double, std::size_t t) { return Eigen::Vector3d(std::sin(0.5 * t), 0, 0); };
   write_motion(scratch / "motion.h5", {5, 7}, 0, rate);
-  const Strains all =
-      evaluate(scratch / "motion.h5",
-               job_with(straight_wires,
-                        {"strain.slip=stick", "strain.probes=[{segment_from_tool: 9, component: wire 2}]"}));
+  const Strains all = evaluate(
+      scratch / "motion.h5",
+      job_with(straight_wires, {"strain.slip=stick", "strain.probes=[{segment_from_tool: 9, component: wire 2}]"}));
   // One probe per segment for its worst site, and the probe of the job: segment 3 from the base, in the first span.
   REQUIRE(all.probe_site.size() >= 13);
   CHECK(std::count(all.probe_site.begin(), all.probe_site.end(), 3 * 6 + 1) >= 1);
@@ -227,22 +218,19 @@ TEST_CASE("a dresspack in the shape in which it was delivered is free of strain"
   for (const std::string& parts : {straight_wires, cables})
     for (const std::string slip : {"stick", "free"}) {
       CAPTURE(parts, slip);
-      const Strains s =
-          evaluate(scratch / "motion.h5", job_with(parts, {"strain.slip=" + slip, "strain.probes=[]",
-                                                           "dresspack.rest_curvature_1_per_m=1.5"}));
+      const Strains s = evaluate(scratch / "motion.h5", job_with(parts, {"strain.slip=" + slip, "strain.probes=[]",
+                                                                         "dresspack.rest_curvature_1_per_m=1.5"}));
       const float rounding = 1e-7f;
       float most = 0;
       for (std::size_t site = 0; site + 1 < s.offset.size(); ++site) {
         CHECK(std::abs(s.strain[s.offset[site]]) < rounding);
-        for (std::size_t k = s.offset[site]; k < s.offset[site + 1]; ++k)
-          most = std::max(most, std::abs(s.strain[k]));
+        for (std::size_t k = s.offset[site]; k < s.offset[site + 1]; ++k) most = std::max(most, std::abs(s.strain[k]));
       }
       CHECK(most > 1e-4f);
     }
   // A glued wire on the inside of the bend, at angle 0 (toward x): rest length 1 - R kappa_0, straight length 1.
-  const Strains s =
-      evaluate(scratch / "motion.h5",
-               job_with(straight_wires, {"strain.slip=stick", "strain.probes=[]", "strain.surface_fibres=0",
-                                         "dresspack.rest_curvature_1_per_m=1.5"}));
+  const Strains s = evaluate(scratch / "motion.h5", job_with(straight_wires, {"strain.slip=stick", "strain.probes=[]",
+                                                                              "strain.surface_fibres=0",
+                                                                              "dresspack.rest_curvature_1_per_m=1.5"}));
   CHECK(s.strain[s.offset[0] + 1] == Approx(1 / (1 - 0.018 * rest) - 1).epsilon(1e-5));
 }

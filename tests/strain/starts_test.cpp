@@ -21,7 +21,9 @@ constexpr std::size_t segments = 8, samples = 2;
 
 pipeline::Job ring_job() {
   std::string text = pipeline::sample_job;
-  const auto replace = [&](const std::string& from, const std::string& to) { text.replace(text.find(from), from.size(), to); };
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+  };
   replace("helix_radius_mm: 18.45\n", "helix_radius_mm: 18.45\n      slack_percent: 2\n");
   replace("  damping_time_ms: 10\n", "  damping_time_ms: 10\n  inner_diameter_mm: 52\n");
   replace("slip: [stick, free]", "slip: free");
@@ -35,7 +37,8 @@ struct FourStarts {
   std::list<Starts::Spans> all;  // (start)
   Starts starts;
 
-  explicit FourStarts(const std::vector<std::uint64_t>& seeds) : starts(build(), [&]() -> Starts::Spans& { return build(); }) {
+  explicit FourStarts(const std::vector<std::uint64_t>& seeds)
+      : starts(build(), [&]() -> Starts::Spans& { return build(); }) {
     strain::DeformationHistory history(segments, samples);
     for (std::size_t segment = 0; segment < segments; ++segment)
       for (std::size_t t = 0; t < samples; ++t) history.set(segment, t, {2, 0, 0, 0});
@@ -144,7 +147,7 @@ TEST_CASE("cables into which slack is fed do not stop in a lead-in") {
   };
   REQUIRE(in_cycle_after(own, 2));
   fed.go_on_from(own);
-  constexpr double of_repeat = cycle * 0.04;               // [s]
+  constexpr double of_repeat = cycle * 0.04;                   // [s]
   constexpr int while_fed = static_cast<int>(15 / of_repeat);  // slack is fed in over 15 s
   CHECK_FALSE(in_cycle_after(fed, while_fed));
   CHECK(in_cycle_after(fed, 2));

@@ -120,9 +120,8 @@ Eigen::Vector3d turning(std::size_t t) {
 const std::vector<std::string> rests_of_starts{"strain.rest=-0.3", "strain.rest=0.3", "strain.rest=-1.2",
                                                "strain.rest=1.2"};
 
-std::string evaluate(const std::filesystem::path& motion, const std::filesystem::path& out,
-                     const pipeline::Job& job, std::size_t history_bytes = strain::default_history_bytes,
-                     std::size_t threads = 1) {
+std::string evaluate(const std::filesystem::path& motion, const std::filesystem::path& out, const pipeline::Job& job,
+                     std::size_t history_bytes = strain::default_history_bytes, std::size_t threads = 1) {
   const FileReader reader(motion, pipeline::motion_format());
   FileWriter writer(out, pipeline::strain_format());
   const strain::Notes notes = strain::write_strain(
@@ -158,12 +157,9 @@ TEST_CASE("strain.h5 holds the deformation, every site's turning points and the 
   CHECK_THAT(summary, Catch::StartsWith("144 sites; largest strain range"));
   const FileReader file(scratch / "strain.h5", pipeline::strain_format());
 
-  const auto curvature = file.read<double>("/deformation/curvature"),
-             twist = file.read<double>("/deformation/twist");
+  const auto curvature = file.read<double>("/deformation/curvature"), twist = file.read<double>("/deformation/twist");
   // Poses have an error of 1e-9. The file keeps single precision, 24 bits.
-  const auto equal = [](double kept, double is) {
-    return std::abs(kept - is) < 1e-9 + std::ldexp(std::abs(is), -24);
-  };
+  const auto equal = [](double kept, double is) { return std::abs(kept - is) < 1e-9 + std::ldexp(std::abs(is), -24); };
   for (std::size_t t = 0; t < samples; ++t)
     for (std::size_t i = 0; i < segments; ++i) {
       CHECK(equal(curvature[(t * segments + i) * 2], rate_at(t)[0]));
@@ -172,8 +168,7 @@ TEST_CASE("strain.h5 holds the deformation, every site's turning points and the 
     }
 
   REQUIRE(file.rows("/site/segment") == segments * 3 * 6);
-  const auto component = file.read<std::string>("/site/component"),
-             material = file.read<std::string>("/site/material");
+  const auto component = file.read<std::string>("/site/component"), material = file.read<std::string>("/site/material");
   CHECK(component.front() == "cable 1/wire 1");
   CHECK(component.back() == "cable 3/wire 6");
   CHECK(material.front() == "copper");
@@ -193,8 +188,7 @@ TEST_CASE("strain.h5 holds the deformation, every site's turning points and the 
   }
   for (const std::string bound : {"/bound_stick", "/bound_free"}) {
     CHECK(file.rows(bound + "/site/segment") >= segments);
-    CHECK(file.read<std::uint64_t>(bound + "/reversal/offset").back() ==
-          file.rows(bound + "/reversal/strain"));
+    CHECK(file.read<std::uint64_t>(bound + "/reversal/offset").back() == file.rows(bound + "/reversal/strain"));
   }
 
   const auto probe = file.read<std::uint32_t>("/probe/site");
@@ -209,8 +203,7 @@ TEST_CASE("strain.h5 holds the deformation, every site's turning points and the 
   CHECK(file.read<std::string>("/program/text").back() == "home");
 }
 
-TEST_CASE(
-    "the same motion gives the same bytes: in one pass or segment by segment and on any number of threads") {
+TEST_CASE("the same motion gives the same bytes: in one pass or segment by segment and on any number of threads") {
   const Scratch scratch;
   write_motion(scratch / "motion.h5");
   evaluate(scratch / "motion.h5", scratch / "once.h5", job_with());
@@ -220,14 +213,12 @@ TEST_CASE(
   CHECK(pipeline::bytes_of(scratch / "once.h5") == pipeline::bytes_of(scratch / "twice.h5"));
   CHECK(pipeline::bytes_of(scratch / "once.h5") == pipeline::bytes_of(scratch / "passes.h5"));
   for (const std::size_t threads : {2, 3, 8}) {
-    evaluate(scratch / "motion.h5", scratch / "threads.h5", job_with(), strain::default_history_bytes,
-             threads);
+    evaluate(scratch / "motion.h5", scratch / "threads.h5", job_with(), strain::default_history_bytes, threads);
     CHECK(pipeline::bytes_of(scratch / "once.h5") == pipeline::bytes_of(scratch / "threads.h5"));
   }
 }
 
-TEST_CASE(
-    "of the strains of cables in the file forces follow, which are warned of where nobody would see them") {
+TEST_CASE("of the strains of cables in the file forces follow, which are warned of where nobody would see them") {
   const Scratch scratch;
   write_motion(scratch / "motion.h5");
   struct Forces {
@@ -238,13 +229,11 @@ TEST_CASE(
   const auto forces_with = [&](const std::vector<std::string>& sets, double strength = 1) {
     evaluate(scratch / "motion.h5", scratch / "strain.h5", job_with(sets));
     const FileReader strain(scratch / "strain.h5", pipeline::strain_format());
-    CHECK(strain.read<std::string>("/cable/name") ==
-          std::vector<std::string>{"cable 1", "cable 2", "cable 3"});
+    CHECK(strain.read<std::string>("/cable/name") == std::vector<std::string>{"cable 1", "cable 2", "cable 3"});
     Forces forces;
     forces.slip = strain.read<double>("/cable/grip_slip");
     pipeline::Job job = job_with(sets);
-    for (pipeline::Material& metal : job.dresspacks[0].dresspack.materials)
-      metal.fatigue_strength *= strength;
+    for (pipeline::Material& metal : job.dresspacks[0].dresspack.materials) metal.fatigue_strength *= strength;
     forces.warnings = judge(strain, job, scratch / "life.h5");
     const FileReader life(scratch / "life.h5", pipeline::life_format());
     forces.share = life.number_attribute("largest_force_share");
@@ -267,8 +256,8 @@ TEST_CASE(
   const Forces softer = forces_with({"strain.slip=free"}, 0.5);
   CHECK(largest(softer.tension) < 0.9 * largest(held.tension));
   CHECK(largest(softer.tension) > 0.5 * largest(held.tension));
-  const Forces gripped = forces_with(
-      {"strain.slip=free", "dresspack.components.1.base_grip_N=1", "dresspack.components.1.tool_grip_N=1"});
+  const Forces gripped =
+      forces_with({"strain.slip=free", "dresspack.components.1.base_grip_N=1", "dresspack.components.1.tool_grip_N=1"});
   CHECK(gripped.warnings.find("% of its breaking force") == std::string::npos);
   CHECK(std::none_of(gripped.slip.begin(), gripped.slip.end(), is_zero));
   // Cables that stick to the hose have larger forces than cables whose strain evens out along it: each segment's own strain
@@ -324,34 +313,29 @@ TEST_CASE("a file whose segments are not the hose of its job is refused by both 
   const FileReader strain(scratch / "strain.h5", pipeline::strain_format());
   for (const double longer : {-1e-3, 1e-5, 1e-3, 1.0}) {
     other.dresspacks[0].routing.free_length = whole * (1 + longer);
-    const auto expected = Catch::Contains(
-        fmt::format("has segments of {} m together where routing.free_length_m of its job is {}", whole,
-                    whole * (1 + longer)));
-    CHECK_THAT(pipeline::message_of([&] { evaluate(scratch / "motion.h5", scratch / "other.h5", other); }),
-               expected);
+    const auto expected = Catch::Contains(fmt::format(
+        "has segments of {} m together where routing.free_length_m of its job is {}", whole, whole * (1 + longer)));
+    CHECK_THAT(pipeline::message_of([&] { evaluate(scratch / "motion.h5", scratch / "other.h5", other); }), expected);
     CHECK_THAT(pipeline::message_of([&] { judge(strain, other, scratch / "life.h5"); }), expected);
   }
 }
 
-TEST_CASE(
-    "a rest that a ring of cables finds where a repeat of the motion begins is one where another repeat begins") {
+TEST_CASE("a rest that a ring of cables finds where a repeat of the motion begins is one where another repeat begins") {
   const Scratch scratch;
   std::string text = pipeline::sample_job;
   const auto replace = [&](const std::string& from, const std::string& to) {
     text.replace(text.find(from), from.size(), to);
   };
   const char* const slack = GENERATE("1", "2");
-  replace("helix_radius_mm: 18.45\n",
-          fmt::format("helix_radius_mm: 18.45\n      slack_percent: {}\n", slack));
+  replace("helix_radius_mm: 18.45\n", fmt::format("helix_radius_mm: 18.45\n      slack_percent: {}\n", slack));
   replace("  damping_time_ms: 10\n", "  damping_time_ms: 10\n  inner_diameter_mm: 52\n");
   replace("slip: [stick, free]", "slip: free");
   std::vector<std::vector<float>> ranges[2];  // (beginning, start, site)
   for (const std::size_t begin : {0, 37}) {
     write_motion(scratch / "motion.h5", cycle, 0.04, [&](std::size_t t) { return turning(t + begin); });
     for (const std::string& rest : rests_of_starts) {
-      evaluate(
-          scratch / "motion.h5", scratch / "strain.h5",
-          pipeline::job_from(pipeline::parse_yaml(text, "job.yaml"), {"uncertainty.enabled=false", rest}));
+      evaluate(scratch / "motion.h5", scratch / "strain.h5",
+               pipeline::job_from(pipeline::parse_yaml(text, "job.yaml"), {"uncertainty.enabled=false", rest}));
       const FileReader file(scratch / "strain.h5", pipeline::strain_format());
       const auto offset = file.read<std::uint64_t>("/reversal/offset");
       const auto strain = file.read<float>("/reversal/strain");
@@ -367,8 +351,7 @@ TEST_CASE(
   for (const std::vector<float>& one : ranges[0])
     for (const std::vector<float>& other : ranges[1]) {
       float apart = 0;
-      for (std::size_t site = 0; site < one.size(); ++site)
-        apart = std::max(apart, std::abs(one[site] - other[site]));
+      for (std::size_t site = 0; site < one.size(); ++site) apart = std::max(apart, std::abs(one[site] - other[site]));
       nearest = std::min(nearest, apart / std::ranges::max(one));
     }
   INFO("slack of " << slack << " %: " << nearest);
@@ -383,8 +366,9 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 
 /// Returns a job with a ring of three loose cables.
 std::string loose_ring_job() {
-  return replaced(replaced(pipeline::sample_job, "helix_radius_mm: 18.45\n", "helix_radius_mm: 18.45\n      slack_percent: 2\n"),
-                  "  damping_time_ms: 10\n", "  damping_time_ms: 10\n  inner_diameter_mm: 52\n");
+  return replaced(
+      replaced(pipeline::sample_job, "helix_radius_mm: 18.45\n", "helix_radius_mm: 18.45\n      slack_percent: 2\n"),
+      "  damping_time_ms: 10\n", "  damping_time_ms: 10\n  inner_diameter_mm: 52\n");
 }
 
 }  // namespace
@@ -400,8 +384,7 @@ TEST_CASE("each start of a ring of cables has a rest in the file, one cable has 
   };
   {
     const FileReader file = evaluated({"uncertainty.enabled=true"});
-    const auto rests = file.read<std::int32_t>("/start/rest"),
-               varied = file.read<std::int32_t>("/variation/rest");
+    const auto rests = file.read<std::int32_t>("/start/rest"), varied = file.read<std::int32_t>("/variation/rest");
     REQUIRE(rests.size() == strain::Starts::count);
     const std::int32_t last = std::ranges::max(rests);
     for (std::int32_t rest = 0; rest <= last; ++rest) {
@@ -441,13 +424,11 @@ TEST_CASE("starts that do not close the first repeat after the lead-in follow th
 TEST_CASE("a motion without samples or a dresspack without wires is refused in words") {
   const Scratch scratch;
   write_motion(scratch / "motion.h5", 0);
-  CHECK_THAT(
-      pipeline::message_of([&] { evaluate(scratch / "motion.h5", scratch / "strain.h5", job_with()); }),
-      Catch::Contains("holds no samples"));
+  CHECK_THAT(pipeline::message_of([&] { evaluate(scratch / "motion.h5", scratch / "strain.h5", job_with()); }),
+             Catch::Contains("holds no samples"));
   write_motion(scratch / "motion.h5", 3, 0);
-  CHECK_THAT(
-      pipeline::message_of([&] { evaluate(scratch / "motion.h5", scratch / "strain.h5", job_with()); }),
-      Catch::Contains("not later than the first"));
+  CHECK_THAT(pipeline::message_of([&] { evaluate(scratch / "motion.h5", scratch / "strain.h5", job_with()); }),
+             Catch::Contains("not later than the first"));
   write_motion(scratch / "motion.h5");
   pipeline::Job bare = job_with();
   bare.dresspacks[0].dresspack.components.clear();
@@ -456,7 +437,8 @@ TEST_CASE("a motion without samples or a dresspack without wires is refused in w
   CHECK(scratch.entries() == 1);  // no partial output remains
 }
 
-TEST_CASE("less and more friction on the hose are variations, whose strains are nearer to a job with that friction than to their own job") {
+TEST_CASE(
+    "less and more friction on the hose are variations, whose strains are nearer to a job with that friction than to their own job") {
   const Scratch scratch;
   write_motion(scratch / "motion.h5");
   // With 3 % of slack the places of the cable depend on rounding: other instruction sets gave other ones.
@@ -467,7 +449,8 @@ TEST_CASE("less and more friction on the hose are variations, whose strains are 
   text = replaced(text, "  damping_time_ms: 10\n", "  damping_time_ms: 10\n  inner_diameter_mm: 52\n");
   text = replaced(text, "slip: [stick, free]", "slip: [friction, free], cable_elements_per_segment: 4");
   const auto evaluated = [&](const std::vector<std::string>& sets) {
-    evaluate(scratch / "motion.h5", scratch / "strain.h5", pipeline::job_from(pipeline::parse_yaml(text, "job.yaml"), sets));
+    evaluate(scratch / "motion.h5", scratch / "strain.h5",
+             pipeline::job_from(pipeline::parse_yaml(text, "job.yaml"), sets));
     return FileReader(scratch / "strain.h5", pipeline::strain_format());
   };
   /// Returns the range of strain of each site of a job without variations.
@@ -487,7 +470,8 @@ TEST_CASE("less and more friction on the hose are variations, whose strains are 
   {
     const FileReader file = evaluated({"uncertainty.enabled=true", "uncertainty.slack=1"});
     const auto z = file.read<double>("/variation/z");
-    const auto variation = file.read<std::uint32_t>("/variation/row/variation"), site = file.read<std::uint32_t>("/variation/row/site"),
+    const auto variation = file.read<std::uint32_t>("/variation/row/variation"),
+               site = file.read<std::uint32_t>("/variation/row/site"),
                turning = file.read<std::uint32_t>("/variation/row/turning");
     const auto strain = file.read<float>("/variation/strain");
     for (std::size_t row = 0, next = 0; row < site.size(); next += turning[row++]) {
@@ -545,8 +529,7 @@ TEST_CASE("variations hold the strains that the same job has with the keys that 
              site = all.read<std::uint32_t>("/variation/row/site"),
              turning = all.read<std::uint32_t>("/variation/row/turning");
   const auto strain = all.read<float>("/variation/strain");
-  CHECK(FileReader(scratch / "threads.h5", pipeline::strain_format()).read<float>("/variation/strain") ==
-        strain);
+  CHECK(FileReader(scratch / "threads.h5", pipeline::strain_format()).read<float>("/variation/strain") == strain);
   constexpr std::size_t no_room = 1;  // curvatures of cables are kept in files, segments are read one by one
   evaluate(scratch / "motion.h5", scratch / "no_room.h5", job({"uncertainty.enabled=true"}), no_room);
   CHECK(pipeline::bytes_of(scratch / "no_room.h5") == pipeline::bytes_of(scratch / "all.h5"));
@@ -579,8 +562,7 @@ TEST_CASE("variations hold the strains that the same job has with the keys that 
       double worst = 0;
       for (std::size_t row = 0; row < site.size(); next += turning[row++]) {
         if (variation[row] != v) continue;
-        const auto [low, high] =
-            std::minmax_element(strain.begin() + next, strain.begin() + next + turning[row]);
+        const auto [low, high] = std::minmax_element(strain.begin() + next, strain.begin() + next + turning[row]);
         const auto [own_low, own_high] =
             std::minmax_element(own.begin() + offset[site[row]], own.begin() + offset[site[row] + 1]);
         worst = std::max<double>({worst, std::abs(*low - *own_low) / (*own_high - *own_low),
@@ -595,17 +577,20 @@ TEST_CASE("variations hold the strains that the same job has with the keys that 
   }
 }
 
-TEST_CASE("a force that exceeds its limit only with another slack causes a warning with this slack, the share of dresspacks and a remedy") {
+TEST_CASE(
+    "a force that exceeds its limit only with another slack causes a warning with this slack, the share of dresspacks and a remedy") {
   const Scratch scratch;
   write_motion(scratch / "motion.h5");
-  std::string text = replaced(pipeline::sample_job, "helix_radius_mm: 18.45\n", "helix_radius_mm: 18.45\n      slack_percent: 1\n");
+  std::string text =
+      replaced(pipeline::sample_job, "helix_radius_mm: 18.45\n", "helix_radius_mm: 18.45\n      slack_percent: 1\n");
   text = replaced(text, "count: 3", "count: 1");  // one cable has no other starts
   text = replaced(text, "  damping_time_ms: 10\n", "  damping_time_ms: 10\n  inner_diameter_mm: 52\n");
   text = replaced(text, "slip: [stick, free]", "slip: [free, free], cable_elements_per_segment: 4");
   double tensile_strength = 230e6;  // [Pa]
   const auto job = [&](const std::vector<std::string>& sets) {
     pipeline::Job of = pipeline::job_from(pipeline::parse_yaml(text, "job.yaml"), sets);
-    for (pipeline::Material& material : of.dresspacks[0].dresspack.materials) material.tensile_strength = tensile_strength;
+    for (pipeline::Material& material : of.dresspacks[0].dresspack.materials)
+      material.tensile_strength = tensile_strength;
     return of;
   };
   /// Returns the force of the cable of largest size, with its sign, in a job without variations.
@@ -647,20 +632,26 @@ TEST_CASE("a force that exceeds its limit only with another slack causes a warni
   const std::string between = warnings_with_limit(limit);
   std::vector<pipeline::LoadNode> nodes;
   for (const auto& [at, force] : forces) nodes.push_back({at, std::abs(force) / limit});
-  CHECK_THAT(between, Catch::Contains("times the excess length of the cables in the hose (strain.slack_factor: ") &&
-                          Catch::Contains("'cable 1' is pulled with ") && Catch::Contains(" N (limit 20 %), over its whole length, at ") &&
-                          Catch::Contains(fmt::format("about {} of such dresspacks exceed this limit",
-                                                      pipeline::percent_words(pipeline::share_beyond(nodes, 0, 1)))) &&
-                          Catch::Contains("Likely cause: ") && Catch::Contains("Remedy: dresspack.components.1.slack_percent: ") &&
-                          Catch::Contains("uncertainty.slack: 1.16, if this measurement confirms the job's value: The length of each cable measured"));
+  CHECK_THAT(
+      between,
+      Catch::Contains("times the excess length of the cables in the hose (strain.slack_factor: ") &&
+          Catch::Contains("'cable 1' is pulled with ") &&
+          Catch::Contains(" N (limit 20 %), over its whole length, at ") &&
+          Catch::Contains(fmt::format("about {} of such dresspacks exceed this limit",
+                                      pipeline::percent_words(pipeline::share_beyond(nodes, 0, 1)))) &&
+          Catch::Contains("Likely cause: ") && Catch::Contains("Remedy: dresspack.components.1.slack_percent: ") &&
+          Catch::Contains(
+              "uncertainty.slack: 1.16, if this measurement confirms the job's value: The length of each cable measured"));
   CHECK_THAT(warnings_with_limit(2 * std::abs(most)), !Catch::Contains("breaking force"));
   const std::string of_own = warnings_with_limit(std::abs(own) / 2);
   const std::string line = of_own.substr(0, of_own.find('\n'));
-  CHECK_THAT(line, Catch::Contains("'cable 1' is ") && Catch::Contains("breaking force") && !Catch::Contains("slack_factor"));
+  CHECK_THAT(line,
+             Catch::Contains("'cable 1' is ") && Catch::Contains("breaking force") && !Catch::Contains("slack_factor"));
   CHECK(of_own.find("breaking force", line.size()) == std::string::npos);
 }
 
-TEST_CASE("the variations of a softer hose hold the strains that its motion has by itself, with each friction inside and slack") {
+TEST_CASE(
+    "the variations of a softer hose hold the strains that its motion has by itself, with each friction inside and slack") {
   const Scratch scratch;
   write_motion(scratch / "both.h5", cycle, 0.04, turning, rate_at);
   write_motion(scratch / "softer.h5", cycle, 0.04, rate_at);
@@ -677,12 +668,11 @@ TEST_CASE("the variations of a softer hose hold the strains that its motion has 
     replace("  damping_time_ms: 10\n", "  damping_time_ms: 10\n  inner_diameter_mm: 52\n");
   }
   const auto job = [&](const std::string& enabled, double friction = 1, double slack = 1) {
-    return pipeline::job_from(pipeline::parse_yaml(text, "job.yaml"),
-                              {"uncertainty.enabled=" + enabled,
-                               loose ? "strain.slip=[free, friction]" : "strain.slip=[stick, friction]",
-                               "strain.cable_elements_per_segment=4",  // whatever the slack
-                               "strain.friction_factor=" + std::to_string(friction),
-                               "strain.slack_factor=" + std::to_string(slack)});
+    return pipeline::job_from(
+        pipeline::parse_yaml(text, "job.yaml"),
+        {"uncertainty.enabled=" + enabled, loose ? "strain.slip=[free, friction]" : "strain.slip=[stick, friction]",
+         "strain.cable_elements_per_segment=4",  // whatever the slack
+         "strain.friction_factor=" + std::to_string(friction), "strain.slack_factor=" + std::to_string(slack)});
   };
   evaluate(scratch / "both.h5", scratch / "varied.h5", job("true"));
   evaluate(scratch / "both.h5", scratch / "known.h5", job("false"));
@@ -835,11 +825,11 @@ TEST_CASE("rounds of a loop are left out only if the hose moves equally in them"
   CHECK(left_out(looping(), loop) == 4 * of_round);  // of 14 rounds 8 lead in 15 s to the first part, one is the last
   CHECK(left_out(looping(), {}) == 0);
   CHECK(left_out(looping(0.05, 1), loop) == 4 * of_round);  // only the first round differs
-  CHECK(left_out(looping(0.05, 10), loop) == of_round);  // round 11 is as round 10, so 12 stands for 11
+  CHECK(left_out(looping(0.05, 10), loop) == of_round);     // round 11 is as round 10, so 12 stands for 11
   CHECK(left_out(looping(0.05, 12), loop) == 0);
   CHECK(left_out(looping(), {begin, round, 1}) == 0);
   CHECK(left_out(looping(), {begin, 0.04 * 47, 14}) == 0);  // not the length of a round
-  CHECK(left_out(looping(), {begin, round, 1000}) == 0);  // longer than the motion
+  CHECK(left_out(looping(), {begin, round, 1000}) == 0);    // longer than the motion
   CHECK(left_out(looping(), {-1, round, 14}) == 0);
   // a loop at the begin and one at the end of the motion
   const RateAt all = [](std::size_t t) { return turning(t * cycle / of_round); };
@@ -851,16 +841,20 @@ TEST_CASE("cables that do not return are named with place, limit and a slack tha
   const std::string file = DRESSLIFE_SOURCE_DIR "/config/jobs/irb6640_spot_welding.yaml";
   const pipeline::Job job = pipeline::read_job(file);
   const std::vector<pipeline::Component>& components = job.dresspacks.front().dresspack.components;
-  const auto cable = std::find_if(components.begin(), components.end(), [](const auto& of) { return of.name == "signal cable"; });
+  const auto cable =
+      std::find_if(components.begin(), components.end(), [](const auto& of) { return of.name == "signal cable"; });
   REQUIRE(cable != components.end());
   const auto number = static_cast<std::size_t>(cable - components.begin());
   CHECK(strain::cycle_warnings(job, {}).empty());
   CHECK(strain::cycle_warnings(job, {0.1, 0, number, "signal cable 4", 0.43}).empty());
-  const std::vector<pipeline::Warning> warnings = strain::cycle_warnings(job, {0.25, 0, number, "signal cable 4", 0.43});
+  const std::vector<pipeline::Warning> warnings =
+      strain::cycle_warnings(job, {0.25, 0, number, "signal cable 4", 0.43});
   REQUIRE(warnings.size() == 1);
   INFO(warnings[0].words);
   CHECK(warnings[0].kind == pipeline::WarningKind::periodic);
-  CHECK_THAT(warnings[0].words, Catch::Contains("changes by 25 % (limit 10 %), that of 'signal cable 4' most, 0.43 m from the base clamp"));
+  CHECK_THAT(
+      warnings[0].words,
+      Catch::Contains("changes by 25 % (limit 10 %), that of 'signal cable 4' most, 0.43 m from the base clamp"));
   // The slack is half as large, and the job takes it without a warning of too little slack.
   REQUIRE(warnings[0].remedy.size() == 1);
   const pipeline::KeyValue& value = warnings[0].remedy[0];
@@ -869,8 +863,8 @@ TEST_CASE("cables that do not return are named with place, limit and a slack tha
   CHECK(mounted.dresspack.components[number].laying.slack == Approx(cable->laying.slack / 2).epsilon(0.01));
   CHECK(pipeline::tight_warnings("dresspack", mounted).empty());
   // A cable with less slack than half a turn needs is not made shorter.
-  const std::vector<pipeline::Warning> tight =
-      strain::cycle_warnings(pipeline::read_job(file, {value.key + "=0.01"}), {0.25, 0, number, "signal cable 4", 0.43});
+  const std::vector<pipeline::Warning> tight = strain::cycle_warnings(pipeline::read_job(file, {value.key + "=0.01"}),
+                                                                      {0.25, 0, number, "signal cable 4", 0.43});
   REQUIRE(tight.size() == 1);
   CHECK(tight[0].remedy.empty());
   CHECK_THAT(tight[0].words, Catch::Contains("dresslife route"));

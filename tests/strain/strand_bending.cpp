@@ -53,8 +53,7 @@ double StrandBending::moment(double curvature) {
   double sum = own_stiffness_ * curvature;
   for (Fibre& fibre : fibres_) {
     const double away = fibre.strain_per_curvature * curvature;
-    sum += fibre.moment_per_strain *
-           (fibre.elastic * away + fibre.slider.next((1 - fibre.elastic) * away, fibre.cap));
+    sum += fibre.moment_per_strain * (fibre.elastic * away + fibre.slider.next((1 - fibre.elastic) * away, fibre.cap));
   }
   return sum;
 }

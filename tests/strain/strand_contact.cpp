@@ -12,7 +12,7 @@ namespace {
 
 constexpr int nodes = 45;                // over a quarter; the last node, at pi/2, does not move
 constexpr double step = pi / 2 / nodes;  // [rad]
-constexpr double rigid = 1e4;            // stiffness of a rigid contact / the layer's own against a wave over the section
+constexpr double rigid = 1e4;  // stiffness of a rigid contact / the layer's own against a wave over the section
 constexpr double poisson_ratio = 0.33;
 constexpr int most_rounds = 200;  // of the search for the sliding crossings
 
@@ -20,12 +20,9 @@ double section(const StrandLayer& layer) { return pi * layer.wire_radius * layer
 
 /// Returns K of (W24), of the crossings of two layers, per length of the strand and radian. load: radial, per same unit.
 double crossing_stiffness(const StrandLayer& inner, const StrandLayer& outer, double load) {
-  const auto turns = [](const StrandLayer& layer) {
-    return std::tan(layer.lay_angle) / (2 * pi * layer.helix_radius);
-  };
+  const auto turns = [](const StrandLayer& layer) { return std::tan(layer.lay_angle) / (2 * pi * layer.helix_radius); };
   const double crossings = inner.count * outer.count * (turns(inner) + turns(outer)) / (2 * pi);
-  const double radius =
-      std::sqrt(inner.wire_radius * outer.wire_radius) / std::sin(inner.lay_angle + outer.lay_angle);
+  const double radius = std::sqrt(inner.wire_radius * outer.wire_radius) / std::sin(inner.lay_angle + outer.lay_angle);
   const double compliance = 1 / inner.youngs_modulus + 1 / outer.youngs_modulus;
   const double normal_modulus = 1 / ((1 - poisson_ratio * poisson_ratio) * compliance);
   const double shear_modulus = 1 / (2 * (2 - poisson_ratio) * (1 + poisson_ratio) * compliance);
@@ -50,9 +47,8 @@ StrandContact::StrandContact(const Strand& strand, Contacts contacts) {
     const double sine = std::sin(layer.lay_angle), cosine = std::cos(layer.lay_angle);
     const double turn = sine / cosine / R;  // kappa_i
     if (layer.jacket_stiffness > 0)
-      throw pipeline::InputError(
-          {}, "a strand on contacts that give has no jacket that holds its wires elastically",
-          "leave out jacket_stiffness, or use StrandBending, which has it");
+      throw pipeline::InputError({}, "a strand on contacts that give has no jacket that holds its wires elastically",
+                                 "leave out jacket_stiffness, or use StrandBending, which has it");
     const double own_press = strand.tension * EA * cosine * cosine / stretch_stiffness * sine * sine / R;
     load += layer.count / (2 * pi) * (own_press + layer.line_load) / cosine;
     const Layer own{cosine * cosine * R, layer.count * EA * cosine * R, turn * cosine,
@@ -61,8 +57,8 @@ StrandContact::StrandContact(const Strand& strand, Contacts contacts) {
     const double stiffness = lines || contacts == Contacts::rigid ? rigid * own.force * own.gradient
                                                                   : crossing_stiffness(inner, layer, load);
     layers_.insert(layers_.begin(), own);
-    interfaces_.insert(interfaces_.begin(), {stiffness, strand.friction * load,
-                                             std::vector<double>(nodes, 0.0), std::vector<int>(nodes, 0)});
+    interfaces_.insert(interfaces_.begin(), {stiffness, strand.friction * load, std::vector<double>(nodes, 0.0),
+                                             std::vector<int>(nodes, 0)});
   }
 }
 

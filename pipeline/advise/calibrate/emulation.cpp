@@ -40,9 +40,9 @@ LogLife log_life_of(const Observation& observation, const RankingRow& row) {
 }
 
 bool have_same_modes(const FailureModes& one, const FailureModes& other) {
-  return std::equal(one.begin(), one.end(), other.begin(), other.end(), [](const LifeResponse& a, const LifeResponse& b) {
-    return a.mode == b.mode && a.dresspack == b.dresspack;
-  });
+  return std::equal(
+      one.begin(), one.end(), other.begin(), other.end(),
+      [](const LifeResponse& a, const LifeResponse& b) { return a.mode == b.mode && a.dresspack == b.dresspack; });
 }
 
 LifeEnd end_of(ObservedEnd end) {
@@ -52,8 +52,8 @@ LifeEnd end_of(ObservedEnd end) {
 
 class RoundEmulation {
  public:
-  RoundEmulation(const std::vector<ObservedTest>& tests, const RoundOfJobs& round,
-                 const std::vector<RankingRow>& rows, const StudyPlaces& places)
+  RoundEmulation(const std::vector<ObservedTest>& tests, const RoundOfJobs& round, const std::vector<RankingRow>& rows,
+                 const StudyPlaces& places)
       : round_(round), places_(places) {
     for (const RankingRow& row : rows) rows_[row.job] = &row;
     for (std::size_t t = 0; t < tests.size(); ++t) {
@@ -92,7 +92,8 @@ class RoundEmulation {
   }
 
   /// Returns the hours of operation until half have failed, if the program ran alone for its share of the time.
-  double hours_alone(const ObservedTest& test, const std::vector<RoundOfJobs::Runs>& programs, std::size_t program) const {
+  double hours_alone(const ObservedTest& test, const std::vector<RoundOfJobs::Runs>& programs,
+                     std::size_t program) const {
     const double share = test.variants[program].share_of_time;
     return lives_of(test.observation, row_of(test, programs[program].centre))[1] / share;
   }
@@ -111,7 +112,9 @@ class RoundEmulation {
     // Ages within 5 % of each other are one age: the mean error is 1.4 %, and lives scatter by tens of per cent.
     constexpr double within = 0.05;
     std::map<std::pair<long, bool>, int> counts;
-    const auto add = [&](double hours, bool failed, int count) { counts[{std::lround(std::log(hours) / within), failed}] += count; };
+    const auto add = [&](double hours, bool failed, int count) {
+      counts[{std::lround(std::log(hours) / within), failed}] += count;
+    };
     for (const ServiceRecord& one : records) {
       add(one.hours, failures && one.failed, 1);
       if (one.entry_hours > 0) add(one.entry_hours, false, -1);
@@ -131,7 +134,9 @@ class RoundEmulation {
     const LogLife centre = log_life_of(test.observation, row);
     if (row.life_response.empty() || centre.median >= endless_log_life) {
       const double log_hours = std::min(endless_log_life, centre.median - std::log(test.variants[worst].share_of_time));
-      life.variants.push_back([log_hours, centre](const VectorXd&) { return LifeAt{log_hours, std::exp(centre.spread)}; });
+      life.variants.push_back([log_hours, centre](const VectorXd&) {
+        return LifeAt{log_hours, std::exp(centre.spread)};
+      });
       return life;
     }
     std::vector<ProgramModes> modes;
@@ -153,7 +158,8 @@ class RoundEmulation {
 
   /// Returns the ages of hoses that had not cracked before the end of a test, also if its wires failed. The individual value of
   /// each hose is its motion.
-  std::map<std::string, ObservedLife> walls_of(const ObservedTest& test, const std::vector<RoundOfJobs::Runs>& variants) {
+  std::map<std::string, ObservedLife> walls_of(const ObservedTest& test,
+                                               const std::vector<RoundOfJobs::Runs>& variants) {
     const Observation& observation = test.observation;
     const bool in_service = !observation.service.empty();
     std::map<std::string, ObservedLife> walls;
@@ -169,8 +175,10 @@ class RoundEmulation {
       if (!life.has_attribute(attribute)) return walls;
       const double share = in_service ? test.variants[k].share_of_time : 1;
       std::map<std::string, FailureModes> by_material;
-      for (LifeResponse& wall : modes_from_text(life.text_attribute(attribute))) by_material[wall.material].push_back(wall);
-      for (auto& [material, modes] : by_material) programs[material].push_back({std::move(modes), share * 3600 / row.repeat_seconds});
+      for (LifeResponse& wall : modes_from_text(life.text_attribute(attribute)))
+        by_material[wall.material].push_back(wall);
+      for (auto& [material, modes] : by_material)
+        programs[material].push_back({std::move(modes), share * 3600 / row.repeat_seconds});
       if (!in_service) break;  // the other variants are other cables
     }
     std::array<bool, uncertain_count> moves{}, own{};
@@ -179,8 +187,9 @@ class RoundEmulation {
     own[motion] = variants.front().own[motion] || variants.front().moves[motion];
     for (auto& [material, of] : programs) {
       ObservedLife& life = walls[material];
-      life.service = in_service ? factors_of(observation.service, false)
-                                : std::vector<ServiceFactor>{{std::log(*observation.hours), false, observation.specimens}};
+      life.service = in_service
+                         ? factors_of(observation.service, false)
+                         : std::vector<ServiceFactor>{{std::log(*observation.hours), false, observation.specimens}};
       const auto over = std::make_shared<const LifeOverParameters>(std::move(of), moves);
       for (OwnValues& each : own_values(over->modes(), own, round_.prior(), draws))
         life.variants.push_back([over, each = std::move(each)](const VectorXd& z) { return over->at(z, &each); });
@@ -202,8 +211,9 @@ class RoundEmulation {
       z[static_cast<Index>(p)] = round_.prior()[static_cast<Index>(p)];
       const double change = std::abs(life.log_median_at(z) - life.log_median_at(-z)) / 2;
       if (all[p] && change > worth_a_word)
-        factors.emplace_back(-change, fmt::format("{}{} {}", uncertain_parameters()[p].name, runs.own[p] ? " (each dresspack's own)" : "",
-                                                  readable(std::exp(change), 2)));
+        factors.emplace_back(-change,
+                             fmt::format("{}{} {}", uncertain_parameters()[p].name,
+                                         runs.own[p] ? " (each dresspack's own)" : "", readable(std::exp(change), 2)));
     }
     std::sort(factors.begin(), factors.end());
     return joined(mapped(factors, [](const auto& factor) { return factor.second; }), ", ");
@@ -224,21 +234,18 @@ class RoundEmulation {
     const double noise = observation.noise_percent / 100;
     EmulatedTest made;
     if (observation.decrement) {
-      const MeasuredNumber number{*observation.decrement - observation.decrement_without_slip,
-                                  noise * *observation.decrement,
-                                  {{0, 1.0}}};
+      const MeasuredNumber number{
+          *observation.decrement - observation.decrement_without_slip, noise * *observation.decrement, {{0, 1.0}}};
       const auto said = [&](const std::vector<double>& curvature, const std::vector<double>& moment) {
-        return VectorXd::Constant(1, log_decrement_by_slip(curvature, moment, observation.at_curvature))
-            .eval();
+        return VectorXd::Constant(1, log_decrement_by_slip(curvature, moment, observation.at_curvature)).eval();
       };
-      for (const RoundOfJobs::Runs& runs : variants)
-        made.bending.push_back({bending_over(test, runs, said), {number}});
+      for (const RoundOfJobs::Runs& runs : variants) made.bending.push_back({bending_over(test, runs, said), {number}});
       return made;
     }
     const std::vector<BendingPoint> points =
-        observation.stiffness ? std::vector<BendingPoint>{{observation.at_curvature,
-                                                           *observation.stiffness * observation.at_curvature}}
-                              : read_bending(observation.bending);
+        observation.stiffness
+            ? std::vector<BendingPoint>{{observation.at_curvature, *observation.stiffness * observation.at_curvature}}
+            : read_bending(observation.bending);
     const BendingNumbers bent = bending_numbers(points, noise);
     if (observation.stiffness) made.per_shown = observation.at_curvature;
     for (std::size_t k = 0; k < bent.numbers.size(); ++k)
@@ -256,8 +263,7 @@ class RoundEmulation {
 
   /// Returns emulators of logarithms over z. said: computes them from a table of curvatures and moments of a first bend.
   template <typename Said>
-  std::vector<Emulator> bending_over(const ObservedTest& test, const RoundOfJobs::Runs& runs,
-                                     const Said& said) const {
+  std::vector<Emulator> bending_over(const ObservedTest& test, const RoundOfJobs::Runs& runs, const Said& said) const {
     const auto of_job = [&](std::size_t job) {
       row_of(test, job);
       const FileReader strain(places_.job(round_.study().jobs[job].name) / "strain.h5", strain_format());
@@ -280,25 +286,26 @@ class RoundEmulation {
     }
     std::vector<Emulator> made;
     for (Index c = 0; c < middle.size(); ++c)
-      made.emplace_back(round_.centre(), round_.step(), middle[c], low.row(c).transpose(),
-                        high.row(c).transpose());
+      made.emplace_back(round_.centre(), round_.step(), middle[c], low.row(c).transpose(), high.row(c).transpose());
     return made;
   }
 
   LifeVariant variant_of(const ObservedTest& test, const RoundOfJobs::Runs& runs, const RankingRow& row) {
     const LogLife centre = log_life_of(test.observation, row);
-    if (row.life_response.empty() || centre.median >= endless_log_life) return [centre](const VectorXd&) {
-      return LifeAt{centre.median, std::exp(centre.spread)};
-    };
+    if (row.life_response.empty() || centre.median >= endless_log_life)
+      return [centre](const VectorXd&) { return LifeAt{centre.median, std::exp(centre.spread)}; };
     const auto life = std::make_shared<const LifeOverParameters>(modes_from_text(row.life_response), runs.moves);
     const LifeAt modelled = life->at(VectorXd::Zero(uncertain_count));
-    return [life, centre, modelled, at = round_.centre(), typical = test.typical, moves = runs.moves](const VectorXd& z) {
-      const LifeAt here = life->at(z - at);
-      const double between =
-          typical ? deviation_between_cables([&](const VectorXd& beside) { return life->log_median_at(beside); }, moves, z - at) : 0;
-      return LifeAt{std::min(endless_log_life, centre.median + here.log_median - modelled.log_median),
-                    std::exp(centre.spread) * here.spread / modelled.spread, between, life->residual()};
-    };
+    return
+        [life, centre, modelled, at = round_.centre(), typical = test.typical, moves = runs.moves](const VectorXd& z) {
+          const LifeAt here = life->at(z - at);
+          const double between =
+              typical ? deviation_between_cables([&](const VectorXd& beside) { return life->log_median_at(beside); },
+                                                 moves, z - at)
+                      : 0;
+          return LifeAt{std::min(endless_log_life, centre.median + here.log_median - modelled.log_median),
+                        std::exp(centre.spread) * here.spread / modelled.spread, between, life->residual()};
+        };
   }
 
   /// Returns the share of the variance of a specimen's ln life that is common to all specimens of a spool.
@@ -323,7 +330,7 @@ double EmulatedTest::log_likelihood_at(const VectorXd& z) const {
 }
 
 std::vector<EmulatedTest> emulate(const std::vector<ObservedTest>& tests, const RoundOfJobs& round,
-                  const std::vector<RankingRow>& rows, const StudyPlaces& places) {
+                                  const std::vector<RankingRow>& rows, const StudyPlaces& places) {
   return RoundEmulation(tests, round, rows, places).made();
 }
 

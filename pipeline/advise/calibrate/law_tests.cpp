@@ -23,8 +23,7 @@ void describe(Fields& f, TubeTest& test) {
   f.maybe_number("kinks_at_mm", test.kinks_at, above(0), "The radius of the tube's axis at which it kinked.");
   f.maybe_number("oval_at_mm", test.oval_at, above(0),
                  "The radius of the axis at which the diameter had changed by oval_share.");
-  f.maybe_number("allowed_at_mm", test.allowed_at, above(0),
-                 "The least radius of the axis that the maker allows.");
+  f.maybe_number("allowed_at_mm", test.allowed_at, above(0), "The least radius of the axis that the maker allows.");
   f.number("oval_share", test.oval_share, Need::optional, between(0.001, 0.2),
            "The change of the diameter over the diameter.");
 }
@@ -49,8 +48,7 @@ void describe(Fields& f, LawTest& test) {
   f.text("name", test.name, Need::required, "A short name.");
   f.text("what", test.what, Need::required, "What was done to what, in words.");
   f.text("source", test.source, Need::required, "The source of the test.");
-  f.boolean("sets_constant", test.sets_constant, Need::optional,
-            "Whether a constant of the law comes from this test.");
+  f.boolean("sets_constant", test.sets_constant, Need::optional, "Whether a constant of the law comes from this test.");
   f.maybe_group("tube", test.tube, "A tube that was bent.");
   f.maybe_group("wear", test.wear, "A surface that was rubbed.");
   f.maybe_group("bending", test.bending, "A cable that was bent.");
@@ -63,22 +61,20 @@ constexpr const char* key = "law_tests";
 void check(const LawTest& test) {
   if (test.tube.has_value() + test.wear.has_value() + test.bending.has_value() != 1)
     throw InputError(test.where, fmt::format("'{}' must have one of tube, wear and bending", test.name), "give one");
-  const int radii = test.tube ? test.tube->kinks_at.has_value() + test.tube->oval_at.has_value() +
-                                    test.tube->allowed_at.has_value()
-                              : 1;
+  const int radii =
+      test.tube ? test.tube->kinks_at.has_value() + test.tube->oval_at.has_value() + test.tube->allowed_at.has_value()
+                : 1;
   const int volumes = test.wear ? test.wear->worn.has_value() + test.wear->worn_more.has_value() : 1;
   if (radii != 1)
-    throw InputError(test.where,
-                     fmt::format("'{}' must have one of kinks_at_mm, oval_at_mm, allowed_at_mm", test.name),
+    throw InputError(test.where, fmt::format("'{}' must have one of kinks_at_mm, oval_at_mm, allowed_at_mm", test.name),
                      "give one");
   if (volumes != 1)
-    throw InputError(test.where,
-                     fmt::format("'{}' must have one of worn_mm3, worn_by_rougher_mm3", test.name),
+    throw InputError(test.where, fmt::format("'{}' must have one of worn_mm3, worn_by_rougher_mm3", test.name),
                      "give one");
   if (test.tube && test.tube->bore >= test.tube->outer)
     throw InputError(test.where,
-                     fmt::format("'{}' has bore_mm {:.4g} (outer_mm is {:.4g})", test.name,
-                                 1e3 * test.tube->bore, 1e3 * test.tube->outer),
+                     fmt::format("'{}' has bore_mm {:.4g} (outer_mm is {:.4g})", test.name, 1e3 * test.tube->bore,
+                                 1e3 * test.tube->outer),
                      "the bore is the inner diameter");
 }
 
@@ -100,9 +96,8 @@ LawPrediction predicted(const WearTest& test, const Where& where) {
   read_fields(entry, material);
   const WearRate* const rate = find_in(material.wear, &WearRate::against, test.against);
   if (!rate)
-    throw InputError(
-        where, fmt::format("material '{}' has no wear rate against {}", test.material, word(test.against)),
-        "give a pair that the material lists under wear");
+    throw InputError(where, fmt::format("material '{}' has no wear rate against {}", test.material, word(test.against)),
+                     "give a pair that the material lists under wear");
   return lognormal(rate->rate * test.force * test.way, std::log10(rate->factor));
 }
 
@@ -110,7 +105,9 @@ LawPrediction predicted(const WearTest& test, const Where& where) {
 LawPrediction predicted(const BendingTest& test) {
   const auto moment = [&](double share) {
     const UncertainParameter& friction = uncertain_parameters()[index_of(Uncertain::friction_inside)];
-    return bending_moments(test.cable, test.cable.components.front(), friction.value(normal_quantile(share)), {test.curvature}).front();
+    return bending_moments(test.cable, test.cable.components.front(), friction.value(normal_quantile(share)),
+                           {test.curvature})
+        .front();
   };
   return {moment(0.1), moment(0.5), moment(0.9)};
 }
@@ -120,8 +117,7 @@ Dresspack take_cable(Node& row) {
   Node* const bending = row.is_map() ? row.find("bending") : nullptr;
   const Node* const cable = bending && bending->is_map() ? bending->find("cable") : nullptr;
   if (!bending) return {};
-  if (!cable)
-    throw InputError(bending->where, "bending has no cable", "give it as in the key dresspack of a job");
+  if (!cable) throw InputError(bending->where, "bending has no cable", "give it as in the key dresspack of a job");
   Node job;
   job.where = cable->where;
   job["dresspack"]["cable"] = *cable;
@@ -169,8 +165,7 @@ std::vector<LawTest> read_law_tests(const std::filesystem::path& file) {
   std::vector<Dresspack> cables;
   if (Node* const rows = document.is_map() ? document.find(key) : nullptr)
     for (Node& row : rows->items) cables.push_back(take_cable(row));
-  read_fields(document,
-              [&](Fields& f) { f.list(key, all.tests, Need::required, "Published tests of laws."); });
+  read_fields(document, [&](Fields& f) { f.list(key, all.tests, Need::required, "Published tests of laws."); });
   if (all.tests.empty())
     throw InputError(document.where, "holds no law_tests",
                      "write a list of rows with name, what, source, and tube, wear or bending");
@@ -199,24 +194,22 @@ std::string verdict_of(const LawTest& test, const LawPrediction& prediction) {
 }
 
 std::string law_table(const std::vector<LawTest>& tests) {
-  std::string text =
-      "| test | what | observed | predicted, median | 10 .. 90 % | |\n|---|---|---|---|---|---|\n";
+  std::string text = "| test | what | observed | predicted, median | 10 .. 90 % | |\n|---|---|---|---|---|---|\n";
   int misses = 0, agreements = 0, own = 0;
   for (const LawTest& test : tests) {
     const LawPrediction prediction = predicted(test);
     const Observed observed = observed_in(test);
     const std::string verdict = verdict_of(test, prediction);
     own += test.sets_constant;
-    if (!test.sets_constant)
-      misses += verdict.starts_with("MISS"), agreements += verdict.starts_with("agrees");
+    if (!test.sets_constant) misses += verdict.starts_with("MISS"), agreements += verdict.starts_with("agrees");
     const auto shown = [&](double value) { return readable(observed.unit * value, 2); };
     text += fmt::format("| {} | {} | {} {} | {} | {} .. {} | {} |\n", test.name, test.what,
                         readable(observed.unit * observed.value, 3), observed.words, shown(prediction.median),
                         shown(prediction.low), shown(prediction.high), verdict);
   }
   const int independent = static_cast<int>(tests.size()) - own;
-  return text + fmt::format("\nOf {} tests that set no constant {} agree and {} miss.\n", independent,
-                            agreements, misses);
+  return text +
+         fmt::format("\nOf {} tests that set no constant {} agree and {} miss.\n", independent, agreements, misses);
 }
 
 }  // namespace dresslife::pipeline

@@ -41,17 +41,19 @@ void describe(Fields& f, TubeTest& test);
 struct WearTest {
   std::string material;  ///< name in the catalogue
   Counterface against = Counterface::robot;
-  double force = 0, way = 0;        ///< [N], [m]
-  std::optional<double> worn;       ///< worn volume [m3]
-  std::optional<double> worn_more;  ///< volume worn by a rougher counterface than `against` [m3]: the law must predict less
+  double force = 0, way = 0;   ///< [N], [m]
+  std::optional<double> worn;  ///< worn volume [m3]
+  std::optional<double>
+      worn_more;  ///< volume worn by a rougher counterface than `against` [m3]: the law must predict less
 };
 void describe(Fields& f, WearTest& test);
 
 /// A single cable that was bent from straight for the first time, in one plane.
 struct BendingTest {
-  Dresspack cable;         ///< as in `dresspack: {cable: ..}` of a job, with the friction that is estimated without a measurement
-  double curvature = 0;    ///< [1/m]
-  double moment = 0;       ///< [N m]
+  Dresspack
+      cable;  ///< as in `dresspack: {cable: ..}` of a job, with the friction that is estimated without a measurement
+  double curvature = 0;  ///< [1/m]
+  double moment = 0;     ///< [N m]
 };
 void describe(Fields& f, BendingTest& test);
 

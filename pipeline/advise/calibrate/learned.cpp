@@ -18,10 +18,9 @@ namespace {
 
 using Eigen::Index;
 
-
 std::string parameter_lines(const Learned& learned) {
-  std::string text = fmt::format("{:<17} {:>24} {:>24}  {}\n", "parameter", "before (80 %)", "after (80 %)",
-                                 "width after/before");
+  std::string text =
+      fmt::format("{:<17} {:>24} {:>24}  {}\n", "parameter", "before (80 %)", "after (80 %)", "width after/before");
   const auto range = [](const PredictedDeciles& of) {
     return fmt::format("{} ({} .. {})", readable(of[1]), readable(of[0]), readable(of[2]));
   };
@@ -44,16 +43,18 @@ void add_service_doubts(const LearnedTest& test, double surprising, Learned& lea
     learned.warnings.push_back(fmt::format(
         "'{}': {} failures than predicted ({}): without any observation (makers' ratings, too) 1 of {} such plants has as {}. The predicted life of half of them "
         "changed from {} to {}. Correct the job, the dates or the hours per week if one of them is wrong",
-        name, before.few < before.many ? "fewer" : "more", seen, readable(1 / std::max(chance, 1e-12), 2), before.few < before.many ? "few" : "many",
-        life_text(test.before[1], 2), life_text(test.after[1], 2)));
+        name, before.few < before.many ? "fewer" : "more", seen, readable(1 / std::max(chance, 1e-12), 2),
+        before.few < before.many ? "few" : "many", life_text(test.before[1], 2), life_text(test.after[1], 2)));
   if (after.reach < usual_reach) {
-    const auto ages = filtered(mapped(test.observation.service, &ServiceRecord::entry_hours), [](double age) { return age > 0; });
+    const auto ages =
+        filtered(mapped(test.observation.service, &ServiceRecord::entry_hours), [](double age) { return age > 0; });
     learned.warnings.push_back(fmt::format(
         "'{}': {} dresspacks were in use when the records begin, half of them {} old or older. By this calibration {} of new ones reach such "
         "ages (before: {}), half of them live {}. The hours before the records do not count, because the table may lack dresspacks that were "
         "removed then. If it has every removal from an earlier day on, give that day: --records-since DATE. Otherwise do not plan with this "
         "calibration: these dresspacks live longer than it predicts",
-        name, ages.size(), hours_text(quantile(ages, 0.5)), percent(after.reach), percent(before.reach), life_text(test.after[1], 2)));
+        name, ages.size(), hours_text(quantile(ages, 0.5)), percent(after.reach), percent(before.reach),
+        life_text(test.after[1], 2)));
   }
 }
 
@@ -128,8 +129,7 @@ void add_doubts(Learned& learned, const Axes& axes) {
   }
   const Posterior& posterior = learned.posterior;
   for (Index i = 0; i < axes.size(); ++i) {
-    const double off =
-        (posterior.median[i] - posterior.laplace.most_likely[i]) / std::sqrt(posterior.covariance(i, i));
+    const double off = (posterior.median[i] - posterior.laplace.most_likely[i]) / std::sqrt(posterior.covariance(i, i));
     if (std::abs(off) > skewed)
       learned.notes.push_back(fmt::format(
           "{}: values far {} its likeliest one remain possible, because what has not failed bounds it on one side only. "
@@ -141,19 +141,20 @@ void add_doubts(Learned& learned, const Axes& axes) {
 
 std::string learned_table(const Learned& learned) {
   const auto seen = [](const LearnedTest& test) {
-    return test.observation.bending.empty() ? observed_text(test.observation)
-                                            : readable(test.measured, 3) + " N m";
+    return test.observation.bending.empty() ? observed_text(test.observation) : readable(test.measured, 3) + " N m";
   };
   std::string text = parameter_lines(learned);
   for (const LearnedWall& wall : learned.walls) {
     const auto factor = [](double z) { return readable(std::pow(wall_strength_step, z)); };
-    text += fmt::format("\n{}, not validated, from hoses that had not cracked: x {} ({} .. {}), before x 1 ({} .. {})\n", wall.name,
-                        factor(wall.median), factor(wall.low), factor(wall.high), factor(-normal_decile), factor(normal_decile));
+    text += fmt::format(
+        "\n{}, not validated, from hoses that had not cracked: x {} ({} .. {}), before x 1 ({} .. {})\n", wall.name,
+        factor(wall.median), factor(wall.low), factor(wall.high), factor(-normal_decile), factor(normal_decile));
   }
-  const std::size_t name = largest_of(learned.tests, std::size_t{22}, [](const LearnedTest& test) { return columns_of(test.observation.name); });
+  const std::size_t name = largest_of(learned.tests, std::size_t{22},
+                                      [](const LearnedTest& test) { return columns_of(test.observation.name); });
   constexpr const char* columns = "{:<{}} {:>20} {:>31} {:>31} {:>31}  {}\n";
-  text += "\n" + fmt::format(fmt::runtime(columns), "observation", name, "observed", "predicted before", "predicted by the others",
-                             "predicted after", "fails first");
+  text += "\n" + fmt::format(fmt::runtime(columns), "observation", name, "observed", "predicted before",
+                             "predicted by the others", "predicted after", "fails first");
   for (const LearnedTest& test : learned.tests)
     text += fmt::format(fmt::runtime(columns), test.observation.name, name, seen(test), words_of(test.before),
                         words_of(test.by_others), words_of(test.after), test.fails_first);
@@ -171,8 +172,8 @@ std::string learned_table(const Learned& learned) {
       "because run computes the strains at the middle values above: plan with those of run. 'Predicted before' is not what run prints\n"
       "without a calibration: run includes makers' ratings (uncertainty.ratings), which a calibration replaces.\n";
   if (!learned.settled)
-    text += fmt::format("warning: after {} rounds the result still changes: it is less exact than usual\n",
-                        learned.rounds);
+    text +=
+        fmt::format("warning: after {} rounds the result still changes: it is less exact than usual\n", learned.rounds);
   for (const std::string& warning : learned.warnings) text += "warning: " + warning + "\n";
   for (const std::string& note : learned.notes) text += "note: " + note + "\n";
   return text;

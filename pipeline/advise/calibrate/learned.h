@@ -14,9 +14,9 @@ namespace dresslife::pipeline {
 /// Result for one parameter; empty if no test depends on it.
 struct LearnedAxis {
   bool learned = false;
-  bool is_own = false;  ///< each dresspack in service has its own value
+  bool is_own = false;                 ///< each dresspack in service has its own value
   PredictedDeciles before{}, after{};  ///< deciles of the key's value
-  double narrowed = 1;         ///< ratio of the standard deviation of z after to that before
+  double narrowed = 1;                 ///< ratio of the standard deviation of z after to that before
 };
 
 struct LearnedTest {
@@ -24,8 +24,8 @@ struct LearnedTest {
   PredictedDeciles before{}, after{};  ///< predictions over all variants; after: weighted by their likelihood
   PredictedDeciles by_others{};        ///< prediction over all variants, from the posterior of all other tests
   ServiceChance chance_before{}, chance_after{};  ///< for dresspacks in service
-  double measured = 0;         ///< measured value; 0 for a life
-  std::string fails_first{}, moved_by{};  ///< from EmulatedTest
+  double measured = 0;                            ///< measured value; 0 for a life
+  std::string fails_first{}, moved_by{};          ///< from EmulatedTest
 };
 
 struct Learned {

@@ -7,9 +7,9 @@
 #include <set>
 
 #include "pipeline/base/constants.h"
+#include "pipeline/base/digest.h"
 #include "pipeline/base/joined.h"
 #include "pipeline/base/readable.h"
-#include "pipeline/base/digest.h"
 #include "pipeline/files/files.h"
 #include "pipeline/job/learned_settings.h"
 #include "pipeline/job/uncertainty.h"
@@ -26,13 +26,10 @@ double to_figures(double value, int figures) {
 }
 
 /// Returns the ranges of bend, twist and strain of the jobs at the centre, from their files.
-LearnedWithin within_of(const std::vector<ObservedTest>& tests, const RoundOfJobs& round,
-                        const StudyPlaces& places) {
+LearnedWithin within_of(const std::vector<ObservedTest>& tests, const RoundOfJobs& round, const StudyPlaces& places) {
   LearnedWithin within;
   std::set<std::string> materials;
-  const auto least = [](std::optional<double>& of, double value) {
-    of = std::min(of.value_or(value), value);
-  };
+  const auto least = [](std::optional<double>& of, double value) { of = std::min(of.value_or(value), value); };
   const auto most = [](std::optional<double>& of, double value) { of = std::max(of.value_or(value), value); };
   for (std::size_t t = 0; t < tests.size(); ++t) {
     if (!tests[t].observation.is_life()) continue;  // a bending test contains no information about lives
@@ -44,8 +41,7 @@ LearnedWithin within_of(const std::vector<ObservedTest>& tests, const RoundOfJob
       const auto curvature = strain.read<double>("/deformation/curvature");
       for (std::size_t k = 0; k + 1 < curvature.size(); k += 2)
         most(within.largest_curvature, std::hypot(curvature[k], curvature[k + 1]));
-      for (const double twist : strain.read<double>("/deformation/twist"))
-        most(within.largest_twist, std::abs(twist));
+      for (const double twist : strain.read<double>("/deformation/twist")) most(within.largest_twist, std::abs(twist));
       double largest = 0;
       for (const double range : life.read<double>("/cycles/range")) largest = std::max(largest, range);
       if (largest > 0) least(within.least_strain_range, largest), most(within.largest_strain_range, largest);
@@ -82,26 +78,24 @@ std::string digest_of(const ObservedTest& test) {
 
 }  // namespace
 
-Calibration calibration_of(const Learned& learned, const std::vector<ObservedTest>& tests,
-                           const RoundOfJobs& round, const StudyPlaces& places) {
+Calibration calibration_of(const Learned& learned, const std::vector<ObservedTest>& tests, const RoundOfJobs& round,
+                           const StudyPlaces& places) {
   const Axes axes(round);
   constexpr double decimals = 1e6;
   const auto rounded = [&](double value) { return std::round(value * decimals) / decimals; };
   Calibration calibration;
   const Posterior& posterior = learned.posterior;
   calibration.typical = std::any_of(tests.begin(), tests.end(), [](const ObservedTest& test) { return test.typical; });
-  calibration.note =
-      fmt::format("{} observations, {} rounds{}; draws worth {} independent ones, chains disagree by {:.3f}",
-                  learned.tests.size(), learned.rounds, learned.settled ? "" : " (not settled)",
-                  readable(posterior.worth, 2), posterior.chains_disagree);
+  calibration.note = fmt::format(
+      "{} observations, {} rounds{}; draws worth {} independent ones, chains disagree by {:.3f}", learned.tests.size(),
+      learned.rounds, learned.settled ? "" : " (not settled)", readable(posterior.worth, 2), posterior.chains_disagree);
   for (Index i = 0; i < axes.size(); ++i) {
     const auto p = static_cast<std::size_t>(axes.places()[static_cast<std::size_t>(i)]);
     LearnedParameter parameter;
     parameter.name = uncertain_parameters()[p].name;
     parameter.median = rounded(posterior.median[i]);
     parameter.mean = rounded(posterior.mean[i]);
-    for (Index j = 0; j < axes.size(); ++j)
-      parameter.covariance.push_back(rounded(posterior.covariance(i, j)));
+    for (Index j = 0; j < axes.size(); ++j) parameter.covariance.push_back(rounded(posterior.covariance(i, j)));
     parameter.value = to_figures(learned.axes[p].after[1], 4);
     parameter.value_p10 = to_figures(learned.axes[p].after[0], 4);
     parameter.value_p90 = to_figures(learned.axes[p].after[2], 4);
@@ -115,15 +109,16 @@ Calibration calibration_of(const Learned& learned, const std::vector<ObservedTes
     parameter.median = rounded(wall.median), parameter.mean = rounded(wall.mean);
     parameter.covariance.assign(calibration.parameters.size(), 0);
     parameter.covariance.back() = rounded(wall.deviation * wall.deviation);
-    parameter.value = factor(wall.median), parameter.value_p10 = factor(wall.low), parameter.value_p90 = factor(wall.high);
+    parameter.value = factor(wall.median), parameter.value_p10 = factor(wall.low),
+    parameter.value_p90 = factor(wall.high);
   }
   calibration.under = under_of(tests, round);
   if (calibration.typical) calibration.under.cables.clear();  // the calibration belongs to none of these cables
   calibration.within = within_of(tests, round, places);
   for (std::size_t t = 0; t < tests.size(); ++t) {
     const LearnedTest& test = learned.tests[t];
-    calibration.observations.push_back({test.observation.name, observed_text(test.observation),
-                                        words_of(test.before), words_of(test.after), digest_of(tests[t])});
+    calibration.observations.push_back({test.observation.name, observed_text(test.observation), words_of(test.before),
+                                        words_of(test.after), digest_of(tests[t])});
   }
   return calibration;
 }

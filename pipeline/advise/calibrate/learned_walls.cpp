@@ -10,7 +10,8 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr double reach = 6, width = 0.02;  // 6 deviations exclude 1e-9 of the prior; the resolution is a hundredth of a deviation
+constexpr double reach = 6,
+                 width = 0.02;  // 6 deviations exclude 1e-9 of the prior; the resolution is a hundredth of a deviation
 
 LearnedWall learned_from(const std::string& name, const std::vector<const ObservedLife*>& observed) {
   std::vector<double> z, weight;

@@ -12,9 +12,9 @@
 namespace dresslife::pipeline {
 
 struct LearnedWall {
-  std::string name;                            ///< wall_strength_of()
-  double mean = 0, deviation = 1;              ///< mean and standard deviation of z
-  double low = 0, median = 0, high = 0;        ///< deciles of z
+  std::string name;                      ///< wall_strength_of()
+  double mean = 0, deviation = 1;        ///< mean and standard deviation of z
+  double low = 0, median = 0, high = 0;  ///< deciles of z
 };
 
 /// Returns one result for each material. Tests without a wall have no influence.

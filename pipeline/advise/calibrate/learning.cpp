@@ -45,8 +45,8 @@ Posterior posterior_of(std::vector<LogLikelihood> terms, const Axes& axes, const
 }
 
 /// Throws InputError at the row that differs most from its prediction, if the most likely parameters are beyond `farthest`.
-void refuse_contradiction(const std::vector<ObservedTest>& tests, const std::vector<LearnedTest>& learned, const Axes& axes,
-                          const VectorXd& most_likely) {
+void refuse_contradiction(const std::vector<ObservedTest>& tests, const std::vector<LearnedTest>& learned,
+                          const Axes& axes, const VectorXd& most_likely) {
   const VectorXd off = most_likely.cwiseQuotient(axes.some(axes.prior())).cwiseAbs();
   Index axis = 0;
   if (off.maxCoeff(&axis) <= farthest) return;
@@ -60,30 +60,33 @@ void refuse_contradiction(const std::vector<ObservedTest>& tests, const std::vec
           "'{}': the observation ({}) contradicts the prediction ({}): it would need a {} {:.1f} standard deviations "
           "from what was assumed (limit {:g})",
           observation.name, observed_text(observation), words_of(learned[row].before),
-          uncertain_parameters()[static_cast<std::size_t>(axes.places()[static_cast<std::size_t>(axis)])].name, off[axis], farthest),
+          uncertain_parameters()[static_cast<std::size_t>(axes.places()[static_cast<std::size_t>(axis)])].name,
+          off[axis], farthest),
       "correct the unit of the observation, or its job; else leave the row out");
 }
 
 /// Predicts each test from all others. This shows a test that contradicts the model, which a prediction that includes the test
 /// itself might hide.
-void predict_by_others(const std::vector<EmulatedTest>& emulated_tests, const Axes& axes, const VectorXd& start, bool typical,
-                       std::vector<LearnedTest>& tests) {
+void predict_by_others(const std::vector<EmulatedTest>& emulated_tests, const Axes& axes, const VectorXd& start,
+                       bool typical, std::vector<LearnedTest>& tests) {
   // error of a decile: 4 % of the deviation, if 1,000 draws are independent
   constexpr SamplerSettings short_chains{.draws = 3000};
   const std::vector<LogLikelihood> terms = terms_of(emulated_tests, axes);
   for (std::size_t t = 0; t < tests.size(); ++t) {
     std::vector<LogLikelihood> others = terms;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(t));
-    tests[t].by_others = others.empty() ? tests[t].before
-                                        : predicted_deciles(emulated_tests[t],
-                                                   posterior_draws(posterior_of(others, axes, start, typical, short_chains), axes), false);
+    tests[t].by_others =
+        others.empty()
+            ? tests[t].before
+            : predicted_deciles(emulated_tests[t],
+                                posterior_draws(posterior_of(others, axes, start, typical, short_chains), axes), false);
   }
 }
 
 }  // namespace
 
-Learned learn(const std::vector<ObservedTest>& tests, const std::vector<std::string>& sets,
-              const StudyPlaces& places, const MakeRows& make_rows) {
+Learned learn(const std::vector<ObservedTest>& tests, const std::vector<std::string>& sets, const StudyPlaces& places,
+              const MakeRows& make_rows) {
   Learned learned;
   VectorXd centre = VectorXd::Zero(uncertain_count), step = VectorXd::Ones(uncertain_count);
   const bool typical = of_typical_cables(tests);
@@ -110,8 +113,10 @@ Learned learn(const std::vector<ObservedTest>& tests, const std::vector<std::str
       if (learned.rounds == 1) learned.tests[t].before = predicted_deciles(emulated, prior_draws(axes), false);
       learned.tests[t].after = predicted_deciles(emulated, posterior_draws(learned.posterior, axes), true);
       if (const std::vector<ServiceRecord>& records = tests[t].observation.service; !records.empty()) {
-        if (learned.rounds == 1) learned.tests[t].chance_before = service_chance(*emulated.life, records, prior_draws(axes));
-        learned.tests[t].chance_after = service_chance(*emulated.life, records, posterior_draws(learned.posterior, axes));
+        if (learned.rounds == 1)
+          learned.tests[t].chance_before = service_chance(*emulated.life, records, prior_draws(axes));
+        learned.tests[t].chance_after =
+            service_chance(*emulated.life, records, posterior_draws(learned.posterior, axes));
       }
       learned.tests[t].fails_first = emulated.fails_first;
       learned.tests[t].moved_by = emulated.moved_by;

@@ -21,7 +21,7 @@ using MakeRows = std::function<std::vector<RankingRow>(const Study& study)>;
 
 /// Calibrates the parameters. tests: from read_observed_tests(). sets: `--set` for every job. places: folder of the results of
 /// make_rows. Errors: InputError at a row whose job fails or sets a parameter of the calibration.
-Learned learn(const std::vector<ObservedTest>& tests, const std::vector<std::string>& sets,
-              const StudyPlaces& places, const MakeRows& make_rows);
+Learned learn(const std::vector<ObservedTest>& tests, const std::vector<std::string>& sets, const StudyPlaces& places,
+              const MakeRows& make_rows);
 
 }  // namespace dresslife::pipeline

@@ -19,8 +19,7 @@ std::vector<OwnValues> own_values(const FailureModes& modes, const std::array<bo
   std::vector<OwnValues> all(count);
   for (std::size_t p = 0; p < uncertain_count; ++p) {
     if (!own[p]) continue;
-    const std::vector<double> z =
-        standard_normals("own " + std::string(uncertain_parameters()[p].name), count);
+    const std::vector<double> z = standard_normals("own " + std::string(uncertain_parameters()[p].name), count);
     for (std::size_t k = 0; k < count; ++k) all[k].z[p] = deviations[static_cast<Index>(p)] * z[k];
   }
   for (const LifeResponse& mode : modes) {
@@ -33,7 +32,8 @@ std::vector<OwnValues> own_values(const FailureModes& modes, const std::array<bo
 LifeOverParameters::LifeOverParameters(FailureModes modes, const std::array<bool, uncertain_count>& moves)
     : LifeOverParameters(std::vector<ProgramModes>{{std::move(modes), 1}}, moves) {}
 
-LifeOverParameters::LifeOverParameters(std::vector<ProgramModes> programs, const std::array<bool, uncertain_count>& moves)
+LifeOverParameters::LifeOverParameters(std::vector<ProgramModes> programs,
+                                       const std::array<bool, uncertain_count>& moves)
     : programs_(std::move(programs)), moves_(moves) {
   for (const ProgramModes& program : programs_) {
     surfaces_.emplace_back();

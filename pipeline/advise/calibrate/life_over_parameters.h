@@ -17,9 +17,8 @@ inline constexpr double least_log_spread = -6.9;
 
 /// Values of a single dresspack.
 struct OwnValues {
-  ParameterPoint z{};  ///< (parameter) 0 for parameters that dresspacks share
-  std::vector<double>
-      scatter;  ///< (mode) standard normal: the part of u that is independent between the modes
+  ParameterPoint z{};           ///< (parameter) 0 for parameters that dresspacks share
+  std::vector<double> scatter;  ///< (mode) standard normal: the part of u that is independent between the modes
 };
 /// Returns `count` samples of equal probability with one sample in each stratum of each number. own: parameters that differ
 /// between dresspacks. deviations: of z (parameter). Every call gives the same result.

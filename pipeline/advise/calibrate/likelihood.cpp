@@ -11,9 +11,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-double log_density(double x, double deviation) {
-  return -x * x / (2 * deviation * deviation) - std::log(deviation);
-}
+double log_density(double x, double deviation) { return -x * x / (2 * deviation * deviation) - std::log(deviation); }
 
 /// Returns ln of the sum over y of phi(y) dy Phi((margin + c y)/o)^n. The step is 0.1, which is accurate for a smooth integrand.
 /// If o is less than a tenth of c, the integrand is nearly a step function, and the error is at most 2 %.
@@ -31,8 +29,8 @@ double log_all_within(double margin, double common, double own, int specimens) {
 double log_likelihood(const ObservedLife& observed, const LifeVariant& variant, const Eigen::VectorXd& z) {
   const auto [median, spread, between, residual] = variant(z);
   const double margin = median - observed.log_life;
-  const double common =
-      std::hypot(std::hypot(std::sqrt(observed.common_share) * spread, observed.unshared_spread), std::hypot(between, residual));
+  const double common = std::hypot(std::hypot(std::sqrt(observed.common_share) * spread, observed.unshared_spread),
+                                   std::hypot(between, residual));
   const double own = std::sqrt(1 - observed.common_share) * spread, all = std::hypot(common, own);
   const int n = observed.specimens;
   if (observed.end == LifeEnd::broken) return log_density(margin, std::hypot(common, own / std::sqrt(n)));
@@ -108,7 +106,8 @@ double log_mean(const std::vector<double>& terms) {
 double log_likelihood(const ObservedLife& observed, const Eigen::VectorXd& z) {
   assert(!observed.variants.empty());
   if (!observed.service.empty()) return sum_of(observed.service, ServiceLikelihood(observed.variants, z));
-  return log_mean(mapped(observed.variants, [&](const LifeVariant& variant) { return log_likelihood(observed, variant, z); }));
+  return log_mean(
+      mapped(observed.variants, [&](const LifeVariant& variant) { return log_likelihood(observed, variant, z); }));
 }
 
 double said_by_model(const Measurement& measurement, const MeasuredNumber& number, const Eigen::VectorXd& z) {

@@ -34,8 +34,9 @@ enum class LifeEnd { broken, at_least, at_most };
 struct LifeAt {
   double log_median = 0;  ///< ln m(z)
   double spread = 0;      ///< s(z), standard deviation of ln life, > 0
-  double between = 0;     ///< standard deviation of ln life between makers' cables at typical parameters z (typical_cables.h)
-  double residual = 0;    ///< standard deviation of the response's residual of ln life (first_failure.h)
+  double between =
+      0;  ///< standard deviation of ln life between makers' cables at typical parameters z (typical_cables.h)
+  double residual = 0;  ///< standard deviation of the response's residual of ln life (first_failure.h)
 };
 using LifeVariant = std::function<LifeAt(const Eigen::VectorXd& z)>;
 

@@ -30,8 +30,7 @@ class Path {
  public:
   Sum next(double curvature) {
     const double way = curvature - last_;
-    if (way != 0 && direction_ != 0 && (way > 0) != (direction_ > 0))
-      turns_.push_back({last_, moment_at(last_)});
+    if (way != 0 && direction_ != 0 && (way > 0) != (direction_ > 0)) turns_.push_back({last_, moment_at(last_)});
     if (way != 0) direction_ = way;
     while (closes(curvature)) turns_.resize(turns_.size() - (turns_.size() > 1 ? 2 : 1));
     last_ = curvature;
@@ -113,15 +112,13 @@ std::vector<BendingPoint> read_bending(const std::filesystem::path& file) {
   std::vector<BendingPoint> points;
   for (CsvRow row = table.next(); !row.empty(); row = table.next()) {
     if (row.size() != 2)
-      throw InputError(table.where(row.front()),
-                       fmt::format("has {} columns (a bending test has 2)", row.size()),
+      throw InputError(table.where(row.front()), fmt::format("has {} columns (a bending test has 2)", row.size()),
                        "write curvature and moment, with the separator of the first line between them");
     points.push_back({number_of(table, row[curvature]), number_of(table, row[moment])});
   }
   const bool bent = std::any_of(points.begin(), points.end(),
                                 [](const BendingPoint& p) { return p.curvature != 0 && p.moment != 0; });
-  if (!bent)
-    throw InputError({file.string()}, "holds no moment of a bent cable", "write a line per measured point");
+  if (!bent) throw InputError({file.string()}, "holds no moment of a bent cable", "write a line per measured point");
   // Friction resists motion: the work over a loop is positive, and a first bend has the sign of its curvature.
   const BendingPoint& first =
       *std::find_if(points.begin(), points.end(), [](const BendingPoint& p) { return p.curvature != 0; });
@@ -149,8 +146,7 @@ BendingNumbers bending_numbers(const std::vector<BendingPoint>& points, double n
   return made;
 }
 
-double log_moment(const std::vector<double>& curvatures, const std::vector<double>& moments,
-                  double curvature) {
+double log_moment(const std::vector<double>& curvatures, const std::vector<double>& moments, double curvature) {
   const auto above = std::upper_bound(curvatures.begin() + 1, curvatures.end() - 1, curvature);
   const auto k = static_cast<std::size_t>(above - curvatures.begin());
   const double part = std::log(curvature / curvatures[k - 1]) / std::log(curvatures[k] / curvatures[k - 1]);

@@ -36,12 +36,10 @@ struct BendingNumbers {
 BendingNumbers bending_numbers(const std::vector<BendingPoint>& points, double noise);
 
 /// Returns ln M1 at a curvature, by linear interpolation in logarithms of a rising table.
-double log_moment(const std::vector<double>& curvatures, const std::vector<double>& moments,
-                  double curvature);
+double log_moment(const std::vector<double>& curvatures, const std::vector<double>& moments, double curvature);
 
 /// Returns ln of the part of slip in the logarithmic decrement (P7). curvatures, moments: table of M1, both > 0 and rising.
 /// largest: curvature beside the clamp at the end of a swing [1/m]. The result is at least ln 1e-4, which is below that of air.
-double log_decrement_by_slip(const std::vector<double>& curvatures, const std::vector<double>& moments,
-                             double largest);
+double log_decrement_by_slip(const std::vector<double>& curvatures, const std::vector<double>& moments, double largest);
 
 }  // namespace dresslife::pipeline

@@ -75,9 +75,8 @@ constexpr double endless = std::numeric_limits<double>::infinity();
 constexpr std::size_t most_variants = 1000;
 
 bool fits_a_folder(const std::string& name) {
-  return !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char letter) {
-    return std::isalnum(letter) || letter == '_';
-  });
+  return !name.empty() && std::all_of(name.begin(), name.end(),
+                                      [](unsigned char letter) { return std::isalnum(letter) || letter == '_'; });
 }
 
 struct Variant {
@@ -89,12 +88,10 @@ std::vector<Variant> combinations(const Node* vary, const std::string& name) {
   std::vector<Variant> variants{{name, {}}};
   if (!vary) return variants;
   if (!vary->is_map())
-    throw InputError(vary->where, "vary must be a map of keys to lists of values",
-                     "write {KEY.PATH: [A, B]}");
+    throw InputError(vary->where, "vary must be a map of keys to lists of values", "write {KEY.PATH: [A, B]}");
   for (const Entry& key : vary->entries) {
     if (!key.value.is_list() || key.value.items.empty())
-      throw InputError(key.where, fmt::format("vary.{} must be a list of values", key.key),
-                       "write [A, B, ...]");
+      throw InputError(key.where, fmt::format("vary.{} must be a list of values", key.key), "write [A, B, ...]");
     std::vector<Variant> longer;
     for (const Variant& variant : variants)
       for (std::size_t i = 0; i < key.value.items.size(); ++i) {
@@ -130,11 +127,11 @@ void refuse_idle_keys(const Node& row, const Observation& observation) {
   }
   for (const Entry& entry : row.entries)
     if (!always.contains(entry.key) && !used.contains(entry.key))
-      throw InputError(entry.where,
-                       fmt::format("'{}': {} has no effect on {}", observation.name, entry.key,
-                                   entry.key == "specimens" ? "a rating, which is a promise of one specimen"
-                                                            : "a row with " + kind),
-                       "leave it out");
+      throw InputError(
+          entry.where,
+          fmt::format("'{}': {} has no effect on {}", observation.name, entry.key,
+                      entry.key == "specimens" ? "a rating, which is a promise of one specimen" : "a row with " + kind),
+          "leave it out");
 }
 
 /// Returns "line_1_b" for "line 1-b".
@@ -145,15 +142,13 @@ std::string name_that_fits(std::string name) {
 }
 
 Observation read_one(const Node& item) {
-  if (!item.is_map())
-    throw InputError(item.where, "an observation must be a map", "write name, job, cycles, source");
+  if (!item.is_map()) throw InputError(item.where, "an observation must be a map", "write name, job, cycles, source");
   Node plain = item;
   std::erase_if(plain.entries, [](const Entry& e) { return e.key == "job" || e.key == "vary"; });
   Observation observation;
   read_fields(plain, observation);
   if (!fits_a_folder(observation.name))
-    throw InputError(item.where,
-                     fmt::format("name '{}' is not made of letters, digits and _", observation.name),
+    throw InputError(item.where, fmt::format("name '{}' is not made of letters, digits and _", observation.name),
                      fmt::format("write name: {}", name_that_fits(observation.name)));
   const int observed = observation.cycles.has_value() + observation.hours.has_value() +
                        observation.stiffness.has_value() + observation.decrement.has_value() +
@@ -161,8 +156,7 @@ Observation read_one(const Node& item) {
   if (observed != 1)
     throw InputError(
         item.where,
-        fmt::format("'{}' must have either cycles or hours (or stiffness_Nm2, decrement or bending)",
-                    observation.name),
+        fmt::format("'{}' must have either cycles or hours (or stiffness_Nm2, decrement or bending)", observation.name),
         "give one of them");
   if (observation.decrement && observation.decrement_without_slip >= *observation.decrement)
     throw InputError(item.where, fmt::format("'{}': nothing of decrement is left for slip", observation.name),
@@ -190,13 +184,11 @@ std::vector<ObservedTest> read_observed_tests(const std::filesystem::path& file)
   const Node* list = document.is_map() ? document.find("observations") : nullptr;
   if (!list) refuse_other_kind(document, DocumentKind::observations);
   if (!list || !list->is_list() || list->items.empty())
-    throw InputError(
-        document.where, "holds no observations",
-        "write 'observations:' and a list of rows with name, what, source, job, and cycles or hours");
+    throw InputError(document.where, "holds no observations",
+                     "write 'observations:' and a list of rows with name, what, source, job, and cycles or hours");
   for (const Entry& entry : document.entries)
     if (entry.key != "observations" && entry.key != "cables")
-      throw InputError(entry.where, fmt::format("unknown key '{}' beside observations", entry.key),
-                       "leave it out");
+      throw InputError(entry.where, fmt::format("unknown key '{}' beside observations", entry.key), "leave it out");
   const Node* const cables = document.find("cables");
   const std::string of = cables && cables->is_scalar() ? cables->text : cables ? "" : "own";
   if (of != "own" && of != "typical")
@@ -208,11 +200,9 @@ std::vector<ObservedTest> read_observed_tests(const std::filesystem::path& file)
     ObservedTest test{read_one(item), {}, of == "typical", to_yaml(item), item.where};
     const std::string& name = test.observation.name;
     if (!names.insert(name).second)
-      throw InputError(item.where, fmt::format("two observations are named '{}'", name),
-                       "give each another name");
+      throw InputError(item.where, fmt::format("two observations are named '{}'", name), "give each another name");
     const Node& written = *item.find("job");
-    Node base =
-        written.is_scalar() ? catalogue_entry("jobs", written.text, written.where, document.where) : written;
+    Node base = written.is_scalar() ? catalogue_entry("jobs", written.text, written.where, document.where) : written;
     if (!test.observation.is_life() && base.is_map() && !base.find("motion")) add_still_motion(base);
     for (const Variant& variant : combinations(item.find("vary"), name)) {
       test.variants.push_back({variant.name, base, ""});
@@ -231,7 +221,8 @@ std::vector<ObservedTest> read_observed_tests(const std::filesystem::path& file)
 ValidationStudy read_observations(const std::filesystem::path& file, const std::vector<std::string>& sets) {
   ValidationStudy made;
   made.study.name = "validate_" + file.stem().string();
-  std::vector<std::string> all_sets{"uncertainty.enabled=false"};  // the model's own life, with the scatter of wires only
+  std::vector<std::string> all_sets{
+      "uncertainty.enabled=false"};  // the model's own life, with the scatter of wires only
   all_sets.insert(all_sets.end(), sets.begin(), sets.end());
   std::vector<ObservedTest> tests = read_observed_tests(file);
   made.doubts = doubtful_rows(tests);
@@ -241,8 +232,7 @@ ValidationStudy read_observations(const std::filesystem::path& file, const std::
     for (ObservedTest::Variant& variant : test.variants) {
       StudyJob job{variant.name, nullptr, variant.failure};
       try {
-        if (job.failure.empty())
-          job.job = std::make_shared<const Job>(job_from(std::move(variant.job), all_sets));
+        if (job.failure.empty()) job.job = std::make_shared<const Job>(job_from(std::move(variant.job), all_sets));
       } catch (const InputError& problem) {
         job.failure = problem.what();
       }
@@ -260,15 +250,15 @@ std::array<double, 3> lives_of(const Observation& observation, const RankingRow&
   const auto& hours = observation.criterion == FailureCriterion::first_wire ? row.first_wire_hours
                       : row.planned()                                       ? row.by_scatter()
                                                                             : row.conductor_hours;
-  const double unit = observation.hours || !observation.service.empty() ? 1 : 3600 / row.repeat_seconds * observation.cycles_per_repeat;
+  const double unit =
+      observation.hours || !observation.service.empty() ? 1 : 3600 / row.repeat_seconds * observation.cycles_per_repeat;
   std::array<double, 3> lives;
   // NaN: without damage there is no scatter.
   for (std::size_t i = 0; i < lives.size(); ++i) lives[i] = std::isnan(hours[i]) ? endless : hours[i] * unit;
   return lives;
 }
 
-Prediction predicted(const Observation& observation, const Study& study,
-                     const std::vector<RankingRow>& rows) {
+Prediction predicted(const Observation& observation, const Study& study, const std::vector<RankingRow>& rows) {
   Prediction prediction;
   prediction.low = prediction.stuck = endless;
   std::vector<double> medians;
@@ -290,7 +280,8 @@ Prediction predicted(const Observation& observation, const Study& study,
     const double from_hours = 3600 / row->repeat_seconds;
     prediction.stuck =
         std::min(prediction.stuck, (of_wire ? row->life_repeats_all_stick : row->glued_hours[1] * from_hours) * bound);
-    prediction.free = std::max(prediction.free, (of_wire ? row->life_repeats_all_free : row->free_hours[1] * from_hours) * bound);
+    prediction.free =
+        std::max(prediction.free, (of_wire ? row->life_repeats_all_free : row->free_hours[1] * from_hours) * bound);
   }
   std::sort(medians.begin(), medians.end());
   if (medians.empty()) return prediction;
@@ -336,8 +327,7 @@ std::string short_life(double life) { return life_text(life, 2); }
 
 std::string observed_text(const Observation& observation) {
   if (observation.stiffness)
-    return fmt::format("{} N m2 at {} 1/m", readable(*observation.stiffness, 3),
-                       readable(observation.at_curvature, 2));
+    return fmt::format("{} N m2 at {} 1/m", readable(*observation.stiffness, 3), readable(observation.at_curvature, 2));
   if (observation.decrement)
     return fmt::format("decrement {} at {} 1/m", readable(*observation.decrement, 2),
                        readable(observation.at_curvature, 2));
@@ -360,19 +350,18 @@ std::string validation_table(const ValidationStudy& validation, const std::vecto
   for (const Observation& observation : validation.observations) {
     const Prediction prediction = predicted(observation, validation.study, rows);
     if (prediction.failed > 0) {
-      text += fmt::format("| {} | {} | {} | {} of {} variants failed: {} | | | |\n", observation.name,
-                          observation.what, observed_text(observation), prediction.failed,
-                          prediction.variants, prediction.failure);
+      text += fmt::format("| {} | {} | {} | {} of {} variants failed: {} | | | |\n", observation.name, observation.what,
+                          observed_text(observation), prediction.failed, prediction.variants, prediction.failure);
       continue;
     }
     const std::string medians = prediction.variants == 1
                                     ? short_life(prediction.median)
                                     : fmt::format("{} .. {} ({})", short_life(prediction.shortest),
                                                   short_life(prediction.longest), prediction.variants);
-    text += fmt::format("| {} | {} | {}, {} | {} | {} .. {} | {} .. {} | {} |\n", observation.name,
-                        observation.what, observed_text(observation), word(observation.outcome), medians,
-                        short_life(prediction.low), short_life(prediction.high), short_life(prediction.stuck),
-                        short_life(prediction.free), words_of(judged(observation, prediction)));
+    text += fmt::format("| {} | {} | {}, {} | {} | {} .. {} | {} .. {} | {} |\n", observation.name, observation.what,
+                        observed_text(observation), word(observation.outcome), medians, short_life(prediction.low),
+                        short_life(prediction.high), short_life(prediction.stuck), short_life(prediction.free),
+                        words_of(judged(observation, prediction)));
   }
   return text;
 }

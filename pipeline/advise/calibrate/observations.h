@@ -42,9 +42,7 @@ constexpr bool bounds_below(ObservedEnd value) { return value != ObservedEnd::br
 
 /// Criterion of failure: one wire, or a share of a conductor's wires (fatigue.failed_wires_percent).
 enum class FailureCriterion { first_wire, conductor };
-constexpr std::string_view word(FailureCriterion value) {
-  return word_at({"first_wire", "conductor"}, value);
-}
+constexpr std::string_view word(FailureCriterion value) { return word_at({"first_wire", "conductor"}, value); }
 
 /// A dresspack of a plant: hours of operation at its end; and at the begin of the records, if it was in use then.
 struct ServiceRecord {
@@ -60,7 +58,8 @@ struct Observation {
   std::optional<double> decrement;      ///< logarithmic decrement of the cable's free swing, held at one end [1]
   std::filesystem::path bending;        ///< a bending test as a table (measured_bending.h); empty: none
 
-  std::vector<ServiceRecord> service;  ///< many lives in hours instead of one, from a maintenance system (service_records.h)
+  std::vector<ServiceRecord>
+      service;  ///< many lives in hours instead of one, from a maintenance system (service_records.h)
 
   double at_curvature = 1;  ///< curvature of `stiffness`; of `decrement`: beside the clamp, at the end of a swing [1/m]
   double decrement_without_slip = 0;  ///< part of `decrement` from polymer and air [1]
@@ -69,7 +68,8 @@ struct Observation {
   ObservedEnd outcome = ObservedEnd::broken;
   FailureCriterion criterion = FailureCriterion::conductor;
   int specimens = 1;
-  double unshared_log10 = universal_slopes;  ///< standard deviation of log10 life of one test, which other tests do not share
+  double unshared_log10 =
+      universal_slopes;  ///< standard deviation of log10 life of one test, which other tests do not share
   /// Rules that predict lives from tensile tests are within a factor of 3 in four of five cases (Nachtigall 1975).
   static constexpr double universal_slopes = 0.37;
   std::vector<std::size_t> jobs;  ///< indices in the study of the jobs that are its variants
@@ -84,7 +84,7 @@ struct ObservedTest {
   struct Variant {
     std::string name;  ///< name that is fit for a folder
     Node job;
-    std::string failure;  ///< reason why the job is invalid; empty: it is valid
+    std::string failure;       ///< reason why the job is invalid; empty: it is valid
     double share_of_time = 1;  ///< for dresspacks in service, whose variants are their programs
   };
   std::vector<Variant> variants;

@@ -126,8 +126,7 @@ void judge(const VectorXd& axis, Posterior& posterior) {
   const Index batch = axis.size() / batches;
   VectorXd of_batches(batches);
   for (Index k = 0; k < batches; ++k) of_batches[k] = axis.segment(k * batch, batch).mean();
-  const double scatter =
-      (of_batches.array() - of_batches.mean()).square().sum() / static_cast<double>(batches - 1);
+  const double scatter = (of_batches.array() - of_batches.mean()).square().sum() / static_cast<double>(batches - 1);
   const double worth = all / scatter * static_cast<double>(batches);
   posterior.worth = posterior.worth == 0 ? worth : std::min(posterior.worth, worth);
 }
@@ -154,11 +153,14 @@ void summarise(Posterior& posterior) {
 }
 
 LogLikelihood prior_of_deviations(const VectorXd& deviations) {
-  return [excess = VectorXd(deviations.array().inverse().square() - 1)](const VectorXd& z) { return -excess.dot(z.cwiseAbs2()) / 2; };
+  return [excess = VectorXd(deviations.array().inverse().square() - 1)](const VectorXd& z) {
+    return -excess.dot(z.cwiseAbs2()) / 2;
+  };
 }
 
 double log_posterior(const std::vector<LogLikelihood>& terms, const VectorXd& z) {
-  return sum_of(terms, [&](const LogLikelihood& term) { return term(z); }, -z.squaredNorm() / 2);
+  return sum_of(
+      terms, [&](const LogLikelihood& term) { return term(z); }, -z.squaredNorm() / 2);
 }
 
 Laplace laplace_of(const std::vector<LogLikelihood>& terms, const VectorXd& start) {

@@ -59,14 +59,15 @@ PredictedDeciles predicted_deciles(const EmulatedTest& test, const Eigen::Matrix
   std::vector<double> values;
   for (Index k = 0; k < draws.rows(); ++k) {
     const Measurement& variant = test.bending[static_cast<std::size_t>(k) % test.bending.size()];
-    values.push_back(said_by_model(variant, variant.numbers[test.shown], draws.row(k).transpose()) /
-                     test.per_shown);
+    values.push_back(said_by_model(variant, variant.numbers[test.shown], draws.row(k).transpose()) / test.per_shown);
   }
   return quantiles(values);
 }
 
-ServiceChance service_chance(const ObservedLife& life, const std::vector<ServiceRecord>& records, const Eigen::MatrixXd& draws) {
-  const int failures = sum_of(life.service, [](const ServiceFactor& one) { return one.failed ? one.count : 0; }, 0);
+ServiceChance service_chance(const ObservedLife& life, const std::vector<ServiceRecord>& records,
+                             const Eigen::MatrixXd& draws) {
+  const int failures = sum_of(
+      life.service, [](const ServiceFactor& one) { return one.failed ? one.count : 0; }, 0);
   std::map<long, int> entries;  // (age) number of dresspacks; ages within 5 % are one age
   int begun = 0;
   for (const ServiceRecord& one : records)
@@ -77,13 +78,16 @@ ServiceChance service_chance(const ObservedLife& life, const std::vector<Service
     const std::vector<LifeAt> lives =
         mapped(life.variants, [&](const LifeVariant& variant) { return variant(draws.row(k).transpose()); });
     const auto log_alive = [&](double log_age) {
-      return log_mean(mapped(lives, [&](const LifeAt& at) { return log_normal_share((at.log_median - log_age) / at.spread); }));
+      return log_mean(
+          mapped(lives, [&](const LifeAt& at) { return log_normal_share((at.log_median - log_age) / at.spread); }));
     };
-    const double mean = -sum_of(life.service, [&](const ServiceFactor& one) { return one.count * log_alive(one.log_age); });
+    const double mean =
+        -sum_of(life.service, [&](const ServiceFactor& one) { return one.count * log_alive(one.log_age); });
     double below = 0, term = std::exp(-mean);  // probability of fewer failures; probability of exactly this number
     for (int n = 1; n <= failures; ++n) below += term, term *= mean / n;
     chance.few += (below + term) / all, chance.many += (1 - below) / all;
-    for (const auto& [bin, count] : entries) chance.reach += count * std::exp(log_alive(0.05 * double(bin))) / begun / all;
+    for (const auto& [bin, count] : entries)
+      chance.reach += count * std::exp(log_alive(0.05 * double(bin))) / begun / all;
   }
   return chance;
 }
@@ -91,7 +95,8 @@ ServiceChance service_chance(const ObservedLife& life, const std::vector<Service
 Eigen::MatrixXd prior_draws(const Axes& axes) {
   RandomNumbers numbers(5);
   Eigen::MatrixXd draws(predicted_draws, static_cast<Index>(uncertain_count));
-  for (Index k = 0; k < draws.rows(); ++k) draws.row(k) = numbers.normals(VectorXd(draws.cols())).cwiseProduct(axes.prior()).transpose();
+  for (Index k = 0; k < draws.rows(); ++k)
+    draws.row(k) = numbers.normals(VectorXd(draws.cols())).cwiseProduct(axes.prior()).transpose();
   return draws;
 }
 

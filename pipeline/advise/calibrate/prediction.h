@@ -29,6 +29,7 @@ struct ServiceChance {
   double reach = 1;
 };
 /// Precondition: life.service was made from these records.
-ServiceChance service_chance(const ObservedLife& life, const std::vector<ServiceRecord>& records, const Eigen::MatrixXd& draws);
+ServiceChance service_chance(const ObservedLife& life, const std::vector<ServiceRecord>& records,
+                             const Eigen::MatrixXd& draws);
 
 }  // namespace dresslife::pipeline

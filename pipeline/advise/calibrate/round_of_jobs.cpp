@@ -59,8 +59,8 @@ bool acts(const Job& job, Uncertain parameter) {
 
 }  // namespace
 
-RoundOfJobs::RoundOfJobs(const std::vector<ObservedTest>& tests, const std::vector<std::string>& sets,
-                         std::string name, VectorXd centre, VectorXd step)
+RoundOfJobs::RoundOfJobs(const std::vector<ObservedTest>& tests, const std::vector<std::string>& sets, std::string name,
+                         VectorXd centre, VectorXd step)
     : sets_(sets), centre_(std::move(centre)), step_(std::move(step)) {
   const Sources read_once;
   sets_.push_back("uncertainty.ratings=none");  // ratings would be used twice, and z is relative to the keys' defaults
@@ -81,8 +81,8 @@ RoundOfJobs::Runs RoundOfJobs::runs_of(const ObservedTest& test, const ObservedT
     const Job plain = job_from(variant.job, sets_);
     if (plain.calibration)
       refuse("its job names a calibration, whose observations would count twice", "leave calibration out");
-    if (plain.strain.factors != StrainFactors{} || plain.strain.rest != 0 || plain.simulation.stiffness_factor != 1 || is_changed(plain.fatigue) ||
-        plain.fatigue.scatter_factor != 1)
+    if (plain.strain.factors != StrainFactors{} || plain.strain.rest != 0 || plain.simulation.stiffness_factor != 1 ||
+        is_changed(plain.fatigue) || plain.fatigue.scatter_factor != 1)
       refuse("its job gives a key that is to be learned", "leave the factors of simulation, strain and fatigue out");
     if (test.typical && plain.uncertainty.spread != Uncertainty::default_spread())
       refuse("its job gives uncertainties of its own, but typical cables are learned with the default ones",
@@ -96,7 +96,8 @@ RoundOfJobs::Runs RoundOfJobs::runs_of(const ObservedTest& test, const ObservedT
     for (std::size_t p = 0; p < uncertain_count; ++p) {
       if (!acts(plain, static_cast<Uncertain>(p)) || is_known(plain.uncertainty, static_cast<Uncertain>(p))) continue;
       if (!test.observation.is_life() && !uncertain_parameters()[p].of_strain) continue;
-      const bool is_own = uncertain_parameters()[p].shared == SharedBy::installation && !test.observation.service.empty();
+      const bool is_own =
+          uncertain_parameters()[p].shared == SharedBy::installation && !test.observation.service.empty();
       (is_own ? runs.own : runs.moves)[p] = true;
       if (test.observation.is_life()) continue;
       VectorXd low = centre_, high = centre_;
@@ -131,8 +132,7 @@ Axes::Axes(const RoundOfJobs& round) : prior_(round.prior()) {
       for (std::size_t p = 0; p < uncertain_count; ++p) own_[p] = own_[p] || runs.own[p];
   for (std::size_t p = 0; p < uncertain_count; ++p)
     if (std::any_of(round.runs().begin(), round.runs().end(), [&](const auto& variants) {
-          return std::any_of(variants.begin(), variants.end(),
-                             [&](const auto& runs) { return runs.moves[p]; });
+          return std::any_of(variants.begin(), variants.end(), [&](const auto& runs) { return runs.moves[p]; });
         }))
       places_.push_back(static_cast<Index>(p));
 }

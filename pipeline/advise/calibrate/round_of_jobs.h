@@ -23,11 +23,12 @@ class RoundOfJobs {
     std::size_t low, high;  ///< indices of jobs
   };
   struct Runs {
-    std::size_t centre;  ///< index of the job
-    std::array<bool, uncertain_count> moves{};              ///< (parameter) whether it can change the job's result
+    std::size_t centre;                         ///< index of the job
+    std::array<bool, uncertain_count> moves{};  ///< (parameter) whether it can change the job's result
     /// (parameter) whether it can, with an individual value for each dresspack in service
     std::array<bool, uncertain_count> own{};
-    std::array<std::optional<Arms>, uncertain_count> arms;  ///< (parameter) jobs of a bending test that this parameter changes
+    std::array<std::optional<Arms>, uncertain_count>
+        arms;  ///< (parameter) jobs of a bending test that this parameter changes
   };
 
   /// sets: `--set` for every job. centre, step: (parameter) values of z. Errors: InputError at the row of a job that is invalid,

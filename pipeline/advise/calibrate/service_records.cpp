@@ -36,20 +36,19 @@ const std::array<ColumnWords, column_count>& columns() {
        {"robot", "robotname", "roboter", "machine", "maschine", "anlage", "station", "asset", "equipment", "maquina",
         "mquina", "estacion", "estacin", "equipo"}},
       {"dresspack",
-       {"dresspack", "cable", "cablepackage", "cabledress", "umbilical", "component", "schlauchpaket",
-        "kabel", "paquete", "paquetedecables", "paquetedemangueras", "mazo", "mazodecables", "manguera"}},
+       {"dresspack", "cable", "cablepackage", "cabledress", "umbilical", "component", "schlauchpaket", "kabel",
+        "paquete", "paquetedecables", "paquetedemangueras", "mazo", "mazodecables", "manguera"}},
       {"installed", titles_of_installation()},
-      {"replaced",
-       {"replaced",          "replacedon",    "replaceddate",    "replacementdate",  "datereplaced",
-        "removed",           "removedon",     "removaldate",     "ausbau",           "ausbaudatum",
-        "ausgebaut",         "ersetzt",       "gewechselt",      "ausgebautam",      "dateofreplacement",
-        "reemplazado",       "reemplazadoel", "reemplazo",       "fechadereemplazo", "fechareemplazo",
-        "sustituido",        "sustituidoel",  "sustitucion",     "sustitucin",       "fechadesustitucion",
-        "fechadesustitucin", "cambiado",      "cambiadoel",      "fechadecambio",    "fechacambio",
-        "retirado",          "retiradoel",    "fechaderetirada", "desmontado",       "fechadedesmontaje"}},
+      {"replaced", {"replaced",          "replacedon",    "replaceddate",    "replacementdate",  "datereplaced",
+                    "removed",           "removedon",     "removaldate",     "ausbau",           "ausbaudatum",
+                    "ausgebaut",         "ersetzt",       "gewechselt",      "ausgebautam",      "dateofreplacement",
+                    "reemplazado",       "reemplazadoel", "reemplazo",       "fechadereemplazo", "fechareemplazo",
+                    "sustituido",        "sustituidoel",  "sustitucion",     "sustitucin",       "fechadesustitucion",
+                    "fechadesustitucin", "cambiado",      "cambiadoel",      "fechadecambio",    "fechacambio",
+                    "retirado",          "retiradoel",    "fechaderetirada", "desmontado",       "fechadedesmontaje"}},
       {"reason",
-       {"reason", "removalreason", "replacementreason", "cause", "grund", "ausbaugrund", "ausfallgrund", "ausfallursache", "ursache", "motivo",
-        "causa", "razon", "razn"}},
+       {"reason", "removalreason", "replacementreason", "cause", "grund", "ausbaugrund", "ausfallgrund",
+        "ausfallursache", "ursache", "motivo", "causa", "razon", "razn"}},
       {"hours_per_week", titles_of_weekly_hours()},
       {"job", {"job", "program", "programm", "programa"}},
   }};
@@ -57,8 +56,7 @@ const std::array<ColumnWords, column_count>& columns() {
 }
 
 bool has_any(const std::string& text, std::initializer_list<std::string_view> words) {
-  return std::any_of(words.begin(), words.end(),
-                     [&](std::string_view word) { return text.find(word) != text.npos; });
+  return std::any_of(words.begin(), words.end(), [&](std::string_view word) { return text.find(word) != text.npos; });
 }
 
 enum class End { failed, removed, in_use };
@@ -67,28 +65,28 @@ enum class End { failed, removed, in_use };
 /// letters that are not ASCII.
 std::optional<End> end_in(const std::string& text) {
   const std::string letters = letters_of(text);
-  if (has_any(letters, {"notfail", "nofail", "notdefect", "nodefect", "notbroke", "nobreak", "kein", "nicht",
-                        "ohne", "sinfall", "sindefect", "sinrotura", "sinaver", "noroto"}))
+  if (has_any(letters, {"notfail", "nofail", "notdefect", "nodefect", "notbroke", "nobreak", "kein", "nicht", "ohne",
+                        "sinfall", "sindefect", "sinrotura", "sinaver", "noroto"}))
     return std::nullopt;
-  if ((has_any(letters, {"fail",        "broke",       "break",        "defect",    "fault",     "unplanned",
-                         "unscheduled", "corrective",  "ausfall",      "defekt",    "bruch",     "gebrochen",
-                         "gerissen",    "geplatzt",    "strung",       "stoerung",  "ungeplant", "unplanm",
-                         "auerplanm",   "ausserplanm", "rotura",       "cableroto", "averia",    "fallo",
-                         "correctiv",   "noprogramad", "noplanificad", "imprevist"}) ||
+  if ((has_any(letters,
+               {"fail",       "broke",    "break",     "defect",    "fault",       "unplanned",    "unscheduled",
+                "corrective", "ausfall",  "defekt",    "bruch",     "gebrochen",   "gerissen",     "geplatzt",
+                "strung",     "stoerung", "ungeplant", "unplanm",   "auerplanm",   "ausserplanm",  "rotura",
+                "cableroto",  "averia",   "fallo",     "correctiv", "noprogramad", "noplanificad", "imprevist"}) ||
        letters == "falla" || letters.ends_with("avera")) &&
       !has_any(letters, {"prevent", "prventiv", "praeventiv", "vorbeug"}))
     // A crash is no failure by wear. But the text may also describe a crash after the cable broke, so the kind is not known.
     return has_any(letters, {"collision", "crash", "kollision"}) ? std::nullopt : std::optional(End::failed);
-  if (has_any(letters, {"prevent",    "planned",    "scheduled",  "maintenance",   "inspection", "prventiv",
-                        "praeventiv", "vorbeug",    "geplant",    "planm",         "wartung",    "collision",
-                        "crash",      "kollision",  "conversion", "modification",  "umbau",      "dismantled",
-                        "verschrott", "planificad", "programad",  "mantenimiento", "inspecci",   "colisi",
-                        "choque",     "modificaci"}))
+  if (has_any(letters,
+              {"prevent",       "planned",      "scheduled", "maintenance", "inspection", "prventiv",   "praeventiv",
+               "vorbeug",       "geplant",      "planm",     "wartung",     "collision",  "crash",      "kollision",
+               "conversion",    "modification", "umbau",     "dismantled",  "verschrott", "planificad", "programad",
+               "mantenimiento", "inspecci",     "colisi",    "choque",      "modificaci"}))
     return End::removed;
   // "Inbetriebnahme" (start of operation) does not say that the dresspack is in use.
   if (letters.empty() || letters == "inbetrieb" ||
-      has_any(letters, {"alive", "inuse", "inservice", "running", "imbetrieb", "imeinsatz", "enuso",
-                        "enservicio", "enfuncionamiento"}))
+      has_any(letters, {"alive", "inuse", "inservice", "running", "imbetrieb", "imeinsatz", "enuso", "enservicio",
+                        "enfuncionamiento"}))
     return End::in_use;
   return std::nullopt;
 }
@@ -96,10 +94,12 @@ std::optional<End> end_in(const std::string& text) {
 /// Returns whether a text names a hose, sleeve or jacket and not the whole dresspack ("hose pack", "Schlauchpaket").
 bool names_hose(const std::string& text) {
   std::string words = " ";
-  for (const unsigned char letter : text) words += letter < 128 && std::isalpha(letter) ? static_cast<char>(std::tolower(letter)) : ' ';
+  for (const unsigned char letter : text)
+    words += letter < 128 && std::isalpha(letter) ? static_cast<char>(std::tolower(letter)) : ' ';
   for (const std::string_view whole : {"hose pack", "hosepack", "schlauchpaket", "paquete de mangueras", "dress pack"})
     for (std::size_t at = words.find(whole); at != words.npos; at = words.find(whole)) words.erase(at, whole.size());
-  return has_any(words + " ", {" hose ", " hoses ", "conduit", "sleeve", "jacket", "schlauch", "wellrohr", "mantel", "manguera"});
+  return has_any(words + " ",
+                 {" hose ", " hoses ", "conduit", "sleeve", "jacket", "schlauch", "wellrohr", "mantel", "manguera"});
 }
 
 struct Row {
@@ -170,8 +170,8 @@ class Export {
         if (std::find(known.begin(), known.end(), letters) == known.end()) continue;
         if (at_[c])
           throw InputError(reader_.where(titles_[k]),
-                           fmt::format("columns '{}' and '{}' both mean {}", titles_[*at_[c]].text,
-                                       titles_[k].text, columns()[c].name),
+                           fmt::format("columns '{}' and '{}' both mean {}", titles_[*at_[c]].text, titles_[k].text,
+                                       columns()[c].name),
                            "keep or rename one of the two");
         at_[c] = k;
       }
@@ -179,16 +179,17 @@ class Export {
     // Without this column a default is used. So an error asks about a column that may contain the hours.
     if (!at_[hours_per_week])
       for (const CsvCell& title : titles_)
-        if (has_any(letters_of(title.text), {"week", "woche", "semana", "semaine", "settimana", "hour", "stunde", "hora", "heure"}))
-          throw InputError(reader_.where(title), fmt::format("column '{}' may mean hours_per_week, and is not known", title.text),
-                           "name it hours_per_week (of an hour counter: its hours over the weeks since installed), or without a word for "
-                           "hours or a week if it means something else");
+        if (has_any(letters_of(title.text),
+                    {"week", "woche", "semana", "semaine", "settimana", "hour", "stunde", "hora", "heure"}))
+          throw InputError(
+              reader_.where(title), fmt::format("column '{}' may mean hours_per_week, and is not known", title.text),
+              "name it hours_per_week (of an hour counter: its hours over the weeks since installed), or without a word for "
+              "hours or a week if it means something else");
     for (const Column needed : {robot, installed, replaced})
       if (!at_[needed])
-        throw InputError(
-            reader_.where(titles_.front()),
-            fmt::format("the table has no column '{}'", columns()[needed].name),
-            fmt::format("name one of its columns so ({})", joined(columns()[needed].titles, ", ")));
+        throw InputError(reader_.where(titles_.front()),
+                         fmt::format("the table has no column '{}'", columns()[needed].name),
+                         fmt::format("name one of its columns so ({})", joined(columns()[needed].titles, ", ")));
     if (!at_[job] && job_.empty()) find_job();
   }
 
@@ -203,9 +204,7 @@ class Export {
     job_words_ = fmt::format("Job: {}, the only job beside the table.\n", jobs.front());
   }
 
-  const CsvCell* cell(const CsvRow& cells, Column column) const {
-    return at_[column] ? &cells[*at_[column]] : nullptr;
-  }
+  const CsvCell* cell(const CsvRow& cells, Column column) const { return at_[column] ? &cells[*at_[column]] : nullptr; }
   std::string text(const CsvRow& cells, Column column) const {
     const CsvCell* const found = cell(cells, column);
     return found ? found->text : "";
@@ -227,10 +226,9 @@ class Export {
 
   Row row_of(const CsvRow& cells) const {
     if (cells.size() != titles_.size())
-      throw InputError(
-          reader_.where(cells.back()),
-          fmt::format("a row of {} cells (the table has {} columns)", cells.size(), titles_.size()),
-          "fill or quote its cells");
+      throw InputError(reader_.where(cells.back()),
+                       fmt::format("a row of {} cells (the table has {} columns)", cells.size(), titles_.size()),
+                       "fill or quote its cells");
     Row row;
     row.line = reader_.line(), row.where = reader_.where(*cell(cells, robot)), row.name = text(cells, robot);
     if (row.name.empty()) refuse(cells, robot, "the robot has no name", "fill the cell");
@@ -241,12 +239,10 @@ class Export {
       row.hours_per_week = exported_number(hours);
       constexpr double fewest = 0.1, most = 168;  // hours of a week
       if (!row.hours_per_week || !(*row.hours_per_week >= fewest && *row.hours_per_week <= most))
-        refuse(cells, hours_per_week,
-               fmt::format("hours_per_week is '{}' (must be {:g} .. {:g})", hours, fewest, most),
+        refuse(cells, hours_per_week, fmt::format("hours_per_week is '{}' (must be {:g} .. {:g})", hours, fewest, most),
                row.hours_per_week ? "write the hours in which the program runs" : number_remedy(hours));
     }
-    row.job = text(cells, job),
-    row.job_where = row.job.empty() ? Where{"--job"} : reader_.where(*cell(cells, job));
+    row.job = text(cells, job), row.job_where = row.job.empty() ? Where{"--job"} : reader_.where(*cell(cells, job));
     if (row.job.empty()) row.job = job_;
     if (row.job.empty())
       throw InputError(row.where, "it is not known which job this dresspack does",
@@ -270,16 +266,16 @@ class Export {
     row.of_hose = names_hose(why);
     if (is_date && row.end == End::in_use)
       refuse(cells, at_[reason] ? reason : replaced, "a dresspack was removed and no reason is given",
-             at_[reason] ? "write failed or preventive as its reason" : "name the column of reasons 'reason', and write failed or preventive into it");
+             at_[reason] ? "write failed or preventive as its reason"
+                         : "name the column of reasons 'reason', and write failed or preventive into it");
     if (!is_date && row.end == End::failed)
       refuse(cells, replaced, fmt::format("the dresspack has a reason ('{}') and no date", why),
              "write when it was replaced, or no reason");
     if (!is_date) row.end = End::in_use;
     if (row.to < row.from)
-      refuse(
-          cells, replaced,
-          fmt::format("replaced on {}, before it was installed on {}", day_text(row.to), day_text(row.from)),
-          "correct one of the dates");
+      refuse(cells, replaced,
+             fmt::format("replaced on {}, before it was installed on {}", day_text(row.to), day_text(row.from)),
+             "correct one of the dates");
   }
 
   /// Throws if a dresspack is in the table twice for the same time, because it would count twice.
@@ -293,11 +289,10 @@ class Export {
       });
       for (std::size_t k = 1; k < at.size(); ++k)
         if (at[k]->from < at[k - 1]->to || (at[k]->from == at[k - 1]->from && at[k]->to == at[k - 1]->to))
-          problems.add(
-              at[k]->where,
-              fmt::format("'{}' is in use from {} on, and line {} has it until {}", name,
-                          day_text(at[k]->from), at[k - 1]->line, day_text(at[k - 1]->to)),
-              "correct a date, remove the row that is there twice, or name the dresspack of each");
+          problems.add(at[k]->where,
+                       fmt::format("'{}' is in use from {} on, and line {} has it until {}", name,
+                                   day_text(at[k]->from), at[k - 1]->line, day_text(at[k - 1]->to)),
+                       "correct a date, remove the row that is there twice, or name the dresspack of each");
     }
     problems.finish(request_.file.string());
   }
@@ -357,9 +352,9 @@ ServiceTests read_service_tests(const ServiceRequest& request) {
     if (row.end != End::in_use) first_removal = std::min(first_removal.value_or(row.to), row.to);
   const std::optional<Day> since = request.since ? request.since : first_removal;
   if (!since)
-    throw InputError({request.file.string()},
-                     "has no dresspack that was removed, so the first day of the records is not known",
-                     "give the day from which the table has every removal, or that of the first installation if no dresspack was ever removed: --records-since DATE");
+    throw InputError(
+        {request.file.string()}, "has no dresspack that was removed, so the first day of the records is not known",
+        "give the day from which the table has every removal, or that of the first installation if no dresspack was ever removed: --records-since DATE");
 
   ServiceTests read;
   std::map<std::string, std::size_t> known;  // (job) index of its test
@@ -386,8 +381,7 @@ ServiceTests read_service_tests(const ServiceRequest& request) {
         test.variants.push_back(
             {name, catalogue_entry("jobs", program.job, row.job_where, row.job_where), "", program.share_of_time});
       }
-      hours_per_week[row.job] =
-          job_from(test.variants.front().job, request.sets).fatigue.operating_hours_per_week;
+      hours_per_week[row.job] = job_from(test.variants.front().job, request.sets).fatigue.operating_hours_per_week;
     }
     // Removals on the first day define this day, so they are no evidence of lives (a stopping time).
     const bool too_early = row.to < *since || (!request.since && row.end != End::in_use && row.to == *since);
@@ -415,47 +409,52 @@ ServiceTests read_service_tests(const ServiceRequest& request) {
   }
   std::erase_if(read.tests, [](const ObservedTest& test) { return test.observation.service.empty(); });
   if (read.tests.empty())
-    throw InputError(
-        {request.file.string()},
-        fmt::format("no dresspack was in use after {}, the first day of the records", day_text(*since)),
-        "give an earlier day: --records-since DATE");
+    throw InputError({request.file.string()},
+                     fmt::format("no dresspack was in use after {}, the first day of the records", day_text(*since)),
+                     "give an earlier day: --records-since DATE");
   for (ObservedTest& test : read.tests)
     for (const ObservedTest::Variant& program : test.variants)
       test.text += (program.share_of_time < 1 ? fmt::format("{} ", program.share_of_time) : "") + to_yaml(program.job);
   read.words = fmt::format("Columns: {}.\n{}", table.column_words(), table.job_words());
   if (std::ranges::any_of(rows, [](const Row& row) { return row.hours_per_week.has_value(); }))
-    read.words += "Hours per week are those in which the job's program runs. dresslife plan counts hours of operation, with standstill.\n";
+    read.words +=
+        "Hours per week are those in which the job's program runs. dresslife plan counts hours of operation, with standstill.\n";
   std::set<std::string> without_hours;
   for (const Row& row : rows)
     if (!row.hours_per_week) without_hours.insert(row.job);
   for (const std::string& of_job : without_hours)
-    read.words += fmt::format("Rows of {} without hours per week: {:g} (fatigue.operating_hours_per_week of the job).\n",
-                              std::filesystem::path(of_job).filename().string(), hours_per_week[of_job]);
+    read.words +=
+        fmt::format("Rows of {} without hours per week: {:g} (fatigue.operating_hours_per_week of the job).\n",
+                    std::filesystem::path(of_job).filename().string(), hours_per_week[of_job]);
   read.words += fmt::format("{} dresspacks: {} failed, {} were removed without a failure, {} are in use on {}.\n",
                             failed + removed + in_use, failed, removed, in_use, day_text(request.today));
-  read.words += fmt::format(
-      "Records begin on {}{}. Put in before: {}; these count from their age on that day.\n",
-      day_text(*since), request.since ? "" : ", the day of the first removal", before);
+  read.words += fmt::format("Records begin on {}{}. Put in before: {}; these count from their age on that day.\n",
+                            day_text(*since), request.since ? "" : ", the day of the first removal", before);
   if (early > 0)
     read.words += fmt::format(
-        "Removed {}, not counted: {}, of these failed: {}{}.\n", request.since ? "before" : "on that day", early, early_failed,
-        request.since ? ""
-                      : ". --records-since DATE gives an earlier day from which the records are complete");
+        "Removed {}, not counted: {}, of these failed: {}{}.\n", request.since ? "before" : "on that day", early,
+        early_failed,
+        request.since ? "" : ". --records-since DATE gives an earlier day from which the records are complete");
   if (short_week)
-    read.words += warning_of(WarningKind::calibration, short_week->where.text(),
-                             fmt::format("hours_per_week of '{}' is {:g} (limit more than 24)", short_week->name, *short_week->hours_per_week),
-                             "hours of a day",
-                             fmt::format("hours_per_week: {:g} if that was per working day; leave it if the robot runs so little",
-                                         5 * *short_week->hours_per_week))
-                      .line() + "\n";
+    read.words +=
+        warning_of(WarningKind::calibration, short_week->where.text(),
+                   fmt::format("hours_per_week of '{}' is {:g} (limit more than 24)", short_week->name,
+                               *short_week->hours_per_week),
+                   "hours of a day",
+                   fmt::format("hours_per_week: {:g} if that was per working day; leave it if the robot runs so little",
+                               5 * *short_week->hours_per_week))
+            .line() +
+        "\n";
   if (!hoses.empty())
-    read.words += warning_of(WarningKind::calibration, first_hose.text(),
-                             fmt::format("the reason names a hose, sleeve or jacket and counts as broken wires (line {})",
-                                         joined(hoses, ", ")),
-                             "a hose that cracked ends a dresspack before its wires do (competing risks)",
-                             "if no wire had broken, write preventive: the wires lived at least so long. If a hose of a job with "
-                             "hose_material cracked, leave the row out: its wall would count as whole")
-                      .line() + "\n";
+    read.words +=
+        warning_of(WarningKind::calibration, first_hose.text(),
+                   fmt::format("the reason names a hose, sleeve or jacket and counts as broken wires (line {})",
+                               joined(hoses, ", ")),
+                   "a hose that cracked ends a dresspack before its wires do (competing risks)",
+                   "if no wire had broken, write preventive: the wires lived at least so long. If a hose of a job with "
+                   "hose_material cracked, leave the row out: its wall would count as whole")
+            .line() +
+        "\n";
   return read;
 }
 

@@ -24,8 +24,9 @@ namespace dresslife::pipeline {
 
 struct ServiceRequest {
   std::filesystem::path file;
-  std::string job;  ///< one or several jobs, for the rows without a job; empty: each row has a job, or the only job in the
-                    ///< table's folder is meant
+  std::string
+      job;  ///< one or several jobs, for the rows without a job; empty: each row has a job, or the only job in the
+            ///< table's folder is meant
   std::optional<Day>
       since;  ///< first day of the records; absent: the day of the first removal, which is then not counted
   Day today;  ///< day until which dresspacks in use have lived

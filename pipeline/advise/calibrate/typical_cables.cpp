@@ -26,7 +26,8 @@ double share_between_cables(std::size_t parameter) {
 Eigen::VectorXd common_deviations(const std::vector<Index>& parameters) {
   Eigen::VectorXd deviations(static_cast<Index>(parameters.size()));
   for (Index i = 0; i < deviations.size(); ++i)
-    deviations[i] = std::sqrt(1 - share_between_cables(static_cast<std::size_t>(parameters[static_cast<std::size_t>(i)])));
+    deviations[i] =
+        std::sqrt(1 - share_between_cables(static_cast<std::size_t>(parameters[static_cast<std::size_t>(i)])));
   return deviations;
 }
 
@@ -34,12 +35,14 @@ void add_own_deviations(Posterior& posterior, const std::vector<Index>& paramete
   RandomNumbers numbers(11);
   Eigen::MatrixXd& draws = posterior.draws;
   for (Index i = 0; i < draws.cols(); ++i) {
-    const double own = std::sqrt(share_between_cables(static_cast<std::size_t>(parameters[static_cast<std::size_t>(i)])));
+    const double own =
+        std::sqrt(share_between_cables(static_cast<std::size_t>(parameters[static_cast<std::size_t>(i)])));
     for (Index k = 0; k < draws.rows(); ++k) draws(k, i) += own * numbers.normal();
   }
   const double disagree = posterior.chains_disagree, worth = posterior.worth;
   summarise(posterior);
-  posterior.chains_disagree = disagree;  // the value of the chains before the independent draws, which would hide a disagreement
+  posterior.chains_disagree =
+      disagree;  // the value of the chains before the independent draws, which would hide a disagreement
   posterior.worth = worth;
 }
 

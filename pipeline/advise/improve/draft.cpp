@@ -67,15 +67,12 @@ Node standing(const Robot& robot) {
   std::string angles;
   for (const Joint& joint : robot.joints)
     if (joint.follows.empty())
-      angles += fmt::format("{}{:.3f}", angles.empty() ? "" : ", ",
-                            std::clamp(0.0, joint.lower, joint.upper) / degree);
-  return parse_yaml(
-      fmt::format("{{name: standing, source: none, steps: [{{text: stand, joints_deg: [{}]}}]}}", angles),
-      std::string(command_line));
+      angles += fmt::format("{}{:.3f}", angles.empty() ? "" : ", ", std::clamp(0.0, joint.lower, joint.upper) / degree);
+  return parse_yaml(fmt::format("{{name: standing, source: none, steps: [{{text: stand, joints_deg: [{}]}}]}}", angles),
+                    std::string(command_line));
 }
 
-std::string link_or(const std::string& asked, const Node* routing, const char* clamp,
-                    const std::string& otherwise) {
+std::string link_or(const std::string& asked, const Node* routing, const char* clamp, const std::string& otherwise) {
   if (!asked.empty()) return asked;
   const Node* of = routing ? routing->find(clamp) : nullptr;
   const Node* link = of ? of->find("link") : nullptr;
@@ -112,8 +109,7 @@ fs::path folder_of(const Node& entry) {
 /// Returns whether all paths in an entry have the same meaning in a job in that folder.
 bool counts_from(const Node& entry, const fs::path& folder) {
   const auto within = [&](const Node& node) { return counts_from(node, folder); };
-  return inode_of(folder / ".") == inode_of(folder_of(entry) / ".") &&
-         std::ranges::all_of(entry.items, within) &&
+  return inode_of(folder / ".") == inode_of(folder_of(entry) / ".") && std::ranges::all_of(entry.items, within) &&
          std::ranges::all_of(entry.entries, [&](const Entry& one) { return within(one.value); });
 }
 
@@ -173,7 +169,8 @@ void fill_tool_space(Draft& draft) {
   if (draft.exercise || draft.job.motion.is_prescribed()) return;
   const PassingFile described("job.yaml"), written("duration.yaml");
   write_text_if_changed(described.path(), with_mark(job_text(draft.job), Mark::yaml), Sync::never);
-  if (run_stage_program("dresslife-sim", {described.path().string(), "--duration", "-o", written.path().string(), "--quiet"},
+  if (run_stage_program("dresslife-sim",
+                        {described.path().string(), "--duration", "-o", written.path().string(), "--quiet"},
                         StageWords::dropped) != 0)
     return;  // the search states the reason
   const Node found = read_yaml(written.path());
@@ -187,8 +184,9 @@ void fill_tool_space(Draft& draft) {
 
 std::string tool_space_words(const Draft& draft) {
   if (!draft.tool_space) return "";
-  return fmt::format("ESTIMATE: the shape of the tool, {}: {}. The hose keeps clear of it. Replace it by the shape of your tool.",
-                     draft.tool_space->key, set_text(draft.tool_space->value));
+  return fmt::format(
+      "ESTIMATE: the shape of the tool, {}: {}. The hose keeps clear of it. Replace it by the shape of your tool.",
+      draft.tool_space->key, set_text(draft.tool_space->value));
 }
 
 Node routed(const Draft& draft, const std::string& routing, const std::string& motion, double factor,

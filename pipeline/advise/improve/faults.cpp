@@ -10,8 +10,7 @@ std::vector<Warning> dresspack_faults(const Job& job, bool refuse) {
   std::vector<Warning> all;
   const bool may_slide = slides(job.strain.slip.front());
   for (const MountedDresspack& mounted : job.dresspacks) {
-    const std::vector<Warning> pressed =
-        may_slide ? slack_warnings(mounted.dresspack) : std::vector<Warning>{};
+    const std::vector<Warning> pressed = may_slide ? slack_warnings(mounted.dresspack) : std::vector<Warning>{};
     if (refuse && !pressed.empty())
       throw InputError({pressed.front().where.empty() ? mounted.dresspack.name : pressed.front().where},
                        "no routing can keep the limits: " + pressed.front().words,

@@ -38,16 +38,14 @@ bool is_of(const RankingRow& row, const std::vector<std::string>& jobs) {
 const Final* Finals::best() const {
   const Final* found = nullptr;
   for (std::size_t k = 1; k < of.size(); ++k)
-    if (of[k].tolerance && of[k].tolerance->whole &&
-        (!found || of[k].tolerance->worst > found->tolerance->worst))
+    if (of[k].tolerance && of[k].tolerance->whole && (!found || of[k].tolerance->worst > found->tolerance->worst))
       found = &of[k];
   return found ? found : best_drawn();
 }
 
 const Final* Finals::best_drawn() const {
   if (of.size() < 2) return nullptr;
-  return &*std::max_element(of.begin() + 1, of.end(),
-                            [](const Final& a, const Final& b) { return a.merit < b.merit; });
+  return &*std::max_element(of.begin() + 1, of.end(), [](const Final& a, const Final& b) { return a.merit < b.merit; });
 }
 
 std::pair<Merit, Merit> Finals::compared(const Final& candidate) const {
@@ -70,8 +68,7 @@ bool Finals::fails_earlier(const Final& candidate) const {
 const RankingRow* Finals::worst_row(const Final& one) const {
   const RankingRow* worst = nullptr;
   for (const RankingRow& row : rows)
-    if (is_of(row, one.jobs) && row.done() && (!worst || row.headline_hours() < worst->headline_hours()))
-      worst = &row;
+    if (is_of(row, one.jobs) && row.done() && (!worst || row.headline_hours() < worst->headline_hours())) worst = &row;
   return worst;
 }
 
@@ -106,15 +103,13 @@ Finals finals_of(const Improvement& found, const ImproveRequest& request, const 
   return finals;
 }
 
-void judge(Finals& finals, const Improvement& found, const ImproveRequest& request,
-           const MountingTolerance& tolerance, const StudyPlaces& places, const MakeRows& make_rows,
-           const ToleranceProgress& progress) {
+void judge(Finals& finals, const Improvement& found, const ImproveRequest& request, const MountingTolerance& tolerance,
+           const StudyPlaces& places, const MakeRows& make_rows, const ToleranceProgress& progress) {
   std::vector<Final*> best_first;
   for (std::size_t k = 1; k < finals.of.size(); ++k) best_first.push_back(&finals.of[k]);
   std::stable_sort(best_first.begin(), best_first.end(),
                    [](const Final* a, const Final* b) { return a->merit > b->merit; });
-  if (found.front.size() > 1 && best_first.size() > 1)
-    best_first.erase(best_first.begin() + 1, best_first.end());
+  if (found.front.size() > 1 && best_first.size() > 1) best_first.erase(best_first.begin() + 1, best_first.end());
   const Outcome& as_it_is = found.trials.front().worst;
   std::vector<Finalist> finalists;
   const auto finalist_of = [&](const Final* of) {

@@ -54,9 +54,8 @@ void remove_trial_files(const Improvement& found, const StudyPlaces& places, boo
 
 /// Evaluates the finalists within the mounting tolerance (T1), and the original jobs if they may be better within it. With two
 /// objectives evaluates only the best by merit.
-void judge(Finals& finals, const Improvement& found, const ImproveRequest& request,
-           const MountingTolerance& tolerance, const StudyPlaces& places, const MakeRows& make_rows,
-           const ToleranceProgress& progress = {});
+void judge(Finals& finals, const Improvement& found, const ImproveRequest& request, const MountingTolerance& tolerance,
+           const StudyPlaces& places, const MakeRows& make_rows, const ToleranceProgress& progress = {});
 
 /// Returns the share of samples in which the wires of the worst job of `best` live longer than those of the worst original job;
 /// absent if no input is uncertain.

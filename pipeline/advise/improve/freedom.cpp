@@ -56,8 +56,7 @@ std::optional<Vector3d> vector_of(const Node& node) {
 }
 
 Node vector_node(const Vector3d& vector, double step) {
-  return list_of(
-      {number_node(vector.x(), step), number_node(vector.y(), step), number_node(vector.z(), step)});
+  return list_of({number_node(vector.x(), step), number_node(vector.y(), step), number_node(vector.z(), step)});
 }
 
 VectorXd one(double u) { return VectorXd::Constant(1, u); }
@@ -65,9 +64,7 @@ bool within(const VectorXd& place) {
   constexpr double rounding = 1e-9;
   return place.minCoeff() >= -rounding && place.maxCoeff() <= 1 + rounding;
 }
-VectorXd if_within(const VectorXd& place) {
-  return within(place) ? place.cwiseMax(0).cwiseMin(1) : VectorXd();
-}
+VectorXd if_within(const VectorXd& place) { return within(place) ? place.cwiseMax(0).cwiseMin(1) : VectorXd(); }
 
 class NumberRange : public FreeKey {
  public:
@@ -160,8 +157,7 @@ class DirectionCone : public FreeKey {
   static Eigen::Vector2d on_disc(double a, double b) {
     constexpr double quarter = std::numbers::pi / 4;
     if (a == 0 && b == 0) return {0, 0};
-    if (std::abs(a) > std::abs(b))
-      return a * Eigen::Vector2d(std::cos(quarter * b / a), std::sin(quarter * b / a));
+    if (std::abs(a) > std::abs(b)) return a * Eigen::Vector2d(std::cos(quarter * b / a), std::sin(quarter * b / a));
     return b * Eigen::Vector2d(std::sin(quarter * a / b), std::cos(quarter * a / b));
   }
   static Eigen::Vector2d on_square(const Eigen::Vector2d& q) {
@@ -190,8 +186,7 @@ class Choice : public FreeKey {
   VectorXd place_of(const Node& value) const override {
     const std::string text = to_yaml(value);
     for (std::size_t k = 0; k < values_.size(); ++k)
-      if (to_yaml(values_[k]) == text)
-        return one((static_cast<double>(k) + 0.5) / static_cast<double>(values_.size()));
+      if (to_yaml(values_[k]) == text) return one((static_cast<double>(k) + 0.5) / static_cast<double>(values_.size()));
     return {};
   }
   std::string end_words(Index, bool) const override { return ""; }
@@ -261,8 +256,7 @@ class Reader {
   Vector3d given_vector(const std::string& text) const {
     const Node node = parse_yaml(text, written_.where.file);
     const std::optional<Vector3d> vector = vector_of(node);
-    if (!vector || vector->norm() == 0)
-      refuse(fmt::format("is '{}', in which '{}' is no vector", written_.text, text));
+    if (!vector || vector->norm() == 0) refuse(fmt::format("is '{}', in which '{}' is no vector", written_.text, text));
     return *vector;
   }
 
@@ -270,8 +264,7 @@ class Reader {
     if (const Node* value = common_value(documents_, path_)) return *value;
     const bool counts_from_zero = (path_ + ".").find(".0.") != std::string::npos;
     refuse("is freed around its own value, which it has not, or not the same in all jobs",
-           counts_from_zero ? "items of a list count from 1"
-                            : "give the value in every job, or write LOW .. HIGH");
+           counts_from_zero ? "items of a list count from 1" : "give the value in every job, or write LOW .. HIGH");
   }
 
   std::unique_ptr<FreeKey> around(std::string spread, const std::string& centre) const {
@@ -331,7 +324,9 @@ bool is_no_property(const std::string& path) {
   static const std::array<std::string_view, 4> settings{"simulation", "strain", "fatigue", "uncertainty"};
   static const std::array<std::string_view, 5> limits{"least_bend_radius_mm", "most_twist_deg_per_m", "most_tension_N",
                                                       "longest_bracket_mm", "hold_joint"};
-  const auto is_any = [](const auto& names, std::string_view name) { return std::ranges::find(names, name) != names.end(); };
+  const auto is_any = [](const auto& names, std::string_view name) {
+    return std::ranges::find(names, name) != names.end();
+  };
   return is_any(settings, std::string_view(path).substr(0, path.find('.'))) ||
          is_any(limits, std::string_view(path).substr(path.rfind('.') + 1));
 }
@@ -352,12 +347,16 @@ Freedom Freedom::from(const Node& free, const std::vector<std::shared_ptr<const 
   std::vector<VectorXd> places;
   for (const Entry& entry : free.entries) {
     if (is_no_property(entry.key))
-      throw InputError(entry.value.where,
-                       fmt::format("free.{} is a limit or a setting of the calculation, which makes no dresspack live longer", entry.key),
-                       "free keys of routing, dresspack or motion; compare settings in a study (jobs:)");
-    for (const FreeVariable& other : freedom.keys_)  // the later of the two would replace what the search chose for the other
+      throw InputError(
+          entry.value.where,
+          fmt::format("free.{} is a limit or a setting of the calculation, which makes no dresspack live longer",
+                      entry.key),
+          "free keys of routing, dresspack or motion; compare settings in a study (jobs:)");
+    for (const FreeVariable& other :
+         freedom.keys_)  // the later of the two would replace what the search chose for the other
       if ((entry.key + ".").starts_with(other.path + ".") || other.path.starts_with(entry.key + "."))
-        throw InputError(entry.value.where, fmt::format("free.{} and free.{} set the same value", other.path, entry.key),
+        throw InputError(entry.value.where,
+                         fmt::format("free.{} and free.{} set the same value", other.path, entry.key),
                          "keep one of the two");
     const Node* own = common_value(documents, entry.key);
     freedom.keys_.push_back(
@@ -407,7 +406,8 @@ Node Freedom::usual(const Job& job) {
 }
 
 Index Freedom::variables() const {
-  return sum_of(keys_, [](const FreeVariable& freed) { return freed.key->variables(); }, Index{0});
+  return sum_of(
+      keys_, [](const FreeVariable& freed) { return freed.key->variables(); }, Index{0});
 }
 
 std::vector<std::string> Freedom::at_ends(const VectorXd& place) const {

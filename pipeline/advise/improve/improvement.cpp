@@ -33,8 +33,7 @@ Node with_frees(Node free, const std::vector<std::string>& written) {
     const Where where{"--free " + one};
     const std::size_t equals = one.find('=');
     if (equals == std::string::npos || equals == 0)
-      throw InputError(where, "is not KEY.PATH=RANGE",
-                       "write for example --free 'routing.free_length_m=1.9 .. 2.6'");
+      throw InputError(where, "is not KEY.PATH=RANGE", "write for example --free 'routing.free_length_m=1.9 .. 2.6'");
     Node value = parse_yaml(one.substr(equals + 1), where.file);
     place_at(value, where);
     free[one.substr(0, equals)] = std::move(value);
@@ -56,7 +55,9 @@ AskedLimits limits_of(const Node& document) {
 
 /// Returns "{KEY.PATH: VALUE, ...}" for "KEY.PATH=VALUE".
 std::string changes_of(const std::vector<std::string>& sets) {
-  const auto change = [](const std::string& set) { return set.substr(0, set.find('=')) + ": " + set.substr(set.find('=') + 1); };
+  const auto change = [](const std::string& set) {
+    return set.substr(0, set.find('=')) + ": " + set.substr(set.find('=') + 1);
+  };
   return "{" + joined(mapped(sets, change), ", ") + "}";
 }
 
@@ -78,8 +79,8 @@ class Improver {
     if (document.find("keep")) done_.keep_trials = done_.keep_finals = study.keep;
     for (const StudyJob& job : study.jobs) {
       if (!job.failure.empty())
-        throw InputError({request.file.string()},
-                         fmt::format("job '{}' cannot be run: {}", job.name, job.failure), "correct it");
+        throw InputError({request.file.string()}, fmt::format("job '{}' cannot be run: {}", job.name, job.failure),
+                         "correct it");
       done_.jobs.push_back(job.name);
       jobs_.push_back(job.job);
     }
@@ -93,9 +94,8 @@ class Improver {
       done_.freed.push_back(key.path);
       done_.own.push_back(key.own);
     }
-    const bool frees_dresspack =
-        std::any_of(done_.freed.begin(), done_.freed.end(),
-                    [](const std::string& path) { return path.starts_with("dresspack"); });
+    const bool frees_dresspack = std::any_of(done_.freed.begin(), done_.freed.end(),
+                                             [](const std::string& path) { return path.starts_with("dresspack"); });
     for (const auto& job : jobs_)
       for (const Warning& fault : dresspack_faults(*job, !frees_dresspack))
         faults_ = joined(std::move(faults_), {fault});
@@ -124,10 +124,9 @@ class Improver {
     done_.front = best_trials();
     if (done_.front.empty()) done_.obstacle = obstacle_words(done_.trials, freedom_);
     if (done_.ended.empty() && stopped_early)
-      done_.obstacle.insert(
-          done_.obstacle.begin(),
-          fmt::format("The search stopped early: of {} short runs the nearest to the limits: {}",
-                      done_.short_runs, nearest_words_));
+      done_.obstacle.insert(done_.obstacle.begin(),
+                            fmt::format("The search stopped early: of {} short runs the nearest to the limits: {}",
+                                        done_.short_runs, nearest_words_));
     return std::move(done_);
   }
 
@@ -169,7 +168,8 @@ class Improver {
     if (sets.empty()) return;
     for (Trial& trial : tried(sets)) {
       if (trial.worst.failure.empty()) trial.relief_refusal = earlier_failures(trial.worst, bare.worst);
-      if (!trial.relief_refusal.empty()) trial.worst.failure = "its bend relief makes fail earlier: " + trial.relief_refusal;
+      if (!trial.relief_refusal.empty())
+        trial.worst.failure = "its bend relief makes fail earlier: " + trial.relief_refusal;
       done_.trials.push_back(std::move(trial));
     }
     makers_.report(done_);
@@ -185,9 +185,9 @@ class Improver {
     const Screen screen = [this](const std::vector<VectorXd>& places) { return surely_beyond(places); };
     if (request_.method == SearchMethod::random)
       return std::make_unique<RandomSearch>(freedom_.variables(), request_.seed, screen);
-    const SurrogateSettings settings{.seed = request_.seed, .aims = aims(), .short_runs = std::max(0, request_.short_runs)};
-    done_.most_short_runs =
-        request_.short_runs > 0 ? request_.short_runs : static_cast<int>(40 * freedom_.variables());
+    const SurrogateSettings settings{
+        .seed = request_.seed, .aims = aims(), .short_runs = std::max(0, request_.short_runs)};
+    done_.most_short_runs = request_.short_runs > 0 ? request_.short_runs : static_cast<int>(40 * freedom_.variables());
     ShortRuns make_short_runs;
     if (request_.short_runs != 0 && !screened_.empty())
       make_short_runs = [this](const std::vector<VectorXd>& places) { return short_runs_of(places); };
@@ -243,11 +243,10 @@ class Improver {
         const double violation = of.refusal.empty() ? of.violation() : no_job;
         worst[k].rejected = worst[k].rejected || of.rejected;
         if (of.refusal.empty())
-          worst[k].bracket =
-              std::max(worst[k].bracket, limits_of_short_run(list.limits, of.beyond)[bracket_limit]);
+          worst[k].bracket = std::max(worst[k].bracket, limits_of_short_run(list.limits, of.beyond)[bracket_limit]);
         if (violation > worst[k].violation)
-          worst[k] = {violation, worst[k].rejected, of.beyond,
-                      of.refusal.empty() ? list.words(of) : of.refusal, worst[k].bracket};
+          worst[k] = {violation, worst[k].rejected, of.beyond, of.refusal.empty() ? list.words(of) : of.refusal,
+                      worst[k].bracket};
       }
     }
     return worst;
@@ -261,7 +260,9 @@ class Improver {
   /// (V1) to (V5).
   std::vector<Candidate> short_runs_of(const std::vector<VectorXd>& places) {
     const std::string candidates = list_of_changes(sets_at(places));
-    std::vector<Candidate> results = mapped(places, [](const VectorXd& place) { return Candidate{place, true, {}, {}}; });
+    std::vector<Candidate> results = mapped(places, [](const VectorXd& place) {
+      return Candidate{place, true, {}, {}};
+    });
     std::vector<std::pair<double, std::string>> worst(places.size());  // violation and its limits
     for (const auto& job : screened_) {
       const ScreenedList list =
@@ -271,8 +272,7 @@ class Improver {
         const ScreenedCandidate& of = list.candidates[k];
         add_short_run(results[k], list, of);
         const double violation = of.refusal.empty() ? of.violation() : HUGE_VAL;
-        if (violation >= worst[k].first)
-          worst[k] = {violation, of.refusal.empty() ? list.words(of) : of.refusal};
+        if (violation >= worst[k].first) worst[k] = {violation, of.refusal.empty() ? list.words(of) : of.refusal};
       }
     }
     for (const auto& [violation, words] : worst)
@@ -282,13 +282,11 @@ class Improver {
     return results;
   }
 
-  static void add_short_run(Candidate& candidate, const ScreenedList& list,
-                            const ScreenedCandidate& screened) {
+  static void add_short_run(Candidate& candidate, const ScreenedList& list, const ScreenedCandidate& screened) {
     const bool runs = screened.refusal.empty();
     if (!runs && candidate.ran) candidate = {candidate.place, false, {}, {}};
     if (runs != candidate.ran) return;
-    const std::vector<double> beyond =
-        runs ? limits_of_short_run(list.limits, screened.beyond) : screened.beyond;
+    const std::vector<double> beyond = runs ? limits_of_short_run(list.limits, screened.beyond) : screened.beyond;
     if (runs) add_bends(candidate.pieces, screened.bends);
     if (candidate.beyond.empty()) candidate.beyond = beyond;
     for (std::size_t k = 0; k < beyond.size(); ++k) candidate.beyond[k] = std::max(candidate.beyond[k], beyond[k]);
@@ -298,15 +296,15 @@ class Improver {
     std::vector<double> beyond(places.size(), 0.0);
     if (screened_.empty()) return beyond;
     const std::vector<ScreeningResult> results = screened(sets_at(places));
-    for (std::size_t k = 0; k < places.size(); ++k)
-      beyond[k] = results[k].rejected ? results[k].violation : 0;
+    for (std::size_t k = 0; k < places.size(); ++k) beyond[k] = results[k].rejected ? results[k].violation : 0;
     return beyond;
   }
 
   std::vector<Trial> tried(const std::vector<std::vector<std::string>>& sets) {
     std::vector<Trial> trials(sets.size());
     Study study{done_.name, {}, done_.keep_trials, false};  // finals.h removes files
-    std::map<std::string, std::pair<std::size_t, std::size_t>> trial_of;  // (job) its trial, and its index among the trial's jobs
+    std::map<std::string, std::pair<std::size_t, std::size_t>>
+        trial_of;  // (job) its trial, and its index among the trial's jobs
     std::map<std::string, std::shared_ptr<const Job>> study_job_of;
     for (std::size_t k = 0; k < sets.size(); ++k) {
       Trial& trial = trials[k];
@@ -356,8 +354,7 @@ class Improver {
       candidate.aims.push_back(
           -search_value(trial.worst, done_.trials.empty() ? trial.worst : done_.trials.front().worst));
     if (candidate.ran && aims() == 2)
-      candidate.aims.push_back(request_.second == SecondAim::hose_length ? trial.hose_length
-                                                                    : trial.cycle_seconds);
+      candidate.aims.push_back(request_.second == SecondAim::hose_length ? trial.hose_length : trial.cycle_seconds);
     return candidate;
   }
 
@@ -416,13 +413,12 @@ Improvement improve(const ImproveRequest& request, const StudyPlaces& places, co
 
 std::string unfinished_words(const Improvement& improvement) {
   const std::optional<std::size_t> best = improvement.best();
-  if (!best)
-    return fmt::format("None of the {} trials before keeps all limits.\n", improvement.trials.size());
+  if (!best) return fmt::format("None of the {} trials before keeps all limits.\n", improvement.trials.size());
   const Trial& trial = improvement.trials[*best];
-  std::string text = fmt::format(
-      "The best of the {} trials before is {}: {}, all limits kept; no mounting tolerance was tried.\n",
-      improvement.trials.size(), *best == 0 ? "the job as it is" : fmt::format("trial {}", *best),
-      hours_text(trial.worst.hours));
+  std::string text =
+      fmt::format("The best of the {} trials before is {}: {}, all limits kept; no mounting tolerance was tried.\n",
+                  improvement.trials.size(), *best == 0 ? "the job as it is" : fmt::format("trial {}", *best),
+                  hours_text(trial.worst.hours));
   for (const std::string& set : trial.sets) text += fmt::format("    --set '{}'\n", set);
   return text;
 }
@@ -434,13 +430,13 @@ std::string improvement_csv(const Improvement& improvement) {
   for (std::size_t k = 0; k < improvement.trials.size(); ++k) {
     const Trial& trial = improvement.trials[k];
     const bool ran = trial.worst.failure.empty();
-    const std::string words = ran ? trial.worst.words() : trial.worst.failure + (trial.screened.empty() ? "" : "; ") + trial.screened;
-    text += fmt::format("{},{},{},{},{},{}", k, trial.worst.feasible() ? 1 : 0,
-                        ran ? shortest_text(trial.worst.hours) : "", csv_cell(words),
-                        shortest_text(trial.hose_length), ran ? shortest_text(trial.cycle_seconds) : "");
+    const std::string words =
+        ran ? trial.worst.words() : trial.worst.failure + (trial.screened.empty() ? "" : "; ") + trial.screened;
+    text +=
+        fmt::format("{},{},{},{},{},{}", k, trial.worst.feasible() ? 1 : 0, ran ? shortest_text(trial.worst.hours) : "",
+                    csv_cell(words), shortest_text(trial.hose_length), ran ? shortest_text(trial.cycle_seconds) : "");
     const ModeLife first = first_mode(trial.worst);
-    text += fmt::format(",{},{}", csv_cell(first.mode),
-                        ran && !first.mode.empty() ? shortest_text(first.hours) : "");
+    text += fmt::format(",{},{}", csv_cell(first.mode), ran && !first.mode.empty() ? shortest_text(first.hours) : "");
     for (const std::string& freed : improvement.freed) text += "," + csv_cell(value_in(trial, freed));
     text += "\n";
   }

@@ -28,9 +28,7 @@ constexpr std::string_view word(SearchMethod value) { return word_at({"surrogate
 
 /// The second objective, in addition to a long life.
 enum class SecondAim { none, hose_length, cycle_time };
-constexpr std::string_view word(SecondAim value) {
-  return word_at({"none", "hose_length", "cycle_time"}, value);
-}
+constexpr std::string_view word(SecondAim value) { return word_at({"none", "hose_length", "cycle_time"}, value); }
 
 struct ImproveRequest {
   std::filesystem::path file;      ///< a job, or a study with the optional sections `free` and `limits`
@@ -60,7 +58,7 @@ struct Trial {
   /// part or mode that fails earlier with its bend relief, which is also its failure; empty: none
   std::string relief_refusal;
   bool breaks_beside_clamp = false;  ///< whether this is true for some job (reliefs.h)
-  std::string screened;           ///< limits by which geometry rejects it; empty: none, or not screened
+  std::string screened;              ///< limits by which geometry rejects it; empty: none, or not screened
 };
 
 struct Improvement {

@@ -22,8 +22,7 @@ double least_life(const ModeLife& mode, const Outcome& outcome, const Outcome& a
 }
 
 std::vector<ModeLife> earliest_first(std::vector<ModeLife> modes) {
-  std::stable_sort(modes.begin(), modes.end(),
-                   [](const ModeLife& a, const ModeLife& b) { return a.hours < b.hours; });
+  std::stable_sort(modes.begin(), modes.end(), [](const ModeLife& a, const ModeLife& b) { return a.hours < b.hours; });
   return modes;
 }
 
@@ -36,8 +35,8 @@ double life_by(const Outcome& outcome, const std::string& mode) {
 }
 
 std::vector<ModeLife> worse_modes(const Outcome& outcome, const Outcome& as_it_is) {
-  return earliest_first(filtered(
-      outcome.modes, [&](const ModeLife& mode) { return mode.hours < least_life(mode, outcome, as_it_is); }));
+  return earliest_first(
+      filtered(outcome.modes, [&](const ModeLife& mode) { return mode.hours < least_life(mode, outcome, as_it_is); }));
 }
 
 ModeLife first_mode(const Outcome& outcome) {

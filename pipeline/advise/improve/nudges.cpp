@@ -14,7 +14,9 @@ namespace dresslife::pipeline {
 namespace {
 
 std::string routings_of(const Job& job) {
-  const auto text = [](const MountedDresspack& mounted) { return mounted.name + to_yaml(echo_fields(mounted.routing)); };
+  const auto text = [](const MountedDresspack& mounted) {
+    return mounted.name + to_yaml(echo_fields(mounted.routing));
+  };
   return joined(mapped(job.dresspacks, text), "");
 }
 
@@ -31,8 +33,7 @@ class Nudges {
   void add_length(const std::string& key, const std::string& name, double own) {
     for (const double off : {-by_.off, by_.off})
       if (off != 0)
-        add(fmt::format("{}, {} {:g} mm", name, sign_of(off), 1e3 * by_.off),
-            fmt::format("{}={:.6g}", key, own + off));
+        add(fmt::format("{}, {} {:g} mm", name, sign_of(off), 1e3 * by_.off), fmt::format("{}={:.6g}", key, own + off));
   }
 
   void add_turn(const std::string& key, const std::string& name, double own) {
@@ -58,8 +59,8 @@ class Nudges {
     for (const Vector3d& about : {first, Vector3d(along.cross(first))})
       for (const double tilt : {-by_.tilt(), by_.tilt()}) {
         const Vector3d tilted = Eigen::AngleAxisd(tilt, about) * along;
-        add(fmt::format("{}, tilted by {:.2g} deg to [{:.2f}, {:.2f}, {:.2f}]", name, by_.tilt() / degree,
-                        tilted.x(), tilted.y(), tilted.z()),
+        add(fmt::format("{}, tilted by {:.2g} deg to [{:.2f}, {:.2f}, {:.2f}]", name, by_.tilt() / degree, tilted.x(),
+                        tilted.y(), tilted.z()),
             fmt::format("{}.direction={}", path, vector_text(tilted)));
       }
   }
@@ -94,8 +95,7 @@ std::vector<Nudge> nudges_of(const std::vector<StudyJob>& jobs, const MountingTo
       nudges.add_place(path + "." + at, of + name, clamp.position, clamp.direction);
     };
     nudges.add_length(path + ".free_length_m", of + "length", routing.free_length);
-    if (routing.tool_clamp)
-      nudges.add_turn(path + ".pre_twist_deg", of + "end at the tool turned", routing.pre_twist);
+    if (routing.tool_clamp) nudges.add_turn(path + ".pre_twist_deg", of + "end at the tool turned", routing.pre_twist);
     if (routing.base_clamp) add_clamp(*routing.base_clamp, "base_clamp", "base clamp");
     if (routing.tool_clamp) add_clamp(*routing.tool_clamp, "tool_clamp", "tool clamp");
     for (std::size_t i = 0; i < routing.clamps.size(); ++i) {
@@ -106,10 +106,8 @@ std::vector<Nudge> nudges_of(const std::vector<StudyJob>& jobs, const MountingTo
     }
     for (std::size_t i = 0; i < routing.rings.size(); ++i) {
       const GuideRing& ring = routing.rings[i];
-      const std::string at = fmt::format("{}.rings.{}", path, i + 1),
-                        name = fmt::format("{}ring {}", of, i + 1);
-      if (ring.at_length)
-        nudges.add_length(at + ".at_length_m", name + ", its place on the hose", *ring.at_length);
+      const std::string at = fmt::format("{}.rings.{}", path, i + 1), name = fmt::format("{}ring {}", of, i + 1);
+      if (ring.at_length) nudges.add_length(at + ".at_length_m", name + ", its place on the hose", *ring.at_length);
       nudges.add_place(at, name, ring.position, ring.direction);
     }
   }
@@ -117,8 +115,7 @@ std::vector<Nudge> nudges_of(const std::vector<StudyJob>& jobs, const MountingTo
 }
 
 bool has_mounting_tolerance(const std::string& key) {
-  if (!key.starts_with("routing.") &&
-      !(key.starts_with("dresspacks.") && key.find(".routing.") != std::string::npos))
+  if (!key.starts_with("routing.") && !(key.starts_with("dresspacks.") && key.find(".routing.") != std::string::npos))
     return false;
   constexpr std::array ends{".free_length_m", ".at_length_m", ".position_m", ".direction", ".pre_twist_deg"};
   return std::ranges::any_of(ends, [&](const char* end) { return key.ends_with(end); });
@@ -127,10 +124,9 @@ bool has_mounting_tolerance(const std::string& key) {
 std::string tolerance_text(const MountingTolerance& by) {
   std::string text;
   if (by.off > 0)
-    text = fmt::format("a clamp or length off by {:g} mm, a clamp tilted by {:.2g} deg", 1e3 * by.off,
-                       by.tilt() / degree);
-  if (by.turn > 0)
-    text += fmt::format("{}an end turned by {:g} deg", text.empty() ? "" : " or ", by.turn / degree);
+    text =
+        fmt::format("a clamp or length off by {:g} mm, a clamp tilted by {:.2g} deg", 1e3 * by.off, by.tilt() / degree);
+  if (by.turn > 0) text += fmt::format("{}an end turned by {:g} deg", text.empty() ? "" : " or ", by.turn / degree);
   return text;
 }
 

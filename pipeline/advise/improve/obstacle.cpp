@@ -58,13 +58,11 @@ std::vector<std::string> obstacle_words(const std::vector<Trial>& trials, const 
   const Trial& nearest = trials[k];
   std::vector<std::string> lines{
       k == 0 ? fmt::format("Nearest are the jobs as they are: {}", nearest.worst.words())
-             : fmt::format("Nearest is trial {}: {}{}", k, nearest.worst.words(),
-                           life_words(nearest, trials.front()))};
+             : fmt::format("Nearest is trial {}: {}{}", k, nearest.worst.words(), life_words(nearest, trials.front()))};
   for (std::string& line : binding(trials, nearest)) lines.push_back(std::move(line));
   if (nearest.place.size() == 0) return lines;
   const std::vector<std::string> ends = freedom.at_ends(nearest.place);
-  for (const std::string& end : ends)
-    lines.push_back("A free key is at the end of its range: " + end + "; widen it");
+  for (const std::string& end : ends) lines.push_back("A free key is at the end of its range: " + end + "; widen it");
   if (ends.empty())
     lines.push_back(
         "No free key is at an end of its range: allow more trials, free other keys, or take another dresspack");

@@ -45,8 +45,7 @@ void add_lines(std::vector<Line>& lines, const std::vector<MotionStep>& steps, c
       continue;
     }
     const std::string file = std::filesystem::path(step.where.file).filename().string();
-    lines.push_back(
-        {&step, here, fmt::format("{}:{} '{}{}'", file, step.where.line, block, step.text), from});
+    lines.push_back({&step, here, fmt::format("{}:{} '{}{}'", file, step.where.line, block, step.text), from});
     if (leads_joints(step)) from = &step;
   }
 }
@@ -102,8 +101,8 @@ std::vector<OtherWay> by_a_point(const Robot& robot, const Line& line) {
     on_the_way.stop_zone.reset();
     ways.push_back({fmt::format("by a point: {} first", arm_first ? "axes 1 to 3" : "axes 4 to 6"),
                     {line.name},
-                    {fmt::format("{}={{repeat: 1, steps: [{}, {}]}}", line.path,
-                                 set_text(echo_fields(on_the_way)), set_text(echo_fields(step)))}});
+                    {fmt::format("{}={{repeat: 1, steps: [{}, {}]}}", line.path, set_text(echo_fields(on_the_way)),
+                                 set_text(echo_fields(step)))}});
   }
   return ways;
 }
@@ -121,8 +120,7 @@ std::vector<double> cost_of_moves(const std::vector<Line>& lines, const std::vec
 
 }  // namespace
 
-std::vector<OtherWay> other_ways(const Job& job, const std::vector<double>& line_damage,
-                                 std::size_t most_lines) {
+std::vector<OtherWay> other_ways(const Job& job, const std::vector<double>& line_damage, std::size_t most_lines) {
   std::vector<Line> lines;
   add_lines(lines, job.motion.steps, "motion.steps", "", nullptr);
   if (std::none_of(lines.begin(), lines.end(), [](const Line& line) { return !line.step->joints.empty(); }))

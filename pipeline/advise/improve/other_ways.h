@@ -22,7 +22,6 @@ struct OtherWay {
 /// Returns the alternatives. line_damage: (line) damage of each line (read_life()); the damage of a dwell is added to the move
 /// before it. most_lines: number of lines, most damaging first. Targets beyond the axes' limits are left out. Errors: InputError
 /// for a motion without steps with joint targets.
-std::vector<OtherWay> other_ways(const Job& job, const std::vector<double>& line_damage,
-                                 std::size_t most_lines);
+std::vector<OtherWay> other_ways(const Job& job, const std::vector<double>& line_damage, std::size_t most_lines);
 
 }  // namespace dresslife::pipeline

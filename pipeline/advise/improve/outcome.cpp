@@ -107,8 +107,7 @@ void see_lives(std::vector<ModeLife>& lives, const ModeLife& of) {
 void see_slack(Outcome& outcome, const std::string& name, double slack, double limit) {
   constexpr double least_share = 0.02, most_share = 1.0 / 3;  // shares of a length that the checks require as slack
   if (name == check_name::too_short)
-    see(outcome, too_short, least_share * (limit - slack) / limit,
-        at_least(slack, limit, " mm of slack", 1e3));
+    see(outcome, too_short, least_share * (limit - slack) / limit, at_least(slack, limit, " mm of slack", 1e3));
   if (name == check_name::too_long)
     see(outcome, too_long, most_share * (slack - limit) / limit, at_most(slack, limit, " mm of slack", 1e3));
 }
@@ -118,8 +117,7 @@ void see_check(Outcome& outcome, const CheckedValue& check, const AskedLimits& a
   if (std::find(check_name::all.begin(), check_name::all.end(), name) == check_name::all.end())
     throw std::logic_error(fmt::format("'{}' is a check that no search knows (check_names.h)", name));
   see_slack(outcome, name, value, limit);
-  if (name == check_name::bend_radius)
-    see(outcome, bend, log_ratio(limit, value), at_least(value, limit, " mm", 1e3));
+  if (name == check_name::bend_radius) see(outcome, bend, log_ratio(limit, value), at_least(value, limit, " mm", 1e3));
   constexpr double degrees = 180 / std::numbers::pi;
   if (name == check_name::twist)
     see(outcome, twist, std::abs(value) / limit - 1, at_most(std::abs(value), limit, " deg", degrees));
@@ -136,27 +134,17 @@ void see_check(Outcome& outcome, const CheckedValue& check, const AskedLimits& a
 }  // namespace
 
 const std::vector<std::string>& outcome_limit_names() {
-  static const std::vector<std::string> names{"bend radius",
-                                              "twist",
-                                              "too short",
-                                              "too long",
-                                              "tension",
-                                              "contact force",
-                                              "retraction's stroke",
-                                              "forces in cables",
-                                              "abrasion",
-                                              "hose's wall",
-                                              "maker's rating",
-                                              "jacket wear",
-                                              "corkscrew",
-                                              "kink",
-                                              "change by a repeat",
-                                              "bracket"};
+  static const std::vector<std::string> names{"bend radius", "twist",         "too short",           "too long",
+                                              "tension",     "contact force", "retraction's stroke", "forces in cables",
+                                              "abrasion",    "hose's wall",   "maker's rating",      "jacket wear",
+                                              "corkscrew",   "kink",          "change by a repeat",  "bracket"};
   return names;
 }
 
 std::string passed_text(std::size_t limit, double beyond) {
-  const auto percent = [](double share, const char* of = "") { return fmt::format("{} %{}", readable(100 * share, 2), of); };
+  const auto percent = [](double share, const char* of = "") {
+    return fmt::format("{} %{}", readable(100 * share, 2), of);
+  };
   switch (static_cast<Limit>(limit)) {
     case too_short:
     case too_long:
@@ -200,8 +188,7 @@ std::string passed_text(const std::string& screened, double beyond) {
   return passed_text(found == limit_of_screened().end() ? bracket : found->second, beyond);
 }
 
-std::vector<double> limits_of_short_run(const std::vector<std::string>& names,
-                                        const std::vector<double>& beyond) {
+std::vector<double> limits_of_short_run(const std::vector<std::string>& names, const std::vector<double>& beyond) {
   const std::map<std::string, Limit>& limit_of = limit_of_screened();
   std::vector<double> of(outcome_limits, std::numeric_limits<double>::quiet_NaN());
   for (std::size_t k = 0; k < names.size(); ++k)
@@ -224,9 +211,9 @@ std::string Outcome::words() const {
   std::string text;
   for (std::size_t k = 0; k < beyond.size(); ++k)
     if (beyond[k] > 0)
-      text +=
-          fmt::format("{}{} violated by {}{}", text.empty() ? "" : ", ", outcome_limit_names()[k],
-                      passed_text(k, beyond[k]), k < reached.size() && !reached[k].empty() ? " (" + reached[k] + ")" : "");
+      text += fmt::format("{}{} violated by {}{}", text.empty() ? "" : ", ", outcome_limit_names()[k],
+                          passed_text(k, beyond[k]),
+                          k < reached.size() && !reached[k].empty() ? " (" + reached[k] + ")" : "");
   return text;
 }
 
@@ -242,13 +229,14 @@ Outcome outcome_of(const RankingRow& row, const std::filesystem::path& folder, c
   outcome.robot_life = row.robot_life_hours;
   for (const UnvalidatedMode& mode : row.unvalidated)
     if (is_credible(mode) && !std::isnan(mode.early_hours()))
-      see_lives(outcome.modes, {mode.dresspack.empty() ? mode.mode : mode.mode + " of " + mode.dresspack,
-                                mode.early_hours()});
+      see_lives(outcome.modes,
+                {mode.dresspack.empty() ? mode.mode : mode.mode + " of " + mode.dresspack, mode.early_hours()});
   const double share = std::max(row.largest_force_share.value_or(0), row.clamp_moment_share.value_or(0));
   see(outcome, believable, log_ratio(share, believable_share));
   // Lives of a motion or of loose cables without a cycle are wrong: plans refuse them, too (spoils_plan()).
   for (const Warning& warning : warnings_of(row))
-    if (warning.kind == WarningKind::periodic) see(outcome, periodic, log_ratio(warning.amount.value_or(1), 1), "remedy: " + parts_of(warning.words).remedy);
+    if (warning.kind == WarningKind::periodic)
+      see(outcome, periodic, log_ratio(warning.amount.value_or(1), 1), "remedy: " + parts_of(warning.words).remedy);
   see_modes(outcome, row, asked);
   constexpr std::size_t simulation = 0;
   const std::filesystem::path receipt = folder / files_of_stage(simulation).receipt;
@@ -264,15 +252,13 @@ void check_evaluated(const AskedLimits& asked, const RankingRow& row) {
     if (asked.*of.least && row.done() && !row.unvalidated_mode(of.mode))
       throw InputError(
           asked.where, fmt::format("{} is a limit of '{}', which is not evaluated", of.key, of.mode),
-          fmt::format(
-              "leave it out, or give the dresspack what it needs{}",
-              row.not_evaluated.empty() ? "" : " (all that is not evaluated: " + row.not_evaluated + ")"));
+          fmt::format("leave it out, or give the dresspack what it needs{}",
+                      row.not_evaluated.empty() ? "" : " (all that is not evaluated: " + row.not_evaluated + ")"));
 }
 
 void describe(Fields& f, AskedLimits& limits) {
   f.place(limits.where);
-  f.maybe_number("contact_force_N", limits.contact_force, above(0),
-                 "largest of the dresspack on robot and cell");
+  f.maybe_number("contact_force_N", limits.contact_force, above(0), "largest of the dresspack on robot and cell");
   f.maybe_number("tension_N", limits.tension, above(0), "largest of the hose, besides its maker's");
   for (const ModeLimit& of : mode_limits) f.maybe_number(of.key, limits.*of.least, above(0), of.meaning);
 }

@@ -41,8 +41,7 @@ std::string passed_text(std::size_t limit, double beyond);
 std::string passed_text(const std::string& screened, double beyond);
 
 /// Returns the limits of a short run (screened.h) in the order of Outcome::beyond, from their geometric names; NaN: unknown.
-std::vector<double> limits_of_short_run(const std::vector<std::string>& names,
-                                        const std::vector<double>& beyond);
+std::vector<double> limits_of_short_run(const std::vector<std::string>& names, const std::vector<double>& beyond);
 
 /// Adds a short run's bends to the pieces of the limits (Candidate::pieces).
 void add_bends(std::vector<std::vector<double>>& pieces, const std::vector<double>& bends);

@@ -21,8 +21,7 @@ std::vector<ClampPlace> clamps_of(const Routing& routing) {
   std::vector<ClampPlace> clamps;
   if (routing.base_clamp) clamps.push_back({&*routing.base_clamp, "base_clamp", 0});
   for (std::size_t k = 0; k < routing.clamps.size(); ++k)
-    clamps.push_back(
-        {&routing.clamps[k].clamp, fmt::format("clamps.{}", k + 1), routing.clamps[k].at_length});
+    clamps.push_back({&routing.clamps[k].clamp, fmt::format("clamps.{}", k + 1), routing.clamps[k].at_length});
   if (routing.tool_clamp) clamps.push_back({&*routing.tool_clamp, "tool_clamp", routing.free_length});
   return clamps;
 }
@@ -39,8 +38,7 @@ std::vector<std::vector<std::string>> reliefs_of(const Job& job) {
   for (std::size_t d = 0; d < job.dresspacks.size(); ++d)
     for (const double share : {0.5, 1.0}) {
       const MountedDresspack& mounted = job.dresspacks[d];
-      const std::string path =
-          mounted.name.empty() ? "routing." : fmt::format("dresspacks.{}.routing.", d + 1);
+      const std::string path = mounted.name.empty() ? "routing." : fmt::format("dresspacks.{}.routing.", d + 1);
       const std::vector<ClampPlace> clamps = clamps_of(mounted.routing);
       std::vector<std::string> all;
       for (std::size_t k = 0; k < clamps.size(); ++k) {

@@ -20,7 +20,8 @@ std::string ScreenedList::words(const ScreenedCandidate& candidate) const {
   std::string text;
   for (std::size_t k = 0; k < limits.size(); ++k)
     if (candidate.beyond[k] > 0)
-      text += fmt::format("{}{} by {}", text.empty() ? "" : ", ", limits[k], passed_text(limits[k], candidate.beyond[k]));
+      text +=
+          fmt::format("{}{} by {}", text.empty() ? "" : ", ", limits[k], passed_text(limits[k], candidate.beyond[k]));
   return text;
 }
 
@@ -53,10 +54,9 @@ ScreenedList screening_of(const Job& job, const std::string& candidates, Screene
   write_text_if_changed(draft, with_mark(job_text(job), Mark::yaml), Sync::never);
   write_text_if_changed(list, with_mark(candidates, Mark::yaml), Sync::never);
   const PassingFile screening("screening.h5");
-  std::vector<std::string> arguments{draft.string(), "--screen",           list.string(),
-                                     "-o",           screening.path().string(), "--quiet"};
-  if (longest_bracket)
-    arguments.insert(arguments.end(), {"--bracket", fmt::format("{:.6g}", 1e3 * *longest_bracket)});
+  std::vector<std::string> arguments{draft.string(), "--screen", list.string(), "-o", screening.path().string(),
+                                     "--quiet"};
+  if (longest_bracket) arguments.insert(arguments.end(), {"--bracket", fmt::format("{:.6g}", 1e3 * *longest_bracket)});
   if (by == ScreenedBy::short_runs) arguments.push_back("--by-short-runs");
   if (run_stage_program("dresslife-sim", arguments) != 0)
     throw StageFailed({draft.string()}, "cannot be screened (see above)", "correct the errors above");

@@ -49,8 +49,7 @@ std::string other_words(const Improvement& found, const Finals& finals) {
   if (best.trial == drawn.trial || !drawn.tolerance) return "";
   const Outcome& worst = drawn.tolerance->worst_outcome;
   return fmt::format("Trial {} is better as drawn ({}), but worse within that tolerance ({})\n", drawn.trial,
-                     outcome_words(found.trials[drawn.trial].worst, drawn.hours),
-                     outcome_words(worst, worst.hours));
+                     outcome_words(found.trials[drawn.trial].worst, drawn.hours), outcome_words(worst, worst.hours));
 }
 
 /// Returns a note that the wires of another trial live longer, but a mode without a validated law gets worse; empty: none do.
@@ -69,8 +68,8 @@ std::string refused_words(const Improvement& found, const Outcome& best) {
     modes += fmt::format("{}{} comes after {} (as it is: {})", modes.empty() ? "" : ", ", mode.mode,
                          hours_text(mode.hours), std::isinf(own) ? "never" : "after " + hours_text(own));
   }
-  return fmt::format("Trial {} was not chosen: its wires live longer ({}), but {}.\n", *longest,
-                     hours_text(of.hours), modes);
+  return fmt::format("Trial {} was not chosen: its wires live longer ({}), but {}.\n", *longest, hours_text(of.hours),
+                     modes);
 }
 
 /// Returns a note on bend reliefs that keep all limits, but make something fail earlier.
@@ -78,8 +77,8 @@ std::string relief_words(const Improvement& found) {
   std::string text;
   for (std::size_t k = 0; k < found.trials.size(); ++k)
     if (const Trial& trial = found.trials[k]; !trial.relief_refusal.empty() && trial.worst.violation() == 0)
-      text += fmt::format("Trial {} keeps all limits by a bend relief, but was refused: {}.\n", k,
-                          trial.relief_refusal);
+      text +=
+          fmt::format("Trial {} keeps all limits by a bend relief, but was refused: {}.\n", k, trial.relief_refusal);
   return text;
 }
 
@@ -101,15 +100,13 @@ std::string choice_words(const Improvement& found, const Finals& finals) {
   std::string text;
   const auto add_worst = [&](const char* of, const Final& judged) {
     if (judged.tolerance)
-      text +=
-          fmt::format("{}, within the mounting tolerance: {} in the worst case found\n", of,
-                      outcome_words(judged.tolerance->worst_outcome, judged.tolerance->worst_outcome.hours));
+      text += fmt::format("{}, within the mounting tolerance: {} in the worst case found\n", of,
+                          outcome_words(judged.tolerance->worst_outcome, judged.tolerance->worst_outcome.hours));
   };
   if (finals.of.front().tolerance) add_worst("The proposed job", best);
   add_worst("The job as it is", finals.of.front());
   return text + other_words(found, finals) +
-         refused_words(found,
-                       finals.is_gain(best) ? found.trials[best.trial].worst : found.trials.front().worst) +
+         refused_words(found, finals.is_gain(best) ? found.trials[best.trial].worst : found.trials.front().worst) +
          relief_words(found);
 }
 
@@ -119,17 +116,16 @@ std::string change_lines(const Trial& trial) {
   return text;
 }
 
-std::string front_words(const Improvement& found, const Finals& finals, const ImprovementStory& story,
-                        SecondAim second, const MountingTolerance& tolerance) {
+std::string front_words(const Improvement& found, const Finals& finals, const ImprovementStory& story, SecondAim second,
+                        const MountingTolerance& tolerance) {
   std::string text = fmt::format("Longest lives for their {}:\n", word(second));
   for (const std::size_t k : found.front) {
     const Trial& trial = found.trials[k];
     const Final* const of = find_in(finals.of, &Final::trial, k);
     const std::string modes = mode_words(trial.worst);
-    text +=
-        fmt::format("  {:>10}  {:>12}  {:.3f} m  {:.1f} s{}\n",
-                    k == 0 ? "as it is" : fmt::format("trial {:4}", k), hours_text(of->hours),
-                    trial.hose_length, trial.cycle_seconds, modes.empty() ? "" : "  not validated: " + modes);
+    text += fmt::format("  {:>10}  {:>12}  {:.3f} m  {:.1f} s{}\n", k == 0 ? "as it is" : fmt::format("trial {:4}", k),
+                        hours_text(of->hours), trial.hose_length, trial.cycle_seconds,
+                        modes.empty() ? "" : "  not validated: " + modes);
   }
   const Final* const best = finals.best();
   if (!best || !best->tolerance) return text;
@@ -138,8 +134,9 @@ std::string front_words(const Improvement& found, const Finals& finals, const Im
 
 /// Returns a line with the freed keys whose errors were not evaluated; empty: none.
 std::string unjudged_words(const Improvement& found, const Trial& best) {
-  const std::vector<std::string> keys = filtered(
-      found.freed, [&](const std::string& key) { return !value_in(best, key).empty() && !has_mounting_tolerance(key); });
+  const std::vector<std::string> keys = filtered(found.freed, [&](const std::string& key) {
+    return !value_in(best, key).empty() && !has_mounting_tolerance(key);
+  });
   return keys.empty() ? "" : fmt::format("Without a mounting tolerance: {}\n", joined(keys, ", "));
 }
 
@@ -151,14 +148,12 @@ std::string left_of(const Finals& finals, const Final& of) {
 
 }  // namespace
 
-ImprovementStory story_of(const Improvement& found, const Finals& finals, SecondAim second,
-                          const StudyPlaces& places) {
+ImprovementStory story_of(const Improvement& found, const Finals& finals, SecondAim second, const StudyPlaces& places) {
   ImprovementStory story;
   story.name = found.name;
   for (std::size_t k = 0; k < found.trials.size(); ++k) {
     const Outcome& worst = found.trials[k].worst;
-    story.points.push_back(
-        {static_cast<int>(k), worst.failure.empty(), worst.feasible(), worst.hours, worst.words()});
+    story.points.push_back({static_cast<int>(k), worst.failure.empty(), worst.feasible(), worst.hours, worst.words()});
   }
   const bool by_length = second == SecondAim::hose_length;
   story.second_title = by_length ? "free length [m]" : "cycle time [s]";
@@ -179,8 +174,8 @@ ImprovementStory story_of(const Improvement& found, const Finals& finals, Second
   if (best->tolerance) story.nudges = best->tolerance->nudges;
   story.keep = keep_words(finals);
   story.choice = choice_words(found, finals);
-  story.gain = gain_words(best->merit, trial.worst, finals.of.front().merit, found.trials.front().worst,
-                          story.longer_in);
+  story.gain =
+      gain_words(best->merit, trial.worst, finals.of.front().merit, found.trials.front().worst, story.longer_in);
   return story;
 }
 
@@ -193,16 +188,16 @@ std::string gain_words(const Merit& best, const Outcome& after, const Merit& ori
     return mode.mode.empty() ? std::string("none in the robot's life")
                              : fmt::format("{} after {}", mode.mode, hours_text(mode.hours));
   };
-  const std::string modes = fmt::format("First of the modes that are not validated: {} (as it is: {}).",
-                                        first(after), first(before));
+  const std::string modes =
+      fmt::format("First of the modes that are not validated: {} (as it is: {}).", first(after), first(before));
   if (before.hours >= robot && after.hours >= robot)
     return fmt::format("In both the wires outlive the robot ({}). A longer life of the wires is no gain. {}",
                        hours_text(robot), modes);
   const double ratio = std::min(after.hours, robot) / std::min(before.hours, robot);
   const bool longer = best.counted_hours > original.counted_hours && ratio > 1;
-  std::string text = fmt::format(
-      "The wires live {:.2g} times as long{}.", ratio,
-      longer && after.hours > robot ? fmt::format(", up to the robot's life ({})", hours_text(robot)) : "");
+  std::string text =
+      fmt::format("The wires live {:.2g} times as long{}.", ratio,
+                  longer && after.hours > robot ? fmt::format(", up to the robot's life ({})", hours_text(robot)) : "");
   if (longer && longer_in)
     text += fmt::format(" They live longer in {:.0f} of 100 samples{}.", 100 * *longer_in,
                         *longer_in >= separated_share ? "" : ": no clear difference");
@@ -210,13 +205,12 @@ std::string gain_words(const Merit& best, const Outcome& after, const Merit& ori
 }
 
 std::string improvement_words(const Improvement& found, const Finals& finals, const ImprovementStory& story,
-                              SecondAim second, const MountingTolerance& tolerance,
-                              const StudyPlaces& places) {
+                              SecondAim second, const MountingTolerance& tolerance, const StudyPlaces& places) {
   const Outcome& was = found.trials.front().worst;
   std::string text = fmt::format("As it is: {}\n", outcome_words(was, finals.of.front().hours));
   if (finals.of.size() == 1) {
-    text += fmt::format("No other job that keeps all limits was found in {} trial{} and {} short runs.\n", found.trials.size(),
-                        found.trials.size() == 1 ? "" : "s", found.short_runs);
+    text += fmt::format("No other job that keeps all limits was found in {} trial{} and {} short runs.\n",
+                        found.trials.size(), found.trials.size() == 1 ? "" : "s", found.short_runs);
     for (const std::string& line : found.obstacle) text += line + "\n";
     return text + relief_words(found) + left_of(finals, finals.of.front());
   }
@@ -234,11 +228,11 @@ std::string improvement_words(const Improvement& found, const Finals& finals, co
     for (const std::string& words : {action_words(*row), uncertainty_words(*row), failure_words(*row)})
       text += words + (words.empty() ? "" : "\n");
     const RankingRow* const original = finals.worst_row(finals.of.front());
-    text += left_at_other_values(*row) + (original ? beyond_words(*row, *original) : "") + mode_table(*row, screen_columns(), "") + mode_legend({*row}, screen_columns(), "");
+    text += left_at_other_values(*row) + (original ? beyond_words(*row, *original) : "") +
+            mode_table(*row, screen_columns(), "") + mode_legend({*row}, screen_columns(), "");
   }
   text += change_lines(trial);
-  for (const std::string& job : best.jobs)
-    text += fmt::format("Job: {}\n", (places.job(job) / "job.yaml").string());
+  for (const std::string& job : best.jobs) text += fmt::format("Job: {}\n", (places.job(job) / "job.yaml").string());
   return text;
 }
 
@@ -260,13 +254,15 @@ std::string beyond_words(const RankingRow& proposed, const RankingRow& original)
   const auto most_percent = [](const RankingRow& row) {
     double most = 0;
     for (const Warning& warning : warnings_of(row))
-      if (warning.kind == WarningKind::other_values) most = std::max(most, std::round(100 * warning.amount.value_or(0)));
+      if (warning.kind == WarningKind::other_values)
+        most = std::max(most, std::round(100 * warning.amount.value_or(0)));
     return most;
   };
   const double now = most_percent(proposed), before = most_percent(original);
   if (now == 0 || !is_believable(original)) return "";
-  return fmt::format("{}The limit that most dresspacks exceed at other values: {:.0f} % of them (as it is: {:.0f} %).\n",
-                     now > before ? "Worse at other values than the job as it is. " : "", now, before);
+  return fmt::format(
+      "{}The limit that most dresspacks exceed at other values: {:.0f} % of them (as it is: {:.0f} %).\n",
+      now > before ? "Worse at other values than the job as it is. " : "", now, before);
 }
 
 std::string left_at_other_values(const RankingRow& row) {
@@ -279,7 +275,8 @@ std::string left_at_other_values(const RankingRow& row) {
     text += "Not kept at other values: " + parts.problem + ". ";
     text += rest == parts.remedy
                 ? "Remedy: " + rest + "\n"
-                : "The best clamps of this search do not keep it. Remedies that are left: " + rest + (rest.empty() ? "" : "; ") +
+                : "The best clamps of this search do not keep it. Remedies that are left: " + rest +
+                      (rest.empty() ? "" : "; ") +
                       "a guide ring between the clamps (routing.rings); or a program that reaches less far\n";
   }
   return text;

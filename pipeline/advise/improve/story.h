@@ -10,8 +10,7 @@
 namespace dresslife::pipeline {
 
 /// Returns the results for the page. Existing pages of jobs are linked.
-ImprovementStory story_of(const Improvement& found, const Finals& finals, SecondAim second,
-                          const StudyPlaces& places);
+ImprovementStory story_of(const Improvement& found, const Finals& finals, SecondAim second, const StudyPlaces& places);
 
 /// Returns sentences about the gain of a candidate over the original jobs; empty: these do not run. longer_in:
 /// ImprovementStory::longer_in.
@@ -20,8 +19,7 @@ std::string gain_words(const Merit& best, const Outcome& after, const Merit& ori
 
 /// Returns lines: the original jobs, the best candidate, its gain and its changes, or the reason why none is feasible.
 std::string improvement_words(const Improvement& found, const Finals& finals, const ImprovementStory& story,
-                              SecondAim second, const MountingTolerance& tolerance,
-                              const StudyPlaces& places);
+                              SecondAim second, const MountingTolerance& tolerance, const StudyPlaces& places);
 
 /// Returns the remedy of a warning without the clamps that a search has already tried; empty: there is no other remedy.
 std::string remedy_after_search(const std::string& remedy);

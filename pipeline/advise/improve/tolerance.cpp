@@ -14,10 +14,11 @@ namespace dresslife::pipeline {
 namespace {
 
 constexpr std::size_t usually_judged = 3;  // 24 jobs for each
-constexpr std::size_t known_at_once = 4;    // the first are the lengths and the turn of the end, which show a narrow optimum soonest
-constexpr std::size_t full_at_once = 2;     // also the least: a second costs less beside the first than after it
-constexpr std::size_t usually_full = 4;     // of the best
-constexpr double known_time = 0.2;          // of a full run: 0.12 and 0.37 measured
+constexpr std::size_t known_at_once =
+    4;  // the first are the lengths and the turn of the end, which show a narrow optimum soonest
+constexpr std::size_t full_at_once = 2;  // also the least: a second costs less beside the first than after it
+constexpr std::size_t usually_full = 4;  // of the best
+constexpr double known_time = 0.2;       // of a full run: 0.12 and 0.37 measured
 
 /// Returns the smallest remaining share of the life with a nudge, over the other finalists; 0: it does not run or violates a
 /// limit.
@@ -53,15 +54,15 @@ std::vector<std::size_t> next_of(const Finalist& of, const WithinTolerance& judg
   for (std::size_t k = 0; k < of.nudges.size(); ++k)
     if (!std::binary_search(judged.numbers.begin(), judged.numbers.end(), k)) left.push_back(k);
   if (!left.empty()) {
-    std::stable_sort(left.begin(), left.end(), [&](std::size_t a, std::size_t b) {
-      return kept_share(a, others) < kept_share(b, others);
-    });
+    std::stable_sort(left.begin(), left.end(),
+                     [&](std::size_t a, std::size_t b) { return kept_share(a, others) < kept_share(b, others); });
     left.resize(std::min(left.size(), known_at_once));
     return left;
   }
   std::vector<std::pair<std::pair<Kept, double>, std::size_t>> worst_first;
   for (std::size_t k = 0; k < judged.numbers.size(); ++k)
-    if (judged.nudges[k].estimated) worst_first.emplace_back(to_verify(judged.outcomes[k], as_it_is), judged.numbers[k]);
+    if (judged.nudges[k].estimated)
+      worst_first.emplace_back(to_verify(judged.outcomes[k], as_it_is), judged.numbers[k]);
   std::ranges::sort(worst_first);
   worst_first.resize(std::min(worst_first.size(), full_at_once));
   for (const auto& [life, number] : worst_first) left.push_back(number);
@@ -71,8 +72,13 @@ std::vector<std::size_t> next_of(const Finalist& of, const WithinTolerance& judg
 void add(WithinTolerance& judged, const Finalist& of, std::size_t number, const Outcome& outcome, bool is_estimated) {
   const bool ran = outcome.failure.empty();
   const ModeLife mode = first_mode(outcome);
-  const ImprovementStory::Nudge nudge{of.nudges[number].what, ran, ran ? outcome.hours / of.drawn.hours : 0, outcome.words(),
-                                      ran ? mode.mode : "", ran ? mode.hours : 0, ran && is_estimated};
+  const ImprovementStory::Nudge nudge{of.nudges[number].what,
+                                      ran,
+                                      ran ? outcome.hours / of.drawn.hours : 0,
+                                      outcome.words(),
+                                      ran ? mode.mode : "",
+                                      ran ? mode.hours : 0,
+                                      ran && is_estimated};
   const auto at = std::lower_bound(judged.numbers.begin(), judged.numbers.end(), number);
   const auto k = at - judged.numbers.begin();
   if (at != judged.numbers.end() && *at == number) {
@@ -137,7 +143,8 @@ ToleranceCount count_of(const std::vector<const WithinTolerance*>& all, const Fi
 }  // namespace
 
 std::vector<std::string> known_sets(const std::vector<StudyJob>& jobs) {
-  const bool uncertain = std::ranges::any_of(jobs, [](const StudyJob& job) { return job.job && job.job->uncertainty.enabled; });
+  const bool uncertain =
+      std::ranges::any_of(jobs, [](const StudyJob& job) { return job.job && job.job->uncertainty.enabled; });
   return uncertain ? std::vector<std::string>{"uncertainty.enabled=false"} : std::vector<std::string>{};
 }
 
@@ -175,8 +182,7 @@ Outcome estimated(const Outcome& off, const Outcome& own, const Outcome& drawn) 
 
 WithinTolerance within_tolerance(const Finalist& of, const Outcome& as_it_is,
                                  const std::function<bool(const Merit&)>& enough,
-                                 const std::vector<WithinTolerance>& others,
-                                 const ToleranceProgress& progress) {
+                                 const std::vector<WithinTolerance>& others, const ToleranceProgress& progress) {
   WithinTolerance judged = none_evaluated(of, as_it_is);
   while (!judged.whole && !enough(worst_known(judged, of, as_it_is))) {
     if (progress) progress(count_of({&judged}, of));
@@ -185,8 +191,8 @@ WithinTolerance within_tolerance(const Finalist& of, const Outcome& as_it_is,
   return judged;
 }
 
-std::vector<WithinTolerance> within_tolerance(const std::vector<Finalist>& best_first,
-                                              const Outcome& as_it_is, const ToleranceProgress& progress) {
+std::vector<WithinTolerance> within_tolerance(const std::vector<Finalist>& best_first, const Outcome& as_it_is,
+                                              const ToleranceProgress& progress) {
   std::vector<WithinTolerance> all;
   const auto admit_next = [&] { all.push_back(none_evaluated(best_first[all.size()], as_it_is)); };
   while (all.size() < std::min(usually_judged, best_first.size())) admit_next();
@@ -194,8 +200,7 @@ std::vector<WithinTolerance> within_tolerance(const std::vector<Finalist>& best_
     const auto runs = [](const WithinTolerance& one) { return one.worst.kept != Kept::nothing; };
     while (all.size() < best_first.size() && std::none_of(all.begin(), all.end(), runs)) admit_next();
     const auto leader = std::max_element(
-        all.begin(), all.end(),
-        [](const WithinTolerance& a, const WithinTolerance& b) { return a.worst < b.worst; });
+        all.begin(), all.end(), [](const WithinTolerance& a, const WithinTolerance& b) { return a.worst < b.worst; });
     if (leader == all.end() || leader->whole) break;
     const Finalist& of = best_first[static_cast<std::size_t>(leader - all.begin())];
     std::vector<WithinTolerance> others = all;
@@ -221,8 +226,7 @@ std::size_t best_within(const std::vector<WithinTolerance>& judged, std::optiona
   return static_cast<std::size_t>(best - judged.begin());
 }
 
-std::string tolerance_words(const std::vector<ImprovementStory::Nudge>& nudges,
-                            const MountingTolerance& tolerance) {
+std::string tolerance_words(const std::vector<ImprovementStory::Nudge>& nudges, const MountingTolerance& tolerance) {
   if (nudges.empty()) return "";
   const ImprovementStory::Nudge *shortest = nullptr, *earliest = nullptr;
   std::vector<std::string> broken;
@@ -230,26 +234,25 @@ std::string tolerance_words(const std::vector<ImprovementStory::Nudge>& nudges,
     if (!nudge.words.empty()) broken.push_back(nudge.what + ": " + nudge.words);
     if (!nudge.ran) continue;
     if (std::isfinite(nudge.share) && (!shortest || nudge.share < shortest->share)) shortest = &nudge;
-    if (!nudge.first_mode.empty() && (!earliest || nudge.first_hours < earliest->first_hours))
-      earliest = &nudge;
+    if (!nudge.first_mode.empty() && (!earliest || nudge.first_hours < earliest->first_hours)) earliest = &nudge;
   }
   std::vector<std::string> parts;
   if (shortest)
-    parts.push_back(
-        fmt::format("the wires live at least {}{:.2g} times as long ({})", shortest->estimated ? "about " : "", shortest->share, shortest->what));
+    parts.push_back(fmt::format("the wires live at least {}{:.2g} times as long ({})",
+                                shortest->estimated ? "about " : "", shortest->share, shortest->what));
   if (earliest)
     parts.push_back(fmt::format("{} comes after {} at the earliest ({})", earliest->first_mode,
                                 hours_text(earliest->first_hours), earliest->what));
   parts.push_back(broken.empty() ? "all limits are kept"
-                                 : fmt::format("{} of {} such jobs pass a limit or do not run ({})",
-                                               broken.size(), nudges.size(), broken.front()));
+                                 : fmt::format("{} of {} such jobs pass a limit or do not run ({})", broken.size(),
+                                               nudges.size(), broken.front()));
   std::string text = "With " + tolerance_text(tolerance);
   for (std::size_t k = 0; k < parts.size(); ++k)
     text += (k == 0 ? " " : k + 1 == parts.size() ? ", and " : ", ") + parts[k];
   text += ".";
   if (const auto estimates = std::ranges::count(nudges, true, &ImprovementStory::Nudge::estimated); estimates > 0)
-    text += fmt::format(" Lives of {} of {} such jobs are estimates by runs without uncertain inputs.",
-                        estimates, nudges.size());
+    text += fmt::format(" Lives of {} of {} such jobs are estimates by runs without uncertain inputs.", estimates,
+                        nudges.size());
   return text + "\n";
 }
 

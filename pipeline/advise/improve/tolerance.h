@@ -74,13 +74,11 @@ struct WithinTolerance {
 /// far, without estimated lives. others: finalists of the same job, which determine the order.
 WithinTolerance within_tolerance(const Finalist& finalist, const Outcome& as_it_is,
                                  const std::function<bool(const Merit&)>& enough,
-                                 const std::vector<WithinTolerance>& others,
-                                 const ToleranceProgress& progress);
+                                 const std::vector<WithinTolerance>& others, const ToleranceProgress& progress);
 
 /// Returns the results of the finalists that had to be evaluated, in their order; at least one is whole. best_first: finalists by
 /// falling merit. as_it_is: outcome of the original job (merit_of()).
-std::vector<WithinTolerance> within_tolerance(const std::vector<Finalist>& best_first,
-                                              const Outcome& as_it_is,
+std::vector<WithinTolerance> within_tolerance(const std::vector<Finalist>& best_first, const Outcome& as_it_is,
                                               const ToleranceProgress& progress = {});
 
 /// Returns the index of the largest m_w among the whole results. own: index of the original job. It stays the choice if no other
@@ -89,7 +87,6 @@ std::size_t best_within(const std::vector<WithinTolerance>& judged, std::optiona
 
 /// Returns a line: "With a clamp or length off by 10 mm, .. or an end turned by 10 deg the wires live at least 0.7 times as long,
 /// ..."; empty without nudges.
-std::string tolerance_words(const std::vector<ImprovementStory::Nudge>& nudges,
-                            const MountingTolerance& tolerance);
+std::string tolerance_words(const std::vector<ImprovementStory::Nudge>& nudges, const MountingTolerance& tolerance);
 
 }  // namespace dresslife::pipeline

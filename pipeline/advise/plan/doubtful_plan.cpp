@@ -15,15 +15,15 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr double least_percent = 1;     // of the time: 48 minutes of a week of 80 hours
+constexpr double least_percent = 1;  // of the time: 48 minutes of a week of 80 hours
 // sum of the percent of repeats of all programs, if shares were written instead of per cent
 constexpr double shares_at_most = 1.5;
-constexpr double least_week = 5;        // [h]: an hour per working day
-constexpr double day = 24;              // [h]: robots of plants run 40 h a week and more
+constexpr double least_week = 5;                    // [h]: an hour per working day
+constexpr double day = 24;                          // [h]: robots of plants run 40 h a week and more
 constexpr double least_shift = 2, most_shift = 24;  // [h]
 constexpr double longest_history = 175'000;         // [h]: 20 years day and night
 constexpr double most_times_cost = 100;             // between the largest and the smallest cost of one kind
-constexpr double rounded_percent = 1.5;              // rounding error of three programs of 33 % each
+constexpr double rounded_percent = 1.5;             // rounding error of three programs of 33 % each
 constexpr std::chrono::days oldest{20 * 365};       // robots are overhauled or replaced after 40,000 h
 
 class Doubts {
@@ -42,8 +42,8 @@ class Doubts {
     }
     if (by_repeats && repeats <= shares_at_most)
       add(duty.where,
-          fmt::format("percent_of_repeats of duty '{}' add up to {:g} % (limit more than {:g})", duty.name,
-                      repeats, shares_at_most),
+          fmt::format("percent_of_repeats of duty '{}' add up to {:g} % (limit more than {:g})", duty.name, repeats,
+                      shares_at_most),
           "shares instead of percentages",
           fmt::format("percent_of_repeats: {:g} instead of {:g}, and so on",
                       100 * duty.programs.front().percent_of_repeats.value_or(0.5),
@@ -53,16 +53,15 @@ class Doubts {
           "a program that is missing; the other repeats do no damage", "percent_of_repeats of all programs");
     if (duty.repeats_per_hour && !by_repeats)
       add(duty.where,
-          fmt::format(
-              "repeats_per_hour of duty '{}' is {:g} and has no effect: no program has percent_of_repeats",
-              duty.name, *duty.repeats_per_hour),
+          fmt::format("repeats_per_hour of duty '{}' is {:g} and has no effect: no program has percent_of_repeats",
+                      duty.name, *duty.repeats_per_hour),
           "a number that belongs to a program",
           fmt::format("repeats_per_hour: {:g} in an entry of programs", *duty.repeats_per_hour));
     week(duty.where, fmt::format("hours_per_week of duty '{}'", duty.name), duty.hours_per_week);
     if (per_shift && (duty.shift_hours > most_shift || duty.shift_hours < least_shift))
       add(duty.where,
-          fmt::format("shift_hours of duty '{}' is {:g} (limit {:g} .. {:g})", duty.name, duty.shift_hours,
-                      least_shift, most_shift),
+          fmt::format("shift_hours of duty '{}' is {:g} (limit {:g} .. {:g})", duty.name, duty.shift_hours, least_shift,
+                      most_shift),
           duty.shift_hours > most_shift ? "hours of a week" : "a share of a day", "shift_hours: 8");
     for (const PastDuty& past : duty.history)
       if (past.hours.value_or(0) > longest_history)
@@ -70,38 +69,40 @@ class Doubts {
             fmt::format("hours of the history are {:g} (limit {:g}: 20 years day and night)", *past.hours,
                         longest_history),
             past.from.empty() ? "minutes or seconds instead of hours" : "a wrong year",
-            past.from.empty() ? fmt::format("hours: {:.6g} if that was minutes", *past.hours / 60) : "from: the year as it was");
+            past.from.empty() ? fmt::format("hours: {:.6g} if that was minutes", *past.hours / 60)
+                              : "from: the year as it was");
   }
   void of(const Fleet& fleet, Day today) {
     std::map<std::string, const Installed*> names;
     const Installed *new_today = nullptr, *thousands = nullptr, *short_week = nullptr;
     int new_ones = 0, of_thousands = 0, short_weeks = 0;
-    const auto [low_planned, high_planned] = std::minmax_element(
-        fleet.rows.begin(), fleet.rows.end(),
-        [](const Installed& a, const Installed& b) { return a.planned_cost < b.planned_cost; });
+    const auto [low_planned, high_planned] =
+        std::minmax_element(fleet.rows.begin(), fleet.rows.end(),
+                            [](const Installed& a, const Installed& b) { return a.planned_cost < b.planned_cost; });
     for (const Installed& row : fleet.rows) {
       if (row.hours_per_week && *row.hours_per_week <= day && short_weeks++ == 0) short_week = &row;
       if (today - row.since > oldest)
         add(row.where,
-            fmt::format("'{}' was installed {} days ago (limit {}: 20 years)", row.name,
-                        (today - row.since).count(), oldest.count()),
+            fmt::format("'{}' was installed {} days ago (limit {}: 20 years)", row.name, (today - row.since).count(),
+                        oldest.count()),
             "the date of the robot, or a wrong year", "installed: the date of the dresspack");
       const auto [same, is_new] = names.try_emplace(plain(row.name), &row);
       if (!is_new)
         add(row.where,
-            fmt::format("'{}' and '{}' differ only in blanks, signs or capitals", row.name,
-                        same->second->name),
+            fmt::format("'{}' and '{}' differ only in blanks, signs or capitals", row.name, same->second->name),
             "one dresspack in two rows", "one of the two rows, or names that differ more");
       if (fleet.has_costs && row.planned_cost == 0)
         add(row.where, fmt::format("planned_cost of '{}' is 0 (limit more than 0)", row.name),
             "a cost that is not known", "planned_cost with parts, labour and standstill");
-      if (fleet.has_costs && row.planned_cost > 0 && row.unplanned_cost > most_times_cost * row.planned_cost && of_thousands++ == 0)
+      if (fleet.has_costs && row.planned_cost > 0 && row.unplanned_cost > most_times_cost * row.planned_cost &&
+          of_thousands++ == 0)
         thousands = &row;
       if (row.since == today && new_ones++ == 0) new_today = &row;
     }
     const auto more = [](int count) { return count > 1 ? fmt::format(" (and {} more)", count - 1) : std::string(); };
     if (short_week)
-      week(short_week->where, fmt::format("hours_per_week of '{}'{}", short_week->name, more(short_weeks)), *short_week->hours_per_week);
+      week(short_week->where, fmt::format("hours_per_week of '{}'{}", short_week->name, more(short_weeks)),
+           *short_week->hours_per_week);
     if (thousands)
       add(thousands->where,
           fmt::format("unplanned_cost of '{}' is {:.4g} times its planned_cost (limit {:g}){}", thousands->name,
@@ -109,16 +110,14 @@ class Doubts {
           "thousands in one of the two columns",
           fmt::format("planned_cost: {:.0f} if that was thousands", 1e3 * thousands->planned_cost));
     if (new_today)
-      add(new_today->where, fmt::format("'{}' counts as installed today{}", new_today->name, more(new_ones)), "an empty cell of the column 'installed'",
-          "the date on which it was installed; leave it if it is new");
+      add(new_today->where, fmt::format("'{}' counts as installed today{}", new_today->name, more(new_ones)),
+          "an empty cell of the column 'installed'", "the date on which it was installed; leave it if it is new");
     if (fleet.has_costs && low_planned->planned_cost > 0 &&
         high_planned->planned_cost > most_times_cost * low_planned->planned_cost)
       add(low_planned->where,
           fmt::format("planned_cost of '{}' is {:g}, and of '{}' {:g} (limit {:g} times)", low_planned->name,
-                      low_planned->planned_cost, high_planned->name, high_planned->planned_cost,
-                      most_times_cost),
-          "different units",
-          fmt::format("planned_cost: {:g} if that was thousands", 1e3 * low_planned->planned_cost));
+                      low_planned->planned_cost, high_planned->name, high_planned->planned_cost, most_times_cost),
+          "different units", fmt::format("planned_cost: {:g} if that was thousands", 1e3 * low_planned->planned_cost));
   }
 
   std::vector<Warning> warnings;
@@ -149,7 +148,8 @@ class Doubts {
                       hours < 1 ? "a share" : "per working day"));
     else if (hours <= day)
       add(where, fmt::format("{} is {:g} (limit more than {:g})", key, hours, day), "hours of a day",
-          fmt::format("hours_per_week: {:g} if that was per working day; leave it if the robot runs so little", 5 * hours));
+          fmt::format("hours_per_week: {:g} if that was per working day; leave it if the robot runs so little",
+                      5 * hours));
   }
   /// Returns the letters in lower case and the digits of a name.
   static std::string plain(const std::string& name) {
@@ -181,18 +181,21 @@ std::vector<Warning> doubtful_ages(const Fleet& fleet, const Plan& plan) {
     const double limit = 1 - std::pow(1 - usual_reach, 1 / double(plan.rows.size()));
     if (oldest->reach_its_age >= limit) return {};
     const Installed& row = fleet.rows[static_cast<std::size_t>(oldest - plan.rows.begin())];
-    return {warning_of(WarningKind::motion, row.where.text(),
-                       fmt::format("'{}' has run {}, which by the model {} of new dresspacks reach (limit {}, with which one of {} is so old with a probability of {})",
-                                   row.name, hours_text(oldest->age_hours), percent_text(oldest->reach_its_age), percent_text(limit), plan.rows.size(),
-                                   percent_text(usual_reach)),
-                       "a wrong date or year, a replacement that is not in the table, or a duty or hours per week that are not its own",
-                       "the date on which the dresspack of today was installed")};
+    return {warning_of(
+        WarningKind::motion, row.where.text(),
+        fmt::format(
+            "'{}' has run {}, which by the model {} of new dresspacks reach (limit {}, with which one of {} is so old with a probability of {})",
+            row.name, hours_text(oldest->age_hours), percent_text(oldest->reach_its_age), percent_text(limit),
+            plan.rows.size(), percent_text(usual_reach)),
+        "a wrong date or year, a replacement that is not in the table, or a duty or hours per week that are not its own",
+        "the date on which the dresspack of today was installed")};
   }
-  return {warning_of(WarningKind::motion, fleet.rows.front().where.file,
-                     fmt::format("by the model {} of new dresspacks reach the ages of these {} (limit {})", percent_text(plan.reach_their_age),
-                                 fleet.rows.size(), percent_text(usual_reach)),
-                     "a job or hours per week that are not theirs, or a calibration with records that begin after most of their life",
-                     "dresslife calibrate with an earlier day (--records-since), from which the table has every removal")};
+  return {warning_of(
+      WarningKind::motion, fleet.rows.front().where.file,
+      fmt::format("by the model {} of new dresspacks reach the ages of these {} (limit {})",
+                  percent_text(plan.reach_their_age), fleet.rows.size(), percent_text(usual_reach)),
+      "a job or hours per week that are not theirs, or a calibration with records that begin after most of their life",
+      "dresslife calibrate with an earlier day (--records-since), from which the table has every removal")};
 }
 
 }  // namespace dresslife::pipeline

@@ -44,15 +44,18 @@ void check(const Duty& duty, const std::string& key, Problems& problems) {
   if (batch != duty.programs.end() && !duty.order.empty())
     problems.add(batch->where, fmt::format("'{}' has a batch_size, and duty '{}' an order", batch->job, duty.name),
                  "remove batch_size and give repeats in the order, or remove the order");
-  else if (std::count_if(duty.programs.begin(), duty.programs.end(), in_batches) == 1 && !problems.touch(key + ".programs"))
-    problems.add(batch->where, fmt::format("'{}' alone has a batch_size, so it changes to no other program", batch->job),
+  else if (std::count_if(duty.programs.begin(), duty.programs.end(), in_batches) == 1 &&
+           !problems.touch(key + ".programs"))
+    problems.add(batch->where,
+                 fmt::format("'{}' alone has a batch_size, so it changes to no other program", batch->job),
                  "give the batch_size of the other programs, too");
   for (const OrderedProgram& program : duty.order)
     if (!jobs.contains(program.job) && !problems.touch(key + ".order"))
       problems.add(program.where, fmt::format("'{}' in the order is no program of duty '{}'", program.job, duty.name),
                    "add it to programs, with its number of repeats");
   if (duty.order.size() == 1 && !problems.touch(key + ".order"))
-    problems.add(duty.order.front().where, "an order of one program has no change to another", "name the other programs, or remove the order");
+    problems.add(duty.order.front().where, "an order of one program has no change to another",
+                 "name the other programs, or remove the order");
   constexpr double rounding = 1e-9;
   if (percent_of_repeats > 100 + rounding)
     problems.add(duty.where, fmt::format("percent_of_repeats adds up to {:g} %", percent_of_repeats), "at most 100");
@@ -73,27 +76,31 @@ void describe(Fields& f, DutyProgram& program) {
                  "The share of the hours of operation in which the robot runs the program.");
   f.maybe_number("percent_of_repeats", program.percent_of_repeats, between(0, 100),
                  "The share of the duty's `repeats_per_hour`.");
-  f.integer("batch_size", program.batch_size, Need::optional, between(0, most_repeats),
-            "Its repeats in a row before the next program begins: in place of an `order`, where each program runs once in a round. 0: not "
-            "known.");
+  f.integer(
+      "batch_size", program.batch_size, Need::optional, between(0, most_repeats),
+      "Its repeats in a row before the next program begins: in place of an `order`, where each program runs once in a round. 0: not "
+      "known.");
   f.number("deviation_percent", program.deviation_percent, Need::optional, between(0, 100),
            "The standard deviation of the number of repeats, from one dresspack to the next.");
-  f.text("recording_of", program.recording_of, Need::optional,
-         "Programs with the same name here are recordings of one cycle. The answer states how much their damages differ.");
+  f.text(
+      "recording_of", program.recording_of, Need::optional,
+      "Programs with the same name here are recordings of one cycle. The answer states how much their damages differ.");
 }
 
 void describe(Fields& f, OrderedProgram& program) {
   f.place(program.where);
   f.text("job", program.job, Need::required, "The name of a job among the programs of the duty.");
-  f.integer("repeats", program.repeats, Need::optional, between(1, most_repeats), "Its repeats before the next one begins.");
+  f.integer("repeats", program.repeats, Need::optional, between(1, most_repeats),
+            "Its repeats before the next one begins.");
 }
 
 void describe(Fields& f, PastDuty& past) {
   f.place(past.where);
   f.text("duty", past.duty, Need::required, "The name of a duty in this file.");
   f.maybe_number("hours", past.hours, at_least(0), "The hours of operation under it.");
-  f.text("from", past.from, Need::optional,
-         "In place of `hours`: the first day under it, as in 2026-01-05. Each week counts as `hours_per_week` of that duty.");
+  f.text(
+      "from", past.from, Need::optional,
+      "In place of `hours`: the first day under it, as in 2026-01-05. Each week counts as `hours_per_week` of that duty.");
   f.text("to", past.to, Need::optional, "The last day under it.");
 }
 
@@ -106,8 +113,9 @@ void describe(Fields& f, Duty& duty) {
   f.maybe_number("repeats_per_hour", duty.repeats_per_hour, between(0, most_repeats),
                  "The repeats of all programs together in an hour of operation, for `percent_of_repeats`.");
   f.list("programs", duty.programs, Need::required, "The programs, and how often each of them runs.");
-  f.list("order", duty.order, Need::optional,
-         "One round of the programs, which begins again after the last of them. With it the changes between programs count.");
+  f.list(
+      "order", duty.order, Need::optional,
+      "One round of the programs, which begins again after the last of them. With it the changes between programs count.");
   f.list("history", duty.history, Need::optional,
          "What the dresspack has done so far. With it the remaining life is predicted, and a plan counts it.");
 }
@@ -125,15 +133,20 @@ void describe(Fields& f, DutyFile& file) {
 std::array<Day, 2> PastDuty::days(Day today) const {
   const auto day_of = [&](const char* key, const std::string& text) {
     if (const std::optional<Day> day = exported_day(text)) return *day;
-    throw InputError(where, text.empty() ? fmt::format("the history has no '{}'", key) : fmt::format("{} '{}' is no date", key, text),
-                     day_remedy(text));
+    throw InputError(
+        where,
+        text.empty() ? fmt::format("the history has no '{}'", key) : fmt::format("{} '{}' is no date", key, text),
+        day_remedy(text));
   };
   const std::array<Day, 2> days{day_of("from", from), day_of("to", to)};
-  if (days[1] < days[0]) throw InputError(where, fmt::format("the history ends on {}, before it begins", to), "exchange the two dates");
+  if (days[1] < days[0])
+    throw InputError(where, fmt::format("the history ends on {}, before it begins", to), "exchange the two dates");
   if (days[0] > today)
-    throw InputError(where, fmt::format("the history begins on {}, after today, {}", from, day_text(today)), "give days that are past");
+    throw InputError(where, fmt::format("the history begins on {}, after today, {}", from, day_text(today)),
+                     "give days that are past");
   if (days[1] > today)
-    throw InputError(where, fmt::format("the history ends on {}, after today, {}", to, day_text(today)), fmt::format("to: {}, or an earlier day", day_text(today)));
+    throw InputError(where, fmt::format("the history ends on {}, after today, {}", to, day_text(today)),
+                     fmt::format("to: {}, or an earlier day", day_text(today)));
   return days;
 }
 
@@ -147,15 +160,18 @@ void fill_hours(const DutyFile& file, std::vector<PastDuty>& history, Day today,
       const Duty& duty = duty_named(file, past.duty, past.where);
       const bool dated = !past.from.empty() || !past.to.empty();
       if (dated == past.hours.has_value())
-        throw InputError(past.where, dated ? "the history has both hours and dates" : "the history has neither hours nor dates",
+        throw InputError(past.where,
+                         dated ? "the history has both hours and dates" : "the history has neither hours nor dates",
                          "give hours, or from and to");
       if (!dated) return;
       const std::array<Day, 2> days = past.days(today);
       past.hours = (days_between(days[0], days[1]) + 1) / 7 * duty.hours_per_week;
       for (const auto& [other, same] : periods)
         if (days[0] <= other[1] && other[0] <= days[1])
-          throw InputError(past.where, fmt::format("the days {} .. {} overlap those of line {}", past.from, past.to, same->where.line),
-                           "one dresspack has one duty at a time; give a duty of both programs");
+          throw InputError(
+              past.where,
+              fmt::format("the days {} .. {} overlap those of line {}", past.from, past.to, same->where.line),
+              "one dresspack has one duty at a time; give a duty of both programs");
       periods.emplace_back(days, &past);
     });
 }
@@ -170,7 +186,8 @@ double DutyProgram::rate(double repeat_seconds, double shift_hours, std::optiona
 }
 
 DutyFile read_duties(const std::filesystem::path& name, Day today) {
-  check_utf8(read_text(name), name.string());  // with another encoding the names of duties would differ from those of a fleet
+  check_utf8(read_text(name),
+             name.string());  // with another encoding the names of duties would differ from those of a fleet
   const Node document = read_yaml(name);
   if (document.is_map() && !document.find("duties")) refuse_other_kind(document, DocumentKind::duties);
   DutyFile file;
@@ -184,7 +201,8 @@ DutyFile read_duties(const std::filesystem::path& name, Day today) {
     check(duty, fmt::format("duties[{}]", k + 1), problems);
     if (!unique.insert(duty.name).second)
       problems.add(duty.where, fmt::format("two duties are named '{}'", duty.name), "give each another name");
-    if (!problems.touch(fmt::format("duties[{}].history", k + 1))) fill_hours(file, file.duties[k].history, today, problems);
+    if (!problems.touch(fmt::format("duties[{}].history", k + 1)))
+      fill_hours(file, file.duties[k].history, today, problems);
   }
   problems.finish(name.string());
   for (Duty& duty : file.duties)

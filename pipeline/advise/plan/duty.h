@@ -38,7 +38,8 @@ struct DutyProgram {
   double deviation_percent = 0;
   /// name of a recording: programs with the same name are one cycle of its log; empty: a separate cycle
   std::string recording_of;
-  int batch_size = 0;  ///< repeats before the next program begins: read_duties() converts them to an order; 0: not given
+  int batch_size =
+      0;  ///< repeats before the next program begins: read_duties() converts them to an order; 0: not given
 
   /// Returns the repeats in an hour of operation. repeat_seconds: duration of its motion.
   double rate(double repeat_seconds, double shift_hours, std::optional<double> all_repeats_per_hour) const;
@@ -47,7 +48,7 @@ struct DutyProgram {
 /// Hours under a duty in the past, given as a number or by dates.
 struct PastDuty {
   Where where;
-  std::string duty, from, to;    ///< dates as written in the file; empty: hours are given
+  std::string duty, from, to;   ///< dates as written in the file; empty: hours are given
   std::optional<double> hours;  ///< hours of operation; read_duties() converts days by the duty's hours per week
 
   /// Returns the first and the last day, both included. Errors: InputError for text that is no date, for dates in reverse order,

@@ -21,9 +21,7 @@ namespace {
 std::string indented_lines(const std::string& text) { return wrapped(text, screen_columns() - 2, "  "); }
 
 /// Returns the remaining life of the robot, which also ran during the history.
-double robot_life_left(const DutyResult& duty) {
-  return std::max(0.0, duty.robot_life_hours - duty.past_hours);
-}
+double robot_life_left(const DutyResult& duty) { return std::max(0.0, duty.robot_life_hours - duty.past_hours); }
 
 /// Returns the possible failure by the first unvalidated mode before these hours, with the action.
 std::string inspection(const DutyResult& duty, double hours) {
@@ -32,8 +30,7 @@ std::string inspection(const DutyResult& duty, double hours) {
   if (first == duty.others.end() || !(first->hours < hours)) return "";
   const std::string after = hours_text(first->hours) + " (not validated)";
   if (first->mode == UnvalidatedMode::rating)
-    return fmt::format(" The maker's rating of {} covers only {}: test or replace it by then.", first->place,
-                       after);
+    return fmt::format(" The maker's rating of {} covers only {}: test or replace it by then.", first->place, after);
   const std::string of = first->dresspack.empty() ? "" : " of " + first->dresspack;
   if (first->mode == UnvalidatedMode::jacket)
     return fmt::format(" A cable's jacket{} may wear through in the hose after {}: open the hose.", of, after);
@@ -47,18 +44,17 @@ std::string inspection(const DutyResult& duty, double hours) {
 
 /// Returns "by abrasion 1 of 10 is worn through after 3,000 h".
 std::string other_words(const DutyMode& mode) {
-  const std::string hours = hours_text(mode.hours),
-                    of = mode.dresspack.empty() ? "" : " of " + mode.dresspack;
+  const std::string hours = hours_text(mode.hours), of = mode.dresspack.empty() ? "" : " of " + mode.dresspack;
   if (mode.mode == UnvalidatedMode::rating)
     return fmt::format("the maker's rating of {}{} covers {}", mode.place, of, hours);
-  if (mode.mode == UnvalidatedMode::wall)
-    return fmt::format("1 of 10 hoses{} has cracked after {}", of, hours);
+  if (mode.mode == UnvalidatedMode::wall) return fmt::format("1 of 10 hoses{} has cracked after {}", of, hours);
   if (mode.mode == UnvalidatedMode::jacket)
     return fmt::format("1 of 10 dresspacks{} has a jacket worn through in the hose after {}", of, hours);
   if (mode.mode == UnvalidatedMode::corkscrew)
     return fmt::format("1 of 10 dresspacks{} has a corkscrew after {}", of, hours);
   if (mode.mode == UnvalidatedMode::kink)
-    return std::isinf(mode.hours) ? fmt::format("no tube{} kinks in 9 of 10 dresspacks", of) : fmt::format("in 1 of 10 dresspacks or more a tube{} kinks", of);
+    return std::isinf(mode.hours) ? fmt::format("no tube{} kinks in 9 of 10 dresspacks", of)
+                                  : fmt::format("in 1 of 10 dresspacks or more a tube{} kinks", of);
   return fmt::format("1 of 10 hoses{} is worn through after {}", of, hours);
 }
 
@@ -114,10 +110,9 @@ std::string caution_words(const DutyResult& duty) {
   for (const DutyMode& mode : duty.others)
     if (mode.hours < duty.robot_life_hours) soon.push_back(other_words(mode));
   if (!soon.empty())
-    text += indented_lines(
-        fmt::format("Not validated and not in these hours, at the soonest: {}.", fmt::join(soon, "; ")));
-  if (!duty.not_evaluated.empty())
-    text += indented_lines(fmt::format("Not evaluated: {}.", duty.not_evaluated));
+    text +=
+        indented_lines(fmt::format("Not validated and not in these hours, at the soonest: {}.", fmt::join(soon, "; ")));
+  if (!duty.not_evaluated.empty()) text += indented_lines(fmt::format("Not evaluated: {}.", duty.not_evaluated));
   return text;
 }
 
@@ -127,7 +122,8 @@ std::string recording_words(const DutyResult& duty) {
   constexpr double worth_a_word = 0.01;  // share of the duty's damage
   std::map<std::string, std::vector<std::size_t>> cycles;
   for (std::size_t k = 0; k < duty.parts.size(); ++k)
-    if (!duty.parts[k].recording_of.empty() && duty.parts[k].repeats_per_hour > 0) cycles[duty.parts[k].recording_of].push_back(k);
+    if (!duty.parts[k].recording_of.empty() && duty.parts[k].repeats_per_hour > 0)
+      cycles[duty.parts[k].recording_of].push_back(k);
   std::string text;
   bool leaves_out_rests = false;
   for (const auto& [name, of] : cycles) {
@@ -139,27 +135,32 @@ std::string recording_words(const DutyResult& duty) {
     for (const std::size_t k : of) {
       const double times = duty.lives.share[k] / duty.parts[k].repeats_per_hour / (damage / repeats);
       least = std::min(least, times), most = std::max(most, times);
-      if (k != of.front()) squares += (times - before) * (times - before) / 2;  // they are in the order of their expected damage
+      if (k != of.front())
+        squares += (times - before) * (times - before) / 2;  // they are in the order of their expected damage
       before = times;
-      for (const std::size_t side : {0, 1}) at_other_rests[side] += duty.lives.share[k] / damage * duty.parts[k].at_other_rests[side];
+      for (const std::size_t side : {0, 1})
+        at_other_rests[side] += duty.lives.share[k] / damage * duty.parts[k].at_other_rests[side];
     }
     const double count = static_cast<double>(of.size()), error = std::sqrt(squares / (count - 1) / count);
-    std::string words = fmt::format("The {} recordings of {} do {:.2f} to {:.2f} times its mean damage: the standard error of the mean is {} %.", of.size(),
-                                    name, least, most, readable(100 * error, 2));
+    std::string words = fmt::format(
+        "The {} recordings of {} do {:.2f} to {:.2f} times its mean damage: the standard error of the mean is {} %.",
+        of.size(), name, least, most, readable(100 * error, 2));
     const auto [low, high] = std::minmax(at_other_rests[0], at_other_rests[1]);
     if (!(low > 0)) {
       leaves_out_rests = true;
     } else if (high > low) {
       const double of_rest = std::max(std::abs(std::log(low)), std::abs(std::log(high)));
-      words += fmt::format(" With the loose cables at other places of rest (one standard deviation) it is {} to {} times as large. Together the mean is known "
-                           "within a factor of {}.",
-                           readable(low, 2), readable(high, 2), readable(std::exp(std::hypot(of_rest, std::log1p(error))), 2));
+      words += fmt::format(
+          " With the loose cables at other places of rest (one standard deviation) it is {} to {} times as large. Together the mean is known "
+          "within a factor of {}.",
+          readable(low, 2), readable(high, 2), readable(std::exp(std::hypot(of_rest, std::log1p(error))), 2));
     }
     text += indented_lines(words);
   }
   if (leaves_out_rests)
-    text += indented_lines("Where cables lie loose in the hose, the damage of a cycle also depends on the places at which they rest before it. With "
-                           "uncertainty.rest: 0 the standard error leaves that out: it may be several times too small.");
+    text += indented_lines(
+        "Where cables lie loose in the hose, the damage of a cycle also depends on the places at which they rest before it. With "
+        "uncertainty.rest: 0 the standard error leaves that out: it may be several times too small.");
   return text;
 }
 
@@ -169,31 +170,38 @@ std::string mixture_words(const DutyResult& duty) {
   constexpr double worth_a_word = 0.01, worth_a_place = 0.05;
   std::string text = recording_words(duty);
   if (const std::string factors = factor_words(duty.errors); !factors.empty())
-    text += indented_lines(fmt::format("The hours of a new dresspack have the numerical error of the programs' lives: {}. With loose cables one motion of the whole "
-                                       "log or of the whole order may differ from the duty by about as much, because friction holds the cables at other places.",
-                                       factors));
+    text += indented_lines(fmt::format(
+        "The hours of a new dresspack have the numerical error of the programs' lives: {}. With loose cables one motion of the whole "
+        "log or of the whole order may differ from the duty by about as much, because friction holds the cables at other places.",
+        factors));
   std::vector<std::string> larger;
   for (std::size_t m = 0; m < duty.modes.size(); ++m) {
     const double apart = duty.damage.same_place[m] / duty.changes[m];
-    if (1 / apart > 1 + worth_a_place) larger.push_back(fmt::format("{} by {:.0f} %", duty.modes[m], 100 / apart - 100));
+    if (1 / apart > 1 + worth_a_place)
+      larger.push_back(fmt::format("{} by {:.0f} %", duty.modes[m], 100 / apart - 100));
     if (std::abs(duty.changes[m] - 1) > worth_a_word)
-      text += indented_lines(fmt::format("Changes between the programs make the damage of {} {:.2f} times as large.", duty.modes[m],
-                                         duty.changes[m]));
+      text += indented_lines(fmt::format("Changes between the programs make the damage of {} {:.2f} times as large.",
+                                         duty.modes[m], duty.changes[m]));
   }
   if (!larger.empty())
-    text += indented_lines(fmt::format("The programs damage different places. If all damaged the same place, the damage would be larger: {}.",
-                                       fmt::join(larger, ", ")));
+    text += indented_lines(fmt::format(
+        "The programs damage different places. If all damaged the same place, the damage would be larger: {}.",
+        fmt::join(larger, ", ")));
   // Measured pairs: README. Strain: damage is proportional to strain to the power 1/0.112 (copper.yaml).
   if (duty.has_order)
-    text += indented_lines(fmt::format("The order runs {} times per hour. Abrasion between the programs is not counted.{}",
-                                       readable(duty.rounds_per_hour),
-                                       duty.outside.empty() ? ""
-                                                            : fmt::format(" The order has room for fewer repeats than the duty: these shares of them count without changes "
-                                                                          "to another program: {}.",
-                                                                          fmt::join(duty.outside, ", "))));
+    text += indented_lines(fmt::format(
+        "The order runs {} times per hour. Abrasion between the programs is not counted.{}",
+        readable(duty.rounds_per_hour),
+        duty.outside.empty()
+            ? ""
+            : fmt::format(
+                  " The order has room for fewer repeats than the duty: these shares of them count without changes "
+                  "to another program: {}.",
+                  fmt::join(duty.outside, ", "))));
   else if (std::ranges::count_if(duty.parts, [](const DutyPart& part) { return part.repeats_per_hour > 0; }) > 1)
-    text += indented_lines("Cycles that begin in one program and end in another are not counted. With `order` or `batch_size` they are. For one measured pair "
-                           "they were 11 % of the damage, or 1.2 % of strain. Where two programs bend a cable to opposite sides they can be most of the damage.");
+    text += indented_lines(
+        "Cycles that begin in one program and end in another are not counted. With `order` or `batch_size` they are. For one measured pair "
+        "they were 11 % of the damage, or 1.2 % of strain. Where two programs bend a cable to opposite sides they can be most of the damage.");
   return text;
 }
 
@@ -206,20 +214,17 @@ std::string duty_words(const std::vector<DutyResult>& results) {
   for (const DutyResult& duty : results) {
     double time = 0;
     std::size_t wide = 7;
-    for (const DutyPart& part : duty.parts)
-      time += part.share_of_time, wide = std::max(wide, columns_of(part.job));
+    for (const DutyPart& part : duty.parts) time += part.share_of_time, wide = std::max(wide, columns_of(part.job));
     text += fmt::format("{}{}\n", text.empty() ? "" : "\n", duty.name);
     text += indented_lines(duty_action(duty)) + indented_lines(percentile_words(duty));
-    text += fmt::format("  {:<{}}  {:>14}  {:>8}  {:>8}  {:>17}  {:>21}\n", "program", wide, "repeats per h",
-                        "time", "damage", "p10 without it [h]", "p10 if twice as often");
+    text += fmt::format("  {:<{}}  {:>14}  {:>8}  {:>8}  {:>17}  {:>21}\n", "program", wide, "repeats per h", "time",
+                        "damage", "p10 without it [h]", "p10 if twice as often");
     for (std::size_t k = 0; k < duty.parts.size(); ++k)
-      text +=
-          fmt::format("  {:<{}}  {:>14}  {:>6.1f} %  {:>6.1f} %  {:>18}  {:>21}\n", duty.parts[k].job, wide,
-                      readable(duty.parts[k].repeats_per_hour), 100 * duty.parts[k].share_of_time,
-                      100 * duty.lives.share[k], shown_hours(duty.robot_life_hours, duty.parts[k].without[0]),
-                      as_twice_text(duty, duty.parts[k]));
-    text +=
-        fmt::format("  The robot stands still in {:.1f} % of the time.\n", std::max(0.0, 100 * (1 - time)));
+      text += fmt::format("  {:<{}}  {:>14}  {:>6.1f} %  {:>6.1f} %  {:>18}  {:>21}\n", duty.parts[k].job, wide,
+                          readable(duty.parts[k].repeats_per_hour), 100 * duty.parts[k].share_of_time,
+                          100 * duty.lives.share[k], shown_hours(duty.robot_life_hours, duty.parts[k].without[0]),
+                          as_twice_text(duty, duty.parts[k]));
+    text += fmt::format("  The robot stands still in {:.1f} % of the time.\n", std::max(0.0, 100 * (1 - time)));
     text += caution_words(duty);
     text += mixture_words(duty);
   }

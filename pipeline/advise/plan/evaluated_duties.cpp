@@ -31,7 +31,8 @@
 namespace dresslife::pipeline {
 namespace {
 
-constexpr double fewest_survivors = 1e-3;  // share of the samples: percentiles of fewer than ten samples depend on chance
+constexpr double fewest_survivors =
+    1e-3;  // share of the samples: percentiles of fewer than ten samples depend on chance
 
 /// Finds the jobs of a study by their names.
 class Jobs {
@@ -48,9 +49,8 @@ class Jobs {
   const StudyJob& of(const DutyProgram& program) const {
     if (const auto found = by_name_.find(program.job); found != by_name_.end()) return *found->second;
     const std::string near = nearest_word(program.job, mapped(study_.jobs, &StudyJob::name));
-    throw InputError(
-        program.where, fmt::format("study '{}' has no job '{}'", study_.name, program.job),
-        near.empty() ? "dresslife status STUDY lists its jobs" : fmt::format("did you mean '{}'?", near));
+    throw InputError(program.where, fmt::format("study '{}' has no job '{}'", study_.name, program.job),
+                     near.empty() ? "dresslife status STUDY lists its jobs" : fmt::format("did you mean '{}'?", near));
   }
 
  private:
@@ -96,7 +96,8 @@ std::map<const Job*, std::size_t> sections_of(const DutyFile& file, const Jobs& 
   return numbers;
 }
 
-void check_same_dresspack(const DutyFile& file, const Duty& duty, const Jobs& jobs, const std::map<const Job*, std::size_t>& sections) {
+void check_same_dresspack(const DutyFile& file, const Duty& duty, const Jobs& jobs,
+                          const std::map<const Job*, std::size_t>& sections) {
   const StudyJob& first = jobs.of(duty.programs.front());
   if (!first.job) return;
   std::set<const Job*> known{first.job.get()};
@@ -107,15 +108,16 @@ void check_same_dresspack(const DutyFile& file, const Duty& duty, const Jobs& jo
   }
   for (const DutyProgram& program : programs) {
     const StudyJob& job = jobs.of(program);
-    if (!job.job || !known.insert(job.job.get()).second || sections.at(job.job.get()) == sections.at(first.job.get())) continue;
+    if (!job.job || !known.insert(job.job.get()).second || sections.at(job.job.get()) == sections.at(first.job.get()))
+      continue;
     const auto expected = beside_motion(*first.job);
     for (const auto& [key, text] : beside_motion(*job.job)) {
       const auto found = expected.find(key);
       if (found == expected.end() || found->second != text)
-        throw InputError(program.where,
-                         fmt::format("jobs '{}' and '{}' differ in {}, so their damage does not add up",
-                                     first.name, job.name, key),
-                         "a duty takes jobs that differ only in motion");
+        throw InputError(
+            program.where,
+            fmt::format("jobs '{}' and '{}' differ in {}, so their damage does not add up", first.name, job.name, key),
+            "a duty takes jobs that differ only in motion");
     }
   }
 }
@@ -181,19 +183,16 @@ class FirstPoses {
     if (!is_new) return found->second;
     found->second = first_pose_in(*job.job);
     const auto row = rows_.find(job.name);
-    if (found->second.empty() && row != rows_.end())
-      found->second = first_pose_in(*row->second, job.job->robot.axes());
+    if (found->second.empty() && row != rows_.end()) found->second = first_pose_in(*row->second, job.job->robot.axes());
     return found->second;
   }
-  static Warning warning(const DutyProgram& program, const std::string& first, const std::string& other,
-                         bool known) {
+  static Warning warning(const DutyProgram& program, const std::string& first, const std::string& other, bool known) {
     return warning_of(
         WarningKind::twist, program.where.text(),
-        fmt::format(
-            "the hose is mounted without twist in the first pose of '{}' and again in that of '{}' ({})",
-            first, other,
-            known ? fmt::format("an axis differs by more than {:g} deg", turned)
-                  : "these poses are not known, because the study keeps no strain.h5"),
+        fmt::format("the hose is mounted without twist in the first pose of '{}' and again in that of '{}' ({})", first,
+                    other,
+                    known ? fmt::format("an axis differs by more than {:g} deg", turned)
+                          : "these poses are not known, because the study keeps no strain.h5"),
         "the study has no routing.mounting_pose_deg",
         "routing.mounting_pose_deg: the joint angles in which the clamps were closed, for all programs");
   }
@@ -225,7 +224,8 @@ class Programs {
 
   /// Returns all programs of a duty, on one dresspack.
   std::vector<EvaluatedProgram> of(const Duty& duty) {
-    const std::vector<EvaluatedProgram> all = mapped(duty.programs, [&](const DutyProgram& program) { return of(program); });
+    const std::vector<EvaluatedProgram> all =
+        mapped(duty.programs, [&](const DutyProgram& program) { return of(program); });
     for (const EvaluatedProgram& program : all) check_layout(duty, all.front(), program.job, *program.wires);
     return all;
   }
@@ -240,10 +240,10 @@ class Programs {
   const RankingRow& row(const DutyProgram& program) const {
     const auto row = rows_.find(program.job);
     if (row == rows_.end() || !row->second->done())
-      throw InputError(program.where,
-                       fmt::format("job '{}' has no result{}", program.job,
-                                   row == rows_.end() ? "" : ": " + row->second->failure),
-                       "correct the job and run again");
+      throw InputError(
+          program.where,
+          fmt::format("job '{}' has no result{}", program.job, row == rows_.end() ? "" : ": " + row->second->failure),
+          "correct the job and run again");
     return *row->second;
   }
 
@@ -258,8 +258,7 @@ class Programs {
   static void check_layout(const Duty& duty, const EvaluatedProgram& first, const std::string& job,
                            const WireDamage& wires) {
     if (wires.layout != first.wires->layout && wires.layout->digest != first.wires->layout->digest)
-      throw InputError(duty.where,
-                       fmt::format("the results of '{}' and '{}' have different wires", first.job, job),
+      throw InputError(duty.where, fmt::format("the results of '{}' and '{}' have different wires", first.job, job),
                        "make the results again with dresslife run");
   }
 
@@ -275,8 +274,7 @@ class Programs {
     auto& [modes, wires] = lives_[{state.inode, state.changed_ns}];
     if (!modes) {
       modes = std::make_shared<const FailureModes>(modes_from_text(of.life_response));
-      wires = std::make_shared<const WireDamage>(
-          damages_.read(of.life_file, *modes, failed_wires_percent(program)));
+      wires = std::make_shared<const WireDamage>(damages_.read(of.life_file, *modes, failed_wires_percent(program)));
     }
     return {of.job, of.repeat_seconds, modes, wires};
   }
@@ -321,7 +319,11 @@ class DrawDamage {
  public:
   /// prepared: (result).
   DrawDamage(const Shares& shares, const std::vector<PreparedModes>& prepared, std::size_t worlds)
-      : worlds_(worlds), shares_(shares), prepared_(prepared), damage_(shares.programs_of_result.size()), factors_(shares.programs_of_job.size()) {}
+      : worlds_(worlds),
+        shares_(shares),
+        prepared_(prepared),
+        damage_(shares.programs_of_result.size()),
+        factors_(shares.programs_of_job.size()) {}
   /// Begins with another dresspack.
   void begin(std::size_t draw) {
     dresspack_ = fmt::format("dresspack {}", draw);
@@ -330,9 +332,11 @@ class DrawDamage {
     for (std::size_t k = 0; k < factors_.size(); ++k) factors_[k].programs = shares_.programs_of_job[k];
   }
   /// Returns, (world), the damage of the mode that fails first. Precondition: each duty is requested once after begin().
-  std::vector<double> under(std::size_t duty, const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
-                            const std::vector<double>& share) {
-    const auto number = [&](const EvaluatedProgram& program) { return static_cast<std::size_t>(&program - programs.data()); };
+  std::vector<double> under(std::size_t duty, const std::vector<EvaluatedProgram>& programs,
+                            const std::vector<Rate>& rates, const std::vector<double>& share) {
+    const auto number = [&](const EvaluatedProgram& program) {
+      return static_cast<std::size_t>(&program - programs.data());
+    };
     std::vector<double> damage = first_mode_damage(
         programs, rates, share,
         [&](const EvaluatedProgram& program) -> const RepeatDamage& {
@@ -396,9 +400,10 @@ class HourOfDuty {
   void check(const Duty& duty) const {
     constexpr double rounding = 1e-9;
     if (time_ > 1 + rounding)
-      throw InputError(duty.where,
-                       fmt::format("the programs of duty '{}' take {:.1f} minutes of each hour ({})", duty.name, 60 * time_, words_),
-                       "give fewer repeats, or smaller shares of the time");
+      throw InputError(
+          duty.where,
+          fmt::format("the programs of duty '{}' take {:.1f} minutes of each hour ({})", duty.name, 60 * time_, words_),
+          "give fewer repeats, or smaller shares of the time");
   }
 
  private:
@@ -413,7 +418,10 @@ std::vector<Rate> rates_of(const Duty& duty, Programs& programs, std::vector<Dut
     const double seconds = programs.row(program).repeat_seconds;
     const double rate = program.rate(seconds, duty.shift_hours, duty.repeats_per_hour);
     rates.push_back({rate, program.deviation_percent});
-    parts.push_back({.job = program.job, .repeats_per_hour = rate, .share_of_time = rate * seconds / 3600, .recording_of = program.recording_of});
+    parts.push_back({.job = program.job,
+                     .repeats_per_hour = rate,
+                     .share_of_time = rate * seconds / 3600,
+                     .recording_of = program.recording_of});
     hour.add(rate, seconds, fmt::format("'{}'", program.job));
   }
   if (!duty.order.empty()) {
@@ -431,7 +439,8 @@ std::vector<Rate> rates_of(const Duty& duty, Programs& programs, std::vector<Dut
 void vary_repeats(const Duty& duty, const SamePlace& places, DutyResult& result) {
   constexpr int steps = 10;  // points of a chart
   const std::vector<double> repeats = repeats_of(result.parts);
-  const double idle = sum_of(result.parts, [](const DutyPart& part) { return -part.share_of_time; }, 1.0);
+  const double idle = sum_of(
+      result.parts, [](const DutyPart& part) { return -part.share_of_time; }, 1.0);
   for (std::size_t k = 0; k < repeats.size(); ++k) {
     DutyPart& part = result.parts[k];
     const auto lives_at = [&](double factor) {
@@ -440,9 +449,11 @@ void vary_repeats(const Duty& duty, const SamePlace& places, DutyResult& result)
       return lives_with(result.damage, times, places.at(changed, repeats_in_rounds(duty, changed)));
     };
     part.without = lives_at(0), part.as_twice = lives_at(2);
-    if (part.share_of_time > idle * (1 + 1e-9)) part.as_twice.fill(std::numeric_limits<double>::quiet_NaN());  // the hour is too short
+    if (part.share_of_time > idle * (1 + 1e-9))
+      part.as_twice.fill(std::numeric_limits<double>::quiet_NaN());  // the hour is too short
     if (!(part.share_of_time > 0)) continue;
-    const double most = std::max(part.share_of_time, part.share_of_time + idle);  // at least the present share, without rounding
+    const double most =
+        std::max(part.share_of_time, part.share_of_time + idle);  // at least the present share, without rounding
     for (int i = 0; i <= steps; ++i)
       part.over_share.push_back({most * i / steps, lives_at(most * i / steps / part.share_of_time)});
   }
@@ -492,15 +503,18 @@ std::vector<DutyMode> other_modes(const std::vector<DutyPart>& parts, const std:
 
 void check_programs(const DutyFile& file, const Study& study) {
   if (study.keep == Keep::lives)
-    throw InputError(file.where, fmt::format("study '{}' keeps no life.h5 (keep: lives), from which duties take their damage", study.name),
-                     "keep: histories, or all, in the study");
+    throw InputError(
+        file.where,
+        fmt::format("study '{}' keeps no life.h5 (keep: lives), from which duties take their damage", study.name),
+        "keep: histories, or all, in the study");
   Problems problems;
   const Jobs jobs(study);
   const std::map<const Job*, std::size_t> sections = sections_of(file, jobs);
   for (const Duty& duty : file.duties)
     problems.attempt("", duty.where, [&] {
       for (const DutyProgram& program : duty.programs)
-        if (const StudyJob& of = jobs.of(program); of.job && !of.job->uncertainty.enabled) refuse_without_samples(program);
+        if (const StudyJob& of = jobs.of(program); of.job && !of.job->uncertainty.enabled)
+          refuse_without_samples(program);
       check_same_dresspack(file, duty, jobs, sections);
     });
   problems.finish(file.where.file);
@@ -513,14 +527,14 @@ void check_hours(const DutyFile& file, const std::map<std::string, double>& repe
       HourOfDuty hour;
       for (const DutyProgram& program : duty.programs)
         if (const auto known = repeat_seconds.find(program.job); known != repeat_seconds.end())
-          hour.add(program.rate(known->second, duty.shift_hours, duty.repeats_per_hour), known->second, fmt::format("'{}'", program.job));
+          hour.add(program.rate(known->second, duty.shift_hours, duty.repeats_per_hour), known->second,
+                   fmt::format("'{}'", program.job));
       hour.check(duty);
     });
   problems.finish(file.where.file);
 }
 
-std::vector<Warning> mounting_warnings(const DutyFile& file, const Study& study,
-                                       const std::vector<RankingRow>* rows) {
+std::vector<Warning> mounting_warnings(const DutyFile& file, const Study& study, const std::vector<RankingRow>* rows) {
   std::vector<Warning> warnings;
   FirstPoses poses(study, rows);
   for (const Duty& duty : file.duties)
@@ -588,8 +602,8 @@ std::array<double, 3> errors_under(const Duty& duty, const std::vector<double>& 
 
 }  // namespace
 
-std::vector<DutyResult> outlines(const DutyFile& file, const Study& study,
-                                 const std::vector<RankingRow>& rows, const std::set<std::string>& needed) {
+std::vector<DutyResult> outlines(const DutyFile& file, const Study& study, const std::vector<RankingRow>& rows,
+                                 const std::set<std::string>& needed) {
   Programs programs(study, rows);
   std::vector<DutyResult> results;
   std::vector<Rate> rates;
@@ -598,8 +612,7 @@ std::vector<DutyResult> outlines(const DutyFile& file, const Study& study,
   return results;
 }
 
-std::vector<DutyResult> evaluated(const DutyFile& file, const Study& study,
-                                  const std::vector<RankingRow>& rows) {
+std::vector<DutyResult> evaluated(const DutyFile& file, const Study& study, const std::vector<RankingRow>& rows) {
   Programs programs(study, rows);
   // All duties use one dresspack name, the one in a job's own summary, so that a dresspack keeps its values when its duty
   // changes.
@@ -616,8 +629,7 @@ std::vector<DutyResult> evaluated(const DutyFile& file, const Study& study,
     const SamePlace places(evaluated, round ? &*round : nullptr);
     const std::vector<double> repeats = repeats_of(result.parts), apart = places.at(repeats);
     const std::vector<double> share = places.at(repeats, repeats_in_rounds(duty, repeats));
-    for (std::size_t m = 0; m < share.size(); ++m)
-      result.changes.push_back(apart[m] > 0 ? share[m] / apart[m] : 1);
+    for (std::size_t m = 0; m < share.size(); ++m) result.changes.push_back(apart[m] > 0 ? share[m] / apart[m] : 1);
     result.damage = damage_under(evaluated, rates, share, dresspack);
     vary_repeats(duty, places, result);
   }
@@ -630,20 +642,18 @@ std::vector<DutyResult> evaluated(const DutyFile& file, const Study& study,
       results[d].past_hours += past.hours.value_or(0);
     }
     if (results[d].past_hours >= results[d].robot_life_hours)
-      throw InputError(
-          file.duties[d].where,
-          fmt::format("the history of duty '{}' is {} long, the life of the robot {}", file.duties[d].name,
-                      hours_text(results[d].past_hours), hours_text(results[d].robot_life_hours)),
-          "give hours of operation, or a larger fatigue.robot_life_hours");
+      throw InputError(file.duties[d].where,
+                       fmt::format("the history of duty '{}' is {} long, the life of the robot {}", file.duties[d].name,
+                                   hours_text(results[d].past_hours), hours_text(results[d].robot_life_hours)),
+                       "give hours of operation, or a larger fatigue.robot_life_hours");
     results[d].lives = lives_under(results[d].damage, history);
     results[d].errors = errors_under(file.duties[d], results[d].lives.share, programs);
     if (results[d].past_hours > 0 && results[d].lives.survived < fewest_survivors)
       throw InputError(
           file.duties[d].where,
-          fmt::format(
-              "duty '{}': {:.2g} % of the samples survive its history of {}, so the model contradicts "
-              "this dresspack",
-              file.duties[d].name, 100 * results[d].lives.survived, hours_text(results[d].past_hours)),
+          fmt::format("duty '{}': {:.2g} % of the samples survive its history of {}, so the model contradicts "
+                      "this dresspack",
+                      file.duties[d].name, 100 * results[d].lives.survived, hours_text(results[d].past_hours)),
           "learn from it first: dresslife calibrate");
   }
   return results;
@@ -669,9 +679,8 @@ class SharedValues {
  private:
   static void add(const std::vector<SharedValue>& more, std::vector<SharedValue>& values) {
     for (const SharedValue& value : more)
-      if (std::ranges::none_of(values, [&](const SharedValue& one) {
-            return one.parameter == value.parameter && one.of == value.of;
-          }))
+      if (std::ranges::none_of(
+              values, [&](const SharedValue& one) { return one.parameter == value.parameter && one.of == value.of; }))
         values.push_back(value);
   }
   std::vector<SharedValue> of(const FailureModes& modes) const {
@@ -681,8 +690,7 @@ class SharedValues {
       for (std::size_t p = 0; p < uncertain_count; ++p) {
         const SharedBy by = uncertain_parameters()[p].shared;
         const auto at = static_cast<Eigen::Index>(p);
-        if (by == SharedBy::installation || !(mode.knowledge.covariance(at, at) > 0) || !life.depends_on(p))
-          continue;
+        if (by == SharedBy::installation || !(mode.knowledge.covariance(at, at) > 0) || !life.depends_on(p)) continue;
         const std::string of = by == SharedBy::construction ? mode.construction
                                : by == SharedBy::material   ? mode.material
                                                             : "";
@@ -707,13 +715,14 @@ struct PlantLives::Task {
 };
 
 struct PlantLives::Read {
-  std::vector<Task> tasks;                          ///< (duty)
+  std::vector<Task> tasks;                         ///< (duty)
   std::vector<std::vector<EvaluatedProgram>> all;  ///< (duty, program)
   std::optional<Shares> shares;
   std::vector<PreparedModes> prepared;  ///< (result)
 };
 
-PlantLives::PlantLives(const DutyFile& file, const Study& study, const std::vector<RankingRow>& rows, const std::set<std::string>& needed) {
+PlantLives::PlantLives(const DutyFile& file, const Study& study, const std::vector<RankingRow>& rows,
+                       const std::set<std::string>& needed) {
   auto read = std::make_unique<Read>();
   Programs programs(study, rows);
   for (const Duty& duty : file.duties)
@@ -725,11 +734,13 @@ PlantLives::PlantLives(const DutyFile& file, const Study& study, const std::vect
     read->tasks[k].rates = rates_of(duty, programs, parts);
     const std::optional<WireDamage> round = programs.round_of(duty, evaluated.front());
     const std::vector<double> repeats = repeats_of(parts);
-    read->tasks[k].share = SamePlace(evaluated, round ? &*round : nullptr).at(repeats, repeats_in_rounds(duty, repeats));
+    read->tasks[k].share =
+        SamePlace(evaluated, round ? &*round : nullptr).at(repeats, repeats_in_rounds(duty, repeats));
     read->tasks[k].robot_life_hours = programs.row(duty.programs.front()).robot_life_hours;
   }
   read->shares.emplace(read->all);
-  read->prepared = mapped(read->shares->modes_of_result, [](const FailureModes* modes) { return PreparedModes(*modes); });
+  read->prepared =
+      mapped(read->shares->modes_of_result, [](const FailureModes* modes) { return PreparedModes(*modes); });
   read_ = std::move(read);
 }
 

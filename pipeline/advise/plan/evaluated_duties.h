@@ -33,7 +33,7 @@ struct DutyPart {
   LifePercentiles without{};   ///< [h] lives under the duty without this program
   LifePercentiles as_twice{};  ///< [h] with twice as many repeats of it; NaN: they would take more than all the time
   std::vector<LifeAtShare> over_share{};  ///< from 0 to all time that the other programs leave; empty: it never runs
-  std::string recording_of{};  ///< DutyProgram::recording_of
+  std::string recording_of{};             ///< DutyProgram::recording_of
   /// ratio of its damage with the loose cables at other places of rest, one standard deviation to either side, to its damage at the
   /// medians; 1: no effect; 0: not known
   std::array<double, 2> at_other_rests{};
@@ -42,8 +42,8 @@ struct DutyPart {
 /// A mode that no test validates (unvalidated_modes.h), of one dresspack; of ratings, of one cable.
 struct DutyMode {
   std::string mode, dresspack, place;
-  double hours = 0;   ///< lower bound of early_hours(), if all programs load one place
-  double median = 0;  ///< hours by which half have failed, with the same assumption
+  double hours = 0;                                ///< lower bound of early_hours(), if all programs load one place
+  double median = 0;                               ///< hours by which half have failed, with the same assumption
   double visible_from = UnvalidatedMode::unknown;  ///< largest value of the programs
 };
 
@@ -59,14 +59,16 @@ struct DutyResult {
   /// standard error of each of lives.percentiles, as a factor: RankingRow::planned_errors of the programs, weighted in the
   /// logarithm by their shares of the damage, as if all erred in the same direction; NaN: not known
   std::array<double, 3> errors{NAN, NAN, NAN};
-  bool has_order = false;       ///< whether changes between the programs are counted
-  double rounds_per_hour = 0;   ///< rounds of its order per hour
-  std::vector<std::string> outside{};  ///< "hard (25 %)": programs with the share of their repeats that belongs to no round
-  double past_hours = 0;  ///< hours of the history; 0: none
-  std::vector<DutyMode> others;       ///< modes that are not included in the hours above
-  std::string not_evaluated;          ///< parts and modes without a life
-  Inspection inspection;              ///< checks of its jobs
-  std::vector<std::string> warnings;  ///< "hard: smallest bend radius: ...": the warnings of these programs that make it unreliable
+  bool has_order = false;      ///< whether changes between the programs are counted
+  double rounds_per_hour = 0;  ///< rounds of its order per hour
+  std::vector<std::string>
+      outside{};                 ///< "hard (25 %)": programs with the share of their repeats that belongs to no round
+  double past_hours = 0;         ///< hours of the history; 0: none
+  std::vector<DutyMode> others;  ///< modes that are not included in the hours above
+  std::string not_evaluated;     ///< parts and modes without a life
+  Inspection inspection;         ///< checks of its jobs
+  std::vector<std::string>
+      warnings;  ///< "hard: smallest bend radius: ...": the warnings of these programs that make it unreliable
   std::vector<std::string> doubtful;  ///< "hard (bend radius)": programs with warnings that make a plan unreliable
 };
 
@@ -84,8 +86,7 @@ void check_hours(const DutyFile& file, const std::map<std::string, double>& repe
 /// mounted: then the hose has another twist in each program. rows: null before the run (checks programs with poses in the jobs);
 /// rows of the study after the run (checks programs in files, whose poses are in their strain.h5). Precondition:
 /// check_programs(). Errors: InputError for a damaged strain.h5.
-std::vector<Warning> mounting_warnings(const DutyFile& file, const Study& study,
-                                       const std::vector<RankingRow>* rows);
+std::vector<Warning> mounting_warnings(const DutyFile& file, const Study& study, const std::vector<RankingRow>* rows);
 
 /// Returns the rows of the programs of all duties.
 std::vector<RankingRow> rows_of(const DutyFile& file, const std::vector<RankingRow>& rows);
@@ -108,7 +109,8 @@ constexpr std::size_t usual_worlds = 1000, usual_draws = 32;
 class PlantLives {
  public:
   /// Reads the results of the programs. Keeps a reference to the file. Errors: as evaluated(), without histories.
-  PlantLives(const DutyFile& file, const Study& study, const std::vector<RankingRow>& rows, const std::set<std::string>& needed);
+  PlantLives(const DutyFile& file, const Study& study, const std::vector<RankingRow>& rows,
+             const std::set<std::string>& needed);
   ~PlantLives();
   PlantLives(const PlantLives&) = delete;
   PlantLives& operator=(const PlantLives&) = delete;

@@ -44,9 +44,8 @@ class Row {
     if (text(title).empty()) return std::nullopt;
     const std::optional<double> value = exported_number(text(title));
     if (!value || !(*value >= low && *value <= high))
-      throw InputError(
-          where(title), fmt::format("{} is '{}' (must be {:g} .. {:g})", title, text(title), low, high),
-          value ? fmt::format("give a number of {:g} .. {:g}", low, high) : number_remedy(text(title)));
+      throw InputError(where(title), fmt::format("{} is '{}' (must be {:g} .. {:g})", title, text(title), low, high),
+                       value ? fmt::format("give a number of {:g} .. {:g}", low, high) : number_remedy(text(title)));
     return value;
   }
   /// Returns an amount of money. A point before three digits may be a thousands separator. Precondition: the cell is not empty.
@@ -54,9 +53,11 @@ class Row {
     constexpr double most = 1e12;
     const std::string cell = text(title);
     const std::size_t point = cell.find('.');
-    if (point != cell.npos && point >= 1 && point <= 3 && cell.size() == point + 4 && cell[0] != '0' && exported_number(cell))
-      throw InputError(where(title), fmt::format("{} is '{}', in which the point may separate thousands", title, cell),
-                       fmt::format("write {} or {:g}", cell.substr(0, point) + cell.substr(point + 1), *exported_number(cell)));
+    if (point != cell.npos && point >= 1 && point <= 3 && cell.size() == point + 4 && cell[0] != '0' &&
+        exported_number(cell))
+      throw InputError(
+          where(title), fmt::format("{} is '{}', in which the point may separate thousands", title, cell),
+          fmt::format("write {} or {:g}", cell.substr(0, point) + cell.substr(point + 1), *exported_number(cell)));
     return *number(title, 0, most);
   }
 
@@ -73,10 +74,10 @@ Day installed_on(const Row& row, Day today) {
     throw InputError(row.where("installed"),
                      fmt::format("'{}' is no date, and duty is the date {}", date, row.text("duty")),
                      "exchange the titles 'duty' and 'installed'");
-  if (!day)
-    throw InputError(row.where("installed"), fmt::format("'{}' is no date", date), day_remedy(date));
+  if (!day) throw InputError(row.where("installed"), fmt::format("'{}' is no date", date), day_remedy(date));
   if (*day > today)
-    throw InputError(row.where("installed"), fmt::format("'{}' was installed after today, {}", row.text("name"), day_text(today)),
+    throw InputError(row.where("installed"),
+                     fmt::format("'{}' was installed after today, {}", row.text("name"), day_text(today)),
                      "correct the date, or give --today");
   return *day;
 }
@@ -95,9 +96,10 @@ Installed installed_from(const Row& row, Day today, bool has_costs, Problems& pr
   };
   const bool planned = cost("planned_cost", one.planned_cost), unplanned = cost("unplanned_cost", one.unplanned_cost);
   if (planned && unplanned && !(one.unplanned_cost > one.planned_cost))
-    problems.add(row.where("unplanned_cost"),
-                 fmt::format("an unplanned replacement costs {:g}, a planned one {:g}", one.unplanned_cost, one.planned_cost),
-                 "unplanned_cost must be larger; else no plan saves anything");
+    problems.add(
+        row.where("unplanned_cost"),
+        fmt::format("an unplanned replacement costs {:g}, a planned one {:g}", one.unplanned_cost, one.planned_cost),
+        "unplanned_cost must be larger; else no plan saves anything");
   return one;
 }
 
@@ -126,7 +128,8 @@ void rename_titles(const CsvReader& reader, const CsvRow& written, CsvRow& title
     for (std::size_t k = 0; k < titles.size(); ++k) {
       if (std::ranges::find(column.titles, letters_of(written[k].text)) == column.titles.end()) continue;
       if (first)
-        throw InputError(reader.where(written[k]), fmt::format("columns '{}' and '{}' both mean {}", first->text, written[k].text, column.name),
+        throw InputError(reader.where(written[k]),
+                         fmt::format("columns '{}' and '{}' both mean {}", first->text, written[k].text, column.name),
                          fmt::format("title one of them {}", column.name));
       first = &written[k], titles[k].text = column.name;
       renamed.push_back(fmt::format("{} = '{}'", column.name, first->text));
@@ -136,26 +139,30 @@ void rename_titles(const CsvReader& reader, const CsvRow& written, CsvRow& title
 
 /// Returns whether a title resembles a known column, so that ignoring the column might change the plan.
 bool may_be_known(const std::string& title) {
-  return std::ranges::any_of(std::initializer_list<std::string_view>{"hour", "stunde", "week", "woche", "cost", "kosten", "instal", "date", "datum"},
+  return std::ranges::any_of(std::initializer_list<std::string_view>{"hour", "stunde", "week", "woche", "cost",
+                                                                     "kosten", "instal", "date", "datum"},
                              [&](std::string_view word) { return title.find(word) != title.npos; });
 }
 
 /// Whether the title may name hours of operation since the installation.
 bool counts_hours(const std::string& title) {
-  return (title.find("hour") != title.npos || title.find("stunde") != title.npos) && title.find("week") == title.npos && title.find("woche") == title.npos;
+  return (title.find("hour") != title.npos || title.find("stunde") != title.npos) && title.find("week") == title.npos &&
+         title.find("woche") == title.npos;
 }
 
 /// Whether the title names the day on which a dresspack was taken out.
 bool says_removed(const std::string& title) {
-  return std::ranges::any_of(std::initializer_list<std::string_view>{"replace", "remov", "ausbau", "ausgebaut", "ersetzt", "gewechselt"},
-                             [&](std::string_view word) { return title.starts_with(word); });
+  return std::ranges::any_of(
+      std::initializer_list<std::string_view>{"replace", "remov", "ausbau", "ausgebaut", "ersetzt", "gewechselt"},
+      [&](std::string_view word) { return title.starts_with(word); });
 }
 
 Day needed_day(const std::string& text) {
   const bool two = text.size() > 11 && exported_day(text.substr(0, 10)) && exported_day(text.substr(text.size() - 10));
   if (const std::optional<Day> day = exported_day(text); day && !two) return *day;
-  throw InputError({"--windows"}, fmt::format("'{}' is no date", text),
-                   two ? fmt::format("write {}..{}", text.substr(0, 10), text.substr(text.size() - 10)) : day_remedy(text));
+  throw InputError(
+      {"--windows"}, fmt::format("'{}' is no date", text),
+      two ? fmt::format("write {}..{}", text.substr(0, 10), text.substr(text.size() - 10)) : day_remedy(text));
 }
 
 }  // namespace
@@ -172,7 +179,8 @@ Fleet read_fleet(const std::filesystem::path& file, Day today) {
   Fleet fleet;
   const CsvRow written = titles;
   for (CsvCell& title : titles)
-    std::ranges::transform(title.text, title.text.begin(), [](unsigned char letter) { return letter == ' ' ? '_' : std::tolower(letter); });
+    std::ranges::transform(title.text, title.text.begin(),
+                           [](unsigned char letter) { return letter == ' ' ? '_' : std::tolower(letter); });
   rename_titles(reader, written, titles, fleet.renamed);
   const auto has = [&](const std::string& title) {
     return std::any_of(titles.begin(), titles.end(), [&](const CsvCell& cell) { return cell.text == title; });
@@ -185,9 +193,10 @@ Fleet read_fleet(const std::filesystem::path& file, Day today) {
     const std::string near = nearest_word(title, missing);
     if (!near.empty() || (!missing.empty() && may_be_known(title)))
       throw InputError(reader.where(titles[k]), fmt::format("unknown column '{}'", written[k].text),
-                       !near.empty()         ? fmt::format("did you mean '{}'?", near)
-                       : counts_hours(title) ? "for an hour counter give hours_per_week: its hours divided by the weeks since 'installed'"
-                                             : fmt::format("columns: {}", joined(known, ", ")));
+                       !near.empty() ? fmt::format("did you mean '{}'?", near)
+                       : counts_hours(title)
+                           ? "for an hour counter give hours_per_week: its hours divided by the weeks since 'installed'"
+                           : fmt::format("columns: {}", joined(known, ", ")));
     fleet.unused.push_back(written[k].text);
   }
   check_titles(reader, titles, {"name", "duty", "installed"});
@@ -199,13 +208,15 @@ Fleet read_fleet(const std::filesystem::path& file, Day today) {
     const Where where = reader.where(row.front());
     for (std::size_t k = 0; k < std::min(row.size(), titles.size()); ++k)
       if (says_removed(titles[k].text) && exported_day(row[k].text))
-        problems.add(reader.where(row[k]), fmt::format("a dresspack that is in use no more ({}: {})", written[k].text, row[k].text),
+        problems.add(reader.where(row[k]),
+                     fmt::format("a dresspack that is in use no more ({}: {})", written[k].text, row[k].text),
                      "remove its row; dresslife calibrate learns from such rows");
     problems.attempt("", where, [&] {
       fleet.rows.push_back(installed_from(Row(reader, titles, row), today, fleet.has_costs, problems));
       const std::string& name = fleet.rows.back().name;
       if (const auto [same, is_new] = lines.try_emplace(name, reader.line()); !is_new && !name.empty())
-        throw InputError(where, fmt::format("'{}' is the name of line {}, too", name, same->second), "give each dresspack a name of its own");
+        throw InputError(where, fmt::format("'{}' is the name of line {}, too", name, same->second),
+                         "give each dresspack a name of its own");
     });
   }
   problems.finish(file.string());
@@ -224,13 +235,13 @@ std::vector<Window> windows_from(const std::string& text, Day today) {
     windows.push_back({first, dots == std::string::npos ? first : day_in(std::string_view(one).substr(dots + 2))});
     const Day before = windows.size() > 1 ? windows[windows.size() - 2].last : today;
     if (windows.back().last < first)
-      throw InputError({"--windows"}, fmt::format("'{}' ends before it begins", one),
-                       "exchange its two dates");
+      throw InputError({"--windows"}, fmt::format("'{}' ends before it begins", one), "exchange its two dates");
     if (first <= before)
       throw InputError({"--windows"},
                        fmt::format("'{}' does not begin after {}, which is {}", one, day_text(before),
                                    windows.size() > 1 ? "in the window before it" : "today"),
-                       windows.size() > 1 ? "give windows in order, and two that overlap as one" : "give windows after today, or another --today");
+                       windows.size() > 1 ? "give windows in order, and two that overlap as one"
+                                          : "give windows after today, or another --today");
     if (windows.back().last > today + longest_plan)
       throw InputError({"--windows"}, fmt::format("'{}' is more than ten years ahead", one), "give nearer windows");
     begin = end + 1;

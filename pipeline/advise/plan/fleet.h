@@ -41,7 +41,7 @@ struct Installed {
 struct Fleet {
   std::vector<Installed> rows;
   bool has_costs = false;
-  std::vector<std::string> unused;  ///< titles of columns that a plan does not need
+  std::vector<std::string> unused;     ///< titles of columns that a plan does not need
   std::vector<std::string> renamed{};  ///< "installed = 'Einbaudatum'": columns under another title
 };
 

@@ -23,9 +23,8 @@ constexpr std::uint32_t nothing = 0xffffffff;
 /// Returns "signal cable" for "signal cable 3".
 std::string_view without_number(std::string_view name) {
   const std::size_t digits = name.find_last_not_of("0123456789");
-  return digits != std::string_view::npos && digits + 1 < name.size() && name[digits] == ' '
-             ? name.substr(0, digits)
-             : name;
+  return digits != std::string_view::npos && digits + 1 < name.size() && name[digits] == ' ' ? name.substr(0, digits)
+                                                                                             : name;
 }
 
 /// Returns whether the wires of a conductor with this path belong to a mode ("wires of signal cable", fatigue/failure_modes.h).
@@ -41,12 +40,10 @@ bool is_in_mode(std::string_view conductor, const WireSites::Mode& mode) {
 }
 
 /// Returns the conductor that contains a wire: the conductor with the longest path that is a prefix of the wire's path.
-std::uint32_t conductor_of(const std::string& wire,
-                           const std::unordered_map<std::string, std::uint32_t>& conductors) {
+std::uint32_t conductor_of(const std::string& wire, const std::unordered_map<std::string, std::uint32_t>& conductors) {
   for (std::size_t end = wire.rfind('/'); end != std::string::npos;
        end = end == 0 ? std::string::npos : wire.rfind('/', end - 1))
-    if (const auto found = conductors.find(wire.substr(0, end)); found != conductors.end())
-      return found->second;
+    if (const auto found = conductors.find(wire.substr(0, end)); found != conductors.end()) return found->second;
   const auto whole = conductors.find("");
   return whole == conductors.end() ? nothing : whole->second;
 }
@@ -80,11 +77,9 @@ WireLayout layout_of(const WireSites& sites) {
   for (std::size_t site = 0; site < sites.segment.size(); ++site) {
     const auto [found, is_new] = known.try_emplace(sites.component[site]);
     if (is_new)
-      found->second = {conductor_of(sites.component[site], conductors),
-                       static_cast<std::uint32_t>(known.size() - 1)};
+      found->second = {conductor_of(sites.component[site], conductors), static_cast<std::uint32_t>(known.size() - 1)};
     const Wire& wire = found->second;
-    if (wire.conductor == nothing || mode_of[wire.conductor] == nothing)
-      continue;  // a site of the hose's wall
+    if (wire.conductor == nothing || mode_of[wire.conductor] == nothing) continue;  // a site of the hose's wall
     const std::int32_t segment = sites.segment[site];
     const std::uint64_t key = std::uint64_t{wire.index} << 32 | static_cast<std::uint32_t>(segment);
     const auto [at, first_site] = wire_at.try_emplace(key, static_cast<std::uint32_t>(wires.place.size()));
@@ -110,10 +105,11 @@ WireLayout layout_of(const WireSites& sites) {
 
 }  // namespace
 
-WireDamage WireDamages::read(const std::filesystem::path& life_file, const FailureModes& modes,
-                             double failed_percent) {
-  const FileReader file(life_file, life_format(), {"/site/segment", "/site/component", "/conductor/component", "/damage"});
-  WireSites sites{file.read<std::int32_t>("/site/segment"), {}, file.read<std::string>("/conductor/component"), {}, failed_percent};
+WireDamage WireDamages::read(const std::filesystem::path& life_file, const FailureModes& modes, double failed_percent) {
+  const FileReader file(life_file, life_format(),
+                        {"/site/segment", "/site/component", "/conductor/component", "/damage"});
+  WireSites sites{
+      file.read<std::int32_t>("/site/segment"), {}, file.read<std::string>("/conductor/component"), {}, failed_percent};
   for (const LifeResponse& mode : modes) sites.modes.push_back({mode.mode, mode.dresspack});
   std::string names = file.stored("/site/component");
   if (!layout_ || sites != sites_ || names.empty() || names != stored_names_) {
@@ -127,7 +123,8 @@ WireDamage WireDamages::read(const std::filesystem::path& life_file, const Failu
 
 double DutyDamage::in_mode(std::size_t mode, std::size_t sample) const {
   double sum = 0, largest = 0;
-  for (const auto& program : of_program) sum += program[mode][sample], largest = std::max(largest, program[mode][sample]);
+  for (const auto& program : of_program)
+    sum += program[mode][sample], largest = std::max(largest, program[mode][sample]);
   return at_least_alone(sum, largest, same_place[mode]);
 }
 
@@ -137,7 +134,9 @@ void WireLayout::sort_sites() {
     if (wire[site] != nothing) of_place[place[wire[site]]].push_back(site);
   sites.clear(), sites_begin.assign(1, 0);
   for (std::vector<std::uint32_t>& all : of_place) {
-    std::ranges::sort(all, {}, [this](std::uint32_t site) { return std::pair(wire[site], site); });  // of_place() needs wires together
+    std::ranges::sort(all, {}, [this](std::uint32_t site) {
+      return std::pair(wire[site], site);
+    });  // of_place() needs wires together
     sites.insert(sites.end(), all.begin(), all.end());
     sites_begin.push_back(static_cast<std::uint32_t>(sites.size()));
   }
@@ -212,11 +211,12 @@ RepeatDamage damage_of_lives(std::vector<std::vector<double>> log10_lives) {
   return log10_lives;
 }
 
-std::vector<double> repeat_factors(const std::string& job, double deviation_percent,
-                                   const std::string& dresspack, std::size_t samples, std::vector<double> memory) {
+std::vector<double> repeat_factors(const std::string& job, double deviation_percent, const std::string& dresspack,
+                                   std::size_t samples, std::vector<double> memory) {
   const double deviation = log_deviation(deviation_percent);
   if (!(deviation > 0)) return std::vector<double>(samples, 1.0);
-  thread_local std::vector<double> factors;  // factors of the previous deviation: thousands of programs have the same one
+  thread_local std::vector<double>
+      factors;  // factors of the previous deviation: thousands of programs have the same one
   thread_local double of_deviation = 0;
   if (factors.size() != samples || of_deviation != deviation) {
     factors = standard_strata(samples), of_deviation = deviation;
@@ -240,11 +240,10 @@ DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std
       });
 }
 
-DutyDamage damage_under(
-    const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
-    const std::vector<double>& share,
-    const std::function<const RepeatDamage&(const EvaluatedProgram&)>& of_repeat,
-    const std::function<const std::vector<double>&(const EvaluatedProgram&, double)>& factors_of) {
+DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
+                        const std::vector<double>& share,
+                        const std::function<const RepeatDamage&(const EvaluatedProgram&)>& of_repeat,
+                        const std::function<const std::vector<double>&(const EvaluatedProgram&, double)>& factors_of) {
   DutyDamage duty;
   duty.same_place = share;
   for (std::size_t k = 0; k < programs.size(); ++k) {
@@ -260,8 +259,7 @@ DutyDamage damage_under(
 }
 
 std::vector<double> first_mode_damage(
-    const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
-    const std::vector<double>& share,
+    const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates, const std::vector<double>& share,
     const std::function<const RepeatDamage&(const EvaluatedProgram&)>& of_repeat,
     const std::function<const std::vector<double>&(const EvaluatedProgram&, double)>& factors_of) {
   thread_local RepeatDamage sums, largest;  // a plan of 500 duties needs them 32,000 times
@@ -320,7 +318,8 @@ DutyLives lives_under(const DutyDamage& duty, const std::vector<PastDamage>& his
   for (std::size_t s = 0; s < samples; ++s) {
     double left = infinity;
     for (std::size_t m = 0; m < duty.modes(); ++m) {
-      const double used = sum_of(history, [&](const PastDamage& past) { return past.hours * past.duty->in_mode(m, s); });
+      const double used =
+          sum_of(history, [&](const PastDamage& past) { return past.hours * past.duty->in_mode(m, s); });
       const double rate = duty.in_mode(m, s);
       left = std::min(left, used >= 1 ? 0 : rate > 0 ? (1 - used) / rate : infinity);
     }
@@ -331,8 +330,7 @@ DutyLives lives_under(const DutyDamage& duty, const std::vector<PastDamage>& his
   return lives;
 }
 
-LifePercentiles lives_with(const DutyDamage& duty, const std::vector<double>& times,
-                           const std::vector<double>& share) {
+LifePercentiles lives_with(const DutyDamage& duty, const std::vector<double>& times, const std::vector<double>& share) {
   std::vector<double> lives;
   for (std::size_t s = 0; s < duty.samples(); ++s) {
     double worst = 0;

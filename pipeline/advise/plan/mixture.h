@@ -27,7 +27,8 @@ namespace dresslife::pipeline {
 
 /// Division of a dresspack's sites into wires and places.
 struct WireLayout {
-  std::vector<std::uint32_t> wire;     ///< (site) index of the wire; a wire at a segment has several sites around its surface
+  std::vector<std::uint32_t>
+      wire;  ///< (site) index of the wire; a wire at a segment has several sites around its surface
   std::vector<std::uint32_t> place;    ///< (wire) index of the place
   std::vector<std::uint32_t> mode;     ///< (place) index of the mode
   std::vector<std::uint32_t> failing;  ///< (place) number of broken wires at which the place fails, at least 1
@@ -59,7 +60,7 @@ struct WireSites {
     std::string name, dresspack;
     bool operator==(const Mode&) const = default;
   };
-  std::vector<std::int32_t> segment;                ///< (site)
+  std::vector<std::int32_t> segment;               ///< (site)
   std::vector<std::string> component, conductors;  ///< (site), (conductor)
   std::vector<Mode> modes;
   double failed_percent = 0;  ///< share of wires that a conductor may lose
@@ -114,7 +115,9 @@ class SamePlace {
   /// round: damage of a round of the order; null: no order. Preconditions: one program or more, with equal modes and layout.
   explicit SamePlace(const std::vector<EvaluatedProgram>& programs, const WireDamage* round = nullptr);
   /// Returns c(m), (mode), by (D2). repeats_per_hour: (program).
-  std::vector<double> at(const std::vector<double>& repeats_per_hour) const { return at(repeats_per_hour, repeats_per_hour); }
+  std::vector<double> at(const std::vector<double>& repeats_per_hour) const {
+    return at(repeats_per_hour, repeats_per_hour);
+  }
   /// Returns c(m), (mode), with the numerator of (D8). in_rounds: (program, then the round).
   std::vector<double> at(const std::vector<double>& repeats_per_hour, const std::vector<double>& in_rounds) const;
 
@@ -131,8 +134,8 @@ using RepeatDamage = std::vector<std::vector<double>>;
 RepeatDamage damage_of_lives(std::vector<std::vector<double>> log10_lives);  ///< log10_lives: (mode, sample)
 
 /// Returns r_k(s) over its median, (sample), for one dresspack. memory: a list that is no longer needed; the result takes its memory.
-std::vector<double> repeat_factors(const std::string& job, double deviation_percent, const std::string& dresspack, std::size_t samples,
-                                   std::vector<double> memory = {});
+std::vector<double> repeat_factors(const std::string& job, double deviation_percent, const std::string& dresspack,
+                                   std::size_t samples, std::vector<double> memory = {});
 
 /// Returns the damage under one duty for one dresspack. share: c(m) of SamePlace. of_repeat: returns the damage of one repeat
 /// of a program. factors_of: returns repeat_factors() of a program with this deviation.
@@ -141,10 +144,10 @@ DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std
                         const std::function<const RepeatDamage&(const EvaluatedProgram&)>& of_repeat,
                         const std::function<const std::vector<double>&(const EvaluatedProgram&, double)>& factors_of);
 /// Returns DutyDamage::of_first_mode(), (sample), without storing the damage of each program.
-std::vector<double> first_mode_damage(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
-                                      const std::vector<double>& share,
-                                      const std::function<const RepeatDamage&(const EvaluatedProgram&)>& of_repeat,
-                                      const std::function<const std::vector<double>&(const EvaluatedProgram&, double)>& factors_of);
+std::vector<double> first_mode_damage(
+    const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates, const std::vector<double>& share,
+    const std::function<const RepeatDamage&(const EvaluatedProgram&)>& of_repeat,
+    const std::function<const std::vector<double>&(const EvaluatedProgram&, double)>& factors_of);
 /// Returns the damage under one duty. dresspack: name for values that only this dresspack has (first_failures()).
 DutyDamage damage_under(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
                         const std::vector<double>& share, const std::string& dresspack,
@@ -159,7 +162,7 @@ struct PastDamage {
 struct DutyLives {
   std::vector<double> log10_hours;  ///< (sample) hours of operation from a new dresspack until failure
   LifePercentiles percentiles{};    ///< [h]
-  std::vector<double> share;        ///< (program) share of the damage of the mode that fails first, mean over the samples
+  std::vector<double> share;  ///< (program) share of the damage of the mode that fails first, mean over the samples
   /// With a history: share of the samples that have survived it, and for these samples the hours from now until failure.
   double survived = 1;
   LifePercentiles remaining{};

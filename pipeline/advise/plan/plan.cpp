@@ -28,7 +28,7 @@ std::size_t plant_count(std::size_t dresspacks, std::size_t windows) {
   constexpr std::size_t fewest = 1000, most = 100'000, decisions = 200'000;
   return std::clamp(decisions / (std::max<std::size_t>(1, dresspacks) * (windows + 1)), fewest, most);
 }
-constexpr double shortest_life = 1;   // [h] of a new dresspack in a simulated plant, so that the simulation ends
+constexpr double shortest_life = 1;  // [h] of a new dresspack in a simulated plant, so that the simulation ends
 constexpr double days_per_year = 365.2425;
 // of (D6), between a tenth of the shortest life and the robot's life, in steps of 4 to 7 %: the cost is flat near its minimum
 constexpr std::size_t ages = 200;
@@ -78,10 +78,13 @@ class Worlds {
   /// between the midpoints to its neighbours, because in an interval with few lives the result would depend on chance.
   std::vector<double> fails_in(const LifeTable& table, double now, const std::vector<double>& ends) const {
     std::vector<double> fails(ends.size(), 0.0);
-    const auto interval_of = [&](double age) { return static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), age) - ends.begin()); };
+    const auto interval_of = [&](double age) {
+      return static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), age) - ends.begin());
+    };
     double all = 0;
     for (std::size_t w = 0; w < weight_.size(); ++w) {
-      const float *const begin = table.hours.data() + w * table.draws, *const end = begin + table.draws, *const first = table.first_after(w, now);
+      const float *const begin = table.hours.data() + w * table.draws, *const end = begin + table.draws,
+                         *const first = table.first_after(w, now);
       if (first == end) continue;
       all += weight_[w];
       const auto above = [&](const float* life) -> double {  // end of the interval of a life
@@ -118,13 +121,17 @@ class Worlds {
   double all_alive_ = 1;
 };
 
-double hours_in_day(const Installed& row, const LifeTable& table) { return row.hours_per_week.value_or(table.hours_per_week) / 7; }
+double hours_in_day(const Installed& row, const LifeTable& table) {
+  return row.hours_per_week.value_or(table.hours_per_week) / 7;
+}
 
 /// Hours of operation of a dresspack, over the days from today.
 class Pace {
  public:
   Pace(const Installed& row, const LifeTable& table)
-      : after_(hours_in_day(row, table)), before_(row.change ? row.change->hours_per_day : after_), change_(row.change ? row.change->day : 0) {}
+      : after_(hours_in_day(row, table)),
+        before_(row.change ? row.change->hours_per_day : after_),
+        change_(row.change ? row.change->day : 0) {}
   /// Returns the hours until a day. Days before today have negative hours.
   double hours(double day) const { return before_ * std::min(day, change_) + after_ * std::max(0.0, day - change_); }
   /// Returns the day after these hours.
@@ -152,11 +159,14 @@ double life_after(std::span<const std::array<double, 2>> spells, double own_life
   return hours + (1 - used) * own_life;
 }
 
-LifeTable lives_after(const std::vector<Installed::Spell>& before, const LifeTable& own, const std::map<std::string, LifeTable>& tables) {
-  LifeTable lives{own.worlds, own.draws, std::vector<float>(own.hours.size()), own.robot_life_hours, own.hours_per_week};
+LifeTable lives_after(const std::vector<Installed::Spell>& before, const LifeTable& own,
+                      const std::map<std::string, LifeTable>& tables) {
+  LifeTable lives{own.worlds, own.draws, std::vector<float>(own.hours.size()), own.robot_life_hours,
+                  own.hours_per_week};
   std::vector<const LifeTable*> of_spell;
   std::vector<std::array<double, 2>> spells;
-  for (const Installed::Spell& spell : before) of_spell.push_back(&tables.at(spell.duty)), spells.push_back({spell.hours, 0});
+  for (const Installed::Spell& spell : before)
+    of_spell.push_back(&tables.at(spell.duty)), spells.push_back({spell.hours, 0});
   for (std::size_t w = 0; w < own.worlds; ++w) {
     float* const hours = lives.hours.data() + w * own.draws;
     for (std::size_t d = 0; d < own.draws; ++d) {
@@ -177,12 +187,13 @@ std::vector<double> log_all_alive(const LifeTable& table, const std::vector<doub
   return sums;
 }
 
-Worlds worlds_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables, const std::vector<std::shared_ptr<const LifeTable>>& first, Day today,
-                 const PlanRule& rule) {
+Worlds worlds_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
+                 const std::vector<std::shared_ptr<const LifeTable>>& first, Day today, const PlanRule& rule) {
   Worlds worlds(tables.begin()->second.worlds, rule.weights);
   if (!rule.weights.empty()) return worlds;
   if (!rule.knows_survivors) {
-    std::vector<std::pair<const LifeTable*, std::vector<double>>> all;  // lives, and the age of each dresspack that has them
+    std::vector<std::pair<const LifeTable*, std::vector<double>>>
+        all;  // lives, and the age of each dresspack that has them
     std::map<const LifeTable*, std::size_t> known;
     for (std::size_t i = 0; i < first.size(); ++i) {
       const auto [at, is_new] = known.try_emplace(first[i].get(), all.size());
@@ -192,7 +203,8 @@ Worlds worlds_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tab
     std::vector<std::vector<double>> evidence(all.size());  // (table, world)
     const std::size_t threads = std::min(thread_count(), all.size());
     in_parallel(threads, [&](std::size_t part) {
-      for (std::size_t k = part; k < all.size(); k += threads) evidence[k] = log_all_alive(*all[k].first, all[k].second);
+      for (std::size_t k = part; k < all.size(); k += threads)
+        evidence[k] = log_all_alive(*all[k].first, all[k].second);
     });
     for (const std::vector<double>& of_table : evidence) worlds.add(of_table);
   }
@@ -204,7 +216,8 @@ Worlds worlds_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tab
 class LaterLife {
  public:
   /// rate: (world) [1/h]
-  LaterLife(const LifeTable& table, const std::vector<double>& weights, const Eigen::VectorXd& rate, double age, double last_age)
+  LaterLife(const LifeTable& table, const std::vector<double>& weights, const Eigen::VectorXd& rate, double age,
+            double last_age)
       : age_(age), step_((last_age - age) / double(steps)), alive_(steps + 1, 0.0), running_(steps + 1, 0.0) {
     // Before the sums below, each element contains the lives that end in the step before its age.
     std::vector<double> rate_ended(steps + 1, 0.0);
@@ -249,7 +262,8 @@ class LaterLife {
 class Decision {
  public:
   /// tables: (row) tables of its duty. hours: largest number of hours of operation within the plan.
-  Decision(const Fleet& fleet, const std::vector<const LifeTable*>& tables, const Worlds& worlds, const PlanRule& rule, double hours)
+  Decision(const Fleet& fleet, const std::vector<const LifeTable*>& tables, const Worlds& worlds, const PlanRule& rule,
+           double hours)
       : fleet_(fleet), tables_(tables), worlds_(worlds), rule_(rule), hours_(hours), policy_(fleet.rows.size()) {
     const std::vector<std::vector<std::size_t>> alike = rows_of_policies(fleet);
     const std::size_t threads = std::min(thread_count(), alike.size());
@@ -262,7 +276,9 @@ class Decision {
   }
 
   /// Returns the future of the dresspack of a row with these lives that lives at this age, until the last age that replace() needs.
-  LaterLife later_life(std::size_t row, const LifeTable& lives, double age) const { return later_life(lives, policy_[row]->rate, age); }
+  LaterLife later_life(std::size_t row, const LifeTable& lives, double age) const {
+    return later_life(lives, policy_[row]->rate, age);
+  }
   /// Returns whether the dresspack of a row is replaced at the age `from`. life: its future from an earlier age. interval: hours
   /// until the next window. Precondition: both ages of a window lie within the plan.
   bool replace(std::size_t row, const LaterLife& life, double from, double interval) const {
@@ -278,7 +294,9 @@ class Decision {
     return true;
   }
   /// Returns whether a dresspack that is installed later is replaced at the age `from`.
-  bool replace_new(std::size_t row, double from, double interval) const { return replace(row, policy_[row]->life, from, interval); }
+  bool replace_new(std::size_t row, double from, double interval) const {
+    return replace(row, policy_[row]->life, from, interval);
+  }
 
  private:
   static constexpr double growth = 1.5;  // ratio of successive times T: the cost is a smooth function of T
@@ -289,7 +307,8 @@ class Decision {
   };
 
   LaterLife later_life(const LifeTable& table, const Eigen::VectorXd& rate, double age) const {
-    return {table, worlds_.weights(), rate, age, age + hours_ + (rule_.by_cost ? growth * std::max(hours_, table.horizon()) : hours_)};
+    return {table, worlds_.weights(), rate, age,
+            age + hours_ + (rule_.by_cost ? growth * std::max(hours_, table.horizon()) : hours_)};
   }
 
   Policy policy_of(std::size_t row) const {
@@ -297,7 +316,8 @@ class Decision {
     const auto count = static_cast<Eigen::Index>(table.worlds);
     Eigen::VectorXd rate = Eigen::VectorXd::Zero(count);
     if (rule_.by_cost)
-      rate = age_rates(table, fleet_.rows[row].planned_cost, fleet_.rows[row].unplanned_cost).least(Eigen::VectorXd::Map(worlds_.weights().data(), count));
+      rate = age_rates(table, fleet_.rows[row].planned_cost, fleet_.rows[row].unplanned_cost)
+                 .least(Eigen::VectorXd::Map(worlds_.weights().data(), count));
     LaterLife life = later_life(table, rate, 0);
     return {std::move(rate), std::move(life)};
   }
@@ -322,7 +342,8 @@ struct Outcome {
 class Simulation {
  public:
   /// tables, earlier: (row) tables of its duty, and of the duty before its change.
-  Simulation(const Fleet& fleet, const std::vector<const LifeTable*>& tables, const std::vector<const LifeTable*>& earlier, const std::vector<Pace>& paces,
+  Simulation(const Fleet& fleet, const std::vector<const LifeTable*>& tables,
+             const std::vector<const LifeTable*>& earlier, const std::vector<Pace>& paces,
              const std::vector<RowPlan>& rows, const std::vector<double>& times, const Worlds& worlds)
       : fleet_(fleet), tables_(tables), earlier_(earlier), paces_(paces), rows_(rows), times_(times) {
     double sum = 0;
@@ -351,7 +372,8 @@ class Simulation {
   double draw(const LifeTable& table, std::size_t world, double age, RandomNumbers& random) const {
     constexpr int tries = 100;
     for (int k = 0; k < tries; ++k, world = draw_world(random)) {
-      const float *const first = table.first_after(world, age), *const end = table.hours.data() + (world + 1) * table.draws;
+      const float *const first = table.first_after(world, age), *const end =
+                                                                    table.hours.data() + (world + 1) * table.draws;
       if (first != end) return first[static_cast<std::size_t>(random.uniform() * double(end - first))];
     }
     return age;  // it fails at once
@@ -366,7 +388,8 @@ class Simulation {
     return life_after({{{until_change, earlier_[i]->life(world, d)}}}, table.life(world, d));
   }
 
-  void dresspack(std::size_t i, std::size_t world, RandomNumbers& random, const Decision* decision, Outcome& outcome) const {
+  void dresspack(std::size_t i, std::size_t world, RandomNumbers& random, const Decision* decision,
+                 Outcome& outcome) const {
     const Pace& pace = paces_[i];
     // All times are hours of operation from today.
     double begun = -rows_[i].age_hours, fails = begun + draw(*rows_[i].lives, world, rows_[i].age_hours, random);
@@ -374,7 +397,8 @@ class Simulation {
     bool is_first = true;
     const auto put_in = [&](double at, bool planned) {
       const double day = pace.day(at);
-      ++(planned ? outcome.planned : outcome.unplanned)[std::min(years_ - 1, static_cast<std::size_t>(day / days_per_year))];
+      ++(planned ? outcome.planned
+                 : outcome.unplanned)[std::min(years_ - 1, static_cast<std::size_t>(day / days_per_year))];
       if (!planned && !is_first) ++outcome.failures[std::min(weeks_ - 1, static_cast<std::size_t>(day / 7))];
       outcome.cost += planned ? fleet_.rows[i].planned_cost : fleet_.rows[i].unplanned_cost;
       begun = at, is_first = false;
@@ -431,13 +455,15 @@ const float* LifeTable::first_after(std::size_t world, double age) const {
 double LifeTable::median() const { return middle_of(hours); }
 
 bool LifeTable::half_end_before(double limit) const {
-  return static_cast<std::size_t>(std::ranges::count_if(hours, [&](float life) { return life < limit; })) > hours.size() / 2;
+  return static_cast<std::size_t>(std::ranges::count_if(hours, [&](float life) { return life < limit; })) >
+         hours.size() / 2;
 }
 
 double LifeTable::horizon_or_median() const {
   const double until = horizon();
   const auto finite = std::ranges::count_if(hours, [](float life) { return std::isfinite(life); });
-  if (finite == 0 || std::ranges::count_if(hours, [&](float life) { return life <= until; }) > finite / 2) return until;  // the median is not later
+  if (finite == 0 || std::ranges::count_if(hours, [&](float life) { return life <= until; }) > finite / 2)
+    return until;  // the median is not later
   return middle_of(filtered(hours, [](float life) { return std::isfinite(life); }));
 }
 
@@ -469,7 +495,8 @@ AgeRates age_rates(const LifeTable& table, double planned_cost, double unplanned
       for (; life != end && *life <= static_cast<float>(at[k]); ++life) ended += *life;
       const auto alive = double(end - life);
       const double lives = alive * of_draw, running = (ended + alive * at[k]) * of_draw;
-      rates.rate(Eigen::Index(k), Eigen::Index(w)) = (planned_cost * lives + unplanned_cost * (1 - lives)) / std::max(running, first);
+      rates.rate(Eigen::Index(k), Eigen::Index(w)) =
+          (planned_cost * lives + unplanned_cost * (1 - lives)) / std::max(running, first);
     }
   }
   return rates;
@@ -485,13 +512,16 @@ std::vector<std::vector<std::size_t>> rows_of_policies(const Fleet& fleet) {
 }
 
 std::vector<double> times_of(const std::vector<Window>& windows, Day today) {
-  std::vector<double> times = mapped(windows, [&](const Window& window) -> double { return days_between(today, window.first); });
+  std::vector<double> times =
+      mapped(windows, [&](const Window& window) -> double { return days_between(today, window.first); });
   const double interval = times.size() > 1 ? times.back() - times[times.size() - 2] : days_per_year;
   times.push_back(times.back() + interval);
   return times;
 }
 
-Day end_of(const std::vector<Window>& windows, Day today) { return today + std::chrono::days(std::llround(times_of(windows, today).back())); }
+Day end_of(const std::vector<Window>& windows, Day today) {
+  return today + std::chrono::days(std::llround(times_of(windows, today).back()));
+}
 
 void keep_ages(Fleet& changed, const Fleet& now, const std::map<std::string, LifeTable>& tables, Day today, Day from) {
   for (Installed& row : changed.rows) {
@@ -509,7 +539,8 @@ void keep_ages(Fleet& changed, const Fleet& now, const std::map<std::string, Lif
   }
 }
 
-std::vector<Warning> add_histories(Fleet& fleet, const DutyFile& file, const std::map<std::string, LifeTable>& tables, Day today) {
+std::vector<Warning> add_histories(Fleet& fleet, const DutyFile& file, const std::map<std::string, LifeTable>& tables,
+                                   Day today) {
   const Installed* younger = nullptr;
   std::string words;
   std::size_t count = 0;
@@ -526,7 +557,8 @@ std::vector<Warning> add_histories(Fleet& fleet, const DutyFile& file, const std
         continue;
       }
       const std::array<Day, 2> dates = past.days(today);
-      const double under = std::max(0.0, days_between(std::max(dates[0], row.since), std::min(dates[1] + std::chrono::days(1), today)));
+      const double under =
+          std::max(0.0, days_between(std::max(dates[0], row.since), std::min(dates[1] + std::chrono::days(1), today)));
       days -= under;
       past_hours.back() = hours_in(under, past.duty);
     }
@@ -540,17 +572,19 @@ std::vector<Warning> add_histories(Fleet& fleet, const DutyFile& file, const std
     row.run_hours = run;
     // a tolerance of one week, because dates are often inexact
     if (days > 0 && given > all + hours_in(7, row.duty) && count++ == 0)
-      younger = &row, words = fmt::format("{}, and its history by hours has more: {}", hours_text(all), hours_text(given));
+      younger = &row,
+      words = fmt::format("{}, and its history by hours has more: {}", hours_text(all), hours_text(given));
   }
   if (!younger) return {};
   return {warning_of(WarningKind::motion, younger->where.text(),
-                     fmt::format("'{}' was installed on {} and has run {}{}", younger->name, day_text(younger->since), words,
-                                 count > 1 ? fmt::format(" (and {} more)", count - 1) : ""),
+                     fmt::format("'{}' was installed on {} and has run {}{}", younger->name, day_text(younger->since),
+                                 words, count > 1 ? fmt::format(" (and {} more)", count - 1) : ""),
                      "a history of another dresspack, or another week; all of its hours count as those of the history",
                      "a history by dates (from, to), which counts from the day on which each dresspack was installed")};
 }
 
-std::vector<std::shared_ptr<const LifeTable>> first_lives(const Fleet& fleet, const std::map<std::string, LifeTable>& tables) {
+std::vector<std::shared_ptr<const LifeTable>> first_lives(const Fleet& fleet,
+                                                          const std::map<std::string, LifeTable>& tables) {
   std::vector<std::shared_ptr<const LifeTable>> lives(fleet.rows.size());
   const std::size_t threads = std::min(thread_count(), lives.size());
   in_parallel(threads, [&](std::size_t part) {
@@ -565,8 +599,8 @@ std::vector<std::shared_ptr<const LifeTable>> first_lives(const Fleet& fleet, co
   return lives;
 }
 
-Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables, const std::vector<Window>& windows, Day today,
-             const PlanRule& rule, std::uint64_t seed) {
+Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables, const std::vector<Window>& windows,
+             Day today, const PlanRule& rule, std::uint64_t seed) {
   Plan plan;
   plan.today = today, plan.windows = windows;
   plan.risk = rule.risk, plan.by_cost = rule.by_cost;
@@ -595,7 +629,8 @@ Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
     row.reach_its_age = worlds.reaches(lives, row.age_hours);
     const auto age_at = [&](double day) { return row.age_hours + paces[i].hours(day); };
     std::vector<double> weeks;
-    for (std::size_t week = 1; week <= weeks_until(times.back()); ++week) weeks.push_back(age_at(std::min(7.0 * double(week), times.back())));
+    for (std::size_t week = 1; week <= weeks_until(times.back()); ++week)
+      weeks.push_back(age_at(std::min(7.0 * double(week), times.back())));
     row.fails_in_week = worlds.fails_in(lives, row.age_hours, weeks);
     row.fails_before_first = worlds.fails(lives, row.age_hours, row.age_hours, age_at(times.front()));
     double failed = row.fails_before_first;
@@ -618,7 +653,8 @@ Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
   plan.failures_in_week_without_windows = plan.failures_in_week;
   for (const RowPlan& row : plan.rows)
     for (std::size_t week = 0; week < row.fails_in_week.size(); ++week) {
-      const double until = row.window ? times[*row.window] / 7 - double(week) : 1;  // time until its replacement [weeks]
+      const double until =
+          row.window ? times[*row.window] / 7 - double(week) : 1;  // time until its replacement [weeks]
       plan.failures_in_week[week] += std::clamp(until, 0.0, 1.0) * row.fails_in_week[week];
       plan.failures_in_week_without_windows[week] += row.fails_in_week[week];
     }

@@ -56,7 +56,9 @@ struct LifeTable {
   std::vector<double> mean_ln{};  ///< (world) m'_w of (D11); empty: the mean of ln of its lives
 
   /// Returns the life of one dresspack [h].
-  double life(std::size_t world, std::size_t draw) const { return of_draw.empty() ? hours[world * draws + draw] : of_draw[draw * worlds + world]; }
+  double life(std::size_t world, std::size_t draw) const {
+    return of_draw.empty() ? hours[world * draws + draw] : of_draw[draw * worlds + world];
+  }
   /// Returns the age [h] beyond which nothing influences a decision.
   double horizon() const;
   /// Returns the first life of a world that is longer than an age; the end of the world's lives if none is.
@@ -77,22 +79,23 @@ struct LifeTable {
 struct PlanRule {
   double risk = 0.1;  ///< (D4)
   bool by_cost = false;
-  bool knows_survivors = false;  ///< the worlds come from a calibration with these survivors: (D3) would count them twice
+  bool knows_survivors =
+      false;  ///< the worlds come from a calibration with these survivors: (D3) would count them twice
   std::vector<double> weights{};  ///< (world) weights of another plan of the same plant; empty: (D3)
   double enough_worlds = 0;  ///< with fewer effective worlds the plan has only its dates, weights and numbers of worlds
 };
 
 struct RowPlan {
-  double age_hours = 0;                  ///< hours of operation so far, under any duty
+  double age_hours = 0;                      ///< hours of operation so far, under any duty
   std::shared_ptr<const LifeTable> lives{};  ///< lives of today's dresspack, by its age_hours (first_lives())
-  double fails_before_first = 0;         ///< P(failure before the first window)
+  double fails_before_first = 0;             ///< P(failure before the first window)
   /// (week from today) P(failure in this week) of today's dresspack, if it is not replaced
   std::vector<double> fails_in_week;
   /// (window) P(failure from this window to the next one), if the dresspack lives at its begin
   std::vector<double> fails_until_next;
-  std::optional<std::size_t> window;     ///< window in which it is replaced; absent: none
-  double fails_before = 0;               ///< P(failure before that window, or within the plan)
-  double reach_its_age = 0;              ///< P(a new dresspack reaches the age of this one)
+  std::optional<std::size_t> window;  ///< window in which it is replaced; absent: none
+  double fails_before = 0;            ///< P(failure before that window, or within the plan)
+  double reach_its_age = 0;           ///< P(a new dresspack reaches the age of this one)
 };
 
 /// Number of replacements in one year from today: means, and 5 and 95 % of simulated plants.
@@ -107,14 +110,14 @@ struct Plan {
   std::vector<YearOfPlan> years;
   /// (week) failures of all dresspacks; for dresspacks installed later the mean over simulated plants
   std::vector<double> failures_in_week, failures_in_week_without_windows;
-  double risk = 0;                                                         ///< risk of the rule (D4)
-  bool by_cost = false;                                                    ///< whether (D5) decides
+  double risk = 0;       ///< risk of the rule (D4)
+  bool by_cost = false;  ///< whether (D5) decides
   /// mean over simulated plants: with this plan; and if only failed dresspacks are replaced
   double cost = 0, cost_without_windows = 0;
-  std::vector<double> weights;                ///< (world) weights by (D3); their sum is 1
-  double effective_worlds = 0;                ///< (sum of weights)^2 / sum of their squares
-  double all_alive = 1;        ///< P(all have survived) before the weights of (D3); 1: the weights are given
-  double reach_their_age = 0;  ///< mean of RowPlan::reach_its_age
+  std::vector<double> weights;  ///< (world) weights by (D3); their sum is 1
+  double effective_worlds = 0;  ///< (sum of weights)^2 / sum of their squares
+  double all_alive = 1;         ///< P(all have survived) before the weights of (D3); 1: the weights are given
+  double reach_their_age = 0;   ///< mean of RowPlan::reach_its_age
 };
 
 /// Fewest effective worlds: percentiles of fewer would depend on chance.
@@ -139,7 +142,8 @@ Day end_of(const std::vector<Window>& windows, Day today);  ///< end of the plan
 
 /// Returns, (row), the lives of today's dresspacks (D10) [h of operation, under all of their duties]. For a dresspack without
 /// another duty the result refers to `tables`. Precondition: `tables` outlives the result.
-std::vector<std::shared_ptr<const LifeTable>> first_lives(const Fleet& fleet, const std::map<std::string, LifeTable>& tables);
+std::vector<std::shared_ptr<const LifeTable>> first_lives(const Fleet& fleet,
+                                                          const std::map<std::string, LifeTable>& tables);
 
 /// Sets the ages of a plant's dresspacks under changed duties. A dresspack that is also in `now`, under another duty or with
 /// other hours, keeps its damage (D10). With another date of installation it is a new dresspack. from: day on which the other
@@ -149,11 +153,12 @@ void keep_ages(Fleet& changed, const Fleet& now, const std::map<std::string, Lif
 /// Sets the spells of dresspacks whose duty has a history. A history by dates counts from the day on which a dresspack was
 /// installed. A history in hours describes the first hours of each dresspack; a warning names a dresspack with fewer hours than
 /// its history. tables: must include the duties in histories.
-std::vector<Warning> add_histories(Fleet& fleet, const DutyFile& file, const std::map<std::string, LifeTable>& tables, Day today);
+std::vector<Warning> add_histories(Fleet& fleet, const DutyFile& file, const std::map<std::string, LifeTable>& tables,
+                                   Day today);
 
 /// Computes the plan. tables: by the names of duties. Preconditions: windows are not empty; every duty has a table; all tables
 /// have the same number of worlds.
-Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables, const std::vector<Window>& windows, Day today,
-             const PlanRule& rule, std::uint64_t seed = 1);
+Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables, const std::vector<Window>& windows,
+             Day today, const PlanRule& rule, std::uint64_t seed = 1);
 
 }  // namespace dresslife::pipeline

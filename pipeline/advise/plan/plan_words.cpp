@@ -76,9 +76,7 @@ std::vector<std::string> replaced_in(const Fleet& fleet, const Plan& plan, std::
   return names;
 }
 
-std::string window_text(const Window& window) {
-  return day_text(window.first) + " .. " + day_text(window.last);
-}
+std::string window_text(const Window& window) { return day_text(window.first) + " .. " + day_text(window.last); }
 
 std::string percent_text(double share) { return readable(100 * share, 2) + " %"; }
 
@@ -92,7 +90,8 @@ std::string expected_words(const Plan& plan) {
         "date is wrong, correct it; dresslife calibrate learns from more records.",
         readable(1 / std::max(plan.all_alive, 1e-12), 2));
   return fmt::format("{} dresspack{}, from {} to {}. Before the first window {} of them are expected to fail.{}",
-                     plan.rows.size(), plan.rows.size() == 1 ? "" : "s", day_text(plan.today), day_text(plan.end), readable(before, 2), alive);
+                     plan.rows.size(), plan.rows.size() == 1 ? "" : "s", day_text(plan.today), day_text(plan.end),
+                     readable(before, 2), alive);
 }
 
 std::string kept_words(const Fleet& fleet, const Plan& plan) {
@@ -128,20 +127,20 @@ std::string plan_words(const Fleet& fleet, const Plan& plan) {
                         names.empty() ? "nothing to replace" : fmt::format("replace {}", names.size()));
     if (!names.empty()) text += wrapped(fmt::format("{}", fmt::join(names, ", ")), width, "  ");
   }
-  const auto kept =
-      std::count_if(plan.rows.begin(), plan.rows.end(), [](const RowPlan& row) { return !row.window; });
+  const auto kept = std::count_if(plan.rows.begin(), plan.rows.end(), [](const RowPlan& row) { return !row.window; });
   text += fmt::format("\nIn no window: {}\n{}", kept, kept_words(fleet, plan));
-  std::vector<std::size_t> risky = largest_first(plan.rows.size(), [&](std::size_t i) { return plan.rows[i].fails_before; });
+  std::vector<std::size_t> risky =
+      largest_first(plan.rows.size(), [&](std::size_t i) { return plan.rows[i].fails_before; });
   risky.resize(std::min<std::size_t>(risky.size(), 10));
-  const std::size_t wide = largest_of(risky, std::size_t{9}, [&](std::size_t i) { return columns_of(fleet.rows[i].name); });
+  const std::size_t wide =
+      largest_of(risky, std::size_t{9}, [&](std::size_t i) { return columns_of(fleet.rows[i].name); });
   text += fmt::format("\n{:<{}}  {:>9}  {:>26}  {:>25}  {}\n", "most risk", wide, "age [h]",
                       "fails before first window", "fails before replacement", "replace");
   for (const std::size_t i : risky) {
     const RowPlan& row = plan.rows[i];
-    text +=
-        fmt::format("{:<{}}  {:>9}  {:>26}  {:>25}  {}\n", fleet.rows[i].name, wide, readable(row.age_hours),
-                    percent_text(row.fails_before_first), percent_text(row.fails_before),
-                    row.window ? day_text(plan.windows[*row.window].first) : "in no window");
+    text += fmt::format("{:<{}}  {:>9}  {:>26}  {:>25}  {}\n", fleet.rows[i].name, wide, readable(row.age_hours),
+                        percent_text(row.fails_before_first), percent_text(row.fails_before),
+                        row.window ? day_text(plan.windows[*row.window].first) : "in no window");
   }
   text += '\n';
   for (std::size_t y = 0; y < plan.years.size(); ++y) {
@@ -149,18 +148,24 @@ std::string plan_words(const Fleet& fleet, const Plan& plan) {
     text += fmt::format(
         "Year {} from today{}: {} ({:g} .. {:g} in 90 of 100 plants): {} planned, {} after failures, "
         "also of their replacements.\n",
-        y + 1, plan.end < plan.today + std::chrono::days(365 * static_cast<int>(y + 1)) ? ", until " + day_text(plan.end) + " only" : "",
-        dresspacks_text(readable(year.planned + year.unplanned, 2), "spare "), std::floor(year.low), std::ceil(year.high),
-        readable(year.planned, 2), readable(year.unplanned, 2));
+        y + 1,
+        plan.end < plan.today + std::chrono::days(365 * static_cast<int>(y + 1))
+            ? ", until " + day_text(plan.end) + " only"
+            : "",
+        dresspacks_text(readable(year.planned + year.unplanned, 2), "spare "), std::floor(year.low),
+        std::ceil(year.high), readable(year.planned, 2), readable(year.unplanned, 2));
   }
   if (fleet.has_costs)
     text += fmt::format("Cost until {}: {} by this plan, {} if only failed dresspacks are replaced.{}\n",
-                        day_text(plan.end), readable(plan.cost), readable(plan.cost_without_windows), later_saving_words(plan));
+                        day_text(plan.end), readable(plan.cost), readable(plan.cost_without_windows),
+                        later_saving_words(plan));
   return text;
 }
 
 std::string later_saving_words(const Plan& plan) {
-  return plan.by_cost && plan.cost > plan.cost_without_windows ? " The plan saves only after this day, because its dresspacks are younger then." : "";
+  return plan.by_cost && plan.cost > plan.cost_without_windows
+             ? " The plan saves only after this day, because its dresspacks are younger then."
+             : "";
 }
 
 std::string test_words(const std::vector<TestValue>& tests, const Plan& plan) {
@@ -175,8 +180,7 @@ std::string test_words(const std::vector<TestValue>& tests, const Plan& plan) {
     lines += fmt::format("  {:>9}  {}: {}{}\n", readable(test.saves), parameter.test, parameter.name,
                          test.what.of.empty() ? "" : fmt::format(" of '{}'", test.what.of));
   }
-  if (lines.empty())
-    return "No test in a laboratory saves a thousandth of the plan's cost.\n";
+  if (lines.empty()) return "No test in a laboratory saves a thousandth of the plan's cost.\n";
   return fmt::format(
       "A test before the first window saves, on average, until {} and by better replacements after that:\n{}",
       day_text(plan.end), lines);
@@ -209,8 +213,8 @@ std::string check_words(const std::optional<std::vector<CheckValue>>& checks, co
   text += fmt::format("Without checks abrasion wears through {} until {}.\n", dresspacks_text(readable(fails, 2)),
                       day_text(plan.end));
   if (inspection.interval_weeks > 0)
-    text += fmt::format("Checks every {:g} weeks find {} of these before and save {}.\n",
-                        inspection.interval_weeks, readable(found, 2), readable(saves));
+    text += fmt::format("Checks every {:g} weeks find {} of these before and save {}.\n", inspection.interval_weeks,
+                        readable(found, 2), readable(saves));
   return text;
 }
 
@@ -237,9 +241,11 @@ std::string age_words(const Fleet& fleet, const Plan& plan, const std::map<std::
   }
   std::string text;
   for (const auto& [mode, reached] : by_mode) {
-    std::string line = fmt::format("Not validated and not in this plan: {}. At these ages 1 of 10 dresspacks has failed by it.", mode);
+    std::string line =
+        fmt::format("Not validated and not in this plan: {}. At these ages 1 of 10 dresspacks has failed by it.", mode);
     if (!reached.today.empty()) line += fmt::format(" Inspect now: {}.", names_text(reached.today));
-    if (!reached.later.empty()) line += fmt::format(" They reach this age before they are replaced: {}.", names_text(reached.later));
+    if (!reached.later.empty())
+      line += fmt::format(" They reach this age before they are replaced: {}.", names_text(reached.later));
     text += line + '\n';
   }
   return text;
@@ -259,22 +265,29 @@ std::string wrapped_lines(const std::string& text) {
 std::vector<BesideRow> beside_rows(const Fleet& fleet, const Plan& plan, const Fleet& changed, const Plan& other) {
   std::vector<BesideRow> rows;
   // digits: 0: the number is a count.
-  const auto add = [&](const std::string& what, double now, double then, int digits, const std::string& now_range = "", const std::string& then_range = "") {
-    const auto text = [&](double value) { return digits == 0 ? fmt::format("{:.0f}", value) : readable(value, digits); };
+  const auto add = [&](const std::string& what, double now, double then, int digits, const std::string& now_range = "",
+                       const std::string& then_range = "") {
+    const auto text = [&](double value) {
+      return digits == 0 ? fmt::format("{:.0f}", value) : readable(value, digits);
+    };
     rows.push_back({what, text(now) + now_range, text(then) + then_range,
                     then == now ? "0" : (then > now ? "+ " : "- ") + text(std::abs(then - now))});
   };
   const auto before_first = [](const Plan& of) { return sum_of(of.rows, &RowPlan::fails_before_first); };
   const auto failures = [](const Plan& of) { return sum_of(of.years, &YearOfPlan::unplanned); };
-  const auto range = [](const YearOfPlan& year) { return fmt::format(" ({:g} .. {:g})", std::floor(year.low), std::ceil(year.high)); };
+  const auto range = [](const YearOfPlan& year) {
+    return fmt::format(" ({:g} .. {:g})", std::floor(year.low), std::ceil(year.high));
+  };
   add("dresspacks", double(plan.rows.size()), double(other.rows.size()), 0);
   add("fail before the first window", before_first(plan), before_first(other), 2);
   add("failures until " + day_text(plan.end), failures(plan), failures(other), 2);
   for (std::size_t n = 0; n < plan.windows.size(); ++n)
-    add("replaced from " + day_text(plan.windows[n].first), double(replaced_in(fleet, plan, n).size()), double(replaced_in(changed, other, n).size()), 0);
+    add("replaced from " + day_text(plan.windows[n].first), double(replaced_in(fleet, plan, n).size()),
+        double(replaced_in(changed, other, n).size()), 0);
   for (std::size_t y = 0; y < std::min(plan.years.size(), other.years.size()); ++y) {
     const YearOfPlan &now = plan.years[y], &then = other.years[y];
-    add(fmt::format("spare dresspacks in year {}", y + 1), now.planned + now.unplanned, then.planned + then.unplanned, 2, range(now), range(then));
+    add(fmt::format("spare dresspacks in year {}", y + 1), now.planned + now.unplanned, then.planned + then.unplanned,
+        2, range(now), range(then));
   }
   if (fleet.has_costs) {
     add("cost until " + day_text(plan.end), plan.cost, other.cost, 3);
@@ -283,8 +296,10 @@ std::vector<BesideRow> beside_rows(const Fleet& fleet, const Plan& plan, const F
   return rows;
 }
 
-std::string what_if_words(const std::string& name, const Fleet& fleet, const Plan& plan, const Fleet& changed, const Plan& other) {
-  std::string text = fmt::format("What if {} were the fleet\n{:<34}  {:>20}  {:>20}  {:>12}\n", name, "", "today's fleet", "what if", "difference");
+std::string what_if_words(const std::string& name, const Fleet& fleet, const Plan& plan, const Fleet& changed,
+                          const Plan& other) {
+  std::string text = fmt::format("What if {} were the fleet\n{:<34}  {:>20}  {:>20}  {:>12}\n", name, "",
+                                 "today's fleet", "what if", "difference");
   for (const BesideRow& row : beside_rows(fleet, plan, changed, other))
     text += fmt::format("{:<34}  {:>20}  {:>20}  {:>12}\n", row.what, row.now, row.then, row.more);
   const auto when = [](const Plan& of, std::size_t i) {
@@ -294,19 +309,16 @@ std::string what_if_words(const std::string& name, const Fleet& fleet, const Pla
   for (std::size_t i = 0; i < changed.rows.size(); ++i) {
     const Installed* const old = find_in(fleet.rows, &Installed::name, changed.rows[i].name);
     const std::string now = old ? when(plan, static_cast<std::size_t>(old - fleet.rows.data())) : "new";
-    if (now != when(other, i))
-      changes.push_back(fmt::format("{}: {} ({})", changed.rows[i].name, when(other, i), now));
+    if (now != when(other, i)) changes.push_back(fmt::format("{}: {} ({})", changed.rows[i].name, when(other, i), now));
   }
-  text += fmt::format("Replaced at another time (now): {}\n",
-                      changes.empty() ? "none" : std::to_string(changes.size()));
+  text +=
+      fmt::format("Replaced at another time (now): {}\n", changes.empty() ? "none" : std::to_string(changes.size()));
   if (!changes.empty()) text += wrapped(fmt::format("{}", fmt::join(changes, ", ")), width, "  ");
   return text;
 }
 
-std::string plan_csv(const Fleet& fleet, const Plan& plan,
-                     const std::optional<std::vector<CheckValue>>& checks) {
-  std::string text =
-      "name,duty,installed,age_hours,fails_before_first_window,replace_in,fails_before_replacement";
+std::string plan_csv(const Fleet& fleet, const Plan& plan, const std::optional<std::vector<CheckValue>>& checks) {
+  std::string text = "name,duty,installed,age_hours,fails_before_first_window,replace_in,fails_before_replacement";
   for (const Window& window : plan.windows) text += fmt::format(",fails_after_{}", day_text(window.first));
   text += ",check_today_saves,checks_save\n";
   for (std::size_t i = 0; i < plan.rows.size(); ++i) {
@@ -327,8 +339,7 @@ std::string plan_csv(const Fleet& fleet, const Plan& plan,
 std::string plan_weeks_csv(const Fleet& fleet, const Plan& plan) {
   std::string text = "name";
   for (std::size_t week = 0; week < plan.failures_in_week.size(); ++week)
-    text += fmt::format(",fails_in_week_of_{}",
-                        day_text(plan.today + std::chrono::days(7 * static_cast<int>(week))));
+    text += fmt::format(",fails_in_week_of_{}", day_text(plan.today + std::chrono::days(7 * static_cast<int>(week))));
   text += '\n';
   for (std::size_t i = 0; i < fleet.rows.size(); ++i) {
     text += csv_cell(fleet.rows[i].name);
@@ -351,10 +362,14 @@ std::string plan_calendar(const Fleet& fleet, const Plan& plan) {
     text += "BEGIN:VEVENT\r\n";
     text += fmt::format("UID:{}-{}@dresslife\r\nDTSTAMP:{}T000000Z\r\n", compact(window.first), plant.substr(0, 16),
                         compact(plan.today));
-    text += fmt::format("DTSTART;VALUE=DATE:{}\r\nDTEND;VALUE=DATE:{}\r\n", compact(window.first),
-                        compact(window.last + std::chrono::days(1)));  // in iCalendar the end is the day after the last day
-    text += folded(names.empty() ? "SUMMARY:No dresspack to replace" : fmt::format("SUMMARY:Replace {} dresspack{}", names.size(), names.size() == 1 ? "" : "s"));
-    text += folded("DESCRIPTION:" + escaped(names.empty() ? expected_words(plan) : fmt::format("{}", fmt::join(names, ", "))));
+    text +=
+        fmt::format("DTSTART;VALUE=DATE:{}\r\nDTEND;VALUE=DATE:{}\r\n", compact(window.first),
+                    compact(window.last + std::chrono::days(1)));  // in iCalendar the end is the day after the last day
+    text += folded(names.empty()
+                       ? "SUMMARY:No dresspack to replace"
+                       : fmt::format("SUMMARY:Replace {} dresspack{}", names.size(), names.size() == 1 ? "" : "s"));
+    text += folded("DESCRIPTION:" +
+                   escaped(names.empty() ? expected_words(plan) : fmt::format("{}", fmt::join(names, ", "))));
     text += "END:VEVENT\r\n";
   }
   return text + "END:VCALENDAR\r\n";

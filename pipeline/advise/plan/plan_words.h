@@ -31,8 +31,8 @@ std::string test_words(const std::vector<TestValue>& tests, const Plan& plan);
 
 /// Returns the value of visual checks for abrasion: of one check today for the three dresspacks with the largest value, then of
 /// all regular checks. checks: result of values_of_checks(); inspection: checks of the jobs.
-std::string check_words(const std::optional<std::vector<CheckValue>>& checks, const Inspection& inspection, const Fleet& fleet,
-                        const Plan& plan);
+std::string check_words(const std::optional<std::vector<CheckValue>>& checks, const Inspection& inspection,
+                        const Fleet& fleet, const Plan& plan);
 
 /// Hours of operation by which a mode that no test validates has ended 1 of 10 dresspacks under a duty, and the mode's name.
 struct AgeLimit {
@@ -55,14 +55,16 @@ struct BesideRow {
 /// Returns the numbers of the present fleet's plan and of another plan: failures, windows, spare dresspacks, cost.
 std::vector<BesideRow> beside_rows(const Fleet& fleet, const Plan& plan, const Fleet& changed, const Plan& other);
 /// Returns beside_rows() as text, and the dresspacks with another window. name: name of the changed fleet.
-std::string what_if_words(const std::string& name, const Fleet& fleet, const Plan& plan, const Fleet& changed, const Plan& other);
+std::string what_if_words(const std::string& name, const Fleet& fleet, const Plan& plan, const Fleet& changed,
+                          const Plan& other);
 
 /// Returns a row per dresspack and a column per week from today: P(failure in this week) of today's dresspack if not replaced.
 std::string plan_weeks_csv(const Fleet& fleet, const Plan& plan);
 
 /// Returns one row per dresspack; numbers are exact when they are read back. checks: result of values_of_checks(); absent: their
 /// cells are empty.
-std::string plan_csv(const Fleet& fleet, const Plan& plan, const std::optional<std::vector<CheckValue>>& checks = std::nullopt);
+std::string plan_csv(const Fleet& fleet, const Plan& plan,
+                     const std::optional<std::vector<CheckValue>>& checks = std::nullopt);
 
 /// Returns an iCalendar file (RFC 5545) with an event for each window.
 std::string plan_calendar(const Fleet& fleet, const Plan& plan);

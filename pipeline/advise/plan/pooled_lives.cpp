@@ -36,7 +36,8 @@ void sort_by_bits(std::vector<float>& numbers) {
     for (const std::uint32_t key : keys) sorted[place[key >> shift & (values - 1)]++] = key;
     keys.swap(sorted);
   }
-  for (std::size_t k = 0; k < keys.size(); ++k) numbers[k] = std::bit_cast<float>(keys[k] & sign ? keys[k] ^ sign : ~keys[k]);
+  for (std::size_t k = 0; k < keys.size(); ++k)
+    numbers[k] = std::bit_cast<float>(keys[k] & sign ? keys[k] ^ sign : ~keys[k]);
 }
 
 }  // namespace
@@ -62,7 +63,8 @@ PooledLives::PooledLives(const LifeTable& table) : draws_(table.draws), mean_(ta
   }
   if (!table.mean_ln.empty()) mean_ = table.mean_ln;
   order_ = smallest_first(table.worlds, [&](std::size_t w) { return mean_[w]; });
-  const std::size_t in_pool = std::clamp<std::size_t>(pooled / table.draws, 1, table.worlds), pools = table.worlds / in_pool;
+  const std::size_t in_pool = std::clamp<std::size_t>(pooled / table.draws, 1, table.worlds),
+                    pools = table.worlds / in_pool;
   distance_.resize(pools);
   for (std::size_t p = 0; p <= pools; ++p) begin_.push_back(table.worlds * p / pools);
   for (std::size_t p = 0; p < pools; ++p) {
@@ -79,7 +81,8 @@ PooledLives::PooledLives(const LifeTable& table) : draws_(table.draws), mean_(ta
 
 double PooledLives::alive(std::size_t world, double age) const {
   const std::vector<float>& all = distance_[pool_of_[world]];
-  const auto longer = all.end() - std::upper_bound(all.begin(), all.end(), static_cast<float>(std::log(age) - mean_[world]));
+  const auto longer =
+      all.end() - std::upper_bound(all.begin(), all.end(), static_cast<float>(std::log(age) - mean_[world]));
   return (double(longer) + 0.5) / (double(all.size()) + 0.5);
 }
 
@@ -116,8 +119,10 @@ void remove_chance(LifeTable& table) {
   std::vector<float> better = pooled.lives_around(table.mean_ln);
   if (!table.of_draw.empty())
     for (std::size_t w = 0; w < table.worlds; ++w) {
-      const auto order = smallest_first(table.draws, [&](std::size_t d) { return table.of_draw[d * table.worlds + w]; });
-      for (std::size_t k = 0; k < order.size(); ++k) table.of_draw[order[k] * table.worlds + w] = better[w * table.draws + k];
+      const auto order =
+          smallest_first(table.draws, [&](std::size_t d) { return table.of_draw[d * table.worlds + w]; });
+      for (std::size_t k = 0; k < order.size(); ++k)
+        table.of_draw[order[k] * table.worlds + w] = better[w * table.draws + k];
     }
   table.hours = std::move(better);
 }

@@ -30,11 +30,11 @@ class PooledLives {
 
  private:
   std::size_t draws_;
-  double chance_ = 0;                       ///< s^2/n
-  std::vector<double> mean_;                ///< (world) m_w
-  std::vector<std::size_t> order_;          ///< worlds by m_w, rising
-  std::vector<std::size_t> begin_;          ///< (pool) its first place in order_; the last: end
-  std::vector<std::size_t> pool_of_;        ///< (world)
+  double chance_ = 0;                         ///< s^2/n
+  std::vector<double> mean_;                  ///< (world) m_w
+  std::vector<std::size_t> order_;            ///< worlds by m_w, rising
+  std::vector<std::size_t> begin_;            ///< (pool) its first place in order_; the last: end
+  std::vector<std::size_t> pool_of_;          ///< (world)
   std::vector<std::vector<float>> distance_;  ///< (pool) x - m_w of its lives, rising
 };
 

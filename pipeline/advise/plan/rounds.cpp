@@ -20,8 +20,8 @@ namespace dresslife::pipeline {
 namespace {
 
 constexpr double share_of_speed = 0.5, share_of_acceleration = 0.25;  // for moves between programs
-constexpr double same_pose = 1e-3 * std::numbers::pi / 180;  // [rad]: a hundred times the rounding of a row
-constexpr std::size_t longest_name = 150;                    // of a folder's name
+constexpr double same_pose = 1e-3 * std::numbers::pi / 180;           // [rad]: a hundred times the rounding of a row
+constexpr std::size_t longest_name = 150;                             // of a folder's name
 
 class Recording {
  public:
@@ -46,15 +46,15 @@ class Recording {
   void move_to(const std::vector<double>& target) {
     if (pose_.empty()) return;
     constexpr double top_speed = 15.0 / 8,
-                     top_acceleration = 5.7735;  // maxima of the derivatives of 10 u^3 - 15 u^4 + 6 u^5; the second is 10/sqrt(3)
+                     top_acceleration =
+                         5.7735;  // maxima of the derivatives of 10 u^3 - 15 u^4 + 6 u^5; the second is 10/sqrt(3)
     const std::vector<double> from = pose_;
     double seconds = 0, way = 0;
     for (std::size_t axis = 0; axis < axes_.size(); ++axis) {
       const double turn = std::abs(target[axis] - from[axis]);
       way = std::max(way, turn);
-      seconds =
-          std::max({seconds, top_speed * turn / (share_of_speed * axes_[axis].speed),
-                    std::sqrt(top_acceleration * turn / (share_of_acceleration * axes_[axis].acceleration))});
+      seconds = std::max({seconds, top_speed * turn / (share_of_speed * axes_[axis].speed),
+                          std::sqrt(top_acceleration * turn / (share_of_acceleration * axes_[axis].acceleration))});
     }
     if (way < same_pose) return;
     const int steps = static_cast<int>(std::ceil(seconds / interval_));
@@ -62,8 +62,7 @@ class Recording {
     for (int i = 0; i <= steps; ++i) {
       const double u = double(i) / steps, share = u * u * u * (10 + u * (6 * u - 15));
       std::vector<double> pose = from;
-      for (std::size_t axis = 0; axis < pose.size(); ++axis)
-        pose[axis] += share * (target[axis] - from[axis]);
+      for (std::size_t axis = 0; axis < pose.size(); ++axis) pose[axis] += share * (target[axis] - from[axis]);
       put(begin + i * interval_, std::move(pose));
     }
   }
@@ -93,25 +92,22 @@ std::vector<Joint> driven(const Robot& robot) {
 JointCourse course_of(const OrderedProgram& program, const std::vector<RankingRow>& rows, std::size_t axes) {
   const RankingRow* const row = find_in(rows, &RankingRow::job, program.job);
   if (!row || !row->done())
-    throw InputError(
-        program.where, fmt::format("job '{}' has no result{}", program.job, row ? ": " + row->failure : ""),
-        "correct the job and run again");
+    throw InputError(program.where,
+                     fmt::format("job '{}' has no result{}", program.job, row ? ": " + row->failure : ""),
+                     "correct the job and run again");
   const std::filesystem::path strain = row->life_file.parent_path() / "strain.h5";
   if (kind_of(strain) != FileKind::file)
-    throw InputError(
-        program.where,
-        fmt::format("'{}' has no strain.h5, from which an order takes its joint angles", program.job),
-        "keep: histories, or all, in the study");
+    throw InputError(program.where,
+                     fmt::format("'{}' has no strain.h5, from which an order takes its joint angles", program.job),
+                     "keep: histories, or all, in the study");
   const FileReader file(strain, strain_format());
   if (!file.has("/robot/joint_position"))
-    throw InputError(
-        program.where,
-        fmt::format("no robot moves in '{}', so what it does between programs is not known", program.job),
-        "leave out the order, or give one motion of all programs");
+    throw InputError(program.where,
+                     fmt::format("no robot moves in '{}', so what it does between programs is not known", program.job),
+                     "leave out the order, or give one motion of all programs");
   JointCourse course{file.read<double>("/time"), file.read<double>("/robot/joint_position")};
   if (course.times.size() < 2 || course.angles.size() != course.times.size() * axes)
-    throw InputError(program.where, fmt::format("'{}' does not move", program.job),
-                     "leave it out of the order");
+    throw InputError(program.where, fmt::format("'{}' does not move", program.job), "leave it out of the order");
   return course;
 }
 
@@ -155,8 +151,7 @@ Study study_of_rounds(const DutyFile& file, const Study& study, const std::vecto
     if (name.empty() || !known.insert(name).second) continue;
     const StudyJob* const first = find_in(study.jobs, &StudyJob::name, duty.order.front().job);
     if (!first || !first->job)
-      throw InputError(duty.order.front().where,
-                       fmt::format("job '{}' cannot be made", duty.order.front().job),
+      throw InputError(duty.order.front().where, fmt::format("job '{}' cannot be made", duty.order.front().job),
                        "correct it: dresslife status STUDY gives the reason");
     Job job = *first->job;
     if (!job.robot.external_axes.empty())

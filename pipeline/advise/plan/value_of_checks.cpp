@@ -12,16 +12,13 @@ namespace {
 constexpr std::size_t values_of_z = 1000;  // of equal probability: the resolution of a share is 0.001
 constexpr double fewest_plants = 1e-3;
 
-double log10_spread(const AbrasionLife& life) {
-  return std::log10(life.median / life.early) / -normal_quantile(0.1);
-}
+double log10_spread(const AbrasionLife& life) { return std::log10(life.median / life.early) / -normal_quantile(0.1); }
 
 /// Returns the share of the dresspacks whose wires live `hours` from today.
 double wires_live(const RowPlan& row, double hours, double hours_per_week) {
   double lives = 1;
   const auto weeks = static_cast<std::size_t>(hours / hours_per_week);
-  for (std::size_t week = 0; week < std::min(weeks, row.fails_in_week.size()); ++week)
-    lives -= row.fails_in_week[week];
+  for (std::size_t week = 0; week < std::min(weeks, row.fails_in_week.size()); ++week) lives -= row.fails_in_week[week];
   return std::max(lives, 0.0);
 }
 
@@ -35,9 +32,7 @@ struct Failures {
 
 Failures failures_of(double life, double age, std::optional<double> planned, double end, double visible_from,
                      double interval, double found_share) {
-  const auto found = [&](double visible) {
-    return interval > 0 ? found_before(visible, interval, found_share) : 0;
-  };
+  const auto found = [&](double visible) { return interval > 0 ? found_before(visible, interval, found_share) : 0; };
   Failures failures;
   const double until = planned.value_or(end), left = life - age;
   failures.first_fails = left < until;
@@ -62,8 +57,8 @@ std::optional<std::vector<CheckValue>> values_of_checks(const Fleet& fleet,
   double survived = 0;  // share of z below the value at which all dresspacks live today
   for (std::size_t i = 0; i < fleet.rows.size(); ++i)
     if (const AbrasionLife* const life = life_of(fleet.rows[i]); life && plan.rows[i].age_hours > 0)
-      survived = std::max(
-          survived, normal_share(std::log10(plan.rows[i].age_hours / life->median) / log10_spread(*life)));
+      survived =
+          std::max(survived, normal_share(std::log10(plan.rows[i].age_hours / life->median) / log10_spread(*life)));
   if (1 - survived < fewest_plants) return std::nullopt;
   std::vector<double> z;
   for (std::size_t k = 0; k < values_of_z; ++k)

@@ -29,8 +29,7 @@ MatrixXd results_of(const std::vector<double>& z, double error, const std::vecto
   for (Index w = 0; w < share.rows(); ++w) {
     double below = 0;
     for (Index j = 0; j < bins; ++j) {
-      const double edge =
-          j + 1 < bins ? mean + deviation * normal_quantile(double(j + 1) / double(bins)) : infinity;
+      const double edge = j + 1 < bins ? mean + deviation * normal_quantile(double(j + 1) / double(bins)) : infinity;
       const double until = normal_share((edge - z[std::size_t(w)]) / error);
       share(w, j) = until - below;
       below = until;
@@ -46,8 +45,7 @@ struct Costs {
 };
 
 Costs costs_of(const Installed& row, const LifeTable& table, double age, double hours_per_day,
-               const std::vector<double>& times, const std::vector<double>& world_weights,
-               const VectorXd& best) {
+               const std::vector<double>& times, const std::vector<double>& world_weights, const VectorXd& best) {
   std::vector<double> until;  // [h]
   for (std::size_t k = 0; k + 1 < times.size(); ++k) until.push_back(times[k] * hours_per_day);
   constexpr double growth = 1.5;  // ratio of successive later times, as in (D5)
@@ -68,8 +66,10 @@ Costs costs_of(const Installed& row, const LifeTable& table, double age, double 
     for (Index t = 0; t < count; ++t) {
       const double at = age + until[std::size_t(t)];
       for (; life != last_life && *life <= at; ++life) lived += *life;
-      const double running = (lived + double(last_life - life) * at) / double(table.draws);  // integral from 0 to this time
-      const double left = end - (std::min(running, ended) - begun) / lives, beyond = std::max(0.0, running - ended) / lives;
+      const double running =
+          (lived + double(last_life - life) * at) / double(table.draws);  // integral from 0 to this time
+      const double left = end - (std::min(running, ended) - begun) / lives,
+                   beyond = std::max(0.0, running - ended) / lives;
       costs.fixed(t, w) = row.planned_cost +
                           (row.unplanned_cost - row.planned_cost) * (1 - table.alive(world, at) / lives) -
                           best[w] * beyond;
@@ -112,10 +112,12 @@ class Values {
     std::vector<MatrixXd> after;  ///< (test) (world, bin) g_w at the age with the least mean after the result
   };
   /// Returns the values for one dresspack, (test).
-  std::vector<double> of(std::size_t i, const Policies& policies, const std::vector<double>& times, const std::vector<MatrixXd>& results) const {
+  std::vector<double> of(std::size_t i, const Policies& policies, const std::vector<double>& times,
+                         const std::vector<MatrixXd>& results) const {
     const Installed& row = fleet_.rows[i];
     const double hours_per_day = row.hours_per_week.value_or(tables_.at(row.duty).hours_per_week) / 7;
-    const Costs costs = costs_of(row, *plan_.rows[i].lives, plan_.rows[i].age_hours, hours_per_day, times, plan_.weights, policies.best);
+    const Costs costs = costs_of(row, *plan_.rows[i].lives, plan_.rows[i].age_hours, hours_per_day, times,
+                                 plan_.weights, policies.best);
     const VectorXd& now = policies.now;
     const double before = (costs.fixed * costs.weights + costs.hours * now.cwiseProduct(costs.weights)).minCoeff();
     return mapped(indices_of(results.size()), [&](std::size_t k) {
@@ -140,14 +142,16 @@ class Values {
     // Minimum of a mean over the ages, as in least(): first every 4th age, then the ages near the minimum. The mean over many
     // worlds has no narrower minimum.
     constexpr Index stride = 4;
-    const MatrixXd some = rates.rate(Eigen::seq(0, Eigen::last, stride), Eigen::all), mean = some * all;  // (age, result and bin)
+    const MatrixXd some = rates.rate(Eigen::seq(0, Eigen::last, stride), Eigen::all),
+                   mean = some * all;  // (age, result and bin)
     for (std::size_t k = 0; k < results.size(); ++k) {
       MatrixXd& after = policies.after.emplace_back(weights.size(), bins);
       for (Index j = 0; j < bins; ++j) {
         const Index column = static_cast<Index>(k) * bins + j;
         Index best = 0;
         mean.col(column).minCoeff(&best);
-        const Index first = std::max<Index>(0, (best - 1) * stride), end = std::min(rates.rate.rows(), (best + 1) * stride + 1);
+        const Index first = std::max<Index>(0, (best - 1) * stride),
+                    end = std::min(rates.rate.rows(), (best + 1) * stride + 1);
         (rates.rate.middleRows(first, end - first) * all.col(column)).minCoeff(&best);
         after.col(j) = rates.rate.row(first + best).transpose();
       }

@@ -37,8 +37,8 @@ Shape& shape_of(CandidateModels::Shapes& shapes, std::size_t limit, bool differe
 }
 
 /// Returns the short runs at places of results first, then those nearest to the centre.
-std::vector<const Candidate*> chosen(const std::vector<Candidate>& short_runs,
-                                     const std::vector<Candidate>& evaluated, const VectorXd& centre) {
+std::vector<const Candidate*> chosen(const std::vector<Candidate>& short_runs, const std::vector<Candidate>& evaluated,
+                                     const VectorXd& centre) {
   std::vector<std::pair<double, const Candidate*>> some;
   for (const Candidate& short_run : short_runs) {
     const auto is_here = [&](const Candidate& candidate) {
@@ -67,8 +67,7 @@ double failure_of(const Candidate& candidate) { return candidate.ran ? -1 : 1 + 
 
 void CandidateModels::FunctionModel::add(const VectorXd& place, const VectorXd& pieces) {
   const Index row = places.rows();
-  if (row > 0 && values.cols() != pieces.size())
-    throw std::logic_error("a limit has pieces of another number");
+  if (row > 0 && values.cols() != pieces.size()) throw std::logic_error("a limit has pieces of another number");
   places.conservativeResize(row + 1, place.size());
   places.row(row) = place.transpose();
   values.conservativeResize(row + 1, pieces.size());
@@ -98,9 +97,8 @@ GaussianProcess::Prediction CandidateModels::Limit::at(const VectorXd& place, do
   return predicted;
 }
 
-CandidateModels::CandidateModels(const std::vector<Candidate>& evaluated,
-                                 const std::vector<Candidate>& short_runs, const VectorXd& centre,
-                                 Shapes shapes)
+CandidateModels::CandidateModels(const std::vector<Candidate>& evaluated, const std::vector<Candidate>& short_runs,
+                                 const VectorXd& centre, Shapes shapes)
     : shapes_(std::move(shapes)) {
   std::size_t limits = 0;
   for (const std::vector<Candidate>* list : {&evaluated, &short_runs})
@@ -134,16 +132,14 @@ void CandidateModels::add_short_run(const Candidate& short_run) {
   }
   if (!short_run.ran) return;
   for (std::size_t k = 0; k < limits_.size(); ++k)
-    if (!std::isnan(short_run.beyond[k]))
-      limits_[k].by_short_run.add(short_run.place, pieces_of(short_run, k));
+    if (!std::isnan(short_run.beyond[k])) limits_[k].by_short_run.add(short_run.place, pieces_of(short_run, k));
 }
 
 void CandidateModels::fit() {
   const auto refit = [](Shape& shape, const FunctionModel& of, Index most) {
     const Index n = std::min(most, of.places.rows());
     if (n > 1)
-      shape = GaussianProcess::likeliest_shape(of.places.topRows(n), of.values.topRows(n), shape,
-                                               shape_evaluations);
+      shape = GaussianProcess::likeliest_shape(of.places.topRows(n), of.values.topRows(n), shape, shape_evaluations);
   };
   const Index evaluated = aim_.places.rows();
   refit(shapes_[of_aim], aim_, evaluated);
@@ -179,8 +175,7 @@ void CandidateModels::build_limits() {
     limit.difference = {limit.evaluated.places, limit.evaluated.values};
     if (limit.by_short_run.model)
       for (Index i = 0; i < limit.difference.places.rows(); ++i) {
-        const auto by_short_run =
-            limit.by_short_run.model->of_each(limit.evaluated.places.row(i).transpose());
+        const auto by_short_run = limit.by_short_run.model->of_each(limit.evaluated.places.row(i).transpose());
         limit.difference.values(i, 0) -= by_short_run.means.maxCoeff();
       }
     limit.difference.build(shape_of(shapes_, k, true),

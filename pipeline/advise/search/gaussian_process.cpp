@@ -14,7 +14,7 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr double least_noise =
-    1e-8;                       // share of the variance: with this noise a Cholesky factor of hundreds of close places exists
+    1e-8;  // share of the variance: with this noise a Cholesky factor of hundreds of close places exists
 constexpr double flat = 1e-12;  // functions with a smaller variance are constant
 
 double correlation(double squared) {
@@ -28,23 +28,16 @@ MatrixXd correlations(const MatrixXd& scaled, double noise) {
   const MatrixXd columns = scaled.transpose();
   for (Index i = 0; i < n; ++i) {
     k(i, i) = 1 + noise;
-    for (Index j = 0; j < i; ++j)
-      k(i, j) = k(j, i) = correlation((columns.col(i) - columns.col(j)).squaredNorm());
+    for (Index j = 0; j < i; ++j) k(i, j) = k(j, i) = correlation((columns.col(i) - columns.col(j)).squaredNorm());
   }
   return k;
 }
 
-VectorXd per_length(const GaussianProcess::Shape& shape) {
-  return (-shape.head(shape.size() - 1)).array().exp();
-}
+VectorXd per_length(const GaussianProcess::Shape& shape) { return (-shape.head(shape.size() - 1)).array().exp(); }
 
-double noise_of(const GaussianProcess::Shape& shape) {
-  return std::exp(shape[shape.size() - 1]) + least_noise;
-}
+double noise_of(const GaussianProcess::Shape& shape) { return std::exp(shape[shape.size() - 1]) + least_noise; }
 
-MatrixXd centred_at(const MatrixXd& values, const VectorXd& mean) {
-  return values.rowwise() - mean.transpose();
-}
+MatrixXd centred_at(const MatrixXd& values, const VectorXd& mean) { return values.rowwise() - mean.transpose(); }
 
 VectorXd mean_of(const MatrixXd& values) { return values.colwise().mean().transpose(); }
 
@@ -53,8 +46,7 @@ double unlikeliness(const MatrixXd& points, const MatrixXd& centred, const Gauss
   constexpr double length_spread = 1.2, noise_spread = 3;  // standard deviations of ln l and ln n
   const Eigen::LLT<MatrixXd> factor(correlations(points * per_length(shape).asDiagonal(), noise_of(shape)));
   const auto n = static_cast<double>(centred.rows());
-  const VectorXd squares =
-      centred.cwiseProduct(factor.solve(centred)).colwise().sum().cwiseMax(flat).transpose();
+  const VectorXd squares = centred.cwiseProduct(factor.solve(centred)).colwise().sum().cwiseMax(flat).transpose();
   const double determinant = 2 * factor.matrixLLT().diagonal().array().log().sum();
   VectorXd off = (shape - GaussianProcess::usual_shape(points.cols())) / length_spread;
   off[off.size() - 1] *= length_spread / noise_spread;
@@ -65,14 +57,12 @@ double unlikeliness(const MatrixXd& points, const MatrixXd& centred, const Gauss
 
 GaussianProcess::Shape GaussianProcess::usual_shape(Index variables) {
   Shape shape(variables + 1);
-  shape.setConstant(
-      std::log(0.5 * std::sqrt(static_cast<double>(variables))));  // half of the diagonal of the unit box
+  shape.setConstant(std::log(0.5 * std::sqrt(static_cast<double>(variables))));  // half of the diagonal of the unit box
   shape[variables] = std::log(1e-4);
   return shape;
 }
 
-GaussianProcess::GaussianProcess(const MatrixXd& points, const MatrixXd& values, const Shape& shape,
-                                 const Scale& scale)
+GaussianProcess::GaussianProcess(const MatrixXd& points, const MatrixXd& values, const Shape& shape, const Scale& scale)
     : scaled_(points * per_length(shape).asDiagonal()),
       per_length_(per_length(shape)),
       covariance_(correlations(scaled_, noise_of(shape))),
@@ -81,8 +71,7 @@ GaussianProcess::GaussianProcess(const MatrixXd& points, const MatrixXd& values,
   weights_ = covariance_.solve(centred);
   const double believed = scale.worth * scale.deviation * scale.deviation;
   const VectorXd squares = centred.cwiseProduct(weights_).colwise().sum().transpose();
-  deviation_ =
-      ((believed + squares.array()) / (scale.worth + static_cast<double>(values.rows()))).max(flat).sqrt();
+  deviation_ = ((believed + squares.array()) / (scale.worth + static_cast<double>(values.rows()))).max(flat).sqrt();
 }
 
 GaussianProcess::Shape GaussianProcess::likeliest_shape(const MatrixXd& points, const MatrixXd& values,
@@ -94,8 +83,8 @@ GaussianProcess::Shape GaussianProcess::likeliest_shape(const MatrixXd& points, 
   SearchBox box{usual.array() - widest, usual.array() + widest};
   box.low[usual.size() - 1] = std::log(least_noise);
   box.high[usual.size() - 1] = 0;
-  return minimised([&](const VectorXd& shape) { return unlikeliness(points, centred, shape); }, {}, box,
-                   start, 0.5, evaluations);
+  return minimised([&](const VectorXd& shape) { return unlikeliness(points, centred, shape); }, {}, box, start, 0.5,
+                   evaluations);
 }
 
 GaussianProcess::Predictions GaussianProcess::of_each(const VectorXd& place) const {

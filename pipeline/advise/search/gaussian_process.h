@@ -29,12 +29,11 @@ class GaussianProcess {
   /// points: (place, variable); values: (place, function). Precondition: all values are finite; at least one place.
   GaussianProcess(const Eigen::MatrixXd& points, const Eigen::MatrixXd& values, const Shape& shape)
       : GaussianProcess(points, values, shape, Scale{}) {}
-  GaussianProcess(const Eigen::MatrixXd& points, const Eigen::MatrixXd& values, const Shape& shape,
-                  const Scale& scale);
+  GaussianProcess(const Eigen::MatrixXd& points, const Eigen::MatrixXd& values, const Shape& shape, const Scale& scale);
 
   /// Returns the most likely shape, searched from `start` with at most `evaluations` evaluations.
-  static Shape likeliest_shape(const Eigen::MatrixXd& points, const Eigen::MatrixXd& values,
-                               const Shape& start, int evaluations);
+  static Shape likeliest_shape(const Eigen::MatrixXd& points, const Eigen::MatrixXd& values, const Shape& start,
+                               int evaluations);
 
   struct Prediction {
     double mean = 0, deviation = 0;  ///< of the function without noise

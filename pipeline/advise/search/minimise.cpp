@@ -28,14 +28,13 @@ void limits_at(unsigned count, double* beyond, unsigned size, const double* plac
 }
 
 void check(nlopt_result result) {
-  if (result < 0 && result != NLOPT_ROUNDOFF_LIMITED)
-    throw std::logic_error("NLopt was given what it cannot minimise");
+  if (result < 0 && result != NLOPT_ROUNDOFF_LIMITED) throw std::logic_error("NLopt was given what it cannot minimise");
 }
 
 }  // namespace
 
-VectorXd minimised(const Function& function, const LimitFunctions& limits, const SearchBox& box,
-                   VectorXd start, double step, int evaluations) {
+VectorXd minimised(const Function& function, const LimitFunctions& limits, const SearchBox& box, VectorXd start,
+                   double step, int evaluations) {
   const auto size = static_cast<unsigned>(start.size());
   const std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)> search(
       nlopt_create(limits.count > 0 ? NLOPT_LN_COBYLA : NLOPT_LN_SBPLX, size), nlopt_destroy);

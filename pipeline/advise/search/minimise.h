@@ -19,8 +19,7 @@ struct LimitFunctions {
 /// Returns the best place that a local search without derivatives finds from `start` with at most `evaluations` evaluations.
 /// Equal calls give equal places. Without limits it uses Sbplx (T. Rowan, 1990), with limits COBYLA (M. Powell, 1994). step:
 /// first change of each variable. Preconditions: `start` lies in the box; the functions are finite in the box.
-Eigen::VectorXd minimised(const std::function<double(const Eigen::VectorXd&)>& function,
-                          const LimitFunctions& limits, const SearchBox& box, Eigen::VectorXd start,
-                          double step, int evaluations);
+Eigen::VectorXd minimised(const std::function<double(const Eigen::VectorXd&)>& function, const LimitFunctions& limits,
+                          const SearchBox& box, Eigen::VectorXd start, double step, int evaluations);
 
 }  // namespace dresslife::pipeline

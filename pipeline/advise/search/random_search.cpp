@@ -24,8 +24,7 @@ std::vector<VectorXd> RandomSearch::ask(int count) {
     std::vector<VectorXd> some;
     while (some.size() < drawn_for_each) some.push_back(drawn());
     const std::vector<double> beyond = screen_(some);
-    places.push_back(
-        some[static_cast<std::size_t>(std::min_element(beyond.begin(), beyond.end()) - beyond.begin())]);
+    places.push_back(some[static_cast<std::size_t>(std::min_element(beyond.begin(), beyond.end()) - beyond.begin())]);
   }
   return places;
 }

@@ -20,8 +20,7 @@ constexpr double first_width = 0.3, most_width = 0.5, least_width = 1e-4;  // ha
 constexpr int hits_to_widen = 3, least_misses_to_narrow = 4;
 constexpr double near = 1e-6;  // places with a smaller distance are equal
 constexpr int candidate_count = 200, polish_evaluations = 150;
-constexpr double moved_at_once =
-    6;  // mean number of variables in which a candidate differs from the best one
+constexpr double moved_at_once = 6;  // mean number of variables in which a candidate differs from the best one
 constexpr std::size_t screened_at_once = 24;
 constexpr std::size_t short_runs_per_candidate = 4;
 constexpr int short_runs_together = 8;
@@ -113,8 +112,7 @@ bool SurrogateSearch::is_known(const VectorXd& place) const {
 }
 
 /// Returns candidates: a share of the variables, at least one, are anywhere in the box, the others equal those of the centre.
-std::vector<VectorXd> SurrogateSearch::candidates(const SearchBox& box, const VectorXd& centre,
-                                                  double share) {
+std::vector<VectorXd> SurrogateSearch::candidates(const SearchBox& box, const VectorXd& centre, double share) {
   std::vector<VectorXd> some;
   while (some.size() < candidate_count) {
     VectorXd place = centre;
@@ -138,8 +136,8 @@ VectorXd SurrogateSearch::allowed(const std::vector<VectorXd>& by_merit) {
 }
 
 /// Returns places around the best one, and results of local searches from them, sorted by violation, then by objective.
-std::vector<VectorXd> SurrogateSearch::ranked(const CandidateModels& models, const VectorXd& best,
-                                              double width, const Trust& trust) {
+std::vector<VectorXd> SurrogateSearch::ranked(const CandidateModels& models, const VectorXd& best, double width,
+                                              const Trust& trust) {
   const SearchBox whole{VectorXd::Zero(variables_), VectorXd::Ones(variables_)};
   const SearchBox box = trust.anywhere ? whole : around(best, width);
   const auto excess = [&](const VectorXd& place) { return models.excess(place, trust.of_limits); };
@@ -189,8 +187,7 @@ VectorXd SurrogateSearch::pick_by_short_runs(CandidateModels& models, const std:
                                              const Trust& trust) {
   std::vector<VectorXd> some;
   for (const VectorXd& place : by_merit)
-    if (some.size() < short_runs_per_candidate && !is_known(place) && !has_short_run(place))
-      some.push_back(place);
+    if (some.size() < short_runs_per_candidate && !is_known(place) && !has_short_run(place)) some.push_back(place);
   const auto before = static_cast<std::ptrdiff_t>(short_runs_.size());
   make_short_runs(some);
   models.learn({short_runs_.begin() + before, short_runs_.end()});
@@ -252,8 +249,7 @@ std::vector<VectorXd> SurrogateSearch::next_short_runs(CandidateModels& models, 
   static constexpr Trust trusts[] = {{0, 0, false}, {0, cautious, false}, {0, -1, false}, {0, 0, true}};
   std::vector<VectorXd> batch;
   while (batch.size() < count) {
-    const std::vector<VectorXd> some =
-        ranked(models, centre, ahead_width_, trusts[batch.size() % std::size(trusts)]);
+    const std::vector<VectorXd> some = ranked(models, centre, ahead_width_, trusts[batch.size() % std::size(trusts)]);
     const auto is_new = [&](const VectorXd& place) { return !is_known(place) && !has_short_run(place); };
     const auto found = std::find_if(some.begin(), some.end(), is_new);
     batch.push_back(found == some.end() ? first_candidate() : *found);
@@ -266,8 +262,7 @@ std::vector<VectorXd> SurrogateSearch::next_short_runs(CandidateModels& models, 
 bool SurrogateSearch::is_hopeless() const {
   const auto misses = [](const Candidate& candidate) { return !candidate.ran || candidate.violation() > hopeless; };
   return asked_ == 0 &&
-         static_cast<int>(short_runs_.size()) >=
-             std::max(settings_.short_runs / 3, settings_.first_candidates) &&
+         static_cast<int>(short_runs_.size()) >= std::max(settings_.short_runs / 3, settings_.first_candidates) &&
          std::all_of(short_runs_.begin(), short_runs_.end(), misses) &&
          std::all_of(evaluated_.begin(), evaluated_.end(), misses);
 }
@@ -295,8 +290,7 @@ void SurrogateSearch::make_runs_ahead(int wanted) {
     const VectorXd centre = nearest_short_run(models, ahead_from_);
     const Merit now = nearness(models, centre);
     if (has_nearest)
-      ahead_width_ =
-          clearly_less(now, nearest) ? std::min(most_width, 1.5 * ahead_width_) : 0.7 * ahead_width_;
+      ahead_width_ = clearly_less(now, nearest) ? std::min(most_width, 1.5 * ahead_width_) : 0.7 * ahead_width_;
     nearest = now;
     has_nearest = true;
     const int count = std::min(short_runs_together, left);
@@ -320,9 +314,7 @@ std::vector<Candidate> SurrogateSearch::by_weight(double weight) const {
     }
   for (Candidate& candidate : candidates) {
     if (!candidate.ran) continue;
-    const auto share = [&](std::size_t k) {
-      return (candidate.aims[k] - low[k]) / std::max(high[k] - low[k], near);
-    };
+    const auto share = [&](std::size_t k) { return (candidate.aims[k] - low[k]) / std::max(high[k] - low[k], near); };
     constexpr double of_sum = 0.05;
     const double a = weight * share(0), b = (1 - weight) * share(1);
     candidate.aims = {std::max(a, b) + of_sum * (a + b)};
@@ -379,8 +371,7 @@ std::vector<VectorXd> SurrogateSearch::ask(int count) {
   while (places.size() < wanted) {
     static constexpr Trust trusts[] = {{0, 0, false}, {1, 1, false}, {1, -1, false}, {2, 0, true}};
     std::optional<VectorXd> place;
-    if (make_short_runs_ && asked_ < settings_.first_candidates / spread_share)
-      place = spread_candidate(models);
+    if (make_short_runs_ && asked_ < settings_.first_candidates / spread_share) place = spread_candidate(models);
     if (!place) {
       const Trust& trust = trusts[static_cast<std::size_t>(picks_++) % std::size(trusts)];
       const std::vector<VectorXd> by_merit = ranked(models, best, regions_[region_].width, trust);

@@ -14,11 +14,9 @@ namespace dresslife::pipeline {
 
 struct SurrogateSettings {
   std::uint64_t seed = 1;
-  int first_candidates =
-      0;  ///< number of candidates spread over the box before the first model; 0: 2 variables + 2
-  std::size_t aims = 1;  ///< number of objectives; 2: candidates along the Pareto front
-  int short_runs =
-      0;  ///< largest number of short runs before the first candidate; 0: 40 times the number of variables
+  int first_candidates = 0;  ///< number of candidates spread over the box before the first model; 0: 2 variables + 2
+  std::size_t aims = 1;      ///< number of objectives; 2: candidates along the Pareto front
+  int short_runs = 0;  ///< largest number of short runs before the first candidate; 0: 40 times the number of variables
 };
 
 class SurrogateSearch : public Search {
@@ -48,8 +46,8 @@ class SurrogateSearch : public Search {
   Eigen::VectorXd first_candidate();
   double distance_to_known(const Eigen::VectorXd& place) const;
   CandidateModels models_of(const std::vector<Candidate>& candidates, std::size_t first = 0);
-  std::vector<Eigen::VectorXd> ranked(const CandidateModels& models, const Eigen::VectorXd& best,
-                                      double width, const Trust& trust);
+  std::vector<Eigen::VectorXd> ranked(const CandidateModels& models, const Eigen::VectorXd& best, double width,
+                                      const Trust& trust);
   std::vector<Eigen::VectorXd> promising(const CandidateModels& models) const;
   std::optional<Eigen::VectorXd> spread_candidate(const CandidateModels& models) const;
   Eigen::VectorXd pick_by_short_runs(CandidateModels& models, const std::vector<Eigen::VectorXd>& by_merit,
@@ -78,8 +76,8 @@ class SurrogateSearch : public Search {
   std::vector<Candidate> short_runs_;
   std::vector<Eigen::VectorXd> pending_;        // candidates without results
   std::vector<GaussianProcess::Shape> shapes_;  // shapes of the models, from the last fit
-  std::size_t shapes_of_evaluated_ = 0;             // number of results at the last fit of the shapes
-  double shapes_of_ = 0;                            // number of results and short runs at the last fit
+  std::size_t shapes_of_evaluated_ = 0;         // number of results at the last fit of the shapes
+  double shapes_of_ = 0;                        // number of results and short runs at the last fit
   std::vector<Region> regions_;
   std::size_t region_ = 0;      // region of the last candidates
   double ahead_width_;          // width of the region around the best short run

@@ -92,8 +92,7 @@ class VariableFile {
   /// Reads "X: 1.0 Y: ...", "J1 = 1.0 deg J2 = ...", "Group: 1 Config: N U T, 0, 0, 0" or "EXT1: 0.0 mm".
   void coordinates(std::string_view line) {
     if (const std::size_t config = line.find("Config:"); config != std::string_view::npos) {
-      position_->configuration =
-          fanuc_configuration(trimmed(line.substr(config + 7))).value_or(ArmConfiguration{});
+      position_->configuration = fanuc_configuration(trimmed(line.substr(config + 7))).value_or(ArmConfiguration{});
       return;
     }
     FanucCursor at(line);
@@ -131,15 +130,14 @@ class VariableFile {
 
   std::string_view text_;
   FanucVariables& into_;
-  std::string variable_;  // its name in capitals
+  std::string variable_;               // its name in capitals
   FanucPosition* position_ = nullptr;  // the position of the current element; null: none
   std::string macro_;
 };
 
 // ---- folders ---------------------------------------------------------------------------------------------
 
-constexpr std::array variable_files{"numreg.va",   "posreg.va",   "sysframe.va",
-                                    "framevar.va", "sysmacro.va", "system.va"};
+constexpr std::array variable_files{"numreg.va", "posreg.va", "sysframe.va", "framevar.va", "sysmacro.va", "system.va"};
 
 bool is_listing(const fs::path& file) { return lower_case(file.extension().string()) == ".ls"; }
 bool is_variable_file(const fs::path& file) {
@@ -185,8 +183,7 @@ Calls calls_of_listing(const fs::path& file, const std::map<std::string, std::st
     made.moves |= position && (first == "j" || first == "l" || first == "c" || first == "a" || first == "s");
     const std::string text = lower_case(s.text);
     for (const std::string call : {"call ", "run "})
-      for (std::size_t found = text.find(call); found != std::string::npos;
-           found = text.find(call, found + 1)) {
+      for (std::size_t found = text.find(call); found != std::string::npos; found = text.find(call, found + 1)) {
         FanucCursor named(std::string_view(text).substr(found + call.size()));
         made.names.insert(std::string(named.name()));
       }
@@ -258,13 +255,12 @@ fs::path folder_of_listings(const fs::path& folder, const std::vector<fs::path>&
   }
   if (within.size() == 1) return within[0];
   if (within.size() > 12) within.resize(12);
-  throw pipeline::InputError(
-      {folder.string()},
-      within.empty()
-          ? "holds no Fanuc program (.ls with /PROG)"
-          : fmt::format("holds programs of several robots or languages in {}", pipeline::joined(within, ", ")),
-      within.empty() ? "list the programs on the controller (.ls); .tp files are not read"
-                     : "name one of these folders");
+  throw pipeline::InputError({folder.string()},
+                             within.empty() ? "holds no Fanuc program (.ls with /PROG)"
+                                            : fmt::format("holds programs of several robots or languages in {}",
+                                                          pipeline::joined(within, ", ")),
+                             within.empty() ? "list the programs on the controller (.ls); .tp files are not read"
+                                            : "name one of these folders");
 }
 
 }  // namespace

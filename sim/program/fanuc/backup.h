@@ -55,6 +55,6 @@ FanucFolder fanuc_folder(const std::filesystem::path& folder);
 /// Returns the Fanuc programs among `files` of `folder`. routine: the requested program; empty: no request.
 /// Errors: throws InputError, with the choices if there are several programs.
 Backup fanuc_backup(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& files,
-                 const std::string& routine);
+                    const std::string& routine);
 
 }  // namespace dresslife::sim

@@ -137,11 +137,10 @@ FanucWord fanuc_word(const std::string& word) {
                                            "end_monitor",
                                            "vr",
                                            "cstop"};
-  static const std::set<std::string> shaping{
-      "weave",           "track",    "touch",  "search",      "softfloat",
-      "force",           "multi",    "stitch", "torq_limit",  "linear_max_speed",
-      "joint_max_speed", "tracking", "mpofs",  "singularity", "pal_end",
-      "vision",          "voffset",  "coord",  "indev",       "press_motn"};
+  static const std::set<std::string> shaping{"weave",           "track",    "touch",  "search",      "softfloat",
+                                             "force",           "multi",    "stitch", "torq_limit",  "linear_max_speed",
+                                             "joint_max_speed", "tracking", "mpofs",  "singularity", "pal_end",
+                                             "vision",          "voffset",  "coord",  "indev",       "press_motn"};
   if (word == "j" || word == "l" || word == "c" || word == "a" || word == "s") return FanucWord::motion;
   if (logic.contains(word) || word.starts_with("$")) return FanucWord::logic;
   return shaping.contains(word) ? FanucWord::shapes_motion : FanucWord::other;
@@ -160,15 +159,13 @@ FanucSetting fanuc_setting(const std::string& statement) {
     std::string_view field = std::string_view(left).substr(left.find(']') + 1);
     if (field.starts_with(".")) field.remove_prefix(1);
     if (field.starts_with("$")) field.remove_prefix(1);
-    if (field.size() == 1)
-      setting.component = static_cast<int>(std::string_view("xyzwpr").find(field[0])) + 1;
+    if (field.size() == 1) setting.component = static_cast<int>(std::string_view("xyzwpr").find(field[0])) + 1;
     return setting;
   }
   return {};
 }
 
-FanucOutlook::FanucOutlook(const std::vector<FanucListing>& listings,
-                           const std::map<std::string, std::string>& macros)
+FanucOutlook::FanucOutlook(const std::vector<FanucListing>& listings, const std::map<std::string, std::string>& macros)
     : listings_(listings), macros_(macros) {
   for (const FanucListing& listing : listings_) by_name_.try_emplace(listing.name, &listing);
 }
@@ -214,9 +211,7 @@ FanucEffects FanucOutlook::effects(const std::string& action) {
     made.waits = true;
   } else if (word == "r" || word == "pr" || word == "uframe" || word == "utool") {
     const auto index = constant_index(at);
-    made.written.insert(index                 ? fmt::format("{}[{}]", word, *index)
-                        : word.ends_with("r") ? any_register
-                                              : word + "[]");
+    made.written.insert(index ? fmt::format("{}[{}]", word, *index) : word.ends_with("r") ? any_register : word + "[]");
   } else if (word == "for") {
     at.word();
     if (const auto index = constant_index(at)) made.written.insert(fmt::format("r[{}]", *index));

@@ -13,9 +13,9 @@
 namespace dresslife::sim {
 
 struct FanucEffects {
-  bool moves = false;         ///< whether the robot moves
-  bool waits = false;         ///< whether a timed wait occurs
-  bool leaves = false;        ///< whether a jump may lead out of these statements
+  bool moves = false;   ///< whether the robot moves
+  bool waits = false;   ///< whether a timed wait occurs
+  bool leaves = false;  ///< whether a jump may lead out of these statements
   /// What may be written: "r[5]", "pr[2]", "override", "$prgoverride", "uframe_num", "utool_num", "utool[2]".
   /// "uframe[]": a user frame of unknown number; "r[]": R[] or PR[] of unknown numbers.
   std::set<std::string> written;

@@ -27,8 +27,7 @@ namespace dresslife::sim {
 
 /// Runs the first listing, or the program `options.routine`, and adds its moves and dwells to `program`. Errors and
 /// questions are added to `problems`.
-void read_fanuc(const std::deque<SourceFile>& files, const ImportOptions& options,
-                const std::vector<NamedFrame>& tools, const std::vector<NamedFrame>& work_objects,
-                Program& program, Problems& problems);
+void read_fanuc(const std::deque<SourceFile>& files, const ImportOptions& options, const std::vector<NamedFrame>& tools,
+                const std::vector<NamedFrame>& work_objects, Program& program, Problems& problems);
 
 }  // namespace dresslife::sim

@@ -18,9 +18,8 @@ bool nothing(const FanucPosition& offset) {
 }  // namespace
 
 Frame frame_of_fanuc(const std::vector<double>& n) {  // W, P, R turn about the fixed axes x, y, z
-  return {
-      millimetre * Vector3(n[0], n[1], n[2]),
-      rotation({0, 0, n[5] * degree}) * rotation({0, n[4] * degree, 0}) * rotation({n[3] * degree, 0, 0})};
+  return {millimetre * Vector3(n[0], n[1], n[2]),
+          rotation({0, 0, n[5] * degree}) * rotation({0, n[4] * degree, 0}) * rotation({n[3] * degree, 0, 0})};
 }
 
 std::vector<double> fanuc_values_of(const Frame& frame) {
@@ -54,8 +53,7 @@ FanucRun::WrittenPosition FanucRun::position(FanucCursor& at) {
 /// Warns if a program that was not read may have written the PR[n] of the backup.
 void FanucRun::doubt(int number) {
   if (values_.doubtful(number))
-    note(fmt::format("PR[{}] is taken from the backup; a program that was not read may have written it since",
-                     number),
+    note(fmt::format("PR[{}] is taken from the backup; a program that was not read may have written it since", number),
          true);
 }
 
@@ -83,10 +81,8 @@ std::optional<FanucPosition> FanucRun::target_position(FanucCursor& at) {
     if (const auto given = values_.given_position(own_name)) read = given;
   if (registered) doubt(*number);
   if (read && read->known() && read->form == FanucPosition::Form::unknown) {
-    complain(
-        fmt::format("moves to {}, and its numbers can be a pose or joint angles", name),
-        fmt::format("give --value '{}=X ... Y ... Z ... W ... P ... R ...' or '{}=J1 ... J2 ...'", name,
-                    name));
+    complain(fmt::format("moves to {}, and its numbers can be a pose or joint angles", name),
+             fmt::format("give --value '{}=X ... Y ... Z ... W ... P ... R ...' or '{}=J1 ... J2 ...'", name, name));
     return {};
   }
   if (read && (read->known() || read->form == FanucPosition::Form::other_groups)) return read;
@@ -97,8 +93,7 @@ std::optional<FanucPosition> FanucRun::target_position(FanucCursor& at) {
   missing(fmt::format("{} of {}", name, routine().listing->name),
           fmt::format("moves to {}, which is not {}", name, read ? "taught" : "listed"),
           fmt::format("{}, or give --value '{}=X ... Y ... Z ... W ... P ... R ...'",
-                      read ? "list the program again behind teaching it"
-                           : "list the program with its positions (/POS)",
+                      read ? "list the program again behind teaching it" : "list the program with its positions (/POS)",
                       own_name),
           {{Question::Kind::value, own_name, position_form}});
   return {};
@@ -113,10 +108,9 @@ void FanucRun::missing_position(int number, const char* what) {
   if (causes.size() != 1 || causes[0].name != name)
     return missing_value(fmt::format("{} {}, which depends on", what, name));
   missing(name, fmt::format("{} {}, which is known only while the robot runs", what, name),
-          fmt::format(
-              "give posreg.va of the backup (--module), or --value '{}=X ... Y ... Z ... W ... P ... R ...' "
-              "(motion.values)",
-              name),
+          fmt::format("give posreg.va of the backup (--module), or --value '{}=X ... Y ... Z ... W ... P ... R ...' "
+                      "(motion.values)",
+                      name),
           {{Question::Kind::value, name, position_form}});
 }
 
@@ -136,12 +130,10 @@ bool FanucRun::active(bool tool, int& number) {
       frame{tool ? Question::Kind::tool : Question::Kind::work_object, list, ""};
   missing(
       written,
-      fmt::format("moves in the active {}, and no line chooses it ({})", tool ? "tool" : "user frame",
-                  written),
-      fmt::format(
-          "give it with --value {}=1 (motion.values), its frame in motion.{} (--frames) with the name '{}', or "
-          "sysframe.va of the backup",
-          written, tool ? "tools" : "work_objects", list),
+      fmt::format("moves in the active {}, and no line chooses it ({})", tool ? "tool" : "user frame", written),
+      fmt::format("give it with --value {}=1 (motion.values), its frame in motion.{} (--frames) with the name '{}', or "
+                  "sysframe.va of the backup",
+                  written, tool ? "tools" : "work_objects", list),
       {by_number ? by_its_number : frame});
   return false;
 }
@@ -149,8 +141,8 @@ bool FanucRun::active(bool tool, int& number) {
 /// Returns the user's frame of this name; null: none.
 const NamedFrame* FanucRun::given_frame(bool tool, const std::string& name) const {
   const auto& given = tool ? around_.tools : around_.work_objects;
-  const auto found = std::find_if(given.begin(), given.end(),
-                                  [&](const NamedFrame& frame) { return same_word(frame.name, name); });
+  const auto found =
+      std::find_if(given.begin(), given.end(), [&](const NamedFrame& frame) { return same_word(frame.name, name); });
   return found == given.end() ? nullptr : &*found;
 }
 
@@ -161,9 +153,8 @@ void FanucRun::compare_active(bool tool, int listed) {
   if (!values_.has_named(name)) return values_.set_named(name, listed);
   const int number = whole_number(*values_.named(name));
   if (number == listed) return;
-  note(fmt::format(
-           "the position is taught in {} {} and {} is active: the controller stops here; read as taught",
-           tool ? "tool" : "user frame", listed, number),
+  note(fmt::format("the position is taught in {} {} and {} is active: the controller stops here; read as taught",
+                   tool ? "tool" : "user frame", listed, number),
        true);
 }
 
@@ -191,16 +182,14 @@ std::optional<NamedFrame> FanucRun::frame(bool tool, int number) {
   }
   if (const NamedFrame* given = given_frame(tool, made.name)) return *given;
   const auto& backup = tool ? around_.variables.tools : around_.variables.frames;
-  if (const auto found = backup.find(number);
-      found != backup.end() && found->second.known() && own == frames_.end()) {
+  if (const auto found = backup.find(number); found != backup.end() && found->second.known() && own == frames_.end()) {
     made.frame = frame_of_fanuc(found->second.values);
     return made;
   }
   missing(made.name, fmt::format("uses {}, which lies in the controller", made.name),
-          fmt::format(
-              "give it in motion.{} (--frames of dresslife import) with the name '{}', or sysframe.va of the "
-              "backup",
-              tool ? "tools" : "work_objects", made.name),
+          fmt::format("give it in motion.{} (--frames of dresslife import) with the name '{}', or sysframe.va of the "
+                      "backup",
+                      tool ? "tools" : "work_objects", made.name),
           {{tool ? Question::Kind::tool : Question::Kind::work_object, made.name, ""}});
   return {};
 }
@@ -217,8 +206,7 @@ void FanucRun::use(const NamedFrame& wanted, bool as_tool, Instruction& move) {
       index = static_cast<int>(i);
   if (index >= 0) return;
   for (int variant = 2;
-       std::any_of(list.begin(), list.end(), [&](const NamedFrame& f) { return f.name == frame.name; });
-       ++variant)
+       std::any_of(list.begin(), list.end(), [&](const NamedFrame& f) { return f.name == frame.name; }); ++variant)
     frame.name = fmt::format("{} ({})", wanted.name, variant);
   list.push_back(frame);
   index = static_cast<int>(list.size()) - 1;
@@ -286,8 +274,7 @@ bool FanucRun::place(const FanucPosition& position, const Options& options, Inst
 
 std::optional<double> FanucRun::override_share() {
   double share = 1;
-  for (const auto& [name, written] :
-       {std::pair("override", "OVERRIDE"), std::pair("$prgoverride", "$PRGOVERRIDE")}) {
+  for (const auto& [name, written] : {std::pair("override", "OVERRIDE"), std::pair("$prgoverride", "$PRGOVERRIDE")}) {
     const auto percent = values_.override_percent(name);
     if (!percent || !(*percent > 0) || *percent > 100) {
       missing(written, fmt::format("moves under an {} that is known only while the robot runs", written),
@@ -384,10 +371,9 @@ void FanucRun::offset_by_camera(FanucCursor& at, std::optional<FanucPosition>& i
   const std::string name = fmt::format("VR[{}]", index && index->number ? whole_number(*index->number) : 1);
   into = values_.given_position(name);
   if (!into)
-    missing(
-        name, fmt::format("is offset by what a camera finds ({})", name),
-        fmt::format("give it with --value '{}=X ... Y ... Z ... W ... P ... R ...' (motion.values)", name),
-        {{Question::Kind::value, name, position_form}});
+    missing(name, fmt::format("is offset by what a camera finds ({})", name),
+            fmt::format("give it with --value '{}=X ... Y ... Z ... W ... P ... R ...' (motion.values)", name),
+            {{Question::Kind::value, name, position_form}});
 }
 
 /// Returns whether the condition of SKIP CONDITION becomes true before a move ends. If it does, Skip continues with the
@@ -400,16 +386,14 @@ bool FanucRun::skip_condition_comes(bool jumps) {
   if (!comes && jumps) {
     comes = ask("jumps or not (SkipJump) by SKIP CONDITION, which depends on", 2, "then or =else") == 0;
   } else if (!comes) {
-    note(
-        fmt::format(
-            "SKIP: the condition comes at the end of the move, and the program continues with the next line (--assume "
-            "{}=else: it does not come)",
-            line_name()),
-        true);
+    note(fmt::format(
+             "SKIP: the condition comes at the end of the move, and the program continues with the next line (--assume "
+             "{}=else: it does not come)",
+             line_name()),
+         true);
     return true;
   }
-  note(fmt::format("SKIP: the move goes to its end, and its condition {}",
-                   *comes ? "comes there" : "does not come"),
+  note(fmt::format("SKIP: the move goes to its end, and its condition {}", *comes ? "comes there" : "does not come"),
        true);
   return *comes;
 }
@@ -558,8 +542,7 @@ void FanucRun::move(FanucCursor& at, Instruction::Kind kind) {
   const std::size_t begin = at.offset();
   const auto target = target_position(at);
   if (!target && at.offset() == begin) return;
-  if (target && target->form == FanucPosition::Form::other_groups)
-    return note("moves other groups than the robot");
+  if (target && target->form == FanucPosition::Form::other_groups) return note("moves other groups than the robot");
   const bool fast = read_speed(at, move), set = read_options(at, move, options);
   if (!target || !fast || !set) {  // asks for unknown frames in the same round
     FanucPosition there;
@@ -574,16 +557,14 @@ void FanucRun::move(FanucCursor& at, Instruction::Kind kind) {
   if (via && !place_via(*via, *target, via_options, options, move)) return;
   const bool joints = target->form == FanucPosition::Form::joints;
   move.target.configuration = target->configuration;
-  if (joints ? !place_joints(*target, options, move) : !place(*target, options, move, move.target.pose))
-    return;
+  if (joints ? !place_joints(*target, options, move) : !place(*target, options, move, move.target.pose)) return;
   move.target.external_axes = target->external_axes;
   const bool stood = last_ && last_->external_axes == target->external_axes;
   if (options.coordinated && !program_.instructions.empty() && !stood)
     note("COORD: the tool follows a positioner that turns; read as if it did not move", true);
   emit(move);
   remember(move, *target);
-  if (options.offset || options.tool_offset)
-    last_->form = joints ? FanucPosition::Form::unknown : last_->form;
+  if (options.offset || options.tool_offset) last_->form = joints ? FanucPosition::Form::unknown : last_->form;
   if (options.skips) stopped_on_the_way();
   if (!options.calls.empty()) call_statement(options.calls, false);
   if (!options.jumps.empty()) {

@@ -12,9 +12,7 @@ namespace {
 
 bool blank(char c) { return static_cast<unsigned char>(c) <= ' '; }
 bool digit(char c) { return c >= '0' && c <= '9'; }
-bool wordly(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || digit(c) || c == '_' || c == '$';
-}
+bool wordly(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || digit(c) || c == '_' || c == '$'; }
 
 class ListingParser {
  public:
@@ -144,8 +142,7 @@ class ListingParser {
       FanucCursor at(statements[i].text);
       const std::string word = at.word();
       if (word == "lbl" && at.take_sign('[')) {
-        if (const auto number = at.number())
-          listing_.labels.try_emplace(whole_number(*number), i);
+        if (const auto number = at.number()) listing_.labels.try_emplace(whole_number(*number), i);
       } else if (word == "if" && lower_case(statements[i].text).ends_with("then")) {
         ifs.push_back(i);
       } else if (word == "else" && at.at_end() && !ifs.empty()) {
@@ -203,7 +200,8 @@ class ListingParser {
 
   /// Returns whether the remaining text begins with a position or a section, or is empty.
   bool next_begins_position() const {
-    const std::string_view next = trimmed(std::string_view(source_.text()).substr(std::min(next_, source_.text().size())));
+    const std::string_view next =
+        trimmed(std::string_view(source_.text()).substr(std::min(next_, source_.text().size())));
     return next.empty() || next.starts_with("P[") || next.starts_with("/");
   }
 
@@ -235,10 +233,8 @@ class ListingParser {
         read_.form = FanucPosition::Form::joints;
         read_.values = joints_;
       } else if (pose) {
-        const bool taught =
-            std::any_of(std::begin(pose_), std::end(pose_), [](double v) { return std::isfinite(v); });
-        if (taught && read_.configuration.kind == ArmConfiguration::Kind::any)
-          return "has a pose without CONFIG";
+        const bool taught = std::any_of(std::begin(pose_), std::end(pose_), [](double v) { return std::isfinite(v); });
+        if (taught && read_.configuration.kind == ArmConfiguration::Kind::any) return "has a pose without CONFIG";
         read_.form = FanucPosition::Form::pose;
         read_.values.assign(std::begin(pose_), std::end(pose_));
       } else if (any) {
@@ -270,9 +266,7 @@ class ListingParser {
       for (const char* unit : {"rad", "m", "cm", "inch"})  // a controller lists mm and deg
         if (FanucCursor(at_).take(unit)) return fmt::format("has {} in {}", upper_case(name), unit);
       if (name == "uf" || name == "ut") {
-        if (group_ == 1)
-          (name == "uf" ? read_.frame : read_.tool) =
-              number ? whole_number(*number) : -1;
+        if (group_ == 1) (name == "uf" ? read_.frame : read_.tool) = number ? whole_number(*number) : -1;
         return "";
       }
       const double value = number.value_or(NAN);  // ****: not taught
@@ -285,8 +279,7 @@ class ListingParser {
         seen_[which] = true;
         read_.remote |= remote;
       } else if (name.size() == 2 && name[0] == 'j' && digit(name[1]) && group_ == 1) {
-        if (static_cast<std::size_t>(name[1] - '0') != joints_.size() + 1)
-          return "has joint angles out of order";
+        if (static_cast<std::size_t>(name[1] - '0') != joints_.size() + 1) return "has joint angles out of order";
         joints_.push_back(value);
       } else if (name.size() == 2 && (name[0] == 'e' || name[0] == 'j') && digit(name[1]) &&
                  read_.external_axes.size() < 12) {

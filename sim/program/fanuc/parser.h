@@ -62,10 +62,10 @@ class FanucCursor {
   bool take(std::string_view word);  ///< ignores case and leading blanks; false within a longer word
   bool take_sign(char sign);
   bool take_signs(std::string_view signs);  ///< "<>"
-  void skip_to(char sign);         ///< moves behind the next `sign`, or to the end of the text
-  std::optional<double> number();  ///< a number with an optional sign
-  std::string word();              ///< letters, digits, _ and $; lower case
-  std::string_view name();         ///< a program's name: letters, digits, _, - and $, case unchanged
+  void skip_to(char sign);                  ///< moves behind the next `sign`, or to the end of the text
+  std::optional<double> number();           ///< a number with an optional sign
+  std::string word();                       ///< letters, digits, _ and $; lower case
+  std::string_view name();                  ///< a program's name: letters, digits, _, - and $, case unchanged
   std::string_view rest();
   std::string_view from(std::size_t begin) const { return text_.substr(begin, at_ - begin); }
   std::size_t offset() const { return at_; }

@@ -13,8 +13,7 @@ std::string file_of(const std::string& path) { return path.substr(path.find_last
 
 /// Returns whether two instructions of a loop have the same move and the same line.
 bool same_move(const Instruction& a, const Instruction& b) {
-  return a.kind == b.kind && a.target.joints == b.target.joints &&
-         a.target.pose.position == b.target.pose.position &&
+  return a.kind == b.kind && a.target.joints == b.target.joints && a.target.pose.position == b.target.pose.position &&
          a.target.pose.orientation.coeffs() == b.target.pose.orientation.coeffs() && a.tool == b.tool &&
          a.work_object == b.work_object && a.dwell == b.dwell && a.where.line == b.where.line &&
          a.where.file == b.where.file;
@@ -86,8 +85,7 @@ std::string form_of(const std::string& name) {
   if (name.starts_with("PR[") && name.find(',') == std::string::npos)
     return "X .. Y .. Z .. W .. P .. R .. in mm and deg, or J1 .. J2 .. J3 .. J4 .. J5 .. J6 ..";
   if (name.find(' ') != std::string::npos) return "nothing, or the registers that it sets: R[5]=3 R[6]=0";
-  for (const char* signal :
-       {"DI[", "DO[", "RI[", "RO[", "UI[", "UO[", "SI[", "SO[", "WI[", "WO[", "F[", "M["})
+  for (const char* signal : {"DI[", "DO[", "RI[", "RO[", "UI[", "UO[", "SI[", "SO[", "WI[", "WO[", "F[", "M["})
     if (name.starts_with(signal)) return "ON or OFF";
   return "a number";
 }
@@ -97,16 +95,14 @@ std::string names_in(const FanucCauses& causes) {
   std::string names;
   for (const FanucCause& cause : causes)
     if (const bool call = cause.name.find(' ') != std::string::npos; !cause.name.empty())
-      names +=
-          fmt::format("{}{}{}", names.empty() ? "" : " and ", call ? "a register behind " : "", cause.name);
+      names += fmt::format("{}{}{}", names.empty() ? "" : " and ", call ? "a register behind " : "", cause.name);
   return names;
 }
 
 std::string options_for(const FanucCauses& causes) {
   std::string options;
   for (const FanucCause& cause : causes)
-    if (!cause.name.empty())
-      options += fmt::format("{}--value '{}=...'", options.empty() ? "" : " ", cause.name);
+    if (!cause.name.empty()) options += fmt::format("{}--value '{}=...'", options.empty() ? "" : " ", cause.name);
   return options;
 }
 
@@ -153,13 +149,11 @@ void FanucRun::charge(long steps) {
   if (exploration_.guessing() && executed_ - guessed_at_ > ImportLimits::guessed) throw Stop{};
   if (executed_ + values_.charged() <= ImportLimits::executed) return;
   const pipeline::Where at = last_jump_.line > 0 ? last_jump_ : where();
-  const std::string end =
-      last_decision_.line > 0
-          ? fmt::format("--assume {}:{}=then or =else", file_of(last_decision_.file), last_decision_.line)
-          : "a statement that leaves it";
+  const std::string end = last_decision_.line > 0 ? fmt::format("--assume {}:{}=then or =else",
+                                                                file_of(last_decision_.file), last_decision_.line)
+                                                  : "a statement that leaves it";
   if (!exploration_.guessing())
-    problems_.add(at,
-                  fmt::format("goes back again and again: {} statements and no end", ImportLimits::executed),
+    problems_.add(at, fmt::format("goes back again and again: {} statements and no end", ImportLimits::executed),
                   fmt::format("decide what ends the loop: {}, or --value with what it depends on", end));
   throw Stop{};
 }
@@ -182,8 +176,7 @@ void FanucRun::call(const FanucListing& listing, std::vector<FanucValues::Stored
   }
   if (const Problems& parsing = around_.parsing[listing.file]; !parsing.empty()) {
     if (!exploration_.guessing())
-      for (const Problem& problem : parsing.list())
-        problems_.add(problem.where, problem.what, problem.remedy);
+      for (const Problem& problem : parsing.list()) problems_.add(problem.where, problem.what, problem.remedy);
     throw Stop{};
   }
   routines_.push_back({&listing, 0, {}, {}});
@@ -295,17 +288,13 @@ void FanucRun::assignment(const std::string& word, FanucCursor& at) {
   if (word == "uframe" || word == "utool") return assign_frame(word, at);
   const std::string text = statement().text;
   const std::string left = plain_fanuc_name(std::string_view(text).substr(0, text.find('=')));
-  if (const std::size_t group = left.find("[gp");
-      group != std::string::npos && left.substr(group, 4) != "[gp1")
+  if (const std::size_t group = left.find("[gp"); group != std::string::npos && left.substr(group, 4) != "[gp1")
     return note(word + ": of another group than the robot");
   if (word == "override" || word == "uframe_num" || word == "utool_num" || left == "$mcr.$genoverride" ||
       left == "$prgoverride") {
     at.skip_to('=');
     const FanucNumber number = values_.expression(at);
-    return values_.set_named(left == "$mcr.$genoverride" ? "override"
-                             : left.starts_with("$")     ? left
-                                                         : word,
-                             number);
+    return values_.set_named(left == "$mcr.$genoverride" ? "override" : left.starts_with("$") ? left : word, number);
   }
   if (left.starts_with("$mnuframe[") || left.starts_with("$mnutool[")) {  // [group,number]
     const FanucSetting setting = fanuc_setting(text);
@@ -383,9 +372,8 @@ void FanucRun::jump_to(std::size_t target, bool certain) {
 bool FanucRun::waits(std::size_t label) {
   Endless& loop = endless_[{routine().listing, label}];
   const auto& made = program_.instructions;
-  const bool moved =
-      std::any_of(made.begin() + static_cast<std::ptrdiff_t>(std::min(loop.begin, made.size())), made.end(),
-                  [](const Instruction& i) { return i.kind != Instruction::Kind::dwell; });
+  const bool moved = std::any_of(made.begin() + static_cast<std::ptrdiff_t>(std::min(loop.begin, made.size())),
+                                 made.end(), [](const Instruction& i) { return i.kind != Instruction::Kind::dwell; });
   loop.begin = made.size();
   ++loop.passes;
   // A state is a long text. It is stored after passes 1, 2, 4, 8 ... and compared after the pass that follows each.
@@ -453,8 +441,7 @@ void FanucRun::wait(FanucCursor& at) {
     const auto met = values_.condition(at);
     if (met && !*met) {  // another program must change a register to make the condition true
       const std::string text = statement().text;
-      for (std::size_t found = text.find("R["); found != std::string::npos;
-           found = text.find("R[", found + 1)) {
+      for (std::size_t found = text.find("R["); found != std::string::npos; found = text.find("R[", found + 1)) {
         FanucCursor name(std::string_view(text).substr(found + 1));
         if (const auto index = values_.index(name); index && index->number)
           values_.forget_register(whole_number(*index->number), {});
@@ -516,8 +503,7 @@ std::optional<FanucPosition> FanucRun::position_sum(FanucCursor& at) {
       read = here ? *last_ : unknown;
     } else if (word == "uframe" || word == "utool") {
       const auto index = values_.index(at);
-      const auto known =
-          index && index->number ? frame(word == "utool", whole_number(*index->number)) : std::nullopt;
+      const auto known = index && index->number ? frame(word == "utool", whole_number(*index->number)) : std::nullopt;
       if (!known) return {};
       read.emplace();
       read->form = FanucPosition::Form::pose;
@@ -593,8 +579,7 @@ int FanucRun::ask(const std::string& what, int ways, const std::string& answers)
   if (questions.size() != 1)
     questions = {{Question::Kind::branch, line_name(), answers == then_or_else ? "then or else" : answers}};
   missing(names.empty() ? line_name() : names,
-          fmt::format("{} {} is known only while the robot runs", what,
-                      names.empty() ? "what" : names + ", which"),
+          fmt::format("{} {} is known only while the robot runs", what, names.empty() ? "what" : names + ", which"),
           fmt::format("choose with --assume {}={} (motion.assume in a job){}", line_name(), answers,
                       names.empty() ? "" : fmt::format(", or give {}", options_for(causes))),
           questions, true);
@@ -740,8 +725,7 @@ void FanucRun::select() {
     FanucCursor next = first ? at : FanucCursor(text);
     const bool otherwise = !first && next.take("ELSE");
     if (!otherwise && !next.take_sign('=')) break;
-    cases.push_back(
-        {behind, otherwise ? FanucNumber{} : values_.expression(next), otherwise, fanuc_action(text)});
+    cases.push_back({behind, otherwise ? FanucNumber{} : values_.expression(next), otherwise, fanuc_action(text)});
     if (otherwise) {
       ++behind;
       break;
@@ -811,8 +795,7 @@ std::optional<std::size_t> FanucRun::undecided_select(const std::vector<Case>& c
   }
   if (whole_program_no_matter()) return {};
   const int ways = static_cast<int>(cases.size()) + 1;
-  return static_cast<std::size_t>(
-      ask("selects by", ways, fmt::format("VALUE ({})", pipeline::joined(values, ", "))));
+  return static_cast<std::size_t>(ask("selects by", ways, fmt::format("VALUE ({})", pipeline::joined(values, ", "))));
 }
 
 void FanucRun::for_statement(FanucCursor& at) {

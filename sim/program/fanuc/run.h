@@ -124,8 +124,8 @@ class FanucRun {
   WrittenPosition position(FanucCursor& at);
   std::optional<FanucPosition> target_position(FanucCursor& at);
   bool place_joints(const FanucPosition& position, const Options& options, Instruction& move);
-  bool place_via(const FanucPosition& via, const FanucPosition& target, const Options& own,
-                 const Options& options, Instruction& move);
+  bool place_via(const FanucPosition& via, const FanucPosition& target, const Options& own, const Options& options,
+                 Instruction& move);
   std::optional<std::pair<NamedFrame, NamedFrame>> frames_of(FanucPosition& p);
   bool offsets_are_frames() const;
   bool place(const FanucPosition& position, const Options& options, Instruction& move, Frame& pose);

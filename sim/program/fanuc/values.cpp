@@ -319,8 +319,7 @@ FanucNumber FanucValues::operand(FanucCursor& at, int depth) {
   if (word == "pr" && read->part) {
     const FanucPosition position = position_register(number);
     const int part = whole_number(*read->part);
-    if (part >= 1 && part <= static_cast<int>(position.values.size()) &&
-        std::isfinite(position.values[part - 1]))
+    if (part >= 1 && part <= static_cast<int>(position.values.size()) && std::isfinite(position.values[part - 1]))
       return position.values[part - 1];
     const std::string component = fmt::format("PR[{},{}]", number, part);
     const FanucCauses* computed = position_causes(number, part);

@@ -32,8 +32,7 @@ void add_causes(FanucCauses& to, const FanucCauses& more);
 
 class FanucValues {
  public:
-  FanucValues(const FanucVariables& backup, const std::map<std::string, std::string>& given,
-              Problems& problems);
+  FanucValues(const FanucVariables& backup, const std::map<std::string, std::string>& given, Problems& problems);
 
   /// Evaluate the text at the cursor and move the cursor behind it. Unknown values are added to causes().
   FanucNumber expression(FanucCursor& at, int depth = 0);
@@ -112,9 +111,9 @@ class FanucValues {
   FanucCauses missing_;
   static constexpr int whole_position = -1;
   std::map<int, std::map<int, FanucCauses>> position_causes_;  // PR number -> component, or whole_position
-  FanucCauses forgotten_by_;  // causes of registers without an own entry
-  std::set<int> written_;     // registers that the program has set
-  long charged_ = 0;          // number of operands and operators evaluated
+  FanucCauses forgotten_by_;                                   // causes of registers without an own entry
+  std::set<int> written_;                                      // registers that the program has set
+  long charged_ = 0;                                           // number of operands and operators evaluated
 };
 
 /// Returns a name in lower case without comments and blanks: "R[ 5 :speed]" -> "r[5]".

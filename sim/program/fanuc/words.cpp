@@ -38,11 +38,10 @@ constexpr Words anywhere[] = {
 constexpr Words before_bracket[] = {{"A", "DO"},  {"E", "DI"},  {"gA", "GO"}, {"gE", "GI"}, {"i", "R"},
                                     {"aA", "AO"}, {"aE", "AI"}, {"RA", "RO"}, {"RE", "RI"}};
 
-constexpr Words phrases[] = {{"ZEIT VOR", "TB"},          {"ZEIT NACH", "TA"},
-                             {"WEG VOR", "DB"},           {"WEG NACH", "DA"},
-                             {"FB-PSPS", "TC_ONLINE"},    {"FREIG.", "UNLOCK"},
-                             {"IST ", "SELECT "},         {"IRQ BEDINGUNG", "SKIP CONDITION"},
-                             {"max_Geschw.", "max_speed"}};
+constexpr Words phrases[] = {
+    {"ZEIT VOR", "TB"},          {"ZEIT NACH", "TA"},  {"WEG VOR", "DB"},   {"WEG NACH", "DA"},
+    {"FB-PSPS", "TC_ONLINE"},    {"FREIG.", "UNLOCK"}, {"IST ", "SELECT "}, {"IRQ BEDINGUNG", "SKIP CONDITION"},
+    {"max_Geschw.", "max_speed"}};
 
 bool letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '$' ||

@@ -43,14 +43,13 @@ std::optional<Position> position_in(const Value& value) {
 
 const std::set<std::string>& harmless_words() {
   static const std::set<std::string> words{
-      "dout",     "din",   "wait",    "pulse",   "aout",    "aration", "aratiof", "antout",  "pause",
-      "cwait",    "msg",   "advinit", "advstop", "arcon",   "arcof",   "arcset",  "arccts",  "arccte",
-      "aweld",    "vweld", "hand",    "hsen",    "guncl",   "toolon",  "toolof",  "setualm", "dialog",
-      "almchk",   "tsync", "setreg",  "getreg",  "setfile", "getfile", "stroke",  "strwait", "wvof",
-      "refp",     "gets",  "gete",    "getpos",  "cnvrt",   "mulmat",  "invmat",  "pwait",   "val",
-      "len",      "asc",   "mid",     "cat",     "val2str", "sqrt",    "sin",     "cos",     "atan",
-      "and",      "or",    "not",     "xor",     "shckset", "shckrst", "retry",   "antstk",  "replay",
-      "skillsnd", "pop",   "push"};
+      "dout",   "din",     "wait",    "pulse",    "aout",    "aration", "aratiof", "antout", "pause",   "cwait",
+      "msg",    "advinit", "advstop", "arcon",    "arcof",   "arcset",  "arccts",  "arccte", "aweld",   "vweld",
+      "hand",   "hsen",    "guncl",   "toolon",   "toolof",  "setualm", "dialog",  "almchk", "tsync",   "setreg",
+      "getreg", "setfile", "getfile", "stroke",   "strwait", "wvof",    "refp",    "gets",   "gete",    "getpos",
+      "cnvrt",  "mulmat",  "invmat",  "pwait",    "val",     "len",     "asc",     "mid",    "cat",     "val2str",
+      "sqrt",   "sin",     "cos",     "atan",     "and",     "or",      "not",     "xor",    "shckset", "shckrst",
+      "retry",  "antstk",  "replay",  "skillsnd", "pop",     "push"};
   return words;
 }
 
@@ -99,24 +98,21 @@ class Inform final : public Dialect {
     if (calculates(name)) return calculate(statement, run), true;
     if (name == "pstart") return start_beside(statement, run), true;
     if (name == "wvon")
-      return run.note(statement.place, "WVON: the torch swings about its path, which is followed without it",
-                      true),
+      return run.note(statement.place, "WVON: the torch swings about its path, which is followed without it", true),
              true;
     if (name.starts_with("job:")) {
       run.forget_numbers(fmt::format("may be written by {}, which no file read holds ({})", statement.text,
                                      run.short_place(statement.place)));
       run.note(statement.place,
-               statement.text + ": not among the files read; variables may have other values behind it",
-               true);
+               statement.text + ": not among the files read; variables may have other values behind it", true);
       return true;
     }
-    if (const auto& given = statement.arguments; !given.empty() && given[0].kind == Expression::Kind::name &&
-                                                 harmless(name) && !run.variable(given[0].text) &&
-                                                 !run.given(given[0].text) &&
-                                                 is_variable(given[0].text))  // its value is in no file
+    if (const auto& given = statement.arguments;
+        !given.empty() && given[0].kind == Expression::Kind::name && harmless(name) && !run.variable(given[0].text) &&
+        !run.given(given[0].text) && is_variable(given[0].text))  // its value is in no file
       run.set(given[0].text,
               unknown_value(upper_case(given[0].text), fmt::format("may be written by {} ({})", statement.text,
-                                                         run.short_place(statement.place))));
+                                                                   run.short_place(statement.place))));
     return false;
   }
 
@@ -133,9 +129,7 @@ class Inform final : public Dialect {
     return name.starts_with("p") ? std::optional<std::string>(position_form) : std::nullopt;
   }
   std::string form_of(const std::string& type) const override { return type == "number" ? "a number" : ""; }
-  Value initial(const std::string& type) const override {
-    return type == "number" ? number_value(0) : Value{};
-  }
+  Value initial(const std::string& type) const override { return type == "number" ? number_value(0) : Value{}; }
 
   /// Returns the indices of the instructions that MOVC made -> whether the MOVC has FPT.
   const std::map<std::size_t, bool>& arc_points() const { return arc_points_; }
@@ -165,8 +159,8 @@ class Inform final : public Dialect {
   std::optional<double> needed(const Expression& written, const char* what) {
     const Value value = run_->answered(written);
     if (value.is_number()) return value.number;
-    run_->ask_for(value, written.place, fmt::format("has a {} that is known only while the robot runs", what),
-                  "", "a number");
+    run_->ask_for(value, written.place, fmt::format("has a {} that is known only while the robot runs", what), "",
+                  "a number");
     return {};
   }
 
@@ -174,9 +168,8 @@ class Inform final : public Dialect {
     for (const Expression& argument : statement.arguments) {
       if (argument.option != option) continue;
       const auto number = needed(argument, option);
-      return number && argument.kind != Expression::Kind::number
-                 ? std::optional(*number * unit_of_variable(option))
-                 : number;
+      return number && argument.kind != Expression::Kind::number ? std::optional(*number * unit_of_variable(option))
+                                                                 : number;
     }
     return {};
   }
@@ -198,9 +191,8 @@ class Inform final : public Dialect {
     for (const NamedFrame& given : tool ? tools_ : frames_)
       if (same_word(given.name, name)) return given;
     ask(name, place, fmt::format("moves {} {}, which no file read holds", tool ? "with" : "in", name),
-        fmt::format(
-            "give {} of the backup (--module), or --frames FILE.yaml (motion.{} in a job) with the name '{}'",
-            tool ? "TOOL.CND" : "UFRAME.CND", tool ? "tools" : "work_objects", name),
+        fmt::format("give {} of the backup (--module), or --frames FILE.yaml (motion.{} in a job) with the name '{}'",
+                    tool ? "TOOL.CND" : "UFRAME.CND", tool ? "tools" : "work_objects", name),
         "", tool ? Question::Kind::tool : Question::Kind::work_object);
     return {};
   }
@@ -213,8 +205,7 @@ class Inform final : public Dialect {
       if (auto point = position_in(run.evaluate(given[i])); point && point->pose() && point->type != "user")
         points.push_back(*std::move(point));
     const bool tool = statement.name == "settool";
-    if (given.size() < 2 || points.size() + 1 != given.size() ||
-        (!tool && points.size() != 1 && points.size() < 3)) {
+    if (given.size() < 2 || points.size() + 1 != given.size() || (!tool && points.size() != 1 && points.size() < 3)) {
       if (!given.empty())
         run.make_unknown(given[0], {"", fmt::format("is set by {} from positions that are not known ({})",
                                                     statement.text, run.short_place(statement.place))});
@@ -315,12 +306,11 @@ class Inform final : public Dialect {
     if (by_b) made.numbers[0] += 2;
     if (!rule && !flip_reported_) {
       flip_reported_ = true;
-      run_->note(
-          place,
-          fmt::format("RCONF: its first number (flip) is taken as {}; controllers differ: --value "
-                      "'rconf_flip=\"{}\"' if it is the other",
-                      by_b ? "the sign of axis B" : "axis R within 90 deg of its zero", by_b ? "R" : "B"),
-          true);
+      run_->note(place,
+                 fmt::format("RCONF: its first number (flip) is taken as {}; controllers differ: --value "
+                             "'rconf_flip=\"{}\"' if it is the other",
+                             by_b ? "the sign of axis B" : "axis R within 90 deg of its zero", by_b ? "R" : "B"),
+                 true);
     }
     return made;
   }
@@ -330,10 +320,8 @@ class Inform final : public Dialect {
     if (auto read = position_in(value)) return read;
     run_->ask_for(value, written.place,
                   fmt::format("moves to {}, which is known only while the robot runs", upper_case(written.text)),
-                  "give VAR.DAT of the backup (--module), or the job that holds its value (///NPOS)",
-                  position_form);
-    for (const int tool : tools_of_jobs())
-      frame(true, tool, written.place);  // asks for the tool in the same round
+                  "give VAR.DAT of the backup (--module), or the job that holds its value (///NPOS)", position_form);
+    for (const int tool : tools_of_jobs()) frame(true, tool, written.place);  // asks for the tool in the same round
     return {};
   }
 
@@ -342,9 +330,8 @@ class Inform final : public Dialect {
     std::set<int> numbers;
     for (const Datum& datum : code_.data) {
       const std::vector<Expression>& written = datum.statement.arguments;
-      const bool position = datum.statement.text == "position" &&
-                            datum.statement.name.find('#') == std::string::npos && !written.empty() &&
-                            written[0].items.size() == 5;
+      const bool position = datum.statement.text == "position" && datum.statement.name.find('#') == std::string::npos &&
+                            !written.empty() && written[0].items.size() == 5;
       if (const double tool = position ? written[0].items[3].number : -1; tool >= 0)
         numbers.insert(static_cast<int>(tool));
     }
@@ -384,10 +371,9 @@ class Inform final : public Dialect {
                             "teach it in pulses, BASE, ROBOT or USER"),
              false;
     } else if (shift_) {
-      return run_->miss(
-                 "SFTON", written->place,
-                 "shifts a position that is given in pulses (SFTON): the place is known only with the robot",
-                 "store the positions as BASE or USER (a relative job)"),
+      return run_->miss("SFTON", written->place,
+                        "shifts a position that is given in pulses (SFTON): the place is known only with the robot",
+                        "store the positions as BASE or USER (a relative job)"),
              false;
     } else if (!read_joints(*read, written->place, move.target.joints)) {
       return false;
@@ -420,13 +406,12 @@ class Inform final : public Dialect {
       return read_joints(target, statement.place, move.target.joints);
     }
     if (!reached_ || reached_->position.joints() || by.joints() || by.numbers.size() < 6)
-      return run_->complain(
-                 statement.place,
-                 reached_
-                     ? "moves from joint angles by a distance in space (IMOV): the target is known only "
-                       "with the robot"
-                     : "moves by a distance from the robot's start position (IMOV)",
-                 "store the position before it as BASE or USER"),
+      return run_->complain(statement.place,
+                            reached_
+                                ? "moves from joint angles by a distance in space (IMOV): the target is known only "
+                                  "with the robot"
+                                : "moves by a distance from the robot's start position (IMOV)",
+                            "store the position before it as BASE or USER"),
              false;
     const auto moved = shifted(reached_->base, by, system ? system->text : "", statement.place);
     if (!moved) return false;
@@ -438,14 +423,13 @@ class Inform final : public Dialect {
   bool read_tool(const Statement& statement, const Position& position, Instruction& move) {
     const bool free = statement.name == "movj" && position.joints() && move.zone.distance == 0;
     const std::string name = fmt::format("TL#({})", position.tool);
-    const bool known = run_->variable(lower_case(name)) ||
-                       std::any_of(tools_.begin(), tools_.end(),
-                                   [&](const NamedFrame& t) { return same_word(t.name, name); });
+    const bool known =
+        run_->variable(lower_case(name)) ||
+        std::any_of(tools_.begin(), tools_.end(), [&](const NamedFrame& t) { return same_word(t.name, name); });
     if (free && !known) return true;  // a move of the axes does not need the tool
     const auto tool = frame(true, position.tool, statement.place);
     if (!tool) return false;
-    if (tool->stationary || tool->frame.position != Vector3::Zero() ||
-        !tool->frame.orientation.vec().isZero(0))
+    if (tool->stationary || tool->frame.position != Vector3::Zero() || !tool->frame.orientation.vec().isZero(0))
       move.tool = run_->frame_index(run_->program().tools, *tool);
     return true;
   }
@@ -474,10 +458,8 @@ class Inform final : public Dialect {
     if (!number && !turn) {
       if (const auto given = run_->given(option); given && given->is_number()) number = given->number;
       if (!number)
-        return ask(option, statement.place,
-                   fmt::format("has no {}=, and no SPEED before it", axes ? "VJ" : "V"),
-                   fmt::format("give --value {}=NUMBER (motion.values), {}", option,
-                               axes ? "in %" : "in mm/s"),
+        return ask(option, statement.place, fmt::format("has no {}=, and no SPEED before it", axes ? "VJ" : "V"),
+                   fmt::format("give --value {}=NUMBER (motion.values), {}", option, axes ? "in %" : "in mm/s"),
                    axes ? "a number, in %" : "a number, in mm/s"),
                false;
     }
@@ -493,9 +475,8 @@ class Inform final : public Dialect {
   double unit_of_v(const Place& place) {
     const auto given = run_->given("speed_unit");
     if (!given && !unit_reported_)
-      run_->note(
-          place,
-          "note: V= counts mm/s; where the controller counts cm/min give --value 'speed_unit=\"cm/min\"'");
+      run_->note(place,
+                 "note: V= counts mm/s; where the controller counts cm/min give --value 'speed_unit=\"cm/min\"'");
     unit_reported_ = true;
     if (!given || given->text == "mm/s") return millimetre;
     if (given->text == "cm/min") return 10 * millimetre / 60;
@@ -508,8 +489,7 @@ class Inform final : public Dialect {
     if ((!radius && argument_of(statement, "cr")) || (!level && argument_of(statement, "pl"))) return false;
     constexpr double highest = std::size(position_levels) - 1;
     if (level && !(*level >= 0 && *level <= highest))
-      return run_->complain(statement.place, fmt::format("has PL={} (0 .. 8)", *level),
-                            "correct the position level"),
+      return run_->complain(statement.place, fmt::format("has PL={} (0 .. 8)", *level), "correct the position level"),
              false;
     if (radius)
       move.zone.distance = std::max(0.0, *radius) * millimetre;
@@ -554,16 +534,15 @@ class Inform final : public Dialect {
     const Routine* job = nullptr;
     for (const Routine& routine : code_.routines)
       if (routine.module == run.module()) job = &routine;
-    const bool two =
-        argument_of(statement, "other_robot") || (job && job->robot.find(',') != std::string::npos);
+    const bool two = argument_of(statement, "other_robot") || (job && job->robot.find(',') != std::string::npos);
     if (two) {
       run.miss("two robots", statement.place, "moves two robots at once",
                "give a job that moves one of them (///GROUP1 RB1)");
       return false;
     }
     if (!job || job->robot.empty() || robot_.empty() || job->robot == robot_) return true;
-    run.note(statement.place,
-             fmt::format("{}: moves {}, another robot than {}", statement.text, job->robot, robot_), true);
+    run.note(statement.place, fmt::format("{}: moves {}, another robot than {}", statement.text, job->robot, robot_),
+             true);
     return false;
   }
 
@@ -581,9 +560,8 @@ class Inform final : public Dialect {
         moved = std::abs(at->numbers[i] - before[i]) > (at->type == "pulse" ? same_place : same_place / 1000);
       if (moved && !reported_.contains(option))
         run.note(statement.place,
-                 fmt::format(
-                     "{}: {} axes move with the robot, and are left out: the {} is taken to stand still",
-                     statement.text, option, std::string_view(option) == "base" ? "robot's base" : "station"),
+                 fmt::format("{}: {} axes move with the robot, and are left out: the {} is taken to stand still",
+                             statement.text, option, std::string_view(option) == "base" ? "robot's base" : "station"),
                  true);
       if (moved) reported_.insert(option);
       if (at && before.empty()) externals_[option] = at->numbers;
@@ -593,15 +571,14 @@ class Inform final : public Dialect {
   void notes(const Statement& statement, Interpreter& run) {
     if (statement.name == "movs") run.note(statement.place, "MOVS: a spline, read as straight lines", true);
     if (statement.name.starts_with("smov"))
-      run.note(statement.place,
-               statement.text + ": the station turns the work meanwhile; it is taken to stand still", true);
+      run.note(statement.place, statement.text + ": the station turns the work meanwhile; it is taken to stand still",
+               true);
     if (argument_of(statement, "until"))
       run.note(statement.place, statement.text + ": an input may end the move; it is taken to its end", true);
     for (const Expression& argument : statement.arguments)
       if (argument.option == "unknown")
         run.note(statement.place,
-                 fmt::format("{}: what {} does to the move is not read", statement.text, argument.text),
-                 true);
+                 fmt::format("{}: what {} does to the move is not read", statement.text, argument.text), true);
   }
 
   void wait(const Statement& statement, Interpreter& run) {
@@ -620,8 +597,8 @@ class Inform final : public Dialect {
   void start_beside(const Statement& statement, Interpreter& run) {
     const std::string job = statement.arguments.empty() ? "" : statement.arguments[0].text;
     run.note(statement.place,
-             fmt::format("{}: runs beside this job, and is left out; --routine {} reads it alone",
-                         statement.text, job.substr(std::min<std::size_t>(job.find(':') + 1, job.size()))),
+             fmt::format("{}: runs beside this job, and is left out; --routine {} reads it alone", statement.text,
+                         job.substr(std::min<std::size_t>(job.find(':') + 1, job.size()))),
              true);
     run.forget_numbers(fmt::format("may be written by {}, which runs beside", statement.text));
   }
@@ -641,8 +618,7 @@ class Inform final : public Dialect {
     const int from = std::atoi(first.c_str() + digits);
     const int count = static_cast<int>(std::clamp(number.value_or(1), 1.0, static_cast<double>(every)));
     for (int i = from; i < from + count && i < every; ++i)
-      run.assign(name_at(fmt::format("{}{:03}", first.substr(0, digits), i), statement.place),
-                 number_value(0));
+      run.assign(name_at(fmt::format("{}{:03}", first.substr(0, digits), i), statement.place), number_value(0));
   }
 
   /// Executes calculations that are not assignments in the tree: arithmetic of positions, one number of a position (SETE),
@@ -654,8 +630,7 @@ class Inform final : public Dialect {
     if (target.kind == Expression::Kind::call) {
       const auto index = target.items.size() == 1 ? run.number(target.items[0]) : std::nullopt;
       if (!index)
-        return run.complain(statement.place,
-                            "writes to a variable whose number is known only while the robot runs",
+        return run.complain(statement.place, "writes to a variable whose number is known only while the robot runs",
                             "write its number");
       target = name_at(indexed(target.text, *index), statement.place);
     }
@@ -667,10 +642,9 @@ class Inform final : public Dialect {
       std::optional<double> which;
       if (given.size() == 3) which = run.number(given[1]);
       const auto read = position_in(value);
-      if (!which || !read || !with.is_number() || *which < 1 ||
-          *which > static_cast<double>(read->numbers.size()))
-        return run.make_unknown(
-            target, {"", fmt::format("is set in part by SETE ({})", run.short_place(statement.place))});
+      if (!which || !read || !with.is_number() || *which < 1 || *which > static_cast<double>(read->numbers.size()))
+        return run.make_unknown(target,
+                                {"", fmt::format("is set in part by SETE ({})", run.short_place(statement.place))});
       const double unit = read->type == "pulse" ? 1 : *which <= 3 ? 1e-3 : 1e-4;  // SETE counts 0.001 mm or 0.0001 deg
       value.items[0].items[static_cast<std::size_t>(*which) - 1] = number_value(with.number * unit);
       return run.assign(target, std::move(value));
@@ -681,8 +655,7 @@ class Inform final : public Dialect {
              : statement.name == "div"                          ? a / b
                                                                 : a + b;
     };
-    const Value* by =
-        list && with.kind == Value::Kind::list && with.items.size() == 5 ? &with.items[0] : nullptr;
+    const Value* by = list && with.kind == Value::Kind::list && with.items.size() == 5 ? &with.items[0] : nullptr;
     if (list && (by || with.is_number()) && value.known() && with.known()) {
       auto& numbers = value.items[0].items;
       for (std::size_t i = 0; i < numbers.size(); ++i)
@@ -694,8 +667,7 @@ class Inform final : public Dialect {
     } else {
       value = unknown_value(value.known() ? with : value);
     }
-    const bool finite = value.kind == Value::Kind::unknown ||
-                        (value.is_number() && std::isfinite(value.number)) ||
+    const bool finite = value.kind == Value::Kind::unknown || (value.is_number() && std::isfinite(value.number)) ||
                         (list && std::all_of(value.items[0].items.begin(), value.items[0].items.end(),
                                              [](const Value& v) { return std::isfinite(v.number); }));
     run.assign(target, finite ? std::move(value) : Value{});
@@ -721,11 +693,9 @@ void bend_arcs(const std::map<std::size_t, bool>& points, Program& program, Prob
   auto& moves = program.instructions;
   for (auto first = points.begin(); first != points.end();) {
     auto last = first;
-    while (!last->second && std::next(last) != points.end() && std::next(last)->first == last->first + 1)
-      ++last;
+    while (!last->second && std::next(last) != points.end() && std::next(last)->first == last->first + 1) ++last;
     const std::size_t begin = first->first, end = std::min(last->first + 1, moves.size());
-    const bool joined =
-        first != points.begin() && std::prev(first)->second && std::prev(first)->first + 1 == begin;
+    const bool joined = first != points.begin() && std::prev(first)->second && std::prev(first)->first + 1 == begin;
     const std::size_t start =
         joined ? begin - 1 : begin;  // after FPT this circle begins at the last point of the previous one
     first = std::next(last);
@@ -739,10 +709,8 @@ void bend_arcs(const std::map<std::size_t, bool>& points, Program& program, Prob
       const std::size_t third = k == start + 1 ? k + 1 : k - 2;
       Instruction& move = moves[k];
       const Instruction &before = moves[k - 1], &other = moves[third];
-      const bool poses =
-          move.target.joints.empty() && before.target.joints.empty() && other.target.joints.empty();
-      const bool axes =
-          !move.target.joints.empty() && !before.target.joints.empty() && !other.target.joints.empty();
+      const bool poses = move.target.joints.empty() && before.target.joints.empty() && other.target.joints.empty();
+      const bool axes = !move.target.joints.empty() && !before.target.joints.empty() && !other.target.joints.empty();
       const bool together = move.tool == before.tool && move.tool == other.tool &&
                             move.work_object == before.work_object && move.work_object == other.work_object;
       if (!(poses || axes) || !together) {
@@ -755,8 +723,7 @@ void bend_arcs(const std::map<std::size_t, bool>& points, Program& program, Prob
         move.target.circle_joints = other.target.joints;
         continue;
       }
-      const Vector3 a = before.target.pose.position, b = move.target.pose.position,
-                    c = other.target.pose.position;
+      const Vector3 a = before.target.pose.position, b = move.target.pose.position, c = other.target.pose.position;
       const auto arc = krl::arc_through(a, b, c);  // the order a, b, c: c is not between a and b
       if (!arc) continue;                          // points on a line: a straight move
       const Vector3 from = a - arc->centre;
@@ -789,10 +756,10 @@ void run_inform(const Code& code, const ImportOptions& options, const std::vecto
     std::string names;
     for (const Routine& routine : code.routines)
       if (names.size() < 1000) names += (names.empty() ? "" : ", ") + routine.written;
-    problems.add({code.files[0].name(), 1, 1},
-                 options.routine.empty() ? std::string("holds no job")
-                                         : fmt::format("has no job '{}'", options.routine),
-                 names.empty() ? "give a job (.JBI)" : fmt::format("name one of: {}", names));
+    problems.add(
+        {code.files[0].name(), 1, 1},
+        options.routine.empty() ? std::string("holds no job") : fmt::format("has no job '{}'", options.routine),
+        names.empty() ? "give a job (.JBI)" : fmt::format("name one of: {}", names));
     return;
   }
   explore(

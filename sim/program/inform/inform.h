@@ -40,6 +40,6 @@ void run_inform(const Code& code, const ImportOptions& options, const std::vecto
 /// Returns the INFORM jobs among `files` of `folder`. routine: the requested job; empty: no request.
 /// Errors: throws InputError, with the choices if there are several start jobs.
 Backup inform_backup(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& files,
-                 const std::string& routine);
+                     const std::string& routine);
 
 }  // namespace dresslife::sim

@@ -23,8 +23,7 @@ std::string_view without_comment(std::string_view line) {
   bool quoted = false;
   for (std::size_t i = 0; i < line.size(); ++i) {
     quoted ^= line[i] == '"';
-    if (i > 0 && !quoted && line[i] == '\'' && (line[i - 1] == ' ' || line[i - 1] == '\t'))
-      return line.substr(0, i);
+    if (i > 0 && !quoted && line[i] == '\'' && (line[i - 1] == ' ' || line[i - 1] == '\t')) return line.substr(0, i);
   }
   return line;
 }
@@ -52,9 +51,8 @@ class Words {
   std::string_view peek_word(bool dashes = false) {
     skip_blanks();
     std::size_t end = at_;
-    while (end < text_.size() &&
-           (letter(text_[end]) || digit(text_[end]) || text_[end] == '#' ||
-            static_cast<unsigned char>(text_[end]) >= 0x80 || (dashes && text_[end] == '-')))
+    while (end < text_.size() && (letter(text_[end]) || digit(text_[end]) || text_[end] == '#' ||
+                                  static_cast<unsigned char>(text_[end]) >= 0x80 || (dashes && text_[end] == '-')))
       ++end;
     return text_.substr(at_, end - at_);
   }
@@ -99,19 +97,16 @@ class Words {
   };
 
   const Operator* next_operator() {
-    static constexpr Operator operators[] = {{"OREXP", "or", 1}, {"ANDEXP", "and", 2}, {"<>", "<>", 3},
-                                             {"<=", "<=", 3},    {">=", ">=", 3},      {"=", "=", 3},
-                                             {"<", "<", 3},      {">", ">", 3},        {"+", "+", 4},
-                                             {"-", "-", 4},      {"*", "*", 5},        {"/", "/", 5}};
+    static constexpr Operator operators[] = {{"OREXP", "or", 1}, {"ANDEXP", "and", 2}, {"<>", "<>", 3}, {"<=", "<=", 3},
+                                             {">=", ">=", 3},    {"=", "=", 3},        {"<", "<", 3},   {">", ">", 3},
+                                             {"+", "+", 4},      {"-", "-", 4},        {"*", "*", 5},   {"/", "/", 5}};
     for (const Operator& op : operators)
-      if (letter(op.written[0]) ? same_word(peek_word(), op.written) : rest().starts_with(op.written))
-        return &op;
+      if (letter(op.written[0]) ? same_word(peek_word(), op.written) : rest().starts_with(op.written)) return &op;
     return nullptr;
   }
 
   Expression level(int lowest, int depth) {
-    if (depth > ImportLimits::nesting)
-      fail(fmt::format("is nested more than {} deep", ImportLimits::nesting));
+    if (depth > ImportLimits::nesting) fail(fmt::format("is nested more than {} deep", ImportLimits::nesting));
     Expression left = signed_value(depth);
     while (const Operator* op = next_operator()) {
       if (op->level < lowest) break;
@@ -131,8 +126,7 @@ class Words {
   }
 
   Expression value(int depth) {
-    if (depth > ImportLimits::nesting)
-      fail(fmt::format("is nested more than {} deep", ImportLimits::nesting));
+    if (depth > ImportLimits::nesting) fail(fmt::format("is nested more than {} deep", ImportLimits::nesting));
     const Place at = place();
     const std::string_view left = rest();
     if (left.empty()) fail("ends where a value is expected");
@@ -154,10 +148,9 @@ class Words {
     if (!take_sign(indexed ? "]" : ")")) fail("has an index that is not closed");
     if (indexed) name += "[]";
     if (index.kind == Expression::Kind::number && (indexed || name.ends_with('#')))
-      return name_at(
-          inform_name(indexed ? fmt::format("{}{:.0f}", name.substr(0, name.size() - 2), index.number)
-                              : fmt::format("{}({:.0f})", name, index.number)),
-          at);
+      return name_at(inform_name(indexed ? fmt::format("{}{:.0f}", name.substr(0, name.size() - 2), index.number)
+                                         : fmt::format("{}({:.0f})", name, index.number)),
+                     at);
     return expression_at(at, Expression::Kind::call, name, {std::move(index)});
   }
 
@@ -186,8 +179,7 @@ std::optional<std::vector<double>> numbers_of(std::string_view text) {
   constexpr std::size_t most = 40;  // largest count in one position or RCONF
   std::vector<double> numbers;
   while (!text.empty() && numbers.size() < most) {
-    while (!text.empty() && (text.front() == ' ' || text.front() == '\t' || text.front() == '+'))
-      text.remove_prefix(1);
+    while (!text.empty() && (text.front() == ' ' || text.front() == '\t' || text.front() == '+')) text.remove_prefix(1);
     double value = 0;
     const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (failure != std::errc() || !std::isfinite(value)) return {};
@@ -253,17 +245,16 @@ class InformParser {
       for (const double value : values) items.push_back(number_at(place(), value));
       return expression_at(place(), Expression::Kind::aggregate, "", std::move(items));
     };
-    Expression position = expression_at(
-        place(), Expression::Kind::aggregate, "",
-        {list(*numbers), expression_at(place(), Expression::Kind::text, head.type), number_at(place(), head.user),
-         number_at(place(), head.tool), list(head.configuration)});
+    Expression position =
+        expression_at(place(), Expression::Kind::aggregate, "",
+                      {list(*numbers), expression_at(place(), Expression::Kind::text, head.type),
+                       number_at(place(), head.user), number_at(place(), head.tool), list(head.configuration)});
     code_.data.push_back({declaration_at(place(), inform_name(name), "position", std::move(position)), module_, local});
   }
 
   /// Reads a head line (///POSTYPE USER, ///RCONF 1,0,...). Unknown head lines are skipped.
   void head_line(std::string_view line, PositionHead& head) {
-    Words at(line.substr(std::min(line.find_first_not_of('/'), line.size())), file_,
-             static_cast<int>(at_) + 1);
+    Words at(line.substr(std::min(line.find_first_not_of('/'), line.size())), file_, static_cast<int>(at_) + 1);
     const std::string word = at.word();
     const auto number = [&] {
       const auto read = numbers_of(at.rest());
@@ -306,10 +297,8 @@ class InformParser {
     if (routine.written.empty()) routine.written = code_.modules[module_].written;
     routine.name = "job:" + lower_case(routine.written);
     routine.module = module_;
-    for (int i = 1; i <= arguments; ++i)
-      routine.parameters.push_back({fmt::format("iarg#({})", i), true, false});
-    for (; !done() && (lines_[at_].starts_with("/") || lines_[at_].empty()); ++at_)
-      group(lines_[at_], routine);
+    for (int i = 1; i <= arguments; ++i) routine.parameters.push_back({fmt::format("iarg#({})", i), true, false});
+    for (; !done() && (lines_[at_].starts_with("/") || lines_[at_].empty()); ++at_) group(lines_[at_], routine);
     const std::size_t begin = at_;
     routine.body = body({});
     declare_locals(begin, routine);
@@ -328,13 +317,11 @@ class InformParser {
   void declare_locals(std::size_t begin, Routine& routine) {
     std::set<std::string> found;
     for (std::size_t line = begin; line < lines_.size(); ++line)
-      for (std::size_t at = lines_[line].find('L'); at != std::string_view::npos;
-           at = lines_[line].find('L', at + 1)) {
+      for (std::size_t at = lines_[line].find('L'); at != std::string_view::npos; at = lines_[line].find('L', at + 1)) {
         if (at > 0 && (letter(lines_[line][at - 1]) || digit(lines_[line][at - 1]))) continue;
         Words words(lines_[line].substr(at), file_, 1);
         const std::string name = inform_name(words.word());
-        if (name.size() > 4 && digit(name.back()) &&
-            std::string_view("bidrs").find(name[1]) != std::string_view::npos)
+        if (name.size() > 4 && digit(name.back()) && std::string_view("bidrs").find(name[1]) != std::string_view::npos)
           found.insert(name);
       }
     std::vector<Statement> declared;
@@ -356,8 +343,7 @@ class InformParser {
       try {
         statement(word, statements);
       } catch (const SyntaxError& error) {
-        problems_.add({code_.files[file_].name(), error.place.line, error.place.column}, error.what,
-                      error.remedy);
+        problems_.add({code_.files[file_].name(), error.place.line, error.place.column}, error.what, error.remedy);
       }
       ++at_;
     }
@@ -402,8 +388,8 @@ class InformParser {
       into.push_back(while_loop(at));
     } else if (word == "for") {
       into.push_back(count(at));
-    } else if (word.starts_with("mov") || word == "imov" || word == "smovl" || word == "smovc" ||
-               word == "speed" || word == "svspotmov") {
+    } else if (word.starts_with("mov") || word == "imov" || word == "smovl" || word == "smovc" || word == "speed" ||
+               word == "svspotmov") {
       move(at, s);
       into.push_back(std::move(s));
     } else {
@@ -612,8 +598,8 @@ class InformParser {
         Expression frame = at.operand();
         frame.option = "frame";
         s.arguments.push_back(std::move(frame));
-      } else if (kind == "c" || kind == "p" || kind == "lp" || kind == "bc" || kind == "bp" ||
-                 kind == "lbp" || kind == "ec" || kind == "ex" || kind == "lex") {
+      } else if (kind == "c" || kind == "p" || kind == "lp" || kind == "bc" || kind == "bp" || kind == "lbp" ||
+                 kind == "ec" || kind == "ex" || kind == "lex") {
         Expression target = at.operand();
         const bool robot = kind == "c" || kind == "p" || kind == "lp";
         target.option = robot                                 ? (beside ? "other_robot" : "")
@@ -665,8 +651,8 @@ class InformParser {
     const bool two = given.size() == 2 && given[0].kind == Expression::Kind::name;
     const bool one = given.size() == 1 && given[0].kind == Expression::Kind::name;
     const std::string& target = given.empty() ? s.name : given[0].text;
-    const bool position = target.starts_with("p") || target.starts_with("lp") || target.starts_with("bp") ||
-                          target.starts_with("ex");
+    const bool position =
+        target.starts_with("p") || target.starts_with("lp") || target.starts_with("bp") || target.starts_with("ex");
     static const std::vector<std::pair<std::string, std::string>> calculations{
         {"add", "+"}, {"sub", "-"}, {"mul", "*"}, {"div", "/"}, {"inc", "+"}, {"dec", "-"}};
     Expression value;
@@ -678,10 +664,9 @@ class InformParser {
       const bool counts = s.name == "inc" || s.name == "dec";
       if (found == calculations.end() || position || !(counts ? one : two)) return;
       value = expression_at(s.place, Expression::Kind::binary, found->second,
-                   {given[0], counts ? number_at(s.place, 1) : given[1]});
+                            {given[0], counts ? number_at(s.place, 1) : given[1]});
     }
-    const bool whole =
-        !position && target.size() > 1 && std::string_view("bid").find(target[target[0] == 'l']) < 3;
+    const bool whole = !position && target.size() > 1 && std::string_view("bid").find(target[target[0] == 'l']) < 3;
     if (whole && value.kind != Expression::Kind::number)
       value = expression_at(s.place, Expression::Kind::call, "trunc", {value});
     s.kind = Kind::assign;
@@ -703,8 +688,7 @@ class InformParser {
         const auto number = numbers_of(line.substr(line.find(' ')));
         name = number ? fmt::format("{}#({:.0f})", tool ? "tl" : "uf", number->front()) : "";
         taken = false;
-      } else if (const std::size_t user = line.find("BUSER");
-                 !name.empty() && user != std::string_view::npos) {
+      } else if (const std::size_t user = line.find("BUSER"); !name.empty() && user != std::string_view::npos) {
         line.remove_prefix(user + 5);
         if (line.empty() && at_ + 1 < lines_.size()) line = lines_[++at_];
         add_position(name, line, head, false);
@@ -733,7 +717,8 @@ class InformParser {
         const auto numbers = numbers_of(line);
         for (std::size_t i = 0; numbers && i < numbers->size(); ++i) {
           const std::string name = fmt::format("{}{:03}", section, next++);
-          code_.data.push_back({declaration_at(place(), name, "number", number_at(place(), (*numbers)[i])), module_, false, true});
+          code_.data.push_back(
+              {declaration_at(place(), name, "number", number_at(place(), (*numbers)[i])), module_, false, true});
         }
       }
     }
@@ -752,19 +737,13 @@ class InformParser {
       begin = end + 1;
     }
     if (cells.size() < 7) return;
-    const auto cell = [&](std::size_t i) {
-      return numbers_of(cells[i]).value_or(std::vector<double>{-1})[0];
-    };
+    const auto cell = [&](std::size_t i) { return numbers_of(cells[i]).value_or(std::vector<double>{-1})[0]; };
     PositionHead head;
     head.tool = cell(2);
     head.user = cell(1);
     for (const char c : cells[3].substr(0, 6)) head.configuration.push_back(c == '1');
     const double system = cell(5);
-    head.type = pulses         ? "pulse"
-                : system == 16 ? "base"
-                : system == 17 ? "robot"
-                : system == 19 ? "user"
-                               : "unknown";
+    head.type = pulses ? "pulse" : system == 16 ? "base" : system == 17 ? "robot" : system == 19 ? "user" : "unknown";
     add_position(fmt::format("p{}", number), cells[6], head, false);
     code_.data.back().by_backup = true;
   }
@@ -823,14 +802,12 @@ std::string inform_name(const std::string& written) {
   std::erase(name, ']');
   const std::size_t digits = std::min(name.find_first_of("0123456789"), name.size());
   const std::string letters = name.substr(0, digits);
-  static const std::set<std::string> variables{"b",  "i",  "d",  "r",  "s",   "p",   "px",
-                                               "bp", "ex", "c",  "bc", "ec",  "lb",  "li",
-                                               "ld", "lr", "ls", "lp", "lpx", "lbp", "lex"};
+  static const std::set<std::string> variables{"b",  "i",  "d",  "r",  "s",  "p",  "px", "bp",  "ex",  "c",  "bc",
+                                               "ec", "lb", "li", "ld", "lr", "ls", "lp", "lpx", "lbp", "lex"};
   if (digits == 0 || digits == name.size() || !variables.contains(letters)) return lower_case(written);
   const auto number = pipeline::whole_number_in<int>(std::string_view(name).substr(digits));
   if (!number) return lower_case(written);
-  return fmt::format("{}{:03}", letters.ends_with("px") ? letters.substr(0, letters.size() - 1) : letters,
-                     *number);
+  return fmt::format("{}{:03}", letters.ends_with("px") ? letters.substr(0, letters.size() - 1) : letters, *number);
 }
 
 }  // namespace dresslife::sim

@@ -48,7 +48,9 @@ namespace {
 std::string form_within(const Expression& condition, const std::string& asked) {
   using Is = Expression::Kind;
   if (condition.kind == Is::call) return lower_case(asked).starts_with(condition.text) ? "TRUE or FALSE" : "";
-  const auto plain = [](const Expression& e) { return e.kind == Is::name || e.kind == Is::element || e.kind == Is::field; };
+  const auto plain = [](const Expression& e) {
+    return e.kind == Is::name || e.kind == Is::element || e.kind == Is::field;
+  };
   const bool joins = condition.text == "and" || condition.text == "or" || condition.text == "not";
   if (plain(condition)) return "TRUE or FALSE";
   if (condition.kind == Is::unary && joins) return form_within(condition.items[0], asked);
@@ -81,14 +83,13 @@ std::string form_of_cases(const Interpreter& run, const Statement& choice) {
 }  // namespace
 
 /// Asks for the name that decides a statement, or for the arm itself. Returns the arm (0 .. ways - 1) for this reading.
-int Interpreter::ask(const Place& place, const std::string& what, const Value& unknown,
-                     const std::string& answers, int ways, bool by_value, const std::string& form) {
+int Interpreter::ask(const Place& place, const std::string& what, const Value& unknown, const std::string& answers,
+                     int ways, bool by_value, const std::string& form) {
   const std::string line = short_place(place);
   const std::vector<const Cause*> causes = unknown.causes();
   std::string values;
   for (const Cause* cause : causes)
-    if (!cause->asked().empty())
-      values += fmt::format("{}--value '{}=...'", values.empty() ? "" : " ", cause->asked());
+    if (!cause->asked().empty()) values += fmt::format("{}--value '{}=...'", values.empty() ? "" : " ", cause->asked());
   const std::string about = values.empty() ? where(place).text() : answers + values;
   for (const Cause* cause : causes)
     if (cause->behind) values += fmt::format(", or --assume {}=then or =else", cause->line);
@@ -122,11 +123,11 @@ Interpreter::Flow Interpreter::run_branch(const Statement& statement) {
         return leave_out(statement, condition);
       if (const Branch* way = waited_for(statement)) return go_on(*way, condition);
       const Cause* cause = condition.first_cause();
-      decision = problem_count() != problems  // the cause is reported already
-                     ? guess(branch.place, 2) == 0
-                     : ask(branch.place, "branches on a condition that is known only while the robot runs", condition,
-                           "then or =else", 2, true,
-                           form_within(branch.conditions[0], cause ? cause->asked() : "")) == 0;
+      decision =
+          problem_count() != problems  // the cause is reported already
+              ? guess(branch.place, 2) == 0
+              : ask(branch.place, "branches on a condition that is known only while the robot runs", condition,
+                    "then or =else", 2, true, form_within(branch.conditions[0], cause ? cause->asked() : "")) == 0;
     }
     if (*decision) return execute(branch.body);
   }
@@ -177,7 +178,8 @@ Interpreter::Flow Interpreter::leave_out(const Statement& statement, const Value
                                    : nullptr};
   if (!why.behind || why.behind->name.empty()) why.behind = nullptr;
   std::set<const Routine*> done;
-  if (statement.kind == Kind::count && statement.keeps_counter) make_unknown(name_at(statement.name, statement.place), why);
+  if (statement.kind == Kind::count && statement.keeps_counter)
+    make_unknown(name_at(statement.name, statement.place), why);
   for (const Branch& branch : statement.branches) forget_assigned(branch.body, why, done);
   const bool goes = leaves(statement, false);
   // The rest of the routine may run or not. It does not move the robot (see matters()).
@@ -207,7 +209,8 @@ const Branch* Interpreter::waited_for(const Statement& statement) {
   }
   if (!way || statement.kind != Kind::branch) return way;
   const Value condition = evaluate(way->conditions[0]);
-  return condition.kind == Value::Kind::truth && condition.number == 0 ? nullptr : way;  // the condition is always false
+  return condition.kind == Value::Kind::truth && condition.number == 0 ? nullptr
+                                                                       : way;  // the condition is always false
 }
 
 Interpreter::Flow Interpreter::go_on(const Branch& way, const Value& unknown) {

@@ -25,24 +25,25 @@ void Interpreter::run_instruction(const Statement& statement) {
   charge(instruction_work);
   if (dialect_.instruction(statement, *this)) return;
   if (const std::string meant = dialect_.move_meant(statement); !meant.empty() && !dialect_.harmless(statement.name)) {
-    complain(statement.place,
-             fmt::format("runs '{}', which is neither an instruction nor a routine of the files read", statement.text),
-             fmt::format("did you mean {}? Else give the module that declares it, too (motion.modules: [{{file: FILE}}])", meant));
+    complain(
+        statement.place,
+        fmt::format("runs '{}', which is neither an instruction nor a routine of the files read", statement.text),
+        fmt::format("did you mean {}? Else give the module that declares it, too (motion.modules: [{{file: FILE}}])",
+                    meant));
     return;
   }
   forget_arguments(statement.name, statement.arguments, statement.place);
   if (dialect_.harmless(statement.name))
     note(statement.place, statement.text + ": input, output or logic");
   else
-    note(statement.place, statement.text + ": not a routine of the files read and not a known instruction",
-         true);
+    note(statement.place, statement.text + ": not a routine of the files read and not a known instruction", true);
 }
 
 /// Whether a call by a computed name, with this number of arguments, can start a routine that moves the robot. Routines
 /// that already run do not count.
 bool Interpreter::is_command(const Routine& routine, std::size_t arguments) {
-  const auto needed = std::count_if(routine.parameters.begin(), routine.parameters.end(),
-                                    [](const Parameter& p) { return !p.option; });
+  const auto needed =
+      std::count_if(routine.parameters.begin(), routine.parameters.end(), [](const Parameter& p) { return !p.option; });
   const bool runs = std::find(routines_.begin(), routines_.end(), &routine) != routines_.end();
   return !routine.local && !runs && &routine != started_ && static_cast<std::size_t>(needed) == arguments &&
          moves(routine) && code_.find(routine.name, module_) == &routine;
@@ -63,8 +64,7 @@ void Interpreter::run_late(const Statement& statement) {
       }
     const std::string form = commands.empty() ? "the routine's name, in quotes" : "one of " + names;
     Value unknown = name;
-    if (const std::vector<const Cause*> causes = name.causes();
-        causes.size() == 1 && causes[0]->line.empty()) {
+    if (const std::vector<const Cause*> causes = name.causes(); causes.size() == 1 && causes[0]->line.empty()) {
       Cause named = *causes[0];
       named.form = form;
       unknown.cause = std::make_shared<const Cause>(std::move(named));
@@ -83,13 +83,11 @@ void Interpreter::run_late(const Statement& statement) {
   run_named(name.text, {statement.arguments.begin() + 1, statement.arguments.end()}, statement.place);
 }
 
-void Interpreter::run_named(const std::string& name, const std::vector<Expression>& arguments,
-                            const Place& place) {
+void Interpreter::run_named(const std::string& name, const std::vector<Expression>& arguments, const Place& place) {
   const std::string lower = lower_case(name);
   const std::size_t colon = lower.find(':');
-  const Routine* routine = colon == std::string::npos
-                               ? routine_named(lower, place)
-                               : code_.find_in(lower.substr(0, colon), lower.substr(colon + 1));
+  const Routine* routine = colon == std::string::npos ? routine_named(lower, place)
+                                                      : code_.find_in(lower.substr(0, colon), lower.substr(colon + 1));
   if (routine) {
     call(*routine, arguments, place);
     return;
@@ -118,7 +116,8 @@ std::string Interpreter::rivals(const Place& a, const Place& b) const {
 const Routine* Interpreter::rival_of(const Routine& routine) {
   const Routine* const rival = code_.rival(routine);
   if (!rival || !options_.first_file_counts || routine.place.file != 0 || rival->place.file == 0) return rival;
-  note(routine.place, fmt::format("'{}' is also in {}, which is not read", routine.written, where(rival->place).text()));
+  note(routine.place,
+       fmt::format("'{}' is also in {}, which is not read", routine.written, where(rival->place).text()));
   return nullptr;
 }
 
@@ -128,8 +127,8 @@ const Routine* Interpreter::routine_named(const std::string& name, const Place& 
   if (!routine) return nullptr;
   if (const Routine* rival = rival_of(*routine))
     miss(rivals(routine->place, rival->place), place,
-         fmt::format("runs '{}', which is both in {} and in {}", routine->written,
-                     where(routine->place).text(), where(rival->place).text()),
+         fmt::format("runs '{}', which is both in {} and in {}", routine->written, where(routine->place).text(),
+                     where(rival->place).text()),
          "leave one of the two files out");
   return routine;
 }
@@ -139,7 +138,8 @@ void Interpreter::declare(const Statement& statement) {
   for (const Parameter& parameter : routines_.back()->parameters) {
     if (parameter.name != statement.name) continue;
     if (!valued) return declare_parameter(statement);
-    if (locals_.back().contains(parameter.name)) return;  // URScript: the default value counts only if the caller gives none
+    if (locals_.back().contains(parameter.name))
+      return;  // URScript: the default value counts only if the caller gives none
   }
   locals_.back().insert_or_assign(statement.name, Variable{.state = Variable::State::ready,
                                                            .value = declared_value(statement),
@@ -163,8 +163,7 @@ Value Interpreter::declared_value(const Statement& statement) {
   if (written.kind != Expression::Kind::none) {
     Value value = evaluate(written);
     if (type && statement.arguments.size() == 1 && value.kind == Value::Kind::list && !shape(value, type))
-      complain(written.place,
-               fmt::format("has not the {} components of a {}", type->fields.size(), type->name),
+      complain(written.place, fmt::format("has not the {} components of a {}", type->fields.size(), type->name),
                "write all of them");
     if (statement.arguments.size() > 1) {
       if (type) shape_elements(value, type, statement.arguments.size() - 1);
@@ -198,8 +197,7 @@ void Interpreter::shape_elements(Value& value, const RecordType* type, std::size
 }
 
 /// Returns the parameter of an argument, by its name or by its position; null: none.
-const Parameter* Interpreter::parameter_of(const Routine& routine, const Expression& argument,
-                                           std::size_t& position) {
+const Parameter* Interpreter::parameter_of(const Routine& routine, const Expression& argument, std::size_t& position) {
   if (!argument.option.empty()) {
     for (const Parameter& parameter : routine.parameters)
       if (parameter.name == argument.option) return &parameter;
@@ -209,13 +207,11 @@ const Parameter* Interpreter::parameter_of(const Routine& routine, const Express
   return position < routine.parameters.size() ? &routine.parameters[position++] : nullptr;
 }
 
-Value Interpreter::call(const Routine& routine, const std::vector<Expression>& arguments,
-                        const Place& place) {
+Value Interpreter::call(const Routine& routine, const std::vector<Expression>& arguments, const Place& place) {
   if (&routine == started_ && !routines_.empty()) call_within_itself(routine);
   if (static_cast<int>(routines_.size()) >= ImportLimits::calls) {
     if (within_itself_->by_motion() > 0) end_within_itself(*started_);  // its data change, its motion repeats
-    complain(place,
-             fmt::format("calls {} {} routines deep (without end?)", routine.written, ImportLimits::calls),
+    complain(place, fmt::format("calls {} {} routines deep (without end?)", routine.written, ImportLimits::calls),
              "correct the recursion");
     throw Stop{};
   }
@@ -248,8 +244,8 @@ Value Interpreter::call(const Routine& routine, const std::vector<Expression>& a
   const Value result =
       flow == Flow::give_back
           ? result_
-          : unknown_value(
-                "", fmt::format("is given back by '{}' behind a branch that is undecided, or not at all", routine.written));
+          : unknown_value("", fmt::format("is given back by '{}' behind a branch that is undecided, or not at all",
+                                          routine.written));
   variables = std::move(locals_.back());
   locals_.pop_back();
   routines_.pop_back();

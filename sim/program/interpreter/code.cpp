@@ -42,22 +42,19 @@ Statement declaration_at(const Place& place, const std::string& name, const std:
 void Code::index() {
   local_.assign(modules.size(), {});
   for (const Routine& routine : routines)
-    (routine.local && routine.module >= 0 ? local_[routine.module] : global_)[routine.name].push_back(
-        &routine);
+    (routine.local && routine.module >= 0 ? local_[routine.module] : global_)[routine.name].push_back(&routine);
 }
 
 const Routine* Code::find(const std::string& name, int module) const {
   if (module >= 0 && module < static_cast<int>(local_.size()))
-    if (const auto found = local_[module].find(name); found != local_[module].end())
-      return found->second.front();
+    if (const auto found = local_[module].find(name); found != local_[module].end()) return found->second.front();
   const auto found = global_.find(name);
   return found == global_.end() ? nullptr : found->second.front();
 }
 
 const Routine* Code::find_in(const std::string& module, const std::string& name) const {
   for (const Routine& routine : routines)
-    if (routine.name == name && routine.module >= 0 && modules[routine.module].name == module)
-      return &routine;
+    if (routine.name == name && routine.module >= 0 && modules[routine.module].name == module) return &routine;
   return nullptr;
 }
 

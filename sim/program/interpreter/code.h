@@ -50,8 +50,7 @@ Expression number_at(const Place& place, double number);
 struct Statement;
 
 struct Branch {
-  std::vector<Expression>
-      conditions;  ///< IF: one condition; TEST, SWITCH: values of the case; empty: ELSE, DEFAULT
+  std::vector<Expression> conditions;  ///< IF: one condition; TEST, SWITCH: values of the case; empty: ELSE, DEFAULT
   std::vector<Statement> body;
   Place place;
 };

@@ -13,11 +13,9 @@ using Kind = Statement::Kind;
 
 /// Whether the evaluation of an expression moves the robot: a function of the program may do this.
 bool Interpreter::moves(const Expression& expression, int module) {
-  const Routine* called =
-      expression.kind == Expression::Kind::call ? code_.find(expression.text, module) : nullptr;
-  return (called && moves(*called)) ||
-         std::any_of(expression.items.begin(), expression.items.end(),
-                     [&](const Expression& item) { return moves(item, module); });
+  const Routine* called = expression.kind == Expression::Kind::call ? code_.find(expression.text, module) : nullptr;
+  return (called && moves(*called)) || std::any_of(expression.items.begin(), expression.items.end(),
+                                                   [&](const Expression& item) { return moves(item, module); });
 }
 
 bool Interpreter::moves(const Statement& statement, int module) {
@@ -28,13 +26,11 @@ bool Interpreter::moves(const Statement& statement, int module) {
   if (in_any(statement.arguments)) return true;
   if (statement.kind == Kind::instruction) {
     const Routine* routine = code_.find(statement.name, module);
-    if (routine ? moves(*routine) : statement.name == late_binding || dialect_.matters(statement.name))
-      return true;
+    if (routine ? moves(*routine) : statement.name == late_binding || dialect_.matters(statement.name)) return true;
   }
   return std::any_of(statement.branches.begin(), statement.branches.end(), [&](const Branch& branch) {
-    return in_any(branch.conditions) ||
-           std::any_of(branch.body.begin(), branch.body.end(),
-                       [&](const Statement& inner) { return moves(inner, module); });
+    return in_any(branch.conditions) || std::any_of(branch.body.begin(), branch.body.end(),
+                                                    [&](const Statement& inner) { return moves(inner, module); });
   });
 }
 
@@ -104,8 +100,7 @@ void Interpreter::report_handler(const Routine& routine) {
         return called ? moves(*called) : dialect_.matters(word);
       });
   if (may_move)
-    note(routine.handler,
-         routine.written + ": its handler of errors moves the robot; errors are taken not to happen");
+    note(routine.handler, routine.written + ": its handler of errors moves the robot; errors are taken not to happen");
 }
 
 /// Makes all data unknown that the statements may write to.
@@ -114,7 +109,8 @@ void Interpreter::forget_assigned(const std::vector<Statement>& body, const Caus
   for (const Statement& statement : body) {
     charge(1);
     if (statement.kind == Kind::assign) make_unknown(statement.arguments[0], why);
-    if (statement.kind == Kind::count && statement.keeps_counter) make_unknown(name_at(statement.name, statement.place), why);
+    if (statement.kind == Kind::count && statement.keeps_counter)
+      make_unknown(name_at(statement.name, statement.place), why);
     if (statement.kind == Kind::instruction) {
       dialect_.may_have_run(statement, why, *this);
       forget_written(statement, why, done);
@@ -131,17 +127,15 @@ void Interpreter::forget_writes_of(const Statement& call, int module, const std:
 }
 
 /// Makes all data unknown that a call may write to: data outside of the routine, and its returned arguments.
-void Interpreter::forget_written(const Statement& statement, const Cause& why,
-                                 std::set<const Routine*>& done) {
+void Interpreter::forget_written(const Statement& statement, const Cause& why, std::set<const Routine*>& done) {
   const Routine* routine = code_.find(statement.name, module_);
   std::size_t position = 0;
   for (const Expression& argument : statement.arguments) {
     const int at = static_cast<int>(position);
     const Parameter* parameter = routine ? parameter_of(*routine, argument, position) : nullptr;
     if (!routine && argument.option.empty()) ++position;
-    const bool written = routine
-                             ? parameter && parameter->given_back
-                             : dialect_.writes(statement.name, argument.option.empty() ? at : -1, argument);
+    const bool written = routine ? parameter && parameter->given_back
+                                 : dialect_.writes(statement.name, argument.option.empty() ? at : -1, argument);
     if (written) make_unknown(argument, why);
   }
   if (!routine || !done.insert(routine).second) return;
@@ -169,8 +163,8 @@ bool Interpreter::leaves(const Statement& statement, bool in_loop) const {
 
 bool Interpreter::holds_loop_exit(const std::vector<Statement>& body) const {
   for (const Statement& statement : body) {
-    if (statement.kind == Kind::leave_loop || statement.kind == Kind::give_back ||
-        statement.kind == Kind::jump || statement.kind == Kind::finish || statement.kind == Kind::end_cycle)
+    if (statement.kind == Kind::leave_loop || statement.kind == Kind::give_back || statement.kind == Kind::jump ||
+        statement.kind == Kind::finish || statement.kind == Kind::end_cycle)
       return true;
     if (statement.kind != Kind::branch && statement.kind != Kind::choose) continue;
     for (const Branch& branch : statement.branches)

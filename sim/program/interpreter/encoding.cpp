@@ -16,9 +16,7 @@ constexpr std::uint32_t windows_letters[] = {0x20AC, 0,      0x201A, 0x0192, 0x2
                                              0x02DC, 0x2122, 0x0161, 0x203A, 0x0153, 0,      0x017E, 0x0178};
 static_assert(std::size(windows_letters) == 0xA0 - 0x80);
 
-std::uint8_t byte_at(const std::string& bytes, std::size_t at) {
-  return static_cast<std::uint8_t>(bytes[at]);
-}
+std::uint8_t byte_at(const std::string& bytes, std::size_t at) { return static_cast<std::uint8_t>(bytes[at]); }
 
 void append(std::string& text, std::uint32_t letter) {
   const auto tail = [&](int shift) { text += static_cast<char>(0x80 | (letter >> shift & 0x3F)); };

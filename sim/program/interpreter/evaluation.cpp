@@ -80,9 +80,8 @@ Value Interpreter::answered(const Expression& expression) {
   const std::string text = written(expression);
   if (std::optional<Value> known = given_here(text)) return *known;
   const std::vector<const Cause*> causes = value.causes();
-  const bool named = std::any_of(causes.begin(), causes.end(), [](const Cause* cause) {
-    return !cause->asked().empty() || !cause->line.empty();
-  });
+  const bool named = std::any_of(causes.begin(), causes.end(),
+                                 [](const Cause* cause) { return !cause->asked().empty() || !cause->line.empty(); });
   if (named || text.empty()) return value;
   return unknown_value(name_here(text), causes.empty() ? "is not known offline" : causes[0]->why);
 }
@@ -166,8 +165,7 @@ bool same_expression(const Expression& a, const Expression& b) {
 bool Interpreter::same_declaration(const Datum& a, const Datum& b) const {
   const auto& x = a.statement.arguments;
   const auto& y = b.statement.arguments;
-  return a.statement.text == b.statement.text &&
-         std::equal(x.begin(), x.end(), y.begin(), y.end(), same_expression);
+  return a.statement.text == b.statement.text && std::equal(x.begin(), x.end(), y.begin(), y.end(), same_expression);
 }
 
 Interpreter::Variable* Interpreter::find(const std::string& name) {
@@ -187,8 +185,7 @@ Value* Interpreter::ready(Variable& variable) {
   using State = Variable::State;
   if (variable.state == State::ready) return &variable.value;
   if (variable.state == State::being_read) {
-    complain(variable.written,
-             fmt::format("gives '{}' a value that depends on itself", variable.datum->statement.name),
+    complain(variable.written, fmt::format("gives '{}' a value that depends on itself", variable.datum->statement.name),
              "write it as a constant");
     return &variable.value;
   }
@@ -204,8 +201,8 @@ Value* Interpreter::ready(Variable& variable) {
   locals_.emplace_back();  // a declaration outside of routines sees no routine's variables
   std::optional<Value> value = given_for(*variable.datum);
   if (!value && copies) {
-    value = unknown_value(
-        upper_case(statement.name), fmt::format("is another one in {}", where(variable.rival->statement.place).text()), *copies);
+    value = unknown_value(upper_case(statement.name),
+                          fmt::format("is another one in {}", where(variable.rival->statement.place).text()), *copies);
   }
   if (!value) value = declared_value(statement);
   locals_.pop_back();
@@ -219,16 +216,13 @@ Value* Interpreter::ready(Variable& variable) {
 std::optional<Value> Interpreter::given_for(const Datum& datum) {
   const Statement& statement = datum.statement;
   std::optional<Value> value;
-  if (datum.module >= 0)
-    value = given(fmt::format("{}:{}", code_.modules[datum.module].name, statement.name));
+  if (datum.module >= 0) value = given(fmt::format("{}:{}", code_.modules[datum.module].name, statement.name));
   if (!value) value = given(statement.name);
   if (!value && statement.elsewhere) value = dialect_.constant(statement.name);  // a frame that the user gives
-  if (const RecordType* type = dialect_.type_of(statement.text);
-      value && type && statement.arguments.size() == 1)
+  if (const RecordType* type = dialect_.type_of(statement.text); value && type && statement.arguments.size() == 1)
     if (!shape(*value, type))
       complain(statement.place,
-               fmt::format("is given a value that has not the {} components of a {}", type->fields.size(),
-                           type->name),
+               fmt::format("is given a value that has not the {} components of a {}", type->fields.size(), type->name),
                fmt::format("write all of them in --value {}=...", statement.name));
   return value;
 }
@@ -263,7 +257,8 @@ std::optional<Value> Interpreter::given(const std::string& name) {
   used_values_.insert(found->first);
   const std::string& first = given_to_.emplace(found->first, unique).first->second;
   if (found->first != unique && first != unique)
-    miss("shared " + name, found->second.place, fmt::format("is a name that {} and {} mean each for themselves", first, unique),
+    miss("shared " + name, found->second.place,
+         fmt::format("is a name that {} and {} mean each for themselves", first, unique),
          fmt::format("give each its own value: --value '{}=...' and --value '{}=...'", first, unique),
          {{Question::Kind::value, first, form_of(name)}, {Question::Kind::value, unique, form_of(name)}});
   return evaluate(found->second);
@@ -342,7 +337,8 @@ Value* Interpreter::locate(const Expression& expression) {
     if (whole->kind != Value::Kind::list || (whole->type && !whole->type->indexed)) return nullptr;
     const auto count = static_cast<double>(whole->items.size());
     if (!(index >= 1 && index <= count) || index != std::trunc(index)) {
-      complain(expression.place, fmt::format("has the index {} of a list of {}", index - 1 + dialect_.first_index(), count),
+      complain(expression.place,
+               fmt::format("has the index {} of a list of {}", index - 1 + dialect_.first_index(), count),
                "correct the index (the controller stops here)");
       return nullptr;
     }
@@ -369,8 +365,7 @@ std::string Interpreter::path_of(const Expression& expression) {
 std::optional<Value> Interpreter::value_written_beside(const Expression& expression) {
   const std::string& name = reference_base(expression).text;
   const auto written = code_.written_beside.find(name);
-  const bool own =
-      !locals_.empty() && locals_.back().contains(name);  // data lists are evaluated outside of routines
+  const bool own = !locals_.empty() && locals_.back().contains(name);  // data lists are evaluated outside of routines
   if (written == code_.written_beside.end() || own) return {};
   const std::string path = path_of(expression);
   if (std::optional<Value> value = given(path)) return value;
@@ -402,8 +397,7 @@ Value Interpreter::name_value(const Expression& expression) {
     if (const Value* part = part_of_given(const_cast<Value&>(whole), expression)) return *part;
     if (whole.kind == Value::Kind::unknown && expression.items[0].text.starts_with("$") &&
         dialect_.constant(expression.items[0].text))  // the robot's position as a whole, not its parts
-      if (std::optional<Value> part = given(path_of(expression)); part || whole.cause)
-        return part ? *part : whole;
+      if (std::optional<Value> part = given(path_of(expression)); part || whole.cause) return part ? *part : whole;
     if (std::optional<Value> character = character_of(expression)) return *character;
   }
   if (const Value* value = locate(expression)) {
@@ -419,7 +413,7 @@ Value Interpreter::name_value(const Expression& expression) {
   if (path.empty()) return unknown_index(expression);
   if (std::optional<Value> value = given(path)) return *value;
   return unknown_value(answer_name(path), path.starts_with("$") ? "is a variable of the system that no file read sets"
-                                                   : "is a name that no file read declares");
+                                                                : "is a name that no file read declares");
 }
 
 /// Returns s[2] of a KRL text that was assigned to s[]; std::nullopt: not an element of a text.
@@ -499,10 +493,9 @@ void Interpreter::assign(const Expression& target, Value value) {
     while (end != scope.end() && end->first.starts_with(path + part)) ++end;
     scope.erase(begin, end);
   }
-  scope.insert_or_assign(path, Variable{.state = Variable::State::ready,
-                                        .value = std::move(value),
-                                        .written = target.place,
-                                        .assigned = true});
+  scope.insert_or_assign(
+      path,
+      Variable{.state = Variable::State::ready, .value = std::move(value), .written = target.place, .assigned = true});
 }
 
 /// Returns the cause of an unknown value that is assigned to a record, with the form of the record's type.
@@ -526,8 +519,7 @@ Value* Interpreter::part_of_given(Value& whole, const Expression& part) {
   Value* found = &whole;
   for (std::size_t i = 1; i < part.items.size(); ++i) {
     const auto index = number(part.items[i]);
-    if (!index || found->type || !(*index >= 1 && *index <= static_cast<double>(found->items.size())))
-      return nullptr;
+    if (!index || found->type || !(*index >= 1 && *index <= static_cast<double>(found->items.size()))) return nullptr;
     found = &found->items[static_cast<std::size_t>(*index) - 1];
   }
   return found;
@@ -620,11 +612,8 @@ void Interpreter::forget_numbers(const std::string& why) {
 std::string Interpreter::because(const Value& unknown) const {
   const Cause* cause = unknown.first_cause();
   if (!cause) return "";
-  const std::string why =
-      cause->name.empty() ? ": " + cause->why : fmt::format(": '{}' {}", cause->name, cause->why);
-  return cause->behind
-             ? fmt::format("{}, that on '{}', which {}", why, cause->behind->name, cause->behind->why)
-             : why;
+  const std::string why = cause->name.empty() ? ": " + cause->why : fmt::format(": '{}' {}", cause->name, cause->why);
+  return cause->behind ? fmt::format("{}, that on '{}', which {}", why, cause->behind->name, cause->behind->why) : why;
 }
 
 std::string Interpreter::remedy_for(const Value& unknown) const {
@@ -648,7 +637,9 @@ std::vector<Question> Interpreter::questions_for(const Value& unknown, const std
     const std::string own = cause->behind || cause->form.empty() ? form_of(cause->asked()) : cause->form;
     const bool itself = causes.size() == 1 && cause->line.empty() && own.empty();
     Question question{by_line ? Question::Kind::branch : Question::Kind::value, name,
-                      by_line ? "then or else" : itself ? form : own};
+                      by_line  ? "then or else"
+                      : itself ? form
+                               : own};
     const std::string& standard = cause->standard.empty() ? name : cause->standard;
     if (const auto preset = code_.presets.find(standard); preset != code_.presets.end() && !by_line) {
       question.preset = preset->second.text;
@@ -664,8 +655,9 @@ std::string Interpreter::form_of(const std::string& name) {
   const std::string path = name.substr(name.find_last_of(':') + 1);
   const bool part = path.find_first_of(".[") != std::string::npos;
   const Variable* variable = part ? nullptr : find(path);
-  const Statement* declared =
-      !variable ? nullptr : variable->datum ? &variable->datum->statement : variable->declaration;
+  const Statement* declared = !variable         ? nullptr
+                              : variable->datum ? &variable->datum->statement
+                                                : variable->declaration;
   if (!declared) return "";
   const std::string form = dialect_.form_of(declared->text);
   if (declared->arguments.size() == 1) return form;
@@ -807,8 +799,7 @@ Value computed_lists(const std::string& op, const Value& a, const Value& b) {
   }
   const Value& factor = a.kind == Value::Kind::list ? b : a;
   if (!factor.is_number() || (op != "*" && !(op == "/" && &factor == &b && factor.number != 0))) return {};
-  for (Value& item : result.items)
-    item.number = op == "*" ? item.number * factor.number : item.number / factor.number;
+  for (Value& item : result.items) item.number = op == "*" ? item.number * factor.number : item.number / factor.number;
   return result;
 }
 
@@ -845,14 +836,13 @@ Value Interpreter::binary(const Expression& expression) {
   if (a.kind != b.kind || (a.kind == Value::Kind::text && op != "+")) {  // KRL: a CHAR is the number of its letter
     const auto first = dialect_.letter(a), second = dialect_.letter(b);
     const bool letters = (first || a.is_number()) && (second || b.is_number());
-    const Value relation = letters ? compared(op, number_value(first.value_or(a.number)),
-                                              number_value(second.value_or(b.number)))
-                                   : Value{};
+    const Value relation =
+        letters ? compared(op, number_value(first.value_or(a.number)), number_value(second.value_or(b.number)))
+                : Value{};
     if (relation.known() || a.kind != b.kind) return relation;
   }
   if (op == "and" || op == "or") return a.kind == Value::Kind::truth ? truth_value(op == "and") : Value{};
-  if (op == "xor" || op == "exor")
-    return a.kind == Value::Kind::truth ? truth_value(a.number != b.number) : Value{};
+  if (op == "xor" || op == "exor") return a.kind == Value::Kind::truth ? truth_value(a.number != b.number) : Value{};
   if (a.kind == Value::Kind::text && op == "+") return text_value((a.text + b.text).substr(0, text_length));
   if (b.is_number() && b.number == 0 && (op == "/" || op == "div" || op == "mod")) {
     complain(expression.place, "divides by zero", "correct the line (the controller stops here)");

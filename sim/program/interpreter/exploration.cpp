@@ -10,8 +10,7 @@ namespace {
 // a hundred readings; a reading of a large backup takes some hundredths of a second.
 constexpr int most_readings = 150;
 constexpr long most_work = ImportLimits::executed;  // work of all readings together: one or two seconds
-constexpr int barren_in_a_row =
-    30;  // readings in a row without anything new that end the search
+constexpr int barren_in_a_row = 30;                 // readings in a row without anything new that end the search
 constexpr std::size_t remembered_ways =
     12;  // largest number of ways that lead to something new only together (conditions of one state)
 

@@ -40,7 +40,8 @@ Interpreter::Interpreter(const Code& code, Dialect& dialect, const ImportOptions
 void Interpreter::run(const Routine& routine) {
   try {
     index_data();
-    for (const Datum& datum : code_.data) {  // assignments of a KRL data list; a declaration is evaluated at its first use
+    for (const Datum& datum :
+         code_.data) {  // assignments of a KRL data list; a declaration is evaluated at its first use
       if (datum.statement.kind != Kind::assign) continue;
       module_ = datum.module;
       assign(datum.statement.arguments[0], evaluate(datum.statement.arguments[1]));
@@ -63,10 +64,9 @@ void Interpreter::run(const Routine& routine) {
 void Interpreter::start(const Routine& routine) {
   program_.start = where(routine.place);
   if (const Routine* rival = rival_of(routine))
-    complain(
-        routine.place,
-        fmt::format("contains '{}', which is also in {}", routine.written, where(rival->place).text()),
-        "leave one of the two out");
+    complain(routine.place,
+             fmt::format("contains '{}', which is also in {}", routine.written, where(rival->place).text()),
+             "leave one of the two out");
   const auto needed = [](const Parameter& parameter) { return !parameter.option; };
   const auto count = std::count_if(routine.parameters.begin(), routine.parameters.end(), needed);
   if (static_cast<long>(code_.start_arguments.size()) < count) {
@@ -74,8 +74,7 @@ void Interpreter::start(const Routine& routine) {
     for (const Parameter& parameter : routine.parameters)
       if (needed(parameter)) names += (names.empty() ? "" : ", ") + parameter.name;
     complain(routine.place, fmt::format("'{}' takes {} arguments: {}", routine.written, count, names),
-             fmt::format("give them: --routine '{}({})' with their values (motion.routine)", routine.written,
-                         names));
+             fmt::format("give them: --routine '{}({})' with their values (motion.routine)", routine.written, names));
     return;
   }
   started_ = &routine;
@@ -93,8 +92,7 @@ pipeline::Where Interpreter::where(const Place& place) const {
 /// Returns the name of the routine that contains the line; empty: none.
 std::string Interpreter::routine_at(const Place& place) const {
   for (const Routine& routine : code_.routines)
-    if (routine.place.file == place.file && routine.place.line <= place.line &&
-        place.line <= routine.last_line)
+    if (routine.place.file == place.file && routine.place.line <= place.line && place.line <= routine.last_line)
       return routine.written;
   return "";
 }
@@ -106,8 +104,8 @@ void Interpreter::complain(const Place& place, const std::string& what, const st
     problems_.add(where(place), what, remedy, routine_at(place));
 }
 
-void Interpreter::miss(const std::string& name, const Place& place, const std::string& what,
-                       const std::string& remedy, std::vector<Question> questions, bool decision) {
+void Interpreter::miss(const std::string& name, const Place& place, const std::string& what, const std::string& remedy,
+                       std::vector<Question> questions, bool decision) {
   if (questions.empty() && exploration_.guessing()) {
     ++dropped_;
     return;
@@ -123,15 +121,16 @@ void Interpreter::miss(const std::string& name, const Place& place, const std::s
                      .certain = !exploration_.guessing()});
 }
 
-void Interpreter::ask_for(const Value& unknown, const Place& place, const std::string& what,
-                          const std::string& remedy, const std::string& form) {
+void Interpreter::ask_for(const Value& unknown, const Place& place, const std::string& what, const std::string& remedy,
+                          const std::string& form) {
   const std::vector<Question> questions = questions_for(unknown, form);
   if (questions.empty())
     return complain(place, what + because(unknown), remedy.empty() ? "write it as a constant" : remedy);
   std::string names;
   for (const Question& question : questions) names += question.name + " ";
   miss(names, place, what + because(unknown),
-       fmt::format("{}{}give {} (motion.values)", remedy, remedy.empty() ? "" : ", or ", remedy_for(unknown)), questions);
+       fmt::format("{}{}give {} (motion.values)", remedy, remedy.empty() ? "" : ", or ", remedy_for(unknown)),
+       questions);
 }
 
 void Interpreter::note(const Place& place, const std::string& what, bool may_move) {
@@ -145,7 +144,8 @@ void Interpreter::note(const Place& place, const std::string& what, bool may_mov
 }
 
 double Interpreter::within(double value, double low, double high, const std::string& name, const Place& place) {
-  if (value < low || value > high) note(place, fmt::format("{} {:g}: {}", name, value, beyond_range_words(low, high)), true);
+  if (value < low || value > high)
+    note(place, fmt::format("{} {:g}: {}", name, value, beyond_range_words(low, high)), true);
   return std::clamp(value, low, high);
 }
 
@@ -154,33 +154,27 @@ void Interpreter::charge(std::size_t work) {
   if (guessed_at_ >= 0 && executed_ - guessed_at_ > ImportLimits::guessed) throw Stop{};
   if (executed_ <= ImportLimits::executed) return;
   // The endless loop is the loop with the most passes since its start, not the loops around it or inside of it.
-  const auto longest = std::max_element(loops_.begin(), loops_.end(),
-                                        [](const Loop& a, const Loop& b) { return a.passes < b.passes; });
-  const Place place = longest != loops_.end() ? longest->place
-                      : routines_.empty()     ? Place{}
-                                              : routines_.back()->place;
+  const auto longest =
+      std::max_element(loops_.begin(), loops_.end(), [](const Loop& a, const Loop& b) { return a.passes < b.passes; });
+  const Place place = longest != loops_.end() ? longest->place : routines_.empty() ? Place{} : routines_.back()->place;
   miss(short_place(place), place,
-       fmt::format("has run {} statements without an end (a loop that input would end?)",
-                   ImportLimits::executed),
-       fmt::format("take one pass of the loop with --assume {0}=then, or leave it out with =else",
-                   short_place(place)),
+       fmt::format("has run {} statements without an end (a loop that input would end?)", ImportLimits::executed),
+       fmt::format("take one pass of the loop with --assume {0}=then, or leave it out with =else", short_place(place)),
        {{Question::Kind::branch, short_place(place), "then or else"}});
   throw Stop{};
 }
 
 std::string Interpreter::short_place(const Place& place) const {
-  return fmt::format("{}:{}", std::filesystem::path(code_.files[place.file].name()).filename().string(),
-                     place.line);
+  return fmt::format("{}:{}", std::filesystem::path(code_.files[place.file].name()).filename().string(), place.line);
 }
 
 int Interpreter::frame_index(std::vector<NamedFrame>& list, const NamedFrame& frame) {
   const Vector3& p = frame.frame.position;
   const Quaternion& q = frame.frame.orientation;
   const std::string name = fmt::format("{} {}", &list == &program_.tools ? "tool" : "object", frame.name);
-  const auto [known, is_new] = frames_.emplace(
-      fmt::format("{} {} {} {} {} {} {} {} {}", name, frame.stationary, p.x(), p.y(), p.z(), q.w(), q.x(),
-                  q.y(), q.z()),
-      static_cast<int>(list.size()));
+  const auto [known, is_new] = frames_.emplace(fmt::format("{} {} {} {} {} {} {} {} {}", name, frame.stationary, p.x(),
+                                                           p.y(), p.z(), q.w(), q.x(), q.y(), q.z()),
+                                               static_cast<int>(list.size()));
   if (!is_new) return known->second;
   list.push_back(frame);
   if (const int variant = ++frame_variants_[name]; variant > 1)  // the program changed the frame
@@ -196,8 +190,7 @@ std::string Interpreter::name_of(const Expression& expression) {
 
 void Interpreter::emit(Instruction instruction, const Statement& statement) {
   if (program_.instructions.size() >= ImportLimits::instructions) {
-    complain(statement.place,
-             fmt::format("would be move {} (no more are allowed)", ImportLimits::instructions + 1),
+    complain(statement.place, fmt::format("would be move {} (no more are allowed)", ImportLimits::instructions + 1),
              "simulate a shorter part of the program");
     throw Stop{};
   }

@@ -33,9 +33,9 @@ struct Cause {
   std::string name;    ///< key in ImportOptions::values that makes the value known; empty: none
   std::string why;     ///< "is read by TPReadNum (m.mod:9)", "is no name that a file declares"
   std::string line{};  ///< "m.mod:9", the line of an undecided branch that the value depends on
-  std::shared_ptr<const Cause> behind = nullptr;  ///< cause of that branch; its own `behind` is null
+  std::shared_ptr<const Cause> behind = nullptr;       ///< cause of that branch; its own `behind` is null
   std::vector<std::shared_ptr<const Cause>> others{};  ///< further causes, if several unknown values are combined
-  std::string form{};  ///< form of the value's text; empty: not known
+  std::string form{};                                  ///< form of the value's text; empty: not known
   std::string standard{};  ///< name of the delivered value (Code::presets) that is a safe answer; empty: `name`
 
   /// Returns the name of the missing value; empty: none.
@@ -97,7 +97,9 @@ class Dialect {
   /// Returns the move that an unknown instruction probably is (typing error), in the language's spelling; empty: none.
   virtual std::string move_meant(const Statement&) const { return ""; }
   /// Whether a skipped instruction or an unknown function may write to this argument.
-  virtual bool writes(const std::string& instruction, int /*position*/, const Expression& /*argument*/) const { return !harmless(instruction); }
+  virtual bool writes(const std::string& instruction, int /*position*/, const Expression& /*argument*/) const {
+    return !harmless(instruction);
+  }
   /// Whether the controller starts this routine again after its end.
   virtual bool begins_again(const Routine&) const { return false; }
   virtual const RecordType* type_of(const std::string& name) const = 0;
@@ -129,8 +131,8 @@ class Dialect {
 
 class Interpreter {
  public:
-  Interpreter(const Code& code, Dialect& dialect, const ImportOptions& options, Program& program,
-              Problems& problems, Exploration& exploration);
+  Interpreter(const Code& code, Dialect& dialect, const ImportOptions& options, Program& program, Problems& problems,
+              Exploration& exploration);
 
   void run(const Routine& routine);
 
@@ -213,10 +215,10 @@ class Interpreter {
     const Datum* rival = nullptr;  // another declaration of the same name with another value
     State state = State::declared;
     Value value;
-    Place written;          // place of the declaration or of the last assignment; line 0: none
-    bool assigned = false;  // assigned after its declaration: part of the program's state
-    bool counter = false;   // counter of a running FOR; only the FOR writes to it
-    std::string alias{};    // for a parameter: the caller's name of the data
+    Place written;                           // place of the declaration or of the last assignment; line 0: none
+    bool assigned = false;                   // assigned after its declaration: part of the program's state
+    bool counter = false;                    // counter of a running FOR; only the FOR writes to it
+    std::string alias{};                     // for a parameter: the caller's name of the data
     const Statement* declaration = nullptr;  // null: a parameter, or made by an assignment
   };
   using Scope = std::map<std::string, Variable, std::less<>>;
@@ -247,14 +249,13 @@ class Interpreter {
   void run_late(const Statement& statement);
   bool is_command(const Routine& routine, std::size_t arguments);
   void declare(const Statement& statement);
-  static const Parameter* parameter_of(const Routine& routine, const Expression& argument,
-                                       std::size_t& position);
+  static const Parameter* parameter_of(const Routine& routine, const Expression& argument, std::size_t& position);
   Value call(const Routine& routine, const std::vector<Expression>& arguments, const Place& place);
   std::uint64_t state(bool with_locals = true) const;
   void call_within_itself(const Routine& routine);
   [[noreturn]] void end_within_itself(const Routine& routine);
-  int ask(const Place& place, const std::string& what, const Value& unknown, const std::string& answers,
-          int ways, bool by_value, const std::string& form);
+  int ask(const Place& place, const std::string& what, const Value& unknown, const std::string& answers, int ways,
+          bool by_value, const std::string& form);
   int guess(const Place& place, int ways);
   std::string form_of(const std::string& name);
   bool compares_known(const Expression& condition);
@@ -274,8 +275,7 @@ class Interpreter {
   bool leaves(const Statement& statement, bool in_loop) const;
   void forget_assigned(const std::vector<Statement>& body, const Cause& why, std::set<const Routine*>& done);
   void forget_written(const Statement& statement, const Cause& why, std::set<const Routine*>& done);
-  void forget_arguments(const std::string& name, const std::vector<Expression>& arguments,
-                        const Place& place);
+  void forget_arguments(const std::string& name, const std::vector<Expression>& arguments, const Place& place);
   bool holds_loop_exit(const std::vector<Statement>& body) const;
   bool jumps_for_ever(const std::vector<Statement>& body, std::size_t label, std::size_t jump) const;
   void end_where_it_repeats(Passes& passes, const Place& place);
@@ -334,8 +334,8 @@ class Interpreter {
     long passes = 0;
   };
   const Routine* started_ = nullptr;
-  std::optional<Passes> within_itself_;  // passes of the started routine that end with a call of itself
-  std::vector<Loop> loops_;              // running loops, outermost first
+  std::optional<Passes> within_itself_;                 // passes of the started routine that end with a call of itself
+  std::vector<Loop> loops_;                             // running loops, outermost first
   std::vector<const std::vector<Statement>*> endless_;  // bodies of running endless loops, outermost first
   std::set<const Routine*> reported_handlers_;
   std::vector<const Routine*> routines_;

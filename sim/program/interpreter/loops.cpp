@@ -19,9 +19,7 @@ constexpr std::size_t searched_moves = 20'000;
 
 /// Entry of a running loop in `loops_`; the destructor removes it.
 struct Interpreter::Round {
-  Round(Interpreter& run, const Place& place) : run_(run), at_(run.loops_.size()) {
-    run.loops_.push_back({place});
-  }
+  Round(Interpreter& run, const Place& place) : run_(run), at_(run.loops_.size()) { run.loops_.push_back({place}); }
   Round(const Round&) = delete;
   ~Round() { run_.loops_.resize(at_); }
   long again() {
@@ -106,11 +104,9 @@ void Interpreter::end_where_it_repeats(Passes& passes, const Place& place) {
 }
 
 /// Whether a jump loops forever: it is a statement of `body` itself, and no statement from its label on leaves the loop.
-bool Interpreter::jumps_for_ever(const std::vector<Statement>& body, std::size_t label,
-                                 std::size_t jump) const {
+bool Interpreter::jumps_for_ever(const std::vector<Statement>& body, std::size_t label, std::size_t jump) const {
   if (body[jump].kind != Kind::jump) return false;  // the jump is in an arm of a branch
-  const std::vector<Statement> round(body.begin() + static_cast<long>(label),
-                                     body.begin() + static_cast<long>(jump));
+  const std::vector<Statement> round(body.begin() + static_cast<long>(label), body.begin() + static_cast<long>(jump));
   return !holds_loop_exit(round);
 }
 
@@ -132,16 +128,15 @@ Interpreter::Flow Interpreter::run_count(const Statement& statement) {
     for (const Expression& bound : statement.arguments) unknown = unknown_value(unknown, evaluate(bound));
     if (!matters(statement) && !exploration_.follows(short_place(statement.place)))
       return leave_out(statement, unknown);
-    decision = ask(statement.place,
-                   "counts to a number that is known only while the robot runs (then: one pass, else: none)", unknown,
-                   "then or =else", 2, true, "a number") == 0;
+    decision =
+        ask(statement.place, "counts to a number that is known only while the robot runs (then: one pass, else: none)",
+            unknown, "then or =else", 2, true, "a number") == 0;
     if (!*decision) return end_unknown();
   }
   const double first = from.value_or(1), last = decision ? first : *to, by = decision ? 1 : *step;
   Scope& variables = locals_.back();
   const auto before = variables.find(statement.name);
-  const std::optional<Variable> hidden =
-      before == variables.end() ? std::nullopt : std::optional(before->second);
+  const std::optional<Variable> hidden = before == variables.end() ? std::nullopt : std::optional(before->second);
   const auto count = [&](double value) {
     if (statement.keeps_counter) {
       assign(name_at(statement.name, statement.place), number_value(value));
@@ -163,8 +158,8 @@ Interpreter::Flow Interpreter::run_count(const Statement& statement) {
     if (!statement.keeps_counter || flow != Flow::next) continue;
     const Value counter = evaluate(name_at(statement.name, statement.place));  // the body may have changed it
     if (!counter.is_number()) {
-      ask(statement.place, "counts with a variable that is known only while the robot runs", counter,
-          "then or =else", 2, true, "a number");
+      ask(statement.place, "counts with a variable that is known only while the robot runs", counter, "then or =else",
+          2, true, "a number");
       break;
     }
     value = counter.number + by;
@@ -182,8 +177,7 @@ Interpreter::Flow Interpreter::run_count(const Statement& statement) {
 Interpreter::Flow Interpreter::run_while(const Statement& statement) {
   std::optional<bool> decision = assumed(statement.place);
   const Expression& condition = statement.arguments[0];
-  if (!decision && condition.kind == Expression::Kind::truth && condition.number != 0)
-    return run_endless(statement);
+  if (!decision && condition.kind == Expression::Kind::truth && condition.number != 0) return run_endless(statement);
   Flow flow = Flow::next;
   Round round(*this, statement.place);
   while (flow == Flow::next) {
@@ -234,8 +228,7 @@ Interpreter::Flow Interpreter::run_until(const Statement& statement) {
 std::uint64_t Interpreter::state(bool with_locals) const {
   std::uint64_t sum = 14695981039346656037u;  // FNV-1a
   const auto take = [&](const void* bytes, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i)
-      sum = (sum ^ static_cast<const unsigned char*>(bytes)[i]) * 1099511628211u;
+    for (std::size_t i = 0; i < count; ++i) sum = (sum ^ static_cast<const unsigned char*>(bytes)[i]) * 1099511628211u;
   };
   const std::function<void(const Value&)> value = [&](const Value& v) {
     take(&v.kind, sizeof v.kind);
@@ -276,9 +269,8 @@ Interpreter::Flow Interpreter::run_endless(const Statement& statement) {
     round.again();
     if (problems_.count() > problems || exploration_.guessing()) {  // the questions of further passes are needed, too
       if (passes.count() > 1 && !hinted)
-        problems_.hint(problems,
-                       fmt::format("in pass {} of the loop in {}: --passes {} ends before", passes.count(),
-                                   short_place(statement.place), passes.count() - 1));
+        problems_.hint(problems, fmt::format("in pass {} of the loop in {}: --passes {} ends before", passes.count(),
+                                             short_place(statement.place), passes.count() - 1));
       hinted = true;
       const bool mistaken = !exploration_.guessing() && problems_.mistakes() > 0;
       if (mistaken || barren.again() || (wanted && passes.count() >= wanted)) throw Stop{};
@@ -292,10 +284,9 @@ Interpreter::Flow Interpreter::run_endless(const Statement& statement) {
   if (!wanted && program_.instructions.size() == before) {
     const bool could_move = moves(statement, module_);
     note(statement.place,
-         could_move
-             ? "an endless loop that makes none of its moves: what it depends on is written from outside; "
-               "choose with --assume"
-             : "an endless loop: the lines after it never run",
+         could_move ? "an endless loop that makes none of its moves: what it depends on is written from outside; "
+                      "choose with --assume"
+                    : "an endless loop: the lines after it never run",
          could_move);
     throw Stop{};
   }
@@ -303,9 +294,8 @@ Interpreter::Flow Interpreter::run_endless(const Statement& statement) {
   const bool cut = !wanted && !passes.repeats() && passes.by_motion() == 0;
   program_.instructions.resize(passes.end(kept));
   note(statement.place,
-       fmt::format(
-           "an endless loop; the motion is {}{}", passes_text(static_cast<long>(kept)),
-           cut ? " (its passes differ and none repeats an earlier one; take more with --passes N)" : ""),
+       fmt::format("an endless loop; the motion is {}{}", passes_text(static_cast<long>(kept)),
+                   cut ? " (its passes differ and none repeats an earlier one; take more with --passes N)" : ""),
        cut);
   throw Stop{};
 }
@@ -336,8 +326,7 @@ void Interpreter::leave_all_routines() {
 std::string Interpreter::shared_and_written() const {
   std::string names;
   for (const auto& [name, variable] : globals_)
-    if (variable.datum && variable.datum->statement.elsewhere && variable.assigned &&
-        variable.value.items.empty())
+    if (variable.datum && variable.datum->statement.elsewhere && variable.assigned && variable.value.items.empty())
       names += (names.empty() ? "" : ", ") + name;
   return names;
 }
@@ -358,8 +347,8 @@ void Interpreter::run_cycles(const Routine& routine) {
     constexpr std::size_t few_moves = 2;  // fewer moves are not a cycle
     const bool one_cycle = passes.count() > 0 && passes.end(passes.count()) >= few_moves;
     if (!asking && problems_.count() > before.count() && one_cycle && !passes.only_lines_of_the_first()) {
-      problems_.hint(before.count(), fmt::format("in pass {} of {}: --passes {} ends before",
-                                               passes.count() + 1, routine.written, passes.count()));
+      problems_.hint(before.count(), fmt::format("in pass {} of {}: --passes {} ends before", passes.count() + 1,
+                                                 routine.written, passes.count()));
       asking = true;
     }
     if (!asking && problems_.count() > before.count() && one_cycle) {
@@ -369,8 +358,8 @@ void Interpreter::run_cycles(const Routine& routine) {
       const std::size_t kept = passes.by_motion() ? passes.by_motion() : 1;
       program_.instructions.resize(passes.end(kept));
       return note(routine.place,
-                  fmt::format("{} begins again at its end, and its next cycle {}; the motion is {}",
-                              routine.written, why, passes_text(static_cast<long>(kept))),
+                  fmt::format("{} begins again at its end, and its next cycle {}; the motion is {}", routine.written,
+                              why, passes_text(static_cast<long>(kept))),
                   true);
     }
     asking |= problems_.count() > before.count() || exploration_.guessing();
@@ -400,10 +389,9 @@ void Interpreter::run_cycles(const Routine& routine) {
   program_.instructions.resize(passes.end(kept));
   if (kept > 1 || cut)
     note(routine.place,
-         fmt::format(
-             "{} begins again at its end; the motion is {}{}", routine.written,
-             passes_text(static_cast<long>(kept)),
-             cut ? " (its passes differ and none repeats an earlier one; take more with --passes N)" : ""),
+         fmt::format("{} begins again at its end; the motion is {}{}", routine.written,
+                     passes_text(static_cast<long>(kept)),
+                     cut ? " (its passes differ and none repeats an earlier one; take more with --passes N)" : ""),
          cut);
 }
 

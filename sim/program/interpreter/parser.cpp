@@ -92,8 +92,9 @@ Place Cursor::place(int ahead) const { return {file_, peek(ahead).line, peek(ahe
 void Cursor::fail(const std::string& what, const std::string& remedy) const {
   const bool between_digits =
       at_ > 0 && at_sign(",") && tokens_[at_ - 1].kind == Token::Kind::number && peek(1).kind == Token::Kind::number;
-  throw SyntaxError{place(), what,
-                    between_digits ? fmt::format("write {}.{} with a decimal point", tokens_[at_ - 1].text, peek(1).text) : remedy};
+  throw SyntaxError{
+      place(), what,
+      between_digits ? fmt::format("write {}.{} with a decimal point", tokens_[at_ - 1].text, peek(1).text) : remedy};
 }
 
 std::string Cursor::seen() const {
@@ -294,7 +295,8 @@ std::vector<Expression> Cursor::arguments(std::string_view close) {
     }
     if (!comma)
       fail(fmt::format("has {} where ',' or the end of the statement is expected", seen()), "correct the line");
-    if (grammar_ == Grammar::urscript && peek().kind == Token::Kind::word && at_sign("=", 1)) {  // named argument: a=1.2
+    if (grammar_ == Grammar::urscript && peek().kind == Token::Kind::word &&
+        at_sign("=", 1)) {  // named argument: a=1.2
       const std::string option = word("the name of an argument");
       next();
       list.push_back(expression());

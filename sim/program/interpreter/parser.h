@@ -83,8 +83,7 @@ class StatementParser {
       read();
       return true;
     } catch (const SyntaxError& error) {
-      problems_.add({code_.files[file_].name(), error.place.line, error.place.column}, error.what,
-                    error.remedy);
+      problems_.add({code_.files[file_].name(), error.place.line, error.place.column}, error.what, error.remedy);
       return false;
     }
   }
@@ -92,8 +91,7 @@ class StatementParser {
   /// Reads statements with `one` up to one of the words `until`; the cursor stays before that word. wrong_end: returns
   /// whether the cursor is at the end of another kind of block.
   template <class WrongEnd, class One>
-  std::vector<Statement> block(const std::vector<const char*>& until, const WrongEnd& wrong_end,
-                               const One& one) {
+  std::vector<Statement> block(const std::vector<const char*>& until, const WrongEnd& wrong_end, const One& one) {
     struct Level {
       int& depth;
       ~Level() { --depth; }

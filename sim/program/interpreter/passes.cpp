@@ -14,10 +14,10 @@ bool alike_moves(const Instruction& a, const Instruction& b) {
     return x.position == y.position && x.orientation.coeffs() == y.orientation.coeffs();
   };
   const auto settings = [](const Instruction& i) {
-    return std::tie(i.kind, i.target.joints, i.target.circle_joints, i.target.configuration, i.target.external_axes, i.tool,
-                    i.work_object, i.speed.axis_percent, i.speed.axis, i.speed.tool, i.speed.orientation,
-                    i.speed.duration, i.speed.axis_acceleration, i.speed.tool_acceleration,
-                    i.zone.distance, i.zone.percent, i.acceleration_percent, i.jerk_percent, i.dwell);
+    return std::tie(i.kind, i.target.joints, i.target.circle_joints, i.target.configuration, i.target.external_axes,
+                    i.tool, i.work_object, i.speed.axis_percent, i.speed.axis, i.speed.tool, i.speed.orientation,
+                    i.speed.duration, i.speed.axis_acceleration, i.speed.tool_acceleration, i.zone.distance,
+                    i.zone.percent, i.acceleration_percent, i.jerk_percent, i.dwell);
   };
   return settings(a) == settings(b) && same_pose(a.target.pose, b.target.pose) && same_pose(a.via, b.via);
 }
@@ -45,7 +45,8 @@ template <class Same>
 std::size_t Passes::period(const Same& same) const {
   const std::size_t last = count();
   for (std::size_t period = 1; period * (repeats_for_certainty + 1) <= last; ++period) {
-    std::size_t first = last - period;  // one before the first pass from which each pass equals the pass one period later
+    std::size_t first =
+        last - period;  // one before the first pass from which each pass equals the pass one period later
     while (first >= 1 && same(first, first + period)) --first;
     if (first + 1 + repeats_for_certainty * period <= last) return first + period;
   }

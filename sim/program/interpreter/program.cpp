@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::size_t listed_problems = 50;
 constexpr std::size_t most_questions = 300;  // in one round
-constexpr std::array<std::string_view, 6> configuration_words{"", "abb", "kuka", "fanuc", "motoman", "near"};  // by ArmConfiguration::Kind
+constexpr std::array<std::string_view, 6> configuration_words{"",      "abb",     "kuka",
+                                                              "fanuc", "motoman", "near"};  // by ArmConfiguration::Kind
 
 }  // namespace
 
@@ -25,8 +26,8 @@ std::string ArmConfiguration::text() const {
   if (kind == Kind::any) return "";
   const std::string_view maker = configuration_words[static_cast<std::size_t>(kind)];
   if (kind != Kind::fanuc) return fmt::format("{} {}", maker, fmt::join(numbers, " "));
-  return fmt::format("{} {}{}{} {} {} {}", maker, numbers[0] ? 'F' : 'N', numbers[1] ? 'U' : 'D', numbers[2] ? 'T' : 'B',
-                     numbers[3], numbers[4], numbers[5]);
+  return fmt::format("{} {}{}{} {} {} {}", maker, numbers[0] ? 'F' : 'N', numbers[1] ? 'U' : 'D',
+                     numbers[2] ? 'T' : 'B', numbers[3], numbers[4], numbers[5]);
 }
 
 std::optional<ArmConfiguration> arm_configuration(const std::string& text) {
@@ -58,11 +59,9 @@ std::optional<ArmConfiguration> arm_configuration(const std::string& text) {
 void Problems::add(const pipeline::Where& where, const std::string& what, const std::string& remedy,
                    const std::string& routine) {
   const auto same = [&](const Problem& p) {
-    return p.where.line == where.line && p.where.column == where.column && p.where.file == where.file &&
-           p.what == what;
+    return p.where.line == where.line && p.where.column == where.column && p.where.file == where.file && p.what == what;
   };
-  if (full() || std::any_of(problems_.begin(), problems_.end(), same))
-    return;  // a line in a loop is reported once
+  if (full() || std::any_of(problems_.begin(), problems_.end(), same)) return;  // a line in a loop is reported once
   problems_.push_back({.where = where, .what = what, .remedy = remedy, .routine = routine});
 }
 
@@ -97,19 +96,21 @@ void note_forms(std::vector<Problem>& problems, const Problem& by) {
   for (const Question& asked : by.questions)
     for (Problem& problem : problems)
       for (Question& question : problem.questions)
-        if (question.form.empty() && question.kind == asked.kind && question.name == asked.name) question.form = asked.form;
+        if (question.form.empty() && question.kind == asked.kind && question.name == asked.name)
+          question.form = asked.form;
 }
 
 /// Whether all names that a branch depends on are questions of other problems.
 bool asked_already(const std::vector<Problem>& problems, const Problem& branch) {
   const auto asked = [&](const Question& question) {
     return std::any_of(problems.begin(), problems.end(), [&](const Problem& known) {
-      return known.certain >= branch.certain && std::any_of(known.questions.begin(), known.questions.end(), [&](const Question& q) {
-               return q.kind == question.kind && q.name == question.name;
-             });
+      return known.certain >= branch.certain &&
+             std::any_of(known.questions.begin(), known.questions.end(),
+                         [&](const Question& q) { return q.kind == question.kind && q.name == question.name; });
     });
   };
-  return branch.decision && !branch.questions.empty() && std::all_of(branch.questions.begin(), branch.questions.end(), asked);
+  return branch.decision && !branch.questions.empty() &&
+         std::all_of(branch.questions.begin(), branch.questions.end(), asked);
 }
 
 }  // namespace
@@ -129,15 +130,13 @@ void Problems::hint(std::size_t from, const std::string& more) {
 }
 
 std::size_t Problems::mistakes() const {
-  return static_cast<std::size_t>(std::count_if(
-      problems_.begin(), problems_.end(), [](const Problem& problem) { return problem.questions.empty(); }));
+  return static_cast<std::size_t>(std::count_if(problems_.begin(), problems_.end(),
+                                                [](const Problem& problem) { return problem.questions.empty(); }));
 }
 
 bool Problems::asks() const { return mistakes() < problems_.size(); }
 
-bool Problems::full() const {
-  return mistakes() >= listed_problems || problems_.size() - mistakes() >= most_questions;
-}
+bool Problems::full() const { return mistakes() >= listed_problems || problems_.size() - mistakes() >= most_questions; }
 
 namespace {
 
@@ -146,14 +145,12 @@ std::string further_uses(const Problem& problem) {
   constexpr int listed = 8;
   const std::size_t count = problem.more_uses.size();
   if (count == 0) return "";
-  if (!problem.decision)
-    return count == 1 ? " (here and once more)" : fmt::format(" (here and {} times more)", count);
+  if (!problem.decision) return count == 1 ? " (here and once more)" : fmt::format(" (here and {} times more)", count);
   std::string lines;
   int shown = 0;
   for (const auto& [file, line] : problem.more_uses)
     if (++shown <= listed)
-      lines += fmt::format("{}{}:{}", shown == 1 ? "" : ", ", std::filesystem::path(file).filename().string(),
-                           line);
+      lines += fmt::format("{}{}:{}", shown == 1 ? "" : ", ", std::filesystem::path(file).filename().string(), line);
   return fmt::format(" (here and in {}{})", lines, shown > listed ? ", ..." : "");
 }
 
@@ -162,8 +159,7 @@ std::string further_uses(const Problem& problem) {
 std::vector<Problem> Problems::sorted() const {
   std::vector<Problem> sorted = problems_;
   std::stable_sort(sorted.begin(), sorted.end(), [](const Problem& a, const Problem& b) {
-    return std::tie(a.where.file, a.where.line, a.where.column) <
-           std::tie(b.where.file, b.where.line, b.where.column);
+    return std::tie(a.where.file, a.where.line, a.where.column) < std::tie(b.where.file, b.where.line, b.where.column);
   });
   return sorted;
 }
@@ -174,8 +170,7 @@ void Problems::throw_if_any() const {
   std::string rest;
   for (std::size_t i = 0; i < all.size(); ++i) {
     Problem& problem = all[i];
-    problem.what =
-        (problem.routine.empty() ? "" : problem.routine + " ") + problem.what + further_uses(problem);
+    problem.what = (problem.routine.empty() ? "" : problem.routine + " ") + problem.what + further_uses(problem);
     if (i > 0 && i < listed_problems)
       rest += std::string("\n") + pipeline::InputError(problem.where, problem.what, problem.remedy).what();
   }

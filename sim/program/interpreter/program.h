@@ -61,18 +61,18 @@ struct NamedFrame {
 };
 
 struct MoveSpeed {
-  std::optional<double> axis_percent;  ///< share of each axis' largest speed [%]
-  std::optional<double> axis;          ///< largest speed of the fastest axis [rad/s]
-  std::optional<double> tool;          ///< largest speed of the tool's origin [m/s]
-  std::optional<double> orientation;   ///< largest angular velocity of the tool [rad/s]
-  std::optional<double> duration;      ///< duration of the whole move [s]
+  std::optional<double> axis_percent;       ///< share of each axis' largest speed [%]
+  std::optional<double> axis;               ///< largest speed of the fastest axis [rad/s]
+  std::optional<double> tool;               ///< largest speed of the tool's origin [m/s]
+  std::optional<double> orientation;        ///< largest angular velocity of the tool [rad/s]
+  std::optional<double> duration;           ///< duration of the whole move [s]
   std::optional<double> axis_acceleration;  ///< largest acceleration of the fastest axis [rad/s2]
   std::optional<double> tool_acceleration;  ///< largest acceleration of the tool's origin along its path [m/s2]
 };
 
 struct MoveZone {
   double distance = 0;  ///< distance to the target at which the tool may leave its path [m]; 0 and percent 0: stop
-  double percent = 0;  ///< share of the braking distance, if the controller blends by speed [%]
+  double percent = 0;   ///< share of the braking distance, if the controller blends by speed [%]
 };
 
 /// The place where a part of an instruction last got its value.
@@ -135,8 +135,8 @@ struct Program {
 struct Question {
   enum class Kind { value, branch, tool, work_object };
   Kind kind = Kind::value;
-  std::string name;  ///< key of the answer: "di1", "cell:p10", "UTOOL[1]"; for a branch: its line
-  std::string form;  ///< form of the answer: "then or else", "a number"; empty: as in the program
+  std::string name;         ///< key of the answer: "di1", "cell:p10", "UTOOL[1]"; for a branch: its line
+  std::string form;         ///< form of the answer: "then or else", "a number"; empty: as in the program
   std::string preset = {};  ///< a safe answer; empty: none
 };
 
@@ -162,8 +162,8 @@ class Problems {
   /// Adds the problems of another reading of the same program.
   void add_all(const Problems& others);
   bool empty() const { return problems_.empty(); }
-  bool full() const;  ///< the largest number of problems is reached
-  bool asks() const;  ///< at least one problem has a question
+  bool full() const;             ///< the largest number of problems is reached
+  bool asks() const;             ///< at least one problem has a question
   std::size_t mistakes() const;  ///< number of problems without a question
   const std::vector<Problem>& list() const { return problems_; }
   std::size_t count() const { return problems_.size(); }
@@ -228,7 +228,7 @@ struct ImportLimits {
   static constexpr std::size_t instructions = 100'000;
   static constexpr std::size_t skipped = 20'000;
   static constexpr std::size_t values = 100'000;  ///< numbers in one variable; number of variables
-  static constexpr int passes = 1000;  ///< passes of an endless loop in the search for its repetition
+  static constexpr int passes = 1000;             ///< passes of an endless loop in the search for its repetition
 };
 
 /// A source file in memory.

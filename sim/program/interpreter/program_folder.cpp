@@ -31,8 +31,7 @@ std::set<std::string> reached_from(const std::string& program, const CallGraph& 
 bool moves(const std::string& program, const CallGraph& graph) {
   std::set<std::string> reached = reached_from(program, graph);
   reached.insert(program);
-  return std::any_of(reached.begin(), reached.end(),
-                     [&](const std::string& name) { return graph.at(name).moves; });
+  return std::any_of(reached.begin(), reached.end(), [&](const std::string& name) { return graph.at(name).moves; });
 }
 
 std::vector<std::string> uncalled_programs(const CallGraph& graph) {
@@ -58,9 +57,10 @@ std::string only_start(const fs::path& folder, std::vector<std::string> choices,
   if (choices.size() == 1) return choices[0];
   const std::size_t more = choices.size() - std::min(choices.size(), listed_programs);
   choices.resize(choices.size() - more);
-  throw pipeline::InputError({folder.string()}, "holds several programs, and none that calls them",
-                             fmt::format("name one with --routine (motion.routine in a job): {}{}",
-                                         pipeline::joined(choices, ", "), more ? fmt::format(" and {} more", more) : ""));
+  throw pipeline::InputError(
+      {folder.string()}, "holds several programs, and none that calls them",
+      fmt::format("name one with --routine (motion.routine in a job): {}{}", pipeline::joined(choices, ", "),
+                  more ? fmt::format(" and {} more", more) : ""));
 }
 
 }  // namespace dresslife::sim

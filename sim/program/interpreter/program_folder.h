@@ -13,9 +13,9 @@ namespace dresslife::sim {
 
 struct Backup {
   Language language = Language::rapid;
-  std::vector<std::filesystem::path> files;  ///< the program has the name of the first file
-  std::string routine;                       ///< first routine; empty: the default of the language
-  std::vector<std::string> missing = {};  ///< files in the folder's list of contents that do not exist
+  std::vector<std::filesystem::path> files;                ///< the program has the name of the first file
+  std::string routine;                                     ///< first routine; empty: the default of the language
+  std::vector<std::string> missing = {};                   ///< files in the folder's list of contents that do not exist
   std::map<std::string, std::string> written_beside = {};  ///< names that another task writes -> file of that task
 };
 

@@ -55,11 +55,10 @@ std::pair<std::string, std::string> routine_and_arguments(const std::string& wri
 namespace {
 
 /// Values of $CONFIG.DAT as delivered by KUKA. 11 of 11 public backups have this PDEFAULT and LDEFAULT, 10 this FHOME.
-constexpr std::pair<const char*, const char*> delivered[] = {
-    {"pdefault", "{VEL 100, ACC 100, APO_DIST 100}"},
-    {"ldefault", "{VEL 2, ACC 100, APO_DIST 100}"},
-    {"fhome", "{TOOL_NO 1, BASE_NO 0, IPO_FRAME #BASE}"},
-    {"def_vel_cp", "2"}};
+constexpr std::pair<const char*, const char*> delivered[] = {{"pdefault", "{VEL 100, ACC 100, APO_DIST 100}"},
+                                                             {"ldefault", "{VEL 2, ACC 100, APO_DIST 100}"},
+                                                             {"fhome", "{TOOL_NO 1, BASE_NO 0, IPO_FRAME #BASE}"},
+                                                             {"def_vel_cp", "2"}};
 
 }  // namespace
 
@@ -73,7 +72,9 @@ void add_requests(Code& code, const ImportOptions& options, Grammar grammar, Pro
   for (const auto& [name, text] : delivered)
     if (grammar == Grammar::krl)
       read_text(code, std::string("delivered ") + name, text, grammar, problems,
-                [&, &name = name, &text = text](Cursor& at) { code.presets[name] = {text, at.expression()}; });
+                [&, &name = name, &text = text](Cursor& at) {
+                  code.presets[name] = {text, at.expression()};
+                });
   const auto [routine, arguments] = routine_and_arguments(options.routine);
   code.start = lower_case(routine);
   if (!arguments.empty())

@@ -41,8 +41,7 @@ class Cutter {
   char peek(std::size_t ahead = 0) const { return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\0'; }
 
   Token& add(Token::Kind kind, std::size_t begin, std::size_t end) {
-    tokens_.push_back(
-        {kind, text_.substr(begin, end - begin), 0, line_, static_cast<int>(begin - line_begin_) + 1});
+    tokens_.push_back({kind, text_.substr(begin, end - begin), 0, line_, static_cast<int>(begin - line_begin_) + 1});
     return tokens_.back();
   }
 
@@ -60,8 +59,7 @@ class Cutter {
       ++at_;
     } else if (c == rules_.comment) {
       at_ = std::min(text_.find('\n', at_), text_.size());
-    } else if (is_letter(c) || is_latin_letter(text_, at_) ||
-               rules_.extra.find(c) != std::string_view::npos) {
+    } else if (is_letter(c) || is_latin_letter(text_, at_) || rules_.extra.find(c) != std::string_view::npos) {
       word();
     } else if (is_digit(c) || (c == '.' && is_digit(peek(1)))) {
       number();
@@ -78,8 +76,7 @@ class Cutter {
     const std::size_t begin = at_;
     at_ += is_latin_letter(text_, at_) ? 2 : 1;
     while (true) {
-      if (is_letter(peek()) || is_digit(peek()) ||
-          (rules_.extra.find('$') != std::string_view::npos && peek() == '$'))
+      if (is_letter(peek()) || is_digit(peek()) || (rules_.extra.find('$') != std::string_view::npos && peek() == '$'))
         ++at_;
       else if (is_latin_letter(text_, at_))
         at_ += 2;
@@ -137,8 +134,7 @@ class Cutter {
     const int base = lower(peek(1)) == 'h' ? 16 : 2;
     unsigned value = 0;
     const char* first = text_.data() + at_ + 2;
-    if (close != std::string_view::npos && close > at_ + 2 &&
-        (lower(peek(1)) == 'h' || lower(peek(1)) == 'b')) {
+    if (close != std::string_view::npos && close > at_ + 2 && (lower(peek(1)) == 'h' || lower(peek(1)) == 'b')) {
       const auto [end, failure] = std::from_chars(first, text_.data() + close, value, base);
       if (failure == std::errc() && end == text_.data() + close) {
         at_ = close + 1;

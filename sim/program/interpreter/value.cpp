@@ -39,9 +39,7 @@ std::vector<const Cause*> Value::causes() const {
   std::vector<const Cause*> found;
   const auto add = [&](const Cause& one) {
     constexpr std::size_t most = 12;  // causes of one value; a position has six numbers
-    const auto same = [&](const Cause* known) {
-      return known->asked() == one.asked() && known->line == one.line;
-    };
+    const auto same = [&](const Cause* known) { return known->asked() == one.asked() && known->line == one.line; };
     if (found.size() < most && std::none_of(found.begin(), found.end(), same)) found.push_back(&one);
   };
   if (kind == Kind::unknown && cause) {

@@ -21,8 +21,7 @@ using Names = std::map<std::string, bool, std::less<>>;  // declared name -> tru
 class Marker {
  public:
   explicit Marker(const Code& code) : of_modules_(code.modules.size()) {
-    for (const Datum& datum : code.data)
-      declare(datum.statement, datum.local ? of_modules_[datum.module] : shared_);
+    for (const Datum& datum : code.data) declare(datum.statement, datum.local ? of_modules_[datum.module] : shared_);
   }
 
   void mark(Routine& routine) {
@@ -55,12 +54,10 @@ class Marker {
   /// Whether the statement's own line contains a signal; its inner blocks do not count.
   bool has_signal(const Statement& statement) const {
     const auto in = [&](const std::vector<Expression>& expressions) {
-      return std::any_of(expressions.begin(), expressions.end(),
-                         [&](const Expression& e) { return has_signal(e); });
+      return std::any_of(expressions.begin(), expressions.end(), [&](const Expression& e) { return has_signal(e); });
     };
-    return in(statement.arguments) ||
-           std::any_of(statement.branches.begin(), statement.branches.end(),
-                       [&](const Branch& branch) { return in(branch.conditions); });
+    return in(statement.arguments) || std::any_of(statement.branches.begin(), statement.branches.end(),
+                                                  [&](const Branch& branch) { return in(branch.conditions); });
   }
 
   void mark(std::vector<Statement>& body) const {
@@ -70,10 +67,9 @@ class Marker {
       const bool later = statement.name == "trigger" || statement.name.starts_with("interrupt_");
       const bool waits = !later && statement.kind != Kind::declare && has_signal(statement);
       const bool repeats = statement.kind == Kind::while_loop || statement.kind == Kind::until_loop;
-      const bool outputs =
-          statement.kind == Kind::assign && statement.arguments[0].kind == Expression::Kind::name &&
-          statement.arguments[1].kind == Expression::Kind::truth &&
-          !statement.arguments[0].text.starts_with("$") && !is_signal(statement.arguments[0].text);
+      const bool outputs = statement.kind == Kind::assign && statement.arguments[0].kind == Expression::Kind::name &&
+                           statement.arguments[1].kind == Expression::Kind::truth &&
+                           !statement.arguments[0].text.starts_with("$") && !is_signal(statement.arguments[0].text);
       if (!later)
         for (Branch& branch : statement.branches) mark(branch.body);
       if (waits && repeats) statement.branches[0].body.push_back(stop_of_advance(statement.place));

@@ -69,8 +69,7 @@ std::vector<std::string> starts(CallGraph graph) {
 void check_one_robot(const fs::path& folder, const std::vector<fs::path>& files) {
   std::set<std::string> robots;
   for (const fs::path& file : files)
-    if (const fs::path robot = robot_of(file); is_program(file) && !robot.empty())
-      robots.insert(robot.string());
+    if (const fs::path robot = robot_of(file); is_program(file) && !robot.empty()) robots.insert(robot.string());
   if (robots.size() < 2) return;
   throw pipeline::InputError({folder.string()}, fmt::format("holds the programs of {} robots", robots.size()),
                              fmt::format("name one of: {}", pipeline::joined(robots, ", ")));

@@ -24,9 +24,8 @@ constexpr const char* harmless_names[] = {
     "$in",      "$anin",   "$err",      "ciostate",    advance_stop};
 constexpr const char* harmless_beginnings[] = {"eki_", "msg", "set_krl", "exists_krl", "diag_"};
 /// Harmless functions that write to their arguments.
-constexpr const char* writing_names[] = {"cread",  "sread",    "copen",     "sopen",
-                                         "swrite", "cwrite",   "cclose",    "strcopy",
-                                         "stradd", "strclear", "msgdialog", "exists_krldlg"};
+constexpr const char* writing_names[] = {"cread",  "sread",   "copen",  "sopen",    "swrite",    "cwrite",
+                                         "cclose", "strcopy", "stradd", "strclear", "msgdialog", "exists_krldlg"};
 
 /// Fields of an FDAT that inline forms use.
 constexpr const char* fdat_fields[] = {".tool_no", ".base_no", ".ipo_frame"};
@@ -62,8 +61,7 @@ bool Krl::harmless(const std::string& name) const {
 
 bool Krl::writes(const std::string& name, int, const Expression&) const {
   if (kind_of(name) || name == "bas" || name == "asyptp") return false;  // moves read their targets
-  const bool writing =
-      std::find(std::begin(writing_names), std::end(writing_names), name) != std::end(writing_names);
+  const bool writing = std::find(std::begin(writing_names), std::end(writing_names), name) != std::end(writing_names);
   return writing || name.starts_with("eki_") || !harmless(name);
 }
 
@@ -98,8 +96,7 @@ Value Krl::prototype(const std::string& type, int depth) const {
     const bool list = record->sizes[i] > 0 && record->field_types[i] != "char";  // a text is one value
     const std::size_t count = list ? static_cast<std::size_t>(record->sizes[i]) : 1;
     weight += count * item.weight();
-    if (weight < ImportLimits::values)
-      items.push_back(list ? list_value(std::vector<Value>(count, item)) : item);
+    if (weight < ImportLimits::values) items.push_back(list ? list_value(std::vector<Value>(count, item)) : item);
   }
   if (record && weight < ImportLimits::values) value = list_value(std::move(items), record);
   return prototypes_.emplace(type, value).first->second;
@@ -167,14 +164,12 @@ bool Krl::shares(const std::string& name, int module) const {
 /// Whether the editor of inline forms writes a name into the program's data list. Other undeclared names are assumed to
 /// be in $CONFIG.DAT.
 bool Krl::is_of_module(const std::string& name) const {
-  static const std::set<std::string> of_all{"fhome",  "xhome",  "xhome1", "xhome2",
-                                            "xhome3", "xhome4", "xhome5"};
+  static const std::set<std::string> of_all{"fhome", "xhome", "xhome1", "xhome2", "xhome3", "xhome4", "xhome5"};
   const auto numbered = [&](const char* beginning) {
     return name.starts_with(beginning) && !name.empty() && name.back() >= '0' && name.back() <= '9';
   };
-  return !of_all.contains(name) &&
-         (name.starts_with("x") || name.starts_with("f") || numbered("ppdat") || numbered("lcpdat") ||
-          numbered("cpdat") || numbered("pdat") || numbered("ldat"));
+  return !of_all.contains(name) && (name.starts_with("x") || name.starts_with("f") || numbered("ppdat") ||
+                                    numbered("lcpdat") || numbered("cpdat") || numbered("pdat") || numbered("ldat"));
 }
 
 /// Returns the unknown value of an inline form with a question for its whole FDAT, PDAT or LDAT. The editor gives a new
@@ -202,8 +197,8 @@ bool Krl::Frames::same(const Frames& other) const {
   const auto equal = [](const Frame& a, const Frame& b) {
     return a.position == b.position && a.orientation.coeffs() == b.orientation.coeffs();
   };
-  return unknown.known() && other.unknown.known() && stationary == other.stationary &&
-         equal(tool, other.tool) && equal(base, other.base);
+  return unknown.known() && other.unknown.known() && stationary == other.stationary && equal(tool, other.tool) &&
+         equal(base, other.base);
 }
 
 Frame Krl::Frames::flange(const Frame& pose) const {
@@ -259,23 +254,19 @@ std::string Krl::name_of(const char* list, const std::array<double, 6>& numbers,
 }
 
 /// Returns $TOOL or $BASE. Before an assignment the controller keeps an earlier value, which the user must give.
-Frame Krl::current(const char* variable, const char* list, Frames& frames, std::string& name,
-                   Interpreter& run) {
+Frame Krl::current(const char* variable, const char* list, Frames& frames, std::string& name, Interpreter& run) {
   const Value* value = run.variable(variable);
   Coordinates read = value ? coordinates(*value, frame_names) : Coordinates{};
   if (read.unknown.known() && !read.all())
     if (const std::optional<Value> held = run.given(variable)) {
       const Coordinates given = coordinates(*held, frame_names);
       for (std::size_t i = 0; i < read.numbers.size(); ++i)
-        if (!std::exchange(read.given[i], read.given[i] || given.given[i]))
-          read.numbers[i] = given.numbers[i];
+        if (!std::exchange(read.given[i], read.given[i] || given.given[i])) read.numbers[i] = given.numbers[i];
     }
   if (!read.all()) {
     Value& why = frames.unknown.known() ? frames.unknown : frames.base_too;
-    const char* none =
-        read.any() ? "is set in part only" : "is assigned nowhere before: the controller holds it";
-    why = read.unknown.known() ? unknown_value(run.answer_name(variable), none, form_of("frame"))
-                               : read.unknown;
+    const char* none = read.any() ? "is set in part only" : "is assigned nowhere before: the controller holds it";
+    why = read.unknown.known() ? unknown_value(run.answer_name(variable), none, form_of("frame")) : read.unknown;
     return {};
   }
   name = name_of(list, read.numbers, run);
@@ -290,8 +281,7 @@ Krl::Frames Krl::current_frames(Interpreter& run) {
   frames.base = current("$base", "base_data", frames, frames.base_name, run);
   const Value* mode = run.variable("$ipo_mode");
   frames.stationary = mode && mode->kind == Value::Kind::text && mode->text == "#tcp";
-  if (mode && mode->kind == Value::Kind::unknown && !is_unset(*mode) && frames.unknown.known())
-    frames.unknown = *mode;
+  if (mode && mode->kind == Value::Kind::unknown && !is_unset(*mode) && frames.unknown.known()) frames.unknown = *mode;
   // $BASE is given in $WORLD; $ROBROOT is the robot's place in it.
   if (const Value* root = run.variable("$robroot")) {
     if (const Coordinates place = coordinates(*root, frame_names); place.all())
@@ -346,13 +336,11 @@ void Krl::use_base(const Value& number, const Place& place, Interpreter& run) {
     return run.evaluate(expression_at(place, Expression::Kind::field, field, {std::move(whole)}));
   };
   if (!run.variable("machine_frame_dat") || !run.variable("machine_def")) return;
-  const Value unit =
-      machine("mach_def_index", element_at("machine_frame_dat", static_cast<int>(number.number), place));
+  const Value unit = machine("mach_def_index", element_at("machine_frame_dat", static_cast<int>(number.number), place));
   if (!unit.is_number() || unit.number < 1) return;
   const Value kind = machine("mech_type", element_at("machine_def", static_cast<int>(unit.number), place));
   if (kind.kind == Value::Kind::text && kind.text != "#none" && kind.text != "#robot")
-    run.note(place,
-             fmt::format("BASE_DATA[{}] lies on an external axis: it is taken to stand still", number.number),
+    run.note(place, fmt::format("BASE_DATA[{}] lies on an external axis: it is taken to stand still", number.number),
              true);
 }
 
@@ -407,8 +395,7 @@ void Krl::initialise(const Place& place, Interpreter& run) {
   run.assign(name_at("$circ_type", place), text_value("#base"));
   use_base(number_value(0), place, run);
   if (run.variable("def_vel_cp") && !run.variable("tool_data")) {
-    run.note(place, "BAS(#INITMOV) takes TOOL_DATA[1], which $CONFIG.DAT does not hold: the flange is taken",
-             true);
+    run.note(place, "BAS(#INITMOV) takes TOOL_DATA[1], which $CONFIG.DAT does not hold: the flange is taken", true);
     use_tool(number_value(0), place, run);
   } else {
     use_tool(number_value(1), place, run);
@@ -423,10 +410,9 @@ void Krl::basics(const Statement& statement, Interpreter& run) {
   static const std::set<std::string> with_number{"#vel_ptp", "#acc_ptp", "#vel_cp",  "#acc_cp",     "#acc_glue",
                                                  "#tool",    "#base",    "#ex_base", "#ptp_params", "#cp_params"};
   if (statement.arguments.size() < 2 && with_number.contains(what))
-    return run.complain(place, fmt::format("has BAS({}) without a number", what), fmt::format("write BAS({}, NUMBER)", what));
-  const auto set_speed = [&](const Value& speed) {
-    run.assign(field_at("$vel", "cp", place), path_speed(speed, run));
-  };
+    return run.complain(place, fmt::format("has BAS({}) without a number", what),
+                        fmt::format("write BAS({}, NUMBER)", what));
+  const auto set_speed = [&](const Value& speed) { run.assign(field_at("$vel", "cp", place), path_speed(speed, run)); };
   if (number.is_number() && number.number > 100 &&
       (what == "#vel_ptp" || what == "#acc_ptp" || what == "#acc_cp" || what == "#acc_glue" || what == "#ptp_params"))
     run.note(place, fmt::format("BAS({}, {:g}): {}", what, number.number, above_all_speed), true);
@@ -455,8 +441,7 @@ void Krl::basics(const Statement& statement, Interpreter& run) {
   } else if (what == "#cp_dat" || what == "#cp_params") {
     path_data(place, run);
     if (what == "#cp_params") form_frames(place, run);
-    set_speed(what == "#cp_params" ? number
-                                   : of_form(run.evaluate(field_at("ldat_act", "vel", place)), "ldat"));
+    set_speed(what == "#cp_params" ? number : of_form(run.evaluate(field_at("ldat_act", "vel", place)), "ldat"));
   } else if (!what.starts_with("#out_") && what != "#group") {
     run.note(place, fmt::format("BAS({}): not a known case", what.empty() ? "?" : what), true);
   }
@@ -465,8 +450,7 @@ void Krl::basics(const Statement& statement, Interpreter& run) {
 // ---- functions --------------------------------------------------------------------------------------------
 
 /// Returns the value of a function that the editor writes after WITH; std::nullopt: another function.
-std::optional<Value> Krl::spline_function(const Expression& call, const std::vector<Value>& values,
-                                          Interpreter& run) {
+std::optional<Value> Krl::spline_function(const Expression& call, const std::vector<Value>& values, Interpreter& run) {
   const std::string& name = call.text;
   const auto is = [&](std::initializer_list<const char*> names) {
     return std::any_of(names.begin(), names.end(), [&](const char* other) { return name == other; });
@@ -538,8 +522,7 @@ Value Krl::state_of(const Value& name, Interpreter& run) {
   if (name.kind != Value::Kind::text) return unknown_value(name);
   const Value* value = run.variable(lower_case(name.text));
   if (!value)
-    return run.variable("def_vel_cp") ? text_value("#unknown")
-                                      : unknown_value(name.text, "is in no file read");
+    return run.variable("def_vel_cp") ? text_value("#unknown") : unknown_value(name.text, "is in no file read");
   if (is_unset(*value)) return text_value("#declared");
   return value->known() ? text_value("#initialized") : unknown_value(*value);
 }
@@ -566,10 +549,9 @@ std::optional<Value> Krl::arithmetic(const Expression& call, const std::vector<V
 
 std::optional<Value> Krl::function(const Expression& call, Interpreter& run) {
   static const std::set<std::string> known{
-      ":",         "inv_pos", "abs",        "sqrt",    "sin",        "cos",     "tan",
-      "acos",      "atan2",   "svel_joint", "svel_cp", "sacc_joint", "sacc_cp", "sapo",
-      "sapo_ptp",  "stool",   "stool2",     "sbase",   "sipo_mode",  "sload",   "sori_typ",
-      "scirc_typ", "scirc_m", "sgear_jerk", "sjerk",   "s_exax_ign", "varstate"};
+      ":",          "inv_pos", "abs",        "sqrt",      "sin",     "cos",        "tan",   "acos",       "atan2",
+      "svel_joint", "svel_cp", "sacc_joint", "sacc_cp",   "sapo",    "sapo_ptp",   "stool", "stool2",     "sbase",
+      "sipo_mode",  "sload",   "sori_typ",   "scirc_typ", "scirc_m", "sgear_jerk", "sjerk", "s_exax_ign", "varstate"};
   if (!known.contains(call.text)) return {};
   std::vector<Value> values;
   for (const Expression& argument : call.items) values.push_back(run.evaluate(argument));
@@ -577,8 +559,7 @@ std::optional<Value> Krl::function(const Expression& call, Interpreter& run) {
     Frame product;
     for (const Value& value : values) {
       const Coordinates read = coordinates(value, frame_names);
-      if (!read.unknown.known() || !read.any())
-        return unknown_value(read.unknown.known() ? value : read.unknown);
+      if (!read.unknown.known() || !read.any()) return unknown_value(read.unknown.known() ? value : read.unknown);
       product = product * frame_from(read.numbers);
     }
     return frame_value(call.text == ":" ? product : inverse(product));

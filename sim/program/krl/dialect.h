@@ -51,9 +51,10 @@ class Krl final : public Dialect {
   struct Frames {
     Frame tool, base;
     std::string tool_name, base_name;
-    bool stationary = false;  ///< $IPO_MODE is #TCP: the tool stands at $BASE, the robot carries the work object at $TOOL
-    Value unknown;            ///< cause of an unknown frame; a known value: both frames are known
-    Value base_too;           ///< cause of an unknown base, if the tool is unknown, too
+    bool stationary =
+        false;       ///< $IPO_MODE is #TCP: the tool stands at $BASE, the robot carries the work object at $TOOL
+    Value unknown;   ///< cause of an unknown frame; a known value: both frames are known
+    Value base_too;  ///< cause of an unknown base, if the tool is unknown, too
 
     bool same(const Frames& other) const;
     Frame flange(const Frame& pose) const;  ///< flange frame at a pose of the tool in the base
@@ -70,8 +71,7 @@ class Krl final : public Dialect {
   static bool keeps_orientation(const Place& place, bool unknown, Interpreter& run);
   bool stands_still(const Expression& target, Interpreter& run) const;
   bool read_via(const Expression& via, From from, const Frames& frames, Instruction& move, Interpreter& run);
-  bool read_target(const Expression& written, From from, const Frames& frames, Instruction& move,
-                   Interpreter& run);
+  bool read_target(const Expression& written, From from, const Frames& frames, Instruction& move, Interpreter& run);
   bool read_known_target(const Expression& written, From from, const Frames& frames, Instruction& move,
                          Interpreter& run);
   static std::optional<std::array<double, 6>> given_place(bool axes, Interpreter& run);
@@ -79,8 +79,7 @@ class Krl final : public Dialect {
   void ask_for_place_before(const Expression& written, bool axes, Interpreter& run);
   void ask_for_target(const Expression& written, const Value& value, Interpreter& run);
   void ask_for_part(const Expression& written, const krl::Coordinates& read, Interpreter& run);
-  bool read_external(const Expression& written, const Value& value, bool relative, Instruction& move,
-                     Interpreter& run);
+  bool read_external(const Expression& written, const Value& value, bool relative, Instruction& move, Interpreter& run);
   std::optional<std::array<double, 6>> place_before(const Frames& frames) const;
   void set_frames(const Frames& frames, Instruction& move, Interpreter& run);
   bool ask_for_frames(const Frames& frames, const Statement& statement, Interpreter& run);
@@ -114,8 +113,7 @@ class Krl final : public Dialect {
   void set_path_acceleration(const Value& percent, const Place& place, Interpreter& run);
   void use_tool(const Value& number, const Place& place, Interpreter& run);
   void use_base(const Value& number, const Place& place, Interpreter& run);
-  std::optional<Value> spline_function(const Expression& call, const std::vector<Value>& values,
-                                       Interpreter& run);
+  std::optional<Value> spline_function(const Expression& call, const std::vector<Value>& values, Interpreter& run);
   static Value state_of(const Value& name, Interpreter& run);
   std::optional<Value> arithmetic(const Expression& call, const std::vector<Value>& values);
 

@@ -37,15 +37,15 @@ Coordinates coordinates(const Value& record, const char* const (&names)[6]) {
 }
 
 Frame frame_from(const std::array<double, 6>& n) {
-  return {
-      millimetre * Vector3(n[0], n[1], n[2]),
-      rotation({0, 0, n[3] * degree}) * rotation({0, n[4] * degree, 0}) * rotation({n[5] * degree, 0, 0})};
+  return {millimetre * Vector3(n[0], n[1], n[2]),
+          rotation({0, 0, n[3] * degree}) * rotation({0, n[4] * degree, 0}) * rotation({n[5] * degree, 0, 0})};
 }
 
 std::array<double, 6> numbers_of(const Frame& frame) {
   const Matrix3 r = frame.orientation.toRotationMatrix();
   const double b = std::atan2(-r(2, 0), std::hypot(r(0, 0), r(1, 0)));
-  const bool pole = std::abs(std::cos(b)) < 1e-9;  // A and C turn about the same axis: C = 0, A takes the whole rotation
+  const bool pole =
+      std::abs(std::cos(b)) < 1e-9;  // A and C turn about the same axis: C = 0, A takes the whole rotation
   const double a = pole ? std::atan2(-r(0, 1), r(1, 1)) : std::atan2(r(1, 0), r(0, 0));
   const double c = pole ? 0 : std::atan2(r(2, 1), r(2, 2));
   const Vector3 p = frame.position / millimetre;

@@ -85,8 +85,7 @@ void Krl::ask_for_target(const Expression& written, const Value& value, Interpre
   std::vector<Question> questions;
   if (!path.empty()) questions = {{Question::Kind::value, answer, target_form}};
   if (is_unset(value)) {
-    run.miss(answer.empty() ? name : answer, written.place,
-             fmt::format("moves to {}, which has no value yet", name),
+    run.miss(answer.empty() ? name : answer, written.place, fmt::format("moves to {}, which has no value yet", name),
              fmt::format("assign it before the move, give the file that holds its value (.dat), or --value "
                          "'{}={{X ...}}'",
                          path.empty() ? "NAME" : answer),
@@ -126,17 +125,18 @@ void Krl::ask_for_place_before(const Expression& written, bool axes, Interpreter
       place_here(axes, run), written.place,
       "gives some coordinates only, from a place whose other coordinates are not known: the move before goes to axis "
       "angles or is not known",
-      run.options().flange ? "move to a pose with X, Y, Z, A, B, C before"
-                           : "move to a pose with X, Y, Z, A, B, C before, name the program in a job, whose robot of six "
-                             "axes gives them (dresslife check JOB.yaml)",
+      run.options().flange
+          ? "move to a pose with X, Y, Z, A, B, C before"
+          : "move to a pose with X, Y, Z, A, B, C before, name the program in a job, whose robot of six "
+            "axes gives them (dresslife check JOB.yaml)",
       "");
 }
 
 /// Returns an unknown position of the robot. The question includes the causes of the last move's unknown target, because
 /// the user may know these instead.
 Value Krl::place_here(bool axes, Interpreter& run) const {
-  const Value here = unknown_value(run.name_here(axes ? "$axis_act" : "$pos_act"),
-                                   "is the robot's position", form_of(axes ? "axis" : "frame"));
+  const Value here = unknown_value(run.name_here(axes ? "$axis_act" : "$pos_act"), "is the robot's position",
+                                   form_of(axes ? "axis" : "frame"));
   return lost_.cause ? unknown_value(lost_, here) : here;
 }
 
@@ -190,8 +190,7 @@ std::optional<std::array<double, 6>> moved(const Coordinates& read, Krl::From fr
 
 }  // namespace
 
-bool Krl::read_via(const Expression& via, From from, const Frames& frames, Instruction& move,
-                   Interpreter& run) {
+bool Krl::read_via(const Expression& via, From from, const Frames& frames, Instruction& move, Interpreter& run) {
   const Value value = run.evaluate(via);
   const Coordinates read = coordinates(value, frame_names);
   if (coordinates(value, axis_names).any()) {
@@ -216,8 +215,8 @@ bool Krl::read_via(const Expression& via, From from, const Frames& frames, Instr
 /// Asks for the value of a setting (#VAR, #BASE) that is unknown.
 void Krl::ask_for_kind(const Value* kind, const char* what, const Place& place, Interpreter& run) {
   if (kind && kind->kind == Value::Kind::unknown && !is_unset(*kind))
-    run.ask_for(*kind, place, fmt::format("{} that is known only while the robot runs", what),
-                "assign a constant", "a name");
+    run.ask_for(*kind, place, fmt::format("{} that is known only while the robot runs", what), "assign a constant",
+                "a name");
 }
 
 /// Whether $ORI_TYPE is #CONSTANT: the tool keeps its orientation, and the target's orientation is ignored. unknown: the
@@ -230,15 +229,11 @@ bool Krl::keeps_orientation(const Place& place, bool unknown, Interpreter& run) 
     run.note(place, "turns the tool by the wrist's axes ($ORI_TYPE #JOINT): it is turned evenly", true);
   if (kind != "#constant") return false;
   if (unknown)
-    run.note(
-        place,
-        "keeps the orientation ($ORI_TYPE #CONSTANT) of an unknown place: the target's is taken",
-        true);
+    run.note(place, "keeps the orientation ($ORI_TYPE #CONSTANT) of an unknown place: the target's is taken", true);
   return !unknown;
 }
 
-bool Krl::read_target(const Expression& written, From from, const Frames& frames, Instruction& move,
-                      Interpreter& run) {
+bool Krl::read_target(const Expression& written, From from, const Frames& frames, Instruction& move, Interpreter& run) {
   if (read_known_target(written, from, frames, move, run)) {
     lost_ = {};
     return true;
@@ -264,8 +259,7 @@ bool Krl::read_known_target(const Expression& written, From from, const Frames& 
     return false;
   }
   if (joint && move.kind != Instruction::Kind::joint) {
-    run.complain(written.place, "goes along a path to axis angles (the controller stops here)",
-                 "write a frame");
+    run.complain(written.place, "goes along a path to axis angles (the controller stops here)", "write a frame");
     return false;
   }
   if (from == From::place && !joint && (frame.numbers[4] != 0 || frame.numbers[5] != 0)) {
@@ -275,7 +269,8 @@ bool Krl::read_known_target(const Expression& written, From from, const Frames& 
   }
   constexpr double likely_metres = 1, no_move = 0.02;  // [mm]
   const double way = std::hypot(frame.numbers[0], frame.numbers[1], frame.numbers[2]);
-  if (from != From::origin && way >= no_move && way < likely_metres) run.note(written.place, fmt::format("{:.3g} mm: {}", way, tiny_move), true);
+  if (from != From::origin && way >= no_move && way < likely_metres)
+    run.note(written.place, fmt::format("{:.3g} mm: {}", way, tiny_move), true);
   const auto before = joint ? axes_ : place_before(frames);
   const Coordinates& read = joint ? axes : frame;
   auto numbers = moved(read, from, before);
@@ -324,13 +319,13 @@ bool Krl::read_axis_speed(const Statement& statement, Instruction& move, Interpr
       if (!value.is_number() || !(value.number > 0)) {
         run.ask_for(value, statement.place,
                     fmt::format("moves with {}[{}] that is not a known number above 0", list, axis + 1),
-                    value.causes().empty()
-                        ? "assign a constant"
-                        : "give the file that holds it (PDEFAULT and its like: $CONFIG.DAT)",
+                    value.causes().empty() ? "assign a constant"
+                                           : "give the file that holds it (PDEFAULT and its like: $CONFIG.DAT)",
                     "a number in %");
         return {};
       }
-      percent = std::min(percent, run.within(value.number, 0, 100, fmt::format("{}[{}]", upper_case(list), axis + 1), statement.place));
+      percent = std::min(percent, run.within(value.number, 0, 100, fmt::format("{}[{}]", upper_case(list), axis + 1),
+                                             statement.place));
     }
     return percent;
   };
@@ -354,10 +349,9 @@ bool Krl::read_path_speed(const Statement& statement, Instruction& move, Interpr
   else
     speed = run.given("$vel.cp");
   if (!speed) {
-    run.miss("$vel.cp", statement.place,
-             "moves along a path before $VEL.CP is assigned (its value lies in the controller)",
-             "assign $VEL.CP in m/s, or give --value '$VEL.CP=...'",
-             {{Question::Kind::value, "$vel.cp", "a speed in m/s"}});
+    run.miss(
+        "$vel.cp", statement.place, "moves along a path before $VEL.CP is assigned (its value lies in the controller)",
+        "assign $VEL.CP in m/s, or give --value '$VEL.CP=...'", {{Question::Kind::value, "$vel.cp", "a speed in m/s"}});
     return false;
   }
   if (!speed->is_number() || !(speed->number > 0)) {
@@ -366,20 +360,19 @@ bool Krl::read_path_speed(const Statement& statement, Instruction& move, Interpr
     return false;
   }
   move.speed.tool = speed->number;
-  if (const auto turn = setting("$vel", "ori1", run); turn && *turn > 0)
-    move.speed.orientation = *turn * degree;
+  if (const auto turn = setting("$vel", "ori1", run); turn && *turn > 0) move.speed.orientation = *turn * degree;
   const Value* accelerations = run.variable("$acc");
   const Value* path = accelerations ? accelerations->field("cp") : nullptr;
   if (path && path->kind == Value::Kind::unknown && !is_unset(*path) && path->first_cause()) {
-    run.ask_for(*path, statement.place,
-                "moves along a path at an $ACC.CP that is known only while the robot runs",
+    run.ask_for(*path, statement.place, "moves along a path at an $ACC.CP that is known only while the robot runs",
                 "assign a constant in m/s2", "an acceleration in m/s2");
     return false;
   }
   const auto acceleration = setting("$acc", "cp", run), whole = setting("def_acc_cp", "", run);
   if (acceleration && *acceleration > 0) {
     const double most = whole.value_or(standard_path_acceleration);
-    move.acceleration_percent = run.within(100 * *acceleration / most, 1, 100, fmt::format("$ACC.CP in % of {:g} m/s2", most), statement.place);
+    move.acceleration_percent =
+        run.within(100 * *acceleration / most, 1, 100, fmt::format("$ACC.CP in % of {:g} m/s2", most), statement.place);
   }
   if (const auto jerk = setting("$jerk", "cp", run); is_spline(statement) && jerk && *jerk > 0)
     move.jerk_percent = std::clamp(100 * *jerk / standard_path_jerk, 1.0, 100.0);
@@ -410,8 +403,7 @@ bool Krl::read_speed(const Statement& statement, Instruction& move, Interpreter&
 void Krl::read_zone(const Statement& statement, Instruction& move, Interpreter& run) {
   const auto known = [&](const char* field, const char* written) {
     auto number = setting("$apo", field, run);
-    if (const auto given = number ? std::nullopt : run.given(lower_case(written));
-        given && given->is_number())
+    if (const auto given = number ? std::nullopt : run.given(lower_case(written)); given && given->is_number())
       number = given->number;
     const Value part = number ? Value{} : run.evaluate(field_at("$apo", field, statement.place));
     const Cause* cause = is_unset(part) ? nullptr : part.first_cause();
@@ -420,11 +412,12 @@ void Krl::read_zone(const Statement& statement, Instruction& move, Interpreter& 
                   fmt::format("approximates by {}, which is known only while the robot runs", written),
                   "assign a constant", "a number");
     else if (!number)
-      run.note(statement.place,
-               fmt::format(
-                   "approximation by {0}: no file sets it, so that the robot stops at the target (give --value '{0}=...')",
-                   written),
-               true);
+      run.note(
+          statement.place,
+          fmt::format(
+              "approximation by {0}: no file sets it, so that the robot stops at the target (give --value '{0}=...')",
+              written),
+          true);
     return number;
   };
   if (has(statement, "in_spline") && !has(statement, "last")) {
@@ -457,8 +450,7 @@ void Krl::add_origins(const Expression& target, const Frames& frames, Instructio
   };
   const bool joint = move.kind == Instruction::Kind::joint;
   add("target", run.written(target), target);
-  if (move.tool >= 0)
-    add("tool", frames.stationary ? frames.base_name : frames.tool_name, name_at("$tool", {}));
+  if (move.tool >= 0) add("tool", frames.stationary ? frames.base_name : frames.tool_name, name_at("$tool", {}));
   if (move.work_object >= 0)
     add("work object", frames.stationary ? frames.tool_name : frames.base_name, name_at("$base", {}));
   add("speed", joint ? "$VEL_AXIS" : "$VEL.CP", name_at(joint ? "$vel_axis" : "$vel", {}));
@@ -487,13 +479,10 @@ void Krl::set_frames(const Frames& frames, Instruction& move, Interpreter& run) 
   const auto trivial = [](const Frame& f) { return f.position.isZero(0) && f.orientation.vec().isZero(0); };
   // #TCP: the tool stands at $BASE, the robot carries the work object at $TOOL.
   const bool turned = frames.stationary;
-  const NamedFrame tool{turned ? frames.base_name : frames.tool_name, turned ? frames.base : frames.tool,
-                        turned};
-  const NamedFrame object{turned ? frames.tool_name : frames.base_name, turned ? frames.tool : frames.base,
-                          turned};
+  const NamedFrame tool{turned ? frames.base_name : frames.tool_name, turned ? frames.base : frames.tool, turned};
+  const NamedFrame object{turned ? frames.tool_name : frames.base_name, turned ? frames.tool : frames.base, turned};
   if (turned || !trivial(tool.frame)) move.tool = run.frame_index(run.program().tools, tool);
-  if (turned || !trivial(object.frame))
-    move.work_object = run.frame_index(run.program().work_objects, object);
+  if (turned || !trivial(object.frame)) move.work_object = run.frame_index(run.program().work_objects, object);
 }
 
 bool Krl::ask_for_frames(const Frames& frames, const Statement& statement, Interpreter& run) {
@@ -505,17 +494,14 @@ bool Krl::ask_for_frames(const Frames& frames, const Statement& statement, Inter
 
 void Krl::ask_for_frame(const Value& unknown, const Statement& statement, Interpreter& run) {
   const Cause* cause = unknown.first_cause();
-  const bool listed =
-      cause && (cause->name.starts_with("TOOL_DATA[") || cause->name.starts_with("BASE_DATA["));
+  const bool listed = cause && (cause->name.starts_with("TOOL_DATA[") || cause->name.starts_with("BASE_DATA["));
   if (listed) {
     const bool tool = cause->name[0] == 'T';
     const auto kind = tool ? Question::Kind::tool : Question::Kind::work_object;
-    run.miss(cause->name, statement.place,
-             fmt::format("moves with {}, which no file read declares", cause->name),
-             fmt::format(
-                 "give the file that declares it ($config.dat), or --frames FILE.yaml (motion.{} in a job) "
-                 "with the name '{}'",
-                 tool ? "tools" : "work_objects", cause->name),
+    run.miss(cause->name, statement.place, fmt::format("moves with {}, which no file read declares", cause->name),
+             fmt::format("give the file that declares it ($config.dat), or --frames FILE.yaml (motion.{} in a job) "
+                         "with the name '{}'",
+                         tool ? "tools" : "work_objects", cause->name),
              {{kind, cause->name, ""}});
   } else {
     run.ask_for(unknown, statement.place, "moves with a $TOOL or $BASE that the files do not contain",
@@ -539,23 +525,20 @@ void Krl::go_round(const Statement& statement, const Expression* whole_angle,
     return run.ask_for(given, statement.place, "goes round by a CA that is known only while the robot runs",
                        "write a constant", "an angle in deg");
   if (!start)
-    return run.complain(statement.place, "goes round by CA from a place that is not known",
-                        "write a LIN before");
+    return run.complain(statement.place, "goes round by CA from a place that is not known", "write a LIN before");
 
   const Frame from = frame_from(*start), to = move.target.pose;
   const auto arc = arc_through(from.position, move.via.position, to.position);
   constexpr double taught_alike = 0.1 * degree;  // [rad] accuracy of taught points
   if (!arc || std::abs(given.number) > most_angle) {
-    run.complain(
-        statement.place,
-        arc ? "goes round by more than ten turns" : "has no circle: its points lie on a line, or two are one",
-        "correct the points");
+    run.complain(statement.place,
+                 arc ? "goes round by more than ten turns" : "has no circle: its points lie on a line, or two are one",
+                 "correct the points");
   } else if (!turning && from.orientation.angularDistance(to.orientation) > taught_alike) {
     run.complain(statement.place, "turns the tool while it goes round by CA (KUKA's law is not public)",
                  "write the end of the arc as the target, without CA");
   } else {
-    const std::vector<Frame> poses =
-        poses_along(*arc, from, whole_angle ? given.number * degree : arc->angle, turning);
+    const std::vector<Frame> poses = poses_along(*arc, from, whole_angle ? given.number * degree : arc->angle, turning);
     const MoveZone zone = move.zone;
     for (std::size_t i = 0; i + 1 < poses.size(); i += 2) {
       move.via = poses[i], move.target.pose = poses[i + 1];
@@ -639,9 +622,9 @@ void Krl::handlers_happen(long number, Interpreter& run) {
   const auto handler = handlers_.find(number);
   if (handler == handlers_.end()) return;
   const Statement& call = *handler->second.call;
-  run.forget_writes_of(call, handler->second.module,
-                       fmt::format("may be written by the interrupt {} (declared in {})", call.text,
-                                   run.short_place(call.place)));
+  run.forget_writes_of(
+      call, handler->second.module,
+      fmt::format("may be written by the interrupt {} (declared in {})", call.text, run.short_place(call.place)));
 }
 
 /// Handles an interrupt statement. Interrupts are assumed not to happen; one that stops moves gives a warning.
@@ -658,10 +641,10 @@ void Krl::interrupt(const Statement& statement, Interpreter& run) {
     handlers_happen(key, run);
     if (!brakes(code_, {*handler->second.call}, handler->second.module, 0)) return;
     braking_.insert(key);
-    run.note(statement.place,
-             fmt::format("an interrupt that may stop a move ({}): it is taken not to happen",
-                         handler->second.call->text),
-             true);
+    run.note(
+        statement.place,
+        fmt::format("an interrupt that may stop a move ({}): it is taken not to happen", handler->second.call->text),
+        true);
   }
 }
 
@@ -669,8 +652,7 @@ void Krl::interrupt(const Statement& statement, Interpreter& run) {
 bool Krl::move(Instruction::Kind kind, const Statement& statement, Interpreter& run) {
   std::map<std::string, std::pair<Value, Place>> before;
   const auto keep = [&](const std::string& name) {
-    if (const Value* value = run.variable(name))
-      before.emplace(name, std::pair(*value, run.origin(name_at(name, {}))));
+    if (const Value* value = run.variable(name)) before.emplace(name, std::pair(*value, run.origin(name_at(name, {}))));
   };
   for (const Branch& settings : statement.branches)
     for (const Statement& s : settings.body) {
@@ -695,8 +677,7 @@ bool Krl::wait(const Statement& statement, Interpreter& run) {
     run.ask_for(time, statement.place, "waits for a time that is known only while the robot runs",
                 "write it as a constant", "a time in s");
   } else if (statement.continued && !run.program().instructions.empty()) {
-    run.note(statement.place,
-             "CONTINUE: the time passes while the robot moves, and is not added to the motion", true);
+    run.note(statement.place, "CONTINUE: the time passes while the robot moves, and is not added to the motion", true);
   } else if (time.number > 0) {  // the controller does not wait for 0 and less
     Instruction wait;
     wait.kind = Instruction::Kind::dwell;
@@ -727,22 +708,20 @@ void Krl::wait_for_robot(const Statement& statement, Interpreter& run) {
     before->zone = {};
     return;
   }
-  run.note(
-      statement.place,
-      fmt::format(
-          "'{}' is declared in no file read: if it is a SIGNAL, the robot stops at the target before, where its "
-          "blend is taken; give the $config.dat that declares it",
-          statement.arguments[0].text),
-      true);
+  run.note(statement.place,
+           fmt::format(
+               "'{}' is declared in no file read: if it is a SIGNAL, the robot stops at the target before, where its "
+               "blend is taken; give the $config.dat that declares it",
+               statement.arguments[0].text),
+           true);
 }
 
 void Krl::may_have_run(const Statement& statement, const Cause& why, Interpreter& run) {
   if (statement.name == advance_stop && !why.line.empty() && blending(run))
-    run.note(
-        statement.place,
-        fmt::format("the robot stops at the target before if the branch in {} leads here: its blend is taken",
-                    why.line),
-        true);
+    run.note(statement.place,
+             fmt::format("the robot stops at the target before if the branch in {} leads here: its blend is taken",
+                         why.line),
+             true);
 }
 
 bool Krl::instruction(const Statement& statement, Interpreter& run) {
@@ -796,8 +775,7 @@ namespace {
 /// Removes the external axes if all their positions are 0, because KUKA writes 0 for missing axes.
 void leave_out_unused_axes(Program& program) {
   const auto unused = [](const Instruction& i) {
-    return std::all_of(i.target.external_axes.begin(), i.target.external_axes.end(),
-                       [](double e) { return e == 0; });
+    return std::all_of(i.target.external_axes.begin(), i.target.external_axes.end(), [](double e) { return e == 0; });
   };
   if (std::all_of(program.instructions.begin(), program.instructions.end(), unused))
     for (Instruction& instruction : program.instructions) instruction.target.external_axes.clear();
@@ -836,9 +814,9 @@ void run_krl(const Code& code, const ImportOptions& options, const std::vector<N
       problems.add({code.files.empty() ? "" : code.files[0].name(), 1, 1}, "holds no DEF",
                    "name the .src file that holds the program, or write DEF NAME() .. END");
     else
-      problems.add({code.files.empty() ? "" : code.files[0].name(), 1, 1},
-                   fmt::format("has no routine '{}'", options.routine),
-                   names.empty() ? "give the .src file too" : fmt::format("name one of: {}", pipeline::joined(names, ", ")));
+      problems.add(
+          {code.files.empty() ? "" : code.files[0].name(), 1, 1}, fmt::format("has no routine '{}'", options.routine),
+          names.empty() ? "give the .src file too" : fmt::format("name one of: {}", pipeline::joined(names, ", ")));
     return;
   }
   explore(

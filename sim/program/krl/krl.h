@@ -38,6 +38,6 @@ void run_krl(const Code& code, const ImportOptions& options, const std::vector<N
 /// Returns the KRL program among `files` of `folder`. routine: the requested routine; empty: none. Errors: InputError that
 /// names the choices if there are several programs.
 Backup krl_backup(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& files,
-                 const std::string& routine);
+                  const std::string& routine);
 
 }  // namespace dresslife::sim

@@ -13,14 +13,13 @@ using Kind = Statement::Kind;
 
 constexpr const char* moves[] = {"ptp",  "lin",   "circ", "ptp_rel",  "lin_rel",  "circ_rel", "sptp",
                                  "slin", "scirc", "spl",  "sptp_rel", "slin_rel", "spl_rel",  "scirc_rel"};
-constexpr const char* ends[] = {"end",      "endfct",    "enddat",    "endif", "endfor",
-                                "endwhile", "endloop",   "else",      "case",  "default",
-                                "until",    "endswitch", "endspline", "def",   "deffct"};
+constexpr const char* ends[] = {"end",  "endfct",  "enddat", "endif",     "endfor",    "endwhile", "endloop", "else",
+                                "case", "default", "until",  "endswitch", "endspline", "def",      "deffct"};
 
 /// First words of statements without effect on the motion.
-constexpr const char* left_out_words[] = {
-    "enum",  "ext",    "extfct", "extp",       "extfctp",   "channel", "anin",    "anout",   "pulse",
-    "brake", "resume", "halt",   "time_block", "const_vel", "asyptp",  "asycont", "asystop", "asycancel"};
+constexpr const char* left_out_words[] = {"enum",       "ext",       "extfct", "extp",    "extfctp", "channel",
+                                          "anin",       "anout",     "pulse",  "brake",   "resume",  "halt",
+                                          "time_block", "const_vel", "asyptp", "asycont", "asystop", "asycancel"};
 /// System variables that the controller changes: an assigned value is not kept.
 constexpr const char* living_names[] = {"$timer", "$timer_flag", "$cycflag", "$in", "$anin", "$err"};
 
@@ -50,11 +49,11 @@ class KrlParser : StatementParser {
 
  private:
   int module_ = -1;
-  bool shared_ = false;     ///< the file is a data list of the system; its names are visible to all modules
-  bool global_ = false;     ///< the current declaration has GLOBAL
-  bool constant_ = false;   ///< the current declaration has CONST
-  bool first_ = true;       ///< no routine of this file was read; the first routine is visible to all modules
-  int continued_ = 0;       ///< line of the last CONTINUE
+  bool shared_ = false;    ///< the file is a data list of the system; its names are visible to all modules
+  bool global_ = false;    ///< the current declaration has GLOBAL
+  bool constant_ = false;  ///< the current declaration has CONST
+  bool first_ = true;      ///< no routine of this file was read; the first routine is visible to all modules
+  int continued_ = 0;      ///< line of the last CONTINUE
 
   /// Returns the module of the file. A program and the data list of its name are one module. If several files have
   /// the name, those in the same folder belong together.
@@ -91,8 +90,7 @@ class KrlParser : StatementParser {
   }
 
   void need_line_end() {
-    if (!line_done())
-      at_.fail(fmt::format("has {} behind the end of the statement", at_.seen()), "correct the line");
+    if (!line_done()) at_.fail(fmt::format("has {} behind the end of the statement", at_.seen()), "correct the line");
     skip_line_ends();
   }
 
@@ -150,11 +148,8 @@ class KrlParser : StatementParser {
   }
 
   void skip_to_end_of_routine(const char* end) {
-    const auto next_begins = [&] {
-      return at_.at_word("def") || at_.at_word("deffct") || at_.at_word("global");
-    };
-    while (!at_.at_end() && !next_begins() &&
-           !(at_.at_word(end) && at_.peek(1).kind == Token::Kind::line_end))
+    const auto next_begins = [&] { return at_.at_word("def") || at_.at_word("deffct") || at_.at_word("global"); };
+    while (!at_.at_end() && !next_begins() && !(at_.at_word(end) && at_.peek(1).kind == Token::Kind::line_end))
       at_.next();
   }
 
@@ -212,8 +207,7 @@ class KrlParser : StatementParser {
         at_.next();
       }
       if (at_.at_word("enum")) return skip_line();
-      if (!at_.at_word("struc") && !at_.at_word("signal") && !at_.at_word("interrupt"))
-        return declaration(into);
+      if (!at_.at_word("struc") && !at_.at_word("signal") && !at_.at_word("interrupt")) return declaration(into);
     }
     if (at_.take_word("struc")) return structure();
     if (at_.at_word("signal") || at_.at_word("import")) return signal(into);
@@ -266,8 +260,8 @@ class KrlParser : StatementParser {
   /// Whether the line contains one of present_words. Declarations, TRIGGER and INTERRUPT lines do not count.
   bool waits_for_robot() const {
     if (at_any({"trigger", "interrupt", "global", "decl", "const", "signal", "ext", "extfct"})) return false;
-    for (int ahead = 0;
-         at_.peek(ahead).kind != Token::Kind::line_end && at_.peek(ahead).kind != Token::Kind::end; ++ahead)
+    for (int ahead = 0; at_.peek(ahead).kind != Token::Kind::line_end && at_.peek(ahead).kind != Token::Kind::end;
+         ++ahead)
       if (at_.peek(ahead).kind == Token::Kind::word &&
           std::find(std::begin(present_words), std::end(present_words), lower_case(at_.peek(ahead).text)) !=
               std::end(present_words))
@@ -275,9 +269,7 @@ class KrlParser : StatementParser {
     return false;
   }
 
-  bool is_move() const {
-    return at_any({std::begin(moves), std::end(moves)});
-  }
+  bool is_move() const { return at_any({std::begin(moves), std::end(moves)}); }
 
   void left_out(Statement& s, std::vector<Statement>& into) {
     s.name = lower_case(at_.peek().text);
@@ -377,9 +369,7 @@ class KrlParser : StatementParser {
   void if_statement(Statement& s) {
     condition(s);
     at_.need_word("then");
-    arms(s, "endif", "", [&](bool otherwise) {
-      return otherwise ? body({"endif"}) : body({"endif", "else"});
-    });
+    arms(s, "endif", "", [&](bool otherwise) { return otherwise ? body({"endif"}) : body({"endif", "else"}); });
   }
 
   void for_statement(Statement& s) {
@@ -504,39 +494,38 @@ class KrlParser : StatementParser {
 
 void add_krl_types(Code& code) {
   // Structures and system variables of every controller, for positions and settings.
-  code.files.emplace_back(
-      "$krl.dat",
-      "DEFDAT $KRL\n"
-      "STRUC FRAME REAL X,Y,Z,A,B,C\n"
-      "STRUC POS REAL X,Y,Z,A,B,C,INT S,T\n"
-      "STRUC E3POS REAL X,Y,Z,A,B,C,INT S,T,REAL E1,E2,E3\n"
-      "STRUC E6POS REAL X,Y,Z,A,B,C,INT S,T,REAL E1,E2,E3,E4,E5,E6\n"
-      "STRUC AXIS REAL A1,A2,A3,A4,A5,A6\n"
-      "STRUC E3AXIS REAL A1,A2,A3,A4,A5,A6,E1,E2,E3\n"
-      "STRUC E6AXIS REAL A1,A2,A3,A4,A5,A6,E1,E2,E3,E4,E5,E6\n"
-      "STRUC CP REAL CP,ORI1,ORI2\n"
-      "STRUC CONT REAL CPTP,CDIS,CORI,CVEL\n"
-      "STRUC INERTIA REAL X,Y,Z\n"
-      "STRUC LOAD REAL M,FRAME CM,INERTIA J\n"
-      "STRUC FDAT INT TOOL_NO,BASE_NO,IPO_MODE IPO_FRAME,CHAR POINT2[24]\n"
-      "STRUC PDAT REAL VEL,ACC,APO_DIST,APO_MODE_T APO_MODE,REAL GEAR_JERK\n"
-      "STRUC LDAT REAL VEL,ACC,APO_DIST,APO_FAC,AXIS_VEL,AXIS_ACC,ORI_TYPE ORI_TYP,CIRC_TYPE "
-      "CIRC_TYP,REAL JERK_FAC\n"
-      "STRUC JERK_STRUC REAL CP,ORI\n"
-      "CP $VEL,$ACC\n"
-      "CONT $APO\n"
-      "REAL $VEL_AXIS[12],$ACC_AXIS[12],$GEAR_JERK[12]\n"
-      "JERK_STRUC $JERK\n"
-      "FRAME $TOOL,$BASE,$ROBROOT\n"
-      "LOAD $LOAD\n"
-      "IPO_MODE $IPO_MODE\n"
-      "ORI_TYPE $ORI_TYPE\n"
-      "CIRC_TYPE $CIRC_TYPE\n"
-      "INT $ACT_TOOL,$ACT_BASE,$OV_PRO,$ADVANCE\n"
-      "FDAT FDAT_ACT\n"
-      "PDAT PDAT_ACT\n"
-      "LDAT LDAT_ACT\n"
-      "ENDDAT\n");
+  code.files.emplace_back("$krl.dat",
+                          "DEFDAT $KRL\n"
+                          "STRUC FRAME REAL X,Y,Z,A,B,C\n"
+                          "STRUC POS REAL X,Y,Z,A,B,C,INT S,T\n"
+                          "STRUC E3POS REAL X,Y,Z,A,B,C,INT S,T,REAL E1,E2,E3\n"
+                          "STRUC E6POS REAL X,Y,Z,A,B,C,INT S,T,REAL E1,E2,E3,E4,E5,E6\n"
+                          "STRUC AXIS REAL A1,A2,A3,A4,A5,A6\n"
+                          "STRUC E3AXIS REAL A1,A2,A3,A4,A5,A6,E1,E2,E3\n"
+                          "STRUC E6AXIS REAL A1,A2,A3,A4,A5,A6,E1,E2,E3,E4,E5,E6\n"
+                          "STRUC CP REAL CP,ORI1,ORI2\n"
+                          "STRUC CONT REAL CPTP,CDIS,CORI,CVEL\n"
+                          "STRUC INERTIA REAL X,Y,Z\n"
+                          "STRUC LOAD REAL M,FRAME CM,INERTIA J\n"
+                          "STRUC FDAT INT TOOL_NO,BASE_NO,IPO_MODE IPO_FRAME,CHAR POINT2[24]\n"
+                          "STRUC PDAT REAL VEL,ACC,APO_DIST,APO_MODE_T APO_MODE,REAL GEAR_JERK\n"
+                          "STRUC LDAT REAL VEL,ACC,APO_DIST,APO_FAC,AXIS_VEL,AXIS_ACC,ORI_TYPE ORI_TYP,CIRC_TYPE "
+                          "CIRC_TYP,REAL JERK_FAC\n"
+                          "STRUC JERK_STRUC REAL CP,ORI\n"
+                          "CP $VEL,$ACC\n"
+                          "CONT $APO\n"
+                          "REAL $VEL_AXIS[12],$ACC_AXIS[12],$GEAR_JERK[12]\n"
+                          "JERK_STRUC $JERK\n"
+                          "FRAME $TOOL,$BASE,$ROBROOT\n"
+                          "LOAD $LOAD\n"
+                          "IPO_MODE $IPO_MODE\n"
+                          "ORI_TYPE $ORI_TYPE\n"
+                          "CIRC_TYPE $CIRC_TYPE\n"
+                          "INT $ACT_TOOL,$ACT_BASE,$OV_PRO,$ADVANCE\n"
+                          "FDAT FDAT_ACT\n"
+                          "PDAT PDAT_ACT\n"
+                          "LDAT LDAT_ACT\n"
+                          "ENDDAT\n");
 }
 
 namespace {
@@ -558,8 +547,7 @@ void note_what_is_submitted(Code& code, int file, const std::vector<Token>& toke
     std::size_t at = begin + 1;  // after the target's index and components
     while (at < end && tokens[at].text != "=" && tokens[at].text != "(") ++at;
     const bool assigns = at < end && tokens[at].text == "=" && tokens[begin].kind == Token::Kind::word;
-    const bool part =
-        assigns && (at == begin + 1 || tokens[begin + 1].text == "[" || tokens[begin + 1].text == ".");
+    const bool part = assigns && (at == begin + 1 || tokens[begin + 1].text == "[" || tokens[begin + 1].text == ".");
     if (part && !first.starts_with("$")) written.insert(first);
   }
   for (const std::string& target : written)
@@ -573,8 +561,7 @@ void parse_krl(Code& code, int file, Problems& problems) {
   const std::string stem = lower_case(path.stem().string());
   if (stem == "bas" || stem == "p00") return;  // basics.cpp implements them
   const std::vector<Token> tokens = tokens_of(code.files[file], {';', "$#", true, true}, problems);
-  if (file > 0 && lower_case(path.extension().string()) == ".sub")
-    return note_what_is_submitted(code, file, tokens);
+  if (file > 0 && lower_case(path.extension().string()) == ".sub") return note_what_is_submitted(code, file, tokens);
   KrlParser(code, file, tokens, problems).run();
 }
 

@@ -36,9 +36,9 @@ void add_curve(const std::vector<Frame>& points, std::size_t k, const Instructio
     Instruction part = target;
     if (step < steps) {
       part.zone = {0, 100};
-      part.target.pose = {v * v * (1 + 2 * u) * from.position + u * u * (1 + 2 * v) * to.position +
-                              u * v * (v * begin - u * finish),
-                          from.orientation.slerp(u, to.orientation)};
+      part.target.pose = {
+          v * v * (1 + 2 * u) * from.position + u * u * (1 + 2 * v) * to.position + u * v * (v * begin - u * finish),
+          from.orientation.slerp(u, to.orientation)};
     }
     bent.push_back(std::move(part));
   }
@@ -46,8 +46,8 @@ void add_curve(const std::vector<Frame>& points, std::size_t k, const Instructio
 
 /// Whether the poses of two moves have the same tool and work object.
 bool same_frames(const Instruction& a, const Instruction& b) {
-  return a.kind != Instruction::Kind::dwell && a.target.joints.empty() && b.target.joints.empty() &&
-         a.tool == b.tool && a.work_object == b.work_object;
+  return a.kind != Instruction::Kind::dwell && a.target.joints.empty() && b.target.joints.empty() && a.tool == b.tool &&
+         a.work_object == b.work_object;
 }
 
 }  // namespace
@@ -57,9 +57,7 @@ void bend_splines(const std::set<std::size_t>& spline_points, Program& program) 
   std::vector<Instruction> bent;
   for (std::size_t i = 0; i < moves.size();) {
     std::size_t end = i;  // end of the SPL points with the frames of the move before them
-    while (i > 0 && end < moves.size() && spline_points.contains(end) &&
-           same_frames(moves[i - 1], moves[end]))
-      ++end;
+    while (i > 0 && end < moves.size() && spline_points.contains(end) && same_frames(moves[i - 1], moves[end])) ++end;
     if (end == i) {
       bent.push_back(moves[i++]);
       continue;

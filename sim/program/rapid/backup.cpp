@@ -16,9 +16,7 @@ namespace fs = std::filesystem;
 
 std::string extension_of(const fs::path& file) { return lower_case(file.extension().string()); }
 std::string name_of(const fs::path& file) { return lower_case(file.filename().string()); }
-bool is_module(const fs::path& file) {
-  return extension_of(file) != ".pgf" && name_of(file) != "backinfo.txt";
-}
+bool is_module(const fs::path& file) { return extension_of(file) != ".pgf" && name_of(file) != "backinfo.txt"; }
 
 /// Returns the folder of a file's task, "…/RAPID/TASK1"; empty: the file is not in such a folder.
 fs::path task_of(const fs::path& file) {
@@ -52,8 +50,7 @@ std::vector<fs::path> listed(const fs::path& list, const std::vector<fs::path>& 
   const std::string text = pipeline::read_text(list);
   const std::string lower = lower_case(text);
   std::vector<fs::path> modules;
-  for (std::size_t at = lower.find("<module>"); at != std::string::npos;
-       at = lower.find("<module>", at + 1)) {
+  for (std::size_t at = lower.find("<module>"); at != std::string::npos; at = lower.find("<module>", at + 1)) {
     const std::size_t begin = at + 8, end = lower.find('<', begin);
     if (end == std::string::npos) break;
     std::string name = lower.substr(begin, end - begin);
@@ -94,8 +91,7 @@ void add_task(const fs::path& task, const std::vector<fs::path>& files, Backup& 
   std::vector<std::string> named;
   std::vector<fs::path> own;
   for (const fs::path& file : files)
-    if (name_of(file) == "backinfo.txt" &&
-        file.parent_path().parent_path() == task.parent_path().parent_path())
+    if (name_of(file) == "backinfo.txt" && file.parent_path().parent_path() == task.parent_path().parent_path())
       named = contents_of(file, task.filename().string());
   for (const fs::path& file : files) {
     if (!is_module(file) || task_of(file) != task) continue;
@@ -118,12 +114,9 @@ Shared shared_of(const fs::path& module) {
   const SourceFile source(module.string(), decoded_text(pipeline::read_text(module)));
   Problems ignored;  // the parser reports them
   const std::vector<Token> tokens = tokens_of(source, {'!', "", false, false}, ignored);
-  const auto word = [&](std::size_t i) {
-    return i < tokens.size() ? lower_case(tokens[i].text) : std::string();
-  };
+  const auto word = [&](std::size_t i) { return i < tokens.size() ? lower_case(tokens[i].text) : std::string(); };
   for (std::size_t i = 1; i < tokens.size(); ++i) {
-    if (word(i) == "pers" && word(i - 1) != "local" && word(i - 1) != "task")
-      shared.persistent.insert(word(i + 2));
+    if (word(i) == "pers" && word(i - 1) != "local" && word(i - 1) != "task") shared.persistent.insert(word(i + 2));
     if (tokens[i].text != ":=") continue;
     std::size_t at = i - 1;  // goes back over {index} and .component to the variable
     while (at > 0 && tokens[at].text == "}") {
@@ -144,8 +137,7 @@ void add_what_others_write(const fs::path& task, const std::vector<fs::path>& fi
   for (const fs::path& file : backup.files) own.merge(shared_of(file).persistent);
   for (const fs::path& file : files) {
     const fs::path other = task_of(file);
-    if (!is_module(file) || other.empty() || other == task || other.parent_path() != task.parent_path())
-      continue;
+    if (!is_module(file) || other.empty() || other == task || other.parent_path() != task.parent_path()) continue;
     const Shared shared = shared_of(file);
     for (const std::string& name : shared.assigned)
       if (own.contains(name) && shared.persistent.contains(name))
@@ -211,8 +203,7 @@ Backup rapid_backup(const fs::path& folder, const std::vector<fs::path>& files, 
   }
   if (lists.size() > 1) keep_nearest(folder, lists);
   if (lists.size() > 1)
-    throw pipeline::InputError({folder.string()}, "holds several lists of modules",
-                               "name one: " + names_of(lists));
+    throw pipeline::InputError({folder.string()}, "holds several lists of modules", "name one: " + names_of(lists));
   if (!lists.empty()) backup.files = listed(*lists.begin(), files);
   for (const fs::path& file : files)
     if (is_module(file) && (lists.empty() || extension_of(file).starts_with(".sys")) &&

@@ -70,18 +70,17 @@ class Rapid final : public Dialect {
   Value offset(const Expression& call, bool in_tool, Interpreter& run);
   /// Returns the orientation as a unit quaternion. Another norm is a problem of `written`, and the quaternion is
   /// normalised. std::nullopt: the quaternion is 0.
-  std::optional<Quaternion> checked(const Value& orient, const char* what, const Expression& written,
-                                    Interpreter& run);
+  std::optional<Quaternion> checked(const Value& orient, const char* what, const Expression& written, Interpreter& run);
   Value text_to_value(const Expression& call, Interpreter& run);
 
   const Code& code_;
   const std::vector<NamedFrame>& tools_;
   const std::vector<NamedFrame>& work_objects_;
   double acceleration_percent_ = 100, jerk_percent_ = 100;
-  double speed_factor_ = 1, speed_limit_ = INFINITY;  // VelSet; limit [m/s]
-  double override_ = 1;                               // SpeedRefresh
-  Frame displacement_;                                // PDispSet and PDispOn
-  std::vector<double> external_shift_;                // EOffsSet and EOffsOn [mm or deg]
+  double speed_factor_ = 1, speed_limit_ = INFINITY;                          // VelSet; limit [m/s]
+  double override_ = 1;                                                       // SpeedRefresh
+  Frame displacement_;                                                        // PDispSet and PDispOn
+  std::vector<double> external_shift_;                                        // EOffsSet and EOffsOn [mm or deg]
   bool configuration_of_paths_ = true, configuration_of_joint_moves_ = true;  // ConfL, ConfJ
 
   /// The target of the last move.

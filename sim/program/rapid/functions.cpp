@@ -78,8 +78,7 @@ std::optional<Value> of_two_numbers(const std::string& name, double a, double b)
     return of_two_bytes(name, static_cast<unsigned>(a), static_cast<unsigned>(b));
   if (name == "max") return number_value(std::max(a, b));
   if (name == "min") return number_value(std::min(a, b));
-  if (name == "numtostr")
-    return text_value(fmt::format("{:.{}f}", a, static_cast<int>(std::clamp(b, 0.0, 15.0))));
+  if (name == "numtostr") return text_value(fmt::format("{:.{}f}", a, static_cast<int>(std::clamp(b, 0.0, 15.0))));
   return {};
 }
 
@@ -143,8 +142,7 @@ std::optional<Frame> frame_of_points(const Vector3& p1, const Vector3& p2, const
   return Frame{p1, Quaternion(r)};
 }
 
-std::optional<Value> of_poses(const Code& code, const std::string& name,
-                              const std::vector<RapidArgument>& arguments) {
+std::optional<Value> of_poses(const Code& code, const std::string& name, const std::vector<RapidArgument>& arguments) {
   std::vector<Value> v;
   for (const RapidArgument& argument : arguments)
     if (argument.option.empty()) v.push_back(argument.value);
@@ -178,8 +176,7 @@ std::optional<Value> of_poses(const Code& code, const std::string& name,
   if (name == "distance" || name == "dotprod") {
     const auto a = pos(0), b = pos(1);
     if (!a || !b) return Value{};
-    return name == "distance" ? finite((*a - *b).norm() / millimetre)
-                              : finite(a->dot(*b) / (millimetre * millimetre));
+    return name == "distance" ? finite((*a - *b).norm() / millimetre) : finite(a->dot(*b) / (millimetre * millimetre));
   }
   if (name == "vectmagn") {
     const auto a = pos(0);
@@ -215,7 +212,9 @@ std::optional<Value> of_poses(const Code& code, const std::string& name,
 
 }  // namespace
 
-Vector3 rapid_position(const Value& pos) { return millimetre * Vector3(item_number(pos, 0), item_number(pos, 1), item_number(pos, 2)); }
+Vector3 rapid_position(const Value& pos) {
+  return millimetre * Vector3(item_number(pos, 0), item_number(pos, 1), item_number(pos, 2));
+}
 
 std::optional<Quaternion> rapid_orientation(const Value& orient) {
   const Quaternion q(item_number(orient, 0), item_number(orient, 1), item_number(orient, 2), item_number(orient, 3));

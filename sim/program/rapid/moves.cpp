@@ -16,9 +16,11 @@ constexpr double no_axis = 9e8;  // larger values (9E9) mean: no such axis
 /// Returns the remedy for an undeclared name in the style of predefined data (v15000, z500); empty: another name.
 std::string predefined(const std::string& type, const std::string& name) {
   const bool speed = type == "speeddata";
-  if ((!speed && type != "zonedata") || name.size() < 2 || name[0] != (speed ? 'v' : 'z') || name.find_first_not_of("0123456789", 1) != name.npos)
+  if ((!speed && type != "zonedata") || name.size() < 2 || name[0] != (speed ? 'v' : 'z') ||
+      name.find_first_not_of("0123456789", 1) != name.npos)
     return "";
-  return speed ? "write one of RAPID's own speeds, v5 .. v7000 and vmax, or " : "write one of RAPID's own zones, z0 .. z200 and fine, or ";
+  return speed ? "write one of RAPID's own speeds, v5 .. v7000 and vmax, or "
+               : "write one of RAPID's own zones, z0 .. z200 and fine, or ";
 }
 
 constexpr auto J = Instruction::Kind::joint;
@@ -88,8 +90,7 @@ const Signature* rapid_move(const std::string& instruction) {
   return nullptr;
 }
 
-std::optional<Value> Rapid::typed(const Expression& written, const char* type, const char* what,
-                                  Interpreter& run) {
+std::optional<Value> Rapid::typed(const Expression& written, const char* type, const char* what, Interpreter& run) {
   const std::size_t problems = run.problem_count();
   Value value = run.answered(written);
   if (!value.known() && run.problem_count() != problems) return {};  // the cause is reported already
@@ -134,13 +135,11 @@ std::optional<Quaternion> Rapid::checked(const Value& orient, const char* what, 
   const std::string name = run.name_of(written);
   run.miss(
       "quaternion of " + (name.empty() ? run.short_place(written.place) : name), written.place,
-      fmt::format(
-          "has {}{} whose quaternion [{:.6g},{:.6g},{:.6g},{:.6g}] has the length {:.5g} (must be 1){}", what,
-          name.empty() ? "" : fmt::format(" '{}'", name), q.w(), q.x(), q.y(), q.z(), q.norm(),
-          declared.line > 0 ? fmt::format(" in {}", run.short_place(declared)) : ""),
-      fmt::format(
-          "write [{:.6f},{:.6f},{:.6f},{:.6f}] for the same direction, or correct the number that is mistyped",
-          unit.w(), unit.x(), unit.y(), unit.z()));
+      fmt::format("has {}{} whose quaternion [{:.6g},{:.6g},{:.6g},{:.6g}] has the length {:.5g} (must be 1){}", what,
+                  name.empty() ? "" : fmt::format(" '{}'", name), q.w(), q.x(), q.y(), q.z(), q.norm(),
+                  declared.line > 0 ? fmt::format(" in {}", run.short_place(declared)) : ""),
+      fmt::format("write [{:.6f},{:.6f},{:.6f},{:.6f}] for the same direction, or correct the number that is mistyped",
+                  unit.w(), unit.x(), unit.y(), unit.z()));
   return unit;
 }
 
@@ -166,10 +165,9 @@ bool Rapid::read_target(const Expression& written, bool joints, Instruction& mov
     // A target that the program itself has set to zeros is not a question: the controller stops here.
     const std::string path = unset && !run.was_assigned(written) ? run.answer_name(run.path_of(written)) : "";
     if (path.empty())
-      run.complain(
-          written.place,
-          unset ? "has a target that the program set to zeros" : "has a target whose quaternion is [0,0,0,0]",
-          "give its orientation");
+      run.complain(written.place,
+                   unset ? "has a target that the program set to zeros" : "has a target whose quaternion is [0,0,0,0]",
+                   "give its orientation");
     else
       run.miss(path, written.place, "has a target that was never given a value (all of it is 0)",
                fmt::format("give it one, in the program or with --value '{}=...'", path),
@@ -177,8 +175,7 @@ bool Rapid::read_target(const Expression& written, bool joints, Instruction& mov
     return false;
   }
   move.target.pose = displacement_ * Frame{rapid_position(value->items[0]), *q};
-  const bool checked =
-      move.kind == Instruction::Kind::joint ? configuration_of_joint_moves_ : configuration_of_paths_;
+  const bool checked = move.kind == Instruction::Kind::joint ? configuration_of_joint_moves_ : configuration_of_paths_;
   if (checked) {
     move.target.configuration.kind = ArmConfiguration::Kind::abb;
     for (const Value& number : value->items[2].items)
@@ -219,8 +216,7 @@ void Rapid::read_weld_speed(const Statement& statement, Instruction& move, Inter
     if (!argument.option.empty()) continue;
     const Value value = run.evaluate(argument);
     // welddata is a list of the speed and three more parts; seamdata begins with times, a zone has a type.
-    if (value.kind != Value::Kind::list || value.type || value.items.size() < 2 ||
-        !value.items[0].is_number())
+    if (value.kind != Value::Kind::list || value.type || value.items.size() < 2 || !value.items[0].is_number())
       continue;
     if (value.items[0].number > 0) {
       move.speed.tool = value.items[0].number * millimetre * override_;
@@ -278,10 +274,9 @@ std::optional<NamedFrame> Rapid::work_object_of(const Expression& written, Inter
                          run.written(written)),
              true);
   const std::string name = run.name_of(written);
-  return NamedFrame{
-      name.empty() ? "work object" : name,
-      Frame{rapid_position(user.items[0]), *user_turn} * Frame{rapid_position(object.items[0]), *turn},
-      value->items[0].number != 0};
+  return NamedFrame{name.empty() ? "work object" : name,
+                    Frame{rapid_position(user.items[0]), *user_turn} * Frame{rapid_position(object.items[0]), *turn},
+                    value->items[0].number != 0};
 }
 
 bool Rapid::read_work_object(const Expression& written, Instruction& move, Interpreter& run) {
@@ -304,13 +299,15 @@ bool Rapid::read_options(const Statement& statement, Instruction& move, Interpre
     const double number = given.is_number() ? given.number : -1;
     if (!(number >= 0) || (number == 0 && option != "z")) {
       run.ask_for(given, argument.place, fmt::format("has no number above 0 after \\{}", option),
-                  "write it as a constant", option == "t" ? "a time in s" : option == "v" ? "mm/s" : "mm");
+                  "write it as a constant",
+                  option == "t"   ? "a time in s"
+                  : option == "v" ? "mm/s"
+                                  : "mm");
       whole = false;
       continue;
     }
     if (option == "t") move.speed.duration = number;
-    if (option == "v")
-      move.speed.tool = std::min(number * millimetre * speed_factor_ * override_, speed_limit_);
+    if (option == "v") move.speed.tool = std::min(number * millimetre * speed_factor_ * override_, speed_limit_);
     if (option == "z") move.zone.distance = number * millimetre;
   }
   return whole;
@@ -335,9 +332,7 @@ bool Rapid::move(const Signature& signature, const Statement& statement, Interpr
   for (const Expression& argument : statement.arguments)
     if (argument.option.empty() && argument.kind != Expression::Kind::none) given.push_back(&argument);
   const int count = static_cast<int>(given.size());
-  const auto index = [&](int written) {
-    return written == -2 ? count - 1 : written == -3 ? count - 2 : written;
-  };
+  const auto index = [&](int written) { return written == -2 ? count - 1 : written == -3 ? count - 2 : written; };
   const int zone = index(signature.zone), tool = index(signature.tool);
   if (std::max({signature.target, signature.speed, zone, tool}) >= count || tool <= signature.speed) {
     run.complain(statement.place, fmt::format("gives {} {} arguments, too few", statement.text, count),
@@ -385,22 +380,19 @@ bool Rapid::move(const Signature& signature, const Statement& statement, Interpr
 
 /// Returns the last target as a robtarget of another tool and work object (null: those of the last move), in the
 /// current displacement. std::nullopt: the last move went to axis angles, no move yet, or a frame is not known.
-std::optional<Value> Rapid::position_with(const Expression* tool, const Expression* work_object,
-                                          Interpreter& run) {
+std::optional<Value> Rapid::position_with(const Expression* tool, const Expression* work_object, Interpreter& run) {
   if (!reached_ || reached_->by_joints) return {};
   const auto new_tool = tool ? tool_of(*tool, run) : std::optional(reached_->tool);
-  const auto new_object =
-      work_object ? work_object_of(*work_object, run) : std::optional(reached_->work_object);
+  const auto new_object = work_object ? work_object_of(*work_object, run) : std::optional(reached_->work_object);
   const auto q = rapid_orientation(reached_->target.items[1]);
   if (!new_tool || !new_object || !q) return {};
-  const bool standing = reached_->tool.stationary || reached_->work_object.stationary ||
-                        new_tool->stationary || new_object->stationary;
+  const bool standing =
+      reached_->tool.stationary || reached_->work_object.stationary || new_tool->stationary || new_object->stationary;
   if (standing && (tool || work_object)) return {};
   const Frame written{rapid_position(reached_->target.items[0]), *q};
-  const Frame seen = standing
-                         ? reached_->displacement * written
-                         : inverse(new_object->frame) * reached_->work_object.frame * reached_->displacement *
-                               written * inverse(reached_->tool.frame) * new_tool->frame;
+  const Frame seen = standing ? reached_->displacement * written
+                              : inverse(new_object->frame) * reached_->work_object.frame * reached_->displacement *
+                                    written * inverse(reached_->tool.frame) * new_tool->frame;
   const Frame target = inverse(displacement_) * seen;
   Value value = reached_->target;
   value.items[0] = rapid_pos(code_, target.position);
@@ -420,13 +412,15 @@ Value Rapid::current_position(const Expression& call, Interpreter& run) {
   const std::string name = run.name_here(call.text), form = form_of(joints ? "jointtarget" : "robtarget");
   if (joints) {
     if (reached_ && reached_->by_joints) return reached_->target;
-    return unknown_value(name, reached_ || lost ? "asks for the axes at a target that is a pose"
-                                                : "reads the robot's position at the start", form);
+    return unknown_value(
+        name,
+        reached_ || lost ? "asks for the axes at a target that is a pose" : "reads the robot's position at the start",
+        form);
   }
   const auto position = position_with(tool, work_object, run);
   if (!position)
-    return unknown_value(name, reached_ || lost ? "asks for the pose at axis angles"
-                                                : "reads the robot's position at the start", form);
+    return unknown_value(
+        name, reached_ || lost ? "asks for the pose at axis angles" : "reads the robot's position at the start", form);
   return call.text == "cpos" ? position->items[0] : *position;
 }
 
@@ -449,8 +443,7 @@ void Rapid::displace(const Statement& statement, Interpreter& run) {
   }
   displacement_ = Frame{};
   if (!programmed || !tool) {
-    run.complain(statement.place, "has a PDispOn without the programmed point or the tool",
-                 "correct the instruction");
+    run.complain(statement.place, "has a PDispOn without the programmed point or the tool", "correct the instruction");
     return;
   }
   const Expression world = name_at("wobj0", statement.place);  // without \WObj
@@ -496,12 +489,9 @@ void Rapid::shift_external_axes(const Statement& statement, Interpreter& run) {
     return;
   }
   const auto programmed = target(*first);
-  const auto reached = executed   ? target(*executed)
-                       : reached_ ? std::optional(reached_->target)
-                                  : std::nullopt;
+  const auto reached = executed ? target(*executed) : reached_ ? std::optional(reached_->target) : std::nullopt;
   if (programmed && !reached && !lost_.cause)
-    run.complain(statement.place,
-                 "shifts external axes (EOffsOn) by where the external axes stand at the start",
+    run.complain(statement.place, "shifts external axes (EOffsOn) by where the external axes stand at the start",
                  "give the point as \\ExeP, or write the offset with EOffsSet");
   if (!programmed || !reached) return;
   const Value from = axes(*programmed), to = axes(*reached);

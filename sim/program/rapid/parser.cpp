@@ -54,8 +54,8 @@ class RapidParser : StatementParser {
 
   /// Whether the cursor is at a word that begins or ends a block: the parser continues there after an error.
   bool opens_or_closes() const {
-    return at_any({"endproc", "endfunc", "endtrap", "endmodule", "endif", "endfor", "endwhile", "endtest", "proc", "func",
-                   "else", "elseif", "case", "default"});
+    return at_any({"endproc", "endfunc", "endtrap", "endmodule", "endif", "endfor", "endwhile", "endtest", "proc",
+                   "func", "else", "elseif", "case", "default"});
   }
 
   void member() {
@@ -72,8 +72,7 @@ class RapidParser : StatementParser {
       at_.need_sign(";");
       return;
     }
-    at_.fail(fmt::format("has {} where a declaration or a routine is expected", at_.seen()),
-             "correct the module");
+    at_.fail(fmt::format("has {} where a declaration or a routine is expected", at_.seen()), "correct the module");
   }
 
   void record() {
@@ -244,7 +243,7 @@ class RapidParser : StatementParser {
   void if_statement(Statement& s) {
     condition(s);
     if (!at_.take_word("then")) return statement(s.branches[0].body);  // the compact IF
-    bool begun = true;  // first branch; its THEN is taken already
+    bool begun = true;                                                 // first branch; its THEN is taken already
     arms(s, "endif", "elseif", [&](bool otherwise) {
       if (!std::exchange(begun, false) && !otherwise) at_.need_word("then");
       return body({"endif", "else", "elseif"});
@@ -347,8 +346,7 @@ bool is_encoded(const std::string& text) {
     return byte < ' ' && byte != '\t' && byte != '\n' && byte != '\r' && byte != '\f' && byte != 0x1a;
   };
   constexpr std::ptrdiff_t one_in = 50;  // random bytes have one in ten, text has none
-  return std::count_if(text.begin(), text.end(), is_control) * one_in >
-         static_cast<std::ptrdiff_t>(text.size());
+  return std::count_if(text.begin(), text.end(), is_control) * one_in > static_cast<std::ptrdiff_t>(text.size());
 }
 
 }  // namespace
@@ -361,8 +359,7 @@ void parse_rapid(Code& code, int file, Problems& problems) {
   const std::vector<Token> tokens = tokens_of(code.files[file], {'!', "", false, false}, in_words);
   const auto opens = [](const Token& token) { return lower_case(token.text) == "module"; };
   if (std::none_of(tokens.begin(), tokens.end(), opens))
-    return problems.add({code.files[file].name(), 1, 1}, "holds no MODULE",
-                        "give a RAPID module (.mod, .prg, .sys)");
+    return problems.add({code.files[file].name(), 1, 1}, "holds no MODULE", "give a RAPID module (.mod, .prg, .sys)");
   for (const Problem& problem : in_words.list()) problems.add(problem.where, problem.what, problem.remedy);
   RapidParser(code, file, tokens, problems).run();
 }

@@ -32,10 +32,10 @@ std::optional<Value> Rapid::constant(const std::string& name) {
   if (name == "op_man_prog" || name == "run_instr_fwd") return number_value(2);
   if (name == "op_man_test" || name == "run_instr_bwd") return number_value(3);
   static const std::map<std::string, double> dialogs{
-      {"iconnone", 0},       {"iconinfo", 1},   {"iconwarning", 2}, {"iconerror", 3},      {"btnnone", -1},
+      {"iconnone", 0},       {"iconinfo", 1},       {"iconwarning", 2}, {"iconerror", 3},      {"btnnone", -1},
       {"btnok", 0},          {"btnabrtrtryign", 1}, {"btnokcancel", 2}, {"btnretrycancel", 3}, {"btnyesno", 4},
-      {"btnyesnocancel", 5}, {"resunkwn", 0},   {"resok", 1},       {"resabort", 2},       {"resretry", 3},
-      {"resignore", 4},      {"rescancel", 5},  {"resyes", 6},      {"resno", 7}};
+      {"btnyesnocancel", 5}, {"resunkwn", 0},       {"resok", 1},       {"resabort", 2},       {"resretry", 3},
+      {"resignore", 4},      {"rescancel", 5},      {"resyes", 6},      {"resno", 7}};
   if (const auto number = dialogs.find(name); number != dialogs.end()) return number_value(number->second);
   for (const NamedFrame& tool : tools_)
     if (same(name, tool.name)) return tool_value(tool);
@@ -46,9 +46,8 @@ std::optional<Value> Rapid::constant(const std::string& name) {
 }
 
 bool Rapid::matters(const std::string& name) const {
-  static const std::set<std::string> others{"accset",   "velset",    "speedrefresh", "pdispset",
-                                            "pdispon",  "pdispoff",  "eoffson",      "eoffsset",
-                                            "eoffsoff", "callbyvar", "confl",        "confj"};
+  static const std::set<std::string> others{"accset",  "velset",   "speedrefresh", "pdispset",  "pdispon", "pdispoff",
+                                            "eoffson", "eoffsset", "eoffsoff",     "callbyvar", "confl",   "confj"};
   return rapid_move(name) || others.contains(name) || name.starts_with("move");
 }
 
@@ -59,16 +58,14 @@ bool Rapid::harmless(const std::string& name) const {
 
 bool Rapid::writes(const std::string& name, int position, const Expression& argument) const {
   static const std::set<std::string> options{
-      "timeflag",   "breakflag", "result", "str",         "rawdata",  "data",
-      "value",      "value1",    "value2", "errornumber", "duration", "time",
-      "norecbytes", "uielapsed", "bwd",    "fwd",         "index",    "buttonanswer"};
+      "timeflag",    "breakflag", "result", "str",        "rawdata",   "data", "value", "value1", "value2",
+      "errornumber", "duration",  "time",   "norecbytes", "uielapsed", "bwd",  "fwd",   "index",  "buttonanswer"};
   if (!argument.option.empty()) return options.contains(argument.option);
   static const std::map<std::string, int> outputs{
-      {"tpreadfk", 0},     {"tpreadnum", 0},     {"tpreaddnum", 0},   {"unpackrawbytes", 2},
-      {"readanybin", 1},   {"readrawbytes", 1},  {"rmqfindslot", 0},  {"rmqgetmessage", 0},
-      {"rmqreadwait", 0},  {"rmqgetmsgdata", 1}, {"getsysdata", 0},   {"packrawbytes", 1},
-      {"copyrawbytes", 2}, {"clearrawbytes", 0}, {"packdnheader", 2}, {"readcfgdata", 2},
-      {"gettrapdata", 0},  {"camgetresult", 1},  {"clkread", -1},     {"bitset", 0},
+      {"tpreadfk", 0},     {"tpreadnum", 0},    {"tpreaddnum", 0},    {"unpackrawbytes", 2}, {"readanybin", 1},
+      {"readrawbytes", 1}, {"rmqfindslot", 0},  {"rmqgetmessage", 0}, {"rmqreadwait", 0},    {"rmqgetmsgdata", 1},
+      {"getsysdata", 0},   {"packrawbytes", 1}, {"copyrawbytes", 2},  {"clearrawbytes", 0},  {"packdnheader", 2},
+      {"readcfgdata", 2},  {"gettrapdata", 0},  {"camgetresult", 1},  {"clkread", -1},       {"bitset", 0},
       {"bitclear", 0},     {"getdataval", 1}};
   if (const auto found = outputs.find(name); found != outputs.end()) return found->second == position;
   return !harmless(name) && !rapid_named_effect(name) && !rapid_asks_the_robot(name);
@@ -79,8 +76,7 @@ Value Rapid::initial(const std::string& type) const { return rapid_initial(code_
 /// Assigns a value. A single value for a record becomes unknown, because the controller stops at this assignment.
 void Rapid::store(Value& place, Value value) const {
   if (place.type && value.kind != Value::Kind::list && value.kind != Value::Kind::unknown)
-    value = forgotten(
-        place, unknown_value("", fmt::format("is given a value that is no {}", place.type->name)).cause);
+    value = forgotten(place, unknown_value("", fmt::format("is given a value that is no {}", place.type->name)).cause);
   place = std::move(value);
 }
 
@@ -94,8 +90,7 @@ std::string Rapid::form_of(const std::string& type) const {
       {"pos", "[x, y, z] in mm"},
       {"orient", "[q1, q2, q3, q4]"},
       {"pose", "[[x, y, z], [q1, q2, q3, q4]] in mm"},
-      {"robtarget",
-       "[[x, y, z], [q1, q2, q3, q4], [cf1, cf4, cf6, cfx], [9E9, 9E9, 9E9, 9E9, 9E9, 9E9]] in mm"},
+      {"robtarget", "[[x, y, z], [q1, q2, q3, q4], [cf1, cf4, cf6, cfx], [9E9, 9E9, 9E9, 9E9, 9E9, 9E9]] in mm"},
       {"jointtarget", "[[a1, a2, a3, a4, a5, a6], [9E9, 9E9, 9E9, 9E9, 9E9, 9E9]] in deg"},
       {"tooldata", "[TRUE, [[x, y, z], [q1, q2, q3, q4]], [1, [0, 0, 1], [1, 0, 0, 0], 0, 0, 0]] in mm"},
       {"wobjdata", "[FALSE, TRUE, \"\", [[x, y, z], [q1, q2, q3, q4]], [[0, 0, 0], [1, 0, 0, 0]]] in mm"},
@@ -214,8 +209,7 @@ bool Rapid::named_data(const Statement& statement, Interpreter& run) {
 bool Rapid::steers(const std::vector<Statement>& body, int module, int depth) const {
   constexpr int deepest = 4;  // levels of calls in traps
   return depth < deepest && std::any_of(body.begin(), body.end(), [&](const Statement& statement) {
-           if (statement.name == "stopmove" || statement.name == "storepath" || matters(statement.name))
-             return true;
+           if (statement.name == "stopmove" || statement.name == "storepath" || matters(statement.name)) return true;
            for (const Branch& branch : statement.branches)
              if (steers(branch.body, module, depth)) return true;
            const Routine* called =
@@ -229,16 +223,14 @@ void Rapid::connect(const Statement& statement, Interpreter& run) {
   run.note(statement.place, "CONNECT: input, output or logic");
   if (statement.branches.empty()) return;
   const Statement& call = statement.branches[0].body[0];
-  run.forget_writes_of(
-      call, run.module(),
-      fmt::format("may be written by the trap {} ({})", call.text, run.short_place(call.place)));
+  run.forget_writes_of(call, run.module(),
+                       fmt::format("may be written by the trap {} ({})", call.text, run.short_place(call.place)));
   if (steers({call}, run.module(), 0))
-    run.note(
-        statement.place,
-        fmt::format("{0}: a trap that moves or stops the robot on its interrupt, which is taken not to come; "
-                    "--routine {0} reads it alone",
-                    call.text),
-        true);
+    run.note(statement.place,
+             fmt::format("{0}: a trap that moves or stops the robot on its interrupt, which is taken not to come; "
+                         "--routine {0} reads it alone",
+                         call.text),
+             true);
 }
 
 bool Rapid::instruction(const Statement& statement, Interpreter& run) {
@@ -279,8 +271,7 @@ bool Rapid::instruction(const Statement& statement, Interpreter& run) {
 /// Returns Offs(target, x, y, z) in the work object or RelTool(target, x, y, z \Rx \Ry \Rz) in the tool [mm, deg].
 Value Rapid::offset(const Expression& call, bool in_tool, Interpreter& run) {
   if (call.items.size() < 4) {
-    run.complain(call.place, fmt::format("gives {} too few arguments", call.text),
-                 "give a target and x, y, z");
+    run.complain(call.place, fmt::format("gives {} too few arguments", call.text), "give a target and x, y, z");
     return {};
   }
   Value target = run.evaluate(call.items[0]);
@@ -308,10 +299,9 @@ Value Rapid::offset(const Expression& call, bool in_tool, Interpreter& run) {
   if (k < 3) return {};
   const auto q = checked(target.items[1], "a target", call.items[0], run);
   if (!q)
-    return unknown_value(run.answer_name(run.path_of(call.items[0])),
-                         target == rapid_initial(code_, "robtarget")
-                             ? "was never given a value (all of it is 0)"
-                             : "has the quaternion [0,0,0,0]");
+    return unknown_value(run.answer_name(run.path_of(call.items[0])), target == rapid_initial(code_, "robtarget")
+                                                                          ? "was never given a value (all of it is 0)"
+                                                                          : "has the quaternion [0,0,0,0]");
   Vector3 shift(by[0], by[1], by[2]);
   Quaternion turned = *q;
   if (in_tool) {  // RelTool: rotation about x, then y, then z of the tool
@@ -331,8 +321,7 @@ Value Rapid::text_to_value(const Expression& call, Interpreter& run) {
   if (text.kind == Value::Kind::text) {
     const auto number = pipeline::whole_number_in<double>(text.text);
     const std::string word = lower_case(text.text);
-    if (number && std::isfinite(*number))
-      return run.assign(call.items[1], number_value(*number)), truth_value(true);
+    if (number && std::isfinite(*number)) return run.assign(call.items[1], number_value(*number)), truth_value(true);
     if (word == "true" || word == "false")
       return run.assign(call.items[1], truth_value(word == "true")), truth_value(true);
   }
@@ -358,8 +347,7 @@ std::optional<Value> Rapid::function(const Expression& call, Interpreter& run) {
   }
   std::vector<RapidArgument> arguments;
   for (const Expression& argument : call.items)
-    arguments.push_back(
-        {argument.option, argument.kind == Expression::Kind::none ? Value{} : run.evaluate(argument)});
+    arguments.push_back({argument.option, argument.kind == Expression::Kind::none ? Value{} : run.evaluate(argument)});
   if (auto value = rapid_function(code_, name, arguments)) return value;
   if (name == "gettaskname") return unknown_value(name, "is the name of the task", form_of("string"));
   return rapid_asks_the_robot(name) ? std::optional(Value{}) : std::nullopt;
@@ -376,11 +364,10 @@ void run_rapid(const Code& code, const ImportOptions& options, const std::vector
     std::vector<std::string> names;
     for (const Routine& other : code.routines)
       if (names.size() < 40) names.push_back(other.written);
-    problems.add(
-        {code.files.empty() ? "" : code.files[0].name(), 1, 1}, fmt::format("has no routine '{}'", start),
-        names.empty()
-            ? "give the modules that hold its routines (--module, motion.modules)"
-            : fmt::format("name one with --routine (motion.routine in a job): {}", pipeline::joined(names, ", ")));
+    problems.add({code.files.empty() ? "" : code.files[0].name(), 1, 1}, fmt::format("has no routine '{}'", start),
+                 names.empty() ? "give the modules that hold its routines (--module, motion.modules)"
+                               : fmt::format("name one with --routine (motion.routine in a job): {}",
+                                             pipeline::joined(names, ", ")));
     return;
   }
   explore(

@@ -22,6 +22,6 @@ void run_rapid(const Code& code, const ImportOptions& options, const std::vector
 /// Returns the RAPID program among `files` of `folder`. routine: the requested routine; empty: none. Errors: InputError that
 /// names the choices if there are several programs.
 Backup rapid_backup(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& files,
-                 const std::string& routine);
+                    const std::string& routine);
 
 }  // namespace dresslife::sim

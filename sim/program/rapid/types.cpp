@@ -20,10 +20,8 @@ const std::vector<Written>& written_types() {
       {"orient", {{"q1", ""}, {"q2", ""}, {"q3", ""}, {"q4", ""}}},
       {"pose", {{"trans", "pos"}, {"rot", "orient"}}},
       {"confdata", {{"cf1", ""}, {"cf4", ""}, {"cf6", ""}, {"cfx", ""}}},
-      {"robjoint",
-       {{"rax_1", ""}, {"rax_2", ""}, {"rax_3", ""}, {"rax_4", ""}, {"rax_5", ""}, {"rax_6", ""}}},
-      {"extjoint",
-       {{"eax_a", ""}, {"eax_b", ""}, {"eax_c", ""}, {"eax_d", ""}, {"eax_e", ""}, {"eax_f", ""}}},
+      {"robjoint", {{"rax_1", ""}, {"rax_2", ""}, {"rax_3", ""}, {"rax_4", ""}, {"rax_5", ""}, {"rax_6", ""}}},
+      {"extjoint", {{"eax_a", ""}, {"eax_b", ""}, {"eax_c", ""}, {"eax_d", ""}, {"eax_e", ""}, {"eax_f", ""}}},
       {"robtarget", {{"trans", "pos"}, {"rot", "orient"}, {"robconf", "confdata"}, {"extax", "extjoint"}}},
       {"jointtarget", {{"robax", "robjoint"}, {"extax", "extjoint"}}},
       {"loaddata", {{"mass", ""}, {"cog", "pos"}, {"aom", "orient"}, {"ix", ""}, {"iy", ""}, {"iz", ""}}},
@@ -64,12 +62,10 @@ void add_rapid_types(Code& code) {
 }
 
 std::optional<Value> rapid_speed(const Code& code, const std::string& name) {
-  static const std::vector<int> speeds{5,    10,   20,   30,   40,   50,   60,  80,   100,
-                                       150,  200,  300,  400,  500,  600,  800, 1000, 1500,
-                                       2000, 2500, 3000, 4000, 5000, 6000, 7000};
+  static const std::vector<int> speeds{5,   10,  20,  30,   40,   50,   60,   80,   100,  150,  200,  300, 400,
+                                       500, 600, 800, 1000, 1500, 2000, 2500, 3000, 4000, 5000, 6000, 7000};
   for (int speed : speeds)
-    if (name == fmt::format("v{}", speed))
-      return numbers({double(speed), 500, 5000, 1000}, code.record("speeddata"));
+    if (name == fmt::format("v{}", speed)) return numbers({double(speed), 500, 5000, 1000}, code.record("speeddata"));
   return {};
 }
 
@@ -104,42 +100,30 @@ Value rapid_initial(const Code& code, const std::string& type_name, int depth) {
 
 const std::vector<std::string>& harmless_rapid_instructions() {
   static const std::vector<std::string> names = [] {
-    std::vector<std::string> list{"set",           "reset",          "setdo",          "setgo",
-                                  "setao",         "pulsedo",        "invertdo",       "waitdi",
-                                  "waitdo",        "waitgi",         "waitgo",         "waitai",
-                                  "waitao",        "waituntil",      "waitrob",        "waitsynctask",
-                                  "tpwrite",       "tperase",        "tpreadfk",       "tpreadnum",
-                                  "tpreaddnum",    "tpshow",         "uimsgbox",       "uishow",
-                                  "uimsgwrite",    "errwrite",       "errlog",         "errraise",
-                                  "bookerrno",     "stop",           "break",          "retry",
-                                  "trynext",       "skipwarn",       "open",           "close",
-                                  "write",         "writebin",       "writestrbin",    "writerawbytes",
-                                  "writeanybin",   "readrawbytes",   "readanybin",     "readbin",
-                                  "packrawbytes",  "unpackrawbytes", "clearrawbytes",  "packdnheader",
-                                  "rewind",        "clkstart",       "clkstop",        "clkreset",
-                                  "trygint",       "bitset",         "bitclear",       "isignaldi",
-                                  "isignaldo",     "isignalgi",      "isignalai",      "isleep",
-                                  "iwatch",        "idelete",        "ienable",        "idisable",
-                                  "itimer",        "ierror",         "ipers",          "connect",
-                                  "triggio",       "triggequip",     "triggint",       "triggcheckio",
-                                  "triggspeed",    "triggstopproc",  "triggramp",      "gripload",
-                                  "motsup",        "singarea",       "cirpathmode",    "dynamics",
-                                  "resetaxis",     "actunit",        "deactunit",      "confjoff",
-                                  "pathresol",     "softdeact",      "tunereset",      "tuneservo",
-                                  "startmove",     "stopmove",       "stopmovereset",  "startmoveretry",
-                                  "clearpath",     "storepath",      "setsysdata",     "unload",
-                                  "checkprogref",  "socketcreate",   "socketconnect",  "socketsend",
-                                  "socketreceive", "socketclose",    "socketbind",     "socketlisten",
-                                  "socketaccept",  "rmqfindslot",    "rmqsendmessage", "rmqempty",
-                                  "getsysdata",
-                                  "opendir",       "closedir",       "makedir",        "removefile",
-                                  "copyfile",      "timex",          "savecfgdata",    "warmstart",
-                                  "spystart",      "spystop",        "egmgetid",       "egmreset",
-                                  "egmactjoint",   "egmactpose",     "egmactmove",     "egmsetupuc",
-                                  "egmsetupai",    "egmsetupao",     "egmstop",        "egmstreamstop",
-                                  "toolchange",    "setgun",         "calib",          "stcalib",
-                                  "stclose",       "stopen",         "indgun",         "gunopen",
-                                  "gunclose"};
+    std::vector<std::string> list{
+        "set",           "reset",          "setdo",         "setgo",          "setao",          "pulsedo",
+        "invertdo",      "waitdi",         "waitdo",        "waitgi",         "waitgo",         "waitai",
+        "waitao",        "waituntil",      "waitrob",       "waitsynctask",   "tpwrite",        "tperase",
+        "tpreadfk",      "tpreadnum",      "tpreaddnum",    "tpshow",         "uimsgbox",       "uishow",
+        "uimsgwrite",    "errwrite",       "errlog",        "errraise",       "bookerrno",      "stop",
+        "break",         "retry",          "trynext",       "skipwarn",       "open",           "close",
+        "write",         "writebin",       "writestrbin",   "writerawbytes",  "writeanybin",    "readrawbytes",
+        "readanybin",    "readbin",        "packrawbytes",  "unpackrawbytes", "clearrawbytes",  "packdnheader",
+        "rewind",        "clkstart",       "clkstop",       "clkreset",       "trygint",        "bitset",
+        "bitclear",      "isignaldi",      "isignaldo",     "isignalgi",      "isignalai",      "isleep",
+        "iwatch",        "idelete",        "ienable",       "idisable",       "itimer",         "ierror",
+        "ipers",         "connect",        "triggio",       "triggequip",     "triggint",       "triggcheckio",
+        "triggspeed",    "triggstopproc",  "triggramp",     "gripload",       "motsup",         "singarea",
+        "cirpathmode",   "dynamics",       "resetaxis",     "actunit",        "deactunit",      "confjoff",
+        "pathresol",     "softdeact",      "tunereset",     "tuneservo",      "startmove",      "stopmove",
+        "stopmovereset", "startmoveretry", "clearpath",     "storepath",      "setsysdata",     "unload",
+        "checkprogref",  "socketcreate",   "socketconnect", "socketsend",     "socketreceive",  "socketclose",
+        "socketbind",    "socketlisten",   "socketaccept",  "rmqfindslot",    "rmqsendmessage", "rmqempty",
+        "getsysdata",    "opendir",        "closedir",      "makedir",        "removefile",     "copyfile",
+        "timex",         "savecfgdata",    "warmstart",     "spystart",       "spystop",        "egmgetid",
+        "egmreset",      "egmactjoint",    "egmactpose",    "egmactmove",     "egmsetupuc",     "egmsetupai",
+        "egmsetupao",    "egmstop",        "egmstreamstop", "toolchange",     "setgun",         "calib",
+        "stcalib",       "stclose",        "stopen",        "indgun",         "gunopen",        "gunclose"};
     std::sort(list.begin(), list.end());
     return list;
   }();

@@ -22,8 +22,7 @@ std::vector<Token> without_inner_line_ends(std::vector<Token> tokens) {
   std::vector<Token> kept;
   for (const Token& token : tokens) {
     if (token.kind == Token::Kind::sign && (token.text == "(" || token.text == "[")) ++depth;
-    if (token.kind == Token::Kind::sign && (token.text == ")" || token.text == "]"))
-      depth = std::max(0, depth - 1);
+    if (token.kind == Token::Kind::sign && (token.text == ")" || token.text == "]")) depth = std::max(0, depth - 1);
     if (token.kind != Token::Kind::line_end || depth == 0) kept.push_back(token);
   }
   return kept;
@@ -123,8 +122,7 @@ class ScriptParser : StatementParser {
       return false;
     }
     const Expression* base = &target;
-    while (base->kind == Expression::Kind::field || base->kind == Expression::Kind::element)
-      base = &base->items[0];
+    while (base->kind == Expression::Kind::field || base->kind == Expression::Kind::element) base = &base->items[0];
     if (base->kind != Expression::Kind::name) at_.fail("assigns to what is no variable", "correct the line");
     if (global || routines_here_.empty())
       globals_.insert(base->text);
@@ -257,8 +255,9 @@ class ScriptParser : StatementParser {
 /// spellings of a name but one get a number: "count#2". The spelling in small letters keeps its name, because the words
 /// of the language are small. `names` stores the new names. Precondition: it lives as long as the tokens.
 void number_spellings(const Code& code, std::vector<Token>& tokens, std::deque<std::string>& names) {
-  static const std::set<std::string> words{"true", "false",  "none",  "def",    "end",   "if",   "elif",  "else",     "while", "return",
-                                           "global", "local", "thread", "break", "continue", "and",  "or",   "not", "xor",      "run"};
+  static const std::set<std::string> words{"true",     "false", "none",   "def",    "end",   "if",     "elif",
+                                           "else",     "while", "return", "global", "local", "thread", "break",
+                                           "continue", "and",   "or",     "not",    "xor",   "run"};
   std::map<std::string, std::set<std::string, std::greater<>>> spellings;  // descending ASCII: small letters first
   Problems ignored;                                                        // the parser reports them
   for (const SourceFile& source : code.files)

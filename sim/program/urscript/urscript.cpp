@@ -32,14 +32,12 @@ const Signature* move_of(const std::string& name) {
       {"movec", Kind::circular, {"pose_via", "pose_to", "a", "v", "r", "mode"}, 1.2, 0.25},
       {"servoj", Kind::joint, {"q", "a", "v", "t", "lookahead_time", "gain"}, 0, 0},
       {"servoc", Kind::linear, {"pose", "a", "v", "r"}, 1.2, 0.25}};
-  const auto found =
-      std::find_if(moves.begin(), moves.end(), [&](const Signature& m) { return name == m.name; });
+  const auto found = std::find_if(moves.begin(), moves.end(), [&](const Signature& m) { return name == m.name; });
   return found == moves.end() ? nullptr : &*found;
 }
 
 bool begins_with_any(const std::string& name, std::initializer_list<std::string_view> list) {
-  return std::any_of(list.begin(), list.end(),
-                     [&](std::string_view begin) { return name.starts_with(begin); });
+  return std::any_of(list.begin(), list.end(), [&](std::string_view begin) { return name.starts_with(begin); });
 }
 
 class Script final : public Dialect {
@@ -59,13 +57,11 @@ class Script final : public Dialect {
     std::vector<Value> values;
     for (const Expression& argument : call.items)
       if (argument.option.empty()) values.push_back(run.evaluate(argument));
-    if (call.text == "p")
-      return values.size() == 6 ? std::optional(list_value(values, record("pose"))) : Value{};
+    if (call.text == "p") return values.size() == 6 ? std::optional(list_value(values, record("pose"))) : Value{};
     if (call.text == "get_inverse_kin") return inverse_kinematics(call, values, run);
     if (call.text == "get_forward_kin") return forward_kinematics(values);
     if (std::optional<Value> known = arithmetic(call.text, values)) return known;
-    if (begins_with_any(call.text, {"get_actual_tcp_pose", "get_target_tcp_pose"}) && standing_)
-      return *standing_;
+    if (begins_with_any(call.text, {"get_actual_tcp_pose", "get_target_tcp_pose"}) && standing_) return *standing_;
     if (begins_with_any(call.text, {"get_actual_joint_positions", "get_target_joint_positions"}) && axes_)
       return *axes_;
     if (begins_with_any(call.text, {"get_actual_", "get_target_"}))
@@ -82,13 +78,11 @@ class Script final : public Dialect {
       const Routine* thread = code_.find(statement.text.substr(std::string_view("run ").size()), -1);
       return run_thread(thread, statement, run), true;
     }
-    if (begins_with_any(name, {"speedj", "speedl", "force_mode", "freedrive_mode", "teach_mode",
-                               "path_offset", "conveyor_", "track_conveyor"}) &&
+    if (begins_with_any(name, {"speedj", "speedl", "force_mode", "freedrive_mode", "teach_mode", "path_offset",
+                               "conveyor_", "track_conveyor"}) &&
         !name.ends_with("_stop") && !name.starts_with("end_")) {
       standing_.reset(), axes_.reset();
-      return run.note(statement.place, statement.text + ": leads the robot in a way that is not followed",
-                      true),
-             true;
+      return run.note(statement.place, statement.text + ": leads the robot in a way that is not followed", true), true;
     }
     return false;
   }
@@ -120,8 +114,8 @@ class Script final : public Dialect {
                                              "varmsg",
                                              "request_boolean_from_primary_client",
                                              "tool_contact"};
-    return words.contains(name) || begins_with_any(name, {"set_", "get_", "socket_", "modbus_", "write_",
-                                                          "read_", "rtde_", "reset_", "blocking_"});
+    return words.contains(name) || begins_with_any(name, {"set_", "get_", "socket_", "modbus_", "write_", "read_",
+                                                          "rtde_", "reset_", "blocking_"});
   }
   bool writes(const std::string&, int, const Expression&) const override {
     return false;
@@ -199,8 +193,7 @@ class Script final : public Dialect {
         {"sqrt", [](double x) { return std::sqrt(x); }}, {"floor", [](double x) { return std::floor(x); }},
         {"ceil", [](double x) { return std::ceil(x); }}, {"d2r", [](double x) { return x * degree; }},
         {"r2d", [](double x) { return x / degree; }},    {"log10", [](double x) { return std::log10(x); }}};
-    const auto unknown =
-        std::find_if(values.begin(), values.end(), [](const Value& v) { return !v.known(); });
+    const auto unknown = std::find_if(values.begin(), values.end(), [](const Value& v) { return !v.known(); });
     const bool pose_function = begins_with_any(name, {"pose_", "interpolate_pose"});
     const auto function = plain.find(name);
     const bool two = name == "atan2" || name == "pow";
@@ -228,8 +221,7 @@ class Script final : public Dialect {
     const auto n = [&](std::size_t i) { return value.items[i].number; };
     if (value.kind != Value::Kind::list || value.items.size() != 3)
       return unknown_value("", "is no list of three angles");
-    Vector3 result =
-        rotation_vector(rotation({0, 0, n(2)}) * rotation({0, n(1), 0}) * rotation({n(0), 0, 0}));
+    Vector3 result = rotation_vector(rotation({0, 0, n(2)}) * rotation({0, n(1), 0}) * rotation({n(0), 0, 0}));
     if (name == "rotvec2rpy") {
       const Eigen::Matrix3d r = rotation({n(0), n(1), n(2)}).toRotationMatrix();
       result = {std::atan2(r(2, 1), r(2, 2)), std::atan2(-r(2, 0), std::hypot(r(0, 0), r(1, 0))),
@@ -245,8 +237,7 @@ class Script final : public Dialect {
     if (!a || !b) return unknown_value("", fmt::format("is {} of what is no pose", name));
     if (name == "pose_trans") return pose_value(*a * *b);
     if (name == "pose_add") return pose_value({a->position + b->position, a->orientation * b->orientation});
-    if (name == "pose_sub")
-      return pose_value({a->position - b->position, a->orientation * b->orientation.conjugate()});
+    if (name == "pose_sub") return pose_value({a->position - b->position, a->orientation * b->orientation.conjugate()});
     if (name == "point_dist") return number_value((a->position - b->position).norm());
     if (name == "interpolate_pose" && values.size() == 3 && values[2].is_number()) {
       const double u = values[2].number;
@@ -257,13 +248,11 @@ class Script final : public Dialect {
 
   // ---- moves ------------------------------------------------------------------------------------------------------
 
-  const Expression* argument(const Signature& signature, const Statement& statement,
-                             std::string_view name) const {
+  const Expression* argument(const Signature& signature, const Statement& statement, std::string_view name) const {
     std::size_t position = 0;
     for (const Expression& given : statement.arguments) {
       if (given.option == name) return &given;
-      if (given.option.empty() && position < signature.arguments.size() &&
-          signature.arguments[position++] == name)
+      if (given.option.empty() && position < signature.arguments.size() && signature.arguments[position++] == name)
         return &given;
     }
     return nullptr;
@@ -280,8 +269,7 @@ class Script final : public Dialect {
       run_->complain(written->place, fmt::format("has no number from 0 on as {}", name), "correct it");
     else
       run_->ask_for(value, written->place,
-                    fmt::format("has a value of {} that is known only while the robot runs", name), "",
-                    "a number");
+                    fmt::format("has a value of {} that is known only while the robot runs", name), "", "a number");
     return {};
   }
 
@@ -289,8 +277,7 @@ class Script final : public Dialect {
   bool read_target(const Expression& written, Instruction& move, Value& value) {
     value = run_->answered(written);
     move.origins.push_back({"target", run_->written(written), {}});
-    if (const Place from = run_->origin(written); from.line > 0)
-      move.origins.back().where = run_->where(from);
+    if (const Place from = run_->origin(written); from.line > 0) move.origins.back().where = run_->where(from);
     const Value& pose = is(value, "inverse") ? value.items[0] : value;
     const Value& joints = is(value, "forward") ? value.items[0] : value;
     if (const auto angles = joints_in(joints)) {
@@ -318,8 +305,8 @@ class Script final : public Dialect {
 
   bool read_speed(const Signature& signature, const Statement& statement, Instruction& move) {
     const auto a = number(signature, statement, "a", signature.acceleration),
-               v = number(signature, statement, "v", signature.speed),
-               t = number(signature, statement, "t", 0), r = number(signature, statement, "r", 0);
+               v = number(signature, statement, "v", signature.speed), t = number(signature, statement, "t", 0),
+               r = number(signature, statement, "r", 0);
     if (!a || !v || !t || !r) return false;
     const bool joints = signature.kind == Instruction::Kind::joint;
     if (*t > 0) {
@@ -332,13 +319,13 @@ class Script final : public Dialect {
     }
     if (*t == 0 && *a > 0) (joints ? move.speed.axis_acceleration : move.speed.tool_acceleration) = *a;
     move.zone.distance = *r;
-    if (std::string_view(signature.name).starts_with("servo")) move.zone = {0, 100};  // a stream of targets has no stops
+    if (std::string_view(signature.name).starts_with("servo"))
+      move.zone = {0, 100};  // a stream of targets has no stops
     return true;
   }
 
   bool read_tool(const Statement& statement, Instruction& move) {
-    const bool free =
-        move.kind == Instruction::Kind::joint && !move.target.joints.empty() && move.zone.distance == 0;
+    const bool free = move.kind == Instruction::Kind::joint && !move.target.joints.empty() && move.zone.distance == 0;
     if (!tcp_ && free) return true;  // a move of the axes does not need the tool
     if (!tcp_) {
       run_->miss(
@@ -360,8 +347,7 @@ class Script final : public Dialect {
                                         signature.kind == Instruction::Kind::circular ? "pose_to"
                                         : signature.kind == Instruction::Kind::joint  ? "q"
                                                                                       : "pose");
-    if (!target)
-      return run.complain(statement.place, fmt::format("gives {} no target", statement.text), "write it");
+    if (!target) return run.complain(statement.place, fmt::format("gives {} no target", statement.text), "write it");
     Value value;
     bool whole = read_target(*target, move, value);
     if (signature.kind == Instruction::Kind::circular) whole &= read_via(signature, statement, move);
@@ -384,29 +370,27 @@ class Script final : public Dialect {
     const Value value = written ? run_->answered(*written) : Value{};
     const auto via = pose_in(value);
     if (written && !value.known()) {
-      run_->ask_for(value, written->place,
-                    "has a circle through a place that is known only while the robot runs", "",
+      run_->ask_for(value, written->place, "has a circle through a place that is known only while the robot runs", "",
                     "p[x, y, z, rx, ry, rz] in m and rad");
       return false;
     }
     if (!via || !move.target.joints.empty()) {
-      run_->complain(written ? written->place : statement.place,
-                     "has a circle that is not given by two poses", "write p[...] for both");
+      run_->complain(written ? written->place : statement.place, "has a circle that is not given by two poses",
+                     "write p[...] for both");
       return false;
     }
     move.via = *via;
     const auto mode = number(signature, statement, "mode", 0);
     if (mode && *mode == 1)
-      run_->note(statement.place, "movec with mode=1: the tool turns with the circle; it is turned evenly",
-                 true);
+      run_->note(statement.place, "movec with mode=1: the tool turns with the circle; it is turned evenly", true);
     return mode.has_value();
   }
 
   void sleep(const Statement& statement, Interpreter& run) {
     const Value time = statement.arguments.empty() ? Value{} : run.answered(statement.arguments[0]);
     if (!time.known())
-      return run.ask_for(time, statement.place, "waits for a time that is known only while the robot runs",
-                         "", "a number, in s");
+      return run.ask_for(time, statement.place, "waits for a time that is known only while the robot runs", "",
+                         "a number, in s");
     if (!time.is_number() || !(time.number >= 0))
       return run.complain(statement.place, "waits for what is no time", "write seconds from 0 on");
     if (time.number > 0) run.emit(dwell_of(time.number), statement);
@@ -426,10 +410,10 @@ class Script final : public Dialect {
 
   void run_thread(const Routine* thread, const Statement& statement, Interpreter& run) {
     const std::string name = thread ? thread->written : statement.text;
-    run.note(statement.place,
-             fmt::format("thread {}: runs beside the program, and is left out; --routine {} reads it alone",
-                         name, name),
-             !thread || steers(thread->body, 0));
+    run.note(
+        statement.place,
+        fmt::format("thread {}: runs beside the program, and is left out; --routine {} reads it alone", name, name),
+        !thread || steers(thread->body, 0));
   }
 
   /// Returns whether a thread, or a function that it calls, moves the robot.
@@ -437,8 +421,7 @@ class Script final : public Dialect {
     constexpr int deepest = 8;  // largest depth of calls
     return depth < deepest && std::any_of(body.begin(), body.end(), [&](const Statement& s) {
              if (s.kind == Statement::Kind::instruction && matters(s.name)) return true;
-             const Routine* called =
-                 s.kind == Statement::Kind::instruction ? code_.find(s.name, -1) : nullptr;
+             const Routine* called = s.kind == Statement::Kind::instruction ? code_.find(s.name, -1) : nullptr;
              if (called && steers(called->body, depth + 1)) return true;
              return std::any_of(s.branches.begin(), s.branches.end(),
                                 [&](const Branch& branch) { return steers(branch.body, depth); });
@@ -501,8 +484,8 @@ void run_urscript(const Code& code, const ImportOptions& options, const std::vec
     if (script && routine.place.file == 0) start.script = &routine;
     if (script) continue;
     if (names.size() < 1000) names += (names.empty() ? "" : ", ") + routine.written;
-    if (code.start.empty() ? routine.robot != "thread" && routine.place.file == 0 &&
-                                 !called.contains(routine.name) && !is_within_another(routine, code)
+    if (code.start.empty() ? routine.robot != "thread" && routine.place.file == 0 && !called.contains(routine.name) &&
+                                 !is_within_another(routine, code)
                            : routine.name == code.start) {
       start.function = &routine;
       ++uncalled;
@@ -515,12 +498,10 @@ void run_urscript(const Code& code, const ImportOptions& options, const std::vec
   if (!runs_itself && uncalled == 0 && code.start.empty())
     if (const Problem* why = first_problem(code)) return problems.add(why->where, why->what, why->remedy);
   if (!runs_itself && (uncalled == 0 || (uncalled > 1 && code.start.empty()))) {
-    const char* what =
-        uncalled > 1 ? "holds several functions, and none that calls them" : "holds no program";
-    problems.add(
-        {code.files[0].name(), 1, 1},
-        options.routine.empty() ? std::string(what) : fmt::format("has no function '{}'", options.routine),
-        names.empty() ? "give a script with moves" : fmt::format("name one with --routine: {}", names));
+    const char* what = uncalled > 1 ? "holds several functions, and none that calls them" : "holds no program";
+    problems.add({code.files[0].name(), 1, 1},
+                 options.routine.empty() ? std::string(what) : fmt::format("has no function '{}'", options.routine),
+                 names.empty() ? "give a script with moves" : fmt::format("name one with --routine: {}", names));
     return;
   }
   const Routine* routine = start.function ? start.function : start.script;

@@ -22,7 +22,7 @@ constexpr double longest_step = 4e-3;  // [m]
 // First addition to the stiffness per length if the matrix is not positive definite [N/m2]. With 100 four times as many shifts
 // were needed (robot 1).
 constexpr double first_shift = 2e4;
-constexpr int most_shifts = 60;        // by factors of four: more than any cable needs
+constexpr int most_shifts = 60;  // by factors of four: more than any cable needs
 constexpr int most_tries = 12;
 // Up to this length a step is taken as a whole, in the first most_whole_steps iterations. Many nodes then reach their contacts at
 // once. A search along the step would stop at the first contact. Longer steps could end at another rest.
@@ -48,11 +48,9 @@ struct Progress {
   double busy[pack_size] = {};    // 1: a cable that does not rest yet
   double trying[pack_size] = {};  // 1: has a step of Newton's method, of which it tries a share
   double share[pack_size] = {}, tries[pack_size] = {};
-  double down[pack_size] = {},
-         largest[pack_size] = {};  // of the step: slope along it, largest movement of a node [m]
-  double shift[pack_size] = {},
-         shifts[pack_size] = {};  // added stiffness per length [N/m2], and number of increases
-  double took[pack_size] = {};    // number of iterations
+  double down[pack_size] = {}, largest[pack_size] = {};  // of the step: slope along it, largest movement of a node [m]
+  double shift[pack_size] = {}, shifts[pack_size] = {};  // added stiffness per length [N/m2], and number of increases
+  double took[pack_size] = {};                           // number of iterations
 
   void begin(int lane) {
     busy[lane] = 1;
@@ -218,8 +216,7 @@ inline void Lines::put_friction() const {
       const Pack farthest = soft * smaller(one, other);
       return smaller(larger(to, -farthest), farthest);
     };
-    put({held(stretch.x + dot(around, moved), before.x, most.x),
-         held(stretch.y + dot(out, moved), before.y, most.y)},
+    put({held(stretch.x + dot(around, moved), before.x, most.x), held(stretch.y + dot(out, moved), before.y, most.y)},
         of.stretch, i);
     put(most, of.most_friction, i);
     if (of.press) store(touch.press, of.press + i * of.lanes + first);
@@ -240,8 +237,7 @@ inline void Lines::walk(const Use& use) const {
   for (std::size_t i = 0; i < last; ++i) {
     const Pair hose_bends = same(of.curvature, i + 1), K = Pack(h) * same(of.curvature, i), pull = same(of.pull, i);
     const Pair after = i + 2 <= last ? pair(of.path, i + 2) : here;
-    const Pair bent_next =
-        hose_bends - pair(of.rest, i + 1) + Pack(per_h2) * ((here - next) + (after - next));
+    const Pair bent_next = hose_bends - pair(of.rest, i + 1) + Pack(per_h2) * ((here - next) + (after - next));
     if (i > 0) {
       const Pair gained = Pack(per_h) * ((here - pair(of.path, i - 1)) - (next - here)) - K;
       const Pair slope = bending * ((bent_before - bent_here) + (bent_next - bent_here)) + tension * gained -
@@ -511,7 +507,9 @@ void relax(const LineBatch& room, const WaitingCable* cables, std::size_t count,
 // ---- from sample to sample ---------------------------------------------------------------------------------
 
 inline Pair turned(const Pair& of, const Pair& by) { return {of.x * by.x - of.y * by.y, of.x * by.y + of.y * by.x}; }
-inline Pair turned_back(const Pair& of, const Pair& by) { return {of.x * by.x + of.y * by.y, of.y * by.x - of.x * by.y}; }
+inline Pair turned_back(const Pair& of, const Pair& by) {
+  return {of.x * by.x + of.y * by.y, of.y * by.x - of.x * by.y};
+}
 inline Pack length(const Pair& of) { return square_root(dot(of, of)); }
 
 /// Returns the direction in which a cable slides on its support: around the hose's axis, or around its place if its play limits it.
@@ -630,7 +628,8 @@ void place(const LineBatch& batch, const double* laid, const double* frame) {
 /// Returns the direction of a cable's movement when its ring turns.
 inline Pair across(const Pair& path) { return {-path.y, path.x}; }
 
-void turn(const LineBatch& batch, const double* laid, const double* frame, const double* turned, const RingSystem& system) {
+void turn(const LineBatch& batch, const double* laid, const double* frame, const double* turned,
+          const RingSystem& system) {
   place(batch, laid, frame);
   const std::size_t last = batch.nodes - 1, lanes = batch.lanes;
   const double h = batch.spacing;

@@ -8,7 +8,8 @@
 
 namespace dresslife::strain {
 
-constexpr std::size_t most_lanes = 8;  ///< lanes of the widest register in double precision; cables are padded to a multiple
+constexpr std::size_t most_lanes =
+    8;  ///< lanes of the widest register in double precision; cables are padded to a multiple
 
 /// Cables of one hose. Value i of cable k is at [i * lanes + k], component d of a node's vector at
 /// [(2 * node + d) * lanes + k]. Used for the storage from sample to sample, and for the bench on which cables are computed.
@@ -23,17 +24,18 @@ struct LineBatch {
   // (lane) properties of the cables, see LooseCable; infinity: no limit.
   double *bending_stiffness = nullptr, *axial_stiffness = nullptr, *mass_per_length = nullptr;
   double *wall_stiffness = nullptr, *play = nullptr, *farthest = nullptr, *nearest = nullptr, *gap = nullptr;
-  double* per_radius = nullptr;        ///< 1 / |a0|, 0 on the hose's axis [1/m]
-  double* drag = nullptr;              ///< eta of this sample [N/m2]
+  double* per_radius = nullptr;  ///< 1 / |a0|, 0 on the hose's axis [1/m]
+  double* drag = nullptr;        ///< eta of this sample [N/m2]
   double *friction = nullptr, *line_load = nullptr;
   double* stick = nullptr;             ///< stiffness of friction that holds [N/m2]; 0: no friction at this sample
   double* free_length_rate = nullptr;  ///< free length over that of the hose
   double *slipped = nullptr, *least_strain = nullptr, *most_strain = nullptr;  ///< see CableTension
-  double* counts = nullptr;            ///< 1: a cable, 0: a spare lane
+  double* counts = nullptr;                                                    ///< 1: a cable, 0: a spare lane
 
-  double* rest = nullptr;                      ///< (node, 2, lane) K0 plus the curvature of its place in it [1/m]
-  double *place = nullptr, *before = nullptr;  ///< (node, 2, lane) A0; null: a ring's cables, which stay at A0. A_before [m]
-  double* path = nullptr;                      ///< (node, 2, lane) A [m]
+  double* rest = nullptr;  ///< (node, 2, lane) K0 plus the curvature of its place in it [1/m]
+  double *place = nullptr,
+         *before = nullptr;  ///< (node, 2, lane) A0; null: a ring's cables, which stay at A0. A_before [m]
+  double* path = nullptr;    ///< (node, 2, lane) A [m]
   /// Dry friction, (node, 2, lane): direction around the hose; displacement from the points where the cable sticks, around the
   /// hose and outward, at A_before [m]; largest forces in these directions [N/m].
   double *around = nullptr, *stretch = nullptr, *most_friction = nullptr;
@@ -43,14 +45,15 @@ struct LineBatch {
 
   // Scratch memory of the bench.
   double *solved = nullptr, *soft = nullptr, *step = nullptr, *from = nullptr, *going = nullptr;  ///< (node, 2, lane)
-  double* factors = nullptr;  ///< (node, 7, lane)
+  double* factors = nullptr;                                                                      ///< (node, 7, lane)
 };
 
 /// Data that cables keep from sample to sample in addition to their batch, each (node, 2, lane).
 struct LineMemory {
-  const double *laid = nullptr, *laid_bent = nullptr;  ///< place and its second derivative in the frame in which it is constant
-  const double* frame = nullptr;                       ///< cosine and sine of this frame against the untwisted frame
-  double* velocity = nullptr;                          ///< in this frame [m/s]
+  const double *laid = nullptr,
+               *laid_bent = nullptr;  ///< place and its second derivative in the frame in which it is constant
+  const double* frame = nullptr;      ///< cosine and sine of this frame against the untwisted frame
+  double* velocity = nullptr;         ///< in this frame [m/s]
 };
 
 /// The hose at one sample, (node, 2): see HoseLine.
@@ -60,7 +63,7 @@ struct HoseFrame {
 
 /// Results for cables at rest.
 struct LineAnswer {
-  double* bends = nullptr;                          ///< (node, 2, lane) curvature minus `rest`, in the untwisted frame [1/m]
+  double* bends = nullptr;  ///< (node, 2, lane) curvature minus `rest`, in the untwisted frame [1/m]
   double *hose_bends = nullptr, *offset = nullptr;  ///< (node, 2, lane) `bends` in the hose's frame; b [m]
   double* gain = nullptr;                           ///< (element, lane)
   double* mean_gain = nullptr;                      ///< (lane)
@@ -68,14 +71,25 @@ struct LineAnswer {
 };
 
 // Data of a cable that are copied to the bench: properties (lane), and positions (node, 2, lane).
-constexpr double* LineBatch::*what_cables_are[] = {
-    &LineBatch::bending_stiffness, &LineBatch::axial_stiffness, &LineBatch::mass_per_length, &LineBatch::wall_stiffness,
-    &LineBatch::play, &LineBatch::farthest, &LineBatch::nearest, &LineBatch::gap, &LineBatch::per_radius, &LineBatch::drag,
-    &LineBatch::stick, &LineBatch::free_length_rate, &LineBatch::slipped, &LineBatch::least_strain, &LineBatch::most_strain};
+constexpr double* LineBatch::*what_cables_are[] = {&LineBatch::bending_stiffness,
+                                                   &LineBatch::axial_stiffness,
+                                                   &LineBatch::mass_per_length,
+                                                   &LineBatch::wall_stiffness,
+                                                   &LineBatch::play,
+                                                   &LineBatch::farthest,
+                                                   &LineBatch::nearest,
+                                                   &LineBatch::gap,
+                                                   &LineBatch::per_radius,
+                                                   &LineBatch::drag,
+                                                   &LineBatch::stick,
+                                                   &LineBatch::free_length_rate,
+                                                   &LineBatch::slipped,
+                                                   &LineBatch::least_strain,
+                                                   &LineBatch::most_strain};
 constexpr double* LineBatch::*where_cables_are[] = {&LineBatch::rest, &LineBatch::place, &LineBatch::before,
                                                     &LineBatch::path};
-constexpr double* LineBatch::*how_cables_rub[] = {&LineBatch::around, &LineBatch::stretch,
-                                                  &LineBatch::most_friction};  ///< (node, 2, lane), where `stick` is not 0
+constexpr double* LineBatch::*how_cables_rub[] = {
+    &LineBatch::around, &LineBatch::stretch, &LineBatch::most_friction};  ///< (node, 2, lane), where `stick` is not 0
 
 /// A cable that waits for the bench.
 struct WaitingCable {

@@ -20,8 +20,8 @@
 #include <vector>
 
 #include "fatigue/life_file.h"
-#include "pipeline/files/checksum.h"
 #include "pipeline/base/digest.h"
+#include "pipeline/files/checksum.h"
 #include "pipeline/files/files.h"
 #include "pipeline/job/job.h"
 #include "pipeline/report/report.h"
@@ -148,8 +148,7 @@ void change_values(hid_t dataset, Choices& choices) {
 /// Replaces a dataset by one of the same name with an unexpected type, rank or storage.
 void replace(hid_t file, const char* path, Choices& choices) {
   H5Ldelete(file, path, H5P_DEFAULT);
-  const hid_t types[] = {H5T_IEEE_F64LE, H5T_IEEE_F32LE, H5T_STD_I32LE,
-                         H5T_STD_U64BE,  H5T_STD_I8LE,   H5T_C_S1};
+  const hid_t types[] = {H5T_IEEE_F64LE, H5T_IEEE_F32LE, H5T_STD_I32LE, H5T_STD_U64BE, H5T_STD_I8LE, H5T_C_S1};
   const hid_t type = types[choices.next<unsigned char>() % std::size(types)];
   const int rank = choices.next<unsigned char>() % 4;
   std::vector<hsize_t> lengths, chunk;
@@ -177,8 +176,7 @@ void write_raw(hid_t file, const RawChunk& raw) {
   hsize_t chunks = 0;  // the library crashes if it has not written a chunk itself
   if (dataset < 0 || H5Dget_num_chunks(dataset, H5S_ALL, &chunks) < 0 || chunks == 0) return;
   const Closed space{H5Dget_space(dataset), H5Sclose};
-  const std::vector<hsize_t> first(static_cast<std::size_t>(std::max(H5Sget_simple_extent_ndims(space), 1)),
-                                   0);
+  const std::vector<hsize_t> first(static_cast<std::size_t>(std::max(H5Sget_simple_extent_ndims(space), 1)), 0);
   H5Dwrite_chunk(dataset, H5P_DEFAULT, raw.unfiltered, first.data(), raw.bytes.size(), raw.bytes.data());
 }
 
@@ -195,8 +193,7 @@ void edit_dataset(hid_t file, const std::string& path, Choices& choices, std::op
     case 2:
       return change_values(dataset, choices);
     case 3:
-      if (lengths[0] > 1u << 24)
-        return;  // lengthened before; the library would shorten it chunk by chunk for minutes
+      if (lengths[0] > 1u << 24) return;  // lengthened before; the library would shorten it chunk by chunk for minutes
       lengths[0] = choices.next<std::uint32_t>() >> choices.next<unsigned char>() % 32;
       H5Dset_extent(dataset, lengths.data());
       return;
@@ -212,8 +209,7 @@ void edit_dataset(hid_t file, const std::string& path, Choices& choices, std::op
       return replace(file, path.c_str(), choices);
     default:
       H5Ldelete(file, path.c_str(), H5P_DEFAULT);
-      if (choices.next<unsigned char>() % 2)
-        H5Lcreate_soft("/time", file, path.c_str(), H5P_DEFAULT, H5P_DEFAULT);
+      if (choices.next<unsigned char>() % 2) H5Lcreate_soft("/time", file, path.c_str(), H5P_DEFAULT, H5P_DEFAULT);
   }
 }
 
@@ -269,8 +265,7 @@ class File {
     write(block.data(), block.size(), 0);
   }
   void write(const void* from, std::size_t count, std::uint64_t at) const {
-    if (::pwrite(descriptor_, from, count, static_cast<off_t>(at)) != static_cast<ssize_t>(count))
-      std::abort();
+    if (::pwrite(descriptor_, from, count, static_cast<off_t>(at)) != static_cast<ssize_t>(count)) std::abort();
   }
 
  private:
@@ -284,8 +279,7 @@ void copy_attributes(hid_t from, hid_t to) {
     const Closed type{H5Aget_type(attribute), H5Tclose}, space{H5Aget_space(attribute), H5Sclose};
     Bytes value(H5Tget_size(type));
     if (H5Aread(attribute, type, value.data()) < 0) return -1;
-    const Closed made{H5Acreate2(*static_cast<hid_t*>(target), name, type, space, H5P_DEFAULT, H5P_DEFAULT),
-                      H5Aclose};
+    const Closed made{H5Acreate2(*static_cast<hid_t*>(target), name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose};
     return H5Awrite(made, type, value.data());
   };
   if (H5Aiterate2(from, H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, copy, &to) < 0) std::abort();
@@ -403,8 +397,7 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
     file.write(data, size, pipeline::checksum_block_bytes);
   else
     edit(file, {data, size});
-  constexpr std::size_t largest =
-      64 << 20;  // the library has filled this length; larger ones only use memory
+  constexpr std::size_t largest = 64 << 20;  // the library has filled this length; larger ones only use memory
   if (file.size() > largest) return 0;
   file.sign();
   return refused_or_used(file);

@@ -142,10 +142,10 @@ ssize_t write_or_fail(int descriptor, size_t size, const Write& write) {
 }  // namespace
 
 // A call of the C library with a replacement; `fail` is the return value of a failing call.
-#define FAILING(kind, result, name, fail, file, parameters, ...)                \
-  result name parameters {                                                      \
-    static auto* const call = real<result parameters>(#name);                   \
-    return fails(kind, file) ? (fail) : call(__VA_ARGS__);                      \
+#define FAILING(kind, result, name, fail, file, parameters, ...) \
+  result name parameters {                                       \
+    static auto* const call = real<result parameters>(#name);    \
+    return fails(kind, file) ? (fail) : call(__VA_ARGS__);       \
   }
 
 extern "C" {
@@ -163,7 +163,7 @@ FAILING("make", int, mkdir, -1, path, (const char* path, mode_t mode), path, mod
 FAILING("make", char*, mkdtemp, nullptr, path, (char* path), path)
 FAILING("lock", int, flock, -1, d, (int d, int operation), d, operation)
 FAILING("list", DIR*, opendir, nullptr, path, (const char* path), path)
-FAILING("list", struct dirent*, readdir, nullptr, ::dirfd(dir), (DIR* dir), dir)
+FAILING("list", struct dirent*, readdir, nullptr, ::dirfd(dir), (DIR * dir), dir)
 FAILING("look", int, access, -1, path, (const char* path, int mode), path, mode)
 FAILING("look", ssize_t, readlink, -1, path, (const char* path, char* link, size_t n), path, link, n)
 FAILING("look", char*, realpath, nullptr, path, (const char* path, char* name), path, name)
@@ -211,14 +211,14 @@ ssize_t read(int d, void* bytes, size_t size) {
   return read_or_fail(d, bytes, size, [&](size_t n) { return call(d, bytes, n); });
 }
 
-#define FAILING_OPEN(name)                                                                    \
-  int name(const char* path, int flags, ...) {                                                \
-    static auto* const call = real<int(const char*, int, mode_t)>(#name);                     \
-    va_list rest;                                                                             \
-    va_start(rest, flags);                                                                    \
-    const auto mode = static_cast<mode_t>(flags & O_CREAT ? va_arg(rest, int) : 0);           \
-    va_end(rest);                                                                             \
-    return fails("open", path) ? -1 : call(path, flags, mode);                                \
+#define FAILING_OPEN(name)                                                          \
+  int name(const char* path, int flags, ...) {                                      \
+    static auto* const call = real<int(const char*, int, mode_t)>(#name);           \
+    va_list rest;                                                                   \
+    va_start(rest, flags);                                                          \
+    const auto mode = static_cast<mode_t>(flags & O_CREAT ? va_arg(rest, int) : 0); \
+    va_end(rest);                                                                   \
+    return fails("open", path) ? -1 : call(path, flags, mode);                      \
   }
 FAILING_OPEN(open)
 FAILING_OPEN(open64)

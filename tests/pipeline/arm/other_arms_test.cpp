@@ -16,9 +16,7 @@
 namespace dresslife::pipeline {
 namespace {
 
-Job shipped() {
-  return read_job(DRESSLIFE_SOURCE_DIR "/config/jobs/irb6640_spot_welding.yaml", {"motion=hard"});
-}
+Job shipped() { return read_job(DRESSLIFE_SOURCE_DIR "/config/jobs/irb6640_spot_welding.yaml", {"motion=hard"}); }
 
 }  // namespace
 
@@ -34,9 +32,8 @@ TEST_CASE("other configurations of the arm: the same pose of the flange, and all
     std::size_t others;
   };
   std::set<std::string_view> kinds;
-  for (const auto& [joints, others] :
-       {Case{{0.1, -0.2, 0.3, 0.5, 0.6, -0.7}, 3}, Case{{-0.4, 0.1, -0.9, -1, -0.5, 1.2}, 1},
-        Case{{0.3, 0, 0.2, 0, 0, 0.4}, 3}}) {
+  for (const auto& [joints, others] : {Case{{0.1, -0.2, 0.3, 0.5, 0.6, -0.7}, 3},
+                                       Case{{-0.4, 0.1, -0.9, -1, -0.5, 1.2}, 1}, Case{{0.3, 0, 0.2, 0, 0, 0.4}, 3}}) {
     const std::vector<OtherArm> arms = other_arms(robot, joints);
     CHECK(arms.size() == others);
     for (const OtherArm& arm : arms) {
@@ -74,8 +71,7 @@ TEST_CASE("turns of wrist and arm keep the pose, a robot without such a wrist ha
   CHECK(other_turns(robot).empty());
 }
 
-TEST_CASE(
-    "other configurations: what they are called, the wrist next to the one before, and every limit kept") {
+TEST_CASE("other configurations: what they are called, the wrist next to the one before, and every limit kept") {
   Robot robot = shipped().robot;
   for (Joint& joint : robot.joints) joint.lower = -6.5, joint.upper = 6.5;
   for (const std::size_t axis : {1, 2}) robot.joints[axis].lower = -3.1, robot.joints[axis].upper = 3.1;
@@ -111,12 +107,10 @@ TEST_CASE(
     for (std::size_t axis = 0; axis < 3; ++axis) {
       Robot narrow = robot;
       narrow.joints[axis].upper = joints[axis] + 0.5;
-      for (const OtherArm& arm : other_arms(narrow, joints))
-        CHECK(arm.joints[axis] <= narrow.joints[axis].upper);
+      for (const OtherArm& arm : other_arms(narrow, joints)) CHECK(arm.joints[axis] <= narrow.joints[axis].upper);
       narrow = robot;
       narrow.joints[axis].lower = joints[axis] - 0.5;
-      for (const OtherArm& arm : other_arms(narrow, joints))
-        CHECK(arm.joints[axis] >= narrow.joints[axis].lower);
+      for (const OtherArm& arm : other_arms(narrow, joints)) CHECK(arm.joints[axis] >= narrow.joints[axis].lower);
     }
     for (std::size_t axis = 3; axis < 6; ++axis) {
       Robot narrow = robot;
@@ -136,8 +130,7 @@ TEST_CASE("turns of the wrist are those in their names") {
     if (turn.name.starts_with("other arm")) continue;
     const auto named = [&](const std::string& axis) {
       const std::size_t at = turn.name.find(axis);
-      return at == std::string::npos ? 0
-                                     : std::stod(turn.name.substr(at + axis.size())) * std::numbers::pi / 180;
+      return at == std::string::npos ? 0 : std::stod(turn.name.substr(at + axis.size())) * std::numbers::pi / 180;
     };
     const auto found = turn.turn(joints);
     INFO(turn.name);
@@ -167,9 +160,8 @@ TEST_CASE("a wrist whose axes do not cross in one point at right angles is none"
     return has_wrist(changed);
   };
   CHECK(is_one([](Robot&) {}));
-  CHECK(is_one([&](Robot& r) {
-    r.joints[4].origin += 0.1 * along, r.joints[5].origin -= 0.1 * along, r.joints[5].axis *= -1;
-  }));
+  CHECK(is_one(
+      [&](Robot& r) { r.joints[4].origin += 0.1 * along, r.joints[5].origin -= 0.1 * along, r.joints[5].axis *= -1; }));
   for (const double sign : {-1.0, 1.0}) {
     CHECK_FALSE(is_one([&](Robot& r) { r.joints[4].axis += sign * 1e-4 * along; }));
     CHECK_FALSE(is_one([&](Robot& r) { r.joints[5].axis += sign * 1e-4 * five; }));

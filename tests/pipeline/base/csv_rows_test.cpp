@@ -21,8 +21,7 @@ std::string all_of(CsvReader reader) {
 }  // namespace
 
 TEST_CASE("CSV: cells without blanks, comments, blank lines and rows of empty cells do not count") {
-  CHECK(all_of({"\xEF\xBB\xBF a , b\r\n# c\n\n ,,\n 1,\t2 \n  # d\n,3", "f"}) ==
-        "1:[a][b] 5:[1][2] 7:[][3] ");
+  CHECK(all_of({"\xEF\xBB\xBF a , b\r\n# c\n\n ,,\n 1,\t2 \n  # d\n,3", "f"}) == "1:[a][b] 5:[1][2] 7:[][3] ");
   CHECK(all_of({"", "f"}) == "");
   CHECK(all_of({"\n\n", "f"}) == "");
 }
@@ -74,12 +73,16 @@ TEST_CASE("CSV: what is written is read again, and no spreadsheet takes it for a
 }
 
 TEST_CASE("CSV: a file that is read in parts has the rows of its text") {
-  std::string text = "\xEF\xBB\xBF" "a,b\n";
-  for (int k = 0; k < 300'000; ++k) text += std::to_string(k) + ",\"" + std::to_string(7 * k) + "\"\n";  // fills several parts
+  std::string text =
+      "\xEF\xBB\xBF"
+      "a,b\n";
+  for (int k = 0; k < 300'000; ++k)
+    text += std::to_string(k) + ",\"" + std::to_string(7 * k) + "\"\n";  // fills several parts
   const Scratch scratch;
   CsvReader whole(text, "f.csv"), parts(PlainFile(scratch.write("f.csv", text)), ",");
   std::size_t rows = 0;
-  for (CsvRow row = whole.next(), other = parts.next(); !row.empty() || !other.empty(); row = whole.next(), other = parts.next()) {
+  for (CsvRow row = whole.next(), other = parts.next(); !row.empty() || !other.empty();
+       row = whole.next(), other = parts.next()) {
     REQUIRE(row.size() == other.size());
     for (std::size_t i = 0; i < row.size(); ++i) REQUIRE(row[i].text == other[i].text);
     REQUIRE(whole.line() == parts.line());

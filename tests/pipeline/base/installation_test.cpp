@@ -44,10 +44,9 @@ TEST_CASE("installation: without /proc a program is found by its path, or where 
   CHECK(program_called(scratch / "link") == program);
   const Variable path("PATH", "/nowhere::" + (scratch / "bin").string());
   CHECK(program_called("some-program") == program);
-  CHECK(
-      message_of([] { program_called("absent-program"); }) ==
-      "absent-program: error: is not found again (/proc is not there, and the name does not lead to it); mount "
-      "/proc, or start it by its whole path");
+  CHECK(message_of([] { program_called("absent-program"); }) ==
+        "absent-program: error: is not found again (/proc is not there, and the name does not lead to it); mount "
+        "/proc, or start it by its whole path");
   CHECK(message_of([] { program_called(""); }).starts_with("this program: error: is not found again"));
 }
 
@@ -66,10 +65,9 @@ TEST_CASE("installation: a DRESSLIFE_CONFIG that is no folder is refused, and do
   const Scratch scratch;
   const std::string lost = (scratch / "none").string();
   const Variable wrong("DRESSLIFE_CONFIG", lost);
-  const std::string words =
-      "DRESSLIFE_CONFIG: error: names " + lost +
-      ", which is no folder; set it to a folder that holds robots, programs, dresspacks and "
-      "materials, or unset it";
+  const std::string words = "DRESSLIFE_CONFIG: error: names " + lost +
+                            ", which is no folder; set it to a folder that holds robots, programs, dresspacks and "
+                            "materials, or unset it";
   CHECK(message_of([] { shipped_catalogue(); }) == words);
   CHECK(version_text("dresslife-sample").find(words) != std::string::npos);
 }
@@ -77,8 +75,8 @@ TEST_CASE("installation: a DRESSLIFE_CONFIG that is no folder is refused, and do
 TEST_CASE("installation: the version comes first, then what the program was built from") {
   const std::string text = version_text("dresslife-sample");
   CHECK(text.rfind(std::string("dresslife-sample ") + version() + "\n", 0) == 0);
-  for (const char* fact : {"\nbuilt as ", "\nthis machine runs the hot loops with: portable",
-                           "\nlibraries: ODE 0.", "Eigen 3.", "HDF5 1.", "\ncatalogue: "})
+  for (const char* fact : {"\nbuilt as ", "\nthis machine runs the hot loops with: portable", "\nlibraries: ODE 0.",
+                           "Eigen 3.", "HDF5 1.", "\ncatalogue: "})
     CHECK(text.find(fact) != std::string::npos);
 }
 

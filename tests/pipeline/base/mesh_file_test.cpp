@@ -17,17 +17,14 @@ const std::vector<Triangle> two{{Vector3{0, 0, 0}, Vector3{1, 0, 0.5}, Vector3{0
 
 std::string vertices(const char* word, const Triangle& triangle) {
   std::string text;
-  for (const Vector3& corner : triangle)
-    text += fmt::format("{} {} {} {}\n", word, corner[0], corner[1], corner[2]);
+  for (const Vector3& corner : triangle) text += fmt::format("{} {} {} {}\n", word, corner[0], corner[1], corner[2]);
   return text;
 }
 
 std::string binary_of(const std::vector<Triangle>& triangles) {
   std::string bytes(80, ' ');
   bytes.replace(0, 5, "solid");  // some programs begin binary files with this word too
-  const auto put = [&](const auto& value) {
-    bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
-  };
+  const auto put = [&](const auto& value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof(value)); };
   put(static_cast<std::uint32_t>(triangles.size()));
   for (const Triangle& triangle : triangles) {
     for (int k = 0; k < 3; ++k) put(9.0f);  // the normal is not used
@@ -71,8 +68,7 @@ TEST_CASE("meshes: STL of both kinds and OBJ give the same triangles") {
 }
 
 TEST_CASE("meshes: what is none is refused with its line") {
-  const std::string three = "v 0 0 0\nv 1 0 0\nv 0 1 0\n",
-                    facet = "solid\nfacet\n" + vertices("vertex", two[0]);
+  const std::string three = "v 0 0 0\nv 1 0 0\nv 0 1 0\n", facet = "solid\nfacet\n" + vertices("vertex", two[0]);
   for (const auto& [name, text, words] : std::initializer_list<std::array<std::string, 3>>{
            {"a.obj", three + "f 1 2 4\n", "a.obj:4:1: error: face names vertex 4 of 3"},
            {"a.obj", three + "f 1 2 0\n", "a.obj:4:1: error: face names vertex 0 of 3"},
@@ -82,8 +78,7 @@ TEST_CASE("meshes: what is none is refused with its line") {
            {"a.obj", three, "holds no triangles"},
            {"a.stl", "facet\n", "a.stl:1:1: error: is no STL"},
            {"a.stl", facet + "vertex 0 0 0\nendfacet\n", "a.stl:7:1: error: facet without three vertices"},
-           {"a.stl", "solid\nvertex 0 0 0\nvertex 0 0 1\nendfacet\n",
-            "a.stl:4:1: error: facet without three vertices"},
+           {"a.stl", "solid\nvertex 0 0 0\nvertex 0 0 1\nendfacet\n", "a.stl:4:1: error: facet without three vertices"},
            {"a.stl", "solid\nvertex 0 x 0\n", "a.stl:2:1: error: vertex without three numbers"},
            {"a.stl", binary_of(two).substr(1), "is no STL"},
            {"a.step", facet, "must be .stl or .obj"}}) {

@@ -54,7 +54,9 @@ TEST_CASE("ownership: each byte that a user changes makes a text that people edi
 
 TEST_CASE("ownership: files without a comment line are known by their first bytes, similar files are not ours") {
   const Scratch scratch;
-  const auto ours = [&](const std::string& name, const std::string& text) { return is_ours(scratch.write(name, text)); };
+  const auto ours = [&](const std::string& name, const std::string& text) {
+    return is_ours(scratch.write(name, text));
+  };
   CHECK(ours("life.h5", "dresslife file\nxxh3-128 0"));
   CHECK(ours("build.ninja", "ninja_required_version = 1.8\nbuilddir = .stage\n"));
   CHECK_FALSE(ours("build.ninja", "ninja_required_version = 1.8\nbuilddir = mine\n"));

@@ -13,7 +13,8 @@ TEST_CASE("related files: what a program names in whole words, what those name, 
   const auto file = [&](const std::string& name, const std::string& text) { return scratch.write(name, text); };
   const auto program = file("weld.src", "DEF weld()\nPTP position\n grip(1)\nLIN {X 1,Y 2}\nEND\n");
   const auto called = file("tongs.src", "GLOBAL DEF grip(x:IN)\nPTP xopen\nEND\n");
-  const auto of_called = file("points.dat", "DEFDAT points PUBLIC\nDECL GLOBAL E6POS xopen={X 1,Y 2}, xshut={X 2,Y 3}\nENDDAT\n");
+  const auto of_called =
+      file("points.dat", "DEFDAT points PUBLIC\nDECL GLOBAL E6POS xopen={X 1,Y 2}, xshut={X 2,Y 3}\nENDDAT\n");
   const auto own_data = file("weld.dat", "DEFDAT weld\nENDDAT\n");
   const auto config = file("$config.dat", "DEFDAT $config\nENDDAT\n");
   // Its names are parts of words of the program, and its arguments and contents are words of the program.
@@ -34,7 +35,8 @@ TEST_CASE("related files: copies of the program, its comments and routines of ot
   CHECK(related_files({program}, {copy, in_comment, local}).empty());
   // Calls have brackets or stand alone. A component of a position or a variable is not a call.
   const auto moves = file("moves.src", "DEF moves()\nPTP {X 1,Y 2}\nPTP place\n  last \nEND\n");
-  const auto x = file("x.src", "DEF x()\nEND\n"), place = file("place.src", "DEF place()\nEND\n"), last = file("last.src", "DEF last()\nEND\n");
+  const auto x = file("x.src", "DEF x()\nEND\n"), place = file("place.src", "DEF place()\nEND\n"),
+             last = file("last.src", "DEF last()\nEND\n");
   CHECK(related_files({moves}, {x, place, last}) == std::vector{last});
   CHECK(related_files({moves}, {x, place}, "Place") == std::vector{place});
   const auto module = file("list.src", "DEF list()\n place:go()\nEND\n");

@@ -24,8 +24,7 @@ TEST_CASE("statistics: shares of the normal distribution are the printed ones, f
 TEST_CASE("statistics: the density is the slope of the share, and the quantile its inverse") {
   for (double z = -5; z < 5.1; z += 0.5) {
     constexpr double step = 1e-5;  // its square / 6 and the rounding 1e-16 / 1e-5 are below 1e-10
-    CHECK(normal_density(z) ==
-          Approx((normal_share(z + step) - normal_share(z - step)) / (2 * step)).margin(1e-10));
+    CHECK(normal_density(z) == Approx((normal_share(z + step) - normal_share(z - step)) / (2 * step)).margin(1e-10));
     // A share near 1 is rounded to 1.1e-16. This is the corresponding error of z.
     CHECK(normal_quantile(normal_share(z)) == Approx(z).margin(1e-15 + 2e-16 / normal_density(z)));
   }

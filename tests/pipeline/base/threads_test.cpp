@@ -64,8 +64,7 @@ TEST_CASE("threads: every part once, and the failure of the lowest part is throw
   CHECK(finished == std::vector<int>{1, 0, 1, 0});
 }
 
-TEST_CASE(
-    "threads: in order, everything is worked on once and used in its turn, no more than so many ahead") {
+TEST_CASE("threads: in order, everything is worked on once and used in its turn, no more than so many ahead") {
   for (const std::size_t threads : {1, 2, 3, 8})
     for (const std::size_t count : {0, 1, 5, 200})
       for (const std::size_t ahead : {1, 2, 7}) {

@@ -1,8 +1,8 @@
 #include "pipeline/base/warnings.h"
 
-#include "tests/catch.h"
 #include <fmt/format.h>
 #include "pipeline/base/warning_words.h"
+#include "tests/catch.h"
 
 using namespace dresslife::pipeline;
 
@@ -19,15 +19,15 @@ TEST_CASE("warnings come back from an attribute as they went in") {
   CHECK(warnings_from("of_a_newer_program\t\twords\nno tabs\ntwist\t\tkept").size() == 1);
 }
 
-TEST_CASE("warnings: what separates them is taken out of their words, none is cut, and of too many the rest is counted") {
+TEST_CASE(
+    "warnings: what separates them is taken out of their words, none is cut, and of too many the rest is counted") {
   const auto back = warnings_from(warnings_text({{WarningKind::program, "a\tb", "one\ntwo"}}));
   REQUIRE(back.size() == 1);
   CHECK(back[0].where == "a b");
   CHECK(back[0].words == "one two");
   std::string umlauts;
   for (int k = 0; k < 1000; ++k) umlauts += "\u00fc";
-  const std::string text =
-      warnings_text(std::vector<Warning>(5000, {WarningKind::program, umlauts, umlauts}));
+  const std::string text = warnings_text(std::vector<Warning>(5000, {WarningKind::program, umlauts, umlauts}));
   CHECK(text.size() < 64 * 1024);  // HDF5's limit of an attribute
   const auto kept = warnings_from(text);
   REQUIRE(kept.size() > 2);
@@ -39,7 +39,8 @@ TEST_CASE("warnings say what is wrong, why, and what to do, with the values of t
   const auto twist = [](const auto& remedy) {
     return warning_of(WarningKind::twist, "hose", "twist: 200 deg/m (limit 180 deg/m)", "the clamps turn it", remedy);
   };
-  const std::string begin = "hose: warning: twist: 200 deg/m (limit 180 deg/m). Likely cause: the clamps turn it. Remedy: ";
+  const std::string begin =
+      "hose: warning: twist: 200 deg/m (limit 180 deg/m). Likely cause: the clamps turn it. Remedy: ";
   const Remedy remedy{{{"routing.pre_twist_deg", "-90"}, {"routing.free_length_m", "1.2"}}, ", or another clamp"};
   CHECK(twist(remedy).line() == begin + "routing.pre_twist_deg: -90 and routing.free_length_m: 1.2, or another clamp");
   CHECK(twist(remedy).remedy == remedy.values);

@@ -114,9 +114,8 @@ TEST_CASE("whole file: a second name is the same bytes, and replaces what is our
 
 TEST_CASE("whole file: what killed writers left goes, what is locked or named otherwise stays") {
   const Scratch scratch;
-  for (const char* name :
-       {"dresslife-12-0.part", "dresslife-12-3.part", "a.part", "a.12-0.part", "dresslife-x-0.part",
-        "dresslife-12.part", "dresslife-1-2-3.part"})
+  for (const char* name : {"dresslife-12-0.part", "dresslife-12-3.part", "a.part", "a.12-0.part", "dresslife-x-0.part",
+                           "dresslife-12.part", "dresslife-1-2-3.part"})
     scratch.write(name, "x");
   const int held = ::open((scratch / "dresslife-12-3.part").c_str(), O_RDWR | O_CLOEXEC);
   REQUIRE(::flock(held, LOCK_EX) == 0);
@@ -132,10 +131,8 @@ TEST_CASE("whole file: folders, links and what is no file are not replaced") {
   const Scratch scratch;
   scratch.write("target", "kept");
   fs::create_symlink("target", scratch / "link");
-  CHECK(message_of([&] { WholeFile file(scratch / "link"); }).find("is a link to another file") !=
-        std::string::npos);
-  CHECK(message_of([&] { write_text_if_changed(scratch / "link", ours("x")); }).find("is a link") !=
-        std::string::npos);
+  CHECK(message_of([&] { WholeFile file(scratch / "link"); }).find("is a link to another file") != std::string::npos);
+  CHECK(message_of([&] { write_text_if_changed(scratch / "link", ours("x")); }).find("is a link") != std::string::npos);
   CHECK(bytes_of(scratch / "target") == "kept");
   CHECK(message_of([&] { WholeFile file(scratch / "."); }).find("is a folder") != std::string::npos);
   CHECK(message_of([&] { WholeFile file("/dev/null"); }).find("is a device or a pipe") != std::string::npos);

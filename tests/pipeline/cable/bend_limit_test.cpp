@@ -4,7 +4,8 @@
 
 using namespace dresslife::pipeline;
 
-TEST_CASE("a corrugated hose bends as far as the parts in it and its makers allow, anything else as far as its diameter does") {
+TEST_CASE(
+    "a corrugated hose bends as far as the parts in it and its makers allow, anything else as far as its diameter does") {
   Dresspack dresspack;
   dresspack.diameter = 0.06;
   CHECK(least_bend_radius(dresspack) == Approx(0.6));
@@ -24,10 +25,12 @@ TEST_CASE("a corrugated hose bends as far as the parts in it and its makers allo
   tube.name = "tube", tube.count = 1, tube.radius = 0.012, tube.helix_radius = 0.001;
   dresspack.core_components = {tube};
   CHECK(least_bend_radius(dresspack) == Approx(0.241));
-  CHECK_THAT(bend_rule(dresspack), Catch::Contains("ten diameters of 'tube' (24 mm) in the hose, 1 mm off its axis, count"));
+  CHECK_THAT(bend_rule(dresspack),
+             Catch::Contains("ten diameters of 'tube' (24 mm) in the hose, 1 mm off its axis, count"));
   dresspack.core_components[0].radius = 0.005;
   CHECK(least_bend_radius(dresspack) == Approx(0.24));
-  CHECK_THAT(bend_rule(dresspack), Catch::Contains("ten diameters of a core with the area that no core component takes (24 mm) count"));
+  CHECK_THAT(bend_rule(dresspack),
+             Catch::Contains("ten diameters of a core with the area that no core component takes (24 mm) count"));
   dresspack.core_components[0].count = 7;  // more than the area: the other parts decide
   CHECK(least_bend_radius(dresspack) == Approx(0.106 + 0.01845));
   dresspack.least_bend_radius = 0.2;

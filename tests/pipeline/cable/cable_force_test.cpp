@@ -83,8 +83,7 @@ TEST_CASE("cables pull at both clamps with the moment of their forces about the 
   pipeline::Component wire = test_dresspacks::part("cable", 1, 5.3e-3, 0, 0);
   wire.components = {test_dresspacks::wires("", 1, 75e-6, 0.5e-3, 0, pipeline::Hand::right)};
   const CableForce force(copper_only(), wire);
-  const std::array<std::vector<double>, 3> strain{
-      {{1e-4, -3e-3, 2e-4}, {1e-4, -2e-3, 1e-4}, {-5e-5, -1e-3, 2e-4}}},
+  const std::array<std::vector<double>, 3> strain{{{1e-4, -3e-3, 2e-4}, {1e-4, -2e-3, 1e-4}, {-5e-5, -1e-3, 2e-4}}},
       other{{{2e-4, 1e-4, 4e-3}, {2e-4, 1e-4, 1e-3}, {1e-4, 1e-5, 3e-3}}};
   const std::vector<pipeline::PulledCable> cables{{force, strain, {{{0.01, 0.002}, {-0.004, 0.007}}}},
                                                   {force, other, {{{-0.01, 0.005}, {0.003, 0.008}}}}};

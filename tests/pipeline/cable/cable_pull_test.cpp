@@ -28,8 +28,7 @@ Dresspack copper_only() {
 Component part(int count, double radius, double helix_radius, double lay_angle, Hand hand = Hand::right) {
   Component one;
   one.name = "part";
-  one.count = count, one.radius = radius, one.helix_radius = helix_radius, one.lay_angle = lay_angle,
-  one.hand = hand;
+  one.count = count, one.radius = radius, one.helix_radius = helix_radius, one.lay_angle = lay_angle, one.hand = hand;
   one.material = "copper";
   return one;
 }
@@ -56,9 +55,7 @@ TEST_CASE("cable pull: a layer's wires strain as unrolled helices do, and each l
       const double strain = unrolled(R, sign_of(hand) * a, elongation, twist) - 1;
       const double pull = pull_of_wires(dresspack, {part(12, r, R, a, hand)}, elongation, twist);
       CAPTURE(twist);
-      CHECK(
-          pull ==
-          Approx(12 * modulus * area * std::cos(a) * strain).epsilon(1e-9));  // rounding of a strain of 1e-3
+      CHECK(pull == Approx(12 * modulus * area * std::cos(a) * strain).epsilon(1e-9));  // rounding of a strain of 1e-3
       if (twist > 0) sum += pull;
     }
   CHECK(pull_of_wires(dresspack, {part(12, r, R, a), part(12, r, R, a, Hand::left)}, elongation, 4) ==
@@ -75,9 +72,11 @@ TEST_CASE("cable pull: a layer's wires strain as unrolled helices do, and each l
   // E A of the cable and its force include the bed, to second order in the strain of 1e-6.
   const Component cable = holding(part(1, 4e-3, 0, 0), {soft, straight});
   CHECK(axial_stiffness(dresspack, cable) == Approx(modulus * area * (1 + 12 * left * std::pow(std::cos(a), 3))));
-  CHECK(CableForce(dresspack, cable).force(1e-6) == Approx(pull_of_wires(dresspack, cable.components, 1e-6, 0)).epsilon(1e-5));
+  CHECK(CableForce(dresspack, cable).force(1e-6) ==
+        Approx(pull_of_wires(dresspack, cable.components, 1e-6, 0)).epsilon(1e-5));
   // A soft bed reduces the shortening of a cable that is twisted about a straight wire.
-  CHECK(-elongation_under(dresspack, {straight, soft}, 0, 4) < -0.9 * elongation_under(dresspack, {straight, part(12, r, R, a)}, 0, 4));
+  CHECK(-elongation_under(dresspack, {straight, soft}, 0, 4) <
+        -0.9 * elongation_under(dresspack, {straight, part(12, r, R, a)}, 0, 4));
   CHECK(pull_of_wires(dresspack, {part(1, r, 0, 0)}, elongation, 4) == Approx(modulus * area * elongation));
   Component unknown = part(1, r, 0, 0);
   unknown.material = "polymer without a name";
@@ -109,12 +108,10 @@ TEST_CASE("cable pull: wires in strands in layers strain as curves in space do")
         Approx(laid).epsilon(1e-9));
 }
 
-TEST_CASE(
-    "cable pull: the elongation under a pull is its inverse, and a twisted layer shortens by Pythagoras") {
+TEST_CASE("cable pull: the elongation under a pull is its inverse, and a twisted layer shortens by Pythagoras") {
   const Dresspack dresspack = copper_only();
   const double R = 2e-3, a = 0.3;
-  const std::vector<Component> layers{part(12, 1e-4, R, a), part(6, 1e-4, 1e-3, 0.2, Hand::left),
-                                      part(1, 1e-4, 0, 0)};
+  const std::vector<Component> layers{part(12, 1e-4, R, a), part(6, 1e-4, 1e-3, 0.2, Hand::left), part(1, 1e-4, 0, 0)};
   for (const double twist : {-10.0, 0.0, 30.0})
     for (const double elongation : {-0.3, -1e-3, 0.0, 2e-3, 0.4}) {
       const double pull = pull_of_wires(dresspack, layers, elongation, twist);
@@ -138,8 +135,7 @@ TEST_CASE(
   CHECK(twist_shortening(dresspack, empty).quadratic == 0);
 }
 
-TEST_CASE(
-    "cable pull: the hose's bending stiffness is its own, or that of wires, cables and plain parts added up") {
+TEST_CASE("cable pull: the hose's bending stiffness is its own, or that of wires, cables and plain parts added up") {
   Dresspack dresspack = copper_only();
   const Component wire = part(7, 2e-4, 1e-3, 0.2);
   dresspack.components = {wire};
@@ -151,8 +147,7 @@ TEST_CASE(
   const Component cable = holding(part(3, 3e-3, 0.01, 0.1), {part(4, 1e-4, 1e-3, 0.2)});
   dresspack.components = {wire, hose, cable};
   CHECK(bending_stiffness(dresspack) ==
-        Approx(of_wires + 2 * properties_of(*hose.plain, hose.radius).bending +
-               3 * cable_stiffness(dresspack, cable)));
+        Approx(of_wires + 2 * properties_of(*hose.plain, hose.radius).bending + 3 * cable_stiffness(dresspack, cable)));
   dresspack.bending_stiffness = 5;
   CHECK(bending_stiffness(dresspack) == 5);
 }

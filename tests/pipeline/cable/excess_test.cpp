@@ -51,8 +51,7 @@ components:
 
 TEST_CASE("room: a cable in the middle has what its ring leaves, a ring turns as one, a lone one goes to the wall") {
   std::vector<CableSpot> spots{{{0, 0}, 0.008}};
-  for (int k = 0; k < 6; ++k)
-    spots.push_back({{0.0135 * std::cos(k * pi / 3), 0.0135 * std::sin(k * pi / 3)}, 0.004});
+  for (int k = 0; k < 6; ++k) spots.push_back({{0.0135 * std::cos(k * pi / 3), 0.0135 * std::sin(k * pi / 3)}, 0.004});
   const auto rooms = rooms_of(spots, 0.026, 0);
   CHECK(rooms[0].ring == no_ring);
   CHECK(winding_radius(spots[0], rooms[0]) == Approx(0.0015));
@@ -113,15 +112,17 @@ TEST_CASE("excess: a cable that is too long for its room is named with its force
   CHECK(slack_warnings(hose(1.03 * std::stod(room), 1)).empty());
 }
 
-TEST_CASE("excess: a cable that cannot wind around the axis of its hose is named, and the slack that is proposed lets it") {
+TEST_CASE(
+    "excess: a cable that cannot wind around the axis of its hose is named, and the slack that is proposed lets it") {
   MountedDresspack mounted;
   mounted.dresspack = hose(0.5, 0);
   mounted.routing.base_clamp.emplace(), mounted.routing.tool_clamp.emplace();
   mounted.routing.free_length = 1.2;
   std::vector<Component>& parts = mounted.dresspack.components;
   const double excess = std::hypot(1.2, 2 * pi * parts[1].helix_radius) / 1.2 - 1;  // of a helix of one turn
-  CHECK(winding_slack(mounted, parts[1]) == Approx(excess).epsilon(excess));        // half of it is the next term of the series
-  CHECK(winding_slack(mounted, parts[0]) == 0);                                     // on the axis
+  CHECK(winding_slack(mounted, parts[1]) ==
+        Approx(excess).epsilon(excess));         // half of it is the next term of the series
+  CHECK(winding_slack(mounted, parts[0]) == 0);  // on the axis
   const auto warnings = tight_warnings("dresspacks.1.dresspack", mounted);
   REQUIRE(warnings.size() == 1);
   CHECK_THAT(warnings[0].words, Contains("'signal cable' has 0 % of slack (limit 0.11 %: ") &&

@@ -36,9 +36,7 @@ Nested nest(const State& state, const std::vector<space_curve::Level>& levels, K
 
 class Random {
  public:
-  double between(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(engine_);
-  }
+  double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
   State state() { return {between(-0.02, 0.02), between(-7, 7), between(-7, 7), between(-10, 10)}; }
   /// Returns random radii and lay angles as in a dresspack, of both hands.
   std::vector<space_curve::Level> levels(int depth) {
@@ -69,12 +67,11 @@ void compare_with_space(int depth, int states) {
     const State state = random.state();
     const auto levels = random.levels(depth);
     const Nested nested = nest(state, levels, Kinematics::exact);
-    const space_curve::Curves now{
-        1.0L + state.elongation, {state.curvature1, state.curvature2, state.twist}, levels};
+    const space_curve::Curves now{1.0L + state.elongation, {state.curvature1, state.curvature2, state.twist}, levels};
     const space_curve::Curves rest{1.0L, {0, 0, 0}, levels};
     const double strain = static_cast<double>(now.stretch_of_last() / rest.stretch_of_last() - 1);
-    worst_strain = std::max(worst_strain,
-                            std::abs(nested.strain() - strain) / std::max(std::abs(strain), smallest_strain));
+    worst_strain =
+        std::max(worst_strain, std::abs(nested.strain() - strain) / std::max(std::abs(strain), smallest_strain));
     if (k % 10 != 0) continue;  // the reference's rates take six times as long as its strain
     const Eigen::Vector3d change = (now.rate_of_last() - rest.rate_of_last()).cast<double>();
     const Eigen::Vector3d ours(nested.now.bend1.at[0] - nested.rest.bend1.at[0],
@@ -109,8 +106,8 @@ TEST_CASE("a fibre on a wire's surface agrees with a curve in space") {
       const auto path = curve.stretch_of_last(), winding = static_cast<long double>(r * rod.twist.at[0]);
       return std::sqrt(path * path - winding * winding);
     };
-    const auto now = length(
-        {1.0L + state.elongation, {state.curvature1, state.curvature2, state.twist}, levels}, wire.now);
+    const auto now =
+        length({1.0L + state.elongation, {state.curvature1, state.curvature2, state.twist}, levels}, wire.now);
     const auto rest = length({1.0L, {0, 0, 0}, levels}, wire.rest);
     const double strain = static_cast<double>(now / rest - 1);
     const WireState<double> at_rest{wire.rest.stretch.at[0], wire.rest.bend1.at[0], wire.rest.bend2.at[0],
@@ -121,16 +118,14 @@ TEST_CASE("a fibre on a wire's surface agrees with a curve in space") {
     const double ours = fibre_strain(fibre, wire.strain(), bend1, bend2);
     const double sum = wire.strain() + r * (bend1 * std::sin(phi) - bend2 * std::cos(phi));
     worst = std::max(worst, std::abs(ours - strain) / std::max(std::abs(strain), smallest_strain));
-    worst_of_sum =
-        std::max(worst_of_sum, std::abs(sum - strain) / std::max(std::abs(strain), smallest_strain));
+    worst_of_sum = std::max(worst_of_sum, std::abs(sum - strain) / std::max(std::abs(strain), smallest_strain));
   }
   CAPTURE(worst, worst_of_sum);
   CHECK(worst < strain_tolerance);
   CHECK(worst_of_sum > 0.01);  // the sum of strain and change of bending is a different number
 }
 
-TEST_CASE(
-    "a straight part of a twisted dresspack stretches by geometry, not by twice that as in the thesis") {
+TEST_CASE("a straight part of a twisted dresspack stretches by geometry, not by twice that as in the thesis") {
   const State twisted{0, 0, 0, 5};
   const std::vector<space_curve::Level> cable{{0.01845L, 0, 0}};
   // sqrt(1 + (R tau)^2) - 1 and (R tau)^2 / (1 + (R tau)^2)
@@ -147,8 +142,7 @@ TEST_CASE("the thesis' equations give the numbers evaluated by hand") {
   CHECK(conductor.now.twist.at[0] == Approx(0.7950300460873669).epsilon(digits));  // (16)
   CHECK(conductor.now.bend2.at[0] == Approx(0.8000364651749452).epsilon(digits));  // (17)
   CHECK(conductor.now.bend1.at[0] == Approx(1.6761881725546248).epsilon(digits));  // (18)
-  const auto wire =
-      nest(state, {{0.002825L, 25 * degree, 0.7L}, {0.00075L, 5 * degree, 2.0L}}, Kinematics::thesis);
+  const auto wire = nest(state, {{0.002825L, 25 * degree, 0.7L}, {0.00075L, 5 * degree, 2.0L}}, Kinematics::thesis);
   CHECK(wire.strain() == Approx(0.010200217430071047).epsilon(digits));         // (20)
   CHECK(wire.now.twist.at[0] == Approx(0.16092222367210385).epsilon(digits));   // (21)
   CHECK(wire.now.bend2.at[0] == Approx(0.029817250902044963).epsilon(digits));  // (22)
@@ -160,8 +154,7 @@ TEST_CASE("in a twisted cable the worst wire strains half as much again as the t
   // conductor's stretch.
   double exact = 0, thesis = 0;
   for (int k = 0; k < 36; ++k) {
-    const std::vector<space_curve::Level> levels{{0.002825L, 25 * degree, 0},
-                                                 {0.00075L, 5 * degree, 10 * k * degree}};
+    const std::vector<space_curve::Level> levels{{0.002825L, 25 * degree, 0}, {0.00075L, 5 * degree, 10 * k * degree}};
     exact = std::max(exact, nest({0, 0, 0, std::numbers::pi}, levels, Kinematics::exact).strain());
     thesis = std::max(thesis, nest({0, 0, 0, std::numbers::pi}, levels, Kinematics::thesis).strain());
   }
@@ -175,18 +168,14 @@ TEST_CASE("the mean over the phases is the average of many phases") {
     const State state = random.state();
     const auto levels = random.levels(1);
     for (const Kinematics kinematics : {Kinematics::exact, Kinematics::thesis}) {
-      const auto rod =
-          uniform_rod<double>(state.elongation, state.curvature1, state.curvature2, state.twist, 1);
+      const auto rod = uniform_rod<double>(state.elongation, state.curvature1, state.curvature2, state.twist, 1);
       auto place = [&](double phase) {
         return make_placement(kinematics, levels[0].radius, levels[0].lay_angle, phase);
       };
       double mean = 0;
-      constexpr int phases =
-          64;  // so many that the average of a smooth periodic function is exact to rounding
-      for (int m = 0; m < phases; ++m)
-        mean += path_rate(rod, place(2 * std::numbers::pi * m / phases)) / phases;
-      constexpr double next_term =
-          3e-7;  // A (R K)^6 / 50 at the largest sampled radius, curvature and lay angle
+      constexpr int phases = 64;  // so many that the average of a smooth periodic function is exact to rounding
+      for (int m = 0; m < phases; ++m) mean += path_rate(rod, place(2 * std::numbers::pi * m / phases)) / phases;
+      constexpr double next_term = 3e-7;  // A (R K)^6 / 50 at the largest sampled radius, curvature and lay angle
       CHECK(std::abs(mean_path_rate(rod, place(0.3)) - mean) < next_term);
     }
   }
@@ -198,18 +187,15 @@ TEST_CASE("the last level's values are those of the full recursion") {
     const State state = random.state();
     const auto levels = random.levels(3);
     for (const Kinematics kinematics : {Kinematics::exact, Kinematics::thesis}) {
-      const Nested parent = nest(state, {levels[0], levels[1]}, kinematics),
-                   wire = nest(state, levels, kinematics);
+      const Nested parent = nest(state, {levels[0], levels[1]}, kinematics), wire = nest(state, levels, kinematics);
       ComponentState<double> at_order_one = parent.now;
       REQUIRE(parent.now.stretch.order >= (kinematics == Kinematics::exact ? 1 : 0));
-      const auto values = wire_state(
-          at_order_one, make_placement(kinematics, levels[2].radius, levels[2].lay_angle, levels[2].phase));
+      const auto values =
+          wire_state(at_order_one, make_placement(kinematics, levels[2].radius, levels[2].lay_angle, levels[2].phase));
       CHECK(values.stretch == Approx(wire.now.stretch.at[0]).epsilon(1e-14));
       const bool exact = kinematics == Kinematics::exact;
-      CHECK(values.bend1 ==
-            Approx(exact ? wire.now.bend1.at[0] : -wire.now.bend2.at[0]).epsilon(1e-12).margin(1e-11));
-      CHECK(values.bend2 ==
-            Approx(exact ? wire.now.bend2.at[0] : wire.now.bend1.at[0]).epsilon(1e-12).margin(1e-11));
+      CHECK(values.bend1 == Approx(exact ? wire.now.bend1.at[0] : -wire.now.bend2.at[0]).epsilon(1e-12).margin(1e-11));
+      CHECK(values.bend2 == Approx(exact ? wire.now.bend2.at[0] : wire.now.bend1.at[0]).epsilon(1e-12).margin(1e-11));
     }
   }
 }

@@ -64,8 +64,7 @@ TEST_CASE("kink: a part's own least radius goes before that of its wall, and its
   CHECK(kink_radius(hose).log10_spread == 0);
 }
 
-TEST_CASE(
-    "warmth: nothing changes at 23 C, and polyamide keeps 0.70 and 0.50 of its strength at 40 and 60 C") {
+TEST_CASE("warmth: nothing changes at 23 C, and polyamide keeps 0.70 and 0.50 of its strength at 40 and 60 C") {
   CHECK(stiffness_at(23) == 1);
   CHECK(wear_at(23).factor == 1);
   CHECK(wear_at(23).log10_spread == 0);

@@ -33,12 +33,10 @@ TEST_CASE("neighbouring helices are as far apart as points laid on them") {
   // Brute force over both helices. An error of half a step of 2e-4 rad in the nearest points changes the distance by (1e-4)^2.
   for (const double lay_angle : {5.0, 25.0, 45.0, 60.0})
     for (const int count : {2, 3, 7, 31}) {
-      const double R = 2.825e-3, rise = R / std::tan(lay_angle * degree),
-                   turned = 2 * std::numbers::pi / count;
+      const double R = 2.825e-3, rise = R / std::tan(lay_angle * degree), turned = 2 * std::numbers::pi / count;
       double nearest = 1;
       for (double phi = -4; phi < 4; phi += 2e-4)
-        nearest = std::min(
-            nearest, std::hypot(R - R * std::cos(phi + turned), R * std::sin(phi + turned), rise * phi));
+        nearest = std::min(nearest, std::hypot(R - R * std::cos(phi + turned), R * std::sin(phi + turned), rise * phi));
       CHECK(neighbour_distance(R, lay_angle * degree, count) == Approx(nearest).epsilon(1e-5));
     }
   CHECK(neighbour_distance(1, 0, 6) == Approx(1));
@@ -46,13 +44,12 @@ TEST_CASE("neighbouring helices are as far apart as points laid on them") {
 
 TEST_CASE("parts that overlap on their circle are warned of, with what would fit") {
   std::vector<std::string> warnings;
-  for (const Warning& warning : overlap_warnings(dresspack_of(7, 1.175, 2.825, 25)))
-    warnings.push_back(warning.line());
+  for (const Warning& warning : overlap_warnings(dresspack_of(7, 1.175, 2.825, 25))) warnings.push_back(warning.line());
   REQUIRE(warnings.size() == 1);
-  CHECK_THAT(warnings[0],
-             Catch::Contains("pack.yaml:7:3: warning: the 7 parts 'conductor' are 2.254 mm apart") &&
-                 Catch::Contains("0.096 mm less than their diameter") &&
-                 Catch::Contains("Likely cause: ") && Catch::Contains("or count: 6 or less, or helix_radius_mm: "));
+  CHECK_THAT(warnings[0], Catch::Contains("pack.yaml:7:3: warning: the 7 parts 'conductor' are 2.254 mm apart") &&
+                              Catch::Contains("0.096 mm less than their diameter") &&
+                              Catch::Contains("Likely cause: ") &&
+                              Catch::Contains("or count: 6 or less, or helix_radius_mm: "));
   // The angle of the remedy fits. A tenth of a degree more does not.
   const std::size_t at = warnings[0].find("lay_angle_deg: ") + 15;
   const double most = std::stod(warnings[0].substr(at));
@@ -84,10 +81,12 @@ TEST_CASE("a steep lay angle may be a lay length, and the remedy ends where no l
     return warnings[0].line();
   };
   // tan = 2 pi 2.825 / 45: 21.5 deg, where seven parts of 2.3 mm fit
-  CHECK_THAT(remedy(dresspack_of(7, 1.15, 2.825, 45)), Catch::Contains("lay_angle_deg: 21.5 if 45 is the lay length in mm"));
+  CHECK_THAT(remedy(dresspack_of(7, 1.15, 2.825, 45)),
+             Catch::Contains("lay_angle_deg: 21.5 if 45 is the lay length in mm"));
   // 25 mm off the axis a lay of 60 mm is 69 deg.
   const std::string far = remedy(dresspack_of(9, 6, 25, 60));
-  CHECK_THAT(far, Catch::Contains("lay_angle_deg: the angle of the cable (8 to 25)") && !Catch::Contains("is the lay length"));
+  CHECK_THAT(
+      far, Catch::Contains("lay_angle_deg: the angle of the cable (8 to 25)") && !Catch::Contains("is the lay length"));
 }
 
 TEST_CASE("parts of two components that would lie in each other are warned of, those that touch are not") {
@@ -101,9 +100,8 @@ TEST_CASE("parts of two components that would lie in each other are warned of, t
   CHECK(overlap_warnings(dresspack).empty());
   parts[1].helix_radius = 1.9e-3;
   REQUIRE(overlap_warnings(dresspack).size() == 1);
-  CHECK_THAT(overlap_warnings(dresspack)[0].words,
-             Catch::Contains("'conductor' and 'ring' come as near as 1.9 mm") &&
-                 Catch::Contains("0.100 mm less than their radii together"));
+  CHECK_THAT(overlap_warnings(dresspack)[0].words, Catch::Contains("'conductor' and 'ring' come as near as 1.9 mm") &&
+                                                       Catch::Contains("0.100 mm less than their radii together"));
   // Three more in their gaps fit if they have the same lay, straight or not. With another lay they meet the others.
   parts.erase(parts.begin());
   parts[0].helix_radius = 2e-3;
@@ -120,9 +118,8 @@ TEST_CASE("parts of two components that would lie in each other are warned of, t
   CHECK(overlap_warnings(dresspack).size() == 1);
   parts[1].hand = Hand::right;
   parts[1].phase = 5 * degree;  // nearly the same place: certainly a mistake
-  CHECK_THROWS_WITH(overlap_warnings(dresspack),
-                    Catch::Contains("'ring' and 'between' come as near as 0.1745 mm") &&
-                        Catch::Contains("nearer than half of these"));
+  CHECK_THROWS_WITH(overlap_warnings(dresspack), Catch::Contains("'ring' and 'between' come as near as 0.1745 mm") &&
+                                                     Catch::Contains("nearer than half of these"));
   CHECK_THROWS(refuse_gross_overlap(dresspack));
   parts[1].phase = std::numbers::pi / 4;  // 15 deg from it: 2 R sin(22.5 deg)
   CHECK(nearest_distance(parts[0], parts[1]) == Approx(4e-3 * std::sin(22.5 * degree)));

@@ -73,8 +73,7 @@ TEST_CASE("parts without wires add mass and stiffness to a hose's construction, 
 
 TEST_CASE("what a part without wires cannot be is refused with its place and a remedy") {
   const auto plain = [](const std::string& words, const std::string& keys = "helix_radius_mm: 8") {
-    return refusal(
-        {free_cables, hose, with("{name: x, radius_mm: 4, " + keys + ", without_wires: " + words + "}")});
+    return refusal({free_cables, hose, with("{name: x, radius_mm: 4, " + keys + ", without_wires: " + words + "}")});
   };
   CHECK(plain("{kind: hose}") == "");
   CHECK_THAT(plain("{kind: fibre, bore_mm: 2}"),
@@ -87,9 +86,9 @@ TEST_CASE("what a part without wires cannot be is refused with its place and a r
   CHECK_THAT(plain("{kind: hose}", "helix_radius_mm: 8, measured_bending_stiffness_Nm2: 1"),
              Contains("give without_wires.bending_stiffness_Nm2"));
   CHECK_THAT(plain("{kind: hose}", "helix_radius_mm: 0, count: 2"), Contains("lie on the axis"));
-  CHECK_THAT(refusal({free_cables,
-                      part + "components=[{name: x, radius_mm: 1, helix_radius_mm: 2, without_wires: {}}]"}),
-             Contains("'x' is without wires and lies in 'cable'; leave it out"));
+  CHECK_THAT(
+      refusal({free_cables, part + "components=[{name: x, radius_mm: 1, helix_radius_mm: 2, without_wires: {}}]"}),
+      Contains("'x' is without wires and lies in 'cable'; leave it out"));
   CHECK_THAT(refusal({free_cables, hose, with("{name: x, radius_mm: 4, helix_radius_mm: 8}")}),
              Contains("give one of the two, or without_wires: {kind: hose, fibre, filler or cable}"));
 }
@@ -101,8 +100,7 @@ TEST_CASE("the middle of a hose is described once: by the core's keys or by a co
              Contains("'x' lies in the middle, and the keys core_.. describe something else that does"));
   CHECK_THAT(refusal({free_cables, hose, middle, "dresspack.core_bending_stiffness_Nm2=2"}),
              Contains("leave out the keys core_.."));
-  const std::string beside =
-      with("{name: x, radius_mm: 4, helix_radius_mm: 10, without_wires: {kind: filler}}");
+  const std::string beside = with("{name: x, radius_mm: 4, helix_radius_mm: 10, without_wires: {kind: filler}}");
   CHECK(refusal({free_cables, hose, beside, "dresspack.core_diameter_mm=12"}) == "");
   CHECK_THAT(refusal({free_cables, hose, beside, "dresspack.core_diameter_mm=14"}),
              Contains("'x' begins 6 mm from the axis, 1 mm inside the core (core_diameter_mm is 14)"));

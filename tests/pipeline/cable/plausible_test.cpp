@@ -13,8 +13,8 @@ namespace dresslife::pipeline {
 TEST_CASE("plausible: no shipped dresspack is doubted") {
   for (const char* name : {"control_cable", "handling", "sensor_cable", "spot_welding", "thesis_welding"}) {
     CAPTURE(name);
-    const auto warnings = plausibility_warnings(
-        read_dresspack(DRESSLIFE_SOURCE_DIR "/config/dresspacks/" + std::string(name) + ".yaml"));
+    const auto warnings =
+        plausibility_warnings(read_dresspack(DRESSLIFE_SOURCE_DIR "/config/dresspacks/" + std::string(name) + ".yaml"));
     CHECK(warnings.empty());
   }
 }
@@ -41,8 +41,7 @@ TEST_CASE("plausible: a mass between that of its wires and of its parts in a hea
   };
   least(0.3 * mass_of_construction(dresspack));
   Component wires;
-  wires.name = "wire", wires.material = "copper", wires.count = 10, wires.radius = 0.5e-3,
-  wires.helix_radius = 3e-3;
+  wires.name = "wire", wires.material = "copper", wires.count = 10, wires.radius = 0.5e-3, wires.helix_radius = 3e-3;
   dresspack.components = {wires};
   least(std::max(10 * 2700 * std::numbers::pi / 4 * 1e-6, 0.3 * mass_of_construction(dresspack)));
 }
@@ -59,10 +58,14 @@ TEST_CASE("plausible: a wire that is too thin names the slip behind it, for a pa
   };
   CHECK(words(0.01e-3) == "");
   const std::string digit = words(0.0075e-3);  // 'wire 0.015 mm' of a data sheet
-  CHECK_THAT(digit, Catch::Contains("Likely cause: a missing digit") && Catch::Contains("radius_mm: 0.075 if a digit is missing") &&
-                        Catch::Contains("in a data sheet wire_diameter_mm: 0.15 if a digit is missing") && !Catch::Contains("metres instead"));
-  CHECK_THAT(words(0.0001e-3), Catch::Contains("Likely cause: metres") && Catch::Contains("radius_mm: 0.1 if that was metres"));
-  CHECK_THAT(words(1e-9), Catch::Contains("Likely cause: another unit. Remedy: radius_mm: half of the wire's diameter"));
+  CHECK_THAT(digit, Catch::Contains("Likely cause: a missing digit") &&
+                        Catch::Contains("radius_mm: 0.075 if a digit is missing") &&
+                        Catch::Contains("in a data sheet wire_diameter_mm: 0.15 if a digit is missing") &&
+                        !Catch::Contains("metres instead"));
+  CHECK_THAT(words(0.0001e-3),
+             Catch::Contains("Likely cause: metres") && Catch::Contains("radius_mm: 0.1 if that was metres"));
+  CHECK_THAT(words(1e-9),
+             Catch::Contains("Likely cause: another unit. Remedy: radius_mm: half of the wire's diameter"));
 }
 
 TEST_CASE("plausible: a swing that neither rings on nor stands still") {
@@ -84,22 +87,15 @@ TEST_CASE("plausible: tubes whose bore or radius is half or twice what it should
     return all;
   };
   // Tubes of polyamide and polyurethane from makers, and a hydraulic hose with one steel braid.
-  for (const auto& [outer, bore] : {std::pair{4.0, 2.0},
-                                    {4.0, 2.5},
-                                    {6.0, 4.0},
-                                    {8.0, 5.0},
-                                    {8.0, 5.5},
-                                    {8.0, 6.0},
-                                    {16.0, 13.0},
-                                    {13.4, 6.4}}) {
+  for (const auto& [outer, bore] :
+       {std::pair{4.0, 2.0}, {4.0, 2.5}, {6.0, 4.0}, {8.0, 5.0}, {8.0, 5.5}, {8.0, 6.0}, {16.0, 13.0}, {13.4, 6.4}}) {
     CAPTURE(outer, bore);
     CHECK(words(outer / 2, bore) == "");
   }
   CHECK_THAT(words(4, 2.75), Catch::Contains("is 2.75, and it is 8 mm wide outside by radius_mm 4") &&
                                  Catch::Contains("bore_mm: 5.5 if 2.75 is half the bore"));
-  CHECK_THAT(
-      words(8, 5.5),
-      Catch::Contains("bore_mm: 11 if 5.5 is half the bore; or radius_mm: 4 if 8 is the outer diameter"));
+  CHECK_THAT(words(8, 5.5),
+             Catch::Contains("bore_mm: 11 if 5.5 is half the bore; or radius_mm: 4 if 8 is the outer diameter"));
   CHECK_THAT(words(3, 5.9), Catch::Contains("bore_mm: 4 (ESTIMATE)"));
   CHECK_THAT(words(4, 0.0055), Catch::Contains("bore_mm: 5.5 if that was metres"));
 }
@@ -158,13 +154,12 @@ TEST_CASE("plausible: a corrugation beside its two diameters, and a bend radius 
     for (const Warning& warning : plausibility_warnings(dresspack)) all += warning.words + "\n";
     return all;
   };
-  for (const auto& [factor, doubt] :
-       {std::pair{0.81, false}, {1.19, false}, {0.79, true}, {1.21, true}, {2.0, true}}) {
+  for (const auto& [factor, doubt] : {std::pair{0.81, false}, {1.19, false}, {0.79, true}, {1.21, true}, {2.0, true}}) {
     CAPTURE(factor);
     dresspack.hose_corrugation->height = factor * height;
     CHECK((words().find("height_mm of hose_corrugation is") != std::string::npos) == doubt);
-    CHECK((words().find(fmt::format("height_mm: {:.3g}, or the diameters", 1e3 * height)) !=
-           std::string::npos) == doubt);
+    CHECK((words().find(fmt::format("height_mm: {:.3g}, or the diameters", 1e3 * height)) != std::string::npos) ==
+          doubt);
   }
   dresspack.hose_corrugation->height = height;
   CHECK(words() == "");

@@ -41,8 +41,8 @@ struct Curves {
     const Vector z(0, 0, 1);
     if (w == 0) return stretch * s * z;
     const Matrix k = cross(rate);
-    return stretch * (s * z + (1 - std::cos(w * s)) / (w * w) * k * z +
-                      (w * s - std::sin(w * s)) / (w * w * w) * k * k * z);
+    return stretch *
+           (s * z + (1 - std::cos(w * s)) / (w * w) * k * z + (w * s - std::sin(w * s)) / (w * w * w) * k * k * z);
   }
   /// Returns the ideal length of the component of level `depth` (0: the rod) per length of the rod.
   Real ideal_rate(int depth) const {
@@ -86,10 +86,8 @@ struct Curves {
   /// Returns the rotation rate of the innermost component's frame, in this frame, per ideal length, at s = 0.
   Vector rate_of_last() const {
     const int depth = static_cast<int>(levels.size());
-    const Matrix turn =
-        frame(depth, 0).transpose() * derivative([&](Real at) { return frame(depth, at); }, 0);
-    return Vector(turn(2, 1) - turn(1, 2), turn(0, 2) - turn(2, 0), turn(1, 0) - turn(0, 1)) / 2 /
-           ideal_rate(depth);
+    const Matrix turn = frame(depth, 0).transpose() * derivative([&](Real at) { return frame(depth, at); }, 0);
+    return Vector(turn(2, 1) - turn(1, 2), turn(0, 2) - turn(2, 0), turn(1, 0) - turn(0, 1)) / 2 / ideal_rate(depth);
   }
 };
 

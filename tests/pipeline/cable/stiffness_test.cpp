@@ -57,9 +57,7 @@ HoseStiffness in_state(const Dresspack& dresspack, SlipState state) {
   return stiffness_of_construction(dresspack, state, 1);
 }
 
-Job job_with(const std::vector<std::string>& sets) {
-  return job_from(parse_yaml(sample_job, "job.yaml"), sets);
-}
+Job job_with(const std::vector<std::string>& sets) { return job_from(parse_yaml(sample_job, "job.yaml"), sets); }
 
 }  // namespace
 
@@ -126,8 +124,7 @@ TEST_CASE("stiffness: a smooth wall is a tube, a folded one a bellows") {
   constexpr double thick = 2e-3;  // (t/R)^2 / 4
   CHECK(in_state(hose, SlipState::sliding).axial == Approx(1.65e9 * 2 * pi * R * t).epsilon(1e-9));
   CHECK(in_state(hose, SlipState::sliding).bending == Approx(1.65e9 * pi * R * R * R * t).epsilon(thick));
-  CHECK(in_state(hose, SlipState::sliding).torsional ==
-        Approx(1.65e9 / 2.8 * 2 * pi * R * R * R * t).epsilon(thick));
+  CHECK(in_state(hose, SlipState::sliding).torsional == Approx(1.65e9 / 2.8 * 2 * pi * R * R * R * t).epsilon(thick));
   hose.inner_diameter.reset();
   // The makers' stiffness of a corrugation (EJMA) is 1.7 D E t^3 / (w^3 C_f), and C_f goes to 1 with the pitch. Their 1.7
   // contains 1 / (1 - 0.3^2), which does not apply to a beam.
@@ -135,16 +132,14 @@ TEST_CASE("stiffness: a smooth wall is a tube, a folded one a bellows") {
   hose.hose_corrugation = Corrugation{pitch, w + wall, wall, {}};
   const double D = hose.diameter - w - wall;
   const double makers = 1.7 * (1 - 0.09) * D * 1.65e9 * std::pow(wall / w, 3) * pitch;
-  constexpr double round_crests =
-      0.15;  // 1.5 of pitch / depth, halved by the crests' share of the flanks
+  constexpr double round_crests = 0.15;  // 1.5 of pitch / depth, halved by the crests' share of the flanks
   CHECK(in_state(hose, SlipState::sliding).axial == Approx(makers).epsilon(round_crests));
   const HoseStiffness folded = in_state(hose, SlipState::sliding);
   CHECK(folded.bending == Approx(folded.axial * D * D / 8).epsilon(1e-9));
   CHECK(folded.torsional > 10 * folded.bending);  // flexible in bending and stiff in torsion
 }
 
-TEST_CASE(
-    "stiffness: the shipped hose's lies between sliding and glued, where its cables' friction puts it") {
+TEST_CASE("stiffness: the shipped hose's lies between sliding and glued, where its cables' friction puts it") {
   const Dresspack dresspack = thesis_pack();
   const double wall_and_core = 1.42 + 5;  // the wall by W22, and the core by the file
   CHECK(in_state(dresspack, SlipState::sliding).bending ==
@@ -153,8 +148,7 @@ TEST_CASE(
   CHECK(cable == Approx(0.03).epsilon(0.05));
   CHECK(in_state(dresspack, SlipState::friction).bending == Approx(wall_and_core + 10 * cable).epsilon(0.01));
   const double glued = 10 * axial_stiffness(dresspack, dresspack.components[0]) * std::pow(0.01845, 2) / 2;
-  CHECK(in_state(dresspack, SlipState::stuck).bending ==
-        Approx(glued + wall_and_core + 10 * 0.43).epsilon(0.01));
+  CHECK(in_state(dresspack, SlipState::stuck).bending == Approx(glued + wall_and_core + 10 * 0.43).epsilon(0.01));
   double before = in_state(dresspack, SlipState::stuck).bending;
   for (const double curvature : {1e-3, 1e-2, 0.1, 1.0, 10.0}) {  // the larger the bend, the more parts have slid
     const double bending = stiffness_of_construction(dresspack, SlipState::friction, curvature).bending;
@@ -177,15 +171,14 @@ TEST_CASE("stiffness: a job takes it, prints it in words, and simulates with the
   CHECK(again.dresspacks[0].dresspack.bending_stiffness == dresspack.bending_stiffness);
   CHECK(part_text(again, JobPart::sim) == part_text(taken, JobPart::sim));
   const Job sliding = job_with({words, wall, profile, "dresspack.construction_state=sliding"});
-  const Job number = job_with({fmt::format("dresspack.bending_stiffness_Nm2={:.17g}",
-                                           sliding.dresspacks[0].dresspack.bending_stiffness),
-                               wall, profile});
+  const Job number = job_with(
+      {fmt::format("dresspack.bending_stiffness_Nm2={:.17g}", sliding.dresspacks[0].dresspack.bending_stiffness), wall,
+       profile});
   CHECK(part_text(number, JobPart::sim) == part_text(sliding, JobPart::sim));
   CHECK(part_text(number, JobPart::sim) != part_text(taken, JobPart::sim));  // its bending includes friction
   CHECK(part_text(job_with({words, wall, profile, "dresspack.construction_state=stuck"}), JobPart::sim) !=
         part_text(taken, JobPart::sim));
-  CHECK_THAT(stiffness_text(dresspack), Contains("E I 1.") &&
-                                            Contains("N m2 from construction (friction at 1 1/m)") &&
+  CHECK_THAT(stiffness_text(dresspack), Contains("E I 1.") && Contains("N m2 from construction (friction at 1 1/m)") &&
                                             Contains("G J 4 N m2 given"));
 }
 
@@ -193,7 +186,9 @@ TEST_CASE("stiffness: friction's elements follow the construction's own moment o
   for (const std::string name : {"thesis_welding", "spot_welding", "sensor_cable", "control_cable"}) {
     CAPTURE(name);
     Dresspack dresspack = read_dresspack(std::string(DRESSLIFE_SOURCE_DIR "/config/dresspacks/") + name + ".yaml");
-    const auto secant = [&](double bend) { return stiffness_of_construction(dresspack, SlipState::friction, bend).bending; };
+    const auto secant = [&](double bend) {
+      return stiffness_of_construction(dresspack, SlipState::friction, bend).bending;
+    };
     const double sliding = in_state(dresspack, SlipState::sliding).bending;
     const auto friction = [&](double bend) { return (secant(bend) - sliding) * bend; };
     dresspack.bending_from_construction = true, dresspack.construction_state = SlipState::friction;
@@ -214,7 +209,8 @@ TEST_CASE("stiffness: friction's elements follow the construction's own moment o
       CHECK(held(element.slides_at) == Approx(friction(element.slides_at)).margin(ends_early * most));
     }
     CHECK(stuck <= 9.001 * sliding);
-    const double chords = 0.1;  // error of straight lines between four curvatures; above the elements' slope limit none is larger
+    const double chords =
+        0.1;  // error of straight lines between four curvatures; above the elements' slope limit none is larger
     for (double bend = 1e-3; bend < 30; bend *= 1.2) {
       CAPTURE(bend, held(bend) / most, friction(bend) / most);
       CHECK(held(bend) <= friction(bend) + 1e-9 * most);
@@ -224,7 +220,8 @@ TEST_CASE("stiffness: friction's elements follow the construction's own moment o
 }
 
 TEST_CASE("stiffness: a hose's moment with more friction is that of a hose whose coefficients are higher") {
-  Dresspack dresspack = read_dresspack(DRESSLIFE_SOURCE_DIR "/config/dresspacks/spot_welding.yaml"), rougher = dresspack;
+  Dresspack dresspack = read_dresspack(DRESSLIFE_SOURCE_DIR "/config/dresspacks/spot_welding.yaml"),
+            rougher = dresspack;
   for (Component* part : {&rougher.components[0], &rougher.components[0].components[0]})
     for (Component& inner : part->components) *inner.friction *= 3;
   const std::vector<double> bends{1e-3, 0.03, 0.1, 0.5, 5};
@@ -233,7 +230,8 @@ TEST_CASE("stiffness: a hose's moment with more friction is that of a hose whose
   for (std::size_t k = 0; k < bends.size(); ++k) {
     CAPTURE(bends[k]);
     CHECK(one[k] == Approx(bends[k] * stiffness_of_construction(dresspack, SlipState::friction, bends[k]).bending));
-    CHECK(three[k] == Approx(bends[k] * stiffness_of_construction(rougher, SlipState::friction, bends[k]).bending).epsilon(1e-9));
+    CHECK(three[k] ==
+          Approx(bends[k] * stiffness_of_construction(rougher, SlipState::friction, bends[k]).bending).epsilon(1e-9));
     CHECK(none[k] == Approx(bends[k] * in_state(dresspack, SlipState::sliding).bending));
   }
   CHECK(three[2] > 1.1 * one[2]);
@@ -252,9 +250,9 @@ TEST_CASE("stiffness: a hose from its construction keeps its secant, and its lin
   const Job again = job_from(parse_yaml(job_text(job), "job.yaml"));
   CHECK(job_text(again) == job_text(job));
   CHECK(part_text(again, JobPart::sim) == part_text(job, JobPart::sim));
-  CHECK_THAT(part_text(job, JobPart::sim),
-             Contains("bending_friction") && Contains("construction_curvature"));
-  CHECK(job_with({words, loss, "dresspack.construction_state=sliding"}).dresspacks[0].dresspack.bending_friction.empty());
+  CHECK_THAT(part_text(job, JobPart::sim), Contains("bending_friction") && Contains("construction_curvature"));
+  CHECK(
+      job_with({words, loss, "dresspack.construction_state=sliding"}).dresspacks[0].dresspack.bending_friction.empty());
   const std::string list = "dresspack.bending_friction=[{stiffness_Nm2: 3, slides_at_1_per_m: 0.1}]";
   const Job given = job_with({"dresspack.bending_stiffness_Nm2=2", list});
   CHECK(elastic_bending_stiffness(given.dresspacks[0].dresspack) == Approx(2 - 0.3));
@@ -273,20 +271,19 @@ TEST_CASE("stiffness: the mass of a construction is that of wires, polymer and w
   pack.diameter = 0.012;  // a jacket that fills the room outside the parts
   CHECK(mass_of_construction(pack) == Approx(metal + left + 1200 * pi * (36e-6 - 25e-6)).epsilon(1e-12));
   pack.inner_diameter = 0.011;
-  CHECK(mass_of_construction(pack) ==
-        Approx(metal + left + 1200 * pi / 4 * (144e-6 - 121e-6)).epsilon(1e-12));
+  CHECK(mass_of_construction(pack) == Approx(metal + left + 1200 * pi / 4 * (144e-6 - 121e-6)).epsilon(1e-12));
   Dresspack laid = pack;
   laid.components[0].lay_angle = 0.3;  // a metre of hose contains more than a metre of a laid part
   laid.components[0].laying.mass = 0.5;
   Dresspack straight = laid;
   straight.components[0].lay_angle = 0;
-  CHECK(mass_of_construction(laid) - mass_of_construction(straight) == Approx(0.5 / std::cos(0.3) - 0.5).epsilon(1e-12));
+  CHECK(mass_of_construction(laid) - mass_of_construction(straight) ==
+        Approx(0.5 / std::cos(0.3) - 0.5).epsilon(1e-12));
   pack.components[0].laying.mass = 0.5;
   CHECK(mass_of_construction(pack) == Approx(0.5 + 1200 * pi / 4 * (144e-6 - 121e-6)).epsilon(1e-12));
 }
 
-TEST_CASE(
-    "stiffness: what a dresspack with parts leaves out is from its construction, its damping the default") {
+TEST_CASE("stiffness: what a dresspack with parts leaves out is from its construction, its damping the default") {
   const auto without = [](const std::string& keys) {
     Node document = parse_yaml(sample_job, "job.yaml");
     Node& dresspack = *document.find("dresspack");
@@ -310,26 +307,24 @@ TEST_CASE(
 }
 
 TEST_CASE("stiffness: what has none, and words that are none, are refused with a remedy") {
-  const auto refusal = [](const std::vector<std::string>& sets) {
-    return message_of([&] { job_with(sets); });
-  };
+  const auto refusal = [](const std::vector<std::string>& sets) { return message_of([&] { job_with(sets); }); };
   CHECK_THAT(refusal({"dresspack.bending_stiffness_Nm2=from_the_construction"}),
              Contains("must be a number or from_construction, the unit is in the key: N m2"));
-  CHECK_THAT(
-      refusal({"dresspack.axial_stiffness_N=from_construction", "dresspack.components.1.slack_percent=1"}),
-      Contains("axial_stiffness_N is from_construction, which has none") && Contains("hose_material"));
-  CHECK_THAT(refusal({"dresspack.construction_curvature_1_per_m=0"}),
-             Contains("construction_curvature_1_per_m"));
+  CHECK_THAT(refusal({"dresspack.axial_stiffness_N=from_construction", "dresspack.components.1.slack_percent=1"}),
+             Contains("axial_stiffness_N is from_construction, which has none") && Contains("hose_material"));
+  CHECK_THAT(refusal({"dresspack.construction_curvature_1_per_m=0"}), Contains("construction_curvature_1_per_m"));
   CHECK_THAT(refusal({"dresspack.construction_state=loose"}), Contains("sliding") && Contains("stuck"));
 }
 
-TEST_CASE("stiffness: a smooth wall that no hand bends is warned of with a profile that cures it, a pneumatic tube is not") {
+TEST_CASE(
+    "stiffness: a smooth wall that no hand bends is warned of with a profile that cures it, a pneumatic tube is not") {
   const Scratch scratch;
   const auto warnings = [&](double outer, double inner, const std::string& keys) {
     const Dresspack dresspack = read_dresspack(scratch.write(
-        "hose.yaml", fmt::format("name: hose\nsource: a catalogue\nhose_material: hose_polyamide\ndiameter_mm: {}\n{}{}components:\n"
-                                 "  - {{name: lead, helix_radius_mm: 0, data_sheet: '2 x 0.25 mm2, outer diameter 4 mm'}}\n",
-                                 outer, inner > 0 ? fmt::format("inner_diameter_mm: {}\n", inner) : "", keys)));
+        "hose.yaml",
+        fmt::format("name: hose\nsource: a catalogue\nhose_material: hose_polyamide\ndiameter_mm: {}\n{}{}components:\n"
+                    "  - {{name: lead, helix_radius_mm: 0, data_sheet: '2 x 0.25 mm2, outer diameter 4 mm'}}\n",
+                    outer, inner > 0 ? fmt::format("inner_diameter_mm: {}\n", inner) : "", keys)));
     std::string words;
     for (const Warning& warning : stiffness_warnings(dresspack)) words += warning.line() + "\n";
     return words;
@@ -339,7 +334,8 @@ TEST_CASE("stiffness: a smooth wall that no hand bends is warned of with a profi
   INFO(words);
   const double wall = 1.65e9 * pi / 64 * (std::pow(29e-3, 4) - std::pow(23e-3, 4));
   CHECK_THAT(words, Contains("hose.yaml:1:1: warning: " + doubt) && Contains(fmt::format("E I {:.3g} N m2", wall)) &&
-                        Contains(fmt::format("takes {:.3g} N m (limit 10", wall / 0.11)) && Contains("strains its surface by 13 %"));
+                        Contains(fmt::format("takes {:.3g} N m (limit 10", wall / 0.11)) &&
+                        Contains("strains its surface by 13 %"));
   // The line of the remedy, unchanged, is the profile of a hose as flexible as the wall that it names.
   const std::size_t begin = words.find("Remedy: ") + 8, end = words.find('}', begin) + 1;
   const std::string profile = words.substr(begin, end - begin) + "\n";
@@ -351,7 +347,8 @@ TEST_CASE("stiffness: a smooth wall that no hand bends is warned of with a profi
   CHECK(warnings(8, 6, "least_bend_radius_mm: 40\n") == "");
   CHECK(warnings(10, 8, "least_bend_radius_mm: 60\n") == "");
   // With a given stiffness of a corrugated hose the smooth wall is the fault, not the stiffness.
-  CHECK_THAT(warnings(29, 23, "bending_stiffness_Nm2: 0.2\n"), Contains(doubt) && !Contains("bending_stiffness_Nm2 is 0.2"));
+  CHECK_THAT(warnings(29, 23, "bending_stiffness_Nm2: 0.2\n"),
+             Contains(doubt) && !Contains("bending_stiffness_Nm2 is 0.2"));
 }
 
 TEST_CASE("stiffness: a given one that its construction cannot have is warned of with what it has") {
@@ -392,12 +389,10 @@ TEST_CASE("stiffness: a hose without a wall gives a warning with its stiffness a
   const std::vector<Warning> warnings = stiffness_warnings(dresspack);
   REQUIRE(warnings.size() == 1);
   // 9.81 m/s2 of the filled hose's mass per metre / 300 N.
-  CHECK_THAT(
-      warnings[0].words,
-      Contains(
-          "too low: axial_stiffness_N 300 from the construction; it would stretch by " +
-          fmt::format("{:.2g} %", 100 * 9.81 * dresspack.mass_per_length / 300)) &&
-          Contains("lacks its wall (hose_material)") && Contains("Remedy: hose_material: hose_polyamide"));
+  CHECK_THAT(warnings[0].words, Contains("too low: axial_stiffness_N 300 from the construction; it would stretch by " +
+                                         fmt::format("{:.2g} %", 100 * 9.81 * dresspack.mass_per_length / 300)) &&
+                                    Contains("lacks its wall (hose_material)") &&
+                                    Contains("Remedy: hose_material: hose_polyamide"));
 }
 
 TEST_CASE("stiffness: a given one is warned of beyond its limits, and not up to them") {
@@ -418,18 +413,15 @@ TEST_CASE("stiffness: a given one is warned of beyond its limits, and not up to 
   const struct {
     Dresspack dresspack;
     double least, most;
-  } cases[]{
-      {hose, std::max(bending(hose, SlipState::friction) / 2, bending(hose, SlipState::sliding)),
-       bending(hose, SlipState::stuck) + bar},
-      {walled, std::max(bending(walled, SlipState::friction) / 2, bending(walled, SlipState::sliding)),
-       std::min(2 * bending(walled, SlipState::friction), bending(walled, SlipState::stuck))},
-      {alone, bending(alone, SlipState::sliding) - 0.01, bending(alone, SlipState::stuck)},
-      {bare, bending(bare, SlipState::sliding) - jacket_bending(0.006), bending(bare, SlipState::stuck)}};
+  } cases[]{{hose, std::max(bending(hose, SlipState::friction) / 2, bending(hose, SlipState::sliding)),
+             bending(hose, SlipState::stuck) + bar},
+            {walled, std::max(bending(walled, SlipState::friction) / 2, bending(walled, SlipState::sliding)),
+             std::min(2 * bending(walled, SlipState::friction), bending(walled, SlipState::stuck))},
+            {alone, bending(alone, SlipState::sliding) - 0.01, bending(alone, SlipState::stuck)},
+            {bare, bending(bare, SlipState::sliding) - jacket_bending(0.006), bending(bare, SlipState::stuck)}};
   for (const auto& [dresspack, least, most] : cases)
-    for (const auto& [given, warned] : {std::pair{0.999 * least, true},
-                                        {1.001 * least, false},
-                                        {0.999 * most, false},
-                                        {1.001 * most, true}}) {
+    for (const auto& [given, warned] :
+         {std::pair{0.999 * least, true}, {1.001 * least, false}, {0.999 * most, false}, {1.001 * most, true}}) {
       Dresspack one = dresspack;
       one.bending_stiffness = given;
       CAPTURE(given, least, most);
@@ -440,11 +432,15 @@ TEST_CASE("stiffness: a given one is warned of beyond its limits, and not up to 
 TEST_CASE("stiffness: a warm cell softens polymers and not copper, and 23 C changes nothing") {
   const std::string wall = "dresspack.hose_material=hose_polyamide",
                     profile = "dresspack.hose_corrugation={pitch_mm: 5, height_mm: 4.5, wall_mm: 0.8}",
-                    words = "dresspack.bending_stiffness_Nm2=from_construction", sliding = "dresspack.construction_state=sliding";
-  const auto at = [&](const std::string& temperature) { return job_with({words, wall, profile, sliding, "cell.temperature_C=" + temperature}); };
+                    words = "dresspack.bending_stiffness_Nm2=from_construction",
+                    sliding = "dresspack.construction_state=sliding";
+  const auto at = [&](const std::string& temperature) {
+    return job_with({words, wall, profile, sliding, "cell.temperature_C=" + temperature});
+  };
   const Job usual = job_with({words, wall, profile, sliding}), same = at("23"), warm = at("43"), cold = at("10");
   const auto bending = [](const Job& job) { return job.dresspacks[0].dresspack.bending_stiffness; };
-  for (const JobPart part : {JobPart::sim, JobPart::strain, JobPart::fatigue}) CHECK(part_text(same, part) == part_text(usual, part));
+  for (const JobPart part : {JobPart::sim, JobPart::strain, JobPart::fatigue})
+    CHECK(part_text(same, part) == part_text(usual, part));
   // Nearly all sliding stiffness is the polymer's: six wires of 0.2 mm in three cables add at most 3 x 6 x 1e-5 N m2.
   const double softer = std::exp(-0.0175 * 20), copper = 18 * copper_modulus * pi / 4 * std::pow(1e-4, 4);
   CHECK(bending(warm) < bending(usual));
@@ -463,7 +459,8 @@ TEST_CASE("stiffness: parts of the core add none, and what does not fit into it 
   const auto with = [](const std::string& part) {
     return job_with({"dresspack.core_diameter_mm=20", "dresspack.core_components=[" + part + "]"});
   };
-  const std::string hose = "{name: water hose, count: 2, radius_mm: 4, helix_radius_mm: 5, without_wires: {kind: hose, bore_mm: 6}}";
+  const std::string hose =
+      "{name: water hose, count: 2, radius_mm: 4, helix_radius_mm: 5, without_wires: {kind: hose, bore_mm: 6}}";
   const Job job = with(hose), none = job_with({"dresspack.core_diameter_mm=20"});
   CHECK(part_text(job, JobPart::sim) == part_text(none, JobPart::sim));
   CHECK(part_text(job, JobPart::strain) == part_text(none, JobPart::strain));
@@ -471,13 +468,18 @@ TEST_CASE("stiffness: parts of the core add none, and what does not fit into it 
   CHECK(job_text(job_from(parse_yaml(job_text(job), "again.yaml"))) == job_text(job));
   CHECK_THROWS_WITH(with("{name: water hose, radius_mm: 4, helix_radius_mm: 7, without_wires: {kind: hose}}"),
                     Contains("reaches 11 mm from the axis (core_diameter_mm is 20)"));
-  CHECK_THROWS_WITH(with("{name: cable, radius_mm: 4, helix_radius_mm: 0, components: [{name: wire, radius_mm: 1, helix_radius_mm: 0, "
-                         "material: copper}]}"),
-                    Contains("has more than a life"));
-  CHECK_THROWS_WITH(with("{name: fibre, radius_mm: 4, helix_radius_mm: 0, without_wires: {kind: fibre, least_bend_radius_mm: 50}}"),
-                    Contains("least_bend_radius_mm"));
-  CHECK_THROWS_WITH(with("{name: hose, radius_mm: 4, helix_radius_mm: 0, without_wires: {kind: hose, least_bend_radius_mm: 3}}"),
-                    Contains("least_bend_radius_mm 3 (it is 8 mm wide outside)"));
-  CHECK_THROWS_WITH(job_with({"dresspack.core_diameter_mm=20", "dresspack.core_parts=a hose", "dresspack.core_components=[" + hose + "]"}),
+  CHECK_THROWS_WITH(
+      with(
+          "{name: cable, radius_mm: 4, helix_radius_mm: 0, components: [{name: wire, radius_mm: 1, helix_radius_mm: 0, "
+          "material: copper}]}"),
+      Contains("has more than a life"));
+  CHECK_THROWS_WITH(
+      with("{name: fibre, radius_mm: 4, helix_radius_mm: 0, without_wires: {kind: fibre, least_bend_radius_mm: 50}}"),
+      Contains("least_bend_radius_mm"));
+  CHECK_THROWS_WITH(
+      with("{name: hose, radius_mm: 4, helix_radius_mm: 0, without_wires: {kind: hose, least_bend_radius_mm: 3}}"),
+      Contains("least_bend_radius_mm 3 (it is 8 mm wide outside)"));
+  CHECK_THROWS_WITH(job_with({"dresspack.core_diameter_mm=20", "dresspack.core_parts=a hose",
+                              "dresspack.core_components=[" + hose + "]"}),
                     Contains("both core_parts and core_components"));
 }

@@ -59,8 +59,7 @@ void write_sample(const fs::path& file, const Format& format, const Content& con
   writer.set_axis("place", 2);
   for (const Dataset& dataset : format.datasets) {
     if (dataset.path == "/time") writer.append("/time", std::span<const double>(content.time));
-    if (dataset.path == "/deep/er/field")
-      writer.append("/deep/er/field", std::span<const double>(content.field));
+    if (dataset.path == "/deep/er/field") writer.append("/deep/er/field", std::span<const double>(content.field));
     if (dataset.path == "/single") writer.append("/single", std::span<const float>(content.single));
     if (dataset.path == "/index") writer.append("/index", std::span<const std::int32_t>(content.index));
     if (dataset.path == "/number") writer.append("/number", std::span<const std::uint32_t>(content.number));
@@ -144,8 +143,7 @@ TEST_CASE("files: attributes alone can be read, also of a file whose datasets ar
   const FileReader reader(scratch / "f.h5", whole, FileReader::Scope::attributes);
   CHECK(reader.number_attribute("total") == 0.1);
   CHECK_FALSE(reader.has("/time"));
-  CHECK(message_of([&] { reader.read<double>("/time"); }).find("dataset /time is missing") !=
-        std::string::npos);
+  CHECK(message_of([&] { reader.read<double>("/time"); }).find("dataset /time is missing") != std::string::npos);
 }
 
 TEST_CASE("files: rows are read from anywhere") {
@@ -243,8 +241,7 @@ TEST_CASE("files: packed numbers are the same through this program's reader and 
   }
 }
 
-TEST_CASE(
-    "files: packed rows of doubles are the same through this program's reader and through the HDF5 library's") {
+TEST_CASE("files: packed rows of doubles are the same through this program's reader and through the HDF5 library's") {
   const Scratch scratch;
   Format format{"dresslife-sample", 1, "dresslife-maker", "tests", {}, {}};
   format.datasets = {{"/a", Type::f64, {"sample", "segment", "3"}, "m", ""},
@@ -279,8 +276,7 @@ TEST_CASE(
     std::vector<double> row;
     for (std::size_t sample = 0; sample < samples; sample += 7) {
       own.read_rows("/a", sample, 1, row);
-      REQUIRE(std::equal(row.begin(), row.end(),
-                         whole.begin() + static_cast<std::ptrdiff_t>(sample * segments * 3)));
+      REQUIRE(std::equal(row.begin(), row.end(), whole.begin() + static_cast<std::ptrdiff_t>(sample * segments * 3)));
       REQUIRE(row.size() == segments * 3);
     }
     std::vector<float> narrower;
@@ -289,8 +285,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE(
-    "files: a dataset copied from another file is that dataset, its rows count, and others are refused") {
+TEST_CASE("files: a dataset copied from another file is that dataset, its rows count, and others are refused") {
   const Scratch scratch;
   Format format{"dresslife-sample", 1, "dresslife-maker", "tests", {}, {}};
   format.datasets = {{"/group/a", Type::f64, {"site", "2"}, "m", ""},
@@ -389,8 +384,7 @@ TEST_CASE("files: a writer that leaves something out is our fault and makes no f
   FileWriter writer(scratch / "h.h5", format);
   CHECK_THROWS_WITH(writer.append("/deep/er/field", std::span<const double>(Content().field)),
                     Catch::Contains("'place' is not set"));
-  CHECK_THROWS_WITH(writer.append("/absent", std::span<const double>()),
-                    Catch::Contains("has no dataset /absent"));
+  CHECK_THROWS_WITH(writer.append("/absent", std::span<const double>()), Catch::Contains("has no dataset /absent"));
 }
 
 TEST_CASE("files: long texts fit into attributes and rows") {
@@ -453,10 +447,8 @@ TEST_CASE("files: what is absent, foreign or cut off is refused in one line with
     return message;
   };
   CHECK(error(scratch / "absent.h5") ==
-        (scratch / "absent.h5").string() +
-            ": error: is not there; check the path, or make it with dresslife-maker");
-  CHECK(error(scratch / ".") ==
-        (scratch / ".").string() + ": error: is a folder, not a file; name a file");
+        (scratch / "absent.h5").string() + ": error: is not there; check the path, or make it with dresslife-maker");
+  CHECK(error(scratch / ".") == (scratch / ".").string() + ": error: is a folder, not a file; name a file");
   const std::string remedy = "; make the file again with dresslife-maker, then run again";
   const fs::path text = scratch.write("text.h5", "time,strain\n0,1\n");
   CHECK(error(text) == text.string() + ": error: is not an HDF5 file, or is cut off" + remedy);
@@ -466,13 +458,12 @@ TEST_CASE("files: what is absent, foreign or cut off is refused in one line with
   write_sample(scratch / "whole.h5", format);
   const std::string whole = bytes_of(scratch / "whole.h5");
   for (const double share : {0.1, 0.5, 0.9, 0.999}) {
-    const fs::path cut =
-        scratch.write("cut.h5", whole.substr(0, static_cast<std::size_t>(share * whole.size())));
+    const fs::path cut = scratch.write("cut.h5", whole.substr(0, static_cast<std::size_t>(share * whole.size())));
     const std::size_t size = bytes_of(cut).size();
-    CHECK(error(cut) ==
-          (size < 512 ? cut.string() + ": error: is damaged (its first 512 bytes are no checksum)" + remedy
-                      : fmt::format("{}: error: is cut off or has grown (it has {} bytes and promises {}){}",
-                                    cut.string(), size, whole.size(), remedy)));
+    CHECK(error(cut) == (size < 512
+                             ? cut.string() + ": error: is damaged (its first 512 bytes are no checksum)" + remedy
+                             : fmt::format("{}: error: is cut off or has grown (it has {} bytes and promises {}){}",
+                                           cut.string(), size, whole.size(), remedy)));
   }
   const fs::path grown = scratch.write("grown.h5", whole + "x");
   CHECK(error(grown).find("is cut off or has grown") != std::string::npos);
@@ -496,15 +487,15 @@ TEST_CASE("files: any bit that turns is noticed") {
   };
   for (std::size_t at = 0; at < 530; ++at)
     CHECK(notices(at, static_cast<int>(random() % 8)));  // the statements about the contents
-  for (int trial = 0; trial < 300; ++trial)
-    CHECK(notices(random() % whole.size(), static_cast<int>(random() % 8)));
+  for (int trial = 0; trial < 300; ++trial) CHECK(notices(random() % whole.size(), static_cast<int>(random() % 8)));
 }
 
 TEST_CASE("files: bytes changed anywhere in a file without checksum are refused or harmless, never a crash") {
   const Scratch scratch;
   const Format format = sample_format();
   write_sample(scratch / "whole.h5", format);
-  const std::string whole = bytes_of(scratch / "whole.h5").substr(512);  // without the checksum block, as other programs write it
+  const std::string whole =
+      bytes_of(scratch / "whole.h5").substr(512);  // without the checksum block, as other programs write it
   CHECK(FileReader(scratch.write("other.h5", whole), format).checksum().empty());
   CHECK(FileReader(scratch / "other.h5", format).read<double>("/time") == Content().time);
   std::mt19937 random(5);
@@ -583,8 +574,7 @@ TEST_CASE("files: an older version is read") {
   CHECK(FileReader(scratch / "f.h5", sample_format()).read<double>("/time").size() == 3);
 }
 
-TEST_CASE(
-    "files: numbers that are not finite are refused with their row, infinity only where it has no meaning") {
+TEST_CASE("files: numbers that are not finite are refused with their row, infinity only where it has no meaning") {
   const std::string remedy = "; make the file again with dresslife-maker, then run again";
   Content content;
   content.field[7] = std::nan("");
@@ -609,23 +599,22 @@ TEST_CASE("files: attributes of the wrong kind are refused") {
   const Format format = sample_format();
   write_sample(scratch / "f.h5", format);
   const FileReader reader(scratch / "f.h5", format);
-  const std::string file = (scratch / "f.h5").string(), remedy = "; make the file again with dresslife-maker, then run again";
+  const std::string file = (scratch / "f.h5").string(),
+                    remedy = "; make the file again with dresslife-maker, then run again";
   CHECK(message_of([&] { reader.text_attribute("total"); }) ==
         file + ": error: attribute 'total' is not text" + remedy);
   CHECK(message_of([&] { reader.number_attribute("format"); }) ==
         file + ": error: attribute 'format' is missing or not a number" + remedy);
-  CHECK(message_of([&] { reader.text_attribute("job"); }) ==
-        file + ": error: attribute 'job' is missing" + remedy);
+  CHECK(message_of([&] { reader.text_attribute("job"); }) == file + ": error: attribute 'job' is missing" + remedy);
 }
 
 TEST_CASE("files: a place that cannot be written is the user's to correct") {
   const Scratch scratch;
   const fs::path file = scratch / "no folder/f.h5";
-  CHECK(
-      message_of([&] { FileWriter writer(file, sample_format()); }) ==
-      file.string() +
-          ": error: cannot be written (No such file or directory); check the folder, its permissions and the "
-          "disk, then run again");
+  CHECK(message_of([&] { FileWriter writer(file, sample_format()); }) ==
+        file.string() +
+            ": error: cannot be written (No such file or directory); check the folder, its permissions and the "
+            "disk, then run again");
 }
 
 TEST_CASE("files: the manual lists every dataset of every format") {

@@ -15,12 +15,8 @@ using namespace dresslife::pipeline;
 
 namespace {
 
-const Format two_rows{"dresslife-rows",
-                      1,
-                      "dresslife-maker",
-                      "tests",
-                      {{"/group/rows", Type::f64, {"row", "2"}, "m", "rows"}},
-                      {}};
+const Format two_rows{
+    "dresslife-rows", 1, "dresslife-maker", "tests", {{"/group/rows", Type::f64, {"row", "2"}, "m", "rows"}}, {}};
 
 /// A file of the format without a checksum block. `change` may replace a dataset.
 class Made {
@@ -40,8 +36,7 @@ class Made {
   void put(hid_t creation, std::vector<hsize_t> lengths) const {
     remove("/group/rows");
     const hid_t space = H5Screate_simple(static_cast<int>(lengths.size()), lengths.data(), nullptr);
-    const hid_t made =
-        H5Dcreate2(file_, "/group/rows", H5T_IEEE_F64LE, space, H5P_DEFAULT, creation, H5P_DEFAULT);
+    const hid_t made = H5Dcreate2(file_, "/group/rows", H5T_IEEE_F64LE, space, H5P_DEFAULT, creation, H5P_DEFAULT);
     REQUIRE(made >= 0);
     const hid_t type = H5Tcopy(H5T_C_S1), one = H5Screate(H5S_SCALAR);
     const hid_t unit = H5Acreate2(made, "unit", type, one, H5P_DEFAULT, H5P_DEFAULT);
@@ -115,8 +110,7 @@ TEST_CASE("hostile files: data that lies in other files is not followed") {
     hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
     const hsize_t lengths[] = {2, 2};
     const hid_t space = H5Screate_simple(2, lengths, nullptr);
-    REQUIRE(H5Pset_virtual(creation, space, (made.scratch() / "whole.h5").c_str(), "/group/rows", space) >=
-            0);
+    REQUIRE(H5Pset_virtual(creation, space, (made.scratch() / "whole.h5").c_str(), "/group/rows", space) >= 0);
     H5Sclose(space);
     made.put(creation, {2, 2});
     CHECK(made.refusal() == "dataset /group/rows lies in other files (the data must lie in the file itself)");
@@ -204,8 +198,7 @@ TEST_CASE("rows beyond the largest int are counted and read where they lie") {
     REQUIRE(H5Dset_extent(rows, &length) >= 0);
     for (hsize_t chunk = 1; chunk < chunks; ++chunk) {
       first = chunk * in_a_chunk;
-      if (H5Dwrite_chunk(rows, H5P_DEFAULT, 0, &first, packed.size(), packed.data()) < 0)
-        FAIL("chunk " << chunk);
+      if (H5Dwrite_chunk(rows, H5P_DEFAULT, 0, &first, packed.size(), packed.data()) < 0) FAIL("chunk " << chunk);
     }
     H5Dclose(rows);
     H5Fclose(opened);
@@ -290,8 +283,7 @@ constexpr const char* not_packed = "has a chunk that is not packed as it should 
 
 }  // namespace
 
-TEST_CASE(
-    "a chunk that says it is not filtered and is shorter than a chunk is refused, not read behind its end") {
+TEST_CASE("a chunk that says it is not filtered and is shorter than a chunk is refused, not read behind its end") {
   for (const Dataset& dataset : deflated()) {
     const Numbers numbers(dataset);
     REQUIRE(numbers.read() == sevens);
@@ -337,15 +329,13 @@ TEST_CASE("a plain chunk that the file's index says is short is read as the data
   CHECK(numbers.read() == sevens);
 }
 
-TEST_CASE(
-    "hostile files: chunks packed by filters that are not undone here are refused, and what to do instead") {
+TEST_CASE("hostile files: chunks packed by filters that are not undone here are refused, and what to do instead") {
   Made made;
   const hid_t creation = chunked({2, 2});
   H5Pset_fletcher32(creation);
   H5Pset_alloc_time(creation, H5D_ALLOC_TIME_EARLY);
   made.put(creation, {2, 2});
   const std::string refusal = made.refusal();
-  CHECK(refusal.find(
-            "dataset /group/rows is packed by a filter of HDF5 that is not read here; write it without "
-            "filters, or with deflate") != std::string::npos);
+  CHECK(refusal.find("dataset /group/rows is packed by a filter of HDF5 that is not read here; write it without "
+                     "filters, or with deflate") != std::string::npos);
 }

@@ -68,11 +68,9 @@ TEST_CASE("list deflate: any numbers come back through the HDF5 library") {
     Numbers same(count, 7), falling(count), wild(count), wide(count);
     std::iota(falling.rbegin(), falling.rend(), 0u);
     for (std::uint32_t& number : wild) number = static_cast<std::uint32_t>(random());
-    for (std::uint32_t& number : wide)
-      number = static_cast<std::uint32_t>(random() % 3 * 65536 + random() % 4);
+    for (std::uint32_t& number : wide) number = static_cast<std::uint32_t>(random() % 3 * 65536 + random() % 4);
     Numbers rising(falling.rbegin(), falling.rend());
-    for (const Numbers& numbers : {same, falling, rising, wild, wide})
-      CHECK(packed_and_read(numbers) == numbers);
+    for (const Numbers& numbers : {same, falling, rising, wild, wide}) CHECK(packed_and_read(numbers) == numbers);
   }
 }
 

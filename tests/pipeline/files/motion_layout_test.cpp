@@ -25,8 +25,8 @@ std::string layout(const std::filesystem::path& name) {
   const FileReader file(name, motion_format());
   std::string text;
   for (const MotionSpan& span : motion_spans(file))
-    text += fmt::format("{}: {}+{} {}-{}; ", span.dresspack, span.first_segment, span.segments,
-                        span.base_clamp, span.tool_clamp);
+    text += fmt::format("{}: {}+{} {}-{}; ", span.dresspack, span.first_segment, span.segments, span.base_clamp,
+                        span.tool_clamp);
   return text;
 }
 
@@ -38,8 +38,7 @@ TEST_CASE("motion layout: files of one dresspack and of several are divided into
   CHECK(layout(scratch / "one.h5") == "0: 0+4 0-1; 0: 4+2 1-2; ");
   write_motion(scratch / "two.h5", 6, 5, {0, 2, 2, 5, 6}, {0, 0, 1, 1, 1, 1}, {"a", "b"});
   CHECK(layout(scratch / "two.h5") == "0: 0+2 0-1; 1: 2+3 2-3; 1: 5+1 3-4; ");
-  CHECK(dresspack_names(FileReader(scratch / "two.h5", motion_format())) ==
-        std::vector<std::string>{"a", "b"});
+  CHECK(dresspack_names(FileReader(scratch / "two.h5", motion_format())) == std::vector<std::string>{"a", "b"});
   CHECK(dresspack_names(FileReader(scratch / "one.h5", motion_format())) == std::vector<std::string>{""});
   CHECK(dresspack_names(FileReader(scratch / "old.h5", motion_format())) == std::vector<std::string>{""});
 }
@@ -57,9 +56,8 @@ TEST_CASE("motion layout: segments that are not as long together as the job's ho
   CHECK(refusal({0.25, 0.25, 0.5}, {1}).empty());
   CHECK(refusal({double(0.1f), double(0.2f), double(0.3f)}, {0.6}).empty());  // kept in single precision
   const auto says = [&](const std::string& words) { return Catch::Contains("f.h5: error: " + words); };
-  CHECK_THAT(
-      refusal({0.25, 0.25}, {1}),
-      says("has segments of 0.5 m together where routing.free_length_m of its job is 1; make the file"));
+  CHECK_THAT(refusal({0.25, 0.25}, {1}),
+             says("has segments of 0.5 m together where routing.free_length_m of its job is 1; make the file"));
   CHECK_THAT(refusal({1.5, -0.5}, {1}), says("has a segment whose rest length is -0.5 m"));
   CHECK_THAT(refusal({1, 0}, {1}), says("has a segment whose rest length is 0 m"));
   CHECK_THAT(refusal({1e308, 1e308}, {1}), says("has segments of inf m together"));

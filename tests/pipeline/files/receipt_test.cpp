@@ -38,8 +38,12 @@ TEST_CASE("a noted digest is believed of a file that is as it was, and of no oth
 
 TEST_CASE("a receipt is read as it was written, also texts with line ends and backslashes") {
   const Scratch scratch;
-  const Receipt written{.recipe = "r", .input = "i", .output = "o", .state = {},
-                        .results = {{"name", "\n\\n\\"}}, .made_with = {{"\\a\nb", "digest"}}};
+  const Receipt written{.recipe = "r",
+                        .input = "i",
+                        .output = "o",
+                        .state = {},
+                        .results = {{"name", "\n\\n\\"}},
+                        .made_with = {{"\\a\nb", "digest"}}};
   write_receipt(scratch / "receipt", written, scratch.write("output", "x"));
   const std::optional<Receipt> read = read_receipt(scratch / "receipt");
   REQUIRE(read);

@@ -21,13 +21,16 @@ TEST_CASE("the share beyond a limit is that of the normal distribution beyond th
 
 TEST_CASE("values of uncertain parameters are named with factor, meaning, key and the job's own value") {
   const auto& friction = uncertain_parameters()[index_of(Uncertain::friction_hose)];
-  CHECK(value_words(friction, 1.5, 1) == "2.8 times the friction of the cables on their hose (strain.hose_friction_factor: 2.83)");
-  CHECK(value_words(friction, -1, 3) == "0.5 times the friction of the cables on their hose (strain.hose_friction_factor: 1.5)");
+  CHECK(value_words(friction, 1.5, 1) ==
+        "2.8 times the friction of the cables on their hose (strain.hose_friction_factor: 2.83)");
+  CHECK(value_words(friction, -1, 3) ==
+        "0.5 times the friction of the cables on their hose (strain.hose_friction_factor: 1.5)");
   CHECK(percent_words(0.184) == "18 %");
   Uncertainty known;
-  CHECK(measurement_words(friction, known) ==
-        "; or uncertainty.friction_hose: 1.22, if this measurement confirms the job's value: One cable pulled through its hose with a spring "
-        "scale (one hour)");
+  CHECK(
+      measurement_words(friction, known) ==
+      "; or uncertainty.friction_hose: 1.22, if this measurement confirms the job's value: One cable pulled through its hose with a spring "
+      "scale (one hour)");
   known.spread[index_of(Uncertain::friction_hose)] = 1.22;  // as proposed
   CHECK(measurement_words(friction, known).empty());
 }

@@ -56,8 +56,7 @@ TEST_CASE("checks: a motion has exactly one source and begins with a move") {
     if (given & 8) motion.deformation = "curve.csv";
     if (given & 16) motion.rig.emplace();
     CAPTURE(given);
-    CHECK(is_refused([&] { check_motion(motion, two_axes()); }) ==
-          (__builtin_popcount(unsigned(given)) != 1));
+    CHECK(is_refused([&] { check_motion(motion, two_axes()); }) == (__builtin_popcount(unsigned(given)) != 1));
   }
   MotionStep dwell;
   dwell.dwell = 1;
@@ -196,13 +195,14 @@ TEST_CASE("checks: clamps and rings stand in their order on links of the robot, 
   CHECK_FALSE(refused(of));
 }
 
-TEST_CASE("checks: only a cable without described wires has a damage exponent, needs its mass, and a rating that bends or twists") {
+TEST_CASE(
+    "checks: only a cable without described wires has a damage exponent, needs its mass, and a rating that bends or twists") {
   for (const PlainKind kind : {PlainKind::filler, PlainKind::hose, PlainKind::fibre, PlainKind::cable}) {
     PlainPart part;
     part.kind = kind, part.damage_exponent = 4;
     CHECK(is_refused([&] { check_plain_part(part, 0.004, "part"); }) == (kind != PlainKind::cable));
-    for (const RigKind rig : {RigKind::torsion, RigKind::rolling_flex, RigKind::two_pulley, RigKind::tick_tock, RigKind::swivel,
-                              RigKind::axial})
+    for (const RigKind rig : {RigKind::torsion, RigKind::rolling_flex, RigKind::two_pulley, RigKind::tick_tock,
+                              RigKind::swivel, RigKind::axial})
       for (const bool has_mass : {false, true}) {
         Rating rating;
         rating.rig.kind = rig, rating.cycles = 1e6;

@@ -33,9 +33,7 @@ double amplitude(const Material& m, double reversals) {
 }
 
 double hardening(const Material& m) { return m.fatigue_strength_exponent / m.fatigue_ductility_exponent; }
-double cyclic_strength(const Material& m) {
-  return m.fatigue_strength / std::pow(m.fatigue_ductility, hardening(m));
-}
+double cyclic_strength(const Material& m) { return m.fatigue_strength / std::pow(m.fatigue_ductility, hardening(m)); }
 
 }  // namespace
 
@@ -47,8 +45,7 @@ TEST_CASE("uncertain parameters: z and the key's value lead to each other, and 0
     keys.insert(parameter.key);
     CHECK(parameter.value(0) == (parameter.logarithmic ? 1 : 0));
     CHECK(parameter.value(1) > parameter.value(0));
-    for (const double z : {-2.5, -0.3, 1.7})
-      CHECK(parameter.z_of(parameter.value(z)) == Approx(z).epsilon(rounding));
+    for (const double z : {-2.5, -0.3, 1.7}) CHECK(parameter.z_of(parameter.value(z)) == Approx(z).epsilon(rounding));
   }
   CHECK(names.size() == uncertain_count);
   CHECK(keys.size() == uncertain_count);
@@ -67,16 +64,15 @@ TEST_CASE("uncertain parameters: each one's key is a key of every job, at two de
     const Job job = read_job(file, sets_at(z));
     CHECK(job.strain.factors.friction == Approx(uncertain_parameters()[0].value(sign)));
     CHECK(job.fatigue.model_factor == Approx(uncertain_parameters()[index_of(Uncertain::model)].value(sign)));
-    CHECK(job.fatigue.motion_factor ==
-          Approx(uncertain_parameters()[index_of(Uncertain::motion)].value(sign)));
+    CHECK(job.fatigue.motion_factor == Approx(uncertain_parameters()[index_of(Uncertain::motion)].value(sign)));
   }
   CHECK(sets_at(std::array<double, uncertain_count>{}).empty());
 }
 
 TEST_CASE("prior: standard normal, narrower or wider by the spread that a job gives") {
   Uncertainty uncertainty;
-  CHECK((prior_of(uncertainty).covariance - Eigen::MatrixXd::Identity(uncertain_count, uncertain_count))
-            .norm() < rounding);
+  CHECK((prior_of(uncertainty).covariance - Eigen::MatrixXd::Identity(uncertain_count, uncertain_count)).norm() <
+        rounding);
   uncertainty.spread[0] = 1;
   uncertainty.spread[1] *= uncertainty.spread[1];
   const ParameterKnowledge prior = prior_of(uncertainty);
@@ -103,8 +99,7 @@ TEST_CASE(
   fatigue = {};
   fatigue.slope_change = 0.02;
   const Material flat = changed(copper(), fatigue);
-  CHECK(amplitude(flat, reversals_of_slope) ==
-        Approx(amplitude(copper(), reversals_of_slope)).epsilon(rounding));
+  CHECK(amplitude(flat, reversals_of_slope) == Approx(amplitude(copper(), reversals_of_slope)).epsilon(rounding));
   CHECK(amplitude(flat, 1e9) > amplitude(copper(), 1e9));
 }
 
@@ -136,8 +131,7 @@ TEST_CASE("job: a slope that leaves no strain-life curve is refused") {
   CHECK_THROWS_WITH(read_job(file, {"fatigue.slope_change=0.1"}), Catch::Contains("must be -0.02 or less"));
 }
 
-TEST_CASE(
-    "other stiffnesses of the hose are 0.4 and 2.5 times its own, and follow the deviation that a job gives") {
+TEST_CASE("other stiffnesses of the hose are 0.4 and 2.5 times its own, and follow the deviation that a job gives") {
   const UncertainParameter& stiffness = uncertain_parameters()[index_of(Uncertain::hose_stiffness)];
   Uncertainty uncertainty;
   constexpr double per_cent = 0.01;  // 1.65 deviations of a factor of 1.75: 2.518

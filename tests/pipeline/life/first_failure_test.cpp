@@ -31,9 +31,7 @@ LifeResponse straight(double a, double b, double c, double median = 5) {
   return response;
 }
 
-double sum(const CauseShares& share) {
-  return std::accumulate(share.begin(), share.end(), 0.0);
-}
+double sum(const CauseShares& share) { return std::accumulate(share.begin(), share.end(), 0.0); }
 
 }  // namespace
 
@@ -45,7 +43,8 @@ TEST_CASE("samples of a straight response are normal, with the sum of the varian
   const double deviation = std::sqrt(variance);
   for (const auto& [k, z] : {std::pair{0, -decile}, std::pair{1, 0.0}, std::pair{2, decile}})
     CHECK(std::log10(lives.percentiles[k]) == Approx(5 + deviation * z).margin(sampling_error * deviation));
-  constexpr double share_error = 0.03;  // 4000 samples have a random error of 1 / sqrt(4000) of the variance; twice that
+  constexpr double share_error =
+      0.03;  // 4000 samples have a random error of 1 / sqrt(4000) of the variance; twice that
   CHECK(lives.share[friction] == Approx(a * a / variance).margin(share_error));
   CHECK(lives.share[strength] == Approx(c * c / variance).margin(share_error));
   CHECK(lives.share[slack] == Approx(b * b / variance).margin(share_error));
@@ -58,7 +57,8 @@ TEST_CASE("samples of a straight response are normal, with the sum of the varian
   CHECK(lives.first == std::vector<double>{1});
   // A hundred times the life: the same samples have the same variances.
   const FirstFailures longer = summary_of({straight(a, b, c, 7)}, "job");
-  for (std::size_t cause = 0; cause < lives.share.size(); ++cause) CHECK(longer.share[cause] == Approx(lives.share[cause]).margin(1e-9));
+  for (std::size_t cause = 0; cause < lives.share.size(); ++cause)
+    CHECK(longer.share[cause] == Approx(lives.share[cause]).margin(1e-9));
 }
 
 TEST_CASE("the swing of a mounted hose widens lives, each job's by its own") {
@@ -77,10 +77,12 @@ TEST_CASE("the swing of a mounted hose widens lives, each job's by its own") {
         Approx(normal(1)).margin(sampling_error));
   // With the same simulation both swing in the same way.
   CHECK(compared_failures({swings}, "one", "one", 500) == first_failures({swings}, "one", 500));
-  CHECK(share_outliving(compared_failures({longer}, "one", "one", 500), compared_failures({swings}, "other", "one", 500)) == 1);
+  CHECK(share_outliving(compared_failures({longer}, "one", "one", 500),
+                        compared_failures({swings}, "other", "one", 500)) == 1);
 }
 
-TEST_CASE("the swing has the share of its variance: apart from the others, learned together with one, of two dresspacks") {
+TEST_CASE(
+    "the swing has the share of its variance: apart from the others, learned together with one, of two dresspacks") {
   const double swing = std::log10(uncertain_parameters()[motion].value(1)), a = 0.5, b = 0.3, error = 0.03;  // as above
   LifeResponse one = straight(a, b, 0);
   one.knowledge.covariance(motion, motion) = 1;
@@ -98,11 +100,15 @@ TEST_CASE("the swing has the share of its variance: apart from the others, learn
   one.dresspack = "one", beside.dresspack = "beside";
   CHECK(share_of({one, beside}) == Approx(swing * swing / (others + swing * swing)).margin(error));
   constexpr double together = -0.6;
-  one.dresspack = "", one.knowledge.covariance(motion, static_cast<Eigen::Index>(model)) = one.knowledge.covariance(static_cast<Eigen::Index>(model), motion) = together;
+  one.dresspack = "", one.knowledge.covariance(motion, static_cast<Eigen::Index>(model)) =
+                          one.knowledge.covariance(static_cast<Eigen::Index>(model), motion) = together;
   // Of two normal causes x + y, each has half of the variance of the sum and half of the difference of what each explains alone.
   const double sum_of_both = swing * swing + model_decades * model_decades + 2 * together * swing * model_decades;
-  const double by_swing = std::pow(swing + together * model_decades, 2), by_model = std::pow(model_decades + together * swing, 2);
-  CHECK(share_of({one}) == Approx((sum_of_both + by_swing - by_model) / 2 / (others - model_decades * model_decades + sum_of_both)).margin(error));
+  const double by_swing = std::pow(swing + together * model_decades, 2),
+               by_model = std::pow(model_decades + together * swing, 2);
+  CHECK(share_of({one}) ==
+        Approx((sum_of_both + by_swing - by_model) / 2 / (others - model_decades * model_decades + sum_of_both))
+            .margin(error));
 }
 
 TEST_CASE("shares of causes that act together are divided between them and add up to 1") {
@@ -168,7 +174,8 @@ TEST_CASE("shares of two causes that were learned together, where the response h
   // correlation c have the covariance C(c), and C(c) + a r + a^2 are V(1) at c = r^2 and V(1, 2) at c = 1. V(2) = C(1) + a r + a^2 r^2.
   const double pi = std::acos(-1.0), r = 0.99, a = 0.1;
   const auto covariance = [&](double c) { return (std::sqrt(1 - c * c) + c * (pi - std::acos(c)) - 1) / (2 * pi); };
-  const double of_a = covariance(r * r) + a * r + a * a, of_b = covariance(1) + a * r + a * a * r * r, both = covariance(1) + a * r + a * a;
+  const double of_a = covariance(r * r) + a * r + a * a, of_b = covariance(1) + a * r + a * a * r * r,
+               both = covariance(1) + a * r + a * a;
   LifeResponse response = straight(-a, 0, 0), longer = straight(0, 0, 0, 25);
   response.planned = {{5, 5, 5}}, longer.planned = {{25, 25, 25}};
   for (std::size_t k = 0; k < response.worst_life.size(); ++k)
@@ -203,9 +210,7 @@ TEST_CASE("the error of a percentile is that of few samples where the response i
     response.knowledge.covariance(static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(p)) = 0;
   response.planned = {{5, 5, 5}};
   constexpr std::size_t samples = 10000;
-  const auto errors = [&](const LifeResponse& of) {
-    return summary_of({of}, "job", samples).error_factor;
-  };
+  const auto errors = [&](const LifeResponse& of) { return summary_of({of}, "job", samples).error_factor; };
   // Error of a quantile q of s normal numbers with deviation a: a sqrt(q (1 - q) / s) / the standard normal's density.
   const LifePercentiles of_samples = errors(response);
   CHECK(std::log10(of_samples[1]) == Approx(a * std::sqrt(std::acos(-1.0) / 2 / samples)).epsilon(0.05));
@@ -233,7 +238,8 @@ LifeResponse with_points(LifeResponse response, const Keeps& keeps) {
   for (std::size_t k = 0; k < all.worst_life.size(); ++k) {
     const std::size_t point = k / all.strength.size();
     if (!keeps(all.points[point])) continue;
-    if (k % all.strength.size() == 0) response.points.push_back(all.points[point]), response.inside.push_back(all.inside[point]);
+    if (k % all.strength.size() == 0)
+      response.points.push_back(all.points[point]), response.inside.push_back(all.inside[point]);
     response.worst_life.push_back(all.worst_life[k]);
   }
   return response;
@@ -264,8 +270,7 @@ TEST_CASE("the best test is that of the cause that spreads most, and its range i
   REQUIRE(lives.best_test == friction);
   const UncertainParameter& of = uncertain_parameters()[friction];
   const double error = of.test_deviation / of.deviation(), left = error * error / (1 + error * error);
-  const double deviation =
-      std::sqrt(a * a * left + c * c + model_decades * model_decades + by_scatter * by_scatter);
+  const double deviation = std::sqrt(a * a * left + c * c + model_decades * model_decades + by_scatter * by_scatter);
   CHECK(std::log10(lives.after_test[0]) == Approx(5 - decile * deviation).margin(sampling_error));
   CHECK(std::log10(lives.after_test[2]) == Approx(5 + decile * deviation).margin(sampling_error));
 }
@@ -302,7 +307,8 @@ TEST_CASE("bounds: the same samples with nothing and with endless friction insid
   // The bound's worst wire is not among the wires of the response: its life is 0.2 decades shorter.
   response.bound = {LifeResponse::endless, 3.3, 8.0};
   const FirstFailures lives = summary_of({response}, "job");
-  const double deviation = std::sqrt(0.2 * 0.2 + 0.4 * 0.4 + model_decades * model_decades + std::pow(0.1 / decile, 2) + residual_decades * residual_decades);
+  const double deviation = std::sqrt(0.2 * 0.2 + 0.4 * 0.4 + model_decades * model_decades + std::pow(0.1 / decile, 2) +
+                                     residual_decades * residual_decades);
   // P is 0.3 below W
   CHECK(std::log10(lives.glued[0]) == Approx(3.0 - decile * deviation).margin(sampling_error));
   CHECK(std::log10(lives.free[1]) == Approx(7.7).margin(sampling_error));
@@ -321,10 +327,8 @@ TEST_CASE("what was learned together stays together") {
   LifeResponse sum = straight(-0.3, 0, 0.3), difference = straight(0.3, 0, 0.3);
   for (LifeResponse* response : {&sum, &difference}) {
     response->knowledge.covariance.setZero();
-    response->knowledge.covariance(friction, friction) = response->knowledge.covariance(strength, strength) =
-        1;
-    response->knowledge.covariance(friction, strength) = response->knowledge.covariance(strength, friction) =
-        -1;
+    response->knowledge.covariance(friction, friction) = response->knowledge.covariance(strength, strength) = 1;
+    response->knowledge.covariance(friction, strength) = response->knowledge.covariance(strength, friction) = -1;
     response->planned = {{5, 5, 5}};
   }
   const FirstFailures known = summary_of({sum}, "job"), wide = summary_of({difference}, "job");
@@ -397,7 +401,8 @@ TEST_CASE("modes and their text lead to each other, also from a response alone, 
 
 TEST_CASE("unvalidated modes are read as written, also without the last value, which older files lack") {
   UnvalidatedMode kink;
-  kink.mode = UnvalidatedMode::kink, kink.hours = {1, 2, 3}, kink.first_share = 0.1, kink.together_p10 = 4, kink.place = "hose 5";
+  kink.mode = UnvalidatedMode::kink, kink.hours = {1, 2, 3}, kink.first_share = 0.1, kink.together_p10 = 4,
+  kink.place = "hose 5";
   kink.found_share = 0.2, kink.unseen_share = 0.3, kink.visible_from = 0.5, kink.margin = 1.5;
   std::string text = unvalidated_text({kink});
   CHECK(unvalidated_from(text) == std::vector{kink});
@@ -425,8 +430,7 @@ TEST_CASE("percentiles are straight between the middles of samples, shares of ou
 TEST_CASE("two modes of one dresspack share the part of their scatter that is given") {
   for (const double shared : {1.0, 0.5, 0.0}) {
     LifeResponse one = straight(0, 0, 0), other = one;
-    for (LifeResponse* mode : {&one, &other})
-      mode->knowledge.covariance.setZero(), mode->scatter_shared = shared;
+    for (LifeResponse* mode : {&one, &other}) mode->knowledge.covariance.setZero(), mode->scatter_shared = shared;
     one.mode = "one", other.mode = "other";
     // Share of samples in which both of two normal lives with this correlation are above their median.
     const double both = 0.25 + std::asin(shared) / (2 * std::acos(-1.0));
@@ -448,7 +452,8 @@ TEST_CASE("shares as words are whole per cents that add up to 100") {
   CHECK(share_words(share) == "friction_inside 34 %; strength 33 %; model 33 %");
   CHECK(largest_share(share) == friction);
   share = {};
-  share[slack] = share[friction] = share[strength] = share[model] = 0.25;  // equal shares are in the order of the parameters
+  share[slack] = share[friction] = share[strength] = share[model] =
+      0.25;  // equal shares are in the order of the parameters
   CHECK(share_words(share) == "friction_inside 25 %; slack 25 %; strength 25 %; model 25 %");
   share = {};
   share[slack] = 0.01, share[uncertain_count] = 0.99;
@@ -502,7 +507,8 @@ TEST_CASE("samples have the means and covariances that were learned, of any para
         sum += (samples[a][s] - response.knowledge.mean[of[a]]) * (samples[b][s] - response.knowledge.mean[of[b]]);
       const double expected = covariance(of[a], of[b]), variances = covariance(of[a], of[a]) * covariance(of[b], of[b]);
       // five standard deviations of the covariance of so many samples
-      CHECK(sum / double(count) == Approx(expected).margin(5 * std::sqrt((variances + expected * expected) / double(count))));
+      CHECK(sum / double(count) ==
+            Approx(expected).margin(5 * std::sqrt((variances + expected * expected) / double(count))));
     }
   }
 }
@@ -517,7 +523,8 @@ TEST_CASE("only a wall that contradicts the published test and would fail within
     }
 }
 
-TEST_CASE("lives have the residual of computed places if any other place of the cables has other lives, longer or shorter") {
+TEST_CASE(
+    "lives have the residual of computed places if any other place of the cables has other lives, longer or shorter") {
   for (const double decades : {-0.5, 0.0, 0.5}) {
     LifeResponse response = straight(0.6, 0, 0);
     response.points.push_back({}), response.points.back()[slack] = 1.5;

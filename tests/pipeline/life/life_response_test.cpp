@@ -93,9 +93,9 @@ constexpr std::size_t play = index_of(Uncertain::play), slope = index_of(Uncerta
 /// Random values at every point of a response with unequally spaced nodes on every axis.
 struct RandomTable {
   std::mt19937 engine{7};
-  std::map<std::size_t, std::vector<double>> nodes{
-      {friction, {-1.5, 0, 1, 2.5}}, {slack, {-2, 0, 1}}, {play, {0, 0.5, 2}},
-      {strength, {-2, -0.5, 0, 1}},  {slope, {-1, 0, 3}}, {scatter, {-1, 0, 0.5}}};
+  std::map<std::size_t, std::vector<double>> nodes{{friction, {-1.5, 0, 1, 2.5}}, {slack, {-2, 0, 1}},
+                                                   {play, {0, 0.5, 2}},           {strength, {-2, -0.5, 0, 1}},
+                                                   {slope, {-1, 0, 3}},           {scatter, {-1, 0, 0.5}}};
   LifeResponse response = straight_response(0, 0, 0);
 
   double random() { return std::uniform_real_distribution<double>(4, 6)(engine); }
@@ -124,10 +124,10 @@ struct RandomTable {
       return std::find(list.begin(), list.end(), z) - list.begin();
     };
     for (std::size_t k = 0; k < response.points.size(); ++k)
-      if (response.inside[k] == inside && response.points[k][friction] == f &&
-          response.points[k][slack] == s && response.points[k][play] == p)
-        return response.worst_life[k * 12 + std::size_t(at(response.strength, of_strength) * 3 +
-                                                        at(response.slope, of_slope))];
+      if (response.inside[k] == inside && response.points[k][friction] == f && response.points[k][slack] == s &&
+          response.points[k][play] == p)
+        return response
+            .worst_life[k * 12 + std::size_t(at(response.strength, of_strength) * 3 + at(response.slope, of_slope))];
     throw std::out_of_range("no such point");
   }
   ParameterPoint random_node() {
@@ -169,7 +169,8 @@ TEST_CASE("a response has the values of its table at every combination of nodes"
     for (const double s : {-2.0, 1.0}) {
       ParameterPoint z = at(friction, f);
       z[slack] = s;
-      const std::array alone{LifeSurface(apart.response).change(at(friction, f)), LifeSurface(apart.response).change(at(slack, s))};
+      const std::array alone{LifeSurface(apart.response).change(at(friction, f)),
+                             LifeSurface(apart.response).change(at(slack, s))};
       CHECK(LifeSurface(apart.response).change(z) == Approx(together(0, alone)).margin(rounding));
     }
 }
@@ -210,7 +211,8 @@ TEST_CASE("lives at another stiffness of the hose count as computed, and combine
   }
   ParameterPoint with_play = at(stiffness, 1.65);
   with_play[play] = 2;
-  CHECK(LifeSurface(of).change(with_play) == is(together(at_zero(0, 0), std::array{computed[{0, 0, 1.65}], table.worst(Inside::as_is, 0, 0, 2, 0, 0)})));
+  CHECK(LifeSurface(of).change(with_play) ==
+        is(together(at_zero(0, 0), std::array{computed[{0, 0, 1.65}], table.worst(Inside::as_is, 0, 0, 2, 0, 0)})));
   // A bound counts as computed, too. Elsewhere it changes with the stiffness as the job does.
   const double shift = 3.7 - table.worst(Inside::glued, 0, 0, 0, 0, 0);
   CHECK(change(0, 0, 1.65, Inside::glued) == is(glued + shift));
@@ -220,8 +222,7 @@ TEST_CASE("lives at another stiffness of the hose count as computed, and combine
         is(together(3.7, std::array{shift + table.worst(Inside::glued, 0, 1, 0, 0, 0), soft})));
 }
 
-TEST_CASE(
-    "a response is straight along each axis between neighbouring nodes and beyond the last, as far as 3.5") {
+TEST_CASE("a response is straight along each axis between neighbouring nodes and beyond the last, as far as 3.5") {
   RandomTable table;
   const LifeResponse& of = table.response;
   for (int k = 0; k < 40; ++k)
@@ -239,8 +240,7 @@ TEST_CASE(
       for (std::size_t node = 0; node + 1 < values.size(); ++node) {
         const double low = values[node], high = values[node + 1];
         CHECK(life(0.75 * low + 0.25 * high) == Approx(0.75 * life(low) + 0.25 * life(high)));
-        if (node == 0)
-          CHECK(life(low - 0.3) == Approx(life(low) + 0.3 * (life(low) - life(high)) / (high - low)));
+        if (node == 0) CHECK(life(low - 0.3) == Approx(life(low) + 0.3 * (life(low) - life(high)) / (high - low)));
         if (node + 2 == values.size())
           CHECK(life(high + 0.3) == Approx(life(high) + 0.3 * (life(high) - life(low)) / (high - low)));
       }
@@ -249,8 +249,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE(
-    "a response depends on what its table varies over, and on nothing else of the strain and the material") {
+TEST_CASE("a response depends on what its table varies over, and on nothing else of the strain and the material") {
   const LifeResponse full = RandomTable().response;
   for (const std::size_t varied : {friction, slack, play, strength, slope, scatter}) {
     LifeResponse response = full;
@@ -259,8 +258,7 @@ TEST_CASE(
       ParameterPoint z{};
       std::copy(point.begin(), point.end(), z.begin());
       z[strength] = double(k % 12 / 3), z[slope] = double(k % 3);
-      response.worst_life[k] =
-          varied == scatter || full.inside[k / 12] != Inside::as_is ? 5 : 5 + 0.1 * z[varied];
+      response.worst_life[k] = varied == scatter || full.inside[k / 12] != Inside::as_is ? 5 : 5 + 0.1 * z[varied];
     }
     for (auto& lives : response.planned)
       lives = {4, 5, varied == scatter && &lives == &response.planned[1] ? 6.0 : 5.5};
@@ -308,7 +306,8 @@ TEST_CASE("a text from before there were rests, or the hose's stiffness, is read
       if (of >= first && of <= stiffness) continue;
     }
     if (all[0] == "mean" || all[0] == "covariance" || all[0] == "point")
-      all.erase(all.begin() + static_cast<std::ptrdiff_t>(1 + first), all.begin() + static_cast<std::ptrdiff_t>(2 + stiffness));
+      all.erase(all.begin() + static_cast<std::ptrdiff_t>(1 + first),
+                all.begin() + static_cast<std::ptrdiff_t>(2 + stiffness));
     for (const std::string& word : all) older += word + " ";
     older += "\n";
   }
@@ -330,8 +329,7 @@ TEST_CASE("a response and its text lead to each other, no other text is one") {
         Approx(LifeSurface(response).log10_life(at(friction, 0.7), 0.3)).margin(1e-4));  // six digits each
   CHECK(again.construction == "hose");
   const std::string text = response.text();
-  for (const std::string& wrong :
-       {std::string("nothing"), text.substr(0, text.size() - 8), text + "strength 3 2 1\n", text + "mean x\n",
-        text + "point 1\n", std::string()})
+  for (const std::string& wrong : {std::string("nothing"), text.substr(0, text.size() - 8), text + "strength 3 2 1\n",
+                                   text + "mean x\n", text + "point 1\n", std::string()})
     CHECK_THROWS_AS(LifeResponse::from_text(wrong), std::exception);
 }

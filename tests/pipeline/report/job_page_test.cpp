@@ -64,8 +64,7 @@ TEST_CASE("key samples: a straight line needs its ends, corners are kept") {
   CHECK(key_samples(one, {1}) == std::vector<std::size_t>{0});
 }
 
-TEST_CASE(
-    "key samples: nothing is missed by more than its tolerance, and fewer are kept where more is allowed") {
+TEST_CASE("key samples: nothing is missed by more than its tolerance, and fewer are kept where more is allowed") {
   std::mt19937 random(7);
   std::normal_distribution<double> normal;
   Histories walk;
@@ -79,8 +78,7 @@ TEST_CASE(
   for (const double allowed : {0.5, 2.0, 8.0}) {
     const auto keys = key_samples(walk, {allowed, 2 * allowed, 4 * allowed});
     const auto miss = largest_misses(walk, keys);
-    for (std::size_t q = 0; q < 3; ++q)
-      CHECK(miss[q] <= allowed * (1 << q) * (1 + 1e-9));  // rounding of slopes
+    for (std::size_t q = 0; q < 3; ++q) CHECK(miss[q] <= allowed * (1 << q) * (1 + 1e-9));  // rounding of slopes
     CHECK(keys.back() == walk.time.size() - 1);
     CHECK(keys.size() < before);
     before = keys.size();
@@ -148,8 +146,7 @@ TEST_CASE("scene data: shapes in their frames, and a mesh that is lost is report
   CHECK(notes.empty());
   CHECK(text.find("</script>") == std::string::npos);
   CHECK(text.find(R"("kind":"capsule","from":[0,0,0],"to":[0,0,1],"radius":0.2)") != std::string::npos);
-  CHECK(text.find(R"("kind":"box","position":[1,2,3],"quaternion":[0,0,0.707106781186547)") !=
-        std::string::npos);
+  CHECK(text.find(R"("kind":"box","position":[1,2,3],"quaternion":[0,0,0.707106781186547)") != std::string::npos);
   // 0 .. 1 m in 65535 steps; corners 0 0 0, 1 0 0, 0 0.5 0.
   CHECK(text.find(R"("low":0,"step":1.5259021896696422e-05,"triangles":"AAAAAAAA//8AAAAAAAAAgAAA")") !=
         std::string::npos);

@@ -25,7 +25,8 @@ using Numbers = std::vector<double>;
 std::vector<Strings> found(const std::string& text, const std::string& expression) {
   std::vector<Strings> all;
   const std::regex regex(expression);
-  for (std::sregex_iterator at(text.begin(), text.end(), regex), end; at != end; ++at) all.emplace_back(at->begin() + 1, at->end());
+  for (std::sregex_iterator at(text.begin(), text.end(), regex), end; at != end; ++at)
+    all.emplace_back(at->begin() + 1, at->end());
   return all;
 }
 
@@ -49,8 +50,8 @@ struct Box {
 std::vector<Box> boxes(const std::string& picture, const std::string& styles) {
   std::vector<Box> all;
   const std::string number = "=\"([-0-9.]+)\"";
-  for (const Strings& of : found(picture, "<rect class=\"(?:" + styles + ")\" x" + number + " y" + number + " width" + number + " height" + number +
-                                              "><title>([^<]*)</title>"))
+  for (const Strings& of : found(picture, "<rect class=\"(?:" + styles + ")\" x" + number + " y" + number + " width" +
+                                              number + " height" + number + "><title>([^<]*)</title>"))
     all.push_back({std::stod(of[0]), std::stod(of[1]), std::stod(of[2]), std::stod(of[3]), of[4]});
   return all;
 }
@@ -58,7 +59,8 @@ std::vector<Box> boxes(const std::string& picture, const std::string& styles) {
 std::vector<std::pair<double, double>> points(const std::string& picture, const std::string& style) {
   std::vector<std::pair<double, double>> all;
   for (const Strings& path : found(picture, "<path class=\"" + style + "\" d=\"([^\"]*)\""))
-    for (const Strings& of : found(path[0], "[ML]([-0-9.]+) ([-0-9.]+)")) all.emplace_back(std::stod(of[0]), std::stod(of[1]));
+    for (const Strings& of : found(path[0], "[ML]([-0-9.]+) ([-0-9.]+)"))
+      all.emplace_back(std::stod(of[0]), std::stod(of[1]));
   return all;
 }
 
@@ -96,7 +98,8 @@ struct Case {
     for (std::size_t k = 0; k < 300; ++k) {
       if (uniform(random) < 0.08) line = int(15 * uniform(random)) - 1;
       const double now = 3 + 0.1 * double(k), rate = uniform(random) < 0.8 ? 0 : uniform(random) * 1e-6;
-      life.time.push_back(now), life.step.push_back(line), life.damage_rate.push_back(rate), life.strain.push_back(0.004 * uniform(random) - 0.001);
+      life.time.push_back(now), life.step.push_back(line), life.damage_rate.push_back(rate),
+          life.strain.push_back(0.004 * uniform(random) - 0.001);
       if (!runs.empty()) runs.back().end = now;
       if (runs.empty() || runs.back().line != line) runs.push_back({line, now, now, 0});
       runs.back().damage += rate;
@@ -114,7 +117,8 @@ struct Case {
     life.layer_damage = some(15, 3, 0.1);
     for (int k = 0; k < 9; ++k) life.segment_length.push_back(0.1 + 0.1 * uniform(random));
     life.segment_damage = some(9, seed % 2 ? 1 : 5, 0.1);
-    for (int k = 0; k < 60; ++k) life.cycles.push_back({0.02 * std::pow(10, -2 * uniform(random)), k % 3 ? 1 : 0.5, 1e-7 * uniform(random)});
+    for (int k = 0; k < 60; ++k)
+      life.cycles.push_back({0.02 * std::pow(10, -2 * uniform(random)), k % 3 ? 1 : 0.5, 1e-7 * uniform(random)});
     row.repeat_seconds = 40;
   }
   const Run* costliest(int line) const {
@@ -142,15 +146,18 @@ TEST_CASE("life numbers: every cell of the tables of lines, joints and layers, a
       if (expected.size() == 10 || damage[line] < 5e-4 * sum(damage)) break;  // 0.1 % when rounded
       const Run* const run = of.costliest(int(line));
       Strings causes;
-      const Numbers shares(life.line_cause_damage.begin() + std::ptrdiff_t(4 * line), life.line_cause_damage.begin() + std::ptrdiff_t(4 * line + 4));
+      const Numbers shares(life.line_cause_damage.begin() + std::ptrdiff_t(4 * line),
+                           life.line_cause_damage.begin() + std::ptrdiff_t(4 * line + 4));
       for (const std::size_t cause : order_of(shares))
         if (causes.size() < 2 && (causes.empty() || shares[cause] >= 0.1 * life.step_damage[line]))
           causes.push_back(fmt::format("{} {:.0f} %", life.cause[cause], 100 * shares[cause] / life.step_damage[line]));
-      expected.push_back({std::to_string(line + 1), "move " + std::to_string(line),
-                          std::to_string(std::count_if(of.runs.begin(), of.runs.end(), [&](const Run& one) { return one.line == int(line); })),
-                          run ? fmt::format("{:.1f} .. {:.1f} s", run->begin, run->end) : "", percent(damage[line] / sum(damage)),
-                          percent(life.step_opened[line] / sum(damage)), percent(life.step_damage[line] / sum(damage)),
-                          causes.empty() ? "" : causes[0] + (causes.size() > 1 ? ", " + causes[1] : ""), printed(damage[line])});
+      expected.push_back(
+          {std::to_string(line + 1), "move " + std::to_string(line),
+           std::to_string(
+               std::count_if(of.runs.begin(), of.runs.end(), [&](const Run& one) { return one.line == int(line); })),
+           run ? fmt::format("{:.1f} .. {:.1f} s", run->begin, run->end) : "", percent(damage[line] / sum(damage)),
+           percent(life.step_opened[line] / sum(damage)), percent(life.step_damage[line] / sum(damage)),
+           causes.empty() ? "" : causes[0] + (causes.size() > 1 ? ", " + causes[1] : ""), printed(damage[line])});
       bars.push_back(damage[line] / *std::max_element(damage.begin(), damage.end()));
     }
     CHECK(table_of(page, "Program lines that cost most") == expected);
@@ -164,7 +171,8 @@ TEST_CASE("life numbers: every cell of the tables of lines, joints and layers, a
     std::vector<Strings> layers;
     for (const std::size_t layer : order_of(life.layer_damage))
       if (layers.size() < 12)
-        layers.push_back({life.layer[layer], printed(40 / life.layer_damage[layer] / 3600), printed(1 / life.layer_damage[layer]), printed(life.layer_damage[layer])});
+        layers.push_back({life.layer[layer], printed(40 / life.layer_damage[layer] / 3600),
+                          printed(1 / life.layer_damage[layer]), printed(life.layer_damage[layer])});
     CHECK(table_of(page, "Life by layer of wires") == layers);
     const std::vector<Strings> widths = found(page, "style=\"width:([0-9.]+)%\"");
     REQUIRE(widths.size() == bars.size());
@@ -185,10 +193,14 @@ TEST_CASE("life numbers: the strain over time, the program below it and the dama
       const Run& run = of.runs[k];
       CHECK(cells[k].x == Approx(across(run.begin)).margin(pixel));
       CHECK(cells[k].width == Approx(std::max(0.5, across(run.end) - across(run.begin))).margin(pixel));
-      CHECK(cells[k].hint == fmt::format("{:.1f} .. {:.1f} s, line {}: {}; {} of the damage", run.begin, run.end, run.line + 1,
-                                         run.line < 0 ? "no program line" : "move " + std::to_string(run.line), percent(run.damage / all)));
+      CHECK(cells[k].hint == fmt::format("{:.1f} .. {:.1f} s, line {}: {}; {} of the damage", run.begin, run.end,
+                                         run.line + 1,
+                                         run.line < 0 ? "no program line" : "move " + std::to_string(run.line),
+                                         percent(run.damage / all)));
     }
-    CHECK(boxes(chart, "costly").size() == std::size_t(std::count_if(of.runs.begin(), of.runs.end(), [&](const Run& run) { return run.damage >= 0.03 * all; })));
+    CHECK(boxes(chart, "costly").size() ==
+          std::size_t(
+              std::count_if(of.runs.begin(), of.runs.end(), [&](const Run& run) { return run.damage >= 0.03 * all; })));
     // Every sample is a point of the curve, higher by as much as its strain is.
     const auto curve = points(chart, "curve");
     REQUIRE(curve.size() == life.strain.size());
@@ -197,7 +209,8 @@ TEST_CASE("life numbers: the strain over time, the program below it and the dama
     for (std::size_t k = 0; k < curve.size(); ++k) {
       CHECK(curve[k].first == Approx(across(life.time[k])).margin(pixel));
       const double share = (life.strain[k] - life.strain[low]) / (life.strain[high] - life.strain[low]);
-      CHECK(curve[k].second == Approx(curve[low].second + share * (curve[high].second - curve[low].second)).margin(2 * pixel));
+      CHECK(curve[k].second ==
+            Approx(curve[low].second + share * (curve[high].second - curve[low].second)).margin(2 * pixel));
     }
     // A stair from the first sample's share to 100 %, which is 76 px higher than nothing.
     const auto stair = points(chart, "curve-hot");
@@ -218,9 +231,11 @@ TEST_CASE("life numbers: the strain over time, the program below it and the dama
     std::map<double, std::string> named;
     std::size_t labels = 0;
     for (const std::size_t line : order_of(life.step_damage))
-      if (const Run* const run = of.costliest(int(line)); run && labels < 4 && life.step_damage[line] > 0.03 * sum(life.step_damage)) {
+      if (const Run* const run = of.costliest(int(line));
+          run && labels < 4 && life.step_damage[line] > 0.03 * sum(life.step_damage)) {
         ++labels;
-        const std::string words = fmt::format("{:.0f} %: line {}, move {}", 100 * life.step_damage[line] / sum(life.step_damage), line + 1, line);
+        const std::string words = fmt::format("{:.0f} %: line {}, move {}",
+                                              100 * life.step_damage[line] / sum(life.step_damage), line + 1, line);
         const std::vector<Strings> at = found(chart, "<text class=\"note\" x=\"([0-9.]+)\"[^>]*>" + words + "</text>");
         REQUIRE(at.size() == 1);
         CHECK(std::abs(std::stod(at[0][0]) - across((run->begin + run->end) / 2)) == Approx(5).margin(pixel));
@@ -229,7 +244,8 @@ TEST_CASE("life numbers: the strain over time, the program below it and the dama
   }
 }
 
-TEST_CASE("life numbers: bars along the dresspack and over the strain range are as wide and as high as what they show") {
+TEST_CASE(
+    "life numbers: bars along the dresspack and over the strain range are as wide and as high as what they show") {
   for (const unsigned seed : {1u, 2u, 3u, 4u}) {
     const Case of(seed);
     const LifeSummary& life = of.life;
@@ -240,7 +256,9 @@ TEST_CASE("life numbers: bars along the dresspack and over the strain range are 
     REQUIRE(bars.size() == order.size());
     CHECK(boxes(along, "bar-hot")[0].hint.starts_with(fmt::format("segment {} from", worst)));
     const bool decades = life.segment_damage[order.front()] > 30 * life.segment_damage[order.back()];
-    const auto height = [&](std::size_t segment) { return decades ? std::log10(life.segment_damage[segment]) : life.segment_damage[segment]; };
+    const auto height = [&](std::size_t segment) {
+      return decades ? std::log10(life.segment_damage[segment]) : life.segment_damage[segment];
+    };
     std::size_t bar = 0, tallest = 0, lowest = 0;
     double from = 0;
     std::vector<std::size_t> shown;
@@ -249,19 +267,21 @@ TEST_CASE("life numbers: bars along the dresspack and over the strain range are 
       const double scale = chart_panel / sum(life.segment_length), width = scale * life.segment_length[k];
       CHECK(bars[bar].x == Approx(chart_left + scale * from + 1).margin(pixel));
       CHECK(bars[bar].width == Approx(width - 2).margin(pixel));
-      CHECK(bars[bar].hint == fmt::format("segment {} from the tool: damage {} per repeat, life {} repeats", 9 - k, printed(life.segment_damage[k]),
-                                          printed(1 / life.segment_damage[k])));
+      CHECK(bars[bar].hint == fmt::format("segment {} from the tool: damage {} per repeat, life {} repeats", 9 - k,
+                                          printed(life.segment_damage[k]), printed(1 / life.segment_damage[k])));
       if (k == order.front()) tallest = bar;
       if (k == order.back()) lowest = bar;
       shown.push_back(k), ++bar;
     }
     for (std::size_t k = 0; k < bars.size(); ++k) {
-      const double none = decades ? height(order.back()) : 0, bottom = decades ? bars[lowest].height : 0;  // of linear bars the foot is 0
+      const double none = decades ? height(order.back()) : 0,
+                   bottom = decades ? bars[lowest].height : 0;  // of linear bars the foot is 0
       const double share = (height(shown[k]) - none) / (height(order.front()) - none);
       CHECK(bars[k].height == Approx(bottom + share * (bars[tallest].height - bottom)).margin(3 * pixel));
       CHECK(bars[k].y + bars[k].height == Approx(26 + 180).margin(2 * pixel));
     }
-    CHECK(bars[tallest].height > 90);  // an axis ends within twice its largest value, or within a decade of at least two
+    CHECK(bars[tallest].height >
+          90);  // an axis ends within twice its largest value, or within a decade of at least two
 
     std::map<int, std::array<double, 2>> bins;  // tenths of decades of a range in %: cycles, damage
     double total = 0, count = 0;
@@ -278,17 +298,21 @@ TEST_CASE("life numbers: bars along the dresspack and over the strain range are 
     REQUIRE(past - first > 10);  // so the axis ends with the bins
     std::size_t k = 0;
     for (const auto& [bin, of_bin] : bins) {
-      const std::string hint = fmt::format("range {} .. {} %: {} cycles, {} % of the damage", printed(std::pow(10, bin / 10.0)),
-                                           printed(std::pow(10, (bin + 1) / 10.0)), printed(of_bin[0]), printed(100 * of_bin[1] / total));
-      const double x = chart_left + chart_panel * (bin - first) / (past - first) + 0.5, width = chart_panel / (past - first) - 1;
-      const auto& largest = *std::max_element(bins.begin(), bins.end(), [](const auto& a, const auto& b) { return a.second[1] < b.second[1]; });
+      const std::string hint =
+          fmt::format("range {} .. {} %: {} cycles, {} % of the damage", printed(std::pow(10, bin / 10.0)),
+                      printed(std::pow(10, (bin + 1) / 10.0)), printed(of_bin[0]), printed(100 * of_bin[1] / total));
+      const double x = chart_left + chart_panel * (bin - first) / (past - first) + 0.5,
+                   width = chart_panel / (past - first) - 1;
+      const auto& largest = *std::max_element(bins.begin(), bins.end(),
+                                              [](const auto& a, const auto& b) { return a.second[1] < b.second[1]; });
       const auto place_of_largest = std::size_t(std::distance(bins.begin(), bins.find(largest.first)));
       for (const Box& box : {counts[k], shares[k]}) {
         CHECK(box.hint == hint);
         CHECK(box.x == Approx(x).margin(pixel));
         CHECK(box.width == Approx(width).margin(pixel));
       }
-      CHECK(shares[k].height == Approx(shares[place_of_largest].height * of_bin[1] / largest.second[1]).margin(2 * pixel));
+      CHECK(shares[k].height ==
+            Approx(shares[place_of_largest].height * of_bin[1] / largest.second[1]).margin(2 * pixel));
       CHECK(shares[k].y + shares[k].height == Approx(10 + 130 + 16 + 130).margin(2 * pixel));
       CHECK(counts[k].y + counts[k].height == Approx(10 + 130).margin(2 * pixel));
       ++k;

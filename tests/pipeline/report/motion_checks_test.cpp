@@ -22,8 +22,7 @@ void write_motion(const std::filesystem::path& name, bool checked, bool returns 
   file.append("/segment/length", std::vector<double>{0.5, 0.5});
   file.append("/clamp/position", std::vector<double>(6));
   file.append("/clamp/orientation", std::vector<double>(8));
-  for (const char* dataset : {"/program/step", "/contact/count"})
-    file.append(dataset, std::vector<std::int32_t>{0});
+  for (const char* dataset : {"/program/step", "/contact/count"}) file.append(dataset, std::vector<std::int32_t>{0});
   file.append("/program/text", std::vector<std::string>{"home", "reach <far>"});
   file.append("/energy", std::vector<double>(3));
   file.append("/tension", std::vector<double>(2));
@@ -49,9 +48,7 @@ void write_motion(const std::filesystem::path& name, bool checked, bool returns 
   file.commit();
 }
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST_CASE("motion checks: a table in the units of cell designers") {
   const Scratch scratch;
@@ -62,8 +59,7 @@ TEST_CASE("motion checks: a table in the units of cell designers") {
                  "<td>smallest bend radius</td><td class=\"number failed\">250.0 mm</td><td "
                  "class=\"number\">400.0 mm</td><td class=\"number\">0.10 m</td>"));
   CHECK(contains(table, "reach &lt;far&gt;"));
-  CHECK(contains(table,
-                 "<td>largest net twist</td><td class=\"number\">0.50 turns</td><td class=\"number\"></td>"));
+  CHECK(contains(table, "<td>largest net twist</td><td class=\"number\">0.50 turns</td><td class=\"number\"></td>"));
   write_motion(scratch / "once.h5", true, false);
   CHECK(contains(check_table(scratch / "once.h5"), "was run once"));
 }

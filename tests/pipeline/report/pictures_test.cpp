@@ -56,8 +56,7 @@ void write_motion(const std::filesystem::path& name) {
   file.append("/segment/length", std::vector<double>(3, 0.2));
   file.append("/clamp/position", clamps);
   file.append("/clamp/orientation", upright);
-  for (const char* dataset : {"/program/step", "/contact/count"})
-    file.append(dataset, std::vector<std::int32_t>{0, 0});
+  for (const char* dataset : {"/program/step", "/contact/count"}) file.append(dataset, std::vector<std::int32_t>{0, 0});
   file.append("/program/text", std::vector<std::string>{"home"});
   file.append("/energy", std::vector<double>(6));
   file.append("/tension", std::vector<double>(6));
@@ -80,28 +79,27 @@ TEST_CASE("pictures: a plan's failures are stairs, a step per week from today to
   plan.failures_in_week = {1, 2, 3, 2};
   plan.failures_in_week_without_windows = {1, 2, 4, 8};
   const std::string page = plan_page("line", fleet, plan, {}, "plan.csv");
-  for (const auto& [style, heights] : {std::pair("curve", plan.failures_in_week),
-                                       std::pair("curve-hot", plan.failures_in_week_without_windows)}) {
+  for (const auto& [style, heights] :
+       {std::pair("curve", plan.failures_in_week), std::pair("curve-hot", plan.failures_in_week_without_windows)}) {
     const std::vector<double> path = path_of(page, style);
     REQUIRE(path.size() == 2 * 2 * heights.size());
     const double week = path[2] - path[0];
     CHECK(week > 0);
     const double unit = (path[1] - path[1 + 4]) / (heights[1] - heights[0]);  // length of one failure, upward
-    constexpr double written = 0.2;  // coordinates have one decimal
+    constexpr double written = 0.2;                                           // coordinates have one decimal
     for (std::size_t k = 0; k < heights.size(); ++k)
       for (std::size_t end : {0, 1}) {
         const std::size_t at = 4 * k + 2 * end;
         CHECK(path[at] == Approx(path[0] + week * double(k + end)).margin(written * double(k + end + 1)));
-        CHECK(path[at + 1] ==
-              Approx(path[1] - unit * (heights[k] - heights[0])).margin(written * heights[k]));
+        CHECK(path[at + 1] == Approx(path[1] - unit * (heights[k] - heights[0])).margin(written * heights[k]));
       }
   }
   // The row's cells: no colour, then one colour per factor of ten of probability.
   CHECK(count_of(page, "robot 7, 2026-11-23 ..") == 0);
   for (const auto& [style, day] :
        {std::pair("p2", "2026-11-30"), std::pair("p3", "2026-12-07"), std::pair("p4", "2026-12-14")})
-    CHECK(std::regex_search(
-        page, std::regex(fmt::format("class=\"{}\"[^\n]*\n?[^\n]*robot 7, {} \\.\\.", style, day))));
+    CHECK(
+        std::regex_search(page, std::regex(fmt::format("class=\"{}\"[^\n]*\n?[^\n]*robot 7, {} \\.\\.", style, day))));
 }
 
 TEST_CASE("pictures: each program of a duty has its own name and its own bars") {
@@ -123,7 +121,8 @@ TEST_CASE("pictures: each program of a duty has its own name and its own bars") 
   const auto widths = [&](const std::string& style) {
     std::vector<double> found;
     const std::regex box("<rect class=\"" + style + "\"[^>]* width=\"([^\"]*)\"");
-    for (std::sregex_iterator at(chart.begin(), chart.end(), box), end; at != end; ++at) found.push_back(std::stod((*at)[1]));
+    for (std::sregex_iterator at(chart.begin(), chart.end(), box), end; at != end; ++at)
+      found.push_back(std::stod((*at)[1]));
     return found;
   };
   const std::vector<double> times = widths("dark"), damages = widths("bar-hot");  // the first width is the legend's
@@ -174,25 +173,32 @@ TEST_CASE("pictures: a motion's data have each sample's own positions") {
 
 TEST_CASE("pictures: a bending cable's loop is its first bend doubled, from end to end of the largest curvature") {
   const Scratch scratch;
-  const std::string text = edited(edited(edited(edited(sample_job, "stiffness_Nm2: 5", "stiffness_Nm2: 0.01"), "slip: [stick, free]", "slip: friction"), "lay_angle_deg: 25", "lay_angle_deg: 15"),
-                                  "diameter_mm: 60", "diameter_mm: 60\n  inner_diameter_mm: 52\n  bending_friction: [{stiffness_Nm2: 0.02, slides_at_1_per_m: 0.25}]");
+  const std::string text = edited(
+      edited(edited(edited(sample_job, "stiffness_Nm2: 5", "stiffness_Nm2: 0.01"), "slip: [stick, free]",
+                    "slip: friction"),
+             "lay_angle_deg: 25", "lay_angle_deg: 15"),
+      "diameter_mm: 60",
+      "diameter_mm: 60\n  inner_diameter_mm: 52\n  bending_friction: [{stiffness_Nm2: 0.02, slides_at_1_per_m: 0.25}]");
   const Dresspack dresspack = job_from(parse_yaml(text, "job.yaml")).dresspacks[0].dresspack;
   for (const double own : {0.0, 0.7}) {
     write_sample_strain(scratch / "strain.h5", text, 0.5, own);
     const std::string chart = bending_chart(scratch / "strain.h5", 0);
-    const std::vector<double> loop = path_of(chart, "curve-hot"), first = path_of(chart, "curve"), simulated = path_of(chart, "leader");
+    const std::vector<double> loop = path_of(chart, "curve-hot"), first = path_of(chart, "curve"),
+                              simulated = path_of(chart, "leader");
     REQUIRE(loop.size() == 2 * 242);
     REQUIRE(first.size() == 2 * 121);
     REQUIRE(simulated.size() == 2 * 121);
     constexpr double pixel = 0.1;  // places are written to it
     const PlotAxis axis = linear_axis("", -0.5, 0.5, 9);
-    const double half = chart_panel * 0.5 / (axis.high - axis.low), x = first[0], y = first[1], most = bending_moments(dresspack, 1, {0.5})[0], end = y - first[241];
+    const double half = chart_panel * 0.5 / (axis.high - axis.low), x = first[0], y = first[1],
+                 most = bending_moments(dresspack, 1, {0.5})[0], end = y - first[241];
     CHECK(x == Approx(chart_left + chart_panel / 2).margin(pixel));
     REQUIRE(end > 50);  // else the rounding hides the curves
     for (std::size_t k = 0; k <= 120; ++k) {
       const double share = double(k) / 120, curvature = 0.5 * share;
       CHECK(first[2 * k] == Approx(x + half * share).margin(pixel));
-      CHECK(y - first[2 * k + 1] == Approx(end * bending_moments(dresspack, 1, {curvature})[0] / most).margin(2 * pixel));
+      CHECK(y - first[2 * k + 1] ==
+            Approx(end * bending_moments(dresspack, 1, {curvature})[0] / most).margin(2 * pixel));
       // What the hose's own friction holds ends at 0.25 1/m.
       CHECK(simulated[2 * k] == Approx(first[2 * k]).margin(pixel));
       const double modelled = elastic_bending_stiffness(dresspack) * curvature + 0.02 * std::min(curvature, 0.25);
@@ -203,13 +209,16 @@ TEST_CASE("pictures: a bending cable's loop is its first bend doubled, from end 
       CHECK(loop[2 * (121 + k) + 1] == Approx(2 * y - loop[2 * k + 1]).margin(2 * pixel));
     }
     // In words, of the hose and of the cable: the friction's deciles are the parameter's.
-    const std::regex words("friction ([0-9.e-]+) N m \\(10 \\.\\. 90 %: ([0-9.e-]+) \\.\\. ([0-9.e-]+)\\); largest curvature ([0-9.]+) 1/m");
+    const std::regex words(
+        "friction ([0-9.e-]+) N m \\(10 \\.\\. 90 %: ([0-9.e-]+) \\.\\. ([0-9.e-]+)\\); largest curvature ([0-9.]+) 1/m");
     std::vector<double> largest;
     for (std::sregex_iterator at(chart.begin(), chart.end(), words), none; at != none; ++at) {
       const UncertainParameter& friction = uncertain_parameters()[index_of(Uncertain::friction_inside)];
       constexpr double digits = 0.012;  // three of each number
-      CHECK(std::stod((*at)[2]) / std::stod((*at)[1]) == Approx(friction.value(-1.28155) / friction.value(0)).epsilon(digits));
-      CHECK(std::stod((*at)[3]) / std::stod((*at)[1]) == Approx(friction.value(1.28155) / friction.value(0)).epsilon(digits));
+      CHECK(std::stod((*at)[2]) / std::stod((*at)[1]) ==
+            Approx(friction.value(-1.28155) / friction.value(0)).epsilon(digits));
+      CHECK(std::stod((*at)[3]) / std::stod((*at)[1]) ==
+            Approx(friction.value(1.28155) / friction.value(0)).epsilon(digits));
       largest.push_back(std::stod((*at)[4]));
     }
     CHECK(largest == std::vector<double>{0.5, own > 0 ? own : 0.5});

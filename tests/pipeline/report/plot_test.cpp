@@ -21,8 +21,7 @@ using Words = std::vector<std::string>;
 
 TEST_CASE("plot: linear ticks stand at round values") {
   CHECK(labels(PlotAxis{"", 0, 1}.ticks(5)) == Words{"0.0", "0.2", "0.4", "0.6", "0.8", "1.0"});
-  CHECK(labels(PlotAxis{"", 0, 180}.ticks(9)) ==
-        Words{"0", "20", "40", "60", "80", "100", "120", "140", "160", "180"});
+  CHECK(labels(PlotAxis{"", 0, 180}.ticks(9)) == Words{"0", "20", "40", "60", "80", "100", "120", "140", "160", "180"});
   CHECK(labels(PlotAxis{"", 0, 40000}.ticks(4)) == Words{"0", "10,000", "20,000", "30,000", "40,000"});
   CHECK(labels(PlotAxis{"", -0.003, 0.0025}.ticks(6)) ==
         Words{"-0.003", "-0.002", "-0.001", "0.000", "0.001", "0.002"});
@@ -41,15 +40,13 @@ TEST_CASE("plot: logarithmic ticks are decades, with 2 and 5 between them where 
 }
 
 TEST_CASE("plot: ranges that a double cannot divide have no ticks, and end") {
-  constexpr double inf = std::numeric_limits<double>::infinity(),
-                   nan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
   for (const auto& [low, high] : std::vector<std::pair<double, double>>{
            {0, 0}, {1, 1}, {nan, 1}, {0, nan}, {-1e308, 1e308}, {0, inf}, {1e9, 1e9 * (1 + 1e-15)}, {1, 0}}) {
     INFO(low << " .. " << high);
     CHECK(PlotAxis{"", low, high}.ticks(6).empty());
   }
-  for (const auto& [low, high] :
-       std::vector<std::pair<double, double>>{{0, 1}, {-1, 1}, {nan, 1}, {1, inf}}) {
+  for (const auto& [low, high] : std::vector<std::pair<double, double>>{{0, 1}, {-1, 1}, {nan, 1}, {1, inf}}) {
     INFO(low << " .. " << high);
     CHECK(PlotAxis{"", low, high, true}.ticks(6).empty());
   }
@@ -124,8 +121,7 @@ TEST_CASE("plot: a thinned history keeps every extreme within its column") {
   CHECK(points.size() <= 1600);
   CHECK(std::count(points.begin(), points.end(), std::pair{time[70003], 9.0}) == 1);
   CHECK(std::count(points.begin(), points.end(), std::pair{time[123], -9.0}) == 1);
-  CHECK(std::is_sorted(points.begin(), points.end(),
-                       [](const auto& a, const auto& b) { return a.first < b.first; }));
+  CHECK(std::is_sorted(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.first < b.first; }));
   CHECK(thinned({0, 1, 2}, {5, 6, 7}, 800).size() == 3);
   CHECK(thinned({}, {}, 800).empty());
 }

@@ -37,8 +37,7 @@ std::string first_fault(const std::string& page) {
     const std::size_t end = page.find('>', at);
     if (end == std::string::npos) return "unclosed tag";
     const std::string tag = page.substr(at + 1, end - at - 1);
-    const std::string name =
-        tag.substr(tag.starts_with('/'), tag.find_first_of(" >/", 1) - tag.starts_with('/'));
+    const std::string name = tag.substr(tag.starts_with('/'), tag.find_first_of(" >/", 1) - tag.starts_with('/'));
     if (tag.starts_with('!') || tag.ends_with('/') || name == "meta" || name == "br") continue;
     if (count_of(tag, "\"") % 2) return "odd quotes in <" + tag + ">";
     if (!tag.starts_with('/')) {
@@ -48,8 +47,7 @@ std::string first_fault(const std::string& page) {
         return "</" + name + "> closes " + (open.empty() ? "nothing" : open.back());
       open.pop_back();
     }
-    if ((name == "style" || name == "script") && !tag.starts_with('/'))
-      at = page.find("</" + name + ">", at) - 1;
+    if ((name == "style" || name == "script") && !tag.starts_with('/')) at = page.find("</" + name + ">", at) - 1;
   }
   return open.empty() ? "" : open.back() + " stays open";
 }
@@ -74,11 +72,14 @@ TEST_CASE("report: which joint and which clamp cost the life, and the hose besid
   const std::string page = page_of("causes", rows);
   CHECK(page.find("What moved while the damage was done: a correlation") != std::string::npos);
   CHECK(page.find(" By the nearest clamp: base clamp 25 %; tool clamp 75 %.") != std::string::npos);
-  CHECK(page.find("<td>hose&#39;s wall†</td><td class=\"number\">-</td><td class=\"number\">3,400</td>") != std::string::npos);
+  CHECK(page.find("<td>hose&#39;s wall†</td><td class=\"number\">-</td><td class=\"number\">3,400</td>") !=
+        std::string::npos);
   CHECK(page.find("<td>weld spot") != std::string::npos);
-  CHECK(page.find("The strain of this wire follows joint_5 most. That is a correlation, no cause.") != std::string::npos);
+  CHECK(page.find("The strain of this wire follows joint_5 most. That is a correlation, no cause.") !=
+        std::string::npos);
   const std::string table = std::regex_replace(ranking_table(rows), std::regex("\n +"), " ");
-  CHECK(table.find("The strain of this wire follows joint_5 most. That is a correlation, no cause.") != std::string::npos);
+  CHECK(table.find("The strain of this wire follows joint_5 most. That is a correlation, no cause.") !=
+        std::string::npos);
   CHECK_THAT(table, Catch::Contains("hose's wall†") && Catch::Contains(" 3,400 "));
   CHECK(ranking_csv(rows).find(",joint_5,0.8,,,,,") != std::string::npos);
   life.causes = false;
@@ -89,7 +90,8 @@ TEST_CASE("report: which joint and which clamp cost the life, and the hose besid
   CHECK(old.find("wall†") == std::string::npos);
 }
 
-TEST_CASE("report: a wall's life that is not credible has no number, and the legend of * names the modes that may come first") {
+TEST_CASE(
+    "report: a wall's life that is not credible has no number, and the legend of * names the modes that may come first") {
   const Scratch scratch;
   UnvalidatedMode wall, jacket;
   wall.mode = UnvalidatedMode::wall, wall.hours = {UnvalidatedMode::unknown, 157.25, UnvalidatedMode::unknown};
@@ -105,8 +107,7 @@ TEST_CASE("report: a wall's life that is not credible has no number, and the leg
   CHECK(page.find(">157<") == std::string::npos);
   CHECK(table.find("157") == std::string::npos);
   CHECK(csv.find(",157.25,") == std::string::npos);
-  for (const std::string& text : {page, table})
-    CHECK(text.find("wall†") != std::string::npos);
+  for (const std::string& text : {page, table}) CHECK(text.find("wall†") != std::string::npos);
   CHECK(page.find("Not predicted: the only known law") != std::string::npos);
   CHECK(page.find("confirms their laws: jacket wear, hose") != std::string::npos);
   CHECK(page.find("* marks jobs in which one of them may come first: jacket wear in 1 job.") != std::string::npos);
@@ -128,9 +129,9 @@ TEST_CASE("report: of several dresspacks each has its shortest life and the wors
   const auto rows = read_ranking({{"two", scratch / "two.h5", ""}});
   CHECK(rows[0].worst_dresspack == "sensor <cable>");
   const std::string csv = ranking_csv(rows);
-  CHECK(csv.substr(0, csv.find('\n'))
-            .find(",worst_dresspack,settings,largest_force_share,clamp_moment_share,force_ok") !=
-        std::string::npos);
+  CHECK(
+      csv.substr(0, csv.find('\n')).find(",worst_dresspack,settings,largest_force_share,clamp_moment_share,force_ok") !=
+      std::string::npos);
   CHECK(csv.find(",joint_5,0.8,sensor <cable>,,,,") != std::string::npos);
   const std::string page = page_of("two", rows);
   check_page(page);
@@ -186,8 +187,8 @@ TEST_CASE("report: each kind of line that is drawn has a rule, as a path without
   const Scratch scratch;
   SampleLife calm;
   calm.repeats = 1e9;
-  const std::string page = page_of(
-      "two", read_ranking({job_with(scratch, "robot_1", {}), job_with(scratch, "robot_2", calm)}));
+  const std::string page =
+      page_of("two", read_ranking({job_with(scratch, "robot_1", {}), job_with(scratch, "robot_2", calm)}));
   const std::string rules = page.substr(0, page.find("</style>")), begin = "<path class=\"";
   std::set<std::string> kinds;
   for (std::size_t at = page.find(begin); at != std::string::npos; at = page.find(begin, at + 1)) {
@@ -197,8 +198,7 @@ TEST_CASE("report: each kind of line that is drawn has a rule, as a path without
   CHECK(kinds.count("whisker") == 1);
   for (const std::string& kind : kinds) {
     INFO(kind);
-    CHECK((rules.find("." + kind + " ") != std::string::npos ||
-           rules.find("." + kind + ",") != std::string::npos));
+    CHECK((rules.find("." + kind + " ") != std::string::npos || rules.find("." + kind + ",") != std::string::npos));
   }
 }
 
@@ -208,8 +208,8 @@ TEST_CASE("report: words of jobs, wires, programs and settings are harmless") {
   hostile.worst_component = "<script>alert(1)</script>/\"wire\" 1";
   hostile.line_name = "R&D's <b>spot</b>";
   hostile.job = "name: </pre><script>\n";
-  const auto rows = read_ranking(
-      {job_with(scratch, "a", hostile, "<i>job</i>"), {"<u>bad</u>", "", "<script>why</script>"}});
+  const auto rows =
+      read_ranking({job_with(scratch, "a", hostile, "<i>job</i>"), {"<u>bad</u>", "", "<script>why</script>"}});
   const std::string page = page_of("<study> & \"more\"", rows);
   check_page(page);
   CHECK(page.find("<i>") == std::string::npos);
@@ -287,8 +287,7 @@ TEST_CASE("report: of thousands of rows the first hundred are laid out, the othe
   CHECK(page_of("few", {rows.begin(), rows.begin() + 100}).find("<template") == std::string::npos);
 }
 
-TEST_CASE(
-    "report: a study over two keys is a matrix of lives, numbers in their order, failures and warnings marked") {
+TEST_CASE("report: a study over two keys is a matrix of lives, numbers in their order, failures and warnings marked") {
   const Scratch scratch;
   const RankingRow row = read_ranking({job_with(scratch, "one", {})}).front();
   std::vector<RankingRow> rows;
@@ -374,44 +373,54 @@ TEST_CASE("report: each fact of a job has the row's own number") {
   row.glued_hours = {11, 12, 13}, row.free_hours = {111, 112, 113};
   row.life_repeats_all_stick = 1400, row.life_repeats_all_free = 15000;
   row.estimates = "mass", row.hours_mean_stress_kept = 61, row.hours_without_mean_stress = 62;
-  row.largest_force_share = 0.11, row.clamp_moment_share = 0.12, row.strain_relief_share = 0.13, row.loose_mesh_error = 0.014;
+  row.largest_force_share = 0.11, row.clamp_moment_share = 0.12, row.strain_relief_share = 0.13,
+  row.loose_mesh_error = 0.014;
   row.first_wire_hours = {31, 32, 33}, row.conductor_hours = {41, 42, 43}, row.not_evaluated = "water hose";
   row.worst_shear_range = 0.015, row.worst_time = 16.5, row.worst_step = "weld";
   const std::string page = page_of("planned", rows);
   check_page(page);
   std::map<std::string, std::string> facts;
   const std::regex fact("<dt>([^<]*)</dt><dd>(.*)</dd>");
-  for (std::sregex_iterator at(page.begin(), page.end(), fact), end; at != end; ++at) facts[(*at)[1]] = std::regex_replace((*at)[2].str(), std::regex("</?b>"), "");
-  const std::string by_scatter = " of such dresspacks, by the scatter of wires alone", glued = " if everything inside the cables were glued, ",
-                    free = " if it slipped without friction";
-  for (const auto& [name, text] : std::map<std::string, std::string>{
-           {"life", "44.0 h of motion = 6.00 months by the calendar until 10 % of such dresspacks have a conductor that has lost its share of wires at one place; "
-                    "66.0 h until half have, 110 h until 90 %; likeliest signal cable 3/conductor 2, 0.75 m from the tool"},
-           {"worst wire", "71.0 h of motion = 7,100 repeats of 36.0 s = 7.00 months by the calendar, median of the worst wire"},
-           {"by the scatter of wires alone", "51.0 h in 10 %, 52.0 h in half, 53.0 h in 90 % of such dresspacks, everything else with the job's own values"},
-           {"its causes", "strength 60 %"},
-           {"fails first", "wires of signal cable, in 75 % of the samples, likeliest signal cable 3/conductor 2, 0.75 m from the tool"},
-           {"bounds of 10 % failed", "11.0 h" + glued + "111 h" + free},
-           {"bounds of half failed", "12.0 h" + glued + "112 h" + free},
-           {"bounds of 90 % failed", "13.0 h" + glued + "113 h" + free},
-           {"bounds of the worst wire", "14.0 h" + glued + "150 h" + free},
-           {"ESTIMATE, not in the dresspack", "mass"},
-           {"mean stress", "61.0 h if none of it relaxed, 62.0 h without any, median of the same wire"},
-           {"forces of cables", "at most 0.11 of the force that breaks a cable; at the clamps 0.12 times the moment that the hose carries"},
-           {"pull at clamps", "0.13 of what a strain relief of type A has to hold (EN 50262)"},
-           {"mesh of loose cables", "discretisation error of their curvature: 1.4 % (a warning above 1 %)"},
-           {"first broken wire", "by 31.0 h in 10 %, 32.0 h in half, 33.0 h in 90 %" + by_scatter},
-           {"share of a conductor broken anywhere in it", "by 41.0 h in 10 %, 42.0 h in half, 43.0 h in 90 %" + by_scatter},
-           {"not evaluated", "water hose"},
-           {"breaks first", "signal cable 3/conductor 2/layer 1/wire 17 (its surface is sheared by 1.50 % to and fro)"},
-           {"where", "segment 3 from the tool (0.12 m)"},
-           {"when", "at 16.5 s, during 'weld'"}}) {
+  for (std::sregex_iterator at(page.begin(), page.end(), fact), end; at != end; ++at)
+    facts[(*at)[1]] = std::regex_replace((*at)[2].str(), std::regex("</?b>"), "");
+  const std::string by_scatter = " of such dresspacks, by the scatter of wires alone",
+                    glued = " if everything inside the cables were glued, ", free = " if it slipped without friction";
+  for (
+      const auto& [name, text] : std::map<std::string, std::string>{
+          {"life",
+           "44.0 h of motion = 6.00 months by the calendar until 10 % of such dresspacks have a conductor that has lost its share of wires at one place; "
+           "66.0 h until half have, 110 h until 90 %; likeliest signal cable 3/conductor 2, 0.75 m from the tool"},
+          {"worst wire",
+           "71.0 h of motion = 7,100 repeats of 36.0 s = 7.00 months by the calendar, median of the worst wire"},
+          {"by the scatter of wires alone",
+           "51.0 h in 10 %, 52.0 h in half, 53.0 h in 90 % of such dresspacks, everything else with the job's own values"},
+          {"its causes", "strength 60 %"},
+          {"fails first",
+           "wires of signal cable, in 75 % of the samples, likeliest signal cable 3/conductor 2, 0.75 m from the tool"},
+          {"bounds of 10 % failed", "11.0 h" + glued + "111 h" + free},
+          {"bounds of half failed", "12.0 h" + glued + "112 h" + free},
+          {"bounds of 90 % failed", "13.0 h" + glued + "113 h" + free},
+          {"bounds of the worst wire", "14.0 h" + glued + "150 h" + free},
+          {"ESTIMATE, not in the dresspack", "mass"},
+          {"mean stress", "61.0 h if none of it relaxed, 62.0 h without any, median of the same wire"},
+          {"forces of cables",
+           "at most 0.11 of the force that breaks a cable; at the clamps 0.12 times the moment that the hose carries"},
+          {"pull at clamps", "0.13 of what a strain relief of type A has to hold (EN 50262)"},
+          {"mesh of loose cables", "discretisation error of their curvature: 1.4 % (a warning above 1 %)"},
+          {"first broken wire", "by 31.0 h in 10 %, 32.0 h in half, 33.0 h in 90 %" + by_scatter},
+          {"share of a conductor broken anywhere in it",
+           "by 41.0 h in 10 %, 42.0 h in half, 43.0 h in 90 %" + by_scatter},
+          {"not evaluated", "water hose"},
+          {"breaks first", "signal cable 3/conductor 2/layer 1/wire 17 (its surface is sheared by 1.50 % to and fro)"},
+          {"where", "segment 3 from the tool (0.12 m)"},
+          {"when", "at 16.5 s, during 'weld'"}}) {
     INFO(name);
     CHECK(facts[name] == text);
   }
   row.strain_relief_share = 1.1, row.clamp_moment_share = 0.21;
   const std::string strained = page_of("planned", rows);
-  for (const char* words : {"Check that the clamps hold the cables", "Above a fifth of either, the forces are unrealistic"})
+  for (const char* words :
+       {"Check that the clamps hold the cables", "Above a fifth of either, the forces are unrealistic"})
     CHECK((page.find(words) == std::string::npos && strained.find(words) != std::string::npos));
 }
 
@@ -425,9 +434,12 @@ TEST_CASE("report: under what fails first stands the conductor that fails, not t
   std::vector<RankingRow> rows = read_ranking({{"one", scratch / "one.h5", ""}});
   rows[0].worst_component = "power cable 1/wire 7";
   const std::string page = page_of("places", rows);
-  CHECK_THAT(page, Catch::Contains("wires of signal cable (75 %)<br>signal cable 3/conductor 2, 0.75 m from the tool</td><td><span "
-                                   "class=\"soft\">worst wire:</span> power cable 1/wire 7<br>") &&
-                       Catch::Contains("wires of signal cable, in 75 % of the samples, likeliest signal cable 3/conductor 2, 0.75 m from the tool"));
+  CHECK_THAT(
+      page,
+      Catch::Contains("wires of signal cable (75 %)<br>signal cable 3/conductor 2, 0.75 m from the tool</td><td><span "
+                      "class=\"soft\">worst wire:</span> power cable 1/wire 7<br>") &&
+          Catch::Contains(
+              "wires of signal cable, in 75 % of the samples, likeliest signal cable 3/conductor 2, 0.75 m from the tool"));
 }
 
 }  // namespace dresslife::pipeline

@@ -14,8 +14,8 @@ using namespace dresslife::pipeline;
 namespace {
 
 Job job_of(const std::string& dresspack, const std::string& strain = "{}") {
-  return job_from(parse_yaml("motion: {rig: {kind: torsion, length_m: 1, twist_deg_per_m: 180}}\nstrain: " +
-                                 strain + "\ndresspack: " + dresspack,
+  return job_from(parse_yaml("motion: {rig: {kind: torsion, length_m: 1, twist_deg_per_m: 180}}\nstrain: " + strain +
+                                 "\ndresspack: " + dresspack,
                              "job.yaml"));
 }
 const Component* with_parts(const std::vector<Component>& parts) {
@@ -47,8 +47,7 @@ TEST_CASE("shipped cables have the friction and the stiffness of published ones"
     CHECK(friction / std::pow(d, 3) > 14e3);
     CHECK(friction / std::pow(d, 3) < 20e3);
     // 64 E I/(pi d^4) at 1 1/m: 13 to 60 MPa with the whole section of 8 charging cables and 3 leads.
-    const double modulus =
-        64 * (jacket_bending(d / 2) + bending.moment(1, 1)) / (std::numbers::pi * std::pow(d, 4));
+    const double modulus = 64 * (jacket_bending(d / 2) + bending.moment(1, 1)) / (std::numbers::pi * std::pow(d, 4));
     CHECK(modulus > 13e6);
     CHECK(modulus < 60e6);
   }
@@ -70,15 +69,13 @@ TEST_CASE("cores lie on polymer, wires on wires, and the thesis on nothing that 
     CAPTURE(name);
     const Dresspack dresspack = job_of(name).dresspacks.front().dresspack;
     const bool in_hose = std::string(name) == "spot_welding";
-    const Component* const core =
-        with_parts(in_hose ? dresspack.components.front().components : dresspack.components);
+    const Component* const core = with_parts(in_hose ? dresspack.components.front().components : dresspack.components);
     REQUIRE(core);
     CHECK(core->radial_stiffness == 5e7);
     for (const Component& wire : core->components) CHECK_FALSE(wire.radial_stiffness);
     if (in_hose) CHECK_FALSE(dresspack.components.front().radial_stiffness);
     const Dresspack thesis = job_of(name, "{kinematics: thesis, slip: stick}").dresspacks.front().dresspack;
-    CHECK_FALSE(
-        with_parts(in_hose ? thesis.components.front().components : thesis.components)->radial_stiffness);
+    CHECK_FALSE(with_parts(in_hose ? thesis.components.front().components : thesis.components)->radial_stiffness);
   }
   const Job rigid = job_from(parse_yaml(
       "motion: {rig: {kind: torsion, length_m: 1, twist_deg_per_m: 180}}\ndresspack: {cable: {name: c, source: test, radius_mm: 3, "

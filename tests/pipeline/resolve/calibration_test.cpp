@@ -82,8 +82,10 @@ TEST_CASE("calibration: draws are its own, of what it does not know the prior's"
 
 TEST_CASE("calibration: the strength of a hose's wall stands beside the wires' parameters and moves none of them") {
   const std::string wall = "wall strength of polyamide (0.01 1e+06, 0.001 1e+09)";
-  const std::string with = edited(edited(edited(two_learned(), "[0.25, -0.1]", "[0, 0.25, -0.1]"), "[-0.1, 0.5]", "[0, -0.1, 0.5]"),
-                                  "  - {name: strength,", "  - {name: '" + wall + "', median: 2, mean: 2, covariance: [0.3, 0, 0]}\n  - {name: strength,");
+  const std::string with =
+      edited(edited(edited(two_learned(), "[0.25, -0.1]", "[0, 0.25, -0.1]"), "[-0.1, 0.5]", "[0, -0.1, 0.5]"),
+             "  - {name: strength,",
+             "  - {name: '" + wall + "', median: 2, mean: 2, covariance: [0.3, 0, 0]}\n  - {name: strength,");
   const Scratch scratch;
   scratch.write("learned.yaml", two_learned()), scratch.write("wall.yaml", with);
   const Job before = read_job(scratch.write("job.yaml", sample_job + "calibration: learned.yaml\n")),
@@ -109,12 +111,9 @@ TEST_CASE("calibration: bad files are refused at their place") {
         std::string::npos);
   CHECK(refusal(edited(two_learned(), "dresslife-calibration", "dresslife-life")).find("has the format") !=
         std::string::npos);
-  CHECK(refusal(edited(two_learned(), "version: 2", "version: 9")).find("is of version 9") !=
-        std::string::npos);
-  CHECK(refusal(edited(two_learned(), "[0.25, -0.1]", "[0.25]")).find("has 1 covariances") !=
-        std::string::npos);
-  CHECK(refusal(edited(two_learned(), "[0.25, -0.1]", "[0.25, 0.1]")).find("not symmetric") !=
-        std::string::npos);
+  CHECK(refusal(edited(two_learned(), "version: 2", "version: 9")).find("is of version 9") != std::string::npos);
+  CHECK(refusal(edited(two_learned(), "[0.25, -0.1]", "[0.25]")).find("has 1 covariances") != std::string::npos);
+  CHECK(refusal(edited(two_learned(), "[0.25, -0.1]", "[0.25, 0.1]")).find("not symmetric") != std::string::npos);
   CHECK(refusal(edited(two_learned(), "[0.25, -0.1]", "[0.01, -0.1]")).find("not symmetric and positive") !=
         std::string::npos);
   CHECK(refusal(edited(two_learned(), "0.25", ".nan")) != "");
@@ -157,8 +156,9 @@ const std::string wires = "dresspack.components.1.components.1.";
 TEST_CASE("calibration: a job with other settings than its tests is refused, and both are named") {
   CHECK(answer(two_learned(), {}) == "");
   const std::string slip = answer(two_learned(), {"strain.slip=free"});
-  CHECK(has(slip, "learned.yaml:1:1: error: was learned with strain.slip: [stick, free] (this job has free); set "
-                  "strain.slip as the tests had it, calibrate again with --set 'strain.slip=free', or leave"));
+  CHECK(has(slip,
+            "learned.yaml:1:1: error: was learned with strain.slip: [stick, free] (this job has free); set "
+            "strain.slip as the tests had it, calibrate again with --set 'strain.slip=free', or leave"));
   CHECK(answer(two_learned(), {"strain.slip=[stick, free]"}) == "");
   const std::string both = answer(two_learned(), {"strain.kinematics=thesis", "fatigue.stress=elastic"});
   CHECK(has(both, "was learned with strain.kinematics: exact (this job has thesis); "));
@@ -166,8 +166,7 @@ TEST_CASE("calibration: a job with other settings than its tests is refused, and
   const std::string friction = answer(two_learned(), {wires + "friction_coefficient=0.5"});
   CHECK(has(friction, "was learned with friction_coefficient 0.3 and radial_line_load_N_per_m "));
   CHECK(has(friction, "(this job has friction_coefficient 0.5 and radial_line_load_N_per_m "));
-  const std::string constants =
-      answer(edited(two_learned(), "fatigue_strength_MPa ", "fatigue_strength_MPa 1"), {});
+  const std::string constants = answer(edited(two_learned(), "fatigue_strength_MPa ", "fatigue_strength_MPa 1"), {});
   CHECK(has(constants, "was learned with fatigue_strength_MPa 1"));
   CHECK(has(constants, " of material 'copper' (this job has fatigue_strength_MPa "));
   // Tests under several values of a setting are valid for each of them.
@@ -178,16 +177,18 @@ TEST_CASE("calibration: a job with other settings than its tests is refused, and
   // Older files contain no settings.
   std::string old = two_learned();
   old.erase(old.find("under:"));
-  CHECK(has(answer(old, {}), "does not say under which settings it was learned (strain.slip and others); run dresslife "
-                             "calibrate again"));
+  CHECK(has(answer(old, {}),
+            "does not say under which settings it was learned (strain.slip and others); run dresslife "
+            "calibrate again"));
 }
 
 TEST_CASE("calibration: resolved jobs keep to its settings, too") {
   const Scratch scratch;
   scratch.write("learned.yaml", two_learned());
   const std::string text = job_text(read_job(scratch.write("job.yaml", sample_job + "calibration: learned.yaml\n")));
-  CHECK(message_of([&] { job_from(parse_yaml(text, "resolved.yaml"), {"strain.slip=free"}); }).find("was learned with") !=
-        std::string::npos);
+  CHECK(message_of([&] {
+          job_from(parse_yaml(text, "resolved.yaml"), {"strain.slip=free"});
+        }).find("was learned with") != std::string::npos);
   const std::size_t began = text.find("  under:\n"), ended = text.find("  within:\n");
   REQUIRE(ended > began);
   std::string older = text;
@@ -218,8 +219,10 @@ TEST_CASE("calibration: of a construction or a material that no test had its par
 TEST_CASE("calibration: a cable that was tested alone is known again in a hose") {
   const Scratch scratch;
   const std::string rig = "motion: {rig: {kind: torsion, twist_deg_per_m: 90}}\n";
-  const Job alone = read_job(
-      scratch.write("a.yaml", rig + "dresspack: {cable: {from: spot_welding, part: signal cable}}\nstrain: {slip: [free, friction, friction]}\n"));
+  const Job alone = read_job(scratch.write(
+      "a.yaml",
+      rig +
+          "dresspack: {cable: {from: spot_welding, part: signal cable}}\nstrain: {slip: [free, friction, friction]}\n"));
   const Job hose = read_job(scratch.write("b.yaml", rig + "dresspack: spot_welding\n"));
   const LearnedUnder a = learned_under({&alone}), b = learned_under({&hose});
   REQUIRE(a.cables.size() == 1);
@@ -264,7 +267,8 @@ TEST_CASE("ratings: a job without a calibration starts from what makers state of
   // All ratings are lower bounds: they can only increase lives.
   CHECK(job.fatigue.strength_factor > 1);
   CHECK(job.fatigue.model_factor > 1);
-  CHECK(job.strain.factors == StrainFactors{});  // friction belongs to the single cable: strains do not depend on ratings
+  CHECK(job.strain.factors ==
+        StrainFactors{});  // friction belongs to the single cable: strains do not depend on ratings
   const auto strength = static_cast<Eigen::Index>(index_of(Uncertain::strength));
   CHECK(knowledge_of(job).mean[strength] > 0);
   CHECK(knowledge_of(job).covariance(strength, strength) < 1);

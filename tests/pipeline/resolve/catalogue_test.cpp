@@ -48,8 +48,7 @@ TEST_CASE("catalogue: an entry is found beside the job and in the folders above 
 TEST_CASE("catalogue: an entry may be a file, named relative to who names it") {
   const Scratch scratch;
   scratch.write("other/my.yaml", indented_less(motion_block));
-  const auto job =
-      scratch.write("jobs/job.yaml", edited(sample_job, motion_block, "motion: ../other/my.yaml\n"));
+  const auto job = scratch.write("jobs/job.yaml", edited(sample_job, motion_block, "motion: ../other/my.yaml\n"));
   CHECK(read_job(job).motion.name == "nod");
   const std::string text = edited(sample_job, motion_block, "motion: absent.yaml\n");
   const auto lost = scratch.write("jobs/lost.yaml", text);
@@ -61,8 +60,8 @@ TEST_CASE("catalogue: an entry may be a file, named relative to who names it") {
 
 TEST_CASE("catalogue: a path that no system takes is refused like any other") {
   const Scratch scratch;
-  const auto job = scratch.write(
-      "job.yaml", edited(sample_job, motion_block, "motion: " + std::string(300, 'x') + ".yaml\n"));
+  const auto job =
+      scratch.write("job.yaml", edited(sample_job, motion_block, "motion: " + std::string(300, 'x') + ".yaml\n"));
   CHECK(message_of([&] { read_job(job); }).find("cannot be read (File name too long)") != std::string::npos);
 }
 
@@ -71,7 +70,8 @@ TEST_CASE("catalogue: a robot's program may stand where a motion is named") {
   scratch.write("jobs/nod.csv", "t_s,joint_1_deg,joint_2_deg\n0,0,0\n1,10,5\n");
   const auto job = scratch.write("jobs/job.yaml", edited(sample_job, motion_block, "motion: nod.csv\n"));
   CHECK(read_job(job).motion.program == scratch / "jobs/nod.csv");
-  for (const char* program : {"nod.mod", "nod.modx", "nod.prg", "nod.pgf", "nod.src", "nod.ls", "nod.JBI", "nod.script", "nod.urscript"}) {
+  for (const char* program :
+       {"nod.mod", "nod.modx", "nod.prg", "nod.pgf", "nod.src", "nod.ls", "nod.JBI", "nod.script", "nod.urscript"}) {
     scratch.write(std::string("jobs/") + program, "");  // a program is read by the simulation
     scratch.write("jobs/job.yaml", edited(sample_job, motion_block, std::string("motion: ") + program + "\n"));
     CHECK(read_job(job).motion.program == scratch / "jobs" / program);
@@ -83,9 +83,8 @@ TEST_CASE("catalogue: a robot's program may stand where a motion is named") {
 }
 
 TEST_CASE("catalogue: the shipped entries are always there") {
-  const Job job =
-      job_from(parse_yaml(edited(sample_job, dresspack_block, "dresspack: spot_welding\n"), "job.yaml"),
-               {"strain.slip=free"});
+  const Job job = job_from(parse_yaml(edited(sample_job, dresspack_block, "dresspack: spot_welding\n"), "job.yaml"),
+                           {"strain.slip=free"});
   CHECK(job.dresspacks[0].dresspack.diameter == 0.06);
   CHECK(job.dresspacks[0].dresspack.components[0].components[0].components.size() == 5);
   REQUIRE(job.dresspacks[0].dresspack.materials.size() == 3);  // of the wires, the jackets and the hose
@@ -95,14 +94,16 @@ TEST_CASE("catalogue: the shipped entries are always there") {
 TEST_CASE("catalogue: a name that is not there is answered with those that are") {
   const std::string text = edited(sample_job, dresspack_block, "dresspack: spot_weldin\n");
   const std::string message = message_of([&] { job_from(parse_yaml(text, "job.yaml")); });
-  CHECK(message.starts_with(place_of(text, "spot_weldin\n", "job.yaml") +
-                            ": error: 'spot_weldin' is not in the catalogue (config/dresspacks); did you mean 'spot_welding'? one of: "));
+  CHECK(message.starts_with(
+      place_of(text, "spot_weldin\n", "job.yaml") +
+      ": error: 'spot_weldin' is not in the catalogue (config/dresspacks); did you mean 'spot_welding'? one of: "));
   CHECK(message.find("spot_welding") != std::string::npos);
 
   const std::string wire = edited(sample_job, "material: copper", "material: coper");
   const std::string answer = message_of([&] { job_from(parse_yaml(wire, "job.yaml")); });
-  CHECK(answer.starts_with(place_of(wire, "coper", "job.yaml") +
-                           ": error: 'coper' is not in the catalogue (config/materials); did you mean 'copper'? one of: "));
+  CHECK(answer.starts_with(
+      place_of(wire, "coper", "job.yaml") +
+      ": error: 'coper' is not in the catalogue (config/materials); did you mean 'copper'? one of: "));
   CHECK(answer.find("copper") != std::string::npos);
 }
 
@@ -116,22 +117,21 @@ TEST_CASE("catalogue: a material's file must hold the material of that name") {
 }
 
 TEST_CASE("catalogue: a dresspack may bring its own materials") {
-  const std::string text = edited(
-      sample_job, "  damping_source: guessed\n",
-      "  damping_source: guessed\n  materials:\n    - {name: copper, source: mine, youngs_modulus_GPa: 100, "
-      "fatigue_strength_MPa: 500, fatigue_strength_exponent: -0.1, fatigue_ductility: 0.5, "
-      "fatigue_ductility_exponent: -0.5}\n");
+  const std::string text =
+      edited(sample_job, "  damping_source: guessed\n",
+             "  damping_source: guessed\n  materials:\n    - {name: copper, source: mine, youngs_modulus_GPa: 100, "
+             "fatigue_strength_MPa: 500, fatigue_strength_exponent: -0.1, fatigue_ductility: 0.5, "
+             "fatigue_ductility_exponent: -0.5}\n");
   const Job job = job_from(parse_yaml(text, "job.yaml"));
   CHECK(job.dresspacks[0].dresspack.materials.size() == 1);
   CHECK(material_of(job, "copper").source == "mine");
 }
 
 TEST_CASE("catalogue: 'from' starts from an entry and overrides what is written beside it") {
-  const std::string text = edited(sample_job, robot_block,
-                                  "robot:\n  from: abb_irb6640_185_280\n  base_position_m: [0, 0, 1.5]\n");
-  const std::string whole =
-      edited(edited(edited(text, "link: base,", "link: base_link,"), "link: arm", "link: link_6"),
-             "  mounting_pose_deg: [0, 7]\n", "");
+  const std::string text =
+      edited(sample_job, robot_block, "robot:\n  from: abb_irb6640_185_280\n  base_position_m: [0, 0, 1.5]\n");
+  const std::string whole = edited(edited(edited(text, "link: base,", "link: base_link,"), "link: arm", "link: link_6"),
+                                   "  mounting_pose_deg: [0, 7]\n", "");
   const std::string job_words = edited(whole, motion_block, "motion: easy\n");
   const Job job = job_from(parse_yaml(job_words, "job.yaml"));
   CHECK(job.robot.joints.size() == 6);
@@ -143,14 +143,12 @@ TEST_CASE("catalogue: 'from' of 'from' works, in a circle it is refused") {
   const Scratch scratch;
   scratch.write("programs/a.yaml", indented_less(motion_block));
   scratch.write("programs/b.yaml", "from: a\nspeed_percent: 50\n");
-  const auto job =
-      scratch.write("job.yaml", edited(sample_job, motion_block, "motion: {from: b, name: mine}\n"));
+  const auto job = scratch.write("job.yaml", edited(sample_job, motion_block, "motion: {from: b, name: mine}\n"));
   CHECK(read_job(job).motion.speed_percent == 50);
   CHECK(read_job(job).motion.name == "mine");
   scratch.write("programs/a.yaml", "from: b\n");
-  CHECK(message_of([&] {
-          read_job(job);
-        }).find("error: 'from' goes in a circle; let one entry stand alone") != std::string::npos);
+  CHECK(message_of([&] { read_job(job); }).find("error: 'from' goes in a circle; let one entry stand alone") !=
+        std::string::npos);
 }
 
 TEST_CASE("set: a value replaces what the job says, in the order of the options") {
@@ -171,11 +169,9 @@ TEST_CASE("set: a key that the job does not write is added, with the groups on t
 
 TEST_CASE("set: items of a list count from 1") {
   CHECK(with({"motion.steps.2.steps.1.joints_deg.2=-7"}).motion.steps[1].steps[0].joints[1] == -7 * degree);
-  CHECK(with({"dresspack.components.1.components.1.count=4"})
-            .dresspacks[0]
-            .dresspack.components[0]
-            .components[0]
-            .count == 4);
+  CHECK(
+      with({"dresspack.components.1.components.1.count=4"}).dresspacks[0].dresspack.components[0].components[0].count ==
+      4);
   CHECK(set_error("motion.steps.4.dwell_s=1") ==
         "--set motion.steps.4.dwell_s=1: error: '4' of motion.steps.4.dwell_s is not an item of the list; "
         "items count from 1 to 3");
@@ -190,13 +186,11 @@ TEST_CASE("set: a catalogue entry may be named, and a key inside a named entry s
               "routing.tool_clamp.link=link_6", "routing.mounting_pose_deg=[0, 0, 0, 0, 30, 0]"})
             .motion.name == "easy");
   const std::string named = edited(sample_job, dresspack_block, "dresspack: spot_welding\n");
-  const Job job =
-      job_from(parse_yaml(named, "job.yaml"), {"strain.slip=free", "dresspack.components.1.count=5"});
+  const Job job = job_from(parse_yaml(named, "job.yaml"), {"strain.slip=free", "dresspack.components.1.count=5"});
   CHECK(job.dresspacks[0].dresspack.components[0].count == 5);
   CHECK(job.dresspacks[0].dresspack.components[0].components.size() == 1);
   const std::string from = edited(sample_job, dresspack_block, "dresspack: {from: spot_welding}\n");
-  const Job other =
-      job_from(parse_yaml(from, "job.yaml"), {"strain.slip=free", "dresspack.components.1.count=5"});
+  const Job other = job_from(parse_yaml(from, "job.yaml"), {"strain.slip=free", "dresspack.components.1.count=5"});
   CHECK(other.dresspacks[0].dresspack.components[0].count == 5);
   CHECK(other.dresspacks[0].dresspack.components[0].components.size() == 1);
 }
@@ -209,17 +203,18 @@ TEST_CASE("lines: a key path at the first level of a job sets one key, a whole b
   CHECK(job.dresspacks[0].dresspack.components[0].count == 5);
   CHECK(job.dresspacks[0].dresspack.components[0].components.size() == 1);
   CHECK(job.simulation.segments == 31);
-  CHECK(job_from(parse_yaml(whole, "job.yaml"), {"strain.slip=free", "simulation.segments=32"}).simulation.segments == 32);
+  CHECK(job_from(parse_yaml(whole, "job.yaml"), {"strain.slip=free", "simulation.segments=32"}).simulation.segments ==
+        32);
   CHECK_THROWS_WITH(job_from(parse_yaml(whole + "simulation.segmets: 3\n", "job.yaml")),
                     Catch::Contains("unknown key 'simulation.segmets'; did you mean 'segments'?"));
   Node study = parse_yaml(whole, "job.yaml");
   set_value(study, "simulation.segments", parse_yaml("33", "study.yaml"), {"study.yaml"});
-  CHECK(job_from(study, {"strain.slip=free"}).simulation.segments == 33);  // a study's change has priority over the job's line
+  CHECK(job_from(study, {"strain.slip=free"}).simulation.segments ==
+        33);  // a study's change has priority over the job's line
 }
 
 TEST_CASE("set: 'from' itself can be set") {
-  const std::string from =
-      edited(sample_job, dresspack_block, "dresspack: {from: absent, diameter_mm: 61}\n");
+  const std::string from = edited(sample_job, dresspack_block, "dresspack: {from: absent, diameter_mm: 61}\n");
   const Job job = job_from(parse_yaml(from, "job.yaml"), {"strain.slip=free", "dresspack.from=spot_welding"});
   CHECK(job.dresspacks[0].dresspack.diameter == 61 * 1e-3);
   CHECK(job.dresspacks[0].dresspack.components[0].count == 10);
@@ -235,9 +230,8 @@ TEST_CASE("set: files are named from where the command is typed") {
   const auto poses = scratch.write("some/poses.csv", "");
   const std::string no_motion = edited(sample_job, motion_block, "");
   const std::string no_clamps = edited(no_motion, block_of("  base_clamp", "  mounting_pose_deg"), "");
-  const Job job =
-      job_from(parse_yaml(edited(no_clamps, "  mounting_pose_deg: [0, 7]\n", ""), "elsewhere/job.yaml"),
-               {"motion={clamp_poses: " + std::filesystem::proximate(poses).string() + "}"});
+  const Job job = job_from(parse_yaml(edited(no_clamps, "  mounting_pose_deg: [0, 7]\n", ""), "elsewhere/job.yaml"),
+                           {"motion={clamp_poses: " + std::filesystem::proximate(poses).string() + "}"});
   CHECK(job.motion.clamp_poses == poses);
 }
 
@@ -266,8 +260,10 @@ TEST_CASE("catalogue: a program whose extension is none of a program is refused 
   const Scratch scratch;
   scratch.write("weld.txt", "DEF weld()\nEND\n");
   const auto job = scratch.write("job.yaml", "robot: kuka_kr16_2\nmotion: weld.txt\ndresspack: sensor_cable\n");
-  CHECK_THROWS_WITH(read_job(job), Catch::Contains("weld.txt' is no robot program by its name ('.txt'); rename it by its language: RAPID .mod") &&
-                                       Catch::Contains("KRL .src") && !Catch::Contains("there is no file"));
+  CHECK_THROWS_WITH(
+      read_job(job),
+      Catch::Contains("weld.txt' is no robot program by its name ('.txt'); rename it by its language: RAPID .mod") &&
+          Catch::Contains("KRL .src") && !Catch::Contains("there is no file"));
   std::filesystem::remove(scratch / "weld.txt");
   CHECK_THROWS_WITH(read_job(job), Catch::Contains("there is no file '"));
 }

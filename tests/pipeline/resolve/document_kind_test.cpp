@@ -4,8 +4,7 @@
 
 using namespace dresslife::pipeline;
 
-TEST_CASE(
-    "documents: one of another kind is refused with its name and use, its own and an unknown one are not") {
+TEST_CASE("documents: one of another kind is refused with its name and use, its own and an unknown one are not") {
   const struct {
     const char* text;
     DocumentKind kind;

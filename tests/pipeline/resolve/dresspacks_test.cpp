@@ -27,8 +27,7 @@ std::string indented(const std::string& text) {
   return result;
 }
 
-const std::string dresspack_block = block("dresspack:", "routing:"),
-                  routing_block = block("routing:", "simulation:");
+const std::string dresspack_block = block("dresspack:", "routing:"), routing_block = block("routing:", "simulation:");
 
 std::string item(const std::string& name) {
   return "  - name: " + name + "\n" + indented(dresspack_block) + indented(routing_block);
@@ -123,48 +122,41 @@ TEST_CASE("dresspacks: what is wrong with the list is reported where it stands")
         "two");
   check(edited(list, before, routing_block + before), "free_length_m",
         "both dresspacks and routing are given (each of the list has its own routing); keep one of the two");
-  check(
-      edited(edited(sample_job, dresspack_block, ""), routing_block, ""), "robot:",
-      "dresspack is missing (and there is no list dresspacks); give dresspack and routing, or a list "
-      "dresspacks of name, dresspack, routing\n" +
-          place_of_last(sample_job, "robot:") +
-          ": error: routing is missing (and there is no list dresspacks); give dresspack and routing, or a list "
-          "dresspacks of name, dresspack, routing");
+  check(edited(edited(sample_job, dresspack_block, ""), routing_block, ""), "robot:",
+        "dresspack is missing (and there is no list dresspacks); give dresspack and routing, or a list "
+        "dresspacks of name, dresspack, routing\n" +
+            place_of_last(sample_job, "robot:") +
+            ": error: routing is missing (and there is no list dresspacks); give dresspack and routing, or a list "
+            "dresspacks of name, dresspack, routing");
   check(edited(sample_job, routing_block, ""), "robot:",
         "routing is missing (and there is no list dresspacks); give dresspack and routing, or a list "
         "dresspacks "
         "of name, dresspack, routing");
-  const std::string empty =
-      edited(edited(sample_job, dresspack_block, ""), routing_block, "dresspacks: []\n");
+  const std::string empty = edited(edited(sample_job, dresspack_block, ""), routing_block, "dresspacks: []\n");
   check(empty, "[]\n", "dresspacks holds no dresspack; write a list of name, dresspack and routing");
   check(edited(list, "sensor cable", "main hose"), "name: main hose",
         "two dresspacks are named 'main hose'; give each another name");
   check(edited(list, "sensor cable", "a/b"), "name: a/b",
         "name 'a/b' holds a '/'; choose another: it begins the paths of the dresspack's wires");
-  check(edited(list, "sensor cable", "''"), "''",
-        "dresspacks[2].name must be text; give A unique name without '/'");
-  CHECK(
-      message_of([&] { job_of_text(list, {"motion={clamp_poses: poses.csv}"}); })
-          .find(
-              "motion.clamp_poses brings the clamps of one dresspack (there are 2); describe the motion by a "
-              "robot, or keep one dresspack") != std::string::npos);
+  check(edited(list, "sensor cable", "''"), "''", "dresspacks[2].name must be text; give A unique name without '/'");
+  CHECK(message_of([&] { job_of_text(list, {"motion={clamp_poses: poses.csv}"}); })
+            .find("motion.clamp_poses brings the clamps of one dresspack (there are 2); describe the motion by a "
+                  "robot, or keep one dresspack") != std::string::npos);
 }
 
 TEST_CASE("dresspacks: what they share must agree") {
   const Job job = job_of_text(listed(two));
   CHECK(job.dresspacks[1].routing.mounting_pose.size() == 2);
-  CHECK(
-      message_of([&] { job_of_text(listed(two), {"dresspacks.2.routing.mounting_pose_deg=[0, 8]"}); })
-          .find("mounting_pose_deg differs from that of dresspack 'main hose' (all are clamped in one pose); "
-                "give the same, or give it once") != std::string::npos);
+  CHECK(message_of([&] { job_of_text(listed(two), {"dresspacks.2.routing.mounting_pose_deg=[0, 8]"}); })
+            .find("mounting_pose_deg differs from that of dresspack 'main hose' (all are clamped in one pose); "
+                  "give the same, or give it once") != std::string::npos);
   const std::string soft =
       "dresspacks.2.dresspack.materials=[{name: copper, source: guessed, youngs_modulus_GPa: 100, "
       "fatigue_strength_MPa: 500, fatigue_strength_exponent: -0.1, fatigue_ductility: 0.5, "
       "fatigue_ductility_exponent: -0.6}]";
-  CHECK(
-      message_of([&] { job_of_text(listed(two), {soft}); })
-          .find("material 'copper' is another than that of the dresspack before; give one of the two another "
-                "name") != std::string::npos);
+  CHECK(message_of([&] { job_of_text(listed(two), {soft}); })
+            .find("material 'copper' is another than that of the dresspack before; give one of the two another "
+                  "name") != std::string::npos);
   // The number of slip levels is that of the deepest dresspack.
   CHECK(message_of([&] {
           job_of_text(listed(two), {"strain.slip=[stick, free, free]"});

@@ -31,8 +31,7 @@ struct Case {
 void check_case(const Case& one) {
   const std::string text = edited(sample_job, one.from, one.to);
   INFO(one.from << " -> " << one.to);
-  CHECK(message_of([&] { job_of_text(text); }) ==
-        place_of(text, one.needle, "job.yaml") + ": error: " + one.message);
+  CHECK(message_of([&] { job_of_text(text); }) == place_of(text, one.needle, "job.yaml") + ": error: " + one.message);
 }
 
 TEST_CASE("job: values arrive in SI and defaults where nothing is written") {
@@ -71,23 +70,19 @@ TEST_CASE("job: steps, parts and clamps remember where they stand") {
   const Job job = job_of_text(sample_job);
   CHECK(job.motion.steps[0].where.text() == place_of(sample_job, "{text: home", "job.yaml"));
   CHECK(job.motion.steps[1].where.text() == place_of(sample_job, "repeat: 3", "job.yaml"));
-  CHECK(job.dresspacks[0].dresspack.components[0].where.text() ==
-        place_of(sample_job, "name: cable", "job.yaml"));
-  CHECK(job.dresspacks[0].routing.base_clamp->where.text() ==
-        place_of(sample_job, "{link: base", "job.yaml"));
+  CHECK(job.dresspacks[0].dresspack.components[0].where.text() == place_of(sample_job, "name: cable", "job.yaml"));
+  CHECK(job.dresspacks[0].routing.base_clamp->where.text() == place_of(sample_job, "{link: base", "job.yaml"));
 }
 
 TEST_CASE("job: unknown keys are refused with the likeliest key") {
-  check_case({"segments: 20", "segmens: 20", "segmens",
-              "unknown key 'simulation.segmens'; did you mean 'segments'?"});
+  check_case({"segments: 20", "segmens: 20", "segmens", "unknown key 'simulation.segmens'; did you mean 'segments'?"});
   check_case({"damping_source: guessed", "damping_sorce: guessed", "damping_sorce",
               "unknown key 'dresspack.damping_sorce'; did you mean 'damping_source'?"});
   check_case({"fatigue: {", "fatige: {", "fatige: {", "unknown key 'fatige'; did you mean 'fatigue'?"});
-  check_case(
-      {"gate: 1e-4", "xyzzy: 1", "xyzzy",
-       "unknown key 'strain.xyzzy'; keys here: deformation, kinematics, slip, equivalent, "
-       "surface_fibres, gate, cable_elements_per_segment, friction_factor, hose_friction_factor, slack_factor, "
-       "play_factor, grip_factor, rest, probes"});
+  check_case({"gate: 1e-4", "xyzzy: 1", "xyzzy",
+              "unknown key 'strain.xyzzy'; keys here: deformation, kinematics, slip, equivalent, "
+              "surface_fibres, gate, cable_elements_per_segment, friction_factor, hose_friction_factor, slack_factor, "
+              "play_factor, grip_factor, rest, probes"});
 }
 
 TEST_CASE("job: a key with the wrong unit is answered with the right one") {
@@ -107,15 +102,12 @@ TEST_CASE("job: duplicate keys are refused") {
 }
 
 TEST_CASE("job: missing keys are named with their meaning") {
-  check_case(
-      {"  damping_source: guessed\n", "", "name: test hose",
-       "dresspack.damping_source is missing; add 'damping_source: ...': the source of the damping"});
-  check_case(
-      {"link: arm, ", "", "{position_m: [0.4",
-       "routing.tool_clamp.link is missing; add 'link: ...': the link of the robot with the clamp"});
+  check_case({"  damping_source: guessed\n", "", "name: test hose",
+              "dresspack.damping_source is missing; add 'damping_source: ...': the source of the damping"});
+  check_case({"link: arm, ", "", "{position_m: [0.4",
+              "routing.tool_clamp.link is missing; add 'link: ...': the link of the robot with the clamp"});
   check_case({"  tool_clamp: {link: arm, position_m: [0.4, 0, 0], direction: [1, 0, 0], roll_deg: 12}\n", "",
-              "free_length_m",
-              "routing.tool_clamp is missing; give link, position_m and direction of the clamp"});
+              "free_length_m", "routing.tool_clamp is missing; give link, position_m and direction of the clamp"});
   check_case({"free_length_m: 1.2", "free_length_m:", "free_length_m:",
               "routing.free_length_m has no value; give the free length of the dresspack between the clamps"});
 }
@@ -127,8 +119,8 @@ TEST_CASE("job: numbers out of range are refused with the range and its unit") {
   check_case({"segments: 20", "segments: 3", "3, time_step",
               "simulation.segments is 3 (must be 4 .. 2000); give the number of rigid segments of each dresspack"});
   check_case({"damping_time_ms: 10", "damping_time_ms: -1", "-1\n",
-             "dresspack.damping_time_ms is -1 (must be >= 0 ms); give the Kelvin-Voigt time of twist and, "
-             "without loss_factor, of bending, from a decay test"});
+              "dresspack.damping_time_ms is -1 (must be >= 0 ms); give the Kelvin-Voigt time of twist and, "
+              "without loss_factor, of bending, from a decay test"});
   check_case(
       {"lay_angle_deg: 25", "lay_angle_deg: 61", "61, hand",
        "dresspack.components[1].components[1].lay_angle_deg is 61 (must be 0 .. 60 deg); give the angle between the "
@@ -137,8 +129,7 @@ TEST_CASE("job: numbers out of range are refused with the range and its unit") {
 
 TEST_CASE("job: numbers that are not finite are refused") {
   for (const char* word : {".nan", ".inf", "-.inf", "nan", "inf"})
-    check_case({"free_length_m: 1.2", std::string("free_length_m: ") + word,
-                std::string(word) + "\n  base_clamp",
+    check_case({"free_length_m: 1.2", std::string("free_length_m: ") + word, std::string(word) + "\n  base_clamp",
                 std::string("routing.free_length_m is ") + word +
                     " (must be finite); give the free length of the dresspack between the clamps"});
   check_case(
@@ -151,9 +142,8 @@ TEST_CASE("job: what is not a number is refused with a reminder of the unit") {
       {"free_length_m: 1.2", "free_length_m: 1.2 m", "1.2 m\n",
        "routing.free_length_m is '1.2 m' (must be a number, the unit is in the key: m); give the free length of the "
        "dresspack between the clamps"});
-  check_case(
-      {"segments: 20", "segments: many", "many",
-       "simulation.segments is 'many' (must be a number); give the number of rigid segments of each dresspack"});
+  check_case({"segments: 20", "segments: many", "many",
+              "simulation.segments is 'many' (must be a number); give the number of rigid segments of each dresspack"});
   check_case({"segments: 20", "segments: [20]", "[20]",
               "simulation.segments is not one value (must be a number); give the number of rigid segments of each "
               "dresspack"});
@@ -178,10 +168,9 @@ TEST_CASE("job: whole numbers, words, truth values, texts, maps and lists are di
   check_case({"segments: 20", "segments: 20.5", "20.5",
               "simulation.segments is 20.5 (must be a whole number); give the number of rigid segments of each "
               "dresspack"});
-  check_case(
-      {"mean_stress: swt", "mean_stress: goodman", "goodman",
-       "fatigue.mean_stress is 'goodman' (must be none | morrow | swt | walker); give the correction of the "
-       "strain-life curve for mean stress"});
+  check_case({"mean_stress: swt", "mean_stress: goodman", "goodman",
+              "fatigue.mean_stress is 'goodman' (must be none | morrow | swt | walker); give the correction of the "
+              "strain-life curve for mean stress"});
   check_case({"slip: [stick, free]", "slip: [stick, glued]", "glued",
               "strain.slip is 'glued' (must be free | stick | friction); give the slip between a part and its "
               "parent: one word, or one per level from the outermost"});
@@ -191,8 +180,8 @@ TEST_CASE("job: whole numbers, words, truth values, texts, maps and lists are di
   check_case({"contact: false", "contact: no", "no}",
               "simulation.contact is 'no' (must be true or false); give whether the dresspack touches the "
               "robot's links"});
-  check_case({"name: test hose", "name: [a, b]", "[a, b]",
-              "dresspack.name must be text; give the name of the dresspack"});
+  check_case(
+      {"name: test hose", "name: [a, b]", "[a, b]", "dresspack.name must be text; give the name of the dresspack"});
   check_case(
       {"routing:\n", "routing: 3\nunused:\n", "3\nunused",
        "routing must be a map of settings; give the clamps and the free length\njob.yaml:45:1: error: unknown key "
@@ -212,12 +201,10 @@ TEST_CASE("job: lists have the length that they must have") {
               "joints_deg has 1 angles (the robot has 2 axes); give one angle per axis"});
   check_case({"mounting_pose_deg: [0, 7]", "mounting_pose_deg: [0, 7, 0]", "free_length_m",
               "mounting_pose_deg has 3 angles (the robot has 2 axes); give one angle per axis"});
-  check_case(
-      {"slip: [stick, free]", "slip: [stick, free, free]", "{slip",
-       "strain.slip lists 3 levels (the dresspack has 2); give one word, or one per level, outermost first"});
-  check_case(
-      {"    - name: arm\n", "", "name: two axes",
-       "robot has 2 joints and 2 links (must be one link more); list the base link and one link per joint"});
+  check_case({"slip: [stick, free]", "slip: [stick, free, free]", "{slip",
+              "strain.slip lists 3 levels (the dresspack has 2); give one word, or one per level, outermost first"});
+  check_case({"    - name: arm\n", "", "name: two axes",
+              "robot has 2 joints and 2 links (must be one link more); list the base link and one link per joint"});
   check_case({"joints_deg: [10.7, -5]", "joints_deg: []", "[], speed",
               "motion.steps[2].steps[1].joints_deg must be a list of numbers; give the target of a move: one angle "
               "per axis"});
@@ -306,11 +293,9 @@ TEST_CASE("job: joints that follow and external axes") {
           "axis of track is zero; give its direction");
   refused(with("{name: track, kind: rotary, lower_mm: 0, upper_mm: 5}"), "lower_deg");
   const std::string following =
-      edited(sample_job,
-             "lower_deg: -60.1, upper_deg: 80, speed_deg_per_s: 90,\n       acceleration_deg_per_s2: 300",
+      edited(sample_job, "lower_deg: -60.1, upper_deg: 80, speed_deg_per_s: 90,\n       acceleration_deg_per_s2: 300",
              "follows: axis_1, ratio: -1, offset_deg: 5");
-  refused(edited(following, "follows: axis_1", "follows: axis_2"),
-          "axis_2 follows 'axis_2', which is no driven joint");
+  refused(edited(following, "follows: axis_1", "follows: axis_2"), "axis_2 follows 'axis_2', which is no driven joint");
   refused(edited(following, "ratio: -1", "ratio: -1, lower_deg: 3"), "unknown key");
 }
 
@@ -336,10 +321,12 @@ TEST_CASE("job: a sleeve has a material with wear rates, which wires and the hos
   CHECK(part_text(job, JobPart::sim) == part_text(other, JobPart::sim));
   CHECK(part_text(job, JobPart::strain) == part_text(other, JobPart::strain));
   CHECK(part_text(job, JobPart::fatigue) != part_text(other, JobPart::fatigue));
-  const auto refused = [&](const std::string& keys, const std::string& words, const std::vector<std::string>& sets = {}) {
+  const auto refused = [&](const std::string& keys, const std::string& words,
+                           const std::vector<std::string>& sets = {}) {
     CHECK_THAT(message_of([&] { job_of_text(with(keys), sets); }), Catch::Contains(words));
   };
-  refused("  sleeve: {thickness_mm: 2, material: copper}\n", "sleeve.material 'copper' has no wear rates; give the material");
+  refused("  sleeve: {thickness_mm: 2, material: copper}\n",
+          "sleeve.material 'copper' has no wear rates; give the material");
   refused("  hose_material: polyurethane\n  inner_diameter_mm: 53\n",
           "hose_material 'polyurethane' only has wear rates (the wall's strain needs a life)");
   refused("  sleeve: {thickness_mm: 0, material: polyurethane}\n", "thickness_mm");
@@ -361,8 +348,10 @@ TEST_CASE("job: the jacket of a cable has a material with wear rates, and only l
   const auto refused = [&](const std::string& jacket, const std::string& words) {
     CHECK_THAT(message_of([&] { job_of_text(with(jacket)); }), Catch::Contains(words));
   };
-  refused("{thickness_mm: 1, material: copper}", "jacket.material 'copper' has no wear rates; give the material the list wear, or leave the jacket out");
-  refused("{thickness_mm: 5, material: pvc}", "the jacket of 'cable' is 5 mm thick, the cable 10 mm wide; give thickness_mm of one wall");
+  refused("{thickness_mm: 1, material: copper}",
+          "jacket.material 'copper' has no wear rates; give the material the list wear, or leave the jacket out");
+  refused("{thickness_mm: 5, material: pvc}",
+          "the jacket of 'cable' is 5 mm thick, the cable 10 mm wide; give thickness_mm of one wall");
 }
 
 TEST_CASE("job: the hose's wall has a material of its own and a factor or a profile") {
@@ -395,7 +384,8 @@ TEST_CASE("job: the hose's wall has a material of its own and a factor or a prof
           "both hose_strain_factor and hose_corrugation are given; keep one of the two");
   refused("  hose_corrugation: {pitch_mm: 4, height_mm: 2, wall_mm: 0.5}\n",
           "height_mm of hose_corrugation is 2 (must be at least 2.5 mm: wall_mm plus half of the pitch;");
-  refused("  hose_corrugation: {pitch_mm: 4, height_mm: 4, wall_mm: 1.5}\n", "wall_mm of hose_corrugation is 1.5 (must be at most 1 mm");
+  refused("  hose_corrugation: {pitch_mm: 4, height_mm: 4, wall_mm: 1.5}\n",
+          "wall_mm of hose_corrugation is 1.5 (must be at most 1 mm");
   refused("  hose_corrugation: {pitch_mm: 4, height_mm: 4}\n", "wall_mm");
   refused("  hose_strain_factor: 0\n", "hose_strain_factor");
 }
@@ -415,8 +405,7 @@ TEST_CASE("job: a dresspack may have limits of its maker") {
 TEST_CASE("job: what contradicts itself is refused") {
   check_case({"lower_deg: -60.1", "lower_deg: 90", "{name: axis_2",
               "limits of axis_2 are empty (lower >= upper); correct them"});
-  check_case(
-      {"axis: [0, 1, 0]", "axis: [0, 0, 0]", "{name: axis_2", "axis of axis_2 is zero; give its direction"});
+  check_case({"axis: [0, 1, 0]", "axis: [0, 0, 0]", "{name: axis_2", "axis of axis_2 is zero; give its direction"});
   check_case({"{dwell_s: 0.5}", "{dwell_s: 0.5, joints_deg: [0, 0]}", "{dwell_s",
               "a step must be one of: joints_deg or position_mm (a move), dwell_s, repeat with steps; split "
               "it into steps"});
@@ -432,7 +421,8 @@ TEST_CASE("job: what contradicts itself is refused") {
               "routing.tool_clamp.link 'hand' is not a link of the robot; one of: base, turret, arm"});
   check_case({"direction: [1, 0, 0]", "direction: [0, 0, 0]", "{link: arm",
               "routing.tool_clamp.direction is zero; give where the dresspack points"});
-  check_case({"position_m: [0.4, 0, 0], direction: [1, 0, 0]", "position_m: [0, 0, 150], direction: [1, 0, 0]", "{link: arm",
+  check_case({"position_m: [0.4, 0, 0], direction: [1, 0, 0]", "position_m: [0, 0, 150], direction: [1, 0, 0]",
+              "{link: arm",
               "routing.tool_clamp.position_m is 150 m away from the frame of arm (at most 30); give it in "
               "metres, in the link's frame"});
   check_case({", material: copper}", "}", "{name: wire",
@@ -480,8 +470,8 @@ TEST_CASE("job: the shipped entries make a job that reads back to the identical 
 TEST_CASE("job: clamp poses make robot and clamps needless, and a given clamp wrong") {
   const Scratch scratch;
   const std::string text = sample_job.substr(sample_job.find("dresspack:"));
-  const std::string without = edited(
-      text, text.substr(text.find("  base_clamp"), text.find("simulation:") - text.find("  base_clamp")), "");
+  const std::string without =
+      edited(text, text.substr(text.find("  base_clamp"), text.find("simulation:") - text.find("  base_clamp")), "");
   const auto file = scratch.write("job.yaml", "motion: {clamp_poses: poses/p.csv}\n" + without);
   const Job job = read_job(file);
   CHECK(job.motion.clamp_poses == scratch / "poses/p.csv");  // relative to the job, independent of the working folder
@@ -492,8 +482,7 @@ TEST_CASE("job: clamp poses make robot and clamps needless, and a given clamp wr
   const auto both = scratch.write("both.yaml", "motion: {clamp_poses: p.csv}\n" + text);
   CHECK(message_of([&] {
           read_job(both);
-        }).find("clamps are given although motion.clamp_poses brings their poses; keep one") !=
-        std::string::npos);
+        }).find("clamps are given although motion.clamp_poses brings their poses; keep one") != std::string::npos);
 }
 
 TEST_CASE("job: each stage depends on its own part of the job only") {
@@ -520,15 +509,13 @@ TEST_CASE("job: each stage depends on its own part of the job only") {
   CHECK(changed("simulation.segments=20") == "---");
 }
 
-TEST_CASE(
-    "job: strains depend on a metal's stiffness, and on its cyclic curve where a grip bounds a cable's force") {
-  const auto parts = [](const std::string& constants, const std::string& curve,
-                        std::vector<std::string> sets = {}, const std::string& modulus = "117") {
-    sets.push_back("dresspack.materials=[{name: copper, source: s, youngs_modulus_GPa: " + modulus + ", " +
-                   constants + curve + "}]");
+TEST_CASE("job: strains depend on a metal's stiffness, and on its cyclic curve where a grip bounds a cable's force") {
+  const auto parts = [](const std::string& constants, const std::string& curve, std::vector<std::string> sets = {},
+                        const std::string& modulus = "117") {
+    sets.push_back("dresspack.materials=[{name: copper, source: s, youngs_modulus_GPa: " + modulus + ", " + constants +
+                   curve + "}]");
     const Job job = job_of_text(sample_job, sets);
-    return std::array{part_text(job, JobPart::strain), part_text(job, JobPart::fatigue),
-                      part_text(job, JobPart::sim)};
+    return std::array{part_text(job, JobPart::strain), part_text(job, JobPart::fatigue), part_text(job, JobPart::sim)};
   };
   const std::string one =
       "fatigue_strength_MPa: 400, fatigue_strength_exponent: -0.1, fatigue_ductility: 0.5, "
@@ -605,11 +592,13 @@ TEST_CASE("job: the manual lists every key once with range, default and meaning"
 
 TEST_CASE("stored jobs that differ in their motion are read as each alone") {
   const Scratch scratch;
-  const std::vector<std::vector<std::string>> sets{{}, {"motion.speed_percent=50"}, {"simulation.segments=33"}, {"motion.zone_deg=3"}};
+  const std::vector<std::vector<std::string>> sets{
+      {}, {"motion.speed_percent=50"}, {"simulation.segments=33"}, {"motion.zone_deg=3"}};
   std::vector<std::size_t> beside;
   StoredJobs stored;
   for (std::size_t k = 0; k < sets.size(); ++k) {
-    const auto file = scratch.write(fmt::format("job_{}.yaml", k), "# a mark\n" + stored_job_text(job_of_text(sample_job, sets[k]), scratch.folder()));
+    const auto file = scratch.write(fmt::format("job_{}.yaml", k),
+                                    "# a mark\n" + stored_job_text(job_of_text(sample_job, sets[k]), scratch.folder()));
     const auto job = stored.read(file);
     const Job alone = read_job(file);
     CHECK(job_text(*job) == job_text(alone));

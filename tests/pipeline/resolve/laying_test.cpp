@@ -10,9 +10,7 @@ using namespace dresslife::pipeline;
 
 namespace {
 
-Job job_with(const std::vector<std::string>& sets) {
-  return job_from(parse_yaml(sample_job, "job.yaml"), sets);
-}
+Job job_with(const std::vector<std::string>& sets) { return job_from(parse_yaml(sample_job, "job.yaml"), sets); }
 
 std::string refusal(const std::vector<std::string>& sets) {
   return message_of([&] { job_with(sets); });
@@ -41,13 +39,11 @@ TEST_CASE("laying: cables are loose in a hose whose inside is known, and else on
 
 TEST_CASE("laying: what cannot be is refused with its place and a remedy") {
   using Catch::Contains;
-  CHECK_THAT(refusal({cable + "components.1.slack_percent=1"}),
-             Contains("job.yaml:") && Contains("this is a wire"));
+  CHECK_THAT(refusal({cable + "components.1.slack_percent=1"}), Contains("job.yaml:") && Contains("this is a wire"));
   CHECK_THAT(refusal({free_cables, cable + "position=loose"}),
              Contains("how much room it has is not known") && Contains("inner_diameter_mm or its play_mm"));
-  CHECK_THAT(
-      refusal({free_cables, cable + "position=loose", cable + "play_mm=3", cable + "lay_angle_deg=30"}),
-      Contains("lay angle of 30 deg") && Contains("up to 20 deg"));
+  CHECK_THAT(refusal({free_cables, cable + "position=loose", cable + "play_mm=3", cable + "lay_angle_deg=30"}),
+             Contains("lay angle of 30 deg") && Contains("up to 20 deg"));
   CHECK_THAT(refusal({"strain.slip=stick", cable + "position=loose", cable + "play_mm=3"}),
              Contains("is loose, and sticks to the hose (strain.slip of its level is stick)"));
   CHECK_THAT(refusal({"dresspack.inner_diameter_mm=70"}), Contains("the inner one is the smaller"));

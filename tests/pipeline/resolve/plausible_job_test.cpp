@@ -31,7 +31,8 @@ std::size_t doubts(std::vector<MotionStep> steps) {
 
 }  // namespace
 
-TEST_CASE("plausible steps: a place less than a millimetre beside the one before is an offset in metres, but not in a dense path") {
+TEST_CASE(
+    "plausible steps: a place less than a millimetre beside the one before is an offset in metres, but not in a dense path") {
   const auto doubts_of = [](const std::vector<double>& heights) {  // [mm]
     Motion motion;
     for (const double height : heights) {
@@ -45,7 +46,8 @@ TEST_CASE("plausible steps: a place less than a millimetre beside the one before
   };
   CHECK(doubts_of({0, 200, 400}).empty());
   CHECK(doubts_of({0, 200, 200.01, 400}).empty());  // within a robot's repeatability
-  CHECK_THAT(doubts_of({0, 200, 200.1, 400}), Catch::Contains("lies 0.1 mm from the one before") && Catch::Contains("100 mm in the program"));
+  CHECK_THAT(doubts_of({0, 200, 200.1, 400}),
+             Catch::Contains("lies 0.1 mm from the one before") && Catch::Contains("100 mm in the program"));
   CHECK(doubts_of({0, 0.5, 1, 1.5, 2}).empty());
 }
 
@@ -111,15 +113,13 @@ TEST_CASE("plausible steps: a recording without its column of times") {
 TEST_CASE("plausible jobs: angles in radians, obstacles without contact, repeats of a life") {
   const auto lines = [](const std::string& text) {
     std::vector<std::string> words;
-    for (const Warning& warning : radians_in(parse_yaml(text, "job.yaml"), "routing"))
-      words.push_back(warning.line());
+    for (const Warning& warning : radians_in(parse_yaml(text, "job.yaml"), "routing")) words.push_back(warning.line());
     return words;
   };
   const auto vector = lines("mounting_pose_deg: [0, -1.5708, 0.7854, 0]\n");
   REQUIRE(vector.size() == 1);
-  CHECK_THAT(vector[0],
-             Catch::Contains("job.yaml:1:1: ") &&
-                 Catch::Contains("routing.mounting_pose_deg: [0, -90, 45, 0] if that was radians"));
+  CHECK_THAT(vector[0], Catch::Contains("job.yaml:1:1: ") &&
+                            Catch::Contains("routing.mounting_pose_deg: [0, -90, 45, 0] if that was radians"));
   CHECK(lines("a: {roll_deg: 1.57}\nb: [{phase_deg: 3.14159}, {phase_deg: 0.5236}]\n").size() == 3);
   CHECK(
       lines(
@@ -138,10 +138,13 @@ TEST_CASE("plausible jobs: angles in radians, obstacles without contact, repeats
   CHECK(plausibility_warnings(job).size() == 1);
   job.simulation.most_repeats = 100, job.dresspacks[0].routing.free_length = 1800;
   REQUIRE(plausibility_warnings(job).size() == 1);
-  CHECK_THAT(plausibility_warnings(job)[0].words, Catch::Contains("routing.free_length_m: 1.8 if that was millimetres"));
+  CHECK_THAT(plausibility_warnings(job)[0].words,
+             Catch::Contains("routing.free_length_m: 1.8 if that was millimetres"));
   job.dresspacks[0].routing.free_length = 1.8;
-  for (const auto& [twist, doubts] : {std::pair{1.57, 1}, {-0.785, 1}, {0.5, 1}, {-4.91, 0}, {2.7, 0}, {45.0, 0}, {3601.0, 1}}) {
-    job.dresspacks[0].routing.pre_twist = twist * degree;  // eighths of a turn in rad, halves of a turn, or a search's angles
+  for (const auto& [twist, doubts] :
+       {std::pair{1.57, 1}, {-0.785, 1}, {0.5, 1}, {-4.91, 0}, {2.7, 0}, {45.0, 0}, {3601.0, 1}}) {
+    job.dresspacks[0].routing.pre_twist =
+        twist * degree;  // eighths of a turn in rad, halves of a turn, or a search's angles
     CAPTURE(twist);
     CHECK(plausibility_warnings(job).size() == std::size_t(doubts));
   }
@@ -161,8 +164,9 @@ TEST_CASE("plausible jobs: the base clamp is not on a link beyond that of the to
   };
   CHECK(words_of("link_3", "link_6") == "");
   CHECK(words_of("link_3", "link_3") == "");
-  CHECK_THAT(words_of("link_6", "link_3"), Catch::Contains("routing.base_clamp is on link_6, and routing.tool_clamp on link_3") &&
-                                               Catch::Contains("exchange base_clamp and tool_clamp"));
+  CHECK_THAT(words_of("link_6", "link_3"),
+             Catch::Contains("routing.base_clamp is on link_6, and routing.tool_clamp on link_3") &&
+                 Catch::Contains("exchange base_clamp and tool_clamp"));
 }
 
 TEST_CASE("plausible jobs: a sample rate that misses the swing, a gate that hides cycles") {
@@ -198,8 +202,9 @@ TEST_CASE("plausible jobs: a bend relief of fewer than four segments, or that is
   CHECK(words_of(0.05, 0) == "");
   CHECK(words_of(0, 15) == "");
   CHECK(words_of(0.2, 70) == "");
-  CHECK_THAT(words_of(0.2, 71), Catch::Contains("bend_relief.bending_stiffness_Nm2 is 71 (limit 70, 10 times the dresspack's)") &&
-                                    Catch::Contains("bending_stiffness_Nm2: 7, as the dresspack"));
+  CHECK_THAT(words_of(0.2, 71),
+             Catch::Contains("bend_relief.bending_stiffness_Nm2 is 71 (limit 70, 10 times the dresspack's)") &&
+                 Catch::Contains("bending_stiffness_Nm2: 7, as the dresspack"));
 }
 
 TEST_CASE("plausible jobs: a mounting pose in rounded radians, segments longer than a bend") {
@@ -215,13 +220,14 @@ TEST_CASE("plausible jobs: a mounting pose in rounded radians, segments longer t
     for (const Warning& warning : plausibility_warnings(job)) words += warning.words + "\n";
     return words;
   };
-  CHECK_THAT(words_of({0, -0.17, 0.17, 0, 1.05, 0}, 64),
-             Catch::Contains("no angle of routing.mounting_pose_deg, [0, -0.17, 0.17, 0, 1.05, 0], is larger than 1.05 deg") &&
-                 Catch::Contains("routing.mounting_pose_deg: [0, -9.74, 9.74, 0, 60.16, 0] if those were radians"));
+  CHECK_THAT(
+      words_of({0, -0.17, 0.17, 0, 1.05, 0}, 64),
+      Catch::Contains("no angle of routing.mounting_pose_deg, [0, -0.17, 0.17, 0, 1.05, 0], is larger than 1.05 deg") &&
+          Catch::Contains("routing.mounting_pose_deg: [0, -9.74, 9.74, 0, 60.16, 0] if those were radians"));
   CHECK(words_of({0, -10, 10, 0, 60, 0}, 64) == "");
-  CHECK(words_of({0, -5, 5, 0, 2, 0}, 64) == "");       // whole degrees
+  CHECK(words_of({0, -5, 5, 0, 2, 0}, 64) == "");  // whole degrees
   CHECK(words_of({0, -9.74, 9.74, 0, 60.16, 0}, 64) == "");
-  CHECK(words_of({}, 16) == "");                         // 0.125 m
+  CHECK(words_of({}, 16) == "");  // 0.125 m
   CHECK_THAT(words_of({}, 8), Catch::Contains("a segment is 0.25 m long"));
   CHECK_THAT(words_of({}, 4), Catch::Contains("simulation.segments is 4: a segment is 0.5 m long (limit 0.13 m") &&
                                   Catch::Contains("Remedy: simulation.segments: 64"));
@@ -279,21 +285,19 @@ TEST_CASE(
 TEST_CASE("plausible jobs: speeds of a URDF in degrees, accelerations in radians or reversed") {
   Job job = with_axes("arm.urdf", "job.yaml");
   job.robot.joints[2].speed = 166;
-  CHECK_THAT(doubts_of(job),
-             Catch::Contains(
-                 "arm.urdf:12: warning: velocity of a3 is 166 rad/s, 9511 deg/s (limits 5 .. 3000 deg/s)") &&
-                 Catch::Contains("velocity=\"2.897\" if that was deg/s"));
+  CHECK_THAT(
+      doubts_of(job),
+      Catch::Contains("arm.urdf:12: warning: velocity of a3 is 166 rad/s, 9511 deg/s (limits 5 .. 3000 deg/s)") &&
+          Catch::Contains("velocity=\"2.897\" if that was deg/s"));
   job = with_axes("arm.urdf", "job.yaml");
   for (Joint& joint : job.robot.joints) joint.acceleration *= degree;
   const std::string slow = doubts_of(job);
-  CHECK_THAT(
-      slow,
-      Catch::StartsWith("job.yaml:4:8: warning: a1 takes 13.2 s") &&
-          Catch::Contains("accelerations_deg_per_s2: [760, 555, 1170, 5155, 5420, 7615] if that was rad/s2"));
+  CHECK_THAT(slow,
+             Catch::StartsWith("job.yaml:4:8: warning: a1 takes 13.2 s") &&
+                 Catch::Contains("accelerations_deg_per_s2: [760, 555, 1170, 5155, 5420, 7615] if that was rad/s2"));
   CHECK(std::count(slow.begin(), slow.end(), '\n') == 1);  // one remedy for all axes
   job = with_axes("arm.urdf", "job.yaml");
-  for (int k = 0; k < 3; ++k)
-    std::swap(job.robot.joints[k].acceleration, job.robot.joints[5 - k].acceleration);
+  for (int k = 0; k < 3; ++k) std::swap(job.robot.joints[k].acceleration, job.robot.joints[5 - k].acceleration);
   CHECK_THAT(
       doubts_of(job),
       Catch::StartsWith(
@@ -301,8 +305,10 @@ TEST_CASE("plausible jobs: speeds of a URDF in degrees, accelerations in radians
           Catch::Contains("accelerations_deg_per_s2: [760, 555, 1170, 5155, 5420, 7615] if so"));
   job = with_axes("arm.urdf", "job.yaml");
   for (Joint& joint : job.robot.joints) joint.acceleration *= 10;
-  CHECK_THAT(doubts_of(job), Catch::Contains("every axis reaches its full speed within 0.0315 s (limit 0.05 s") &&
-                                 Catch::Contains("accelerations_deg_per_s2: [760, 555, 1170, 5155, 5420, 7615] if there is an extra zero"));
+  CHECK_THAT(
+      doubts_of(job),
+      Catch::Contains("every axis reaches its full speed within 0.0315 s (limit 0.05 s") &&
+          Catch::Contains("accelerations_deg_per_s2: [760, 555, 1170, 5155, 5420, 7615] if there is an extra zero"));
   for (Joint& joint : job.robot.joints) joint.acceleration = 500 * degree;  // all equal
   CHECK(doubts_of(job) == "");
 }
@@ -316,9 +322,10 @@ TEST_CASE("plausible steps: tools and work objects in metres") {
     for (const Warning& warning : plausibility_of_steps(motion)) words += warning.words;
     return words;
   };
-  CHECK_THAT(doubts_at(0, 0, 0.22),
-             Catch::Contains("tool 'grip' lies 0.22 mm from the frame in which it is given (limit 0, or more than 5 mm)") &&
-                                        Catch::Contains("[0, 0, 220] in its declaration if those were metres"));
+  CHECK_THAT(
+      doubts_at(0, 0, 0.22),
+      Catch::Contains("tool 'grip' lies 0.22 mm from the frame in which it is given (limit 0, or more than 5 mm)") &&
+          Catch::Contains("[0, 0, 220] in its declaration if those were metres"));
   CHECK(doubts_at(0, 0, 220) == "");
   CHECK(doubts_at(0, 0, 0) == "");
   CHECK(doubts_at(0.01, -0.02, 0) == "");
@@ -338,11 +345,10 @@ TEST_CASE("plausible jobs: a clamp in the air") {
   };
   CHECK(with("l3", {0.5, 0, 0.59}) == "");
   CHECK(with("l3", {0, 0, 0.69}) == "");
-  CHECK_THAT(
-      with("l3", {0.1, -0.02, -1.17}),
-      Catch::StartsWith(
-          "job.yaml:9: warning: routing.base_clamp.position_m lies 0.97 m from all shapes of l3 (limit 0.5)") &&
-          Catch::Contains("position_m: [0.1, -0.02, -0.117] if a decimal point slipped"));
+  CHECK_THAT(with("l3", {0.1, -0.02, -1.17}),
+             Catch::StartsWith(
+                 "job.yaml:9: warning: routing.base_clamp.position_m lies 0.97 m from all shapes of l3 (limit 0.5)") &&
+                 Catch::Contains("position_m: [0.1, -0.02, -0.117] if a decimal point slipped"));
   CHECK(with("l2", {0, 0, 1}) == "");  // without shapes
   CHECK(with("l6", {0, 0.3, 0.3}) == "");
   CHECK_THAT(with("l6", {0, 0.72, -0.24}),
@@ -361,28 +367,28 @@ TEST_CASE("plausible steps: one target in radians among others, one place in met
     for (const Warning& warning : plausibility_of_steps(motion)) all += warning.words + "\n";
     return all;
   };
-  const MotionStep home = move_to({0, -15, 15, 0, 60, 0}),
-                   turned = move_to({1.05, -0.09, 0.17, 0.70, 1.05, -0.79});
+  const MotionStep home = move_to({0, -15, 15, 0, 60, 0}), turned = move_to({1.05, -0.09, 0.17, 0.70, 1.05, -0.79});
   CHECK_THAT(
       words({home, turned}),
-      Catch::Contains(
-          "all angles of this target are below 3.15 deg (limit: those of other targets reach 60 deg)") &&
+      Catch::Contains("all angles of this target are below 3.15 deg (limit: those of other targets reach 60 deg)") &&
           Catch::Contains("[60.16, -5.157, 9.74, 40.11, 60.16, -45.26] if those were radians"));
   CHECK(words({home, move_to({0, 0, 0, 0, 0, 0})}) == "");             // the zero pose
   CHECK(words({home, move_to({0.1, -0.2, 0.3, 0, 0.1, 0.2})}) == "");  // its adjustment
   CHECK(words({home, move_to({0, -1.2, 1.2, 0, 0, 0})}) == "");        // two axes
-  CHECK(words({home, turned, move_to({1.1, -0.1, 0.2, 0.7, 1, -0.8}), move_to({1.2, -0.1, 0.2, 0.7, 1, -0.8})}) == "");  // most of the program is there
-  CHECK_THAT(words({turned, home, turned}), Catch::Contains("[60.16, -5.157, 9.74, 40.11, 60.16, -45.26] if those were radians"));  // a target counts once
+  CHECK(words({home, turned, move_to({1.1, -0.1, 0.2, 0.7, 1, -0.8}), move_to({1.2, -0.1, 0.2, 0.7, 1, -0.8})}) ==
+        "");  // most of the program is there
+  CHECK_THAT(
+      words({turned, home, turned}),
+      Catch::Contains("[60.16, -5.157, 9.74, 40.11, 60.16, -45.26] if those were radians"));  // a target counts once
   const auto place = [](double x, double y, double z, const char* object = "table") {
     MotionStep step;
     step.position = {x / 1e3, y / 1e3, z / 1e3}, step.work_object = object;
     return step;
   };
-  CHECK_THAT(
-      words({place(0.1, 0.1, 0.4), place(100, 100, 150), place(100, 900, 400)}),
-      Catch::Contains(
-          "this target lies 0.4 mm from the origin of its frame (limit: others lie up to 900 mm from theirs)") &&
-          Catch::Contains("[100, 100, 400] if those were metres"));
+  CHECK_THAT(words({place(0.1, 0.1, 0.4), place(100, 100, 150), place(100, 900, 400)}),
+             Catch::Contains(
+                 "this target lies 0.4 mm from the origin of its frame (limit: others lie up to 900 mm from theirs)") &&
+                 Catch::Contains("[100, 100, 400] if those were metres"));
   CHECK(words({place(0, 0, 0), place(100, 100, 150), place(100, 900, 400)}) == "");
   CHECK(words({place(0.01, -0.02, 0.03), place(100, 100, 150), place(100, 900, 400)}) == "");
   CHECK(words({place(0, 0, 3), place(100, 100, 150), place(100, 900, 400)}) == "");

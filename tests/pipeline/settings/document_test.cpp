@@ -22,8 +22,7 @@ bool same_tree(const Node& one, const Node& other) {
   for (std::size_t i = 0; i < one.items.size(); ++i)
     if (!same_tree(one.items[i], other.items[i])) return false;
   for (std::size_t i = 0; i < one.entries.size(); ++i)
-    if (one.entries[i].key != other.entries[i].key ||
-        !same_tree(one.entries[i].value, other.entries[i].value))
+    if (one.entries[i].key != other.entries[i].key || !same_tree(one.entries[i].value, other.entries[i].value))
       return false;
   return true;
 }
@@ -54,8 +53,7 @@ TEST_CASE("document: quoted values are marked, because a quoted number is no num
 
 TEST_CASE("document: duplicate keys are refused at the second one") {
   CHECK(refusal("a: 1\nb: 2\na: 3\n") == "f.yaml:3:1: error: duplicate key 'a'; keep one of the two");
-  CHECK(refusal("deep: {x: 1, y: 2, x: 3}\n") ==
-        "f.yaml:1:20: error: duplicate key 'x'; keep one of the two");
+  CHECK(refusal("deep: {x: 1, y: 2, x: 3}\n") == "f.yaml:1:20: error: duplicate key 'x'; keep one of the two");
 }
 
 TEST_CASE("document: merge keys and keys that are no words are refused") {
@@ -92,23 +90,25 @@ TEST_CASE("document: what is not YAML is refused where it stops being YAML") {
 }
 
 TEST_CASE("document: usual slips in YAML are named, with their remedy") {
-  for (const auto& [text, answer] : std::vector<std::pair<std::string, std::string>>{
-           {"a: 1\nb:\n\tc: 2\n", "f.yaml:3:1: error: is not YAML (a tab indents this line); indent with spaces"},
-           {"a: 1\nb:\n  - \tc\n  \t- d: 1: 2\n", "f.yaml:4:1: error: is not YAML (a tab indents this line)"},
-           {"a: |\n  \tb\nc: d: 1\n", "f.yaml:3:5: error: is not YAML (a second ': ' in one value"},  // the tab belongs to a text
-           {"a: b: c\n", "f.yaml:1:5: error: is not YAML (a second ': ' in one value"},
-           {"a: 1\n  b: 2\n", "f.yaml:2:4: error: is not YAML (a second ': ' in one value, or another indentation"},
-           {"a:\n  b: 2\n c: 1\n", "f.yaml:3:2: error: is not YAML (no key of the map above: another indentation, or an item of a list); indent it as the other keys"},
-           {"a: {b: 1\nc: 2\n", "is not YAML (a { above is not closed)"},
-           {"a: [1, 2}\n", "is not YAML (a bracket closes another than the last one that opened); close each [ with ]"},
-           {"a: %b\n", "f.yaml:1:4: error: is not YAML (no text begins with this character); quote the text"}}) {
+  for (
+      const auto& [text, answer] : std::vector<std::pair<std::string, std::string>>{
+          {"a: 1\nb:\n\tc: 2\n", "f.yaml:3:1: error: is not YAML (a tab indents this line); indent with spaces"},
+          {"a: 1\nb:\n  - \tc\n  \t- d: 1: 2\n", "f.yaml:4:1: error: is not YAML (a tab indents this line)"},
+          {"a: |\n  \tb\nc: d: 1\n",
+           "f.yaml:3:5: error: is not YAML (a second ': ' in one value"},  // the tab belongs to a text
+          {"a: b: c\n", "f.yaml:1:5: error: is not YAML (a second ': ' in one value"},
+          {"a: 1\n  b: 2\n", "f.yaml:2:4: error: is not YAML (a second ': ' in one value, or another indentation"},
+          {"a:\n  b: 2\n c: 1\n",
+           "f.yaml:3:2: error: is not YAML (no key of the map above: another indentation, or an item of a list); indent it as the other keys"},
+          {"a: {b: 1\nc: 2\n", "is not YAML (a { above is not closed)"},
+          {"a: [1, 2}\n", "is not YAML (a bracket closes another than the last one that opened); close each [ with ]"},
+          {"a: %b\n", "f.yaml:1:4: error: is not YAML (no text begins with this character); quote the text"}}) {
     INFO(text);
     CHECK(refusal(text).find(answer) != std::string::npos);
   }
 }
 
-TEST_CASE(
-    "document: a quote that is never closed is found near its line, not taken for the rest of the file") {
+TEST_CASE("document: a quote that is never closed is found near its line, not taken for the rest of the file") {
   const std::string never_closed =
       "is not YAML (a quote that opens here or in the lines below is never closed); close it";
   CHECK(refusal("a: 1\nb:\n  c: 'open\n  d: 2\ne: 3\n") == "f.yaml:3:3: error: " + never_closed);
@@ -124,8 +124,7 @@ TEST_CASE("document: a stray comma at the start is refused") {
 }
 
 TEST_CASE("document: a second document in one file is refused") {
-  CHECK(refusal("a: 1\n---\nb: 2\n") ==
-        "f.yaml:2:1: error: a second document begins here; keep one document per file");
+  CHECK(refusal("a: 1\n---\nb: 2\n") == "f.yaml:2:1: error: a second document begins here; keep one document per file");
 }
 
 TEST_CASE("document: an empty file is an empty tree that has a place") {
@@ -220,8 +219,7 @@ TEST_CASE("document: a key is found or added, and a new one takes its parent's p
 TEST_CASE("document: files that cannot be read say so") {
   const Scratch scratch;
   CHECK(message_of([&] { read_yaml(scratch / "absent.yaml"); }) ==
-        (scratch / "absent.yaml").string() +
-            ": error: cannot be read (No such file or directory); check the path");
+        (scratch / "absent.yaml").string() + ": error: cannot be read (No such file or directory); check the path");
   CHECK(message_of([&] { read_yaml(scratch / "."); }) ==
         (scratch / ".").string() + ": error: is a folder, not a file; name a file");
 }
@@ -257,11 +255,58 @@ void emit_by_library(YAML::Emitter& out, const Node& node) {
 }
 
 Node random_tree(std::mt19937& random, int depth) {
-  static const std::vector<std::string> texts{"a",   "two words", " space before", "after ", "1e-5", "-3",     "- x", "null",
-                                              "n",   "true",      "a: b",          "a #b",   "a,b",  "[x]",    "ä",   "line\nline",
-                                              "",    "~",         "*a",            "&a",     "!t",   "'q'",    "\"d\"", "%x",
-                                              "a: (b), c; d", "[a: b]", "a: \"b\"", "a: \\", ": a", "a: ", "a (b), c; d=e'f", "Null", "NULL", "nullx", "nothing", "it's, so", "a,", "(a)", "a)", "x;", "a=", "-a", "y", "Yes",
-      "a:b", "x\ty",      "\x01",          "/path/x-y_z.h5", "C:\\x", "?",   "a ? b", ":"};
+  static const std::vector<std::string> texts{"a",
+                                              "two words",
+                                              " space before",
+                                              "after ",
+                                              "1e-5",
+                                              "-3",
+                                              "- x",
+                                              "null",
+                                              "n",
+                                              "true",
+                                              "a: b",
+                                              "a #b",
+                                              "a,b",
+                                              "[x]",
+                                              "ä",
+                                              "line\nline",
+                                              "",
+                                              "~",
+                                              "*a",
+                                              "&a",
+                                              "!t",
+                                              "'q'",
+                                              "\"d\"",
+                                              "%x",
+                                              "a: (b), c; d",
+                                              "[a: b]",
+                                              "a: \"b\"",
+                                              "a: \\",
+                                              ": a",
+                                              "a: ",
+                                              "a (b), c; d=e'f",
+                                              "Null",
+                                              "NULL",
+                                              "nullx",
+                                              "nothing",
+                                              "it's, so",
+                                              "a,",
+                                              "(a)",
+                                              "a)",
+                                              "x;",
+                                              "a=",
+                                              "-a",
+                                              "y",
+                                              "Yes",
+                                              "a:b",
+                                              "x\ty",
+                                              "\x01",
+                                              "/path/x-y_z.h5",
+                                              "C:\\x",
+                                              "?",
+                                              "a ? b",
+                                              ":"};
   Node node;
   const int what = static_cast<int>(random() % (depth > 3 ? 2 : 4));
   node.kind = what == 0   ? Node::Kind::null

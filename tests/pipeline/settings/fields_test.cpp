@@ -133,11 +133,11 @@ TEST_CASE("fields: the ends of a range are in it, and what lies beyond is refuse
            {"unlike_anything: 1", "keys here: name, share"}})
     CHECK_THAT(refusal(keys) + "\n", Catch::Contains(words));
   // All errors at once, each at its line.
-  CHECK_THAT(refusal("share: 2\ncount: 0\n"),
-             Catch::Contains("file.yaml:2:8") && Catch::Contains("file.yaml:3:8"));
+  CHECK_THAT(refusal("share: 2\ncount: 0\n"), Catch::Contains("file.yaml:2:8") && Catch::Contains("file.yaml:3:8"));
 }
 
-TEST_CASE("fields: a wire gauge is answered with its section where a section is asked for, a word without digits is not") {
+TEST_CASE(
+    "fields: a wire gauge is answered with its section where a section is asked for, a word without digits is not") {
   double section = 1, length = 1;
   const Describe wire = [&](Fields& f) {
     f.number("section_mm2", section, Need::optional, above(0), "The section.");

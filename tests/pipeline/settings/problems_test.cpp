@@ -20,8 +20,7 @@ Said said_of(const std::vector<std::pair<std::string, std::string>>& changes,
   for (const auto& [from, to] : changes) text = edited(text, from, to);
   Said said;
   const std::string mark = ": error: ";
-  for (const std::string& line :
-       problem_lines(message_of([&] { job_from(parse_yaml(text, "job.yaml"), sets); }))) {
+  for (const std::string& line : problem_lines(message_of([&] { job_from(parse_yaml(text, "job.yaml"), sets); }))) {
     const std::size_t at = line.find(mark);
     REQUIRE(at != std::string::npos);
     said.places.push_back(line.substr(0, at));
@@ -41,9 +40,8 @@ TEST_CASE("problems: all mistakes of a job are reported at once, in the order of
                              {"gate: 1e-4", "kinematics: exakt"}});
   REQUIRE(said.words.size() == 5);
   CHECK(said.words[0] == "robot.links[2].capsules[1].radius_mm is -120 (must be > 0 mm)");
-  CHECK(
-      said.words[1] ==
-      "dresspack.axial_stiffness_N is 'stiff' (must be a number or from_construction, the unit is in the key: N)");
+  CHECK(said.words[1] ==
+        "dresspack.axial_stiffness_N is 'stiff' (must be a number or from_construction, the unit is in the key: N)");
   CHECK(said.words[2] == "simulation.segments is 20.5 (must be a whole number)");
   CHECK(said.words[3].starts_with("strain.kinematics is 'exakt' (must be "));
   CHECK(said.words[4] == "unknown key 'colour'");

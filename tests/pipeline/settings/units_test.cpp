@@ -63,11 +63,16 @@ TEST_CASE("units: the unit of a key is its longest ending that is one") {
 
 TEST_CASE("units: each factor to SI is that of the parts of its name") {
   // a prefix is a letter before a unit: mm is not m times m, and m alone is the metre
-  const std::map<std::string, double> parts{{"m", 1}, {"mm", 1e-3}, {"deg", M_PI / 180}, {"s", 1}, {"ms", 1e-3}, {"Hz", 1}, {"kg", 1}, {"N", 1}, {"mN", 1e-3},
-                                            {"MPa", 1e6}, {"GPa", 1e9}, {"C", 1}, {"MB", 1e6}, {"%", 1}, {"h", 1}, {"week", 1}, {"1", 1}};
-  for (const std::string suffix : {"m", "mm", "mm2", "mm3", "deg", "deg_per_s", "deg_per_s2", "deg_per_s3", "mm_per_s", "mm_per_s2", "s", "ms", "Hz",
-                                   "m_per_s2", "m_per_s3", "1_per_m", "deg_per_m", "kg", "kg_per_m", "N", "N_per_m", "N_per_m2", "Ns_per_m", "Nm2", "mNm",
-                                   "MPa", "GPa", "mm3_per_Nm", "C", "MB", "percent", "hours_per_week", "hours"}) {
+  const std::map<std::string, double> parts{
+      {"m", 1},     {"mm", 1e-3}, {"deg", M_PI / 180}, {"s", 1}, {"ms", 1e-3}, {"Hz", 1}, {"kg", 1}, {"N", 1},
+      {"mN", 1e-3}, {"MPa", 1e6}, {"GPa", 1e9},        {"C", 1}, {"MB", 1e6},  {"%", 1},  {"h", 1},  {"week", 1},
+      {"1", 1}};
+  for (const std::string suffix :
+       {"m",         "mm",        "mm2",      "mm3",        "deg",     "deg_per_s", "deg_per_s2", "deg_per_s3",
+        "mm_per_s",  "mm_per_s2", "s",        "ms",         "Hz",      "m_per_s2",  "m_per_s3",   "1_per_m",
+        "deg_per_m", "kg",        "kg_per_m", "N",          "N_per_m", "N_per_m2",  "Ns_per_m",   "Nm2",
+        "mNm",       "MPa",       "GPa",      "mm3_per_Nm", "C",       "MB",        "percent",    "hours_per_week",
+        "hours"}) {
     const Unit& unit = unit_of_key("key_" + suffix);
     REQUIRE(unit.suffix == suffix);
     double factor = 1, sign = 1;
@@ -130,8 +135,7 @@ TEST_CASE("units: no shorter text of a number reads back, whatever its digits") 
       const double drawn = mantissa(random) * std::pow(10, exponent(random));
       const double si = std::stod(fmt::format("{:.{}g}", drawn, digits(random))) * unit.to_si;
       if (text_in_unit(si, unit) != shortest_by_trying(si, unit))
-        FAIL_CHECK(key << " " << text_in_unit(si, unit) << " where " << shortest_by_trying(si, unit)
-                       << " reads back");
+        FAIL_CHECK(key << " " << text_in_unit(si, unit) << " where " << shortest_by_trying(si, unit) << " reads back");
     }
   }
 }
@@ -147,8 +151,7 @@ TEST_CASE("units: short numbers stay as short as they were written") {
     for (const char* key : {"x_m", "x_mm", "x_deg", "x_deg_per_s2", "x_ms", "x_MPa", "x_GPa"}) {
       const Unit& unit = unit_of_key(key);
       CHECK(std::stod(text_in_unit(std::stod(text) * unit.to_si, unit)) == std::stod(text));
-      CHECK(text_in_unit(std::stod(text) * unit.to_si, unit).size() <=
-            std::string(text).size() + 2);  // "100000.0"
+      CHECK(text_in_unit(std::stod(text) * unit.to_si, unit).size() <= std::string(text).size() + 2);  // "100000.0"
     }
   CHECK(text_in_unit(std::numbers::pi, unit_of_key("x_deg")) == "180");
   CHECK(text_in_unit(0, unit_of_key("x_deg")) == "0");
@@ -161,8 +164,7 @@ TEST_CASE("units: the shortest text of any number reads back to it") {
     double value;
     std::memcpy(&value, &bits, sizeof value);
     if (!std::isfinite(value)) continue;
-    if (std::stod(shortest_text(std::abs(value) < 1e-300 ? 1.0 : value)) !=
-        (std::abs(value) < 1e-300 ? 1.0 : value))
+    if (std::stod(shortest_text(std::abs(value) < 1e-300 ? 1.0 : value)) != (std::abs(value) < 1e-300 ? 1.0 : value))
       FAIL_CHECK(shortest_text(value));
   }
   CHECK(shortest_text(INFINITY) == "inf");

@@ -63,9 +63,9 @@ std::optional<int> read(Values& values, const std::vector<std::string>& line) {
 
 TEST_CASE("command line: each kind of target receives its value") {
   Values values;
-  CHECK_FALSE(read(values, {"in", "-f", "--whole", "8", "--seed", "1000000000", "--length", "0.25", "--count", "3",
-                            "--time", "2.5", "--text", "other", "--file", "a/b.h5", "--list", "one", "--list", "two",
-                            "--call", "me", "--colour", "green"}));
+  CHECK_FALSE(read(values, {"in",      "-f",  "--whole", "8",   "--seed", "1000000000", "--length", "0.25",
+                            "--count", "3",   "--time",  "2.5", "--text", "other",      "--file",   "a/b.h5",
+                            "--list",  "one", "--list",  "two", "--call", "me",         "--colour", "green"}));
   CHECK(values.argument == "in");
   CHECK(values.flag);
   CHECK(values.whole == 8);
@@ -91,22 +91,21 @@ TEST_CASE("command line: an empty line leaves every variable as it was") {
 }
 
 TEST_CASE("command line: values outside their rules end with status 2") {
-  for (const std::vector<std::string>& line :
-       std::vector<std::vector<std::string>>{{"--whole", "0"},
-                                             {"--whole", "9"},
-                                             {"--whole", "2.5"},
-                                             {"--whole", "two"},
-                                             {"--seed", "-1"},
-                                             {"--seed", "1000000001"},
-                                             {"--length", "1.01"},
-                                             {"--length", "nan"},
-                                             {"--count", "3", "--time", "inf"},
-                                             {"--count", "0"},
-                                             {"--time", "2.5"},
-                                             {"--colour", "blue"},
-                                             {"--text"},
-                                             {"--unknown"},
-                                             {"in", "more"}}) {
+  for (const std::vector<std::string>& line : std::vector<std::vector<std::string>>{{"--whole", "0"},
+                                                                                    {"--whole", "9"},
+                                                                                    {"--whole", "2.5"},
+                                                                                    {"--whole", "two"},
+                                                                                    {"--seed", "-1"},
+                                                                                    {"--seed", "1000000001"},
+                                                                                    {"--length", "1.01"},
+                                                                                    {"--length", "nan"},
+                                                                                    {"--count", "3", "--time", "inf"},
+                                                                                    {"--count", "0"},
+                                                                                    {"--time", "2.5"},
+                                                                                    {"--colour", "blue"},
+                                                                                    {"--text"},
+                                                                                    {"--unknown"},
+                                                                                    {"in", "more"}}) {
     Values values;
     INFO(line[0] << " " << line.back());
     CHECK(read(values, line) == 2);
@@ -131,9 +130,11 @@ TEST_CASE("command line: only a number right behind a flag is named as one that 
 }
 
 TEST_CASE("command line: a key and its value with spaces around = are shown without spaces") {
-  for (const auto& [line, shown] : std::vector<std::pair<std::vector<std::string>, std::string>>{
-           {{"in", "--set", "a", "=", "24"}, "write a=24\n"}, {{"in", "--set", "a=", "24"}, "write a=24\n"},
-           {{"in", "--set", "a", "=24"}, "write a=24\n"}, {{"in", "--set", "a", "="}, "write a=\n"}}) {
+  for (const auto& [line, shown] :
+       std::vector<std::pair<std::vector<std::string>, std::string>>{{{"in", "--set", "a", "=", "24"}, "write a=24\n"},
+                                                                     {{"in", "--set", "a=", "24"}, "write a=24\n"},
+                                                                     {{"in", "--set", "a", "=24"}, "write a=24\n"},
+                                                                     {{"in", "--set", "a", "="}, "write a=\n"}}) {
     Values values;
     Captured errors(STDERR_FILENO);
     const std::optional<int> status = read(values, line);

@@ -42,8 +42,8 @@ TEST_CASE("memory: the free memory of the machine is known and is not more than 
   const std::optional<double> free = free_memory_mb();
   if (!free) return;
   CHECK(*free > 0);
-  CHECK(*free <= static_cast<double>(::sysconf(_SC_PHYS_PAGES)) *
-                     static_cast<double>(::sysconf(_SC_PAGESIZE)) / (1 << 20));
+  CHECK(*free <=
+        static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE)) / (1 << 20));
 }
 
 TEST_CASE("memory: a job runs that is within the limit and what is free, and no other") {
@@ -58,8 +58,7 @@ TEST_CASE("memory: a job runs that is within the limit and what is free, and no 
   CHECK(refusal(1) == "");
   if (const std::optional<double> free = free_memory_mb())  // a hundred times the free memory is never available
     CHECK_THAT(refusal(100 * *free), Catch::StartsWith("motion.h5: error: takes about") &&
-                                         Catch::Contains("are free") &&
-                                         Catch::Contains("choose fewer wires"));
+                                         Catch::Contains("are free") && Catch::Contains("choose fewer wires"));
   call.limits.megabytes = 1;  // a smaller need would limit this test program itself
   CHECK_THAT(refusal(1.5), Catch::Contains("--job-memory allows 1 MB") && Catch::Contains("or allow more"));
 }

@@ -33,8 +33,7 @@ struct Outcome {
 
 Outcome run(
     const std::vector<std::string>& arguments,
-    const std::function<void(const StageCall&)>& body = [](const StageCall&) {},
-    const StageInfo& stage = info) {
+    const std::function<void(const StageCall&)>& body = [](const StageCall&) {}, const StageInfo& stage = info) {
   std::vector<std::string> words{stage.program};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
@@ -42,12 +41,12 @@ Outcome run(
   pointers.push_back(nullptr);
   Outcome outcome;
   Captured errors(STDERR_FILENO), out(STDOUT_FILENO);
-  outcome.status = run_stage(stage, static_cast<int>(words.size()), pointers.data(),
-                             [&](const StageCall& call, Progress&) {
-                               outcome.ran = true;
-                               outcome.call = call;
-                               body(call);
-                             });
+  outcome.status =
+      run_stage(stage, static_cast<int>(words.size()), pointers.data(), [&](const StageCall& call, Progress&) {
+        outcome.ran = true;
+        outcome.call = call;
+        body(call);
+      });
   outcome.words = out.text();
   outcome.errors = errors.text();
   return outcome;
@@ -113,8 +112,8 @@ TEST_CASE("stage: help and version go to standard output and end with 0") {
   const Outcome help = run({"--help"});
   CHECK(help.status == 0);
   CHECK_FALSE(help.ran);
-  for (const char* part : {"Makes samples.", "Example: dresslife-sample input.h5 -o output.h5", "--set",
-                           "--job", "--quiet", "--version"})
+  for (const char* part :
+       {"Makes samples.", "Example: dresslife-sample input.h5 -o output.h5", "--set", "--job", "--quiet", "--version"})
     CHECK(help.words.find(part) != std::string::npos);
   CHECK(help.errors.empty());
   const Outcome version = run({"--version"});
@@ -122,8 +121,7 @@ TEST_CASE("stage: help and version go to standard output and end with 0") {
   CHECK(version.words == version_text("dresslife-sample") + "\n");
 }
 
-TEST_CASE(
-    "stage: the man page and the completions name every option, also of a stage alone, and need no input") {
+TEST_CASE("stage: the man page and the completions name every option, also of a stage alone, and need no input") {
   StageInfo special = info;
   std::vector<std::string> assumed;
   special.options = {{"--assume", "LINE=then|else", "how a branch goes", &assumed}};
@@ -158,11 +156,9 @@ TEST_CASE("stage: the user's mistakes end with 1, ours with 3, each in one line"
   });
   CHECK(users.status == 1);
   CHECK(users.errors == "job.yaml:2:11: error: dresspack.length_m is -1.2 (must be > 0); give the length\n");
-  const Outcome ours =
-      run({"in.h5", "-o", "out.h5"}, [](const StageCall&) { throw std::logic_error("axis not set"); });
+  const Outcome ours = run({"in.h5", "-o", "out.h5"}, [](const StageCall&) { throw std::logic_error("axis not set"); });
   CHECK(ours.status == 3);
-  CHECK(ours.errors ==
-        "dresslife-sample: error: internal fault (axis not set); please report it with the job\n");
+  CHECK(ours.errors == "dresslife-sample: error: internal fault (axis not set); please report it with the job\n");
   const Outcome memory = run({"in.h5", "-o", "out.h5"}, [](const StageCall&) { throw std::bad_alloc(); });
   CHECK(memory.status == 1);
   CHECK(memory.errors ==
@@ -174,8 +170,7 @@ TEST_CASE("stage: the user's mistakes end with 1, ours with 3, each in one line"
                                             std::make_error_code(std::errc::permission_denied));
   });
   CHECK(disk.status == 1);
-  CHECK(disk.errors ==
-        "out.h5.part: error: Permission denied; check the folder and its permissions, then run again\n");
+  CHECK(disk.errors == "out.h5.part: error: Permission denied; check the folder and its permissions, then run again\n");
 }
 
 TEST_CASE("stage: an output that cannot be is refused before any work") {
@@ -184,19 +179,16 @@ TEST_CASE("stage: an output that cannot be is refused before any work") {
   const Outcome folder = run({input, "-o", (scratch / ".").string()});
   CHECK(folder.status == 1);
   CHECK_FALSE(folder.ran);
-  CHECK(folder.errors ==
-        (scratch / ".").string() +
-            ": error: is a folder (a result only replaces a plain file); name a file of its own\n");
+  CHECK(folder.errors == (scratch / ".").string() +
+                             ": error: is a folder (a result only replaces a plain file); name a file of its own\n");
   const Outcome same = run({input, "-o", input});
-  CHECK(same.errors ==
-        input.string() + ": error: is one of the files that are read; name another place with -o\n");
+  CHECK(same.errors == input.string() + ": error: is one of the files that are read; name another place with -o\n");
   const std::string lost = (scratch / "none/out.h5").string();
-  CHECK(run({input, "-o", lost}).errors == lost + ": error: lies in a folder that does not exist; make " +
-                                               (scratch / "none").string() + " first\n");
+  CHECK(run({input, "-o", lost}).errors ==
+        lost + ": error: lies in a folder that does not exist; make " + (scratch / "none").string() + " first\n");
 }
 
-TEST_CASE(
-    "stage: the stamp names the job, the commands so far and the input's digest, not the output's place") {
+TEST_CASE("stage: the stamp names the job, the commands so far and the input's digest, not the output's place") {
   const Scratch scratch;
   const Job job = job_from(parse_yaml(sample_job, "job.yaml"));
   StageCall call;
@@ -208,9 +200,9 @@ TEST_CASE(
   write_stamped(scratch / "out.h5", call, job, "dresslife-sim 1: dresslife-sim job.yaml");
   const FileReader reader(scratch / "out.h5", small_format());
   CHECK(reader.text_attribute("job") == job_text(job));
-  CHECK(reader.text_attribute("history") ==
-        std::string("dresslife-sim 1: dresslife-sim job.yaml\ndresslife-sample ") + pipeline::version() +
-            ": dresslife-sample in.h5 --job j.yaml --set strain.gate=0.001");
+  CHECK(reader.text_attribute("history") == std::string("dresslife-sim 1: dresslife-sim job.yaml\ndresslife-sample ") +
+                                                pipeline::version() +
+                                                ": dresslife-sample in.h5 --job j.yaml --set strain.gate=0.001");
   CHECK(reader.text_attribute("input_sha256") == sha256("abc"));
   write_stamped(scratch / "elsewhere.h5", call, job, "dresslife-sim 1: dresslife-sim job.yaml");
   CHECK(bytes_of(scratch / "elsewhere.h5") == bytes_of(scratch / "out.h5"));
@@ -273,9 +265,11 @@ TEST_CASE("stage: the warnings of an output that is kept are printed again") {
   CHECK_THAT(second.errors, Catch::Contains("the hose swings"));
 }
 
-TEST_CASE("stage: warnings of the input stand before a stage's own, and nothing is noted where the input does not say its own") {
+TEST_CASE(
+    "stage: warnings of the input stand before a stage's own, and nothing is noted where the input does not say its own") {
   const Scratch scratch;
-  const Warning swings{WarningKind::motion, "job.yaml", "the hose swings"}, strained{WarningKind::strain, "", "wires yield"};
+  const Warning swings{WarningKind::motion, "job.yaml", "the hose swings"},
+      strained{WarningKind::strain, "", "wires yield"};
   const StageCall call{.info = info, .quiet = true};
   Progress progress("", true);
   const auto noted = [&](const char* name, const std::vector<Warning>& own, const FileReader* before) {
@@ -292,7 +286,8 @@ TEST_CASE("stage: warnings of the input stand before a stage's own, and nothing 
   CHECK_FALSE(noted("third.h5", {strained}, &older)->has_attribute("warnings"));
 }
 
-TEST_CASE("stage: an output with a receipt is made again when its settings, its input or itself changed, and else not") {
+TEST_CASE(
+    "stage: an output with a receipt is made again when its settings, its input or itself changed, and else not") {
   const Scratch scratch;
   const auto job = scratch.write("job.yaml", sample_job).string(), note = (scratch / "note").string(),
              input = (scratch / "in.h5").string(), output = (scratch / "out.h5").string();
@@ -302,8 +297,9 @@ TEST_CASE("stage: an output with a receipt is made again when its settings, its 
   StageInfo stage = info;
   stage.part = JobPart::sim;
   const auto runs = [&](const std::string& set = "simulation.segments=20") {
-    const Outcome of = run({input, "-o", output, "--job", job, "--receipt", note, "--set", set},
-                           [&](const StageCall&) { make(output, 2); }, stage);
+    const Outcome of = run(
+        {input, "-o", output, "--job", job, "--receipt", note, "--set", set},
+        [&](const StageCall&) { make(output, 2); }, stage);
     CHECK(of.status == 0);
     return of.ran;
   };
@@ -322,7 +318,8 @@ TEST_CASE("stage: an output with a receipt is made again when its settings, its 
   CHECK_FALSE(runs());
 }
 
-TEST_CASE("stage: an input that changes meanwhile is refused, also one whose size and time stay, and another name of it is not") {
+TEST_CASE(
+    "stage: an input that changes meanwhile is refused, also one whose size and time stay, and another name of it is not") {
   const Scratch scratch;
   const auto job = scratch.write("job.yaml", sample_job), input = scratch / "in.h5";
   write_still_motion(input, 2, 2, [](FileWriter&) {});
@@ -331,7 +328,9 @@ TEST_CASE("stage: an input that changes meanwhile is refused, also one whose siz
   const auto status = [&](const std::function<void()>& change) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));  // two ticks of the slowest clock of file times
     std::filesystem::remove(scratch / "note");
-    return run({input.string(), "-o", (scratch / "out.h5").string(), "--job", job.string(), "--receipt", (scratch / "note").string()},
+    return run(
+               {input.string(), "-o", (scratch / "out.h5").string(), "--job", job.string(), "--receipt",
+                (scratch / "note").string()},
                [&](const StageCall& call) {
                  write_still_motion(call.output, 2, 2, [](FileWriter&) {});
                  change();
@@ -366,9 +365,10 @@ TEST_CASE("stage: what was printed and is lost is an error with its reason, also
     int status = -1;
     ::waitpid(child, &status, 0);
     CHECK(WEXITSTATUS(status) == expected);
-    CHECK(errors.text() == (expected == 0 ? ""
-                                          : "standard output: error: cannot be written (No space left on device); free space or "
-                                            "name another place\n"));
+    CHECK(errors.text() == (expected == 0
+                                ? ""
+                                : "standard output: error: cannot be written (No space left on device); free space or "
+                                  "name another place\n"));
   }
 }
 

@@ -128,17 +128,15 @@ TEST_CASE("build graph: a changed setting reruns what depends on it and nothing 
   CHECK(bench.calls("two") == "sim strain fatigue ");
 }
 
-TEST_CASE(
-    "build graph: a metal's strain-life constants rerun the last stage of the jobs that are of it alone") {
+TEST_CASE("build graph: a metal's strain-life constants rerun the last stage of the jobs that are of it alone") {
   Bench bench;
   const auto study_of = [&](int strength) {
-    return bench.study(
-        {{"one", fmt::format("dresspack.materials=[{{name: copper, source: s, youngs_modulus_GPa: 117, "
-                             "tensile_strength_MPa: 230, fatigue_strength_MPa: {}, "
-                             "fatigue_strength_exponent: -0.1, fatigue_ductility: 0.5, "
-                             "fatigue_ductility_exponent: -0.5}}]",
-                             strength)},
-         {"two", "simulation.segments=40"}});
+    return bench.study({{"one", fmt::format("dresspack.materials=[{{name: copper, source: s, youngs_modulus_GPa: 117, "
+                                            "tensile_strength_MPa: 230, fatigue_strength_MPa: {}, "
+                                            "fatigue_strength_exponent: -0.1, fatigue_ductility: 0.5, "
+                                            "fatigue_ductility_exponent: -0.5}}]",
+                                            strength)},
+                        {"two", "simulation.segments=40"}});
   };
   bench.run(study_of(400));
   CHECK(bench.words(study_of(500)) == Words{"stale", "done"});
@@ -466,12 +464,14 @@ TEST_CASE("build graph: a file beside the job counts by its content") {
   editor.join();
   CHECK_FALSE(bench.states()[0].done());
   CHECK(bench.states()[0].failure.find(
-            "poses.csv: error: has changed while dresslife-sim ran; let nothing change it meanwhile, then run again") != std::string::npos);
+            "poses.csv: error: has changed while dresslife-sim ran; let nothing change it meanwhile, then run again") !=
+        std::string::npos);
   // Edited after the run has read the states, before the stage starts.
   bench.run(study, [&] { bench.scratch().write("poses.csv", "0, 5\n"); });
   CHECK_FALSE(bench.states()[0].done());
   CHECK(bench.states()[0].failure ==
-        "motion.h5: error: " + poses.string() + " has changed while the study ran; let nothing change it meanwhile, then run again");
+        "motion.h5: error: " + poses.string() +
+            " has changed while the study ran; let nothing change it meanwhile, then run again");
   bench.run(study);
   CHECK(bench.words(study) == Words{"done"});
 }
@@ -488,9 +488,8 @@ TEST_CASE("build graph: a failed stage stops its job only, is reported with its 
   CHECK(bench.words(study) == Words{"failed   job.yaml:1:1: error: strain broke; correct it", "done"});
   const Study other = bench.study({{"bad", "simulation.segments=21"}, {"good", "simulation.segments=40"}});
   CHECK(bench.words(other) == Words{"stale", "done"});  // the other settings have not failed
-  CHECK(
-      bytes_of(bench.places().job("bad") / "log").find("== dresslife-strain\njob.yaml:1:1: error: strain") !=
-      std::string::npos);
+  CHECK(bytes_of(bench.places().job("bad") / "log").find("== dresslife-strain\njob.yaml:1:1: error: strain") !=
+        std::string::npos);
   fs::remove(bench.places().job("bad") / "fail-strain");
   bench.run(study);
   CHECK(bench.words(study) == Words{"done", "done"});
@@ -572,11 +571,10 @@ TEST_CASE("build graph: when ninja dies, what it did not reach is not done and s
     reasons.insert(state.failure);
   }
   // Two stages run at a time. The third job still waits with the receipt of its old settings.
-  CHECK(reasons ==
-        std::multiset<std::string>{"job.yaml:1:1: error: sim broke; correct it",
-                                   "dresslife-sim was broken off: ninja was ended by signal 9; run again",
-                                   "dresslife-sim was broken off: ninja was ended by signal 9; run again",
-                                   "it was not reached: ninja was ended by signal 9; run again"});
+  CHECK(reasons == std::multiset<std::string>{"job.yaml:1:1: error: sim broke; correct it",
+                                              "dresslife-sim was broken off: ninja was ended by signal 9; run again",
+                                              "dresslife-sim was broken off: ninja was ended by signal 9; run again",
+                                              "it was not reached: ninja was ended by signal 9; run again"});
   fs::remove(bench.places().job("a") / "fail-sim");
   for (const char* job : {"b", "c", "d"}) fs::remove(bench.places().job(job) / "wait-sim");
   bench.run(changed);
@@ -606,9 +604,7 @@ TEST_CASE("build graph: a damaged or foreign result is named and made again") {
   Bench bench;
   const Study study = bench.study({{"one", "simulation.segments=20"}, {"two", "simulation.segments=40"}});
   bench.run(study);
-  const auto file = [&](const std::string& job, const std::string& name) {
-    return bench.places().job(job) / name;
-  };
+  const auto file = [&](const std::string& job, const std::string& name) { return bench.places().job(job) / name; };
   for (const char* name : {"motion.h5", "strain.h5", "life.h5"}) {
     const std::string whole = bytes_of(file("one", name));
     const auto time = fs::last_write_time(file("one", name));
@@ -618,8 +614,7 @@ TEST_CASE("build graph: a damaged or foreign result is named and made again") {
          {damaged, whole.substr(0, whole.size() / 2), bytes_of(file("two", name)), std::string()}) {
       std::ofstream(file("one", name), std::ios::binary | std::ios::trunc) << other;
       fs::last_write_time(file("one", name), time);  // restores the date, so that only the content differs
-      CHECK(bench.words(study)[0] ==
-            fmt::format("damaged  {} is not what its stage wrote; run makes it again", name));
+      CHECK(bench.words(study)[0] == fmt::format("damaged  {} is not what its stage wrote; run makes it again", name));
       bench.run(study);
       CHECK(bench.words(study) == Words{"done", "done"});
       CHECK(bytes_of(file("one", name)) == whole);

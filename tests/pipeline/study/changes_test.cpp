@@ -24,10 +24,8 @@ TEST_CASE("changes: keys by their paths, in the order of the settings as they we
   CHECK(between("routing: {free_length_m: 2.035}\nfatigue: {stress: cyclic}\n",
                 "fatigue: {stress: elastic}\nrouting: {free_length_m: 2.1}\n") ==
         Lines{"routing.free_length_m 2.035 -> 2.1", "fatigue.stress cyclic -> elastic"});
-  CHECK(between("a: {old: 1}\n", "a: {new: {b: 1, c: 2}}\n") ==
-        Lines{"a.old 1 -> nothing", "a.new nothing -> 2 keys"});
-  CHECK(between("clamp: {at: [0, 1, 2]}\n", "clamp: {at: [0, 1, 3]}\n") ==
-        Lines{"clamp.at [0, 1, 2] -> [0, 1, 3]"});
+  CHECK(between("a: {old: 1}\n", "a: {new: {b: 1, c: 2}}\n") == Lines{"a.old 1 -> nothing", "a.new nothing -> 2 keys"});
+  CHECK(between("clamp: {at: [0, 1, 2]}\n", "clamp: {at: [0, 1, 3]}\n") == Lines{"clamp.at [0, 1, 2] -> [0, 1, 3]"});
   CHECK(between("factor: 0.6129078387471198\n", "factor: 1\n") == Lines{"factor 0.612908 -> 1"});
   CHECK(between("factor: 1.0000000001\n", "factor: 1\n") == Lines{"factor 1.0000000001 -> 1"});
 }
@@ -66,7 +64,8 @@ TEST_CASE("changes: a search ends when a file that its jobs read changes, goes o
   CHECK(ended() == (scratch / "weld.dat").string() + ": error: was removed" + correct);
 }
 
-TEST_CASE("changes: files and programs of a stale job are compared with those of its receipts, of the last stages that belong together") {
+TEST_CASE(
+    "changes: files and programs of a stale job are compared with those of its receipts, of the last stages that belong together") {
   const Scratch scratch;
   Study study{"s", {}, Keep::all};
   const StudyPlaces places{scratch / "s", scratch / "bin"};
@@ -74,11 +73,14 @@ TEST_CASE("changes: files and programs of a stale job are compared with those of
   fs::create_directories(folder), fs::create_directories(places.programs);
   study.jobs.push_back({"one", nullptr, ""});
   scratch.write("s/one/job.yaml", "a: 1\n");
-  const auto file = [&](const std::string& name, const std::string& text) { return Digests().of(scratch.write(name, text)); };
+  const auto file = [&](const std::string& name, const std::string& text) {
+    return Digests().of(scratch.write(name, text));
+  };
   using Made = std::vector<std::pair<std::string, std::string>>;
-  const std::array<Made, stage_count> made{Made{{"dresslife-sim", file("bin/dresslife-sim", "1")}, {"../../weld.src", file("weld.src", "DEF")}},
-                                           Made{{"dresslife-strain", file("bin/dresslife-strain", "2")}},
-                                           Made{{"dresslife-fatigue", file("bin/dresslife-fatigue", "3")}}};
+  const std::array<Made, stage_count> made{
+      Made{{"dresslife-sim", file("bin/dresslife-sim", "1")}, {"../../weld.src", file("weld.src", "DEF")}},
+      Made{{"dresslife-strain", file("bin/dresslife-strain", "2")}},
+      Made{{"dresslife-fatigue", file("bin/dresslife-fatigue", "3")}}};
   const auto note = [&](std::size_t stage, const std::string& input, const std::string& output) {
     Receipt receipt{"recipe", input, output, {}};
     receipt.made_with = made[stage];
@@ -91,14 +93,17 @@ TEST_CASE("changes: files and programs of a stale job are compared with those of
     report_changes(study, places, states);
     return states[0].changed;
   };
-  const std::string nothing = "its settings have changed (keep: lives keeps no old ones)", weld = (scratch / "weld.src").string();
+  const std::string nothing = "its settings have changed (keep: lives keeps no old ones)",
+                    weld = (scratch / "weld.src").string();
   CHECK(changed() == nothing);
   scratch.write("weld.src", "DEF weld");
   CHECK(changed() == weld + " has changed");
   fs::remove(scratch / "weld.src");
   CHECK(changed() == weld + " is gone");
-  scratch.write("bin/dresslife-fatigue", "4"), scratch.write("bin/dresslife-sim", "4"), scratch.write("bin/dresslife-strain", "4");
-  CHECK(changed() == weld + " is gone; dresslife-sim is another program; dresslife-strain is another program; and 1 more");
+  scratch.write("bin/dresslife-fatigue", "4"), scratch.write("bin/dresslife-sim", "4"),
+      scratch.write("bin/dresslife-strain", "4");
+  CHECK(changed() ==
+        weld + " is gone; dresslife-sim is another program; dresslife-strain is another program; and 1 more");
   note(0, "-", "motion of another run");  // the simulation ran again since
   CHECK(changed() == "dresslife-strain is another program; dresslife-fatigue is another program");
 }
@@ -113,7 +118,8 @@ TEST_CASE("changes: keys of names and sources are named last, as they change no 
   life.segments = 4, life.lines = 1, life.samples = 3;
   life.job = "robot: {name: a, source: b}\nfatigue: {source: c}\nstrain: {gate: 1, slip: free}\n";
   write_sample_life(places.life("one"), life);
-  scratch.write("s/one/job.yaml", "robot: {name: z, source: z}\nfatigue: {source: z}\nstrain: {gate: 2, slip: stick}\n");
+  scratch.write("s/one/job.yaml",
+                "robot: {name: z, source: z}\nfatigue: {source: z}\nstrain: {gate: 2, slip: stick}\n");
   std::vector<JobState> states(2);
   states[0].has_last = true;
   report_changes(study, places, states);

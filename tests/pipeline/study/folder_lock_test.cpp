@@ -1,5 +1,5 @@
-#include "pipeline/base/plain_file.h"
 #include "pipeline/study/folder_lock.h"
+#include "pipeline/base/plain_file.h"
 
 #include <fmt/format.h>
 #include <sys/wait.h>
@@ -15,8 +15,7 @@
 
 namespace dresslife::pipeline {
 
-TEST_CASE(
-    "folder lock: reports every owner in equally many bytes, because a full disk has no room for more") {
+TEST_CASE("folder lock: reports every owner in equally many bytes, because a full disk has no room for more") {
   const Scratch scratch;
   const std::filesystem::path folder = scratch / "study";
   { const FolderLock alone(folder); }
@@ -31,7 +30,9 @@ TEST_CASE(
 TEST_CASE("folder lock: a run that lives excludes others by its number, and one that ended is waited for") {
   const Scratch scratch;
   const std::filesystem::path folder = scratch / "study";
-  const auto refusal = [&](FolderLock::Mode mode) { return message_of([&] { const FolderLock beside(folder, mode); }); };
+  const auto refusal = [&](FolderLock::Mode mode) {
+    return message_of([&] { const FolderLock beside(folder, mode); });
+  };
   using enum FolderLock::Mode;
   const std::string remedy = "; wait for it, or choose another folder with -o";
   for (const auto& [held, owner] : {std::pair(alone, fmt::format("another run (process {})", ::getpid())),

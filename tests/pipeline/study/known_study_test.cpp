@@ -87,7 +87,8 @@ TEST_CASE("known study: its jobs are read back as the study expands them") {
   read_jobs(known);
   const StudyState made_again = expanded(bench.request());
   REQUIRE(known.study.jobs.size() == 3);
-  for (std::size_t k = 0; k < 3; ++k) CHECK(job_text(*known.study.jobs[k].job) == job_text(*made_again.study.jobs[k].job));
+  for (std::size_t k = 0; k < 3; ++k)
+    CHECK(job_text(*known.study.jobs[k].job) == job_text(*made_again.study.jobs[k].job));
   CHECK(known.study.jobs[0].job == known.study.jobs[1].job);  // the same recipes
   CHECK(known.study.jobs[0].job != known.study.jobs[2].job);
 }
@@ -129,18 +130,15 @@ TEST_CASE("known study: a note that could expand to something else is not used")
   forgets("an entry nearer to the job", [](Bench& bench) {  // the search did not find it there before
     bench.scratch().write("materials/own.yaml", "from: copper\nname: own\nfatigue_ductility: 0.5\n");
   });
-  forgets("a stage", [](Bench& bench) {
-    std::ofstream(bench.scratch() / "programs/dresslife-fatigue", std::ios::app) << "more";
-  });
-  forgets("a job's settings",
-          [](Bench& bench) { bench.scratch().write("runs/study/segments=20/job.yaml", "mine\n"); });
+  forgets("a stage",
+          [](Bench& bench) { std::ofstream(bench.scratch() / "programs/dresslife-fatigue", std::ios::app) << "more"; });
+  forgets("a job's settings", [](Bench& bench) { bench.scratch().write("runs/study/segments=20/job.yaml", "mine\n"); });
   forgets("its own bytes", [](Bench& bench) {
     std::string bytes = bytes_of(bench.scratch() / "runs/study/.stage/study");
     bytes[bytes.size() / 2] ^= 1;
     bench.scratch().write("runs/study/.stage/study", bytes);
   });
-  forgets("another catalogue",
-          [](Bench&) { ::setenv("DRESSLIFE_CONFIG", DRESSLIFE_SOURCE_DIR "/config/", 1); });
+  forgets("another catalogue", [](Bench&) { ::setenv("DRESSLIFE_CONFIG", DRESSLIFE_SOURCE_DIR "/config/", 1); });
   ::unsetenv("DRESSLIFE_CONFIG");
   forgets("a job that cannot be run", [](Bench& bench) {
     bench.scratch().write("study.yaml", "base: job.yaml\nvary: {simulation.segments: [20, -1]}\n");

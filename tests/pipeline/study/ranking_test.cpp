@@ -1,7 +1,7 @@
 #include "pipeline/study/ranking.h"
+#include "pipeline/study/mode_table.h"
 #include "pipeline/study/ranking_columns.h"
 #include "pipeline/study/row_warnings.h"
-#include "pipeline/study/mode_table.h"
 #include "pipeline/study/row_words.h"
 
 #include <algorithm>
@@ -124,13 +124,12 @@ TEST_CASE("ranking: a row holds what the life file says") {
 
 TEST_CASE("ranking: a missing or damaged life file is a failed job with its reason") {
   const Scratch scratch;
-  const auto rows =
-      read_ranking({{"lost", scratch / "lost.h5", ""}, {"cut", scratch.write("cut.h5", "no file"), ""}});
+  const auto rows = read_ranking({{"lost", scratch / "lost.h5", ""}, {"cut", scratch.write("cut.h5", "no file"), ""}});
   CHECK(rows[0].failure ==
         (scratch / "cut.h5").string() +
             ": error: is not an HDF5 file, or is cut off; make the file again with dresslife-fatigue, then run again");
-  CHECK(rows[1].failure == (scratch / "lost.h5").string() +
-                               ": error: is not there; check the path, or make it with dresslife-fatigue");
+  CHECK(rows[1].failure ==
+        (scratch / "lost.h5").string() + ": error: is not there; check the path, or make it with dresslife-fatigue");
   CHECK(read_ranking({}).empty());
 }
 
@@ -252,16 +251,14 @@ TEST_CASE("ranking: last results of stale jobs stand behind those of now, marked
   for (const auto& cells : table) CHECK(cells.size() == table[0].size());
   CHECK(table[1][12] == "done");
   CHECK(table[2][12] == "stale");
-  CHECK(
-      table[2][13] ==
-      "stale: with the present settings it failed: too short; since this result routing.free_length_m 2 -> 2.1");
+  CHECK(table[2][13] ==
+        "stale: with the present settings it failed: too short; since this result routing.free_length_m 2 -> 2.1");
   CHECK(table[3][1] == "900");
   CHECK(table[3][13] == "stale: since this result routing.free_length_m 2 -> 2.1");
   CHECK(table[4][12] == "failed");
 }
 
-TEST_CASE(
-    "ranking: no text of the CSV is a formula or acts on a terminal, and a job that waits has not failed") {
+TEST_CASE("ranking: no text of the CSV is a formula or acts on a terminal, and a job that waits has not failed") {
   const Scratch scratch;
   SampleLife awkward = living(12000);
   awkward.worst_component = "=HYPERLINK(\"x\")";
@@ -288,9 +285,8 @@ TEST_CASE("ranking: the hose's wall has columns and a line of its own and does n
   with_hose.hose_hours = 2.5;
   SampleLife sound = living(11000);
   sound.hose_hours = infinity;
-  const auto rows =
-      read_ranking({job_with(scratch, "short hose", with_hose), job_with(scratch, "sound", sound),
-                    job_with(scratch, "unknown", living(10000))});
+  const auto rows = read_ranking({job_with(scratch, "short hose", with_hose), job_with(scratch, "sound", sound),
+                                  job_with(scratch, "unknown", living(10000))});
   CHECK(names(rows) == std::vector<std::string>{"short hose", "sound", "unknown"});
   REQUIRE(rows[0].unvalidated_mode(UnvalidatedMode::wall));
   CHECK(rows[2].unvalidated.empty());
@@ -322,9 +318,11 @@ TEST_CASE("ranking: a wall's life by a law that contradicts the published test i
   };
   CHECK(line(1.08e6, 0.37).hours == std::array<std::string, 3>{"-", "-", "-"});
   CHECK(!line(1.08e6, 0.37).early);
-  CHECK_THAT(line(1.08e6, 0.37).note,
-             Catch::StartsWith("Not predicted: the only known law gives 1,080,000 bends from straight to the limit of the bend radius, and a "
-                               "published hose endured 16,000,000 without damage. Keep the maker's bend radius."));
+  CHECK_THAT(
+      line(1.08e6, 0.37).note,
+      Catch::StartsWith(
+          "Not predicted: the only known law gives 1,080,000 bends from straight to the limit of the bend radius, and a "
+          "published hose endured 16,000,000 without damage. Keep the maker's bend radius."));
   for (const auto& [bends, hours, shown] : {std::tuple{17e6, 0.37, "0.370"},  // the law agrees with the test
                                             {0.0, 0.37, "0.370"},             // unknown, as in older files
                                             {1.08e6, 2e5, "over 40,000"}}) {
@@ -361,14 +359,19 @@ TEST_CASE("ranking: abrasion has words and columns, and the first action names i
   rubs.unvalidated = unvalidated_text({worn}), free.unvalidated = unvalidated_text({untouched});
   SampleLife broken = living(9000);
   broken.unvalidated = "abrasion\tx\n";
-  const auto rows = read_ranking({job_with(scratch, "rubs", rubs), job_with(scratch, "free", free),
-                                  job_with(scratch, "broken", broken)});
+  const auto rows = read_ranking(
+      {job_with(scratch, "rubs", rubs), job_with(scratch, "free", free), job_with(scratch, "broken", broken)});
   CHECK(rows[2].failure.find("attribute 'unvalidated_modes' is no list of modes") != std::string::npos);
-  CHECK(action_words(rows[0]) ==
-        "The hose may wear through on link_4, 0.13 m from the tool, after 300 .. 51,000 h (10 .. 90 %, not validated): inspect it there from 300 h on. "
-        "The wires last longer than the robot (40,000 h). Not evaluated: water hose, kinks.");
+  CHECK(
+      action_words(rows[0]) ==
+      "The hose may wear through on link_4, 0.13 m from the tool, after 300 .. 51,000 h (10 .. 90 %, not validated): inspect it there from 300 h on. "
+      "The wires last longer than the robot (40,000 h). Not evaluated: water hose, kinks.");
   const std::string both = ranking_table(rows, 200);
-  CHECK_THAT(both, Catch::Contains("*over 40,000") && Catch::Contains("* Plan with this number, and inspect for modes that are not validated. rubs, abrasion: from 300 h."));
+  CHECK_THAT(
+      both,
+      Catch::Contains("*over 40,000") &&
+          Catch::Contains(
+              "* Plan with this number, and inspect for modes that are not validated. rubs, abrasion: from 300 h."));
   CHECK(both.find("*over 40,000") == both.rfind("*over 40,000"));  // only the row with rubbing
   CHECK(action_words(rows[1]) ==
         "The evaluated parts last longer than the robot (40,000 h). Not evaluated: water hose, kinks.");
@@ -380,7 +383,8 @@ TEST_CASE("ranking: abrasion has words and columns, and the first action names i
   CHECK(lines[1].before_wires == "43 %");
   CHECK(lines[1].with_it == "280");
   CHECK(lines[1].from_tool + " " + lines[1].time + " " + lines[1].step == "0.13 2.5 weld spot");
-  CHECK_THAT(ranking_table({rows[0]}), Catch::Contains("abrasion: A check finds it.") && !Catch::Contains("Plan with this number"));
+  CHECK_THAT(ranking_table({rows[0]}),
+             Catch::Contains("abrasion: A check finds it.") && !Catch::Contains("Plan with this number"));
   CHECK(mode_lines(rows[1])[1].mode == "abrasion†: nothing rubs");
   const auto table = read_csv(ranking_csv(rows));
   const auto column = [&](const std::string& name) {
@@ -407,9 +411,10 @@ TEST_CASE("ranking: jacket wear has words and columns, and the first action name
   SampleLife rubs = living(12000);
   rubs.planned_hours = 1e5, rubs.robot_life_hours = 40000, rubs.unvalidated = unvalidated_text({worn});
   const auto rows = read_ranking({job_with(scratch, "rubs", rubs)});
-  CHECK(action_words(rows[0]) ==
-        "The jacket of signal cable 3 may wear through in the hose, 0.13 m from the tool, after 300 .. 51,000 h (10 .. 90 %, not "
-        "validated): open the hose there from 300 h on. The wires last longer than the robot (40,000 h). Not evaluated: water hose, kinks.");
+  CHECK(
+      action_words(rows[0]) ==
+      "The jacket of signal cable 3 may wear through in the hose, 0.13 m from the tool, after 300 .. 51,000 h (10 .. 90 %, not "
+      "validated): open the hose there from 300 h on. The wires last longer than the robot (40,000 h). Not evaluated: water hose, kinks.");
   UnvalidatedMode abraded = worn;
   abraded.mode = UnvalidatedMode::abrasion, abraded.place = "link_4", abraded.hours = {25000, 90000, 1e6};
   UnvalidatedMode late = worn;
@@ -417,22 +422,29 @@ TEST_CASE("ranking: jacket wear has words and columns, and the first action name
   SampleLife both = rubs;
   both.unvalidated = unvalidated_text({abraded, worn, late});
   const auto listed = read_ranking({job_with(scratch, "both", both)});
-  CHECK_THAT(action_words(listed[0]), Catch::Contains("51,000 h (10 .. 90 %, not validated): open the hose there from 300 h on. Inspect also for: abrasion: from "
-                                                      "25,000 h. The wires last longer"));
-  CHECK(marks_note(listed) ==
-        "* Plan with this number, and inspect for modes that are not validated. jacket wear: from 300 h, abrasion: from 25,000 h.");
+  CHECK_THAT(
+      action_words(listed[0]),
+      Catch::Contains(
+          "51,000 h (10 .. 90 %, not validated): open the hose there from 300 h on. Inspect also for: abrasion: from "
+          "25,000 h. The wires last longer"));
+  CHECK(
+      marks_note(listed) ==
+      "* Plan with this number, and inspect for modes that are not validated. jacket wear: from 300 h, abrasion: from 25,000 h.");
   // A row that is not valid for planning is not marked as one.
   auto marked = read_ranking({job_with(scratch, "both", both), job_with(scratch, "bent", both)});
   marked[1].warnings = std::vector<Warning>{{WarningKind::bend_radius, "", "smallest bend radius"}};
   CHECK(plan_mark(marked[0]) == "*");
   CHECK(plan_mark(marked[1]) == "!");
-  CHECK(marks_note(marked) ==
-        fmt::format("* Plan with this number, and inspect for modes that are not validated. {}, jacket wear: from 300 h, abrasion: from "
-                    "25,000 h. ! Do not plan with this number before its warnings are cured. {}, bend radius.",
-                    marked[0].job, marked[1].job));
+  CHECK(
+      marks_note(marked) ==
+      fmt::format(
+          "* Plan with this number, and inspect for modes that are not validated. {}, jacket wear: from 300 h, abrasion: from "
+          "25,000 h. ! Do not plan with this number before its warnings are cured. {}, bend radius.",
+          marked[0].job, marked[1].job));
   const std::string printed = ranking_table(marked);
   CHECK_THAT(printed, Catch::Contains("*over 40,000") && Catch::Contains("!over 40,000"));
-  CHECK_THAT(unvalidated_legend(marked), Catch::Contains("* marks jobs in which one of them may come first: jacket wear in 1 job."));
+  CHECK_THAT(unvalidated_legend(marked),
+             Catch::Contains("* marks jobs in which one of them may come first: jacket wear in 1 job."));
   CHECK(line_of(worn).mode == "jacket wear† of signal cable 3");
   CHECK(line_of(worn).hours[0] == "300");
   CHECK(line_of(still).mode == "jacket wear†: nothing rubs");
@@ -450,19 +462,23 @@ TEST_CASE("ranking: a corkscrew has words and columns, also if none occurs") {
   const Scratch scratch;
   UnvalidatedMode coil;
   coil.mode = UnvalidatedMode::corkscrew, coil.hours = {300, 600, 1200}, coil.first_share = 1, coil.together_p10 = 300;
-  coil.position_from_tool = 0.4, coil.place = "signal cable 2", coil.time = 2, coil.note = "A repeat leaves 10 degrees of twist.";
+  coil.position_from_tool = 0.4, coil.place = "signal cable 2", coil.time = 2,
+  coil.note = "A repeat leaves 10 degrees of twist.";
   SampleLife life = living(12000);
   life.planned_hours = 1e5, life.robot_life_hours = 40000, life.unvalidated = unvalidated_text({coil});
   const auto rows = read_ranking({job_with(scratch, "coiled", life)});
-  CHECK_THAT(action_words(rows[0]), Catch::Contains("Twist may wind signal cable 2 into a corkscrew in the hose, 0.40 m from the tool, "
-                                                    "after 300 .. 1,200 h (10 .. 90 %, not validated): open the hose there."));
+  CHECK_THAT(action_words(rows[0]),
+             Catch::Contains("Twist may wind signal cable 2 into a corkscrew in the hose, 0.40 m from the tool, "
+                             "after 300 .. 1,200 h (10 .. 90 %, not validated): open the hose there."));
   CHECK(line_of(coil).mode == "corkscrew† of signal cable 2");
   CHECK(line_of(coil).hours == std::array<std::string, 3>{"300", "600", "1,200"});
   CHECK(line_of(coil).note == "A repeat leaves 10 degrees of twist.");
   coil.hours[2] = std::numeric_limits<double>::infinity();
   life.unvalidated = unvalidated_text({coil});
-  CHECK_THAT(action_words(read_ranking({job_with(scratch, "some", life)})[0]),
-             Catch::Contains("0.40 m from the tool, in 1 of 10 dresspacks after 300 h, and in some never (not validated): open the hose there."));
+  CHECK_THAT(
+      action_words(read_ranking({job_with(scratch, "some", life)})[0]),
+      Catch::Contains(
+          "0.40 m from the tool, in 1 of 10 dresspacks after 300 h, and in some never (not validated): open the hose there."));
   const auto table = read_csv(ranking_csv(rows));
   const auto column = std::find(table[0].begin(), table[0].end(), "corkscrew_life_hours_p10");
   REQUIRE(column != table[0].end());
@@ -475,13 +491,15 @@ TEST_CASE("ranking: a corkscrew has words and columns, also if none occurs") {
 TEST_CASE("ranking: a kink has words and columns, also if none occurs") {
   const Scratch scratch;
   UnvalidatedMode kink;
-  kink.mode = UnvalidatedMode::kink, kink.hours = {0.01, 0.01, infinity}, kink.first_share = 0.7, kink.together_p10 = 0.01;
+  kink.mode = UnvalidatedMode::kink, kink.hours = {0.01, 0.01, infinity}, kink.first_share = 0.7,
+  kink.together_p10 = 0.01;
   kink.position_from_tool = 0.4, kink.place = "air hose", kink.time = 2, kink.margin = 0.88;
   kink.note = "Its tightest bend has a radius of 25 mm. By its two diameters half of such tubes kink at 28.5 mm.";
   SampleLife life = living(12000);
   life.planned_hours = 1e5, life.robot_life_hours = 40000, life.unvalidated = unvalidated_text({kink});
   const auto rows = read_ranking({job_with(scratch, "kinked", life)});
-  CHECK_THAT(action_words(rows[0]), Catch::Contains("air hose may kink in the hose, 0.40 m from the tool. Its tightest bend has"));
+  CHECK_THAT(action_words(rows[0]),
+             Catch::Contains("air hose may kink in the hose, 0.40 m from the tool. Its tightest bend has"));
   CHECK(line_of(kink).mode == "kink† of air hose");
   CHECK(line_of(kink).hours == std::array<std::string, 3>{"0.0100", "0.0100", "none"});
   CHECK(line_of(kink).note == kink.note);
@@ -504,9 +522,10 @@ TEST_CASE("ranking: ratings have words and columns, and the first action names a
   life.planned_hours = 1e5, life.robot_life_hours = 40000;
   life.unvalidated = unvalidated_text({rated});
   const auto rows = read_ranking({job_with(scratch, "rated", life)});
-  CHECK(action_words(rows[0]) ==
-        "The maker's rating of power cable covers only 5,000 .. 16,000 h (10 .. 90 %, not validated): test or replace it by then. The "
-        "wires last longer than the robot (40,000 h). Not evaluated: water hose, kinks.");
+  CHECK(
+      action_words(rows[0]) ==
+      "The maker's rating of power cable covers only 5,000 .. 16,000 h (10 .. 90 %, not validated): test or replace it by then. The "
+      "wires last longer than the robot (40,000 h). Not evaluated: water hose, kinks.");
   CHECK(mode_lines(rows[0])[1].mode == "maker's rating† of power cable");
   CHECK(mode_lines(rows[0])[1].note == "A lower bound of its life. 20 % of that is twist.");
   const auto table = read_csv(ranking_csv(rows));
@@ -522,8 +541,7 @@ TEST_CASE("ranking: ratings have words and columns, and the first action names a
 
 TEST_CASE("ranking: the relative life of a rated cable has columns and words, empty without a rating") {
   const Scratch scratch;
-  auto rows =
-      read_ranking({job_with(scratch, "rated", living(12000)), job_with(scratch, "unrated", living(10000))});
+  auto rows = read_ranking({job_with(scratch, "rated", living(12000)), job_with(scratch, "unrated", living(10000))});
   rows[0].relative = RelativeLife{"lead", "torsion: twist_deg_per_m 180", 1250, 5e6};
   const auto table = read_csv(ranking_csv(rows));
   const auto title = std::find(table[0].begin(), table[0].end(), "rated_cycles_per_hour");
@@ -533,18 +551,17 @@ TEST_CASE("ranking: the relative life of a rated cable has columns and words, em
   CHECK(table[1][at + 1] == "4000");
   CHECK(table[1][at + 2] == "lead");
   CHECK((table[2][at] + table[2][at + 1] + table[2][at + 2]).empty());
-  CHECK(ranking_table(rows).find(
-            "\n   one hour does the damage of 1,250 rated cycles of lead; 5,000,000 rated: 4,000 h "
-            "(torsion: twist_deg_per_m 180)\n") != std::string::npos);
+  CHECK(
+      ranking_table(rows).find("\n   one hour does the damage of 1,250 rated cycles of lead; 5,000,000 rated: 4,000 h "
+                               "(torsion: twist_deg_per_m 180)\n") != std::string::npos);
   rows[0].relative->cycles_per_hour = 0;
   CHECK(relative_words(*rows[0].relative).ends_with("rated: no damage (torsion: twist_deg_per_m 180)"));
 }
 
 TEST_CASE("ranking: what the mesh of loose cables leaves out has a column, empty where none lies loose") {
   const Scratch scratch;
-  auto rows = read_ranking({job_with(scratch, "loose", living(12000)),
-                            job_with(scratch, "held", living(10000)),
-                            {"broken", "", "why"}});
+  auto rows = read_ranking(
+      {job_with(scratch, "loose", living(12000)), job_with(scratch, "held", living(10000)), {"broken", "", "why"}});
   rows[0].loose_mesh_error = 0.0125;
   const auto table = read_csv(ranking_csv(rows));
   const auto title = std::find(table[0].begin(), table[0].end(), "loose_mesh_error");
@@ -584,20 +601,19 @@ TEST_CASE("ranking: the terminal's table is aligned, within its width, and says 
   CHECK(up_to(all[4], "replace after [h]").ends_with(" " + readable(rows[2].life_hours)));
   CHECK(all[5].find("failed") != std::string::npos);
   CHECK(table.find("\n\neasy\n   No replacement is foreseen: no wire is damaged.\n") != std::string::npos);
-  CHECK(table.find("\n\nrobot 1\n   The worst wire is signal cable 3/conductor 2/layer 1/wire 17, ") != std::string::npos);
+  CHECK(table.find("\n\nrobot 1\n   The worst wire is signal cable 3/conductor 2/layer 1/wire 17, ") !=
+        std::string::npos);
   CHECK(std::regex_replace(table, std::regex("\n +"), " ").find("outermost layer 1/wire 17") != std::string::npos);
   CHECK(table.find("...") == std::string::npos);
   CHECK(table.find("\n\nshort\n   job.yaml:3:1: error: too short; make it longer\n") != std::string::npos);
 }
 
-TEST_CASE(
-    "ranking: jobs are ranked and reported by the life that 10 % do not reach, older files by their worst wire") {
+TEST_CASE("ranking: jobs are ranked and reported by the life that 10 % do not reach, older files by their worst wire") {
   const Scratch scratch;
   SampleLife weak = living(20000), strong = living(10000);
   weak.planned_hours = 50, strong.planned_hours = 60;
-  const auto rows =
-      read_ranking({job_with(scratch, "long worst wire", weak), job_with(scratch, "strong", strong),
-                    job_with(scratch, "old", living(10000))});
+  const auto rows = read_ranking({job_with(scratch, "long worst wire", weak), job_with(scratch, "strong", strong),
+                                  job_with(scratch, "old", living(10000))});
   REQUIRE(names(rows).size() == 3);
   const RankingRow& first = rows[rows[0].job == "old" ? 1 : 0];
   CHECK(first.job == "strong");
@@ -612,8 +628,7 @@ TEST_CASE(
 
   const auto table = read_csv(ranking_csv(rows));
   const auto cell = [&](const std::string& job, const std::string& column) {
-    const auto at =
-        static_cast<std::size_t>(std::find(table[0].begin(), table[0].end(), column) - table[0].begin());
+    const auto at = static_cast<std::size_t>(std::find(table[0].begin(), table[0].end(), column) - table[0].begin());
     for (const auto& cells : table)
       if (cells[0] == job) return cells.at(at);
     return std::string("no such job");
@@ -627,9 +642,14 @@ TEST_CASE(
   CHECK(cell("old", "life_months_p10").empty());
   const std::string text = ranking_table(rows);
   CHECK(text.find("replace after [h]") != std::string::npos);
-  CHECK(text.find("With the job's own values, by the scatter of wires alone, a first wire breaks after 15.0 .. 37.5 h (10 .. 90 %).") != std::string::npos);
-  CHECK_THAT(std::regex_replace(text, std::regex("\n +"), " "),
-             Catch::Contains("Fails first: wires of signal cable, in 75 % of the samples, likeliest signal cable 3/conductor 2, 0.75 m from the tool."));
+  CHECK(
+      text.find(
+          "With the job's own values, by the scatter of wires alone, a first wire breaks after 15.0 .. 37.5 h (10 .. 90 %).") !=
+      std::string::npos);
+  CHECK_THAT(
+      std::regex_replace(text, std::regex("\n +"), " "),
+      Catch::Contains(
+          "Fails first: wires of signal cable, in 75 % of the samples, likeliest signal cable 3/conductor 2, 0.75 m from the tool."));
   CHECK(cell("strong", "life_hours_p90_all_glued") == "15");
   CHECK(cell("strong", "life_hours_p10_all_free") == "600");
   CHECK(cell("strong", "failing_mode") == "wires of signal cable");
@@ -663,10 +683,12 @@ TEST_CASE("ranking: how sure an order is, what makes a life uncertain, and what 
   CHECK(rows[0].scatter_hours[1] == Approx(150));
   CHECK(rows[0].headline_hours() == 60);
   const std::string table = ranking_table(rows);
-  CHECK(std::regex_replace(table, std::regex("\n +"), " ")
-            .find("53 % of the uncertainty is the friction inside the cables. One bending test of a cable (one hour) would "
-                  "narrow the range from 60.0 .. 150 h to about 66.0 .. 102 h, if it confirms today's estimate.") !=
-        std::string::npos);
+  CHECK(
+      std::regex_replace(table, std::regex("\n +"), " ")
+          .find(
+              "53 % of the uncertainty is the friction inside the cables. One bending test of a cable (one hour) would "
+              "narrow the range from 60.0 .. 150 h to about 66.0 .. 102 h, if it confirms today's estimate.") !=
+      std::string::npos);
   CHECK(table.find("\n   Lives longer than the next job in 100 of 100 samples.\n") != std::string::npos);
   const auto csv = read_csv(ranking_csv(rows));
   CHECK(csv[0].size() == csv[1].size());
@@ -698,8 +720,10 @@ TEST_CASE("ranking: jobs that cannot be separated share a rank, those that can d
   };
   first.life_response = uncertain(4.5, "a"), second.life_response = uncertain(4.4, "b");
   third.life_response = uncertain(2, "c");
-  const auto rows = read_ranking({job_with(scratch, "first", first), job_with(scratch, "second", second),
-                                  job_with(scratch, "third", third), {"broken", "", "why"}});
+  const auto rows = read_ranking({job_with(scratch, "first", first),
+                                  job_with(scratch, "second", second),
+                                  job_with(scratch, "third", third),
+                                  {"broken", "", "why"}});
   REQUIRE(names(rows) == std::vector<std::string>{"first", "second", "third", "broken"});
   CHECK(rows[0].rank == 1);
   CHECK(rows[1].rank == 1);
@@ -786,13 +810,16 @@ TEST_CASE("ranking: a life that equals one of its bounds is named, another one i
   CHECK_THAT(action_words(row), !Catch::Contains("bound"));
   row.life_repeats = row.life_repeats_all_free;
   row.estimates = "";  // no rating was evaluated under the job's slip: the best estimate may be longer
-  CHECK_THAT(action_words(row), Catch::Contains("equals its upper bound without the ratings of cable makers, at which nothing rubs") &&
-                                    Catch::Contains("If the job sets strain.slip, leave it out") &&
-                                    Catch::Contains("it may be longer than this life"));
+  CHECK_THAT(action_words(row),
+             Catch::Contains("equals its upper bound without the ratings of cable makers, at which nothing rubs") &&
+                 Catch::Contains("If the job sets strain.slip, leave it out") &&
+                 Catch::Contains("it may be longer than this life"));
   row.estimates = "uncertainty.ratings typical (strength x 1.2)";
-  CHECK_THAT(action_words(row), Catch::Contains("equals its upper bound, at which nothing rubs") && !Catch::Contains("ratings"));
+  CHECK_THAT(action_words(row),
+             Catch::Contains("equals its upper bound, at which nothing rubs") && !Catch::Contains("ratings"));
   row.life_repeats = row.life_repeats_all_stick;
-  CHECK_THAT(action_words(row), Catch::Contains("equals its lower bound, at which nothing slips") && !Catch::Contains("may be longer"));
+  CHECK_THAT(action_words(row),
+             Catch::Contains("equals its lower bound, at which nothing slips") && !Catch::Contains("may be longer"));
   row.life_repeats_all_free = 1.11 * row.life_repeats_all_stick;
   CHECK_THAT(action_words(row), Catch::Contains("equals its lower bound"));
   row.life_repeats_all_free = 1.09 * row.life_repeats_all_stick;  // no difference that matters
@@ -803,17 +830,22 @@ TEST_CASE("ranking: what the calculation leaves uncertain stands beside the caus
   const Scratch scratch;
   RankingRow row = read_ranking({job_with(scratch, "one", living(12000))}).front();
   row.planned_errors = {5.754, std::nan(""), 58.0};
-  CHECK_THAT(uncertainty_words(row),
-             Catch::Contains("numerical error, because lives change abruptly with stiffness, slack and friction, and only some values of these are computed: "
-                             "the 10 % value by a factor of 5.8, the 90 % value by a factor of 58.") && !Catch::Contains("50 % value"));
+  CHECK_THAT(
+      uncertainty_words(row),
+      Catch::Contains(
+          "numerical error, because lives change abruptly with stiffness, slack and friction, and only some values of these are computed: "
+          "the 10 % value by a factor of 5.8, the 90 % value by a factor of 58.") &&
+          !Catch::Contains("50 % value"));
   CHECK_THAT(uncertainty_words(row), !Catch::Contains("come to a cycle"));
   row.moving_places = 3;
-  CHECK_THAT(uncertainty_words(row), Catch::Contains("loose cables do not come to a cycle at 3 of the computed values"));
+  CHECK_THAT(uncertainty_words(row),
+             Catch::Contains("loose cables do not come to a cycle at 3 of the computed values"));
   row.planned_errors.fill(std::nan(""));
   CHECK_THAT(uncertainty_words(row), !Catch::Contains("by a factor of"));
 }
 
-TEST_CASE("ranking: a life beyond the robot's own is shown as such, with its hours below the table and in ranking.csv") {
+TEST_CASE(
+    "ranking: a life beyond the robot's own is shown as such, with its hours below the table and in ranking.csv") {
   const Scratch scratch;
   SampleLife life = living(500);
   life.robot_life_hours = 40000;
@@ -824,8 +856,12 @@ TEST_CASE("ranking: a life beyond the robot's own is shown as such, with its hou
   const auto long_lived = shown(50000), last_within = shown(40000), short_lived = shown(1000);
   const std::string table = ranking_table(long_lived, 200);
   CHECK_THAT(table, Catch::StartsWith("The evaluated parts last longer than the robot (40,000 h)."));
-  CHECK_THAT(table, Catch::Contains("over 40,000  over 9.6 years      over 40,000      over 40,000          5,000 .. over 40,000"));
-  CHECK_THAT(table, Catch::Contains("1 of 10 such dresspacks has failed after 50,000 h of motion (12 years), half after 75,000 h, 90 % after 125,000 h"));
+  CHECK_THAT(table, Catch::Contains(
+                        "over 40,000  over 9.6 years      over 40,000      over 40,000          5,000 .. over 40,000"));
+  CHECK_THAT(
+      table,
+      Catch::Contains(
+          "1 of 10 such dresspacks has failed after 50,000 h of motion (12 years), half after 75,000 h, 90 % after 125,000 h"));
   CHECK_THAT(table, Catch::Contains("Hours beyond the robot's life (40,000 h) only compare jobs."));
   CHECK_THAT(ranking_csv(long_lived), Catch::Contains("50000"));
   CHECK_THAT(ranking_table(last_within, 200), Catch::StartsWith("Plan a replacement after 40,000 h"));
@@ -838,12 +874,18 @@ TEST_CASE("ranking: samples that live a decade longer or shorter than with the j
   RankingRow row;
   CHECK(own_values_words(row) == "");
   row.first_wire_hours = {10, 20, 40}, row.scatter_hours = {30, 50, 80};
-  const std::string first = "With the job's own values, by the scatter of wires alone, a first wire breaks after 10.0 .. 40.0 h (10 .. 90 %).";
+  const std::string first =
+      "With the job's own values, by the scatter of wires alone, a first wire breaks after 10.0 .. 40.0 h (10 .. 90 %).";
   const double infinite = std::numeric_limits<double>::infinity();
-  for (const auto& [half, more] : {std::pair{400.0, std::string()}, {6.0, ""},
-                                   {7500.0, " Half of the samples live 150 times longer than with these values: most other values damage the wires less."},
-                                   {infinite, " Half of the samples are not damaged: most other values damage the wires less."},
-                                   {2.5, " Half of the samples fail 20 times sooner than with these values: most other values damage the wires more."}}) {
+  for (
+      const auto& [half, more] :
+      {std::pair{400.0, std::string()},
+       {6.0, ""},
+       {7500.0,
+        " Half of the samples live 150 times longer than with these values: most other values damage the wires less."},
+       {infinite, " Half of the samples are not damaged: most other values damage the wires less."},
+       {2.5,
+        " Half of the samples fail 20 times sooner than with these values: most other values damage the wires more."}}) {
     row.planned_hours = {1, half, infinite};
     CHECK(own_values_words(row) == first + more);
   }
@@ -855,14 +897,16 @@ TEST_CASE("ranking: the joint that a strain follows is no cause, and the words n
   row.worst_joint = "joint_4";
   for (const double share : {0.413, 1.29}) {
     row.worst_joint_share = share;
-    CHECK(joint_words(row) ==
-          "The strain of this wire follows joint_4 most. That is a correlation, no cause. This job without the axis shows what it costs: "
-          "dresslife run JOB -o held --set motion.hold_joint=joint_4");
+    CHECK(
+        joint_words(row) ==
+        "The strain of this wire follows joint_4 most. That is a correlation, no cause. This job without the axis shows what it costs: "
+        "dresslife run JOB -o held --set motion.hold_joint=joint_4");
   }
   row.worst_joint = "carrying";
-  CHECK(joint_words(row) ==
-        "The damage follows the swing of the hose more than the position of any axis. That is a correlation, no cause. This job without "
-        "the axis shows what it costs: dresslife run JOB -o held --set motion.hold_joint=AXIS");
+  CHECK(
+      joint_words(row) ==
+      "The damage follows the swing of the hose more than the position of any axis. That is a correlation, no cause. This job without "
+      "the axis shows what it costs: dresslife run JOB -o held --set motion.hold_joint=AXIS");
   CHECK(held_words(row).empty());
   row.held_joint = "joint_4";
   CHECK(joint_words(row).empty());
@@ -888,7 +932,8 @@ TEST_CASE("ranking: a small share of samples in which a mode comes first is not 
   UnvalidatedMode mode;
   mode.mode = UnvalidatedMode::corkscrew;
   mode.place = "signal cable 3";
-  for (const auto& [share, text] : {std::pair{0.0, "0 %"}, {0.0004, "under 0.1 %"}, {0.005, "0.5 %"}, {0.0096, "1 %"}, {0.574, "57 %"}}) {
+  for (const auto& [share, text] :
+       {std::pair{0.0, "0 %"}, {0.0004, "under 0.1 %"}, {0.005, "0.5 %"}, {0.0096, "1 %"}, {0.574, "57 %"}}) {
     mode.first_share = share;
     RankingRow row;
     row.unvalidated = {mode};
@@ -910,13 +955,11 @@ TEST_CASE("ranking: the legend explains none and - where a line has them") {
 
 TEST_CASE("ranking: warnings are counted, told in full, and each kind says whether it is as it should be") {
   const Scratch scratch;
-  auto rows =
-      read_ranking({job_with(scratch, "warned", living(12000)), job_with(scratch, "silent", living(10000)),
-                    job_with(scratch, "older", living(8000))});
-  rows[0].warnings =
-      std::vector<Warning>{{WarningKind::program, "a.mod:3", "skipped: \"SearchL\", and waits"},
-                           {WarningKind::program, "a.mod:9", "skipped: WaitSyncTask"},
-                           {WarningKind::twist, "", "largest twist: 200 deg/m"}};
+  auto rows = read_ranking({job_with(scratch, "warned", living(12000)), job_with(scratch, "silent", living(10000)),
+                            job_with(scratch, "older", living(8000))});
+  rows[0].warnings = std::vector<Warning>{{WarningKind::program, "a.mod:3", "skipped: \"SearchL\", and waits"},
+                                          {WarningKind::program, "a.mod:9", "skipped: WaitSyncTask"},
+                                          {WarningKind::twist, "", "largest twist: 200 deg/m"}};
   rows[1].warnings.emplace();
   const auto table = read_csv(ranking_csv(rows));
   const auto cell = [&](std::size_t row, const std::string& column) {
@@ -937,10 +980,9 @@ TEST_CASE("ranking: warnings are counted, told in full, and each kind says wheth
   CHECK(warning_kinds(rows[0]) == "skipped instructions x2, twist");
   CHECK(warning_kinds(rows[1]).empty());
   CHECK(ranking_table(rows).find("\n   WARNING: skipped instructions x2, twist\n") != std::string::npos);
-  CHECK(
-      warning_lines(rows) ==
-      "warned: warning: a.mod:3: skipped: \"SearchL\", and waits\nwarned: warning: a.mod:9: skipped: WaitSyncTask\n"
-      "warned: warning: largest twist: 200 deg/m\n");
+  CHECK(warning_lines(rows) ==
+        "warned: warning: a.mod:3: skipped: \"SearchL\", and waits\nwarned: warning: a.mod:9: skipped: WaitSyncTask\n"
+        "warned: warning: largest twist: 200 deg/m\n");
   const std::vector<RankingRow> many(5, rows[0]);  // 15 lines: the first of each kind represents the others
   CHECK(warning_lines(many) ==
         "5 jobs, skipped instructions: warned: warning: a.mod:3: skipped: \"SearchL\", and waits\n"
@@ -949,7 +991,8 @@ TEST_CASE("ranking: warnings are counted, told in full, and each kind says wheth
   std::vector<RankingRow> two = many;  // 6 of them do
   for (std::size_t k = 2; k < two.size(); ++k) two[k].warnings.emplace();
   two[0].warnings->insert(two[0].warnings->end(), 10, two[0].warnings->back());
-  CHECK_THAT(warning_lines(two), Catch::StartsWith("2 jobs, skipped instructions: ") && Catch::Contains("\n2 jobs, twist: "));
+  CHECK_THAT(warning_lines(two),
+             Catch::StartsWith("2 jobs, skipped instructions: ") && Catch::Contains("\n2 jobs, twist: "));
   two[1].warnings.emplace();
   CHECK_THAT(warning_lines(two), Catch::StartsWith("warned: ") && Catch::Contains("\nwarned: "));
 
@@ -961,8 +1004,11 @@ TEST_CASE("ranking: warnings are counted, told in full, and each kind says wheth
         "2 warnings on limits at other values: in ranking.csv, in the report and in the jobs' logs\n");
   // Of one job each is printed, and its first paragraph points to them.
   other[0].warnings->push_back({WarningKind::other_values, "", "bent with half the stiffness"});
-  CHECK(warning_lines({other[0]}) == "warned: warning: twist with half the slack\nwarned: warning: bent with half the stiffness\n");
-  CHECK_THAT(action_words(other[0]), Catch::Contains("With other stiffness, slack or friction some dresspacks exceed a limit (see the warnings)."));
+  CHECK(warning_lines({other[0]}) ==
+        "warned: warning: twist with half the slack\nwarned: warning: bent with half the stiffness\n");
+  CHECK_THAT(
+      action_words(other[0]),
+      Catch::Contains("With other stiffness, slack or friction some dresspacks exceed a limit (see the warnings)."));
   other[0].warnings.emplace();
   CHECK_THAT(action_words(other[0]), !Catch::Contains("see the warnings"));
 }

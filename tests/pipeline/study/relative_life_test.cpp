@@ -22,16 +22,19 @@ TEST_CASE("relative life: the conductors of a cable are those of its path, whate
   };
   constexpr double cycles = 7000, other = 50, sought = 20;  // of the rig; repeats of the program
   const RankingRow rig = row_of("rig", {{"core", 2 * cycles}, {"shield", cycles}});
-  const std::vector<std::string> ends{"", "/core", " 1", " 12/core 3", "/core/wire 2", "er", "er/core", " x/core", " /core", "1/core", " 1x/core", "/1"};
+  const std::vector<std::string> ends{"",        "/core",   " 1",     " 12/core 3", "/core/wire 2", "er",
+                                      "er/core", " x/core", " /core", "1/core",     " 1x/core",     "/1"};
   for (const std::string begin : {"lead", "upper/lead", "upper lead", "uppermost/lead", "upper 2/lead", "bus/lead"})
     for (const std::string& end : ends) {
-      const RankingRow row = row_of("job", {{begin + end, sought}, {"lead 7/core", other}, {"upper/lead 7/core", other}});
+      const RankingRow row =
+          row_of("job", {{begin + end, sought}, {"lead 7/core", other}, {"upper/lead 7/core", other}});
       for (const std::string dresspack : {"", "upper"}) {
         INFO(dresspack << ": " << begin << end);
         std::vector<RankingRow> rows{row};
         const RatedCable cable{"job", dresspack, "lead", "the lead", "rig", "torsion", 2e6};
         CHECK(relate({{}, {cable}}, {rig}, rows).empty());
-        const bool is_in = std::regex_match(begin + end, std::regex((dresspack.empty() ? "" : dresspack + "/") + "lead( [0-9]+)?(/.*)?"));
+        const bool is_in = std::regex_match(
+            begin + end, std::regex((dresspack.empty() ? "" : dresspack + "/") + "lead( [0-9]+)?(/.*)?"));
         REQUIRE(rows[0].relative);
         CHECK(rows[0].relative->cycles_per_hour == Approx(100 * cycles / (is_in ? sought : other)).epsilon(1e-12));
         CHECK(rows[0].relative->hours() == Approx(2e6 / rows[0].relative->cycles_per_hour).epsilon(1e-12));
@@ -48,7 +51,8 @@ TEST_CASE("relative life: the conductors of a cable are those of its path, whate
   endless.job = old.job = "rig";
   CHECK(relate({{}, {cable}}, {endless}, rows) ==
         std::vector<std::string>{begin + "the model sees no damage in its rig, to which a program could be related"});
-  CHECK(relate({{}, {cable}}, {old}, rows) == std::vector<std::string>{begin + "life.h5 does not say when conductors fail at one place"});
+  CHECK(relate({{}, {cable}}, {old}, rows) ==
+        std::vector<std::string>{begin + "life.h5 does not say when conductors fail at one place"});
   // Of two ratings the one that is reached sooner.
   RatedCable soon = cable;
   soon.rated_cycles = 1e6, soon.rig = "flex";

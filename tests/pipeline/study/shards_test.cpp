@@ -15,8 +15,11 @@ namespace {
 std::vector<Variant> variants_of(std::size_t count) {
   std::vector<Variant> variants;
   for (std::size_t k = 0; k < count; ++k) {
-    const auto change = [](const std::string& path, std::size_t value) { return Change{path, scalar(std::to_string(value)), {}}; };
-    variants.push_back({fmt::format("job{}", k), {change("routing.free_length_m", k % 3), change("fatigue.scale", k)}, {}});
+    const auto change = [](const std::string& path, std::size_t value) {
+      return Change{path, scalar(std::to_string(value)), {}};
+    };
+    variants.push_back(
+        {fmt::format("job{}", k), {change("routing.free_length_m", k % 3), change("fatigue.scale", k)}, {}});
   }
   return variants;
 }
@@ -45,8 +48,9 @@ TEST_CASE("shards: together they have every job once, with like simulations side
 TEST_CASE("shards: only the jobs of a shard are read, as in the whole study") {
   Scratch scratch;
   scratch.write("job.yaml", sample_job);
-  scratch.write("study.yaml", "base: job.yaml\njobs: {soft: {}, hard: {dresspack.bending_stiffness_Nm2: none}}\n"
-                              "vary: {strain.slip: [free, stick]}\n");
+  scratch.write("study.yaml",
+                "base: job.yaml\njobs: {soft: {}, hard: {dresspack.bending_stiffness_Nm2: none}}\n"
+                "vary: {strain.slip: [free, stick]}\n");
   const Study whole = read_study(scratch / "study.yaml");
   REQUIRE(whole.jobs.size() == 4);
   std::size_t k = 0;
@@ -85,8 +89,7 @@ TEST_CASE("shards: as many as keep each within what may be started, of the jobs 
 TEST_CASE("shards: words that are none are refused") {
   CHECK(shard_from("2/8", "--shard").name() == "2_of_8");
   CHECK(shard_from("8/8", "--shard").index == 8);
-  for (const char* text :
-       {"", "2", "2/", "/8", "0/8", "9/8", "-1/8", "2/8/9", "2 / 8", "2/99999999", "a/b"}) {
+  for (const char* text : {"", "2", "2/", "/8", "0/8", "9/8", "-1/8", "2/8/9", "2 / 8", "2/99999999", "a/b"}) {
     INFO(text);
     CHECK_THROWS_WITH(shard_from(text, "--shard"), Catch::Contains("is no shard") && Catch::Contains("K/N"));
   }

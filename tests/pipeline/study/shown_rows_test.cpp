@@ -38,8 +38,7 @@ TEST_CASE("shown rows: of a long ranking the best, the worst, the failed and the
   for (std::size_t k = 0; k < 10; ++k) wanted.push_back(1890 + k);
   for (std::size_t k = 0; k < 10; ++k) wanted.push_back(1900 + k);
   CHECK(shown.indices == wanted);
-  CHECK(shown.summary.starts_with(
-      "2000 jobs: 1900 done, 50 of them warned of, 100 not done; shown are the best 3, "));
+  CHECK(shown.summary.starts_with("2000 jobs: 1900 done, 50 of them warned of, 100 not done; shown are the best 3, "));
 
   const std::string table = ranking_table(rows);
   CHECK(std::count(table.begin(), table.end(), '\n') < 100);

@@ -32,8 +32,7 @@ std::string refusal(const std::string& text) {
 TEST_CASE("study: every combination of the varied values becomes a job, the last key fastest") {
   const Scratch scratch;
   const Study study = study_of(
-      scratch,
-      "base: job.yaml\nvary:\n  fatigue.stress: [cyclic, elastic]\n  simulation.segments: [20, 40]\n");
+      scratch, "base: job.yaml\nvary:\n  fatigue.stress: [cyclic, elastic]\n  simulation.segments: [20, 40]\n");
   CHECK(study.name == "my_study");
   CHECK(names(study) ==
         Names{"cyclic-segments=20", "cyclic-segments=40", "elastic-segments=20", "elastic-segments=40"});
@@ -56,9 +55,10 @@ TEST_CASE("study: named changes are varied, too") {
 
 TEST_CASE("study: each job has the stiffness of its own construction, in any order of the jobs") {
   const Scratch scratch;
-  const Study study = study_of(scratch,
-                               "base: irb6640_spot_welding\njobs:\n  usual: {}\n  also: {simulation.segments: 32}\n"
-                               "  warm: {cell.temperature_C: 60}\n  full: {dresspack.core_bending_stiffness_Nm2: 20}\n  again: {}\n");
+  const Study study =
+      study_of(scratch,
+               "base: irb6640_spot_welding\njobs:\n  usual: {}\n  also: {simulation.segments: 32}\n"
+               "  warm: {cell.temperature_C: 60}\n  full: {dresspack.core_bending_stiffness_Nm2: 20}\n  again: {}\n");
   for (const StudyJob& job : study.jobs) REQUIRE(job.failure == "");
   const auto hose = [&](std::size_t k) { return study.jobs[k].job->dresspacks[0].dresspack; };
   for (const std::size_t k : {1, 4}) {
@@ -75,9 +75,10 @@ TEST_CASE("study: each job has the stiffness of its own construction, in any ord
 
 TEST_CASE("study: a varied section keeps the keys that a named change sets in it") {
   const Scratch scratch;
-  const Study study = study_of(scratch,
-                               "base: job.yaml\njobs:\n  fine: {simulation.segments: 40}\n  plain:\n"
-                               "vary: {simulation: [{segments: 20, time_step_ms: 2}, {segments: 20, time_step_ms: 4}]}\n");
+  const Study study =
+      study_of(scratch,
+               "base: job.yaml\njobs:\n  fine: {simulation.segments: 40}\n  plain:\n"
+               "vary: {simulation: [{segments: 20, time_step_ms: 2}, {segments: 20, time_step_ms: 4}]}\n");
   REQUIRE(study.jobs.size() == 4);
   for (const StudyJob& job : study.jobs) REQUIRE(job.failure.empty());
   CHECK(study.jobs[0].job->simulation.segments == 40);
@@ -97,8 +98,7 @@ TEST_CASE("study: jobs are named by their values, fit for a folder") {
   const Scratch scratch;
   CHECK(names(study_of(scratch, "base: job.yaml\nvary: {simulation.contact: [true, false]}\n")) ==
         Names{"contact=true", "contact=false"});
-  CHECK(names(study_of(scratch,
-                       "base: job.yaml\nvary: {routing.tool_clamp.direction: [[1, 0, 0], [0, 0, 1]]}\n")) ==
+  CHECK(names(study_of(scratch, "base: job.yaml\nvary: {routing.tool_clamp.direction: [[1, 0, 0], [0, 0, 1]]}\n")) ==
         Names{"direction=1", "direction=2"});
   CHECK(names(study_of(scratch, "base: job.yaml\nvary: {routing.free_length_m: [1.2, 1.5e0]}\n")) ==
         Names{"free_length_m=1.2", "free_length_m=1.5e0"});
@@ -130,9 +130,8 @@ TEST_CASE("study: --set comes after the study's own changes") {
 
 TEST_CASE("study: what is no study is refused where it stands") {
   CHECK(refusal("") == "study:1:1: error: holds no study; write base: and vary: or jobs:");
-  CHECK(
-      refusal("vary: {a: [1]}\n") ==
-      "study:1:1: error: base is missing; add 'base: ...': a job of config/jobs, a file, or the job itself");
+  CHECK(refusal("vary: {a: [1]}\n") ==
+        "study:1:1: error: base is missing; add 'base: ...': a job of config/jobs, a file, or the job itself");
   CHECK(refusal("base: job.yaml\nvery: {}\n") ==
         "study:2:1: error: unknown key 'very' of a study; did you mean 'vary'?");
   CHECK(refusal("base: job.yaml\nvary: [a]\n") ==
@@ -145,11 +144,11 @@ TEST_CASE("study: what is no study is refused where it stands") {
         "study:2:11: error: job 'a' must be a map of keys to values; write {KEY.PATH: VALUE}");
   CHECK(refusal("base: job.yaml\nvary: {fatigue.stress: [cyclic, cyclic]}\n") ==
         "study:1:1: error: two jobs are named 'cyclic'; give each combination another name");
-  CHECK(refusal("base: nowhere\n")
-            .find("study:1:7: error: 'nowhere' is not in the catalogue (config/jobs); one of: ") == 0);
+  CHECK(
+      refusal("base: nowhere\n").find("study:1:7: error: 'nowhere' is not in the catalogue (config/jobs); one of: ") ==
+      0);
   std::string many = "base: job.yaml\nvary:\n";
-  for (const char* key : {"a", "b", "c", "d", "e", "f"})
-    many += std::string("  ") + key + ": [0,1,2,3,4,5,6,7,8,9]\n";
+  for (const char* key : {"a", "b", "c", "d", "e", "f"}) many += std::string("  ") + key + ": [0,1,2,3,4,5,6,7,8,9]\n";
   CHECK(refusal(many) == "study:8:3: error: the study has more than 100000 jobs; split it");
 }
 

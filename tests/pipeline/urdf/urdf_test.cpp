@@ -45,8 +45,7 @@ std::string changed(const std::string& from, const std::string& to) { return edi
 
 }  // namespace
 
-TEST_CASE(
-    "urdf: the chain from root to tip becomes joints and links and what is fixed goes with its carrier") {
+TEST_CASE("urdf: the chain from root to tip becomes joints and links and what is fixed goes with its carrier") {
   const Robot robot = robot_of(palletizer);
   CHECK(robot.name == "palletizer");
   REQUIRE(robot.joints.size() == 5);
@@ -102,8 +101,8 @@ TEST_CASE("urdf: a joint that mimics another by a factor bounds its range and it
 
 TEST_CASE("urdf: a joint that follows with factor 0 keeps its place and bounds nothing") {
   // level stays at 0.1, outside its own range, at every angle of j2.
-  const Robot robot = robot_of(edited(changed("multiplier=\"-1\"", "multiplier=\"0\""),
-                                      "lower=\"-3\" upper=\"0.8\"", "lower=\"0.5\" upper=\"0.8\""));
+  const Robot robot = robot_of(edited(changed("multiplier=\"-1\"", "multiplier=\"0\""), "lower=\"-3\" upper=\"0.8\"",
+                                      "lower=\"0.5\" upper=\"0.8\""));
   CHECK(robot.joints[3].ratio == 0);
   CHECK(robot.joints[3].offset == Approx(0.1));
   CHECK(robot.joints[1].lower == Approx(-1));
@@ -111,22 +110,19 @@ TEST_CASE("urdf: a joint that follows with factor 0 keeps its place and bounds n
 }
 
 TEST_CASE("urdf: an element in a comment does not count, also where it ends the comment") {
-  CHECK(robot_of(changed("<link name=\"turret\"/>", "<!-- <a>--><link name=\"turret\"/>")).joints.size() ==
-        5);
+  CHECK(robot_of(changed("<link name=\"turret\"/>", "<!-- <a>--><link name=\"turret\"/>")).joints.size() == 5);
 }
 
 TEST_CASE("urdf: turns of fixed joints are kept as three angles, also at a right angle") {
-  for (const Vector3d& angles :
-       {Vector3d(0.3, 0.4, 0.5), Vector3d(-2, 1, 3), Vector3d(0.3, std::numbers::pi / 2, 0.5),
-        Vector3d(1, -std::numbers::pi / 2, 0)}) {
-    const Robot robot = robot_of(
-        changed("<origin xyz=\"0 0 0.3\"/>",
-                fmt::format("<origin xyz=\"0 0 0.3\" rpy=\"{} {} {}\"/>", angles[0], angles[1], angles[2])));
+  for (const Vector3d& angles : {Vector3d(0.3, 0.4, 0.5), Vector3d(-2, 1, 3), Vector3d(0.3, std::numbers::pi / 2, 0.5),
+                                 Vector3d(1, -std::numbers::pi / 2, 0)}) {
+    const Robot robot =
+        robot_of(changed("<origin xyz=\"0 0 0.3\"/>",
+                         fmt::format("<origin xyz=\"0 0 0.3\" rpy=\"{} {} {}\"/>", angles[0], angles[1], angles[2])));
     const Eigen::Matrix3d wanted = from_roll_pitch_yaw(angles).toRotationMatrix();
     constexpr double written = 1e-9;  // of angles as texts in degrees
     CHECK((from_roll_pitch_yaw(robot.joints[0].orientation).toRotationMatrix() - wanted).norm() < written);
-    CHECK((from_roll_pitch_yaw(robot.links[0].boxes[0].orientation).toRotationMatrix() - wanted).norm() <
-          written);
+    CHECK((from_roll_pitch_yaw(robot.links[0].boxes[0].orientation).toRotationMatrix() - wanted).norm() < written);
     CHECK((robot.joints[0].origin - wanted * Vector3d(0, 0, 0.5) - Vector3d(0, 0, 0.3)).norm() < written);
     if (std::abs(angles[1]) < 1.5) CHECK((robot.joints[0].orientation - angles).norm() < written);
   }
@@ -149,15 +145,15 @@ TEST_CASE("urdf: a cylinder is a capsule and an octagon inside it") {
   CHECK(flat.links[2].boxes.size() == 4);
   UrdfRequest bare = request();
   bare.collision = UrdfRequest::Collision::drop;
-  for (const Link& link : robot_of(palletizer, bare).links)
-    CHECK(link.capsules.size() + link.boxes.size() == 0);
+  for (const Link& link : robot_of(palletizer, bare).links) CHECK(link.capsules.size() + link.boxes.size() == 0);
 }
 
 TEST_CASE("urdf: a joint without <axis> turns about x, the default of the specification") {
   const std::string given = "<origin xyz=\"0 0 1\"/>\n    <axis xyz=\"0 1 0\"/>";
   const auto axis_of = [](const std::string& text) {
     const Robot robot = robot_of(text);
-    return std::find_if(robot.joints.begin(), robot.joints.end(), [](const Joint& joint) { return joint.name == "j3"; })->axis;
+    return std::find_if(robot.joints.begin(), robot.joints.end(), [](const Joint& joint) { return joint.name == "j3"; })
+        ->axis;
   };
   CHECK(axis_of(palletizer) == Vector3d::UnitY());
   CHECK(axis_of(changed(given, "<origin xyz=\"0 0 1\"/>")) == Vector3d::UnitX());
@@ -187,8 +183,7 @@ TEST_CASE("urdf: meshes are found beside the file and in their packages") {
   scratch.write("cell/arm_support/urdf/plain.STL", stl);
   scratch.write("cell/arm_support/meshes/upper.stl", stl);
   const auto with_mesh = [&](const std::string& mesh) {
-    return changed("<box size=\"0.4 0.5 0.2\"/>",
-                   "<mesh filename=\"" + mesh + "\" scale=\"0.001 0.001 0.001\"/>");
+    return changed("<box size=\"0.4 0.5 0.2\"/>", "<mesh filename=\"" + mesh + "\" scale=\"0.001 0.001 0.001\"/>");
   };
   const UrdfRequest asked = request((scratch / "cell/arm_support/urdf/arm.urdf").string());
   const Robot packaged = robot_of(with_mesh("package://arm_support/meshes/upper.stl"), asked);
@@ -196,8 +191,7 @@ TEST_CASE("urdf: meshes are found beside the file and in their packages") {
   CHECK(packaged.links[0].meshes[0].file == scratch / "cell/arm_support/meshes/upper.stl");
   CHECK(packaged.links[0].meshes[0].scale == Approx(0.001));
   CHECK((packaged.links[0].meshes[0].position - Vector3d(0, 0, 0.4)).norm() < rounding);
-  CHECK(robot_of(with_mesh("plain.STL"), asked).links[0].meshes[0].file ==
-        scratch / "cell/arm_support/urdf/plain.STL");
+  CHECK(robot_of(with_mesh("plain.STL"), asked).links[0].meshes[0].file == scratch / "cell/arm_support/urdf/plain.STL");
 
   const std::string missing = with_mesh("package://arm_support/meshes/lower.stl");
   CHECK(message_of([&] { robot_of(missing, asked); }) ==
@@ -211,7 +205,9 @@ TEST_CASE("urdf: meshes are found beside the file and in their packages") {
   CHECK(robot_of(missing, told).links[0].meshes.size() == 1);
   for (const char* uneven : {"0.001 0.0005 0.001", "0.001 0.002 0.001", "0.001 0.001 0.0005", "-0.001 -0.001 -0.001"})
     CHECK_THAT(message_of([&] {
-                 robot_of(changed("<box size=\"0.4 0.5 0.2\"/>", fmt::format("<mesh filename=\"plain.STL\" scale=\"{}\"/>", uneven)), asked);
+                 robot_of(changed("<box size=\"0.4 0.5 0.2\"/>",
+                                  fmt::format("<mesh filename=\"plain.STL\" scale=\"{}\"/>", uneven)),
+                          asked);
                }),
                Catch::Contains("mesh 'plain.STL' is scaled by different factors"));
   scratch.write("cell/arm_support/urdf/colour.dae", "");
@@ -231,22 +227,20 @@ TEST_CASE("urdf: what is wrong is reported with its line") {
           "</link>\n  <link name=\"turret", "</link> closes nothing that is open; correct the XML");
   refused("</robot>", "", "<robot", "<robot> is not closed; correct the XML");
   refused("made-up palletizer -->", "made-up palletizer", "<!--", "a comment is not closed");
-  refused("lower=\"-1\" upper=\"1.5\"", "lower=\"abc\" upper=\"1.5\"", "",
-          "is no URDF that can be read (urdfdom: ");
+  refused("lower=\"-1\" upper=\"1.5\"", "lower=\"abc\" upper=\"1.5\"", "", "is no URDF that can be read (urdfdom: ");
   refused("<limit lower=\"-6\" upper=\"6\" effort=\"0\" velocity=\"6\"/>", "", "<joint name=\"j4\"",
           "is no URDF that can be read (urdfdom: ");
   refused("<mimic joint=\"j2\"", "<mimic joint=\"grip\"", "<joint name=\"level\"",
           "joint 'level' mimics 'grip', which is no axis of the chain; choose another tip");
   refused("<mimic joint=\"j2\"", "<mimic joint=\"level\"", "<joint name=\"level\"",
           "joint 'level' mimics 'level', which is no axis of the chain");
-  refused("<joint name=\"j4\" type=\"revolute\">", "<joint name=\"j4\" type=\"prismatic\">",
-          "<joint name=\"j4\"", "joint 'j4' does not turn (only the base may slide); choose another tip");
+  refused("<joint name=\"j4\" type=\"revolute\">", "<joint name=\"j4\" type=\"prismatic\">", "<joint name=\"j4\"",
+          "joint 'j4' does not turn (only the base may slide); choose another tip");
   refused("lower=\"-6\" upper=\"6\" effort=\"0\" velocity=\"6\"",
           "lower=\"-6\" upper=\"6\" effort=\"0\" velocity=\"0\"", "<joint name=\"j4\"",
           "joints[5].speed_deg_per_s is 0 (must be > 0 deg/s); give the highest speed");
-  refused(
-      "<link name=\"turret\"/>", "<xacro:arm name=\"turret\"/>", "<xacro:arm",
-      "is xacro, from which a URDF is made (<xacro:arm>); run xacro first: xacro palletizer.urdf > robot.urdf");
+  refused("<link name=\"turret\"/>", "<xacro:arm name=\"turret\"/>", "<xacro:arm",
+          "is xacro, from which a URDF is made (<xacro:arm>); run xacro first: xacro palletizer.urdf > robot.urdf");
   refused("rpy=\"0 0 1.5707963267948966\"", "rpy=\"0 0 90\"", "<origin xyz=\"0.3 0 0.1\"",
           "rpy=\"0 0 90\" turns by more than 6.3 rad; write rpy=\"0 0 1.5708\" if those were degrees");
   CHECK_NOTHROW(robot_of(changed("rpy=\"0 0 1.5707963267948966\"", "rpy=\"0 0 -6.2832\"")));
@@ -257,8 +251,8 @@ TEST_CASE("urdf: what is wrong is reported with its line") {
   refused(
       "length=\"1\" radius=\"0.1\"", "length=\"1000\" radius=\"100\"", "<link name=\"lower_arm\"",
       "a cylinder of link 'lower_arm' has 1000 m (at most 10 in a link that moves); write radius=\"0.1\" length=\"1\" if those were");
-  refused("<origin xyz=\"0 0 0.5\"/><geometry>", "<origin xyz=\"0 0 500\"/><geometry>",
-          "<link name=\"lower_arm\"", "the origin of a shape of link 'lower_arm' has 500 m");
+  refused("<origin xyz=\"0 0 0.5\"/><geometry>", "<origin xyz=\"0 0 500\"/><geometry>", "<link name=\"lower_arm\"",
+          "the origin of a shape of link 'lower_arm' has 500 m");
   refused(
       "<sphere radius=\"0.05\"/>", "<box size=\"180 130 150\"/>", "<link name=\"bracket\"",
       "a box of link 'bracket' has 180 m (at most 10 in a link that moves); write box size=\"0.18 0.13 0.15\" if those were");
@@ -268,17 +262,15 @@ TEST_CASE("urdf: what is wrong is reported with its line") {
   told(palletizer, "<joint name=\"j4\"", "joints[5].acceleration_deg_per_s2 is missing", slow);
   UrdfRequest short_tip = request();
   short_tip.tip = "forearm";
-  told(palletizer, "", "has 3 axes between its root and its tip (a robot has 4 to 7); choose another tip",
-       short_tip);
+  told(palletizer, "", "has 3 axes between its root and its tip (a robot has 4 to 7); choose another tip", short_tip);
   UrdfRequest wrong = request();
   wrong.tip = "nose";
   told(palletizer, "", "has no link 'nose' for the tip; one of: base_link, bracket", wrong);
-  const std::string forked =
-      edited(changed("tool0\"/>\n    <origin", "grasp\"/>\n    <origin"), "<link name=\"tool0\"/>",
-             "<link name=\"grasp\"/><link name=\"camera\"/>");
-  const std::string ends = edited(
-      edited(forked, "<parent link=\"tool0\"/>", "<parent link=\"grasp\"/>"), "</robot>",
-      "<joint name=\"eye\" type=\"fixed\"><parent link=\"hand\"/><child link=\"camera\"/></joint></robot>");
+  const std::string forked = edited(changed("tool0\"/>\n    <origin", "grasp\"/>\n    <origin"),
+                                    "<link name=\"tool0\"/>", "<link name=\"grasp\"/><link name=\"camera\"/>");
+  const std::string ends =
+      edited(edited(forked, "<parent link=\"tool0\"/>", "<parent link=\"grasp\"/>"), "</robot>",
+             "<joint name=\"eye\" type=\"fixed\"><parent link=\"hand\"/><child link=\"camera\"/></joint></robot>");
   told(ends, "", "has several ends and none is called tool0 or flange; choose one with 'tip': camera, finger",
        request());
   std::string deep;
@@ -292,14 +284,12 @@ TEST_CASE("urdf: what is wrong is reported with its line") {
 TEST_CASE("urdf: a small YAML beside it adds what a URDF lacks, by the names of joints and links") {
   const Scratch scratch;
   scratch.write("palletizer.urdf", palletizer);
-  scratch.write(
-      "robots/mine.yaml",
-      "urdf: ../palletizer.urdf\naccelerations_deg_per_s2: [100, 200, 300, 400]\nbase_position_m: [1, 0, 0]\n"
-      "joints:\n  - {name: j2, upper_deg: 60}\n"
-      "links:\n  - {name: forearm, capsules: [{from_m: [0, 0, 0], to_m: [1, 0, 0], radius_mm: 90}]}\n");
-  const auto job_file =
-      scratch.write("job.yaml", "robot: mine\nmotion: {steps: [{joints_deg: [0, 0, 0, 0]}]}\n" +
-                                    sample_job.substr(sample_job.find("dresspack:")));
+  scratch.write("robots/mine.yaml",
+                "urdf: ../palletizer.urdf\naccelerations_deg_per_s2: [100, 200, 300, 400]\nbase_position_m: [1, 0, 0]\n"
+                "joints:\n  - {name: j2, upper_deg: 60}\n"
+                "links:\n  - {name: forearm, capsules: [{from_m: [0, 0, 0], to_m: [1, 0, 0], radius_mm: 90}]}\n");
+  const auto job_file = scratch.write("job.yaml", "robot: mine\nmotion: {steps: [{joints_deg: [0, 0, 0, 0]}]}\n" +
+                                                      sample_job.substr(sample_job.find("dresspack:")));
   const auto with_links = [&](std::vector<std::string> sets = {}) {
     sets.push_back("routing.mounting_pose_deg=[0, 0, 0, 0]");
     for (const char* end : {"base_clamp.link=turret", "tool_clamp.link=hand"})
@@ -320,8 +310,7 @@ TEST_CASE("urdf: a small YAML beside it adds what a URDF lacks, by the names of 
                              ", accelerations_deg_per_s2: [1, 1, 1, 1]}"})) != job_text(job));
   CHECK_THAT(message_of([&] { with_links({"robot=" + (scratch / "palletizer.urdf").string()}); }),
              Catch::Contains("has no accelerations of j1"));
-  const std::string five =
-      (scratch / "palletizer.urdf").string() + ", accelerations_deg_per_s2: [1, 1, 1, 1, 1]}";
+  const std::string five = (scratch / "palletizer.urdf").string() + ", accelerations_deg_per_s2: [1, 1, 1, 1, 1]}";
   CHECK_THAT(message_of([&] { with_links({"robot={urdf: " + five}); }),
              Catch::Contains("accelerations_deg_per_s2 has 5 numbers (the robot of ") &&
                  Catch::Contains("has 4 axes); give 4 numbers"));

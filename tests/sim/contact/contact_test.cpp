@@ -79,9 +79,7 @@ TEST_CASE("an arm sweeping through the hose at 2 m/s pushes it aside") {
     settings.time_step = h;
     World world(rod, settings, start.state, std::span(&aside, 1));
     world.add(0, CapsuleShape{{-0.5, 0, 0}, {0.5, 0, 0}, 0.05});
-    const auto arm = [&](double t) {
-      return Frame{aside.position + Vector3(0, 2 * t, 0), aside.orientation};
-    };
+    const auto arm = [&](double t) { return Frame{aside.position + Vector3(0, 2 * t, 0), aside.orientation}; };
     const Run r = run(
         world, 0.65, [](double) { return hanging; }, arm);
     CHECK(r.depth < deepest);

@@ -20,8 +20,7 @@ std::vector<Triangle> box_triangles(const Frame& frame, const Vector3& sides) {
     const Vector3 sign(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1);
     return frame.point(0.5 * sign.cwiseProduct(sides));
   };
-  constexpr int faces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
-                               {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+  constexpr int faces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
   std::vector<Triangle> triangles;
   for (const auto& f : faces) {
     triangles.push_back({corner(f[0]), corner(f[1]), corner(f[2])});
@@ -73,8 +72,7 @@ Rest draped(const Add& add) {
 
 double furthest(const RodState& a, const RodState& b) {
   double distance = 0;
-  for (size_t i = 0; i < a.position.size(); ++i)
-    distance = std::max(distance, (a.position[i] - b.position[i]).norm());
+  for (size_t i = 0; i < a.position.size(); ++i) distance = std::max(distance, (a.position[i] - b.position[i]).norm());
   return distance;
 }
 
@@ -95,14 +93,12 @@ TEST_CASE("nearest points of an axis and a triangle are those of a search over b
       for (int j = 0; i + j <= grid; ++j)
         for (int m = 0; m <= grid; ++m) {
           const double u = double(i) / grid, v = double(j) / grid, w = double(m) / grid;
-          best =
-              std::min(best, (t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]) - from - w * (to - from)).norm());
+          best = std::min(best, (t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]) - from - w * (to - from)).norm());
         }
     crossing += found.distance == 0;
     CHECK(found.distance <= best + 1e-12);
     // The nearest grid point is within one cell of the best point on the triangle, and within half a cell on the axis.
-    CHECK(found.distance >=
-          best - ((t[1] - t[0]).norm() + (t[2] - t[0]).norm() + (to - from).norm() / 2) / grid);
+    CHECK(found.distance >= best - ((t[1] - t[0]).norm() + (t[2] - t[0]).norm() + (to - from).norm() / 2) / grid);
     CHECK((found.on_axis - found.on_triangle).norm() == Approx(found.distance).margin(1e-12));
   }
   CHECK(crossing > 5);
@@ -126,8 +122,7 @@ TEST_CASE("an axis above a plate of many triangles meets it straight below and n
   }
   // In the groove between two plates both sides carry the hose.
   std::vector<Triangle> groove = box_triangles({{0.2, 0, 0}, Quaternion::Identity()}, {0.2, 1, 1});
-  for (const Triangle& t : box_triangles({{0, 0, -0.2}, Quaternion::Identity()}, {1, 1, 0.2}))
-    groove.push_back(t);
+  for (const Triangle& t : box_triangles({{0, 0, -0.2}, Quaternion::Identity()}, {1, 1, 0.2})) groove.push_back(t);
   int down = 0, side = 0;
   for (const Mesh::MeshContact& at : Mesh(groove).near({0.07, -0.02, -0.071}, {0.07, 0.02, -0.071}, 0.04)) {
     down += at.normal.z() > 0.999;
@@ -159,12 +154,9 @@ TEST_CASE("the tree of boxes finds what all triangles together give") {
 }
 
 TEST_CASE("a hose lies on a meshed cylinder as on the capsule") {
-  const Rest round = draped([](World& world) {
-    world.add(0, CapsuleShape{{0, -0.5, -0.05}, {0, 0.5, -0.05}, 0.05});
-  });
+  const Rest round = draped([](World& world) { world.add(0, CapsuleShape{{0, -0.5, -0.05}, {0, 0.5, -0.05}, 0.05}); });
   const Rest meshed = draped([](World& world) {
-    world.add(0, std::make_shared<const Mesh>(cylinder(0.05, 0.5, 64)),
-              {{0, 0, -0.05}, Quaternion::Identity()});
+    world.add(0, std::make_shared<const Mesh>(cylinder(0.05, 0.5, 64)), {{0, 0, -0.05}, Quaternion::Identity()});
   });
   CHECK(meshed.depth < deepest);
   CHECK(round.carried > 10);

@@ -55,20 +55,17 @@ Pulled draw_through(double friction, double bend, int segments, double speed, do
   WorldSettings settings;
   settings.time_step = h;
   World world(rod, settings, state);
-  world.add(cell_obstacle,
-            RingShape{{{0, 0, 0}, planar_frame(0, 0, 0).orientation}, clear_radius, 0, friction, 0});
+  world.add(cell_obstacle, RingShape{{{0, 0, 0}, planar_frame(0, 0, 0).orientation}, clear_radius, 0, friction, 0});
   // First the tool end is pulled taut and the hose settles in the bend. Then it moves by 0.5 m at `speed`.
   Pulled result;
   double low = 1e9, high = 0, sum = 0, bends = 0;
   int count = 0;
-  const double settling = 1, taut = 0.05, ramp = 0.4, begin = settling + 0.1 / speed + ramp,
-               end = begin + 0.4 / speed;
+  const double settling = 1, taut = 0.05, ramp = 0.4, begin = settling + 0.1 / speed + ramp, end = begin + 0.4 / speed;
   double way_at_begin = 0;
   for (int k = 1; k * h <= end; ++k) {
     const double t = k * h;
     Frame now = tool;
-    const double u =
-        std::max(0.0, t - settling) / ramp;  // time / acceleration time
+    const double u = std::max(0.0, t - settling) / ramp;  // time / acceleration time
     const double drawn = u < 1 ? u * u * u * u * (2.5 - 3 * u + u * u) : u - 0.5;
     now.position += (taut * smooth(t / settling) + speed * ramp * drawn) * out;
     REQUIRE(world.advance({base, now}).finite);
@@ -143,8 +140,7 @@ TEST_CASE("the axis through the segments is smooth and knows its nearest places"
 TEST_CASE("without friction a ring holds nothing back and no segment catches in it") {
   const double deepest = 1e-3;
   const Pulled coarse = draw_through(0, pi / 3, 40, 0.1, 0.01), fine = draw_through(0, pi / 3, 80, 0.1, 0.01);
-  INFO("ratio " << fine.ratio << ", ripple " << coarse.ripple << " and " << fine.ripple << ", depth "
-                << fine.depth);
+  INFO("ratio " << fine.ratio << ", ripple " << coarse.ripple << " and " << fine.ripple << ", depth " << fine.depth);
   // Bending and unbending needs EI tau v times the integral of (dkappa/ds)^2: 0.4 N of 100 N here.
   const double damping_and_ripple = 7e-3;
   CHECK(fine.ratio == Approx(1).epsilon(damping_and_ripple));
@@ -157,13 +153,11 @@ TEST_CASE("without friction a ring holds nothing back and no segment catches in 
 
 TEST_CASE("with friction a ring takes as much pull as an elastica loses over a point") {
   const double tolerance = 8e-3;  // damping and ripple as without friction; damping is small here
-  for (const auto& [bend, friction] :
-       {std::pair{pi / 3, 0.2}, std::pair{pi / 3, 0.4}, std::pair{pi / 4, 0.3}}) {
+  for (const auto& [bend, friction] : {std::pair{pi / 3, 0.2}, std::pair{pi / 3, 0.4}, std::pair{pi / 4, 0.3}}) {
     const Pulled ring = draw_through(friction, bend, 80, 0.1, 0.002);
     const double expected = elastica_ratio(friction, ring.bend, unit_force, hose_radius);
     INFO("friction " << friction << ": ratio " << ring.ratio << ", elastica " << expected << ", string "
-                     << string_ratio(friction, ring.bend) << ", bend " << ring.bend << ", ripple "
-                     << ring.ripple);
+                     << string_ratio(friction, ring.bend) << ", bend " << ring.bend << ", ripple " << ring.ripple);
     CHECK(ring.ratio == Approx(expected).epsilon(tolerance));
     CHECK(ring.ripple < 0.05);  // the hose still vibrates from its start
   }

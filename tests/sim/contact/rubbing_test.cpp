@@ -52,8 +52,7 @@ TEST_CASE("a hose dragged over the floor is rubbed evenly along its underside, a
       CHECK(patch.time == 2.5);
       CHECK(patch.angle == Approx(run.patches[0].angle));
       work += patch.work;
-      if (patch.position > 0.1 && patch.position < 0.4)
-        largest = std::max(largest, patch.work / patch.length);
+      if (patch.position > 0.1 && patch.position < 0.4) largest = std::max(largest, patch.work / patch.length);
     }
     CHECK(work == Approx(run.pressed * 0.2).epsilon(below));
     // Without distribution, contacts at the segments' ends would give one cell all of a segment's work.
@@ -62,8 +61,7 @@ TEST_CASE("a hose dragged over the floor is rubbed evenly along its underside, a
   }
 }
 
-TEST_CASE(
-    "a contact's work lies evenly over a segment's length about where it was before the step, in its sector") {
+TEST_CASE("a contact's work lies evenly over a segment's length about where it was before the step, in its sector") {
   const RodProperties p = hose(10, 1);
   const Rod rod(p);
   const double h = 0.01, length = 0.1;
@@ -90,8 +88,7 @@ TEST_CASE(
           CHECK(patch.width == Approx(5 * pi / 180));
           CHECK(patch.work <= 0.01 / cells * (1 + 1e-9));
           work += patch.work, mean += patch.work * patch.position / 0.01;
-          least = std::min(least, patch.position - cell / 2),
-          most = std::max(most, patch.position + cell / 2);
+          least = std::min(least, patch.position - cell / 2), most = std::max(most, patch.position + cell / 2);
         }
         CHECK(work == Approx(0.01));
         const double middle = std::max(place, length / 2);  // limited by the end

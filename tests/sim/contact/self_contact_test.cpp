@@ -39,9 +39,7 @@ TEST_CASE("nearest points of two segments are those of a search over both") {
     // Every fourth pair is parallel.
     const Vector3 b1 = k % 4 == 0 ? Vector3(b0 + 0.7 * (a1 - a0)) : point();
     const NearestPoints found = nearest_points(a0, a1, b0, b1);
-    const auto distance = [&](double a, double b) {
-      return (a0 + a * (a1 - a0) - b0 - b * (b1 - b0)).norm();
-    };
+    const auto distance = [&](double a, double b) { return (a0 + a * (a1 - a0) - b0 - b * (b1 - b0)).norm(); };
     double best = 1e9;
     for (int i = 0; i <= grid; ++i)
       for (int j = 0; j <= grid; ++j) best = std::min(best, distance(double(i) / grid, double(j) / grid));
@@ -51,8 +49,7 @@ TEST_CASE("nearest points of two segments are those of a search over both") {
   }
 }
 
-TEST_CASE(
-    "no pair of segments is nearer than the search says, which is no less than the nearest pair or a segment") {
+TEST_CASE("no pair of segments is nearer than the search says, which is no less than the nearest pair or a segment") {
   const Rod rod(soft_hose(64));
   const double l = rod.segment_length(), d = rod.properties().diameter, own = pi / 2 * d;
   std::mt19937 random(3);
@@ -150,8 +147,7 @@ TEST_CASE("what one piece of the hose gains by touching another the other loses"
   }
   INFO("unexplained momentum " << worst << " N s, hardest contact " << hardest << " N, deepest " << depth);
   CHECK(hardest > 0.1);
-  const double rounding =
-      1e-11;  // [N s] per step; 1e-16 of the largest contact forces, kN, over many links
+  const double rounding = 1e-11;  // [N s] per step; 1e-16 of the largest contact forces, kN, over many links
   CHECK(worst < rounding);
   CHECK(depth < deepest);
 }

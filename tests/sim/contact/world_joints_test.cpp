@@ -22,8 +22,7 @@ class JointChain {
     dAllocateODEDataForThread(dAllocateMaskAll);
     world_ = dWorldCreate();
     threading_ = dThreadingAllocateSelfThreadedImplementation();
-    dWorldSetStepThreadingImplementation(world_, dThreadingImplementationGetFunctions(threading_),
-                                         threading_);
+    dWorldSetStepThreadingImplementation(world_, dThreadingImplementationGetFunctions(threading_), threading_);
     dWorldSetERP(world_, 0.2);
     dWorldSetCFM(world_, 1e-10);
     for (int i = 0; i <= p.segments + 1; ++i) add_body(i);

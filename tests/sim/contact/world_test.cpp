@@ -97,8 +97,7 @@ TEST_CASE("a world restarted from its state goes on as if it had not stopped") {
     world.advance(DrivenCable::clamps(k * 0.005));
     restarted.advance(DrivenCable::clamps(k * 0.005));
   }
-  CHECK((world.state().position[10] - restarted.state().position[10]).norm() <
-        1e-9);  // ODE normalises quaternions
+  CHECK((world.state().position[10] - restarted.state().position[10]).norm() < 1e-9);  // ODE normalises quaternions
 }
 
 TEST_CASE("a world that remembers the distances of obstacles moves as one that computes them at every step") {
@@ -131,8 +130,7 @@ TEST_CASE("a world that remembers the distances of obstacles moves as one that c
   }
   CHECK(touching > 20);
   CHECK(free > 20);
-  CHECK(difference <
-        1e-6);  // [m] ODE normalises quaternions that are set; a missed contact would cause millimetres
+  CHECK(difference < 1e-6);  // [m] ODE normalises quaternions that are set; a missed contact would cause millimetres
 }
 
 TEST_CASE("a state that is not finite is reported") {

@@ -68,10 +68,9 @@ TEST_CASE("encoding: letters beyond ASCII belong to names, and their case does n
 }
 
 TEST_CASE("encoding: KRL's constants may stand apart from their sign") {
-  const Reading krl =
-      Reader{Language::krl}({{"s.src",
-                              "DEF s()\nDECL INT n\nn=# Start\nIF n==#START THEN\nPTP {A1 0,A2 "
-                              "-90,A3 90,A4 0,A5 30,A6 0}\nENDIF\nEND\n"}});
+  const Reading krl = Reader{Language::krl}({{"s.src",
+                                              "DEF s()\nDECL INT n\nn=# Start\nIF n==#START THEN\nPTP {A1 0,A2 "
+                                              "-90,A3 90,A4 0,A5 30,A6 0}\nENDIF\nEND\n"}});
   REQUIRE(krl.problem() == "no such problem");
   CHECK(krl.program.instructions.size() == 1);
 }

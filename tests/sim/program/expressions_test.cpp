@@ -130,8 +130,7 @@ class Random {
       return {fmt::format(fmt::runtime(name), x.text), of(x.value), 3};
     }
     if (kind == 2) {
-      const auto& [name, of] =
-          syntax_.whole[static_cast<std::size_t>(below(static_cast<int>(syntax_.whole.size())))];
+      const auto& [name, of] = syntax_.whole[static_cast<std::size_t>(below(static_cast<int>(syntax_.whole.size())))];
       const int a = below(40), b = 1 + below(9);
       return {fmt::format("({} {} {})", a, name, b), of(a, b), 3};
     }
@@ -154,8 +153,7 @@ class Random {
     const Part a = condition(depth - 1);
     // NOT in RAPID applies to all operands joined by AND.
     if (kind == 1)
-      return {fmt::format("{}({})", syntax_.no, a.text), 1 - a.value,
-              syntax_.language == Language::rapid ? 1 : 3};
+      return {fmt::format("{}({})", syntax_.no, a.text), 1 - a.value, syntax_.language == Language::rapid ? 1 : 3};
     const Part b = condition(depth - 1);
     if (kind == 2) return {a.within(2) + " " + syntax_.both + " " + b.within(2), a.value * b.value, 2};
     return {a.text + " " + syntax_.either + " " + b.text, std::max(a.value, b.value), 1};
@@ -171,8 +169,7 @@ void check_values(const Syntax& syntax, const std::string& before,
                   const std::vector<std::pair<std::string, double>>& expected) {
   std::string text = syntax.begin;
   text.insert(before.starts_with("VAR") ? text.find("MoveAbsJ") : text.size(), before);
-  for (const auto& [written, value] : expected)
-    text += fmt::format(fmt::runtime(syntax.wait), "1000.0+" + written);
+  for (const auto& [written, value] : expected) text += fmt::format(fmt::runtime(syntax.wait), "1000.0+" + written);
   const Reading r = Reader{syntax.language}({{syntax.file, text + syntax.end}});
   REQUIRE(r.problem() == "no such problem");
   REQUIRE(r.program.instructions.size() == expected.size() + 1);
@@ -185,135 +182,132 @@ void check_values(const Syntax& syntax, const std::string& before,
 }  // namespace
 
 TEST_CASE("rapid: functions of numbers, texts, vectors and poses have their values") {
-  check_values(
-      languages[0],
-      "VAR num list{3,2}:=[[1,2],[3,4],[5,6]];\nVAR pose one:=[[100,20,3],[1,0,0,0]];\n"
-      "VAR pose other:=[[10,20,30],[1,0,0,0]];\n"
-      "VAR pose product;\nVAR pose back;\nVAR pos moved;\nVAR orient turned;\nVAR orient pole;\n"
-      "VAR orient unit;\nVAR pos sum;\n"
-      "VAR pos less;\nVAR pos across;\nVAR pos twice;\nVAR pos half;\nVAR pos minus;\nVAR pose made;\n"
-      "VAR robtarget p1:=[[100,200,300],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
-      "turned:=OrientZYX(30,40,50);\npole:=OrientZYX(30,90,0);\nunit:=NOrient([0,3,0,4]);\n"
-      "one.rot:=OrientZYX(90,0,0);\n"
-      "other.rot:=OrientZYX(0,0,90);\nproduct:=PoseMult(one,other);\nback:=PoseInv(one);\n"
-      "moved:=PoseVect(one,[10,20,30]);\n"
-      "sum:=[1,2,3]+[4,6,8];\nless:=[1,2,3]-[4,6,8];\nacross:=[1,2,3]*[4,6,9];\ntwice:=2*[1,2,3];\n"
-      "half:=[1,2,3]/2;\nminus:=-sum;\n"
-      "made:=DefFrame(p1,Offs(p1,0,50,0),Offs(p1,-20,30,0));\n",
-      {{"Sqrt(6.25)", 2.5},
-       {"ASin(0.5)", 30},
-       {"ACos(0.5)", 60},
-       {"ATan(1)", 45},
-       {"ATan2(1,-1)", 135},
-       {"Exp(2)", std::exp(2.0)},
-       {"Pow(2,5)", 32},
-       {"Max(3,5)", 5},
-       {"Min(3,5)", 3},
-       {"Round(2.567\\Dec:=2)", 2.57},
-       {"Trunc(2.567\\Dec:=1)", 2.5},
-       {"BitNeg(5)", 250},
-       {"BitAnd(12,10)", 8},
-       {"BitOr(12,10)", 14},
-       {"BitXOr(12,10)", 6},
-       {"BitLSh(129,1)", 2},
-       {"BitRSh(12,2)", 3},
-       {"StrLen(\"Robot\")", 5},
-       {"StrLen(StrPart(\"Robotics\",4,5))", 5},
-       {"StrFind(\"Robotics\",1,\"aeiou\")", 2},
-       {"StrFind(\"Robotics\",3,\"aeiou\")", 4},
-       {"StrFind(\"Robotics\",1,\"zk\")", 9},
-       {"StrFind(\"Robotics\",9,\"R\")", 9},
-       {"StrFind(\"Robotics\",1,\"oRb\"\\NotInSet)", 5},
-       {"StrMatch(\"Robotics\",1,\"bo\")", 3},
-       {"StrMatch(\"Robotics\",4,\"bo\")", 9},
-       {"StrMatch(\"Robotics\",9,\"bo\")", 9},
-       {"StrLen(NumToStr(2.5678,2))", 4},
-       {"StrLen(ValToStr(TRUE))", 4},
-       {"StrLen(ValToStr(1.25))", 4},
-       {"Dim(list,1)", 3},
-       {"Dim(list,2)", 2},
-       {"list{3,1}", 5},
-       {"Distance([0,0,0],[3,4,12])", 13},
-       {"DotProd([1,2,3],[4,5,6])", 32},
-       {"VectMagn([2,3,6])", 7},
-       {"EulerZYX(\\X,turned)", 50},
-       {"EulerZYX(\\Y,turned)", 40},
-       {"EulerZYX(\\Z,turned)", 30},
-       {"EulerZYX(\\X,pole)", 0},
-       {"EulerZYX(\\Y,pole)", 90},
-       {"EulerZYX(\\Z,pole)", 30},
-       {"unit.q2", 0.6},
-       {"unit.q4", 0.8},
-       // A turn by 90 deg about z moves the point (10, 20) to (-20, 10).
-       {"product.trans.x", 80},
-       {"product.trans.y", 30},
-       {"product.trans.z", 33},
-       {"EulerZYX(\\Z,product.rot)", 90},
-       {"EulerZYX(\\X,product.rot)", 90},
-       {"back.trans.x", -20},
-       {"back.trans.y", 100},
-       {"back.trans.z", -3},
-       {"EulerZYX(\\Z,back.rot)", -90},
-       {"moved.x", 80},
-       {"moved.y", 30},
-       {"moved.z", 33},
-       {"sum.x", 5},
-       {"sum.z", 11},
-       {"less.y", -4},
-       {"across.x", 0},
-       {"across.y", 3},
-       {"across.z", -2},
-       {"twice.z", 6},
-       {"half.y", 1},
-       {"minus.x", -5},
-       {"minus.y", -8},
-       {"made.trans.y", 200},
-       {"EulerZYX(\\Z,made.rot)", 90},
-       {"EulerZYX(\\X,made.rot)", 0}});
+  check_values(languages[0],
+               "VAR num list{3,2}:=[[1,2],[3,4],[5,6]];\nVAR pose one:=[[100,20,3],[1,0,0,0]];\n"
+               "VAR pose other:=[[10,20,30],[1,0,0,0]];\n"
+               "VAR pose product;\nVAR pose back;\nVAR pos moved;\nVAR orient turned;\nVAR orient pole;\n"
+               "VAR orient unit;\nVAR pos sum;\n"
+               "VAR pos less;\nVAR pos across;\nVAR pos twice;\nVAR pos half;\nVAR pos minus;\nVAR pose made;\n"
+               "VAR robtarget p1:=[[100,200,300],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
+               "turned:=OrientZYX(30,40,50);\npole:=OrientZYX(30,90,0);\nunit:=NOrient([0,3,0,4]);\n"
+               "one.rot:=OrientZYX(90,0,0);\n"
+               "other.rot:=OrientZYX(0,0,90);\nproduct:=PoseMult(one,other);\nback:=PoseInv(one);\n"
+               "moved:=PoseVect(one,[10,20,30]);\n"
+               "sum:=[1,2,3]+[4,6,8];\nless:=[1,2,3]-[4,6,8];\nacross:=[1,2,3]*[4,6,9];\ntwice:=2*[1,2,3];\n"
+               "half:=[1,2,3]/2;\nminus:=-sum;\n"
+               "made:=DefFrame(p1,Offs(p1,0,50,0),Offs(p1,-20,30,0));\n",
+               {{"Sqrt(6.25)", 2.5},
+                {"ASin(0.5)", 30},
+                {"ACos(0.5)", 60},
+                {"ATan(1)", 45},
+                {"ATan2(1,-1)", 135},
+                {"Exp(2)", std::exp(2.0)},
+                {"Pow(2,5)", 32},
+                {"Max(3,5)", 5},
+                {"Min(3,5)", 3},
+                {"Round(2.567\\Dec:=2)", 2.57},
+                {"Trunc(2.567\\Dec:=1)", 2.5},
+                {"BitNeg(5)", 250},
+                {"BitAnd(12,10)", 8},
+                {"BitOr(12,10)", 14},
+                {"BitXOr(12,10)", 6},
+                {"BitLSh(129,1)", 2},
+                {"BitRSh(12,2)", 3},
+                {"StrLen(\"Robot\")", 5},
+                {"StrLen(StrPart(\"Robotics\",4,5))", 5},
+                {"StrFind(\"Robotics\",1,\"aeiou\")", 2},
+                {"StrFind(\"Robotics\",3,\"aeiou\")", 4},
+                {"StrFind(\"Robotics\",1,\"zk\")", 9},
+                {"StrFind(\"Robotics\",9,\"R\")", 9},
+                {"StrFind(\"Robotics\",1,\"oRb\"\\NotInSet)", 5},
+                {"StrMatch(\"Robotics\",1,\"bo\")", 3},
+                {"StrMatch(\"Robotics\",4,\"bo\")", 9},
+                {"StrMatch(\"Robotics\",9,\"bo\")", 9},
+                {"StrLen(NumToStr(2.5678,2))", 4},
+                {"StrLen(ValToStr(TRUE))", 4},
+                {"StrLen(ValToStr(1.25))", 4},
+                {"Dim(list,1)", 3},
+                {"Dim(list,2)", 2},
+                {"list{3,1}", 5},
+                {"Distance([0,0,0],[3,4,12])", 13},
+                {"DotProd([1,2,3],[4,5,6])", 32},
+                {"VectMagn([2,3,6])", 7},
+                {"EulerZYX(\\X,turned)", 50},
+                {"EulerZYX(\\Y,turned)", 40},
+                {"EulerZYX(\\Z,turned)", 30},
+                {"EulerZYX(\\X,pole)", 0},
+                {"EulerZYX(\\Y,pole)", 90},
+                {"EulerZYX(\\Z,pole)", 30},
+                {"unit.q2", 0.6},
+                {"unit.q4", 0.8},
+                // A turn by 90 deg about z moves the point (10, 20) to (-20, 10).
+                {"product.trans.x", 80},
+                {"product.trans.y", 30},
+                {"product.trans.z", 33},
+                {"EulerZYX(\\Z,product.rot)", 90},
+                {"EulerZYX(\\X,product.rot)", 90},
+                {"back.trans.x", -20},
+                {"back.trans.y", 100},
+                {"back.trans.z", -3},
+                {"EulerZYX(\\Z,back.rot)", -90},
+                {"moved.x", 80},
+                {"moved.y", 30},
+                {"moved.z", 33},
+                {"sum.x", 5},
+                {"sum.z", 11},
+                {"less.y", -4},
+                {"across.x", 0},
+                {"across.y", 3},
+                {"across.z", -2},
+                {"twice.z", 6},
+                {"half.y", 1},
+                {"minus.x", -5},
+                {"minus.y", -8},
+                {"made.trans.y", 200},
+                {"EulerZYX(\\Z,made.rot)", 90},
+                {"EulerZYX(\\X,made.rot)", 0}});
 }
 
 TEST_CASE("krl: functions of numbers and bits, and frames in frames") {
-  check_values(
-      languages[1],
-      "DECL FRAME f,g,h\nf={X 100,Y 20,Z 3,A 90,B 0,C 0}\ng=f:{X 10,Y 20,Z 30,A 0,B 0,C 90}\nh=INV_POS(f)\n",
-      {{"SQRT(6.25)", 2.5},
-       {"ACOS(0.5)", 60},
-       {"ATAN2(1.0,-1.0)", 135},
-       {"(12 B_AND 10)", 8},
-       {"(12 B_OR 10)", 14},
-       {"(12 B_EXOR 10)", 6},
-       {"(B_NOT 10)", -11},
-       {"-7/2", -3},
-       {"7/2*2", 6},
-       {"7.0/2", 3.5},
-       {"g.X", 80},
-       {"g.Y", 30},
-       {"g.Z", 33},
-       {"g.A", 90},
-       {"g.C", 90},
-       {"h.X", -20},
-       {"h.Y", 100},
-       {"h.Z", -3},
-       {"h.A", -90}});
+  check_values(languages[1],
+               "DECL FRAME f,g,h\nf={X 100,Y 20,Z 3,A 90,B 0,C 0}\ng=f:{X 10,Y 20,Z 30,A 0,B 0,C 90}\nh=INV_POS(f)\n",
+               {{"SQRT(6.25)", 2.5},
+                {"ACOS(0.5)", 60},
+                {"ATAN2(1.0,-1.0)", 135},
+                {"(12 B_AND 10)", 8},
+                {"(12 B_OR 10)", 14},
+                {"(12 B_EXOR 10)", 6},
+                {"(B_NOT 10)", -11},
+                {"-7/2", -3},
+                {"7/2*2", 6},
+                {"7.0/2", 3.5},
+                {"g.X", 80},
+                {"g.Y", 30},
+                {"g.Z", 33},
+                {"g.A", 90},
+                {"g.C", 90},
+                {"h.X", -20},
+                {"h.Y", 100},
+                {"h.Z", -3},
+                {"h.A", -90}});
 }
 
 TEST_CASE("urscript: functions of numbers, lists and poses") {
-  check_values(
-      languages[3],
-      "f=p[0.1,0.02,0.003,0,0,d2r(90)]\ng=pose_trans(f,p[0.01,0.02,0.03,0,0,d2r(30)])\nh=pose_inv(f)\n"
-      "sum=pose_add(f,g)\n"
-      "less=pose_sub(g,f)\nbetween=interpolate_pose(f,g,0.25)\nturn=rpy2rotvec([0,0,0.5])\n"
-      "rpy=rotvec2rpy(rpy2rotvec([0.3,0.4,0.5]))\n",
-      {{"sqrt(6.25)", 2.5},     {"r2d(asin(0.5))", 30},    {"r2d(acos(0.5))", 60},
-       {"r2d(atan(1))", 45},    {"r2d(atan2(1,-1))", 135}, {"pow(2,5)", 32},
-       {"log10(1000)", 3},      {"floor(-2.5)", -3},       {"ceil(2.5)", 3},
-       {"norm([2,3,6])", 7},    {"length([1,2,3,4])", 4},  {"point_dist(f,p[0.13,0.06,0.123,0,0,0])", 0.13},
-       {"1000*g[0]", 80},       {"1000*g[1]", 30},         {"1000*g[2]", 33},
-       {"r2d(g[5])", 120},      {"1000*h[0]", -20},        {"1000*h[1]", 100},
-       {"1000*h[2]", -3},       {"r2d(h[5])", -90},        {"1000*sum[0]", 180},
-       {"r2d(sum[5])", -150},   {"1000*less[2]", 30},      {"r2d(less[5])", 30},
-       {"1000*between[0]", 95}, {"r2d(between[5])", 97.5}, {"turn[2]", 0.5},
-       {"rpy[0]", 0.3},         {"rpy[1]", 0.4},           {"rpy[2]", 0.5}});
+  check_values(languages[3],
+               "f=p[0.1,0.02,0.003,0,0,d2r(90)]\ng=pose_trans(f,p[0.01,0.02,0.03,0,0,d2r(30)])\nh=pose_inv(f)\n"
+               "sum=pose_add(f,g)\n"
+               "less=pose_sub(g,f)\nbetween=interpolate_pose(f,g,0.25)\nturn=rpy2rotvec([0,0,0.5])\n"
+               "rpy=rotvec2rpy(rpy2rotvec([0.3,0.4,0.5]))\n",
+               {{"sqrt(6.25)", 2.5},     {"r2d(asin(0.5))", 30},    {"r2d(acos(0.5))", 60},
+                {"r2d(atan(1))", 45},    {"r2d(atan2(1,-1))", 135}, {"pow(2,5)", 32},
+                {"log10(1000)", 3},      {"floor(-2.5)", -3},       {"ceil(2.5)", 3},
+                {"norm([2,3,6])", 7},    {"length([1,2,3,4])", 4},  {"point_dist(f,p[0.13,0.06,0.123,0,0,0])", 0.13},
+                {"1000*g[0]", 80},       {"1000*g[1]", 30},         {"1000*g[2]", 33},
+                {"r2d(g[5])", 120},      {"1000*h[0]", -20},        {"1000*h[1]", 100},
+                {"1000*h[2]", -3},       {"r2d(h[5])", -90},        {"1000*sum[0]", 180},
+                {"r2d(sum[5])", -150},   {"1000*less[2]", 30},      {"r2d(less[5])", 30},
+                {"1000*between[0]", 95}, {"r2d(between[5])", 97.5}, {"turn[2]", 0.5},
+                {"rpy[0]", 0.3},         {"rpy[1]", 0.4},           {"rpy[2]", 0.5}});
 }
 
 TEST_CASE("every language reckons random expressions as arithmetic does, and decides as logic does") {

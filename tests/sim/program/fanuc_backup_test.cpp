@@ -88,9 +88,8 @@ TEST_CASE("fanuc backup: what lies beside a listing is read with it, a folder is
   folder.write("sysmacro.va", macros);
   folder.write("MAIN.LS", program("MAIN", "   1:  MOVE TO HOME ;\n   2:  CALL WORK(R[1]) ;\n"));
   folder.write("mov_home.ls", program("MOV_HOME", "   1:J PR[1] 50% FINE ;\n"));
-  folder.write(
-      "work.LS",
-      program("WORK", "   1:  FOR R[9]=1 TO AR[1] ;\n   2:L PR[3] 100mm/sec FINE ;\n   3:  ENDFOR ;\n"));
+  folder.write("work.LS",
+               program("WORK", "   1:  FOR R[9]=1 TO AR[1] ;\n   2:L PR[3] 100mm/sec FINE ;\n   3:  ENDFOR ;\n"));
   folder.write("errall.ls", "ERRALL.LS     Robot Name ROBOT\nF Number: F00000\n");
   folder.write("idle.ls", program("IDLE", "   1:  DO[1]=ON ;\n"));
 
@@ -119,8 +118,7 @@ TEST_CASE("fanuc backup: what lies beside a listing is read with it, a folder is
                                     "(motion.routine in a job): cell, mov_home, other"));
 }
 
-TEST_CASE(
-    "fanuc backup: listings in two languages lie in folders of their own, beside one set of registers") {
+TEST_CASE("fanuc backup: listings in two languages lie in folders of their own, beside one set of registers") {
   const Scratch folder;
   folder.write("posreg.va", positions);
   folder.write("english/home.ls", program("HOME", "   1:J PR[1] 50% FINE ;\n"));

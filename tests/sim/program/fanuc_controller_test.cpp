@@ -110,8 +110,7 @@ std::vector<std::string> warnings(const Reading& reading) {
 
 TEST_CASE("fanuc lines: one without a semicolon ends where the next number begins") {
   // A controller does not load this listing. Its meaning is clear, and no line may become part of another line.
-  const Reading moves =
-      run("   1:J P[1] 100% FINE\n   2:J P[2] 100% FINE ;\n   3:\n   4:J P[1] 100% FINE ;\n");
+  const Reading moves = run("   1:J P[1] 100% FINE\n   2:J P[2] 100% FINE ;\n   3:\n   4:J P[1] 100% FINE ;\n");
   CHECK(moves.problem() == "no such problem");
   CHECK(stops(moves) == std::vector<int>{1, 2, 1});
   REQUIRE(moves.program.skipped.size() == 1);
@@ -191,9 +190,9 @@ TEST_CASE("fanuc positions: a remote tool stands in the user frame, the robot ca
 TEST_CASE("fanuc loops: one that changes nothing waits, and the motion goes on behind it") {
   // The user gives the value of DI[1], but not the time at which it changes.
   for (const char* wait : {"", "   2:  WAIT .10(sec) ;\n", "   2:  R[5]=3 ;\n   2:  F[1]=OFF ;\n"}) {
-    const Reading r = run(std::string("   1:  LBL[1] ;\n") + wait +
-                              "   3:  IF DI[1]=OFF,JMP LBL[1] ;\n   4:J P[1] 100% FINE ;\n",
-                          {.values = {{"DI[1]", "OFF"}}});
+    const Reading r =
+        run(std::string("   1:  LBL[1] ;\n") + wait + "   3:  IF DI[1]=OFF,JMP LBL[1] ;\n   4:J P[1] 100% FINE ;\n",
+            {.values = {{"DI[1]", "OFF"}}});
     INFO(wait << r.problem());
     REQUIRE(r.problems.empty());
     CHECK(stops(r) == std::vector<int>{1});
@@ -202,13 +201,11 @@ TEST_CASE("fanuc loops: one that changes nothing waits, and the motion goes on b
                       [](const Skipped& s) { return s.what.find("waits in a loop") == 0; }));
   }
   // Statements after a loop without a condition never run.
-  CHECK(stops(run(
-            "   1:J P[1] 100% FINE ;\n   2:  LBL[1] ;\n   3:  JMP LBL[1] ;\n   4:J P[2] 100% FINE ;\n")) ==
+  CHECK(stops(run("   1:J P[1] 100% FINE ;\n   2:  LBL[1] ;\n   3:  JMP LBL[1] ;\n   4:J P[2] 100% FINE ;\n")) ==
         std::vector<int>{1});
   // A loop that counts or moves runs until its own end.
-  CHECK(
-      stops(run("   1:  R[1]=0 ;\n   2:  LBL[1] ;\n   3:  R[1]=R[1]+1 ;\n   4:  IF R[1]<900,JMP LBL[1] ;\n   "
-                "5:J P[1] R[1]msec FINE ;\n")) == std::vector<int>{1});
+  CHECK(stops(run("   1:  R[1]=0 ;\n   2:  LBL[1] ;\n   3:  R[1]=R[1]+1 ;\n   4:  IF R[1]<900,JMP LBL[1] ;\n   "
+                  "5:J P[1] R[1]msec FINE ;\n")) == std::vector<int>{1});
   CHECK(
       stops(
           run("   1:  R[1]=0 ;\n   2:  LBL[1] ;\n   3:J P[1] 100% FINE ;\n   4:  R[1]=R[1]+1 ;\n   5:  IF R[1]<5,JMP LBL[1] ;\n"))
@@ -228,25 +225,21 @@ TEST_CASE("fanuc positions: an offset adds up in the form of the position, or is
   const Asked frames{.values = {{"$OFFSET_CART", "TRUE"}}};
   CHECK((moved(turn, frames).position - Vector3(0.01 - place.y(), place.x(), place.z())).norm() < rounding);
   // Both forms give the same orientation, because R is the last rotation.
-  CHECK(std::abs(moved(turn).orientation.dot(moved(turn, frames).orientation)) ==
-        Approx(1).epsilon(rounding));
+  CHECK(std::abs(moved(turn).orientation.dot(moved(turn, frames).orientation)) == Approx(1).epsilon(rounding));
   // The value of a backup is used.
-  const Reading backup =
-      run("   1:L P[3] 100mm/sec FINE Offset,PR[1] ;\n", {.values = {{"PR[1]", turn}}},
-          {{"system.va", "[*SYSTEM*]$OFFSET_CART  Storage: CMOS  Access: RW  : BOOLEAN = TRUE\n"}});
+  const Reading backup = run("   1:L P[3] 100mm/sec FINE Offset,PR[1] ;\n", {.values = {{"PR[1]", turn}}},
+                             {{"system.va", "[*SYSTEM*]$OFFSET_CART  Storage: CMOS  Access: RW  : BOOLEAN = TRUE\n"}});
   CHECK((backup.move(0).target.pose.position - moved(turn, frames).position).norm() < rounding);
   // RX of the remote tool becomes 110 mm instead of 100 mm. The pose is the inverse.
   CHECK((moved("X 10 Y 0 Z 0 W 0 P 0 R 0", {}, "P[4]").position - Vector3(0, 0.11, -0.3)).norm() < rounding);
-  CHECK(run("   1:L P[4] 100mm/sec FINE Offset,PR[1] ;\n",
-            {.values = {{"PR[1]", turn}, {"$OFFSET_CART", "TRUE"}}})
+  CHECK(run("   1:L P[4] 100mm/sec FINE Offset,PR[1] ;\n", {.values = {{"PR[1]", turn}, {"$OFFSET_CART", "TRUE"}}})
             .problems.at(0)
             .what == "is offset on a remote tool by a frame");
   // Tool_Offset is in the axes of the tool: 10 mm along z of the tool that the robot carries.
   const Reading tool = run("   1:L P[4] 100mm/sec FINE ;\n   2:L P[4] 100mm/sec FINE Tool_Offset,PR[1] ;\n",
                            {.values = {{"PR[1]", "X 0 Y 0 Z 10 W 0 P 0 R 0"}}});
   const Frame &before = tool.move(0).target.pose, &after = tool.move(1).target.pose;
-  CHECK((before.orientation.conjugate() * (after.position - before.position) - Vector3(0, 0, 0.01)).norm() <
-        rounding);
+  CHECK((before.orientation.conjugate() * (after.position - before.position) - Vector3(0, 0, 0.01)).norm() < rounding);
 }
 
 TEST_CASE("fanuc values: KAREL programs and macros may write registers") {
@@ -271,8 +264,7 @@ TEST_CASE("fanuc values: KAREL programs and macros may write registers") {
 }
 
 TEST_CASE("fanuc values: components of position registers, with names and in sums") {
-  const Asked known{
-      .values = {{"PR[1]", "X 500 Y 0 Z 100 W 180 P 0 R 0"}, {"UFRAME_NUM", "3"}, {"UTOOL_NUM", "2"}}};
+  const Asked known{.values = {{"PR[1]", "X 500 Y 0 Z 100 W 180 P 0 R 0"}, {"UFRAME_NUM", "3"}, {"UTOOL_NUM", "2"}}};
   const Reading r =
       run("   1:  PR[2:place]=PR[1:pick] ;\n   2:  R[188:step]=25 ;\n   3:  "
           "PR[2,3:place]=PR[2,3:place]+R[188:step]*2  "
@@ -298,8 +290,7 @@ TEST_CASE("fanuc values: components of position registers, with names and in sum
           jig);
   CHECK(frame.program.work_objects.at(0).frame.position.x() == Approx(0.5).epsilon(rounding));
   REQUIRE(frame.problems.size() == 1);  // PR[5] is unknown, so the frame is unknown after the second assignment
-  CHECK(frame.problems[0].what ==
-        "uses UFRAME[4], which depends on PR[5], which is known only while the robot runs");
+  CHECK(frame.problems[0].what == "uses UFRAME[4], which depends on PR[5], which is known only while the robot runs");
   // If a program assigns one component of an unknown register, the other components stay unknown and are not 0.
   const Reading unknown = run("   1:  PR[9,3]=50 ;\n   2:L PR[9] 100mm/sec FINE ;\n", known);
   CHECK(unknown.problems.at(0).what == "moves to PR[9], which is known only while the robot runs");
@@ -308,10 +299,9 @@ TEST_CASE("fanuc values: components of position registers, with names and in sum
 }
 
 TEST_CASE("fanuc frames: a system variable's component is written, the others stay") {
-  const Asked known{
-      .values = {{"PR[1]", "X 500 Y 0 Z 100 W 180 P 0 R 0"}, {"UFRAME_NUM", "3"}, {"UTOOL_NUM", "2"}}};
-  const Reading r = run(
-      "   1:  $MNUTOOL[1,2].$Z=77 ;\n   2:  $MNUFRAME[1,3].$R=90 ;\n   3:L PR[1] 100mm/sec FINE ;\n", known);
+  const Asked known{.values = {{"PR[1]", "X 500 Y 0 Z 100 W 180 P 0 R 0"}, {"UFRAME_NUM", "3"}, {"UTOOL_NUM", "2"}}};
+  const Reading r =
+      run("   1:  $MNUTOOL[1,2].$Z=77 ;\n   2:  $MNUFRAME[1,3].$R=90 ;\n   3:L PR[1] 100mm/sec FINE ;\n", known);
   REQUIRE(r.problem() == "no such problem");
   const Frame tool = r.program.tools.at(r.move(0).tool).frame,
               object = r.program.work_objects.at(r.move(0).work_object).frame;
@@ -320,20 +310,15 @@ TEST_CASE("fanuc frames: a system variable's component is written, the others st
   CHECK((object.orientation * Vector3::UnitX() - Vector3::UnitY()).norm() < rounding);
 }
 
-TEST_CASE(
-    "fanuc frames: an assignment by an unknown number may be to any of the list, until one is assigned") {
+TEST_CASE("fanuc frames: an assignment by an unknown number may be to any of the list, until one is assigned") {
   const Asked known{.values = {{"PR[1]", "X 0 Y 0 Z 50 W 0 P 0 R 0"}}};
   const std::string move = "   9:L P[8] 100mm/sec FINE ;\n";
-  CHECK(run("   1:  UTOOL[R[1]]=PR[1] ;\n" + move, known)
-            .problem(0)
-            .find("uses UTOOL[2], which depends on R[1]") != std::string::npos);
-  CHECK(
-      run("   1:  UTOOL[2]=PR[1] ;\n   2:  UTOOL[GI[1]]=PR[1] ;\n" + move, known).problem(0).find("GI[1]") !=
-      std::string::npos);
-  CHECK(run("   1:  UTOOL[GI[1]]=PR[1] ;\n   2:  UTOOL[2]=PR[1] ;\n" + move, known).problem() ==
-        "no such problem");
-  CHECK(run("   1:  UTOOL[R[1]]=PR[1] ;\n" + move,
-            {.values = {{"PR[1]", "X 0 Y 0 Z 50 W 0 P 0 R 0"}, {"R[1]", "5"}}})
+  CHECK(run("   1:  UTOOL[R[1]]=PR[1] ;\n" + move, known).problem(0).find("uses UTOOL[2], which depends on R[1]") !=
+        std::string::npos);
+  CHECK(run("   1:  UTOOL[2]=PR[1] ;\n   2:  UTOOL[GI[1]]=PR[1] ;\n" + move, known).problem(0).find("GI[1]") !=
+        std::string::npos);
+  CHECK(run("   1:  UTOOL[GI[1]]=PR[1] ;\n   2:  UTOOL[2]=PR[1] ;\n" + move, known).problem() == "no such problem");
+  CHECK(run("   1:  UTOOL[R[1]]=PR[1] ;\n" + move, {.values = {{"PR[1]", "X 0 Y 0 Z 50 W 0 P 0 R 0"}, {"R[1]", "5"}}})
             .problem() == "no such problem");
 }
 
@@ -352,8 +337,7 @@ TEST_CASE(
                   "uses UTOOL[2], which depends on DI[1], which is known only while the robot runs"),
         std::pair("$MNUTOOL[1,2].$Z=5",
                   "uses UTOOL[2], which depends on DI[1], which is known only while the robot runs"),
-        std::pair("UTOOL[2]=PR[1]",
-                  "uses UTOOL[2], which depends on DI[1], which is known only while the robot runs"),
+        std::pair("UTOOL[2]=PR[1]", "uses UTOOL[2], which depends on DI[1], which is known only while the robot runs"),
         std::pair("UTOOL[R[1]]=PR[1]",
                   "uses UTOOL[2], which depends on DI[1], which is known only while the robot runs"),
         std::pair("$MNUTOOL[1,R[1]]=PR[1]",
@@ -371,8 +355,7 @@ TEST_CASE(
       REQUIRE(!r.problems.empty());
       CHECK(r.problems[0].what == what);
       Asked told = known;
-      told.values[r.problems[0].questions.at(0).name] =
-          r.problems[0].questions[0].name == "DI[1]" ? "OFF" : "100";
+      told.values[r.problems[0].questions.at(0).name] = r.problems[0].questions[0].name == "DI[1]" ? "OFF" : "100";
       CHECK(run(lines, told, files).problem() == "no such problem");
     }
   }
@@ -405,11 +388,11 @@ TEST_CASE("fanuc values: AND binds closer than OR") {
 }
 
 TEST_CASE("fanuc branches: no question where no arm moves, one question for a SELECT") {
-  const Reading logic = run(
-      "   1:J P[1] 100% FINE ;\n   2:  IF DI[5]=OFF,JMP LBL[1] ;\n   3:  DO[3]=ON ;\n   4:  LBL[1] ;\n   5:J "
-      "P[2] "
-      "100% FINE ;\n   6:  LBL[2] ;\n   7:  WAIT DI[7]=ON ;\n   8:  IF DI[8]=OFF,JMP LBL[2] ;\n   9:  SELECT "
-      "GI[1]=1,JMP LBL[3] ;\n  10:         =2,JMP LBL[3] ;\n  11:  LBL[3] ;\n  12:  IF (DI[9])R[5]=(1) ;\n");
+  const Reading logic =
+      run("   1:J P[1] 100% FINE ;\n   2:  IF DI[5]=OFF,JMP LBL[1] ;\n   3:  DO[3]=ON ;\n   4:  LBL[1] ;\n   5:J "
+          "P[2] "
+          "100% FINE ;\n   6:  LBL[2] ;\n   7:  WAIT DI[7]=ON ;\n   8:  IF DI[8]=OFF,JMP LBL[2] ;\n   9:  SELECT "
+          "GI[1]=1,JMP LBL[3] ;\n  10:         =2,JMP LBL[3] ;\n  11:  LBL[3] ;\n  12:  IF (DI[9])R[5]=(1) ;\n");
   CHECK(logic.problem() == "no such problem");
   CHECK(stops(logic) == std::vector<int>{1, 2});
   // A timed wait in an undecided branch is left out, with a warning.
@@ -420,17 +403,15 @@ TEST_CASE("fanuc branches: no question where no arm moves, one question for a SE
   CHECK(stops(wait) == std::vector<int>{1, 2});
   CHECK(warnings(wait).size() == 1);
   // Values that the arms may write are unknown after the branch.
-  CHECK(
-      run("   1:  R[5]=20 ;\n   2:  IF (DI[9])R[5]=(1) ;\n   3:J P[1] R[5]% FINE ;\n").problems.at(0).what ==
-      "has a speed by DI[9], which is known only while the robot runs");
+  CHECK(run("   1:  R[5]=20 ;\n   2:  IF (DI[9])R[5]=(1) ;\n   3:J P[1] R[5]% FINE ;\n").problems.at(0).what ==
+        "has a speed by DI[9], which is known only while the robot runs");
 
   // A called program without moves is left out if its jumps depend on unknown values.
   const std::string told =
       "   1:  IF SO[4]=ON,JMP LBL[7] ;\n   2:  JMP LBL[AR[1]] ;\n   3:  LBL[1] ;\n   4:  R[5]=1 ;\n   5:  "
       "END ;\n   6:  "
       "LBL[7] ;\n   7:  MESSAGE[LOW] ;\n";
-  const std::string main =
-      "   1:J P[1] 100% FINE ;\n   2:  R[5]=50 ;\n   3:  CALL TEXT(R[9]) ;\n   4:J P[2] ";
+  const std::string main = "   1:J P[1] 100% FINE ;\n   2:  R[5]=50 ;\n   3:  CALL TEXT(R[9]) ;\n   4:J P[2] ";
   const Reading text = run(main + "20% FINE ;\n", {}, {{"text.ls", listing("TEXT", told)}});
   CHECK(text.problem() == "no such problem");
   CHECK(stops(text) == std::vector<int>{1, 2});
@@ -460,12 +441,12 @@ TEST_CASE("fanuc branches: no question where no arm moves, one question for a SE
   CHECK(stops(run(choice, {.values = {{"R[1]", "1"}}})) == std::vector<int>{1, 2});
   CHECK(stops(run(choice, {.assume = {{"cell.ls:6", Assumption::then_branch}}})) == std::vector<int>{1, 1});
   // A case calls a program or jumps. A controller accepts no move there.
-  const Reading moving = run("   1:J P[1] 50% FINE ;\n   2:  SELECT R[1]=1,J P[2] 50% FINE ;\n", {.values = {{"R[1]", "1"}}});
+  const Reading moving =
+      run("   1:J P[1] 50% FINE ;\n   2:  SELECT R[1]=1,J P[2] 50% FINE ;\n", {.values = {{"R[1]", "1"}}});
   CHECK(moving.problem() == "cell.ls:5:6: error: moves behind a condition; list the program again");
 }
 
-TEST_CASE(
-    "fanuc loops: a FOR leaves its counter at the last value, and a counter that the body changes counts") {
+TEST_CASE("fanuc loops: a FOR leaves its counter at the last value, and a counter that the body changes counts") {
   // ENDFOR changes the counter only until it reaches its last value (FANUC operator's manual).
   const Reading r =
       run("   1:  FOR R[1]=1 TO 3 ;\n   2:J P[1] 10% FINE ;\n   3:  ENDFOR ;\n   4:J P[2] R[1]% FINE ;\n   "
@@ -541,20 +522,17 @@ TEST_CASE("fanuc moves: what changes a target is followed, or named") {
   CHECK(run("   1:L P[3] 100mm/sec FINE Offset,PR[8] ;\n", known).problems.at(0).what ==
         "is offset by PR[8], which is known only while the robot runs");
   CHECK(run("   1:L P[3] 100mm/sec FINE VOFFSET,VR[1] ;\n").problems.size() == 1);
-  CHECK(
-      warnings(run("   1:L P[3] 100mm/sec CNT100 COORD ;\n   2:L P[3] 100mm/sec CNT100 COORD ;\n")).empty());
+  CHECK(warnings(run("   1:L P[3] 100mm/sec CNT100 COORD ;\n   2:L P[3] 100mm/sec CNT100 COORD ;\n")).empty());
   CHECK(warnings(run("   1:L P[3] 100mm/sec CNT100 COORD ;\n   2:J P[1] 5% FINE ;\n   3:L P[8] 9mm/sec FINE "
                      "COORD ;\n"))
             .at(0)
             .starts_with("COORD: "));
   CHECK(warnings(run("   1:  Weave Sine[1] ;\n   2:J P[1] 100% FINE ;\n")).at(0).starts_with("weave: "));
-  CHECK(
-      run("   1:L P[3] WELD_SPEED FINE ;\n").problem() ==
-      "cell.ls:4:6: error: moves with WELD_SPEED, which lies in the controller's weld schedule; give it with "
-      "--value 'WELD_SPEED=8mm/sec' (motion.values)");
-  CHECK(run("   1:L P[3] WELD_SPEED FINE ;\n", {.values = {{"WELD_SPEED", "60cm/min"}}})
-            .move(0)
-            .speed.tool.value() == Approx(0.01).epsilon(rounding));
+  CHECK(run("   1:L P[3] WELD_SPEED FINE ;\n").problem() ==
+        "cell.ls:4:6: error: moves with WELD_SPEED, which lies in the controller's weld schedule; give it with "
+        "--value 'WELD_SPEED=8mm/sec' (motion.values)");
+  CHECK(run("   1:L P[3] WELD_SPEED FINE ;\n", {.values = {{"WELD_SPEED", "60cm/min"}}}).move(0).speed.tool.value() ==
+        Approx(0.01).epsilon(rounding));
   CHECK(run("   1:J P[1] 100% CNT R[4] ;\n").problems.at(0).what ==
         "goes over into the next move by CNT R[4], which is known only while the robot runs");
 }

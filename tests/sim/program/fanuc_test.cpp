@@ -50,14 +50,13 @@ TEST_CASE("fanuc: moves, speeds, terminations, the third axis is given against t
   REQUIRE(r.problem() == "no such problem");
   REQUIRE(r.program.instructions.size() == 7);
   const std::vector<double> expected{10, 20, -10, 0, 50, 0};  // q3 = J3 + J2
-  for (int i = 0; i < 6; ++i)
-    CHECK(r.move(0).target.joints[i] == Approx(expected[i] * degree).margin(rounding));
+  for (int i = 0; i < 6; ++i) CHECK(r.move(0).target.joints[i] == Approx(expected[i] * degree).margin(rounding));
   CHECK(r.move(0).speed.axis_percent.value() == 50);
   CHECK(r.move(0).zone.percent == 100);
   CHECK(r.move(0).acceleration_percent == 80);
   CHECK((r.move(1).target.pose.position - Vector3(1, -0.0205, 0.0005)).norm() < rounding);
-  CHECK(r.move(1).target.pose.orientation.isApprox(
-      rotation({0, 0, 90 * degree}) * rotation({180 * degree, 0, 0}), rounding));
+  CHECK(r.move(1).target.pose.orientation.isApprox(rotation({0, 0, 90 * degree}) * rotation({180 * degree, 0, 0}),
+                                                   rounding));
   CHECK(r.move(1).target.configuration.text() == "fanuc FUT 0 -1 1");
   CHECK(r.program.tools.at(r.move(1).tool).name == "UTOOL[1]");
   CHECK(r.move(2).dwell == 1);
@@ -93,8 +92,10 @@ TEST_CASE("fanuc: inputs are asked for, missing frames and programs named") {
   CHECK(r.problem(0) ==
         "cell.ls:5:4: error: branches on DI[3], which is known only while the robot runs; choose with "
         "--assume cell.ls:5=then or =else (motion.assume in a job), or give --value 'DI[3]=...'");
-  for (const char* what : {"has a speed by R[9], which is known only while the robot runs", "moves to P[7], which is not listed"})
-    CHECK(std::any_of(r.problems.begin(), r.problems.end(), [&](const Problem& problem) { return problem.what == what; }));
+  for (const char* what :
+       {"has a speed by R[9], which is known only while the robot runs", "moves to P[7], which is not listed"})
+    CHECK(std::any_of(r.problems.begin(), r.problems.end(),
+                      [&](const Problem& problem) { return problem.what == what; }));
   REQUIRE(r.program.skipped.size() == 2);
   CHECK(r.program.skipped[0].may_move);
   CHECK_FALSE(r.program.skipped[1].may_move);
@@ -117,7 +118,8 @@ TEST_CASE("fanuc: every unit of speed under an override, every way to end a move
   CHECK(r.move(0).zone.percent == 100);
   CHECK(r.move(0).acceleration_percent == 150);
   const auto is_noted = [&](const std::string& what) {
-    return std::ranges::any_of(r.program.skipped, [&](const Skipped& skipped) { return skipped.what == what && skipped.may_move; });
+    return std::ranges::any_of(r.program.skipped,
+                               [&](const Skipped& skipped) { return skipped.what == what && skipped.may_move; });
   };
   CHECK(is_noted("ACC200: outside of the controller's range 1 .. 150 (the nearest of these counts)"));
   CHECK(is_noted("ACC0: outside of the controller's range 1 .. 150 (the nearest of these counts)"));
@@ -169,7 +171,9 @@ TEST_CASE("fanuc: a decimal comma in a position is refused") {
   std::string listing = "/PROG CELL\n/MN\n   1:J P[1] 50% FINE ;\n" + positions;
   listing.replace(listing.find("20.000"), 6, "20,5");
   const Reading r = Reader{Language::fanuc}({{"cell.ls", listing}});
-  CHECK(r.problem() == "cell.ls:5:1: error: has a decimal comma in J2; write six coordinates or the joint angles, in mm and deg, with decimal points");
+  CHECK(
+      r.problem() ==
+      "cell.ls:5:1: error: has a decimal comma in J2; write six coordinates or the joint angles, in mm and deg, with decimal points");
 }
 
 TEST_CASE("fanuc: a position without its head is one problem, at its line") {
@@ -178,6 +182,7 @@ TEST_CASE("fanuc: a position without its head is one problem, at its line") {
   listing.replace(head, listing.find('{', head) + 1 - head, "");
   const Reading r = Reader{Language::fanuc}({{"cell.ls", listing}});
   REQUIRE(r.problems.size() == 1);
-  CHECK(r.problem() ==
-        "cell.ls:6:1: error: is no position; list the program again, or write P[n]{ with its number at the begin of the position");
+  CHECK(
+      r.problem() ==
+      "cell.ls:6:1: error: is no position; list the program again, or write P[n]{ with its number at the begin of the position");
 }

@@ -22,12 +22,9 @@ constexpr double rounding = 1e-12;  // rounding error of a few products of numbe
 
 std::string mutated(const std::string& seed, std::mt19937& random) {
   std::string text = seed;
-  const auto below = [&](std::size_t n) {
-    return static_cast<std::size_t>(random() % std::max<std::size_t>(n, 1));
-  };
+  const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % std::max<std::size_t>(n, 1)); };
   for (int k = static_cast<int>(below(6)) + 1; k-- > 0 && !text.empty();) {
-    const std::size_t at = below(text.size()),
-                      length = below(std::min<std::size_t>(40, text.size() - at)) + 1;
+    const std::size_t at = below(text.size()), length = below(std::min<std::size_t>(40, text.size() - at)) + 1;
     switch (below(6)) {
       case 0:
         text[at] = static_cast<char>(random());
@@ -97,16 +94,16 @@ TEST_CASE("import: a program becomes a motion that reads back as it was written"
   const std::string text = pipeline::motion_text(motion);
   const pipeline::Motion again = pipeline::motion_from(pipeline::parse_yaml(text, "again.yaml"));
   CHECK(pipeline::to_yaml(pipeline::echo_fields(again)) == pipeline::to_yaml(pipeline::echo_fields(motion)));
-  for (const char* fallback : {"rows: blended", "passes: 0", "speed_percent: 100\n", "repeat: 0",
-                               "path: joint", "stationary: false"})
+  for (const char* fallback :
+       {"rows: blended", "passes: 0", "speed_percent: 100\n", "repeat: 0", "path: joint", "stationary: false"})
     CHECK_THAT(text, !Catch::Contains(fallback));
 }
 
 TEST_CASE("import: waits before the first move are kept, where the robot stands then") {
   const std::string target = "[[10,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n";
-  const Reading reading = Reader{Language::rapid}(
-      {{"m.mod", "MODULE m\nPROC main()\nWaitTime 3;\nWaitTime 4;\nMoveAbsJ " + target + "WaitTime 2;\nMoveAbsJ " + target +
-                     "ENDPROC\nENDMODULE\n"}});
+  const Reading reading =
+      Reader{Language::rapid}({{"m.mod", "MODULE m\nPROC main()\nWaitTime 3;\nWaitTime 4;\nMoveAbsJ " + target +
+                                             "WaitTime 2;\nMoveAbsJ " + target + "ENDPROC\nENDMODULE\n"}});
   const pipeline::Motion motion = motion_of(reading.program, {});
   REQUIRE(motion.steps.size() == 5);
   CHECK(motion.steps[0].is_move());
@@ -133,7 +130,8 @@ TEST_CASE("import: external axes that move are named with the entry that a job's
   // The robot's YAML accepts the proposed entry.
   const std::size_t open = lines[0].find("external_axes: ["), close = lines[0].find("]}.", open);
   pipeline::Robot robot;
-  pipeline::Node axis = *pipeline::parse_yaml("{" + lines[0].substr(open, close + 1 - open) + "}", "entry.yaml").find("external_axes");
+  pipeline::Node axis =
+      *pipeline::parse_yaml("{" + lines[0].substr(open, close + 1 - open) + "}", "entry.yaml").find("external_axes");
   pipeline::ExternalAxis read;
   pipeline::read_fields(axis.items.at(0), read);
   CHECK(read.upper == Approx(0.5));
@@ -191,8 +189,11 @@ TEST_CASE("import: the example programs read without a problem") {
   // Instructions of each program: 2 home, 2 approaches, 16 spots with 16 welds, 2 departures; start, 4 x 8, end;
   // start, 2 x 4, a wait, end; home, 2 x (8 moves, 2 waits, a circle of 5 moves), home; home, 4 x (5 moves, a wait),
   // home.
-  const std::pair<const char*, std::size_t> examples[] = {
-      {"side_panel.mod", 38}, {"pick_and_place.src", 34}, {"frame_weld.ls", 11}, {"door_handling.jbi", 32}, {"tray_filling.script", 26}};
+  const std::pair<const char*, std::size_t> examples[] = {{"side_panel.mod", 38},
+                                                          {"pick_and_place.src", 34},
+                                                          {"frame_weld.ls", 11},
+                                                          {"door_handling.jbi", 32},
+                                                          {"tray_filling.script", 26}};
   for (const auto& [name, count] : examples) {
     pipeline::Motion motion;
     motion.program = folder + name;
@@ -203,15 +204,18 @@ TEST_CASE("import: the example programs read without a problem") {
 TEST_CASE("import: a copy beside the named program does not count") {
   const pipeline::Scratch scratch;
   const auto program = [&](const std::string& file, int z) {
-    return scratch.write(file, fmt::format("DEF load()\n PTP {{A1 0,A2 -90,A3 90,A4 0,A5 {0},A6 0}}\n sub()\nEND\nDEF sub()\n "
-                                           "PTP {{A1 {0},A2 -90,A3 90,A4 0,A5 {0},A6 0}}\nEND\n", z));
+    return scratch.write(
+        file, fmt::format("DEF load()\n PTP {{A1 0,A2 -90,A3 90,A4 0,A5 {0},A6 0}}\n sub()\nEND\nDEF sub()\n "
+                          "PTP {{A1 {0},A2 -90,A3 90,A4 0,A5 {0},A6 0}}\nEND\n",
+                          z));
   };
   pipeline::Motion motion;
   motion.program = program("load.src", 10);
   program("load_old.src", 20);
   const Program read = read_program(motion);
   REQUIRE(read.instructions.size() == 2);
-  for (const Instruction& move : read.instructions) CHECK(std::filesystem::path(move.where.file).filename() == "load.src");
+  for (const Instruction& move : read.instructions)
+    CHECK(std::filesystem::path(move.where.file).filename() == "load.src");
   CHECK(moves_left_out(read).empty());  // a note, not a warning
   REQUIRE(!read.skipped.empty());
   CHECK(read.skipped[0].what.find("load_old.src:1") != std::string::npos);
@@ -228,15 +232,12 @@ TEST_CASE("import: waits for signals count no time, and are counted, in every la
       " 0 s: the cycle is shorter than in the plant. Count no waits in fatigue.operating_hours_per_week, "
       "or write their times into a copy of the program";
   const std::string joints = "[[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n";
-  CHECK(
-      note(
-          "w.mod",
-          "MODULE w\nPROC main()\nMoveAbsJ " + joints +
-              "FOR i FROM 1 TO 9 DO\nWaitDI di1,1;\nENDFOR\nWaitUntil di2=1;\nWaitTime 2;\nSetDO do1,1;\nMoveAbsJ " +
-              joints + "ENDPROC\nENDMODULE\n") == "2 waits for signals count" + rest);
-  CHECK(
-      note("w.src", "DEF w()\nPTP {A1 0,A2 -90,A3 90,A4 0,A5 0,A6 0}\nWAIT FOR $IN[1]\nWAIT SEC 1\nEND\n") ==
-      "1 wait for signals counts" + rest);
+  CHECK(note("w.mod",
+             "MODULE w\nPROC main()\nMoveAbsJ " + joints +
+                 "FOR i FROM 1 TO 9 DO\nWaitDI di1,1;\nENDFOR\nWaitUntil di2=1;\nWaitTime 2;\nSetDO do1,1;\nMoveAbsJ " +
+                 joints + "ENDPROC\nENDMODULE\n") == "2 waits for signals count" + rest);
+  CHECK(note("w.src", "DEF w()\nPTP {A1 0,A2 -90,A3 90,A4 0,A5 0,A6 0}\nWAIT FOR $IN[1]\nWAIT SEC 1\nEND\n") ==
+        "1 wait for signals counts" + rest);
   CHECK(
       note(
           "w.ls",
@@ -244,13 +245,11 @@ TEST_CASE("import: waits for signals count no time, and are counted, in every la
           "UT : 1,\n J1=0 deg,J2=0 deg,J3=0 deg,J4=0 deg,J5=0 deg,J6=0 deg\n};\n/END\n") ==
       "1 wait for signals counts" + rest);
   CHECK(
-      note(
-          "w.jbi",
-          "/JOB\n//NAME W\n//POS\n///NPOS 1,0,0,0,0,0\n///TOOL 0\n///POSTYPE ANGLE\n///ANGLE\nC00000=10,0,0,0,-90,0\n"
-          "//INST\n///ATTR SC,RW\n///GROUP1 RB1\nNOP\nMOVJ C00000 VJ=1\nWAIT IN#(1)=ON\nTIMER T=1.00\nEND\n") ==
+      note("w.jbi",
+           "/JOB\n//NAME W\n//POS\n///NPOS 1,0,0,0,0,0\n///TOOL 0\n///POSTYPE ANGLE\n///ANGLE\nC00000=10,0,0,0,-90,0\n"
+           "//INST\n///ATTR SC,RW\n///GROUP1 RB1\nNOP\nMOVJ C00000 VJ=1\nWAIT IN#(1)=ON\nTIMER T=1.00\nEND\n") ==
       "1 wait for signals counts" + rest);
-  CHECK(note("without.mod",
-             "MODULE w\nPROC main()\nMoveAbsJ " + joints + "WaitTime 2;\nENDPROC\nENDMODULE\n") == "");
+  CHECK(note("without.mod", "MODULE w\nPROC main()\nMoveAbsJ " + joints + "WaitTime 2;\nENDPROC\nENDMODULE\n") == "");
 }
 
 TEST_CASE("import: the cycle times of the example programs") {

@@ -55,30 +55,25 @@ TEST_CASE("inform: pulses become angles by the controller's counts, which are as
   const Reading r = run(taught, "MOVJ C00000 VJ=50.00\n", given(counts));
   REQUIRE(r.problem() == "no such problem");
   const double expected[] = {90, -10, -3, 1, -2.5, 0.5};
-  for (int i = 0; i < 6; ++i)
-    CHECK(r.move(0).target.joints.at(i) == Approx(expected[i] * degree).margin(rounding));
+  for (int i = 0; i < 6; ++i) CHECK(r.move(0).target.joints.at(i) == Approx(expected[i] * degree).margin(rounding));
   CHECK(r.move(0).speed.axis_percent.value() == 50);
   CHECK(r.move(0).tool == -1);
   const Reading fewer = run(pulses + "C00000=1,2,3,4,5\n", "MOVJ C00000 VJ=50.00\n", given(counts));
   CHECK(fewer.problem().find("position of 5 axes, and pulses_per_degree has 6") != std::string::npos);
   const Reading more = run(pulses + "C00000=1,2,3,4,5,6,7\n", "MOVJ C00000 VJ=50.00\n", given(counts));
   CHECK(more.problem().find("position of 7 axes") != std::string::npos);
-  CHECK(run(pulses + "C00000=1,2,3,4,5,6,0,0\n", "MOVJ C00000 VJ=1\n", given(counts)).problem() ==
-        "no such problem");
-  const Reading angles =
-      run("///TOOL 0\n///POSTYPE ANGLE\n///ANGLE\nC00000=10.5,0,0,0,-90,0\n", "MOVJ C00000 VJ=1\n");
+  CHECK(run(pulses + "C00000=1,2,3,4,5,6,0,0\n", "MOVJ C00000 VJ=1\n", given(counts)).problem() == "no such problem");
+  const Reading angles = run("///TOOL 0\n///POSTYPE ANGLE\n///ANGLE\nC00000=10.5,0,0,0,-90,0\n", "MOVJ C00000 VJ=1\n");
   CHECK(angles.move(0).target.joints.at(0) == Approx(10.5 * degree));
 }
 
-TEST_CASE(
-    "inform: Cartesian positions turn about the fixed axes x, y, z, tools and frames come from the backup") {
-  const std::string taught =
-      base + "C00000=100.000,200.000,300.000,90.0000,0.0000,90.0000\n///USER 2\n///POSTYPE USER\n" +
-      "C00001=1.000,2.000,3.000,0.0000,0.0000,0.0000\n";
-  const std::pair<std::string, std::string> user{
-      "UFRAME.CND",
-      "//UFRAME 2\n///NAME S1\n////RORG C000=1,2,3\n"
-      "////BUSER 841.000,-619.000,-14.000,0.0000,0.0000,90.0000\n"};
+TEST_CASE("inform: Cartesian positions turn about the fixed axes x, y, z, tools and frames come from the backup") {
+  const std::string taught = base +
+                             "C00000=100.000,200.000,300.000,90.0000,0.0000,90.0000\n///USER 2\n///POSTYPE USER\n" +
+                             "C00001=1.000,2.000,3.000,0.0000,0.0000,0.0000\n";
+  const std::pair<std::string, std::string> user{"UFRAME.CND",
+                                                 "//UFRAME 2\n///NAME S1\n////RORG C000=1,2,3\n"
+                                                 "////BUSER 841.000,-619.000,-14.000,0.0000,0.0000,90.0000\n"};
   const Reading r = run(taught, "MOVL C00000 V=150.0\nMOVL C00001 V=150.0\n", {}, {frames, user});
   REQUIRE(r.problem() == "no such problem");
   const Frame& pose = r.move(0).target.pose;
@@ -90,8 +85,7 @@ TEST_CASE(
   CHECK((tool.frame.position - Vector3(0.01, 0.02, 0.3)).norm() < rounding);
   const NamedFrame& object = r.program.work_objects.at(r.move(1).work_object);
   CHECK(object.name == "UF#(2)");
-  CHECK((object.frame.point(r.move(1).target.pose.position) - Vector3(0.839, -0.618, -0.011)).norm() <
-        rounding);
+  CHECK((object.frame.point(r.move(1).target.pose.position) - Vector3(0.839, -0.618, -0.011)).norm() < rounding);
   const Reading without = run(taught, "MOVL C00000 V=150.0\nMOVL C00001 V=150.0\n", {}, {});
   REQUIRE(without.problems.size() == 2);
   CHECK(without.problem(0).find("moves with TL#(1), which no file read holds") != std::string::npos);
@@ -103,11 +97,11 @@ TEST_CASE(
 }
 
 TEST_CASE("inform: speeds, accelerations and position levels") {
-  const Reading r = run(
-      three,
-      "MOVJ C00000 VJ=12.50 PL=0\nMOVL C00001 V=276.0 PL=4 ACC=60 DEC=40\nMOVL C00002 VR=30.0 CR=12.5\n"
-      "SPEED VJ=20.00 V=100.0\nMOVJ C00000\nMOVL C00001\nSET I000 2500\nMOVL C00002 V=I000\nTIMER T=1.50\n"
-      "SET I001 30\nTIMER T=I001\nWAIT T=2.00\nWAIT IN#(3)=ON T=9.00\n");
+  const Reading r =
+      run(three,
+          "MOVJ C00000 VJ=12.50 PL=0\nMOVL C00001 V=276.0 PL=4 ACC=60 DEC=40\nMOVL C00002 VR=30.0 CR=12.5\n"
+          "SPEED VJ=20.00 V=100.0\nMOVJ C00000\nMOVL C00001\nSET I000 2500\nMOVL C00002 V=I000\nTIMER T=1.50\n"
+          "SET I001 30\nTIMER T=I001\nWAIT T=2.00\nWAIT IN#(3)=ON T=9.00\n");
   REQUIRE(r.problem() == "no such problem");
   REQUIRE(r.program.instructions.size() == 9);
   CHECK(r.move(0).speed.axis_percent.value() == 12.5);
@@ -125,9 +119,8 @@ TEST_CASE("inform: speeds, accelerations and position levels") {
   CHECK(r.move(6).dwell == 1.5);
   CHECK(r.move(7).dwell == Approx(0.3));
   CHECK(r.move(8).dwell == 2);
-  CHECK(
-      run(three, "MOVL C00000 V=60.0\n", given({{"speed_unit", "\"cm/min\""}})).move(0).speed.tool.value() ==
-      Approx(0.01));
+  CHECK(run(three, "MOVL C00000 V=60.0\n", given({{"speed_unit", "\"cm/min\""}})).move(0).speed.tool.value() ==
+        Approx(0.01));
   CHECK(skips(r, "note: V= counts mm/s", false));
   CHECK(run(three, "MOVL C00000\n").problem().find("has no V=, and no SPEED before it") != std::string::npos);
   CHECK(run(three, "MOVL C00000\n", given({{"v", "250"}})).move(0).speed.tool.value() == Approx(0.25));
@@ -138,8 +131,7 @@ TEST_CASE("inform: MOVC leads straight to its first point, then round the circle
   const std::string quarters = base +
                                "C00000=100.0,0.0,50.0,180.0,0.0,0.0\nC00001=0.0,100.0,50.0,180.0,0.0,0.0\n"
                                "C00002=-100.0,0.0,50.0,180.0,0.0,0.0\nC00003=0.0,-100.0,50.0,180.0,0.0,0.0\n";
-  const std::string round =
-      "MOVC C00000 V=50.0\nMOVC C00001 V=50.0\nMOVC C00002 V=50.0\nMOVC C00003 V=50.0\n";
+  const std::string round = "MOVC C00000 V=50.0\nMOVC C00001 V=50.0\nMOVC C00002 V=50.0\nMOVC C00003 V=50.0\n";
   const Reading r = run(quarters, round);
   REQUIRE(r.problem() == "no such problem");
   CHECK(r.move(0).kind == Instruction::Kind::linear);
@@ -150,10 +142,9 @@ TEST_CASE("inform: MOVC leads straight to its first point, then round the circle
     CHECK((r.move(i).via.position - on_the_way[i - 1]).norm() < 1e-9);
   }
   // After FPT a second circle begins at the end of the first one.
-  const Reading two =
-      run(quarters,
-          "MOVC C00000 V=50.0\nMOVC C00001 V=50.0\nMOVC C00002 V=50.0 FPT\nMOVC C00003 V=50.0\n"
-          "MOVC C00000 V=50.0\n");
+  const Reading two = run(quarters,
+                          "MOVC C00000 V=50.0\nMOVC C00001 V=50.0\nMOVC C00002 V=50.0 FPT\nMOVC C00003 V=50.0\n"
+                          "MOVC C00000 V=50.0\n");
   REQUIRE(two.problem() == "no such problem");
   CHECK(two.move(3).kind == Instruction::Kind::circular);
   CHECK((two.move(3).via.position - on_the_way[2]).norm() < 1e-9);
@@ -179,11 +170,10 @@ TEST_CASE("inform: an endless main loop is one cycle, also where it is left and 
   REQUIRE(parts.problem() == "no such problem");
   CHECK(lines_of(parts) == std::vector<int>{23, 23, 27});
   CHECK(skips(parts, "an endless loop; the motion is", false));
-  const Reading counted =
-      run(three,
-          "FOR I000 START= 1 TO 3\nMOVJ C00000 VJ=9\nNEXT I000\nWHILE I000>2\nMOVL C00001 V=9\n"
-          "DEC I000\nENDWHILE\nSWITCH I000 CASE 1\nMOVJ C00000 VJ=1\nCASE 2\nMOVJ C00002 VJ=1\n"
-          "DEFAULT\nMOVJ C00001 VJ=1\nENDSWITCH\n");
+  const Reading counted = run(three,
+                              "FOR I000 START= 1 TO 3\nMOVJ C00000 VJ=9\nNEXT I000\nWHILE I000>2\nMOVL C00001 V=9\n"
+                              "DEC I000\nENDWHILE\nSWITCH I000 CASE 1\nMOVJ C00000 VJ=1\nCASE 2\nMOVJ C00002 VJ=1\n"
+                              "DEFAULT\nMOVJ C00001 VJ=1\nENDSWITCH\n");
   REQUIRE(counted.problem() == "no such problem");
   CHECK(lines_of(counted) == std::vector<int>{18, 18, 18, 21, 21, 27});
 }
@@ -201,10 +191,9 @@ TEST_CASE("inform: what inputs and unknown variables decide is asked, with the n
   CHECK(run(three, variable).problem().find("--value 'B003=...'") != std::string::npos);
   CHECK(lines_of(run(three, variable, given({{"B3", "1"}, {"B004", "0"}}))) == std::vector<int>{18});
   CHECK(lines_of(run(three, variable, given({{"B3", "2"}, {"B004", "0"}}))) == std::vector<int>{20});
-  const std::pair<std::string, std::string> values{
-      "VAR.DAT",
-      "//VAR\n///SHARE 9,9\n///B\n0,0,0,7,0,0,0,0,0,0\n///I\n5\n///P\n"
-      "\"PULSE\"0,0,3,000000,0,0,1000,0,0,0,0,0,0,0\n"};
+  const std::pair<std::string, std::string> values{"VAR.DAT",
+                                                   "//VAR\n///SHARE 9,9\n///B\n0,0,0,7,0,0,0,0,0,0\n///I\n5\n///P\n"
+                                                   "\"PULSE\"0,0,3,000000,0,0,1000,0,0,0,0,0,0,0\n"};
   CHECK(lines_of(run(three, variable, {}, {frames, values})) == std::vector<int>{22});
   const Reading place = run("", "MOVJ P000 VJ=9\n", given(counts), {frames, values});
   CHECK(place.move(0).target.joints.at(0) == Approx(degree));
@@ -216,11 +205,10 @@ TEST_CASE("inform: positions are computed with, moved on from and shifted") {
   const std::string taught = three +
                              "P00001=10.000,20.000,30.000,0.0000,0.0000,0.0000\n"
                              "P00002=0.000,0.000,5.000,0.0000,0.0000,0.0000\n";
-  const Reading r =
-      run(taught,
-          "SET P003 P001\nSET D000 3\nMUL P002 D000\nADD P003 P002\nSETE P003 (1) 500000\nMOVL P003 V=9\n"
-          "IMOV P002 V=9 BF\nIMOV P002 V=9 TF\nSFTON P001 BF\nMOVL C00000 V=9\nSFTOF\nMOVL C00000 V=9\n"
-          "GETE D001 P003 (2)\n");
+  const Reading r = run(taught,
+                        "SET P003 P001\nSET D000 3\nMUL P002 D000\nADD P003 P002\nSETE P003 (1) 500000\nMOVL P003 V=9\n"
+                        "IMOV P002 V=9 BF\nIMOV P002 V=9 TF\nSFTON P001 BF\nMOVL C00000 V=9\nSFTOF\nMOVL C00000 V=9\n"
+                        "GETE D001 P003 (2)\n");
   REQUIRE(r.problem() == "no such problem");
   const auto at = [&](int i) { return Vector3(1000 * r.move(i).target.pose.position); };
   CHECK((at(0) - Vector3(500, 20, 45)).norm() < 1e-9);
@@ -231,17 +219,15 @@ TEST_CASE("inform: positions are computed with, moved on from and shifted") {
   // In the frame of a tool that points down, z has the opposite direction.
   const Reading down = run(taught, "MOVL C00000 V=9\nIMOV P002 V=9 TF\n");
   CHECK(down.move(1).target.pose.position.z() == Approx(0.495));
-  const Reading joints =
-      run(pulses + "C00000=1,2,3,4,5,6\n" + base + "P00001=0,0,1,0,0,0\n",
-          "MOVJ C00000 VJ=9\nIMOV P001 V=9 BF\nSFTON P001\nMOVJ C00000 VJ=9\n", given(counts));
+  const Reading joints = run(pulses + "C00000=1,2,3,4,5,6\n" + base + "P00001=0,0,1,0,0,0\n",
+                             "MOVJ C00000 VJ=9\nIMOV P001 V=9 BF\nSFTON P001\nMOVJ C00000 VJ=9\n", given(counts));
   REQUIRE(joints.problems.size() == 2);
   CHECK(joints.problem(0).find("moves from joint angles by a distance in space (IMOV)") != std::string::npos);
   CHECK(joints.problem(1).find("shifts a position that is given in pulses (SFTON)") != std::string::npos);
 }
 
 TEST_CASE("inform: jobs call jobs with arguments, a job that is not there leaves variables unknown") {
-  const std::string called =
-      job("B-1", three, "GETARG LB000 IARG#(1)\nRET IF LB000=2\nMOVJ C00001 VJ=9\nINC B007\n");
+  const std::string called = job("B-1", three, "GETARG LB000 IARG#(1)\nRET IF LB000=2\nMOVJ C00001 VJ=9\nINC B007\n");
   const std::string calls =
       "SET B007 0\nCALL JOB:B-1 ARGF1\nCALL JOB:B-1 ARGF2\nMOVJ C00000 VJ=9 //comment\n"
       "IFTHENEXP B007=1\nJUMP JOB:B-1\nENDIF\nMOVJ C00002 VJ=9\n";
@@ -258,11 +244,9 @@ TEST_CASE("inform: jobs call jobs with arguments, a job that is not there leaves
   const Reading missing = run(three, "SET B000 1\nCALL JOB:GONE\nMOVJ C00000 VJ=9\n");
   CHECK(missing.program.instructions.size() == 1);
   CHECK(skips(missing, "CALL JOB:gone: not among the files read", true));
-  CHECK(
-      run(three,
-          "SET B000 1\nCALL JOB:GONE\nMOVJ C00000 VJ=9 IF B000=1\nIFTHENEXP B000=1\nMOVJ C00001 VJ=9\nENDIF\n")
-          .problem()
-          .find("may be written by CALL JOB:gone, which no file read holds") != std::string::npos);
+  CHECK(run(three, "SET B000 1\nCALL JOB:GONE\nMOVJ C00000 VJ=9 IF B000=1\nIFTHENEXP B000=1\nMOVJ C00001 VJ=9\nENDIF\n")
+            .problem()
+            .find("may be written by CALL JOB:gone, which no file read holds") != std::string::npos);
   ImportOptions other;
   other.routine = "B-1";
   const Reading start = run(three, calls, other, {frames, {"B-1.JBI", called}});
@@ -279,8 +263,7 @@ TEST_CASE("inform: another robot's moves, stations and two robots at once are re
             .problem()
             .find("moves two robots at once") != std::string::npos);
   const std::string station = three + "///POSTYPE PULSE\n///PULSE\nEC00000=100\nEC00001=101\nEC00002=90000\n";
-  const Reading still =
-      run(station, "MOVJ C00000 VJ=9 +MOVJ EC00000 VJ=9\nMOVJ C00001 VJ=9 +MOVJ EC00001 VJ=9\n");
+  const Reading still = run(station, "MOVJ C00000 VJ=9 +MOVJ EC00000 VJ=9\nMOVJ C00001 VJ=9 +MOVJ EC00001 VJ=9\n");
   REQUIRE(still.problem() == "no such problem");
   CHECK(!skips(still, "station", true));
   const Reading turned = run(station, "MOVJ C00000 VJ=9 +MOVJ EC00000 VJ=9\nMOVJ C00001 EC00002 VJ=9\n");
@@ -306,19 +289,15 @@ TEST_CASE("inform: RCONF says which arm, the meaning of its first number is repo
 }
 
 TEST_CASE("inform: what is wrong in a job has its line, and counts where the job runs") {
-  CHECK(run(three, "MOVJ C00009 VJ=9\n").problem().find("A.JBI:17:6: error: moves to C009") !=
-        std::string::npos);
+  CHECK(run(three, "MOVJ C00009 VJ=9\n").problem().find("A.JBI:17:6: error: moves to C009") != std::string::npos);
   CHECK(run(three, "JUMP *NOWHERE\n").problem().find("jumps to 'nowhere'") != std::string::npos);
-  CHECK(run(three, "IFTHENEXP B000=1\nMOVJ C00000 VJ=9\n").problem().find("before endif") !=
-        std::string::npos);
+  CHECK(run(three, "IFTHENEXP B000=1\nMOVJ C00000 VJ=9\n").problem().find("before endif") != std::string::npos);
   CHECK(run(three, "SET B000 (1\n").problem().find("has a ( without )") != std::string::npos);
-  CHECK(
-      run(three + "C00003=1,x,3\n", "MOVJ C00000 VJ=9\n").problem().find("gives c00003 no list of numbers") !=
-      std::string::npos);
+  CHECK(run(three + "C00003=1,x,3\n", "MOVJ C00000 VJ=9\n").problem().find("gives c00003 no list of numbers") !=
+        std::string::npos);
   CHECK(Reader{Language::inform}({{"A.JBI", "/JOB\n//NAME A\n"}}).problem().find("holds no //INST") !=
         std::string::npos);
-  CHECK(skips(run(three, "MOVJ C00000 VJ=9\nWVON WEV#(1)\nFORMCUT FCF#(1)\nDOUT OT#(1) ON\n"), "FORMCUT",
-              true));
+  CHECK(skips(run(three, "MOVJ C00000 VJ=9\nWVON WEV#(1)\nFORMCUT FCF#(1)\nDOUT OT#(1) ON\n"), "FORMCUT", true));
 }
 
 TEST_CASE("inform: a jump to the label of a number leads there") {
@@ -346,19 +325,17 @@ TEST_CASE("inform: a jump to the label of a number leads there") {
 }
 
 TEST_CASE("inform: a comment behind an instruction ends its line, one in a text does not") {
-  const Reading r =
-      run(three, "MOVL C00000 V=100.0 'first\nMSG \"it's here\"\nMOVL C00001 V=100.0\t' MOVL C00002\n");
+  const Reading r = run(three, "MOVL C00000 V=100.0 'first\nMSG \"it's here\"\nMOVL C00001 V=100.0\t' MOVL C00002\n");
   REQUIRE(r.problem() == "no such problem");
   CHECK(r.program.instructions.size() == 2);
-  CHECK(lines_of(run(three,
-                     "SET S000 \"ab\"\nJUMP *END IF S000=\"ab\"\nMOVJ C00000 VJ=9\n*END\nMOVJ C00001 VJ=9\n")) == std::vector<int>{21});
+  CHECK(lines_of(run(three, "SET S000 \"ab\"\nJUMP *END IF S000=\"ab\"\nMOVJ C00000 VJ=9\n*END\nMOVJ C00001 VJ=9\n")) ==
+        std::vector<int>{21});
 }
 
 TEST_CASE("inform: a position that several jobs hold is asked for where they differ") {
   const auto other = [](const char* y) {
     return std::pair<std::string, std::string>{
-        "B.JBI",
-        job("B", base + "P00005=1000.000," + y + ",500.000,180.0000,0.0000,0.0000\n", "MOVL P005 V=50.0\n")};
+        "B.JBI", job("B", base + "P00005=1000.000," + y + ",500.000,180.0000,0.0000,0.0000\n", "MOVL P005 V=50.0\n")};
   };
   const std::string own = base + "P00005=1000.000,0.000,500.000,180.0000,0.0000,0.0000\n",
                     lines = "MOVL P005 V=100.0\nCALL JOB:B\n";

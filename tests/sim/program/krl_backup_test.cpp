@@ -14,11 +14,9 @@ std::string program(const std::string& name, const std::string& body) {
 
 /// Writes a backup: a cell that calls `called` by number, two programs with a point of the same name, system files.
 void write_backup(const Scratch& folder, const std::string& called) {
-  folder.write(
-      "KRC/R1/Cell.src",
-      program("CELL",
-              "INT N\nBAS(#INITMOV,0)\nLOOP\nP00(#EXT_PGNO,#PGNO_GET,DMY[],0)\nSWITCH PGNO\nCASE 1\n" +
-                  called + "\nENDSWITCH\nENDLOOP"));
+  folder.write("KRC/R1/Cell.src",
+               program("CELL", "INT N\nBAS(#INITMOV,0)\nLOOP\nP00(#EXT_PGNO,#PGNO_GET,DMY[],0)\nSWITCH PGNO\nCASE 1\n" +
+                                   called + "\nENDSWITCH\nENDLOOP"));
   folder.write("KRC/R1/System/$config.dat",
                "DEFDAT $CONFIG\nREAL DEF_VEL_CP=2.0\nDECL FDAT FDAT_ACT\nDECL PDAT PDAT_ACT\nDECL FRAME "
                "TOOL_DATA[16]\nTOOL_DATA[1]={X 0.0,Y 0.0,Z 775.0,A 0.0,B 0.0,C 0.0}\nENDDAT\n");

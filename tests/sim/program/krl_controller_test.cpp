@@ -41,8 +41,8 @@ double tool_length(const Reading& reading, std::size_t move) {
 
 TEST_CASE("krl controller: a CHAR is the number of its letter") {
   const auto counts = [](const std::string& condition) {
-    return run("DECL INT i\nDECL CHAR c\nDECL CHAR a[3]\nc=\"3\"\ni=c\na[]=\"321\"\nIF " + condition + " THEN\nPTP " + axes(1) +
-               "\nENDIF\nPTP " + axes(2))
+    return run("DECL INT i\nDECL CHAR c\nDECL CHAR a[3]\nc=\"3\"\ni=c\na[]=\"321\"\nIF " + condition + " THEN\nPTP " +
+               axes(1) + "\nENDIF\nPTP " + axes(2))
         .program.instructions.size();
   };
   for (const char* holds : {"i==51", "i>50", "c==51", "a[1]>a[3]", "a[3]==\"1\"", "c==a[1]", "c<>a[2]"}) {
@@ -121,8 +121,7 @@ TEST_CASE("krl: one program twice is refused where it runs, two values of one na
 
 TEST_CASE("krl: what a program writes to an undeclared name stays in it while its data list is missing") {
   // The name may belong to the missing list, so its use in another program has no effect.
-  const Reading r =
-      run("n=1\nsub()", "", {{"sub.src", "DEF sub()\nIF n==1 THEN\nPTP " + axes(1) + "\nENDIF\nEND\n"}});
+  const Reading r = run("n=1\nsub()", "", {{"sub.src", "DEF sub()\nIF n==1 THEN\nPTP " + axes(1) + "\nENDIF\nEND\n"}});
   REQUIRE(r.problems.size() == 1);
   CHECK(r.problems[0].what.find("'n' is a name that no file read declares") != std::string::npos);
 }
@@ -146,8 +145,7 @@ TEST_CASE("krl: parameters take the types of their declarations, and come back u
 }
 
 TEST_CASE("krl: FOR goes on from what its body makes of the counter") {
-  const Reading r =
-      run("INT n\nFOR n=1 TO 6\nPTP {A1 n,A2 0,A3 0,A4 0,A5 0,A6 0}\nn=n+1\nENDFOR\nPTP {A1 n}");
+  const Reading r = run("INT n\nFOR n=1 TO 6\nPTP {A1 n,A2 0,A3 0,A4 0,A5 0,A6 0}\nn=n+1\nENDFOR\nPTP {A1 n}");
   REQUIRE(r.problem() == "no such problem");
   CHECK(first_axes(r.program) == std::vector<double>{1, 3, 5, 7});
 }
@@ -165,21 +163,22 @@ TEST_CASE("krl: the counter behind a FOR whose end is not known is not known") {
     CHECK(run(loop + body + use, "", {}, {Language::krl, none}).problems.size() == 1);
   }
   CHECK(run(loop + "$FLAG[1]=TRUE\n" + use).problems.size() == 1);
-  CHECK(first_axes(run("INT n\nFOR n=1 TO 1\n$FLAG[1]=TRUE\nENDFOR\nIF n==2 THEN\nPTP " + axes(2) + "\nENDIF")
-                       .program) == std::vector<double>{2});
+  CHECK(
+      first_axes(run("INT n\nFOR n=1 TO 1\n$FLAG[1]=TRUE\nENDFOR\nIF n==2 THEN\nPTP " + axes(2) + "\nENDIF").program) ==
+      std::vector<double>{2});
 }
 
 TEST_CASE("krl: WITH sets speed, approximation, tool and base for its move alone") {
-  const Reading r = run(
-      "$VEL.CP=1.5\nSPTP " + pose +
-          " WITH $VEL_AXIS[1]=SVEL_JOINT(40.0),$ACC_AXIS[1]=SACC_JOINT(PP1),$APO=SAPO_PTP(PP1) C_SPL\nSLIN "
-          "{X 900} "
-          "WITH $VEL=SVEL_CP(0.1, "
-          ",LP1),$TOOL=STOOL2(FP1),$BASE=SBASE(FP1.BASE_NO),$IPO_MODE=SIPO_MODE(FP1.IPO_FRAME),"
-          "$ACC=SACC_CP(LP1),$APO=SAPO(LP1) C_SPL\nSLIN {X 800}\nSLIN {X 700} WITH $VEL=SVEL_CP(9.0, ,LP1)",
-      "DECL FDAT FP1={TOOL_NO 1,BASE_NO 1,IPO_FRAME #BASE}\nDECL PDAT PP1={VEL 100.0,ACC 30.0,APO_DIST "
-      "60.0,APO_MODE #CPTP}\nDECL LDAT LP1={VEL 2.0,ACC 25.0,APO_DIST 8.0,APO_FAC 50.0}",
-      {{"$config.dat", config}});
+  const Reading r =
+      run("$VEL.CP=1.5\nSPTP " + pose +
+              " WITH $VEL_AXIS[1]=SVEL_JOINT(40.0),$ACC_AXIS[1]=SACC_JOINT(PP1),$APO=SAPO_PTP(PP1) C_SPL\nSLIN "
+              "{X 900} "
+              "WITH $VEL=SVEL_CP(0.1, "
+              ",LP1),$TOOL=STOOL2(FP1),$BASE=SBASE(FP1.BASE_NO),$IPO_MODE=SIPO_MODE(FP1.IPO_FRAME),"
+              "$ACC=SACC_CP(LP1),$APO=SAPO(LP1) C_SPL\nSLIN {X 800}\nSLIN {X 700} WITH $VEL=SVEL_CP(9.0, ,LP1)",
+          "DECL FDAT FP1={TOOL_NO 1,BASE_NO 1,IPO_FRAME #BASE}\nDECL PDAT PP1={VEL 100.0,ACC 30.0,APO_DIST "
+          "60.0,APO_MODE #CPTP}\nDECL LDAT LP1={VEL 2.0,ACC 25.0,APO_DIST 8.0,APO_FAC 50.0}",
+          {{"$config.dat", config}});
   REQUIRE(r.problem() == "no such problem");
   REQUIRE(r.program.instructions.size() == 4);
   CHECK(r.move(0).speed.axis_percent.value() == 40);
@@ -199,7 +198,8 @@ TEST_CASE("krl: WITH sets speed, approximation, tool and base for its move alone
 TEST_CASE("krl: moves of the spline planner take their jerk from $GEAR_JERK and $JERK, others do not") {
   const Reading r = run("$VEL.CP=1\nSPTP " + pose +
                             " WITH $GEAR_JERK[1]=SGEAR_JERK(PP1)\nSLIN {X 900} WITH $JERK=SJERK(LP1)\nSLIN {X 800}\n"
-                            "$GEAR_JERK[2]=60\n$JERK.CP=125\nPTP " + pose + "\nLIN {X 850}\nSPTP " + pose + "\nSLIN {X 820}",
+                            "$GEAR_JERK[2]=60\n$JERK.CP=125\nPTP " +
+                            pose + "\nLIN {X 850}\nSPTP " + pose + "\nSLIN {X 820}",
                         "DECL PDAT PP1={VEL 100.0,ACC 100.0,APO_DIST 60.0,APO_MODE #CPTP,GEAR_JERK 50.0}\n"
                         "DECL LDAT LP1={VEL 2.0,ACC 100.0,APO_DIST 8.0,APO_FAC 50.0,JERK_FAC 40.0}",
                         {{"$config.dat", config}});
@@ -240,10 +240,9 @@ TEST_CASE("krl: every case of BAS") {
   CHECK(tool_length(joint, 0) == Approx(0.1).epsilon(rounding));
   CHECK(joint.move(1).speed.axis_percent.value() == 60);
   CHECK(joint.move(1).acceleration_percent == 20);
-  const Reading path =
-      run("LDAT_ACT=LP1\nBAS(#CP_DAT)\nBAS(#TOOL,1)\nBAS(#BASE,1)\nLIN " + pose +
-              " C_DIS\nBAS(#VEL_CP,0.7)\nBAS(#ACC_CP,10)\nBAS(#TOOL,0)\nBAS(#BASE,0)\nLIN {X 900}",
-          data, system);
+  const Reading path = run("LDAT_ACT=LP1\nBAS(#CP_DAT)\nBAS(#TOOL,1)\nBAS(#BASE,1)\nLIN " + pose +
+                               " C_DIS\nBAS(#VEL_CP,0.7)\nBAS(#ACC_CP,10)\nBAS(#TOOL,0)\nBAS(#BASE,0)\nLIN {X 900}",
+                           data, system);
   REQUIRE(path.problem() == "no such problem");
   CHECK(path.move(0).speed.tool.value() == 0.4);
   CHECK(path.move(0).zone.distance == Approx(0.009).epsilon(rounding));
@@ -269,8 +268,7 @@ TEST_CASE("krl: BAS(#INITMOV,0) starts with the values of $CONFIG.DAT") {
   const Reading without = run(body);
   REQUIRE(without.problems.size() == 2);
   CHECK(without.problems[0].what == "moves with TOOL_DATA[1], which no file read declares");
-  CHECK(without.problems[1].what.find("'def_vel_cp' is a name that no file read declares") !=
-        std::string::npos);
+  CHECK(without.problems[1].what.find("'def_vel_cp' is a name that no file read declares") != std::string::npos);
 }
 
 TEST_CASE("krl: a move to where the robot stands is none") {
@@ -283,7 +281,8 @@ TEST_CASE("krl: a move to where the robot stands is none") {
   const Reading kept = run("DECL E6AXIS h\nh = $AXIS_ACT_MEAS ; here\nPTP h\nPTP " + axes(3));
   REQUIRE(kept.problem() == "no such problem");
   CHECK(first_axes(kept.program) == std::vector<double>{3});
-  CHECK(run("DECL E6AXIS h\nh=$AXIS_ACT\nPTP " + axes(3) + "\nPTP h").problems.size() == 1);  // back to the unknown start
+  CHECK(run("DECL E6AXIS h\nh=$AXIS_ACT\nPTP " + axes(3) + "\nPTP h").problems.size() ==
+        1);  // back to the unknown start
   const Reading known = run("DECL E6AXIS h\nPTP " + axes(3) + "\nh=$AXIS_ACT\nh.A1=h.A1+4\nPTP h");
   REQUIRE(known.problem() == "no such problem");
   CHECK(first_axes(known.program) == std::vector<double>{3, 7});
@@ -295,7 +294,8 @@ TEST_CASE("krl: a relative move in metres is warned of, one in millimetres is no
   const auto warnings = [&](const std::string& move) { return moves_left_out(run(begin + move).program); };
   const auto of_metres = warnings("LIN_REL {Z -0.15}\nLIN_REL {Y 0.12} #TOOL");
   REQUIRE(of_metres.size() == 2);
-  CHECK_THAT(of_metres[0].text(), Catch::Contains(":4:") && Catch::Contains("0.15 mm: a relative move of less than 1 mm") &&
+  CHECK_THAT(of_metres[0].text(), Catch::Contains(":4:") &&
+                                      Catch::Contains("0.15 mm: a relative move of less than 1 mm") &&
                                       Catch::Contains("a thousand times these numbers if they were metres"));
   CHECK(warnings("LIN_REL {Z -150}\nLIN_REL {Z 0}\nLIN_REL {A 0.5}\nLIN {X 0.5}").empty());
 }
@@ -326,28 +326,25 @@ TEST_CASE("krl: the robot's own place in the world counts") {
                           "DEFDAT $MACHINE\nFRAME $ROBROOT={X 0.0,Y 0.0,Z 500.0,A 0.0,B 0.0,C "
                           "0.0}\nENDDAT\n"}});
   REQUIRE(r.problem() == "no such problem");
-  CHECK(r.program.work_objects.at(r.move(0).work_object).frame.position.z() ==
-        Approx(-0.5).epsilon(rounding));
+  CHECK(r.program.work_objects.at(r.move(0).work_object).frame.position.z() == Approx(-0.5).epsilon(rounding));
 }
 
 TEST_CASE("krl: bases and tools that only the user has") {
   const std::vector<NamedFrame> bases{{"BASE_DATA[1]", {Vector3(1, 2, 3), Quaternion::Identity()}, false}};
-  for (const char* body :
-       {"$BASE=BASE_DATA[1]", "FDAT_ACT={TOOL_NO 0,BASE_NO 1,IPO_FRAME #BASE}\nBAS(#FRAMES)", "BAS(#BASE,1)",
-        "$BASE=$NULLFRAME:BASE_DATA[1]"}) {
+  for (const char* body : {"$BASE=BASE_DATA[1]", "FDAT_ACT={TOOL_NO 0,BASE_NO 1,IPO_FRAME #BASE}\nBAS(#FRAMES)",
+                           "BAS(#BASE,1)", "$BASE=$NULLFRAME:BASE_DATA[1]"}) {
     const std::string program = std::string(body) + "\nPTP " + pose;
     const Reading given = run(program, "", {}, {Language::krl, {}, {}, bases});
     REQUIRE(given.problem() == "no such problem");
-    CHECK(
-        (given.program.work_objects.at(given.move(0).work_object).frame.position - Vector3(1, 2, 3)).norm() <
-        rounding);
+    CHECK((given.program.work_objects.at(given.move(0).work_object).frame.position - Vector3(1, 2, 3)).norm() <
+          rounding);
     const Reading missing = run(program);
     REQUIRE(missing.problems.size() == 1);
     CHECK(missing.problems[0].what == "moves with BASE_DATA[1], which no file read declares");
     CHECK(missing.problems[0].remedy.find("--frames") != std::string::npos);
     // A list that is declared without the element does not give it a value.
-    const Reading declared = run(program, "", {{"$c.dat", "DEFDAT $C\nDECL FRAME BASE_DATA[9]\nENDDAT\n"}},
-                                 {Language::krl, {}, {}, bases});
+    const Reading declared =
+        run(program, "", {{"$c.dat", "DEFDAT $C\nDECL FRAME BASE_DATA[9]\nENDDAT\n"}}, {Language::krl, {}, {}, bases});
     CHECK(declared.problem() == "no such problem");
     // A move to axis angles does not need a base.
     CHECK(run(std::string(body) + "\nPTP " + axes(1)).problems.empty());
@@ -364,18 +361,16 @@ TEST_CASE("krl: a target without a value is distinguished from one without a dec
   given.options.values = {{"pa", axes(7)}, {"gi", "3"}};
   CHECK(first_axes(run("DECL E6AXIS pa\nPTP pa\npa=" + axes(8) + "\nPTP pa", "", {}, given).program) ==
         std::vector<double>{7, 8});
-  CHECK(
-      first_axes(run("SIGNAL gi $IN[1] TO $IN[8]\nDECL REAL r\nr=gi\nPTP {A1 r,A2 -90,A3 90,A4 0,A5 30,A6 0}",
-                     "", {}, given)
-                     .program) == std::vector<double>{3});
+  CHECK(first_axes(
+            run("SIGNAL gi $IN[1] TO $IN[8]\nDECL REAL r\nr=gi\nPTP {A1 r,A2 -90,A3 90,A4 0,A5 30,A6 0}", "", {}, given)
+                .program) == std::vector<double>{3});
   // All uses of a missing name are one problem.
   const Reading missing = run("PTP xa\nPTP xa\nPTP xb\nPTP xa");
   CHECK(missing.problems.size() == 2);
 }
 
 TEST_CASE("krl: a loop that only waits for an input goes on, outputs or not") {
-  const std::string loop =
-      "LOOP\n$OUT[1]=FALSE\nIF $IN[1]==TRUE THEN\n$OUT[1]=TRUE\nPTP " + axes(1) + "\nENDIF\n";
+  const std::string loop = "LOOP\n$OUT[1]=FALSE\nIF $IN[1]==TRUE THEN\n$OUT[1]=TRUE\nPTP " + axes(1) + "\nENDIF\n";
   const Reading r = run(loop + "ENDLOOP");
   REQUIRE(r.problem() == "no such problem");
   CHECK(first_axes(r.program) == std::vector<double>{1});
@@ -394,18 +389,15 @@ TEST_CASE("krl: a coordinate that input decides asks, also beside known ones") {
       run("DECL POS p1\n$VEL.CP=1\nPTP " + pose + "\np1={X 1,Y 2,Z 3,A 0,B 0,C 0}\np1.X=$ANIN[1]\nLIN p1");
   REQUIRE(r.problems.size() == 1);
   CHECK(r.problems[0].what.starts_with("moves to a place that is known only while the robot runs"));
-  const Reading written =
-      run("REAL x\n$VEL.CP=1\nx=5\nEKI_GetReal(\"a\",\"b\",x)\nPTP " + pose + "\nLIN {X x}");
+  const Reading written = run("REAL x\n$VEL.CP=1\nx=5\nEKI_GetReal(\"a\",\"b\",x)\nPTP " + pose + "\nLIN {X x}");
   CHECK(written.problems.size() == 1);
 }
 
 TEST_CASE("krl: an assignment by aggregate leaves nothing of the value before") {
   // E1 was known and is left out of the second aggregate. The controller's rule for this is not known.
-  const Reading r =
-      run("DECL E6POS p1\np1={X 1,Y 2,Z 3,A 0,B 0,C 0,E1 7}\np1={X 1,Y 2,Z 4,A 0,B 0,C 0}\nPTP p1");
+  const Reading r = run("DECL E6POS p1\np1={X 1,Y 2,Z 3,A 0,B 0,C 0,E1 7}\np1={X 1,Y 2,Z 4,A 0,B 0,C 0}\nPTP p1");
   CHECK(r.problems.size() == 1);
-  const Reading unset =
-      run("DECL E6POS p1\np1={X 1,Y 2,Z 3,A 0,B 0,C 0}\np1={X 1,Y 2,Z 4,A 0,B 0,C 0}\nPTP p1");
+  const Reading unset = run("DECL E6POS p1\np1={X 1,Y 2,Z 3,A 0,B 0,C 0}\np1={X 1,Y 2,Z 4,A 0,B 0,C 0}\nPTP p1");
   CHECK(unset.problem() == "no such problem");
 }
 
@@ -416,34 +408,34 @@ TEST_CASE("krl: the robot stops where the controller, which runs ahead, waits fo
     REQUIRE(r.problem() == "no such problem");
     return r.move(0).zone.distance > 0;
   };
-  for (const char* waits :
-       {"WAIT SEC 0", "$OUT[1]=TRUE", "PULSE($OUT[1],TRUE,0.5)", "HALT", "WAIT FOR $IN[1]",
-        "IF $IN[1] THEN\n$FLAG[1]=TRUE\nENDIF", "CONTINUE\n$OUT[1]=TRUE\n$OUT[2]=TRUE",
-        "CONTINUE\n\n$OUT[1]=TRUE", "ANOUT OFF a1", "f=$POS_INT"})
+  for (const char* waits : {"WAIT SEC 0", "$OUT[1]=TRUE", "PULSE($OUT[1],TRUE,0.5)", "HALT", "WAIT FOR $IN[1]",
+                            "IF $IN[1] THEN\n$FLAG[1]=TRUE\nENDIF", "CONTINUE\n$OUT[1]=TRUE\n$OUT[2]=TRUE",
+                            "CONTINUE\n\n$OUT[1]=TRUE", "ANOUT OFF a1", "f=$POS_INT"})
     CHECK_FALSE(blends(waits));
-  for (const char* goes_on : {"", "; a comment with $OUT[1]", "CONTINUE\n$OUT[1]=TRUE", "CONTINUE\nWAIT FOR $IN[1]", "$FLAG[1]=TRUE",
-                              "TRIGGER WHEN DISTANCE=0 DELAY=0 DO $OUT[1]=TRUE", "INTERRUPT DECL 9 WHEN $IN[1] DO halted()"})
+  for (const char* goes_on :
+       {"", "; a comment with $OUT[1]", "CONTINUE\n$OUT[1]=TRUE", "CONTINUE\nWAIT FOR $IN[1]", "$FLAG[1]=TRUE",
+        "TRIGGER WHEN DISTANCE=0 DELAY=0 DO $OUT[1]=TRUE", "INTERRUPT DECL 9 WHEN $IN[1] DO halted()"})
     CHECK(blends(goes_on));
   // A timed wait after CONTINUE runs while the robot moves.
-  const Reading ahead = run("$VEL.CP=1\n$APO.CDIS=10\nCONTINUE\nWAIT SEC 2\nLIN " + pose +
-                            " C_DIS\nCONTINUE\nWAIT SEC 1\nLIN {X 900}");
+  const Reading ahead =
+      run("$VEL.CP=1\n$APO.CDIS=10\nCONTINUE\nWAIT SEC 2\nLIN " + pose + " C_DIS\nCONTINUE\nWAIT SEC 1\nLIN {X 900}");
   REQUIRE(ahead.program.instructions.size() == 3);
   CHECK(ahead.move(0).dwell == 2);
   CHECK(ahead.move(1).zone.distance > 0);
   CHECK(ahead.program.skipped.at(0).may_move);
   // Without the advance run ($ADVANCE=0) no move is approximated.
-  const Reading none = run("$VEL.CP=1\n$APO.CDIS=10\n$ADVANCE=0\nLIN " + pose + " C_DIS\n$ADVANCE=3\nLIN {X 900} C_DIS\nLIN {X 800}");
+  const Reading none =
+      run("$VEL.CP=1\n$APO.CDIS=10\n$ADVANCE=0\nLIN " + pose + " C_DIS\n$ADVANCE=3\nLIN {X 900} C_DIS\nLIN {X 800}");
   CHECK(none.move(0).zone.distance == 0);
   CHECK(none.move(1).zone.distance == Approx(0.01));
 }
 
 TEST_CASE("krl: names of inputs, outputs and imported variables stop the advance as these do") {
   const Files list{
-      {"$config.dat",
-       "DEFDAT $CONFIG\nSIGNAL GRIP $OUT[7]\nGLOBAL SIGNAL PART $IN[3] TO $IN[5]\nBOOL done\nENDDAT\n"}};
+      {"$config.dat", "DEFDAT $CONFIG\nSIGNAL GRIP $OUT[7]\nGLOBAL SIGNAL PART $IN[3] TO $IN[5]\nBOOL done\nENDDAT\n"}};
   const auto reading = [&](const std::string& between, const Files& files) {
-    return run("SIGNAL lamp $OUT[9]\nDECL BOOL own\n$VEL.CP=1\n$APO.CDIS=10\nLIN " + pose + " C_DIS\n" +
-                   between + "\nLIN {X 900}",
+    return run("SIGNAL lamp $OUT[9]\nDECL BOOL own\n$VEL.CP=1\n$APO.CDIS=10\nLIN " + pose + " C_DIS\n" + between +
+                   "\nLIN {X 900}",
                "SIGNAL valve $OUT[8]\nIMPORT INT other IS /R1/q..n", files);
   };
   const auto blends = [&](const std::string& between) {
@@ -466,8 +458,7 @@ TEST_CASE("krl: names of inputs, outputs and imported variables stop the advance
 }
 
 TEST_CASE("krl: a condition that waits for the robot waits in every pass of its loop") {
-  const std::string begin = "DECL INT i\n$VEL.CP=1\n$APO.CDIS=10\ni=0\n",
-                    step = "LIN " + pose + " C_DIS\ni=i+1\n";
+  const std::string begin = "DECL INT i\n$VEL.CP=1\n$APO.CDIS=10\ni=0\n", step = "LIN " + pose + " C_DIS\ni=i+1\n";
   const auto stops = [&](const std::string& loop) {
     const Reading r = run(begin + loop + "LIN {X 800}");
     REQUIRE(r.problem() == "no such problem");
@@ -490,15 +481,15 @@ TEST_CASE("krl: a stop in a branch that is left out is reported where a blend de
 }
 
 TEST_CASE("krl: what an undecided branch may set is asked for where a move needs it") {
-  for (const char* sets :
-       {"$VEL.CP=0.1", "$ACC.CP=0.5", "$APO.CDIS=50", "$ORI_TYPE=#CONSTANT", "$CIRC_TYPE=#PATH",
-        "$IPO_MODE=#TCP", "$TOOL.Z=200", "$BASE=$NULLFRAME", "$ROBROOT={X 0,Y 0,Z 500,A 0,B 0,C 0}",
-        "$ROBROOT.Z=500", "$OV_PRO=50", "$VEL_AXIS[1]=10", "f.X=950", "slow()"}) {
+  for (const char* sets : {"$VEL.CP=0.1", "$ACC.CP=0.5", "$APO.CDIS=50", "$ORI_TYPE=#CONSTANT", "$CIRC_TYPE=#PATH",
+                           "$IPO_MODE=#TCP", "$TOOL.Z=200", "$BASE=$NULLFRAME", "$ROBROOT={X 0,Y 0,Z 500,A 0,B 0,C 0}",
+                           "$ROBROOT.Z=500", "$OV_PRO=50", "$VEL_AXIS[1]=10", "f.X=950", "slow()"}) {
     INFO(sets);
-    const std::string body = "DECL FRAME f\n$TOOL={X 0,Y 0,Z 100,A 0,B 0,C 0}\n$BASE=$NULLFRAME\n$VEL.CP=0.5\n$ACC.CP=1\n"
-                             "$APO.CDIS=10\nf={X 900,Y 0,Z 900,A 0,B 80,C 0}\nPTP " + axes(0) + "\nIF $IN[1] THEN\n" + sets +
-                             "\nENDIF\nLIN " + pose + "\nCIRC {X 950,Y 0,Z 1000,A 0,B 80,C 0},f C_DIS\nPTP " + axes(5) +
-                             "\nEND\nDEF slow()\n$VEL.CP=0.01";
+    const std::string body =
+        "DECL FRAME f\n$TOOL={X 0,Y 0,Z 100,A 0,B 0,C 0}\n$BASE=$NULLFRAME\n$VEL.CP=0.5\n$ACC.CP=1\n"
+        "$APO.CDIS=10\nf={X 900,Y 0,Z 900,A 0,B 80,C 0}\nPTP " +
+        axes(0) + "\nIF $IN[1] THEN\n" + sets + "\nENDIF\nLIN " + pose +
+        "\nCIRC {X 950,Y 0,Z 1000,A 0,B 80,C 0},f C_DIS\nPTP " + axes(5) + "\nEND\nDEF slow()\n$VEL.CP=0.01";
     const Reading r = run(body);
     REQUIRE(!r.problems.empty());
     const auto& questions = r.problems[0].questions;
@@ -526,8 +517,8 @@ TEST_CASE("krl: arrays are handed over, and mistakes count where they run") {
 }
 
 TEST_CASE("krl: a program's number from the line's controller is asked for") {
-  const std::string cell = "INT PGNO\nLOOP\nP00(#EXT_PGNO,#PGNO_GET,DMY[],0)\nSWITCH PGNO\nCASE 1\nPTP " +
-                           axes(1) + "\nCASE 2\nPTP " + axes(2) + "\nENDSWITCH\nENDLOOP";
+  const std::string cell = "INT PGNO\nLOOP\nP00(#EXT_PGNO,#PGNO_GET,DMY[],0)\nSWITCH PGNO\nCASE 1\nPTP " + axes(1) +
+                           "\nCASE 2\nPTP " + axes(2) + "\nENDSWITCH\nENDLOOP";
   const Reading asked = run(cell);
   REQUIRE(asked.problems.size() == 1);
   CHECK(asked.problems[0].what.find("program's number") != std::string::npos);
@@ -567,10 +558,8 @@ TEST_CASE("krl: automatic operation, waiting loops and the states of variables a
 
 TEST_CASE("krl: structures that would fill the memory are left without values") {
   std::string list;
-  for (int level = 0; level < 6; ++level)
-    list += fmt::format("STRUC s{} s{} a[30],b[30],c[30]\n", level, level + 1);
-  CHECK(run("PTP " + axes(1) + "\nPTP big.a[1]", list + "STRUC s6 REAL x[30]\nDECL s0 big").problems.size() ==
-        1);
+  for (int level = 0; level < 6; ++level) list += fmt::format("STRUC s{} s{} a[30],b[30],c[30]\n", level, level + 1);
+  CHECK(run("PTP " + axes(1) + "\nPTP big.a[1]", list + "STRUC s6 REAL x[30]\nDECL s0 big").problems.size() == 1);
 }
 
 TEST_CASE("krl: what an interrupt writes is unknown while it may happen, and a search is reported") {
@@ -586,13 +575,12 @@ TEST_CASE("krl: what an interrupt writes is unknown while it may happen, and a s
   CHECK(told.program.skipped[0].may_move);
   CHECK(told.program.instructions.size() == 2);
   // The handler belongs to the module that declares the interrupt, not to the module that switches it on.
-  const Reading elsewhere =
-      run("search()\nIF hit THEN\nPTP " + axes(1) + "\nENDIF" + handler, "GLOBAL BOOL hit=FALSE",
-          {{"s.src", "DEF search()\nINTERRUPT ON 21\nPTP " + axes(2) + "\nEND\n"}});
+  const Reading elsewhere = run("search()\nIF hit THEN\nPTP " + axes(1) + "\nENDIF" + handler, "GLOBAL BOOL hit=FALSE",
+                                {{"s.src", "DEF search()\nINTERRUPT ON 21\nPTP " + axes(2) + "\nEND\n"}});
   CHECK(first_axes(elsewhere.program) == std::vector<double>{2});
-  const Reading other = run(
-      "INTERRUPT DECL 21 WHEN $IN[1] DO found()\nsearch()\nIF hit THEN\nPTP " + axes(1) + "\nENDIF" + handler,
-      "GLOBAL BOOL hit=FALSE", {{"s.src", "DEF search()\nINTERRUPT ON 21\nPTP " + axes(2) + "\nEND\n"}});
+  const Reading other =
+      run("INTERRUPT DECL 21 WHEN $IN[1] DO found()\nsearch()\nIF hit THEN\nPTP " + axes(1) + "\nENDIF" + handler,
+          "GLOBAL BOOL hit=FALSE", {{"s.src", "DEF search()\nINTERRUPT ON 21\nPTP " + axes(2) + "\nEND\n"}});
   CHECK(other.problems.size() == 1);
 }
 
@@ -625,8 +613,8 @@ TEST_CASE("krl: frames that the controller holds are asked for, and waiting alon
   const Reading given = reading(held, {{"$tool", tool}, {"$base", "$NULLFRAME"}});
   REQUIRE(given.problem() == "no such problem");
   CHECK(tool_length(given, 0) == Approx(0.1).epsilon(rounding));
-  CHECK(tool_length(reading("$TOOL.X=0\n$TOOL.Y=0\n" + held, {{"$tool", tool}, {"$base", "$NULLFRAME"}}),
-                    0) == Approx(0.1).epsilon(rounding));
+  CHECK(tool_length(reading("$TOOL.X=0\n$TOOL.Y=0\n" + held, {{"$tool", tool}, {"$base", "$NULLFRAME"}}), 0) ==
+        Approx(0.1).epsilon(rounding));
   CHECK(reading("$TOOL=$NULLFRAME\n$BASE=$WORLD\n" + held, {}).problems.empty());
   CHECK(reading("PTP " + axes(1), {}).problems.empty());
   CHECK(run("WAIT SEC 2").problem().find("moves the robot nowhere") != std::string::npos);
@@ -644,8 +632,7 @@ TEST_CASE("krl: an interrupt's handler that moves does not write to its targets"
 
 TEST_CASE("krl: CIRC with CA goes round by the angle, not to its target") {
   // Circle of 100 mm about (1100, 0, 1000), from (1000, 0) over (1100, 100) to (1200, 0).
-  const std::string ready =
-      "$TOOL=$NULLFRAME\n$BASE=$NULLFRAME\n$VEL.CP=0.1\nLIN {X 1000,Y 0,Z 1000,A 0,B 0,C 0}\n";
+  const std::string ready = "$TOOL=$NULLFRAME\n$BASE=$NULLFRAME\n$VEL.CP=0.1\nLIN {X 1000,Y 0,Z 1000,A 0,B 0,C 0}\n";
   const auto end_of = [&](const std::string& angle) {
     const Reading r = run(ready + "CIRC {X 1100,Y 100},{X 1200,Y 0}, CA " + angle + "\nLIN_REL {Z 10}");
     INFO(r.problem());
@@ -666,14 +653,12 @@ TEST_CASE("krl: CIRC with CA goes round by the angle, not to its target") {
 }
 
 TEST_CASE("krl: $ORI_TYPE #CONSTANT keeps the tool as it is, on circles by #PATH it turns with them") {
-  const std::string ready =
-      "$TOOL=$NULLFRAME\n$BASE=$NULLFRAME\n$VEL.CP=0.1\nLIN {X 1000,Y 0,Z 1000,A 0,B 0,C 0}\n";
+  const std::string ready = "$TOOL=$NULLFRAME\n$BASE=$NULLFRAME\n$VEL.CP=0.1\nLIN {X 1000,Y 0,Z 1000,A 0,B 0,C 0}\n";
   const Reading line = run(ready + "$ORI_TYPE=#CONSTANT\nLIN {X 1100,Y 0,Z 1000,A 90,B 0,C 0}");
   REQUIRE(line.problem() == "no such problem");
   CHECK(line.move(1).target.pose.orientation.isApprox(Quaternion::Identity()));
   // A half circle, counterclockwise from below: the path turns by -180 deg about z, and the tool turns with it.
-  const Reading circle =
-      run(ready + "$ORI_TYPE=#CONSTANT\n$CIRC_TYPE=#PATH\nCIRC {X 1100,Y 100},{X 1200,Y 0}");
+  const Reading circle = run(ready + "$ORI_TYPE=#CONSTANT\n$CIRC_TYPE=#PATH\nCIRC {X 1100,Y 100},{X 1200,Y 0}");
   REQUIRE(circle.problem() == "no such problem");
   const Frame& end = circle.program.instructions.back().target.pose;
   CHECK((end.position - Vector3(1.2, 0, 1)).norm() < rounding);
@@ -705,8 +690,8 @@ TEST_CASE("krl: what dialogues and text functions write is unknown behind them")
 
 TEST_CASE("krl: bits and letters count") {
   const auto taken = [](const std::string& before, const std::string& condition) {
-    const Reading r = run("INT a\nCHAR s[8]\n" + before + "\nPTP " + axes(0) + "\nIF " + condition +
-                          " THEN\nPTP " + axes(1) + "\nENDIF");
+    const Reading r = run("INT a\nCHAR s[8]\n" + before + "\nPTP " + axes(0) + "\nIF " + condition + " THEN\nPTP " +
+                          axes(1) + "\nENDIF");
     INFO(r.problem());
     CHECK(r.problems.empty());
     return first_axes(r.program).size() == 2;
@@ -727,8 +712,8 @@ TEST_CASE("krl: external axes move alone, and are where the robot stands") {
   CHECK(alone.move(1).target.external_axes == std::vector<double>{5});
   REQUIRE(alone.program.skipped.size() == 2);  // the second one names the axis that the robot of the job needs
   CHECK(alone.program.skipped[0].may_move);
-  const Reading stands = run("E6POS here\nhere={X 1,Y 2,Z 3,A 0,B 0,C 0,E1 7}\nPTP " + pose +
-                             "\nhere=$POS_ACT\nhere.Z=1100\nPTP here");
+  const Reading stands =
+      run("E6POS here\nhere={X 1,Y 2,Z 3,A 0,B 0,C 0,E1 7}\nPTP " + pose + "\nhere=$POS_ACT\nhere.Z=1100\nPTP here");
   CHECK(stands.problem() == "no such problem");
   CHECK(std::abs(stands.move(1).target.pose.position.z() - 1.1) < rounding);
 }
@@ -749,8 +734,7 @@ TEST_CASE("krl: nothing behind an endless loop is run, and one that makes none o
   const Reading quiet = run("PTP " + axes(1) + "\nLOOP\nn=1\nENDLOOP\nPTP " + axes(2), "INT n");
   REQUIRE(quiet.problem() == "no such problem");
   CHECK(first_axes(quiet.program) == std::vector<double>{1});
-  const std::string machine =
-      "PTP " + axes(1) + "\nn=0\nLOOP\nIF n==1 THEN\nPTP " + axes(2) + "\nENDIF\nENDLOOP";
+  const std::string machine = "PTP " + axes(1) + "\nn=0\nLOOP\nIF n==1 THEN\nPTP " + axes(2) + "\nENDIF\nENDLOOP";
   const Reading waits = run(machine, "INT n");
   REQUIRE(waits.problem() == "no such problem");
   CHECK(first_axes(waits.program) == std::vector<double>{1});
@@ -764,8 +748,8 @@ TEST_CASE("krl: nothing behind an endless loop is run, and one that makes none o
 TEST_CASE("krl: what a submit program writes to may have any value") {
   // sps.sub runs repeatedly in parallel to the robot program: the value of the data list is not used. Its local names do
   // not change those of the program.
-  const std::string body = "PTP " + axes(1) + "\nIF ready THEN\nPTP " + axes(2) +
-                           "\nENDIF\nIF mine THEN\nPTP " + axes(3) + "\nENDIF";
+  const std::string body =
+      "PTP " + axes(1) + "\nIF ready THEN\nPTP " + axes(2) + "\nENDIF\nIF mine THEN\nPTP " + axes(3) + "\nENDIF";
   const std::string data = "BOOL ready=FALSE\nBOOL mine=TRUE\nDECL BOOL a[2]\na[1]=TRUE\na[2]=a[1]";
   const Files submit{{"sps.sub",
                       "DEF sps()\nDECL BOOL mine\nLOOP\nmine=FALSE\nIF $IN[1]==TRUE THEN\nready = "
@@ -789,7 +773,8 @@ TEST_CASE("krl: all that a move lacks is asked for in one round") {
                             "\nf.X=$ANIN[1]\nf.Y=$ANIN[2]\nf.Z=$ANIN[3]\n$TOOL=$NULLFRAME\nBAS(#BASE,0)\n"
                             "PTP f");
   REQUIRE(place.problems.size() == 1);
-  CHECK_THAT(place.problem(), Catch::Contains("$anin[1]=") && Catch::Contains("$anin[2]=") && Catch::Contains("$anin[3]="));
+  CHECK_THAT(place.problem(),
+             Catch::Contains("$anin[1]=") && Catch::Contains("$anin[2]=") && Catch::Contains("$anin[3]="));
 }
 
 TEST_CASE("krl: RSI_MOVECORR leads the robot away, and back where the program says") {

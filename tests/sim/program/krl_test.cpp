@@ -13,8 +13,7 @@ namespace {
 
 constexpr double rounding = 1e-12;  // rounding error of a few products of numbers near 1
 
-Reading run(const std::string& body, const std::string& data = "",
-            const std::vector<NamedFrame>& tools = {}) {
+Reading run(const std::string& body, const std::string& data = "", const std::vector<NamedFrame>& tools = {}) {
   Files files{{"cell.src", "&ACCESS RVP\nDEF cell()\n" + body + "\nEND\n"}};
   if (!data.empty()) files.push_back({"cell.dat", "DEFDAT cell PUBLIC\n" + data + "\nENDDAT\n"});
   files.push_back(held_frames);
@@ -35,7 +34,8 @@ TEST_CASE("krl: axes, frames with status and turn, circles") {
   CHECK(r.move(1).target.configuration.text() == "kuka 2 35");
   const Quaternion q = rotation({0, 0, 90 * degree}) * rotation({180 * degree, 0, 0});
   CHECK(r.move(1).target.pose.orientation.isApprox(q, rounding));
-  CHECK((r.move(2).target.pose.position - Vector3(1, 0, 0.8)).norm() < rounding);  // coordinates that are left out do not change
+  CHECK((r.move(2).target.pose.position - Vector3(1, 0, 0.8)).norm() <
+        rounding);  // coordinates that are left out do not change
   CHECK(r.move(2).speed.tool.value() == 0.5);
   CHECK(r.move(3).kind == Instruction::Kind::circular);
   CHECK((r.move(3).via.position - Vector3(1, 0.05, 0.75)).norm() < rounding);
@@ -51,13 +51,13 @@ TEST_CASE("krl: what the controller's editor writes, with its data list") {
       "DECL PDAT PPDAT1={VEL 100.0,ACC 60.0,APO_DIST 50.0}\nDECL LDAT LCPDAT1={VEL 2.0,ACC 100.0,APO_DIST "
       "25.0}\n"
       "DECL FRAME TOOL_DATA[16]\nTOOL_DATA[1]={X 10,Y 0,Z 300,A 0,B 0,C 0}";
-  const Reading r = run(
-      ";FOLD PTP P1 CONT Vel=30 % PDAT1 Tool[1] "
-      "Base[0];%{PE}\n$BWDSTART=FALSE\nPDAT_ACT=PPDAT1\nFDAT_ACT=FP1\nBAS(#PTP_PARAMS,30)\nPTP XP1 "
-      "C_PTP\n;ENDFOLD\n"
-      ";FOLD LIN P1\nLDAT_ACT=LCPDAT1\nFDAT_ACT=FP1\nBAS(#CP_PARAMS,0.25)\nLIN XP1 C_DIS C_DIS\n;ENDFOLD\n"
-      "SLIN XP1 WITH $VEL.CP=SVEL_CP(0.1, ,LCPDAT1), $TOOL=STOOL2(FP1), $APO=SAPO(LCPDAT1)\nLIN XP1",
-      data);
+  const Reading r =
+      run(";FOLD PTP P1 CONT Vel=30 % PDAT1 Tool[1] "
+          "Base[0];%{PE}\n$BWDSTART=FALSE\nPDAT_ACT=PPDAT1\nFDAT_ACT=FP1\nBAS(#PTP_PARAMS,30)\nPTP XP1 "
+          "C_PTP\n;ENDFOLD\n"
+          ";FOLD LIN P1\nLDAT_ACT=LCPDAT1\nFDAT_ACT=FP1\nBAS(#CP_PARAMS,0.25)\nLIN XP1 C_DIS C_DIS\n;ENDFOLD\n"
+          "SLIN XP1 WITH $VEL.CP=SVEL_CP(0.1, ,LCPDAT1), $TOOL=STOOL2(FP1), $APO=SAPO(LCPDAT1)\nLIN XP1",
+          data);
   REQUIRE(r.problem() == "no such problem");
   REQUIRE(r.program.instructions.size() == 4);
   CHECK(r.move(0).speed.axis_percent.value() == 30);
@@ -90,8 +90,8 @@ TEST_CASE("krl: SPL points lie on a smooth curve") {
   // arcs of the height c/4 sin(15 deg) = 10.05 mm; arcs of the circle have 10.22 mm.
   std::string block = "$VEL.CP=1\nLIN {X 300,Y 0,Z 0,A 0,B 0,C 0}\nSPLINE\n";
   for (int angle = 30; angle <= 90; angle += 30)
-    block += fmt::format(" SPL {{X {:.6f},Y {:.6f}}}\n", 300 * std::cos(angle * degree),
-                         300 * std::sin(angle * degree));
+    block +=
+        fmt::format(" SPL {{X {:.6f},Y {:.6f}}}\n", 300 * std::cos(angle * degree), 300 * std::sin(angle * degree));
   const Reading r = run(block + "ENDSPLINE\nLIN {X 0}");
   REQUIRE(r.problem() == "no such problem");
   REQUIRE(r.program.instructions.size() > 20);
@@ -144,8 +144,8 @@ TEST_CASE("krl: between SPL points lie cubics with the slopes of parabolas throu
       const double u = double(step) / steps;
       // Evaluates the cubic as a Bezier curve.
       const Vector3 b1 = at[k] + begin / 3, b2 = at[k + 1] - finish / 3;
-      const Vector3 here = std::pow(1 - u, 3) * at[k] + 3 * u * (1 - u) * (1 - u) * b1 +
-                           3 * u * u * (1 - u) * b2 + u * u * u * at[k + 1];
+      const Vector3 here = std::pow(1 - u, 3) * at[k] + 3 * u * (1 - u) * (1 - u) * b1 + 3 * u * u * (1 - u) * b2 +
+                           u * u * u * at[k + 1];
       REQUIRE(next < bent.size());
       CHECK((bent[next].target.pose.position - here).norm() < rounding);
       CHECK(rotation_vector(bent[next].target.pose.orientation).z() == Approx(0.3 * (double(k) + u)));
@@ -170,8 +170,7 @@ TEST_CASE("krl: jumps over moves and back to a label, and an endless one is one 
   REQUIRE(over.problem() == "no such problem");
   REQUIRE(over.program.instructions.size() == 2);
   CHECK(over.move(1).target.pose.position.x() == Approx(0.002).epsilon(rounding));
-  const Reading back =
-      run(start + "i=0\nagain:\ni=i+1\nLIN {X i}\nIF i<4 THEN\n GOTO again\nENDIF\nLIN {X 9}");
+  const Reading back = run(start + "i=0\nagain:\ni=i+1\nLIN {X i}\nIF i<4 THEN\n GOTO again\nENDIF\nLIN {X 9}");
   REQUIRE(back.problem() == "no such problem");
   REQUIRE(back.program.instructions.size() == 6);
   CHECK(back.move(4).target.pose.position.x() == Approx(0.004).epsilon(rounding));
@@ -188,11 +187,11 @@ TEST_CASE("krl: jumps over moves and back to a label, and an endless one is one 
 }
 
 TEST_CASE("krl: external axes are kept where one of them is used") {
-  const Reading unused = run(
-      "PTP {A1 0,A2 -90,A3 90,A4 0,A5 0,A6 0,E1 0,E2 0}\nPTP {A1 1,A2 -90,A3 90,A4 0,A5 0,A6 0,E1 0,E2 0}");
+  const Reading unused =
+      run("PTP {A1 0,A2 -90,A3 90,A4 0,A5 0,A6 0,E1 0,E2 0}\nPTP {A1 1,A2 -90,A3 90,A4 0,A5 0,A6 0,E1 0,E2 0}");
   CHECK(unused.move(0).target.external_axes.empty());
-  const Reading used = run(
-      "PTP {A1 0,A2 -90,A3 90,A4 0,A5 0,A6 0,E1 500,E2 0}\nPTP {A1 1,A2 -90,A3 90,A4 0,A5 0,A6 0,E1 0,E2 0}");
+  const Reading used =
+      run("PTP {A1 0,A2 -90,A3 90,A4 0,A5 0,A6 0,E1 500,E2 0}\nPTP {A1 1,A2 -90,A3 90,A4 0,A5 0,A6 0,E1 0,E2 0}");
   REQUIRE(used.move(1).target.external_axes.size() == 2);
   CHECK(used.move(0).target.external_axes[0] == 500);
   CHECK(used.move(1).target.external_axes[0] == 0);
@@ -200,8 +199,8 @@ TEST_CASE("krl: external axes are kept where one of them is used") {
 
 TEST_CASE("krl: each external axis keeps its own place, also where it is moved by a way") {
   const std::string axes = "A1 0,A2 -90,A3 90,A4 0,A5 0,A6 0";
-  const Reading r = run("PTP {" + axes + ",E1 10,E3 30}\nPTP_REL {E3 5}\nPTP_REL {A1 1,E2 -2,E1 1}\nPTP {" +
-                        axes + ",E2 7}");
+  const Reading r =
+      run("PTP {" + axes + ",E1 10,E3 30}\nPTP_REL {E3 5}\nPTP_REL {A1 1,E2 -2,E1 1}\nPTP {" + axes + ",E2 7}");
   REQUIRE(r.program.instructions.size() == 4);
   CHECK(r.move(0).target.external_axes == std::vector<double>{10, 0, 30});
   CHECK(r.move(1).target.external_axes == std::vector<double>{10, 0, 35});
@@ -217,8 +216,7 @@ TEST_CASE("krl: problems name what is missing and where") {
   CHECK(r.problem(0) ==
         "cell.src:3:5: error: moves to 'xp7', which no file read declares; give the .dat file that declares "
         "it, write the target as a constant, or --value 'cell:xp7={X ...}'");
-  CHECK(r.problems[1].what ==
-        "moves along a path before $VEL.CP is assigned (its value lies in the controller)");
+  CHECK(r.problems[1].what == "moves along a path before $VEL.CP is assigned (its value lies in the controller)");
   CHECK(r.problems[2].what == "moves with TOOL_DATA[3], which no file read declares");
   CHECK(r.problems[3].where.line == 8);
   const Reading given = run("BAS(#TOOL,3)\n$VEL.CP=1\nLIN {X 1,Y 0,Z 0,A 0,B 0,C 0}", "",

@@ -39,17 +39,17 @@ void answer(const Reading& reading, unsigned pick, Reader& reader) {
       else if (question.kind == Question::Kind::work_object)
         reader.work_objects.push_back({question.name, {{1, 0, 0}, Quaternion::Identity()}, false});
       else
-        reader.options.values[question.name] =
-            has("TRUE or FALSE") ? first ? "TRUE" : "FALSE"
-            : has("ON or OFF")   ? first ? "ON" : "OFF"
-            : has("[cf1")        ? "[[600,0,900],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"
-            : has("[[a1")        ? "[[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"
-            : has("{X ..")       ? "{X 900,Y 0,Z 900,A 0,B 90,C 0}"
-            : has("{A1 ..")      ? "{A1 0,A2 -90,A3 90,A4 0,A5 30,A6 0}"
-            : has("X .. Y ..")   ? "X 600 Y 0 Z 500 W 180 P 0 R 0"
-            : has("nothing")     ? "nothing"
-            : first              ? "1"
-                                 : "2";
+        reader.options.values[question.name] = has("TRUE or FALSE") ? first ? "TRUE" : "FALSE"
+                                               : has("ON or OFF")   ? first ? "ON" : "OFF"
+                                               : has("[cf1")
+                                                   ? "[[600,0,900],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"
+                                               : has("[[a1")      ? "[[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"
+                                               : has("{X ..")     ? "{X 900,Y 0,Z 900,A 0,B 90,C 0}"
+                                               : has("{A1 ..")    ? "{A1 0,A2 -90,A3 90,A4 0,A5 30,A6 0}"
+                                               : has("X .. Y ..") ? "X 600 Y 0 Z 500 W 180 P 0 R 0"
+                                               : has("nothing")   ? "nothing"
+                                               : first            ? "1"
+                                                                  : "2";
     }
 }
 
@@ -97,9 +97,8 @@ TEST_CASE("questions: one round of answers is enough for RAPID, whatever the ans
       "pause;\nENDPROC\nENDMODULE\n";
   const Reading asked = Reader{Language::rapid}({{"m.mod", text}});
   CHECK(questions(asked) == std::set<std::string>{"value di1", "value gi1", "value di2", "branch m.mod:12",
-                                                  "value home", "frame gun", "value style", "frame table",
-                                                  "value park", "branch m.mod:29", "value away",
-                                                  "value pause"});
+                                                  "value home", "frame gun", "value style", "frame table", "value park",
+                                                  "branch m.mod:29", "value away", "value pause"});
   CHECK(second_round(Language::rapid, {{"m.mod", text}}) == "");
 }
 
@@ -149,9 +148,9 @@ TEST_CASE("questions: one round of answers is enough for KRL, whatever the answe
 
 TEST_CASE("questions: one round of answers is enough for Fanuc, whatever the answers are") {
   const std::string text =
-      listing("M", {"LBL[1]", "IF DI[1]=ON,JMP LBL[2]", "J P[1] 50% FINE", "IF DI[2]=ON THEN", "R[1]=GI[1]",
-                    "ENDIF", "FOR R[2]=1 TO R[1]", "L P[2] 100mm/sec FINE", "ENDFOR", "LBL[2]",
-                    "SELECT R[5]=1,CALL PART", "=2,JMP LBL[3]", "ELSE,JMP LBL[1]", "LBL[3]", "PR[1,3]=GI[2]",
+      listing("M", {"LBL[1]", "IF DI[1]=ON,JMP LBL[2]", "J P[1] 50% FINE", "IF DI[2]=ON THEN", "R[1]=GI[1]", "ENDIF",
+                    "FOR R[2]=1 TO R[1]", "L P[2] 100mm/sec FINE", "ENDFOR", "LBL[2]", "SELECT R[5]=1,CALL PART",
+                    "=2,JMP LBL[3]", "ELSE,JMP LBL[1]", "LBL[3]", "PR[1,3]=GI[2]",
                     "L P[3] R[7]mm/sec FINE Offset,PR[1]", "J PR[3] 20% FINE"});
   const std::string part =
       listing("PART", {"CALL GRIP", "IF R[9]=1,JMP LBL[1]", "J P[1] 50% FINE", "LBL[1]", "J P[4] 20% FINE"});
@@ -168,13 +167,11 @@ TEST_CASE("questions: a mistake behind a guess counts only where the program get
   no.options.values["di1"] = "0";
   yes.options.values["di1"] = "1";
   CHECK(no({{"m.mod", text}}).problems.empty());
-  CHECK_THAT(yes({{"m.mod", text}}).problem(),
-             Catch::Contains("m.mod:7") && Catch::Contains("index 0 of a list of 5"));
+  CHECK_THAT(yes({{"m.mod", text}}).problem(), Catch::Contains("m.mod:7") && Catch::Contains("index 0 of a list of 5"));
   // In a branch without moves the error does not occur, because the branch is left out.
-  const std::string still =
-      "MODULE m\nCONST jointtarget j:=" + axes +
-      ";\nVAR num a{5};\nVAR num k:=0;\nPROC main()\nIF di1=1 THEN\na{k}:=1;\nENDIF\nMoveAbsJ "
-      "j,v200,fine,tool0;\nENDPROC\nENDMODULE\n";
+  const std::string still = "MODULE m\nCONST jointtarget j:=" + axes +
+                            ";\nVAR num a{5};\nVAR num k:=0;\nPROC main()\nIF di1=1 THEN\na{k}:=1;\nENDIF\nMoveAbsJ "
+                            "j,v200,fine,tool0;\nENDPROC\nENDMODULE\n";
   CHECK(Reader{Language::rapid}({{"m.mod", still}}).problems.empty());
 }
 
@@ -192,9 +189,8 @@ TEST_CASE("questions: an answer's form is that of what is asked for, not of what
         {{"m.mod",
           "MODULE m\nCONST robtarget p:=[[10,20,30],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\nPROC main()\nMoveL " +
               target + ",v100,fine,tool0;\nENDPROC\nENDMODULE\n"}});
-    return asked.problems.empty() || asked.problems[0].questions.empty()
-               ? "nothing is asked"
-               : asked.problems[0].questions[0].form;
+    return asked.problems.empty() || asked.problems[0].questions.empty() ? "nothing is asked"
+                                                                         : asked.problems[0].questions[0].form;
   };
   CHECK(form("Offs(p,0,0,10*GInput(gi1))") == "a number");
   CHECK(form("home").starts_with("[[x, y, z], [q1"));
@@ -202,19 +198,21 @@ TEST_CASE("questions: an answer's form is that of what is asked for, not of what
 
 TEST_CASE("questions: what decides a branch is asked for in its own form") {
   const auto form = [](const std::string& lines) {
-    const Reading asked = Reader{Language::rapid}(
-        {{"m.mod", "MODULE m\nPROC main()\nMoveAbsJ " + axes + ",v50,fine,tool0;\n" + lines + "MoveAbsJ " + axes + ",v100,fine,tool0;\nENDIF\nENDPROC\nENDMODULE\n"}});
+    const Reading asked =
+        Reader{Language::rapid}({{"m.mod", "MODULE m\nPROC main()\nMoveAbsJ " + axes + ",v50,fine,tool0;\n" + lines +
+                                               "MoveAbsJ " + axes + ",v100,fine,tool0;\nENDIF\nENDPROC\nENDMODULE\n"}});
     return asked.problems.empty() || asked.problems[0].questions.empty() ? "nothing is asked"
-                                                                          : asked.problems[0].questions[0].form;
+                                                                         : asked.problems[0].questions[0].form;
   };
   CHECK(form("IF is_clear() THEN\n") == "TRUE or FALSE");
   CHECK(form("IF NOT is_clear() THEN\n") == "TRUE or FALSE");
   CHECK(form("IF parts()>2 THEN\n") == "a number");
   // Constants of dialogs belong to the language: the question is the dialog itself.
   const Reading dialog = Reader{Language::rapid}(
-      {{"m.mod", "MODULE m\nPROC main()\nTEST UIMessageBox(\\Buttons:=btnOKCancel\\Icon:=iconInfo)\nCASE resOK:\nMoveAbsJ " +
-                     axes + ",v100,fine,tool0;\nCASE resCancel:\nMoveAbsJ " + axes +
-                     ",v50,fine,tool0;\nENDTEST\nENDPROC\nENDMODULE\n"}});
+      {{"m.mod",
+        "MODULE m\nPROC main()\nTEST UIMessageBox(\\Buttons:=btnOKCancel\\Icon:=iconInfo)\nCASE resOK:\nMoveAbsJ " +
+            axes + ",v100,fine,tool0;\nCASE resCancel:\nMoveAbsJ " + axes +
+            ",v50,fine,tool0;\nENDTEST\nENDPROC\nENDMODULE\n"}});
   CHECK(questions(dialog) == std::set<std::string>{"value uimessagebox"});
   REQUIRE(dialog.problems.size() == 1);
   CHECK(dialog.problems[0].questions[0].form == "one of resOK, resCancel");
@@ -235,7 +233,8 @@ TEST_CASE("questions: data of inline forms are asked for as wholes, in their for
     for (const Problem& problem : asked.problems)
       for (const Question& question : problem.questions) by_name[question.name] = question;
     INFO(lines);
-    CHECK(questions(asked) == std::set<std::string>{"value m:fpick", "value m:ppdat1", "value m:lcpdat1", "value m:xpick"});
+    CHECK(questions(asked) ==
+          std::set<std::string>{"value m:fpick", "value m:ppdat1", "value m:lcpdat1", "value m:xpick"});
     CHECK(by_name["m:fpick"].form == "{TOOL_NO .., BASE_NO .., IPO_FRAME #BASE}");
     CHECK(by_name["m:fpick"].preset.empty());  // no default, because the tool is unknown
     CHECK(by_name["m:ppdat1"].form.starts_with("{VEL .., ACC .., APO_DIST .."));
@@ -259,8 +258,7 @@ TEST_CASE("questions: names are unique by module and by routine") {
                      dresslife::tests::held_frames};
   CHECK(questions(Reader{Language::krl}(krl)) == std::set<std::string>{"value a:xp1", "value b:xp1"});
   Reader own{Language::krl};
-  own.options.values = {{"a:xp1", "{A1 1,A2 0,A3 0,A4 0,A5 0,A6 0}"},
-                        {"b:xp1", "{A1 2,A2 0,A3 0,A4 0,A5 0,A6 0}"}};
+  own.options.values = {{"a:xp1", "{A1 1,A2 0,A3 0,A4 0,A5 0,A6 0}"}, {"b:xp1", "{A1 2,A2 0,A3 0,A4 0,A5 0,A6 0}"}};
   const Reading read = own(krl);
   REQUIRE(read.problem() == "no such problem");
   CHECK(read.move(0).target.joints[0] * 2 == Approx(read.move(1).target.joints[0]));
@@ -300,8 +298,8 @@ TEST_CASE("questions: where the robot stands is asked for line by line") {
 }
 
 TEST_CASE("questions: a Fanuc CALL of a program in no file is asked for by its name") {
-  const Files files = {{"m.ls", listing("M", {"R[30]=0", "LBL[1]", "J P[1] 50% FINE", "J P[2] 50% FINE",
-                                              "CALL NAILER", "R[30]=R[30]+1", "IF R[30]<4,JMP LBL[1]"})}};
+  const Files files = {{"m.ls", listing("M", {"R[30]=0", "LBL[1]", "J P[1] 50% FINE", "J P[2] 50% FINE", "CALL NAILER",
+                                              "R[30]=R[30]+1", "IF R[30]<4,JMP LBL[1]"})}};
   CHECK(questions(Reader{Language::fanuc}(files)) == std::set<std::string>{"value CALL NAILER"});
   // The user's value of a register does not replace a value that the program has set.
   Reader by_register{Language::fanuc};
@@ -315,8 +313,7 @@ TEST_CASE("questions: a Fanuc CALL of a program in no file is asked for by its n
     CHECK(reader(files).program.instructions.size() == moves);
   }
   // If the program did not set the register, the called program may have set it: the user's value is used.
-  const Files answer = {
-      {"m.ls", listing("M", {"CALL ASK", "FOR R[1]=1 TO R[5]", "J P[1] 50% FINE", "ENDFOR"})}};
+  const Files answer = {{"m.ls", listing("M", {"CALL ASK", "FOR R[1]=1 TO R[5]", "J P[1] 50% FINE", "ENDFOR"})}};
   Reader reader{Language::fanuc};
   reader.options.values["R[5]"] = "3";
   CHECK(reader(answer).program.instructions.size() == 3);
@@ -325,10 +322,9 @@ TEST_CASE("questions: a Fanuc CALL of a program in no file is asked for by its n
 TEST_CASE("questions: Fanuc SkipJump goes to its label when the condition comes, Skip when it does not") {
   for (const bool jumps : {true, false}) {
     const Files files = {
-        {"m.ls",
-         listing("M", {"SKIP CONDITION RI[1]=ON",
-                       std::string("L P[1] 100mm/sec FINE ") + (jumps ? "SkipJump" : "Skip") + ",LBL[1]",
-                       "J P[2] 50% FINE", "ABORT", "LBL[1]", "L P[3] 100mm/sec FINE"})}};
+        {"m.ls", listing("M", {"SKIP CONDITION RI[1]=ON",
+                               std::string("L P[1] 100mm/sec FINE ") + (jumps ? "SkipJump" : "Skip") + ",LBL[1]",
+                               "J P[2] 50% FINE", "ABORT", "LBL[1]", "L P[3] 100mm/sec FINE"})}};
     const auto second_target = [&](const char* comes) {
       Reader reader{Language::fanuc};
       reader.options.values["RI[1]"] = comes;
@@ -354,8 +350,7 @@ TEST_CASE("questions: a component of a Fanuc position register is asked for by w
   CHECK(read.move(0).target.pose.position.isApprox(Vector3(0.611, 0.002, 0.55), 1e-12));
 }
 
-TEST_CASE(
-    "questions: what a program writes to a given tool or work object counts as if a file had declared it") {
+TEST_CASE("questions: what a program writes to a given tool or work object counts as if a file had declared it") {
   const std::string body =
       "CONST robtarget p:=[[10,20,30],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\nPROC main()\nMoveL "
       "p,v100,fine,t\\WObj:=w;\nw.oframe.trans.x:=500;\nMoveL p,v100,fine,t\\WObj:=w;\nt.tframe.trans.z:=333;\nMoveL "
@@ -365,11 +360,10 @@ TEST_CASE(
         "MODULE m\nPERS tooldata t:=[TRUE,[[0,0,111],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];\nPERS wobjdata "
         "w:=[FALSE,TRUE,\"\",[[1000,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];\n" +
             body}});
-  const Reading given =
-      Reader{Language::rapid,
-             {},
-             {{"t", {{0, 0, 0.111}, Quaternion::Identity()}, false}},
-             {{"w", {{1, 0, 0}, Quaternion::Identity()}, false}}}({{"m.mod", "MODULE m\n" + body}});
+  const Reading given = Reader{Language::rapid,
+                               {},
+                               {{"t", {{0, 0, 0.111}, Quaternion::Identity()}, false}},
+                               {{"w", {{1, 0, 0}, Quaternion::Identity()}, false}}}({{"m.mod", "MODULE m\n" + body}});
   REQUIRE(declared.problem() == "no such problem");
   REQUIRE(given.problem() == "no such problem");
   for (std::size_t i = 0; i < 4; ++i) {
@@ -385,13 +379,12 @@ TEST_CASE(
   Reader krl{Language::krl};
   krl.tools = {{"TOOL_DATA[1]", {{0, 0, 0.1}, Quaternion::Identity()}, false}};
   krl.work_objects = {{"BASE_DATA[1]", {{1, 2, 3}, Quaternion::Identity()}, false}};
-  const Reading kuka = krl(
-      {{"k.src",
-        "DEF k()\n$VEL.CP=1\nBASE_DATA[1].X=5000\n$TOOL=TOOL_DATA[1]\n$BASE=BASE_DATA[1]\nLIN {X 1,Y 2,Z 3,A "
-        "0,B 0,C 0}\nTOOL_DATA[1].Z=777\n$TOOL=TOOL_DATA[1]\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nEND\n"}});
+  const Reading kuka =
+      krl({{"k.src",
+            "DEF k()\n$VEL.CP=1\nBASE_DATA[1].X=5000\n$TOOL=TOOL_DATA[1]\n$BASE=BASE_DATA[1]\nLIN {X 1,Y 2,Z 3,A "
+            "0,B 0,C 0}\nTOOL_DATA[1].Z=777\n$TOOL=TOOL_DATA[1]\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nEND\n"}});
   REQUIRE(kuka.problem() == "no such problem");
-  CHECK(kuka.program.work_objects.at(kuka.move(0).work_object)
-            .frame.position.isApprox(Vector3(5, 2, 3), 1e-12));
+  CHECK(kuka.program.work_objects.at(kuka.move(0).work_object).frame.position.isApprox(Vector3(5, 2, 3), 1e-12));
   CHECK(kuka.program.tools.at(kuka.move(0).tool).frame.position.isApprox(Vector3(0, 0, 0.1), 1e-12));
   CHECK(kuka.program.tools.at(kuka.move(1).tool).frame.position.isApprox(Vector3(0, 0, 0.777), 1e-12));
 }
@@ -405,8 +398,7 @@ TEST_CASE("questions: a constant that an unknown instruction takes stays what it
   CHECK(read.move(0).target.pose.position.x() == Approx(0.01));
 }
 
-TEST_CASE(
-    "questions: KUKA's speed along paths and its approximation are given by the names of the messages") {
+TEST_CASE("questions: KUKA's speed along paths and its approximation are given by the names of the messages") {
   const std::string text =
       "DEF m()\n$TOOL={X 0,Y 0,Z 100,A 0,B 0,C 0}\n$BASE=$NULLFRAME\nLIN {X 1500,Y 0,Z 1500,A 0,B 90,C 0} C_DIS\nLIN {X "
       "1500,Y 300,Z 1500,A 0,B 90,C 0}\nEND\n";
@@ -466,29 +458,23 @@ TEST_CASE("questions: the file of answers can be filled in and is read back as i
   CHECK(filled.tools[0].position.z() == Approx(0.111));
 }
 
-TEST_CASE(
-    "questions: the list is asked for beside its unknown index where nothing of it is known, with its form") {
+TEST_CASE("questions: the list is asked for beside its unknown index where nothing of it is known, with its form") {
   Reader reader{Language::rapid};
-  const std::string
-      own = "MODULE m\nPERS jointtarget way{2};\nPERS num at;\nVAR num known{2}:=[10,20];\nPROC main()\n",
-      end = "ENDPROC\nENDMODULE\n";
+  const std::string own = "MODULE m\nPERS jointtarget way{2};\nPERS num at;\nVAR num known{2}:=[10,20];\nPROC main()\n",
+                    end = "ENDPROC\nENDMODULE\n";
   const Reading list = reader({{"m.mod", own + "MoveAbsJ way{at},v100,fine,tool0;\n" + end}});
   CHECK(questions(list) == std::set<std::string>{"value at", "value way"});
   for (const Problem& problem : list.problems)
     for (const Question& question : problem.questions)
       if (question.name == "way")
-        CHECK(question.form ==
-              "[.., ..], 2 times [[a1, a2, a3, a4, a5, a6], [9E9, 9E9, 9E9, 9E9, 9E9, 9E9]] in deg");
-  const Reading index = reader(
-      {{"m.mod",
-        own + "MoveAbsJ [[known{at},0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n" + end}});
+        CHECK(question.form == "[.., ..], 2 times [[a1, a2, a3, a4, a5, a6], [9E9, 9E9, 9E9, 9E9, 9E9, 9E9]] in deg");
+  const Reading index =
+      reader({{"m.mod", own + "MoveAbsJ [[known{at},0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n" + end}});
   CHECK(questions(index) == std::set<std::string>{"value at"});
   Reader answered = reader;
   answered.options.values = {
-      {"at", "2"},
-      {"way", "[[[1,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],[[2,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]]]"}};
-  CHECK(answered({{"m.mod", own + "MoveAbsJ way{at},v100,fine,tool0;\n" + end}}).problem() ==
-        "no such problem");
+      {"at", "2"}, {"way", "[[[1,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],[[2,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]]]"}};
+  CHECK(answered({{"m.mod", own + "MoveAbsJ way{at},v100,fine,tool0;\n" + end}}).problem() == "no such problem");
 }
 
 TEST_CASE("questions: a position that is not known asks for the tools of the job, too") {
@@ -496,8 +482,7 @@ TEST_CASE("questions: a position that is not known asks for the tools of the job
       "/JOB\n//NAME A\n//POS\n///NPOS 1,0,0,0,0,0\n///TOOL 3\n///POSTYPE BASE\n///RECTAN\n///RCONF 0,0,0,0,0,0,0,0\n"
       "C00000=1,2,3,0,0,0\n//INST\n///DATE 2020/01/01 00:00\n///ATTR SC,RW\n"
       "///GROUP1 RB1\nNOP\nMOVL P005 V=10.0\nEND\n";
-  CHECK(questions(Reader{Language::inform}({{"A.JBI", job}})) ==
-        std::set<std::string>{"frame TL#(3)", "value P005"});
+  CHECK(questions(Reader{Language::inform}({{"A.JBI", job}})) == std::set<std::string>{"frame TL#(3)", "value P005"});
 }
 
 TEST_CASE(
@@ -512,8 +497,7 @@ TEST_CASE(
   for (const Problem& problem : asked.problems)
     for (const Question& question : problem.questions)
       if (question.name == "command") CHECK(question.form == "one of \"go\"");
-  reader.options.values = {{"command", "\"go\""},
-                           {"p", "[[1,2,3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"}};
+  reader.options.values = {{"command", "\"go\""}, {"p", "[[1,2,3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"}};
   CHECK(reader({{"m.mod", program}}).problem() == "no such problem");
   // A server that runs routines by received names: only the first message of the buffer is a question.
   const Reading server = Reader{Language::rapid}(

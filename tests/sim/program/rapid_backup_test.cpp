@@ -55,9 +55,10 @@ TEST_CASE("rapid backup: a backup of another controller may hold files that end 
   folder.write("SYSTEM.SYS", "SYSTEM NO : YAS2.80\n");
   folder.write("ABSO.DAT", "0,0,0,0,0,0\n");
   folder.write("VAR.DAT", "/VAR\n//B 0\n");
-  folder.write("MAIN.JBI",
-               "/JOB\n//NAME MAIN\n//POS\n///NPOS 1,0,0,0,0,0\n///TOOL 0\n///POSTYPE ANGLE\nC00000=7.0,0,0,0,0,0\n//INST\n///ATTR "
-               "SC,RW\n///GROUP1 RB1\nNOP\nMOVJ C00000 VJ=10.00\nEND\n");
+  folder.write(
+      "MAIN.JBI",
+      "/JOB\n//NAME MAIN\n//POS\n///NPOS 1,0,0,0,0,0\n///TOOL 0\n///POSTYPE ANGLE\nC00000=7.0,0,0,0,0,0\n//INST\n///ATTR "
+      "SC,RW\n///GROUP1 RB1\nNOP\nMOVJ C00000 VJ=10.00\nEND\n");
   CHECK(first_axes(read(folder / "")) == Angles{7});
 }
 
@@ -75,8 +76,7 @@ TEST_CASE("rapid backup: a module that the contents name and that is not there i
 TEST_CASE("rapid backup: the task that moves is read, of two one is asked for") {
   const Scratch folder;
   write_task(folder, "/");
-  folder.write("RAPID/TASK2/PROGMOD/watch.mod",
-               module("watch", "main", "! MoveJ is only a word here\nWaitTime 1;\n"));
+  folder.write("RAPID/TASK2/PROGMOD/watch.mod", module("watch", "main", "! MoveJ is only a word here\nWaitTime 1;\n"));
   CHECK(first_axes(read(folder / "")) == Angles{1, 2});
   folder.write("RAPID/TASK3/PROGMOD/second.mod", module("second", "main", go(7)));
   CHECK_THROWS_WITH(read(folder / ""),
@@ -87,8 +87,7 @@ TEST_CASE("rapid backup: the task that moves is read, of two one is asked for") 
 TEST_CASE("rapid backup: a list of modules says what a program is") {
   const Scratch folder;
   const auto list = [](const std::string& file) {
-    return "<?xml version=\"1.0\" encoding=\"ISO-8859-1\" ?>\n<Program>\n<Module>" + file +
-           "</Module>\n</Program>\n";
+    return "<?xml version=\"1.0\" encoding=\"ISO-8859-1\" ?>\n<Program>\n<Module>" + file + "</Module>\n</Program>\n";
   };
   folder.write("cell.pgf", list("cell.mod"));
   folder.write("cell.mod", module("cell", "main", go(1)));
@@ -106,8 +105,7 @@ TEST_CASE("rapid backup: a list of modules says what a program is") {
   folder.write("third/RAPID/cell.mod", module("cell", "main", go(5)));
   CHECK_THROWS_WITH(read(folder / ""), Catch::Contains("holds several lists of modules"));
   folder.write("fourth/lost.pgf", list("lost.mod"));
-  CHECK_THROWS_WITH(read(folder / "fourth/lost.pgf"),
-                    Catch::Contains("lists lost.mod, which is not beside it"));
+  CHECK_THROWS_WITH(read(folder / "fourth/lost.pgf"), Catch::Contains("lists lost.mod, which is not beside it"));
 }
 
 TEST_CASE("rapid backup: a byte order mark is no letter of the program") {
@@ -119,17 +117,15 @@ TEST_CASE("rapid backup: persistent data that another task writes may have any v
   // TASK2 moves no robot; it writes `go_on` and its own `mine`. TASK1's initial value of go_on is not used.
   const Scratch folder;
   const std::string shared = "PERS bool go_on:=FALSE;\nPERS bool quiet:=FALSE;\nVAR bool mine:=FALSE;\n";
-  const std::string body =
-      go(1) + "IF go_on THEN\n" + go(2) + "ENDIF\nIF quiet OR mine THEN\n" + go(3) + "ENDIF\n";
+  const std::string body = go(1) + "IF go_on THEN\n" + go(2) + "ENDIF\nIF quiet OR mine THEN\n" + go(3) + "ENDIF\n";
   folder.write("RAPID/TASK1/PROGMOD/Main.mod",
                "MODULE Main\n" + shared + "PROC main()\n" + body + "ENDPROC\nENDMODULE\n");
   folder.write("RAPID/TASK2/PROGMOD/plc.mod",
                "MODULE plc\nPERS bool go_on;\nPERS bool quiet;\nVAR bool mine;\nPROC "
                "main()\ngo_on:=TRUE;\nmine:=TRUE;\n"
                "ENDPROC\nENDMODULE\n");
-  CHECK_THROWS_WITH(read(folder / ""),
-                    Catch::Contains("'go_on' may be written by plc.mod of the task TASK2") &&
-                        !Catch::Contains("quiet") && !Catch::Contains("mine"));
+  CHECK_THROWS_WITH(read(folder / ""), Catch::Contains("'go_on' may be written by plc.mod of the task TASK2") &&
+                                           !Catch::Contains("quiet") && !Catch::Contains("mine"));
   pipeline::Motion asked;
   asked.program = folder / "";
   asked.values.push_back({"go_on", "FALSE"});

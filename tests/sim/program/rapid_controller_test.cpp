@@ -14,8 +14,7 @@ constexpr double rounding = 1e-12;  // rounding error of a few products of numbe
 /// Returns axis angles whose first value identifies the move.
 std::string axes(double first) { return fmt::format("[[{},0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]]", first); }
 std::string go(double first) { return "MoveAbsJ " + axes(first) + ",v1000,fine,tool0;\n"; }
-const std::string pose =
-    "CONST robtarget p:=[[1000,0,1000],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n";
+const std::string pose = "CONST robtarget p:=[[1000,0,1000],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n";
 
 Reading run(const std::string& body, const std::string& more = "", const ImportOptions& options = {}) {
   return Reader{Language::rapid,
@@ -40,8 +39,7 @@ bool told(const Reading& reading, const std::string& words) {
 
 TEST_CASE("rapid controller: LOCAL data and routines are their module's own") {
   // Both modules have a LOCAL j and a LOCAL step. Each module uses its own, in any order of reading.
-  const auto module = [](const std::string& name, double at, const std::string& routine,
-                         const std::string& call) {
+  const auto module = [](const std::string& name, double at, const std::string& routine, const std::string& call) {
     return "MODULE " + name + "\nLOCAL CONST jointtarget j:=" + axes(at) + ";\nPROC " + routine +
            "()\nMoveAbsJ j,v1000,fine,tool0;\nstep;\n" + call + "ENDPROC\nLOCAL PROC step()\n" + go(at + 1) +
            "ENDPROC\nENDMODULE\n";
@@ -68,16 +66,15 @@ TEST_CASE("rapid controller: one name for two global things is refused where it 
 
 TEST_CASE("rapid controller: what an instruction that is left out writes is unknown behind it") {
   // k is 0 in the file, but the operator types its value: neither the branch nor the count may use 0.
-  for (const char* reads :
-       {"TPReadNum k,\"how many?\";", "TPReadFK k,\"which?\",\"A\",\"B\",stEmpty,stEmpty,stEmpty;",
-        "GetNumber k;", "found:=StrToVal(typed,k);", "UnpackRawBytes raw,1,k\\Float4;"}) {
+  for (const char* reads : {"TPReadNum k,\"how many?\";", "TPReadFK k,\"which?\",\"A\",\"B\",stEmpty,stEmpty,stEmpty;",
+                            "GetNumber k;", "found:=StrToVal(typed,k);", "UnpackRawBytes raw,1,k\\Float4;"}) {
     CAPTURE(reads);
     const std::string declared = "VAR num k:=0;\nVAR bool found;\n";
     const Reading branch = run(declared + reads + std::string("\nIF k=1 THEN\n") + go(1) + "ENDIF\n" + go(2));
-    CHECK_THAT(branch.problem(), Catch::Contains("branches on a condition that is known only while the robot runs: 'k'"));
+    CHECK_THAT(branch.problem(),
+               Catch::Contains("branches on a condition that is known only while the robot runs: 'k'"));
     CHECK_THAT(branch.problem(), Catch::Contains("--value 'k=...'"));
-    const Reading count =
-        run(declared + reads + std::string("\nFOR i FROM 1 TO k DO\n") + go(1) + "ENDFOR\n" + go(2));
+    const Reading count = run(declared + reads + std::string("\nFOR i FROM 1 TO k DO\n") + go(1) + "ENDFOR\n" + go(2));
     CHECK_THAT(count.problem(), Catch::Contains("counts to a number that is known only while the robot runs"));
     CHECK(first_axes(run(declared + reads + std::string("\nFOR i FROM 1 TO k DO\n") + go(1) + "ENDFOR\n", "",
                          given({{"k", "3"}}))) == Angles{1, 1, 1});
@@ -86,19 +83,16 @@ TEST_CASE("rapid controller: what an instruction that is left out writes is unkn
 
 TEST_CASE("rapid controller: Incr, Decr, Add and Clear are arithmetic") {
   CHECK(first_axes(run("VAR num n:=0;\nWHILE n<3 DO\n" + go(1) + "Incr n;\nENDWHILE\n")) == Angles{1, 1, 1});
-  CHECK(first_axes(run("VAR num n:=3;\nClear n;\nIF n=3 THEN\n" + go(1) + "ELSE\n" + go(2) + "ENDIF\n")) ==
-        Angles{2});
+  CHECK(first_axes(run("VAR num n:=3;\nClear n;\nIF n=3 THEN\n" + go(1) + "ELSE\n" + go(2) + "ENDIF\n")) == Angles{2});
   CHECK(first_axes(run("VAR num n:=5;\nDecr n;\nAdd n,-2;\nIF n=2 THEN\n" + go(1) + "ENDIF\n")) == Angles{1});
 }
 
 TEST_CASE("rapid controller: FOR counts down by itself where the end is smaller") {
   CHECK(first_axes(run("FOR i FROM 3 TO 1 DO\nMoveAbsJ "
-                       "[[i,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v1000,fine,tool0;\nENDFOR\n")) ==
-        Angles{3, 2, 1});
+                       "[[i,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v1000,fine,tool0;\nENDFOR\n")) == Angles{3, 2, 1});
 }
 
-TEST_CASE(
-    "rapid controller: the counter of a FOR is known in its loop alone, and nothing else writes to it") {
+TEST_CASE("rapid controller: the counter of a FOR is known in its loop alone, and nothing else writes to it") {
   const std::string move = "MoveAbsJ [[i,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v1000,fine,tool0;\n";
   const std::string loop = "FOR i FROM 1 TO 2 DO\n" + move + "ENDFOR\n";
   CHECK(first_axes(run("VAR num i:=7;\n" + loop + move)) == Angles{1, 2, 7});
@@ -121,16 +115,15 @@ TEST_CASE("rapid controller: ConfL and ConfJ in an undecided branch are asked fo
 
 TEST_CASE("rapid controller: a record takes no single value") {
   for (const char* wrong : {"j.robax:=1;\n", "j.robax:=given;\n"})
-    CHECK_THAT(run("VAR jointtarget j;\n" + std::string(wrong) + "MoveAbsJ j,v100,fine,tool0;\n", "",
-                   given({{"given", "1"}}))
-                   .problem(),
-               Catch::Contains("is given a value that is no robjoint"));
+    CHECK_THAT(
+        run("VAR jointtarget j;\n" + std::string(wrong) + "MoveAbsJ j,v100,fine,tool0;\n", "", given({{"given", "1"}}))
+            .problem(),
+        Catch::Contains("is given a value that is no robjoint"));
 }
 
 TEST_CASE("rapid controller: frames of passes that are cut off are none of the motion") {
-  const Reading r =
-      run("w.oframe.trans.x:=w.oframe.trans.x+1;\nMoveL p,v100,fine,tool0\\WObj:=w;\n",
-          pose + "PERS wobjdata w:=[FALSE,TRUE,\"\",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];\n");
+  const Reading r = run("w.oframe.trans.x:=w.oframe.trans.x+1;\nMoveL p,v100,fine,tool0\\WObj:=w;\n",
+                        pose + "PERS wobjdata w:=[FALSE,TRUE,\"\",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];\n");
   REQUIRE(r.problem() == "no such problem");
   REQUIRE(r.program.instructions.size() == 1);
   CHECK(r.move(0).work_object == 0);
@@ -139,8 +132,7 @@ TEST_CASE("rapid controller: frames of passes that are cut off are none of the m
 }
 
 TEST_CASE("rapid controller: ConfL frees lines, ConfJ joint moves") {
-  const Reading lines =
-      run("ConfL\\Off;\nMoveJ p,v1000,fine,tool0;\nMoveL Offs(p,0,0,-100),v1000,fine,tool0;\n", pose);
+  const Reading lines = run("ConfL\\Off;\nMoveJ p,v1000,fine,tool0;\nMoveL Offs(p,0,0,-100),v1000,fine,tool0;\n", pose);
   REQUIRE(lines.problem() == "no such problem");
   CHECK(lines.move(0).target.configuration.text() == "abb 0 0 0 0");
   CHECK(lines.move(1).target.configuration.kind == ArmConfiguration::Kind::any);
@@ -166,23 +158,21 @@ TEST_CASE("rapid controller: an index out of range and a division by zero stop t
 TEST_CASE("rapid controller: behind ExitCycle main begins again, with the data as they are") {
   CHECK(first_axes(run(go(1) + "ExitCycle;\n" + go(2))) == Angles{1});
   // The first pass ends in a routine that main calls. The next passes run completely.
-  const std::string step =
-      "PROC step()\nIF n=1 ExitCycle;\n" + go(2) + "IF n=3 EXIT;\nENDPROC\nVAR num n:=0;\n";
+  const std::string step = "PROC step()\nIF n=1 ExitCycle;\n" + go(2) + "IF n=3 EXIT;\nENDPROC\nVAR num n:=0;\n";
   CHECK(first_axes(run(go(1) + "n:=n+1;\nstep;\n" + go(3), step)) == Angles{1, 1, 2, 3, 1, 2});
   // ExitCycle in an endless loop: a state machine with two states.
-  CHECK(first_axes(run("WHILE TRUE DO\n" + go(1) + "IF s THEN\ns:=FALSE;\nExitCycle;\nENDIF\n" + go(2) +
-                           "s:=TRUE;\nENDWHILE\n",
-                       "VAR bool s:=TRUE;\n")) == Angles{1, 1, 2, 1});
+  CHECK(first_axes(run(
+            "WHILE TRUE DO\n" + go(1) + "IF s THEN\ns:=FALSE;\nExitCycle;\nENDIF\n" + go(2) + "s:=TRUE;\nENDWHILE\n",
+            "VAR bool s:=TRUE;\n")) == Angles{1, 1, 2, 1});
 }
 
 TEST_CASE("rapid controller: elements of a list of records have its components") {
   const std::string record = "RECORD part\nnum n;\nrobtarget p;\nENDRECORD\n";
   const std::string target = "[[{},0,1000],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]";
   const Reading r = Reader{Language::rapid}(
-      {{"m.mod",
-        "MODULE m\n" + record + "PERS part list{2}:=[[1," + fmt::format(fmt::runtime(target), 100) + "],[2," +
-            fmt::format(fmt::runtime(target), 200) +
-            "]];\nPROC main()\nIF list{1}.n=1 MoveL list{2}.p,v100,fine,tool0;\nENDPROC\nENDMODULE\n"}});
+      {{"m.mod", "MODULE m\n" + record + "PERS part list{2}:=[[1," + fmt::format(fmt::runtime(target), 100) + "],[2," +
+                     fmt::format(fmt::runtime(target), 200) +
+                     "]];\nPROC main()\nIF list{1}.n=1 MoveL list{2}.p,v100,fine,tool0;\nENDPROC\nENDMODULE\n"}});
   REQUIRE(r.problem() == "no such problem");
   CHECK(std::abs(r.move(0).target.pose.position.x() - 0.2) < rounding);
 }
@@ -199,9 +189,8 @@ TEST_CASE("rapid controller: orientations multiply, the second within the first"
 
 TEST_CASE("rapid controller: NoEOffs leaves the offsets of external axes out") {
   const std::string at = "[[0,0,0,0,30,0],[100,9E9,9E9,9E9,9E9,9E9]]";
-  const Reading r =
-      run("EOffsSet [50,9E9,9E9,9E9,9E9,9E9];\nMoveAbsJ " + at + ",v100,fine,tool0;\nMoveAbsJ " + at +
-          "\\NoEOffs,v100,fine,tool0;\nMoveAbsJ " + at + ",v100,fine,tool0;\n");
+  const Reading r = run("EOffsSet [50,9E9,9E9,9E9,9E9,9E9];\nMoveAbsJ " + at + ",v100,fine,tool0;\nMoveAbsJ " + at +
+                        "\\NoEOffs,v100,fine,tool0;\nMoveAbsJ " + at + ",v100,fine,tool0;\n");
   REQUIRE(r.problem() == "no such problem");
   CHECK(r.move(0).target.external_axes == std::vector<double>{150});
   CHECK(r.move(1).target.external_axes == std::vector<double>{100});
@@ -242,8 +231,7 @@ TEST_CASE("rapid controller: a loop that moves in one arm alone waits for it, as
   CHECK_THAT(loop(then + "ENDIF\n" + go(3)).problem(), Catch::Contains(asks));
   CHECK_THAT(run("VAR num n:=0;\nWHILE TRUE DO\nn:=n+1;\n" + then + "ENDIF\nENDWHILE\n").problem(),
              Catch::Contains(asks));
-  CHECK_THAT(loop("IF di1=1 THEN\nSet do1;\nELSEIF FALSE THEN\n" + go(1) + "ENDIF\n").problem(),
-             Catch::Contains(asks));
+  CHECK_THAT(loop("IF di1=1 THEN\nSet do1;\nELSEIF FALSE THEN\n" + go(1) + "ENDIF\n").problem(), Catch::Contains(asks));
   CHECK_THAT(run("FOR i FROM 1 TO 3 DO\n" + then + "ENDIF\nENDFOR\n").problem(), Catch::Contains(asks));
 }
 
@@ -273,12 +261,10 @@ TEST_CASE("rapid controller: values behind one branch are one question, the one 
           "MoveL Offs(p,x,0,0),v100,fine,tool0;\nMoveL Offs(p,0,y,0),v100,fine,tool0;\n",
           pose);
   REQUIRE(r.problems.size() == 1);
-  CHECK_THAT(r.problem(),
-             Catch::Contains("'x' depends on the branch in m.mod:5, that on 'gi1', which is a name") &&
-                 Catch::Contains("give --value 'gi1=...', or --assume m.mod:5=then or =else"));
-  const Reading answered =
-      run("VAR num x:=0;\nIF gi1=2 THEN\nx:=1;\nENDIF\nMoveL Offs(p,x,0,0),v100,fine,tool0;\n", pose,
-          given({{"gi1", "2"}}));
+  CHECK_THAT(r.problem(), Catch::Contains("'x' depends on the branch in m.mod:5, that on 'gi1', which is a name") &&
+                              Catch::Contains("give --value 'gi1=...', or --assume m.mod:5=then or =else"));
+  const Reading answered = run("VAR num x:=0;\nIF gi1=2 THEN\nx:=1;\nENDIF\nMoveL Offs(p,x,0,0),v100,fine,tool0;\n",
+                               pose, given({{"gi1", "2"}}));
   REQUIRE(answered.problem() == "no such problem");
 }
 
@@ -297,9 +283,8 @@ TEST_CASE("rapid controller: a refusal names the routine and all that its condit
 }
 
 TEST_CASE("rapid controller: an offset of a target without a value asks for the target") {
-  CHECK_THAT(
-      run("VAR robtarget t;\nMoveL Offs(t,0,0,50),v100,fine,tool0;\n").problem(),
-      Catch::Contains("'t' was never given a value (all of it is 0)") && Catch::Contains("--value 't=...'"));
+  CHECK_THAT(run("VAR robtarget t;\nMoveL Offs(t,0,0,50),v100,fine,tool0;\n").problem(),
+             Catch::Contains("'t' was never given a value (all of it is 0)") && Catch::Contains("--value 't=...'"));
   CHECK_THAT(run("VAR iodev io;\nMoveL Offs(p,0,0,ReadNum(io)),v100,fine,tool0;\n", pose).problem(),
              Catch::Contains("'readnum' is a function of what the robot meets"));
 }
@@ -320,9 +305,11 @@ TEST_CASE("rapid controller: a statement that nobody wrote stops the program whe
 }
 
 TEST_CASE("rapid controller: numbers may be written with the base 16, 8 or 2") {
-  for (const auto& [written, value] : {std::pair{"0x1F", 31}, {"0Xff", 255}, {"0b101", 5}, {"0o17", 15}, {"0", 0}, {"10", 10}})
-    CHECK(first_axes(run(fmt::format("VAR num n:={};\nMoveAbsJ [[n,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n",
-                                     written))) == Angles{static_cast<double>(value)});
+  for (const auto& [written, value] :
+       {std::pair{"0x1F", 31}, {"0Xff", 255}, {"0b101", 5}, {"0o17", 15}, {"0", 0}, {"10", 10}})
+    CHECK(first_axes(run(fmt::format(
+              "VAR num n:={};\nMoveAbsJ [[n,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n", written))) ==
+          Angles{static_cast<double>(value)});
 }
 
 TEST_CASE("rapid controller: a routine is called late by its name, or by its module and its name") {
@@ -341,8 +328,9 @@ TEST_CASE("rapid controller: a frame that a routine takes as an argument is one 
       "PERS tooldata A:=[TRUE,[[0,0,500],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];\nPERS tooldata "
       "B:=[TRUE,[[0,0,900],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];\nPERS wobjdata "
       "W:=[FALSE,TRUE,\"\",[[500,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];\n";
-  const Reading calls = run("FOR i FROM 1 TO 3000 DO\ngo A,W;\ngo B,W;\nENDFOR\nEXIT;\n",
-                            pose + data + "PROC go(PERS tooldata t,PERS wobjdata o)\nMoveJ p,v100,fine,t\\WObj:=o;\nENDPROC\n");
+  const Reading calls =
+      run("FOR i FROM 1 TO 3000 DO\ngo A,W;\ngo B,W;\nENDFOR\nEXIT;\n",
+          pose + data + "PROC go(PERS tooldata t,PERS wobjdata o)\nMoveJ p,v100,fine,t\\WObj:=o;\nENDPROC\n");
   REQUIRE(calls.problem() == "no such problem");
   CHECK(calls.program.instructions.size() == 6000);
   REQUIRE(calls.program.tools.size() == 2);
@@ -356,9 +344,10 @@ TEST_CASE("rapid controller: values of records and lists are compared with all t
   const std::string data =
       "CONST pos a:=[1,2,3];\nVAR pos b;\nCONST pose q:=[[1,2,3],[1,0,0,0]];\nVAR pose r;\nVAR robtarget t;\nVAR num "
       "l{2}:=[1,2];\nVAR num k{2}:=[1,3];\n";
-  const std::string body = "b:=a;\nr:=q;\nt:=p;\nIF b=a THEN\n" + go(1) + "ENDIF\nIF r=q THEN\n" + go(2) + "ENDIF\nIF t=p THEN\n" +
-                           go(3) + "ENDIF\nIF l=k THEN\n" + go(4) + "ENDIF\nk{2}:=2;\nIF l=k THEN\n" + go(5) +
-                           "ENDIF\nb.z:=4;\nIF b<>a THEN\n" + go(6) + "ENDIF\nr.trans:=b;\nIF r=q THEN\n" + go(7) + "ENDIF\nEXIT;\n";
+  const std::string body = "b:=a;\nr:=q;\nt:=p;\nIF b=a THEN\n" + go(1) + "ENDIF\nIF r=q THEN\n" + go(2) +
+                           "ENDIF\nIF t=p THEN\n" + go(3) + "ENDIF\nIF l=k THEN\n" + go(4) +
+                           "ENDIF\nk{2}:=2;\nIF l=k THEN\n" + go(5) + "ENDIF\nb.z:=4;\nIF b<>a THEN\n" + go(6) +
+                           "ENDIF\nr.trans:=b;\nIF r=q THEN\n" + go(7) + "ENDIF\nEXIT;\n";
   CHECK(first_axes(run(body, data + pose)) == Angles{1, 2, 3, 5, 6});
   // Values that differ in a known part are different for all values of the unknown parts.
   CHECK(first_axes(run("VAR pos u;\nu:=[gi1,2,3];\nIF u=[9,9,9] THEN\n" + go(1) + "ENDIF\n" + go(2))) == Angles{2});
@@ -396,8 +385,7 @@ TEST_CASE("rapid controller: optional arguments are handed on, arguments may hav
 
 TEST_CASE("rapid controller: a routine's name may be worked out") {
   CHECK(first_axes(run("VAR num n:=1;\n%\"step\"+ValToStr(n)%;\nCallByVar \"step\",2;\n",
-                       "PROC step1()\n" + go(1) + "ENDPROC\nPROC step2()\n" + go(2) + "ENDPROC\n")) ==
-        Angles{1, 2});
+                       "PROC step1()\n" + go(1) + "ENDPROC\nPROC step2()\n" + go(2) + "ENDPROC\n")) == Angles{1, 2});
 }
 
 TEST_CASE("rapid controller: CJointT stands where the last joint move led") {
@@ -406,18 +394,15 @@ TEST_CASE("rapid controller: CJointT stands where the last joint move led") {
   REQUIRE(r.problem() == "no such problem");
   CHECK(r.move(1).target.joints[0] == Approx(5 * degree).epsilon(rounding));
   CHECK(r.move(1).target.joints[5] == Approx(90 * degree).epsilon(rounding));
-  CHECK_THAT(
-      run("VAR jointtarget j;\nMoveJ p,v1000,fine,tool0;\nj:=CJointT();\nMoveAbsJ j,v1000,fine,tool0;\n",
-          pose)
-          .problem(),
-      Catch::Contains("asks for the axes at a target that is a pose"));
+  CHECK_THAT(run("VAR jointtarget j;\nMoveJ p,v1000,fine,tool0;\nj:=CJointT();\nMoveAbsJ j,v1000,fine,tool0;\n", pose)
+                 .problem(),
+             Catch::Contains("asks for the axes at a target that is a pose"));
 }
 
 TEST_CASE("rapid controller: inputs are given by their names, arguments behind the routine's") {
   const std::string lift = "MoveL Offs(p,0,0,10*GInput(gi1)),v1000,fine,tool0;\n";
   CHECK_THAT(run(lift, pose).problem(), Catch::Contains("give --value 'gi1=...'"));
-  CHECK(run(lift, pose, given({{"gi1", "2"}})).move(0).target.pose.position.z() ==
-        Approx(1.02).epsilon(rounding));
+  CHECK(run(lift, pose, given({{"gi1", "2"}})).move(0).target.pose.position.z() == Approx(1.02).epsilon(rounding));
   ImportOptions routine;
   routine.routine = "drill(3)";
   CHECK(first_axes(run(go(1),
@@ -438,7 +423,8 @@ TEST_CASE("rapid controller: what is missing is reported once, with the number o
           "p,v1000,fine,grip\\WObj:=pallet;\nENDFOR\n",
           pose);
   REQUIRE(frames.problems.size() == 2);
-  for (const Problem& problem : frames.problems) CHECK(problem.more_uses.size() == 1);  // counted per line, not per pass
+  for (const Problem& problem : frames.problems)
+    CHECK(problem.more_uses.size() == 1);  // counted per line, not per pass
   CHECK_THAT(frames.problem(0), Catch::Contains("'grip'") && Catch::Contains("--frames"));
   const Reading parts =
       run("MoveJ Offs(p,0,0,height),v1000,fine,tool0;\nMoveL Offs(p,0,0,height+5),v1000,fine,tool0;\n", pose);
@@ -448,14 +434,13 @@ TEST_CASE("rapid controller: what is missing is reported once, with the number o
 }
 
 TEST_CASE("rapid controller: one question for one decision, whatever it depends on") {
-  const Reading r = run("wait di1;\nwait di2;\n",
-                        "PROC wait(VAR signaldi input)\nIF input=1 THEN\n" + go(1) + "ENDIF\nENDPROC\n");
+  const Reading r =
+      run("wait di1;\nwait di2;\n", "PROC wait(VAR signaldi input)\nIF input=1 THEN\n" + go(1) + "ENDIF\nENDPROC\n");
   REQUIRE(r.problems.size() == 1);
   CHECK_THAT(r.problem(), Catch::Contains("--assume m.mod:7=then"));
 }
 
-TEST_CASE(
-    "rapid controller: encoded modules are reported as encoded, and matter only where they are called") {
+TEST_CASE("rapid controller: encoded modules are reported as encoded, and matter only where they are called") {
   std::string encoded;
   for (int i = 0; i < 2000; ++i) encoded += static_cast<char>(i * 37 % 256);
   const auto with = [&](const std::string& body) {
@@ -492,11 +477,10 @@ TEST_CASE("rapid controller: what a trap writes is unknown, one that moves the r
   CHECK_THAT(run("CONNECT number WITH halt;\nISignalDI di1,1,number;\n" + branch, traps).problem(),
              Catch::Contains("'stopped' may be written by the trap halt (m.mod:3)"));
   CHECK(first_axes(run("CONNECT number WITH halt;\nstopped:=FALSE;\n" + branch, traps)) == Angles{2});
-  CHECK(skips(
-      run("CONNECT number WITH flee;\n" + go(1), traps),
-      "flee: a trap that moves or stops the robot on its interrupt, which is taken not to come; --routine "
-      "flee reads it alone",
-      true));
+  CHECK(skips(run("CONNECT number WITH flee;\n" + go(1), traps),
+              "flee: a trap that moves or stops the robot on its interrupt, which is taken not to come; --routine "
+              "flee reads it alone",
+              true));
   CHECK_FALSE(skips(run("CONNECT number WITH halt;\n" + go(1), traps), "a trap", true));
 }
 
@@ -523,8 +507,7 @@ TEST_CASE("rapid controller: main begins again at its end") {
   // A routine other than main runs once.
   ImportOptions step;
   step.routine = "step";
-  CHECK(first_axes(run(go(9), "VAR num state:=0;\nPROC step()\n" + machine + "ENDPROC\n", step)) ==
-        Angles{1});
+  CHECK(first_axes(run(go(9), "VAR num state:=0;\nPROC step()\n" + machine + "ENDPROC\n", step)) == Angles{1});
 }
 
 TEST_CASE("rapid controller: one state of a machine is no motion") {
@@ -562,14 +545,12 @@ TEST_CASE("rapid controller: a PERS without a value has it from another task's m
                             "a:=0;\nstate:=1;\nCASE 1:\nIF a=1 state:=2;\n"
                             "CASE 2:\n" +
                             go(2) + "ENDTEST\n";
-  CHECK(skips(run(waits, "PERS num a;\nVAR num state;\n"),
-              "another task may write what has no value here (a)", true));
+  CHECK(skips(run(waits, "PERS num a;\nVAR num state;\n"), "another task may write what has no value here (a)", true));
   CHECK_FALSE(skips(run(waits, "VAR num a;\nVAR num state;\n"), "another task", true));
 }
 
 TEST_CASE("rapid controller: a file of another language is reported in a line") {
-  const Reading other =
-      Reader{Language::rapid}({{"arm.prg", "#!/usr/bin/env python3\nprint(f'{x!r}')  # ?\n"}});
+  const Reading other = Reader{Language::rapid}({{"arm.prg", "#!/usr/bin/env python3\nprint(f'{x!r}')  # ?\n"}});
   CHECK(other.problems.size() == 2);  // a missing routine and a missing module
   CHECK_THAT(other.problem(0) + other.problem(1), Catch::Contains("holds no MODULE"));
 }
@@ -578,8 +559,7 @@ TEST_CASE("rapid controller: a function may move the robot where a condition or 
   const std::string step =
       "FUNC bool step(num at)\nMoveAbsJ [[at,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v1000,fine,tool0;\n"
       "RETURN at<2;\nENDFUNC\nVAR bool more;\nVAR num n:=0;\n";
-  CHECK(first_axes(run("more:=TRUE;\nWHILE more DO\nIncr n;\nmore:=step(n);\nENDWHILE\n", step)) ==
-        Angles{1, 2});
+  CHECK(first_axes(run("more:=TRUE;\nWHILE more DO\nIncr n;\nmore:=step(n);\nENDWHILE\n", step)) == Angles{1, 2});
   for (const char* body : {"WHILE di1=1 DO\nmore:=step(1);\nENDWHILE\n", "IF di1=1 more:=step(1);\n",
                            "IF di1=1 THEN\nIF step(1) THEN\nSet do1;\nENDIF\nENDIF\n"})
     CHECK_THAT(run(go(1) + go(2) + body, step).problem(),
@@ -587,8 +567,7 @@ TEST_CASE("rapid controller: a function may move the robot where a condition or 
 }
 
 TEST_CASE("rapid controller: what a branch without moves decides can be had by answering that branch") {
-  const std::string body =
-      "VAR num k:=0;\nIF di1=1 THEN\nk:=1;\nENDIF\nIF k=1 THEN\n" + go(1) + "ENDIF\n" + go(2);
+  const std::string body = "VAR num k:=0;\nIF di1=1 THEN\nk:=1;\nENDIF\nIF k=1 THEN\n" + go(1) + "ENDIF\n" + go(2);
   CHECK_THAT(run(body).problem(),
              Catch::Contains("'k' depends on the branch in m.mod:4, that on 'di1', which is a name") &&
                  Catch::Contains("or give --value 'di1=...', or --assume m.mod:4=then or =else"));

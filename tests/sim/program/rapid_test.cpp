@@ -20,8 +20,7 @@ ENDMODULE
 
 Reading run(const std::string& body, const ImportOptions& options = {}, const std::string& more = "") {
   return Reader{Language::rapid, options}(
-      {{"main.mod", "MODULE Main\n PROC main()\n" + body + "\n ENDPROC\n" + more + "ENDMODULE\n"},
-       {"data.mod", data}});
+      {{"main.mod", "MODULE Main\n PROC main()\n" + body + "\n ENDPROC\n" + more + "ENDMODULE\n"}, {"data.mod", data}});
 }
 
 ImportOptions assuming(const std::string& line, Assumption what) {
@@ -59,14 +58,14 @@ TEST_CASE("rapid: a linear move with everything, in SI units") {
 }
 
 TEST_CASE("rapid: every kind of move") {
-  const Reading r = run(
-      "MoveAbsJ home\\NoEOffs,v500,fine,tool0;\nMoveJ p1,v100\\T:=2,z50,tool0;\nMoveC "
-      "Offs(p1,50,50,0),Offs(p1,100,0,0),v200,z1,tool0;\n"
-      "TriggL Offs(p1,1,0,0),v300,trig1,fine,gun;\nSearchL\\Stop,di1,found,Offs(p1,0,0,9),v20,gun;\nMoveL "
-      "found,v5,z0,gun;\n"
-      "SpotL Offs(p1,2,0,0),v1000,gun1,spot7,gun;\nWaitTime\\InPos,0.25;\nMoveLDO "
-      "p1,v80,z20,gun,do1,1;\nMoveL p1,vmax,z200,tool0;",
-      {}, "VAR robtarget found; VAR triggdata trig1;\n");
+  const Reading r =
+      run("MoveAbsJ home\\NoEOffs,v500,fine,tool0;\nMoveJ p1,v100\\T:=2,z50,tool0;\nMoveC "
+          "Offs(p1,50,50,0),Offs(p1,100,0,0),v200,z1,tool0;\n"
+          "TriggL Offs(p1,1,0,0),v300,trig1,fine,gun;\nSearchL\\Stop,di1,found,Offs(p1,0,0,9),v20,gun;\nMoveL "
+          "found,v5,z0,gun;\n"
+          "SpotL Offs(p1,2,0,0),v1000,gun1,spot7,gun;\nWaitTime\\InPos,0.25;\nMoveLDO "
+          "p1,v80,z20,gun,do1,1;\nMoveL p1,vmax,z200,tool0;",
+          {}, "VAR robtarget found; VAR triggdata trig1;\n");
   CHECK(r.problem() == "no such problem");
   REQUIRE(r.program.instructions.size() == 11);
   CHECK(r.move(0).target.joints.size() == 6);
@@ -90,14 +89,12 @@ TEST_CASE("rapid: every kind of move") {
 }
 
 TEST_CASE("rapid: Offs shifts in the work object, RelTool in the tool") {
-  const Reading r =
-      run("MoveL RelTool(p1,0,0,10\\Rz:=90),v100,fine,tool0;\nMoveL Offs(p1,0,0,10),v100,fine,tool0;");
+  const Reading r = run("MoveL RelTool(p1,0,0,10\\Rz:=90),v100,fine,tool0;\nMoveL Offs(p1,0,0,10),v100,fine,tool0;");
   REQUIRE(r.program.instructions.size() == 2);
   // The tool of p1 is turned by 180 deg about x: its z points down. A turn about it has the opposite sign about the
   // world's z.
   CHECK((r.move(0).target.pose.position - Vector3(0.1, 0.2, 0.29)).norm() < rounding);
-  CHECK(r.move(0).target.pose.orientation.isApprox(Quaternion(0, 1, 0, 0) * rotation({0, 0, 90 * degree}),
-                                                   rounding));
+  CHECK(r.move(0).target.pose.orientation.isApprox(Quaternion(0, 1, 0, 0) * rotation({0, 0, 90 * degree}), rounding));
   CHECK((r.move(1).target.pose.position - Vector3(0.1, 0.2, 0.31)).norm() < rounding);
   // Rotations about x, then about the rotated y axis, then about the rotated z axis.
   const Reading turned = run("MoveL RelTool(p1,0,0,0\\Rx:=30\\Ry:=20\\Rz:=40),v100,fine,tool0;");
@@ -108,15 +105,15 @@ TEST_CASE("rapid: Offs shifts in the work object, RelTool in the tool") {
 }
 
 TEST_CASE("rapid: loops, procedures with arguments, functions, arrays and records") {
-  const Reading r = run(
-      "VAR num x{2}:=[5,7];\nFOR i FROM 1 TO 3 DO\n  row i,x{2}\\deep:=2;\nENDFOR\nFOR k FROM 2 TO 1 DO "
-      "MoveL there(k),v5,fine,tool0; ENDFOR\n"
-      "row 0,s.side;",
-      {},
-      "RECORD shape num side; num top; ENDRECORD\nVAR shape s:=[40,1];\n"
-      "PROC row(num i,num y\\num deep)\n IF Present(deep) MoveL p1,v5,fine,tool0;\n MoveL "
-      "Offs(p1,10*i,y,0),v5,fine,tool0;\nENDPROC\n"
-      "FUNC robtarget there(num k)\n VAR robtarget q;\n q:=p1;\n q.trans.x:=k*100;\n RETURN q;\nENDFUNC\n");
+  const Reading r =
+      run("VAR num x{2}:=[5,7];\nFOR i FROM 1 TO 3 DO\n  row i,x{2}\\deep:=2;\nENDFOR\nFOR k FROM 2 TO 1 DO "
+          "MoveL there(k),v5,fine,tool0; ENDFOR\n"
+          "row 0,s.side;",
+          {},
+          "RECORD shape num side; num top; ENDRECORD\nVAR shape s:=[40,1];\n"
+          "PROC row(num i,num y\\num deep)\n IF Present(deep) MoveL p1,v5,fine,tool0;\n MoveL "
+          "Offs(p1,10*i,y,0),v5,fine,tool0;\nENDPROC\n"
+          "FUNC robtarget there(num k)\n VAR robtarget q;\n q:=p1;\n q.trans.x:=k*100;\n RETURN q;\nENDFUNC\n");
   REQUIRE(r.problem() == "no such problem");
   REQUIRE(r.program.instructions.size() >= 6);
   std::vector<double> xs;
@@ -177,8 +174,10 @@ TEST_CASE("rapid: problems are collected, with place, reason and remedy") {
   CHECK(r.problems[1].what == "names a zone 'z77' that no module read declares");
   CHECK(r.problems[2].what == "names a tool 'torch' that no module read declares");
   CHECK(r.problems[3].what == "names a speed 'v1' that no module read declares");
-  CHECK_THAT(r.problems[1].remedy, Catch::StartsWith("write one of RAPID's own zones, z0 .. z200 and fine, or give the module"));
-  CHECK_THAT(r.problems[3].remedy, Catch::StartsWith("write one of RAPID's own speeds, v5 .. v7000 and vmax, or give the module"));
+  CHECK_THAT(r.problems[1].remedy,
+             Catch::StartsWith("write one of RAPID's own zones, z0 .. z200 and fine, or give the module"));
+  CHECK_THAT(r.problems[3].remedy,
+             Catch::StartsWith("write one of RAPID's own speeds, v5 .. v7000 and vmax, or give the module"));
   CHECK(r.problems[4].what == "gives MoveL 1 arguments, too few");
   const Reading broken = run("MoveL p1,,v100 v5;\nIF TRUE THEN\n MoveL (p1,v5,fine,tool0;\n");
   CHECK(broken.problems.size() >= 2);
@@ -233,13 +232,14 @@ TEST_CASE("rapid: settings, displacement, unknown instructions") {
 TEST_CASE("rapid: a typing error in the name of a move is the first problem, and asks for nothing else") {
   const Reading r = run("MoveAbs home, v1000, z10, gun;\nMoveJ p1, v1000, fine, gun;");
   REQUIRE(r.problems.size() == 1);
-  CHECK_THAT(r.problem(), Catch::Contains("main.mod:3:") && Catch::Contains("runs 'MoveAbs', which is neither an instruction") &&
-                                Catch::Contains("did you mean MoveAbsJ?") && Catch::Contains("motion.modules"));
-  CHECK(run("Mover home, 7;\nMoveJ p1, v1000, fine, gun;").program.instructions.size() == 1);  // Mover has no tool: not a move
+  CHECK_THAT(r.problem(), Catch::Contains("main.mod:3:") &&
+                              Catch::Contains("runs 'MoveAbs', which is neither an instruction") &&
+                              Catch::Contains("did you mean MoveAbsJ?") && Catch::Contains("motion.modules"));
+  CHECK(run("Mover home, 7;\nMoveJ p1, v1000, fine, gun;").program.instructions.size() ==
+        1);  // Mover has no tool: not a move
 }
 
-TEST_CASE(
-    "rapid: a quaternion of another length is one problem for all of its uses, with the numbers that are meant") {
+TEST_CASE("rapid: a quaternion of another length is one problem for all of its uses, with the numbers that are meant") {
   const std::string targets =
       "CONST robtarget bad:=[[100,900,400],[0,0.5,0.923880,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
       "CONST robtarget none:=[[100,900,400],[0,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
@@ -248,26 +248,25 @@ TEST_CASE(
       "MoveJ home_,v100,fine,tool0;\nMoveJ bad,v100,fine,tool0;\nMoveL Offs(bad,0,0,50),v100,fine,tool0;\nMoveJ bad,v100,z10,tool0;",
       {}, targets + "CONST robtarget home_:=[[1,2,3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n");
   REQUIRE(r.problems.size() == 1);
-  CHECK_THAT(r.problem(),
-             Catch::Contains("main.mod:4") &&
-                 Catch::Contains(
-                     "whose quaternion [0,0.5,0.92388,0] has the length 1.0505 (must be 1) in main.mod:8") &&
-                 Catch::Contains("write [0.000000,0.475963,0.879465,0.000000] for the same direction"));
+  CHECK_THAT(
+      r.problem(),
+      Catch::Contains("main.mod:4") &&
+          Catch::Contains("whose quaternion [0,0.5,0.92388,0] has the length 1.0505 (must be 1) in main.mod:8") &&
+          Catch::Contains("write [0.000000,0.475963,0.879465,0.000000] for the same direction"));
   CHECK_THAT(r.problem(), !Catch::Contains("only while the robot runs"));
   const Reading tool = run("MoveJ p1,v100,fine,bent;", {}, targets);
   REQUIRE(tool.problems.size() == 1);
-  CHECK_THAT(tool.problem(),
-             Catch::Contains("has a tool 'bent' whose quaternion [2,0,0,0] has the length 2") &&
-                 Catch::Contains("write [1.000000,0.000000,0.000000,0.000000]"));
+  CHECK_THAT(tool.problem(), Catch::Contains("has a tool 'bent' whose quaternion [2,0,0,0] has the length 2") &&
+                                 Catch::Contains("write [1.000000,0.000000,0.000000,0.000000]"));
   CHECK(run("MoveJ none,v100,fine,tool0;", {}, targets).problems.size() == 1);
-  CHECK(run("MoveJ p1,v100,fine,gun\\WObj:=jig;").problems.empty());  // a quaternion rounded to eight decimals is accepted
+  CHECK(run("MoveJ p1,v100,fine,gun\\WObj:=jig;")
+            .problems.empty());  // a quaternion rounded to eight decimals is accepted
 }
 
 TEST_CASE("rapid: a wait of less than 0 s says so") {
   const Reading r = run("MoveJ p1,v100,fine,tool0;\nWaitTime -0.6;");
   REQUIRE(r.problems.size() == 1);
-  CHECK_THAT(r.problem(),
-             Catch::Contains("main.mod:4") &&
-                 Catch::Contains("waits for -0.6 s (must be 0 or more); write 0.6 if the sign is a slip"));
+  CHECK_THAT(r.problem(), Catch::Contains("main.mod:4") &&
+                              Catch::Contains("waits for -0.6 s (must be 0 or more); write 0.6 if the sign is a slip"));
   CHECK(run("MoveJ p1,v100,fine,tool0;\nWaitTime 0;").problems.empty());
 }

@@ -29,8 +29,7 @@ struct Reading {
 };
 
 /// A KRL data list with $TOOL and $BASE, for programs that do not assign them.
-inline const Files::value_type held_frames{"$held.dat",
-                                           "DEFDAT $HELD\n$TOOL=$NULLFRAME\n$BASE=$NULLFRAME\nENDDAT\n"};
+inline const Files::value_type held_frames{"$held.dat", "DEFDAT $HELD\n$TOOL=$NULLFRAME\n$BASE=$NULLFRAME\nENDDAT\n"};
 
 struct Reader {
   sim::Language language;

@@ -107,25 +107,21 @@ TEST_CASE("rewrite: RAPID, each change read back, all else stays byte by byte") 
             "taught ! spares the cable\n") != std::string::npos);
   const Changed literal = changed(Language::rapid, "m.mod", rapid, 2, {.speed = 0.5});
   CHECK(literal.after.move(2).speed.tool.value() == Approx(0.4));
-  const Changed turned =
-      changed(Language::rapid, "m.mod", rapid, 1,
-              {.configuration = ArmConfiguration{ArmConfiguration::Kind::abb, {0, 2, -2, 1}}});
+  const Changed turned = changed(Language::rapid, "m.mod", rapid, 1,
+                                 {.configuration = ArmConfiguration{ArmConfiguration::Kind::abb, {0, 2, -2, 1}}});
   CHECK(turned.after.move(1).target.configuration.text() == "abb 0 2 -2 1");
   CHECK(turned.after.move(1).target.pose.position == turned.before.move(1).target.pose.position);
   CHECK(turned.after.move(3).target.configuration.text() == "abb 0 0 0 0");
-  const Changed offset =
-      changed(Language::rapid, "m.mod", rapid, 2,
-              {.configuration = ArmConfiguration{ArmConfiguration::Kind::abb, {0, 2, -2, 1}}});
+  const Changed offset = changed(Language::rapid, "m.mod", rapid, 2,
+                                 {.configuration = ArmConfiguration{ArmConfiguration::Kind::abb, {0, 2, -2, 1}}});
   CHECK((offset.after.move(2).target.pose.position - Vector3(0.5, 0, 0.7)).norm() < 1e-9);
   CHECK(offset.after.move(2).target.configuration.text() == "abb 0 2 -2 1");
   const std::vector<double> joints{0.1, -0.2, 0.3, 1, 0.5, -2};
   const Changed home = changed(Language::rapid, "m.mod", rapid, 0, {.joints = joints});
-  for (std::size_t i = 0; i < 6; ++i)
-    CHECK(home.after.move(0).target.joints[i] == Approx(joints[i]).margin(1e-8));
+  for (std::size_t i = 0; i < 6; ++i) CHECK(home.after.move(0).target.joints[i] == Approx(joints[i]).margin(1e-8));
   const Changed by = changed(Language::rapid, "m.mod", rapid, 1, {.point = joints});
   REQUIRE(by.after.program.instructions.size() == 5);
-  for (std::size_t i = 0; i < 6; ++i)
-    CHECK(by.after.move(1).target.joints[i] == Approx(joints[i]).margin(1e-8));
+  for (std::size_t i = 0; i < 6; ++i) CHECK(by.after.move(1).target.joints[i] == Approx(joints[i]).margin(1e-8));
   CHECK(by.after.move(1).speed.tool == by.before.move(1).speed.tool);
   CHECK(by.after.move(2).target.pose.position == by.before.move(1).target.pose.position);
 }
@@ -138,35 +134,29 @@ TEST_CASE("rewrite: KRL, Fanuc, INFORM and URScript") {
   const Changed turned = changed(Language::krl, "m.src", krl, 1,
                                  {.configuration = ArmConfiguration{ArmConfiguration::Kind::kuka, {6, 58}}});
   CHECK(turned.after.move(1).target.configuration.text() == "kuka 6 58");
-  CHECK((turned.after.move(1).target.pose.position - turned.before.move(1).target.pose.position).norm() <
-        1e-9);
+  CHECK((turned.after.move(1).target.pose.position - turned.before.move(1).target.pose.position).norm() < 1e-9);
   CHECK(turned.after.move(1).zone.percent == turned.before.move(1).zone.percent);
   const std::vector<double> joints{0.1, -1.2, 1.3, 1, 0.5, -2};
   const Changed by = changed(Language::krl, "m.src", krl, 1, {.point = joints});
   REQUIRE(by.after.program.instructions.size() == 4);
-  for (std::size_t i = 0; i < 6; ++i)
-    CHECK(by.after.move(1).target.joints[i] == Approx(joints[i]).margin(1e-8));
+  for (std::size_t i = 0; i < 6; ++i) CHECK(by.after.move(1).target.joints[i] == Approx(joints[i]).margin(1e-8));
 
   const Changed fast = changed(Language::fanuc, "m.ls", fanuc, 0, {.speed = 0.7});
   CHECK(fast.after.move(0).speed.axis_percent.value() == 42);
-  CHECK(fast.written.text.find(
-            "   1:  !spares the cable ;\n   2:J P[1] 42% FINE    ;\n   3:J P[2] 50% CNT50    ;\n") !=
+  CHECK(fast.written.text.find("   1:  !spares the cable ;\n   2:J P[1] 42% FINE    ;\n   3:J P[2] 50% CNT50    ;\n") !=
         std::string::npos);
   // P[2] is used twice: the changed line uses a new position.
-  const Changed other =
-      changed(Language::fanuc, "m.ls", fanuc, 1,
-              {.configuration = ArmConfiguration{ArmConfiguration::Kind::fanuc, {1, 1, 1, 0, 1, 0}}});
+  const Changed other = changed(Language::fanuc, "m.ls", fanuc, 1,
+                                {.configuration = ArmConfiguration{ArmConfiguration::Kind::fanuc, {1, 1, 1, 0, 1, 0}}});
   CHECK(other.after.move(1).target.configuration.text() == "fanuc FUT 0 1 0");
   CHECK(other.after.move(3).target.configuration.text() == "fanuc NUT 0 0 0");
   CHECK(other.written.text.find("J P[4] 50% CNT50") != std::string::npos);
-  const Changed own =
-      changed(Language::fanuc, "m.ls", fanuc, 2,
-              {.configuration = ArmConfiguration{ArmConfiguration::Kind::fanuc, {1, 1, 1, 0, 1, 0}}});
+  const Changed own = changed(Language::fanuc, "m.ls", fanuc, 2,
+                              {.configuration = ArmConfiguration{ArmConfiguration::Kind::fanuc, {1, 1, 1, 0, 1, 0}}});
   CHECK(own.after.move(2).target.configuration.text() == "fanuc FUT 0 1 0");
   const std::vector<double> angles{0.1, 0.2, 0.3, 1, 0.5, -2};
   const Changed axes = changed(Language::fanuc, "m.ls", fanuc, 0, {.joints = angles});
-  for (std::size_t i = 0; i < 6; ++i)
-    CHECK(axes.after.move(0).target.joints[i] == Approx(angles[i]).margin(1e-5));
+  for (std::size_t i = 0; i < 6; ++i) CHECK(axes.after.move(0).target.joints[i] == Approx(angles[i]).margin(1e-5));
 
   ImportOptions counts;
   counts.values["pulses_per_degree"] = "[1,1,1,1,1,1]";
@@ -176,9 +166,8 @@ TEST_CASE("rewrite: KRL, Fanuc, INFORM and URScript") {
   const Changed tag = changed(Language::inform, "a.jbi", job, 0, {.speed = 0.7}, counts);
   CHECK(tag.after.move(0).speed.axis_percent.value() == 35);
   CHECK(tag.written.text.find("MOVJ C00000 VJ=35.00 PL=0  //spares the cable\n") != std::string::npos);
-  CHECK(changed(Language::inform, "a.jbi", job, 1, {.speed = 0.5}, counts)
-            .after.move(1)
-            .speed.axis_percent.value() == 20);
+  CHECK(changed(Language::inform, "a.jbi", job, 1, {.speed = 0.5}, counts).after.move(1).speed.axis_percent.value() ==
+        20);
 
   const std::string script =
       "def m():\n  movej([0,0,0,0,0,1], a=1.4, v=1.05, r=0)\n  movej([0,0,0,0,0,2], 1.4, 0.5)\n  movej([0,0,0,0,0,3])\n"
@@ -195,8 +184,7 @@ TEST_CASE("rewrite: what cannot be written is reported at its line") {
   const auto refusal = [](const std::string& text, std::size_t move, LineChange change) {
     const Reading r = Reader{Language::rapid}({{"m.mod", text}});
     change.where = r.move(move).where;
-    return pipeline::message_of(
-        [&] { rewritten(Language::rapid, "m.mod", text, r.program, {change}, "m.mod"); });
+    return pipeline::message_of([&] { rewritten(Language::rapid, "m.mod", text, r.program, {change}, "m.mod"); });
   };
   const std::string timed =
       "MODULE m\nPROC main()\nMoveAbsJ [[0,0,0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v10\\T:=3,fine,tool0;\n"

@@ -19,14 +19,12 @@ Reading ros(const std::string& text, const std::map<std::string, std::string>& v
 }
 
 std::string point(const std::string& positions, int second) {
-  return "- {positions: [" + positions + "], time_from_start: {sec: " + std::to_string(second) +
-         ", nanosec: 0}}\n";
+  return "- {positions: [" + positions + "], time_from_start: {sec: " + std::to_string(second) + ", nanosec: 0}}\n";
 }
 
 }  // namespace
 
-TEST_CASE(
-    "columns: the unit comes from the names, where neither they nor the angles tell it, it is asked for") {
+TEST_CASE("columns: the unit comes from the names, where neither they nor the angles tell it, it is asked for") {
   // 1.57 is a right angle in rad and a very small angle in deg: the wrong unit gives a plausible motion.
   const std::string small = "timestamp,joint_1,joint_2\n0,0.0,-1.57\n1,0.5,-1.57\n";
   const Reading asked = columns(small);
@@ -35,10 +33,8 @@ TEST_CASE(
         "or "
         "rad (joint_1_rad), or give --value unit=deg or unit=rad");
   CHECK(columns(small, {{"unit", "rad"}}).move(0).target.joints[1] == -1.57);
-  CHECK(columns(small, {{"unit", "deg"}}).move(0).target.joints[1] ==
-        Approx(-1.57 * degree).epsilon(rounding));
-  CHECK(columns("t;a1 [rad];a2 [deg]\n0;1;90\n").move(0).target.joints ==
-        std::vector<double>{1, 90 * degree});
+  CHECK(columns(small, {{"unit", "deg"}}).move(0).target.joints[1] == Approx(-1.57 * degree).epsilon(rounding));
+  CHECK(columns("t;a1 [rad];a2 [deg]\n0;1;90\n").move(0).target.joints == std::vector<double>{1, 90 * degree});
   // No axis turns by 98 rad.
   CHECK(columns("Time, Axis 1, Axis 2\n0, 17, -98\n").move(0).target.joints[1] ==
         Approx(-98 * degree).epsilon(rounding));
@@ -47,15 +43,13 @@ TEST_CASE(
 TEST_CASE("columns: the axes stand in the order of their names") {
   const std::vector<double> expected{10 * degree, 20 * degree, 30 * degree};
   CHECK(columns("time,joint_3,joint_2,joint_1\n0,30,20,10\n").move(0).target.joints == expected);
-  CHECK(columns("robot1_joint_2_l,robot1_joint_1_s,robot1_joint_3_u,time\n20,10,30,0\n")
-            .move(0)
-            .target.joints == expected);
+  CHECK(columns("robot1_joint_2_l,robot1_joint_1_s,robot1_joint_3_u,time\n20,10,30,0\n").move(0).target.joints ==
+        expected);
   // ROS sorts the joints of a Universal Robot alphabetically; the controller sorts them from the base.
-  CHECK(
-      columns("elbow_joint,shoulder_lift_joint,shoulder_pan_joint,wrist_1_joint,wrist_2_joint,wrist_3_joint\n"
-              "30,20,10,40,50,60\n")
-          .move(0)
-          .target.joints[0] == Approx(10 * degree).epsilon(rounding));
+  CHECK(columns("elbow_joint,shoulder_lift_joint,shoulder_pan_joint,wrist_1_joint,wrist_2_joint,wrist_3_joint\n"
+                "30,20,10,40,50,60\n")
+            .move(0)
+            .target.joints[0] == Approx(10 * degree).epsilon(rounding));
   const Reading unknown = columns("time,hip,knee\n0,30,20\n");
   CHECK(unknown.problem() ==
         "j.csv:1:1: error: names axes without their order (hip, knee); number them in their names "
@@ -99,16 +93,14 @@ TEST_CASE("columns: lengths and one joint per line are no poses") {
 }
 
 TEST_CASE("ROS: joint_names give the order, and several trajectories are a question") {
-  const std::string first =
-      "joint_names: [joint_2, joint_1]\npoints:\n" + point("2, 1", 0) + point("4, 3", 1);
+  const std::string first = "joint_names: [joint_2, joint_1]\npoints:\n" + point("2, 1", 0) + point("4, 3", 1);
   CHECK(ros(first).move(1).target.joints == std::vector<double>{3, 4});
   const std::string second = "joint_names: [joint_1, joint_2]\npoints:\n" + point("5, 6", 0);
   const Reading two = ros(first + "---\n" + second);
   REQUIRE(two.problems.size() == 1);
   CHECK(two.problems[0].what == "is one of 2 trajectories in the file");
   CHECK(two.problems[0].where.line > 5);
-  CHECK(ros(first + "---\n" + second, {{"trajectory", "2"}}).move(0).target.joints ==
-        std::vector<double>{5, 6});
+  CHECK(ros(first + "---\n" + second, {{"trajectory", "2"}}).move(0).target.joints == std::vector<double>{5, 6});
   CHECK(ros("---\n" + first).program.instructions.size() == 2);
   // MoveIt's DisplayTrajectory: a list of trajectories, each with an empty multi_dof trajectory.
   const Reading display =

@@ -68,12 +68,12 @@ TEST_CASE("urscript: moves with their speeds, accelerations, times and blends") 
 }
 
 TEST_CASE("urscript: what PolyScope writes: waypoints with the joint angles that were taught") {
-  const Reading r = run(
-      "def Robot_Program():\n  set_tcp(p[.0,.0,.0,.0,.0,.0])\n  global Waypoint_1_p=p[.4,-.4,.5,1.5,.5,.5]\n"
-      "  global Waypoint_1_q=[1.99, -1.66, 1.93, -0.27, 1.32, 0.003]\n  while (True):\n    $ 2 \"MoveJ\"\n"
-      "    $ 3 \"Waypoint_1\" \"breakAfter\"\n"
-      "    movej(get_inverse_kin(Waypoint_1_p, qnear=Waypoint_1_q), a=1.3962634015954636, v=1.0471975511965976)\n"
-      "  end\nend\n");
+  const Reading r =
+      run("def Robot_Program():\n  set_tcp(p[.0,.0,.0,.0,.0,.0])\n  global Waypoint_1_p=p[.4,-.4,.5,1.5,.5,.5]\n"
+          "  global Waypoint_1_q=[1.99, -1.66, 1.93, -0.27, 1.32, 0.003]\n  while (True):\n    $ 2 \"MoveJ\"\n"
+          "    $ 3 \"Waypoint_1\" \"breakAfter\"\n"
+          "    movej(get_inverse_kin(Waypoint_1_p, qnear=Waypoint_1_q), a=1.3962634015954636, v=1.0471975511965976)\n"
+          "  end\nend\n");
   REQUIRE(r.problem() == "no such problem");
   REQUIRE(r.program.instructions.size() == 1);
   CHECK(r.move(0).tool == -1);
@@ -124,8 +124,7 @@ TEST_CASE("urscript: roll, pitch and yaw are about the axes of the base, one aft
 }
 
 TEST_CASE("urscript: functions, their variables and loops run as on the controller") {
-  const std::string functions =
-      "def go" + go + "def twice(x):\n  local n = x\n  m = n + n\n  n = m\n  return n\nend\n";
+  const std::string functions = "def go" + go + "def twice(x):\n  local n = x\n  m = n + n\n  n = m\n  return n\nend\n";
   const Reading r = run(
       functions +
       "n = 1\ni = 0\nwhile i < 5:\n  i = i + 1\n  if i == 2 or i == 3:\n    continue\n  elif not i < 5:\n    break\n"
@@ -135,9 +134,9 @@ TEST_CASE("urscript: functions, their variables and loops run as on the controll
   CHECK(first_axes(r) == std::vector<double>{3, 6, 1, -1, 3});
   const Reading beyond = run("l = [1,2]\nmovej([l[2],0,0,0,0,0])\n");
   CHECK(beyond.problem().find("has the index 2 of a list of 2") != std::string::npos);
-  const Reading nested = run(
-      "def main():\n  global speed = 1\n  def faster():\n    speed = speed + 1\n  end\n  faster()\n  faster()\n"
-      "  movej([speed,0,0,0,0,0])\n  halt\n  movej([9,0,0,0,0,0])\nend\n");
+  const Reading nested =
+      run("def main():\n  global speed = 1\n  def faster():\n    speed = speed + 1\n  end\n  faster()\n  faster()\n"
+          "  movej([speed,0,0,0,0,0])\n  halt\n  movej([9,0,0,0,0,0])\nend\n");
   CHECK(first_axes(nested) == std::vector<double>{3});
   const Reading own =
       run("def main():\n  speed = 1\n  def faster():\n    speed = 5\n  end\n  faster()\n"
@@ -171,8 +170,7 @@ TEST_CASE("urscript: inputs are asked for by their calls, threads are named") {
       "if get_standard_digital_in(2) == True:\nmovej([1,0,0,0,0,0])\nelse:\nmovej([2,0,0,0,0,0])\nend\n";
   const Reading asked = run(text);
   REQUIRE(asked.problems.size() == 1);
-  CHECK(asked.problem().find("'get_standard_digital_in(2)' is known only while the robot runs") !=
-        std::string::npos);
+  CHECK(asked.problem().find("'get_standard_digital_in(2)' is known only while the robot runs") != std::string::npos);
   CHECK(asked.problem().find("--value 'get_standard_digital_in(2)=...'") != std::string::npos);
   CHECK(first_axes(run(text, given({{"get_standard_digital_in(2)", "True"}}))) == std::vector<double>{1});
   const Reading place = run("movel(get_inverse_kin(camera_pose()))\n");
@@ -196,17 +194,15 @@ TEST_CASE("urscript: inputs are asked for by their calls, threads are named") {
 }
 
 TEST_CASE("urscript: what is missing or not read is reported with its place") {
-  CHECK(run("movel(p[1,2,3,0,0,0])\n")
-            .problem()
-            .find("s.script:1:1: error: moves the tool, and no set_tcp before it") != std::string::npos);
+  CHECK(
+      run("movel(p[1,2,3,0,0,0])\n").problem().find("s.script:1:1: error: moves the tool, and no set_tcp before it") !=
+      std::string::npos);
   Reader with{Language::urscript};
   with.tools = {{"tcp", {Vector3(0, 0, 0.2), Quaternion::Identity()}, false}};
   CHECK(with({{"s.script", "movel(p[1,2,3,0,0,0])\n"}}).problem() == "no such problem");
   CHECK(run("movej([1,2,3,0,0,0],v=0)\n").problem().find("has a speed of 0") != std::string::npos);
-  CHECK(run("movej([1,2])\n").problem().find("neither a pose nor a list of joint angles") !=
-        std::string::npos);
-  CHECK(run("movej(nowhere)\n").problem().find("'nowhere' is a name that no file read declares") !=
-        std::string::npos);
+  CHECK(run("movej([1,2])\n").problem().find("neither a pose nor a list of joint angles") != std::string::npos);
+  CHECK(run("movej(nowhere)\n").problem().find("'nowhere' is a name that no file read declares") != std::string::npos);
   CHECK(run("def a():\nmovej([1,0,0,0,0,0])\nend\ndef b():\nmovej([2,0,0,0,0,0])\nend\n")
             .problem()
             .find("holds several functions, and none that calls them") != std::string::npos);
@@ -220,16 +216,17 @@ TEST_CASE("urscript: what is missing or not read is reported with its place") {
 }
 
 TEST_CASE("urscript: the case of names counts, that of the language's own words does not") {
-  const Reading read = run(
-      "P = p[0.1,0.2,0.3,0,3.14,0]\nCount = 1\ncount = 2\ndef Movej(x):\n  movej([x,0,0,0,0,0])\nend\nif True and "
-      "(TRUE):\n  Movej(Count)\n  Movej(count)\nend\nset_tcp(p[0,0,0.1,0,0,0])\nmovel(P)\n");
+  const Reading read =
+      run("P = p[0.1,0.2,0.3,0,3.14,0]\nCount = 1\ncount = 2\ndef Movej(x):\n  movej([x,0,0,0,0,0])\nend\nif True and "
+          "(TRUE):\n  Movej(Count)\n  Movej(count)\nend\nset_tcp(p[0,0,0.1,0,0,0])\nmovel(P)\n");
   REQUIRE(read.problem() == "no such problem");
   CHECK(first_axes(read).size() >= 2);
   CHECK(read.move(0).target.joints[0] == 1);
   CHECK(read.move(1).target.joints[0] == 2);
   CHECK(read.move(2).target.pose.position.x() == Approx(0.1));
   // A question names the spelling by its number.
-  const Reading asked = run("Go = read_port_bit(1)\ngo = 1\nif Go:\n  movej([1,0,0,0,0,0])\nend\nmovej([go,0,0,0,0,0])\n");
+  const Reading asked =
+      run("Go = read_port_bit(1)\ngo = 1\nif Go:\n  movej([1,0,0,0,0,0])\nend\nmovej([go,0,0,0,0,0])\n");
   REQUIRE(asked.problems.size() == 1);
   CHECK(asked.problems[0].what.find("read_port_bit(1)") != std::string::npos);
 }

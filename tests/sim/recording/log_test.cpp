@@ -99,8 +99,7 @@ TEST_CASE("log: time stamps of loggers and spreadsheets") {
     CHECK_FALSE(LogTime({}).read(wrong));
 }
 
-TEST_CASE(
-    "log: semicolons, decimal commas, dates over midnight, a repeated stamp, a missing number, names again") {
+TEST_CASE("log: semicolons, decimal commas, dates over midnight, a repeated stamp, a missing number, names again") {
   const std::string names = "Datum;Zeit;Achse_1 [deg];Achse_2 [deg];Kraft\n";
   const Recording log = read("\xEF\xBB\xBF" + names +
                              "01.03.2027;23:59:59,8;0,0;0;7\n"
@@ -112,8 +111,7 @@ TEST_CASE(
                              "02.03.2027;00:00:00,1;7,5;;7\n"
                              "02.03.2027;00:00:00,2;9,5;-3;7\n");
   REQUIRE(log.size() == 5);
-  const double times[] = {0, 0.1, 0.2, 0.3, 0.4}, first[] = {0, 2.5, 5, 6, 9.5},
-               second[] = {0, 0, -1.5, -2, -3};
+  const double times[] = {0, 0.1, 0.2, 0.3, 0.4}, first[] = {0, 2.5, 5, 6, 9.5}, second[] = {0, 0, -1.5, -2, -3};
   for (std::size_t k = 0; k < 5; ++k) {
     CHECK(log.times[k] == Approx(times[k]).margin(1e-6));  // seconds since 1970 in a double
     CHECK(log.at(k)[0] == Approx(first[k] * degree).margin(1e-12));
@@ -125,7 +123,9 @@ TEST_CASE(
   CHECK(log.left_out == 1);
   CHECK(log.first_left_out == 8);
   for (const char* const stamp : {"Datum Zeit", "Date/Time", "Zeitstempel", "Time stamp", "Datum/Uhrzeit"})
-    CHECK(read(std::string(stamp) + ";Achse_1 [deg];Achse_2 [deg]\n01.03.2027 23:59:59,8;0,0;0\n02.03.2027 00:00:00,0;2,5;0\n").times[1] == Approx(0.2).margin(1e-6));
+    CHECK(read(std::string(stamp) +
+               ";Achse_1 [deg];Achse_2 [deg]\n01.03.2027 23:59:59,8;0,0;0\n02.03.2027 00:00:00,0;2,5;0\n")
+              .times[1] == Approx(0.2).margin(1e-6));
 }
 
 TEST_CASE("log: a logger that was off, a wrong time and times in milliseconds are named") {
@@ -147,15 +147,13 @@ TEST_CASE("log: columns of the measured angles among others, and what names no a
   const Recording log = read(both + "0,9,9,0.5,-0.5,9,9\n0.1,9,9,0.6,-0.6,9,9\n");
   CHECK(log.at(0)[0] == 0.5);  // RTDE uses rad
   CHECK(log.at(1)[1] == -0.6);
-  const Recording swapped =
-      read("time,elbow,base\n0,100,-50\n1,101,-49\n", {.joints = "base,elbow", .still = bound});
+  const Recording swapped = read("time,elbow,base\n0,100,-50\n1,101,-49\n", {.joints = "base,elbow", .still = bound});
   CHECK(swapped.at(0)[0] == Approx(-50 * degree));
   CHECK(read("J1,J2\n100,1\n101,1\n", {.rate = 4, .still = bound}).times[1] == 0.25);
   CHECK_THAT(message_of([] { read("time,left1,left2,right1,right2\n0,1,2,3,4\n"); }),
              Contains("several groups of 2 columns"));
   CHECK_THAT(message_of([] { read("time,x,y,z\n0,1,2,3\n"); }), Contains("no 2 columns that are the angles"));
-  CHECK_THAT(message_of([] { read("J1,J2\n100,1\n"); }),
-             Contains("no column of times") && Contains("rate_Hz"));
+  CHECK_THAT(message_of([] { read("J1,J2\n100,1\n"); }), Contains("no column of times") && Contains("rate_Hz"));
   CHECK_THAT(message_of([] { read("time,J1,J2\n0,1,2\n1,1.5,2\n"); }),
              Contains("without a unit") && Contains("unit=deg"));
   CHECK_THAT(message_of([] { read("0,1,2\n1,1,2\n"); }), Contains("begins with numbers"));
@@ -163,13 +161,11 @@ TEST_CASE("log: columns of the measured angles among others, and what names no a
              Contains("log.csv:2:1") && Contains("turns joint_1 to 500"));
   CHECK_THAT(message_of([] { read("time,J1_deg,J2_deg\n0,1,5,2\n"); }),
              Contains("decimal commas need another separator"));
-  CHECK_THAT(message_of([] { read("#ROSBAG V2.0\n"); }),
-             Contains("is a ROS bag") && Contains("rostopic echo"));
+  CHECK_THAT(message_of([] { read("#ROSBAG V2.0\n"); }), Contains("is a ROS bag") && Contains("rostopic echo"));
   CHECK_THAT(message_of([] { read("PK\x03\x04"); }), Contains("workbook"));
 }
 
-TEST_CASE(
-    "log: one row that no axis can reach is left out, also outside the limits and while the robot stands") {
+TEST_CASE("log: one row that no axis can reach is left out, also outside the limits and while the robot stands") {
   for (const double rate : {10., 125.})
     for (const double off : {30., 300.})
       for (const double seconds : {0.5, 2.0, 4.9}) {  // at rest, moving, at rest
@@ -237,8 +233,7 @@ TEST_CASE("log: columns, times, unit and ranges are stated, and columns that fit
   const LogOptions plain{.still = bound};
   CHECK_THAT(message_of([&] { read_from(exchanged(30), plain); }),
              Contains("the columns of joint_1, joint_2 may be exchanged"));
-  CHECK_THAT(message_of([&] { read_from(exchanged(30), plain); }),
-             Contains("--value \"joints=J2 [deg],J1 [deg]\""));
+  CHECK_THAT(message_of([&] { read_from(exchanged(30), plain); }), Contains("--value \"joints=J2 [deg],J1 [deg]\""));
   const Recording slow = read_from(exchanged(10), plain);  // within the limits, but joint_2 turns too fast
   const Course course(slow, robot, bound);
   const auto words = fmt::format("{}", fmt::join(read_words(slow, course), "\n"));
@@ -282,15 +277,13 @@ TEST_CASE("log: radians under names in degrees, and times in another unit, have 
                                  Contains("--value unit=rad"));
   CHECK_THAT(words(radians, {.unit = "rad", .still = bound}), !Contains("warning"));
   CHECK_THAT(words(text_of(0.04, 0.1, "time_s", 3)), !Contains("radians"));  // a robot at rest at 3 deg, with noise
-  const std::string short_times = text_of(30, 0.1, "time_ms");  // seconds in a column named ms
-  CHECK_THAT(words(short_times),
-             Contains("an axis turns") &&
-                 Contains("--value rate_Hz=10 if they are 1000 times as long: a row in 0.1 s"));
+  const std::string short_times = text_of(30, 0.1, "time_ms");               // seconds in a column named ms
+  CHECK_THAT(words(short_times), Contains("an axis turns") &&
+                                     Contains("--value rate_Hz=10 if they are 1000 times as long: a row in 0.1 s"));
   CHECK_THAT(words(short_times, {.rate = 10, .still = bound}), !Contains("warning"));
   const std::string long_times = text_of(6, 2, "time", 0, 0.03);  // 90 deg/s at 500 Hz, milliseconds read as seconds
-  CHECK_THAT(words(long_times),
-             Contains("no axis turns faster than 0.1 % of its limit") &&
-                 Contains("--value rate_Hz=500 if they are 0.001 times as long: a row in 0.002 s"));
+  CHECK_THAT(words(long_times), Contains("no axis turns faster than 0.1 % of its limit") &&
+                                    Contains("--value rate_Hz=500 if they are 0.001 times as long: a row in 0.002 s"));
   CHECK_THAT(words(long_times, {.rate = 500, .still = bound}), !Contains("0.001 times"));
 }
 
@@ -311,15 +304,14 @@ TEST_CASE("log: a spline through exact samples gives back the curve") {
   // 5/384 h^4 of the largest fourth derivative, (pi/2)^4 57/2 deg/s^4, plus the six digits of the log.
   const double error = (5. / 384 * 1e-4 * std::pow(std::numbers::pi / 2, 4) * 28.5 + 2e-6) * degree;
   for (double t = 0; t < 4; t += 0.013)
-    CHECK(course.at(t)[0] ==
-          Approx(57 * degree * (1 - std::cos(std::numbers::pi * t / 2)) / 2).margin(error));
+    CHECK(course.at(t)[0] == Approx(57 * degree * (1 - std::cos(std::numbers::pi * t / 2)) / 2).margin(error));
   CHECK(course.log_seconds == Approx(4.9).margin(1e-9));
   CHECK(course.stand_seconds == Approx(0.9).margin(0.11));  // error of one interval at the last moving row
   CHECK(course.too_fast.empty());
 }
 
 TEST_CASE("log: noise of half the bound neither moves the robot nor leaves the bound") {
-  const double noise = 0.05;                  // [deg]
+  const double noise = 0.05;                     // [deg]
   const double rate = GENERATE(100 / 3., 125.);  // [Hz]: two to four rows around each knot, or twelve
   Writer quiet(rate), noisy(rate, noise);
   for (Writer* writer : {&quiet, &noisy}) {
@@ -332,11 +324,11 @@ TEST_CASE("log: noise of half the bound neither moves the robot nor leaves the b
   CHECK(course.largest_smoothing <= bound);
   CHECK(course.largest_smoothing > 0);
   // With two rows on either side a knot lies between rows, otherwise on a row.
-  CHECK(std::ranges::any_of(course.knots(), [&](double t) { return std::abs(std::remainder(t, 1 / rate)) > 0.3 / rate; }));
+  CHECK(std::ranges::any_of(course.knots(),
+                            [&](double t) { return std::abs(std::remainder(t, 1 / rate)) > 0.3 / rate; }));
   for (std::size_t k = 0; k < log.size(); ++k)
-    CHECK(
-        (course.at(log.times[k]) - Eigen::Map<const Eigen::Vector2d>(log.at(k))).lpNorm<Eigen::Infinity>() <=
-        1.0001 * bound);
+    CHECK((course.at(log.times[k]) - Eigen::Map<const Eigen::Vector2d>(log.at(k))).lpNorm<Eigen::Infinity>() <=
+          1.0001 * bound);
   // Knots 0.05 s apart that alternate by all of the noise: 12 n/h^2. With rows as knots: 9,400 deg/s2.
   const double limit = 12 * noise * degree / (0.05 * 0.05), h = 0.01;
   double largest = 0;
@@ -366,7 +358,8 @@ TEST_CASE("log: times that jitter by nearly half an interval leave knots in orde
   std::mt19937 random{3};
   std::uniform_real_distribution<double> jitter(-0.008, 0.008);
   for (int k = 0; k <= 1000; ++k)
-    text += fmt::format("{:.4f},{:.4f},0\n", 1 + 0.02 * k + jitter(random), 30 * (1 - std::cos(std::numbers::pi * 0.02 * k)));
+    text += fmt::format("{:.4f},{:.4f},0\n", 1 + 0.02 * k + jitter(random),
+                        30 * (1 - std::cos(std::numbers::pi * 0.02 * k)));
   const Course course(read(text), two_axes(), bound);
   for (std::size_t k = 1; k < course.knots().size(); ++k) CHECK(course.knots()[k] > course.knots()[k - 1]);
   for (double t = 0; t < course.duration(); t += 0.01) CHECK(std::isfinite(course.at(t)[0]));
@@ -468,8 +461,10 @@ TEST_CASE("log: recordings of a cycle stand for parts of other damage") {
     for (const auto& row : motion.rows) angle = std::max(angle, row.lpNorm<Eigen::Infinity>());
     return angle;
   };
-  CHECK(largest(motions[1]) == Approx(1.01 * largest(motions[0])).epsilon(1e-3));  // rows lie up to 0.04 s from the turning point
-  CHECK_THAT(duty_text("shift", "study.yaml", course, motions), Contains("{job: cycle_1_b,") && Contains(", recording_of: cycle_1}"));
+  CHECK(largest(motions[1]) ==
+        Approx(1.01 * largest(motions[0])).epsilon(1e-3));  // rows lie up to 0.04 s from the turning point
+  CHECK_THAT(duty_text("shift", "study.yaml", course, motions),
+             Contains("{job: cycle_1_b,") && Contains(", recording_of: cycle_1}"));
 }
 
 TEST_CASE("log: recordings of a cycle stand for parts of other speed, and long ones are few") {

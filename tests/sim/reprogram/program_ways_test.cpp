@@ -19,9 +19,7 @@ using namespace dresslife::sim;
 
 namespace {
 
-Job shipped(const std::string& job) {
-  return read_job(std::string(DRESSLIFE_SOURCE_DIR) + "/config/jobs/" + job);
-}
+Job shipped(const std::string& job) { return read_job(std::string(DRESSLIFE_SOURCE_DIR) + "/config/jobs/" + job); }
 
 }  // namespace
 
@@ -40,8 +38,7 @@ TEST_CASE("program ways: those of the shipped program read back as the program b
     CHECK(other_difference(read.motion, made.motion, way.changes) == "");
     CHECK(other_difference(read.motion, made.motion, {}) != "");
     CHECK(made.patch.find("--- a/side_panel.mod\n") == 0);
-    for (const sim::LineChange& change : way.changes)
-      CHECK(made.patch.find("! " + change.reason) != std::string::npos);
+    for (const sim::LineChange& change : way.changes) CHECK(made.patch.find("! " + change.reason) != std::string::npos);
   }
   CHECK(kinds.contains("wrist"));
   CHECK(kinds.contains("by"));
@@ -54,15 +51,13 @@ TEST_CASE("program ways: those of the shipped program read back as the program b
   CHECK(other_difference(read.motion, moved, {}).ends_with(": position"));
 }
 
-TEST_CASE(
-    "program ways: a line is changed for what it and the stands behind it cost, a point moves arm or wrist") {
+TEST_CASE("program ways: a line is changed for what it and the stands behind it cost, a point moves arm or wrist") {
   Job job = shipped("side_panel.yaml");
   const Scratch scratch;
   const std::string no_more = ",[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n";
-  job.motion.program = scratch.write("m.mod", "MODULE m\nPROC main()\nMoveAbsJ [[0,-10,10,20,40,0]" +
-                                                  no_more + "MoveAbsJ [[30,0,20,-40,30,60]" + no_more +
-                                                  "WaitTime 1;\nMoveAbsJ [[30,0,20,10,50,90]" + no_more +
-                                                  "ENDPROC\nENDMODULE\n");
+  job.motion.program = scratch.write(
+      "m.mod", "MODULE m\nPROC main()\nMoveAbsJ [[0,-10,10,20,40,0]" + no_more + "MoveAbsJ [[30,0,20,-40,30,60]" +
+                   no_more + "WaitTime 1;\nMoveAbsJ [[30,0,20,10,50,90]" + no_more + "ENDPROC\nENDMODULE\n");
   const ReadProgram read = read_job_program(job);
   REQUIRE(read.motion.steps.size() == 4);
   const auto slowed = [&](const std::vector<double>& damage, std::size_t most) {
@@ -73,8 +68,7 @@ TEST_CASE(
   };
   using Names = std::vector<std::string>;
   CHECK(slowed({0, 1, 0, 0}, 5) == Names{"m.mod:4"});
-  CHECK(slowed({0, 0, 1, 0}, 5) ==
-        Names{"m.mod:4"});  // damage while the robot is at rest belongs to the move before
+  CHECK(slowed({0, 0, 1, 0}, 5) == Names{"m.mod:4"});  // damage while the robot is at rest belongs to the move before
   CHECK(slowed({0, 0, 0, 1}, 5) == Names{"m.mod:6"});
   CHECK(slowed({0, 1, 0, 2}, 5) == Names{"m.mod:6", "m.mod:4"});
   CHECK(slowed({0, 1, 1.5, 2}, 5) == Names{"m.mod:4", "m.mod:6"});
@@ -84,8 +78,7 @@ TEST_CASE(
   for (const ProgramWay& way : program_ways(job, read, {1, 1, 1, 1}, 5))
     if (way.what.starts_with("by a point")) {
       REQUIRE(way.changes.size() == 1);
-      CHECK(way.lines ==
-            Names{"m.mod:4"});  // line 6 moves only the wrist, and the robot starts at line 3
+      CHECK(way.lines == Names{"m.mod:4"});  // line 6 moves only the wrist, and the robot starts at line 3
       points[way.what] = way.changes[0].point;
     }
   REQUIRE(points.size() == 2);
@@ -98,11 +91,12 @@ TEST_CASE(
 
 TEST_CASE("program ways: the speed of a weld between Arc Start and Arc End belongs to the process") {
   const Scratch scratch;
-  const Job job = read_job(scratch.write("job.yaml", "robot: fanuc_m20ia\nmotion: {program: " DRESSLIFE_SOURCE_DIR
-                                                     "/config/programs/frame_weld.ls}\ndresspack: handling\nrouting:\n"
-                                                     "  base_clamp: {link: link_3, position_m: [0, 0, 0.3], direction: [1, 0, 0]}\n"
-                                                     "  tool_clamp: {link: link_6, position_m: [0, 0.1, 0], direction: [1, 0, 0]}\n"
-                                                     "  free_length_m: 1.5\n"));
+  const Job job =
+      read_job(scratch.write("job.yaml", "robot: fanuc_m20ia\nmotion: {program: " DRESSLIFE_SOURCE_DIR
+                                         "/config/programs/frame_weld.ls}\ndresspack: handling\nrouting:\n"
+                                         "  base_clamp: {link: link_3, position_m: [0, 0, 0.3], direction: [1, 0, 0]}\n"
+                                         "  tool_clamp: {link: link_6, position_m: [0, 0.1, 0], direction: [1, 0, 0]}\n"
+                                         "  free_length_m: 1.5\n"));
   const ReadProgram read = read_job_program(job);
   std::set<std::string> slowed;
   for (const ProgramWay& way : program_ways(job, read, std::vector<double>(30, 1.0), 30))

@@ -96,8 +96,7 @@ TEST_CASE("inverse kinematics: every arm found reaches the flange, and the arm i
       for (const VectorXd& found : arms) {
         CHECK(distance(arm.flange(found), flange) < pose_rounding * 100);
         double off = 0;
-        for (int i = 0; i < 6; ++i)
-          off = std::max(off, std::abs(std::remainder(found[i] - joints[i], 2 * pi)));
+        for (int i = 0; i < 6; ++i) off = std::max(off, std::abs(std::remainder(found[i] - joints[i], 2 * pi)));
         nearest = std::min(nearest, off);
       }
       CHECK(nearest < joint_rounding);
@@ -140,31 +139,26 @@ TEST_CASE("inverse kinematics: the words of the controllers at poses that can be
     for (int i = 0; i < 6; ++i) joints[i] = degrees[i] * pi / 180;
     return joints;
   };
-  CHECK(abb.configuration(at({10, 0, 0, -20, 40, 100}), ArmConfiguration::Kind::abb).text() ==
-        "abb 0 -1 1 0");
-  CHECK(abb.configuration(at({-100, 0, 0, 200, -40, -100}), ArmConfiguration::Kind::abb).text() ==
-        "abb -2 2 -2 1");
+  CHECK(abb.configuration(at({10, 0, 0, -20, 40, 100}), ArmConfiguration::Kind::abb).text() == "abb 0 -1 1 0");
+  CHECK(abb.configuration(at({-100, 0, 0, 200, -40, -100}), ArmConfiguration::Kind::abb).text() == "abb -2 2 -2 1");
   CHECK(abb.configuration(at({0, -60, -150, 0, 30, 0}), ArmConfiguration::Kind::abb).numbers[3] >=
         4);  // inclined over backward
   // The home position of every KUKA: arm up, forearm forward.
   CHECK(kuka.configuration(at({0, -90, 90, 0, 0, 0}), ArmConfiguration::Kind::kuka).text() == "kuka 2 2");
-  CHECK(kuka.configuration(at({-10, -90, 90, 0, -10, -5}), ArmConfiguration::Kind::kuka).text() ==
-        "kuka 6 51");
+  CHECK(kuka.configuration(at({-10, -90, 90, 0, -10, -5}), ArmConfiguration::Kind::kuka).text() == "kuka 6 51");
   // Fanuc's: the tool points down.
-  CHECK(fanuc.configuration(at({0, 0, 0, 0, -90, 0}), ArmConfiguration::Kind::fanuc).text() ==
-        "fanuc NUT 0 0 0");
-  CHECK(fanuc.configuration(at({0, 0, 0, 190, 90, -200}), ArmConfiguration::Kind::fanuc).text() ==
-        "fanuc FUT 0 1 -1");
+  CHECK(fanuc.configuration(at({0, 0, 0, 0, -90, 0}), ArmConfiguration::Kind::fanuc).text() == "fanuc NUT 0 0 0");
+  CHECK(fanuc.configuration(at({0, 0, 0, 190, 90, -200}), ArmConfiguration::Kind::fanuc).text() == "fanuc FUT 0 1 -1");
   // The axes of a Motoman turn like Fanuc's.
-  CHECK(fanuc.configuration(at({0, 0, 0, 0, -90, 0}), ArmConfiguration::Kind::motoman).text() ==
-        "motoman 0 0 0 0 0 0");
+  CHECK(fanuc.configuration(at({0, 0, 0, 0, -90, 0}), ArmConfiguration::Kind::motoman).text() == "motoman 0 0 0 0 0 0");
   CHECK(fanuc.configuration(at({0, 0, 0, 185, 90, -200}), ArmConfiguration::Kind::motoman).text() ==
         "motoman 1 0 0 1 1 0");
   const Frame down = fanuc.flange(at({0, 0, 0, 0, -90, 0}));
   CHECK((down.orientation * z + z).norm() < pose_rounding);
 }
 
-TEST_CASE("inverse kinematics: a Motoman's wrist is given by axis R or by the sign of axis B, and any arm by its angles") {
+TEST_CASE(
+    "inverse kinematics: a Motoman's wrist is given by axis R or by the sign of axis B, and any arm by its angles") {
   std::mt19937 random(23);
   const InverseKinematics arm(m20ia());
   const VectorXd elsewhere = VectorXd::Zero(6);
@@ -180,7 +174,8 @@ TEST_CASE("inverse kinematics: a Motoman's wrist is given by axis R or by the si
     by_sign.numbers[0] = 5 - by_sign.numbers[0];  // the other wrist
     const auto other = arm.solve(arm.flange(joints), by_sign, elsewhere, reason);
     if (other) CHECK((*other)[4] * joints[4] < 0);
-    const auto near = arm.solve(arm.flange(joints), arm.configuration(joints, ArmConfiguration::Kind::near), elsewhere, reason);
+    const auto near =
+        arm.solve(arm.flange(joints), arm.configuration(joints, ArmConfiguration::Kind::near), elsewhere, reason);
     REQUIRE(near.has_value());
     CHECK((*near - joints).cwiseAbs().maxCoeff() < 1e-5);
   }
@@ -229,13 +224,11 @@ pipeline::Robot rounded(pipeline::Robot robot, double right_angle) {
   return robot;
 }
 
-constexpr double place_rounding =
-    1e-9;  // [m, rad]: NumericalInverse::rounding times lengths and external turns
+constexpr double place_rounding = 1e-9;  // [m, rad]: NumericalInverse::rounding times lengths and external turns
 
 }  // namespace
 
-TEST_CASE(
-    "inverse kinematics: an arm whose wrist axes do not meet reaches every place that it can stand in") {
+TEST_CASE("inverse kinematics: an arm whose wrist axes do not meet reaches every place that it can stand in") {
   std::mt19937 random(11);
   const InverseKinematics arm(ur10());
   REQUIRE(arm.unsupported() == "");
@@ -264,7 +257,8 @@ TEST_CASE(
   CHECK(own >= rounds - 5);  // the search may miss an arm in a narrow region (numerical_inverse.h)
 }
 
-TEST_CASE("inverse kinematics: a UR arm from ROS has the poses of its controller, whose base is turned by 180 degrees") {
+TEST_CASE(
+    "inverse kinematics: a UR arm from ROS has the poses of its controller, whose base is turned by 180 degrees") {
   pipeline::Robot robot = ur10();
   robot.program_orientation = {0, 0, pi};
   robot.flange_position = {0, .0922, 0};
@@ -373,8 +367,8 @@ TEST_CASE(
       if (std::abs(joints[2]) > pi || std::abs(joints[4]) < 0.05) continue;
       const Frame flange = arm.flange(joints);
       std::string reason;
-      const auto found = arm.solve(flange, arm.configuration(joints, ArmConfiguration::Kind::abb),
-                                   VectorXd::Zero(6), reason);
+      const auto found =
+          arm.solve(flange, arm.configuration(joints, ArmConfiguration::Kind::abb), VectorXd::Zero(6), reason);
       INFO(joints.transpose() << " " << reason);
       REQUIRE(found.has_value());
       CHECK(distance(arm.flange(*found), flange) < place_rounding);

@@ -26,7 +26,8 @@ pipeline::Motion timed(const std::vector<std::vector<double>>& targets) {
 
 TEST_CASE("joint slip: exactly one exchange, sign or unit that keeps all limits is named") {
   pipeline::Robot robot = small_arm();
-  for (std::size_t k = 0; k < 6; ++k) robot.joints[k].lower = -0.1 - 0.01 * static_cast<double>(k), robot.joints[k].upper = 1, robot.joints[k].speed = 2;
+  for (std::size_t k = 0; k < 6; ++k)
+    robot.joints[k].lower = -0.1 - 0.01 * static_cast<double>(k), robot.joints[k].upper = 1, robot.joints[k].speed = 2;
   robot.joints[2].lower = -1, robot.joints[2].upper = 0.1;  // the only axis that turns far to the negative side
   const auto slip = [&](const std::function<void(std::vector<double>&)>& wrong) {
     pipeline::Motion motion = timed({{0.5, 0.2, -0.8, 0.5, 0.6, 0.7}, {0.6, 0.8, -0.9, 0.8, 0.9, 1}});

@@ -91,10 +91,10 @@ TEST_CASE("legs: circles by joint angles are those through the tool's places the
     const pipeline::MotionStep step =
         to(PathKind::joint, centre + radius * Vector3(0, std::cos(k * pi / 2), std::sin(k * pi / 2)), 1, 0);
     std::string reason;
-    const auto joints = kinematics.solve({Vector3(step.position[0], step.position[1], step.position[2]),
-                                          Quaternion(step.quaternion[0], step.quaternion[1], step.quaternion[2],
-                                                     step.quaternion[3])},
-                                         {}, near, reason);
+    const auto joints =
+        kinematics.solve({Vector3(step.position[0], step.position[1], step.position[2]),
+                          Quaternion(step.quaternion[0], step.quaternion[1], step.quaternion[2], step.quaternion[3])},
+                         {}, near, reason);
     REQUIRE(joints.has_value());
     near = *joints;
     taught.emplace_back(joints->data(), joints->data() + 6);
@@ -114,7 +114,7 @@ TEST_CASE("legs: circles by joint angles are those through the tool's places the
     off = std::max({off, std::abs(here.norm() - radius), std::abs(here.x())});
     leftmost = std::min(leftmost, here.y());
   }
-  CHECK(off < 1e-4);  // points 10 mm apart on 200 mm: h^2/(8 r) = 63 um
+  CHECK(off < 1e-4);                                 // points 10 mm apart on 200 mm: h^2/(8 r) = 63 um
   CHECK(leftmost == Approx(-radius).epsilon(1e-3));  // over the top, around to the bottom: three quarters
   CHECK((kinematics.flange(run.position(run.duration())).position - centre - Vector3(0, 0, -radius)).norm() < 1e-9);
 }
@@ -156,8 +156,7 @@ TEST_CASE("tooling: a stationary tool and its way back") {
 TEST_CASE("legs: a long line is driven at the tool's speed, on the line, within the axes' limits") {
   const pipeline::Robot robot = arm();
   const Vector3 from(1.2, -0.5, 1.2), target(1.2, 0.5, 1.2);
-  const JointMotion run(motion({to(PathKind::joint, from, 1, 0), to(PathKind::linear, target, 0.4, 0)}),
-                        robot);
+  const JointMotion run(motion({to(PathKind::joint, from, 1, 0), to(PathKind::linear, target, 0.4, 0)}), robot);
   const InverseKinematics kinematics(robot);
   // From rest to rest, 1 m at 0.4 m/s: 2.5 s plus the ramps. Axis 1 turns fastest, at most 0.4/1.2 rad/s.
   CHECK(run.duration() > 2.5);
@@ -184,8 +183,7 @@ TEST_CASE("legs: a long line is driven at the tool's speed, on the line, within 
   CHECK((kinematics.flange(run.position(run.duration())).position - target).norm() < 1e-9);
 }
 
-TEST_CASE(
-    "legs: a zone cuts the corner inside its radius, without a stop, without a zone the robot stops there") {
+TEST_CASE("legs: a zone cuts the corner inside its radius, without a stop, without a zone the robot stops there") {
   const pipeline::Robot robot = arm();
   const InverseKinematics kinematics(robot);
   const Vector3 from(1.2, -0.4, 1.2), target(1.2, 0, 1.6);
@@ -217,8 +215,8 @@ TEST_CASE("legs: a circle keeps its radius") {
   const JointMotion run(motion({to(PathKind::joint, corner, 1, 0), round}), robot);
   double worst = 0;
   for (double t = 0; t < run.duration(); t += 0.005)
-    worst = std::max(
-        worst, std::abs((kinematics.flange(run.position(t)).position - Vector3(1.2, 0, 1.35)).norm() - 0.15));
+    worst =
+        std::max(worst, std::abs((kinematics.flange(run.position(t)).position - Vector3(1.2, 0, 1.35)).norm() - 0.15));
   CHECK(worst < 1e-4);  // chords of 10 mm on a radius of 150 mm differ from it by 83 um
   CHECK(run.duration() > pi * 0.15 / 0.3);
 }
@@ -255,8 +253,8 @@ TEST_CASE("legs: a line must end in the configuration that its program says") {
   other.numbers[1] += 2;
   wrong.configuration = other.text();
   CHECK_THROWS_WITH(JointMotion(motion({start, wrong}), arm()),
-                    Catch::Contains("target of 'move 2' is reached along its path in configuration " +
-                                    reached.text() + ", not in " + other.text()));
+                    Catch::Contains("target of 'move 2' is reached along its path in configuration " + reached.text() +
+                                    ", not in " + other.text()));
 }
 
 TEST_CASE("legs: a corner between an axis move and a line stays within its zone") {
@@ -274,8 +272,7 @@ TEST_CASE("legs: a corner between an axis move and a line stays within its zone"
     nearest = std::min(nearest, away);
     if (t > 0.3 && t < run.duration() - 0.3) slowest = std::min(slowest, run.velocity(t).norm());
     // Beyond the zone the tool is on the line, to the 13 um of its chords and the rounding of the control points.
-    if (here.z() > corner.z() + 1.1 * zone)
-      off_line = std::max(off_line, std::hypot(here.x() - 1.2, here.y()));
+    if (here.z() > corner.z() + 1.1 * zone) off_line = std::max(off_line, std::hypot(here.x() - 1.2, here.y()));
   }
   CHECK(nearest < zone);
   CHECK(nearest > 0.1 * zone);  // it cuts the corner
@@ -305,9 +302,9 @@ TEST_CASE("legs: behind a corner between unequal lines the tool is on the second
   constexpr double zone = 0.05, near = 1e-3;  // [m]; if the zone were a share of the longer line it would end 11 mm off
   pipeline::MotionStep first = to(PathKind::joint, corner - Vector3(0, 0.1, 0), 0.25, 0);
   first.tool_speed.reset();
-  const JointMotion motion_of_it(
-      motion({first, to(PathKind::linear, corner, 0.25, zone), to(PathKind::linear, corner + Vector3(0, 0, 0.4), 0.25, 0)}),
-      arm());
+  const JointMotion motion_of_it(motion({first, to(PathKind::linear, corner, 0.25, zone),
+                                         to(PathKind::linear, corner + Vector3(0, 0, 0.4), 0.25, 0)}),
+                                 arm());
   const InverseKinematics kinematics(arm());
   int behind = 0, before = 0;
   for (double t = 0; t < motion_of_it.duration(); t += 1e-3) {
@@ -325,7 +322,8 @@ TEST_CASE("legs: a stop zone cuts a corner by its share of the way in which the 
                          line = to(PathKind::linear, corner, 0.5, zone);
     first.tool_speed.reset();
     if (percent) line.tool_zone.reset(), line.stop_zone = percent;
-    return JointMotion(motion({first, line, to(PathKind::linear, corner + Vector3(0, 0, 0.3), 0.5, 0)}), arm()).duration();
+    return JointMotion(motion({first, line, to(PathKind::linear, corner + Vector3(0, 0, 0.3), 0.5, 0)}), arm())
+        .duration();
   };
   // The deceleration that the axes allow along the line's chord in joint space, in m/s2 of the tool.
   const InverseKinematics kinematics(arm());
@@ -338,7 +336,8 @@ TEST_CASE("legs: a stop zone cuts a corner by its share of the way in which the 
   REQUIRE((from && until));
   double brake = std::numeric_limits<double>::infinity();
   for (long i = 0; i < 6; ++i)
-    brake = std::min(brake, arm().joints[static_cast<std::size_t>(i)].acceleration / std::abs((*until - *from)[i]) * 0.3);
+    brake =
+        std::min(brake, arm().joints[static_cast<std::size_t>(i)].acceleration / std::abs((*until - *from)[i]) * 0.3);
   const double way = 0.5 * 0.5 / (2 * brake);
   CHECK(cornering(100, 0) == Approx(cornering({}, way)).epsilon(1e-6));
   CHECK(cornering(50, 0) == Approx(cornering({}, way / 2)).epsilon(1e-6));
@@ -384,10 +383,9 @@ TEST_CASE("legs: an axis that carries nothing takes its time and keeps to its li
   }
   same.external_axes = {2500};
   same.where = {"main.mod", 7, 1};
-  CHECK_THROWS_WITH(
-      JointMotion(motion({start, same}), robot),
-      Catch::StartsWith("main.mod:7:1: error: target of 'move 2' moves track to 2500 mm (must be "
-                        "within -1000 .. 2000); check target"));
+  CHECK_THROWS_WITH(JointMotion(motion({start, same}), robot),
+                    Catch::StartsWith("main.mod:7:1: error: target of 'move 2' moves track to 2500 mm (must be "
+                                      "within -1000 .. 2000); check target"));
 }
 
 TEST_CASE("legs: a joint move's speed and acceleration are the least of its axes', its tool's and its own") {
@@ -428,8 +426,7 @@ TEST_CASE("legs: a joint move's speed and acceleration are the least of its axes
 
 TEST_CASE("legs: a tool's zone between two joint moves is as large a share of each as of its tool's way") {
   pipeline::MotionStep start, turn, lift;
-  start.joints = {0, 0, 0, 0, 0.5, 0}, turn.joints = {0.6, 0, 0, 0, 0.5, 0},
-  lift.joints = {0.6, 0.3, 0, 0, 0.5, 0};
+  start.joints = {0, 0, 0, 0, 0.5, 0}, turn.joints = {0.6, 0, 0, 0, 0.5, 0}, lift.joints = {0.6, 0.3, 0, 0, 0.5, 0};
   for (const double zone : {0.05, 0.4}) {
     turn.tool_zone = zone;
     const Legs made = legs_of(motion({start, turn, lift}), arm(), VectorXd::Constant(6, 8));
@@ -444,8 +441,7 @@ TEST_CASE("legs: a tool's zone between two joint moves is as large a share of ea
 
 TEST_CASE("legs: beside a line, two joint moves are joined by a parabola within their angular zone") {
   pipeline::MotionStep start, turn, lift, line;
-  start.joints = {0, 0, 0, 0, 0.5, 0}, turn.joints = {0.6, 0, 0, 0, 0.5, 0},
-  lift.joints = {0.6, 0.3, 0, 0, 0.5, 0};
+  start.joints = {0, 0, 0, 0, 0.5, 0}, turn.joints = {0.6, 0, 0, 0, 0.5, 0}, lift.joints = {0.6, 0.3, 0, 0, 0.5, 0};
   line.joints = {0.65, 0.35, 0, 0, 0.5, 0};
   line.path = PathKind::linear;
   turn.zone = 0.1, lift.tool_zone = 0.02;
@@ -458,8 +454,7 @@ TEST_CASE("legs: beside a line, two joint moves are joined by a parabola within 
     CHECK(leg.path == 1);
     if (leg.from[0] < 0.5 - rounding || place[1] > 0.1 + rounding) continue;
     // Ends at 0.5, 0 and 0.6, 0.1: the second angle is 0.1 u^2.
-    const double u = std::sqrt(place[1] / 0.1),
-                 first = 0.5 * (1 - u) * (1 - u) + 1.2 * u * (1 - u) + 0.6 * u * u;
+    const double u = std::sqrt(place[1] / 0.1), first = 0.5 * (1 - u) * (1 - u) + 1.2 * u * (1 - u) + 0.6 * u * u;
     CHECK(place[0] == Approx(first).epsilon(1e-9));
     CHECK(leg.step == (u <= 0.5 + rounding ? 1 : 2));
     ++on_curve, before += u <= 0.5 + rounding;
@@ -496,7 +491,6 @@ TEST_CASE("legs: targets out of reach are reported together, with their lines") 
       JointMotion(motion({to(PathKind::joint, corner, 1, 0), far, wrong}), arm()),
       Catch::StartsWith(
           "main.mod:12:3: error: target of 'main.mod:12 main: MoveL p2;' is out of reach; check target") &&
-          Catch::Contains(
-              "\nmain.mod:14:3: error: target of 'move 3' is not reached in configuration abb 1 0 0 0 "
-              "(but in abb"));
+          Catch::Contains("\nmain.mod:14:3: error: target of 'move 3' is not reached in configuration abb 1 0 0 0 "
+                          "(but in abb"));
 }

@@ -24,9 +24,8 @@ pipeline::MotionStep repeated(int repeats, const std::vector<pipeline::MotionSte
 
 TEST_CASE(
     "loops: the rounds of a repeated block between other moves are found, and the robot is in the same pose in each") {
-  const JointMotion motion =
-      motion_of({move_to(0), repeated(7, {move_to(2), dwell_for(0.4), move_to(-1), move_to(1)}), move_to(-2),
-                 move_to(0)});
+  const JointMotion motion = motion_of(
+      {move_to(0), repeated(7, {move_to(2), dwell_for(0.4), move_to(-1), move_to(1)}), move_to(-2), move_to(0)});
   const std::vector<MotionLoop> loops = loops_of(motion);
   REQUIRE(loops.size() == 1);
   const MotionLoop& loop = loops.front();

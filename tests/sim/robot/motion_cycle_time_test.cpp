@@ -38,8 +38,7 @@ JointMotion run(const std::string& main) {
       "CONST robtarget p0:=[[1200,0,1200],[0.70710678,0,0.70710678,0],[0,0,0,0],"
       "[9E9,9E9,9E9,9E9,9E9,9E9]];\n";
   files.emplace_back("cell.mod", "MODULE cell\nCONST speeddata v250:=[250,500,5000,1000];\n" + target +
-                                     "PROC main()\nConfL \\Off;\nConfJ \\Off;\n" + main +
-                                     "ENDPROC\nENDMODULE\n");
+                                     "PROC main()\nConfL \\Off;\nConfJ \\Off;\n" + main + "ENDPROC\nENDMODULE\n");
   Problems problems;
   const Program program = read_program(Language::rapid, std::move(files), {}, {}, {}, problems);
   problems.throw_if_any();
@@ -61,8 +60,7 @@ TEST_CASE("cycle time: axis moves with stops and a dwell") {
   // Axes 1 and 2 back by 90 and 10 deg: axis 1 is slower, so the time is equal.
   // Axis 2 by 10 deg: c^2/A = 27 > 10: 2 sqrt(10/300) s.
   const double ninety = 0.9 + 1.0 / 3, ten = 2 * std::sqrt(10.0 / 300);
-  const JointMotion motion =
-      run(axes(0, 0, 0) + axes(90, 0, 0) + "WaitTime 0.75;\n" + axes(90, 10, 0) + axes(0, 0, 0));
+  const JointMotion motion = run(axes(0, 0, 0) + axes(90, 0, 0) + "WaitTime 0.75;\n" + axes(90, 10, 0) + axes(0, 0, 0));
   CHECK(motion.duration() == Approx(ninety + 0.75 + ten + ninety).epsilon(closed_form));
 }
 
@@ -71,15 +69,13 @@ TEST_CASE("cycle time: a speed in mm/s on an axis move") {
   // 90 deg = 1.5708 rad: 1.5708/0.5 + 0.5/(300 deg/s2 = 5.236 rad/s2) = 3.237 s.
   const JointMotion motion =
       run(axes(0, 0, 0) + "MoveAbsJ [[90,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v500,fine,tool0;\n");
-  CHECK(motion.duration() ==
-        Approx(1.5708 / 0.5 + 0.5 / 5.236).epsilon(1e-3));  // the path of the tool's fastest part
+  CHECK(motion.duration() == Approx(1.5708 / 0.5 + 0.5 / 5.236).epsilon(1e-3));  // the path of the tool's fastest part
 }
 
 TEST_CASE("cycle time: a line at the tool's speed") {
   // 800 mm at 400 mm/s, from rest to rest. Across the arm at 1.2 m, axis 1 accelerates the tool by
   // 5.236 rad/s2 x 1.2 m = 6.3 m/s2: 0.8/0.4 + 0.4/6.3 = 2.064 s.
-  const JointMotion across =
-      run("MoveJ Offs(p0,0,-400,0),vmax,fine,tool0;\n" + line(0, 400, 0, "v400", "fine"));
+  const JointMotion across = run("MoveJ Offs(p0,0,-400,0),vmax,fine,tool0;\n" + line(0, 400, 0, "v400", "fine"));
   CHECK(across.duration() == Approx(2.064).epsilon(by_hand));
   // To and fro with a dwell of half a second, spot by spot: 5 x (100 mm at 200 mm/s, 0.5 s).
   // 0.1/0.2 + 0.2/6.3 + 0.5 = 1.032 s each.
@@ -93,8 +89,7 @@ TEST_CASE("cycle time: zones save the stops and cut the corners") {
   // horizontal and 3 in vertical direction (two axes lift): 4 x 1.6 + 2 x 0.042 + 2 x 0.083 = 6.65 s.
   const auto square = [](const char* zone) {
     return run("MoveJ Offs(p0,0,-200,0),vmax,fine,tool0;\n" + line(0, 200, 0, "v250", zone) +
-               line(0, 200, 400, "v250", zone) + line(0, -200, 400, "v250", zone) +
-               line(0, -200, 0, "v250", "fine"));
+               line(0, 200, 400, "v250", zone) + line(0, -200, 400, "v250", zone) + line(0, -200, 0, "v250", "fine"));
   };
   const double stopped = square("fine").duration();
   CHECK(stopped == Approx(6.65).epsilon(by_hand));
@@ -108,12 +103,11 @@ TEST_CASE("cycle time: zones save the stops and cut the corners") {
 TEST_CASE("cycle time: on a long line the axes do what geometry says, and nothing else") {
   // x = 1.2 m, y = y0 + v t: q_1 = atan(y/x), q_1' = v x/(x^2 + y^2), q_1'' = -2 x y v^2/(x^2 + y^2)^2.
   const double x = 1.2, v = 0.8, half = 0.6;
-  const JointMotion motion =
-      run("MoveJ Offs(p0,0,-600,0),vmax,fine,tool0;\n" + line(0, 600, 0, "v800", "fine"));
+  const JointMotion motion = run("MoveJ Offs(p0,0,-600,0),vmax,fine,tool0;\n" + line(0, 600, 0, "v800", "fine"));
   const InverseKinematics arm_of_it(arm());
   constexpr double margin = 0.25;           // [s] of acceleration at either end
   constexpr double speed_tolerance = 2e-4;  // [rad/s] of 0.67: control points 12 mm apart, (h u)^2/(24 r^2)
-  constexpr double bend_tolerance = 1e-3;  // [rad/s2] of up to 0.35; (h u)^2/12 r^2 of it, and the ends of the legs
+  constexpr double bend_tolerance = 1e-3;   // [rad/s2] of up to 0.35; (h u)^2/12 r^2 of it, and the ends of the legs
   double steady = 0, unsteady = 0;
   for (double t = margin; t < motion.duration() - margin; t += 1e-3) {
     const double y = arm_of_it.flange(motion.position(t)).position.y(), r2 = x * x + y * y;
@@ -129,19 +123,18 @@ TEST_CASE("cycle time: random programs of lines and axis moves exceed no limit n
   std::mt19937 random(2);
   std::uniform_real_distribution<double> uniform(-1, 1);
   const pipeline::Robot robot = arm();
-  constexpr double limit_margin =
-      1e-9;  // [rad/s, rad/s2] roundings of 1e-16 in angles, over times of some ms squared
+  constexpr double limit_margin = 1e-9;  // [rad/s, rad/s2] roundings of 1e-16 in angles, over times of some ms squared
   int run_through = 0;
   for (int program = 0; program < 25; ++program) {
     std::string text = "MoveJ Offs(p0,0,0,0),vmax,fine,tool0;\n";
     for (int move = 0; move < 12; ++move) {
       const char* zones[] = {"fine", "z1", "z10", "z50", "z100", "z200"};
       const char* speeds[] = {"v50", "v200", "v800", "v2500", "vmax"};
-      text += fmt::format("{} RelTool(p0,{:.1f},{:.1f},{:.1f}\\Rx:={:.1f}\\Rz:={:.1f}),{},{},tool0;\n",
-                          uniform(random) < 0.3 ? "MoveL" : "MoveJ", 250 * uniform(random),
-                          400 * uniform(random), 250 * uniform(random), 25 * uniform(random),
-                          60 * uniform(random), speeds[std::lround(2 + 2 * uniform(random))],
-                          zones[std::lround(2.5 + 2.5 * uniform(random))]);
+      text +=
+          fmt::format("{} RelTool(p0,{:.1f},{:.1f},{:.1f}\\Rx:={:.1f}\\Rz:={:.1f}),{},{},tool0;\n",
+                      uniform(random) < 0.3 ? "MoveL" : "MoveJ", 250 * uniform(random), 400 * uniform(random),
+                      250 * uniform(random), 25 * uniform(random), 60 * uniform(random),
+                      speeds[std::lround(2 + 2 * uniform(random))], zones[std::lround(2.5 + 2.5 * uniform(random))]);
     }
     CAPTURE(text);
     std::optional<JointMotion> motion;
@@ -173,8 +166,7 @@ TEST_CASE("cycle time: random programs of lines and axis moves exceed no limit n
 TEST_CASE("cycle time: a path speeds up once and slows down once") {
   // The hose responds to every change of sign of an axis' acceleration. On a line away from singular positions axis 1 has
   // three: acceleration, the middle of the line, deceleration.
-  const JointMotion motion =
-      run("MoveJ Offs(p0,0,-600,0),vmax,fine,tool0;\n" + line(0, 600, 0, "v800", "fine"));
+  const JointMotion motion = run("MoveJ Offs(p0,0,-600,0),vmax,fine,tool0;\n" + line(0, 600, 0, "v800", "fine"));
   int changes = 0;
   double before = 0;
   for (double t = 0; t < motion.duration(); t += 1e-3) {
@@ -195,7 +187,8 @@ TEST_CASE("cycle time: a path is smoothed longer by its key and by the second ar
         most = std::max(most, std::abs(piece.jerk[i]) / arm().joints[i].acceleration);
     return most;
   };
-  const JointMotion plain = run(moves), soft = run("AccSet 100,25;\n" + moves), softest = run("AccSet 100,5;\n" + moves);
+  const JointMotion plain = run(moves), soft = run("AccSet 100,25;\n" + moves),
+                    softest = run("AccSet 100,5;\n" + moves);
   // Four and ten times smaller, apart from the effect of the axes' limits.
   CHECK(sharpest(soft) < sharpest(plain) / 3);
   CHECK(sharpest(softest) < sharpest(plain) / 8);  // 10 % is the lower limit of the setting

@@ -91,8 +91,7 @@ TEST_CASE("motion: one short move is a triangle of speed") {
   CHECK(motion.duration() == Approx(2 * std::sqrt(0.3 / 3)).epsilon(rounding));
   CHECK(motion.velocity(motion.duration() / 2)[0] == Approx(-std::sqrt(3 * 0.3)).epsilon(rounding));
   double largest = 0;
-  for (double t = 0; t < motion.duration(); t += 1e-4)
-    largest = std::max(largest, std::abs(motion.acceleration(t)[0]));
+  for (double t = 0; t < motion.duration(); t += 1e-4) largest = std::max(largest, std::abs(motion.acceleration(t)[0]));
   CHECK(largest == Approx(4).epsilon(rounding));  // the limit is used fully
 }
 
@@ -282,8 +281,7 @@ TEST_CASE("motion: pieces join without a gap in place or speed") {
       const MotionPiece &a = motion.pieces()[k - 1], &b = motion.pieces()[k];
       const VectorXd end = a.position + a.duration * (a.velocity_before + a.velocity_change / 2);
       gap = std::max(gap, (end - b.position).lpNorm<Eigen::Infinity>());
-      jump = std::max(jump,
-                      (a.velocity_before + a.velocity_change - b.velocity_before).lpNorm<Eigen::Infinity>());
+      jump = std::max(jump, (a.velocity_before + a.velocity_change - b.velocity_before).lpNorm<Eigen::Infinity>());
     }
     INFO("seed " << seed);
     CHECK(gap < rounding);
@@ -308,8 +306,7 @@ double deviation_from_legs(const JointMotion& motion, const std::vector<VectorXd
 
 TEST_CASE("motion: a blended path stays within the zone and leaves the legs") {
   const pipeline::Robot robot = robot_with({2, 2}, {6, 6});
-  const std::vector<VectorXd> waypoints{VectorXd{{0, 0}}, VectorXd{{2, 0}}, VectorXd{{2, 2}},
-                                        VectorXd{{0, 1}}};
+  const std::vector<VectorXd> waypoints{VectorXd{{0, 0}}, VectorXd{{2, 0}}, VectorXd{{2, 2}}, VectorXd{{0, 1}}};
   const auto program = [&](double zone) {
     return motion_of({move_to({0, 0}), move_to({2, 0}, zone), move_to({2, 2}, zone), move_to({0, 1})});
   };
@@ -342,9 +339,8 @@ TEST_CASE("motion: a blend takes at most half of either leg, whatever its zone")
     CHECK((first < second ? begins - first / 2 : second / 2 - ends) < 0.01 * std::min(first, second));
   }
   // The second axis decelerates eight times as hard: more than half of its leg could be blended, but half is the limit.
-  const JointMotion motion(
-      motion_of({move_to({0, 0}), move_to({1, 0}, 3), move_to({1, 0.1}, 0.01), move_to({2, 0.1})}),
-      robot_with({2, 2}, {1, 8}));
+  const JointMotion motion(motion_of({move_to({0, 0}), move_to({1, 0}, 3), move_to({1, 0.1}, 0.01), move_to({2, 0.1})}),
+                           robot_with({2, 2}, {1, 8}));
   double ends = 0;
   for (double t = 1e-4; motion.velocity(t)[0] > 0; t += 1e-4) ends = motion.position(t)[1];
   CHECK(ends <= 0.05 * (1 + rounding));
@@ -355,9 +351,8 @@ TEST_CASE("motion: a right-angled blend takes the closed form's time") {
   // Both axes change by w in tau = w/A, which uses w tau/2 = z of each leg, so w = sqrt(2 A z). The rest of each leg, L - z,
   // is a move between 0 and w by (M3).
   const double length = 1, speed = 100, acceleration = 4, zone = 0.1, mean = mean_share * acceleration;
-  const JointMotion motion(
-      motion_of({move_to({0, 0}), move_to({length, 0}, zone), move_to({length, length})}),
-      robot_with({speed, speed}, {acceleration, acceleration}));
+  const JointMotion motion(motion_of({move_to({0, 0}), move_to({length, 0}, zone), move_to({length, length})}),
+                           robot_with({speed, speed}, {acceleration, acceleration}));
   const double w = std::sqrt(2 * mean * zone), tau = w / mean;
   const double top = std::sqrt((2 * mean * (length - zone) + w * w) / 2);
   CHECK(motion.duration() == Approx(2 * (top / mean + (top - w) / mean) + tau).epsilon(1e-9));
@@ -415,10 +410,9 @@ TEST_CASE("motion: a waypoint beyond a limit is reported where it stands") {
   block.text = "panel A";
   block.steps = {move_to({0, -10.5})};
   block.steps[0].where = {"program.yaml", 7, 9};
-  CHECK_THROWS_WITH(
-      JointMotion(motion_of({move_to({0, 0}), block}), robot_with({2, 2}, {4, 4})),
-      "program.yaml:7:9: error: waypoint 'panel A: move 2' turns joint_2 to -601.606 deg (must be "
-      "within -572.958 .. 572.958 deg); turn it 28.65 deg more, inside the limits of test robot");
+  CHECK_THROWS_WITH(JointMotion(motion_of({move_to({0, 0}), block}), robot_with({2, 2}, {4, 4})),
+                    "program.yaml:7:9: error: waypoint 'panel A: move 2' turns joint_2 to -601.606 deg (must be "
+                    "within -572.958 .. 572.958 deg); turn it 28.65 deg more, inside the limits of test robot");
 }
 
 TEST_CASE("motion: of many waypoints beyond the limits of an axis the farthest is reported, with their number") {
@@ -429,10 +423,15 @@ TEST_CASE("motion: of many waypoints beyond the limits of an axis the farthest i
   }
   const std::string text = pipeline::message_of([&] { JointMotion(motion_of(steps), robot_with({2, 2}, {4, 4})); });
   CHECK(std::count(text.begin(), text.end(), '\n') == 1);
-  CHECK(text.find("program.yaml:3:9: error: waypoint 'move 3' turns joint_1 to 687.549 deg (must be within -572.958 .. 572.958 deg), the "
-                  "farthest of 3 targets outside of its limits; the program may be one of another robot, or a URDF has other zeros than the controller: name the program's robot, or turn it 114.6 deg less") != std::string::npos);
-  CHECK(text.find("program.yaml:3:9: error: waypoint 'move 3' turns joint_2 to 601.606 deg (must be within -572.958 .. 572.958 deg); turn it "
-                  "28.65 deg less") != std::string::npos);
+  CHECK(
+      text.find(
+          "program.yaml:3:9: error: waypoint 'move 3' turns joint_1 to 687.549 deg (must be within -572.958 .. 572.958 deg), the "
+          "farthest of 3 targets outside of its limits; the program may be one of another robot, or a URDF has other zeros than the controller: name the program's robot, or turn it 114.6 deg less") !=
+      std::string::npos);
+  CHECK(
+      text.find(
+          "program.yaml:3:9: error: waypoint 'move 3' turns joint_2 to 601.606 deg (must be within -572.958 .. 572.958 deg); turn it "
+          "28.65 deg less") != std::string::npos);
 }
 
 TEST_CASE("motion: a program has to begin with a move") {

@@ -49,8 +49,7 @@ const Shipped robots[] = {
 
 double wrist_distance(const RobotKinematics& robot, VectorXd& joints, std::vector<Frame>& frames) {
   robot.link_frames({joints.data(), 6}, frames);
-  return std::hypot(frames[5].position.x() - frames[1].position.x(),
-                    frames[5].position.y() - frames[1].position.y());
+  return std::hypot(frames[5].position.x() - frames[1].position.x(), frames[5].position.y() - frames[1].position.y());
 }
 
 /// Returns the maximum over axes 2 and 3, by a grid and then finer and finer grids around its best point.
@@ -85,7 +84,8 @@ double pose_distance(const Frame& a, const Frame& b) {
 
 }  // namespace
 
-TEST_CASE("shipped robots: the range of accelerations that dresslife new names is that of the catalogue, rounded outward") {
+TEST_CASE(
+    "shipped robots: the range of accelerations that dresslife new names is that of the catalogue, rounded outward") {
   double least = HUGE_VAL, largest = 0;
   for (const Shipped& each : robots)
     for (const pipeline::Joint& joint : shipped(each.name).joints)
@@ -116,19 +116,17 @@ TEST_CASE("shipped robots: the maker's zero pose stands as in its drawings") {
   constexpr double drawing = 1e-3;  // KR 210: its origins were measured to some tenths of a millimetre
   // A KUKA at A1 .. A6 = 0 is stretched forward: 350 + 1250 + 1500 mm, with axis 4 55 mm above the elbow. A3 = +90 brings the
   // forearm upright with axis 4 below.
-  CHECK((wrist("kuka_kr210_l150", {0, 0, 0, 0, 0, 0}) - Vector3(0.350 + 1.250 + 1.500, 0, 0.750 - 0.055))
-            .norm() < drawing);
-  CHECK((wrist("kuka_kr210_l150", {0, -90, 90, 0, 0, 0}) - Vector3(0.350 + 1.500, 0, 0.750 + 1.250 - 0.055))
-            .norm() < drawing);
+  CHECK((wrist("kuka_kr210_l150", {0, 0, 0, 0, 0, 0}) - Vector3(0.350 + 1.250 + 1.500, 0, 0.750 - 0.055)).norm() <
+        drawing);
+  CHECK((wrist("kuka_kr210_l150", {0, -90, 90, 0, 0, 0}) - Vector3(0.350 + 1.500, 0, 0.750 + 1.250 - 0.055)).norm() <
+        drawing);
   // A1 turns clockwise seen from above.
   CHECK(wrist("kuka_kr210_l150", {90, 0, 0, 0, 0, 0}).y() < -3);
-  CHECK((wrist("kuka_kr16_2", {0, 0, 0, 0, 0, 0}) - Vector3(0.26 + 0.68 + 0.67, 0, 0.675 - 0.035)).norm() <
-        1e-12);
+  CHECK((wrist("kuka_kr16_2", {0, 0, 0, 0, 0, 0}) - Vector3(0.26 + 0.68 + 0.67, 0, 0.675 - 0.035)).norm() < 1e-12);
   // ABB, Fanuc and Motoman are upright at 0, with the forearm forward.
-  CHECK((wrist("abb_irb4600_60_205", {0, 0, 0, 0, 0, 0}) - Vector3(0.175 + 0.96, 0, 0.495 + 0.9 + 0.175))
-            .norm() < 1e-12);
-  CHECK((wrist("fanuc_m20ia", {0, 0, 0, 0, 0, 0}) - Vector3(0.15 + 0.835, 0, 0.525 + 0.79 + 0.25)).norm() <
+  CHECK((wrist("abb_irb4600_60_205", {0, 0, 0, 0, 0, 0}) - Vector3(0.175 + 0.96, 0, 0.495 + 0.9 + 0.175)).norm() <
         1e-12);
+  CHECK((wrist("fanuc_m20ia", {0, 0, 0, 0, 0, 0}) - Vector3(0.15 + 0.835, 0, 0.525 + 0.79 + 0.25)).norm() < 1e-12);
   // Fanuc's elbow turns the other way: positive joint_3 lifts the forearm.
   CHECK(wrist("fanuc_m20ia", {0, 0, 30, 0, 0, 0}).z() > wrist("fanuc_m20ia", {0, 0, 0, 0, 0, 0}).z());
 }
@@ -137,7 +135,7 @@ TEST_CASE("shipped robots: the maker's configuration words bring back the arm wi
   std::mt19937 random(11);
   constexpr double pose_rounding = 1e-9;   // metres and radians, arms of 3 m
   constexpr double joint_rounding = 1e-6;  // [rad]: acos near its limits halves the number of digits
-  constexpr double clear = 0.01;           // distance from configurations where the words change or two arms coincide [rad]
+  constexpr double clear = 0.01;  // distance from configurations where the words change or two arms coincide [rad]
   for (const Shipped& type : robots) {
     CAPTURE(type.name);
     const pipeline::Robot robot = shipped(type.name);

@@ -101,14 +101,12 @@ TEST_CASE("robot: angles beyond the limits are named") {
   const pipeline::Robot robot = two_joint_arm();
   const pipeline::Where where{"job.yaml", 12, 7};
   CHECK_NOTHROW(check_joint_limits(robot, std::vector{pi / 2, -4 * pi}, "waypoint 'home'", where));
-  CHECK_THROWS_WITH(
-      check_joint_limits(robot, std::vector{pi / 2 + 0.01, 0.0}, "waypoint 'home'", where),
-      "job.yaml:12:7: error: waypoint 'home' turns shoulder to 90.573 deg (must be within -90 .. "
-      "90 deg); turn it 0.573 deg less, inside the limits of arm");
-  CHECK_THROWS_WITH(
-      check_joint_limits(robot, std::vector{0.0}, "waypoint 'home'", where),
-      "job.yaml:12:7: error: waypoint 'home' has 1 joint angles; arm has 2 axes: give one angle "
-      "for each");
+  CHECK_THROWS_WITH(check_joint_limits(robot, std::vector{pi / 2 + 0.01, 0.0}, "waypoint 'home'", where),
+                    "job.yaml:12:7: error: waypoint 'home' turns shoulder to 90.573 deg (must be within -90 .. "
+                    "90 deg); turn it 0.573 deg less, inside the limits of arm");
+  CHECK_THROWS_WITH(check_joint_limits(robot, std::vector{0.0}, "waypoint 'home'", where),
+                    "job.yaml:12:7: error: waypoint 'home' has 1 joint angles; arm has 2 axes: give one angle "
+                    "for each");
 }
 
 TEST_CASE("robot: a link is found by its name, a wrong name lists those that exist") {

@@ -4,8 +4,8 @@
 #include <random>
 
 #include "pipeline/resolve/catalogue.h"
-#include "pipeline/urdf/urdf.h"
 #include "pipeline/settings/fields.h"
+#include "pipeline/urdf/urdf.h"
 #include "sim/robot/robot.h"
 #include "tests/catch.h"
 
@@ -26,8 +26,7 @@ std::string urdf_of(const pipeline::Robot& robot, std::mt19937& random) {
   std::string parent = "root";
   std::uniform_real_distribution<double> part(-1, 1);
   for (const pipeline::Joint& joint : robot.joints) {
-    const Vector3 angles{part(random), part(random), part(random)},
-        shift{part(random), part(random), part(random)};
+    const Vector3 angles{part(random), part(random), part(random)}, shift{part(random), part(random), part(random)};
     // F = (shift, angles) rest: the moved joint compensates the fixed joint.
     const Frame fixed{shift, from_roll_pitch_yaw(angles)};
     const Quaternion back = fixed.orientation.conjugate();
@@ -41,8 +40,8 @@ std::string urdf_of(const pipeline::Robot& robot, std::mt19937& random) {
         "<link name=\"{0}_link\"/>\n<joint name=\"{0}\" type=\"revolute\"><parent link=\"{0}_plate\"/>"
         "<child link=\"{0}_link\"/><origin xyz=\"{4}\" rpy=\"{5}\"/><axis xyz=\"{6}\"/>"
         "<limit lower=\"{7:.12g}\" upper=\"{8:.12g}\" effort=\"0\" velocity=\"{9:.12g}\"/></joint>\n",
-        joint.name, parent, numbers(shift), numbers(angles), numbers(rest.position), numbers(rpy),
-        numbers(joint.axis), joint.lower, joint.upper, joint.speed);
+        joint.name, parent, numbers(shift), numbers(angles), numbers(rest.position), numbers(rpy), numbers(joint.axis),
+        joint.lower, joint.upper, joint.speed);
     parent = joint.name + "_link";
   }
   return text + fmt::format(
@@ -126,8 +125,8 @@ TEST_CASE("robot urdf: a joint that follows another keeps the wrist level") {
   CHECK(robot.axes() == 3);
   CHECK(axes_of(robot)[2].name == "hand");
   const Frame end = flange(robot, {0, 0.7, 0});
-  CHECK((end.position - Vector3(0.3 + std::sin(0.7) + std::cos(0.2), 0, 0.5 + std::cos(0.7) - std::sin(0.2)))
-            .norm() < 1e-14);  // a few roundings
+  CHECK((end.position - Vector3(0.3 + std::sin(0.7) + std::cos(0.2), 0, 0.5 + std::cos(0.7) - std::sin(0.2))).norm() <
+        1e-14);  // a few roundings
   CHECK((rotation_vector(end.orientation) - Vector3(0, 0.2, 0)).norm() < 1e-14);
 }
 

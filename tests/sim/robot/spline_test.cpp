@@ -41,8 +41,7 @@ TEST_CASE("spline: a spline's error falls with the fourth power of the step") {
     }
     const CubicSpline spline(times, values);
     double error = 0;
-    for (double t = 0; t < 2; t += 0.003)
-      error = std::max(error, std::abs(spline.at(t)[0] - std::sin(3 * t)));
+    for (double t = 0; t < 2; t += 0.003) error = std::max(error, std::abs(spline.at(t)[0] - std::sin(3 * t)));
     return error;
   };
   const double order = std::log2(largest_error(40) / largest_error(80));

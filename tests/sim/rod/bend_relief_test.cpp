@@ -16,7 +16,8 @@ RodProperties relieved(int n, double length, bool at_tool = false) {
 
 }  // namespace
 
-TEST_CASE("bend relief: the tip of a cantilever with a step of stiffness goes down as beam theory says, with second order") {
+TEST_CASE(
+    "bend relief: the tip of a cantilever with a step of stiffness goes down as beam theory says, with second order") {
   constexpr double load = 1e-3;  // a deflection of 3e-4 L: the elastica differs by its square
   const auto error = [&](int n, double length) {
     RodProperties p = relieved(n, length);
@@ -37,7 +38,8 @@ TEST_CASE("bend relief: the bend of a pulled hose at a slanted clamp is that of 
   // EI_i phi'' = T phi, with phi the angle to the tension; phi and EI phi' are continuous at the relief's end, phi decays beyond.
   constexpr double pull = 400, slant = 1e-3, length = 0.15;
   const double stiff = 1 + relief, deep = std::sqrt(stiff / pull), thin = std::sqrt(1 / pull);
-  const double k1 = std::sqrt(stiff * pull), k2 = std::sqrt(pull), sh = std::sinh(length / deep), ch = std::cosh(length / deep);
+  const double k1 = std::sqrt(stiff * pull), k2 = std::sqrt(pull), sh = std::sinh(length / deep),
+               ch = std::cosh(length / deep);
   const double c = -slant * (k1 * sh + k2 * ch) / (k1 * ch + k2 * sh);
   const auto exact = [&](double s) {
     return s < length ? -(slant * std::sinh(s / deep) + c * std::cosh(s / deep)) / deep

@@ -17,8 +17,7 @@ RodProperties hanging(int segments, double tip_mass) {
 /// Returns the lowest root of 1 + cos b cosh b = mu b (sin b cosh b - cos b sinh b), mu = tip mass / the rod's mass.
 double lowest_root(double mu) {
   return bisect(1e-3, 1.8751041, 80, [mu](double b) {
-    return 1 + std::cos(b) * std::cosh(b) <
-           mu * b * (std::sin(b) * std::cosh(b) - std::cos(b) * std::sinh(b));
+    return 1 + std::cos(b) * std::cosh(b) < mu * b * (std::sin(b) * std::cosh(b) - std::cos(b) * std::sinh(b));
   });
 }
 

@@ -45,8 +45,7 @@ TEST_CASE("the polymer's elements have one loss factor from 1 to 30 Hz and the g
     };
     for (double frequency = 1; frequency < 30; frequency *= 1.1) {
       CAPTURE(factor, frequency);
-      CHECK(stiffness(frequency).imag() / stiffness(frequency).real() ==
-            Approx(factor).epsilon(band_tolerance));
+      CHECK(stiffness(frequency).imag() / stiffness(frequency).real() == Approx(factor).epsilon(band_tolerance));
     }
     CHECK(stiffness(1).real() == Approx(1));  // rounding
   }
@@ -60,8 +59,7 @@ TEST_CASE("a bend to and fro follows the first bend doubled, in any direction") 
   BendMemory memory;
   const auto moment = [&](double bend) { return along.dot(elements.advance(memory, bend * along)) + bend; };
   const double turn = 1.2;
-  for (double bend = 0; bend < turn; bend += 0.01)
-    CHECK(moment(bend) == Approx(first_bend(four, bend)).margin(1e-12));
+  for (double bend = 0; bend < turn; bend += 0.01) CHECK(moment(bend) == Approx(first_bend(four, bend)).margin(1e-12));
   const double peak = moment(turn);
   for (double bend = turn; bend > -turn; bend -= 0.01)
     CHECK(moment(bend) == Approx(peak - 2 * first_bend(four, (turn - bend) / 2)).margin(1e-12));
@@ -142,10 +140,8 @@ TEST_CASE("a cantilever with friction has the Masing loop of its closed form") {
     }
     return rod.tip(state).z();
   };
-  const double tolerance =
-      0.02 * deflection(most);  // bends of 0.12 rad; each of 20 links yields at once
-  for (const double part : {most / 3, most})
-    CHECK(load_to(part) == Approx(deflection(part)).margin(tolerance));
+  const double tolerance = 0.02 * deflection(most);  // bends of 0.12 rad; each of 20 links yields at once
+  for (const double part : {most / 3, most}) CHECK(load_to(part) == Approx(deflection(part)).margin(tolerance));
   for (const double part : {most / 3, -most / 3, -most})
     CHECK(load_to(part) == Approx(deflection(most) - 2 * deflection((most - part) / 2)).margin(tolerance));
   for (const double part : {0.0, most})
@@ -199,8 +195,7 @@ TEST_CASE("a run that is cut and goes on from its state is the same run") {
   CHECK(furthest(run(start, 300), 0, run(forgets, 177)) > 1e-3);
 }
 
-TEST_CASE(
-    "motion with a loss factor converges at second order in the step, friction to less than the step's error") {
+TEST_CASE("motion with a loss factor converges at second order in the step, friction to less than the step's error") {
   const double until = 8;
   RodProperties p = DrivenCable::properties(20);
   p.loss_factor = 0.3;
@@ -270,8 +265,7 @@ Swung swing(const PublishedSwing& cable, double loss_factor) {
   for (int k = 1; k < 10000 && peaks.size() < 24; ++k) {
     if (!advance_rod(rod, solver, state, state.clamps, h)) break;
     const double bend = mean_bend(state);
-    if (k > 20 && (last - before) * (bend - last) <= 0)
-      peaks.push_back(std::abs(last)), times.push_back((k - 1) * h);
+    if (k > 20 && (last - before) * (bend - last) <= 0) peaks.push_back(std::abs(last)), times.push_back((k - 1) * h);
     before = last, last = bend;
   }
   // Amplitudes from whole ranges, because friction moves the cable's rest away from the middle.
@@ -283,8 +277,7 @@ Swung swing(const PublishedSwing& cable, double loss_factor) {
       const double decrement = std::log((peaks[m] + peaks[m + 1]) / (peaks[m + 1] + peaks[m + 2])) / pi;
       return decrement / std::sqrt(1 + decrement * decrement);
     };
-    const double u =
-        std::clamp(std::log(peaks[k] / measured.curvature) / std::log(peaks[k] / peaks[k + 1]), 0.0, 1.0);
+    const double u = std::clamp(std::log(peaks[k] / measured.curvature) / std::log(peaks[k] / peaks[k + 1]), 0.0, 1.0);
     ratios.push_back((1 - u) * at(k) + u * at(k + 1));
     durations.push_back((1 - u) * (times[k + 1] - times[k]) + u * (times[k + 2] - times[k + 1]));
   }
@@ -300,8 +293,7 @@ TEST_CASE("eight published cables swing with the friction of their loops at rest
   for (const PublishedSwing& cable : published_swings) {
     const Swung simulated = swing(cable, fitted);
     std::vector<double> measured, durations;
-    for (const HalfSwing& half : cable.half_swings)
-      measured.push_back(half.ratio), durations.push_back(half.duration);
+    for (const HalfSwing& half : cable.half_swings) measured.push_back(half.ratio), durations.push_back(half.duration);
     ratios.push_back(simulated.ratio / median(measured));
     periods.push_back(simulated.duration / median(durations));
   }

@@ -28,14 +28,11 @@ struct DrivenCable {
     p.gravity.setZero();  // applied as a load that starts smoothly
     return p;
   }
-  static Frame base() {
-    return {Vector3::Zero(), Quaternion(Eigen::AngleAxisd(std::acos(0.0), Vector3::UnitY()))};
-  }
+  static Frame base() { return {Vector3::Zero(), Quaternion(Eigen::AngleAxisd(std::acos(0.0), Vector3::UnitY()))}; }
   static ClampFrames clamps(double t) {
     const double pi = std::acos(-1.0), r = smooth(t / 3), s = smooth(t - 4), a = pi * (t - 4);
     Frame tool = base();
-    tool.position = {2 - 0.9 * r + 0.3 * s * std::sin(a), 0.5 * s * std::cos(a),
-                     0.3 * s * std::sin(a + 4 * pi / 3)};
+    tool.position = {2 - 0.9 * r + 0.3 * s * std::sin(a), 0.5 * s * std::cos(a), 0.3 * s * std::sin(a + 4 * pi / 3)};
     const Vector3 turn = (s * pi / 4 * std::sin(a) / std::sqrt(3.0)) * Vector3(1, 1, 1);
     tool.orientation = rotation(turn) * tool.orientation;
     return {base(), tool};

@@ -6,10 +6,8 @@ using namespace dresslife::sim::test;
 
 TEST_CASE("a cantilever under a tip force follows the elastica to second order") {
   // Bisshopp and Drucker (1945): P L^2/EI, deflection v/L, shortening h/L.
-  const double cases[][3] = {{1, 0.3017208, 0.0564332},
-                             {2, 0.4934575, 0.1606417},
-                             {5, 0.7137915, 0.3876284},
-                             {10, 0.8106090, 0.5549956}};
+  const double cases[][3] = {
+      {1, 0.3017208, 0.0564332}, {2, 0.4934575, 0.1606417}, {5, 0.7137915, 0.3876284}, {10, 0.8106090, 0.5549956}};
   const double tip_error_n40 = 2e-5;  // l^3 P: 1.6e-5 at P = 10, smaller for smaller P
   for (const auto& [load, v, h] : cases) {
     CAPTURE(load);
@@ -129,8 +127,7 @@ TEST_CASE("uniform bend between clamps is equal at every link") {
                         planar_frame(std::sin(moment) / moment, (1 - std::cos(moment)) / moment, moment)};
   const Equilibrium on_arc = find_equilibrium(rod, arc);
   const double arc_tolerance = moment * moment / (n * n) / 60;
-  for (int j = 0; j <= n; ++j)
-    CHECK(curvature(rod, on_arc.state, j) == Approx(moment).epsilon(arc_tolerance));
+  for (int j = 0; j <= n; ++j) CHECK(curvature(rod, on_arc.state, j) == Approx(moment).epsilon(arc_tolerance));
 }
 
 namespace {

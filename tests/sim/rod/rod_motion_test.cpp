@@ -49,8 +49,7 @@ struct Mode {
     return std::cosh(root * s) - std::cos(root * s) - sigma() * (std::sinh(root * s) - std::sin(root * s));
   }
   double slope(double s) const {
-    return root *
-           (std::sinh(root * s) + std::sin(root * s) - sigma() * (std::cosh(root * s) - std::cos(root * s)));
+    return root * (std::sinh(root * s) + std::sin(root * s) - sigma() * (std::cosh(root * s) - std::cos(root * s)));
   }
   double sigma() const { return (std::cosh(root) + std::cos(root)) / (std::sinh(root) + std::sin(root)); }
 };
@@ -60,8 +59,7 @@ struct Mode {
 struct Ringing {
   std::vector<double> crossing, peak;
 };
-Ringing ring_cantilever(const Mode& mode, int n, double damping_time, double h, int crossings,
-                        double loss_factor = 0) {
+Ringing ring_cantilever(const Mode& mode, int n, double damping_time, double h, int crossings, double loss_factor = 0) {
   RodProperties p = unit_rod(n);
   p.tool_end = End::free;
   p.damping_time = damping_time;
@@ -132,8 +130,7 @@ TEST_CASE("a cantilever with a loss factor rings and decays as its elements say,
         wave -= balance(wave) * small / (balance(wave + small) - balance(wave));
       }
       const double ratio = -wave.real() / wave.imag(), share = 0.1;
-      if (omega > 2 * pi)
-        CHECK(ratio == Approx(factor / 2).epsilon(share));  // twice the damping ratio, above 0.8 Hz
+      if (omega > 2 * pi) CHECK(ratio == Approx(factor / 2).epsilon(share));  // twice the damping ratio, above 0.8 Hz
       const int crossings = 7;
       const Ringing r = ring_cantilever({root}, 60, 0, h, crossings, factor);
       REQUIRE(r.crossing.size() == crossings);

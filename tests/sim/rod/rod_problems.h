@@ -80,8 +80,7 @@ inline RodState tip_loaded(const Rod& rod, const Frame& base, const Vector3& for
   for (int part = 1; part <= 10; ++part)
     for (int repeat = 0; repeat < 100; ++repeat) {
       const Vector3 tip = rod.tip(state);
-      state = find_equilibrium(rod, state.clamps, state, tip_force(rod, state, force * part / 10.0), newton)
-                  .state;
+      state = find_equilibrium(rod, state.clamps, state, tip_force(rod, state, force * part / 10.0), newton).state;
       if ((rod.tip(state) - tip).norm() < 1e-12) break;
     }
   return state;

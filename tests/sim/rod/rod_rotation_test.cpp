@@ -21,7 +21,7 @@ TEST_CASE("log undoes exp for every turn below half a turn") {
 }
 
 TEST_CASE("the turn between two directions is the smallest, up to half a turn") {
-  const double rounding = 1e-12;  // 1e-16 / (1 + cosine), which is 8e-4 where the rotation is not split in two
+  const double rounding = 1e-12;        // 1e-16 / (1 + cosine), which is 8e-4 where the rotation is not split in two
   const double turned_in_two = 1.4e-6;  // [rad] below half a turn; there cosines differ from -1 by 1e-12
   const Vector3 from(0.3, -0.8, 0.5), across = from.unitOrthogonal();
   for (const double less : {std::numbers::pi, std::numbers::pi - 1e-9, 2.0, 1.0, 0.04, 1e-7, 0.0}) {
@@ -49,8 +49,7 @@ TEST_CASE("a link's turn alone is that of its whole state") {
   hanging.tool_end = End::free;
   const Rod rod(std::vector<RodProperties>{p, hanging});
   RodState state = rod.straight(Frame{});
-  for (int i = 0; i < rod.segments(); ++i)
-    state.orientation[i] = rotation(Vector3(0.2 * i, -0.3, 0.1 * i * i));
+  for (int i = 0; i < rod.segments(); ++i) state.orientation[i] = rotation(Vector3(0.2 * i, -0.3, 0.1 * i * i));
   state.clamps.end(1).orientation = rotation({0.3, 0, 0});
   state.clamps.end(2).orientation = rotation({0, 0.4, 0});
   for (int j = 0; j < rod.links(); ++j) CHECK(rod.turn(state, j) == rod.link_state(state, j).turn);
@@ -67,12 +66,11 @@ TEST_CASE("a link's map G gives the rate of its rotation vector") {
     const LinkTurn turn = link_turn(a, b);
     for (int k = 0; k < 3; ++k) {
       const Vector3 spin = step * Vector3::Unit(k);
-      const Vector3 rate =
-          (link_turn(a, rotation(spin) * b).phi - link_turn(a, rotation(-spin) * b).phi) / (2 * step);
+      const Vector3 rate = (link_turn(a, rotation(spin) * b).phi - link_turn(a, rotation(-spin) * b).phi) / (2 * step);
       CHECK((turn.map.transpose().col(k) - rate).norm() < tolerance);
     }
-    const Matrix3 square = turn.stretch * turn.stretch * Matrix3::Identity() +
-                           turn.axis_excess * turn.axis * turn.axis.transpose();
+    const Matrix3 square =
+        turn.stretch * turn.stretch * Matrix3::Identity() + turn.axis_excess * turn.axis * turn.axis.transpose();
     CHECK((turn.map * turn.map.transpose() - square).norm() < 1e-13);
   }
 }

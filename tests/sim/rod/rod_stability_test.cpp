@@ -111,8 +111,7 @@ double out_of_round(const RodState& state) {
   for (size_t i = 1; i < state.position.size(); ++i)
     normal += (state.position[i - 1] - centre).cross(state.position[i] - centre);
   double most = 0;
-  for (const Vector3& x : state.position)
-    most = std::max(most, std::abs((x - centre).dot(normal.normalized())));
+  for (const Vector3& x : state.position) most = std::max(most, std::abs((x - centre).dot(normal.normalized())));
   return most;
 }
 
@@ -175,8 +174,7 @@ double loop_angle(double length, double slack, double stretch, double axial_stif
   for (int i = 0; i < n; ++i) {
     const double s = (i + 0.5) * rod.segment_length() - length / 2, slope = 0.05 / std::cosh(wave * s / 2);
     e.state.orientation[i] =
-        (rotation({0, slope * std::cos(wave * s), slope * std::sin(wave * s)}) * e.state.orientation[i])
-            .normalized();
+        (rotation({0, slope * std::cos(wave * s), slope * std::sin(wave * s)}) * e.state.orientation[i]).normalized();
   }
   EquilibriumSettings settings;
   settings.tolerance = 1e-7;  // 100 m resolve positions to 1e-14 m, times 2 EA/l
@@ -199,8 +197,7 @@ double loop_angle(double length, double slack, double stretch, double axial_stif
   }
   REQUIRE(e.negative_pivots == 0);
   double most = 0;
-  for (const Quaternion& q : e.state.orientation)
-    most = std::max(most, std::acos(std::min(1.0, tangent(q).x())));
+  for (const Quaternion& q : e.state.orientation) most = std::max(most, std::acos(std::min(1.0, tangent(q).x())));
   return most;
 }
 

@@ -53,7 +53,8 @@ TEST_CASE("bracket: a link without shapes limits nothing, and the cell counts as
   job.cell.boxes = {{{0, 0, 1}, {0, 0, 0}, {4, 4, 0.2}}};
   const Surfaces surfaces(job);
   CHECK_FALSE(surfaces.has_shapes(0));
-  const BracketFit fit = fit_of({0, {0, 0, 0.7}, 0.05}, surfaces, std::vector<std::vector<Frame>>{{at(0, 0, 0), at(9, 0, 0)}});
+  const BracketFit fit =
+      fit_of({0, {0, 0, 0.7}, 0.05}, surfaces, std::vector<std::vector<Frame>>{{at(0, 0, 0), at(9, 0, 0)}});
   CHECK(fit.length == 0);
   CHECK(fit.clearance == Approx(0.9 - 0.7 - 0.05));
   CHECK(fit.neighbour == -1);

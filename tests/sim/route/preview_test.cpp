@@ -7,10 +7,10 @@
 #include "pipeline/base/warnings.h"
 #include "pipeline/files/files.h"
 #include "pipeline/resolve/job_text.h"
+#include "sim/run/checks.h"
 #include "sim/run/cures.h"
 #include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
-#include "sim/run/checks.h"
 #include "tests/sim/simple_job.h"
 
 namespace dresslife::sim {
@@ -98,7 +98,8 @@ std::vector<pipeline::Warning> warnings_in(const pipeline::Job& job) {
 }
 
 TEST_CASE("a remedy of check is applied and checked again: no warning is left") {
-  const std::filesystem::path file = std::filesystem::path(DRESSLIFE_SOURCE_DIR) / "config/jobs/irb6640_spot_welding.yaml";
+  const std::filesystem::path file =
+      std::filesystem::path(DRESSLIFE_SOURCE_DIR) / "config/jobs/irb6640_spot_welding.yaml";
   std::vector<std::string> sets{"simulation.segments=24", "routing.free_length_m=1.86"};
   const std::vector<pipeline::Warning> warnings = warnings_in(pipeline::read_job(file, sets));
   REQUIRE_FALSE(warnings.empty());

@@ -26,8 +26,8 @@ double beyond(const pipeline::Setup& setup, ScreenedLimit limit) {
 pipeline::Routing& routing(pipeline::Job& job) { return job.dresspacks.front().routing; }
 
 pipeline::Job shipped_job(const std::vector<std::string>& sets = {}) {
-  return pipeline::read_job(
-      std::filesystem::path(DRESSLIFE_SOURCE_DIR) / "config/jobs/irb6640_spot_welding.yaml", sets);
+  return pipeline::read_job(std::filesystem::path(DRESSLIFE_SOURCE_DIR) / "config/jobs/irb6640_spot_welding.yaml",
+                            sets);
 }
 
 }  // namespace
@@ -73,8 +73,7 @@ TEST_CASE("bend radius is that of a smooth curve between the clamps (V3)") {
 TEST_CASE("a hose in a link is graded by how deep it lies there (V5)") {
   pipeline::Job job = simple_job();
   CHECK(beyond(job, ScreenedLimit::overlap) < -0.5);
-  job.robot.links[0].capsules = {
-      {{0.45, 0, 0.2}, {0.45, 0, 2}, 0.1}};  // a post across the hose at any sag
+  job.robot.links[0].capsules = {{{0.45, 0, 0.2}, {0.45, 0, 2}, 0.1}};  // a post across the hose at any sag
   const double shallow = beyond(job, ScreenedLimit::overlap);
   job.robot.links[0].capsules[0].radius = 0.2;
   CHECK(shallow > 0);
@@ -106,16 +105,14 @@ TEST_CASE("a clamp in the air or in a neighbour has no bracket (V7)") {
   const auto tool = static_cast<std::size_t>(find_link(job.robot, routing(job).tool_clamp->link, {}));
   REQUIRE(base != tool);
   for (pipeline::Link& link : job.robot.links) link.capsules.clear(), link.boxes.clear();
-  job.robot.links[tool].capsules = {
-      {routing(job).tool_clamp->position, routing(job).tool_clamp->position, 0.01}};
+  job.robot.links[tool].capsules = {{routing(job).tool_clamp->position, routing(job).tool_clamp->position, 0.01}};
   job.robot.links[base].capsules = {{clamp + Vector3{0, 0, 0.4}, clamp + Vector3{0, 0, 1}, 0.1}};
   CHECK(g(0.15) == Approx((0.3 - diameter / 2 - 0.15) / diameter));
   CHECK(Screener(job, true).screen(job).rejected());
   CHECK(g(0.3) < 0);
 }
 
-TEST_CASE(
-    "proposed clamps have a bracket within the limit, and a link without such a place is refused at once") {
+TEST_CASE("proposed clamps have a bracket within the limit, and a link without such a place is refused at once") {
   pipeline::Job job = shipped_job();
   ProposalSettings settings;
   settings.tried = 60;
@@ -158,8 +155,7 @@ TEST_CASE("proposals keep what the screening asks and are the same for the same 
     CHECK(first[k].routing.base_clamp->position == again[k].routing.base_clamp->position);
   }
   settings.seed = 2;
-  CHECK(propose(job, settings).front().routing.base_clamp->position !=
-        first.front().routing.base_clamp->position);
+  CHECK(propose(job, settings).front().routing.base_clamp->position != first.front().routing.base_clamp->position);
 }
 
 TEST_CASE("every shipped robot has a home pose with its forearm level, and an exercise that it can run") {
@@ -167,9 +163,9 @@ TEST_CASE("every shipped robot has a home pose with its forearm level, and an ex
     const std::string name = file.path().stem().string();
     const std::string motoman = name.starts_with("motoman") ? "_u" : "", last = motoman.empty() ? "" : "_t";
     INFO(name);
-    pipeline::Job job = shipped_job(
-        {"robot=" + name, "routing.base_clamp.link=link_3" + motoman, "routing.tool_clamp.link=link_6" + last,
-         "motion={name: x, source: x, steps: [{joints_deg: [0, -50, 0, 0, 0, 0]}]}"});
+    pipeline::Job job = shipped_job({"robot=" + name, "routing.base_clamp.link=link_3" + motoman,
+                                     "routing.tool_clamp.link=link_6" + last,
+                                     "motion={name: x, source: x, steps: [{joints_deg: [0, -50, 0, 0, 0, 0]}]}"});
     job.motion = exercise(job.robot);
     const RobotKinematics kinematics(job.robot);
     std::vector<double> joints = home_pose(job.robot);

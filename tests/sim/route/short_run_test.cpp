@@ -42,8 +42,7 @@ TEST_CASE("a short run grades what the run's checks saw") {
   const auto check = [&](const char* name) {
     return *std::find_if(checks.begin(), checks.end(), [&](const Check& of) { return of.name == name; });
   };
-  CHECK(std::exp(beyond(found, ScreenedLimit::bend)) * check("smallest bend radius").value ==
-        Approx(10 * 0.04));
+  CHECK(std::exp(beyond(found, ScreenedLimit::bend)) * check("smallest bend radius").value == Approx(10 * 0.04));
   // 2 rad in 1 m. The hose sags, so the twists of its links differ a little.
   constexpr double of_its_sag = 0.1;
   CHECK(beyond(found, ScreenedLimit::twist) == Approx(2 / std::numbers::pi - 1).margin(of_its_sag));
@@ -69,12 +68,10 @@ TEST_CASE("bends of a short run are reported by moment and stretch, and their la
   const double length = job.dresspacks.front().routing.free_length;
   simulation.run({[&](const Sample& sample) {
     int moment = 0, stretch = 0;
-    while (moment + 1 < bend_moments &&
-           (moment + 1) * simulation.path().duration() <= bend_moments * sample.time)
+    while (moment + 1 < bend_moments && (moment + 1) * simulation.path().duration() <= bend_moments * sample.time)
       ++moment;
     for (int j = 0; j < rod.links(); ++j) {
-      while (stretch + 1 < bend_stretches && (stretch + 1) * length <= bend_stretches * rod.link_arc(j))
-        ++stretch;
+      while (stretch + 1 < bend_stretches && (stretch + 1) * length <= bend_stretches * rod.link_arc(j)) ++stretch;
       const Vector3 turn = rod.link_state(sample.state, j).turn;
       double& of = sharpest[moment * bend_stretches + stretch];
       of = std::max(of, std::hypot(turn.x(), turn.y()) / rod.bending_length(j));
@@ -99,7 +96,7 @@ TEST_CASE("a short run measures the rubbing of a hose on a table as a full run d
   REQUIRE(work > 0);
   const double duration = path_of(job)->duration();
   CHECK(full.rubbing_power() == Approx(work / duration).epsilon(0.02));  // the last sample may end after the motion
-  for (const bool with_bends : {true, false})  // with all results, and with checks alone
+  for (const bool with_bends : {true, false})                            // with all results, and with checks alone
     CHECK(short_run_of(job, as_the_job, as_the_job, with_bends).rubbing == Approx(full.rubbing_power()).epsilon(1e-9));
   const auto notes = [&] {
     std::string text;
@@ -113,9 +110,9 @@ TEST_CASE("a short run measures the rubbing of a hose on a table as a full run d
 }
 
 TEST_CASE("proposals with a short run keep all limits in the job's own run") {
-  pipeline::Job job = pipeline::read_job(
-      std::filesystem::path(DRESSLIFE_SOURCE_DIR) / "config/jobs/irb6640_spot_welding.yaml",
-      {"robot=abb_irb2600_12_165", "dresspack=thesis_welding", "simulation.segments=20"});
+  pipeline::Job job =
+      pipeline::read_job(std::filesystem::path(DRESSLIFE_SOURCE_DIR) / "config/jobs/irb6640_spot_welding.yaml",
+                         {"robot=abb_irb2600_12_165", "dresspack=thesis_welding", "simulation.segments=20"});
   job.motion = exercise(job.robot);
   job.dresspacks.front().dresspack = pipeline::scaled(job.dresspacks.front().dresspack, 0.3);
   ProposalSettings settings;

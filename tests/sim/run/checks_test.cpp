@@ -94,7 +94,8 @@ TEST_CASE("checks: too short and too long are reported with their moment") {
   job.robot.joints[0].origin = {0.05, 0, 1};
   job.motion.steps = {move_to(pi / 2), move_to(-pi / 2, "sweep")};
   job.dresspacks[0].routing.free_length = 0.96;  // largest distance from the base clamp, at angle 0: 0.95 m
-  job.dresspacks[0].dresspack.least_bend_radius = 0.03;  // far below the radius that occurs: the only warning is about slack
+  job.dresspacks[0].dresspack.least_bend_radius =
+      0.03;  // far below the radius that occurs: the only warning is about slack
   const Simulation simulation(job);
   const RunSummary summary = simulation.run({[](const Sample&) {}});
   const Check& little = find(summary.checks, "least slack, length too short");
@@ -107,10 +108,11 @@ TEST_CASE("checks: too short and too long are reported with their moment") {
   for (const pipeline::Warning& warning : warnings_of(simulation, summary)) {
     const std::string line = warning.line();
     lines += line + "\n";
-    told |= warning.kind == pipeline::WarningKind::slack &&
-            line.starts_with("warning: least slack, length too short: 10.0 mm (limit 19.2 mm) at ") &&
-            line.find("'sweep'. Likely cause: the clamps are 0.950 m apart") != std::string::npos &&
-            line.find("Remedy: routing.free_length_m: 0.970 (bend radius at rest ") != std::string::npos;  // 0.95 / 0.98
+    told |=
+        warning.kind == pipeline::WarningKind::slack &&
+        line.starts_with("warning: least slack, length too short: 10.0 mm (limit 19.2 mm) at ") &&
+        line.find("'sweep'. Likely cause: the clamps are 0.950 m apart") != std::string::npos &&
+        line.find("Remedy: routing.free_length_m: 0.970 (bend radius at rest ") != std::string::npos;  // 0.95 / 0.98
   }
   CAPTURE(lines);
   CHECK(told);

@@ -1,5 +1,5 @@
-#include "pipeline/base/constants.h"
 #include "sim/run/clamp_path.h"
+#include "pipeline/base/constants.h"
 #include "pipeline/job/job.h"
 #include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
@@ -26,14 +26,13 @@ std::string message_of(const std::string& name, const std::string& text) {
 }
 
 TEST_CASE("clamp path: recorded poses are met at their rows and turn smoothly between") {
-  std::string text =
-      "t,x,y,z,qw,qx,qy,qz,x,y,z,qw,qx,qy,qz\n# a turn about z at 1 rad/s, signs as they come\n";
+  std::string text = "t,x,y,z,qw,qx,qy,qz,x,y,z,qw,qx,qy,qz\n# a turn about z at 1 rad/s, signs as they come\n";
   for (int k = 0; k <= 80; ++k) {
     const double t = 0.1 * k;
     Quaternion q(Eigen::AngleAxisd(t, Vector3::UnitZ()));
     if (q.w() < 0) q.coeffs() = -q.coeffs();  // the sign that many programs write
-    text += fmt::format("{}, {},0,0,1,0,0,0, 1,0,{},{},{},{},{}\r\n", t, std::sin(t), std::cos(t), q.w(),
-                        q.x(), q.y(), q.z());
+    text += fmt::format("{}, {},0,0,1,0,0,0, 1,0,{},{},{},{},{}\r\n", t, std::sin(t), std::cos(t), q.w(), q.x(), q.y(),
+                        q.z());
   }
   const pipeline::Scratch scratch;
   const RecordedPath path(scratch.write("turn.csv", text));
@@ -47,8 +46,7 @@ TEST_CASE("clamp path: recorded poses are met at their rows and turn smoothly be
     CHECK(std::abs(pose.clamps.base.position.x() - std::sin(t)) < spline_error);
     CHECK(std::abs(pose.clamps.tool.position.z() - std::cos(t)) < spline_error);
     const Quaternion& q = pose.clamps.tool.orientation;
-    CHECK(rotation_vector(q.conjugate() * Quaternion(Eigen::AngleAxisd(t, Vector3::UnitZ()))).norm() <
-          spline_error);
+    CHECK(rotation_vector(q.conjugate() * Quaternion(Eigen::AngleAxisd(t, Vector3::UnitZ()))).norm() < spline_error);
     CHECK(q.dot(before) > 0.999);  // no jump of sign
     CHECK(std::abs(q.norm() - 1) < rounding);
     before = q;
@@ -76,8 +74,7 @@ TEST_CASE("clamp path: a bad cell is named by line and column") {
         "e.csv:5:1: error: time 0.5 s does not follow 0.5 s (must increase); sort the "
         "rows and "
         "drop repeated ones");
-  CHECK(message_of("f.csv", row(1)) ==
-        "f.csv:1:1: error: first time is 1 s (must be 0); subtract it from every row");
+  CHECK(message_of("f.csv", row(1)) == "f.csv:1:1: error: first time is 1 s (must be 0); subtract it from every row");
   CHECK(message_of("g.csv", row(0, unit_pose, ",0,0,0,0.9,0,0,0")) ==
         "g.csv:1:23: error: quaternion has length 0.9 (must be 1 within 0.001); write a "
         "unit "
@@ -86,8 +83,7 @@ TEST_CASE("clamp path: a bad cell is named by line and column") {
         "h.csv:2:9: error: clamp turns by 180.0 deg from the row before (more than 120: "
         "which way "
         "is not clear); write rows closer in time");
-  CHECK(message_of("i.csv", "t,x\n\n") ==
-        "i.csv:2: error: clamp_poses holds no row; write t and 14 numbers per row");
+  CHECK(message_of("i.csv", "t,x\n\n") == "i.csv:2: error: clamp_poses holds no row; write t and 14 numbers per row");
 }
 
 TEST_CASE("clamp path: a file that is not there is named") {
@@ -127,10 +123,8 @@ pipeline::Job turning_job() {
     step.joints = {angle};
     job.motion.steps.push_back(step);
   }
-  job.dresspacks[0].routing.base_clamp =
-      pipeline::Clamp{"base", {0, 0, 1}, {0, 0, 1}, {}, {"job.yaml", 8, 3}};
-  job.dresspacks[0].routing.tool_clamp =
-      pipeline::Clamp{"table", {1, 0, 2}, {1, 0, 0}, 0.25, {"job.yaml", 9, 3}};
+  job.dresspacks[0].routing.base_clamp = pipeline::Clamp{"base", {0, 0, 1}, {0, 0, 1}, {}, {"job.yaml", 8, 3}};
+  job.dresspacks[0].routing.tool_clamp = pipeline::Clamp{"table", {1, 0, 2}, {1, 0, 0}, 0.25, {"job.yaml", 9, 3}};
   return job;
 }
 
@@ -142,8 +136,7 @@ TEST_CASE("clamp path: the tool clamp goes round with its link for more than two
     const Pose pose = path.at(t);
     const double angle = pose.joints[0];
     CHECK((pose.clamps.tool.position - Vector3(std::cos(angle), std::sin(angle), 2)).norm() < rounding);
-    CHECK((tangent(pose.clamps.tool.orientation) - Vector3(std::cos(angle), std::sin(angle), 0)).norm() <
-          rounding);
+    CHECK((tangent(pose.clamps.tool.orientation) - Vector3(std::cos(angle), std::sin(angle), 0)).norm() < rounding);
     CHECK(pose.clamps.tool.orientation.dot(before) > 0.9999);
     CHECK(pose.clamps.base.position == Vector3(0, 0, 1));
     before = pose.clamps.tool.orientation;
@@ -165,10 +158,9 @@ TEST_CASE("clamp path: the pose of mounting is the first waypoint or what the ro
   CHECK(RobotPath(job).mounting_pose()[0] == 1.5);
   job.dresspacks[0].routing.mounting_pose = {30};
   job.dresspacks[0].routing.where = {"job.yaml", 7, 1};
-  CHECK_THROWS_WITH(
-      RobotPath(job),
-      "job.yaml:7:1: error: routing.mounting_pose_deg turns table to 1718.87 deg (must be within "
-      "-1145.92 .. 1145.92 deg); turn it 573 deg less, inside the limits of turntable");
+  CHECK_THROWS_WITH(RobotPath(job),
+                    "job.yaml:7:1: error: routing.mounting_pose_deg turns table to 1718.87 deg (must be within "
+                    "-1145.92 .. 1145.92 deg); turn it 573 deg less, inside the limits of turntable");
 }
 
 TEST_CASE("clamp path: external axes that the motion moves and the robot does not have are named") {
@@ -188,8 +180,7 @@ TEST_CASE("clamp path: external axes that the motion moves and the robot does no
   CHECK(RobotPath(job).doubts().empty());
 }
 
-TEST_CASE(
-    "clamp path: times that an axis cannot keep are named, the worst with axis, time, speed and limit") {
+TEST_CASE("clamp path: times that an axis cannot keep are named, the worst with axis, time, speed and limit") {
   pipeline::Job job = turning_job();  // 2 rad/s = 114.6 deg/s
   const auto doubts = [&](const std::vector<double>& angles) {
     pipeline::MotionStep step = job.motion.steps[0];
@@ -230,8 +221,7 @@ TEST_CASE("clamp path: a program of another maker that the robot cannot follow i
 TEST_CASE("clamp path: a clamp on no link is named") {
   pipeline::Job job = turning_job();
   job.dresspacks[0].routing.tool_clamp->link = "tabel";
-  CHECK_THROWS_WITH(RobotPath(job),
-                    "job.yaml:9:3: error: turntable has no link 'tabel'; use one of base, table");
+  CHECK_THROWS_WITH(RobotPath(job), "job.yaml:9:3: error: turntable has no link 'tabel'; use one of base, table");
 }
 
 }  // namespace

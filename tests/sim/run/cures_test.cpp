@@ -36,7 +36,8 @@ double value_of(const std::string& words, const std::string& key) {
 
 std::string of_length_and_bend(const pipeline::Job& job) {
   for (const pipeline::Warning& warning : quick_warnings(job).warnings)
-    if (warning.kind == pipeline::WarningKind::bend_radius || warning.kind == pipeline::WarningKind::slack) return warning.words;
+    if (warning.kind == pipeline::WarningKind::bend_radius || warning.kind == pipeline::WarningKind::slack)
+      return warning.words;
   return "";
 }
 
@@ -55,8 +56,7 @@ pipeline::Job swinging_job(double free_length) {
 TEST_CASE("a short run of a long program ends after its share of work, with the checks until then") {
   pipeline::Job job = simple_job();
   job.simulation.segments = 60;
-  job.motion.steps = {move_to(0), move_to(0.5), dwell_for(900),
-                      move_to(0)};  // 180,000 steps of 60 segments: 1.1e7
+  job.motion.steps = {move_to(0), move_to(0.5), dwell_for(900), move_to(0)};  // 180,000 steps of 60 segments: 1.1e7
   const ShortRun run = short_run(job, short_run_segments);
   INFO(run.refusal);
   REQUIRE(run.stopped_at);
@@ -92,7 +92,8 @@ TEST_CASE("a changed routing is checked only until a limit decides") {
   int asked = 0;
   const auto at = [&](int last) {
     asked = 0;
-    return findings_unless(job, [&](const QuickFindings&) { return ++asked == last; }, 0, 0);
+    return findings_unless(
+        job, [&](const QuickFindings&) { return ++asked == last; }, 0, 0);
   };
   CHECK(at(1).run.work == 0);  // only the slack is evaluated
   const QuickFindings all = at(-1), found = quick_findings(job);
@@ -126,7 +127,8 @@ TEST_CASE("cures: a twist to one side is cured by a pre-twist, one to both sides
   job.simulation.most_repeats = 1;
   job.dresspacks[0].dresspack.most_twist = 1.4;  // [rad/m]; the motion twists the sagging hose of 1 m by 0 .. 1.8 rad
   std::string words = words_of(job, pipeline::WarningKind::twist);
-  CHECK_THAT(words, Catch::Contains("-hand), ") && Catch::Contains("m from the base clamp") && Catch::Contains("step 2 'turn'"));
+  CHECK_THAT(words, Catch::Contains("-hand), ") && Catch::Contains("m from the base clamp") &&
+                        Catch::Contains("step 2 'turn'"));
   job.dresspacks[0].routing.pre_twist = value_of(words, "routing.pre_twist_deg") * degree;
   CHECK(words_of(job, pipeline::WarningKind::twist) == "");
 
@@ -178,7 +180,8 @@ TEST_CASE("cures: a bend that is there at rest is cured by a length or by direct
     const std::size_t at = words.find(key);
     if (at == std::string::npos) continue;
     pipeline::Vector3d direction;
-    REQUIRE(std::sscanf(words.c_str() + at + key.size(), "%lf, %lf, %lf", &direction[0], &direction[1], &direction[2]) == 3);
+    REQUIRE(std::sscanf(words.c_str() + at + key.size(), "%lf, %lf, %lf", &direction[0], &direction[1],
+                        &direction[2]) == 3);
     auto& of = std::string(clamp) == "base_clamp" ? job.dresspacks[0].routing.base_clamp
                                                   : job.dresspacks[0].routing.tool_clamp;
     of->direction = direction;
@@ -190,9 +193,10 @@ TEST_CASE("cures: a limit that no length and no direction keeps says so, with th
   pipeline::Job job = swinging_job(1.0);
   job.dresspacks[0].dresspack.least_bend_radius = 30;  // of nearly straight hoses
   const std::string words = words_of(job, pipeline::WarningKind::bend_radius);
-  CHECK_THAT(words, Catch::Contains("with these two clamps no length and no direction that was tried") &&
-                        Catch::Contains("Remedy: other clamps (`dresslife route` searches them, unless it proposed these)") &&
-                        Catch::Contains(" mm at rest, too little for a short run; required: 30000.0 mm"));
+  CHECK_THAT(words,
+             Catch::Contains("with these two clamps no length and no direction that was tried") &&
+                 Catch::Contains("Remedy: other clamps (`dresslife route` searches them, unless it proposed these)") &&
+                 Catch::Contains(" mm at rest, too little for a short run; required: 30000.0 mm"));
   job.dresspacks[0].dresspack.least_bend_radius = value_of(words, "dresspack.least_bend_radius_mm") / 1000;
   CHECK(words_of(job, pipeline::WarningKind::bend_radius) == "");
 }
@@ -207,7 +211,10 @@ TEST_CASE("cures: a limit that a length keeps at rest and none keeps in a run is
     CAPTURE(limit, words);
     const std::size_t at = words.find(" m, bend radius ");
     if (at == std::string::npos) continue;
-    CHECK_THAT(words, Catch::Contains("Remedy: other clamps (`dresslife route` searches them, unless it proposed these): with these two clamps no length and no direction"));
+    CHECK_THAT(
+        words,
+        Catch::Contains(
+            "Remedy: other clamps (`dresslife route` searches them, unless it proposed these): with these two clamps no length and no direction"));
     const double rest = std::stod(words.substr(at + 16));
     const std::size_t run = words.find(" mm at rest, ");
     REQUIRE(run != std::string::npos);
@@ -226,7 +233,8 @@ TEST_CASE("cures: where a length keeps the limits, the length alone is named, on
     INFO(warning.words);
     const std::size_t at = warning.words.find("Remedy: ");
     REQUIRE(at != std::string::npos);
-    CHECK_THAT(warning.words, Catch::Contains("Remedy: routing.free_length_m: ") && !Catch::Contains("no length and no direction"));
+    CHECK_THAT(warning.words,
+               Catch::Contains("Remedy: routing.free_length_m: ") && !Catch::Contains("no length and no direction"));
     if (remedies.empty()) remedies = warning.words.substr(at);
     CHECK(warning.words.substr(at) == remedies);
   }
@@ -248,15 +256,19 @@ TEST_CASE("cures: where a length keeps the limits, the length alone is named, on
 TEST_CASE("cures: ten diameters count where no bend radius is given, and the warning says which key would say so") {
   pipeline::Job job = swinging_job(1.3);
   job.dresspacks[0].routing.tool_clamp->direction = {0, 1, 0};
-  CHECK_THAT(words_of(job, pipeline::WarningKind::bend_radius),
-             Catch::Contains("dresspack.least_bend_radius_mm is not given, so that ten diameters of the hose (40 mm) count, because"));
+  CHECK_THAT(
+      words_of(job, pipeline::WarningKind::bend_radius),
+      Catch::Contains(
+          "dresspack.least_bend_radius_mm is not given, so that ten diameters of the hose (40 mm) count, because"));
   pipeline::Dresspack& dresspack = job.dresspacks[0].dresspack;
   dresspack.hose_corrugation = pipeline::Corrugation{};
   dresspack.components.assign(2, {});
-  dresspack.components[0].radius = 0.002, dresspack.components[1].radius = 0.006, dresspack.components[1].helix_radius = 0.01;
+  dresspack.components[0].radius = 0.002, dresspack.components[1].radius = 0.006,
+  dresspack.components[1].helix_radius = 0.01;
   dresspack.components[1].name = "power";
   CHECK(pipeline::least_bend_radius(dresspack) == Approx(0.13));
-  CHECK_THAT(pipeline::bend_rule(dresspack), Catch::Contains("ten diameters of 'power' (12 mm) in the hose, 10 mm off its axis, count"));
+  CHECK_THAT(pipeline::bend_rule(dresspack),
+             Catch::Contains("ten diameters of 'power' (12 mm) in the hose, 10 mm off its axis, count"));
   dresspack.diameter = 0.05;
   CHECK(pipeline::least_bend_radius(dresspack) == Approx(0.15));
   CHECK_THAT(pipeline::bend_rule(dresspack), Catch::Contains("3 diameters of the hose (50 mm) count"));
@@ -270,11 +282,13 @@ TEST_CASE("cures: a bend beside a clamp names its bend relief, unless it has one
   CHECK_THAT(words, Catch::Contains("dresslife improve tries: routing.base_clamp.bend_relief={length_mm: 120, ") &&
                         Catch::Contains(" and simulation.segments=44 (with 20 it tries four segments, 260 mm)"));
   CHECK(pipeline::first_relief(0.04, 2, 1.3 / 20).length == Approx(0.26));  // the relief of improve
-  job.dresspacks[0].routing.base_clamp->bend_relief = {0.1, 0};  // without stiffness: an identical run
-  CHECK_THAT(words_of(job, pipeline::WarningKind::bend_radius), Catch::Contains("Remedy") && !Catch::Contains("bend_relief"));
+  job.dresspacks[0].routing.base_clamp->bend_relief = {0.1, 0};             // without stiffness: an identical run
+  CHECK_THAT(words_of(job, pipeline::WarningKind::bend_radius),
+             Catch::Contains("Remedy") && !Catch::Contains("bend_relief"));
 }
 
-TEST_CASE("cures: segments longer than the decay of a bend beside a pulled clamp are warned of, with the number that cures it") {
+TEST_CASE(
+    "cures: segments longer than the decay of a bend beside a pulled clamp are warned of, with the number that cures it") {
   pipeline::Job job = swinging_job(1.3);
   CHECK(words_of(job, pipeline::WarningKind::mesh) == "");
   job.simulation.segments = 16;
@@ -311,7 +325,8 @@ pipeline::Job remedied(pipeline::Job job, const std::string& words) {
     const std::size_t at = remedy.find(key);
     if (at == std::string::npos) continue;
     pipeline::Vector3d direction;
-    REQUIRE(std::sscanf(remedy.c_str() + at + key.size(), "%lf, %lf, %lf", &direction[0], &direction[1], &direction[2]) == 3);
+    REQUIRE(std::sscanf(remedy.c_str() + at + key.size(), "%lf, %lf, %lf", &direction[0], &direction[1],
+                        &direction[2]) == 3);
     (std::string(clamp) == "base" ? routing.base_clamp : routing.tool_clamp)->direction = direction;
   }
   return job;

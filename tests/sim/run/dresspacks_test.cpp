@@ -97,8 +97,7 @@ TEST_CASE("two dresspacks far apart move as each does in a world of its own") {
     base.position.y() += y, tool.position.y() += y;
     return ClampFrames{base, tool};
   };
-  const Equilibrium a = find_equilibrium(first, clamps_of(0, 0)),
-                    b = find_equilibrium(second, clamps_of(0, 2));
+  const Equilibrium a = find_equilibrium(first, clamps_of(0, 0)), b = find_equilibrium(second, clamps_of(0, 2));
   REQUIRE(a.status == EquilibriumStatus::converged);
   REQUIRE(b.status == EquilibriumStatus::converged);
   WorldSettings settings;
@@ -149,8 +148,7 @@ TEST_CASE("a dresspack laid across another is held by it and takes from it what 
   const auto momentum = [&](int dresspack) {
     Vector3 sum = Vector3::Zero();
     const Span& span = both.spans()[dresspack];
-    for (int i = 0; i < span.segments(); ++i)
-      sum += span.segment_mass * world.state().velocity[span.first_segment + i];
+    for (int i = 0; i < span.segments(); ++i) sum += span.segment_mass * world.state().velocity[span.first_segment + i];
     return sum;
   };
   const auto pull = [&](int dresspack) {
@@ -173,14 +171,12 @@ TEST_CASE("a dresspack laid across another is held by it and takes from it what 
       given += contact.normal_force * contact.normal + contact.friction_force;
       hardest = std::max(hardest, contact.normal_force);
     }
-    const Vector3 to_first = momentum(0) - before[0] - h * pull(0),
-                  to_second = momentum(1) - before[1] - h * pull(1);
+    const Vector3 to_first = momentum(0) - before[0] - h * pull(0), to_second = momentum(1) - before[1] - h * pull(1);
     unexplained = std::max(unexplained, (to_first + to_second).norm());
     difference = std::max(difference, (to_first - h * given).norm());
     exchanged = std::max(exchanged, to_first.norm());
   }
-  INFO("unexplained " << unexplained << " of " << exchanged << " N s, hardest " << hardest << " N, deepest "
-                      << depth);
+  INFO("unexplained " << unexplained << " of " << exchanged << " N s, hardest " << hardest << " N, deepest " << depth);
   const double rounding = 1e-11;  // [N s] as in self_contact_test.cpp
   CHECK(unexplained < rounding);
   CHECK(difference < rounding);
@@ -203,8 +199,7 @@ TEST_CASE("dresspacks of a job far apart move as in jobs of their own") {
   const std::string thick = hose_text(40, 0.3), thin = hose_text(20, 0.2);
   const std::string here = routing_text(1.3, 0), there = routing_text(1.2, 0.6);
   const std::string once = ", most_repeats: 1";
-  const Run both =
-      run(job_text("dresspacks:\n" + item("hose", thick, here) + item("dress cable", thin, there), once));
+  const Run both = run(job_text("dresspacks:\n" + item("hose", thick, here) + item("dress cable", thin, there), once));
   const Run first = run(job_text("dresspack: " + thick + "\nrouting: " + here + "\n", once));
   const Run second = run(job_text("dresspack: " + thin + "\nrouting: " + there + "\n", once));
   REQUIRE(both.states.size() == first.states.size());
@@ -258,16 +253,13 @@ TEST_CASE("dresspacks of a job that would hang through each other are mounted si
 
 TEST_CASE("messages and warnings name the dresspack among several") {
   const std::string hose = item("hose", hose_text(40, 0.3), routing_text(1.3, 0));
-  const std::string too_short = message_of(
-      job_text("dresspacks:\n" + hose + item("dress cable", hose_text(20, 0.2), routing_text(1, 0.6))));
-  CHECK_THAT(too_short,
-             Catch::Contains("job.yaml:17:14: error: dresspack 'dress cable' is 174.1 mm too short at "));
-  const Run both =
-      run(job_text("dresspacks:\n" + hose + item("dress cable", hose_text(60, 0.2), routing_text(2.4, 0.6)),
-                   ", most_repeats: 1"));
+  const std::string too_short =
+      message_of(job_text("dresspacks:\n" + hose + item("dress cable", hose_text(20, 0.2), routing_text(1, 0.6))));
+  CHECK_THAT(too_short, Catch::Contains("job.yaml:17:14: error: dresspack 'dress cable' is 174.1 mm too short at "));
+  const Run both = run(job_text(
+      "dresspacks:\n" + hose + item("dress cable", hose_text(60, 0.2), routing_text(2.4, 0.6)), ", most_repeats: 1"));
   std::string told;
-  for (const pipeline::Warning& warning : warnings_of(*both.simulation, both.summary))
-    told += warning.line() + "\n";
+  for (const pipeline::Warning& warning : warnings_of(*both.simulation, both.summary)) told += warning.line() + "\n";
   CHECK_THAT(told, Catch::Contains("warning: dress cable, smallest bend radius: ") &&
                        Catch::Contains("warning: dress cable, least slack, length too long: ") &&
                        !Catch::Contains("warning: hose, least slack"));

@@ -27,8 +27,7 @@ class Numbers {
 
 double largest_torsion(const Rod& rod, const RodState& state) {
   double torsion = 0;
-  for (int j = 0; j < rod.links(); ++j)
-    torsion = std::max(torsion, std::abs(rod.link_state(state, j).moment.z()));
+  for (int j = 0; j < rod.links(); ++j) torsion = std::max(torsion, std::abs(rod.link_state(state, j).moment.z()));
   return torsion;
 }
 
@@ -129,9 +128,8 @@ TEST_CASE("an equilibrium stands still in the world") {
       moved = std::max(moved, (world.state().position[i] - e.state.position[i]).norm());
     }
   }
-  CHECK(fastest <
-        1e-6);  // [m/s] residual forces of 1e-8 of about 10 N on 0.1 kg over 5 ms, and their accumulation
-  CHECK(moved < 1e-6);  // [m]
+  CHECK(fastest < 1e-6);  // [m/s] residual forces of 1e-8 of about 10 N on 0.1 kg over 5 ms, and their accumulation
+  CHECK(moved < 1e-6);    // [m]
 }
 
 TEST_CASE("a twist-free clamp carries no torsion, whatever roll it was given") {

@@ -27,8 +27,7 @@ TEST_CASE("motion file: what the run hands over can be read back") {
       steps.push_back(sample.step);
       for (const Vector3& x : sample.state.position) positions.insert(positions.end(), x.begin(), x.end());
       for (const Frame& f : {sample.pose.clamps.base, sample.pose.clamps.tool})
-        clamps.insert(clamps.end(),
-                      {f.orientation.w(), f.orientation.x(), f.orientation.y(), f.orientation.z()});
+        clamps.insert(clamps.end(), {f.orientation.w(), f.orientation.x(), f.orientation.y(), f.orientation.z()});
       joints.push_back(sample.pose.joints[0]);
     }});
     motion.finish(summary, [&](double time) { return simulation.path().step(time); });
@@ -44,16 +43,14 @@ TEST_CASE("motion file: what the run hands over can be read back") {
   CHECK(file.read<double>("/time") == times);
   const auto kept = file.read<double>("/segment/position");
   REQUIRE(kept.size() == positions.size());
-  constexpr double half_decimal =
-      0.5e-12 + 1e-15;  // of the twelve decimals in the file, and rounding of 1 m in double
+  constexpr double half_decimal = 0.5e-12 + 1e-15;  // of the twelve decimals in the file, and rounding of 1 m in double
   for (std::size_t k = 0; k < kept.size(); ++k) REQUIRE(std::abs(kept[k] - positions[k]) <= half_decimal);
   CHECK(file.read<double>("/segment/length") == std::vector<double>(20, 0.05));
   CHECK(file.read<double>("/clamp/orientation") == clamps);
   CHECK(file.read<double>("/robot/joint_position") == joints);
   CHECK(file.dataset_attribute("/robot/link_pose", "links") == "bench,spindle");
   CHECK(file.read<std::int32_t>("/program/step") == steps);
-  CHECK(file.read<std::string>("/program/text") ==
-        std::vector<std::string>{"start", "turn", "dwell 3", "back"});
+  CHECK(file.read<std::string>("/program/text") == std::vector<std::string>{"start", "turn", "dwell 3", "back"});
   CHECK(file.rows("/energy") == times.size());
   CHECK(file.rows("/tension") == times.size());
   CHECK(file.rows("/contact/max_depth") == times.size());
@@ -92,7 +89,8 @@ TEST_CASE("motion file: the loops of the program") {
     for (const char* name : {"job", "history", "input_sha256"}) writer.attribute(name, "");
     writer.commit();
   }
-  const auto kept = pipeline::FileReader(scratch / "motion.h5", pipeline::motion_format()).read<double>("/program/loop");
+  const auto kept =
+      pipeline::FileReader(scratch / "motion.h5", pipeline::motion_format()).read<double>("/program/loop");
   REQUIRE(kept.size() == 3);
   CHECK(kept[2] >= 5);  // the first round begins with another move
   for (int round = 0; round < static_cast<int>(kept[2]); ++round)

@@ -31,14 +31,16 @@ std::vector<pipeline::Warning> warnings_of_sides(const pipeline::Job& job) {
   return other_side_warnings(job, job.simulation.time_step, ends);
 }
 
-TEST_CASE("a hose is mounted on the side that the job states, for any number of segments, and on the left without a side") {
+TEST_CASE(
+    "a hose is mounted on the side that the job states, for any number of segments, and on the left without a side") {
   for (const std::string segments : {"21", "24", "32"}) {
     INFO(segments);
     const std::vector<std::string> mesh{"simulation.segments=" + segments};
-    const double left = to_left(Simulation(job_of("left", mesh)).start()), right = to_left(Simulation(job_of("right", mesh)).start()),
+    const double left = to_left(Simulation(job_of("left", mesh)).start()),
+                 right = to_left(Simulation(job_of("right", mesh)).start()),
                  either = to_left(Simulation(job_of("either", mesh)).start());
     constexpr double mirrored = 1e-3;  // [m], both come to rest with a speed of 1e-5 m/s
-    CHECK(left > 0.06);  // its diameter
+    CHECK(left > 0.06);                // its diameter
     CHECK(left == Approx(-right).margin(mirrored));
     CHECK(either == Approx(left).margin(mirrored));
   }
@@ -47,7 +49,8 @@ TEST_CASE("a hose is mounted on the side that the job states, for any number of 
 TEST_CASE("clamps that are built some millimetres beside the plane of the arm leave the side as it is") {
   for (const std::string y : {"-0.005", "0.005"}) {
     INFO(y);
-    CHECK(to_left(Simulation(job_of("either", {"routing.base_clamp.position_m=[-0.1, " + y + ", 0.45]"})).start()) > 0.06);
+    CHECK(to_left(Simulation(job_of("either", {"routing.base_clamp.position_m=[-0.1, " + y + ", 0.45]"})).start()) >
+          0.06);
   }
 }
 

@@ -86,7 +86,8 @@ TEST_CASE("other stiffnesses: the places are those of jobs whose hose is softer 
   CHECK(largest_difference(both.stiffer, positions_with(stiff, 1)) < kept);
 }
 
-TEST_CASE("other stiffnesses: a bend radius that only the softer hose breaks is a warning with its stiffness, value and share") {
+TEST_CASE(
+    "other stiffnesses: a bend radius that only the softer hose breaks is a warning with its stiffness, value and share") {
   pipeline::Job job = sagging();
   const auto radius_with = [&](double factor) {
     pipeline::Job of = job;
@@ -100,20 +101,24 @@ TEST_CASE("other stiffnesses: a bend radius that only the softer hose breaks is 
   REQUIRE(between.warnings.size() == 1);
   CHECK(between.warnings[0].kind == pipeline::WarningKind::other_values);
   const double share = pipeline::share_beyond({{-1.65, limit / soft}, {0, limit / own}, {1.65, limit / stiff}}, 0, 1);
-  CHECK_THAT(between.warnings[0].words,
-             Catch::Contains("with 0.4 times the stiffness of the hose (simulation.stiffness_factor: 0.397)") &&
-                 Catch::Contains(fmt::format("smallest bend radius: {:.1f} mm (limit {:.1f} mm)", 1e3 * soft, 1e3 * limit)) &&
-                 Catch::Contains(fmt::format("about {} of such dresspacks exceed this limit", pipeline::percent_words(share))) &&
-                 Catch::Contains("from the base clamp") && Catch::Contains("Likely cause: ") && Catch::Contains("Remedy: ") &&
-                 Catch::Contains("uncertainty.hose_stiffness: 1.16"));
-  CHECK(other_stiffness_warnings(job, short_run(job, short_run_segments)) == between.warnings);  // check agrees with run
-  limit = 1.05 * own;  // the job's own run breaks it and has its own warning
+  CHECK_THAT(
+      between.warnings[0].words,
+      Catch::Contains("with 0.4 times the stiffness of the hose (simulation.stiffness_factor: 0.397)") &&
+          Catch::Contains(fmt::format("smallest bend radius: {:.1f} mm (limit {:.1f} mm)", 1e3 * soft, 1e3 * limit)) &&
+          Catch::Contains(
+              fmt::format("about {} of such dresspacks exceed this limit", pipeline::percent_words(share))) &&
+          Catch::Contains("from the base clamp") && Catch::Contains("Likely cause: ") && Catch::Contains("Remedy: ") &&
+          Catch::Contains("uncertainty.hose_stiffness: 1.16"));
+  CHECK(other_stiffness_warnings(job, short_run(job, short_run_segments)) ==
+        between.warnings);  // check agrees with run
+  limit = 1.05 * own;       // the job's own run breaks it and has its own warning
   CHECK(written(job).warnings.empty());
   limit = 0.95 * soft;
   CHECK(written(job).warnings.empty());
 }
 
-TEST_CASE("other stiffnesses: a motion that is periodic only with the job's own stiffness causes one warning with the distances of the others") {
+TEST_CASE(
+    "other stiffnesses: a motion that is periodic only with the job's own stiffness causes one warning with the distances of the others") {
   pipeline::Job job = sagging();
   job.simulation.most_repeats = 2;
   const auto distance_with = [&](double factor) {
@@ -129,11 +134,13 @@ TEST_CASE("other stiffnesses: a motion that is periodic only with the job's own 
     for (const double distance : {soft, stiff}) expected += own <= tolerance && distance > tolerance;
     const Written result = written(job);
     REQUIRE(result.warnings.size() == (expected > 0 ? 1 : 0));
-    CHECK(other_stiffness_warnings(job, short_run(job, short_run_segments)) == result.warnings);  // check agrees with run
+    CHECK(other_stiffness_warnings(job, short_run(job, short_run_segments)) ==
+          result.warnings);  // check agrees with run
     if (expected == 0) continue;
     CHECK_THAT(result.warnings[0].words, Catch::Contains("the motion begins its last repeat "));
     for (const double distance : {soft, stiff})
-      CHECK((result.warnings[0].words.find(fmt::format("{:.1f} mm with ", 1e3 * distance)) != std::string::npos) == (distance > tolerance));
+      CHECK((result.warnings[0].words.find(fmt::format("{:.1f} mm with ", 1e3 * distance)) != std::string::npos) ==
+            (distance > tolerance));
   }
   CHECK(std::max(soft, stiff) > 1.01 * own);  // otherwise no warning was tested
 }
@@ -147,7 +154,8 @@ TEST_CASE("other stiffnesses: none where the stiffness is known") {
   CHECK(written(job).factors.empty());
 }
 
-TEST_CASE("other stiffnesses: a hose too stiff for its clamps is recorded at half the change, or not at all, with a warning") {
+TEST_CASE(
+    "other stiffnesses: a hose too stiff for its clamps is recorded at half the change, or not at all, with a warning") {
   pipeline::Job job = sagging();  // a hose 14 times as stiff pulls itself out of its clamps, which are not on one line
   double& spread = job.uncertainty.spread[index_of(Uncertain::hose_stiffness)];
   spread = 5;
@@ -155,10 +163,11 @@ TEST_CASE("other stiffnesses: a hose too stiff for its clamps is recorded at hal
   REQUIRE(half.factors.size() == 2);
   CHECK(half.factors[1] == Approx(std::pow(5.0, 1.65 / 2)));
   REQUIRE(half.warnings.size() == 1);
-  CHECK_THAT(half.warnings[0].words, !Catch::Contains("error:") && !Catch::Contains("dresslife preview") &&
-                                         Catch::Contains("with 14 times the hose's bending stiffness the simulation is refused (") &&
-                                         Catch::Contains("5 to 20 % of hoses are too stiff for this program") &&
-                                         Catch::Contains("through 1 and 3.8 times the stiffness"));
+  CHECK_THAT(half.warnings[0].words,
+             !Catch::Contains("error:") && !Catch::Contains("dresslife preview") &&
+                 Catch::Contains("with 14 times the hose's bending stiffness the simulation is refused (") &&
+                 Catch::Contains("5 to 20 % of hoses are too stiff for this program") &&
+                 Catch::Contains("through 1 and 3.8 times the stiffness"));
   spread = 20;
   const Written none = written(job);
   CHECK(none.factors.size() == 1);

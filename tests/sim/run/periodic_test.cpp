@@ -76,8 +76,7 @@ TEST_CASE("periodic: a motion is repeated until two repeats begin alike, and the
   CHECK(static_cast<int>(r.times.size()) == simulation.description().samples);
   CHECK(r.times.front() == 0);
   CHECK_THAT(repeats_note(r.summary),
-             Catch::Contains(
-                 fmt::format("note: the motion is periodic after {} repeats", r.summary.repeats)));
+             Catch::Contains(fmt::format("note: the motion is periodic after {} repeats", r.summary.repeats)));
 }
 
 TEST_CASE("periodic: what never becomes periodic is run as often as allowed, and warned of") {
@@ -131,7 +130,8 @@ TEST_CASE("periodic: the repeat that leads in leaves the result that exact repea
   job.simulation.most_repeats = 1;
   const Simulation simulation(job);
   const Run exact = run(simulation);
-  CHECK(state_distance(simulation.rod(), led.end, exact.end) < 10 * forgotten);  // a repeat reduces a difference to 1/10
+  CHECK(state_distance(simulation.rod(), led.end, exact.end) <
+        10 * forgotten);  // a repeat reduces a difference to 1/10
 }
 
 TEST_CASE("periodic: a motion that does not return is run once") {
@@ -148,8 +148,8 @@ TEST_CASE("periodic: a wrist that turns by whole turns winds the hose and unwind
       20;  // nearly straight, does not loop: all of the wrist's rotation becomes twist
   job.dresspacks[0].dresspack.torsional_stiffness = 4;
   job.dresspacks[0].routing.free_length = 0.905;
-  job.motion.steps = {move_to(0), move_to(2 * pi, "one turn"), move_to(-2 * pi, "and back"),
-                      move_to(0, "home"), dwell_for(1)};
+  job.motion.steps = {move_to(0), move_to(2 * pi, "one turn"), move_to(-2 * pi, "and back"), move_to(0, "home"),
+                      dwell_for(1)};
   const Simulation simulation(job);
   const Run r = run(simulation);
   const auto [least, most] = std::minmax_element(r.net_twist.begin(), r.net_twist.end());
@@ -202,8 +202,8 @@ pipeline::Job job_of_loop() {
 TEST_CASE("periodic: a lead-in without the later rounds of a loop ends where all rounds end") {
   pipeline::Job job = job_of_loop();
   const double tolerance = job.simulation.periodic_tolerance;
-  std::vector<RodState> begin;  // of the repeat after the lead-in
-  std::vector<int> steps;       // of the lead-in
+  std::vector<RodState> begin;                    // of the repeat after the lead-in
+  std::vector<int> steps;                         // of the lead-in
   for (const double same : {tolerance, 1e-12}) {  // of the second no round is left out
     job.simulation.periodic_tolerance = same;
     steps.push_back(0);
@@ -245,7 +245,8 @@ TEST_CASE("periodic: checks without the later rounds of a loop are those of all 
     INFO(checks[0][k].name);
     CHECK(checks[0][k].name == checks[1][k].name);
     if (checks[0][k].name == "smallest bend radius" || checks[0][k].name == "largest twist")
-      CHECK(checks[1][k].value == Approx(checks[0][k].value).epsilon(0.01));  // states of two rounds differ by up to 1 mm
+      CHECK(checks[1][k].value ==
+            Approx(checks[0][k].value).epsilon(0.01));  // states of two rounds differ by up to 1 mm
   }
 }
 

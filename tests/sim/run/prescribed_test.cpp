@@ -30,9 +30,7 @@ dresspack:
 )" + more;
 }
 
-pipeline::Job job_of(const std::string& text) {
-  return pipeline::job_from(pipeline::parse_yaml(text, "job.yaml"));
-}
+pipeline::Job job_of(const std::string& text) { return pipeline::job_from(pipeline::parse_yaml(text, "job.yaml")); }
 
 PrescribedDeformation rig(const std::string& keys, const std::string& more = "") {
   return deformation_of(job_of(cable_job("{rig: {" + keys + "}}", more)));
@@ -88,22 +86,20 @@ TEST_CASE("prescribed: a twisted cable of one hand that hangs without weight kee
   for (const auto& state : hung.states) {
     // R^2 sigma^2 + (1 + e)^2 = 1 / cos^2(alpha): the wire keeps its length at rest.
     const double turning = std::tan(lay) + radius * state.rate.z();
-    CHECK(state.elongation ==
-          Approx(std::sqrt(1 / std::pow(std::cos(lay), 2) - turning * turning) - 1).margin(1e-12));
+    CHECK(state.elongation == Approx(std::sqrt(1 / std::pow(std::cos(lay), 2) - turning * turning) - 1).margin(1e-12));
     most = std::max(most, std::abs(state.elongation));
   }
   CHECK(most > 0.006);  // tan(20 deg) x 3 mm x 2 pi
   // 1 kg: a stretch of g m / (E A cos^3 of six wires), with 117 GPa as in the material's file.
   const auto job = job_of(cable_job("{rig: {kind: torsion, twist_deg_per_m: 360, weight_kg: 1}}"));
   const auto& dresspack = job.dresspacks.front().dresspack;
-  const double stiffness =
-      6 * dresspack.materials.front().youngs_modulus * pi * 1e-8 * std::pow(std::cos(lay), 3);
+  const double stiffness = 6 * dresspack.materials.front().youngs_modulus * pi * 1e-8 * std::pow(std::cos(lay), 3);
   CHECK(axial_stiffness(dresspack) == Approx(stiffness));
-  CHECK(deformation_of(job).states.front().elongation ==
-        Approx(9.80665 / stiffness).epsilon(2e-3));  // quadratic terms
+  CHECK(deformation_of(job).states.front().elongation == Approx(9.80665 / stiffness).epsilon(2e-3));  // quadratic terms
 }
 
-TEST_CASE("prescribed: held ends pull at a twisted cable that would shorten, and one that would lengthen bows with Euler's load") {
+TEST_CASE(
+    "prescribed: held ends pull at a twisted cable that would shorten, and one that would lengthen bows with Euler's load") {
   const auto job = job_of(cable_job("{rig: {kind: torsion, twist_deg_per_m: 360, length_m: 0.8}}"));
   const PrescribedDeformation held = deformation_of(job);
   const auto& dresspack = job.dresspacks.front().dresspack;
@@ -127,11 +123,12 @@ TEST_CASE("prescribed: held ends pull at a twisted cable that would shorten, and
     // With its new length the cable still ends parallel at the held grip. J0(2 sqrt(e)) (1 + e) = 1 - 3 e^2/4.
     const int n = 50;
     const auto tool = posed(held, sample, n, length).clamps.tool;
-    const double turn = state.rate.head<2>().norm() * length / n;  // of the most bent link; its chord is shorter by turn^2/24
+    const double turn =
+        state.rate.head<2>().norm() * length / n;  // of the most bent link; its chord is shorter by turn^2/24
     CHECK(tool.position.norm() == Approx(length).epsilon(std::pow(state.elongation, 2) + turn * turn / 24));
     CHECK((tool.orientation * Vector3::UnitZ()).z() > 1 - 1e-6);
   }
-  CHECK(most > 0.006);   // tan(20 deg) x 3 mm x 2 pi, as if it hung free
+  CHECK(most > 0.006);  // tan(20 deg) x 3 mm x 2 pi, as if it hung free
   CHECK(pulled > 100);  // [N], this strain times E A
 }
 
@@ -181,8 +178,7 @@ TEST_CASE("prescribed: the curvature at a clip is that of the elastica that dies
   const std::string keys = "kind: swivel, angle_deg: 40, weight_kg: 0.1";
   const std::string stiff = "simulation: {segments: 200}\n";
   const auto job = job_of(cable_job("{rig: {" + keys + "}}", stiff));
-  const double bending = dresslife::pipeline::bending_stiffness(job.dresspacks.front().dresspack),
-               pull = 0.1 * 9.80665;
+  const double bending = dresslife::pipeline::bending_stiffness(job.dresspacks.front().dresspack), pull = 0.1 * 9.80665;
   const PrescribedDeformation bent = deformation_of(job);
   double theta = 40 * pi / 180, kappa = 0;
   for (const auto& state : bent.states) kappa = std::max(kappa, state.rate.y());
@@ -197,33 +193,27 @@ TEST_CASE("prescribed: the curvature at a clip is that of the elastica that dies
   CHECK(std::abs(theta) < 4 * 40 * pi / 180 * std::exp(-6));
   // The edge radius of a clip limits the curvature.
   double edged = 0;
-  for (const auto& state : rig(keys + ", radius_mm: 50", stiff).states)
-    edged = std::max(edged, state.rate.y());
+  for (const auto& state : rig(keys + ", radius_mm: 50", stiff).states) edged = std::max(edged, state.rate.y());
   CHECK(edged == Approx(std::min(kappa, 1 / 0.054)));
 }
 
 TEST_CASE("prescribed: a rig that cannot be is refused with what to do") {
-  CHECK(refused("kind: torsion") ==
-        "job.yaml:1:15: error: a rig of kind torsion needs twist_deg_per_m; give it");
-  CHECK(
-      refused("kind: torsion, twist_deg_per_m: 90, travel_m: 1") ==
-      "job.yaml:1:15: error: a rig of kind torsion has no travel_m (it has length_m, twist_deg_per_m, weight_kg); "
-      "leave it out, or choose another kind");
-  CHECK(refused("kind: tick_tock, radius_mm: 10, radius_diameters: 2").find("both radius_mm and") !=
-        std::string::npos);
+  CHECK(refused("kind: torsion") == "job.yaml:1:15: error: a rig of kind torsion needs twist_deg_per_m; give it");
+  CHECK(refused("kind: torsion, twist_deg_per_m: 90, travel_m: 1") ==
+        "job.yaml:1:15: error: a rig of kind torsion has no travel_m (it has length_m, twist_deg_per_m, weight_kg); "
+        "leave it out, or choose another kind");
+  CHECK(refused("kind: tick_tock, radius_mm: 10, radius_diameters: 2").find("both radius_mm and") != std::string::npos);
   CHECK(refused("kind: rolling_flex, travel_m: 1").find("has no radius_mm; give radius_mm, or radius_diam") !=
         std::string::npos);
-  CHECK(
-      refused("kind: rolling_flex, travel_m: 0.01, radius_mm: 100").find("too short to bend or straighten") !=
-      std::string::npos);
+  CHECK(refused("kind: rolling_flex, travel_m: 0.01, radius_mm: 100").find("too short to bend or straighten") !=
+        std::string::npos);
   CHECK(
       refused("kind: torsion, twist_deg_per_m: 90000") ==
       "job.yaml:1:15: error: the rig turns a segment of 20 mm by 1800 deg (at most 120); check the rig's twist, angle and "
       "weight, or give simulation.segments: 751");
   CHECK(refused("kind: swivel, angle_deg: 5, weight_kg: 0").find("weight_kg is 0") != std::string::npos);
   const std::string twist = "kind: torsion, twist_deg_per_m: 90";
-  CHECK(refused(twist, "robot: abb_irb2600_12_165\n").find("robot is given beside motion.rig") !=
-        std::string::npos);
+  CHECK(refused(twist, "robot: abb_irb2600_12_165\n").find("robot is given beside motion.rig") != std::string::npos);
   CHECK(refused(twist, "cell: {boxes: []}\n").find("cell.boxes is given beside motion.rig") != std::string::npos);
   CHECK(refused(twist, "routing: {free_length_m: 2}\n").find("routing is given beside motion.rig") !=
         std::string::npos);
@@ -244,8 +234,7 @@ TEST_CASE("deformation file: what is wrong is reported by line and column") {
   const Scratch scratch;
   const auto job_with = [&](const std::string& csv) {
     scratch.write("d.csv", csv);
-    return job_of(
-        cable_job("{deformation: " + (scratch / "d.csv").string() + "}", "routing: {free_length_m: 1}\n"));
+    return job_of(cable_job("{deformation: " + (scratch / "d.csv").string() + "}", "routing: {free_length_m: 1}\n"));
   };
   const auto read = [&](const std::string& csv) { return deformation_of(job_with(csv)); };
   const auto problem = [&](const std::string& csv) {
@@ -259,34 +248,30 @@ TEST_CASE("deformation file: what is wrong is reported by line and column") {
             .find("d.csv:1:21: error: column twist_rad_per_m beside") == 0);
   CHECK(problem("kappa_1_1_per_m\n0\n").find("has no column t_s") != std::string::npos);
   CHECK(problem("t_s\n0\n").find("nothing that deforms") != std::string::npos);
-  CHECK(problem("t_s,elongation\n0,x\n").find("d.csv:2:3: error: 'x' is not a finite number (elongation)") ==
-        0);
+  CHECK(problem("t_s,elongation\n0,x\n").find("d.csv:2:3: error: 'x' is not a finite number (elongation)") == 0);
   CHECK(problem("t_s,elongation\n0,1\n").find("elongation is 1 (must be -0.5 .. 0.5") != std::string::npos);
   CHECK(problem("t_s,elongation\n0,0,0\n").find("d.csv:2:5: error: row has 3 cells (its header has 2)") == 0);
   CHECK(problem("t_s,elongation\n1,0\n").find("first time is 1 s (must be 0)") != std::string::npos);
-  CHECK(problem("t_s,elongation\n0,0\n2,0\n1,0\n").find("d.csv:4:1: error: time 1 s does not follow 2 s") ==
-        0);
+  CHECK(problem("t_s,elongation\n0,0\n2,0\n1,0\n").find("d.csv:4:1: error: time 1 s does not follow 2 s") == 0);
   CHECK(problem("t_s,kappa_1_1_per_m\n0,300\n")
             .find("d.csv:2:3: error: curvature and twist turn a segment of 20 mm by") == 0);
   CHECK(problem("t_s,position_m,elongation\n0,0,0\n0,2,0\n")
             .find("d.csv:3:3: error: position_m is 2 (must lie in 0 .. 1") == 0);
   CHECK(problem("t_s,position_m,elongation\n0,0,0\n0,1,0\n1,0,0\n2,0,0\n")
             .find("time 1 s has 1 places (the first has 2)") != std::string::npos);
-  CHECK(problem("t_s,position_m,elongation\n0,0,0\n0,1,0\n1,0,0\n1,0.5,0\n")
-            .find("position_m 0.5 is not the place") != std::string::npos);
+  CHECK(problem("t_s,position_m,elongation\n0,0,0\n0,1,0\n1,0,0\n1,0.5,0\n").find("position_m 0.5 is not the place") !=
+        std::string::npos);
   CHECK(problem("t_s,elongation\n").find("deformation holds no row") != std::string::npos);
   CHECK(message_of([&] {
           read_deformation(job_of(cable_job("{deformation: none.csv}", "routing: {free_length_m: 1}\n")));
-        }).find("none.csv: error: cannot be read (No such file or directory); check the path") !=
-        std::string::npos);
+        }).find("none.csv: error: cannot be read (No such file or directory); check the path") != std::string::npos);
 
   const PrescribedDeformation one =
       read("# twisted\nelongation , t_s, twist_deg_per_m\r\n0.01,0,180\n\n0.02,0.5,-90\n");
   CHECK(one.times == std::vector<double>{0, 0.5});
   CHECK(one.states[1].rate.z() == Approx(-pi / 2));
   CHECK(one.at(0, 0.7).elongation == 0.01);
-  const PrescribedDeformation several =
-      read("t_s,position_m,kappa_2_1_per_m\n0,0.2,1\n0,0.6,3\n1,0.2,0\n1,0.6,4\n");
+  const PrescribedDeformation several = read("t_s,position_m,kappa_2_1_per_m\n0,0.2,1\n0,0.6,3\n1,0.2,0\n1,0.6,4\n");
   CHECK(several.at(0, 0.0).rate.y() == 1);
   CHECK(several.at(0, 0.3).rate.y() == Approx(1.5));
   CHECK(several.at(1, 0.9).rate.y() == 4);

@@ -18,16 +18,12 @@ namespace {
 class Chance {
  public:
   explicit Chance(unsigned seed) : bits_(seed) {}
-  double between(double low, double high) {
-    return low + (high - low) * static_cast<double>(bits_() >> 11) * 0x1p-53;
-  }
+  double between(double low, double high) { return low + (high - low) * static_cast<double>(bits_() >> 11) * 0x1p-53; }
   template <class T, size_t n>
   T one_of(const T (&values)[n]) {
     return values[bits_() % n];
   }
-  int whole(int low, int high) {
-    return low + static_cast<int>(bits_() % static_cast<unsigned>(high - low + 1));
-  }
+  int whole(int low, int high) { return low + static_cast<int>(bits_() % static_cast<unsigned>(high - low + 1)); }
 
  private:
   std::mt19937_64 bits_;
@@ -36,8 +32,7 @@ class Chance {
 pipeline::MotionStep random_move(Chance& chance) {
   constexpr double least[] = {-60, -20, -20, -90, -90, -150}, most[] = {60, 45, 40, 90, 90, 150};
   pipeline::MotionStep step;
-  for (int joint = 0; joint < 6; ++joint)
-    step.joints.push_back(chance.between(least[joint], most[joint]) * degree);
+  for (int joint = 0; joint < 6; ++joint) step.joints.push_back(chance.between(least[joint], most[joint]) * degree);
   step.speed_percent = chance.between(20, 100);
   step.zone = chance.one_of({0.0, 2 * degree, 10 * degree});
   return step;
@@ -66,9 +61,9 @@ double longest_chord(const ClampPath& path) {
 
 pipeline::Job random_job(unsigned seed) {
   Chance chance(seed);
-  pipeline::Job job = pipeline::read_job(
-      DRESSLIFE_SOURCE_DIR "/config/jobs/irb6640_spot_welding.yaml",
-      {std::string("robot=") + chance.one_of({"abb_irb6640_185_280", "abb_irb6700_235_265"})});
+  pipeline::Job job =
+      pipeline::read_job(DRESSLIFE_SOURCE_DIR "/config/jobs/irb6640_spot_welding.yaml",
+                         {std::string("robot=") + chance.one_of({"abb_irb6640_185_280", "abb_irb6700_235_265"})});
   job.motion = random_motion(chance);
   job.dresspacks[0].dresspack.axial_stiffness = std::pow(10, chance.between(4, 6));
   job.dresspacks[0].dresspack.bending_stiffness = chance.between(2, 10);
@@ -113,8 +108,8 @@ std::string outcome(unsigned seed) {
     CHECK(highest - at_rest < 0.1 + 0.01 * elastic);
     return "ended";
   } catch (const pipeline::InputError& error) {
-    for (const char* kind : {"is pulled tight", "mm too short", "mm deep through", "does not come to rest",
-                             "finds no equilibrium"})
+    for (const char* kind :
+         {"is pulled tight", "mm too short", "mm deep through", "does not come to rest", "finds no equilibrium"})
       if (std::string(error.what()).find(kind) != std::string::npos) return kind;
     return error.what();
   }

@@ -74,12 +74,11 @@ Run run(const std::string& text, const std::filesystem::path& folder = {}) {
   const auto file = (folder.empty() ? std::filesystem::path(scratch / "job.yaml") : folder / "job.yaml");
   std::ofstream(file) << text;
   Run result{std::make_unique<Simulation>(pipeline::read_job(file)), {}, {}};
-  result.summary =
-      result.simulation->run({[&](const Sample& s) {
-                                result.rows.push_back({s.time, s.state, s.clamps, s.travel, s.energy,
-                                                       s.touch.obstacles(), s.touch.largest_force()});
-                              },
-                              [&](int) { result.rows.clear(); }});
+  result.summary = result.simulation->run({[&](const Sample& s) {
+                                             result.rows.push_back({s.time, s.state, s.clamps, s.travel, s.energy,
+                                                                    s.touch.obstacles(), s.touch.largest_force()});
+                                           },
+                                           [&](int) { result.rows.clear(); }});
   return result;
 }
 
@@ -87,7 +86,8 @@ Run run(const std::string& text, const std::filesystem::path& folder = {}) {
 double furthest(const RodState& a, const RodState& b) {
   double most = 0;
   for (std::size_t i = 0; i < a.position.size(); ++i)
-    most = std::max({most, (a.position[i] - b.position[i]).norm(), (a.orientation[i].coeffs() - b.orientation[i].coeffs()).norm()});
+    most = std::max(
+        {most, (a.position[i] - b.position[i]).norm(), (a.orientation[i].coeffs() - b.orientation[i].coeffs()).norm()});
   return most;
 }
 
@@ -105,8 +105,7 @@ std::string message_of(const std::string& text) {
 
 TEST_CASE("routing: a clamp in the middle is held where the job says and parts the dresspack in two") {
   const Run both = run(job_text(
-      ends +
-      "  clamps: [{link: spindle, position_m: [0.5, 0, 0], direction: [1, 0, 0], at_length_m: 0.65}]\n"));
+      ends + "  clamps: [{link: spindle, position_m: [0.5, 0, 0], direction: [1, 0, 0], at_length_m: 0.65}]\n"));
   const Rod& rod = both.simulation->rod();
   REQUIRE(rod.spans().size() == 2);
   CHECK(rod.spans()[0].segments() == 20);
@@ -116,8 +115,7 @@ TEST_CASE("routing: a clamp in the middle is held where the job says and parts t
     REQUIRE(row.clamps.size() == 3);
     CHECK((row.clamps[1].position - Vector3(0.5, 0, 1)).norm() < 1e-12);
   }
-  const double free_of_twist =
-      1e-3;  // [rad]: settling ends at 0.01 mm/s, not completely at rest
+  const double free_of_twist = 1e-3;  // [rad]: settling ends at 0.01 mm/s, not completely at rest
   CHECK(std::abs(twist_of(rod, both.rows[0].state, rod.spans()[0])) < free_of_twist);
   CHECK(std::abs(twist_of(rod, both.rows[0].state, rod.spans()[1])) < free_of_twist);
   double most = 0;
@@ -144,8 +142,7 @@ TEST_CASE("routing: a clamp in the middle is held where the job says and parts t
 
 TEST_CASE("routing: a span that is too short or pulled tight is named") {
   const std::string short_span = message_of(job_text(
-      ends +
-      "  clamps: [{link: spindle, position_m: [0.5, 0, 0], direction: [1, 0, 0], at_length_m: 0.45}]\n"));
+      ends + "  clamps: [{link: spindle, position_m: [0.5, 0, 0], direction: [1, 0, 0], at_length_m: 0.45}]\n"));
   CHECK_THAT(short_span, Catch::Contains("dresspack is 50.0 mm too short at ") &&
                              Catch::Contains("its length between clamps 1 and 2 of 3 is 0.45"));
 }
@@ -186,8 +183,7 @@ TEST_CASE("routing: a hose laid in the shape in which it was delivered is free o
   CHECK(straight.rows[0].energy.elastic == Approx(0.5 * 2 * curvature * curvature * length).epsilon(0.01));
 }
 
-TEST_CASE(
-    "routing: a retraction unit lets the hose out and takes it back and says when its stroke is used up") {
+TEST_CASE("routing: a retraction unit lets the hose out and takes it back and says when its stroke is used up") {
   // The spindle turns about y and moves the tool clamp: at 0 the distance is 1.3 m, 0.1 m more than the hose's length.
   const auto routing = [](double stroke) {
     return fmt::format(
@@ -230,8 +226,7 @@ TEST_CASE("routing: a dresspack with a free end hangs and rings down as its damp
                    ", most_repeats: 1", "[1, 0, 0]"));
   const Rod& rod = hung.simulation->rod();
   const RodState& start = hung.rows.front().state;
-  CHECK((rod.tip(start) - Vector3(0, 0, 0.2)).norm() <
-        1e-3);  // 1 m above the floor, 0.8 m long, stretched by 0.2 mm
+  CHECK((rod.tip(start) - Vector3(0, 0, 0.2)).norm() < 1e-3);  // 1 m above the floor, 0.8 m long, stretched by 0.2 mm
   CHECK((hung.rows.front().clamps.back().position - rod.tip(start)).norm() < 1e-12);
   double aside = 0;
   for (const Row& row : hung.rows) aside = std::max(aside, std::abs(rod.tip(row.state).y()));
@@ -241,9 +236,8 @@ TEST_CASE("routing: a dresspack with a free end hangs and rings down as its damp
 
 TEST_CASE("routing: a dresspack is led by a ring that the job describes") {
   const Run led =
-      run(job_text(ends +
-                   "  rings: [{link: bench, position_m: [0.5, 0, 1.1], direction: [1, 0, 0], radius_mm: 24, "
-                   "friction_coefficient: 0.2, width_mm: 20}]\n"));
+      run(job_text(ends + "  rings: [{link: bench, position_m: [0.5, 0, 1.1], direction: [1, 0, 0], radius_mm: 24, "
+                          "friction_coefficient: 0.2, width_mm: 20}]\n"));
   const Rod& rod = led.simulation->rod();
   CHECK(rod.spans().size() == 1);
   for (const Row& row : led.rows) {
@@ -265,11 +259,10 @@ TEST_CASE("routing: a dresspack is led by a ring that the job describes") {
 
 TEST_CASE("routing: boxes and meshes of links and of the cell are obstacles from the job file on") {
   const pipeline::Scratch scratch;
-  std::ofstream(scratch / "post.obj")
-      << "v -0.05 -0.5 0\nv 0.05 -0.5 0\nv 0.05 0.5 0\nv -0.05 0.5 0\n"
-         "v -0.05 -0.5 0.85\nv 0.05 -0.5 0.85\nv 0.05 0.5 0.85\nv -0.05 0.5 0.85\n"
-         "f 1 3 2\nf 1 4 3\nf 5 6 7\nf 5 7 8\nf 1 2 6\nf 1 6 5\nf 2 3 7\nf 2 7 6\n"
-         "f 3 4 8\nf 3 8 7\nf 4 1 5\nf 4 5 8\n";
+  std::ofstream(scratch / "post.obj") << "v -0.05 -0.5 0\nv 0.05 -0.5 0\nv 0.05 0.5 0\nv -0.05 0.5 0\n"
+                                         "v -0.05 -0.5 0.85\nv 0.05 -0.5 0.85\nv 0.05 0.5 0.85\nv -0.05 0.5 0.85\n"
+                                         "f 1 3 2\nf 1 4 3\nf 5 6 7\nf 5 7 8\nf 1 2 6\nf 1 6 5\nf 2 3 7\nf 2 7 6\n"
+                                         "f 3 4 8\nf 3 8 7\nf 4 1 5\nf 4 5 8\n";
   const auto lowest = [&](const std::string& cell, const std::string& link) {
     std::string text = job_text(ends, ", most_repeats: 1", "[1, 0, 0]", "", 24);
     text.replace(text.find("{name: bench}"), 13, "{name: bench" + link + "}");
@@ -295,8 +288,7 @@ TEST_CASE("routing: boxes and meshes of links and of the cell are obstacles from
     CAPTURE(cell, link);
     const auto [z, pressed, obstacles, depth] = lowest(cell, link);
     CHECK(z > free_z + 0.05);  // it lies over an edge at 0.85 m
-    const auto at =
-        std::find(obstacles.begin(), obstacles.end(), cell.empty() ? "bench" : "cell") - obstacles.begin();
+    const auto at = std::find(obstacles.begin(), obstacles.end(), cell.empty() ? "bench" : "cell") - obstacles.begin();
     CHECK(pressed[at] > 1);
     CHECK(depth < deepest);
   }
@@ -358,9 +350,14 @@ namespace {
 /// Returns `ends` with a bend relief at each of its clamps and at one in between.
 std::string with_reliefs(const std::string& base, const std::string& between, const std::string& tool) {
   return "  free_length_m: 1.3\n"
-         "  base_clamp: {link: bench, position_m: [0, 0, 1], direction: [1, 0, 0]" + base + "}\n"
-         "  clamps: [{link: bench, position_m: [0.5, 0, 1], direction: [1, 0, 0], at_length_m: 0.65" + between + "}]\n"
-         "  tool_clamp: {link: spindle, position_m: [1.1, 0, 0], direction: [1, 0, 0]" + tool + "}\n";
+         "  base_clamp: {link: bench, position_m: [0, 0, 1], direction: [1, 0, 0]" +
+         base +
+         "}\n"
+         "  clamps: [{link: bench, position_m: [0.5, 0, 1], direction: [1, 0, 0], at_length_m: 0.65" +
+         between +
+         "}]\n"
+         "  tool_clamp: {link: spindle, position_m: [1.1, 0, 0], direction: [1, 0, 0]" +
+         tool + "}\n";
 }
 std::string relief_text(const std::string& length, const std::string& stiffness) {
   return ", bend_relief: {length_mm: " + length + ", bending_stiffness_Nm2: " + stiffness + "}";
@@ -393,8 +390,11 @@ TEST_CASE("routing: bend reliefs stiffen the links beside their clamps, on both 
 TEST_CASE("routing: a bend relief lessens the bend, and changes no bit without length or stiffness") {
   const auto routing = [](const std::string& relief) {
     return "  free_length_m: 1.3\n"
-           "  base_clamp: {link: bench, position_m: [0, 0, 1], direction: [1, 0, 0.8]" + relief + "}\n"
-           "  tool_clamp: {link: spindle, position_m: [1.1, 0, 0], direction: [1, 0, 0]" + relief + "}\n";
+           "  base_clamp: {link: bench, position_m: [0, 0, 1], direction: [1, 0, 0.8]" +
+           relief +
+           "}\n"
+           "  tool_clamp: {link: spindle, position_m: [1.1, 0, 0], direction: [1, 0, 0]" +
+           relief + "}\n";
   };
   const auto same = [](const Run& a, const Run& b) {
     if (a.rows.size() != b.rows.size()) return false;
@@ -428,8 +428,7 @@ TEST_CASE("routing: what cannot be is refused with its place and a remedy") {
        "clamps in their order along the dresspack"},
       {ends + "  rings: [{" + ring + ", radius_mm: 20}]\n",
        "routing.rings[1].radius_mm is 20 (the dresspack's own radius is 20 mm); take a wider ring"},
-      {ends + "  rings: [{" + ring + ", radius_mm: 25, at_length_m: 2}]\n",
-       "routing.rings[1].at_length_m is 2"},
+      {ends + "  rings: [{" + ring + ", radius_mm: 25, at_length_m: 2}]\n", "routing.rings[1].at_length_m is 2"},
       {ends + "  rings: [{link: bench, position_m: [500, 0, 1000], direction: [1, 0, 0], radius_mm: 25}]\n",
        "routing.rings[1].position_m is 1118 m away from the frame of bench (at most 30); give it in metres"},
       {ends +
@@ -441,11 +440,11 @@ TEST_CASE("routing: what cannot be is refused with its place and a remedy") {
        "routing.tool_clamp is given although routing.tool_end is free; keep one of the two"},
       {ends + "  tool_mass_kg: 1\n",
        "routing.tool_mass_kg is given although the tool end is clamped; add tool_end: free"},
-      {ends + "  retraction: {force_N: 10, stroke_m: 0}\n",
-       "routing.retraction.stroke_m is 0 (must be > 0 m)"},
+      {ends + "  retraction: {force_N: 10, stroke_m: 0}\n", "routing.retraction.stroke_m is 0 (must be > 0 m)"},
       {with_reliefs(relief_text("326", "1"), "", ""),
        "bend_relief.length_mm is 326 (at most 325, half the dresspack between this clamp and the next)"},
-      {with_reliefs("", "", relief_text("-1", "1")), "routing.tool_clamp.bend_relief.length_mm is -1 (must be >= 0 mm)"},
+      {with_reliefs("", "", relief_text("-1", "1")),
+       "routing.tool_clamp.bend_relief.length_mm is -1 (must be >= 0 mm)"},
       {with_reliefs(relief_text("100", "-1"), "", ""), "routing.base_clamp.bend_relief.bending_stiffness_Nm2 is -1"},
       {with_reliefs(", bend_relief: {length_mm: 100}", "", ""),
        "routing.base_clamp.bend_relief.bending_stiffness_Nm2 is missing"},
@@ -454,7 +453,6 @@ TEST_CASE("routing: what cannot be is refused with its place and a remedy") {
   for (const auto& [routing, words] : cases) {
     const std::string message = message_of(job_text(routing));
     CAPTURE(routing, message);
-    CHECK_THAT(message,
-               Catch::Contains("job.yaml:") && Catch::Contains(": error: ") && Catch::Contains(words));
+    CHECK_THAT(message, Catch::Contains("job.yaml:") && Catch::Contains(": error: ") && Catch::Contains(words));
   }
 }

@@ -77,8 +77,8 @@ TEST_CASE("shipped programs: robot 1 turns the wrist more than robot 2, easy lea
     }
     return (high - low).sum();
   };
-  const double easy = wrist_range("easy"), calm = wrist_range("spot_robot_2"),
-               lively = wrist_range("spot_robot_1"), hard = wrist_range("hard");
+  const double easy = wrist_range("easy"), calm = wrist_range("spot_robot_2"), lively = wrist_range("spot_robot_1"),
+               hard = wrist_range("hard");
   CHECK(2 * easy < calm);
   CHECK(2 * calm < lively);
   CHECK(lively < hard);
@@ -98,7 +98,7 @@ TEST_CASE("shipped programs: the dresspack goes through all of them on the IRB 6
                                   simulation.rod().bending_length(link));
     }});
     INFO(program);
-    CHECK(depth < 1e-3);   // less than the hose's wall yields [m]
+    CHECK(depth < 1e-3);  // less than the hose's wall yields [m]
     const pipeline::MountedDresspack& hose = job.dresspacks.front();
     const double weight = 9.81 * hose.dresspack.mass_per_length * hose.routing.free_length;
     CHECK(tension < 10 * weight);  // [N]

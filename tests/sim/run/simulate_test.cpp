@@ -27,11 +27,10 @@ struct Row {
 
 std::vector<Row> run(const Simulation& simulation) {
   std::vector<Row> rows;
-  simulation.run(
-      {[&](const Sample& s) {
-         rows.push_back({s.time, s.max_depth, s.step, s.contacts, s.state, s.pose, s.energy, s.tension});
-       },
-       [&](int) { rows.clear(); }});
+  simulation.run({[&](const Sample& s) {
+                    rows.push_back({s.time, s.max_depth, s.step, s.contacts, s.state, s.pose, s.energy, s.tension});
+                  },
+                  [&](int) { rows.clear(); }});
   return rows;
 }
 
@@ -44,8 +43,7 @@ double net_twist(const Rod& rod, const RodState& state) {
 
 double largest_distance(const RodState& a, const RodState& b) {
   double distance = 0;
-  for (size_t i = 0; i < a.position.size(); ++i)
-    distance = std::max(distance, (a.position[i] - b.position[i]).norm());
+  for (size_t i = 0; i < a.position.size(); ++i) distance = std::max(distance, (a.position[i] - b.position[i]).norm());
   return distance;
 }
 
@@ -110,8 +108,7 @@ TEST_CASE("simulate: the weight hangs on the two clamps") {
   pipeline::Job job = simple_job();
   job.motion.steps = {move_to(0), dwell_for(0.2)};
   job.dresspacks[0].routing.base_clamp->direction = {0, 0, -1};
-  job.dresspacks[0].routing.tool_clamp->direction = {0, 0,
-                                                     1};  // a hanging loop: each end carries half of the weight
+  job.dresspacks[0].routing.tool_clamp->direction = {0, 0, 1};  // a hanging loop: each end carries half of the weight
   job.dresspacks[0].routing.free_length = 2;
   const Row last = run(Simulation(job)).back();
   const double weight = 2 * 1.5 * 9.81;
@@ -163,8 +160,8 @@ TEST_CASE("simulate: recorded clamp poses move the hose as the robot does") {
       csv << fmt::format("{}", t);
       const ClampFrames clamps = driven.path().at(t).clamps;
       for (const Frame& f : {clamps.base, clamps.tool})
-        csv << fmt::format(",{},{},{},{},{},{},{}", f.position.x(), f.position.y(), f.position.z(),
-                           f.orientation.w(), f.orientation.x(), f.orientation.y(), f.orientation.z());
+        csv << fmt::format(",{},{},{},{},{},{},{}", f.position.x(), f.position.y(), f.position.z(), f.orientation.w(),
+                           f.orientation.x(), f.orientation.y(), f.orientation.z());
       csv << "\n";
     }
   }
@@ -188,10 +185,9 @@ TEST_CASE("simulate: a dresspack that is too short is refused with time, line an
   job.dresspacks[0].routing.base_clamp->position = {0.3, 0, 1};
   CHECK_THROWS_WITH(
       Simulation(job),
-      Catch::StartsWith("job.yaml:8:3: error: dresspack is ") &&
-          Catch::Contains(" mm too short at 1.") &&
+      Catch::StartsWith("job.yaml:8:3: error: dresspack is ") && Catch::Contains(" mm too short at 1.") &&
           Catch::Contains("s, program step 3 'dwell 3' (routing.free_length_m is 1, the "
-                                    "clamps are 1.0") &&
+                          "clamps are 1.0") &&
           Catch::EndsWith(
               "; give it more free length, with slack to bend, or move a clamp (dresslife preview shows it)"));
 }
@@ -211,12 +207,12 @@ TEST_CASE("simulate: a dresspack that winds itself taut stops the run") {
   int samples = 0;
   CHECK_THROWS_WITH(simulation.run({[&](const Sample&) { ++samples; }}),
                     Catch::Contains("job.yaml:8:3: error: dresspack is pulled tight at ") &&
-                        Catch::Contains("program step 2 'wind up': ") &&
-                        Catch::Contains("mm are missing"));
+                        Catch::Contains("program step 2 'wind up': ") && Catch::Contains("mm are missing"));
   CHECK(samples > 10);
   job.cell.capsules = {{{0, 0, 1}, {0, 0, 3}, 0.25}};  // the same post beside the robot
   job.robot.links[0].capsules.clear();
-  CHECK_THROWS_WITH(Simulation(job).run({[](const Sample&) {}}), Catch::Contains("winding it around the robot or an obstacle of the cell"));
+  CHECK_THROWS_WITH(Simulation(job).run({[](const Sample&) {}}),
+                    Catch::Contains("winding it around the robot or an obstacle of the cell"));
 }
 
 TEST_CASE("simulate: a state that is not finite stops the run") {
@@ -224,10 +220,9 @@ TEST_CASE("simulate: a state that is not finite stops the run") {
   pipeline::Job job = simple_job();
   job.robot = {};
   job.motion = {};
-  job.motion.clamp_poses =
-      scratch.write("far.csv",
-                    "0,0,0,1,0.7071068,0,0.7071068,0,0.9,0,1,0.7071068,0,0.7071068,0\n"
-                    "1,1e300,0,1,0.7071068,0,0.7071068,0,1e300,0,1,0.7071068,0,0.7071068,0\n");
+  job.motion.clamp_poses = scratch.write("far.csv",
+                                         "0,0,0,1,0.7071068,0,0.7071068,0,0.9,0,1,0.7071068,0,0.7071068,0\n"
+                                         "1,1e300,0,1,0.7071068,0,0.7071068,0,1e300,0,1,0.7071068,0,0.7071068,0\n");
   const Simulation simulation(job);
   CHECK_THROWS_WITH(simulation.run({[](const Sample&) {}}),
                     "job.yaml: error: the simulation broke down at 0.005 s, program step 1 'clamp poses of "
@@ -267,8 +262,7 @@ TEST_CASE("simulate: a clamp inside the robot is refused") {
   job.robot.links[0].capsules = {{{0.3, 0, 1}, {0.6, 0, 1}, 0.3}};
   CHECK_THROWS_WITH(Simulation(job),
                     Catch::StartsWith("job.yaml:8:3: error: dresspack runs ") &&
-                        Catch::Contains(" mm deep through " + job.robot.links[0].name +
-                                                  " in the mounting pose, 0."));
+                        Catch::Contains(" mm deep through " + job.robot.links[0].name + " in the mounting pose, 0."));
 }
 
 }  // namespace

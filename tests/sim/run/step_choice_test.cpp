@@ -27,8 +27,8 @@ pipeline::Job driven_cable(const std::filesystem::path& file) {
       csv << fmt::format("{}", t);
       const ClampFrames clamps = DrivenCable::clamps(begin + t);
       for (const Frame& f : {clamps.base, clamps.tool})
-        csv << fmt::format(",{},{},{},{},{},{},{}", f.position.x(), f.position.y(), f.position.z(),
-                           f.orientation.w(), f.orientation.x(), f.orientation.y(), f.orientation.z());
+        csv << fmt::format(",{},{},{},{},{},{},{}", f.position.x(), f.position.y(), f.position.z(), f.orientation.w(),
+                           f.orientation.x(), f.orientation.y(), f.orientation.z());
       csv << "\n";
     }
   }

@@ -78,8 +78,7 @@ TEST_CASE("twist along the lay stretches a cable without play, twist against it 
   }
 }
 
-TEST_CASE(
-    "a bend of many pitches leaves a laid cable as long as it is, and moves its wires by the bend alone") {
+TEST_CASE("a bend of many pitches leaves a laid cable as long as it is, and moves its wires by the bend alone") {
   LooseCable cable = signal_cable(0.01845);
   cable.lay_rate = 8 * 2 * pi / 2;  // eight turns in 2 m
   cable.play = 0;
@@ -155,12 +154,11 @@ TEST_CASE("a cable lying in a straight tube goes in waves, then in coils") {
   constexpr std::size_t elements = 512;
   LooseCables cables({cable}, {12, elements});
   const auto pressed = [&](double shortened) {
-    cables.advance(
-        hose(elements,
-             [&](double z) {
-               return HoseNode{.elongation = -shortened, .pull = {0.002 * std::sin(97 * z), -9.81}};
-             }),
-        step);
+    cables.advance(hose(elements,
+                        [&](double z) {
+                          return HoseNode{.elongation = -shortened, .pull = {0.002 * std::sin(97 * z), -9.81}};
+                        }),
+                   step);
     return -cables.state(0).tension[0];
   };
   const auto highest = [&] {
@@ -197,10 +195,12 @@ TEST_CASE("a cable that is pulled bends at its clamp as a beam does, on any mesh
     for (const std::size_t elements : {128, 256, 512}) {
       LooseCables cables({cable}, {length, elements});
       for (int k = 0; k < 200; ++k)  // until the drag has let it come to equilibrium
-        cables.advance(hose(elements, [&](double) { return HoseNode{.curvature2 = bend, .elongation = elongation}; }), 10);
+        cables.advance(hose(elements, [&](double) { return HoseNode{.curvature2 = bend, .elongation = elongation}; }),
+                       10);
       const CableState& state = cables.state(0);
       REQUIRE(state.tension.front() > 0);
-      const double decay = std::sqrt(cable.bending_stiffness / state.tension.front()), spacing = length / double(elements);
+      const double decay = std::sqrt(cable.bending_stiffness / state.tension.front()),
+                   spacing = length / double(elements);
       const double exact = bend * length / (2 * decay * std::tanh(length / (2 * decay)));
       INFO("T " << state.tension.front() << " N, " << elements << " pieces of " << spacing / decay << " decay lengths");
       const double raw = state.curvature[1], left = state.clamped[1];

@@ -47,7 +47,7 @@ std::vector<HoseNode> leaning(double gravity, double direction) {
 struct Swing {
   double farthest = 0;  ///< angle of the cable [rad]
   double work = 0,
-         lost = 0;  ///< work of gravity in the last cycle, and that of friction by the closed form [J/m]
+         lost = 0;             ///< work of gravity in the last cycle, and that of friction by the closed form [J/m]
   std::vector<double> path{};  ///< angles in the last cycle
 };
 
@@ -65,8 +65,7 @@ Swing swing(LooseCable cable, double most, double seconds, int samples = 200) {
     const std::array now{offset[elements], offset[elements + 1]};
     if (t > 2 * samples) {
       const double middle = most * std::sin(2 * pi * (t - 0.5) / samples);
-      result.work +=
-          weight * (std::cos(middle) * (now[0] - before[0]) + std::sin(middle) * (now[1] - before[1]));
+      result.work += weight * (std::cos(middle) * (now[0] - before[0]) + std::sin(middle) * (now[1] - before[1]));
       result.farthest = std::max(result.farthest, std::abs(angle(cables)));
       result.path.push_back(angle(cables));
     }
@@ -113,8 +112,7 @@ TEST_CASE("a cable pressed around an arc stays below mu times N and slides above
   CHECK(after(0) - start == Approx(std::atan(friction)).epsilon(0.03));
 }
 
-TEST_CASE(
-    "gravity that swings moves a cable by the closed form of dry friction, at any rate, and its work is lost") {
+TEST_CASE("gravity that swings moves a cable by the closed form of dry friction, at any rate, and its work is lost") {
   constexpr double most = 0.9, room = 0.01;
   const double lag = std::atan(friction);
   LooseCable cable = lying(room);
@@ -123,12 +121,10 @@ TEST_CASE(
   CHECK(fast.farthest == Approx(most - lag).epsilon(0.01));
   CHECK(fast.work == Approx(fast.lost).epsilon(0.02));
   double apart = 0;
-  for (std::size_t t = 0; t < fast.path.size(); ++t)
-    apart = std::max(apart, std::abs(fast.path[t] - slow.path[t]));
+  for (std::size_t t = 0; t < fast.path.size(); ++t) apart = std::max(apart, std::abs(fast.path[t] - slow.path[t]));
   INFO(apart << " rad apart, " << fast.farthest << " " << most - lag << " " << fast.work << " " << fast.lost);
   // The drag that remains, at the largest speed of the gravity's direction.
-  const double speed = room * most * 2 * pi / 4,
-               dragged = LooseCable::drag_beside_friction * cable.drag * speed;
+  const double speed = room * most * 2 * pi / 4, dragged = LooseCable::drag_beside_friction * cable.drag * speed;
   CHECK(dragged < 0.02 * friction * weight);
   CHECK(apart < 2 * dragged / weight);
   // Below the angle of friction it moves elastically and comes back: no work is lost.
@@ -144,8 +140,7 @@ TEST_CASE(
   CHECK(apart > 0.04);
 }
 
-TEST_CASE(
-    "a ring turns with a twist that alternates only where its forces exceed the friction of its cables") {
+TEST_CASE("a ring turns with a twist that alternates only where its forces exceed the friction of its cables") {
   // Ten cables on a circle, pressed on the wall by their line load. A held ring has the tension T = E A R^2 t^2/4 of the twist
   // t sin(2 pi z/L), and the sideways force T R t 2 pi/L + E I R t (2 pi/L)^3 per cable at most.
   constexpr double radius = 0.01845, load = 5, hose_length = 2.035;
@@ -158,8 +153,8 @@ TEST_CASE(
   const double wave = 2 * pi / hose_length;
   const auto held_strain = [&](double twist) { return std::pow(radius * twist, 2) / 4; };
   const auto force = [&](double twist) {
-    return (cables[0].axial_stiffness * held_strain(twist) + cables[0].bending_stiffness * wave * wave) *
-           radius * twist * wave;
+    return (cables[0].axial_stiffness * held_strain(twist) + cables[0].bending_stiffness * wave * wave) * radius *
+           twist * wave;
   };
   const auto strains = [&](double twist,
                            double cycle_time) {  // of the first cable, over the last of three cycles
@@ -196,8 +191,8 @@ double range_of_curvature(double mu, double cycle_time, int samples) {
   constexpr int cycles = 6;
   std::vector<LooseCable> cables;
   for (int k = 0; k < 10; ++k) {
-    LooseCable& cable = cables.emplace_back(
-        signal_cable(0.01845 * std::cos(2 * pi * k / 10), 0.01845 * std::sin(2 * pi * k / 10)));
+    LooseCable& cable =
+        cables.emplace_back(signal_cable(0.01845 * std::cos(2 * pi * k / 10), 0.01845 * std::sin(2 * pi * k / 10)));
     cable.bending_stiffness = 0.02, cable.slack = 0.01, cable.friction = mu, cable.line_load = 5;
   }
   fit_in_hose(cables, {0.0255, 0.013});
@@ -221,8 +216,7 @@ double range_of_curvature(double mu, double cycle_time, int samples) {
 
 }  // namespace
 
-TEST_CASE(
-    "a wound ring with dry friction bends its cables as much at half the rate, with a drag it does not") {
+TEST_CASE("a wound ring with dry friction bends its cables as much at half the rate, with a drag it does not") {
   const double range = range_of_curvature(friction, 4, 100);
   // The remaining drag is 2 % of the one that changes the range by a fifth.
   CHECK(range_of_curvature(friction, 8, 100) == Approx(range).epsilon(0.005));

@@ -50,16 +50,14 @@ TEST_CASE("a closed motion without friction closes") {
       std::vector<double> strain;
       for (std::size_t k = 0; k < loose.cables(); ++k) strain.push_back(loose.state(k).strain);
       if (!first.empty())
-        for (std::size_t k = 0; k < strain.size(); ++k)
-          worst = std::max(worst, std::abs(strain[k] - first[k]));
+        for (std::size_t k = 0; k < strain.size(); ++k) worst = std::max(worst, std::abs(strain[k] - first[k]));
       first = strain;
     }
     CHECK(worst < 1e-6);  // of strain
   }
 }
 
-TEST_CASE(
-    "what the mesh misses of a cable's waves is reported, and falls with the square of its nodes' distance") {
+TEST_CASE("what the mesh misses of a cable's waves is reported, and falls with the square of its nodes' distance") {
   LooseCable cable = signal_cable(0.01845);
   cable.play = 0.005;
   cable.slack = 0.01;
@@ -98,8 +96,7 @@ TEST_CASE("as many pieces as waves ask for see them, whatever the slack and the 
       INFO(slack << " of slack, " << lay << " deg, " << play << " m of play: " << elements);
       CHECK(elements >= 104);
       LooseCables loose(cables, {length, elements});
-      for (int t = 0; t <= 50; ++t)
-        loose.advance(hose(elements, [&](double z) { return arm(z, t / 50.0); }), step);
+      for (int t = 0; t <= 50; ++t) loose.advance(hose(elements, [&](double z) { return arm(z, t / 50.0); }), step);
       CHECK(loose.mesh_error() < warned_of);
     }
   LooseCables ring(ring_of_ten(0.01), {length, 104});  // rotates as a whole, in long waves
@@ -222,8 +219,7 @@ TEST_CASE("a ring turns out of a twist that alternates, and what strain is left 
     left.push_back(0);
     for (int t = 0; t <= 2 * cycle; ++t) {
       const double now = most * std::sin(2 * pi * t / cycle);
-      loose.advance(hose(64, [&](double z) { return HoseNode{.twist = now * std::sin(2 * pi * z)}; }),
-                    slower * step);
+      loose.advance(hose(64, [&](double z) { return HoseNode{.twist = now * std::sin(2 * pi * z)}; }), slower * step);
       for (std::size_t k = 0; t >= cycle && k < cables.size(); ++k)
         left.back() = std::max(left.back(), std::abs(loose.state(k).strain));
     }
@@ -239,7 +235,12 @@ TEST_CASE("the change of a repeat is that of the cables between its begin and it
   LooseCables loose(ring_of_ten(0), {2.035, 64});
   const auto move = [&](int from, int end) {
     for (int t = from; t < end; ++t)
-      loose.advance(hose(64, [&](double z) { return HoseNode{.curvature1 = sign * 3 * std::sin(2 * pi * t / cycle) * std::pow(std::sin(pi * z), 4)}; }), step);
+      loose.advance(
+          hose(64,
+               [&](double z) {
+                 return HoseNode{.curvature1 = sign * 3 * std::sin(2 * pi * t / cycle) * std::pow(std::sin(pi * z), 4)};
+               }),
+          step);
   };
   move(0, 2 * cycle + 1);
   CHECK(loose.changed() == 0);  // no repeat has begun
@@ -250,7 +251,7 @@ TEST_CASE("the change of a repeat is that of the cables between its begin and it
   CHECK(loose.changed() == 0);
   move(1, cycle + 1);
   CHECK(loose.changed() < 0.1);  // below the limit of the warning
-  move(1, cycle / 4 + 1);  // the hose is bent now, which it was not at the begin
+  move(1, cycle / 4 + 1);        // the hose is bent now, which it was not at the begin
   CHECK(loose.changed() > 0.5);
   const ChangedPlace most = loose.most_changed();
   std::vector<double> changes;  // (cable) sum of squares
@@ -265,7 +266,9 @@ TEST_CASE("the change of a repeat is that of the cables between its begin and it
   const auto node = static_cast<std::size_t>(std::lround(most.arc / loose.length() * 64));
   const auto change_at = [&](std::size_t of) {
     double larger = 0;
-    for (const std::size_t d : {0, 1}) larger = std::max(larger, std::abs(loose.state(most.cable).curvature[2 * of + d] - begun[most.cable][2 * of + d]));
+    for (const std::size_t d : {0, 1})
+      larger =
+          std::max(larger, std::abs(loose.state(most.cable).curvature[2 * of + d] - begun[most.cable][2 * of + d]));
     return larger;
   };
   for (std::size_t other = 0; other <= 64; ++other) CHECK(change_at(other) <= change_at(node));
@@ -290,14 +293,18 @@ TEST_CASE("cables that snap over come to rest within the sample") {
           std::normal_distribution<double> normal;
           for (int t = 0; t < 40; ++t) {
             const double bend = size * normal(random), across = size * normal(random), twist = size * normal(random);
-            loose.advance(
-                hose(64, [&](double z) { return HoseNode{bend * std::sin(pi * z), across * std::cos(pi * z), twist}; }), step);
+            loose.advance(hose(64,
+                               [&](double z) {
+                                 return HoseNode{bend * std::sin(pi * z), across * std::cos(pi * z), twist};
+                               }),
+                          step);
           }
           CHECK(loose.restless() == 0);
         }
 }
 
-TEST_CASE("a ring forgets its first place but for the choice of a rest, and the mesh does not decide where it comes to rest") {
+TEST_CASE(
+    "a ring forgets its first place but for the choice of a rest, and the mesh does not decide where it comes to rest") {
   constexpr int cycle = 100;
   std::vector<double> peak;  // of the last cycle, of the start with the smaller one [1/m]
   for (const std::size_t elements : {64, 128}) {
@@ -347,8 +354,7 @@ TEST_CASE("a random winding takes the slack of its ring and is held at both clam
   constexpr double length = 2.035, radius = 0.01845, slack = 0.01, h = length / (nodes - 1);
   const std::vector<double> turn = random_winding(nodes, length, radius, slack, 5);
   double taken = 0;
-  for (std::size_t i = 1; i < nodes; ++i)
-    taken += std::pow(radius * (turn[i] - turn[i - 1]) / h, 2) / 2 * h / length;
+  for (std::size_t i = 1; i < nodes; ++i) taken += std::pow(radius * (turn[i] - turn[i - 1]) / h, 2) / 2 * h / length;
   CHECK(taken == Approx(slack));
   CHECK(turn.front() == 0);
   CHECK(turn.back() == 0);
@@ -401,8 +407,7 @@ TEST_CASE("a start that is turned or mirrored comes to a rest that is turned or 
       apart_mirrored = std::max(apart_mirrored, std::hypot(x - mirrored_x, -y - mirrored_y));
     }
   CHECK(moved > 0.01);
-  constexpr double at_rest =
-      2e-6;  // [m]: ten times the residual of a ring and a cable at rest, 1e-5 rad and 1e-7 m
+  constexpr double at_rest = 2e-6;  // [m]: ten times the residual of a ring and a cable at rest, 1e-5 rad and 1e-7 m
   CHECK(apart_turned < at_rest);
   CHECK(apart_mirrored < at_rest);
 }
@@ -447,8 +452,7 @@ TEST_CASE("starts come to the same rests, as often, on two meshes") {
         for (std::size_t k = 0; t >= 4 * cycle && k < 10; ++k)
           for (std::size_t i = 0; i < loose.state(k).curvature.size(); ++i) {
             auto& [low, high] = ends[k * 2 * (elements + 1) + i];
-            low = std::min(low, loose.state(k).curvature[i]),
-            high = std::max(high, loose.state(k).curvature[i]);
+            low = std::min(low, loose.state(k).curvature[i]), high = std::max(high, loose.state(k).curvature[i]);
           }
       }
       double range = 0;
@@ -459,11 +463,9 @@ TEST_CASE("starts come to the same rests, as often, on two meshes") {
   std::array<double, 2> mean{}, square{};
   for (std::size_t mesh = 0; mesh < 2; ++mesh) {
     for (const double of : decades[mesh]) mean[mesh] += of / starts;
-    for (const double of : decades[mesh])
-      square[mesh] += std::pow(of - mean[mesh], 2) / (starts - 1) / starts;
+    for (const double of : decades[mesh]) square[mesh] += std::pow(of - mean[mesh], 2) / (starts - 1) / starts;
   }
-  INFO(mean[0] << " and " << mean[1] << ", errors " << std::sqrt(square[0]) << " and "
-               << std::sqrt(square[1]));
+  INFO(mean[0] << " and " << mean[1] << ", errors " << std::sqrt(square[0]) << " and " << std::sqrt(square[1]));
   // Two sampling errors of the difference, plus 2 % of curvature, the error of the coarse mesh.
   CHECK(std::abs(mean[0] - mean[1]) < 2 * std::sqrt(square[0] + square[1]) + 8 * std::log10(1.02));
   CHECK(square[0] > 0);
@@ -471,8 +473,7 @@ TEST_CASE("starts come to the same rests, as often, on two meshes") {
 
 TEST_CASE("cables meet what lies around them") {
   // Two rings around a cable on the axis. One ring consists of a single cable.
-  std::vector<LooseCable> cables{signal_cable(0), signal_cable(0.012), signal_cable(-0.012),
-                                 signal_cable(0.03)};
+  std::vector<LooseCable> cables{signal_cable(0), signal_cable(0.012), signal_cable(-0.012), signal_cable(0.03)};
   for (LooseCable& cable : cables) cable.radius = 0.005;
   fit_in_hose(cables, {0.04, 0});
   CHECK(cables[0].farthest == Approx(0.002));  // 12 mm less two radii
@@ -503,8 +504,7 @@ TEST_CASE("where a cable lies depends on none that is worked out beside it") {
   const LooseSettings settings{2.035, 64};
   LooseCables together(cables, settings);
   std::vector<std::unique_ptr<LooseCables>> alone;
-  for (const LooseCable& cable : cables)
-    alone.push_back(std::make_unique<LooseCables>(std::vector{cable}, settings));
+  for (const LooseCable& cable : cables) alone.push_back(std::make_unique<LooseCables>(std::vector{cable}, settings));
   for (int t = 0; t <= 40; ++t) {
     const std::vector<HoseNode> nodes = hose(64, [&](double z) { return arm(z, t / 40.0); });
     // The first sample ends when all cables are at rest, so cables that were at rest earlier continue for some iterations.
@@ -512,8 +512,7 @@ TEST_CASE("where a cable lies depends on none that is worked out beside it") {
     for (std::size_t k = 0; k < cables.size(); ++k) {
       alone[k]->advance(nodes, step);
       CAPTURE(t, k);
-      REQUIRE(std::abs(alone[k]->state(0).strain - together.state(k).strain) <
-              1e-6);  // of the 1e-2 that they move by
+      REQUIRE(std::abs(alone[k]->state(0).strain - together.state(k).strain) < 1e-6);  // of the 1e-2 that they move by
     }
   }
 }

@@ -18,8 +18,8 @@ constexpr double rounding = 1e-14;  // of some products of numbers below 10
 
 /// Returns (path, before, place) of node 1 of three after begin(), for a cable at `at` whose displacement in the last sample
 /// is `way`, in the frame `frame`.
-std::array<Vector2d, 3> begun(const Vector2d& at, const Vector2d& way, const Vector2d& laid,
-                              const Vector2d& frame, bool goes_on = true) {
+std::array<Vector2d, 3> begun(const Vector2d& at, const Vector2d& way, const Vector2d& laid, const Vector2d& frame,
+                              bool goes_on = true) {
   constexpr std::size_t nodes = 3;
   constexpr double step = 0.04;
   LaneRows zero, laid_rows, frames, velocity, rest, place, before, path, play, around;
@@ -34,8 +34,7 @@ std::array<Vector2d, 3> begun(const Vector2d& at, const Vector2d& way, const Vec
   LineBatch batch;
   batch.play = play.data(), batch.around = around.data();
   batch.nodes = nodes, batch.lanes = batch.cables = most_lanes;
-  batch.rest = rest.data(), batch.place = place.data(), batch.before = before.data(),
-  batch.path = path.data();
+  batch.rest = rest.data(), batch.place = place.data(), batch.before = before.data(), batch.path = path.data();
   const std::array<double, 2 * nodes> straight{}, unturned{1, 0, 1, 0, 1, 0};
   loose_kernels().begin(batch, {laid_rows.data(), zero.data(), frames.data(), velocity.data()},
                         {unturned.data(), straight.data()}, goes_on ? step : 0);

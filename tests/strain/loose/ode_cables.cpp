@@ -11,12 +11,10 @@ using Eigen::Matrix3d, Eigen::Quaterniond, Eigen::Vector2d, Eigen::Vector3d;
 constexpr int pieces = 800;   // of the axis; its frames turn by 1e-3 rad in each
 constexpr double h = 1;       // [s]; only mass / h^2 matters
 constexpr double drag = 3e3;  // per displacement in a step [N/m2]; steps stay below the gap between cables
-constexpr double spin =
-    300;  // drag against rotation, per length [N]: half the tension with which ODE's springs rotate
+constexpr double spin = 300;  // drag against rotation, per length [N]: half the tension with which ODE's springs rotate
 
 Quaterniond turned_by(const Vector3d& angle) {
-  return Quaterniond(
-      Eigen::AngleAxisd(angle.norm(), angle.norm() > 0 ? angle.normalized() : Vector3d(1, 0, 0)));
+  return Quaterniond(Eigen::AngleAxisd(angle.norm(), angle.norm() > 0 ? angle.normalized() : Vector3d(1, 0, 0)));
 }
 
 Vector3d rotation_vector(const Quaterniond& q) {
@@ -93,10 +91,7 @@ void OdeCables::add_chain(const LooseCable& cable, double twisting) {
     const dBodyID body = chain.bodies.emplace_back(dBodyCreate(world_));
     dBodySetAutoDisableFlag(body, 0);
     dBodySetGyroscopicMode(body, 0);
-    dBodySetPosition(body, cable.place[0], cable.place[1],
-                     i == 0          ? 0
-                     : i > segments_ ? length_
-                                     : (i - 0.5) * l_);
+    dBodySetPosition(body, cable.place[0], cable.place[1], i == 0 ? 0 : i > segments_ ? length_ : (i - 0.5) * l_);
     if (i == 0 || i > segments_) {
       dBodySetKinematic(body);
       continue;
@@ -121,8 +116,7 @@ void OdeCables::add_chain(const LooseCable& cable, double twisting) {
       const int group = dParamGroup * k;
       dJointSetAMotorParam(motor, dParamLoStop + group, 0);
       dJointSetAMotorParam(motor, dParamHiStop + group, 0);
-      dJointSetAMotorParam(motor, dParamStopCFM + group,
-                           spring_length(j) / (h * std::max(stiffness[k], 1e-6)));
+      dJointSetAMotorParam(motor, dParamStopCFM + group, spring_length(j) / (h * std::max(stiffness[k], 1e-6)));
       dJointSetAMotorParam(motor, dParamStopERP + group, 1);
     }
   }
@@ -203,8 +197,7 @@ void OdeCables::meet(const HoseCurve& hose) {
       }
       outside(arm, inner_radius_ - chain.cable.radius);
       const double nearest = core_radius_ + chain.cable.radius;
-      if (core_radius_ > 0 && arm.norm() < nearest + margin)
-        push(chain, i, arm.normalized(), nearest - arm.norm());
+      if (core_radius_ > 0 && arm.norm() < nearest + margin) push(chain, i, arm.normalized(), nearest - arm.norm());
       for (const Chain& other : chains_) {
         if (&other == &chain) continue;
         const Vector3d along = orientation(chain.bodies[i]) * Vector3d(0, 0, 1);
@@ -231,8 +224,7 @@ double OdeCables::follow(const HoseCurve& hose, const std::function<HoseNode(dou
         dBodySetAngularVel(body, 0, 0, 0);
         const HoseNode node = nodes((i - 0.5) / segments_);
         const Matrix3d axes = hose.beside(position(body), (i - 0.5) / segments_).axes;
-        const Vector3d weight =
-            chain.cable.mass_per_length * l_ * (axes * Vector3d(node.pull[0], node.pull[1], 0));
+        const Vector3d weight = chain.cable.mass_per_length * l_ * (axes * Vector3d(node.pull[0], node.pull[1], 0));
         dBodyAddForce(body, weight.x(), weight.y(), weight.z());
       }
     }
@@ -241,8 +233,7 @@ double OdeCables::follow(const HoseCurve& hose, const std::function<HoseNode(dou
     longest = 0;
     auto from = before.begin();
     for (const Chain& chain : chains_)
-      for (int i = 1; i <= segments_; ++i)
-        longest = std::max(longest, (position(chain.bodies[i]) - *from++).norm());
+      for (int i = 1; i <= segments_; ++i) longest = std::max(longest, (position(chain.bodies[i]) - *from++).norm());
   }
   return longest;
 }

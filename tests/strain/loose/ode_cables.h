@@ -47,8 +47,8 @@ class OdeCables {
  public:
   /// cables: only their places, stiffnesses, contact stiffness and play (without_limit: none) are used. twisting: G J / (E I).
   /// inner_radius, core_radius: the wall and the core, for cables without a limit of play [m].
-  OdeCables(const std::vector<LooseCable>& cables, double length, int segments, double twisting,
-            double inner_radius, double core_radius);
+  OdeCables(const std::vector<LooseCable>& cables, double length, int segments, double twisting, double inner_radius,
+            double core_radius);
   ~OdeCables();
   OdeCables(const OdeCables&) = delete;
   OdeCables& operator=(const OdeCables&) = delete;

@@ -40,8 +40,8 @@ struct Comparison {
 };
 
 /// Returns the comparison at the last pose. twisting: G J / (E I) of the chains.
-std::vector<Comparison> compare(const std::vector<LooseCable>& cables, double inner_radius,
-                                double core_radius, double twisting, const Motion& motion) {
+std::vector<Comparison> compare(const std::vector<LooseCable>& cables, double inner_radius, double core_radius,
+                                double twisting, const Motion& motion) {
   OdeCables ode(cables, length, segments, twisting, inner_radius, core_radius);
   LooseCables loose(cables, {length, elements});
   for (int t = 1; t <= poses; ++t) {
@@ -68,8 +68,8 @@ std::vector<Comparison> compare(const std::vector<LooseCable>& cables, double in
       c.largest_curvature = std::max(c.largest_curvature, there.curvature[j - 2].norm());
     }
     c.curvature = std::sqrt(c.curvature);
-    INFO("cable " << k << ": strain " << c.strain << ", " << c.ode_strain << "; place " << c.place << " of "
-                  << c.offset << "; curvature " << c.curvature << " of " << c.largest_curvature);
+    INFO("cable " << k << ": strain " << c.strain << ", " << c.ode_strain << "; place " << c.place << " of " << c.offset
+                  << "; curvature " << c.curvature << " of " << c.largest_curvature);
     CHECK(c.offset > 1e-3);  // the cable has moved away from its place
   }
   return all;
@@ -112,8 +112,7 @@ TEST_CASE("a cable rests where a chain of an independent engine rests") {
   CHECK(std::abs(twisted.strain - twisted.ode_strain) < 2e-5);
 }
 
-TEST_CASE(
-    "two cables pressed into the same corner of a hose rest where chains of an independent engine rest") {
+TEST_CASE("two cables pressed into the same corner of a hose rest where chains of an independent engine rest") {
   // The inside of the bend pulls both cables to the wall, and the round wall pushes them against each other. In space they
   // touch in the plane between them, 0.4 mm from each. The reduced model stops each after this distance along its ring.
   const double ring = 0.01845, inner = 0.0255, core = 0.013, room = 0.0004;
@@ -130,6 +129,7 @@ TEST_CASE(
     // sin(angle) times that.
     CHECK(c.place < 1.2 * 0.00175 * std::sin(angle));
     CHECK(c.curvature < 0.03 * c.largest_curvature);
-    CHECK(c.strain == Approx(c.ode_strain).epsilon(0.05));  // an error of 0.16 mm in position at 0.5 1/m: 7e-5 of 1.2e-3
+    CHECK(c.strain ==
+          Approx(c.ode_strain).epsilon(0.05));  // an error of 0.16 mm in position at 0.5 1/m: 7e-5 of 1.2e-3
   }
 }

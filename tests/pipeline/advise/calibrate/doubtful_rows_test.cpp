@@ -58,31 +58,26 @@ TEST_CASE("observations: what is wrong in a row is refused with its remedy") {
       {"cycles: 500, outcome: failed", "outcome is 'failed'", "broken (it failed then)"},
       {"cycles: 500, criterion: cable", "criterion is 'cable'", "first_wire, or conductor"},
       {"cycles: 500, specimens: 0", "specimens is 0", "give the number of specimens"},
-      {"cycles: 500, specimens: 2.5", "specimens is 2.5 (must be a whole number)",
-       "give the number of specimens"},
+      {"cycles: 500, specimens: 2.5", "specimens is 2.5 (must be a whole number)", "give the number of specimens"},
       {"cycles: 500, unshared_log10: -0.3", "unshared_log10 is -0.3", "give the standard deviation"},
-      {"hours: 500, cycles_per_repeat: 2", "cycles_per_repeat has no effect on a row with hours",
-       "leave it out"},
+      {"hours: 500, cycles_per_repeat: 2", "cycles_per_repeat has no effect on a row with hours", "leave it out"},
       {"cycles: 500, noise_percent: 20", "noise_percent has no effect on a row with cycles", "leave it out"},
       {"cycles: 500, at_curvature_1_per_m: 2", "at_curvature_1_per_m has no effect on a row with cycles",
        "leave it out"},
       {"cycles: 500, outcome: rating, specimens: 10", "specimens has no effect on a rating", "leave it out"},
-      {"stiffness_Nm2: 0.02, outcome: run_out", "outcome has no effect on a row with stiffness_Nm2",
-       "leave it out"},
+      {"stiffness_Nm2: 0.02, outcome: run_out", "outcome has no effect on a row with stiffness_Nm2", "leave it out"},
       {"stiffness_Nm2: 0.02, unshared_log10: 0.2", "unshared_log10 has no effect on a row with stiffness_Nm2",
        "leave it out"},
-      {"bending: bend.csv, at_curvature_1_per_m: 2",
-       "at_curvature_1_per_m has no effect on a row with bending", "leave it out"},
+      {"bending: bend.csv, at_curvature_1_per_m: 2", "at_curvature_1_per_m has no effect on a row with bending",
+       "leave it out"},
       {"bending: none.csv", "none.csv: error: cannot be read", "; "},
   };
   for (const Wrong& one : wrong) {
-    const Answer answer =
-        answer_to("observations:\n" + row("x", one.keys), "curvature_1_per_m,moment_Nm\n1,0.02\n");
+    const Answer answer = answer_to("observations:\n" + row("x", one.keys), "curvature_1_per_m,moment_Nm\n1,0.02\n");
     CAPTURE(one.keys, answer.refusal);
     CHECK_THAT(answer.refusal, Contains(one.problem) && Contains(one.remedy));
   }
-  CHECK_THAT(answer_to("observations:\n" + row("line-1", "cycles: 500")).refusal,
-             Contains("write name: line_1"));
+  CHECK_THAT(answer_to("observations:\n" + row("line-1", "cycles: 500")).refusal, Contains("write name: line_1"));
   CHECK_THAT(answer_to("base: irb6640_spot_welding\n").refusal,
              Contains("is a study (it has the key 'base'), no list of observations"));
   CHECK_THAT(answer_to("name;hours\nx;5\n").refusal,
@@ -98,8 +93,7 @@ TEST_CASE("observations: what another unit, a copy or an exchange explains is wa
       {"hours: 0.5", "hours of 'x' is 0.5 (limit 1 or more)", "hours: 500 if that was thousands of hours"},
       {"hours: 300000, outcome: run_out", "hours of 'x' is 300000 (limit 175000 or less",
        "hours: 5000 if that was minutes, or cycles: 300000"},
-      {"cycles: 50000, specimens: 50000", "specimens of 'x' is 50000 (limit 200 or less)",
-       "the number of pieces"},
+      {"cycles: 50000, specimens: 50000", "specimens of 'x' is 50000 (limit 200 or less)", "the number of pieces"},
       {"cycles: 50000, cycles_per_repeat: 30", "cycles_per_repeat of 'x' is 30 (limit 0.1 .. 10)",
        "cycles_per_repeat: 1, or 2"},
       {"cycles: 50000, unshared_log10: 2", "unshared_log10 of 'x' is 2 (limit 1 or less",
@@ -108,12 +102,10 @@ TEST_CASE("observations: what another unit, a copy or an exchange explains is wa
        "unshared_log10: 0.1"},
       {"stiffness_Nm2: 20000", "stiffness_Nm2 of 'x' is 20000 (limit 1e-05 .. 10). Likely cause: N mm2",
        "stiffness_Nm2: 0.02 if that was N mm2"},
-      {"stiffness_Nm2: 2e-8", "stiffness_Nm2 of 'x' is 2e-08",
-       "the moment in N m times the bend radius in m"},
+      {"stiffness_Nm2: 2e-8", "stiffness_Nm2 of 'x' is 2e-08", "the moment in N m times the bend radius in m"},
       {"stiffness_Nm2: 0.02, noise_percent: 0.1", "noise_percent of 'x' is 0.1 (limit 1 or more)",
        "noise_percent: 10 if that was a share"},
-      {"stiffness_Nm2: 0.02, at_curvature_1_per_m: 100",
-       "at_curvature_1_per_m of 'x' is 100 (limit 0.05 .. 50)",
+      {"stiffness_Nm2: 0.02, at_curvature_1_per_m: 100", "at_curvature_1_per_m of 'x' is 100 (limit 0.05 .. 50)",
        "at_curvature_1_per_m: 10 if that was a radius in mm"},
       {"stiffness_Nm2: 0.02, at_curvature_1_per_m: 0.001", "at_curvature_1_per_m of 'x' is 0.001",
        "at_curvature_1_per_m: 1 if that was 1/mm"},
@@ -123,8 +115,8 @@ TEST_CASE("observations: what another unit, a copy or an exchange explains is wa
     const Answer answer = answer_to("observations:\n" + row("x", one.keys));
     CAPTURE(one.keys, answer.refusal);
     REQUIRE(answer.doubts.size() == 1);
-    CHECK_THAT(answer.doubts[0], Contains("o.yaml:2:5: warning: ") && Contains(one.problem) &&
-                                     Contains("Remedy: ") && Contains(one.remedy));
+    CHECK_THAT(answer.doubts[0], Contains("o.yaml:2:5: warning: ") && Contains(one.problem) && Contains("Remedy: ") &&
+                                     Contains(one.remedy));
   }
   const auto both = [](const std::string& first, const std::string& second) {
     return answer_to("observations:\n" + row("x", first) + row("y", second)).doubts;
@@ -134,8 +126,8 @@ TEST_CASE("observations: what another unit, a copy or an exchange explains is wa
              Contains("o.yaml:3:5") && Contains("'y' are those of 'x'") && Contains("specimens: 2"));
   REQUIRE(both("cycles: 90000, outcome: run_out", "cycles: 50000, outcome: broken_by").size() == 1);
   CHECK_THAT(both("cycles: 50000, outcome: broken_by", "cycles: 90000, outcome: run_out")[0],
-             Contains("'y' lived at least 90,000") &&
-                 Contains("no specimen lived longer than at most 50,000") && Contains("outcome: broken"));
+             Contains("'y' lived at least 90,000") && Contains("no specimen lived longer than at most 50,000") &&
+                 Contains("outcome: broken"));
   CHECK(both("cycles: 50000, outcome: run_out", "cycles: 90000, outcome: broken_by").empty());
   CHECK(both("cycles: 50000", "cycles: 60000").empty());
   CHECK(both("cycles: 50000", "hours: 50000").empty());
@@ -151,10 +143,9 @@ TEST_CASE("observations: what another unit, a copy or an exchange explains is wa
         Table{"2000,0.02\n1000,0.03\n", "the largest curvature_1_per_m of 'x' is 2000",
               "1000 over the bend radius in mm"},
         Table{"0.01,0.5\n0.02,1\n", "exchanged columns", "curvature_1_per_m"}}) {
-    const std::vector<std::string> doubts =
-        answer_to("observations:\n" + row("x", "bending: bend.csv"),
-                  std::string("curvature_1_per_m,moment_Nm\n") + one.lines)
-            .doubts;
+    const std::vector<std::string> doubts = answer_to("observations:\n" + row("x", "bending: bend.csv"),
+                                                      std::string("curvature_1_per_m,moment_Nm\n") + one.lines)
+                                                .doubts;
     CAPTURE(one.lines);
     REQUIRE(doubts.size() == 1);
     CHECK_THAT(doubts[0], Contains(one.problem) && Contains(one.remedy));
@@ -162,17 +153,15 @@ TEST_CASE("observations: what another unit, a copy or an exchange explains is wa
 }
 
 TEST_CASE("observations: the shipped tables and usual rows have no doubts") {
-  const std::filesystem::path shipped =
-      std::filesystem::path(DRESSLIFE_SOURCE_DIR) / "config" / "observations";
+  const std::filesystem::path shipped = std::filesystem::path(DRESSLIFE_SOURCE_DIR) / "config" / "observations";
   for (const char* name : {"your_cable.yaml", "ratings.yaml", "published.yaml"})
     CHECK(doubtful_rows(read_observed_tests(shipped / name)).empty());
   for (const char* usual :
        {"hours: 1, outcome: run_out", "hours: 4900, outcome: run_out, specimens: 5, unshared_log10: 0.3",
         "cycles: 1e7, cycles_per_repeat: 2, outcome: rating", "stiffness_Nm2: 0.02, noise_percent: 15",
         "decrement: 0.3, decrement_without_slip: 0.05", "bending: bend.csv"})
-    CHECK(
-        answer_to("observations:\n" + row("x", usual), "curvature_1_per_m,moment_Nm\n0,0\n1,0.02\n-1,-0.02\n")
-            .doubts.empty());
+    CHECK(answer_to("observations:\n" + row("x", usual), "curvature_1_per_m,moment_Nm\n0,0\n1,0.02\n-1,-0.02\n")
+              .doubts.empty());
 }
 
 }  // namespace dresslife::pipeline

@@ -10,8 +10,7 @@ namespace {
 using Eigen::VectorXd;
 
 Emulator of(double value, double low, double high) {
-  return {VectorXd::Zero(1), VectorXd::Ones(1), value, VectorXd::Constant(1, low),
-          VectorXd::Constant(1, high)};
+  return {VectorXd::Zero(1), VectorXd::Ones(1), value, VectorXd::Constant(1, low), VectorXd::Constant(1, high)};
 }
 double at(const Emulator& emulator, double z) { return emulator(VectorXd::Constant(1, z)); }
 
@@ -22,8 +21,7 @@ TEST_CASE("emulator: a sum of parabolas comes back between its runs, from any ce
     const int axes = 1 + trial % 4;
     VectorXd slope(axes), bend(axes), centre(axes), step(axes);
     for (int j = 0; j < axes; ++j)
-      slope[j] = number(random), bend[j] = number(random), centre[j] = number(random),
-      step[j] = 1.1 + number(random);
+      slope[j] = number(random), bend[j] = number(random), centre[j] = number(random), step[j] = 1.1 + number(random);
     const auto truth = [&](const VectorXd& z) { return 3 + slope.dot(z) + bend.dot(z.cwiseProduct(z)); };
     VectorXd low(axes), high(axes);
     for (int j = 0; j < axes; ++j) {

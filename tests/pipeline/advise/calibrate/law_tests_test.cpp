@@ -61,22 +61,21 @@ TEST_CASE("law tests: mistakes are refused at their line") {
   };
   CHECK_THROWS_WITH(reading("{name: a, what: b, source: c}")(),
                     Contains("laws.yaml:2") && Contains("one of tube, wear and bending"));
-  CHECK_THROWS_WITH(
-      reading("{name: a, what: b, source: c, tube: {outer_mm: 8, bore_mm: 9, kinks_at_mm: 20}}")(),
-      Contains("bore"));
+  CHECK_THROWS_WITH(reading("{name: a, what: b, source: c, tube: {outer_mm: 8, bore_mm: 9, kinks_at_mm: 20}}")(),
+                    Contains("bore"));
   CHECK_THROWS_WITH(reading("{name: a, what: b, source: c, tube: {outer_mm: 8, bore_mm: 6}}")(),
                     Contains("kinks_at_mm"));
-  CHECK_THROWS_WITH(
-      reading("{name: a, what: b, source: c, tube: {outer_mm: 8, bore_mm: 6, kinks_at_mm: -1}}")(),
-      Contains("kinks_at_mm"));
+  CHECK_THROWS_WITH(reading("{name: a, what: b, source: c, tube: {outer_mm: 8, bore_mm: 6, kinks_at_mm: -1}}")(),
+                    Contains("kinks_at_mm"));
   const auto pair = reading(
       "{name: a, what: b, source: c, wear: {material: pvc, against: dresspack, force_N: 1, way_m: 1, worn_mm3: 1}}")();
   CHECK_THROWS_WITH(predicted(pair.at(0)), Contains("no wear rate against dresspack"));
   CHECK_THROWS_WITH(reading("{name: a, what: b, source: c, bending: {curvature_1_per_m: 1, moment_mNm: 1}}")(),
                     Contains("laws.yaml:2") && Contains("bending has no cable"));
   CHECK_THROWS_WITH(
-      reading("{name: a, what: b, source: c, bending: {cable: {name: a, source: b, radius_mm: 3, without_wires: {kind: hose, bore_mm: 2}}, "
-              "curvature_1_per_m: 1, moment_mNm: 1}}")(),
+      reading(
+          "{name: a, what: b, source: c, bending: {cable: {name: a, source: b, radius_mm: 3, without_wires: {kind: hose, bore_mm: 2}}, "
+          "curvature_1_per_m: 1, moment_mNm: 1}}")(),
       Contains("laws.yaml:2") && Contains("has no wires"));
 }
 
@@ -84,11 +83,16 @@ TEST_CASE("law tests: a bent cable, whose friction alone is uncertain") {
   const Scratch scratch;
   const auto test_of = [&](const std::string& friction, const std::string& moment) {
     const std::string wire = "{name: wire, count: 1, radius_mm: 0.5, helix_radius_mm: 0, material: copper_halved}";
-    const std::string strand = "{name: wire, count: 6, radius_mm: 0.5, helix_radius_mm: 1, lay_angle_deg: 5, material: copper_halved, "
-                               "radial_line_load_N_per_m: 100, friction_coefficient: " + friction + "}";
-    return read_law_tests(scratch.write(
-        "laws.yaml", "law_tests:\n  - {name: a, what: b, source: c, bending: {cable: {name: strand, source: d, radius_mm: 2, components: [" +
-                         wire + (friction == "none" ? "" : ", " + strand) + "]}, curvature_1_per_m: 3, moment_mNm: " + moment + "}}\n"))
+    const std::string strand =
+        "{name: wire, count: 6, radius_mm: 0.5, helix_radius_mm: 1, lay_angle_deg: 5, material: copper_halved, "
+        "radial_line_load_N_per_m: 100, friction_coefficient: " +
+        friction + "}";
+    return read_law_tests(
+               scratch.write(
+                   "laws.yaml",
+                   "law_tests:\n  - {name: a, what: b, source: c, bending: {cable: {name: strand, source: d, radius_mm: 2, components: [" +
+                       wire + (friction == "none" ? "" : ", " + strand) +
+                       "]}, curvature_1_per_m: 3, moment_mNm: " + moment + "}}\n"))
         .front();
   };
   // One wire on the axis in polymer has only E I.
@@ -108,8 +112,7 @@ TEST_CASE("law tests: a bent cable, whose friction alone is uncertain") {
 }
 
 TEST_CASE("law tests: the shipped file, with its misses") {
-  const auto tests =
-      read_law_tests(std::filesystem::path(DRESSLIFE_SOURCE_DIR) / "config/observations/laws.yaml");
+  const auto tests = read_law_tests(std::filesystem::path(DRESSLIFE_SOURCE_DIR) / "config/observations/laws.yaml");
   int misses = 0, independent = 0;
   for (const LawTest& test : tests) {
     const std::string verdict = verdict_of(test, predicted(test));
@@ -143,7 +146,8 @@ TEST_CASE("law tests: the page's table has the verdicts of the shipped file") {
   };
   std::vector<Count> counts(laws.size());
   for (const LawTest& test : read_law_tests(folder / "laws.yaml")) {
-    const auto law = std::ranges::find_if(laws, [&](const Law& one) { return test.name.starts_with(one.prefix) && test.name.ends_with(one.suffix); });
+    const auto law = std::ranges::find_if(
+        laws, [&](const Law& one) { return test.name.starts_with(one.prefix) && test.name.ends_with(one.suffix); });
     Count& count = counts.at(static_cast<std::size_t>(law - laws.begin()));
     ++count.all;
     if (test.sets_constant) {

@@ -37,8 +37,8 @@ struct Made {
   /// centre: of every parameter [deviations].
   explicit Made(const std::string& observed, double centre = 0, bool typical = false) {
     tests = read_observed_tests(
-        scratch.write("o.yaml", "observations:\n  - name: bench\n    what: bent\n    source: a book\n" +
-                                    observed + "    job:\n" + indented_job()));
+        scratch.write("o.yaml", "observations:\n  - name: bench\n    what: bent\n    source: a book\n" + observed +
+                                    "    job:\n" + indented_job()));
     tests[0].typical = typical;
     round.emplace(tests, std::vector<std::string>{}, "round", Eigen::VectorXd::Constant(uncertain_count, centre),
                   Eigen::VectorXd::Constant(uncertain_count, 0.5));
@@ -74,8 +74,7 @@ TEST_CASE("learned: a life without a response is that of its row, with the sprea
   // 36 s per repeat with two cycles: 200 cycles per hour.
   const Made cycles("    cycles: 300\n    cycles_per_repeat: 2\n");
   const auto made = emulate(cycles.tests, *cycles.round, {cycles.row(500, 0.4)}, places);
-  CHECK(made[0].life->variants[0](Eigen::VectorXd::Zero(uncertain_count)).log_median ==
-        Approx(std::log(500 * 200)));
+  CHECK(made[0].life->variants[0](Eigen::VectorXd::Zero(uncertain_count)).log_median == Approx(std::log(500 * 200)));
 }
 
 TEST_CASE("learned: the response of a row counts from the parameters that the row was computed at") {
@@ -101,7 +100,9 @@ TEST_CASE("learned: the response of a row counts from the parameters that the ro
 
 TEST_CASE("learned: the likelihood of a life has all that an observation states, and its words have what moves it") {
   const double ln10 = std::log(10.0), spread = 0.5;
-  for (const auto& [outcome, end] : {std::pair("broken", LifeEnd::broken), {"broken_by", LifeEnd::at_most}, {"run_out", LifeEnd::at_least},
+  for (const auto& [outcome, end] : {std::pair("broken", LifeEnd::broken),
+                                     {"broken_by", LifeEnd::at_most},
+                                     {"run_out", LifeEnd::at_least},
                                      {"rating", LifeEnd::at_least}}) {
     Made made(std::string("    hours: 300\n    unshared_log10: 0.2\n    outcome: ") + outcome + "\n");
     made.tests[0].observation.specimens = 3;
@@ -113,17 +114,19 @@ TEST_CASE("learned: the likelihood of a life has all that an observation states,
     CHECK(test.life->end == end);
     CHECK(test.life->specimens == (outcome == std::string("rating") ? 1 : 3));
     CHECK(test.life->unshared_spread == Approx(0.2 * ln10));
-    CHECK(test.life->common_share == Approx(fatigue.scatter_shared * std::pow(fatigue.scatter_log10 * ln10 / spread, 2)));
+    CHECK(test.life->common_share ==
+          Approx(fatigue.scatter_shared * std::pow(fatigue.scatter_log10 * ln10 / spread, 2)));
     CHECK(test.fails_first == "wires of lead, 75 %");
-    CHECK(test.moved_by == "motion 3.7, model 2.0, strength 2.0, slack 1.6");  // no friction: its cables are glued or free
+    CHECK(test.moved_by ==
+          "motion 3.7, model 2.0, strength 2.0, slack 1.6");  // no friction: its cables are glued or free
   }
   // Of dresspacks in service: 1e5 repeats of 36 s, four fifths of the time, and 2e5 of 72 s, one fifth. Own values have a mean of 0.
   for (const double centre : {0.0, 0.25}) {
     Made made("    hours: 300\n    vary: {routing.free_length_m: [1.2, 1.3]}\n", centre);
     made.tests[0].observation.service = {{200, 0, true}};
     made.tests[0].variants[0].share_of_time = 0.8, made.tests[0].variants[1].share_of_time = 0.2;
-    made.round.emplace(made.tests, std::vector<std::string>{}, "round", Eigen::VectorXd::Constant(uncertain_count, centre),
-                       Eigen::VectorXd::Ones(uncertain_count));
+    made.round.emplace(made.tests, std::vector<std::string>{}, "round",
+                       Eigen::VectorXd::Constant(uncertain_count, centre), Eigen::VectorXd::Ones(uncertain_count));
     std::vector<RankingRow> rows;
     for (const std::size_t k : {0u, 1u}) {
       RankingRow& row = rows.emplace_back(made.row(1000, 0.4));
@@ -131,19 +134,22 @@ TEST_CASE("learned: the likelihood of a life has all that an observation states,
       row.life_response = straight_response(0, 0.2, 0.3, std::log10(k == 0 ? 1e5 : 2e5)).text();
     }
     const EmulatedTest test = emulate(made.tests, *made.round, rows, {made.scratch.folder(), {}}).at(0);
-    CHECK(test.moved_by == "motion (each dresspack's own) 3.7, model 2.0, strength 2.0, slack (each dresspack's own) 1.6");
+    CHECK(test.moved_by ==
+          "motion (each dresspack's own) 3.7, model 2.0, strength 2.0, slack (each dresspack's own) 1.6");
     for (const double strength : {-0.8, 0.0, 0.5}) {
       Eigen::VectorXd z = Eigen::VectorXd::Constant(uncertain_count, centre);
       z[index_of(Uncertain::strength)] += strength;
       double mean = 0;
-      for (const LifeVariant& each : test.life->variants) mean += each(z).log_median / double(test.life->variants.size());
+      for (const LifeVariant& each : test.life->variants)
+        mean += each(z).log_median / double(test.life->variants.size());
       const double per_hour = 0.8 * 3600 / 36 / 1e5 + 0.2 * 3600 / 72 / 2e5;
       CHECK(mean == Approx(-std::log(per_hour) + 0.3 * ln10 * strength).epsilon(1e-5));
     }
   }
 }
 
-TEST_CASE("learned: of straight responses the posterior, and what each test says of the other, are those of normal distributions") {
+TEST_CASE(
+    "learned: of straight responses the posterior, and what each test says of the other, are those of normal distributions") {
   Made made("    hours: 300\n    unshared_log10: 0.2\n");
   // With the default deviations, and of jobs that state a measured strength and no uncertainty of the motion.
   const bool stated = GENERATE(false, true);
@@ -173,7 +179,8 @@ TEST_CASE("learned: of straight responses the posterior, and what each test says
     std::vector<RankingRow> rows;
     for (const std::size_t t : {0u, 1u}) {
       RankingRow& row = rows.emplace_back(made.row(500, scatter[t]));
-      row.job = study.jobs.at(t).name, row.failing_mode = t == 0 ? "wires of a" : "wires of b", row.failing_mode_share = 1;
+      row.job = study.jobs.at(t).name, row.failing_mode = t == 0 ? "wires of a" : "wires of b",
+      row.failing_mode_share = 1;
       row.life_response = straight_response(0, t == 0 ? 0 : 0.2, of_strength[t]).text();
       SampleLife life;
       life.segments = 4, life.lines = 1, life.samples = 3;
@@ -217,7 +224,8 @@ TEST_CASE("learned: of straight responses the posterior, and what each test says
       continue;
     }
     const auto at = Eigen::Index(i++), all = Eigen::Index(p);
-    const double deviation = std::sqrt(both.covariance(all, all)), before = std::sqrt(of_tests({}).covariance(all, all));
+    const double deviation = std::sqrt(both.covariance(all, all)),
+                 before = std::sqrt(of_tests({}).covariance(all, all));
     CHECK(learned.posterior.laplace.most_likely[at] == Approx(both.mean[all]).margin(1e-3));
     CHECK(learned.posterior.mean[at] == Approx(both.mean[all]).margin(of_mean * deviation));
     CHECK(learned.axes[p].narrowed == Approx(deviation / before).epsilon(of_spread));
@@ -237,11 +245,15 @@ TEST_CASE("learned: of straight responses the posterior, and what each test says
     if (stated)
       CHECK(test.moved_by == (t == 0 ? "model 2.0, strength 1.3" : "model 2.0, slack 1.6, strength 1.1"));
     else
-      CHECK(test.moved_by == (t == 0 ? "motion 3.7, model 2.0, strength 2.0" : "motion 3.7, model 2.0, slack 1.6, strength 1.4"));
+      CHECK(test.moved_by ==
+            (t == 0 ? "motion 3.7, model 2.0, strength 2.0" : "motion 3.7, model 2.0, slack 1.6, strength 1.4"));
     const auto check = [&](const PredictedDeciles& deciles, const Normal& of) {
-      const double middle = std::log(500) + k[t].dot(of.mean), deviation = std::hypot(std::sqrt(k[t].dot(of.covariance * k[t])), spread[t]);
+      const double middle = std::log(500) + k[t].dot(of.mean),
+                   deviation = std::hypot(std::sqrt(k[t].dot(of.covariance * k[t])), spread[t]);
       // Deciles of 2,000 draws are known to 4 % of the deviation, three times that.
-      for (int side : {-1, 0, 1}) CHECK(std::log(deciles[std::size_t(side + 1)]) == Approx(middle + side * decile * deviation).margin(0.12 * deviation));
+      for (int side : {-1, 0, 1})
+        CHECK(std::log(deciles[std::size_t(side + 1)]) ==
+              Approx(middle + side * decile * deviation).margin(0.12 * deviation));
     };
     check(test.before, of_tests({}));
     check(test.after, both);
@@ -284,8 +296,7 @@ TEST_CASE("learned: each parameter that a test depends on has its own quantiles 
   CHECK(found == static_cast<std::size_t>(axes.size()));
 }
 
-TEST_CASE(
-    "learned: a surprise is counted in deviations of its own side, and only where the outcome bounds that side") {
+TEST_CASE("learned: a surprise is counted in deviations of its own side, and only where the outcome bounds that side") {
   LearnedTest test;
   test.before = {100, 200, 800};  // ln 2 and ln 4 to the deciles
   const auto surprise_of = [&](double hours, ObservedEnd end) {
@@ -336,7 +347,9 @@ TEST_CASE("learned: hoses that had not cracked move the strength of their wall a
   // likelihood is Phi(b + c z). With q = b/sqrt(1 + c^2) the mean of z is c/sqrt(1 + c^2) phi(q)/Phi(q).
   EmulatedTest hose;
   hose.walls["wall"].service = {{9, false, 1}};
-  hose.walls["wall"].variants = {[](const Eigen::VectorXd& z) { return LifeAt{8 + 2 * z[index_of(Uncertain::strength)], 0.5}; }};
+  hose.walls["wall"].variants = {[](const Eigen::VectorXd& z) {
+    return LifeAt{8 + 2 * z[index_of(Uncertain::strength)], 0.5};
+  }};
   const auto walls = learned_walls({hose, EmulatedTest{}});
   REQUIRE(walls.size() == 1);
   const double b = -2, c = 4, root = std::hypot(1, c), q = b / root, rate = normal_density(q) / normal_share(q);
@@ -372,7 +385,8 @@ TEST_CASE("learned: a life says of the hoses' walls that they lived at least as 
   double median = 0;
   for (const LifeVariant& each : lived.variants) {
     median += each(Eigen::VectorXd::Zero(uncertain_count)).log_median / double(lived.variants.size());
-    CHECK(each(stronger).log_median - each(Eigen::VectorXd::Zero(uncertain_count)).log_median == Approx(1.5 * std::log(10)));
+    CHECK(each(stronger).log_median - each(Eigen::VectorXd::Zero(uncertain_count)).log_median ==
+          Approx(1.5 * std::log(10)));
   }
   CHECK(median == Approx(std::log(1e5 * 36 / 3600)));
   // Records of a plant: one failed by its wires; one was installed before the records began.
@@ -383,7 +397,8 @@ TEST_CASE("learned: a life says of the hoses' walls that they lived at least as 
   const auto service = walls_of(plant).at(wall.material).service;
   REQUIRE(service.size() == 3);
   constexpr double within = 0.025;  // ages are grouped within 5 %
-  for (const auto& [k, hours, count] : {std::tuple{0u, 100.0, -1}, std::tuple{1u, 200.0, 1}, std::tuple{2u, 300.0, 1}}) {
+  for (const auto& [k, hours, count] :
+       {std::tuple{0u, 100.0, -1}, std::tuple{1u, 200.0, 1}, std::tuple{2u, 300.0, 1}}) {
     CHECK(service[k].log_age == Approx(std::log(hours)).margin(within));
     CHECK(service[k].count == count);
     CHECK_FALSE(service[k].failed);
@@ -394,14 +409,18 @@ TEST_CASE("learned: a life says of the hoses' walls that they lived at least as 
   CHECK(walls_of(below).empty());  // the wires failed first, so there is no information about the hose
 }
 
-TEST_CASE("learned: failures of a plant are as likely as Poisson's numbers, and those in use reach their ages as often as new ones") {
+TEST_CASE(
+    "learned: failures of a plant are as likely as Poisson's numbers, and those in use reach their ages as often as new ones") {
   // Lives with known median and deviation of ln: one failed, two survive, one of them installed before the records began.
   constexpr double median = 1000, spread = 0.8;
   const std::vector<ServiceRecord> records{{800, 0, true}, {1500, 0, false}, {3000, 2000, false}};
   const auto alive = [&](double hours) { return normal_share(std::log(median / hours) / spread); };
   ObservedLife life;
   life.variants.push_back([](const Eigen::VectorXd&) { return LifeAt{std::log(median), spread}; });
-  life.service = {{std::log(800.0), true, 1}, {std::log(1500.0), false, 1}, {std::log(3000.0), false, 1}, {std::log(2000.0), false, -1}};
+  life.service = {{std::log(800.0), true, 1},
+                  {std::log(1500.0), false, 1},
+                  {std::log(3000.0), false, 1},
+                  {std::log(2000.0), false, -1}};
   const ServiceChance chance = service_chance(life, records, Eigen::MatrixXd::Zero(3, uncertain_count));
   const double mean = -std::log(alive(800) * alive(1500) * alive(3000) / alive(2000));
   CHECK(chance.few == Approx(std::exp(-mean) * (1 + mean)).epsilon(1e-9));

@@ -80,7 +80,8 @@ TEST_CASE("likelihood: dresspacks in service are mixtures, and those of before t
   CHECK(of({{2, false, 3}, {1.5, false, -3}}) == Approx(3 * std::log(lives(2) / lives(1.5))).epsilon(table));
   // Where the shares underflow, only the kind with later failures contributes.
   CHECK(of({{50, false}}) == Approx(log_normal_share(-47) - std::log(2)).epsilon(rounding));
-  CHECK(of({{50, true}}) == Approx(-47.0 * 47 / 2 - std::log(2 * std::numbers::pi) / 2 - std::log(2)).epsilon(rounding));
+  CHECK(of({{50, true}}) ==
+        Approx(-47.0 * 47 / 2 - std::log(2 * std::numbers::pi) / 2 - std::log(2)).epsilon(rounding));
 }
 
 TEST_CASE("likelihood: measured numbers are sums of what the model says") {

@@ -112,8 +112,7 @@ TEST_CASE("bending: a decrement by slip is what a swing of sliders loses, steppe
     const double stepped = std::log(largest / q);
     INFO(largest << ": " << stepped);
     // (P7) is of first order in the energy that a swing loses, so its relative error is about the relative loss.
-    CHECK(std::exp(log_decrement_by_slip(curvatures, moments, largest)) ==
-          Approx(stepped).epsilon(stepped + 0.02));
+    CHECK(std::exp(log_decrement_by_slip(curvatures, moments, largest)) == Approx(stepped).epsilon(stepped + 0.02));
   }
 }
 
@@ -144,11 +143,11 @@ TEST_CASE("bending: bad tables are refused at their line") {
 
 TEST_CASE("bending: a table as other systems write it is the same table") {
   const Scratch scratch;
-  for (const char* text : {"curvature_1_per_m,moment_Nm\n1,0.2\n2,0.3\n",
-                           "\xEF\xBB\xBF"
-                           "curvature_1_per_m,moment_Nm\r\n1,0.2\r\n2,0.3\r\n",
-                           "# machine 3\ncurvature_1_per_m;moment_Nm\n1;0.2\n2;0.3\n",
-                           "moment_Nm\tcurvature_1_per_m\n0.2\t1\n0.3\t2\n"}) {
+  for (const char* text :
+       {"curvature_1_per_m,moment_Nm\n1,0.2\n2,0.3\n",
+        "\xEF\xBB\xBF"
+        "curvature_1_per_m,moment_Nm\r\n1,0.2\r\n2,0.3\r\n",
+        "# machine 3\ncurvature_1_per_m;moment_Nm\n1;0.2\n2;0.3\n", "moment_Nm\tcurvature_1_per_m\n0.2\t1\n0.3\t2\n"}) {
     const std::vector<BendingPoint> points = read_bending(scratch.write("bend.csv", text));
     REQUIRE(points.size() == 2);
     CHECK(points[0].curvature == 1);

@@ -45,8 +45,7 @@ TEST_CASE("observations: exactly one thing is observed, and what cannot be is re
   for (const std::string& first : observed) {
     CHECK(refusal(one + first) == "read");
     for (const std::string& second : observed)
-      if (first != second)
-        CHECK_THAT(refusal(one + first + second), Contains("must have either cycles or hours"));
+      if (first != second) CHECK_THAT(refusal(one + first + second), Contains("must have either cycles or hours"));
   }
   CHECK_THAT(refusal(one), Contains("must have either cycles or hours"));
   CHECK(refusal(one + "    decrement: 0.3\n    decrement_without_slip: 0.29\n") == "read");
@@ -54,9 +53,8 @@ TEST_CASE("observations: exactly one thing is observed, and what cannot be is re
              Contains("nothing of decrement is left"));
   CHECK_THAT(refusal(one + "    cycles: 3\n    decrement_without_slip: 0.1\n"),
              Contains("decrement_without_slip has no effect on a row with cycles"));
-  CHECK_THAT(
-      refusal("observations:\n  - name: a/b\n    what: x\n    source: y\n    cycles: 3\n    job: {}\n"),
-      Contains("letters, digits and _"));
+  CHECK_THAT(refusal("observations:\n  - name: a/b\n    what: x\n    source: y\n    cycles: 3\n    job: {}\n"),
+             Contains("letters, digits and _"));
   CHECK_THAT(refusal("observations:\n  - name: b\n    what: x\n    source: y\n    cycles: 3\n"),
              Contains("has no job"));
   CHECK_THAT(refusal(one + "    cycles: 3\n" + one.substr(one.find("  -")) + "    hours: 3\n"),
@@ -66,9 +64,8 @@ TEST_CASE("observations: exactly one thing is observed, and what cannot be is re
 }
 
 TEST_CASE("observations: every combination of what is not known is a variant") {
-  const std::vector<ObservedTest> tests = tests_of(
-      one +
-      "    stiffness_Nm2: 2\n    vary: {strain.friction_factor: [1, 2, 3], fatigue.material: [a, b]}\n");
+  const std::vector<ObservedTest> tests =
+      tests_of(one + "    stiffness_Nm2: 2\n    vary: {strain.friction_factor: [1, 2, 3], fatigue.material: [a, b]}\n");
   REQUIRE(tests.size() == 1);
   REQUIRE(tests[0].variants.size() == 6);
   for (std::size_t k = 0; k < 6; ++k) {
@@ -80,8 +77,7 @@ TEST_CASE("observations: every combination of what is not known is a variant") {
     CHECK(strain->find("friction_factor")->text == std::to_string(k / 2 + 1));
     CHECK(variant.job.find("fatigue")->find("material")->text == (k % 2 ? "b" : "a"));
   }
-  CHECK_THAT(refusal(one + "    cycles: 3\n    vary: {strain.slip: free}\n"),
-             Contains("must be a list of values"));
+  CHECK_THAT(refusal(one + "    cycles: 3\n    vary: {strain.slip: free}\n"), Contains("must be a list of values"));
   CHECK_THAT(refusal(one + "    cycles: 3\n    vary: [1]\n"), Contains("must be a map"));
 }
 
@@ -94,8 +90,7 @@ TEST_CASE("observations: lives in the observer's unit, over all variants that ra
     row.job = study.jobs[3 - k].name;  // in another order
     row.repeat_seconds = 1800;
     const double hours = 10.0 * double(4 - k);
-    row.conductor_hours = {hours, 2 * hours, 3 * hours},
-    row.first_wire_hours = {hours / 2, hours, 1.5 * hours};
+    row.conductor_hours = {hours, 2 * hours, 3 * hours}, row.first_wire_hours = {hours / 2, hours, 1.5 * hours};
     row.life_repeats_all_stick = 4 + double(k), row.life_repeats_all_free = 400 - double(k);
   }
   rows[1].failure = "it burst";

@@ -100,8 +100,7 @@ TEST_CASE("posterior: with run-outs only the samples are right, Laplace is not")
     const double ratio = std::exp(-x * x / 2 - log_normal_share(x)) / std::sqrt(2 * std::numbers::pi);
     const double mean = b / S * ratio, deviation = std::sqrt(1 - b * b / (S * S) * ratio * (ratio + x));
     const Emulator model = straight(10, VectorXd::Constant(1, b));
-    const Posterior posterior =
-        posterior_of({term(life(LifeEnd::at_least, 10 - a, model, s))}, VectorXd::Zero(1));
+    const Posterior posterior = posterior_of({term(life(LifeEnd::at_least, 10 - a, model, s))}, VectorXd::Zero(1));
     CHECK(posterior.mean[0] == Approx(mean).margin(of_mean * deviation));
     CHECK(std::sqrt(posterior.covariance(0, 0)) == Approx(deviation).epsilon(of_spread));
     worst = std::max(worst, std::abs(posterior.laplace.most_likely[0] - mean) / deviation);
@@ -164,8 +163,7 @@ TEST_CASE("posterior: true parameters lie in the 80 % interval as often as they 
     quick.draws = 1000;
     quick.seed = static_cast<std::uint64_t>(trial);
     const Posterior posterior = posterior_of(terms, VectorXd::Zero(axes), quick);
-    for (Index j = 0; j < axes; ++j)
-      within[j] += posterior.low[j] <= truth[j] && truth[j] <= posterior.high[j];
+    for (Index j = 0; j < axes; ++j) within[j] += posterior.low[j] <= truth[j] && truth[j] <= posterior.high[j];
     const VectorXd lives = posterior.draws * program;
     const std::vector<double> drawn(lives.begin(), lives.end());
     const double true_life = program.dot(truth);

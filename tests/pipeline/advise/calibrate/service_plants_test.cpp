@@ -42,8 +42,7 @@ template <class LogLikelihoodAt>
 Grid posterior_on_grid(const LogLikelihoodAt& log_likelihood_at) {
   constexpr double reach = 5, width = 0.05;
   std::vector<double> at, weight;
-  for (double z = -reach; z <= reach; z += width)
-    at.push_back(z), weight.push_back(log_likelihood_at(z) - z * z / 2);
+  for (double z = -reach; z <= reach; z += width) at.push_back(z), weight.push_back(log_likelihood_at(z) - z * z / 2);
   const double most = *std::max_element(weight.begin(), weight.end());
   Grid grid;
   double sum = 0, squares = 0;
@@ -79,8 +78,7 @@ Plant simulated(double truth, double begin, double end, std::mt19937& random) {
   constexpr double some = 4000;  // [h]: planned replacements, for a third of the dresspacks
   for (int robot = 0; robot < robots; ++robot)
     for (double from = 0; from < end;) {
-      const double life =
-          std::exp(log_median + shift * truth + own_spread * number(random) + spread * number(random));
+      const double life = std::exp(log_median + shift * truth + own_spread * number(random) + spread * number(random));
       const double planned = uniform(random) < 1.0 / 3 ? some * uniform(random) : HUGE_VAL;
       const double to = std::min({from + life, from + planned, end});
       if (to > begin)
@@ -96,17 +94,13 @@ Plant simulated(double truth, double begin, double end, std::mt19937& random) {
 TEST_CASE("in service: the posterior of one shared parameter is that of an independent integral") {
   // A lognormal life: own and scatter add to one normal deviation.
   const double deviation = std::hypot(own_spread, spread);
-  const std::vector<Lived> records{{7.2, -HUGE_VAL, true},
-                                   {8.1, 7.5, true},
-                                   {8.6, 8.5, false},
-                                   {7.9, -HUGE_VAL, false},
-                                   {7.9, -HUGE_VAL, false}};
+  const std::vector<Lived> records{
+      {7.2, -HUGE_VAL, true}, {8.1, 7.5, true}, {8.6, 8.5, false}, {7.9, -HUGE_VAL, false}, {7.9, -HUGE_VAL, false}};
   const Grid expected = posterior_on_grid([&](double z) {
     const auto u = [&](double x) { return (x - log_median - shift * z) / deviation; };
     const auto lives = [&](double x) { return 0.5 * std::erfc(u(x) / std::sqrt(2.0)); };
     const auto density = [&](double x) { return std::exp(-u(x) * u(x) / 2); };
-    return std::log(density(7.2) * density(8.1) / lives(7.5) * lives(8.6) / lives(8.5) *
-                    std::pow(lives(7.9), 2));
+    return std::log(density(7.2) * density(8.1) / lives(7.5) * lives(8.6) / lives(8.5) * std::pow(lives(7.9), 2));
   });
   // 64 strata instead of a normal distribution: their variance is 1.5 % too small.
   constexpr double strata = 0.02;
@@ -136,8 +130,7 @@ TEST_CASE(
     records += double(ignored.size());
     const Grid learned = learned_from(plant.records);
     within += learned.low <= truth && truth <= learned.high;
-    off += (learned.mean - truth) / plants,
-        chance += learned.deviation * learned.deviation / (double(plants) * plants);
+    off += (learned.mean - truth) / plants, chance += learned.deviation * learned.deviation / (double(plants) * plants);
     off_ignored += (learned_from(ignored).mean - truth) / plants;
   }
   CAPTURE(records / plants, truncated / plants, within / plants, off, off_ignored, std::sqrt(chance));
@@ -187,7 +180,8 @@ TEST_CASE("in service: dresspacks with values of their own live as long as the s
   }
 }
 
-TEST_CASE("in service: the damage of several programs adds up in each mode, and a program mixed with itself is itself") {
+TEST_CASE(
+    "in service: the damage of several programs adds up in each mode, and a program mixed with itself is itself") {
   const auto mode = [](const std::string& name, double log10_life) {
     LifeResponse response;
     response.mode = name, response.construction = "hose", response.material = "copper";
@@ -202,11 +196,13 @@ TEST_CASE("in service: the damage of several programs adds up in each mode, and 
   constexpr double rounding = 1e-12;
   const double alone = LifeOverParameters(one, none).log_median_at(zero);
   CHECK(alone == Approx(5 * std::log(10.0)).epsilon(rounding));
-  CHECK(LifeOverParameters({{one, 12}, {one, 18}}, none).log_median_at(zero) == Approx(alone - std::log(30.0)).epsilon(rounding));
+  CHECK(LifeOverParameters({{one, 12}, {one, 18}}, none).log_median_at(zero) ==
+        Approx(alone - std::log(30.0)).epsilon(rounding));
   // Mode b fails first under both programs together. Under each program alone another mode would fail first.
   const double a = 20e-5 + 200e-7, b = 20e-6 + 200 * std::pow(10, -5.2);
   REQUIRE(b > a);
-  CHECK(LifeOverParameters({{one, 20}, {other, 200}}, none).log_median_at(zero) == Approx(-std::log(b)).epsilon(rounding));
+  CHECK(LifeOverParameters({{one, 20}, {other, 200}}, none).log_median_at(zero) ==
+        Approx(-std::log(b)).epsilon(rounding));
 }
 
 }  // namespace dresslife::pipeline

@@ -42,7 +42,9 @@ ServiceTests read(const std::string& table, const std::string& since = "") {
 }
 
 /// Reads a table for which no job is named.
-ServiceTests read_without_job(const std::filesystem::path& file) { return read_service_tests({file, "", {}, today, {}}); }
+ServiceTests read_without_job(const std::filesystem::path& file) {
+  return read_service_tests({file, "", {}, today, {}});
+}
 
 std::string refusal(const std::string& table, const std::string& since = "") {
   try {
@@ -82,7 +84,8 @@ TEST_CASE("service records: the same plant in English with commas and in German 
     CHECK_THAT(plant.words,
                Contains("4 dresspacks: 1 failed, 1 were removed without a failure, 2 are in use on 2026-11-23.") &&
                    Contains("Records begin on 2023-05-01. Put in before: 2; these count from their age") &&
-                       Contains("Hours per week are those in which the job's program runs.") && Contains("without hours per week: 80 ("));
+                   Contains("Hours per week are those in which the job's program runs.") &&
+                   Contains("without hours per week: 80 ("));
   }
 }
 
@@ -107,42 +110,43 @@ TEST_CASE("service records: what cannot be used is refused at its place, with a 
   const std::vector<std::array<std::string, 3>> cases{
       {"", "plant.csv:1:1: error: holds no table", "write the line"},
       {titles, "plant.csv:1:1: error: has titles and no row", "row per dresspack"},
-      {"robot,installed\nA,2024-01-01\n", "plant.csv:1:1: error: the table has no column 'replaced'",
-       "replacedon"},
-      {"robot,roboter,installed,replaced\n",
-       "plant.csv:1:7: error: columns 'robot' and 'roboter' both mean robot", "rename"},
+      {"robot,installed\nA,2024-01-01\n", "plant.csv:1:1: error: the table has no column 'replaced'", "replacedon"},
+      {"robot,roboter,installed,replaced\n", "plant.csv:1:7: error: columns 'robot' and 'roboter' both mean robot",
+       "rename"},
       {titles + "A,a,03/02/2024,,\n", "plant.csv:2:5: error: '03/02/2024' is no date", "YYYY-MM-DD"},
       {titles + "A,a,2024-02-30,,\n", "plant.csv:2:5: error: '2024-02-30' is no date", "YYYY-MM-DD"},
       {titles + "A,a,2027-02-03,,\n", "plant.csv:2:5: error: 2027-02-03 is after today", "--today"},
-      {titles + "A,a,2024-02-03,21/07/2025,preventive\n", "plant.csv:2:16: error: '21/07/2025' is no date", "write 2025-07-21"},
+      {titles + "A,a,2024-02-03,21/07/2025,preventive\n", "plant.csv:2:16: error: '21/07/2025' is no date",
+       "write 2025-07-21"},
       {titles + "A,a,2024-02-03,45859,\n", "plant.csv:2:16: error: '45859' is no date",
        "write 2025-07-21 if that is the number of a spreadsheet"},
-      {titles + "A,a,2024-02-03,soon,\n", "plant.csv:2:16: error: 'soon' is no date",
-       "nothing while it is in use"},
+      {titles + "A,a,2024-02-03,soon,\n", "plant.csv:2:16: error: 'soon' is no date", "nothing while it is in use"},
       {titles + "A,a,2024-02-03,2024-01-03,failed\n", "plant.csv:2:16: error: replaced on 2024-01-03, before",
        "correct"},
-      {titles + "A,a,2024-02-03,2025-01-03,\n",
-       "plant.csv:2:27: error: a dresspack was removed and no reason", "failed or preventive"},
+      {titles + "A,a,2024-02-03,2025-01-03,\n", "plant.csv:2:27: error: a dresspack was removed and no reason",
+       "failed or preventive"},
       {titles + "A,a,2024-02-03,2025-01-03,blue\n", "plant.csv:2:27: error: reason 'blue' does not say",
        "failed, preventive"},
-      {titles + "A,a,2024-02-03,,failed\n",
-       "plant.csv:2:16: error: the dresspack has a reason ('failed') and no date", "write when"},
+      {titles + "A,a,2024-02-03,,failed\n", "plant.csv:2:16: error: the dresspack has a reason ('failed') and no date",
+       "write when"},
       {titles + "A,a,2024-02-03\n", "plant.csv:2:5: error: a row of 3 cells (the table has 5 columns)",
        "fill or quote"},
       {titles + ",a,2024-02-03,,\n", "plant.csv:2:1: error: the robot has no name", "fill"},
       {titles + "A,a,2024-02-03,2025-01-03,failed\nA,a,2025-01-02,,\n",
-       "plant.csv:3:1: error: 'A, a' is in use from 2025-01-02 on, and line 2 has it until 2025-01-03",
-       "there twice"},
+       "plant.csv:3:1: error: 'A, a' is in use from 2025-01-02 on, and line 2 has it until 2025-01-03", "there twice"},
       {"robot,installed,replaced,hours in a week\nA,2024-02-03,,20\n",
-       "plant.csv:1:26: error: column 'hours in a week' may mean hours_per_week, and is not known", "name it hours_per_week"},
+       "plant.csv:1:26: error: column 'hours in a week' may mean hours_per_week, and is not known",
+       "name it hours_per_week"},
       {"robot,installed,replaced,Operating Hours\nA,2024-02-03,,20\n",
-       "plant.csv:1:26: error: column 'Operating Hours' may mean hours_per_week", "of an hour counter: its hours over the weeks"},
-      {"robot,installed,replaced,hours_per_week\nA,2024-02-03,,200\n",
-       "plant.csv:2:15: error: hours_per_week is '200'", "hours"}};
+       "plant.csv:1:26: error: column 'Operating Hours' may mean hours_per_week",
+       "of an hour counter: its hours over the weeks"},
+      {"robot,installed,replaced,hours_per_week\nA,2024-02-03,,200\n", "plant.csv:2:15: error: hours_per_week is '200'",
+       "hours"}};
   // A dresspack that failed on its first day ends where the next begins: no overlap. A repeated row counts once.
   const std::string first_day = "A,a,2024-02-03,2024-02-03,failed\n";
   CHECK(refusal(titles + first_day + "A,a,2024-02-03,2025-01-03,failed\nA,a,2025-01-03,,\n") == "read");
-  CHECK_THAT(refusal(titles + first_day + first_day), Contains("plant.csv:3:1: error: 'A, a' is in use from 2024-02-03"));
+  CHECK_THAT(refusal(titles + first_day + first_day),
+             Contains("plant.csv:3:1: error: 'A, a' is in use from 2024-02-03"));
   for (const auto& [table, problem, remedy] : cases) {
     const std::string words = refusal(table);
     CHECK_THAT(words, Contains(problem) && Contains(remedy));
@@ -163,7 +167,8 @@ TEST_CASE("service records: without a job the only one beside the table is meant
   scratch.write("study.yaml", "base: irb6640_spot_welding\n");
   scratch.write("broken.yaml", "a: [\n");
   CHECK_THROWS_WITH(read_without_job(file), Contains("plant.csv:1:1: error: it is not known which job") &&
-                                                Contains("give --job JOB.yaml, or a column job") && !Contains("beside"));
+                                                Contains("give --job JOB.yaml, or a column job") &&
+                                                !Contains("beside"));
   scratch.write("one.yaml", wire_job);
   const ServiceTests tests = read_without_job(file);
   CHECK_THAT(tests.words, Contains("Job: one.yaml, the only job beside the table."));
@@ -174,14 +179,17 @@ TEST_CASE("service records: without a job the only one beside the table is meant
 
 TEST_CASE("service records: reasons in German, and reasons that two readings explain") {
   const auto of = [](const std::string& reason) {
-    return read("robot;installed;replaced;reason\nA;2024-01-01;2025-01-06;" + reason + "\nB;2024-01-01;;\n", "2024-01-01");
+    return read("robot;installed;replaced;reason\nA;2024-01-01;2025-01-06;" + reason + "\nB;2024-01-01;;\n",
+                "2024-01-01");
   };
-  for (const char* failed : {"Leitung gerissen", "Aderbruch", "Schlauch geplatzt", "unplanmäßig", "außerplanmäßig", "Störung"})
+  for (const char* failed :
+       {"Leitung gerissen", "Aderbruch", "Schlauch geplatzt", "unplanmäßig", "außerplanmäßig", "Störung"})
     CHECK(of(failed).tests.front().observation.service.front().failed);
   for (const char* removed : {"Präventiv", "planmäßig", "vorbeugend, vor Bruch", "Crash", "Wartung"})
     CHECK_FALSE(of(removed).tests.front().observation.service.front().failed);
   // Unclear reasons: a cable broken by a crash, a cable that did not break, worn with or without failure.
-  for (const char* unclear : {"Crash, Kabel gebrochen", "collision, cable broke", "nicht defekt", "not broken", "Verschleiß", "getauscht"})
+  for (const char* unclear :
+       {"Crash, Kabel gebrochen", "collision, cable broke", "nicht defekt", "not broken", "Verschleiß", "getauscht"})
     CHECK_THAT(refusal("robot;installed;replaced;reason\nA;2024-01-01;2025-01-06;" + std::string(unclear) + "\n"),
                Contains("does not say whether the dresspack failed"));
 }
@@ -193,24 +201,22 @@ TEST_CASE("service records: a failure of a hose does not silently count as broke
                 "2024-01-01")
         .words;
   };
-  for (const char* hose :
-       {"hose cracked - failure", "Schlauch geplatzt", "Wellrohr gebrochen", "Rotura de la manguera", "broken: outer jacket"})
+  for (const char* hose : {"hose cracked - failure", "Schlauch geplatzt", "Wellrohr gebrochen", "Rotura de la manguera",
+                           "broken: outer jacket"})
     CHECK_THAT(words_of(hose), Contains("plant.csv:3:1: warning: ") && Contains("counts as broken wires (line 3, 4)") &&
                                    Contains("write preventive") && Contains("3 failed"));
-  for (const char* other : {"cable broke", "those cables failed", "hose pack failed", "Schlauchpaket defekt", "preventive: hose worn"})
+  for (const char* other :
+       {"cable broke", "those cables failed", "hose pack failed", "Schlauchpaket defekt", "preventive: hose worn"})
     CHECK_THAT(words_of(other), !Contains("warning"));
 }
 
 TEST_CASE("service records: titles and reasons in Spanish") {
   const auto of = [](const std::string& titles, const std::string& reason) {
-    return read(titles + "\nA;x;2024-01-01;2025-01-06;" + reason + ";76\nB;x;2024-01-01;;;76\n",
-                "2024-01-01");
+    return read(titles + "\nA;x;2024-01-01;2025-01-06;" + reason + ";76\nB;x;2024-01-01;;;76\n", "2024-01-01");
   };
   const std::string plain = "Robot;Paquete;Fecha de instalacion;Fecha de sustitucion;Motivo;Horas por semana";
   for (const std::string& titles :
-       {plain,
-        std::string(
-            "M\u00e1quina;Mazo de cables;Fecha de instalaci\u00f3n;Reemplazado;Raz\u00f3n;h/semana")}) {
+       {plain, std::string("M\u00e1quina;Mazo de cables;Fecha de instalaci\u00f3n;Reemplazado;Raz\u00f3n;h/semana")}) {
     const auto service = of(titles, "Rotura de cable").tests.front().observation.service;
     CHECK(service.front().failed);
     CHECK(service.size() == 2);
@@ -225,11 +231,14 @@ TEST_CASE("service records: titles and reasons in Spanish") {
 }
 
 TEST_CASE("service records: a dresspack of several programs has their shares of its hours") {
-  const File job("two.yaml",
-                 "motion: {rig: {kind: axial, elongation_percent: 0.2}}\ndresspack: {cable: {name: wire, source: test, radius_mm: "
-                 "0.1, components: [{name: strand, radius_mm: 0.1, helix_radius_mm: 0, material: copper_halved}]}}\n");
-  const std::string name = job.path.string(), titles = "robot;installed;replaced;reason;job\nA;2024-01-01;2025-01-06;failed;";
-  const ServiceTests plant = read(titles + name + " 60 % + " + name + " 25,5 %\nB;2024-01-01;;;" + name + "\n", "2024-01-01");
+  const File job(
+      "two.yaml",
+      "motion: {rig: {kind: axial, elongation_percent: 0.2}}\ndresspack: {cable: {name: wire, source: test, radius_mm: "
+      "0.1, components: [{name: strand, radius_mm: 0.1, helix_radius_mm: 0, material: copper_halved}]}}\n");
+  const std::string name = job.path.string(),
+                    titles = "robot;installed;replaced;reason;job\nA;2024-01-01;2025-01-06;failed;";
+  const ServiceTests plant =
+      read(titles + name + " 60 % + " + name + " 25,5 %\nB;2024-01-01;;;" + name + "\n", "2024-01-01");
   REQUIRE(plant.tests.size() == 2);
   const auto& programs = plant.tests.front().variants;
   REQUIRE(programs.size() == 2);
@@ -238,7 +247,8 @@ TEST_CASE("service records: a dresspack of several programs has their shares of 
   CHECK(programs[0].name != programs[1].name);
   REQUIRE(plant.tests.back().variants.size() == 1);
   CHECK(plant.tests.back().variants.front().share_of_time == 1);
-  for (const auto& [cell, words] : {std::pair{name + " 70 % + " + name + " 40 %", "plant.csv:2:32: error: the shares of the programs add up to 110 %"},
+  for (const auto& [cell, words] : {std::pair{name + " 70 % + " + name + " 40 %",
+                                              "plant.csv:2:32: error: the shares of the programs add up to 110 %"},
                                     {name + " 70 % + 40 %", "'40' is no job with its share"},
                                     {name + " 70 % + " + name + " 0 %", "is no job with its share"}})
     CHECK_THAT(refusal(titles + cell + "\n", "2024-01-01"), Contains(words));
@@ -246,10 +256,14 @@ TEST_CASE("service records: a dresspack of several programs has their shares of 
 
 TEST_CASE("service records: hours of a day in the column of a week are doubted, hours of a week are not") {
   const auto words_with = [](const std::string& hours) {
-    return read("robot,installed,replaced,reason,hours_per_week\nR1,2024-01-01,2024-12-30,failed," + hours + "\nR2,2024-02-01,,," + hours + "\n").words;
+    return read("robot,installed,replaced,reason,hours_per_week\nR1,2024-01-01,2024-12-30,failed," + hours +
+                "\nR2,2024-02-01,,," + hours + "\n")
+        .words;
   };
   for (const char* hours : {"8", "16", "24"})
-    CHECK_THAT(words_with(hours), Contains("plant.csv:3:1: warning: hours_per_week of 'R2' is " + std::string(hours) + " (limit more than 24)") &&
-                                      Contains(fmt::format("hours_per_week: {} if that was per working day", 5 * std::stoi(hours))));
+    CHECK_THAT(
+        words_with(hours),
+        Contains("plant.csv:3:1: warning: hours_per_week of 'R2' is " + std::string(hours) + " (limit more than 24)") &&
+            Contains(fmt::format("hours_per_week: {} if that was per working day", 5 * std::stoi(hours))));
   for (const char* hours : {"40", "120", "168"}) CHECK_THAT(words_with(hours), !Contains("hours_per_week of"));
 }

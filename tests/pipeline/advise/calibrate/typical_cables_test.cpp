@@ -21,7 +21,9 @@ const std::vector<Index> parameters{static_cast<Index>(index_of(Uncertain::frict
                                     static_cast<Index>(index_of(Uncertain::model))};
 constexpr Index axes = 3;
 
-double share(Index axis) { return share_between_cables(static_cast<std::size_t>(parameters[static_cast<std::size_t>(axis)])); }
+double share(Index axis) {
+  return share_between_cables(static_cast<std::size_t>(parameters[static_cast<std::size_t>(axis)]));
+}
 
 /// Returns the parameters with values for these axes; the others are 0.
 VectorXd everywhere(const VectorXd& some) {

@@ -54,8 +54,7 @@ TEST_CASE("a dresspack in another size is similar to itself") {
   CHECK(small.lay_angle == part.lay_angle);
   const Dresspack back = scaled(half, 2);
   CHECK(back.torsional_stiffness == whole.torsional_stiffness);
-  CHECK(back.components.front().measured_bending_stiffness ==
-        whole.components.front().measured_bending_stiffness);
+  CHECK(back.components.front().measured_bending_stiffness == whole.components.front().measured_bending_stiffness);
 }
 
 TEST_CASE("a robot's name is enough for a job, once a routing and a motion are found") {
@@ -73,15 +72,13 @@ TEST_CASE("a robot's name is enough for a job, once a routing and a motion are f
 }
 
 TEST_CASE("of a job all but the routing is kept, and what cannot be routed is refused") {
-  const Draft draft =
-      draft_of({.of = "side_panel", .tool_link = "link_5", .sets = {"simulation.segments=20"}});
+  const Draft draft = draft_of({.of = "side_panel", .tool_link = "link_5", .sets = {"simulation.segments=20"}});
   CHECK_FALSE(draft.exercise);
   CHECK(draft.job.dresspacks.front().routing.tool_clamp->link == "link_5");
   CHECK(job_from(routed(draft, found_routing, "", 1)).simulation.segments == 20);
   CHECK_THROWS_WITH(draft_of({.of = "irb6640_two_dresspacks"}),
                     Catch::Contains("a routing is proposed for one dresspack"));
-  CHECK_THROWS_WITH(draft_of({.of = "no_such_thing"}),
-                    Catch::Contains("'no_such_thing' is not in the catalogue"));
+  CHECK_THROWS_WITH(draft_of({.of = "no_such_thing"}), Catch::Contains("'no_such_thing' is not in the catalogue"));
   CHECK_THROWS_WITH(draft_of({.of = "side_panel", .tool_link = "link_9"}), Catch::Contains("link_9"));
 }
 
@@ -109,8 +106,7 @@ TEST_CASE("entries of a job stay references in its own folder, and in another on
   const auto found = scratch.write("found.yaml", lines);
   CHECK(job_text(read_job(found)) == job_text(job_from(routed(draft, found_routing, "", 1))));
   // In another folder a name relative to this folder is not valid.
-  const auto other =
-      scratch.write("other/found.yaml", to_yaml(routed(draft, found_routing, "", 1, scratch / "other")));
+  const auto other = scratch.write("other/found.yaml", to_yaml(routed(draft, found_routing, "", 1, scratch / "other")));
   CHECK(read_document(other).find("dresspack")->text == "./../hose.yaml");
   CHECK(read_document(other).find("robot")->find("joints"));
   CHECK(part_text(read_job(other), JobPart::sim) == part_text(read_job(found), JobPart::sim));
@@ -151,8 +147,7 @@ TEST_CASE("the worst of several jobs has the least life and the most of each lim
 
 TEST_CASE("pieces of the bend radius join those that are there, and other limits keep theirs") {
   const std::vector<std::string>& names = outcome_limit_names();
-  const auto bend =
-      static_cast<std::size_t>(std::find(names.begin(), names.end(), "bend radius") - names.begin());
+  const auto bend = static_cast<std::size_t>(std::find(names.begin(), names.end(), "bend radius") - names.begin());
   std::vector<std::vector<double>> pieces;
   add_bends(pieces, {0.1, -0.2});
   REQUIRE(pieces.size() > bend);
@@ -257,8 +252,7 @@ TEST_CASE(
   asked.abrasion = 1000;
   CHECK_THROWS_WITH(
       check_evaluated(asked, row),
-      Catch::StartsWith(
-          "study.yaml:7: error: abrasion_life_h is a limit of 'abrasion', which is not evaluated") &&
+      Catch::StartsWith("study.yaml:7: error: abrasion_life_h is a limit of 'abrasion', which is not evaluated") &&
           Catch::Contains("abrasion, kinks"));
   row.failure = "too short";  // then the failure itself is reported
   CHECK_NOTHROW(check_evaluated(asked, row));

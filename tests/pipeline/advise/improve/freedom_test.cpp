@@ -44,10 +44,8 @@ TEST_CASE("a range is gone through from end to end, in round numbers") {
   CHECK_FALSE(freed("routing.free_length_m: 3 .. 4").place_of_job());
 }
 
-TEST_CASE(
-    "of a job that says nothing its length and all its clamps and rings are free, about where they are") {
-  const auto job =
-      std::make_shared<const Job>(read_job(DRESSLIFE_SOURCE_DIR "/config/jobs/irb6640_guided.yaml"));
+TEST_CASE("of a job that says nothing its length and all its clamps and rings are free, about where they are") {
+  const auto job = std::make_shared<const Job>(read_job(DRESSLIFE_SOURCE_DIR "/config/jobs/irb6640_guided.yaml"));
   const Freedom freedom = Freedom::from(Freedom::usual(*job), {job});
   CHECK(freedom.variables() ==
         1 + 4 * 5 + 2 + 1);  // length, two clamps, one between and a ring, the lengths up to these two, twist
@@ -61,15 +59,13 @@ TEST_CASE("a key at an end of its range is reported") {
   using Words = std::vector<std::string>;
   CHECK(freedom.at_ends(place_of({0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 1})) == Words());
   CHECK(freedom.at_ends(place_of({0.99, 0.5, 0, 1, 0.5, 1, 0})) ==
-        Words{"routing.free_length_m, at most 2.6",
-              "routing.tool_clamp.position_m, y at least 0.1, z at most 0.4",
+        Words{"routing.free_length_m, at most 2.6", "routing.tool_clamp.position_m, y at least 0.1, z at most 0.4",
               "routing.tool_clamp.direction, at most 30 deg around"});
   CHECK(freed("routing.base_clamp.position_m: -0.2 .. 0.3 along link_3").at_ends(place_of({0})) ==
         Words{"routing.base_clamp.position_m, at least -0.2 along its line"});
 }
 
-TEST_CASE(
-    "where nothing is feasible it is reported which limit binds, how near the best came, and what to widen") {
+TEST_CASE("where nothing is feasible it is reported which limit binds, how near the best came, and what to widen") {
   const Freedom freedom = freed("{routing.free_length_m: 1.9 .. 2.6, routing.pre_twist_deg: -90 .. 90}");
   const auto trial = [](double u, double v, double bend, double twist) {
     Trial made;
@@ -121,22 +117,18 @@ TEST_CASE("positions move in a box, along a line, along a link") {
   CHECK(box.sets_at(place_of({0, 0.5, 1})) ==
         std::vector<std::string>{"routing.base_clamp.position_m=[-0.15, 0, 0.5]"});
   const Freedom line = freed("routing.base_clamp.position_m: -0.2 .. 0.3 along [0, 0, 2]");
-  CHECK(line.sets_at(place_of({1})) ==
-        std::vector<std::string>{"routing.base_clamp.position_m=[-0.1, 0, 0.75]"});
+  CHECK(line.sets_at(place_of({1})) == std::vector<std::string>{"routing.base_clamp.position_m=[-0.1, 0, 0.75]"});
   REQUIRE(line.place_of_job());
   CHECK((*line.place_of_job())[0] == Approx(0.4));
   // link_2 carries link_3 at (0, 0, 1.075).
   const Freedom link = freed("routing.base_clamp.position_m: 0 .. 0.1 along link_2");
-  CHECK(link.sets_at(place_of({1})) ==
-        std::vector<std::string>{"routing.base_clamp.position_m=[-0.1, 0, 0.55]"});
+  CHECK(link.sets_at(place_of({1})) == std::vector<std::string>{"routing.base_clamp.position_m=[-0.1, 0, 0.55]"});
 }
 
 TEST_CASE("one of a list") {
-  const Freedom freedom =
-      freed("dresspack.bending_stiffness_Nm2: [4, 5, 6]\nmotion: [easy, [easy, hard, hard]]");
+  const Freedom freedom = freed("dresspack.bending_stiffness_Nm2: [4, 5, 6]\nmotion: [easy, [easy, hard, hard]]");
   CHECK(freedom.sets_at(place_of({0.99, 0.6})) ==
-        std::vector<std::string>{"dresspack.bending_stiffness_Nm2=6",
-                                 "motion=[easy, hard, hard]"});
+        std::vector<std::string>{"dresspack.bending_stiffness_Nm2=6", "motion=[easy, hard, hard]"});
 }
 
 TEST_CASE("what nothing can be freed by is refused with its place") {
@@ -147,18 +139,18 @@ TEST_CASE("what nothing can be freed by is refused with its place") {
   CHECK(words("routing.free_length_m: long").find("is 'long'; write LOW .. HIGH") != std::string::npos);
   CHECK(words("routing.free_length_m: 1 .. two").find("'two' is no number") != std::string::npos);
   CHECK(words("routing.free_length_m: 0 around").find("may not change at all") != std::string::npos);
-  CHECK(words("routing.tool_clamp.direction: 95 deg around").find("is a cone of 95 deg") !=
-        std::string::npos);
+  CHECK(words("routing.tool_clamp.direction: 95 deg around").find("is a cone of 95 deg") != std::string::npos);
   CHECK(words("routing.free_length_m: 5 deg around").find("is no direction") != std::string::npos);
   CHECK(words("routing.nothing_m: 0.1 around").find("its own value, which it has not") != std::string::npos);
   CHECK(words("routing.rings.0.position_m: 0.1 around").find("count from 1") != std::string::npos);
-  CHECK(words("routing.base_clamp.position_m: 0 .. 1 along link_9").find("no link that carries") !=
-        std::string::npos);
+  CHECK(words("routing.base_clamp.position_m: 0 .. 1 along link_9").find("no link that carries") != std::string::npos);
   for (const std::string key : {"fatigue.failed_wires_percent", "simulation.segments", "dresspack.least_bend_radius_mm",
                                 "dresspacks.1.dresspack.most_tension_N", "motion.hold_joint"})
-    CHECK_THAT(words(key + ": 20 .. 40"), Catch::Contains("free." + key + " is a limit or a setting of the calculation"));
-  for (const std::string keys : {"{routing.tool_clamp.position_m: 0.05 around, routing.tool_clamp.position_m.2: 0 .. 0.1}",
-                                 "{routing.tool_clamp.position_m.2: 0 .. 0.1, routing.tool_clamp.position_m: 0.05 around}"})
+    CHECK_THAT(words(key + ": 20 .. 40"),
+               Catch::Contains("free." + key + " is a limit or a setting of the calculation"));
+  for (const std::string keys :
+       {"{routing.tool_clamp.position_m: 0.05 around, routing.tool_clamp.position_m.2: 0 .. 0.1}",
+        "{routing.tool_clamp.position_m.2: 0 .. 0.1, routing.tool_clamp.position_m: 0.05 around}"})
     CHECK_THAT(words(keys), Catch::Contains("set the same value; keep one of the two"));
   CHECK(words("{routing.tool_clamp.position_m.1: 0 .. 0.1, routing.tool_clamp.position_m.2: 0 .. 0.1}") == "");
   CHECK(words("routing.free_length_m: []").find("one of nothing") != std::string::npos);
@@ -171,8 +163,7 @@ TEST_CASE("without a word the clamps and the length are free") {
   CHECK(freedom.variables() == 12);
   REQUIRE(freedom.place_of_job());
   for (const std::string& set : freedom.sets_at(*freedom.place_of_job()))
-    if (set.starts_with("routing.free_length_m="))
-      CHECK(std::stod(set.substr(22)) == Approx(2.035).margin(1e-4));
+    if (set.starts_with("routing.free_length_m=")) CHECK(std::stod(set.substr(22)) == Approx(2.035).margin(1e-4));
 }
 
 }  // namespace dresslife::pipeline

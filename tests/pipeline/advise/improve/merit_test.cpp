@@ -51,7 +51,8 @@ TEST_CASE("outcome: a job whose repeats change the dresspack violates a limit, t
     const Scratch scratch;
     const auto file = scratch.folder() / files_of_stage(0).receipt;
     std::filesystem::create_directories(file.parent_path());
-    write_receipt(file, {.recipe = "", .input = "", .output = "", .state = {}, .results = {}}, scratch.write("output", ""));
+    write_receipt(file, {.recipe = "", .input = "", .output = "", .state = {}, .results = {}},
+                  scratch.write("output", ""));
     RankingRow row;
     row.warnings = {Warning{WarningKind::periodic, "", "it differs. Likely cause: a. Remedy: b", {}, amount}};
     return outcome_of(row, scratch.folder());
@@ -85,8 +86,7 @@ TEST_CASE("merit: wires that live longer than the robot gain nothing by wearing 
   CHECK_FALSE(clearly_better(merit_of(outcome(21000), as_it_is), merit_of(outcome(20000), as_it_is)));
 }
 
-TEST_CASE(
-    "merit: a mode gets worse only before the wires and the end of the robot's life, and by more than a tenth") {
+TEST_CASE("merit: a mode gets worse only before the wires and the end of the robot's life, and by more than a tenth") {
   const Outcome as_it_is = outcome(1000, {{"jacket wear", 2000}, {"abrasion", 60000}});
   const auto worse = [&](double hours, double jacket, double abrasion) {
     return worse_modes(outcome(hours, {{"jacket wear", jacket}, {"abrasion", abrasion}}), as_it_is).size();
@@ -111,17 +111,16 @@ TEST_CASE("merit: limits, then modes, then wires, then the first mode, then the 
   const Outcome as_it_is = outcome(1000, {{"jacket wear", 2000}});
   Outcome fails = outcome(9e5);
   fails.failure = "too short";
-  const std::vector<Outcome> rising{
-      fails,
-      outcome(90000, {}, 0.01),                  // exceeds a limit
-      outcome(80000, {{"jacket wear", 1000}}),   // one mode gets worse
-      outcome(900, {{"jacket wear", 30000}}),    // keeps all limits
-      outcome(1000, {{"jacket wear", 1900}}),    // longer life
-      outcome(50000, {{"jacket wear", 3000}}),   // outlives the robot
-      outcome(45000, {{"jacket wear", 20000}}),  // also, and its jackets last longer
-      outcome(60000, {{"jacket wear", 70000}}, -0.1),
-      outcome(50000, {{"jacket wear", 50000}}, -0.2),  // larger distance to the limit
-      outcome(60000, {{"jacket wear", 50000}}, -0.2)};
+  const std::vector<Outcome> rising{fails,
+                                    outcome(90000, {}, 0.01),                  // exceeds a limit
+                                    outcome(80000, {{"jacket wear", 1000}}),   // one mode gets worse
+                                    outcome(900, {{"jacket wear", 30000}}),    // keeps all limits
+                                    outcome(1000, {{"jacket wear", 1900}}),    // longer life
+                                    outcome(50000, {{"jacket wear", 3000}}),   // outlives the robot
+                                    outcome(45000, {{"jacket wear", 20000}}),  // also, and its jackets last longer
+                                    outcome(60000, {{"jacket wear", 70000}}, -0.1),
+                                    outcome(50000, {{"jacket wear", 50000}}, -0.2),  // larger distance to the limit
+                                    outcome(60000, {{"jacket wear", 50000}}, -0.2)};
   for (std::size_t a = 0; a < rising.size(); ++a)
     for (std::size_t b = 0; b < rising.size(); ++b) {
       INFO(a << " " << b);
@@ -131,11 +130,13 @@ TEST_CASE("merit: limits, then modes, then wires, then the first mode, then the 
 
 TEST_CASE("merit: a trial that alone keeps all limits is no gain if a mode makes the first failure earlier") {
   const Outcome as_it_is = outcome(9e5, {{"abrasion", 1790}}, 0.02);
-  const auto gain = [&](const Outcome& trial) { return clearly_better(merit_of(trial, as_it_is), merit_of(as_it_is, as_it_is)); };
+  const auto gain = [&](const Outcome& trial) {
+    return clearly_better(merit_of(trial, as_it_is), merit_of(as_it_is, as_it_is));
+  };
   CHECK(merit_of(outcome(9e5, {{"abrasion", 1100}}), as_it_is) > merit_of(as_it_is, as_it_is));
   CHECK_FALSE(gain(outcome(9e5, {{"abrasion", 1100}})));
-  CHECK(gain(outcome(9e5, {{"abrasion", 1640}})));   // earlier by less than a tenth
-  CHECK(gain(outcome(500, {{"abrasion", 1100}})));   // no mode gets worse: the price of a limit that is kept
+  CHECK(gain(outcome(9e5, {{"abrasion", 1640}})));  // earlier by less than a tenth
+  CHECK(gain(outcome(500, {{"abrasion", 1100}})));  // no mode gets worse: the price of a limit that is kept
   const Outcome worn = outcome(100, {{"abrasion", 1790}}, 0.02);  // the wires failed first, and live longer now
   CHECK(clearly_better(merit_of(outcome(9e5, {{"abrasion", 1100}}), worn), merit_of(worn, worn)));
 }

@@ -69,8 +69,7 @@ TEST_CASE("lines that cost most come first, with their numbers") {
   damage[8] = 0.5;  // the check after 'roll it over again'
   std::vector<std::string> lines;
   for (const OtherWay& way : other_ways(job, damage, 4))
-    if (!way.lines.empty() && (lines.empty() || lines.back() != way.lines.front()))
-      lines.push_back(way.lines.front());
+    if (!way.lines.empty() && (lines.empty() || lines.back() != way.lines.front())) lines.push_back(way.lines.front());
   CHECK(lines == std::vector<std::string>{"hard.yaml:17 'round: roll the gun over'",
                                           "hard.yaml:13 'round: gun out to the left'",
                                           "hard.yaml:19 'round: roll it over again'"});
@@ -86,8 +85,8 @@ TEST_CASE("a line goes by a point: arm and wrist one after the other, then the l
   REQUIRE(points.size() == 2);
   for (const OtherWay& way : points) {
     const bool arm_first = way.what == "by a point: axes 1 to 3 first";
-    const Job changed = read_job(DRESSLIFE_SOURCE_DIR "/config/jobs/irb6640_spot_welding.yaml",
-                                 {"motion=hard", way.sets.front()});
+    const Job changed =
+        read_job(DRESSLIFE_SOURCE_DIR "/config/jobs/irb6640_spot_welding.yaml", {"motion=hard", way.sets.front()});
     const MotionStep &before = *step_at(job, "motion.steps.2.steps.1"),
                      &block = *step_at(changed, "motion.steps.2.steps.1");
     const MotionStep& from = *step_at(job, "motion.steps.2.steps.12");  // 'drawn back and rolled'
@@ -95,15 +94,13 @@ TEST_CASE("a line goes by a point: arm and wrist one after the other, then the l
     CHECK(block.steps[1].joints == before.joints);
     CHECK(block.steps[1].text == before.text);
     for (std::size_t k = 0; k < 6; ++k)
-      CHECK(block.steps[0].joints[k] ==
-            Approx(((k < 3) == arm_first ? before : from).joints[k]).margin(1e-12));
+      CHECK(block.steps[0].joints[k] == Approx(((k < 3) == arm_first ? before : from).joints[k]).margin(1e-12));
   }
 }
 
 TEST_CASE("programs without joint targets are refused") {
   const Job job = read_job(DRESSLIFE_SOURCE_DIR "/config/jobs/side_panel.yaml");
-  CHECK_THROWS_WITH(other_ways(job, {1, 1}, 2),
-                    Catch::Contains("has no steps with joint targets; read the program"));
+  CHECK_THROWS_WITH(other_ways(job, {1, 1}, 2), Catch::Contains("has no steps with joint targets; read the program"));
 }
 
 TEST_CASE("each clamp, the length and the turn of the end are off to both sides") {
@@ -138,8 +135,7 @@ TEST_CASE("each clamp, the length and the turn of the end are off to both sides"
   CHECK(tolerance_text(tolerance_of(10, 10)) ==
         "a clamp or length off by 10 mm, a clamp tilted by 5.7 deg or an end turned by 10 deg");
   CHECK(tolerance_text(tolerance_of(0, 5)) == "an end turned by 5 deg");
-  const auto other =
-      std::make_shared<const Job>(read_job(DRESSLIFE_SOURCE_DIR "/config/jobs/irb6640_guided.yaml"));
+  const auto other = std::make_shared<const Job>(read_job(DRESSLIFE_SOURCE_DIR "/config/jobs/irb6640_guided.yaml"));
   CHECK(nudges_of({{"one", job, ""}, {"two", other, ""}}, tolerance_of(10, 10)).empty());
   // Length and rotation, three clamps and a ring. The last clamp and the ring have a place on the hose.
   CHECK(nudges_of({{"guided", other, ""}}, tolerance_of(10, 10)).size() == 4 + 4 * 10 + 2 * 2);
@@ -158,8 +154,7 @@ TEST_CASE("every key of a routing that is freed by default has a mounting tolera
                         [&](const Nudge& nudge) { return nudge.sets.front().starts_with(entry.key + "="); }));
     }
   }
-  for (const char* key :
-       {"dresspack", "dresspack.diameter_mm", "motion.speed_percent", "routing.base_clamp.link"})
+  for (const char* key : {"dresspack", "dresspack.diameter_mm", "motion.speed_percent", "routing.base_clamp.link"})
     CHECK_FALSE(has_mounting_tolerance(key));
 }
 

@@ -26,12 +26,15 @@ Outcome lives_of(double wires, std::vector<ModeLife> modes) {
 
 }  // namespace
 
-TEST_CASE("reliefs: each bare clamp alone, then all, half as stiff and as stiff as the dresspack, three diameters long") {
+TEST_CASE(
+    "reliefs: each bare clamp alone, then all, half as stiff and as stiff as the dresspack, three diameters long") {
   Job job = clamped_job(2);
   const auto ways = reliefs_of(job);
   REQUIRE(ways.size() == 6);
-  CHECK(ways[0] == std::vector<std::string>{"routing.base_clamp.bend_relief={length_mm: 180, bending_stiffness_Nm2: 3.5}"});
-  CHECK(ways[4] == std::vector<std::string>{"routing.tool_clamp.bend_relief={length_mm: 180, bending_stiffness_Nm2: 7}"});
+  CHECK(ways[0] ==
+        std::vector<std::string>{"routing.base_clamp.bend_relief={length_mm: 180, bending_stiffness_Nm2: 3.5}"});
+  CHECK(ways[4] ==
+        std::vector<std::string>{"routing.tool_clamp.bend_relief={length_mm: 180, bending_stiffness_Nm2: 7}"});
   CHECK(ways[5].size() == 2);
   job.dresspacks[0].routing.base_clamp->bend_relief.emplace();
   CHECK(reliefs_of(job).size() == 2);

@@ -17,8 +17,7 @@ struct Life {
 struct Searched {
   Improvement found;
   Finals finals;
-  explicit Searched(const std::vector<Life>& lives, std::optional<double> longer_in = {})
-      : longer_in_(longer_in) {
+  explicit Searched(const std::vector<Life>& lives, std::optional<double> longer_in = {}) : longer_in_(longer_in) {
     found.name = "job";
     found.freed = {"routing.free_length_m"}, found.own = {"0.9"};
     found.front = {0};
@@ -35,8 +34,8 @@ struct Searched {
     ImprovementStory of = story_of(found, finals, SecondAim::none, {});
     if (!longer_in_) return of;
     of.longer_in = longer_in_;
-    of.gain = gain_words(finals.best()->merit, found.trials[finals.best()->trial].worst,
-                         finals.of.front().merit, found.trials.front().worst, longer_in_);
+    of.gain = gain_words(finals.best()->merit, found.trials[finals.best()->trial].worst, finals.of.front().merit,
+                         found.trials.front().worst, longer_in_);
     return of;
   }
   std::string words(const MountingTolerance& tolerance = tolerance_of(0, 0)) const {
@@ -60,8 +59,7 @@ TEST_CASE("improve: the changes of a trial are listed only if it is clearly bett
   CHECK_THAT(searched_of({{1000}, {1050}}).words(),
              Catch::Contains("Keep the job as it is") && !Catch::Contains("--set"));
   CHECK_THAT(searched_of({{1000}, {1500}}).words(),
-             Catch::Contains("\nTrial 1 of 2: 1,500 h") &&
-                 Catch::Contains("--set 'routing.free_length_m=0.95'") &&
+             Catch::Contains("\nTrial 1 of 2: 1,500 h") && Catch::Contains("--set 'routing.free_length_m=0.95'") &&
                  Catch::Contains("The wires live 1.5 times as long") && !Catch::Contains("Keep the job"));
 }
 
@@ -75,8 +73,7 @@ TEST_CASE("improve: a life beyond the robot's is no gain, and what a gain costs 
   CHECK_THAT(
       words,
       Catch::Contains("As it is: 449,000 h, all limits kept; not validated: jacket wear from 5,890 h\n") &&
-          Catch::Contains(
-              "\nTrial 2 of 3: 654,000 h, all limits kept; not validated: jacket wear from 9,110 h\n") &&
+          Catch::Contains("\nTrial 2 of 3: 654,000 h, all limits kept; not validated: jacket wear from 9,110 h\n") &&
           Catch::Contains(
               "In both the wires outlive the robot (40,000 h). A longer life of the wires is no gain. First of the "
               "modes that are not validated: jacket wear after 9,110 h (as it is: jacket wear after 5,890 h).\n") &&
@@ -93,27 +90,27 @@ TEST_CASE("improve: a trial that alone keeps all limits and wears through earlie
   Searched searched = searched_of({{9e5, {{"abrasion", 1790}}}, {9e5, {{"abrasion", 1100}}}});
   searched.found.trials[0].worst.beyond[0] = 0.02;
   searched.finals.of[0].merit = searched.found.merit(0);
-  CHECK_THAT(searched.words(),
-             Catch::Contains("Nothing that was tried is recommended: what keeps all limits fails earlier than the job as it is. "
-                             "The best of it is trial 1 of 2: ") &&
-                 Catch::Contains("First of the modes that are not validated: abrasion after 1,100 h (as it is: abrasion after "
-                                 "1,790 h).") &&
-                 !Catch::Contains("--set"));
+  CHECK_THAT(
+      searched.words(),
+      Catch::Contains(
+          "Nothing that was tried is recommended: what keeps all limits fails earlier than the job as it is. "
+          "The best of it is trial 1 of 2: ") &&
+          Catch::Contains("First of the modes that are not validated: abrasion after 1,100 h (as it is: abrasion after "
+                          "1,790 h).") &&
+          !Catch::Contains("--set"));
 }
 
 TEST_CASE("improve: a difference that few samples show is no clear one") {
   CHECK_THAT(
       searched_of({{1000}, {1500}}, 0.71).words(),
-      Catch::Contains(
-          "The wires live 1.5 times as long. They live longer in 71 of 100 samples: no clear difference."));
+      Catch::Contains("The wires live 1.5 times as long. They live longer in 71 of 100 samples: no clear difference."));
   CHECK_THAT(searched_of({{1000}, {1500}}, 0.95).words(),
              Catch::Contains("They live longer in 95 of 100 samples. First"));
   CHECK_THAT(searched_of({{1000}, {90000}}, 0.95).words(),
              Catch::Contains("The wires live 40 times as long, up to the robot's life (40,000 h)."));
 }
 
-TEST_CASE(
-    "improve: a trial that is better as drawn and worse within the tolerance loses, and both lives are named") {
+TEST_CASE("improve: a trial that is better as drawn and worse within the tolerance loses, and both lives are named") {
   Searched searched = searched_of({{1000}, {3000}, {2000}});
   const auto judge = [&](std::size_t k, double worst) {
     Outcome outcome = searched.found.trials[k].worst;
@@ -147,17 +144,25 @@ TEST_CASE(
   // The page agrees, also if both lives of the proposed job are shorter without deviation.
   searched.found.trials[2].worst.hours = searched.finals.of[2].hours = 900;
   const std::string chosen = improvement_page(searched.story());
-  CHECK_THAT(chosen, Catch::Contains("<p>The wires live 0.9 times as long.") &&
-                         Catch::Contains("<p>The proposed job, within the mounting tolerance: 700 h, all limits kept in the worst case found</p>") &&
-                         Catch::Contains("<p>The job as it is, within the mounting tolerance: 300 h, all limits kept in the worst case found</p>"));
+  CHECK_THAT(
+      chosen,
+      Catch::Contains("<p>The wires live 0.9 times as long.") &&
+          Catch::Contains(
+              "<p>The proposed job, within the mounting tolerance: 700 h, all limits kept in the worst case found</p>") &&
+          Catch::Contains(
+              "<p>The job as it is, within the mounting tolerance: 300 h, all limits kept in the worst case found</p>"));
   judge(0, 900);
   CHECK_THAT(improvement_page(searched.story()),
-             Catch::Contains("<p><b>Keep the job as it is. Nothing that was tried is clearly better") && Catch::Contains("<td>best of the trials</td>"));
+             Catch::Contains("<p><b>Keep the job as it is. Nothing that was tried is clearly better") &&
+                 Catch::Contains("<td>best of the trials</td>"));
 }
 
 }  // namespace
 TEST_CASE("story: a remedy after a search names no clamps that were searched") {
-  CHECK(remedy_after_search("other clamps (`route` searches them; all): no length keeps it (best: 1 m; required: 2 m); or A: 1, which dresslife improve tries; or B: 2") == "A: 1; or B: 2");
+  CHECK(
+      remedy_after_search(
+          "other clamps (`route` searches them; all): no length keeps it (best: 1 m; required: 2 m); or A: 1, which dresslife improve tries; or B: 2") ==
+      "A: 1; or B: 2");
   CHECK(remedy_after_search("other clamps: no length keeps it").empty());
   CHECK(remedy_after_search("free_length_m: 2; or B: 2") == "free_length_m: 2; or B: 2");
 }
@@ -171,8 +176,9 @@ TEST_CASE("story: a proposal states whether more dresspacks exceed a limit at ot
   const auto beyond = [&](int percent) { return row(WarningKind::other_values, percent / 100.0); };
   RankingRow none;
   none.warnings.emplace();
-  CHECK(beyond_words(beyond(44), beyond(29)) ==
-        "Worse at other values than the job as it is. The limit that most dresspacks exceed at other values: 44 % of them (as it is: 29 %).\n");
+  CHECK(
+      beyond_words(beyond(44), beyond(29)) ==
+      "Worse at other values than the job as it is. The limit that most dresspacks exceed at other values: 44 % of them (as it is: 29 %).\n");
   CHECK(beyond_words(beyond(10), beyond(29)) ==
         "The limit that most dresspacks exceed at other values: 10 % of them (as it is: 29 %).\n");
   CHECK(beyond_words(beyond(10), none).find("Worse at other values than the job as it is.") == 0);

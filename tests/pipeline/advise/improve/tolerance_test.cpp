@@ -107,9 +107,8 @@ TEST_CASE("tolerance: the nudge that costs one finalist most is the first of the
   CHECK(judged[0].whole);
   CHECK(best_within(judged) == 0);
   CHECK(std::is_sorted(judged[1].numbers.begin(), judged[1].numbers.end()));
-  const WithinTolerance original =
-      within_tolerance(finalist(1000, bad, runs), outcome(1),
-                       [](const Merit& worst) { return worst.hours < 700; }, judged, {});
+  const WithinTolerance original = within_tolerance(finalist(1000, bad, runs), outcome(1),
+                                                    [](const Merit& worst) { return worst.hours < 700; }, judged, {});
   CHECK(original.numbers.size() == 4);
   CHECK(original.worst.hours == 100);
 }
@@ -152,8 +151,7 @@ TEST_CASE(
   CHECK(judged[4].worst.hours == 500);
   // Brute force: no other finalist has a better worst life.
   for (const double degrees : {80.0, 79.0, 78.0, 75.0, 60.0, 0.0})
-    CHECK(std::min({at_angle(degrees).hours, at_angle(degrees - 10).hours, at_angle(degrees + 10).hours}) <=
-          500);
+    CHECK(std::min({at_angle(degrees).hours, at_angle(degrees - 10).hours, at_angle(degrees + 10).hours}) <= 500);
 }
 
 TEST_CASE("tolerance: keeping all limits comes before a longer life") {
@@ -169,7 +167,8 @@ TEST_CASE("tolerance: keeping all limits comes before a longer life") {
   CHECK(best_within(within_tolerance({at(2000, 0.01), at(1000, -0.01)}, outcome(100))) == 1);
 }
 
-TEST_CASE("tolerance: estimates without uncertain inputs leave few full runs, and the worst case of the winner is one of them") {
+TEST_CASE(
+    "tolerance: estimates without uncertain inputs leave few full runs, and the worst case of the winner is one of them") {
   std::mt19937 random(7);
   std::lognormal_distribution<double> spread(0, 0.7), error(0, 0.4);  // 0.4: measured error of an estimate
   constexpr std::size_t count = 3, nudges = 24;
@@ -201,7 +200,7 @@ TEST_CASE("tolerance: estimates without uncertain inputs leave few full runs, an
     full += runs / rounds;
     log_loss += std::log(*std::max_element(worst.begin(), worst.end()) / worst[best]) / rounds;
   }
-  CHECK(full < 12);  // of 72
+  CHECK(full < 12);       // of 72
   CHECK(log_loss < 0.4);  // less than the error of one estimate
 }
 
@@ -242,8 +241,7 @@ TEST_CASE("tolerance: the words name the tolerance, the loss and where it occurs
   const Nudge good{"length, - 10 mm", true, 0.9, "", "jacket wear", 5000},
       bad{"tool clamp, x + 10 mm", true, 0.8, "", "", 0};
   const MountingTolerance tolerance = tolerance_of(10, 10);
-  const std::string with =
-      "With a clamp or length off by 10 mm, a clamp tilted by 5.7 deg or an end turned by 10 deg ";
+  const std::string with = "With a clamp or length off by 10 mm, a clamp tilted by 5.7 deg or an end turned by 10 deg ";
   CHECK(
       tolerance_words({good, bad}, tolerance) ==
       with +

@@ -45,7 +45,8 @@ RankingRow row_of(const Scratch& scratch, const Program& program, FailureModes m
   RankingRow row;
   row.job = program.job, row.repeat_seconds = program.repeat_seconds, row.life_file = scratch / (program.job + ".h5");
   row.robot_life_hours = 40000;
-  if (modes.empty()) modes = {response_of("lead", 1 / program.worst_of_lead()), response_of("bus", 1 / program.damage[2])};
+  if (modes.empty())
+    modes = {response_of("lead", 1 / program.worst_of_lead()), response_of("bus", 1 / program.damage[2])};
   row.life_response = modes_text(modes);
   write_sample_life(row.life_file, life);
   return row;
@@ -53,22 +54,27 @@ RankingRow row_of(const Scratch& scratch, const Program& program, FailureModes m
 
 struct Case {
   Scratch scratch;
-  std::vector<Program> programs{{"a", 30, {4e-6, 1e-6, 2e-7}}, {"b", 60, {1e-6, 3e-6, 1e-7}}, {"c", 10, {1e-9, 2e-9, 9e-6}}};
+  std::vector<Program> programs{
+      {"a", 30, {4e-6, 1e-6, 2e-7}}, {"b", 60, {1e-6, 3e-6, 1e-7}}, {"c", 10, {1e-9, 2e-9, 9e-6}}};
   Study study{"s", {}, Keep::all};
   std::vector<RankingRow> rows;
   Case() {
     for (const Program& program : programs)
       rows.push_back(row_of(scratch, program)), study.jobs.push_back({program.job, std::make_shared<const Job>(), ""});
   }
-  DutyFile file(const std::string& text) const { return read_duties(scratch.write("duties.yaml", "study: s\nduties:\n" + text)); }
+  DutyFile file(const std::string& text) const {
+    return read_duties(scratch.write("duties.yaml", "study: s\nduties:\n" + text));
+  }
 };
 
 /// Damage per hour under repeats (program) at one place of the cable; round: damages of its repeats beside the programs.
 struct ByHand {
   std::array<double, 2> rate{}, share{};  ///< (lead, bus) R of (D1), c of (D2)
 
-  ByHand(const std::vector<Program>& programs, const std::vector<double>& repeats) : ByHand(programs, repeats, repeats, {}) {}
-  ByHand(const std::vector<Program>& programs, const std::vector<double>& repeats, const std::vector<double>& in_rounds, const Damages& round) {
+  ByHand(const std::vector<Program>& programs, const std::vector<double>& repeats)
+      : ByHand(programs, repeats, repeats, {}) {}
+  ByHand(const std::vector<Program>& programs, const std::vector<double>& repeats, const std::vector<double>& in_rounds,
+         const Damages& round) {
     Damages at{};
     for (std::size_t place = 0; place < 3; ++place) {
       for (std::size_t k = 0; k < programs.size(); ++k) at[place] += in_rounds[k] * programs[k].damage[place];
@@ -89,18 +95,21 @@ struct ByHand {
 
 /// 10, 50 and 90 % of a life of this median. Of 10,000 samples and more, in equal shares of the scatter.
 void check_lives(const LifePercentiles& lives, double median) {
-  for (std::size_t k = 0; k < 3; ++k) CHECK(lives[k] == Approx(median * std::pow(10, decade * (double(k) - 1))).epsilon(1e-3));
+  for (std::size_t k = 0; k < 3; ++k)
+    CHECK(lives[k] == Approx(median * std::pow(10, decade * (double(k) - 1))).epsilon(1e-3));
 }
 
 }  // namespace
 
 TEST_CASE("duties: every number of an evaluation follows from the damage at each place") {
   Case of;
-  for (std::size_t k = 0; k < 3; ++k) of.rows[k].planned_errors = {std::pow(10, 0.1 * double(k)), 1.01, k == 1 ? NAN : 2};
+  for (std::size_t k = 0; k < 3; ++k)
+    of.rows[k].planned_errors = {std::pow(10, 0.1 * double(k)), 1.01, k == 1 ? NAN : 2};
   const auto [files, rates] = std::pair(
-      of.file("  - name: d\n    hours_per_week: 100\n    programs: [{job: a, repeats_per_hour: 20}, {job: b, repeats_per_hour: 30}, {job: c, "
-              "percent_of_time: 5}]\n    history: [{duty: e, hours: 300}, {duty: d, hours: 400}]\n"
-              "  - {name: e, programs: [{job: c, repeats_per_hour: 100}]}\n"),
+      of.file(
+          "  - name: d\n    hours_per_week: 100\n    programs: [{job: a, repeats_per_hour: 20}, {job: b, repeats_per_hour: 30}, {job: c, "
+          "percent_of_time: 5}]\n    history: [{duty: e, hours: 300}, {duty: d, hours: 400}]\n"
+          "  - {name: e, programs: [{job: c, repeats_per_hour: 100}]}\n"),
       std::vector<double>{20, 30, 18});
   const std::vector<DutyResult> results = evaluated(files, of.study, of.rows);
   REQUIRE(results.size() == 2);
@@ -151,15 +160,17 @@ TEST_CASE("duties: every number of an evaluation follows from the damage at each
   // Before, bus had 300 h under e and 400 h under d. All survive; the rest of each life is that of its sample.
   CHECK(duty.lives.survived == 1);
   for (std::size_t p = 0; p < 3; ++p) {
-    const double scatter = std::pow(10, decade * (double(p) - 1)), left = scatter - 300 * 100 * 9e-6 - 400 * by_hand.rate[1];
+    const double scatter = std::pow(10, decade * (double(p) - 1)),
+                 left = scatter - 300 * 100 * 9e-6 - 400 * by_hand.rate[1];
     CHECK(duty.lives.remaining[p] == Approx(left / by_hand.rate[1]).epsilon(3e-3));
   }
 }
 
 TEST_CASE("duties: an order counts the damage of its round beside the repeats that no change interrupts") {
   Case of;
-  const DutyFile file = of.file("  - name: d\n    programs: [{job: a, repeats_per_hour: 20}, {job: b, repeats_per_hour: 30}]\n"
-                                "    order: [{job: a, repeats: 4}, {job: b, repeats: 3}]\n");
+  const DutyFile file = of.file(
+      "  - name: d\n    programs: [{job: a, repeats_per_hour: 20}, {job: b, repeats_per_hour: 30}]\n"
+      "    order: [{job: a, repeats: 4}, {job: b, repeats: 3}]\n");
   const Damages round{9e-6, 2e-6, 5e-7};
   of.rows.push_back(row_of(of.scratch, {round_name(file.duties[0]), 100, round}));
   of.study.jobs.push_back({round_name(file.duties[0]), std::make_shared<const Job>(), ""});
@@ -182,16 +193,21 @@ TEST_CASE("duties: an order counts the damage of its round beside the repeats th
     return message_of([&] { evaluated(file, of.study, of.rows); });
   };
   CHECK(refusal(90 + 239).empty());
-  CHECK_THAT(refusal(90 + 241), Catch::Contains("take 60.1 minutes of each hour (20.0 x 30.0 s of 'a', 30.0 x 60.0 s of 'b', 5.00 x 241.0 s of moves between them)"));
+  CHECK_THAT(
+      refusal(90 + 241),
+      Catch::Contains(
+          "take 60.1 minutes of each hour (20.0 x 30.0 s of 'a', 30.0 x 60.0 s of 'b', 5.00 x 241.0 s of moves between them)"));
 }
 
 TEST_CASE("duties: a plant's table of lives is the same distribution, and holds what its dresspacks share once") {
   Case of;
-  const DutyFile file = of.file("  - name: d\n    hours_per_week: 100\n    programs: [{job: a, repeats_per_hour: 20}, {job: b, repeats_per_hour: 30}]\n"
-                                "  - {name: e, programs: [{job: c, repeats_per_hour: 100}]}\n  - {name: f, programs: [{job: c, repeats_per_hour: 1}]}\n");
+  const DutyFile file = of.file(
+      "  - name: d\n    hours_per_week: 100\n    programs: [{job: a, repeats_per_hour: 20}, {job: b, repeats_per_hour: 30}]\n"
+      "  - {name: e, programs: [{job: c, repeats_per_hour: 100}]}\n  - {name: f, programs: [{job: c, repeats_per_hour: 1}]}\n");
   const auto tables = PlantLives(file, of.study, of.rows, {"d", "e"}).in(50, 64, true);
   REQUIRE(tables.size() == 2);
-  for (const auto& [name, median] : {std::pair("d", ByHand({of.programs[0], of.programs[1]}, {20, 30}).hours()), std::pair("e", 1 / (100 * 9e-6))}) {
+  for (const auto& [name, median] :
+       {std::pair("d", ByHand({of.programs[0], of.programs[1]}, {20, 30}).hours()), std::pair("e", 1 / (100 * 9e-6))}) {
     const LifeTable& table = tables.at(name);
     INFO(name);
     CHECK(table.worlds == 50);
@@ -229,5 +245,6 @@ TEST_CASE("duties: a plant's table of lives is the same distribution, and holds 
     CHECK(square == Approx(1).margin(0.1));  // 50 strata
   }
   std::sort(found.begin(), found.end());
-  CHECK(found == std::vector<std::string>{"friction_inside of hose", "model of ", "strength of bronze", "strength of copper"});
+  CHECK(found ==
+        std::vector<std::string>{"friction_inside of hose", "model of ", "strength of bronze", "strength of copper"});
 }

@@ -29,8 +29,8 @@ LifeResponse mode_of(double median, const std::string& name = "wires of cable") 
 }
 
 /// Places with wires of one site each. damage: (place, wire). modes, failing: (place).
-std::shared_ptr<const WireDamage> wires_of(const std::vector<std::vector<double>>& damage, const std::vector<std::uint32_t>& modes,
-                                           std::uint32_t failing) {
+std::shared_ptr<const WireDamage> wires_of(const std::vector<std::vector<double>>& damage,
+                                           const std::vector<std::uint32_t>& modes, std::uint32_t failing) {
   WireLayout layout;
   std::vector<double> of_sites;
   for (std::size_t place = 0; place < damage.size(); ++place) {
@@ -42,7 +42,8 @@ std::shared_ptr<const WireDamage> wires_of(const std::vector<std::vector<double>
     layout.mode.push_back(modes[place]), layout.failing.push_back(failing);
   }
   layout.sort_sites();
-  return std::make_shared<const WireDamage>(std::make_shared<const WireLayout>(layout), of_sites, std::ranges::max(modes) + 1);
+  return std::make_shared<const WireDamage>(std::make_shared<const WireLayout>(layout), of_sites,
+                                            std::ranges::max(modes) + 1);
 }
 
 /// A program with two places with three wires each; a conductor fails with its second wire.
@@ -52,7 +53,8 @@ EvaluatedProgram program(const std::string& name, double median, const std::vect
 
 const std::vector<std::vector<double>> first_place{{3, 2, 1}, {0, 0, 0}}, second_place{{0, 0, 0}, {3, 2, 1}};
 
-DutyDamage damage_of(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates, std::size_t samples) {
+DutyDamage damage_of(const std::vector<EvaluatedProgram>& programs, const std::vector<Rate>& rates,
+                     std::size_t samples) {
   std::vector<double> repeats;
   for (const Rate& rate : rates) repeats.push_back(rate.repeats_per_hour);
   return damage_under(programs, rates, SamePlace(programs).at(repeats), "", samples);
@@ -101,12 +103,15 @@ TEST_CASE("damage of programs adds up at one place, and not at two") {
 
 TEST_CASE("a program more makes no life longer, also where the samples differ from the medians") {
   const EvaluatedProgram hard = program("hard", 5, first_place), elsewhere = program("elsewhere", 5, second_place);
-  const std::vector<Rate> rates{{10, 0}, {10, 100}};  // at the medians each does half of the damage, in samples one dominates
+  const std::vector<Rate> rates{{10, 0},
+                                {10, 100}};  // at the medians each does half of the damage, in samples one dominates
   const std::vector<EvaluatedProgram> both{hard, elsewhere};
   const SamePlace places(both);
   const DutyDamage mixed = damage_of(both, rates, many);
-  const LifePercentiles lives = lives_under(mixed).percentiles, alone = lives_under(damage_of({hard}, {{10, 0}}, many)).percentiles;
-  const LifePercentiles without = lives_with(mixed, {1, 0}, places.at({10, 0})), twice = lives_with(mixed, {1, 2}, places.at({10, 20}));
+  const LifePercentiles lives = lives_under(mixed).percentiles,
+                        alone = lives_under(damage_of({hard}, {{10, 0}}, many)).percentiles;
+  const LifePercentiles without = lives_with(mixed, {1, 0}, places.at({10, 0})),
+                        twice = lives_with(mixed, {1, 2}, places.at({10, 20}));
   for (std::size_t p = 0; p < 3; ++p) {
     CHECK(lives[p] <= alone[p] * (1 + rounding));
     CHECK(without[p] == Approx(alone[p]).epsilon(rounding));
@@ -117,7 +122,9 @@ TEST_CASE("a program more makes no life longer, also where the samples differ fr
 
 TEST_CASE("the first of two modes decides in each sample, and programs may wear different modes") {
   const auto with_modes = [](const std::string& name, double one, double other) {
-    return EvaluatedProgram{name, 60, std::make_shared<const FailureModes>(FailureModes{mode_of(one, "wires of one"), mode_of(other, "wires of other")}),
+    return EvaluatedProgram{name, 60,
+                            std::make_shared<const FailureModes>(
+                                FailureModes{mode_of(one, "wires of one"), mode_of(other, "wires of other")}),
                             wires_of({{1}, {1}}, {0, 1}, 1)};
   };
   const EvaluatedProgram first = with_modes("first", 5, 12), second = with_modes("second", 12, 4);
@@ -131,8 +138,10 @@ TEST_CASE("the first of two modes decides in each sample, and programs may wear 
 TEST_CASE("the damage of each mode is that at its own places") {
   // Both programs damage one place of the first mode. Each damages its own place of the second mode, which fails first.
   const auto with_places = [](const std::string& name, double one, double other) {
-    return EvaluatedProgram{name, 60, std::make_shared<const FailureModes>(FailureModes{mode_of(7, "wires of one"), mode_of(5, "wires of other")}),
-                            wires_of({{1}, {one}, {other}}, {0, 1, 1}, 1)};
+    return EvaluatedProgram{
+        name, 60,
+        std::make_shared<const FailureModes>(FailureModes{mode_of(7, "wires of one"), mode_of(5, "wires of other")}),
+        wires_of({{1}, {one}, {other}}, {0, 1, 1}, 1)};
   };
   const DutyDamage duty = damage_of({with_places("first", 1, 0), with_places("second", 0, 1)}, {{1, 0}, {1, 0}}, many);
   REQUIRE(duty.same_place[0] == Approx(1).epsilon(rounding));
@@ -144,22 +153,30 @@ TEST_CASE("the damage of each mode is that at its own places") {
 TEST_CASE("the damage of the mode that fails first is the same with and without the damage of each program") {
   // Two modes, one place each that both programs damage, and places of the second mode of their own.
   const auto with_modes = [](const std::string& name, double one, double other, double first, double second) {
-    return EvaluatedProgram{name, 60, std::make_shared<const FailureModes>(FailureModes{mode_of(one, "wires of one"), mode_of(other, "wires of other")}),
+    return EvaluatedProgram{name, 60,
+                            std::make_shared<const FailureModes>(
+                                FailureModes{mode_of(one, "wires of one"), mode_of(other, "wires of other")}),
                             wires_of({{1}, {first}, {second}}, {0, 1, 1}, 1)};
   };
   constexpr std::size_t samples = 500;
   // In the last two, both programs damage nearly the same place of the second mode, which fails first.
-  for (const auto& [harder, of_second, elsewhere] : {std::tuple(4.0, 5.2, 0.2), {5.0, 5.2, 0.2}, {6.0, 5.2, 0.2}, {4.0, 4.1, 0.8}, {4.0, 3.9, 0.9}}) {
-    const std::vector<EvaluatedProgram> programs{with_modes("first", 5, harder, 1, elsewhere), with_modes("second", harder + 1, of_second, elsewhere / 2, 1)};
+  for (const auto& [harder, of_second, elsewhere] :
+       {std::tuple(4.0, 5.2, 0.2), {5.0, 5.2, 0.2}, {6.0, 5.2, 0.2}, {4.0, 4.1, 0.8}, {4.0, 3.9, 0.9}}) {
+    const std::vector<EvaluatedProgram> programs{with_modes("first", 5, harder, 1, elsewhere),
+                                                 with_modes("second", harder + 1, of_second, elsewhere / 2, 1)};
     const std::vector<Rate> rates{{3, 40}, {2, 80}};
     const std::vector<double> share = SamePlace(programs).at({3, 2});
     REQUIRE(share[1] < 1);
     std::vector<RepeatDamage> of_repeat;
-    for (const EvaluatedProgram& of : programs) of_repeat.push_back(damage_of_lives(mode_lives(*of.modes, "", samples)));
+    for (const EvaluatedProgram& of : programs)
+      of_repeat.push_back(damage_of_lives(mode_lives(*of.modes, "", samples)));
     std::vector<double> factors;
     const std::vector<double> first = first_mode_damage(
-        programs, rates, share, [&](const EvaluatedProgram& of) -> const RepeatDamage& { return of_repeat[of.job == "first" ? 0 : 1]; },
-        [&](const EvaluatedProgram& of, double percent) -> const std::vector<double>& { return factors = repeat_factors(of.job, percent, "", samples); });
+        programs, rates, share,
+        [&](const EvaluatedProgram& of) -> const RepeatDamage& { return of_repeat[of.job == "first" ? 0 : 1]; },
+        [&](const EvaluatedProgram& of, double percent) -> const std::vector<double>& {
+          return factors = repeat_factors(of.job, percent, "", samples);
+        });
     const std::vector<double> stored = damage_under(programs, rates, share, "", samples).of_first_mode();
     REQUIRE(first.size() == samples);
     for (std::size_t s = 0; s < samples; ++s) CHECK(first[s] == Approx(stored[s]).epsilon(rounding));
@@ -169,7 +186,9 @@ TEST_CASE("the damage of the mode that fails first is the same with and without 
 TEST_CASE("the worst place of a duty is that of a search through all sites") {
   constexpr std::size_t places = 60, wires_each = 7, sites_each = 3, programs = 5;
   std::mt19937 random(1);
-  const auto number = [&](std::size_t below) { return static_cast<std::uint32_t>(std::uniform_int_distribution<std::size_t>(0, below - 1)(random)); };
+  const auto number = [&](std::size_t below) {
+    return static_cast<std::uint32_t>(std::uniform_int_distribution<std::size_t>(0, below - 1)(random));
+  };
   WireLayout layout;
   for (std::uint32_t place = 0; place < places; ++place) {
     layout.mode.push_back(place % 2), layout.failing.push_back(1 + number(wires_each));
@@ -179,13 +198,15 @@ TEST_CASE("the worst place of a duty is that of a search through all sites") {
     for (std::size_t k = 0; k < sites_each; ++k) layout.wire.push_back(wire);
   for (int site = 0; site < 50; ++site) layout.wire.push_back(0xffffffff);  // of the hose's wall
   std::shuffle(layout.wire.begin(), layout.wire.end(), random);
-  const auto modes = std::make_shared<const FailureModes>(FailureModes{mode_of(7, "wires of one"), mode_of(5, "wires of other")});
+  const auto modes =
+      std::make_shared<const FailureModes>(FailureModes{mode_of(7, "wires of one"), mode_of(5, "wires of other")});
   layout.sort_sites();
   const auto shared = std::make_shared<const WireLayout>(layout);
   using Damage = std::vector<double>;  // (site)
   const auto damaged = [&](double decades) {
     Damage damage;
-    for (std::size_t site = 0; site < layout.wire.size(); ++site) damage.push_back(std::pow(10, std::uniform_real_distribution(-decades, 0.0)(random)));
+    for (std::size_t site = 0; site < layout.wire.size(); ++site)
+      damage.push_back(std::pow(10, std::uniform_real_distribution(-decades, 0.0)(random)));
     return damage;
   };
   for (const double decades : {0.1, 1.0, 6.0}) {
@@ -248,7 +269,8 @@ TEST_CASE("the remaining life is the life without the past, of the dresspacks th
   CHECK(old.remaining[1] == Approx(std::pow(10, lives[3 * many / 4]) - past).epsilon(between_samples));
   CHECK(old.remaining[0] == Approx(std::pow(10, lives[55 * many / 100]) - past).epsilon(20 * between_samples));
   // Two halves of a history are equal to the whole.
-  CHECK(lives_under(duty, {{&duty, past / 2}, {&duty, past / 2}}).remaining[1] == Approx(old.remaining[1]).epsilon(rounding));
+  CHECK(lives_under(duty, {{&duty, past / 2}, {&duty, past / 2}}).remaining[1] ==
+        Approx(old.remaining[1]).epsilon(rounding));
 }
 
 TEST_CASE("uncertain numbers of repeats widen the lives and leave the median") {
@@ -257,7 +279,8 @@ TEST_CASE("uncertain numbers of repeats widen the lives and leave the median") {
   const DutyLives uncertain = lives_under(damage_of({one}, {{10, 50}}, many));
   CHECK(uncertain.percentiles[1] == Approx(known.percentiles[1]).epsilon(0.02));  // of 10,000 samples
   // Standard deviations of ln life add as squares: 0.1 decades at 10 % are 0.18; a spread of 50 % is sqrt(ln 1.25) = 0.47.
-  const double decile = 1.2815515655446004, of_wires = 0.1 * std::log(10.0) / decile, of_repeats = std::sqrt(std::log(1.25));
+  const double decile = 1.2815515655446004, of_wires = 0.1 * std::log(10.0) / decile,
+               of_repeats = std::sqrt(std::log(1.25));
   CHECK(std::log(uncertain.percentiles[1] / uncertain.percentiles[0]) ==
         Approx(decile * std::hypot(of_wires, of_repeats)).epsilon(0.02));
 }

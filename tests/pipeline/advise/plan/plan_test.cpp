@@ -37,7 +37,8 @@ LifeTable weibull(double shape, const std::vector<double>& scales, std::size_t d
 Fleet fleet_of(const std::vector<int>& ages, double planned = 0, double unplanned = 0) {
   Fleet fleet;
   for (const int age : ages)
-    fleet.rows.push_back({{}, "r" + std::to_string(fleet.rows.size()), "d", start - std::chrono::days(7 * age), {}, planned, unplanned});
+    fleet.rows.push_back(
+        {{}, "r" + std::to_string(fleet.rows.size()), "d", start - std::chrono::days(7 * age), {}, planned, unplanned});
   fleet.has_costs = unplanned > 0;
   return fleet;
 }
@@ -54,7 +55,11 @@ std::vector<int> many(std::size_t count, int age) { return std::vector<int>(coun
 }  // namespace
 
 TEST_CASE("a count of lives says on which side of a limit their median is") {
-  const LifeTable table{2, 3, {1, 2, 900, 4, 5, std::numeric_limits<float>::infinity()}, 40, 80};  // median 5 of all, 4 of the finite ones
+  const LifeTable table{2,
+                        3,
+                        {1, 2, 900, 4, 5, std::numeric_limits<float>::infinity()},
+                        40,
+                        80};  // median 5 of all, 4 of the finite ones
   CHECK(table.median() == 5);
   CHECK_FALSE(table.half_end_before(5));
   CHECK(table.half_end_before(5.5));
@@ -90,7 +95,8 @@ TEST_CASE("a plan names the dresspacks that reach the age of a mode without vali
   CHECK(age_words(fleet, plan, {}, {}).empty());
   const std::string lines = wrapped_lines("  1,234  a test\n" + words(2900));
   CHECK(lines.starts_with("  1,234  a test\nNot validated"));
-  for (std::size_t begin = 0, end; (end = lines.find('\n', begin)) != std::string::npos; begin = end + 1) CHECK(end - begin <= 118);
+  for (std::size_t begin = 0, end; (end = lines.find('\n', begin)) != std::string::npos; begin = end + 1)
+    CHECK(end - begin <= 118);
   // If it is replaced in the first window, its age increases by at most 4 weeks.
   for (RowPlan& row : plan.rows) row.window = 0;
   CHECK(words(2800 + 4 * week + 1).find("r1") == std::string::npos);
@@ -109,12 +115,13 @@ TEST_CASE("with frequent windows a dresspack is replaced at the best age of a We
   for (double age = 1; age < 3 * scale; ++age) {
     const double lives = std::exp(-std::pow(age / scale, shape));
     running += std::exp(-std::pow((age - 0.5) / scale, shape));
-    if (const double rate = (planned * lives + unplanned * (1 - lives)) / running; rate < least) least = rate, best = age;
+    if (const double rate = (planned * lives + unplanned * (1 - lives)) / running; rate < least)
+      least = rate, best = age;
   }
   std::vector<int> ages;
   for (int age = 0; age < 90; ++age) ages.push_back(age);
-  const Plan plan = plan_of(fleet_of(ages, planned, unplanned), {{"d", weibull(shape, {scale})}}, windows_in({1, 2}), start,
-                            {0.1, true});
+  const Plan plan = plan_of(fleet_of(ages, planned, unplanned), {{"d", weibull(shape, {scale})}}, windows_in({1, 2}),
+                            start, {0.1, true});
   for (std::size_t k = 0; k < ages.size(); ++k) {
     const double at_window = (ages[k] + 1) * week;
     INFO("age at the window " << at_window << ", best " << best);
@@ -125,7 +132,8 @@ TEST_CASE("with frequent windows a dresspack is replaced at the best age of a We
   // A new dresspack that can be replaced every week: cost per hour by the closed form, over twenty of its lives.
   std::vector<int> weeks;
   for (int of = 1; of <= 20 * int(best / week); ++of) weeks.push_back(of);
-  const Plan longer = plan_of(fleet_of(many(20, 0), planned, unplanned), {{"d", weibull(shape, {scale})}}, windows_in(weeks), start, {0.1, true});
+  const Plan longer = plan_of(fleet_of(many(20, 0), planned, unplanned), {{"d", weibull(shape, {scale})}},
+                              windows_in(weeks), start, {0.1, true});
   const double hours = 20 * week * (weeks.back() + 1);
   CHECK(longer.cost / hours == Approx(least).epsilon(0.05));  // the last life of each is not at its end
   CHECK(longer.cost < 0.75 * longer.cost_without_windows);
@@ -134,7 +142,8 @@ TEST_CASE("with frequent windows a dresspack is replaced at the best age of a We
 TEST_CASE("by risk a dresspack is replaced where a Weibull life fails in the interval more often") {
   constexpr double shape = 2.5, scale = 4000;
   for (const double risk : {0.02, 0.1, 0.3}) {
-    const Plan plan = plan_of(fleet_of({5, 20, 40, 60}), {{"d", weibull(shape, {scale})}}, windows_in({4, 14}), start, {risk, false});
+    const Plan plan =
+        plan_of(fleet_of({5, 20, 40, 60}), {{"d", weibull(shape, {scale})}}, windows_in({4, 14}), start, {risk, false});
     for (std::size_t k = 0; k < 4; ++k) {
       const double age = plan.rows[k].age_hours;
       const auto lives = [&](double weeks) { return std::exp(-std::pow((age + weeks * week) / scale, shape)); };
@@ -148,7 +157,8 @@ TEST_CASE("by risk a dresspack is replaced where a Weibull life fails in the int
 
 TEST_CASE("dresspacks that fail young or never are not replaced: a new one would be worse") {
   // Shape 0.6: the remaining life increases with age. Tested for each world alone, and for two worlds together.
-  for (const auto& [shape, scales] : {std::pair(0.6, std::vector<double>{4000}), std::pair(1.0, std::vector<double>{500, 100000})}) {
+  for (const auto& [shape, scales] :
+       {std::pair(0.6, std::vector<double>{4000}), std::pair(1.0, std::vector<double>{500, 100000})}) {
     const auto tables = std::map<std::string, LifeTable>{{"d", weibull(shape, scales, 4000)}};
     const Plan plan = plan_of(fleet_of(many(20, 4), 1, 6), tables, windows_in({2, 10, 30, 60}), start, {0.1, true});
     for (const RowPlan& row : plan.rows) CHECK_FALSE(row.window);
@@ -160,22 +170,28 @@ TEST_CASE("dresspacks that fail young or never are not replaced: a new one would
 }
 
 TEST_CASE("the failures of the weeks add up to those until the windows, and to those of the years") {
-  const Plan plan = plan_of(fleet_of({5, 40, 60}), {{"d", weibull(2.5, {4000, 9000})}}, windows_in({4, 14}), start, {0.2, false});
+  const Plan plan =
+      plan_of(fleet_of({5, 40, 60}), {{"d", weibull(2.5, {4000, 9000})}}, windows_in({4, 14}), start, {0.2, false});
   REQUIRE(plan.failures_in_week.size() == 24);
   for (const RowPlan& row : plan.rows) {
-    const auto until = [&](std::size_t end) { return std::accumulate(row.fails_in_week.begin(), row.fails_in_week.begin() + std::ptrdiff_t(end), 0.0); };
+    const auto until = [&](std::size_t end) {
+      return std::accumulate(row.fails_in_week.begin(), row.fails_in_week.begin() + std::ptrdiff_t(end), 0.0);
+    };
     CHECK(until(4) == Approx(row.fails_before_first).margin(2e-4));  // 20,000 samples, a life at the border of a week
     CHECK(until(14) == Approx(1 - (1 - row.fails_before_first) * (1 - row.fails_until_next[0])).margin(4e-4));
   }
   // A plan that ends within a week counts only the days of this week. The interval after one window is a year.
-  const Plan year_later = plan_of(fleet_of({40}), {{"d", weibull(2.5, {4000, 9000})}}, windows_in({4}), start, {1, false});
+  const Plan year_later =
+      plan_of(fleet_of({40}), {{"d", weibull(2.5, {4000, 9000})}}, windows_in({4}), start, {1, false});
   CHECK(std::accumulate(year_later.rows[0].fails_in_week.begin(), year_later.rows[0].fails_in_week.end(), 0.0) ==
         Approx(year_later.rows[0].fails_before).margin(4e-4));
   double unplanned = 0;
   for (const YearOfPlan& year : plan.years) unplanned += year.unplanned;
   // Both have equal failures of later dresspacks. Those of today's are expected here, and counted in 1,000 plants there.
-  CHECK(std::accumulate(plan.failures_in_week.begin(), plan.failures_in_week.end(), 0.0) == Approx(unplanned).margin(4 * std::sqrt(unplanned / 1000)));
-  CHECK(plan_weeks_csv(fleet_of({5, 40, 60}), plan).starts_with("name,fails_in_week_of_2026-11-23,fails_in_week_of_2026-11-30,"));
+  CHECK(std::accumulate(plan.failures_in_week.begin(), plan.failures_in_week.end(), 0.0) ==
+        Approx(unplanned).margin(4 * std::sqrt(unplanned / 1000)));
+  CHECK(plan_weeks_csv(fleet_of({5, 40, 60}), plan)
+            .starts_with("name,fails_in_week_of_2026-11-23,fails_in_week_of_2026-11-30,"));
 }
 
 TEST_CASE("a week of few sampled lives has no chance of its own: its failures are those of the law") {
@@ -186,7 +202,8 @@ TEST_CASE("a week of few sampled lives has no chance of its own: its failures ar
   LifeTable table{500, 64, {}, 40000, week};
   for (std::size_t w = 0; w < table.worlds; ++w) {
     std::vector<float> lives;
-    for (std::size_t d = 0; d < table.draws; ++d) lives.push_back(static_cast<float>(scale * std::pow(-std::log(uniform(random)), 1 / shape)));
+    for (std::size_t d = 0; d < table.draws; ++d)
+      lives.push_back(static_cast<float>(scale * std::pow(-std::log(uniform(random)), 1 / shape)));
     std::sort(lives.begin(), lives.end());
     table.hours.insert(table.hours.end(), lives.begin(), lives.end());
   }
@@ -200,13 +217,15 @@ TEST_CASE("a week of few sampled lives has no chance of its own: its failures ar
   CHECK(worst < 0.4);  // two deviations of the 32 parts of lives in a week; by count 1, for a week without a life
 }
 
-TEST_CASE("without windows a constant failure rate needs so many spare dresspacks, with the spread of a Poisson number") {
+TEST_CASE(
+    "without windows a constant failure rate needs so many spare dresspacks, with the spread of a Poisson number") {
   constexpr double mean = 2000;
   const Plan plan = plan_of(fleet_of(many(50, 10)), {{"d", weibull(1, {mean})}}, windows_in({26}), start, {1, false});
   const double expected = 50 * week * 365.2425 / 7 / mean;
   REQUIRE(plan.years.size() >= 1);
   CHECK(plan.years[0].planned == 0);
-  CHECK(plan.years[0].unplanned == Approx(expected).margin(4 * std::sqrt(expected / 1000)));  // 1,000 plants, 4 deviations
+  CHECK(plan.years[0].unplanned ==
+        Approx(expected).margin(4 * std::sqrt(expected / 1000)));  // 1,000 plants, 4 deviations
   CHECK(plan.years[0].low == Approx(expected - 1.645 * std::sqrt(expected)).margin(3));
   CHECK(plan.years[0].high == Approx(expected + 1.645 * std::sqrt(expected)).margin(3));
 }
@@ -215,7 +234,8 @@ TEST_CASE("failures, spare dresspacks and costs are those of plants that are dra
   constexpr double shape = 2.5, planned = 1, unplanned = 6;
   const std::vector<double> scales{4000, 9000};
   const std::vector<int> ages{5, 40, 60};  // [weeks]
-  const Plan plan = plan_of(fleet_of(ages, planned, unplanned), {{"d", weibull(shape, scales)}}, windows_in({10}), start, {0.1, true});
+  const Plan plan = plan_of(fleet_of(ages, planned, unplanned), {{"d", weibull(shape, scales)}}, windows_in({10}),
+                            start, {0.1, true});
   REQUIRE(std::any_of(plan.rows.begin(), plan.rows.end(), [](const RowPlan& row) { return row.window.has_value(); }));
   const double window = 10 * week, end = days_between(start, plan.end) * week / 7, year = 365.2425 * week / 7;
   const auto alive = [&](double scale, double age) { return std::exp(-std::pow(age / scale, shape)); };
@@ -236,7 +256,9 @@ TEST_CASE("failures, spare dresspacks and costs are those of plants that are dra
     double money = 0, failed = 0, exchanged = 0, first = 0, bare = 0;
     for (std::size_t i = 0; i < ages.size(); ++i) {
       const double age = ages[i] * week;
-      const auto life = [&](double from) { return scale * std::pow(std::pow(from / scale, shape) - std::log(1 - uniform(random)), 1 / shape); };
+      const auto life = [&](double from) {
+        return scale * std::pow(std::pow(from / scale, shape) - std::log(1 - uniform(random)), 1 / shape);
+      };
       const double own = life(age) - age;
       for (const bool by_plan : {true, false}) {
         double at = own;
@@ -259,7 +281,8 @@ TEST_CASE("failures, spare dresspacks and costs are those of plants that are dra
     const double mean = sums[0] / count, error = std::sqrt((sums[1] / count - mean * mean) / 1000);
     CHECK(found == Approx(mean).margin(4 * error));
   };
-  check(plan.cost, cost), check(all_unplanned, failures), check(all_planned, replaced), check(plan.cost_without_windows, without);
+  check(plan.cost, cost), check(all_unplanned, failures), check(all_planned, replaced),
+      check(plan.cost_without_windows, without);
   std::sort(first_year.begin(), first_year.end());
   // Whole numbers: the result may be the neighbouring number.
   CHECK(plan.years[0].low == Approx(first_year[count / 20]).margin(1));
@@ -270,19 +293,23 @@ TEST_CASE("survivors tell which world the plant is in, and the spread between pl
   // Two worlds with a constant failure rate each; n dresspacks have survived to the age a.
   constexpr double bad = 1000, good = 20000, age = 10 * week;
   for (const std::size_t count : {1, 4, 30}) {
-    const Plan plan = plan_of(fleet_of(many(count, 10)), {{"d", weibull(1, {bad, good})}}, windows_in({10}), start, {1, false});
-    const double survive_bad = std::exp(-double(count) * age / bad), survive_good = std::exp(-double(count) * age / good);
+    const Plan plan =
+        plan_of(fleet_of(many(count, 10)), {{"d", weibull(1, {bad, good})}}, windows_in({10}), start, {1, false});
+    const double survive_bad = std::exp(-double(count) * age / bad),
+                 survive_good = std::exp(-double(count) * age / good);
     const double of_bad = survive_bad / (survive_bad + survive_good);
     const auto fails = [&](double mean) { return 1 - std::exp(-10 * week / mean); };
     CHECK(plan.rows[0].fails_before_first == Approx(of_bad * fails(bad) + (1 - of_bad) * fails(good)).margin(1e-3));
     // Worlds of a calibration that already includes the survivors: they are not counted twice.
     PlanRule counted{1, false};
     counted.knows_survivors = true;
-    const Plan known = plan_of(fleet_of(many(count, 10)), {{"d", weibull(1, {bad, good})}}, windows_in({10}), start, counted);
+    const Plan known =
+        plan_of(fleet_of(many(count, 10)), {{"d", weibull(1, {bad, good})}}, windows_in({10}), start, counted);
     CHECK(known.rows[0].fails_before_first == Approx((fails(bad) + fails(good)) / 2).margin(1e-3));
   }
   // New dresspacks contain no information: the number of failures is that of one world or of the other, not of their mean.
-  const Plan fresh = plan_of(fleet_of(many(100, 0)), {{"d", weibull(1, {bad, good})}}, windows_in({26}), start, {1, false});
+  const Plan fresh =
+      plan_of(fleet_of(many(100, 0)), {{"d", weibull(1, {bad, good})}}, windows_in({26}), start, {1, false});
   const double year = week * 365.2425 / 7;
   CHECK(fresh.years[0].low < 1.5 * 100 * year / good);
   CHECK(fresh.years[0].high > 0.9 * 100 * year / bad);
@@ -290,7 +317,8 @@ TEST_CASE("survivors tell which world the plant is in, and the spread between pl
 }
 
 TEST_CASE("a plan of too few effective worlds stops, and its other numbers do not depend on the threads") {
-  const std::map<std::string, LifeTable> tables{{"d", weibull(2.5, {2000, 4000, 8000})}, {"e", weibull(1.5, {3000, 5000, 6000})}};
+  const std::map<std::string, LifeTable> tables{{"d", weibull(2.5, {2000, 4000, 8000})},
+                                                {"e", weibull(1.5, {3000, 5000, 6000})}};
   Fleet fleet = fleet_of({20, 30, 40, 20}, 1, 6);
   fleet.rows[1].duty = fleet.rows[3].duty = "e", fleet.rows[2].unplanned_cost = 9;
   CHECK(rows_of_policies(fleet) == std::vector<std::vector<std::size_t>>{{0}, {2}, {1, 3}});
@@ -321,14 +349,17 @@ TEST_CASE("survivors are weighed by the law of the lives, not by the chance of t
   // log10 of a life is normal: of the median of a world, and within a world. 64 lives of each world are known.
   constexpr double median = 7500, of_worlds = 0.3, within = 0.32, age = 60 * week, later = 120 * week;
   constexpr int dresspacks = 200;
-  const auto alive = [](double hours, double z) { return 0.5 * std::erfc((std::log10(hours / median) - of_worlds * z) / within / std::sqrt(2.0)); };
+  const auto alive = [](double hours, double z) {
+    return 0.5 * std::erfc((std::log10(hours / median) - of_worlds * z) / within / std::sqrt(2.0));
+  };
   std::mt19937 random(1);
   std::normal_distribution<double> normal;
   LifeTable table{2000, 64, {}, 40000, week};
   for (std::size_t w = 0; w < table.worlds; ++w) {
     const double z = normal(random);
     std::vector<float> lives;
-    for (std::size_t d = 0; d < table.draws; ++d) lives.push_back(static_cast<float>(median * std::pow(10, of_worlds * z + within * normal(random))));
+    for (std::size_t d = 0; d < table.draws; ++d)
+      lives.push_back(static_cast<float>(median * std::pow(10, of_worlds * z + within * normal(random))));
     std::sort(lives.begin(), lives.end());
     table.hours.insert(table.hours.end(), lives.begin(), lives.end());
   }
@@ -352,7 +383,8 @@ TEST_CASE("survivors that the model hardly expects are named, and an age that no
   CHECK(plan.all_alive == Approx(std::exp(-8 * age / mean)).epsilon(8e-3));
   CHECK(plan_words(eight, plan).find("unlikely by the model: 1 of 270 such plants") != std::string::npos);
   const Fleet one = fleet_of({1});
-  CHECK(plan_words(one, plan_of(one, {{"d", weibull(1, {mean})}}, windows_in({10}), start, {1, false})).find("unlikely") == std::string::npos);
+  CHECK(plan_words(one, plan_of(one, {{"d", weibull(1, {mean})}}, windows_in({10}), start, {1, false}))
+            .find("unlikely") == std::string::npos);
   // A calibration that already includes them, under which none of 64 survives so long.
   PlanRule counted{0.1, false};
   counted.knows_survivors = true;
@@ -376,7 +408,8 @@ TEST_CASE("survivors that the model hardly expects are named, and an age that no
 }
 
 TEST_CASE("the damage of earlier duties adds up in each draw") {
-  LifeTable now{1, 2, {2000, 8000}, 40000, week}, before{1, 2, {1000, 4000}, 40000, week}, never{1, 2, {INFINITY, INFINITY}, 40000, week};
+  LifeTable now{1, 2, {2000, 8000}, 40000, week}, before{1, 2, {1000, 4000}, 40000, week},
+      never{1, 2, {INFINITY, INFINITY}, 40000, week};
   now.of_draw = {8000, 2000};  // the sample with the longer life now had the shorter life before
   before.of_draw = {1000, 4000};
   const std::map<std::string, LifeTable> tables{{"d", now}, {"before", before}, {"never", never}};
@@ -388,7 +421,8 @@ TEST_CASE("the damage of earlier duties adds up in each draw") {
   CHECK(lives("d", {}) == now.hours);
   CHECK(lives("d", {{"before", 500}}) == std::vector<float>{500 + 7 * 2000 / 8, 500 + 8000 / 2});
   CHECK(lives("d", {{"before", 1500}}) == std::vector<float>{1000, 1500 + 5 * 2000 / 8});  // one has failed before
-  CHECK(lives("d", {{"before", 250}, {"never", 3000}, {"before", 250}}) == std::vector<float>{3500 + 7 * 2000 / 8, 3500 + 8000 / 2});
+  CHECK(lives("d", {{"before", 250}, {"never", 3000}, {"before", 250}}) ==
+        std::vector<float>{3500 + 7 * 2000 / 8, 3500 + 8000 / 2});
   CHECK(lives("never", {{"before", 1500}}) == std::vector<float>{1000, INFINITY});
 }
 
@@ -411,7 +445,8 @@ TEST_CASE("a history counts as hours of today's duty that wear a dresspack as mu
     const auto lives = first_lives(fleet, tables);
     for (std::size_t i = 0; i < 2; ++i)
       for (std::size_t w = 0; w < 2; ++w)
-        CHECK(lives[i]->alive(w, *fleet.rows[i].run_hours) == Approx(tables.at("d").alive(w, expected[i])).margin(6e-5));  // one of 20,000
+        CHECK(lives[i]->alive(w, *fleet.rows[i].run_hours) ==
+              Approx(tables.at("d").alive(w, expected[i])).margin(6e-5));  // one of 20,000
   };
   PastDuty hours, days;
   hours.duty = days.duty = "hard";
@@ -431,7 +466,8 @@ TEST_CASE("a history counts as hours of today's duty that wear a dresspack as mu
 
 TEST_CASE("what if: a dresspack that gets a harder duty keeps its damage, and the plant its worlds") {
   // Under the hard duty every life is half.
-  const std::map<std::string, LifeTable> tables{{"d", weibull(2.5, {4000, 8000})}, {"hard", weibull(2.5, {2000, 4000})}};
+  const std::map<std::string, LifeTable> tables{{"d", weibull(2.5, {4000, 8000})},
+                                                {"hard", weibull(2.5, {2000, 4000})}};
   const Fleet fleet = fleet_of({20, 20, 20});
   Fleet changed = fleet;
   changed.rows[1].duty = "hard";
@@ -452,20 +488,23 @@ TEST_CASE("what if: a dresspack that gets a harder duty keeps its damage, and th
   CHECK(other.weights == plan.weights);
   const std::string words = what_if_words("other", fleet, plan, changed, other);
   CHECK(words.starts_with("What if other were the fleet\n"));
-  CHECK(words.find("dresspacks                                             3                     4           + 1\n") != std::string::npos);
+  CHECK(words.find("dresspacks                                             3                     4           + 1\n") !=
+        std::string::npos);
   const std::vector<BesideRow> beside = beside_rows(fleet, plan, changed, other);
   const auto failures = [](const Plan& of) {
     double sum = 0;
     for (const YearOfPlan& year : of.years) sum += year.unplanned;
     return sum;
   };
-  CHECK(std::stod(beside[2].more.substr(2)) == Approx(std::abs(failures(other) - failures(plan))).epsilon(0.05));  // two digits
+  CHECK(std::stod(beside[2].more.substr(2)) ==
+        Approx(std::abs(failures(other) - failures(plan))).epsilon(0.05));  // two digits
   CHECK(beside[2].more[0] == (failures(other) > failures(plan) ? '+' : '-'));
   CHECK(words.find("one more: ") != std::string::npos);
   // The same fleet again changes nothing.
   Fleet unchanged = fleet;
   keep_ages(unchanged, fleet, tables, start, start);
-  CHECK(what_if_words("other", fleet, plan, unchanged, plan_of(unchanged, tables, windows_in({4, 14}), start, same)).find("(now): none") != std::string::npos);
+  CHECK(what_if_words("other", fleet, plan, unchanged, plan_of(unchanged, tables, windows_in({4, 14}), start, same))
+            .find("(now): none") != std::string::npos);
 }
 
 TEST_CASE("what if from a later day: until then a dresspack wears as before, then as under its new duty") {
@@ -478,17 +517,21 @@ TEST_CASE("what if from a later day: until then a dresspack wears as before, the
   keep_ages(changed, fleet, tables, start, start + std::chrono::days(7 * 6));
   const Plan plan = plan_of(changed, tables, windows_in({4, 14}), start, {0.99, false});
   // The law in hours of the old duty. A week of the new duty counts as eight of the old.
-  const auto alive = [&](double weeks) { return std::exp(-std::pow((20 + std::min(weeks, 6.0) + 8 * std::max(0.0, weeks - 6)) * week / scale, shape)); };
+  const auto alive = [&](double weeks) {
+    return std::exp(-std::pow((20 + std::min(weeks, 6.0) + 8 * std::max(0.0, weeks - 6)) * week / scale, shape));
+  };
   const double draws = 2e-4;  // of 20,000 lives, some at a border
   CHECK(plan.rows[1].fails_before_first == Approx(1 - alive(4) / alive(0)).margin(draws));
   CHECK(plan.rows[1].fails_until_next[0] == Approx(1 - alive(14) / alive(4)).margin(draws));
   CHECK(plan.rows[1].fails_before_first == Approx(plan.rows[0].fails_before_first).margin(draws));
   for (const std::size_t of : {0, 5, 6, 12})
-    CHECK(plan.rows[1].fails_in_week[of] == Approx((alive(double(of)) - alive(double(of) + 1)) / alive(0)).margin(draws));
+    CHECK(plan.rows[1].fails_in_week[of] ==
+          Approx((alive(double(of)) - alive(double(of) + 1)) / alive(0)).margin(draws));
   // Simulated plants: the failures of 24 weeks, of which later dresspacks have only a few. 4 deviations of 1,000 plants.
   double unplanned = 0;
   for (const YearOfPlan& year : plan.years) unplanned += year.unplanned;
-  CHECK(std::accumulate(plan.failures_in_week.begin(), plan.failures_in_week.end(), 0.0) == Approx(unplanned).margin(4 * std::sqrt(unplanned / 1000)));
+  CHECK(std::accumulate(plan.failures_in_week.begin(), plan.failures_in_week.end(), 0.0) ==
+        Approx(unplanned).margin(4 * std::sqrt(unplanned / 1000)));
   tables.emplace("never", weibull(shape, {INFINITY}));
   changed.rows[1].duty = "never", changed.rows[1].before.clear(), changed.rows[1].change.reset();
   keep_ages(changed, fleet, tables, start, start + std::chrono::days(7 * 6));
@@ -503,7 +546,8 @@ TEST_CASE("what if from a later day: until then a dresspack wears as before, the
   harder.rows[0].duty = "hard";
   keep_ages(harder, young, constant, start, start + std::chrono::days(7 * 6));
   double failures = 0;
-  for (const YearOfPlan& year : plan_of(harder, constant, windows_in({4, 14}), start, {1, false}).years) failures += year.unplanned;
+  for (const YearOfPlan& year : plan_of(harder, constant, windows_in({4, 14}), start, {1, false}).years)
+    failures += year.unplanned;
   const double expected = 6 * 0.1 + 18 * 0.4;
   CHECK(failures == Approx(expected).margin(4 * std::sqrt(expected / 1000)));
 }
@@ -522,24 +566,29 @@ TEST_CASE("a fleet is read from a spreadsheet's table, and what is wrong in it i
     }
     return "";
   };
-  const Fleet fleet = read("name;duty;installed;hours_per_week;planned_cost;unplanned_cost\nr 1;day;2025-02-28;100;5;50\nr 2;day;;;5;50\n");
+  const Fleet fleet = read(
+      "name;duty;installed;hours_per_week;planned_cost;unplanned_cost\nr 1;day;2025-02-28;100;5;50\nr 2;day;;;5;50\n");
   REQUIRE(fleet.rows.size() == 2);
   CHECK(day_text(fleet.rows[0].since) == "2025-02-28");
   CHECK(fleet.rows[0].hours_per_week == 100.0);
   CHECK(fleet.rows[1].since == start);
   CHECK(fleet.has_costs);
-  CHECK(refusal("name,duty,installed\nr,day,2025-2-3\n").find("'2025-2-3' is no date; write 2025-02-03") != std::string::npos);
-  CHECK(refusal("name,duty,installed\nr,day,2025-02-30\n").find("fleet.csv:2:7: error: '2025-02-30' is no date") != std::string::npos);
-  CHECK(refusal("name,duty,installed\nr,day,2025-2-3\n").find("'2025-2-3' is no date; write 2025-02-03") != std::string::npos);
-  CHECK(refusal("name,duty,installed\nr,day,2025-02-30\n").find("as in 2027-07-12 (2025-02 has 28 days)") != std::string::npos);
+  CHECK(refusal("name,duty,installed\nr,day,2025-2-3\n").find("'2025-2-3' is no date; write 2025-02-03") !=
+        std::string::npos);
+  CHECK(refusal("name,duty,installed\nr,day,2025-02-30\n").find("fleet.csv:2:7: error: '2025-02-30' is no date") !=
+        std::string::npos);
+  CHECK(refusal("name,duty,installed\nr,day,2025-2-3\n").find("'2025-2-3' is no date; write 2025-02-03") !=
+        std::string::npos);
+  CHECK(refusal("name,duty,installed\nr,day,2025-02-30\n").find("as in 2027-07-12 (2025-02 has 28 days)") !=
+        std::string::npos);
   CHECK(refusal("name,duty,installed\nr,day,2025-28-02\n").find("(a year has 12 months)") != std::string::npos);
   CHECK(refusal("name,duty,installed\nr,day,soon\n").find("write YYYY-MM-DD") != std::string::npos);
   CHECK(refusal("name,duty,installed\nr,day,31.02.2025\n").find("write YYYY-MM-DD") != std::string::npos);
   CHECK(refusal("name,duty,installed\nr,day,28/02/2025\n").find("write 2025-02-28") != std::string::npos);
   CHECK(refusal("name,duty,installed\nr,day,2/3/2025\n")
             .find("2025-03-02 if the day comes first, 2025-02-03 if the month does") != std::string::npos);
-  CHECK(refusal("name,duty,installed\nr,day,45716\n")
-            .find("write 2025-02-28 if that is the number of a spreadsheet") != std::string::npos);
+  CHECK(refusal("name,duty,installed\nr,day,45716\n").find("write 2025-02-28 if that is the number of a spreadsheet") !=
+        std::string::npos);
   CHECK(refusal("name,installed,duty\nr,2025-02-28,day\n").find("exchange the titles") == std::string::npos);
   CHECK(refusal("name,duty,installed\nr,2025-02-28,day\n").find("exchange the titles") != std::string::npos);
   CHECK(refusal("name;duty;installed;hours_per_week\nr;day;;37,500\n").find("write 37500 or 37.500") !=
@@ -549,17 +598,20 @@ TEST_CASE("a fleet is read from a spreadsheet's table, and what is wrong in it i
   CHECK(read(costs + "1,200.50;9500\n").rows[0].planned_cost == 1200.5);
   CHECK(read(costs + "1200;1.234.567,89\n").rows[0].unplanned_cost == 1234567.89);
   CHECK(read("name;duty;installed;Ausbau\nr;day;01.02.2025;\n").rows.size() == 1);
-  CHECK(refusal("name;duty;installed;Ausbau\nr;day;01.02.2025;01.02.2026\n").find("fleet.csv:2:18: error: a dresspack that is in use no more (Ausbau: 01.02.2026)") !=
+  CHECK(refusal("name;duty;installed;Ausbau\nr;day;01.02.2025;01.02.2026\n")
+            .find("fleet.csv:2:18: error: a dresspack that is in use no more (Ausbau: 01.02.2026)") !=
         std::string::npos);
-  CHECK(refusal(costs + "1200;9.500\n").find("fleet.csv:2:13: error: unplanned_cost is '9.500', in which the point may separate "
-                                              "thousands; write 9500 or 9.5") != std::string::npos);
+  CHECK(refusal(costs + "1200;9.500\n")
+            .find("fleet.csv:2:13: error: unplanned_cost is '9.500', in which the point may separate "
+                  "thousands; write 9500 or 9.5") != std::string::npos);
   CHECK(read(costs + "0.125;9.50\n").rows[0].unplanned_cost == 9.5);
   CHECK(read(costs + "1200,5;1234.500\n").rows[0].unplanned_cost == 1234.5);
   const Fleet german =
       read("name;duty;installed;hours_per_week\nr;day;28.02.2025 08:00;37,5\n");  // in the form that `calibrate` reads
   CHECK(day_text(german.rows[0].since) == "2025-02-28");
   CHECK(german.rows[0].hours_per_week == 37.5);
-  const Fleet titles = read("Roboter;Einsatz;Einbaudatum;Stunden/Woche;Kosten geplant;Kosten ungeplant\nr;day;28.02.2025;37,5;5;50\n");
+  const Fleet titles =
+      read("Roboter;Einsatz;Einbaudatum;Stunden/Woche;Kosten geplant;Kosten ungeplant\nr;day;28.02.2025;37,5;5;50\n");
   CHECK(titles.rows[0].name == "r");
   CHECK(day_text(titles.rows[0].since) == "2025-02-28");
   CHECK(titles.rows[0].hours_per_week == 37.5);
@@ -567,28 +619,40 @@ TEST_CASE("a fleet is read from a spreadsheet's table, and what is wrong in it i
   CHECK(titles.renamed.size() == 6);
   CHECK(titles.renamed[2] == "installed = 'Einbaudatum'");
   CHECK(read("name,duty,installed,robot\nr,day,,A\n").unused == std::vector<std::string>{"robot"});
-  CHECK(refusal("Roboter,Schlauchpaket,duty,installed\nr,A,day,\n").find("fleet.csv:1:9: error: columns 'Roboter' and 'Schlauchpaket' both mean name; title one of them name") !=
-        std::string::npos);
+  CHECK(
+      refusal("Roboter,Schlauchpaket,duty,installed\nr,A,day,\n")
+          .find("fleet.csv:1:9: error: columns 'Roboter' and 'Schlauchpaket' both mean name; title one of them name") !=
+      std::string::npos);
   CHECK(refusal("name,duty,instaled\nr,day,\n").find("did you mean 'installed'?") != std::string::npos);
   CHECK(refusal("name,duty,installed\nr,day,2027-01-01\n").find("after today") != std::string::npos);
   CHECK(refusal("name,duty,installed\nr,day,\nr,day,\n").find("is the name of line 2, too") != std::string::npos);
   CHECK(refusal("name,duty\nr,day\n").find("no column 'installed'") != std::string::npos);
   CHECK(refusal("name,duty,installed,hours\nr,day,,3\n").find("unknown column 'hours'") != std::string::npos);
-  CHECK(refusal("name,duty,installed,hours_so_far\nr,day,,3\n").find("for an hour counter give hours_per_week") != std::string::npos);
-  CHECK(refusal("name,duty,installed,Kosten\nr,day,,3\n").find("unknown column 'Kosten'; columns: name, duty, installed") != std::string::npos);
-  CHECK(read("Name;Duty;Installed;Hours per week\nr;day;;80,5\n").rows[0].hours_per_week == std::optional<double>(80.5));
-  CHECK(refusal("name,duty,installed,planned_cost\nr,day,,3\n").find("no column 'unplanned_cost'") != std::string::npos);
-  CHECK(refusal("name,duty,installed,planned_cost,unplanned_cost\nr,day,,3,2\n").find("must be larger") != std::string::npos);
+  CHECK(refusal("name,duty,installed,hours_so_far\nr,day,,3\n").find("for an hour counter give hours_per_week") !=
+        std::string::npos);
+  CHECK(refusal("name,duty,installed,Kosten\nr,day,,3\n")
+            .find("unknown column 'Kosten'; columns: name, duty, installed") != std::string::npos);
+  CHECK(read("Name;Duty;Installed;Hours per week\nr;day;;80,5\n").rows[0].hours_per_week ==
+        std::optional<double>(80.5));
+  CHECK(refusal("name,duty,installed,planned_cost\nr,day,,3\n").find("no column 'unplanned_cost'") !=
+        std::string::npos);
+  CHECK(refusal("name,duty,installed,planned_cost,unplanned_cost\nr,day,,3,2\n").find("must be larger") !=
+        std::string::npos);
   CHECK(refusal("name,duty,installed,hours_per_week\nr,day,,200\n").find("must be 0.1 .. 168") != std::string::npos);
-  const std::string all = refusal("name,duty,installed,hours_per_week\nr,day,soon,300\n,day,,\nr,day,,\n");  // all rows at once
-  for (const char* line : {":2:7: error: 'soon' is no date", ":2:12: error: hours_per_week is '300'", ":3:1: error: name is empty", ":4:1: error: 'r' is the name of line 2, too"})
+  const std::string all =
+      refusal("name,duty,installed,hours_per_week\nr,day,soon,300\n,day,,\nr,day,,\n");  // all rows at once
+  for (const char* line : {":2:7: error: 'soon' is no date", ":2:12: error: hours_per_week is '300'",
+                           ":3:1: error: name is empty", ":4:1: error: 'r' is the name of line 2, too"})
     CHECK_THAT(all, Catch::Contains(line));
-  CHECK(read("Name,DUTY,Installed,Plant area,Note\nr,day,2025-02-28,hall 3,\n").unused == std::vector<std::string>{"Plant area", "Note"});
+  CHECK(read("Name,DUTY,Installed,Plant area,Note\nr,day,2025-02-28,hall 3,\n").unused ==
+        std::vector<std::string>{"Plant area", "Note"});
   CHECK(refusal("name,duty,installed\n").find("no row") != std::string::npos);
   CHECK(refusal("name,duty,installed,\nr,day,,\n").find("a column has no title; give it one") != std::string::npos);
-  CHECK(refusal("name,duty,installed\nr,day,\nT\xfcr,day,\n").find("fleet.csv:3: error: is no text in UTF-8") != std::string::npos);
+  CHECK(refusal("name,duty,installed\nr,day,\nT\xfcr,day,\n").find("fleet.csv:3: error: is no text in UTF-8") !=
+        std::string::npos);
   CHECK(read("\xEF\xBB\xBFname,duty,installed\r\nT\xc3\xbcr,day,\r\n").rows[0].name == "T\xc3\xbcr");
-  CHECK(refusal(std::string("\xff\xfen\0a\0m\0", 8)).find("fleet.csv:1: error: is no text in UTF-8") != std::string::npos);
+  CHECK(refusal(std::string("\xff\xfen\0a\0m\0", 8)).find("fleet.csv:1: error: is no text in UTF-8") !=
+        std::string::npos);
 }
 
 TEST_CASE("a plan states why a dresspack is in no window") {
@@ -600,12 +664,11 @@ TEST_CASE("a plan states why a dresspack is in no window") {
                        Catch::Contains("replaced at once"));
   CHECK_THAT(words(weibull(0.6, {4000}), fleet_of({4}), {0.01, false}),
              Catch::Contains("fails as often or more often in this") && Catch::Contains("time: r0."));
-  CHECK_THAT(words(weibull(0.6, {4000}), fleet_of({4}, 1, 6), {0.1, true}),
-             Catch::Contains("costs less, on average"));
+  CHECK_THAT(words(weibull(0.6, {4000}), fleet_of({4}, 1, 6), {0.1, true}), Catch::Contains("costs less, on average"));
   CHECK(words(weibull(3, {1000}), fleet_of({10}), {0.1, false}).empty());
   const std::vector<int> many(25, 4);
-  CHECK_THAT(words(weibull(3, {20000}), fleet_of(many), {0.1, false}), Catch::Contains("r19") && !Catch::Contains("r20") &&
-                                                                            Catch::Contains("and 5 more in the table."));
+  CHECK_THAT(words(weibull(3, {20000}), fleet_of(many), {0.1, false}),
+             Catch::Contains("r19") && !Catch::Contains("r20") && Catch::Contains("and 5 more in the table."));
 }
 
 TEST_CASE("windows are days in order, after today") {
@@ -615,9 +678,8 @@ TEST_CASE("windows are days in order, after today") {
   CHECK(windows[1].first == windows[1].last);
   CHECK(day_text(windows_from("12.07.2027..01.08.2027", start)[0].last) == "2027-08-01");
   CHECK(day_text(windows_from("2027-07-12 .. 2027-08-01, 2027-12-20", start)[1].first) == "2027-12-20");
-  for (const char* wrong : {"", "2027-07-12..", "2027-13-01", "2027-08-01..2027-07-12", "2026-11-23", "2027-07-12..2027-08-01,2027-08-01",
-                            "2027-07-12,", "soon",
-                            "2027-07-12 - 2027-08-01"})
+  for (const char* wrong : {"", "2027-07-12..", "2027-13-01", "2027-08-01..2027-07-12", "2026-11-23",
+                            "2027-07-12..2027-08-01,2027-08-01", "2027-07-12,", "soon", "2027-07-12 - 2027-08-01"})
     CHECK_THROWS_AS(windows_from(wrong, start), InputError);
 }
 
@@ -627,12 +689,17 @@ TEST_CASE("the calendar has an event for each window with work, in lines of 75 b
   const std::string calendar = plan_calendar(fleet, plan);
   CHECK(calendar.find("SUMMARY:Replace 30 dresspacks\r\n") != std::string::npos);
   CHECK(calendar.find("DTSTART;VALUE=DATE:20261221\r\nDTEND;VALUE=DATE:20261222\r\n") != std::string::npos);
-  CHECK(calendar.find("DTSTART;VALUE=DATE:20270621\r\nDTEND;VALUE=DATE:20270622\r\nSUMMARY:No dresspack to replace\r\n") != std::string::npos);
+  CHECK(calendar.find(
+            "DTSTART;VALUE=DATE:20270621\r\nDTEND;VALUE=DATE:20270622\r\nSUMMARY:No dresspack to replace\r\n") !=
+        std::string::npos);
   std::size_t begin = 0;
-  for (std::size_t end; (end = calendar.find("\r\n", begin)) != std::string::npos; begin = end + 2) CHECK(end - begin <= 75);
+  for (std::size_t end; (end = calendar.find("\r\n", begin)) != std::string::npos; begin = end + 2)
+    CHECK(end - begin <= 75);
   CHECK(begin == calendar.size());
   CHECK(plan_csv(fleet, plan).starts_with("name,duty,installed,age_hours,"));
-  const auto uid = [](const std::string& of) { return of.substr(of.find("UID:"), of.find("DTSTAMP") - of.find("UID:")); };
+  const auto uid = [](const std::string& of) {
+    return of.substr(of.find("UID:"), of.find("DTSTAMP") - of.find("UID:"));
+  };
   Fleet other = fleet;
   other.rows.back().name = "a, b; c";
   CHECK(uid(plan_calendar(other, plan)) == uid(calendar));  // another plan of the same plant
@@ -642,15 +709,17 @@ TEST_CASE("the calendar has an event for each window with work, in lines of 75 b
 }
 
 TEST_CASE("a plant of unlike dresspacks has the plan of each alone, if the worlds are given") {
-  const std::map<std::string, LifeTable> tables{
-      {"a", weibull(3, {4000, 6000}, 2000)}, {"b", weibull(1.5, {9000, 3000}, 2000)}, {"hard", weibull(2, {400, 300}, 2000)}};
+  const std::map<std::string, LifeTable> tables{{"a", weibull(3, {4000, 6000}, 2000)},
+                                                {"b", weibull(1.5, {9000, 3000}, 2000)},
+                                                {"hard", weibull(2, {400, 300}, 2000)}};
   Fleet fleet = fleet_of({5, 40, 25, 12, 33}, 1, 6);
   for (const auto& [row, duty, planned, unplanned] : std::vector<std::tuple<std::size_t, const char*, double, double>>{
            {1, "a", 2, 7}, {2, "b", 1, 30}, {3, "a", 1, 8}, {4, "b", 3, 9}})
     fleet.rows[row].duty = duty, fleet.rows[row].planned_cost = planned, fleet.rows[row].unplanned_cost = unplanned;
   fleet.rows[0].duty = "a", fleet.rows[1].hours_per_week = 30, fleet.rows[4].hours_per_week = 110;
   fleet.rows[1].before = {{"hard", 20}};
-  fleet.rows[3].run_hours = 100, fleet.rows[3].before = {{"b", 10}, {"hard", 600}}, fleet.rows[3].change = {{100, 5}};  // hard for 100 days more
+  fleet.rows[3].run_hours = 100, fleet.rows[3].before = {{"b", 10}, {"hard", 600}},
+  fleet.rows[3].change = {{100, 5}};  // hard for 100 days more
   for (const bool by_cost : {false, true}) {
     PlanRule rule{0.1, by_cost};
     rule.weights = {0.3, 0.7};
@@ -690,7 +759,7 @@ TEST_CASE("a plant of unlike dresspacks has the plan of each alone, if the world
     CHECK(all_unplanned == Approx(unplanned).margin(of_count));
     CHECK(std::accumulate(plan.failures_in_week.begin(), plan.failures_in_week.end(), 0.0) ==
           Approx(std::accumulate(failures.begin(), failures.end(), 0.0)).margin(of_count));
-    CHECK(std::accumulate(plan.failures_in_week_without_windows.begin(), plan.failures_in_week_without_windows.end(), 0.0) ==
-          Approx(std::accumulate(bare.begin(), bare.end(), 0.0)).margin(of_count));
+    CHECK(std::accumulate(plan.failures_in_week_without_windows.begin(), plan.failures_in_week_without_windows.end(),
+                          0.0) == Approx(std::accumulate(bare.begin(), bare.end(), 0.0)).margin(of_count));
   }
 }

@@ -14,7 +14,8 @@ using namespace dresslife::pipeline;
 
 namespace {
 
-constexpr double median = 7500, of_worlds = 0.7, within = 0.74;  // ln of a life is normal over the worlds, and in a world
+constexpr double median = 7500, of_worlds = 0.7,
+                 within = 0.74;  // ln of a life is normal over the worlds, and in a world
 
 LifeTable drawn(std::size_t worlds, std::size_t draws, std::uint32_t seed) {
   std::mt19937 random(seed);
@@ -22,7 +23,8 @@ LifeTable drawn(std::size_t worlds, std::size_t draws, std::uint32_t seed) {
   LifeTable table{worlds, draws, {}, 40000, 70};
   for (std::size_t w = 0; w < worlds; ++w) {
     const double z = normal_quantile((double(w) + 0.5) / double(worlds));  // one world in each stratum, as in plans
-    for (std::size_t d = 0; d < draws; ++d) table.hours.push_back(static_cast<float>(median * std::exp(of_worlds * z + within * normal(random))));
+    for (std::size_t d = 0; d < draws; ++d)
+      table.hours.push_back(static_cast<float>(median * std::exp(of_worlds * z + within * normal(random))));
     std::sort(table.hours.end() - std::ptrdiff_t(draws), table.hours.end());
   }
   return table;
@@ -56,7 +58,9 @@ TEST_CASE("with few lives of each world, worlds and dresspacks differ as much as
   const double by_chance = within * within / double(draws);
   REQUIRE(spread_of(table).of_worlds == Approx(of_worlds * of_worlds + by_chance).epsilon(0.07));
   remove_chance(table);
-  for (std::size_t w = 0; w < worlds; ++w) REQUIRE(std::is_sorted(table.hours.begin() + std::ptrdiff_t(w * draws), table.hours.begin() + std::ptrdiff_t((w + 1) * draws)));
+  for (std::size_t w = 0; w < worlds; ++w)
+    REQUIRE(std::is_sorted(table.hours.begin() + std::ptrdiff_t(w * draws),
+                           table.hours.begin() + std::ptrdiff_t((w + 1) * draws)));
   const Spread found = spread_of(table);
   // The variance of 4,000 means has an error of 2.2 %: three errors. By chance it would be larger by 14 %.
   CHECK(found.of_worlds == Approx(of_worlds * of_worlds).epsilon(0.07));
@@ -67,7 +71,9 @@ TEST_CASE("with few lives of each world, worlds and dresspacks differ as much as
 TEST_CASE("many survivors do not select worlds whose few lives are long by chance") {
   constexpr double age = 2100, later = 3500;
   constexpr int dresspacks = 400;
-  const auto alive = [](double hours, double z) { return normal_share(-(std::log(hours / median) - of_worlds * z) / within); };
+  const auto alive = [](double hours, double z) {
+    return normal_share(-(std::log(hours / median) - of_worlds * z) / within);
+  };
   double fails = 0, all = 0;  // sums over z, by the law
   for (double z = -6; z < 8; z += 0.01) {
     const double weight = std::exp(-z * z / 2) * std::pow(alive(age, z), dresspacks);
@@ -120,7 +126,9 @@ TEST_CASE("without chance nothing changes: many lives of a world, the draws that
   const std::vector<float> before = mixed.of_draw;
   remove_chance(mixed);
   for (std::size_t w = 0; w < mixed.worlds; w += 50) {
-    const auto rank = [&](const std::vector<float>& of) { return smallest_first(64, [&](std::size_t d) { return of[d * mixed.worlds + w]; }); };
+    const auto rank = [&](const std::vector<float>& of) {
+      return smallest_first(64, [&](std::size_t d) { return of[d * mixed.worlds + w]; });
+    };
     CHECK(rank(before) == rank(mixed.of_draw));
     CHECK(mixed.alive(w, 1e30) == Approx(0.25).margin(0.5 / 64));  // one quantile more or less
   }

@@ -15,8 +15,7 @@ namespace {
 
 constexpr double rounding = 1e-12;
 
-Duty duty_of(const std::vector<std::string>& programs,
-             const std::vector<std::pair<std::string, int>>& order) {
+Duty duty_of(const std::vector<std::string>& programs, const std::vector<std::pair<std::string, int>>& order) {
   Duty duty;
   for (const std::string& job : programs) duty.programs.emplace_back().job = job;
   for (const auto& [job, repeats] : order) duty.order.push_back({{}, job, repeats});
@@ -30,8 +29,7 @@ std::vector<double> cycles_of(std::vector<double> values) {
   values.push_back(values.front());
   std::vector<double> ranges, open;
   for (const double value : values) {
-    while (open.size() >= 2 && (value - open.back()) * (open.back() - open[open.size() - 2]) >= 0)
-      open.pop_back();
+    while (open.size() >= 2 && (value - open.back()) * (open.back() - open[open.size() - 2]) >= 0) open.pop_back();
     open.push_back(value);
     while (open.size() >= 3) {
       const double before = std::abs(open[open.size() - 2] - open[open.size() - 3]),
@@ -87,8 +85,7 @@ TEST_CASE("every repeat is in a round or outside of all rounds") {
   CHECK(repeats_in_rounds(duty_of({"a", "b"}, {}), {7, 9}) == std::vector<double>{7, 9});
 }
 
-TEST_CASE(
-    "by repeats and one round, the damage of batches is that of one long motion, with cycles across the change") {
+TEST_CASE("by repeats and one round, the damage of batches is that of one long motion, with cycles across the change") {
   const std::vector<double> a{0, 3, 1, 4, 0}, b{0, -5, -2, -4, 0};
   const Duty duty = duty_of({"a", "b"}, {{"a", 3}, {"b", 2}});
   const std::vector<double> repeats = repeats_in_rounds(duty, {3, 2});
@@ -107,8 +104,7 @@ TEST_CASE("between programs all axes move together, within their shares of speed
       other{{0, interval}, {0.8, -0.3, 0.79, -0.3}};
   const auto rows = rows_of_csv(round_csv({one, other}, axes));
   double fastest[2] = {0, 0}, hardest[2] = {0, 0};
-  for (std::size_t k = 1; k < rows.size(); ++k)
-    CHECK(rows[k][0] - rows[k - 1][0] == Approx(interval).margin(1e-6));
+  for (std::size_t k = 1; k < rows.size(); ++k) CHECK(rows[k][0] - rows[k - 1][0] == Approx(interval).margin(1e-6));
   const auto begin = std::find_if(rows.begin() + 3, rows.end(),
                                   [&](const auto& row) { return std::abs(row[1] - 0.8 * degrees) < digits; });
   REQUIRE(begin != rows.end());
@@ -119,10 +115,9 @@ TEST_CASE("between programs all axes move together, within their shares of speed
   for (std::size_t k = 4; k < second; ++k)
     for (std::size_t axis = 0; axis < 2; ++axis) {
       const double before = rows[k - 1][axis + 1], at = rows[k][axis + 1], after = rows[k + 1][axis + 1];
-      fastest[axis] =
-          std::max(fastest[axis], std::abs(after - before) / (2 * interval * degrees * axes[axis].speed));
-      hardest[axis] = std::max(hardest[axis], std::abs(after - 2 * at + before) /
-                                                  (interval * interval * degrees * axes[axis].acceleration));
+      fastest[axis] = std::max(fastest[axis], std::abs(after - before) / (2 * interval * degrees * axes[axis].speed));
+      hardest[axis] = std::max(
+          hardest[axis], std::abs(after - 2 * at + before) / (interval * interval * degrees * axes[axis].acceleration));
     }
   const double most = std::max({fastest[0] / 0.5, fastest[1] / 0.5, hardest[0] / 0.25, hardest[1] / 0.25});
   CHECK(most <= 1 + 1e-3);                            // differences of rounded angles

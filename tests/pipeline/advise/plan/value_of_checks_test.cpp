@@ -18,7 +18,8 @@ const Day start = *day_from("2026-11-23");
 
 AbrasionLife life_with(double median, double spread, double visible_from, double interval_weeks, double found_percent) {
   AbrasionLife life;
-  life.median = median, life.early = median * std::pow(10, spread * normal_quantile(0.1)), life.visible_from = visible_from;
+  life.median = median, life.early = median * std::pow(10, spread * normal_quantile(0.1)),
+  life.visible_from = visible_from;
   life.inspection.interval_weeks = interval_weeks, life.inspection.found_percent = found_percent;
   return life;
 }
@@ -42,10 +43,14 @@ struct Plant {
   explicit Plant(std::vector<Installed> rows, int weeks = 50) {
     fleet.rows = std::move(rows), fleet.has_costs = true;
     const Day first = start + std::chrono::days(7 * weeks);
-    plan = plan_of(fleet, tables, {{start + std::chrono::days(7 * (weeks / 2)), start + std::chrono::days(7 * (weeks / 2))}, {first, first}}, start,
-                   {0.1, true});
+    plan = plan_of(
+        fleet, tables,
+        {{start + std::chrono::days(7 * (weeks / 2)), start + std::chrono::days(7 * (weeks / 2))}, {first, first}},
+        start, {0.1, true});
   }
-  std::vector<CheckValue> values(const std::map<std::string, AbrasionLife>& lives) const { return *values_of_checks(fleet, tables, lives, plan); }
+  std::vector<CheckValue> values(const std::map<std::string, AbrasionLife>& lives) const {
+    return *values_of_checks(fleet, tables, lives, plan);
+  }
 };
 
 }  // namespace
@@ -57,7 +62,8 @@ TEST_CASE("checks: what they save is what they save in plants in which each chec
       for (const int age_weeks : {0, 15}) {
         const Plant plant({installed_for(age_weeks)}, 50);
         const AbrasionLife life = life_with(median, spread, visible_from, interval_weeks, 100 * found);
-        const double age = week * age_weeks, end = 75 * week, interval = interval_weeks * week;  // two windows 25 weeks apart
+        const double age = week * age_weeks, end = 75 * week,
+                     interval = interval_weeks * week;  // two windows 25 weeks apart
         std::mt19937 random(7);
         std::normal_distribution<double> normal;
         std::uniform_real_distribution<double> uniform;
@@ -71,7 +77,8 @@ TEST_CASE("checks: what they save is what they save in plants in which each chec
           for (double installed = -age; installed + one < end; installed += one) {
             ++number;
             bool seen = false;
-            for (double check = interval * uniform(random) + std::max(0.0, installed + visible_from * one); check < installed + one; check += interval)
+            for (double check = interval * uniform(random) + std::max(0.0, installed + visible_from * one);
+                 check < installed + one; check += interval)
               seen = seen || uniform(random) < found;
             of_plant += seen ? unplanned - planned : 0;
           }
@@ -81,7 +88,9 @@ TEST_CASE("checks: what they save is what they save in plants in which each chec
         const CheckValue value = plant.values({{"d", life}}).front();
         INFO(interval_weeks << " weeks, median " << median << ", age " << age);
         // Four standard errors of the plants, plus half of one of the 1,000 values of z, each of which is a step of the sums.
-        const auto error = [&](double sum, double of_squares) { return 4 * std::sqrt((of_squares / plants - sum * sum / plants / plants) / plants); };
+        const auto error = [&](double sum, double of_squares) {
+          return 4 * std::sqrt((of_squares / plants - sum * sum / plants / plants) / plants);
+        };
         CHECK(value.fails == Approx(fails / plants).margin(error(fails, fails_squares) + 1e-3));
         CHECK(value.regular == Approx(saved / plants).margin(error(saved, squares) + 1e-3 * unplanned));
         CHECK(value.found * (unplanned - planned) == Approx(value.regular));
@@ -96,12 +105,15 @@ TEST_CASE("checks: one check today is worth its share of the wear that is visibl
   const double age = 20 * week, alive = 1 - normal_share(std::log10(age / median) / spread);
   const double visible = normal_share(std::log10(age / visible_from / median) / spread) - (1 - alive);
   const AbrasionLife life = life_with(median, spread, visible_from, 2, 100 * found);
-  CHECK(plant.values({{"d", life}}).front().today == Approx(found * (unplanned - planned) * visible / alive).margin(2e-3 * unplanned));
+  CHECK(plant.values({{"d", life}}).front().today ==
+        Approx(found * (unplanned - planned) * visible / alive).margin(2e-3 * unplanned));
   // No value: a new dresspack without visible damage, a check that finds nothing, and a dresspack without rubbing.
   CHECK(Plant({installed_for(0)}, 400).values({{"d", life}}).front().today == 0);
   CHECK(plant.values({{"d", life_with(median, spread, visible_from, 2, 0)}}).front().regular == 0);
   CHECK(plant.values({}).front().fails == 0);
-  CHECK(plant.values({{"d", life_with(std::numeric_limits<double>::infinity(), spread, visible_from, 2, 75)}}).front().fails == 0);
+  CHECK(plant.values({{"d", life_with(std::numeric_limits<double>::infinity(), spread, visible_from, 2, 75)}})
+            .front()
+            .fails == 0);
   // Without regular checks, one check today has the same value.
   const CheckValue once = plant.values({{"d", life_with(median, spread, visible_from, 0, 100 * found)}}).front();
   CHECK(once.regular == 0);
@@ -115,8 +127,10 @@ TEST_CASE("checks: an old dresspack that lives makes the abrasion of all others 
   const double beside_old = Plant({installed_for(10), installed_for(40)}).values({{"d", life}}).front().fails;
   CHECK(beside_old < 0.8 * alone);
   // A dresspack under another duty that wears four times as slowly gives less information at the same age.
-  const double beside_slow =
-      Plant({installed_for(10), installed_for(40, "other")}).values({{"d", life}, {"other", life_with(8000, 0.5, 0.5, 2, 75)}}).front().fails;
+  const double beside_slow = Plant({installed_for(10), installed_for(40, "other")})
+                                 .values({{"d", life}, {"other", life_with(8000, 0.5, 0.5, 2, 75)}})
+                                 .front()
+                                 .fails;
   CHECK(beside_slow == Approx(alone));
   // 400 weeks of 100 h are twenty times the median: 2.6 deviations, 1 plant in 200. With a spread of 0.3: 1 in 140,000.
   const Plant old({installed_for(400)});
@@ -144,7 +158,9 @@ TEST_CASE("checks: the words name the dresspacks with most, and what the regular
   Inspection inspection;
   const std::string words = check_words(values, inspection, plant.fleet, plant.plan);
   INFO(words);
-  CHECK(words.find("\n        500  r10\n        321  r20\nWithout checks abrasion wears through 0.60 dresspacks until ") != std::string::npos);
+  CHECK(words.find(
+            "\n        500  r10\n        321  r20\nWithout checks abrasion wears through 0.60 dresspacks until ") !=
+        std::string::npos);
   CHECK(words.ends_with(".\nChecks every 2 weeks find 0.30 of these before and save 500.\n"));
   inspection.interval_weeks = 0;
   CHECK(check_words(values, inspection, plant.fleet, plant.plan).find("every") == std::string::npos);

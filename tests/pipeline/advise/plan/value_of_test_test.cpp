@@ -19,8 +19,7 @@ const Day start = *day_from("2026-11-23");
 
 std::vector<Window> windows_in(const std::vector<int>& weeks) {
   std::vector<Window> windows;
-  for (const int of : weeks)
-    windows.push_back({start + std::chrono::days(7 * of), start + std::chrono::days(7 * of)});
+  for (const int of : weeks) windows.push_back({start + std::chrono::days(7 * of), start + std::chrono::days(7 * of)});
   return windows;
 }
 
@@ -50,8 +49,7 @@ TEST_CASE("a perfect test of two equally likely worlds saves what each costs les
   const double latest = last + 700 * std::pow(1.5, 10), never = planned - planned / robot * (latest - end);
   const double expected = 3 * (before - (before + never) / 2);
   // Ages of (D6) are 2 % apart: 2 % of the 0.35 that successors cost.
-  CHECK(value_of_test({0, "", {-1, 1}}, 1e-6, fleet, tables, plan) ==
-        Approx(expected).margin(3 * 0.02 * 0.35));
+  CHECK(value_of_test({0, "", {-1, 1}}, 1e-6, fleet, tables, plan) == Approx(expected).margin(3 * 0.02 * 0.35));
   CHECK(value_of_test({0, "", {4, 4.5}}, 1e-6, fleet, tables, plan) ==
         Approx(value_of_test({0, "", {-1, 1}}, 1e-6, fleet, tables, plan)).epsilon(1e-12));  // a calibrated one
   // A test without information saves nothing. A better test never saves less.
@@ -63,11 +61,9 @@ TEST_CASE("a perfect test of two equally likely worlds saves what each costs les
     CHECK(saves > least - rounding);
     least = saves;
   }
-  const std::string words = test_words({{{index_of(Uncertain::friction_inside), "hose", {}}, 1234},
-                                        {{index_of(Uncertain::model), "", {}}, 1e-4}},
-                                       plan);
-  CHECK(words.find("1,230  One bending test of a cable (one hour): friction_inside of 'hose'\n") !=
-        std::string::npos);
+  const std::string words = test_words(
+      {{{index_of(Uncertain::friction_inside), "hose", {}}, 1234}, {{index_of(Uncertain::model), "", {}}, 1e-4}}, plan);
+  CHECK(words.find("1,230  One bending test of a cable (one hour): friction_inside of 'hose'\n") != std::string::npos);
   CHECK(words.find("model") == std::string::npos);  // less than a thousandth of the plan's cost
   CHECK(test_words({}, plan).find("No test") != std::string::npos);
   // A parameter that is equal in both worlds.
@@ -77,12 +73,15 @@ TEST_CASE("a perfect test of two equally likely worlds saves what each costs les
 namespace {
 
 /// Returns the value (D7) of a test for one dresspack, from each life by itself and a search through all ages.
-double searched(const Installed& row, const LifeTable& table, double age, double hours_per_day, const std::vector<double>& times,
-                const std::vector<double>& weights, const std::vector<double>& z, double error) {
+double searched(const Installed& row, const LifeTable& table, double age, double hours_per_day,
+                const std::vector<double>& times, const std::vector<double>& weights, const std::vector<double>& z,
+                double error) {
   const std::size_t worlds = weights.size();
   const AgeRates rates = age_rates(table, row.planned_cost, row.unplanned_cost);
   const auto ages = static_cast<std::size_t>(rates.rate.rows());
-  const auto rate = [&](std::size_t a, std::size_t w) { return rates.rate(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(w)); };
+  const auto rate = [&](std::size_t a, std::size_t w) {
+    return rates.rate(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(w));
+  };
   const auto best_age = [&](const std::vector<double>& of_world) {
     std::size_t best = 0;
     double least = std::numeric_limits<double>::infinity();
@@ -105,7 +104,8 @@ double searched(const Installed& row, const LifeTable& table, double age, double
       const double left = table.life(w, d) - age;
       if (!(left > 0)) continue;
       const double runs = std::min(left, at);
-      sum += (left <= at ? row.unplanned_cost : row.planned_cost) + rate(a, w) * (end - std::min(runs, end)) - least * std::max(0.0, runs - end);
+      sum += (left <= at ? row.unplanned_cost : row.planned_cost) + rate(a, w) * (end - std::min(runs, end)) -
+             least * std::max(0.0, runs - end);
       ++count;
     }
     return sum / double(count);
@@ -131,7 +131,9 @@ double searched(const Installed& row, const LifeTable& table, double age, double
     std::vector<double> share;
     for (std::size_t w = 0; w < worlds; ++w) {
       const auto below = [&](int edge) {
-        return edge == 0 ? 0 : edge == bins ? 1 : normal_share((mean + deviation * normal_quantile(double(edge) / bins) - z[w]) / error);
+        return edge == 0      ? 0
+               : edge == bins ? 1
+                              : normal_share((mean + deviation * normal_quantile(double(edge) / bins) - z[w]) / error);
       };
       share.push_back(weights[w] * (below(j + 1) - below(j)));
     }
@@ -149,15 +151,19 @@ TEST_CASE("tests of a plant of unlike dresspacks are worth what a search through
     LifeTable lives{scales.size(), draws, {}, 20000, week};
     for (const double scale : scales)
       for (std::size_t d = 0; d < draws; ++d)
-        lives.hours.push_back(static_cast<float>(scale * std::pow(-std::log1p(-(double(d) + 0.5) / double(draws)), 1 / shape)));
+        lives.hours.push_back(
+            static_cast<float>(scale * std::pow(-std::log1p(-(double(d) + 0.5) / double(draws)), 1 / shape)));
     return lives;
   };
-  std::map<std::string, LifeTable> tables{{"a", table(4, {2000, 3000, 5000, 9000})}, {"b", table(6, {6000, 2500, 4000, 1500})}};
+  std::map<std::string, LifeTable> tables{{"a", table(4, {2000, 3000, 5000, 9000})},
+                                          {"b", table(6, {6000, 2500, 4000, 1500})}};
   tables.at("b").hours_per_week = 110;
   tables.at("a").shared = {{index_of(Uncertain::friction_inside), "hose", {-1.2, -0.3, 0.4, 1.5}}};
-  tables.at("b").shared = {{index_of(Uncertain::friction_inside), "hose", {-1.2, -0.3, 0.4, 1.5}}, {index_of(Uncertain::strength), "copper", {0.9, -0.8, 0.2, -1.1}}};
+  tables.at("b").shared = {{index_of(Uncertain::friction_inside), "hose", {-1.2, -0.3, 0.4, 1.5}},
+                           {index_of(Uncertain::strength), "copper", {0.9, -0.8, 0.2, -1.1}}};
   Fleet fleet = new_dresspacks(3, 1, 8);
-  fleet.rows[1].duty = "b", fleet.rows[1].since = start - std::chrono::days(70), fleet.rows[1].planned_cost = 2, fleet.rows[1].unplanned_cost = 30;
+  fleet.rows[1].duty = "b", fleet.rows[1].since = start - std::chrono::days(70), fleet.rows[1].planned_cost = 2,
+  fleet.rows[1].unplanned_cost = 30;
   fleet.rows[2].duty = "b", fleet.rows[2].hours_per_week = 40, fleet.rows[2].since = start - std::chrono::days(150);
   fleet.rows[0].duty = "a";
   PlanRule rule{0.1, true};
@@ -174,7 +180,8 @@ TEST_CASE("tests of a plant of unlike dresspacks are worth what a search through
     for (std::size_t i = 0; i < fleet.rows.size(); ++i) {
       const Installed& row = fleet.rows[i];
       const LifeTable& lives = tables.at(row.duty);
-      sum += searched(row, lives, plan.rows[i].age_hours, row.hours_per_week.value_or(lives.hours_per_week) / 7, times, rule.weights, of.what.z, error);
+      sum += searched(row, lives, plan.rows[i].age_hours, row.hours_per_week.value_or(lives.hours_per_week) / 7, times,
+                      rule.weights, of.what.z, error);
     }
     CHECK(sum > 0.01);
     constexpr double single = 1e-5;  // relative: lives are in single precision

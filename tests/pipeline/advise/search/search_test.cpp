@@ -82,12 +82,9 @@ Problem g04() {
             return 5.3578547 * x[2] * x[2] + 0.8356891 * x[0] * x[4] + 37.293239 * x[0] - 40792.141;
           },
           [](const VectorXd& x) {
-            const double u =
-                85.334407 + 0.0056858 * x[1] * x[4] + 0.0006262 * x[0] * x[3] - 0.0022053 * x[2] * x[4];
-            const double v =
-                80.51249 + 0.0071317 * x[1] * x[4] + 0.0029955 * x[0] * x[1] + 0.0021813 * x[2] * x[2];
-            const double w =
-                9.300961 + 0.0047026 * x[2] * x[4] + 0.0012547 * x[0] * x[2] + 0.0019085 * x[2] * x[3];
+            const double u = 85.334407 + 0.0056858 * x[1] * x[4] + 0.0006262 * x[0] * x[3] - 0.0022053 * x[2] * x[4];
+            const double v = 80.51249 + 0.0071317 * x[1] * x[4] + 0.0029955 * x[0] * x[1] + 0.0021813 * x[2] * x[2];
+            const double w = 9.300961 + 0.0047026 * x[2] * x[4] + 0.0012547 * x[0] * x[2] + 0.0019085 * x[2] * x[3];
             return std::vector<double>{u - 92, -u, v - 110, 90 - v, w - 25, 20 - w};
           }};
 }
@@ -112,8 +109,7 @@ Problem springs() {
 /// Its low-fidelity evaluation: the first three limits, with a small error.
 Candidate short_run_of(const Problem& problem, const VectorXd& place) {
   std::vector<double> beyond = problem.beyond(problem.at(place));
-  for (std::size_t k = 0; k < 3; ++k)
-    beyond[k] += 0.03 * std::cos(5 * place[static_cast<Eigen::Index>(k)]) - 0.05;
+  for (std::size_t k = 0; k < 3; ++k) beyond[k] += 0.03 * std::cos(5 * place[static_cast<Eigen::Index>(k)]) - 0.05;
   beyond[3] = std::nan("");
   return {place, true, {}, beyond};
 }
@@ -249,8 +245,8 @@ TEST_CASE("if a thousandth of the range is feasible, short runs lead there withi
     SurrogateSearch search(6, settings, nothing_rejected, short_runs_of_springs);
     RandomSearch chance(6, seed, nothing_rejected);
     const std::vector<Candidate> candidates = searched(search, problem, 20, 4);
-    const auto first =
-        std::find_if(candidates.begin(), candidates.end(), [](const Candidate& candidate) { return candidate.feasible(); });
+    const auto first = std::find_if(candidates.begin(), candidates.end(),
+                                    [](const Candidate& candidate) { return candidate.feasible(); });
     CHECK(first - candidates.begin() < 8);
     // At most the allowed number before the first candidate, and a few per candidate.
     CHECK(search.short_runs().size() <= 150 + 20 * 12);
@@ -298,8 +294,7 @@ TEST_CASE("where a limit is the largest of many, its pieces lead to where it is 
     return first == 0 ? 1000 : first;
   };
   for (const std::uint64_t seed : {1, 2, 3}) {
-    const int whole = short_runs_until_one_is_within(false, seed),
-              pieces = short_runs_until_one_is_within(true, seed);
+    const int whole = short_runs_until_one_is_within(false, seed), pieces = short_runs_until_one_is_within(true, seed);
     INFO("seed " << seed << ": after " << pieces << " in pieces, " << whole << " as a whole");
     CHECK(pieces <
           60);  // a plane over eight variables needs nine points, and has errors between for some batches of eight
@@ -363,11 +358,10 @@ TEST_CASE("short runs that do not run or give no information do not mislead the 
   const ShortRuns make_short_runs = [&](const std::vector<VectorXd>& places) {
     std::vector<Candidate> told;
     for (const VectorXd& place : places)
-      told.push_back(
-          {place,
-           runs(place),
-           {},
-           runs(place) ? std::vector<double>(2, std::nan("")) : std::vector<double>{0.5 - place[0]}});
+      told.push_back({place,
+                      runs(place),
+                      {},
+                      runs(place) ? std::vector<double>(2, std::nan("")) : std::vector<double>{0.5 - place[0]}});
     return told;
   };
   SurrogateSearch search(2, {}, nothing_rejected, make_short_runs);
@@ -405,7 +399,8 @@ TEST_CASE("a search gives up after a third of its short runs where none runs or 
     CHECK(count >= third);
     CHECK(count < third + together);
   }
-  CHECK(short_runs_until_it_asks(all(true, 0.5), false) > third + together);  // the limit is missed by less, so it continues
+  CHECK(short_runs_until_it_asks(all(true, 0.5), false) >
+        third + together);  // the limit is missed by less, so it continues
 }
 
 TEST_CASE("places that are rejected beforehand are not asked for") {
