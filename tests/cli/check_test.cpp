@@ -87,7 +87,7 @@ TEST_CASE("scripts/check lets a short comment line end a paragraph or a sentence
                               "// the list:\n//   an item", "//   a row\n//   another row"};
   Scratch scratch;
   copy_tree(scratch);
-  for (const std::string& end : ends) add_line(scratch, "sim/rod/rod.h", full + "\n" + end + "\n");
+  for (const std::string& end : ends) add_line(scratch, "sim/rod/rod.h", "\n" + full + "\n" + end);
   const Outcome outcome = check(scratch);
   CHECK(outcome.err == "");
   CHECK(outcome.status == 0);
