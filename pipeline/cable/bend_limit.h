@@ -17,8 +17,8 @@ inline constexpr double tightest_hose = 3, tightest_cable = 4.5;
 
 /// Returns the least bend radius at the dresspack's axis [m]. A corrugated hose bends by its folds, so the rule applies to the
 /// parts in it, also those of its core: a part on the inner side of the bend is nearer to the centre by its helix radius and must
-/// still satisfy the rule. What no core component describes counts as one part on the axis with the free area of the core. The limit of the folds is unknown without least_bend_radius_mm, and at least
-/// tightest_hose. Any other dresspack must satisfy the rule with its own diameter.
+/// still satisfy the rule. What no core component describes counts as one part on the axis with the free area of the core. The
+/// limit of the folds is unknown without least_bend_radius_mm, and at least tightest_hose. Any other dresspack must satisfy the rule with its own diameter.
 double least_bend_radius(const Dresspack& dresspack);
 
 /// Returns why this is the least bend radius if its maker gives none: "ten diameters of the hose (58 mm) count, because ...".

@@ -314,7 +314,7 @@ DecidingLimit decided(const Trial& trial, const Draft& draft) {
                                                           {"tension", WarningKind::tension},
                                                           {"retraction's stroke", WarningKind::slack},
                                                           {"forces in cables", WarningKind::force},
-                                                          {"change by a repeat", WarningKind::periodic}};
+                                                          {"repeatability", WarningKind::periodic}};
     const auto kind = kinds.find(limit);
     for (const Warning& warning : trial.best ? warnings_of(trial.rows[*trial.best]) : std::vector<Warning>{})
       if (const WarningParts parts = parts_of(warning.words);

@@ -137,7 +137,7 @@ const std::vector<std::string>& outcome_limit_names() {
   static const std::vector<std::string> names{"bend radius", "twist",         "too short",           "too long",
                                               "tension",     "contact force", "retraction's stroke", "forces in cables",
                                               "abrasion",    "hose's wall",   "maker's rating",      "jacket wear",
-                                              "corkscrew",   "kink",          "change by a repeat",  "bracket"};
+                                              "corkscrew",   "kink",          "repeatability",       "bracket"};
   return names;
 }
 

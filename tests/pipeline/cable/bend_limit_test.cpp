@@ -33,6 +33,8 @@ TEST_CASE(
              Catch::Contains("ten diameters of a core with the area that no core component takes (24 mm) count"));
   dresspack.core_components[0].count = 7;  // more than the area: the other parts decide
   CHECK(least_bend_radius(dresspack) == Approx(0.106 + 0.01845));
+  dresspack.components.clear();                         // a hose with a core alone
+  CHECK(least_bend_radius(dresspack) == Approx(0.12));  // three diameters of the hose
   dresspack.least_bend_radius = 0.2;
   CHECK(least_bend_radius(dresspack) == 0.2);
 }

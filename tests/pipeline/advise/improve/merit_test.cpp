@@ -57,9 +57,9 @@ TEST_CASE("outcome: a job whose repeats change the dresspack violates a limit, t
     row.warnings = {Warning{WarningKind::periodic, "", "it differs. Likely cause: a. Remedy: b", {}, amount}};
     return outcome_of(row, scratch.folder());
   };
-  CHECK(outcome(5).words() == "change by a repeat violated by 5.0 times the limit (remedy: b)");
+  CHECK(outcome(5).words() == "repeatability violated by 5.0 times the limit (remedy: b)");
   CHECK(outcome(5).violation() == Approx(std::log(5)));
-  CHECK(outcome(1.2).words() == "change by a repeat violated by 20 % (remedy: b)");
+  CHECK(outcome(1.2).words() == "repeatability violated by 20 % (remedy: b)");
   CHECK(outcome({}).feasible());  // an unlikely setting of the job, not a change
 }
 
