@@ -53,7 +53,9 @@ pipeline::Setup setup_with(const pipeline::Job& job, double factor, double time_
   settings.stiffness_factor *= factor;
   settings.choose_time_step = false;
   settings.time_step = time_step;
-  settings.most_repeats = std::min(settings.most_repeats, 2);  // the first repeat is the lead-in
+  // After the lead-in with its larger step, a second repeat begins with another swing than it ends with. The third begins with
+  // that of the second.
+  settings.most_repeats = std::min(settings.most_repeats, 3);
   return setup;
 }
 
@@ -226,7 +228,8 @@ std::vector<Warning> other_stiffness_warnings(const pipeline::Job& job, const Sh
       warnings_of_others(job, own.checks, own.time_step, [&](const pipeline::Setup& setup, const char*, double z) {
         ShortRun run = short_run(setup, short_run_segments);
         if (!run.refusal.empty()) throw pipeline::InputError({}, run.refusal, "");
-        if (!run.periodic && !run.stopped_at) distances[z] = run.distance;
+        // A short run has two repeats. So it can judge only jobs that have no more.
+        if (!run.periodic && !run.stopped_at && setup.simulation.most_repeats <= 2) distances[z] = run.distance;
         return std::move(run.checks);
       });
   return pipeline::joined(std::move(warnings), periodic_warnings(job, own.periodic, distances));

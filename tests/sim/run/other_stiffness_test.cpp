@@ -143,6 +143,12 @@ TEST_CASE(
             (distance > tolerance));
   }
   CHECK(std::max(soft, stiff) > 1.01 * own);  // otherwise no warning was tested
+
+  // In a third repeat, which begins with the swing of a full second one, they keep the limit.
+  job.simulation.periodic_tolerance = own * 1.01;
+  job.simulation.most_repeats = 3;
+  CHECK(written(job).warnings.empty());
+  CHECK(other_stiffness_warnings(job, short_run(job, short_run_segments)).empty());
 }
 
 TEST_CASE("other stiffnesses: none where the stiffness is known") {
