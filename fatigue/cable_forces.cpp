@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -61,8 +62,7 @@ Cables cables_of(const pipeline::FileReader& strain, const pipeline::Job& job) {
 
 /// tension: of the cable with the largest share of its strength. moment: "at 1.2 s, program step 3 'text'".
 pipeline::Warning force_warning(const CableFacts& facts, const pipeline::CableForce& cable, double tension,
-                                const std::string& moment, bool sticks, double acceleration) {
-  const Cure cure = cure_of(facts, cable, sticks, tension < 0, acceleration);
+                                const std::string& moment, const std::string& cause, const pipeline::Remedy& remedy) {
   return pipeline::warning_of(
       pipeline::WarningKind::force, "",
       fmt::format(
@@ -71,7 +71,7 @@ pipeline::Warning force_warning(const CableFacts& facts, const pipeline::CableFo
           facts.name, tension < 0 ? "compressed" : "pulled", 100 * std::abs(tension) / cable.strength(),
           pipeline::readable(std::abs(tension)), pipeline::readable(cable.strength()), 100 * pipeline::believable_share,
           moment),
-      cure.cause, cure.remedy);
+      cause, remedy);
 }
 
 void write_tensions(pipeline::FileWriter& life, const std::vector<std::string>& names,
@@ -139,10 +139,19 @@ CableForces write_cable_forces(const pipeline::FileReader& strain, const pipelin
   life.attribute("clamp_moment_share", moment_share);
   life.attribute("strain_relief_share", relief_share);
   const bool sticks = !slides(job.strain.slip.front());
+  const FileCables of_file{facts, force, cables.span};
+  const ForceShares own{force_share, moment_share};
+  const std::optional<pipeline::Remedy> together = slack_remedy(strain, job, of_file, own);
+  const auto remedy_of = [&](const Cure& cure) {
+    return together && !together->values.empty() ? *together : pipeline::Remedy{{}, cure.remedy};
+  };
   std::vector<pipeline::Warning> warnings;
-  if (force_share > pipeline::believable_share)
+  if (force_share > pipeline::believable_share) {
+    const Cure cure = cure_of(facts[strained], force[strained], sticks, tension[strained][at_sample] < 0,
+                              job.motion.acceleration_percent);
     warnings.push_back(force_warning(facts[strained], force[strained], tension[strained][at_sample],
-                                     moment_of(strain, at_sample), sticks, job.motion.acceleration_percent));
+                                     moment_of(strain, at_sample), cure.cause, remedy_of(cure)));
+  }
   if (moment_share > pipeline::believable_share) {
     const Cure cure = cure_of(facts[bender], force[bender], sticks, tension[bender][bent_sample] < 0,
                               job.motion.acceleration_percent);
@@ -155,10 +164,9 @@ CableForces write_cable_forces(const pipeline::FileReader& strain, const pipelin
             pipeline::readable(*std::max_element(hose_moment.begin(), hose_moment.end())), pipeline::believable_share,
             moment_of(strain, bent_sample), facts[bender].name, tension[bender][bent_sample] < 0 ? "presses" : "pulls",
             pipeline::readable(std::abs(tension[bender][bent_sample]))),
-        cure.cause, cure.remedy));
+        cure.cause, remedy_of(cure)));
   }
-  warnings = pipeline::joined(std::move(warnings), varied_force_warnings(strain, job, {facts, force, cables.span},
-                                                                         {force_share, moment_share}));
+  warnings = pipeline::joined(std::move(warnings), varied_force_warnings(strain, job, of_file, own, together));
   return {std::move(warnings), std::move(tension)};
 }
 

@@ -26,7 +26,8 @@ using pipeline::Uncertain;
 using Parameters =
     std::vector<std::size_t>;  // indices of uncertain_parameters(); starts_parameter alone: another rest of the cables
 
-constexpr std::size_t starts_parameter = index_of(Uncertain::rest);
+constexpr std::size_t starts_parameter = index_of(Uncertain::rest), slack_parameter = index_of(Uncertain::slack),
+                      stiffness_parameter = index_of(Uncertain::hose_stiffness);
 
 /// Forces of the cables at one variation. Forces do not depend on the friction inside cables.
 struct VariedForces {
@@ -118,10 +119,10 @@ struct Cause {
 double own_value(const pipeline::Job& job, std::size_t parameter) {
   const pipeline::StrainFactors& factors = job.strain.factors;
   if (parameter == index_of(Uncertain::friction_hose)) return factors.hose_friction;
-  if (parameter == index_of(Uncertain::slack)) return factors.slack;
+  if (parameter == slack_parameter) return factors.slack;
   if (parameter == index_of(Uncertain::play)) return factors.play;
   if (parameter == index_of(Uncertain::grip)) return factors.grip;
-  if (parameter == index_of(Uncertain::hose_stiffness)) return job.simulation.stiffness_factor;
+  if (parameter == stiffness_parameter) return job.simulation.stiffness_factor;
   return 1;
 }
 
@@ -135,12 +136,23 @@ std::string words_of(const pipeline::Job& job, const VariedForces& at) {
   return pipeline::joined(words, " and ");
 }
 
+/// The loads of one limit: with the job's own values, and at each variation.
+struct Loads {
+  double own = 0;
+  std::vector<Load> varied;
+};
+
+/// How far the parameters are known, and the number of starts at each rest.
+struct Known {
+  pipeline::ParameterKnowledge parameters;
+  std::vector<std::size_t> starts;
+};
+
 /// One limit at all variations.
 class VariedLimit {
  public:
-  VariedLimit(const pipeline::FileReader& strain, const pipeline::Job& job, const std::vector<VariedForces>& all,
-              double own, const std::vector<Load>& loads)
-      : all_(all), loads_(loads), own_(own), knowledge_(knowledge_of_job(job)), starts_(read_rests(strain)) {
+  VariedLimit(const Known& known, const std::vector<VariedForces>& all, const Loads& loads)
+      : all_(all), loads_(loads.varied), own_(loads.own), knowledge_(known.parameters), starts_(known.starts) {
     std::map<Parameters, std::vector<std::size_t>> groups;
     for (std::size_t v = 0; v < all.size(); ++v)
       if (const Parameters changed = all[v].parameters(); !changed.empty()) groups[changed].push_back(v);
@@ -220,10 +232,92 @@ class VariedLimit {
   const std::vector<VariedForces>& all_;
   const std::vector<Load>& loads_;
   double own_;
-  pipeline::ParameterKnowledge knowledge_;
-  std::vector<std::size_t> starts_;
+  const pipeline::ParameterKnowledge& knowledge_;
+  const std::vector<std::size_t>& starts_;
   std::vector<Cause> causes_;
 };
+
+/// Loads over the slack of all cables together, at one stiffness of the hose.
+class SlackLoads {
+ public:
+  SlackLoads(const std::vector<VariedForces>& all, const Loads& loads, double stiffness) {
+    if (stiffness == 0) nodes_.push_back({0, loads.own});
+    for (std::size_t v = 0; v < all.size(); ++v) {
+      const VariedForces& of = all[v];
+      if (of.z[stiffness_parameter] != stiffness) continue;
+      bool others = of.rest > 0 && of.z[slack_parameter] == 0;  // at another slack the cables leave their rest
+      for (std::size_t p = 0; p < of.z.size(); ++p)
+        others = others || (p != slack_parameter && p != stiffness_parameter && of.z[p] != 0);
+      if (!others) nodes_.push_back({of.z[slack_parameter], loads.varied[v].load});
+    }
+    std::ranges::sort(nodes_, {}, &pipeline::LoadNode::z);
+  }
+  double least() const { return nodes_.front().z; }
+  double most() const { return nodes_.back().z; }
+  /// Loads differ by decades: between the nodes their logarithm is linear, which was 3 % below to 30 % above computed loads. Above
+  /// them the load is linear. Below them cables become tight: it grows by e^3 while z falls by 1, more than all that were computed
+  /// (7 to 18; a hose with seven cables on a KUKA KR 210).
+  double at(double z) const {
+    constexpr double tightening = 3, none = 1e-6;
+    if (nodes_.empty()) return 0;
+    if (z < least()) return nodes_.front().load * std::exp(tightening * (least() - z));
+    if (nodes_.size() == 1) return nodes_.front().load;
+    std::size_t k = 1;
+    while (k + 1 < nodes_.size() && nodes_[k].z < z) ++k;
+    const pipeline::LoadNode &a = nodes_[k - 1], &b = nodes_[k];
+    const double way = (z - a.z) / (b.z - a.z);
+    if (way > 1) return std::max(0.0, a.load + (b.load - a.load) * way);
+    return std::exp(std::lerp(std::log(std::max(none, a.load)), std::log(std::max(none, b.load)), way));
+  }
+
+ private:
+  std::vector<pipeline::LoadNode> nodes_;
+};
+
+/// Returns the loads of the same dresspack whose cables all have another slack, by `shift` of its z. With a variation of the slack
+/// they have the slack at the sum of both. Of other variations only the job's slack was computed; their loads change as much as
+/// those without them.
+Loads shifted(const std::vector<VariedForces>& all, const Loads& loads, double shift) {
+  // With 1.5 times the slack and more friction the load was 1.2 times that by this rule.
+  constexpr double margin = 1.25;
+  if (shift == 0) return loads;
+  const SlackLoads own(all, loads, 0);
+  std::map<double, SlackLoads> at;  // by stiffness
+  for (const VariedForces& of : all) at.try_emplace(of.z[stiffness_parameter], all, loads, of.z[stiffness_parameter]);
+  Loads moved{own.at(shift), loads.varied};
+  for (std::size_t v = 0; v < all.size(); ++v) {
+    const SlackLoads& here = at.at(all[v].z[stiffness_parameter]);
+    const double z = all[v].z[slack_parameter], before = here.at(z);
+    const bool computed = z != 0 || all[v].z[stiffness_parameter] != 0;
+    moved.varied[v].load *= (computed ? 1 : margin) * (before > 0 ? here.at(z + shift) / before : 1);
+  }
+  return moved;
+}
+
+/// Another slack of all cables together: the change of its z, and the share of such dresspacks beyond one of the limits.
+struct OtherSlack {
+  double shift = 0, share = 1;
+};
+
+/// Returns the slack with the least share; of equal ones the nearest to the job's. most: of the shift, beyond which a cable would have
+/// more than largest_slack.
+OtherSlack best_slack(const std::vector<VariedForces>& all, const std::vector<Loads>& limits, const Known& known,
+                      double most) {
+  constexpr double step = 0.05;  // 2 % of the slack: less than its rounding to two digits
+  const SlackLoads computed(all, limits.front(), 0);
+  OtherSlack best{0, 2};
+  for (double size = 0; size <= std::max(computed.most(), -computed.least()); size += step)
+    for (const double shift : {size, -size}) {
+      if (shift < computed.least() || shift > std::min(most, computed.most())) continue;
+      double share = 0;
+      for (const Loads& loads : limits) {
+        const Loads moved = shifted(all, loads, shift);
+        share = std::max(share, moved.own > 1 ? 1 : VariedLimit(known, all, moved).share());
+      }
+      if (share < best.share) best = {shift, share};
+    }
+  return best;
+}
 
 /// Returns "; 31 % of such dresspacks exceed the limit: 18 % by ...": how many, by which parameters, and how this was computed.
 std::string share_text(const pipeline::Job& job, const VariedLimit& limit, const std::vector<VariedForces>& all) {
@@ -240,47 +334,36 @@ std::string share_text(const pipeline::Job& job, const VariedLimit& limit, const
                                    pipeline::joined(others, ", ")));
 }
 
-/// Returns a slack_percent for the cable as a line of the job, and why; empty: none up to the largest usual slack.
-std::string slack_line(const CableFacts& facts, double by, const std::string& why) {
-  const double now = facts.component->laying.slack / 100;
-  if (now == 0 || by * now > pipeline::largest_slack) return "";
-  return fmt::format("{}: {} (now {:.3g}; {})", cable_key(facts, "slack_percent"),
-                     by > 1 ? pipeline::percent_above(by * now) : pipeline::percent_below(by * now), 100 * now, why);
+/// Returns "uncertainty.slack": the key of how well a parameter is known.
+std::string spread_key(std::size_t parameter) {
+  return fmt::format("uncertainty.{}", pipeline::uncertain_parameters()[parameter].name);
 }
 
 /// Returns cause and remedy of a force at a variation. tension: of the cable [N].
 Cure cure_at(const pipeline::Job& job, const VariedForces& at, const CableFacts& facts,
              const pipeline::CableForce& force, double tension) {
-  const auto& slack = pipeline::uncertain_parameters()[index_of(Uncertain::slack)];
-  const double z = at.z[index_of(Uncertain::slack)], now = facts.slack_factor * facts.component->laying.slack;
-  if (z != 0) {
-    const std::string line =
-        slack_line(facts, 1 / slack.value(z), "then such a dresspack has the slack that keeps the limit now");
-    if (!line.empty())
-      return {fmt::format("too {} slack: {:.3g} % instead of {:.3g} %", z < 0 ? "little" : "much", now * slack.value(z),
-                          now),
-              line};
-  }
-  if (at.z[index_of(Uncertain::friction_hose)] != 0 && tension > 0) {
-    // With it `hard` at 2.83 times the friction pulls a cable with 0.03 instead of 0.25 of its breaking force.
-    constexpr double less_than_most = -1.25;  // z of a slack that 9 of 10 dresspacks exceed
-    const std::string line = slack_line(facts, 1 / slack.value(less_than_most), "not tried");
-    if (!line.empty()) return {"friction keeps the cable from moving its slack to the bends that need it", line};
-  }
-  return cure_of(facts, force, !slides(job.strain.slip.front()), tension < 0, job.motion.acceleration_percent);
+  Cure cure = cure_of(facts, force, !slides(job.strain.slip.front()), tension < 0, job.motion.acceleration_percent);
+  const double z = at.z[slack_parameter], now = facts.slack_factor * facts.component->laying.slack;
+  if (z != 0 && now > 0)
+    cure.cause = fmt::format("too {} slack: {:.3g} % instead of {:.3g} %", z < 0 ? "little" : "much",
+                             now * pipeline::uncertain_parameters()[slack_parameter].value(z), now);
+  else if (at.z[index_of(Uncertain::friction_hose)] != 0 && tension > 0)
+    cure.cause = "friction keeps the cable from moving its slack to the bends that need it";
+  return cure;
 }
 
 /// Returns the warning. cable: number of the cable that causes the load. what: part, value, limit, place and time.
 pipeline::Warning warning_at(const pipeline::Job& job, const FileCables& cables, const VariedLimit& limit,
                              const std::vector<VariedForces>& all, std::size_t cable, double tension,
-                             const std::string& what) {
+                             const std::optional<pipeline::Remedy>& together, const std::string& what) {
   const Cause& cause = limit.causes().front();
   const VariedForces& at = all[cause.at];
   const Cure cure = cure_at(job, at, cables.facts[cable], cables.force[cable], tension);
-  std::string remedy = cure.remedy;
+  pipeline::Remedy remedy = together.value_or(pipeline::Remedy{{}, cure.remedy});
   for (const std::size_t p : cause.parameters)
-    if (p != starts_parameter)
-      remedy += pipeline::measurement_words(pipeline::uncertain_parameters()[p], job.uncertainty);
+    if (p != starts_parameter &&
+        std::ranges::none_of(remedy.values, [&](const pipeline::KeyValue& of) { return of.key == spread_key(p); }))
+      remedy.words += pipeline::measurement_words(pipeline::uncertain_parameters()[p], job.uncertainty);
   pipeline::Warning warning = pipeline::warning_of(
       pipeline::WarningKind::other_values, "",
       fmt::format("with {} {}{}", words_of(job, at), what, share_text(job, limit, all)), cure.cause, remedy);
@@ -292,28 +375,99 @@ std::string place_words(double place) {
   return place < 0 ? "over its whole length" : fmt::format("{:.2f} m from the base clamp", place);
 }
 
+std::vector<Loads> loads_of(const std::vector<VariedForces>& all, const FileCables& cables, const ForceShares& own) {
+  std::vector<Loads> limits{{own.force / pipeline::believable_share, {}},
+                            {own.moment / pipeline::believable_share, {}}};
+  for (const VariedForces& at : all) {
+    limits[0].varied.push_back(force_load(at, cables));
+    limits[1].varied.push_back(moment_load(at, cables));
+  }
+  return limits;
+}
+
 }  // namespace
 
+std::optional<pipeline::Remedy> slack_remedy(const pipeline::FileReader& strain, const pipeline::Job& job,
+                                             const FileCables& cables, const ForceShares& own) {
+  if (!job.uncertainty.enabled) return std::nullopt;
+  const std::vector<VariedForces> all = read_forces(strain, cables.force.size());
+  if (std::ranges::none_of(all, [](const VariedForces& of) { return of.z[slack_parameter] != 0; })) return std::nullopt;
+  const pipeline::UncertainParameter& parameter = pipeline::uncertain_parameters()[slack_parameter];
+  std::vector<std::pair<std::string, double>> entries;  // of the user, who may have several cables in one; slack now
+  double largest = 0;
+  for (const CableFacts& facts : cables.facts) {
+    const double now = facts.component->laying.slack / 100;
+    const std::pair entry(cable_key(facts, "slack_percent"), now);
+    if (now > 0 && std::ranges::find(entries, entry) == entries.end()) entries.push_back(entry);
+    largest = std::max(largest, facts.slack_factor * now);
+  }
+  if (entries.empty()) return std::nullopt;
+  const std::vector<Loads> limits = loads_of(all, cables, own);
+  const double most = parameter.z_of(std::max(1.0, pipeline::largest_slack / largest));
+  Known known{knowledge_of_job(job), read_rests(strain)};
+  OtherSlack best = best_slack(all, limits, known, most);
+  std::vector<std::string> tests;
+  std::vector<pipeline::KeyValue> measured;
+  for (const std::size_t p : {slack_parameter, stiffness_parameter, index_of(Uncertain::friction_hose)}) {
+    if (best.share == 0) break;
+    const pipeline::UncertainParameter& measure = pipeline::uncertain_parameters()[p];
+    if (pipeline::measurement_words(measure, job.uncertainty).empty()) continue;
+    const auto at = static_cast<Eigen::Index>(p);
+    known.parameters.covariance(at, at) = std::pow(measure.test_deviation / measure.deviation(), 2);
+    measured.push_back({spread_key(p), fmt::format("{:.3g}", std::exp(measure.test_deviation))});
+    tests.emplace_back(measure.test);
+    best = best_slack(all, limits, known, most);
+  }
+  const SlackLoads computed(all, limits.front(), 0);
+  const std::string range = fmt::format("{:.2g} .. {:.2g} times the slack of all cables together",
+                                        parameter.value(computed.least()), parameter.value(computed.most()));
+  if (best.share > 0 && best.shift == 0)
+    return pipeline::Remedy{
+        {},
+        fmt::format(
+            "no slack keeps the limits of force and moment (by the forces at {}): a hose with a larger bore, fewer or "
+            "softer cables in it, or clamps between which it bends less",
+            range)};
+  pipeline::Remedy remedy;
+  std::vector<std::string> before;
+  if (best.shift != 0) {
+    for (const auto& [key, now] : entries) {
+      const double to = now * parameter.value(best.shift);
+      remedy.values.push_back({key, best.shift > 0 ? pipeline::percent_above(to) : pipeline::percent_below(to)});
+      before.push_back(fmt::format("{:.3g}", 100 * now));
+    }
+    remedy.words = fmt::format(" (now {}; all of them, by the forces at {})", pipeline::joined(before, ", "), range);
+  }
+  if (best.share > 0)
+    remedy.words += fmt::format("; run again, because {} of such dresspacks may exceed a limit then, too",
+                                pipeline::percent_words(best.share));
+  if (measured.empty()) return remedy;
+  remedy.values.insert(remedy.values.end(), measured.begin(), measured.end());
+  const bool several = tests.size() > 1;
+  remedy.words +=
+      fmt::format("{} if {} the job's values: {}. No slack keeps the limits without {}", best.shift != 0 ? ";" : ",",
+                  several ? "these measurements confirm" : "this measurement confirms", pipeline::joined(tests, "; "),
+                  several ? "them" : "it");
+  return remedy;
+}
+
 std::vector<pipeline::Warning> varied_force_warnings(const pipeline::FileReader& strain, const pipeline::Job& job,
-                                                     const FileCables& cables, const ForceShares& own) {
+                                                     const FileCables& cables, const ForceShares& own,
+                                                     const std::optional<pipeline::Remedy>& together) {
   std::vector<pipeline::Warning> warnings;
   if (!job.uncertainty.enabled) return warnings;
   const std::vector<VariedForces> all = read_forces(strain, cables.force.size());
-  const auto loads_by = [&](Load (*load)(const VariedForces&, const FileCables&)) {
-    std::vector<Load> loads;
-    for (const VariedForces& at : all) loads.push_back(load(at, cables));
-    return loads;
-  };
+  const std::vector<Loads> limits = loads_of(all, cables, own);
+  const Known known{knowledge_of_job(job), read_rests(strain)};
   constexpr double limit = pipeline::believable_share;
   if (own.force <= limit) {
-    const std::vector<Load> loads = loads_by(force_load);
-    const VariedLimit varied(strain, job, all, own.force / limit, loads);
+    const VariedLimit varied(known, all, limits[0]);
     if (!varied.causes().empty()) {
       const VariedForces& at = all[varied.causes().front().at];
       const std::size_t cable = varied.causes().front().load.of;
       const double tension = at.tension[cable], strength = cables.force[cable].strength();
       warnings.push_back(warning_at(
-          job, cables, varied, all, cable, tension,
+          job, cables, varied, all, cable, tension, together,
           fmt::format(
               "'{}' is {} with {:.0f} % of its breaking force: {} of {} N (limit {:.0f} %), {}, {}, which is unrealistic",
               cables.facts[cable].name, tension < 0 ? "compressed" : "pulled", 100 * std::abs(tension) / strength,
@@ -322,14 +476,13 @@ std::vector<pipeline::Warning> varied_force_warnings(const pipeline::FileReader&
     }
   }
   if (own.moment <= limit) {
-    const std::vector<Load> loads = loads_by(moment_load);
-    const VariedLimit varied(strain, job, all, own.moment / limit, loads);
+    const VariedLimit varied(known, all, limits[1]);
     if (!varied.causes().empty()) {
       const VariedForces& at = all[varied.causes().front().at];
       const std::size_t span = varied.causes().front().load.of, cable = at.moment_place[2 * span + 1];
       const double tension = at.moment_tension[span];
       warnings.push_back(warning_at(
-          job, cables, varied, all, cable, tension,
+          job, cables, varied, all, cable, tension, together,
           fmt::format(
               "the cables bend a clamp with {:.2g} times the moment of the hose ({} of {} N m, limit {:g} times) {}, which is "
               "unrealistic; '{}' {} most, with {} N",
