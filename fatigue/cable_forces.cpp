@@ -15,6 +15,7 @@
 #include "pipeline/base/warning_words.h"
 #include "pipeline/cable/believable.h"
 #include "pipeline/cable/cable_pulls.h"
+#include "pipeline/job/dresspack.h"
 
 namespace dresslife::fatigue {
 namespace {
@@ -142,15 +143,16 @@ CableForces write_cable_forces(const pipeline::FileReader& strain, const pipelin
   const FileCables of_file{facts, force, cables.span};
   const ForceShares own{force_share, moment_share};
   const std::optional<pipeline::Remedy> together = slack_remedy(strain, job, of_file, own);
-  const auto remedy_of = [&](const Cure& cure) {
-    return together && !together->values.empty() ? *together : pipeline::Remedy{{}, cure.remedy};
+  const auto remedy_of = [&](const CableFacts& of, const Cure& cure) {
+    return together && pipeline::lies_loose(*of.dresspack, *of.component) ? *together
+                                                                          : pipeline::Remedy{{}, cure.remedy};
   };
   std::vector<pipeline::Warning> warnings;
   if (force_share > pipeline::believable_share) {
     const Cure cure = cure_of(facts[strained], force[strained], sticks, tension[strained][at_sample] < 0,
                               job.motion.acceleration_percent);
     warnings.push_back(force_warning(facts[strained], force[strained], tension[strained][at_sample],
-                                     moment_of(strain, at_sample), cure.cause, remedy_of(cure)));
+                                     moment_of(strain, at_sample), cure.cause, remedy_of(facts[strained], cure)));
   }
   if (moment_share > pipeline::believable_share) {
     const Cure cure = cure_of(facts[bender], force[bender], sticks, tension[bender][bent_sample] < 0,
@@ -164,7 +166,7 @@ CableForces write_cable_forces(const pipeline::FileReader& strain, const pipelin
             pipeline::readable(*std::max_element(hose_moment.begin(), hose_moment.end())), pipeline::believable_share,
             moment_of(strain, bent_sample), facts[bender].name, tension[bender][bent_sample] < 0 ? "presses" : "pulls",
             pipeline::readable(std::abs(tension[bender][bent_sample]))),
-        cure.cause, remedy_of(cure)));
+        cure.cause, remedy_of(facts[bender], cure)));
   }
   warnings = pipeline::joined(std::move(warnings), varied_force_warnings(strain, job, of_file, own, together));
   return {std::move(warnings), std::move(tension)};
