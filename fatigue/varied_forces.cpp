@@ -427,8 +427,8 @@ std::optional<pipeline::Remedy> slack_remedy(const pipeline::FileReader& strain,
         {},
         fmt::format(
             "no slack keeps the limits of force and moment (by the forces at {}; with the best, {:.2g} times, {} of such "
-            "dresspacks exceed one): a hose with a larger bore, fewer or softer cables in it, or clamps between which it "
-            "bends less",
+            "dresspacks exceed one): between these clamps a hose with a larger bore or a stiffer wall, softer cables, or clamps "
+            "between which the hose bends less",
             range, parameter.value(best.shift), pipeline::percent_words(best.share))};
   pipeline::Remedy remedy;
   std::vector<std::string> before;
