@@ -361,8 +361,7 @@ pipeline::Warning warning_at(const pipeline::Job& job, const FileCables& cables,
   const Cure cure = cure_at(job, at, cables.facts[cable], cables.force[cable], tension);
   pipeline::Remedy remedy = together.value_or(pipeline::Remedy{{}, cure.remedy});
   for (const std::size_t p : cause.parameters)
-    if (p != starts_parameter &&
-        std::ranges::none_of(remedy.values, [&](const pipeline::KeyValue& of) { return of.key == spread_key(p); }))
+    if (!together && p != starts_parameter)  // slack_remedy() has tried the measurements
       remedy.words += pipeline::measurement_words(pipeline::uncertain_parameters()[p], job.uncertainty);
   pipeline::Warning warning = pipeline::warning_of(
       pipeline::WarningKind::other_values, "",

@@ -334,7 +334,7 @@ TEST_CASE("forces at other values: the slack of all cables together that cures t
       tight.text(),
       Catch::Contains("too little slack: 1.09 % instead of 2 %. Remedy: dresspack.components.1.slack_percent: 1.3 "
                       "and dresspack.components.2.slack_percent: 2.5 (now 1, 2; all of them, by the forces at "
-                      "0.54 .. 1.8 times the slack of all cables together); or uncertainty.slack: 1.16"));
+                      "0.54 .. 1.8 times the slack of all cables together)\n"));
   const std::vector<pipeline::KeyValue> cure{{"dresspack.components.1.slack_percent", "1.3"},
                                              {"dresspack.components.2.slack_percent", "2.5"}};
   REQUIRE(tight.warnings().size() == 2);  // of the force and of the moment at a clamp
@@ -385,7 +385,8 @@ TEST_CASE(
       none.text(),
       Catch::Contains(
           "Remedy: no slack keeps the limits of force and moment (by the forces at 0.54 .. 1.8 times "
-          "the slack of all cables together; with the best, 1 times, 50 % of such dresspacks exceed one): a hose with "
-          "a larger bore, fewer or softer cables"));
+          "the slack of all cables together; with the best, 1 times, 50 % of such dresspacks exceed one): between these "
+          "clamps a hose with a larger bore or a stiffer wall, softer cables") &&
+          !Catch::Contains("uncertainty.slack"));  // it was tried
   CHECK(none.remedy()->values.empty());
 }
