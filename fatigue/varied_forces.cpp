@@ -294,6 +294,19 @@ Loads shifted(const std::vector<VariedForces>& all, const Loads& loads, double s
   return moved;
 }
 
+/// Moves the variations of the hose's stiffness to `share` of their change, as a run has them that knows the stiffness better. The
+/// logarithm of a load is linear.
+void bring_nearer(std::vector<VariedForces>& all, std::vector<Loads>& limits, double share) {
+  for (Loads& loads : limits) {
+    const SlackLoads own(all, loads, 0);
+    for (std::size_t v = 0; v < all.size(); ++v)
+      if (all[v].z[stiffness_parameter] != 0)
+        loads.varied[v].load =
+            std::pow(own.at(all[v].z[slack_parameter]), 1 - share) * std::pow(loads.varied[v].load, share);
+  }
+  for (VariedForces& of : all) of.z[stiffness_parameter] *= share;
+}
+
 /// Another slack of all cables together: the change of its z, and the share of such dresspacks beyond one of the limits.
 struct OtherSlack {
   double shift = 0, share = 1;
@@ -389,7 +402,7 @@ std::vector<Loads> loads_of(const std::vector<VariedForces>& all, const FileCabl
 std::optional<pipeline::Remedy> slack_remedy(const pipeline::FileReader& strain, const pipeline::Job& job,
                                              const FileCables& cables, const ForceShares& own) {
   if (!job.uncertainty.enabled) return std::nullopt;
-  const std::vector<VariedForces> all = read_forces(strain, cables.force.size());
+  std::vector<VariedForces> all = read_forces(strain, cables.force.size());
   if (std::ranges::none_of(all, [](const VariedForces& of) { return of.z[slack_parameter] != 0; })) return std::nullopt;
   const pipeline::UncertainParameter& parameter = pipeline::uncertain_parameters()[slack_parameter];
   std::vector<std::pair<std::string, double>> entries;  // of the user, who may have several cables in one; slack now
@@ -401,7 +414,7 @@ std::optional<pipeline::Remedy> slack_remedy(const pipeline::FileReader& strain,
     largest = std::max(largest, facts.slack_factor * now);
   }
   if (entries.empty()) return std::nullopt;
-  const std::vector<Loads> limits = loads_of(all, cables, own);
+  std::vector<Loads> limits = loads_of(all, cables, own);
   const double most = parameter.z_of(std::max(1.0, pipeline::largest_slack / largest));
   Known known{knowledge_of_job(job), read_rests(strain)};
   OtherSlack best = best_slack(all, limits, known, most);
@@ -412,7 +425,9 @@ std::optional<pipeline::Remedy> slack_remedy(const pipeline::FileReader& strain,
     const pipeline::UncertainParameter& measure = pipeline::uncertain_parameters()[p];
     if (pipeline::measurement_words(measure, job.uncertainty).empty()) continue;
     const auto at = static_cast<Eigen::Index>(p);
-    known.parameters.covariance(at, at) = std::pow(measure.test_deviation / measure.deviation(), 2);
+    const double z = measure.test_deviation / measure.deviation();
+    known.parameters.covariance(at, at) = z * z;
+    if (p == stiffness_parameter) bring_nearer(all, limits, z / measure.z_of(job.uncertainty.spread[p]));
     measured.push_back({spread_key(p), fmt::format("{:.3g}", std::exp(measure.test_deviation))});
     tests.emplace_back(measure.test);
     best = best_slack(all, limits, known, most);

@@ -380,6 +380,12 @@ TEST_CASE(
                  !Catch::Contains("slack_percent"));
   narrow.job.uncertainty.spread[slack] = 1.16;
   CHECK(narrow.text() == "");
+  // A softer hose at less slack exceeds the limit. A run with a measured stiffness has a hose that is nearer to the job's own.
+  Slack soft({0.9, 0.5, 0.9});
+  Variation& both = soft.add(slack, -1.5);
+  both.z[stiffness] = -1.65, both.tension = {0, 4, 0};
+  const std::vector<pipeline::KeyValue> known{{"uncertainty.slack", "1.16"}, {"uncertainty.hose_stiffness", "1.16"}};
+  CHECK(soft.remedy()->values == known);
   const Slack none({1.5, 0.9, 1.5});
   CHECK_THAT(
       none.text(),
