@@ -62,7 +62,7 @@ pipeline::Remedy remedy_near(const pipeline::Setup& setup) {
       base + tool > 0 ? fmt::format("clamps {:.0f} and {:.0f} mm from their places, where a bracket can be built",
                                     1e3 * base, 1e3 * tool)
                       : "clamps at their places";
-  remedy.words = fmt::format(" ({}; keeps all limits in a run)", places);
+  remedy.words = fmt::format(" ({}; keeps the limits of the hose in a run with the job's own values)", places);
   return remedy;
 }
 
