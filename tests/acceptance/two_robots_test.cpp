@@ -81,11 +81,11 @@ void check_first_job(const Scratch& scratch) {
   const std::string action = outcome.out.substr(0, outcome.out.find("\n\n"));  // three lines
   CHECK(action.starts_with("The jacket of signal cable "));
   CHECK(page.find("\n    " + std::regex_replace(action, std::regex("\n"), "\n    ") + "\n") != std::string::npos);
-  // "the model says 18 years for `spot_robot_1`"
+  // "the model says 3,300 years for `spot_robot_1`"
   std::smatch years;
   REQUIRE(std::regex_search(
       outcome.out, years,
-      std::regex("has\\s+failed\\s+after\\s+[0-9,]+\\s+h\\s+of\\s+motion\\s+\\(([0-9]+)\\s+years\\)")));
+      std::regex("has\\s+failed\\s+after\\s+[0-9,]+\\s+h\\s+of\\s+motion\\s+\\(([0-9,]+)\\s+years\\)")));
   CHECK(page.find("the model says " + years[1].str() + " years for `spot_robot_1`") != std::string::npos);
 }
 
