@@ -173,18 +173,22 @@ TEST_CASE(
 
 TEST_CASE("the life of the easy program has converged in segments and time step") {
   constexpr double most_change = 0.1;  // 1 % in strain, at a fatigue exponent near 9
+  // The worst place is beside the end of a sleeve, where 64 segments miss 4 % of the strain. 2.3 is the numerical error that the
+  // result states for its p10 (life_error_p10).
+  constexpr double most_of_shipped = 0.5;
   Scratch scratch;
   const fs::path study = scratch.write("convergence.yaml", "base: " + config + R"(jobs/irb6640_spot_welding.yaml
 jobs:
   shipped: {}
-  twice_the_segments: {simulation.segments: 128}
   half_the_step: {simulation.time_step_ms: 2.5}
+  finer: {simulation.segments: 96}
+  finest: {simulation.segments: 128}
 )");
   // Half of the shipped sample rate takes half the time. Segments and step are compared, not the rate.
   auto rows = run_study(scratch, study.string(), "convergence",
                         " --set motion=easy --set simulation.sample_rate_Hz=12.5 --set uncertainty.enabled=false");
-  const double shipped = rows["shipped"].repeats;
-  // The worst place is at the tool clamp, where the bend decays within a few segments.
-  CHECK(std::abs(rows["twice_the_segments"].repeats / shipped - 1) < most_change);
+  const double shipped = rows["shipped"].repeats, finest = rows["finest"].repeats;
   CHECK(std::abs(rows["half_the_step"].repeats / shipped - 1) < most_change);
+  CHECK(std::abs(rows["finer"].repeats / finest - 1) < most_change);
+  CHECK(std::abs(shipped / finest - 1) < most_of_shipped);
 }
