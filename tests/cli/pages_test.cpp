@@ -55,7 +55,8 @@ const std::map<std::string, std::string> instead{
     {"dresslife check JOB.yaml", "dresslife check irb6640_spot_welding --set simulation.segments=16"},
     {"dresslife preview JOB.yaml", "dresslife preview irb6640_spot_welding"},
     {"dresslife route ROBOT_OR_JOB",
-     "dresslife route abb_irb4600_60_205 --scale 0.5 --tried 60 --short-runs 20 --seed 2 --set uncertainty.enabled=false" +
+     "dresslife route abb_irb4600_60_205 --scale 0.5 --tried 60 --short-runs 20 --seed 2 --set uncertainty.enabled=false --set "
+     "dresspack.components.1.slack_percent=1" +
          quick},
     {"dresslife run JOB.yaml", "dresslife run irb6640_spot_welding" + quick},
     {"dresslife improve JOB_OR_STUDY",
