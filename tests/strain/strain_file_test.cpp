@@ -632,16 +632,15 @@ TEST_CASE(
   const std::string between = warnings_with_limit(limit);
   std::vector<pipeline::LoadNode> nodes;
   for (const auto& [at, force] : forces) nodes.push_back({at, std::abs(force) / limit});
-  CHECK_THAT(
-      between,
-      Catch::Contains("times the excess length of the cables in the hose (strain.slack_factor: ") &&
-          Catch::Contains("'cable 1' is pulled with ") &&
-          Catch::Contains(" N (limit 20 %), over its whole length, at ") &&
-          Catch::Contains(fmt::format("about {} of such dresspacks exceed this limit",
-                                      pipeline::percent_words(pipeline::share_beyond(nodes, 0, 1)))) &&
-          Catch::Contains("Likely cause: ") && Catch::Contains("Remedy: dresspack.components.1.slack_percent: ") &&
-          Catch::Contains(
-              "uncertainty.slack: 1.16, if this measurement confirms the job's value: The length of each cable measured"));
+  CHECK_THAT(between, Catch::Contains("times the excess length of the cables in the hose (strain.slack_factor: ") &&
+                          Catch::Contains("'cable 1' is pulled with ") &&
+                          Catch::Contains(" N (limit 20 %), over its whole length, at ") &&
+                          Catch::Contains(fmt::format("about {} of such dresspacks exceed this limit",
+                                                      pipeline::percent_words(pipeline::share_beyond(nodes, 0, 1)))) &&
+                          Catch::Contains("Likely cause: ") &&
+                          Catch::Contains("Remedy: dresspack.components.1.slack_percent: ") &&
+                          Catch::Contains("(now 1; all of them, by the forces at ") &&
+                          !Catch::Contains("uncertainty.slack"));  // this slack alone keeps the limit
   CHECK_THAT(warnings_with_limit(2 * std::abs(most)), !Catch::Contains("breaking force"));
   const std::string of_own = warnings_with_limit(std::abs(own) / 2);
   const std::string line = of_own.substr(0, of_own.find('\n'));
@@ -860,7 +859,8 @@ TEST_CASE("cables that do not return are named with place, limit and a slack tha
   const pipeline::KeyValue& value = warnings[0].remedy[0];
   const pipeline::Job cured = pipeline::read_job(file, {value.key + "=" + value.value});
   const pipeline::MountedDresspack& mounted = cured.dresspacks.front();
-  CHECK(mounted.dresspack.components[number].laying.slack == Approx(cable->laying.slack / 2).epsilon(0.01));
+  CHECK(mounted.dresspack.components[number].laying.slack ==
+        Approx(cable->laying.slack / 2).epsilon(0.05));  // two digits
   CHECK(pipeline::tight_warnings("dresspack", mounted).empty());
   // A cable with less slack than half a turn needs is not made shorter.
   const std::vector<pipeline::Warning> tight = strain::cycle_warnings(pipeline::read_job(file, {value.key + "=0.01"}),

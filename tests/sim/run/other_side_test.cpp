@@ -10,9 +10,16 @@
 namespace dresslife::sim {
 namespace {
 
-/// The program easy, in which a hose keeps the side on which it was mounted.
+/// The program easy, in which a hose keeps the side on which it was mounted: a longer hose without the sleeves of the shipped job,
+/// which keep it in the plane of the arm.
 pipeline::Job job_of(const std::string& side, std::vector<std::string> more = {}) {
-  std::vector<std::string> sets{"motion=easy", "simulation.segments=24", "routing.side=" + side};
+  std::vector<std::string> sets{
+      "motion=easy",
+      "simulation.segments=24",
+      "routing.side=" + side,
+      "routing.base_clamp={link: link_3, position_m: [-0.1, 0, 0.45], direction: [1, 0, 0.45]}",
+      "routing.tool_clamp={link: link_6, position_m: [0.144, 0, 0.174], direction: [1, 0, -0.45]}",
+      "routing.free_length_m=2.035"};
   sets.insert(sets.end(), more.begin(), more.end());
   return pipeline::read_job(DRESSLIFE_SOURCE_DIR "/config/jobs/irb6640_spot_welding.yaml", sets);
 }

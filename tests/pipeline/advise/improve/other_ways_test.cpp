@@ -108,7 +108,7 @@ TEST_CASE("each clamp, the length and the turn of the end are off to both sides"
   const std::vector<Nudge> nudges = nudges_of({{"one", job, ""}, {"two", job, ""}}, tolerance_of(10, 10));
   REQUIRE(nudges.size() == 24);
   CHECK(nudges[1].what == "length, + 10 mm");
-  CHECK(nudges[1].sets == std::vector<std::string>{"routing.free_length_m=2.045"});
+  CHECK(nudges[1].sets == std::vector<std::string>{"routing.free_length_m=2.03"});
   CHECK(nudges[2].sets == std::vector<std::string>{"routing.pre_twist_deg=-10"});
   CHECK(nudges[4].sets == std::vector<std::string>{"routing.base_clamp.position_m=[-0.11, 0, 0.45]"});
   // Four directions around that of the base clamp, all tilted by atan(10 / 100), in opposite pairs.
