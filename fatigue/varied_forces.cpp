@@ -318,8 +318,8 @@ OtherSlack best_slack(const std::vector<VariedForces>& all, const std::vector<Lo
                       double most) {
   constexpr double step = 0.05;  // 2 % of the slack: less than its rounding to two digits
   const SlackLoads computed(all, limits.front(), 0);
-  OtherSlack best{0, 2};
-  for (double size = 0; size <= std::max(computed.most(), -computed.least()); size += step)
+  OtherSlack best{0, 2};  // more than any share
+  for (double size = 0; best.share > 0 && size <= std::max(computed.most(), -computed.least()); size += step)
     for (const double shift : {size, -size}) {
       if (shift < computed.least() || shift > std::min(most, computed.most())) continue;
       double share = 0;
