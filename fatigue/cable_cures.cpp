@@ -94,9 +94,11 @@ Cure cure_of(const CableFacts& facts, const pipeline::CableForce& cable, bool st
                  : fmt::format("{}, and its path gets {} % longer if no cable beside it gives way", room,
                                pipeline::percent_above(least));
   if (least <= slack && slack <= most)
-    return {room + ", which fit its path; friction, its weight and the hose's motion pull it",
-            fmt::format("motion.acceleration_percent: {:.0f} (now {:.0f}), or {} as measured",
-                        std::max(1.0, acceleration / 2), acceleration, cable_key(facts, "friction_coefficient"))};
+    return {
+        room +
+            ", which fit its path; winding around the hose's axis, friction, its weight and the hose's motion pull it",
+        fmt::format("motion.acceleration_percent: {:.0f} (now {:.0f}), or {} as measured",
+                    std::max(1.0, acceleration / 2), acceleration, cable_key(facts, "friction_coefficient"))};
   const double proposed = std::min(highest, facts.least_gain + facts.room / room_per_excess(facts));
   if (least <= proposed) return {cause, slack_line(facts, least, proposed)};
   if (least > pipeline::largest_slack)
@@ -112,18 +114,39 @@ Cure cure_of(const CableFacts& facts, const pipeline::CableForce& cable, bool st
           1e3 * needed, cable_key(facts, "play_mm"), 1e3 * needed, cable_key(facts, "helix_radius_mm"), facts.key)};
 }
 
+namespace {
+
+/// Returns the two clamps of a span as words. number: of the span in its dresspack.
+std::string clamp_words(const pipeline::Routing& routing, std::size_t number) {
+  const std::size_t between = routing.clamps.size();
+  if (between == 0) return {};
+  const auto name = [&](std::size_t end) {
+    return end == 0 ? std::string("the base clamp") : end > between ? "the tool clamp" : fmt::format("clamp {}", end);
+  };
+  return fmt::format(" between {} and {}", name(number), name(number + 1));
+}
+
+}  // namespace
+
 std::vector<CableFacts> facts_of(const pipeline::FileReader& strain, const pipeline::Job& job) {
   const auto names = strain.read<std::string>("/cable/name");
   const auto dresspack = strain.read<std::int32_t>("/cable/dresspack");
   const auto component = strain.read<std::int32_t>("/cable/component");
+  const auto span = strain.read<std::int32_t>("/cable/span");
   std::vector<double> room, gain;
   const bool has_room = strain.has("/cable/room");
   if (has_room) room = strain.read<double>("/cable/room"), gain = strain.read<double>("/cable/path_gain");
   std::vector<CableFacts> all;
+  std::int32_t first_span = 0;  // of the dresspack
   for (std::size_t k = 0; k < names.size(); ++k) {
+    if (k == 0 || dresspack[k] != dresspack[k - 1]) first_span = span[k];
     const auto in = static_cast<std::size_t>(dresspack[k]);
     const auto which = static_cast<std::size_t>(component[k]);
-    CableFacts facts{names[k], line_key(job, in, "dresspack"), "", &component_of(strain, job, in, which),
+    CableFacts facts{names[k],
+                     clamp_words(job.dresspacks[in].routing, static_cast<std::size_t>(span[k] - first_span)),
+                     line_key(job, in, "dresspack"),
+                     "",
+                     &component_of(strain, job, in, which),
                      &job.dresspacks[in].dresspack};
     facts.number = entry_number(facts.dresspack->components, which);
     facts.has_room = has_room;

@@ -17,8 +17,9 @@ const pipeline::Component& component_of(const pipeline::FileReader& strain, cons
 /// Data of a cable besides its force.
 struct CableFacts {
   std::string name;
-  std::string key;     ///< its dresspack as a line of the job: "dresspack"
-  std::string number;  ///< of its component in a key path
+  std::string between;  ///< " between the base clamp and clamp 1"; empty: its dresspack has two clamps
+  std::string key;      ///< its dresspack as a line of the job: "dresspack"
+  std::string number;   ///< of its component in a key path
   const pipeline::Component* component = nullptr;
   const pipeline::Dresspack* dresspack = nullptr;
   double room = 0, least_gain = 0, most_gain = 0;  ///< /cable/room, /cable/path_gain

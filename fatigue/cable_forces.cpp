@@ -67,9 +67,9 @@ pipeline::Warning force_warning(const CableFacts& facts, const pipeline::CableFo
   return pipeline::warning_of(
       pipeline::WarningKind::force, "",
       fmt::format(
-          "'{}' is {} with {:.0f} % of its breaking force: {} of {} N (limit {:.0f} %) {}; that is unrealistic: "
+          "'{}' is {}{} with {:.0f} % of its breaking force: {} of {} N (limit {:.0f} %) {}; that is unrealistic: "
           "do not plan with the hours",
-          facts.name, tension < 0 ? "compressed" : "pulled", 100 * std::abs(tension) / cable.strength(),
+          facts.name, tension < 0 ? "compressed" : "pulled", facts.between, 100 * std::abs(tension) / cable.strength(),
           pipeline::readable(std::abs(tension)), pipeline::readable(cable.strength()), 100 * pipeline::believable_share,
           moment),
       cause, remedy);
@@ -160,9 +160,9 @@ CableForces write_cable_forces(const pipeline::FileReader& strain, const pipelin
     warnings.push_back(pipeline::warning_of(
         pipeline::WarningKind::force, "",
         fmt::format(
-            "the cables bend a clamp with {:.2g} times the moment of the hose ({} of {} N m, limit {:g} times) {}; "
+            "the cables{} bend a clamp with {:.2g} times the moment of the hose ({} of {} N m, limit {:g} times) {}; "
             "'{}' {} most, with {} N",
-            moment_share, pipeline::readable(cable_moment[bent_sample]),
+            facts[bender].between, moment_share, pipeline::readable(cable_moment[bent_sample]),
             pipeline::readable(*std::max_element(hose_moment.begin(), hose_moment.end())), pipeline::believable_share,
             moment_of(strain, bent_sample), facts[bender].name, tension[bender][bent_sample] < 0 ? "presses" : "pulls",
             pipeline::readable(std::abs(tension[bender][bent_sample]))),

@@ -441,8 +441,8 @@ std::optional<pipeline::Remedy> slack_remedy(const pipeline::FileReader& strain,
         {},
         fmt::format(
             "no slack keeps the limits of force and moment (by the forces at {}; with the best, {:.2g} times, {} of such "
-            "dresspacks exceed one): between these clamps a hose with a larger bore or a stiffer wall, softer cables, or clamps "
-            "between which the hose bends less",
+            "dresspacks exceed one): a hose with a larger bore or a stiffer wall, softer cables, or clamps between which the "
+            "hose bends less, and in one direction only",
             range, parameter.value(best.shift), pipeline::percent_words(best.share))};
   pipeline::Remedy remedy;
   std::vector<std::string> before;
@@ -500,11 +500,12 @@ std::vector<pipeline::Warning> varied_force_warnings(const pipeline::FileReader&
       warnings.push_back(warning_at(
           job, cables, varied, all, cable, tension, together,
           fmt::format(
-              "the cables bend a clamp with {:.2g} times the moment of the hose ({} of {} N m, limit {:g} times) {}, which is "
+              "the cables{} bend a clamp with {:.2g} times the moment of the hose ({} of {} N m, limit {:g} times) {}, which is "
               "unrealistic; '{}' {} most, with {} N",
-              at.moment[2 * span] / at.moment[2 * span + 1], pipeline::readable(at.moment[2 * span]),
-              pipeline::readable(at.moment[2 * span + 1]), limit, moment_of(strain, at.moment_place[2 * span]),
-              cables.facts[cable].name, tension < 0 ? "presses" : "pulls", pipeline::readable(std::abs(tension)))));
+              cables.facts[cable].between, at.moment[2 * span] / at.moment[2 * span + 1],
+              pipeline::readable(at.moment[2 * span]), pipeline::readable(at.moment[2 * span + 1]), limit,
+              moment_of(strain, at.moment_place[2 * span]), cables.facts[cable].name, tension < 0 ? "presses" : "pulls",
+              pipeline::readable(std::abs(tension)))));
     }
   }
   return warnings;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -84,10 +85,10 @@ Json json_of(const Node& document) {
 }
 
 void JobList::add(const std::string& job, const std::string& state) {
-  if (json_)
-    jobs_.push_back({{"job", job}, {"state", state}});
-  else
-    print(shown(fmt::format("{:<40} {}\n", job, state)));
+  if (!json_) return print(shown(fmt::format("{:<40} {}\n", job, state)));
+  const std::size_t end = std::min(state.find("  "), state.size());  // before the reason
+  const std::size_t reason = std::min(state.find_first_not_of(' ', end), state.size());
+  jobs_.push_back({{"job", job}, {"state", state.substr(0, end)}, {"reason", text_or_null(state.substr(reason))}});
 }
 
 void JobList::end(const std::string& words) const { print(json_ ? Json(jobs_).text + "\n" : words); }

@@ -30,6 +30,7 @@ Json json_of(const Node& document);
 class JobList {
  public:
   explicit JobList(bool json) : json_(json) {}
+  /// state: JobState::words(). In JSON, the reason after its spaces is a value of its own.
   void add(const std::string& job, const std::string& state);
   /// Prints `words` below the lines; in JSON prints the list instead.
   void end(const std::string& words) const;

@@ -675,12 +675,17 @@ double share_outliving(const std::vector<double>& one, const std::vector<double>
   return count / double(one.size());
 }
 
-// The integers are rounded by largest remainders.
-std::string share_words(const CauseShares& share) {
+// The integers are rounded by largest remainders. A negative share is an error of sampling (Shapley effects are not negative) and
+// counts as 0.
+std::string share_words(const CauseShares& estimate) {
+  CauseShares share{};
+  std::ranges::transform(estimate, share.begin(), [](double of) { return std::max(0.0, of); });
+  const double all = std::accumulate(share.begin(), share.end(), 0.0);
+  if (all == 0) return "";
   std::vector<std::pair<std::string, double>> parts;
-  double other = 0, all = 0;
+  double other = 0;
   for (std::size_t p = 0; p < share.size(); ++p) {
-    all += share[p];
+    share[p] /= all;
     if (share[p] >= 0.01)
       parts.emplace_back(p == of_wires      ? "scatter of wires"
                          : p == of_residual ? "numerical error"
@@ -689,7 +694,6 @@ std::string share_words(const CauseShares& share) {
     else
       other += 100 * share[p];
   }
-  if (all == 0) return "";
   std::stable_sort(parts.begin(), parts.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
   parts.emplace_back("other", other);
   int missing = 100;

@@ -36,7 +36,9 @@ assert check["warnings"][0].keys() == rows[0]["warning_list"][0].keys()
 coarse = [warning for warning in check["warnings"] if warning["kind"] == "mesh"][0]
 assert coarse["remedy_values"]["simulation.segments"] > 12 and "simulation.segments: " in coarse["remedy"]
 assert json.load(open("nothing.json")) == []
-assert json.load(open("states.json")) == [{"job": row["job"], "state": "done"} for row in sorted(rows, key=lambda r: r["job"])]
+assert json.load(open("states.json")) == [{"job": row["job"], "state": "done", "reason": None} for row in sorted(rows, key=lambda r: r["job"])]
+for job in json.load(open("stale.json")):
+    assert job["state"] == "stale" and "dresspack.mass_kg_per_m" in job["reason"]
 )");
   const std::string program = "'" DRESSLIFE_BIN_DIR "/dresslife'";
   const Outcome outcome = run_shell(
@@ -44,7 +46,8 @@ assert json.load(open("states.json")) == [{"job": row["job"], "state": "done"} f
                    " run study.yaml --json --quiet >ranking.json; " + program +
                    " run study.yaml --json --quiet -n >nothing.json; " + program + " show job.yaml --json >job.json; " +
                    program + " check job.yaml --set dresspack.bending_stiffness_Nm2=0.03 --json >check.json; " +
-                   program + " status study.yaml --json >states.json; python3 compare.py");
+                   program + " status study.yaml --json >states.json; " + program +
+                   " status study.yaml --set dresspack.mass_kg_per_m=0.21 --json >stale.json; python3 compare.py");
   // No progress. Warnings remain, because they concern the validity of the result.
   std::istringstream lines(outcome.err);
   for (std::string line; std::getline(lines, line);) CHECK(line.find(": warning: ") != std::string::npos);

@@ -461,6 +461,9 @@ TEST_CASE("shares as words are whole per cents that add up to 100") {
   share = {};
   share[uncertain_count] = 0.9, share[uncertain_count + 1] = 0.1;
   CHECK(share_words(share) == "scatter of wires 90 %; numerical error 10 %");
+  share = {};
+  share[friction] = 0.816, share[strength] = 0.204, share[model] = -0.02;
+  CHECK(share_words(share) == "friction_inside 80 %; strength 20 %");
 }
 
 TEST_CASE("lives of many programs with common samples are those of each program alone") {
