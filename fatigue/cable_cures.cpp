@@ -142,12 +142,9 @@ std::vector<CableFacts> facts_of(const pipeline::FileReader& strain, const pipel
     if (k == 0 || dresspack[k] != dresspack[k - 1]) first_span = span[k];
     const auto in = static_cast<std::size_t>(dresspack[k]);
     const auto which = static_cast<std::size_t>(component[k]);
-    CableFacts facts{names[k],
-                     clamp_words(job.dresspacks[in].routing, static_cast<std::size_t>(span[k] - first_span)),
-                     line_key(job, in, "dresspack"),
-                     "",
-                     &component_of(strain, job, in, which),
+    CableFacts facts{names[k], line_key(job, in, "dresspack"), "", &component_of(strain, job, in, which),
                      &job.dresspacks[in].dresspack};
+    facts.between = clamp_words(job.dresspacks[in].routing, static_cast<std::size_t>(span[k] - first_span));
     facts.number = entry_number(facts.dresspack->components, which);
     facts.has_room = has_room;
     facts.slack_factor = job.strain.factors.slack;

@@ -17,15 +17,15 @@ const pipeline::Component& component_of(const pipeline::FileReader& strain, cons
 /// Data of a cable besides its force.
 struct CableFacts {
   std::string name;
-  std::string between;  ///< " between the base clamp and clamp 1"; empty: its dresspack has two clamps
-  std::string key;      ///< its dresspack as a line of the job: "dresspack"
-  std::string number;   ///< of its component in a key path
+  std::string key;     ///< its dresspack as a line of the job: "dresspack"
+  std::string number;  ///< of its component in a key path
   const pipeline::Component* component = nullptr;
   const pipeline::Dresspack* dresspack = nullptr;
   double room = 0, least_gain = 0, most_gain = 0;  ///< /cable/room, /cable/path_gain
   bool has_room = false;                           ///< the file contains these
   double winding_slack = 0;                        ///< see pipeline/cable/excess.h; 0: unknown, or not needed
   double slack_factor = 1;                         ///< its slack over slack_percent
+  std::string between{};  ///< " between the base clamp and clamp 1"; empty: its dresspack has two clamps
 };
 
 /// Returns the data of all cables of a strain file.
