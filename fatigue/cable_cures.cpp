@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
 
 #include "pipeline/base/readable.h"
 #include "pipeline/cable/believable.h"
@@ -137,14 +138,18 @@ std::vector<CableFacts> facts_of(const pipeline::FileReader& strain, const pipel
   const bool has_room = strain.has("/cable/room");
   if (has_room) room = strain.read<double>("/cable/room"), gain = strain.read<double>("/cable/path_gain");
   std::vector<CableFacts> all;
-  std::int32_t first_span = 0;  // of the dresspack
+  std::map<std::int32_t, std::int32_t> first_span;  // of a dresspack
+  for (std::size_t k = 0; k < span.size(); ++k) {
+    const auto found = first_span.try_emplace(dresspack[k], span[k]).first;
+    found->second = std::min(found->second, span[k]);
+  }
   for (std::size_t k = 0; k < names.size(); ++k) {
-    if (k == 0 || dresspack[k] != dresspack[k - 1]) first_span = span[k];
     const auto in = static_cast<std::size_t>(dresspack[k]);
     const auto which = static_cast<std::size_t>(component[k]);
     CableFacts facts{names[k], line_key(job, in, "dresspack"), "", &component_of(strain, job, in, which),
                      &job.dresspacks[in].dresspack};
-    facts.between = clamp_words(job.dresspacks[in].routing, static_cast<std::size_t>(span[k] - first_span));
+    facts.between =
+        clamp_words(job.dresspacks[in].routing, static_cast<std::size_t>(span[k] - first_span.at(dresspack[k])));
     facts.number = entry_number(facts.dresspack->components, which);
     facts.has_room = has_room;
     facts.slack_factor = job.strain.factors.slack;

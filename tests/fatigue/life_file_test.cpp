@@ -368,6 +368,7 @@ TEST_CASE("life.h5: forces of the cables by span, and the span where they ask mo
   dresspack.components[0].components.resize(1);
   pipeline::Component& wires = dresspack.components[0].components[0];
   wires.name = "wire", wires.material = "copper", wires.count = 100, wires.radius = 7.5e-5;
+  job.dresspacks[0].routing.clamps.resize(1);
   const pipeline::CableForce force(dresspack, dresspack.components[0]);
   StrainFile f = example();
   f.cables = {{1, {0.01, 0, 0, 0.01}, {1e-4, 8e-5, -5e-5}},
@@ -402,8 +403,10 @@ TEST_CASE("life.h5: forces of the cables by span, and the span where they ask mo
     };
     const double share = life.number_attribute("largest_force_share");
     CHECK(warns("'cable 2' is compressed with") == (share > pipeline::believable_share));
-    CHECK(warns(in_first ? "'cable 2' presses most" : "'cable 3' pulls most") ==
-          (life.number_attribute("clamp_moment_share") > pipeline::believable_share));
+    for (const char* words : {in_first ? "'cable 2' presses most" : "'cable 3' pulls most",
+                              in_first ? "the cables between the base clamp and clamp 1 bend a clamp with"
+                                       : "the cables between clamp 1 and the tool clamp bend a clamp with"})
+      CHECK(warns(words) == (life.number_attribute("clamp_moment_share") > pipeline::believable_share));
   }
   const auto of_others = [&] {
     std::string words;
