@@ -98,8 +98,9 @@ Cure cure_of(const CableFacts& facts, const pipeline::CableForce& cable, bool st
     return {
         room +
             ", which fit its path; winding around the hose's axis, friction, its weight and the hose's motion pull it",
-        fmt::format("motion.acceleration_percent: {:.0f} (now {:.0f}), or {} as measured",
-                    std::max(1.0, acceleration / 2), acceleration, cable_key(facts, "friction_coefficient"))};
+        fmt::format("motion.acceleration_percent: {:.0f} (now {:.0f}), {} as measured, or {}",
+                    std::max(1.0, acceleration / 2), acceleration, cable_key(facts, "friction_coefficient"),
+                    gentle_clamps)};
   const double proposed = std::min(highest, facts.least_gain + facts.room / room_per_excess(facts));
   if (least <= proposed) return {cause, slack_line(facts, least, proposed)};
   if (least > pipeline::largest_slack)
@@ -114,20 +115,6 @@ Cure cure_of(const CableFacts& facts, const pipeline::CableForce& cable, bool st
           "no slack fits this room. It needs {:.2g} mm: {}: {:.2g} if it has them, else another {} or {}.inner_diameter_mm",
           1e3 * needed, cable_key(facts, "play_mm"), 1e3 * needed, cable_key(facts, "helix_radius_mm"), facts.key)};
 }
-
-namespace {
-
-/// Returns the two clamps of a span as words. number: of the span in its dresspack.
-std::string clamp_words(const pipeline::Routing& routing, std::size_t number) {
-  const std::size_t between = routing.clamps.size();
-  if (between == 0) return {};
-  const auto name = [&](std::size_t end) {
-    return end == 0 ? std::string("the base clamp") : end > between ? "the tool clamp" : fmt::format("clamp {}", end);
-  };
-  return fmt::format(" between {} and {}", name(number), name(number + 1));
-}
-
-}  // namespace
 
 std::vector<CableFacts> facts_of(const pipeline::FileReader& strain, const pipeline::Job& job) {
   const auto names = strain.read<std::string>("/cable/name");
@@ -148,8 +135,8 @@ std::vector<CableFacts> facts_of(const pipeline::FileReader& strain, const pipel
     const auto which = static_cast<std::size_t>(component[k]);
     CableFacts facts{names[k], line_key(job, in, "dresspack"), "", &component_of(strain, job, in, which),
                      &job.dresspacks[in].dresspack};
-    facts.between =
-        clamp_words(job.dresspacks[in].routing, static_cast<std::size_t>(span[k] - first_span.at(dresspack[k])));
+    facts.between = pipeline::between_clamps(job.dresspacks[in].routing,
+                                             static_cast<std::size_t>(span[k] - first_span.at(dresspack[k])));
     facts.number = entry_number(facts.dresspack->components, which);
     facts.has_room = has_room;
     facts.slack_factor = job.strain.factors.slack;

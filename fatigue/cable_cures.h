@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "pipeline/cable/cable_force.h"
@@ -34,6 +35,9 @@ std::vector<CableFacts> facts_of(const pipeline::FileReader& strain, const pipel
 /// Returns a key of the component, which all its `count` cables share, as a line of the job:
 /// "dresspack.components.2.slack_percent".
 std::string cable_key(const CableFacts& facts, const char* key);
+
+/// Words of a remedy. Bends in opposite directions pull cables that wind around the hose's axis, whatever their slack.
+inline constexpr std::string_view gentle_clamps = "clamps between which the hose bends less, and in one direction only";
 
 struct Cure {
   std::string cause, remedy;

@@ -441,9 +441,8 @@ std::optional<pipeline::Remedy> slack_remedy(const pipeline::FileReader& strain,
         {},
         fmt::format(
             "no slack keeps the limits of force and moment (by the forces at {}; with the best, {:.2g} times, {} of such "
-            "dresspacks exceed one): a hose with a larger bore or a stiffer wall, softer cables, or clamps between which the "
-            "hose bends less, and in one direction only",
-            range, parameter.value(best.shift), pipeline::percent_words(best.share))};
+            "dresspacks exceed one): a hose with a larger bore or a stiffer wall, softer cables, or {}",
+            range, parameter.value(best.shift), pipeline::percent_words(best.share), gentle_clamps)};
   pipeline::Remedy remedy;
   std::vector<std::string> before;
   if (best.shift != 0) {

@@ -256,6 +256,17 @@ std::string relief_text(const BendRelief& relief) {
   return fmt::format("{{length_mm: {:.6g}, bending_stiffness_Nm2: {:.6g}}}", 1e3 * relief.length, relief.stiffness);
 }
 
+std::string between_clamps(const Routing& routing, std::size_t piece) {
+  const std::size_t between = routing.clamps.size();
+  if (between == 0) return "";
+  const auto name = [&](std::size_t clamp) {
+    if (clamp == 0) return std::string("the base clamp");
+    if (clamp <= between) return fmt::format("clamp {}", clamp);
+    return std::string(is_clamped(routing.tool_end) ? "the tool clamp" : "the free end");
+  };
+  return fmt::format(" between {} and {}", name(piece), name(piece + 1));
+}
+
 std::vector<std::array<BendRelief, 2>> bend_reliefs(const Routing& routing) {
   const auto of = [](const std::optional<Clamp>& clamp) {
     return clamp ? clamp->bend_relief.value_or(BendRelief{}) : BendRelief{};

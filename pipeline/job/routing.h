@@ -114,6 +114,10 @@ BendRelief first_relief(double diameter, double stiffness, double segment);
 /// Returns "{length_mm: 180, bending_stiffness_Nm2: 6.7}".
 std::string relief_text(const BendRelief& relief);
 
+/// Returns " between the base clamp and clamp 1" for the piece with this number; empty: the dresspack is one piece. Clamp 1 is
+/// `routing.clamps.1`.
+std::string between_clamps(const Routing& routing, std::size_t piece);
+
 /// Returns for each piece between two clamps the reliefs at its base end and at its tool end.
 std::vector<std::array<BendRelief, 2>> bend_reliefs(const Routing& routing);
 

@@ -675,8 +675,7 @@ double share_outliving(const std::vector<double>& one, const std::vector<double>
   return count / double(one.size());
 }
 
-// The integers are rounded by largest remainders. A negative share is an error of sampling (Shapley effects are not negative) and
-// counts as 0.
+// The integers are rounded by largest remainders.
 std::string share_words(const CauseShares& estimate) {
   CauseShares share{};
   std::ranges::transform(estimate, share.begin(), [](double of) { return std::max(0.0, of); });

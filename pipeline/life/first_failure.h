@@ -121,7 +121,7 @@ LifePercentiles percentiles_of(std::vector<double> log10_lives);
 double share_outliving(const std::vector<double>& one, const std::vector<double>& other);
 
 /// Returns "friction_inside 41 %; model 30 %; ...", largest first; the last is "other", the sum of all below 1 %. The numbers are
-/// integers and add up to 100. Empty: no variance.
+/// integers and add up to 100. A negative share, which is an error of sampling, counts as 0. Empty: no variance.
 std::string share_words(const CauseShares& share);
 /// Returns the index of the cause with the largest share, without the residual; uncertain_count: the wires' scatter.
 std::size_t largest_share(const CauseShares& share);

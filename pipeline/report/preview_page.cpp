@@ -30,7 +30,7 @@ struct TriedLength {
 
 /// Dresspack between two of its clamps.
 struct SpanPreview {
-  std::string subject;  ///< "dresspack 'main hose' between clamps 1 and 2 of 3"
+  std::string subject;  ///< "dresspack 'main hose' between the base clamp and clamp 1"
   double length = 0;    ///< [m]
   double least_way = 0, most_way = 0;
   double here[2]{}, program[2]{};  ///< suitable lengths [m]
@@ -52,7 +52,7 @@ std::vector<SpanPreview> spans_of(const FileReader& file, const Setup& setup) {
     if (dresspack >= setup.dresspacks.size())
       throw InputError(file.where(), fmt::format("/span/dresspack names dresspack {}", dresspack),
                        "make the file again");
-    span.subject = dresspack_words(setup, dresspack) + (names[k].empty() ? "" : " " + names[k]);
+    span.subject = dresspack_words(setup, dresspack) + names[k];
     span.subject.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(span.subject.front())));
     span.length = lengths[k];
     span.least_way = std::numeric_limits<double>::infinity();

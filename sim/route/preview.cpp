@@ -221,10 +221,9 @@ class Previewer {
     std::vector<double> lengths, working;
     for (std::size_t span = 0; span < rod_.spans().size(); ++span) {
       const Span& of = rod_.spans()[span];
-      const int first = rod_.first_span(of.dresspack), count = rod_.first_span(of.dresspack + 1) - first;
-      const int clamp = static_cast<int>(span) - first + 1;
+      const std::size_t piece = span - static_cast<std::size_t>(rod_.first_span(of.dresspack));
       dresspacks.push_back(of.dresspack);
-      names.push_back(count == 1 ? "" : fmt::format("between clamps {} and {} of {}", clamp, clamp + 1, count + 1));
+      names.push_back(pipeline::between_clamps(job_.dresspacks[static_cast<std::size_t>(of.dresspack)].routing, piece));
       lengths.push_back(of.properties.length);
       for (const double longest : {way(0, span), std::max(longest_[span].way, way(0, span))}) {
         const WorkingLength here = working_length(longest);

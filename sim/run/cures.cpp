@@ -529,9 +529,9 @@ Cure twist_cure(const CheckedMotion& motion, const std::vector<Check>& checks, c
 Remedy other_length(const CheckedMotion& motion, const Check& check, double wanted) {
   if (check.position < 0)
     return {{{key_of(motion.setup, check.dresspack, "routing.free_length_m"), fmt::format("{:.3f}", wanted)}}};
-  const int clamp = span_at(*motion.rod, check) - motion.rod->first_span(check.dresspack) + 1;
+  const auto piece = static_cast<std::size_t>(span_at(*motion.rod, check) - motion.rod->first_span(check.dresspack));
   return {{},
-          fmt::format("length between clamps {} and {} ({}): {:.3f}", clamp, clamp + 1,
+          fmt::format("length{} ({}): {:.3f}", pipeline::between_clamps(mounted_of(motion, check).routing, piece),
                       key_of(motion.setup, check.dresspack, "routing.clamps.at_length_m"), wanted)};
 }
 

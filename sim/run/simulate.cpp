@@ -108,9 +108,8 @@ void Simulation::check_reach() const {
 }
 
 std::string Simulation::between_clamps(const Span& span) const {
-  const int first = rod_.first_span(span.dresspack), spans = rod_.first_span(span.dresspack + 1) - first;
-  const int clamp = static_cast<int>(&span - rod_.spans().data()) - first + 1;
-  return spans == 1 ? "" : fmt::format(" between clamps {} and {} of {}", clamp, clamp + 1, spans + 1);
+  const auto piece = static_cast<std::size_t>(&span - rod_.spans().data() - rod_.first_span(span.dresspack));
+  return pipeline::between_clamps(setup_.dresspacks[static_cast<std::size_t>(span.dresspack)].routing, piece);
 }
 
 void Simulation::check_step(const StepReport& report, double time) const {

@@ -85,8 +85,7 @@ TEST_CASE(
       return holds(of) && (of <= facts.least_gain || cable.bend(of) >= 10);
     };  // ten diameters: the usual rule
     CAPTURE(round, remedy);
-    if (remedy.starts_with(
-            "motion.acceleration_percent: 40 (now 80), or dresspack.components.2.friction_coefficient")) {
+    if (remedy.starts_with("motion.acceleration_percent: 40 (now 80), dresspack.components.2.friction_coefficient")) {
       CHECK((cable.pulled(slack) <= cable.limit() && cable.pressed(slack) <= cable.limit()));
     } else if (const auto proposed = proposed_by(remedy)) {
       ++found;

@@ -144,7 +144,7 @@ TEST_CASE("routing: a span that is too short or pulled tight is named") {
   const std::string short_span = message_of(job_text(
       ends + "  clamps: [{link: spindle, position_m: [0.5, 0, 0], direction: [1, 0, 0], at_length_m: 0.45}]\n"));
   CHECK_THAT(short_span, Catch::Contains("dresspack is 50.0 mm too short at ") &&
-                             Catch::Contains("its length between clamps 1 and 2 of 3 is 0.45"));
+                             Catch::Contains("its length between the base clamp and clamp 1 is 0.45"));
 }
 
 TEST_CASE("routing: pre-twist is what it says on top of a mounting free of twist") {
