@@ -1,4 +1,4 @@
-// Life of a cable whose wires are not described, from the numbers of cycles that its maker states for test rigs.
+// Life of a hose, or of a cable whose wires are not described, from the numbers of cycles that its maker states for test rigs.
 //
 // A cycle of bending (or twist) with the range r does damage in proportion to r^m. For a place over which the whole bend passes,
 // the maker's N cycles contain N times this sum over one cycle of the rig:
@@ -38,7 +38,7 @@ struct RatedLife {
   double twist_share = 0;              ///< share of the damage from twist
 };
 
-/// Returns the result of (F31). Precondition: a cable without described wires and with at least one rating, valid by
+/// Returns the result of (F31). Precondition: a hose or a cable without described wires, with at least one rating, valid by
 /// check_dresspack().
 RatedLife rated_life(const pipeline::Component& cable, std::span<const SegmentMotion> segments);
 

@@ -329,7 +329,7 @@ void find_jackets(Search& found) {
   }
 }
 
-/// The life by the makers' ratings of cables without described wires (rated_cables.h), one mode for each cable. The damage
+/// The life by the makers' ratings of hoses and cables without described wires (rated_cables.h), one mode for each. The damage
 /// exponent is sampled in addition to the samples of the validated modes.
 void find_ratings(Search& found) {
   for (std::size_t d = 0; d < found.job.dresspacks.size(); ++d) {
@@ -465,8 +465,9 @@ std::string not_evaluated(const FileReader& strain, const pipeline::Job& job,
   const auto add_plain = [&](const pipeline::Component& part) {
     const auto twisted = [](const pipeline::Rating& rating) { return rating.rig.kind == pipeline::RigKind::torsion; };
     const auto of_twist = std::count_if(part.ratings.begin(), part.ratings.end(), twisted);
-    if (part.plain->kind == pipeline::PlainKind::hose) return add("fatigue and pressure of " + part.name);
-    if (part.ratings.empty()) return add(part.name);
+    const bool hose = part.plain->kind == pipeline::PlainKind::hose;
+    if (part.ratings.empty()) return add((hose ? "fatigue and pressure of " : "") + part.name);
+    if (hose) add("pressure of " + part.name);
     if (of_twist == 0) add("twist of " + part.name);
     if (of_twist == std::ssize(part.ratings)) add("bending of " + part.name);
   };

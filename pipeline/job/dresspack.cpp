@@ -67,7 +67,7 @@ void describe(Fields& f, Component& component) {
   f.maybe_group(
       "without_wires", component.plain,
       "The description of a part of the dresspack whose wires are not described, or which has none. It has mass, "
-      "stiffness and a place. Only a cable with ratings has a life.");
+      "stiffness and a place. Only a cable or hose with ratings has a life.");
   f.number("jacket_stiffness_N_per_m2", component.jacket_stiffness, Need::optional, at_least(0),
            "The force per length and displacement by which a jacket holds the part along its path if it "
            "fills the gussets. It counts where strain.slip is friction.");
@@ -84,7 +84,8 @@ void describe(Fields& f, Component& component) {
            "The share of the measured stiffness of jacket and insulation.");
   f.list(
       "ratings", component.ratings, Need::optional,
-      "The cycles in test rigs that the maker of a cable states. They give a life to a cable without described wires.");
+      "The cycles in test rigs that the maker of a cable or hose states. They give a life to a hose and to a cable without "
+      "described wires.");
   f.maybe_group(
       "jacket", component.jacket,
       "The jacket of a cable in the dresspack, which may wear through on hose and neighbours. A data_sheet that "
@@ -456,20 +457,21 @@ void check_ratings(const std::vector<Rating>& ratings, bool of_plain) {
     if (!rating.rig.where.line) rating.rig.where = rating.where;
     check_rig(rating.rig);
     if (of_plain && (rating.rig.kind == RigKind::swivel || rating.rig.kind == RigKind::axial))
-      throw InputError(
-          rating.rig.where,
-          fmt::format("a rating of kind {} says nothing about a cable without described wires", word(rating.rig.kind)),
-          "give a rating in torsion, rolling_flex, two_pulley or tick_tock");
+      throw InputError(rating.rig.where,
+                       fmt::format("a rating of kind {} says nothing about a hose or a cable without described wires",
+                                   word(rating.rig.kind)),
+                       "give a rating in torsion, rolling_flex, two_pulley or tick_tock");
   }
 }
 
-/// Checks that only whole cables have ratings, with or without a known construction.
+/// Checks that only whole cables and hoses have ratings.
 void check_ratings(const Component& component, bool first_level) {
-  const bool plain = component.plain && component.plain->kind == PlainKind::cable;
+  const bool plain = component.plain && has_rated_life(component.plain->kind);
   if (!component.ratings.empty() && (!first_level || (component.components.empty() && !plain)))
-    throw InputError(component.ratings.front().where,
-                     fmt::format("'{}' has ratings (they are of cables right in the dresspack)", component.name),
-                     component.plain ? "set without_wires.kind: cable, or leave them out" : "give them to the cable");
+    throw InputError(
+        component.ratings.front().where,
+        fmt::format("'{}' has ratings (they are of cables and hoses right in the dresspack)", component.name),
+        component.plain ? "set without_wires.kind: cable or hose, or leave them out" : "give them to the cable");
   check_ratings(component.ratings, plain);
   for (const Component& inner : component.components) check_ratings(inner, false);
 }

@@ -8,15 +8,15 @@ namespace dresslife::pipeline {
 void describe(Fields& f, PlainPart& part) {
   f.place(part.where);
   f.choice("kind", part.kind,
-           "The kind of the part: a filler, a hose with a bore, an optical fibre, or a cable without described wires, "
-           "whose life follows from its ratings. All but hoses are solid.");
+           "The kind of the part: a filler, a hose with a bore, an optical fibre, or a cable without described wires. "
+           "The life of a cable or hose follows from its ratings. All but hoses are solid.");
   f.maybe_number("bore_mm", part.bore, above(0), "The inner diameter of a hose. Default: two thirds of the outer one.");
   f.choice("filled_with", part.medium, "The content of a hose: water, or air of no weight.");
   f.maybe_number("bending_stiffness_Nm2", part.bending_stiffness, above(0),
                  "E I of the part. Default: of polymer of 50 MPa. E A follows from it.");
   f.maybe_number(
       "damage_exponent", part.damage_exponent, between(1, 20),
-      "For a cable with ratings: a bend or twist of twice the range does 2^m times the damage. Default: 5, an "
+      "For a cable or hose with ratings: a bend or twist of twice the range does 2^m times the damage. Default: 5, an "
       "ESTIMATE with a deviation of 1.5.");
   f.maybe_number(
       "least_bend_radius_mm", part.least_bend_radius, above(0),
@@ -28,9 +28,9 @@ void check_plain_part(const PlainPart& part, double radius, std::string_view nam
   if (part.kind != PlainKind::hose && (part.bore || part.medium != Medium::air))
     throw InputError(part.where, fmt::format("'{}' is a {} and has a bore or a filling", name, word(part.kind)),
                      "set kind: hose, or leave out bore_mm and filled_with");
-  if (part.kind != PlainKind::cable && part.damage_exponent)
+  if (!has_rated_life(part.kind) && part.damage_exponent)
     throw InputError(part.where, fmt::format("'{}' is a {} and has a damage_exponent", name, word(part.kind)),
-                     "set kind: cable, or leave it out");
+                     "set kind: cable or hose, or leave it out");
   if (part.kind != PlainKind::hose && part.least_bend_radius)
     throw InputError(part.where, fmt::format("'{}' is a {} and has a least_bend_radius_mm", name, word(part.kind)),
                      "set kind: hose, or leave it out");

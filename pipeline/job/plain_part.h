@@ -1,5 +1,5 @@
 // Parts of a dresspack without wires: hoses for air and water, optical fibres, fillers, and cables of unknown construction. They
-// have mass and stiffness, need space, displace cables and pull at the clamps. Only cables with ratings have a life
+// have mass and stiffness, need space, displace cables and pull at the clamps. Only cables and hoses with ratings have a life
 // (fatigue/rated_cables.h). Hoses kink (pipeline/cable/kink.h).
 #pragma once
 
@@ -16,6 +16,9 @@ class Fields;
 enum class PlainKind { filler, hose, fibre, cable };
 constexpr std::string_view word(PlainKind value) { return word_at({"filler", "hose", "fibre", "cable"}, value); }
 
+/// Returns whether a maker's ratings give such a part a life.
+constexpr bool has_rated_life(PlainKind kind) { return kind == PlainKind::cable || kind == PlainKind::hose; }
+
 enum class Medium { air, water };
 constexpr std::string_view word(Medium value) { return word_at({"air", "water"}, value); }
 
@@ -24,7 +27,7 @@ struct PlainPart {
   std::optional<double> bore;               ///< inner diameter of a hose [m]; absent: two thirds of the outer diameter
   Medium medium = Medium::air;              ///< content of a hose
   std::optional<double> bending_stiffness;  ///< E I [N m2]; absent: that of polymer
-  std::optional<double> damage_exponent;    ///< m of (F31), of a cable; absent: usual_damage_exponent
+  std::optional<double> damage_exponent;    ///< m of (F31); absent: usual_damage_exponent
   std::optional<double>
       least_bend_radius{};      ///< of a hose's axis, from its maker [m]; absent: see pipeline/cable/kink.h
   double stiffness_factor = 1;  ///< of its polymer at the cell's temperature (pipeline/cable/warmth.h)

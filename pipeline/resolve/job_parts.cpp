@@ -71,7 +71,7 @@ void describe(Fields& echo, StrainKeys& keys) {
   echo.number("diameter_mm", dresspack.diameter, Need::optional, any_number(), "");
 }
 
-/// Keys of a cable without described wires.
+/// Keys of a part whose life follows from ratings.
 struct RatedKeys {
   std::string name;
   double radius = 0;

@@ -153,7 +153,7 @@ class Table {
     constexpr const char* rating = UnvalidatedMode::rating;
     add_mode_lives(
         "rating_hours_{}",
-        "in {} the maker's rating of a cable without described wires covers less, a lower bound of its life; not validated",
+        "in {} the maker's rating of a hose or a cable without described wires covers less, a lower bound of its life; not validated",
         rating);
     add(of_mode("rating_first_share", "1", "share of the samples in which the wires of other cables outlive the rating",
                 rating, &UnvalidatedMode::first_share));

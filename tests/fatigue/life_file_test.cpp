@@ -1327,6 +1327,12 @@ TEST_CASE("life.h5: a cable without described wires has the life of its rating, 
   CHECK(modes[0].hours[1] == Approx(hours(1e6 * std::pow(ratio, 5), duration)).epsilon(strata));
   CHECK(std::log10(modes[0].hours[2] / modes[0].hours[0]) ==
         Approx(2 * 1.28155 * 1.5 * std::log10(ratio)).epsilon(strata));
+  dresspack.components.back().plain->kind = pipeline::PlainKind::hose;
+  const FileReader of_hose(run(folder, f, job, "hose.h5").file, pipeline::life_format());
+  REQUIRE(rated_modes(of_hose).size() == 1);
+  CHECK(rated_modes(of_hose)[0].hours[1] == Approx(modes[0].hours[1]));
+  CHECK_THAT(of_hose.text_attribute("not_evaluated"),
+             Catch::StartsWith("pressure of power cable, twist of power cable, abrasion"));
 }
 
 TEST_CASE(

@@ -196,11 +196,12 @@ TEST_CASE("checks: clamps and rings stand in their order on links of the robot, 
 }
 
 TEST_CASE(
-    "checks: only a cable without described wires has a damage exponent, needs its mass, and a rating that bends or twists") {
+    "checks: only a hose or a cable without described wires has a damage exponent and ratings; they bend or twist it") {
   for (const PlainKind kind : {PlainKind::filler, PlainKind::hose, PlainKind::fibre, PlainKind::cable}) {
     PlainPart part;
     part.kind = kind, part.damage_exponent = 4;
-    CHECK(is_refused([&] { check_plain_part(part, 0.004, "part"); }) == (kind != PlainKind::cable));
+    CHECK(is_refused([&] { check_plain_part(part, 0.004, "part"); }) ==
+          (kind != PlainKind::cable && kind != PlainKind::hose));
     for (const RigKind rig : {RigKind::torsion, RigKind::rolling_flex, RigKind::two_pulley, RigKind::tick_tock,
                               RigKind::swivel, RigKind::axial})
       for (const bool has_mass : {false, true}) {
@@ -219,7 +220,9 @@ TEST_CASE(
         cable.plain.emplace(), cable.plain->kind = kind;
         if (has_mass) cable.laying.mass = 0.1;
         cable.ratings = {rating};
-        const bool fits = kind == PlainKind::cable && has_mass && rig != RigKind::swivel && rig != RigKind::axial;
+        // only a cable needs its mass: that of a hose follows from its bore
+        const bool rated = (kind == PlainKind::cable && has_mass) || kind == PlainKind::hose;
+        const bool fits = rated && rig != RigKind::swivel && rig != RigKind::axial;
         CHECK(is_refused([&] { check_dresspack(dresspack, {Slip::free}); }) == !fits);
       }
   }
