@@ -36,9 +36,21 @@ Option sets_option(const std::string& what, std::vector<std::string>& sets) {
 
 Option json_option(bool& json) { return {"--json", "", "print JSON for other programs", &json}; }
 
+Option folder_option(const std::string& of, std::string& out) {
+  return {"-o,--output",
+          "DIR",
+          "folder of " + of,
+          [&out](const std::string& text) {
+            if (text.ends_with(".yaml"))
+              throw InputError({"--output"}, fmt::format("'{}' is the name of a job, not of a folder", text),
+                               "name a folder; dresslife route --job names the job that it writes");
+            out = text;
+          },
+          {.shown_default = out}};
+}
+
 std::vector<Option> study_options(StudyOptions& options) {
-  return {{"-o,--output", "DIR", "folder of the results", &options.out},
-          sets_option("override a key in every job", options.sets)};
+  return {folder_option("the results", options.out), sets_option("override a key in every job", options.sets)};
 }
 
 std::vector<Option> run_options(RunOptions& options) {

@@ -36,6 +36,8 @@ Option study_or_job(StudyOptions& options);
 Option sets_option(const std::string& what, std::vector<std::string>& sets);
 /// Returns --json, for commands that print a table.
 Option json_option(bool& json);
+/// Returns --output DIR. of: what the folder contains. Its value must not be the name of a job.
+Option folder_option(const std::string& of, std::string& out);
 /// Returns --output DIR and --set.
 std::vector<Option> study_options(StudyOptions& options);
 /// Returns --jobs and --quiet, for commands that run stages.

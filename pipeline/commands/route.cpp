@@ -541,7 +541,7 @@ Command route_command() {
              {.range = {{0, 180}}}},
             {"--keep", "", "keep the runs of all routings, not only of the best", &options->keep},
             {"--job", "FILE.yaml", "job to write; else NAME_routed.yaml here", &options->job},
-            {"-o,--output", "DIR", "folder of the runs that try it", &options->out}},
+            folder_option("the runs that try it", options->out)},
            run_options(*options),
            {sets_option("override a key of the job", request.sets)}}),
       [options] { return route(*options); }};

@@ -212,3 +212,14 @@ TEST_CASE("screen grades every change of a job, and says which is no job") {
   CHECK(run(scratch, "dresslife-sim", "job.yaml --screen job.yaml -o screening.h5 --quiet").status == 1);
   CHECK(run(scratch, "dresslife-sim", "job.yaml --propose none -o screening.h5 --quiet").status == 2);
 }
+
+TEST_CASE("a folder of runs that has the name of a job is refused") {
+  Scratch scratch;
+  for (const char* line : {"route abb_irb2600_12_165 -o found.yaml", "run two_robots -o found.yaml"}) {
+    const Outcome refused = run(scratch, "dresslife", line);
+    CHECK(refused.status == 1);
+    CHECK_THAT(refused.err, Catch::Contains("'found.yaml' is the name of a job, not of a folder") &&
+                                Catch::Contains("route --job names the job"));
+    CHECK_FALSE(fs::exists(scratch / "found.yaml"));
+  }
+}
