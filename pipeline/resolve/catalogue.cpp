@@ -178,6 +178,9 @@ void resolve(Node& entry, const std::string& folder, const Where& job, int depth
     return;
   }
   const Node* from = entry.is_map() ? entry.find("from") : nullptr;
+  if (const Node* sheet = entry.is_map() && folder == "dresspacks" ? entry.find("data_sheet") : nullptr)
+    throw InputError(sheet->where, "data_sheet describes a cable, and stands among the keys of a hose",
+                     "write 'cable: {name: NAME, data_sheet: ...}' for the cable alone, or an item of components");
   if (!from && entry.is_map() && entry.find("cable") && folder == "dresspacks") return read_cable(entry, job, depth);
   if (!from && entry.is_map() && entry.find("urdf") && folder == "robots") return read_urdf(entry);
   if (!from) return;
@@ -267,10 +270,9 @@ void resolve_entry(Node* entry, const std::string& path, const std::string& fold
 template <class List>
 auto items_of(List& list, const std::string& word) {
   std::vector<decltype(&list.items.front())> found;
-  const auto number = whole_number_in<std::size_t>(word);
-  for (std::size_t k = 0; number && k < list.items.size(); ++k) {
+  for (std::size_t k = 0; k < list.items.size(); ++k) {
     const Node* const entry = list.items[k].is_map() ? list.items[k].find("entry") : nullptr;
-    if (entry ? entry->text == std::to_string(*number) : k + 1 == *number) found.push_back(&list.items[k]);
+    if (word == (entry ? entry->text : std::to_string(k + 1))) found.push_back(&list.items[k]);  // not 01: one spelling
   }
   return found;
 }

@@ -276,6 +276,8 @@ const Wrong wrong[] = {
      "job.yaml:14:", "unknown key 'routing.free_lenght_m'", "did you mean 'free_length_m'?"},
     {"job.yaml", "simulation: {", "dresspack.components.7.count: 2\nsimulation: {",
      "job.yaml:14:", "'7' of dresspack.components.7.count is not an item", "items count from 1 to 1"},
+    {"job.yaml", "simulation: {", "dresspack.data_sheet: 7 x 0.5 mm2\nsimulation: {",
+     "job.yaml:14:", "data_sheet describes a cable, and stands among the keys of a hose", "write 'cable: {name: NAME"},
     {"job.yaml", "simulation: {", "motion.program: spot.mod\nsimulation: {", "job.yaml:", "(it has steps and program)",
      "keep one of them"},
     {"job.yaml", "", std::string("PK\x03\x04 a spreadsheet"), "job.yaml:1:1: error: ", "holds no job", "; "},

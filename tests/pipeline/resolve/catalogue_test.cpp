@@ -176,7 +176,7 @@ TEST_CASE("set: items of a list count from 1") {
         "--set motion.steps.4.dwell_s=1: error: '4' of motion.steps.4.dwell_s is not an item of the list; "
         "items count from 1 to 3");
   CHECK(set_error("motion.steps.0.dwell_s=1").find("items count from 1 to 3") != std::string::npos);
-  for (const char* word : {"first", "1x", "+1", "-1", "18446744073709551617"})
+  for (const char* word : {"first", "1x", "01", "+1", "-1", "18446744073709551617"})
     CHECK(set_error(fmt::format("motion.steps.{}.dwell_s=1", word)).find("items count from 1 to 3") !=
           std::string::npos);
 }
