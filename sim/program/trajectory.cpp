@@ -70,6 +70,12 @@ std::string answer(const ImportOptions& options, const char* name) {
   return found == options.values.end() ? "" : found->second;
 }
 
+/// Returns the number in a cell of a table. A comma in a cell separates no cells: it is a decimal comma.
+std::optional<double> number_in_cell(std::string text) {
+  if (const std::size_t comma = text.find(','); comma != text.npos) text[comma] = '.';
+  return number_in(text);
+}
+
 /// Reader of a file of columns: the header, then the rows.
 class Columns {
  public:
@@ -106,7 +112,7 @@ class Columns {
     std::vector<std::size_t> at;
     bool points = false;
     for (const auto& [name, line, column] : cells) {
-      if (number_in(name))
+      if (number_in_cell(name))
         return refuse("begins with numbers", "put a line of names first: time, axis 1, axis 2 and so on");
       const ColumnName read = column_name(name);
       if (read.kind == ColumnName::Kind::time && !time_) {
@@ -156,13 +162,13 @@ class Columns {
     if (cells.size() != names_.size())
       return problems_.add(where(), fmt::format("has {} cells (there are {} names)", cells.size(), names_.size()),
                            "give one number per name");
-    if (std::none_of(cells.begin(), cells.end(), [](const auto& cell) { return number_in(cell.text); }))
+    if (std::none_of(cells.begin(), cells.end(), [](const auto& cell) { return number_in_cell(cell.text); }))
       return problems_.add(where(), "has no numbers",
                            "put one line of names first, then a row of joint angles per line");
     Row made{number_, {}, {}};
     bool whole = true;
     const auto number = [&](std::size_t column) {
-      const auto value = number_in(cells[column].text);
+      const auto value = number_in_cell(cells[column].text);
       if (!value)
         problems_.add(where(), fmt::format("has no number in cell {} ({})", column + 1, names_[column]),
                       "write a finite number");

@@ -40,6 +40,14 @@ TEST_CASE("columns: the unit comes from the names, where neither they nor the an
         Approx(-98 * degree).epsilon(rounding));
 }
 
+TEST_CASE("columns: decimal commas in cells that semicolons separate") {
+  const Reading read = columns("time;a1 [deg];a2 [deg]\n0,0;-90,5;1e1\n0,5;0,25;10\n");
+  REQUIRE(read.problems.empty());
+  CHECK(read.move(0).target.joints[0] == Approx(-90.5 * degree).epsilon(rounding));
+  CHECK(read.move(1).target.joints[0] == Approx(0.25 * degree).epsilon(rounding));
+  CHECK_FALSE(columns("time;a1 [deg]\n0;1,000,5\n").problems.empty());
+}
+
 TEST_CASE("columns: the axes stand in the order of their names") {
   const std::vector<double> expected{10 * degree, 20 * degree, 30 * degree};
   CHECK(columns("time,joint_3,joint_2,joint_1\n0,30,20,10\n").move(0).target.joints == expected);
