@@ -11,6 +11,7 @@
 #include "pipeline/base/csv_rows.h"
 #include "pipeline/base/exported.h"
 #include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/warning_words.h"
@@ -188,8 +189,9 @@ class Export {
     for (const Column needed : {robot, installed, replaced})
       if (!at_[needed])
         throw InputError(reader_.where(titles_.front()),
-                         fmt::format("the table has no column '{}'", columns()[needed].name),
-                         fmt::format("name one of its columns so ({})", joined(columns()[needed].titles, ", ")));
+                         fmt::format("the table has no column '{}' (it has {})", columns()[needed].name,
+                                     joined(mapped(titles_, &CsvCell::text), ", ")),
+                         "add it, or rename one");
     if (!at_[job] && job_.empty()) find_job();
   }
 

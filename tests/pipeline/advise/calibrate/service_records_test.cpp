@@ -110,7 +110,8 @@ TEST_CASE("service records: what cannot be used is refused at its place, with a 
   const std::vector<std::array<std::string, 3>> cases{
       {"", "plant.csv:1:1: error: holds no table", "write the line"},
       {titles, "plant.csv:1:1: error: has titles and no row", "row per dresspack"},
-      {"robot,installed\nA,2024-01-01\n", "plant.csv:1:1: error: the table has no column 'replaced'", "replacedon"},
+      {"robot,installed\nA,2024-01-01\n", "plant.csv:1:1: error: the table has no column 'replaced'",
+       "(it has robot, installed); add it, or rename one"},
       {"robot,roboter,installed,replaced\n", "plant.csv:1:7: error: columns 'robot' and 'roboter' both mean robot",
        "rename"},
       {titles + "A,a,03/02/2024,,\n", "plant.csv:2:5: error: '03/02/2024' is no date", "YYYY-MM-DD"},
