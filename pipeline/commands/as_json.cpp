@@ -11,6 +11,7 @@
 #include "pipeline/base/warning_words.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/settings/document.h"
+#include "pipeline/study/build_graph.h"
 #include "pipeline/study/row_warnings.h"
 
 namespace dresslife::pipeline {
@@ -84,11 +85,9 @@ Json json_of(const Node& document) {
   return object;
 }
 
-void JobList::add(const std::string& job, const std::string& state) {
-  if (!json_) return print(shown(fmt::format("{:<40} {}\n", job, state)));
-  const std::size_t end = std::min(state.find("  "), state.size());  // before the reason
-  const std::size_t reason = std::min(state.find_first_not_of(' ', end), state.size());
-  jobs_.push_back({{"job", job}, {"state", state.substr(0, end)}, {"reason", text_or_null(state.substr(reason))}});
+void JobList::add(const std::string& job, const StateWords& words) {
+  if (!json_) return print(shown(fmt::format("{:<40} {}\n", job, words.line())));
+  jobs_.push_back({{"job", job}, {"state", words.state}, {"reason", text_or_null(words.reason)}});
 }
 
 void JobList::end(const std::string& words) const { print(json_ ? Json(jobs_).text + "\n" : words); }

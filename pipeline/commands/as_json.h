@@ -10,6 +10,7 @@ namespace dresslife::pipeline {
 
 struct Node;
 struct RankingRow;
+struct StateWords;
 struct Warning;
 
 /// Returns a list with one object per row of a CSV text of this program, with the titles of the columns as keys. Cells with
@@ -30,8 +31,7 @@ Json json_of(const Node& document);
 class JobList {
  public:
   explicit JobList(bool json) : json_(json) {}
-  /// state: JobState::words(). In JSON, the reason after its spaces is a value of its own.
-  void add(const std::string& job, const std::string& state);
+  void add(const std::string& job, const StateWords& words);
   /// Prints `words` below the lines; in JSON prints the list instead.
   void end(const std::string& words) const;
 

@@ -127,7 +127,7 @@ int make_rest(const StudyRequest& request, StudyState& standing, const RunOption
     if (!study.jobs[k].failure.empty()) continue;
     remove_unkept(states[k], places.job(study.jobs[k].name));
     if (!states[k].damaged.empty())
-      progress.note(fmt::format("{}: {}", places.job(study.jobs[k].name).string(), states[k].words()));
+      progress.note(fmt::format("{}: {}", places.job(study.jobs[k].name).string(), states[k].words().line()));
   }
   int started = 0;
   if (!remembered && count_left(study, states) > 1)

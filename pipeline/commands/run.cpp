@@ -57,7 +57,7 @@ int dry_run(const RunOptions& options) {
     const StudyJob& job = standing.study.jobs[k];
     if (!job.failure.empty()) {
       ++refused;
-      jobs.add(job.name, "refused: " + first_problem(job));
+      jobs.add(job.name, {"refused", first_problem(job)});
     }
     if (!job.failure.empty() || standing.states[k].done()) continue;
     ++to_make;

@@ -17,9 +17,10 @@ int status(const StudyOptions& options) {
   JobList jobs(options.json);
   for (std::size_t k = 0; k < standing.states.size(); ++k) {
     const StudyJob& job = standing.study.jobs[k];
-    const std::string word = job.failure.empty() ? standing.states[k].words() : "failed   " + first_problem(job);
-    done += word == "done";
-    jobs.add(job.name, word);
+    const StateWords words =
+        job.failure.empty() ? standing.states[k].words() : StateWords{"failed", first_problem(job)};
+    done += standing.states[k].done();
+    jobs.add(job.name, words);
   }
   jobs.end(shown(problem_words(standing.study)) +
            fmt::format("{} of {} jobs done\n", done, standing.study.jobs.size()));

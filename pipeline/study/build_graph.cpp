@@ -331,14 +331,16 @@ class Ninja {
 
 }  // namespace
 
-std::string JobState::words() const {
-  if (done()) return "done";
-  if (!failure.empty()) return "failed   " + failure;
+std::string StateWords::line() const { return reason.empty() ? state : fmt::format("{:<8} {}", state, reason); }
+
+StateWords JobState::words() const {
+  if (done()) return {"done"};
+  if (!failure.empty()) return {"failed", failure};
   if (!damaged.empty() && foreign)
-    return fmt::format("foreign  {} was not written by dresslife; move it away, or run with --force", damaged);
-  if (!damaged.empty()) return fmt::format("damaged  {} is not what its stage wrote; run makes it again", damaged);
-  if (!has_results) return "to do";
-  return changed.empty() ? "stale" : "stale    " + changed;
+    return {"foreign", damaged + " was not written by dresslife; move it away, or run with --force"};
+  if (!damaged.empty()) return {"damaged", damaged + " is not what its stage wrote; run makes it again"};
+  if (!has_results) return {"to do"};
+  return {"stale", changed};
 }
 
 StageFiles files_of_stage(std::size_t stage) {

@@ -37,6 +37,15 @@ struct StudyPlaces {
   std::filesystem::path life(const std::string& name) const { return folder / name / "life.h5"; }
 };
 
+/// State of a job in words.
+struct StateWords {
+  std::string
+      state;  ///< "done", "failed", "refused", "damaged", "foreign", "stale" (results of other settings exist), "to do"
+  std::string reason{};  ///< empty: none
+  /// Returns one line: the state and, in a column of its own, the reason.
+  std::string line() const;
+};
+
 /// State of a job.
 struct JobState {
   std::array<std::string, stage_count> recipes;  ///< recipes that the job's receipts must name
@@ -54,9 +63,7 @@ struct JobState {
   Keep keep = Keep::all;
   std::vector<std::size_t> compared;  ///< stages whose bytes were compared, because the file times differ
   bool done() const { return next == stage_count; }
-  /// Returns "done", "failed   WHY", "damaged  life.h5 ...", "foreign  life.h5 ...", "stale" with the changes (results of other
-  /// settings exist), or "to do" (no results exist).
-  std::string words() const;
+  StateWords words() const;
 };
 
 /// Returns the state of every job, read from the study's folder; of a job that cannot run only its last result. Writes no

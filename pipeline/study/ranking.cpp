@@ -356,7 +356,7 @@ std::vector<RankingRow> results_of(const Study& study, const StudyPlaces& places
     if (job.failure.empty() && !states[k].done())
       result.failure = !states[k].failure.empty() ? states[k].failure
                        : states[k].has_last       ? "stale"
-                                                  : states[k].words();
+                                                  : states[k].words().line();
     results.push_back(std::move(result));
   }
   std::vector<RankingRow> rows = sorted_rows(results);

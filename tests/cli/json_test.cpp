@@ -39,15 +39,21 @@ assert json.load(open("nothing.json")) == []
 assert json.load(open("states.json")) == [{"job": row["job"], "state": "done", "reason": None} for row in sorted(rows, key=lambda r: r["job"])]
 for job in json.load(open("stale.json")):
     assert job["state"] == "stale" and "dresspack.mass_kg_per_m" in job["reason"]
+refused = json.load(open("refused.json"))
+assert len(refused) == 2
+for job in refused:
+    assert job["state"] == "refused" and "dresspack.mass_kg_per_m is -1" in job["reason"]
 )");
   const std::string program = "'" DRESSLIFE_BIN_DIR "/dresslife'";
   const Outcome outcome = run_shell(
-      scratch, "set -e; " + program + " run study.yaml --json --quiet -n >dry.json; " + program +
-                   " run study.yaml --json --quiet >ranking.json; " + program +
-                   " run study.yaml --json --quiet -n >nothing.json; " + program + " show job.yaml --json >job.json; " +
-                   program + " check job.yaml --set dresspack.bending_stiffness_Nm2=0.03 --json >check.json; " +
-                   program + " status study.yaml --json >states.json; " + program +
-                   " status study.yaml --set dresspack.mass_kg_per_m=0.21 --json >stale.json; python3 compare.py");
+      scratch,
+      "set -e; " + program + " run study.yaml --json --quiet -n >dry.json; " + program +
+          " run study.yaml --json --quiet >ranking.json; " + program +
+          " run study.yaml --json --quiet -n >nothing.json; " + program + " show job.yaml --json >job.json; " +
+          program + " check job.yaml --set dresspack.bending_stiffness_Nm2=0.03 --json >check.json; " + program +
+          " status study.yaml --json >states.json; " + program +
+          " status study.yaml --set dresspack.mass_kg_per_m=0.21 --json >stale.json; " + program +
+          " run study.yaml --set dresspack.mass_kg_per_m=-1 --json --quiet -n >refused.json || true; python3 compare.py");
   // No progress. Warnings remain, because they concern the validity of the result.
   std::istringstream lines(outcome.err);
   for (std::string line; std::getline(lines, line);) CHECK(line.find(": warning: ") != std::string::npos);

@@ -969,7 +969,7 @@ TEST_CASE("a misspelt option is answered with the nearest one, a dry run names j
   scratch.write("study.yaml", "base: job.yaml\nvary:\n  routing.free_length_m: [2.0, 2100]\n");
   const Outcome dry = run(scratch, "dresslife", "run -n study.yaml");
   CHECK(dry.status == 1);
-  CHECK_THAT(dry.out, Contains(" refused: study.yaml:3:32: error: routing.free_length_m is 2100 (its size must be ") &&
+  CHECK_THAT(dry.out, Contains(" refused  study.yaml:3:32: error: routing.free_length_m is 2100 (its size must be ") &&
                           Contains("1 of 2 jobs to make; nothing was run\n"));
 }
 

@@ -69,7 +69,7 @@ class Bench {
   }
   std::vector<std::string> words(const Study& of) const {
     std::vector<std::string> said;
-    for (const JobState& state : states_of(of, places_)) said.push_back(state.words());
+    for (const JobState& state : states_of(of, places_)) said.push_back(state.words().line());
     return said;
   }
   /// Returns the calls of a job's stages in their order.
