@@ -120,7 +120,7 @@ int make_first_of_same(const Study& study, const StudyPlaces& places, const RunO
 }  // namespace
 
 int make_rest(const StudyRequest& request, StudyState& standing, const RunOptions& options) {
-  const auto& [study, places, states, remembered, look_ups, digests] = standing;
+  const auto& [study, places, states, remembered, rated, look_ups, digests] = standing;
   Progress progress(study.name, options.quiet);
   if (!remembered) share_stages(study, places, standing.states);
   for (std::size_t k = 0; k < states.size(); ++k) {

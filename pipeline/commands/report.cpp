@@ -26,8 +26,9 @@ namespace fs = std::filesystem;
 int report(const StudyOptions& options) {
   const StudyRequest request = request_of(options);
   folder_of_results(request, options);  // refuses a study without any
-  const StudyState standing = standing_study(request);
-  const auto& [study, places, states, remembered, look_ups, digests] = standing;
+  StudyState standing = standing_study(request);
+  if (standing.rated) read_jobs(standing);
+  const auto& [study, places, states, remembered, rated, look_ups, digests] = standing;
   std::vector<RankingRow> rows = ranking_of(study, places, states);
   add_relative_lives(study, places, nullptr, rows);
   print(options.json ? json_of(rows).text + "\n" : shown(ranking_table(rows, screen_columns())));

@@ -92,9 +92,10 @@ int run(const RunArguments& options) {
   if (begun) standing = standing_of(request);
   if (standing.remembered && !standing.all_done()) standing = expanded(request);
   if (!begun) look_again(standing);
+  if (standing.rated) read_jobs(standing);
   const int executed = make_rest(request, standing, options);
   report_changes(standing.study, standing.places, standing.states);
-  const auto& [study, places, states, remembered, look_ups, digests] = standing;
+  const auto& [study, places, states, remembered, rated, look_ups, digests] = standing;
   const bool any =
       std::any_of(study.jobs.begin(), study.jobs.end(), [](const StudyJob& job) { return job.failure.empty(); });
   if (!options.quiet && any)

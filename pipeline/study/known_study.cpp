@@ -50,7 +50,7 @@ std::string digest_of(const StudyRequest& request) {
 
 std::string noted(const std::string& found) { return found == "yes" || found == "no" ? found : xxh3(found); }
 
-constexpr std::string_view first_line = "dresslife study 3";
+constexpr std::string_view first_line = "dresslife study 4";
 
 /// Returns whether the search noted in a line still has the same result.
 bool finds_the_same(Words& line) {
@@ -88,6 +88,8 @@ std::optional<StudyState> recalled(const StudyRequest& request, const StudyPlace
       if (!finds_the_same(lines)) return std::nullopt;
     } else if (what == "keep") {
       standing.study.keep = static_cast<Keep>(lines.number<int>('\n'));
+    } else if (what == "rated") {
+      standing.rated = lines.number<int>('\n') != 0;
     } else if (what == "varied") {
       standing.study.varied.emplace_back(lines.until('\n'));
     } else if (what == "value") {
@@ -122,6 +124,9 @@ std::optional<std::string> text_of(const StudyRequest& request, const StudyState
     text += fmt::format("digest {} {}\n", digest, file.string());
   }
   text += fmt::format("keep {}\n", static_cast<int>(standing.study.keep));
+  text += fmt::format("rated {}\n", static_cast<int>(std::ranges::any_of(standing.study.jobs, [](const StudyJob& job) {
+                        return job.job && has_ratings(*job.job);
+                      })));
   for (const std::string& key : standing.study.varied) {
     if (!fits_a_line(key)) return std::nullopt;
     text += fmt::format("varied {}\n", key);
@@ -129,8 +134,7 @@ std::optional<std::string> text_of(const StudyRequest& request, const StudyState
   for (std::size_t k = 0; k < standing.states.size(); ++k) {
     const StudyJob& job = standing.study.jobs[k];
     const JobState& state = standing.states[k];
-    // A job with ratings needs its own settings to derive the rigs, and the note does not contain them.
-    if (!job.failure.empty() || (job.job && has_ratings(*job.job))) return std::nullopt;
+    if (!job.failure.empty()) return std::nullopt;
     const FileState settings = state_of(settings_of(standing.places, job.name));
     text +=
         fmt::format("job {} {} {} {} {} {} {} {} {}\n", job.name, state.settings, state.recipes[0], state.recipes[1],

@@ -29,6 +29,7 @@ struct StudyState {
   StudyPlaces places;
   std::vector<JobState> states;
   bool remembered = false;  ///< from the note, not expanded: its jobs have names but no settings
+  bool rated = false;       ///< (remembered) whether a job has ratings, whose rigs need its settings: read_jobs()
   // Only of an expanded study:
   Sources::LookUps look_ups{};
   Digests digests{};  ///< digests of the programs and of the files beside the jobs

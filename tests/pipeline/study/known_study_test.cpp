@@ -93,6 +93,22 @@ TEST_CASE("known study: its jobs are read back as the study expands them") {
   CHECK(known.study.jobs[0].job != known.study.jobs[2].job);
 }
 
+TEST_CASE("known study: jobs with ratings are remembered, too, and say so") {
+  Bench bench;
+  bench.run();
+  CHECK_FALSE(bench.standing().rated);
+  bench.scratch().write("study.yaml",
+                        "base: job.yaml\njobs:\n  rated:\n    dresspack.ratings: [{rig: {kind: torsion, "
+                        "twist_deg_per_m: 360}, cycles: 1e+6, source: data sheet}]\n");
+  bench.run();
+  StudyState known = bench.standing();
+  REQUIRE(known.remembered);
+  CHECK(known.rated);
+  read_jobs(known);
+  CHECK(known.study.jobs.front().job->dresspacks.front().dresspack.ratings.size() == 1);
+  check_same(known, expanded(bench.request()));
+}
+
 TEST_CASE("known study: a touched file changes nothing, a changed one all that depends on it") {
   Bench bench;
   bench.run();
