@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -15,6 +16,7 @@
 #include "pipeline/study/build_graph.h"
 #include "pipeline/study/folder_source.h"
 #include "pipeline/study/relative_life.h"
+#include "pipeline/study/run_share.h"
 #include "pipeline/study/shared_stages.h"
 
 namespace dresslife::pipeline {
@@ -75,17 +77,34 @@ std::size_t count_left(const Study& study, const std::vector<JobState>& states) 
   return left;
 }
 
+/// (kind) number of stages that the graph of a study starts.
+std::array<std::size_t, stage_count> stages_left(const Study& study, const std::vector<JobState>& states) {
+  std::array<std::size_t, stage_count> counts{};
+  const std::vector<Makers> makers = makers_of(study, states);
+  for (std::size_t k = 0; k < states.size(); ++k)
+    for (std::size_t stage = states[k].next; study.jobs[k].failure.empty() && stage < stage_count; ++stage)
+      counts[stage] += makers[k][stage] == k;
+  return counts;
+}
+
 /// Runs the written graph. left: number of jobs in it. Returns the number of started stages.
 int build_rest(const Study& study, const StudyPlaces& places, const RunOptions& options, std::size_t left,
                std::vector<JobState>& states, const Digests& before, Progress& progress) {
   share_cores(options, left);
   Unkept unkept(study, places, states);
+  RunShare run(stages_left(study, states));
+  const Progress::Clock::time_point begin = Progress::Clock::now();
+  double most = 0;
   const BuildResult built = run_build_graph(places, options.jobs, [&](const BuildEvent& event) {
-    const double share = event.total > 0 ? static_cast<double>(event.finished) / static_cast<double>(event.total) : 0;
+    const double seconds = std::chrono::duration<double>(Progress::Clock::now() - begin).count();
+    const double share = run.ended(event.stage, seconds);
+    most = std::max(most, share);
+    const std::string remaining = remaining_words(seconds, 0, share);
     if (options.share_done)
-      options.share_done(share);
+      options.share_done(most);  // it counts as new work when it falls
     else
-      progress.show(share, fmt::format("{}/{}  {}", event.finished, event.total, event.what));
+      progress.show(fmt::format("{:5.1f} %{}{}  {}/{}  {}", 100 * share, remaining.empty() ? "" : ", ", remaining,
+                                event.finished, event.total, event.what));
     unkept.ended(event.what);
   });
   progress.clear();

@@ -105,7 +105,8 @@ void write_build_graph(const Study& study, const StudyPlaces& places, const std:
 
 struct BuildEvent {
   int finished = 0, total = 0;
-  std::string what;  ///< "sim easy"
+  std::string what;       ///< "sim easy"
+  std::size_t stage = 0;  ///< index of "sim"
 };
 
 struct BuildResult {
