@@ -13,14 +13,17 @@
 #include <cstdio>
 #include <cstdlib>
 #include <map>
+#include <mutex>
 #include <sstream>
 #include <system_error>
 #include <unordered_map>
 
 #include "pipeline/base/joined.h"
+#include "pipeline/base/threads.h"
 #include "pipeline/files/checksum.h"
 #include "pipeline/files/receipt.h"
 #include "pipeline/resolve/job_text.h"
+#include "pipeline/resolve/sources.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -63,17 +66,20 @@ Programs found_programs(const StudyPlaces& places) {
   return programs;
 }
 
-/// Sets the recipe of each stage: digests of the settings, files and program that the stage reads.
-void set_recipes(JobState& state, const Job& job, const Programs& programs, Digests& digests) {
+/// Sets the recipe of each stage: digests of the settings, files and program that the stage reads. held: guards `digests`. The
+/// texts of the settings take almost all the time and are made without it.
+void set_recipes(JobState& state, const Job& job, const Programs& programs, Digests& digests, std::mutex& held) {
   const std::vector<fs::path> files = files_beside(job);
   std::string all;
   for (std::size_t k = 0; k < stage_count; ++k) {
     const std::string text = part_text(job, stages[k].part);
+    const std::lock_guard lock(held);
     state.recipes[k] =
         recipe_of(text, stages[k].part == JobPart::sim ? files : std::vector<fs::path>{}, programs[k], digests);
     all += text;
   }
   constexpr std::size_t digits = 12;
+  const std::lock_guard lock(held);
   state.settings = recipe_of(all, files, {}, digests).substr(0, digits);
 }
 
@@ -427,15 +433,20 @@ std::vector<JobState> states_of(const Study& study, const StudyPlaces& places) {
 std::vector<JobState> states_of(const Study& study, const StudyPlaces& places, Digests& digests) {
   const Programs programs = found_programs(places);
   std::vector<JobState> states(study.jobs.size());
+  std::mutex held;
+  Sources* const sources = Sources::of_this_thread();
+  const std::size_t parts = std::min(thread_count(), states.size());
+  in_parallel(parts, [&](std::size_t part) {
+    const Sources::Guest guest(sources);
+    for (std::size_t k = part; k < states.size(); k += parts)
+      if (study.jobs[k].failure.empty()) set_recipes(states[k], *study.jobs[k].job, programs, digests, held);
+  });
   for (std::size_t k = 0; k < states.size(); ++k) {
-    const StudyJob& job = study.jobs[k];
     states[k].keep = study.keep;
-    if (!job.failure.empty()) {
-      find_last(states[k], places.job(job.name));
-      continue;
-    }
-    set_recipes(states[k], *job.job, programs, digests);
-    look_at(states[k], places.job(job.name));
+    if (study.jobs[k].failure.empty())
+      look_at(states[k], places.job(study.jobs[k].name));
+    else
+      find_last(states[k], places.job(study.jobs[k].name));
   }
   return states;
 }
