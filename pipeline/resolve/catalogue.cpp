@@ -179,8 +179,9 @@ void resolve(Node& entry, const std::string& folder, const Where& job, int depth
   }
   const Node* from = entry.is_map() ? entry.find("from") : nullptr;
   if (const Node* sheet = entry.is_map() && folder == "dresspacks" ? entry.find("data_sheet") : nullptr)
-    throw InputError(sheet->where, "data_sheet describes a cable, and stands among the keys of a hose",
-                     "write 'cable: {name: NAME, data_sheet: ...}' for the cable alone, or an item of components");
+    throw InputError(
+        sheet->where, "data_sheet describes a cable, and stands among the keys of a hose",
+        "write 'cable: {name: NAME, data_sheet: TEXT}' for the cable alone, or give components with this key");
   if (!from && entry.is_map() && entry.find("cable") && folder == "dresspacks") return read_cable(entry, job, depth);
   if (!from && entry.is_map() && entry.find("urdf") && folder == "robots") return read_urdf(entry);
   if (!from) return;
