@@ -94,10 +94,11 @@ void Passage::each_span(const MotionBlock& block, const Shortening::Piece& piece
     }
     const SpanBlock span_block{of_span, pull, motion_.step(), ends};
     std::vector<Evaluation*> all = evaluations(k);
-    const auto others =
-        std::ranges::stable_partition(all, [&](const Evaluation* of) { return !leaves_out(piece, of->samples()); });
-    for (Evaluation* const of : others) of->leave_out(span_block);
-    all.erase(others.begin(), others.end());
+    std::erase_if(all, [&](Evaluation* of) {
+      const bool leaves = leaves_out(piece, of->samples());
+      if (leaves) of->leave_out(span_block);
+      return leaves;
+    });
     const std::vector<std::vector<Evaluation*>> of_thread = shared_out(all);
     pipeline::in_parallel(threads_, [&](std::size_t part) {
       if (!of_thread[part].empty()) use(of_thread[part], span_block);

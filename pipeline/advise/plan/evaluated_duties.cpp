@@ -747,7 +747,8 @@ PlantLives::PlantLives(const DutyFile& file, const Study& study, const std::vect
 PlantLives::~PlantLives() = default;
 
 std::map<std::string, LifeTable> PlantLives::in(std::size_t worlds, std::size_t draws, bool keep_draws) const {
-  const auto& [tasks, all, shares, prepared] = *read_;
+  const std::vector<Task>& tasks = read_->tasks;
+  const auto& all = read_->all;
   std::map<std::string, LifeTable> tables;
   std::vector<LifeTable*> of_task;  // (duty)
   SharedValues shared(worlds);
@@ -764,7 +765,7 @@ std::map<std::string, LifeTable> PlantLives::in(std::size_t worlds, std::size_t 
   // draws and inside over duties, so that the data of one draw stay in the processor's cache.
   const std::size_t threads = std::min(thread_count(), draws);
   in_parallel(threads, [&](std::size_t part) {
-    DrawDamage plant(*shares, prepared, worlds);
+    DrawDamage plant(*read_->shares, read_->prepared, worlds);
     for (std::size_t d = draws * part / threads; d < draws * (part + 1) / threads; ++d) {
       plant.begin(d);
       for (std::size_t k = 0; k < tasks.size(); ++k) {
