@@ -76,17 +76,19 @@ struct StrainFile {
     std::int32_t span;
     std::vector<double> place;     // base d1, d2, tool d1, d2 [m]
     std::array<double, 3> strain;  // largest, at the base and at the tool clamp; at the last sample, with linear rise
+    std::int32_t dresspack = 0;
   };
-  std::vector<Cable> cables;        // of the job's first component
+  std::vector<Cable> cables;        // of its dresspack's first component
   double room = 0;                  // of each cable [m]; 0: no table
   double twist = 0;                 // of all segments at the last sample, with linear rise [rad/m]
   std::vector<double> hose_moment;  // (span) at the last sample, as the strains
   double varied_force = 0;          // of each cable at another friction on the hose [N]; 0: no variation
   std::uint32_t varied_sample = 40;
-  double curvature = 0;        // about d1 at sample 20 and, in the other direction, 60; otherwise 0 [1/m]
-  double curvature_d2 = 0;     // with curvature about d1, of the first segment alone, at sample 20 [1/m]
-  std::vector<Rubbed> rubbed;  // by link_4, 5 mm long, in one sector of 5 degrees; empty: no table
-  double last_segment = 0.4;   // its length; the whole dresspack is 0.6 m longer [m]
+  double curvature = 0;                  // about d1 at sample 20 and, in the other direction, 60; otherwise 0 [1/m]
+  double curvature_d2 = 0;               // with curvature about d1, of the first segment alone, at sample 20 [1/m]
+  std::vector<Rubbed> rubbed;            // by link_4, 5 mm long, in one sector of 5 degrees; empty: no table
+  double last_segment = 0.4;             // its length; the whole dresspack is 0.6 m longer [m]
+  std::vector<std::int32_t> dresspacks;  // (segment); empty: one dresspack
 };
 
 /// 0, a, -a, 0 at samples 0, 20, 60, 100: one closed cycle of amplitude a.
@@ -149,6 +151,11 @@ void write_strain(const std::filesystem::path& path, const StrainFile& f) {
   }
   file.append("/segment/length", std::span<const double>(lengths));
   file.append("/segment/wires_at", std::vector<double>{0, 0.2, 0.45, 0.8});  // the first at its clamp
+  if (!f.dresspacks.empty()) {
+    file.append("/segment/dresspack", std::span<const std::int32_t>(f.dresspacks));
+    file.set_axis("dresspack", 2);
+    file.append("/dresspack/name", std::vector<std::string>{"", "other"});
+  }
   file.append("/deformation/curvature", std::span<const double>(pairs));
   file.append("/deformation/twist", std::span<const double>(twists));
   file.append("/deformation/elongation", std::span<const double>(rows));
@@ -187,7 +194,7 @@ void write_strain(const std::filesystem::path& path, const StrainFile& f) {
     for (std::size_t k = 0; k < f.cables.size(); ++k) {
       file.append("/cable/name", std::vector<std::string>{fmt::format("cable {}", k + 1)});
       file.append("/cable/span", std::vector<std::int32_t>{f.cables[k].span});
-      file.append("/cable/dresspack", std::vector<std::int32_t>{0});
+      file.append("/cable/dresspack", std::vector<std::int32_t>{f.cables[k].dresspack});
       file.append("/cable/component", std::vector<std::int32_t>{0});
       file.append("/cable/clamp_place", std::span<const double>(f.cables[k].place));
       if (f.room == 0) continue;
@@ -412,6 +419,20 @@ TEST_CASE("life.h5: forces of the cables by span, and the span where they ask mo
   CHECK(std::ranges::any_of(run(folder, f, job).notes.warnings, [](const pipeline::Warning& warning) {
     return warning.line().find("'cable 2' is compressed between the base clamp and clamp 1 with") != std::string::npos;
   }));
+  {  // in a second dresspack, whose first span is the third of the file
+    pipeline::Job two = job;
+    two.dresspacks.push_back(job.dresspacks[0]);
+    two.dresspacks[1].name = "other";
+    two.dresspacks[0].routing.free_length = 0.6, two.dresspacks[1].routing.free_length = 0.4;
+    StrainFile third = f;
+    third.dresspacks = {0, 0, 0, 1};
+    third.cables[2].span = 2, third.cables[2].dresspack = 1, third.hose_moment.push_back(1);
+    std::swap(third.cables[1].strain, third.cables[2].strain);
+    CHECK(std::ranges::any_of(run(folder, third, two).notes.warnings, [](const pipeline::Warning& warning) {
+      return warning.line().find("'cable 3' is compressed between the base clamp and clamp 1 with") !=
+             std::string::npos;
+    }));
+  }
   const auto of_others = [&] {
     std::string words;
     for (const pipeline::Warning& warning : run(folder, f, job).notes.warnings)
