@@ -44,6 +44,7 @@ bool written_without_run(const Request& request, const pipeline::StageCall& call
     throw pipeline::InputError(job.motion.where, "a prescribed deformation has no cell to preview (nothing moves)",
                                "run it, and look at its page");
   if (request.exercise) job.motion = sim::exercise(job.robot);
+  job.motion.longest_wait = sim::settled_after;
   if (request.bracket_mm)
     for (pipeline::MountedDresspack& mounted : job.dresspacks)
       mounted.routing.longest_bracket = *request.bracket_mm / 1e3;

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -118,6 +119,8 @@ struct Motion {
   /// Warnings about skipped instructions of a program that may move the robot, and about numbers that seem to be in another unit
   /// (pipeline/resolve/plausible_job.h).
   std::vector<Warning> left_out;
+  /// Longest standstill that is simulated, no key: the checks shorten longer ones (sim/run/clamp_path.h) [s].
+  double longest_wait = std::numeric_limits<double>::infinity();
   Where where;
 
   /// Returns whether the deformation is given, so that no simulation is needed.

@@ -321,6 +321,39 @@ void JointMotion::hold(std::size_t axis) {
   }
 }
 
+void JointMotion::shorten_waits(double longest) {
+  const auto stands = [](const MotionPiece& piece) {
+    return piece.velocity_before.isZero(0) && piece.velocity_change.isZero(0) && piece.acceleration.isZero(0) &&
+           piece.jerk.isZero(0);
+  };
+  std::vector<MotionPiece> kept;
+  double stood = 0, missing = 0;
+  for (std::size_t k = 0; k < pieces_.size(); ++k) {
+    MotionPiece& piece = pieces_[k];
+    piece.start -= missing;
+    if (k + 1 == pieces_.size()) {  // the standstill after the end
+      duration_ = piece.start;
+      kept.push_back(std::move(piece));
+      break;
+    }
+    stood = stands(piece) ? stood + piece.duration : 0;
+    if (const double more = std::min(stood - longest, piece.duration); more > 0) {
+      piece.duration -= more;
+      missing += more;
+      cuts_.push_back({piece.start + piece.duration, more});
+    }
+    if (piece.duration > 0) kept.push_back(std::move(piece));
+  }
+  pieces_ = std::move(kept);
+}
+
+double JointMotion::program_time(double time) const {
+  double missing = 0;
+  for (const Cut& cut : cuts_)
+    if (cut.time <= time) missing += cut.missing;
+  return time + missing;
+}
+
 const MotionPiece& JointMotion::piece_at(double time) const {
   const auto after = std::upper_bound(pieces_.begin(), pieces_.end(), time,
                                       [](double t, const MotionPiece& piece) { return t < piece.start; });

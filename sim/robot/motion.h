@@ -64,6 +64,11 @@ class JointMotion {
   /// Precondition: axis < axes of the robot.
   void hold(std::size_t axis);
 
+  /// Shortens each standstill that is longer, also one of several successive waits. Precondition: longest > 0 [s].
+  void shorten_waits(double longest);
+  /// Returns the time of the program, with its whole waits, for a time of this motion [s].
+  double program_time(double time) const;
+
   double duration() const { return duration_; }     ///< [s]
   Eigen::VectorXd position(double time) const;      ///< (joint) [rad]
   Eigen::VectorXd velocity(double time) const;      ///< (joint) [rad/s]
@@ -80,6 +85,10 @@ class JointMotion {
   std::vector<MotionPiece> pieces_;  // back to back from time 0; at least one
   std::vector<std::string> step_texts_;
   double duration_ = 0;
+  struct Cut {
+    double time, missing;  // in this motion; of the wait that ends there [s]
+  };
+  std::vector<Cut> cuts_;  // in the order of time
 };
 
 }  // namespace dresslife::sim

@@ -199,7 +199,8 @@ class Previewer {
       if (is_free(span)) pose.clamps.end(static_cast<int>(2 * span) + 1).position = line.back();
     }
     for (const Frame& clamp : listed_clamps(rod_, pose.clamps)) put(clamps, clamp.position);
-    file.append("/time", std::span<const double>(&moment.time, 1));
+    const double time = path_->program_time(moment.time);
+    file.append("/time", std::span<const double>(&time, 1));
     file.append("/segment/position", std::span<const double>(centres));
     file.append("/clamp/position", std::span<const double>(clamps));
     const std::int32_t step = moment.step;
@@ -302,7 +303,7 @@ class Previewer {
       const double missing = longest_[span].way - properties(span).length;
       if (!is_free(span) && missing > most) most = missing, when = longest_[span].time;
     }
-    if (when) file.attribute("refusal_time", *when);
+    if (when) file.attribute("refusal_time", path_->program_time(*when));
   }
 
   const pipeline::Job& job_;

@@ -235,7 +235,7 @@ void Screener::Parts::add_robot(const pipeline::Setup& setup, const RobotPath& p
   const RobotKinematics kinematics(setup.robot);
   std::vector<Eigen::VectorXd> joints;
   const auto add = [&](double time, const Eigen::VectorXd& q) {
-    Moment moment{time, Frames(kinematics.links()), {}};
+    Moment moment{path.program_time(time), Frames(kinematics.links()), {}};
     kinematics.link_frames({q.data(), static_cast<std::size_t>(q.size())}, moment.links);
     moments.push_back(std::move(moment));
     joints.push_back(q);

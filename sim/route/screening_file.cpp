@@ -10,6 +10,7 @@
 #include "pipeline/resolve/job_text.h"
 #include "sim/route/proposal.h"
 #include "sim/route/short_run.h"
+#include "sim/run/clamp_path.h"
 #include "sim/run/other_stiffness.h"
 
 namespace dresslife::sim {
@@ -122,7 +123,8 @@ Verdict verdict_of(Bench& bench, Node document, const Node& changes) {
     for (const pipeline::Entry& change : changes.entries)
       pipeline::set_value(document, change.key, change.value, change.where);
     pipeline::resolve_job(document);
-    const pipeline::Setup setup = pipeline::setup_from(document);
+    pipeline::Setup setup = pipeline::setup_from(document);
+    setup.motion.longest_wait = settled_after;
     if (setup.motion.is_prescribed())
       throw InputError(setup.motion.where, "a prescribed deformation has no routing to screen", "leave it as it is");
     verdict.screening = bench.screen(setup, document);

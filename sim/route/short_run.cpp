@@ -123,7 +123,10 @@ RoutingRun short_run_of(pipeline::Setup setup, int segments, int repeats, bool w
     if (with_bends) short_run.bends = bends.beyond();
     short_run.swing = bends.swing();
     short_run.rubbing = summary.rubbing_power();
-    for (const Check& check : summary.checks) see(short_run.seen, check);
+    for (Check check : summary.checks) {
+      check.time = simulation.path().program_time(check.time);
+      see(short_run.seen, check);
+    }
   } catch (const pipeline::InputError& problem) {
     short_run.refusal = problem.what();
   }

@@ -18,7 +18,8 @@ namespace dresslife::sim {
 
 std::string ClampPath::moment(double time) const {
   const int of = step(time);
-  return fmt::format("at {:.3f} s, program step {} '{}'", time, of + 1, step_texts()[static_cast<std::size_t>(of)]);
+  return fmt::format("at {:.3f} s, program step {} '{}'", program_time(time), of + 1,
+                     step_texts()[static_cast<std::size_t>(of)]);
 }
 
 Frame clamp_frame(const pipeline::Clamp& clamp) {
@@ -278,7 +279,9 @@ std::vector<Vector3> tool_points(const pipeline::Motion& motion) {
 /// Returns the motion as a function of time. Errors: InputError, with the doubts about its program and steps.
 JointMotion motion_in_time(const RunMotion& run, const pipeline::Setup& setup) {
   try {
-    return {run.motion, setup.robot};
+    JointMotion motion(run.motion, setup.robot);
+    motion.shorten_waits(setup.motion.longest_wait);
+    return motion;
   } catch (const pipeline::InputError& error) {
     std::string words = error.what();
     for (const pipeline::Warning& cause : other_maker(setup.motion, setup.robot))  // of the errors that follow
@@ -310,7 +313,7 @@ RobotPath::RobotPath(const pipeline::Setup& setup, const RunMotion& run)
                                             too_fast(run.motion, setup.robot))),
           setup.motion.program.empty() ? std::vector<pipeline::Warning>{}
                                        : pipeline::plausibility_of_steps(run.motion))),
-      note_(note_of(run, motion_.duration())),
+      note_(note_of(run, program_duration())),
       tools_(tool_points(run.motion)) {
   hold_joint(setup);
   mounting_pose_ = motion_.position(0);

@@ -46,8 +46,16 @@ class ClampPath {
   virtual Pose at(double time) const = 0;
   virtual int step(double time) const = 0;  ///< program line, index into step_texts()
   virtual const std::vector<std::string>& step_texts() const = 0;
-  std::string moment(double time) const;  ///< "at 1.2 s, program step 3 'text'"
+  /// Returns the time of the program for a time of this path, in which long waits may be shortened [s].
+  virtual double program_time(double time) const { return time; }
+  double program_duration() const { return program_time(duration()); }  ///< [s]
+  std::string moment(double time) const;  ///< "at 1.2 s, program step 3 'text'", in the time of the program
 };
+
+/// Motion::longest_wait of checks, screenings and proposals [s]. A hose swings at about 2 Hz with a damping ratio of 0.15
+/// (0.06 .. 0.33). After this time its swing has decayed to exp(-0.06 * 2 pi * 2 Hz * 10 s) = 5e-4 or less. It hangs at rest,
+/// and the remainder of a wait changes no check.
+inline constexpr double settled_after = 10;
 
 struct RunMotion;  // sim/program/import.h
 
@@ -60,6 +68,7 @@ class RobotPath final : public ClampPath {
   double duration() const override { return motion_.duration(); }
   Pose at(double time) const override { return pose(motion_.position(time)); }
   int step(double time) const override { return motion_.step(time); }
+  double program_time(double time) const override { return motion_.program_time(time); }
   const std::vector<std::string>& step_texts() const override { return motion_.step_texts(); }
 
   const JointMotion& motion() const { return motion_; }

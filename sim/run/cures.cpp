@@ -389,8 +389,8 @@ std::string relief_remark(const CheckedMotion& motion, const Check& broken) {
 std::string cycle_words(const CheckedMotion& motion, double percent) {
   pipeline::Setup changed = motion.setup;
   changed.motion.acceleration_percent = percent;
-  return fmt::format("a repeat takes {:.1f} s instead of {:.1f} s", path_of(changed)->duration(),
-                     motion.path->duration());
+  return fmt::format("a repeat takes {:.1f} s instead of {:.1f} s", path_of(changed)->program_duration(),
+                     motion.path->program_duration());
 }
 
 /// Returns a slower program that keeps the limit, with the longer repeat; empty: none was found. first: acceleration to try first [%].

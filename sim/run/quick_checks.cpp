@@ -43,6 +43,11 @@ pipeline::Setup with_segments(pipeline::Setup setup, int most) {
   return setup;
 }
 
+pipeline::Setup with_short_waits(pipeline::Setup setup) {
+  setup.motion.longest_wait = settled_after;
+  return setup;
+}
+
 /// The equilibria of a span over the program.
 struct Rests {
   std::vector<Check> checks;
@@ -54,11 +59,11 @@ struct Rests {
 class QuickChecks {
  public:
   explicit QuickChecks(const pipeline::Setup& setup, std::vector<LongestWay> longest = {})
-      : setup_(setup),
+      : setup_(with_short_waits(setup)),
         rod_(rod_of(setup)),
         short_rod_(rod_of(with_segments(setup, short_run_segments))),
         rest_rod_(rod_of(with_segments(setup, rest_segments))),
-        path_(path_of(setup)),
+        path_(path_of(setup_)),
         robot_(dynamic_cast<const RobotPath*>(path_.get())),
         longest_(longest.empty() ? longest_ways(setup, rod_, *path_, setup.simulation.time_step) : std::move(longest)) {
   }
@@ -92,7 +97,7 @@ class QuickChecks {
       found.notes.push_back(
           fmt::format("The short run of the checks ended after {:.3g} s of {:.6g} s, because the program is long "
                       "or the dresspack touches much. `dresslife run` checks all of it",
-                      *found.run.stopped_at, path_->duration()));
+                      *found.run.stopped_at, path_->program_duration()));
     add_rubbing(found.run, found.notes);
     if (found.run.refusal.empty() && !found.run.stopped_at) {
       pipeline::Setup few = with_segments(setup_, short_run_segments);
@@ -492,7 +497,7 @@ class QuickChecks {
         "no pose of the robot in which it was clamped, leave the key out: then the first target counts");
   }
 
-  const pipeline::Setup& setup_;
+  const pipeline::Setup setup_;
   Rod rod_, short_rod_, rest_rod_;
   std::unique_ptr<ClampPath> path_;
   const RobotPath* robot_;
@@ -525,7 +530,7 @@ ShortRun short_run(pipeline::Setup setup, int segments, double useless_below, in
     result.rubbed = std::move(summary.rubbed);
     result.obstacles = std::move(summary.obstacles);
     result.seconds = summary.seconds;
-    result.stopped_at = summary.stopped_at;
+    if (summary.stopped_at) result.stopped_at = simulation.path().program_time(*summary.stopped_at);
     result.periodic = !summary.returns || summary.periodic;
     result.distance = summary.distance;
     result.time_step = summary.time_step;

@@ -58,7 +58,7 @@ void describe_dresspack(RunDescription& description, const pipeline::MountedDres
 Simulation::Simulation(const pipeline::Setup& setup) : setup_(setup), rod_(rod_of(setup_)), path_(path_of(setup_)) {
   if (setup_.simulation.choose_time_step) setup_.simulation.time_step = first_step(setup_.simulation.sample_rate);
   robot_ = dynamic_cast<RobotPath*>(path_.get());
-  check_size(setup_, path_->duration(), rod_.segments());
+  check_size(setup_, path_->program_duration(), rod_.segments());
   description_.samples = intervals(path_->duration(), setup_.simulation.sample_rate) + 1;
   for (const pipeline::MountedDresspack& mounted : setup_.dresspacks) describe_dresspack(description_, mounted);
   for (double& stiffness : description_.bending_stiffness) stiffness *= setup_.simulation.stiffness_factor;
@@ -292,7 +292,7 @@ std::optional<double> Simulation::run_once(World& world, Repeat& repeat, const R
       repeat.rubbed = rubbing.patches(touch);
       repeat.obstacles = touch.obstacles();
     }
-    repeat.seconds = time - left_out;
+    repeat.seconds = (time - left_out) * (time > 0 ? path_->program_time(time) / time : 1);  // with the whole waits
     return stopped ? std::optional(time) : std::nullopt;
   };
   double time = 0;

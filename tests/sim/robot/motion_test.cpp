@@ -459,6 +459,27 @@ TEST_CASE("motion: an axis that is held stands at the middle of its way, and the
   }
 }
 
+TEST_CASE("motion: long waits are shortened, and moves before and behind them stay the same at the program's times") {
+  pipeline::MotionStep block;
+  block.repeat = 2;
+  block.steps = {move_to({1.0}), dwell(30), move_to({0.0}), dwell(7), dwell(6), dwell(2)};
+  const pipeline::Robot robot = robot_with({2}, {4});
+  const JointMotion whole(motion_of({move_to({0.0}), dwell(3), block}), robot);
+  JointMotion cut = whole;
+  cut.shorten_waits(10);
+  // 20 s of 30 s, and 5 s of three successive waits of 15 s; twice. The last wait is missing completely.
+  CHECK(cut.duration() == Approx(whole.duration() - 2 * (20 + 5)));
+  CHECK(cut.program_time(cut.duration()) == Approx(whole.duration()));
+  CHECK(cut.program_time(-1) == -1);
+  for (int k = 0; k <= 1000; ++k) {
+    const double time = cut.duration() * k / 1000, of_program = cut.program_time(time);
+    CHECK(cut.position(time)[0] == Approx(whole.position(of_program)[0]).margin(1e-9));
+    CHECK(cut.velocity(time)[0] == Approx(whole.velocity(of_program)[0]).margin(1e-9));
+  }
+  for (std::size_t k = 1; k < cut.pieces().size(); ++k)
+    CHECK(cut.pieces()[k].start == Approx(cut.pieces()[k - 1].start + cut.pieces()[k - 1].duration));
+}
+
 TEST_CASE("motion: rows of a recording are a spline at rest where two rows are equal") {
   const auto row = [](double angle, double seconds) {
     pipeline::MotionStep step = move_to({angle});

@@ -70,6 +70,29 @@ TEST_CASE("a short run of a long program ends after its share of work, with the 
   CHECK_FALSE(short_run(job, short_run_segments).stopped_at);
 }
 
+TEST_CASE("checks shorten a long wait, check the moves behind it, and state the time of the program") {
+  pipeline::Job job = simple_job();
+  job.simulation.segments = 60;
+  job.motion.steps = {move_to(0), move_to(0.5), dwell_for(20), move_to(1.5), move_to(0)};
+  const QuickFindings shorter = quick_findings(job);
+  CHECK_FALSE(shorter.run.stopped_at);
+  job.motion.steps[2].dwell = 900;  // as above: a short run of all of it is too much work
+  const QuickFindings found = quick_findings(job);
+  CHECK_FALSE(found.run.stopped_at);
+  CHECK(found.run.work == shorter.run.work);
+  REQUIRE(found.checks.size() == shorter.checks.size());
+  REQUIRE_FALSE(found.checks.empty());
+  for (std::size_t k = 0; k < found.checks.size(); ++k)  // times of 900 s are rounded to 1e-13 s
+    CHECK(found.checks[k].value == Approx(shorter.checks[k].value).epsilon(1e-6));
+
+  job.motion.longest_wait = settled_after;
+  const RobotPath path(job);
+  pipeline::Job whole = job;
+  whole.motion.longest_wait = 1e9;
+  CHECK(path.duration() < path.program_duration() - 889.9);
+  CHECK(path.moment(path.duration()) == RobotPath(whole).moment(RobotPath(whole).duration()));
+}
+
 TEST_CASE("a changed routing is checked only until a limit decides") {
   const pipeline::Job job = swinging_job(1.2);
   const auto smallest = [](const ShortRun& run) {
