@@ -495,18 +495,28 @@ std::string plain(const std::string& text) { return lower_case(trimmed(text)); }
 constexpr const char* example_line =
     "7 x 0.5 mm2, class 6, wire 0.1 mm, lay length 60 mm, outer diameter 8.2 mm, jacket PUR 1.1 mm";
 
-/// Returns "write '7 x 0.518 mm2' for AWG 20" for 7 x AWG 20, "write '4 x 2.5 mm2'" for 2.5 x 4 mm2 and 4 x 2.5 mm; otherwise an
+/// Returns "write '4 x 2 x 0.129 mm2, wire 0.153 mm' for AWG 26 of 7 wires" for 4x2xAWG26/7, "write '4 x 2.5 mm2'" for 2.5 x 4 mm2 and 4 x 2.5 mm; otherwise an
 /// empty text.
 std::string meant_section(const std::string& phrase) {
-  static const std::regex gauge(R"((\d+) *[x*g]? *(?:awg *(\d+)|(\d+) *awg))"),
+  static const std::regex gauge(
+      R"((?:(\d+)(?: *[x*g] *| +|(?=awg))(?:\(? *(\d+) *[x*] *)?)?(?:awg *(\d+)|(\d+) *awg)(?: */ *([1-9]\d*))? *\)?)"),
       other_unit(R"((\d+(?: *[x*] *\d+)?) *[x*g] *([\d.]+) *(?:mm)?)"),
       exchanged(R"((\d*\.\d+) *[x*g] *(\d+) *(?:mm2|mm\^2|mm²|qmm|sqmm|mm)?)");
   std::smatch found;
   if (std::regex_match(phrase, found, gauge)) {
-    const std::string number = found[2].matched ? found[2] : found[3];
-    return fmt::format("write '{} x {:.3g} mm2' for AWG {}", found[1].str(), square_mm_of_awg(std::stod(number)),
-                       number);
+    const std::string number = found[3].matched ? found[3] : found[4];
+    const double section = square_mm_of_awg(std::stod(number));
+    std::string wire, of_wires;
+    if (found[5].matched) {
+      wire = fmt::format(", wire {:.3g} mm", 2 * std::sqrt(section / std::stod(found[5]) / pi));
+      of_wires = fmt::format(" of {} wires", found[5].str());
+    }
+    return fmt::format("write '{} x {}{:.3g} mm2{}' for AWG {}{}{}", found[1].matched ? found[1].str() : "CORES",
+                       found[2].matched ? found[2].str() + " x " : "", section, wire, number, of_wires,
+                       found[1].matched ? "" : ", with the number of cores");
   }
+  if (phrase.find("awg") != std::string::npos)
+    return "write 'CORES x N mm2' with the number of cores and the cross-section of this gauge (AWG) in mm2";
   if (std::regex_match(phrase, found, exchanged))
     return fmt::format("write '{} x {} mm2': the number of cores comes first", found[2].str(), found[1].str());
   if (!std::regex_match(phrase, found, other_unit)) return "";

@@ -262,6 +262,12 @@ TEST_CASE("a data sheet's line takes the sections of shops, and proposes what ot
   CHECK_THAT(refused("4x2.5 + 2x(2x0.5) mm2"),
              Catch::Contains("a data sheet has one kind of cores: write '4x2.5 mm2' alone"));
   CHECK_THAT(refused("32 x 0.1 mm"), Catch::Contains("or 'wire 0.1 mm' if those are the wires of a core"));
+  for (const char* pairs : {"4x2xAWG26/7", "4 x (2 x AWG 26/7) shielded", "4x2x26AWG/7"})
+    CHECK_THAT(refused(pairs), Catch::Contains("write '4 x 2 x 0.129 mm2, wire 0.153 mm' for AWG 26 of 7 wires"));
+  CHECK_THAT(refused("4x2xAWG26"), Catch::Contains("write '4 x 2 x 0.129 mm2' for AWG 26"));
+  for (const char* gauge : {"AWG26", "26 AWG", "26AWG"})
+    CHECK_THAT(refused(gauge), Catch::Contains("write 'CORES x 0.129 mm2' for AWG 26, with the number of cores"));
+  CHECK_THAT(refused("3 x AWG 1/0"), Catch::Contains("write 'CORES x N mm2' with the number of cores"));
   CHECK_THAT(refused("4G AWG 14"), Catch::Contains("write '4 x 2.08 mm2' for AWG 14"));
   CHECK_THAT(refused("4 x 2.5 mm2, wire 0.1"),
              Catch::Contains("'wire 0.1' of a data sheet is not understood; write 'wire 0.1 mm'"));
