@@ -70,10 +70,16 @@ std::string joint_slip(const pipeline::Motion& motion, const pipeline::Robot& ro
         try_one(fmt::format("the angles of {} and {} are exchanged", axes[i].name, axes[k].name),
                 [i, k](auto& joints) { std::swap(joints[i], joints[k]); });
   }
-  if (farthest > turns)
-    try_one("the angles are degrees, read as radians", [](auto& joints) {
-      for (double& angle : joints) angle *= std::numbers::pi / 180;
-    });
+  // Of a program that has radians elsewhere, only the targets that turn too far are degrees.
+  for (const double least : {0.0, turns})
+    if (farthest > turns && found.empty())
+      try_one(motion.steps.front().where.file.ends_with(".script")
+                  ? fmt::format("the angles are degrees, read as radians (write d2r({0:g}) for {0:g})", farthest)
+                  : "the angles are degrees, read as radians",
+              [least](auto& joints) {
+                if (std::ranges::any_of(joints, [&](double angle) { return std::abs(angle) > least; }))
+                  for (double& angle : joints) angle *= std::numbers::pi / 180;
+              });
   return found.size() == 1 ? found.front() : "";
 }
 
