@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <map>
 
+#include "pipeline/base/constants.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/cable/believable.h"
 #include "pipeline/cable/bend_limit.h"
@@ -69,7 +71,8 @@ std::string cable_key(const CableFacts& facts, const char* key) {
 
 Cure cure_of(const CableFacts& facts, const pipeline::CableForce& cable, bool sticks, bool compressed,
              double acceleration) {
-  const double limit = pipeline::believable_share * cable.strength(),
+  // A hose for air or water has no known breaking force. No force in it is too large then, and its slack is not the cause.
+  const double limit = cable.strength() > 0 ? pipeline::believable_share * cable.strength() : infinity,
                slack = facts.slack_factor * facts.component->laying.slack / 100;
   if (sticks) return {"it sticks to the hose (strain.slip of its level is stick)", "strain.slip: friction"};
   if (!facts.has_room)
@@ -79,7 +82,7 @@ Cure cure_of(const CableFacts& facts, const pipeline::CableForce& cable, bool st
   // Includes the straight hose, for which pipeline::slack_warnings() warns.
   const double most = std::min(0.0, facts.least_gain) + pipeline::excess_at_force(cable, limit, facts.room);
   if (!pipeline::lies_loose(*facts.dresspack, *facts.component))
-    return held_cure(facts, pipeline::inner_radius(*facts.dresspack).has_value(), least, most);
+    return held_cure(facts, pipeline::inner_radius(*facts.dresspack).has_value(), least, std::isinf(most) ? -1 : most);
   const std::string room = fmt::format("it has {:.2g} mm of room and {:.3g} % of slack", 1e3 * facts.room, 100 * slack);
   const double highest = std::min(most, pipeline::largest_slack);
   if (const double laid = pipeline::slack_to_lay(facts.winding_slack);

@@ -118,6 +118,23 @@ TEST_CASE(
   CHECK((found > 5 && none > 5 && bends_less > 0));
 }
 
+TEST_CASE("cures: no slack and no room is proposed for a part whose breaking force is unknown") {
+  Cable cable;
+  cable.dresspack.materials.front().tensile_strength = 0;
+  cable.force = pipeline::CableForce(cable.dresspack, cable.dresspack.components[1]);
+  REQUIRE(cable.force.strength() == 0);
+  cable.facts.least_gain = -0.004, cable.facts.most_gain = 0.03, cable.facts.room = 3e-3;
+  for (const bool compressed : {false, true}) {
+    const Cure cure = cure_of(cable.facts, cable.force, false, compressed, 80);
+    CHECK_THAT(cure.remedy, Catch::StartsWith("motion.acceleration_percent: 40 (now 80)"));
+    CHECK_THAT(cure.cause, !Catch::Contains("at most"));
+  }
+  cable.dresspack.components[1].laying.position = pipeline::Position::held;
+  cable.dresspack.inner_diameter = 0.044;
+  CHECK_THAT(cure_of(cable.facts, cable.force, false, false, 80).remedy,
+             Catch::StartsWith("dresspack.components.2.position: loose, or dresspack.components.2.base_grip_N"));
+}
+
 TEST_CASE("cures: what holds a cable or sticks to it goes before its slack") {
   Cable cable;
   cable.facts.least_gain = -0.004, cable.facts.most_gain = 0.03, cable.facts.room = 4e-3;
