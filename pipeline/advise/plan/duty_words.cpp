@@ -28,7 +28,11 @@ std::string inspection(const DutyResult& duty, double hours) {
   const auto first = std::min_element(duty.others.begin(), duty.others.end(),
                                       [](const DutyMode& a, const DutyMode& b) { return a.hours < b.hours; });
   if (first == duty.others.end() || !(first->hours < hours)) return "";
-  const std::string after = hours_text(first->hours) + " (not validated)";
+  // The hours of these modes count from a new dresspack, those of the wires from now.
+  const std::string after =
+      hours_text(first->hours) +
+      (duty.past_hours > 0 ? fmt::format(" from new (not validated; {} are past)", hours_text(duty.past_hours))
+                           : " (not validated)");
   if (first->mode == UnvalidatedMode::rating)
     return fmt::format(" The maker's rating of {} covers only {}: test or replace it by then.", first->place, after);
   const std::string of = first->dresspack.empty() ? "" : " of " + first->dresspack;
@@ -110,8 +114,9 @@ std::string caution_words(const DutyResult& duty) {
   for (const DutyMode& mode : duty.others)
     if (mode.hours < duty.robot_life_hours) soon.push_back(other_words(mode));
   if (!soon.empty())
-    text +=
-        indented_lines(fmt::format("Not validated and not in these hours, at the soonest: {}.", fmt::join(soon, "; ")));
+    text += indented_lines(fmt::format("Not validated and not in these hours, at the soonest{}: {}.",
+                                       duty.past_hours > 0 ? " (from new, by these programs only)" : "",
+                                       fmt::join(soon, "; ")));
   if (!duty.not_evaluated.empty()) text += indented_lines(fmt::format("Not evaluated: {}.", duty.not_evaluated));
   return text;
 }

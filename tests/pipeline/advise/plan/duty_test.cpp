@@ -111,6 +111,13 @@ TEST_CASE("a duty names the mode beside the wires that comes first, and all that
   duty.lives.percentiles[0] = 50000;
   CHECK_THAT(duty_action(duty),
              Catch::EndsWith(" The hose may wear through after 20,000 h (not validated): inspect it."));
+  // The remaining hours of the wires begin now, those of the other modes with the new dresspack.
+  DutyResult used = duty;
+  used.past_hours = 25000, used.lives.remaining = {50000, 60000, 70000};
+  CHECK_THAT(duty_action(used),
+             Catch::EndsWith(
+                 " The hose may wear through after 20,000 h from new (not validated; 25,000 h are past): inspect it."));
+  CHECK_THAT(in_one_line(caution_words(used)), Catch::Contains("at the soonest (from new, by these programs only): 1"));
   duty.others = {{UnvalidatedMode::jacket, "", "", 10000}};
   CHECK_THAT(
       duty_action(duty),
