@@ -303,9 +303,15 @@ RepeatChange change_of(const Evaluation& evaluation) {
   const CablePaths& cables = evaluation.cables();
   if (!(cables.changed() > 0)) return {};
   const ChangedPlace most = cables.most_changed();
-  return {cables.changed(), evaluation.dresspack(), static_cast<std::size_t>(cables.component(most.cable)),
+  double longest = 0;
+  for (std::size_t k = 0; k < cables.cables(); ++k)
+    if (cables.component(k) == cables.component(most.cable)) longest = std::max(longest, cables.path_gain(k)[1]);
+  return {cables.changed(),
+          evaluation.dresspack(),
+          static_cast<std::size_t>(cables.component(most.cable)),
           evaluation.name_of_cable(most.cable),
-          evaluation.arcs().front() - evaluation.lengths().front() / 2 + most.arc};
+          evaluation.arcs().front() - evaluation.lengths().front() / 2 + most.arc,
+          longest};
 }
 
 /// Places of loose cables besides the job's own: of other starts and of variations.
@@ -568,8 +574,9 @@ std::vector<Warning> cycle_warnings(const pipeline::Job& job, const RepeatChange
   const pipeline::MountedDresspack& mounted = job.dresspacks[change.dresspack];
   const pipeline::Component& component = mounted.dresspack.components[change.component];
   const double now = component.laying.slack / 100;
-  // Below half of the slack of one turn, bends of the hose pull the cable (pipeline/cable/excess.h).
-  const double less = std::max(now / 2, pipeline::winding_slack(mounted, component) / 2);
+  // Below half of the slack of one turn, and below the gain of its path, bends of the hose pull the cable (pipeline/cable/excess.h).
+  const double less = std::max(
+      {now / 2, pipeline::winding_slack(mounted, component) / 2, change.longest_path / job.strain.factors.slack});
   pipeline::Remedy remedy{
       {},
       "another free length or other clamps, which `dresslife route` finds: less slack would let bends pull this cable"};

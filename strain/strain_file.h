@@ -31,6 +31,7 @@ struct RepeatChange {
   std::size_t dresspack = 0, component = 0;  ///< of the cable that changes most
   std::string cable{};                       ///< its name
   double arc = 0;                            ///< place of its largest change, from the base clamp [m]
+  double longest_path = 0;                   ///< largest gain in length of a path of this component: /cable/path_gain
 };
 /// Returns a warning if loose cables end the repeat with another curvature than they began it.
 std::vector<pipeline::Warning> cycle_warnings(const pipeline::Job& job, const RepeatChange& change);

@@ -862,6 +862,14 @@ TEST_CASE("cables that do not return are named with place, limit and a slack tha
   CHECK(mounted.dresspack.components[number].laying.slack ==
         Approx(cable->laying.slack / 2).epsilon(0.05));  // two digits
   CHECK(pipeline::tight_warnings("dresspack", mounted).empty());
+  // Less slack than its path needs in a bent hose would let bends pull the cable: then another routing remains.
+  const double slack = cable->laying.slack / 100;
+  const auto longer = [&](double gain) {
+    return strain::cycle_warnings(job, {0.25, 0, number, "signal cable 4", 0.43, gain}).at(0);
+  };
+  CHECK(std::stod(longer(0.8 * slack).remedy.at(0).value) ==
+        Approx(0.8 * cable->laying.slack).epsilon(0.05));  // two digits
+  CHECK_THAT(longer(1.2 * slack).words, Catch::Contains("dresslife route"));
   // A cable with less slack than half a turn needs is not made shorter.
   const std::vector<pipeline::Warning> tight = strain::cycle_warnings(pipeline::read_job(file, {value.key + "=0.01"}),
                                                                       {0.25, 0, number, "signal cable 4", 0.43});
