@@ -274,20 +274,6 @@ struct Evaluations {
   }
 };
 
-/// pieces: elements of a loose cable in each segment.
-std::vector<Warning> mesh_warnings(double error, std::size_t pieces, int segments) {
-  if (error <= believable_mesh_error) return {};
-  return {pipeline::warning_of(
-      WarningKind::mesh, "",
-      fmt::format(
-          "loose cables are cut into {} pieces in each segment, which misses {:.3g} of their curvature (limit {:g}): lives are too long",
-          pieces, error, believable_mesh_error),
-      "the cables lie in waves shorter than these pieces resolve",
-      2 * pieces <= std::size_t{pipeline::most_cable_elements}
-          ? fmt::format("strain.cable_elements_per_segment: {} or more", 2 * pieces)
-          : fmt::format("simulation.segments: {} or more", 2 * segments))};
-}
-
 std::vector<Warning> restless_warnings(std::size_t samples, double sample_rate) {
   if (samples == 0) return {};
   return {pipeline::warning_of(
@@ -567,6 +553,22 @@ void write_other_motion(MotionReader& motion, const Shortening& shortening, Star
 }
 
 }  // namespace
+
+std::vector<Warning> mesh_warnings(double error, std::size_t pieces, int segments) {
+  if (error <= believable_mesh_error) return {};
+  pipeline::Remedy remedy{{}, " or more"};
+  if (2 * pieces <= std::size_t{pipeline::most_cable_elements})
+    remedy.values = {{"strain.cable_elements_per_segment", std::to_string(2 * pieces)}};
+  else
+    remedy.values = {{"strain.cable_elements_per_segment", std::to_string(pieces)},
+                     {"simulation.segments", std::to_string(2 * segments)}};
+  return {pipeline::warning_of(
+      WarningKind::mesh, "",
+      fmt::format(
+          "loose cables are cut into {} pieces in each segment, which misses {:.3g} of their curvature (limit {:g}): lives are too long",
+          pieces, error, believable_mesh_error),
+      "the cables lie in waves shorter than these pieces resolve", remedy)};
+}
 
 std::vector<Warning> cycle_warnings(const pipeline::Job& job, const RepeatChange& change) {
   constexpr double most = LooseCables::most_change;

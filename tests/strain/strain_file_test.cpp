@@ -291,6 +291,9 @@ TEST_CASE(
                          Catch::Contains(fmt::format("which misses {:.3g} of their curvature", missed)) &&
                          Catch::Contains(fmt::format("cable_elements_per_segment: {} or more", 2 * pieces)));
   }
+  // At the largest number of pieces more segments help, if each keeps its pieces.
+  CHECK_THAT(strain::mesh_warnings(0.1, 16, 32).at(0).line(),
+             Catch::Contains("strain.cable_elements_per_segment: 16 and simulation.segments: 64 or more"));
 }
 
 TEST_CASE("a strain file with a cable that its job does not have is refused") {
