@@ -196,7 +196,7 @@ TEST_CASE("checks: clamps and rings stand in their order on links of the robot, 
 }
 
 TEST_CASE(
-    "checks: only a hose or a cable without described wires has a damage exponent and ratings; they bend or twist it") {
+    "checks: only a hose or a cable without described wires has a damage exponent, and ratings that bend or twist it") {
   for (const PlainKind kind : {PlainKind::filler, PlainKind::hose, PlainKind::fibre, PlainKind::cable}) {
     PlainPart part;
     part.kind = kind, part.damage_exponent = 4;
