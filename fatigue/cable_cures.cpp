@@ -48,7 +48,7 @@ Cure held_cure(const CableFacts& facts, bool known_bore, double least, double mo
       100 * facts.least_gain, 100 * facts.most_gain);
   if (known_bore)
     return {path, fmt::format("{}: loose, or {}", cable_key(facts, "position"),
-                              least <= most
+                              std::isfinite(most) && least <= most
                                   ? slack_line(facts, least, most)
                                   : fmt::format("{} and tool_grip_N as measured", cable_key(facts, "base_grip_N")))};
   return {path, fmt::format(
@@ -82,7 +82,7 @@ Cure cure_of(const CableFacts& facts, const pipeline::CableForce& cable, bool st
   // Includes the straight hose, for which pipeline::slack_warnings() warns.
   const double most = std::min(0.0, facts.least_gain) + pipeline::excess_at_force(cable, limit, facts.room);
   if (!pipeline::lies_loose(*facts.dresspack, *facts.component))
-    return held_cure(facts, pipeline::inner_radius(*facts.dresspack).has_value(), least, std::isinf(most) ? -1 : most);
+    return held_cure(facts, pipeline::inner_radius(*facts.dresspack).has_value(), least, most);
   const std::string room = fmt::format("it has {:.2g} mm of room and {:.3g} % of slack", 1e3 * facts.room, 100 * slack);
   const double highest = std::min(most, pipeline::largest_slack);
   if (const double laid = pipeline::slack_to_lay(facts.winding_slack);

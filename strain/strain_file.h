@@ -33,8 +33,8 @@ struct RepeatChange {
   double arc = 0;                            ///< place of its largest change, from the base clamp [m]
   double longest_path = 0;                   ///< largest gain in length of a path of this component: /cable/path_gain
 };
-/// Returns a warning if the pieces of loose cables are too long for their curvature. error: loose_mesh_error of strain.h5. pieces: of each
-/// segment; more segments alone have fewer pieces each, if their number follows from the slack.
+/// Returns a warning if the pieces of loose cables are too long for their curvature. error: loose_mesh_error of strain.h5. pieces:
+/// in each segment. The remedy states them, because otherwise more segments have fewer pieces each.
 std::vector<pipeline::Warning> mesh_warnings(double error, std::size_t pieces, int segments);
 /// Returns a warning if loose cables end the repeat with another curvature than they began it.
 std::vector<pipeline::Warning> cycle_warnings(const pipeline::Job& job, const RepeatChange& change);

@@ -495,8 +495,8 @@ std::string plain(const std::string& text) { return lower_case(trimmed(text)); }
 constexpr const char* example_line =
     "7 x 0.5 mm2, class 6, wire 0.1 mm, lay length 60 mm, outer diameter 8.2 mm, jacket PUR 1.1 mm";
 
-/// Returns "write '4 x 2 x 0.129 mm2, wire 0.153 mm' for AWG 26 of 7 wires" for 4x2xAWG26/7, "write '4 x 2.5 mm2'" for 2.5 x 4 mm2 and 4 x 2.5 mm; otherwise an
-/// empty text.
+/// Returns "write '4 x 2 x 0.129 mm2, wire 0.153 mm' for AWG 26 of 7 wires" for 4x2xAWG26/7, "write '4 x 2.5 mm2'" for
+/// 2.5 x 4 mm2 and 4 x 2.5 mm; otherwise an empty text.
 std::string meant_section(const std::string& phrase) {
   static const std::regex gauge(
       R"((?:(\d+)(?: *[x*g] *| +|(?=awg))(?:\(? *(\d+) *[x*] *)?)?(?:awg *(\d+)|(\d+) *awg)(?: */ *([1-9]\d*))? *\)?)"),

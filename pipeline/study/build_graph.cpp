@@ -501,10 +501,7 @@ BuildResult run_build_graph(const StudyPlaces& places, int parallel,
     char stage[32] = "", job[512] = "";
     if (std::sscanf(line.c_str(), "@%d/%d %31s %511s", &event.finished, &event.total, stage, job) == 4) {
       event.what = fmt::format("{} {}", stage, job);
-      event.stage =
-          static_cast<std::size_t>(std::ranges::find(stages, std::string_view(stage),
-                                                     [](const Stage& one) { return std::string_view(one.name); }) -
-                                   stages.begin());
+      while (event.stage + 1 < stage_count && stages[event.stage].name != std::string_view(stage)) ++event.stage;
       ++result.executed;
       if (on_event) on_event(event);
     } else if (line.starts_with("ninja: ")) {

@@ -53,8 +53,8 @@ class ClampPath {
 };
 
 /// Motion::longest_wait of checks, screenings and proposals [s]. A hose swings at about 2 Hz with a damping ratio of 0.15
-/// (0.06 .. 0.33). After this time its swing has decayed to exp(-0.06 * 2 pi * 2 Hz * 10 s) = 5e-4 or less. It hangs at rest,
-/// and the remainder of a wait changes no check.
+/// (0.06 .. 0.33). After this time its swing has decayed to exp(-0.06 * 2 pi * 2 Hz * 10 s) = 5e-4 or less; at 1 Hz to 2 % or
+/// less, below the error of bend radii with few segments (same_radius in quick_checks.cpp).
 inline constexpr double settled_after = 10;
 
 struct RunMotion;  // sim/program/import.h
