@@ -51,10 +51,15 @@ Cure held_cure(const CableFacts& facts, bool known_bore, double least, double mo
                               std::isfinite(most) && least <= most
                                   ? slack_line(facts, least, most)
                                   : fmt::format("{} and tool_grip_N as measured", cable_key(facts, "base_grip_N")))};
-  return {path, fmt::format(
-                    "{}.inner_diameter_mm: {:.3g} (ESTIMATE) if it lies in a hose, else {} and tool_grip_N as measured",
-                    facts.key, 1e3 * pipeline::usual_bore_share * facts.dresspack->diameter,
-                    cable_key(facts, "base_grip_N"))};
+  // Inside a cable friction may hold the pull, and then a clamp that lets the part slip changes little.
+  return {
+      path,
+      fmt::format("{}.inner_diameter_mm: {:.3g} (ESTIMATE) if it lies in a hose, else {}{} and tool_grip_N as measured",
+                  facts.key, 1e3 * pipeline::usual_bore_share * facts.dresspack->diameter,
+                  pipeline::is_single_cable(*facts.dresspack)
+                      ? "the lengths and clamps that `dresslife improve` finds (less bend and twist), or "
+                      : "",
+                  cable_key(facts, "base_grip_N"))};
 }
 
 /// Returns the room per wound excess. Excess s in a room c makes a helix of curvature 2 s/c (excess.h), which must keep

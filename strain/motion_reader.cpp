@@ -35,6 +35,11 @@ MotionReader::MotionReader(const pipeline::FileReader& file, const pipeline::Job
   spans_ = pipeline::motion_spans(file);
   for (std::size_t k = 0; k < spans_.size(); ++k)
     gauges_.emplace_back(lengths_of(spans_[k]), job.strain.deformation, free_end(job, k));
+  shortening_.resize(spans_.size());
+  if (job.motion.is_prescribed()) return;
+  for (std::size_t k = 0; k < spans_.size(); ++k)
+    if (const auto of = static_cast<std::size_t>(spans_[k].dresspack); of < job.dresspacks.size())
+      shortening_[k] = pipeline::twist_shortening(job.dresspacks[of].dresspack);
 }
 
 std::vector<double> MotionReader::lengths_of(const pipeline::MotionSpan& span) const {
@@ -76,6 +81,7 @@ void MotionReader::run(bool with_pull, const std::function<void(const MotionBloc
                             row(clamp_position, 3 * clamps).subspan(3 * base, 3 * held),
                             row(clamp_orientation, 4 * clamps).subspan(4 * base, 4 * held)},
                            own(deformation));
+        for (Deformation& of : own(deformation)) of.elongation -= shortening_[k].at(of.twist);
         std::ranges::copy(own(deformation), own(at_wires).begin());
         gauges_[k].move_to_ends(own(at_wires));
       }

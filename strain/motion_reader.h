@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/cable/cable_pull.h"
 #include "pipeline/files/motion_layout.h"
 #include "pipeline/job/job.h"
 #include "strain/cable_paths.h"
@@ -59,7 +60,8 @@ class MotionReader {
   double step_;
   Eigen::Vector3d gravity_;
   std::vector<pipeline::MotionSpan> spans_;
-  std::vector<DeformationGauge> gauges_;  // (span)
+  std::vector<DeformationGauge> gauges_;               // (span)
+  std::vector<pipeline::TwistShortening> shortening_;  // (span) of a simulated cable without pull (W44)
 };
 
 }  // namespace dresslife::strain

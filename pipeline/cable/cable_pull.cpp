@@ -7,6 +7,7 @@
 #include "pipeline/base/halving.h"
 #include "pipeline/cable/cable_bending.h"
 #include "pipeline/cable/plain_properties.h"
+#include "pipeline/job/parts_room.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -75,6 +76,13 @@ TwistShortening twist_shortening(const Dresspack& dresspack, const Component& ca
   const double there = -elongation_under(dresspack, cable.components, 0, twist);
   const double back = -elongation_under(dresspack, cable.components, 0, -twist);
   return {(there - back) / (2 * twist), (there + back) / (2 * twist * twist)};
+}
+
+TwistShortening twist_shortening(const Dresspack& dresspack) {
+  if (!is_single_cable(dresspack)) return {};
+  Component whole;
+  whole.components = dresspack.components;
+  return twist_shortening(dresspack, whole);
 }
 
 double bending_stiffness(const Dresspack& dresspack) {

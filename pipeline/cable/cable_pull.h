@@ -28,6 +28,9 @@ struct TwistShortening {
 /// Returns the shortening of a cable with parts; 0 if none of them is a wire of known material.
 TwistShortening twist_shortening(const Dresspack& dresspack, const Component& cable);
 
+/// Returns the shortening of a dresspack that is a cable (is_single_cable()); 0 for others, because a hose holds their length.
+TwistShortening twist_shortening(const Dresspack& dresspack);
+
 /// Returns E I of a dresspack [N m2]: the given value, otherwise the sum over its parts: cable_stiffness() of parts with parts, E
 /// I of wires about their own axes, properties_of() of other parts.
 double bending_stiffness(const Dresspack& dresspack);

@@ -138,12 +138,20 @@ HoseStiffness stiffness_with(const Wires& wires, const Dresspack& dresspack, Sli
   const double polymer = polymer_of(dresspack);
   HoseStiffness sum{wall.bending + core.bending + polymer + wires.bending(state, curvature),
                     wall.torsional + core.torsional + torsion_of_polymer * polymer, wall.axial + core.axial};
+  PullAndTwist together;  // of the parts that twist stretches
   for (std::size_t k = 0; k < dresspack.components.size(); ++k) {
     const PullAndTwist& of = wires.layers()[k];
     const bool pulls = state == SlipState::stuck || dresspack.components[k].laying.slack == 0;
-    sum.torsional += pulls ? of.torque_by_twist : of.relaxed();
+    if (pulls) {
+      together.pull_by_elongation += of.pull_by_elongation;
+      together.coupling += of.coupling;
+      together.torque_by_twist += of.torque_by_twist;
+    } else {
+      sum.torsional += of.relaxed();
+    }
     sum.axial += pulls ? of.pull_by_elongation + pull_of_plain(dresspack.components[k]) : 0;
   }
+  sum.torsional += is_single_cable(dresspack) ? together.relaxed() : together.torque_by_twist;
   return sum;
 }
 

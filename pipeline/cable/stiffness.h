@@ -6,6 +6,7 @@
 //     E I = sum of (polymer + M(kappa) / kappa of its wires, cable_bending.h) + wall + core,
 //     G J = sum of (2/3 polymer + that of its wires, at free length if it has slack) + wall + core,
 //     E A = sum of that of its wires if it has no slack                              + wall + core.
+// The layers of a single cable without a hose have G J together at the cable's free length.
 // The elongation of a cable off the axis in a bend is constant along the whole hose. It is a force from clamp to clamp (W34 of
 // strain/theory.md), not a stiffness of the cross-section, and 0 with slack. Only glued cables (`stuck`) add E A R^2 / 2 to E I.
 // Parts without wires (plain_part.h) count as polymer, also in E A.

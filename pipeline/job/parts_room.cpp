@@ -29,6 +29,10 @@ PartsRoom room_of_parts(const Dresspack& dresspack) {
   return {dresspack.diameter / 2, core};
 }
 
+bool is_single_cable(const Dresspack& dresspack) {
+  return !inner_radius(dresspack) && dresspack.hose_material.empty() && !holds_cables(dresspack);
+}
+
 Corrugation usual_corrugation(const Dresspack& dresspack) {
   constexpr double pitch_share = 4.5 / 4, wall_share = 0.7 / 4;  // relative to the height, from handling.yaml
   const double bore = dresspack.inner_diameter.value_or(usual_bore_share * dresspack.diameter);

@@ -17,6 +17,8 @@ struct PartsRoom {
   bool estimated = false;
 };
 PartsRoom room_of_parts(const Dresspack& dresspack);
+/// Returns whether the dresspack is a cable with a jacket, without a hose. Then its parts alone carry its pull.
+bool is_single_cable(const Dresspack& dresspack);
 /// Bore / outer diameter of a part that is a hose: tubes for air and water have 0.5 (4 x 2 mm) to 0.8 (16 x 13 mm), hydraulic hoses
 /// with two steel braids 0.43. A tube of 10 x 8 mm has 0.40 if a radius is given instead of the diameter.
 inline constexpr double narrowest_bore = 0.42, widest_bore = 0.92;

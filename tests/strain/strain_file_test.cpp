@@ -14,6 +14,7 @@
 
 #include "fatigue/life_file.h"
 #include "pipeline/cable/cable_force.h"
+#include "pipeline/cable/cable_pull.h"
 #include "pipeline/cable/excess.h"
 #include "pipeline/job/beyond_limit.h"
 #include "pipeline/job/job.h"
@@ -837,6 +838,41 @@ TEST_CASE("rounds of a loop are left out only if the hose moves equally in them"
   const RateAt all = [](std::size_t t) { return turning(t * cycle / of_round); };
   CHECK(left_out(all, {0, round, 15}) == 5 * of_round);
   CHECK(left_out(all, {0.04 * (with_loop - 15 * of_round), round, 15}) == 5 * of_round);
+}
+
+TEST_CASE("the twist of a single cable causes no pull, because it shortens the cable") {
+  const Scratch scratch;
+  pipeline::Job job = job_with();
+  pipeline::Dresspack& dresspack = job.dresspacks.front().dresspack;
+  dresspack.inner_diameter = {}, dresspack.hose_material = "";
+  pipeline::Component core = dresspack.components.front().components.front();  // wires
+  while (!core.components.empty()) core = pipeline::Component(core.components.front());
+  core.count = 9, core.radius = 5e-4, core.helix_radius = 3e-3, core.lay_angle = 0.3, core.hand = pipeline::Hand::left;
+  dresspack.components = {core};
+  write_motion(scratch / "motion.h5", 21, 0.04, [](std::size_t t) { return Eigen::Vector3d(0, 0, 0.2 * t - 2); });
+  const FileReader file(scratch / "motion.h5", pipeline::motion_format());
+  const auto elongation_of = [&] {
+    std::vector<strain::Deformation> all;
+    strain::MotionReader(file, job).run(false, [&](const strain::MotionBlock& block) {
+      all.assign(block.deformation.begin(), block.deformation.end());
+      CHECK(std::ranges::equal(block.at_wires, all, {}, &strain::Deformation::elongation,
+                               &strain::Deformation::elongation));
+    });
+    return all;
+  };
+  double longest = 0;
+  for (const strain::Deformation& of : elongation_of()) {
+    // The cubic term of the twist is left out.
+    const double held = pipeline::pull_of_wires(dresspack, dresspack.components, 0, of.twist);
+    CHECK(std::abs(pipeline::pull_of_wires(dresspack, dresspack.components, of.elongation, of.twist)) <=
+          1e-4 * std::abs(held) + 1e-6);  // 1e-6 N: rounding of poses at no twist
+    longest = std::max(longest, of.elongation);
+  }
+  CHECK(longest == Approx(2 * 3e-3 * std::tan(0.3)).epsilon(0.02));  // a left lay opens: R tan(alpha) per twist
+  job.motion.rig.emplace();
+  for (const strain::Deformation& of : elongation_of()) CHECK(std::abs(of.elongation) < 1e-9);
+  job.motion.rig.reset(), dresspack.inner_diameter = 0.02;
+  for (const strain::Deformation& of : elongation_of()) CHECK(std::abs(of.elongation) < 1e-9);
 }
 
 TEST_CASE("cables that do not return are named with place, limit and a slack that the job accepts") {

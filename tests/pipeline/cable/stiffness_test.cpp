@@ -88,6 +88,23 @@ TEST_CASE("stiffness: layers of both hands do not give way") {
   CHECK(answer.relaxed() == Approx(answer.torque_by_twist));
 }
 
+TEST_CASE("stiffness: the layers of a single cable are twisted together at its free length") {
+  const Component inner = wires(3, 1e-4, 7e-4, 5 * degree);
+  const auto torsional = [&](Hand hand, SlipState state) {
+    const Component outer = wires(9, 1e-4, 2.5e-3, 18 * degree, hand);
+    Dresspack dresspack = of({outer, inner});
+    dresspack.diameter = 0.008;
+    return std::pair(in_state(dresspack, state).torsional, pull_and_twist(dresspack, cable_of({outer, inner})));
+  };
+  for (const SlipState state : {SlipState::sliding, SlipState::stuck}) {
+    const auto [opposite, of_opposite] = torsional(Hand::left, state);
+    const auto [equal, of_equal] = torsional(Hand::right, state);
+    REQUIRE(of_opposite.relaxed() < 0.6 * of_opposite.torque_by_twist);
+    // Jacket and insulation are the same.
+    CHECK(opposite - equal == Approx(of_opposite.relaxed() - of_equal.relaxed()).epsilon(1e-6));
+  }
+}
+
 TEST_CASE("stiffness: straight cables in a hose bend each by itself, and all as one where they are glued") {
   Component cable = cable_of({wires(1, 1e-3, 0, 0)});
   cable.count = 6;
