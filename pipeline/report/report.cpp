@@ -208,8 +208,9 @@ std::string ranking_section(const std::vector<RankingRow>& rows, const std::vect
       "<th class=\"number\">replace if glued .. free inside [h]</th><th class=\"number\">first wire by scatter "
       "alone, 10 .. 90 % [h]</th><th class=\"number\">calendar</th>"
       "<th>fails first</th><th>what moved at the worst wire</th><th>warnings</th>";
+  const std::string remarks = comparison_words(rows);
   return fmt::format(
-      "{}{}{}"
+      "{}{}{}{}"
       "<p class=\"soft\">Replace after: in so many hours of motion 1 of 10 such dresspacks has failed (p10), over everything "
       "that is uncertain and the scatter of wires. A dresspack has failed when a conductor has lost its share of wires "
       "(fatigue.failed_wires_percent) at one place. The calendar counts the job's operating hours per week. Two jobs "
@@ -218,7 +219,7 @@ std::string ranking_section(const std::vector<RankingRow>& rows, const std::vect
       "without friction. First wire: by then a first single wire has broken, by the scatter of wires alone, in 10 .. 90 % "
       "of such dresspacks. {}{}</p>\n",
       sorted_table(heads, ranking_rows(rows, detailed), "jobs", "ranking.csv"), matrix,
-      escaped(unvalidated_legend(rows)),
+      remarks.empty() ? "" : fmt::format("<p>{}</p>\n", escaped(remarks)), escaped(unvalidated_legend(rows)),
       std::any_of(rows.begin(), rows.end(), [](const RankingRow& row) { return plan_mark(row) == "!"; })
           ? " ! marks jobs whose warnings forbid a plan with these hours."
           : "",

@@ -472,8 +472,7 @@ std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width
   std::string estimates;
   for (const std::string& one : estimate_words(rows)) estimates += wrapped(one_line(one), width, "");
   if (!estimates.empty()) text += '\n' + shown(estimates);
-  if (const std::string repeats = different_repeats_words(rows); !repeats.empty())
-    text += '\n' + wrapped(repeats, width, "");
+  if (const std::string remarks = comparison_words(rows); !remarks.empty()) text += '\n' + wrapped(remarks, width, "");
   return selected.summary.empty() ? text : text + '\n' + selected.summary;
 }
 

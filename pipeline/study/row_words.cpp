@@ -346,17 +346,27 @@ std::string repeat_words(const RankingRow& row) {
                      readable(row.repeat_seconds), readable(row.planned_hours[0] * 3600 / row.repeat_seconds));
 }
 
-std::string different_repeats_words(const std::vector<RankingRow>& rows) {
+std::string comparison_words(const std::vector<RankingRow>& rows) {
+  std::size_t done = 0;
+  bool uncertain = true;
   double shortest = std::numeric_limits<double>::infinity(), longest = 0;
   for (const RankingRow& row : rows) {
     if (!row.done()) continue;
+    ++done;
+    uncertain = uncertain && !(is_damaged(row) && row.life_response.empty());
     shortest = std::min(shortest, row.repeat_seconds);
     longest = std::max(longest, row.repeat_seconds);
   }
   constexpr double alike = 1.02;  // below this ratio hours and repeats give the same order within the uncertainty
-  if (!(longest > alike * shortest)) return "";
-  return fmt::format("Repeats take {} .. {} s. Compare jobs that do the same work by repeats, not by hours.",
-                     readable(shortest), readable(longest));
+  return joined_words(
+      {longest > alike * shortest
+           ? fmt::format("Repeats take {} .. {} s. Compare jobs that do the same work by repeats, not by hours.",
+                         readable(shortest), readable(longest))
+           : "",
+       done > 1 && !uncertain
+           ? "The ranks compare the jobs' own values only (uncertainty.enabled: false). Other values, and the numerical error "
+             "of cables that move in their hose, may reverse them: run the study with uncertainty before you decide."
+           : ""});
 }
 
 std::string own_values_words(const RankingRow& row) {

@@ -71,8 +71,9 @@ std::string joint_words(const RankingRow& row);
 /// Returns "One repeat of the motion takes 13.8 s: 1 of 10 has failed after 108,000 repeats." Empty: no failure is expected
 /// within the robot's life.
 std::string repeat_words(const RankingRow& row);
-/// Returns a remark that hours mislead if the repeats of the jobs have different durations. Empty: their durations are equal.
-std::string different_repeats_words(const std::vector<RankingRow>& rows);
+/// Returns remarks on the order of the jobs: hours mislead if the repeats have different durations, and ranks without uncertain
+/// parameters compare the jobs' own values only. Empty: nothing misleads.
+std::string comparison_words(const std::vector<RankingRow>& rows);
 
 /// Returns "Lives longer than the next job in 93 of 100 samples.", and whether the difference is clear. Empty: not known.
 std::string order_words(const RankingRow& row);

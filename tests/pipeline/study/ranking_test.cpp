@@ -920,12 +920,23 @@ TEST_CASE("ranking: jobs whose repeats differ by more than 2 % are compared by r
     return row;
   };
   for (const auto& rows : {std::vector{row_with(10), row_with(30)}, std::vector{row_with(30), row_with(10)}})
-    CHECK_THAT(different_repeats_words(rows), Catch::Contains("10.0 .. 30.0 s"));
-  CHECK(different_repeats_words({row_with(100), row_with(101)}).empty());
-  CHECK_FALSE(different_repeats_words({row_with(100), row_with(103)}).empty());
+    CHECK_THAT(comparison_words(rows), Catch::Contains("10.0 .. 30.0 s"));
+  CHECK(comparison_words({row_with(100), row_with(101)}).empty());
+  CHECK_FALSE(comparison_words({row_with(100), row_with(103)}).empty());
   RankingRow failed = row_with(1);
   failed.failure = "no motion";
-  CHECK(different_repeats_words({row_with(10), failed}).empty());
+  CHECK(comparison_words({row_with(10), failed}).empty());
+}
+
+TEST_CASE("ranking: a remark states that ranks without uncertain parameters compare the jobs' own values") {
+  RankingRow row;
+  row.damage_per_repeat = 1, row.repeat_seconds = 10, row.worst_component = "wire 1";
+  RankingRow alone = row, uncertain = row, undamaged = row;
+  uncertain.life_response = "known", undamaged.damage_per_repeat = 0;
+  CHECK_THAT(comparison_words({row, alone}), Catch::Contains("own values only (uncertainty.enabled: false)"));
+  CHECK_THAT(comparison_words({uncertain, row}), Catch::Contains("own values only"));
+  for (const auto& rows : {std::vector{row}, std::vector{uncertain, uncertain}, std::vector{uncertain, undamaged}})
+    CHECK(comparison_words(rows).empty());
 }
 
 TEST_CASE("ranking: a small share of samples in which a mode comes first is not printed as zero") {
