@@ -100,6 +100,10 @@ class Table {
            &RankingRow::moving_places));
     add_kind(WarningKind::other_values);
     add_kind(WarningKind::side);
+    add(where(
+        "life_repeats_p10", "1", "repeats of the motion in life_hours_p10: compares jobs that do the same work",
+        [](const RankingRow& row) { return row.planned(); },
+        [](const RankingRow& row) { return row.headline_repeats(); }));
   }
   std::vector<RankingColumn> columns;
 

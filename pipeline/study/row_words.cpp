@@ -360,8 +360,9 @@ std::string comparison_words(const std::vector<RankingRow>& rows) {
   constexpr double alike = 1.02;  // below this ratio hours and repeats give the same order within the uncertainty
   return joined_words(
       {longest > alike * shortest
-           ? fmt::format("Repeats take {} .. {} s. Compare jobs that do the same work by repeats, not by hours.",
-                         readable(shortest), readable(longest))
+           ? fmt::format(
+                 "Repeats take {} .. {} s. Compare jobs that do the same work by repeats (life_repeats_p10 in ranking.csv), not by hours.",
+                 readable(shortest), readable(longest))
            : "",
        done > 1 && !uncertain
            ? "The ranks compare the jobs' own values only (uncertainty.enabled: false). Other values, and the numerical error "
