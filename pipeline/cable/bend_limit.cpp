@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "pipeline/job/parts_room.h"
+
 namespace dresslife::pipeline {
 namespace {
 
@@ -40,10 +42,12 @@ double least_bend_radius(const Dresspack& dresspack) {
 }
 
 std::string bend_rule(const Dresspack& dresspack) {
-  if (!bends_by_folds(dresspack))
-    return fmt::format("ten diameters of the {} ({:.4g} mm) count{}", dresspack.cable_alone ? "cable" : "hose",
+  if (!bends_by_folds(dresspack)) {
+    const bool cable = is_single_cable(dresspack);
+    return fmt::format("ten diameters of the {} ({:.4g} mm) count{}", cable ? "cable" : "hose",
                        1e3 * dresspack.diameter,
-                       dresspack.cable_alone ? "" : ", because it has no hose_corrugation that bends by its folds");
+                       cable ? "" : ", because it has no hose_corrugation that bends by its folds");
+  }
   const Component& part = stiffest_part(dresspack);
   const double core = least_bend_diameters * unknown_core(dresspack), folds = tightest_hose * dresspack.diameter;
   if (folds >= std::max(core, limit_of(part)))

@@ -264,8 +264,20 @@ std::string job_of_urdf(const NewOptions& options, const std::vector<double>& ac
   return with_mark(to_yaml(job), Mark::yaml);
 }
 
+/// Makes the bend reliefs of another dresspack as stiff as this one, if they would be rigid for it.
+void suit_reliefs(Node& routing, double stiffness) {
+  for (const char* end : {"base_clamp", "tool_clamp"}) {
+    const Node* const clamp = routing.find(end);
+    const Node* const relief = clamp ? clamp->find("bend_relief") : nullptr;
+    const Node* const given = relief ? relief->find("bending_stiffness_Nm2") : nullptr;
+    if (given && stiffness > 0 && number_in(given->text).value_or(0) > rigid_relief * stiffness)
+      routing[end]["bend_relief"]["bending_stiffness_Nm2"] = scalar(fmt::format("{:.3g}", stiffness));
+  }
+}
+
 Choice routing_for(const Draft& draft, const NewOptions& options) {
   std::optional<Choice> known = shipped_routing(options.robot, options.dresspack);
+  if (known) suit_reliefs(known->routing, draft.job.dresspacks.front().dresspack.bending_stiffness);
   if (known && !draft.exercise) {
     judge(draft, "", *known);
     known = cured(draft, "", *std::move(known));

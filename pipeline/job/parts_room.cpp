@@ -30,7 +30,8 @@ PartsRoom room_of_parts(const Dresspack& dresspack) {
 }
 
 bool is_single_cable(const Dresspack& dresspack) {
-  return !inner_radius(dresspack) && dresspack.hose_material.empty() && !holds_cables(dresspack);
+  const bool is_hose = inner_radius(dresspack) || dresspack.hose_corrugation || !dresspack.hose_material.empty();
+  return !dresspack.components.empty() && !is_hose && !holds_cables(dresspack);
 }
 
 Corrugation usual_corrugation(const Dresspack& dresspack) {

@@ -106,6 +106,9 @@ void place_clamps(Routing& routing, const Robot& robot);
 
 /// The bend at a clamp is computed from the first four links beside it (W39). All four must be within the relief.
 inline constexpr int fewest_relief_segments = 4;
+/// A relief of this many times the dresspack's stiffness acts as a longer clamp: the dresspack in it bends less than a tenth as
+/// much as beside it.
+inline constexpr double rigid_relief = 10;
 /// Returns a relief for a first trial. Its length is three diameters, so that it bends as a beam, and at least
 /// fewest_relief_segments segments. It is as stiff as the dresspack, which halves the curvature at the clamp. A stiffer relief
 /// moves the bend to its end (fatigue/measurements.md). The length is rounded up to mm, the stiffness to three digits. diameter,

@@ -1000,11 +1000,9 @@ std::vector<Warning> doubts_of_motion(const Job& job) {
 }
 
 /// Warns of short or rigid reliefs. With less than four segments, the parabola for the bend at a clamp (W39) contains links
-/// outside of the relief. A relief of ten times the dresspack's stiffness acts as a longer clamp: the dresspack in it bends less
-/// than a tenth as much as beside it.
+/// outside of the relief.
 void doubt_bend_reliefs(const MountedDresspack& mounted, int segments, std::vector<Warning>& warnings) {
   constexpr int fewest = fewest_relief_segments;
-  constexpr double rigid = 10;
   const Routing& routing = mounted.routing;
   std::vector<const Clamp*> clamps;
   for (const std::optional<Clamp>* end : {&routing.base_clamp, &routing.tool_clamp})
@@ -1013,11 +1011,11 @@ void doubt_bend_reliefs(const MountedDresspack& mounted, int segments, std::vect
   for (const Clamp* const clamp : clamps) {
     if (!clamp->bend_relief || clamp->bend_relief->length == 0 || clamp->bend_relief->stiffness == 0) continue;
     if (const double own = mounted.dresspack.bending_stiffness, stiffness = clamp->bend_relief->stiffness;
-        own > 0 && stiffness > rigid * own)
+        own > 0 && stiffness > rigid_relief * own)
       warnings.push_back(warning_of(
           WarningKind::material, clamp->where.text(),
           fmt::format("bend_relief.bending_stiffness_Nm2 is {:.4g} (limit {:.2g}, {:g} times the dresspack's)",
-                      stiffness, rigid * own, rigid),
+                      stiffness, rigid_relief * own, rigid_relief),
           "N mm2 instead of N m2, or a tube: the dresspack bends at its end as at a clamp",
           fmt::format("bending_stiffness_Nm2: {:.2g}, as the dresspack", own)));
     const double length = clamp->bend_relief->length, within = length * segments / routing.free_length;

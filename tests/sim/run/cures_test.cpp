@@ -284,6 +284,8 @@ TEST_CASE("cures: ten diameters count where no bend radius is given, and the war
       Catch::Contains(
           "dresspack.least_bend_radius_mm is not given, so that ten diameters of the hose (40 mm) count, because"));
   pipeline::Dresspack& dresspack = job.dresspacks[0].dresspack;
+  dresspack.components.assign(1, {});  // a core without a hose
+  CHECK(pipeline::bend_rule(dresspack) == "ten diameters of the cable (40 mm) count");
   dresspack.hose_corrugation = pipeline::Corrugation{};
   dresspack.components.assign(2, {});
   dresspack.components[0].radius = 0.002, dresspack.components[1].radius = 0.006,
