@@ -5,7 +5,7 @@
 #include "pipeline/job/job_forms.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/resolve/sources.h"
-#include "pipeline/settings/fields.h"
+#include "pipeline/settings/echo_text.h"
 
 namespace dresslife::pipeline {
 
@@ -172,7 +172,7 @@ void describe_temperature(Fields& echo, Cell& cell) {
     echo.number("temperature_C", cell.temperature, Need::optional, any_number(), "");
 }
 
-void describe_sim(Fields& echo, Job copy) {
+void describe_sim(Fields& echo, Job& copy) {
   const JobForms forms = forms_of(copy);
   for (MountedDresspack& mounted : copy.dresspacks) {
     drop_fatigue_keys(mounted.dresspack);
@@ -206,7 +206,7 @@ void describe_sim(Fields& echo, Job copy) {
   echo.number("other_stiffness", other, Need::optional, any_number(), "");
 }
 
-void describe_strain(Fields& echo, Job copy) {
+void describe_strain(Fields& echo, Job& copy) {
   std::vector<StrainKeys> keys;
   for (MountedDresspack& mounted : copy.dresspacks) {
     drop_fatigue_keys(mounted.dresspack);
@@ -224,7 +224,7 @@ void describe_strain(Fields& echo, Job copy) {
       echo.boolean("known_" + std::string(uncertain_parameters()[index_of(parameter)].name), known, Need::optional, "");
 }
 
-void describe_fatigue(Fields& echo, Job copy) {
+void describe_fatigue(Fields& echo, Job& copy) {
   std::vector<FatigueKeys> keys;
   for (const MountedDresspack& mounted : copy.dresspacks) keys.push_back({mounted});
   describe_each(echo, forms_of(copy), keys);
@@ -243,7 +243,8 @@ std::string part_text(const Job& job, JobPart part) {
                                                    : describe_fatigue;
   // The content of a file matters, and its digest is compared in addition to this text; its folder does not matter.
   const PathText name = [](const std::filesystem::path& file) { return file.filename().string(); };
-  return to_yaml(echo_fields(Describe([&](Fields& f) { described(f, job); }), name));
+  Job copy = job;  // a part changes it, in the same way at each call
+  return echo_text(Describe([&](Fields& f) { described(f, copy); }), name);
 }
 
 std::vector<std::filesystem::path> files_beside(const Job& job) {
