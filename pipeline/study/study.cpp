@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <unordered_map>
 
 #include "pipeline/base/order.h"
 #include "pipeline/base/threads.h"
@@ -9,6 +10,7 @@
 #include "pipeline/resolve/catalogue.h"
 #include "pipeline/resolve/document_kind.h"
 #include "pipeline/resolve/job_text.h"
+#include "pipeline/resolve/other_routing.h"
 #include "pipeline/resolve/sources.h"
 #include "pipeline/settings/fields.h"
 #include "pipeline/study/fleet_table.h"
@@ -118,8 +120,37 @@ std::vector<std::string> varied_of(const Node& study) {
 /// Longest name of a job's folder. File systems allow 255 letters, and files of a job have longer names than its folder.
 constexpr std::size_t longest_name = 200;
 
+/// Valid jobs by everything but their routing.
+using JobsByRest = std::unordered_map<std::string, std::shared_ptr<const Job>>;
+
+bool is_of_routing(std::string_view path) { return path == "routing" || path.starts_with("routing."); }
+
+/// Returns the base with changes and sets.
+Job changed_job(Node base, const std::vector<Change>& changes, const std::vector<std::string>& sets) {
+  for (const Change& change : changes) set_value(base, change.path, change.value, change.where);
+  return job_from(std::move(base), sets);
+}
+
+/// Returns a known job with the routing that the base, changes and sets give; null: it must be read as a whole.
+std::shared_ptr<const Job> rerouted(const Job& known, const Node& base, const std::vector<Change>& changes,
+                                    const std::vector<std::string>& sets) {
+  Node document = base;
+  std::erase_if(document.entries, [](const Entry& entry) { return !is_of_routing(entry.key); });
+  try {
+    apply_lines(document);
+    for (const Change& change : changes)
+      if (is_of_routing(change.path)) set_value(document, change.path, change.value, change.where);
+    for (const std::string& set : sets)
+      if (is_of_routing(set.substr(0, set.find('=')))) apply_set(document, set);
+  } catch (const InputError&) {  // job_from() collects it with the other problems of the job
+    return nullptr;
+  }
+  std::optional<Job> job = with_routing(known, document);
+  return job ? std::make_shared<const Job>(std::move(*job)) : nullptr;
+}
+
 StudyJob make_job(const Node& base, const std::string& name, const Variant& variant,
-                  const std::vector<std::string>& sets) {
+                  const std::vector<std::string>& sets, JobsByRest& known) {
   StudyJob made;
   made.name = name;
   made.values = variant.values;
@@ -129,12 +160,18 @@ StudyJob make_job(const Node& base, const std::string& name, const Variant& vari
           base.where,
           fmt::format("a job's name has {} letters (at most {} fit a folder)", made.name.size(), longest_name),
           "name it under 'jobs', or shorten the values that make its name");
-    Node document = base;
     // Sets a section before its keys: otherwise `vary: {motion: ..}` would overwrite a job's motion.ramp_percent.
     std::vector<Change> changes = variant.changes;
     std::ranges::stable_sort(changes, {}, [](const Change& change) { return std::ranges::count(change.path, '.'); });
-    for (const Change& change : changes) set_value(document, change.path, change.value, change.where);
-    made.job = std::make_shared<const Job>(job_from(std::move(document), sets));
+    std::string rest;  // the places are in it because parts of a job know theirs
+    for (const Change& change : changes)
+      if (!is_of_routing(change.path))
+        rest += fmt::format("{}\n{}\n{}\n{}", change.path, change.where.text(), change.value.where.text(),
+                            to_yaml(change.value));
+    std::shared_ptr<const Job>& same = known[rest];
+    if (same) made.job = rerouted(*same, base, changes, sets);
+    if (!made.job) made.job = std::make_shared<const Job>(changed_job(base, changes, sets));
+    same = made.job;
   } catch (const InputError& problem) {
     made.failure = problem.what();
   }
@@ -214,10 +251,11 @@ Study read_jobs_of(const std::filesystem::path& file, const std::vector<std::str
   const Node document = read_document(file);
   Study study;
   if (is_job(document)) {
+    JobsByRest known;
     study.name = folder_name(file.stem().string());
     check_name(study.name, document.where);
     if (!shard || !part_of({Variant{}}, *shard).empty())
-      study.jobs.push_back(make_job(document, study.name, Variant{}, sets));
+      study.jobs.push_back(make_job(document, study.name, Variant{}, sets, known));
     return study;
   }
   check_keys(document);
@@ -243,8 +281,9 @@ Study read_jobs_of(const std::filesystem::path& file, const std::vector<std::str
   Sources* const sources = Sources::of_this_thread();
   in_parallel(parts, [&](std::size_t part) {
     const Sources::Guest guest(sources);
+    JobsByRest known;
     for (std::size_t i = part * indices.size() / parts; i < (part + 1) * indices.size() / parts; ++i)
-      study.jobs[i] = make_job(base, names[indices[i]], variants[indices[i]], sets);
+      study.jobs[i] = make_job(base, names[indices[i]], variants[indices[i]], sets, known);
   });
   return study;
 }

@@ -152,4 +152,41 @@ TEST_CASE("study: what is no study is refused where it stands") {
   CHECK(refusal(many) == "study:8:3: error: the study has more than 100000 jobs; split it");
 }
 
+TEST_CASE("study: jobs that differ in their routing are those that are read alone, also if some are refused") {
+  const Scratch scratch;
+  const std::string head = "base: irb6640_spot_welding\n";
+  const std::string changes[] = {"{routing.free_length_m: 2.05}",
+                                 "{routing.free_length_m: 2.1, dresspack.components.1.slack_percent: 2}",
+                                 "{routing.free_length_m: 2.15, dresspack.components.1.slack_percent: 2}",
+                                 "{routing.free_length_m: 0.3, routing.tool_clamp.link: link_5}",
+                                 "{routing.free_length_m: -2}",
+                                 "{routing.mounting_pose_deg: [0, 0]}",
+                                 "{routing.side: left, simulation.segments: 32}",
+                                 "{routing.side: right, simulation.segments: 32}",
+                                 "{routing.base_clamp.position_m: [0, 0, 90]}",
+                                 "{routing.free_length_m: 2.05, motion.dwell_s: 1}"};
+  std::string together = head + "jobs:\n";
+  // Every job has in its own study the line that it has in the common one, because messages name the line.
+  for (const std::string& change : changes) together += fmt::format("  j{}: {}\n", &change - changes, change);
+  const Study all = read_study(scratch.write("study.yaml", together), {"routing.tool_end=clamped"});
+  REQUIRE(all.jobs.size() == std::size(changes));
+  std::size_t refused = 0;
+  for (std::size_t k = 0; k < all.jobs.size(); ++k) {
+    INFO(changes[k]);
+    const std::string alone = fmt::format("{}jobs:\n{}  j{}: {}\n", head, std::string(k, '\n'), k, changes[k]);
+    const Study one = read_study(scratch.write("study.yaml", alone), {"routing.tool_end=clamped"});
+    CHECK(all.jobs[k].failure == one.jobs[0].failure);
+    refused += !one.jobs[0].failure.empty();
+    REQUIRE((all.jobs[k].job == nullptr) == (one.jobs[0].job == nullptr));
+    if (!one.jobs[0].job) continue;
+    const Job &mine = *all.jobs[k].job, &his = *one.jobs[0].job;
+    CHECK(job_text(mine) == job_text(his));
+    CHECK(mine.dresspacks[0].routing.where.text() == his.dresspacks[0].routing.where.text());
+    CHECK(mine.motion.left_out == his.motion.left_out);
+    for (const JobPart part : {JobPart::sim, JobPart::strain, JobPart::fatigue})
+      CHECK(part_text(mine, part) == part_text(his, part));
+  }
+  CHECK(refused >= 3);
+}
+
 }  // namespace
