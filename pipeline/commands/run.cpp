@@ -92,7 +92,6 @@ int run(const RunArguments& options) {
   if (begun) standing = standing_of(request);
   if (standing.remembered && !standing.all_done()) standing = expanded(request);
   if (!begun) look_again(standing);
-  if (standing.rated) read_jobs(standing);
   const int executed = make_rest(request, standing, options);
   report_changes(standing.study, standing.places, standing.states);
   const auto& [study, places, states, remembered, rated, look_ups, digests] = standing;
@@ -101,7 +100,7 @@ int run(const RunArguments& options) {
   if (!options.quiet && any)
     write_stderr(fmt::format("{}: {}\n", study.name, executed == 0 ? "nothing to do" : ran_words(executed)));
   std::vector<RankingRow> rows = ranking_of(study, places, states);
-  add_relative_lives(study, places, &options, rows);
+  add_relative_lives(rated ? with_dresspacks(standing) : study, places, &options, rows);
   const std::vector<fs::path> previews = refresh_previews(study, places, states);
   const std::set<std::string> not_shown = write_results(study, places, rows);
   for (const std::string& job : not_shown) forget_damaged(places.job(job));

@@ -82,13 +82,13 @@ Job resolved_job(Node& document, const std::vector<std::string>& sets) {
 
 /// A job's text in two parts.
 struct DividedText {
-  std::string motion;  ///< the section `motion`, behind as many empty lines as the text has before it
-  std::string beside;  ///< the other lines, without comments before the first key
+  std::string section;  ///< behind as many empty lines as the text has before it
+  std::string beside;   ///< the other lines, without comments before the first key
 };
 
 /// Returns std::nullopt if the text does not look like one by stored_job_text().
-std::optional<DividedText> divided(const std::string& text) {
-  constexpr std::string_view key = "\nmotion:\n";
+std::optional<DividedText> divided(const std::string& text, const std::string& section) {
+  const std::string key = '\n' + section + ":\n";
   const std::size_t before = text.find(key);
   if (before == std::string::npos) return std::nullopt;
   std::size_t end = before + key.size() - 1;
@@ -124,7 +124,7 @@ StoredJobs::StoredJobs() = default;
 StoredJobs::~StoredJobs() = default;
 
 std::shared_ptr<const Job> StoredJobs::read(const std::filesystem::path& file) {
-  const std::optional<DividedText> text = divided(read_text(file));
+  const std::optional<DividedText> text = divided(read_text(file), "motion");
   const std::string beside = text ? xxh3(text->beside) : "";
   const auto same = std::ranges::find_if(known_, [&](const auto& one) { return text && one->beside == beside; });
   if (same == known_.end()) {
@@ -135,10 +135,19 @@ std::shared_ptr<const Job> StoredJobs::read(const std::filesystem::path& file) {
   note_input(file);
   last_ = static_cast<std::size_t>(same - known_.begin());
   Job job = *(*same)->job;
-  job.motion = motion_from(*parse_yaml(text->motion, file.string()).find("motion"));
+  job.motion = motion_from(*parse_yaml(text->section, file.string()).find("motion"));
   job.motion.left_out = joined(std::move(job.motion.left_out), plausibility_of_motion(job));
   take_length_of_rig(job);
   return std::make_shared<const Job>(std::move(job));
+}
+
+std::shared_ptr<const Job> StoredJobs::read_dresspacks(const std::filesystem::path& file) {
+  std::string text = read_text(file);
+  for (const char* section : {"motion", "routing"})
+    if (std::optional<DividedText> parts = divided(text, section)) text = std::move(parts->beside);
+  std::shared_ptr<const Job>& same = of_dresspacks_[xxh3(text)];
+  if (!same) same = std::make_shared<const Job>(read_job(file));
+  return same;
 }
 
 std::size_t StoredJobs::beside_motion() const { return last_ + 1; }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "pipeline/settings/document.h"
@@ -31,13 +32,17 @@ class StoredJobs {
   ~StoredJobs();
   /// Precondition: the file is unchanged since it was written, so its job is valid. Errors: InputError.
   std::shared_ptr<const Job> read(const std::filesystem::path& file);
-  /// Returns a number other than 0 of the sections beside the motion of the last job; equal numbers mean equal text.
+  /// Returns a job with the dresspacks and the settings of strain and fatigue of a file; its motion and routing may be those of an
+  /// earlier file. Precondition and errors: those of read().
+  std::shared_ptr<const Job> read_dresspacks(const std::filesystem::path& file);
+  /// Returns a number other than 0 of the sections beside the motion of the last job of read(); equal numbers mean equal text.
   std::size_t beside_motion() const;
 
  private:
   struct Known;
   std::vector<std::unique_ptr<Known>> known_;
   std::size_t last_ = 0;
+  std::unordered_map<std::string, std::shared_ptr<const Job>> of_dresspacks_;  ///< by digests of the other sections
 };
 
 /// Reads a job from a tree: that of a study, or of the `job` attribute of a file.

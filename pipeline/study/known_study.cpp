@@ -170,6 +170,13 @@ void read_jobs(StudyState& standing) {
   }
 }
 
+Study with_dresspacks(const StudyState& standing) {
+  StoredJobs stored;
+  Study study = standing.study;
+  for (StudyJob& job : study.jobs) job.job = stored.read_dresspacks(settings_of(standing.places, job.name));
+  return study;
+}
+
 namespace {
 
 /// read: returns the jobs. shard: name of the shard; empty for all jobs.

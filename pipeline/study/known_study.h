@@ -29,7 +29,7 @@ struct StudyState {
   StudyPlaces places;
   std::vector<JobState> states;
   bool remembered = false;  ///< from the note, not expanded: its jobs have names but no settings
-  bool rated = false;       ///< (remembered) whether a job has ratings, whose rigs need its settings: read_jobs()
+  bool rated = false;       ///< (remembered) whether a job has ratings, whose rigs need its settings: with_dresspacks()
   // Only of an expanded study:
   Sources::LookUps look_ups{};
   Digests digests{};  ///< digests of the programs and of the files beside the jobs
@@ -46,6 +46,9 @@ StudyState expanded(const StudyRequest& request);
 /// Reads the settings of a remembered study's jobs from job.yaml; jobs with the same recipes share one object.
 /// Precondition: every job has a result. Errors: InputError.
 void read_jobs(StudyState& standing);
+/// Returns a remembered study with jobs for rated_study(), in a small part of the time of read_jobs(): their motions and routings
+/// may be those of other jobs. Precondition and errors: those of read_jobs().
+Study with_dresspacks(const StudyState& standing);
 
 /// Updates the states after another program has run stages in the folder.
 void look_again(StudyState& standing);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <set>
 #include <string_view>
+#include <unordered_map>
 
 #include "pipeline/base/digest.h"
 #include "pipeline/base/joined.h"
@@ -15,7 +16,7 @@
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/cable_alone.h"
 #include "pipeline/resolve/job_text.h"
-#include "pipeline/settings/fields.h"
+#include "pipeline/settings/echo_text.h"
 #include "pipeline/study/rate.h"
 
 namespace dresslife::pipeline {
@@ -34,6 +35,36 @@ std::string slip_alone(const Job& job, const Node& alone, bool is_part, bool was
 class CableStudyMaker {
  public:
   void add(const StudyJob& job) {
+    const std::size_t first = made_.cables.size(), rigs = made_.rigs.jobs.size();
+    const auto [same, is_new] = known_cables_.try_emplace(settings_of(*job.job));
+    if (!is_new) {
+      made_.cables.insert(made_.cables.end(), same->second.begin(), same->second.end());
+      for (std::size_t k = first; k < made_.cables.size(); ++k) made_.cables[k].job = job.name;
+      return;
+    }
+    add_new(job);
+    same->second.assign(made_.cables.begin() + static_cast<std::ptrdiff_t>(first), made_.cables.end());
+    const auto refused = [](const StudyJob& rig) { return !rig.failure.empty(); };
+    // The reason of a rig that cannot run names its job, so each job gets its own.
+    if (std::any_of(made_.rigs.jobs.begin() + static_cast<std::ptrdiff_t>(rigs), made_.rigs.jobs.end(), refused))
+      known_cables_.erase(same);
+  }
+  RatedStudy take() { return std::move(made_); }
+
+ private:
+  /// Returns a digest of everything in a job from which its rigs follow. Most jobs of a study have those of a few.
+  static std::string settings_of(Job job) {
+    for (MountedDresspack& mounted : job.dresspacks) mounted.routing = {};
+    return xxh3(echo_text(
+        [&](Fields& f) {
+          f.list("dresspacks", job.dresspacks, Need::required, "");
+          f.group("strain", job.strain, Need::optional, "");
+          f.group("fatigue", job.fatigue, Need::optional, "");
+        },
+        {}));
+  }
+
+  void add_new(const StudyJob& job) {
     const Node written = parse_yaml(job_text(*job.job), job.name);
     const Node* list = written.find("dresspacks");
     for (std::size_t k = 0; k < job.job->dresspacks.size(); ++k) {
@@ -43,9 +74,7 @@ class CableStudyMaker {
       for (const std::string& cable : cables_of(dresspack)) add_cable(job, written, dresspack, cable, among_others);
     }
   }
-  RatedStudy take() { return std::move(made_); }
 
- private:
   void add_cable(const StudyJob& job, const Node& written, const Node& dresspack, const std::string& name,
                  const std::string& among_others) {
     const Node alone = cable_alone(dresspack, name, {job.name});
@@ -88,6 +117,7 @@ class CableStudyMaker {
 
   RatedStudy made_{{"rigs", {}}, {}};
   std::set<std::string> known_;
+  std::unordered_map<std::string, std::vector<RatedCable>> known_cables_;  ///< by settings_of() their jobs
 };
 
 /// Returns whether the path of a conductor lies in this cable: "signal cable 3/conductor 2" in "signal cable".

@@ -6,6 +6,7 @@
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/study/ranking.h"
+#include "pipeline/study/relative_life.h"
 #include "tests/catch.h"
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
@@ -97,16 +98,35 @@ TEST_CASE("known study: jobs with ratings are remembered, too, and say so") {
   Bench bench;
   bench.run();
   CHECK_FALSE(bench.standing().rated);
-  bench.scratch().write("study.yaml",
-                        "base: job.yaml\njobs:\n  rated:\n    dresspack.ratings: [{rig: {kind: torsion, "
-                        "twist_deg_per_m: 360}, cycles: 1e+6, source: data sheet}]\n");
+  const auto rating = [](const char* twist) {
+    return fmt::format(
+        "dresspack.ratings: [{{rig: {{kind: torsion, twist_deg_per_m: {}}}, cycles: 1e+6, source: data sheet}}]",
+        twist);
+  };
+  bench.scratch().write(
+      "study.yaml", fmt::format("base: job.yaml\njobs:\n  a: {{{0}}}\n  b: {{{1}}}\n  c: {{{0}, routing.free_length_m: "
+                                "1.3}}\n  d: {{{1}, strain.slip: stick}}\n  e: {{}}\n",
+                                rating("360"), rating("180")));
   bench.run();
-  StudyState known = bench.standing();
+  const StudyState known = bench.standing();
   REQUIRE(known.remembered);
   CHECK(known.rated);
-  read_jobs(known);
-  CHECK(known.study.jobs.front().job->dresspacks.front().dresspack.ratings.size() == 1);
-  check_same(known, expanded(bench.request()));
+  const StudyState made_again = expanded(bench.request());
+  check_same(known, made_again);
+  // a and b have the same recipes: no stage reads the ratings of a cable with wires.
+  CHECK(known.states[0].recipes == known.states[1].recipes);
+  const RatedStudy read = rated_study(with_dresspacks(known)), expected = rated_study(made_again.study);
+  REQUIRE(expected.cables.size() == 4);
+  CHECK(expected.rigs.jobs.size() == 3);
+  REQUIRE(read.cables.size() == 4);
+  for (std::size_t k = 0; k < 4; ++k) {
+    CHECK(read.cables[k].job == made_again.study.jobs[k].name);
+    CHECK(read.cables[k].job == expected.cables[k].job);
+    CHECK(read.cables[k].rig_job == expected.cables[k].rig_job);
+    CHECK(read.cables[k].rig == expected.cables[k].rig);
+  }
+  CHECK(read.cables[0].rig_job != read.cables[1].rig_job);
+  CHECK(read.cables[0].rig_job == read.cables[2].rig_job);
 }
 
 TEST_CASE("known study: a touched file changes nothing, a changed one all that depends on it") {
