@@ -156,6 +156,7 @@ TEST_CASE("study: jobs that differ in their routing are those that are read alon
   const Scratch scratch;
   const std::string head = "base: irb6640_spot_welding\n";
   const std::string changes[] = {"{routing.free_length_m: 2.05}",
+                                 "{routing.tool_clamp.bend_relief.bending_stiffness_Nm2: 500}",  // causes a warning
                                  "{routing.free_length_m: 2.1, dresspack.components.1.slack_percent: 2}",
                                  "{routing.free_length_m: 2.15, dresspack.components.1.slack_percent: 2}",
                                  "{routing.free_length_m: 0.3, routing.tool_clamp.link: link_5}",
@@ -170,7 +171,7 @@ TEST_CASE("study: jobs that differ in their routing are those that are read alon
   for (const std::string& change : changes) together += fmt::format("  j{}: {}\n", &change - changes, change);
   const Study all = read_study(scratch.write("study.yaml", together), {"routing.tool_end=clamped"});
   REQUIRE(all.jobs.size() == std::size(changes));
-  std::size_t refused = 0;
+  std::size_t refused = 0, doubted = 0;
   for (std::size_t k = 0; k < all.jobs.size(); ++k) {
     INFO(changes[k]);
     const std::string alone = fmt::format("{}jobs:\n{}  j{}: {}\n", head, std::string(k, '\n'), k, changes[k]);
@@ -183,10 +184,14 @@ TEST_CASE("study: jobs that differ in their routing are those that are read alon
     CHECK(job_text(mine) == job_text(his));
     CHECK(mine.dresspacks[0].routing.where.text() == his.dresspacks[0].routing.where.text());
     CHECK(mine.motion.left_out == his.motion.left_out);
+    doubted += std::ranges::any_of(his.motion.left_out, [](const Warning& of) {
+      return of.line().find("bending_stiffness_Nm2 is 500") != std::string::npos;
+    });
     for (const JobPart part : {JobPart::sim, JobPart::strain, JobPart::fatigue})
       CHECK(part_text(mine, part) == part_text(his, part));
   }
   CHECK(refused >= 3);
+  CHECK(doubted == 1);
 }
 
 }  // namespace
