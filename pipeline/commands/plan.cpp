@@ -212,7 +212,9 @@ int plan(const PlanOptions& options) {
           {options.study},
           fmt::format("half of the dresspacks under duty '{}' fail within {}", name, hours_text(table.median())),
           "no plan helps; see dresslife improve");
-  const std::vector<DutyResult> duties = outlines(file, made.study, made.rows, planned);
+  const std::vector<DutyResult> with_past = outlines(file, made.study, made.rows, needed);
+  std::vector<DutyResult> duties = with_past;
+  std::erase_if(duties, [&](const DutyResult& duty) { return !planned.contains(duty.name); });
   const auto add_past = [&](Fleet& of) {
     for (const Warning& warning : add_histories(of, file, tables, day)) write_stderr(shown(warning.paragraph()));
   };
@@ -256,11 +258,11 @@ int plan(const PlanOptions& options) {
   if (rule.by_cost) {
     tests = test_words(values_of_tests(fleet, tables, found), found);
     if (const std::map<std::string, AbrasionLife> lives = abrasion_lives(duties); !lives.empty()) {
-      checks = values_of_checks(fleet, tables, lives, found);
+      checks = values_of_checks(fleet, tables, abrasion_lives(with_past), found);
       tests += check_words(checks, lives.begin()->second.inspection, fleet, found);
     }
   }
-  tests += age_words(fleet, found, age_limits(duties), week_hours_of(duties));
+  tests += age_words(fleet, found, age_limits(with_past), week_hours_of(duties));
   const std::string stem = "plan_" + fs::path(options.fleet).stem().string(), csv = plan_csv(fleet, found, checks);
   const fs::path table = made.places.folder / (stem + ".csv"), calendar = made.places.folder / (stem + ".ics");
   const fs::path weeks = made.places.folder / (stem + "_weeks.csv"), page = made.places.folder / (stem + ".html");

@@ -539,6 +539,16 @@ void keep_ages(Fleet& changed, const Fleet& now, const std::map<std::string, Lif
   }
 }
 
+double worn_hours(const Installed& row, double age, const std::function<double(const std::string&)>& life) {
+  double worn = 0;
+  for (const Installed::Spell& spell : row.before) {
+    const double hours = std::min(spell.hours, age);
+    age -= hours;
+    worn += spell.duty == row.duty ? hours : hours * life(row.duty) / life(spell.duty);
+  }
+  return worn + age;
+}
+
 std::vector<Warning> add_histories(Fleet& fleet, const DutyFile& file, const std::map<std::string, LifeTable>& tables,
                                    Day today) {
   const Installed* younger = nullptr;

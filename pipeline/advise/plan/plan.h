@@ -26,6 +26,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -149,6 +150,10 @@ std::vector<std::shared_ptr<const LifeTable>> first_lives(const Fleet& fleet,
 /// other hours, keeps its damage (D10). With another date of installation it is a new dresspack. from: day on which the other
 /// duties and hours begin; the old ones apply until then. Dresspacks of only one table are added or removed today.
 void keep_ages(Fleet& changed, const Fleet& now, const std::map<std::string, LifeTable>& tables, Day today, Day from);
+
+/// Returns the hours under its present duty that wear a dresspack as much as its `age` hours so far, some of which may belong to other
+/// duties. life: hours until wear ends a dresspack under a duty; infinite: no wear.
+double worn_hours(const Installed& row, double age, const std::function<double(const std::string& duty)>& life);
 
 /// Sets the spells of dresspacks whose duty has a history. A history by dates counts from the day on which a dresspack was
 /// installed. A history in hours describes the first hours of each dresspack; a warning names a dresspack with fewer hours than

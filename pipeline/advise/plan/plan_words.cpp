@@ -231,10 +231,16 @@ std::string age_words(const Fleet& fleet, const Plan& plan, const std::map<std::
     if (known == limits.end() || (!row.hours_per_week && usual == week_hours.end())) continue;
     const std::optional<std::size_t> window = plan.rows[i].window;
     const Day last = window ? plan.windows[*window].first : plan.end;
-    const double weeks = static_cast<double>((last - plan.today).count()) / 7, age = plan.rows[i].age_hours,
-                 then = age + weeks * row.hours_per_week.value_or(usual == week_hours.end() ? 0 : usual->second);
+    const double weeks = static_cast<double>((last - plan.today).count()) / 7,
+                 until = weeks * row.hours_per_week.value_or(usual == week_hours.end() ? 0 : usual->second);
     for (const AgeLimit& limit : known->second) {
-      if (!(limit.hours <= then)) continue;
+      const double age = worn_hours(row, plan.rows[i].age_hours, [&](const std::string& duty) {
+        const auto of_duty = limits.find(duty);
+        const AgeLimit* const same =
+            of_duty == limits.end() ? nullptr : find_in(of_duty->second, &AgeLimit::mode, limit.mode);
+        return same ? same->hours : std::numeric_limits<double>::infinity();
+      });
+      if (!(limit.hours <= age + until)) continue;
       Reached& reached = by_mode[limit.mode];
       (limit.hours <= age ? reached.today : reached.later).push_back(row.name);
     }

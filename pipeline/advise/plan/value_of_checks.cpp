@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "pipeline/base/statistics.h"
 #include "pipeline/life/visual_checks.h"
@@ -54,11 +55,16 @@ std::optional<std::vector<CheckValue>> values_of_checks(const Fleet& fleet,
     const auto found = lives.find(row.duty);
     return found == lives.end() || !std::isfinite(found->second.median) ? nullptr : &found->second;
   };
+  std::vector<double> ages;  // (row) under its present duty, for the same wear
+  for (std::size_t i = 0; i < fleet.rows.size(); ++i)
+    ages.push_back(worn_hours(fleet.rows[i], plan.rows[i].age_hours, [&](const std::string& duty) {
+      const auto found = lives.find(duty);
+      return found == lives.end() ? std::numeric_limits<double>::infinity() : found->second.median;
+    }));
   double survived = 0;  // share of z below the value at which all dresspacks live today
   for (std::size_t i = 0; i < fleet.rows.size(); ++i)
-    if (const AbrasionLife* const life = life_of(fleet.rows[i]); life && plan.rows[i].age_hours > 0)
-      survived =
-          std::max(survived, normal_share(std::log10(plan.rows[i].age_hours / life->median) / log10_spread(*life)));
+    if (const AbrasionLife* const life = life_of(fleet.rows[i]); life && ages[i] > 0)
+      survived = std::max(survived, normal_share(std::log10(ages[i] / life->median) / log10_spread(*life)));
   if (1 - survived < fewest_plants) return std::nullopt;
   std::vector<double> z;
   for (std::size_t k = 0; k < values_of_z; ++k)
@@ -70,8 +76,7 @@ std::optional<std::vector<CheckValue>> values_of_checks(const Fleet& fleet,
     const AbrasionLife* const abrasion = life_of(row);
     if (!abrasion) continue;
     const RowPlan& planned = plan.rows[i];
-    const double week = row.hours_per_week.value_or(tables.at(row.duty).hours_per_week),
-                 age = planned.age_hours;  // abrasion of other duties counts as that of the present duty
+    const double week = row.hours_per_week.value_or(tables.at(row.duty).hours_per_week), age = ages[i];
     const double end = times.back() / 7 * week, spread = log10_spread(*abrasion),
                  saves = row.unplanned_cost - row.planned_cost;
     std::optional<double> replaced;

@@ -97,6 +97,17 @@ TEST_CASE("a plan names the dresspacks that reach the age of a mode without vali
   CHECK(lines.starts_with("  1,234  a test\nNot validated"));
   for (std::size_t begin = 0, end; (end = lines.find('\n', begin)) != std::string::npos; begin = end + 1)
     CHECK(end - begin <= 118);
+  // Hours under an earlier duty count by their wear: 3,000 h that wear a tenth as much, and 1,200 h.
+  fleet.rows[2].before = {{"gentle", 3000}};
+  CHECK(worn_hours(fleet.rows[2], 4200, [](const std::string& duty) { return duty == "d" ? 2900 : 29000; }) == 1500);
+  CHECK(worn_hours(fleet.rows[2], 1000, [](const std::string& duty) { return duty == "d" ? 2900 : 29000; }) == 100);
+  const auto with_gentle = [&](std::vector<AgeLimit> gentle) {
+    return age_words(fleet, plan, {{"d", {{"jacket wear", 2900}}}, {"gentle", std::move(gentle)}}, {{"d", week}});
+  };
+  CHECK(with_gentle({{"jacket wear", 29000}}).find("replaced: r1, r2.") != std::string::npos);
+  CHECK(with_gentle({{"jacket wear", 2900}}).find("Inspect now: r2.") != std::string::npos);
+  CHECK(with_gentle({}).find("r2") == std::string::npos);  // no wear: 1,200 h and 24 weeks of 70 h
+  fleet.rows[2].before.clear();
   // If it is replaced in the first window, its age increases by at most 4 weeks.
   for (RowPlan& row : plan.rows) row.window = 0;
   CHECK(words(2800 + 4 * week + 1).find("r1") == std::string::npos);

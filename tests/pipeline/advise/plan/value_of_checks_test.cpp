@@ -140,15 +140,21 @@ TEST_CASE("checks: an old dresspack that lives makes the abrasion of all others 
   CHECK(check_words(none, {}, old.fleet, old.plan).find("fewer than 1 in 1,000 such plants") != std::string::npos);
 }
 
-TEST_CASE("checks: rubbing counts all hours, also those under duties that hardly wear the wires") {
+TEST_CASE("checks: hours under an earlier duty count by their wear") {
   Plant plant({installed_for(20)});
-  const std::map<std::string, AbrasionLife> lives{{"d", life_with(4000, 0.3, 0.5, 2, 50)}};
-  const double before = plant.values(lives)[0].today;
+  const AbrasionLife own = life_with(4000, 0.3, 0.5, 2, 50);
+  const auto today = [&](const std::map<std::string, AbrasionLife>& lives) { return plant.values(lives)[0].today; };
+  const double before = today({{"d", own}});
   CHECK(before > 0);
   plant.fleet.rows[0].before = {{"other", 19 * week}};  // of its 20 weeks
   plant.plan = plan_of(plant.fleet, plant.tables, plant.plan.windows, start, {0.1, true});
   CHECK(plant.plan.rows[0].age_hours == 20 * week);
-  CHECK(plant.values(lives)[0].today == before);
+  CHECK(today({{"d", own}, {"other", own}}) == before);
+  AbrasionLife slower = own;
+  slower.median *= 19;  // as two weeks of the present duty
+  CHECK(today({{"d", own}, {"other", slower}}) == Plant({installed_for(2)}).values({{"d", own}})[0].today);
+  CHECK(today({{"d", own}}) ==
+        Plant({installed_for(1)}).values({{"d", own}})[0].today);  // nothing rubs under the other
 }
 
 TEST_CASE("checks: the words name the dresspacks with most, and what the regular checks save") {
