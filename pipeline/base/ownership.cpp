@@ -95,9 +95,11 @@ std::size_t place_of_mark(std::string_view text, Mark mark) {
 bool is_notes(const fs::path& folder) {
   if (kind_of_name(folder) != FileKind::folder) return false;
   const std::vector<fs::path> entries = entries_of(folder);
-  return entries.empty() || std::any_of(entries.begin(), entries.end(), [](const fs::path& entry) {
-           return begins_as_ours(beginning_of(entry, ownership_bytes));
-         });
+  const auto is_temporary = [](const fs::path& entry) { return is_part(entry.filename().native()); };
+  // A program that was killed before it wrote the mark leaves an empty folder or a temporary file.
+  return std::ranges::all_of(entries, is_temporary) ||
+         std::any_of(entries.begin(), entries.end(),
+                     [](const fs::path& entry) { return begins_as_ours(beginning_of(entry, ownership_bytes)); });
 }
 
 struct Policy {

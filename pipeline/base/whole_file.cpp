@@ -30,14 +30,6 @@ fs::path folder_of(const fs::path& file) {
 
 constexpr std::string_view part_begin = "dresslife-", part_end = ".part";
 
-/// Returns whether `name` is "dresslife-PROCESS-NUMBER.part".
-bool is_part(std::string_view name) {
-  if (!name.starts_with(part_begin) || !name.ends_with(part_end)) return false;
-  const std::string_view middle = name.substr(part_begin.size(), name.size() - part_begin.size() - part_end.size());
-  return !middle.empty() && middle.find_first_not_of("0123456789-") == std::string_view::npos &&
-         std::count(middle.begin(), middle.end(), '-') == 1;
-}
-
 constexpr int most_parts = 1000;  // limit for one process in one folder
 std::string part_name(int number) { return fmt::format("{}{}-{}{}", part_begin, ::getpid(), number, part_end); }
 
@@ -91,6 +83,13 @@ int sync_folder(const fs::path& folder) {
 }
 
 }  // namespace
+
+bool is_part(std::string_view name) {
+  if (!name.starts_with(part_begin) || !name.ends_with(part_end)) return false;
+  const std::string_view middle = name.substr(part_begin.size(), name.size() - part_begin.size() - part_end.size());
+  return !middle.empty() && middle.find_first_not_of("0123456789-") == std::string_view::npos &&
+         std::count(middle.begin(), middle.end(), '-') == 1;
+}
 
 WholeFile::WholeFile(fs::path final_name) : final_name_(std::move(final_name)) {
   check_replaceable(final_name_);

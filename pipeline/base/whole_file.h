@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "pipeline/base/last_moment.h"
 #include "pipeline/base/ownership.h"
@@ -21,6 +22,9 @@ namespace dresslife::pipeline {
 /// Whether the bytes of a file reach the disk before its final name. Files that every run compares and corrects anyway need no
 /// sync: ten thousand jobs have ten thousand such files.
 enum class Sync { now, never };
+
+/// Returns whether `name` is that of a temporary file, "dresslife-PROCESS-NUMBER.part".
+bool is_part(std::string_view name);
 
 class WholeFile {
  public:

@@ -85,6 +85,9 @@ TEST_CASE("ownership: files go when they are ours, folders of notes when they we
         std::string::npos);
   remove_notes(scratch / "theirs/.stage");
   CHECK(bytes_of(scratch / "theirs/.stage/sim.log") == "mine");
+  scratch.write("killed/.stage/dresslife-12-0.part", "# Wri");  // by a program that was killed before it wrote the mark
+  make_notes(scratch / "killed/.stage");
+  CHECK_FALSE(fs::exists(scratch / "killed/.stage/dresslife-12-0.part"));
   make_notes(scratch / "new/.stage");
   make_notes(scratch / "new/.stage");
   scratch.write("new/.stage/sim.log", "what a stage says");
