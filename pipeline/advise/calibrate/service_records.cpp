@@ -437,6 +437,14 @@ ServiceTests read_service_tests(const ServiceRequest& request) {
         "Removed {}, not counted: {}, of these failed: {}{}.\n", request.since ? "before" : "on that day", early,
         early_failed,
         request.since ? "" : ". --records-since DATE gives an earlier day from which the records are complete");
+  if (!request.since && failed == 0 && early_failed > 0)
+    read.words += warning_of(WarningKind::calibration, "",
+                             fmt::format("no failure counts, because all {} failed on {}, the day of the first removal",
+                                         early_failed, day_text(*since)),
+                             "the records are complete from an earlier day",
+                             "--records-since DATE: the first day from which the table has every removal")
+                      .line() +
+                  "\n";
   if (short_week)
     read.words +=
         warning_of(WarningKind::calibration, short_week->where.text(),

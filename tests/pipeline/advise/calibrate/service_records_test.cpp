@@ -103,6 +103,9 @@ TEST_CASE("service records: without a first day the first removal is it, and doe
   CHECK(read(table, "2024-01-01").tests.front().observation.service.size() == 3);
   CHECK_THAT(refusal("robot,installed,replaced\nA,2024-01-01,\n"),
              Contains("has no dresspack that was removed") && Contains("--records-since"));
+  CHECK_THAT(plant.words, !Contains("no failure counts"));
+  CHECK_THAT(read("robot,installed,replaced,reason\nA,2024-01-01,2025-01-06,failed\nC,2024-03-03,,\n").words,
+             Contains("no failure counts, because all 1 failed on 2025-01-06") && Contains("--records-since DATE"));
 }
 
 TEST_CASE("service records: what cannot be used is refused at its place, with a remedy") {
