@@ -439,7 +439,8 @@ ServiceTests read_service_tests(const ServiceRequest& request) {
         request.since ? "" : ". --records-since DATE gives an earlier day from which the records are complete");
   if (!request.since && failed == 0 && early_failed > 0)
     read.words += warning_of(WarningKind::calibration, "",
-                             fmt::format("no failure counts, because all {} failed on {}, the day of the first removal",
+                             fmt::format("no failure counts: the table's only failures ({}) are on {}, the day of "
+                                         "the first removal, and removals of this day do not count",
                                          early_failed, day_text(*since)),
                              "the records are complete from an earlier day",
                              "--records-since DATE: the first day from which the table has every removal")

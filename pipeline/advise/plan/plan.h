@@ -151,8 +151,8 @@ std::vector<std::shared_ptr<const LifeTable>> first_lives(const Fleet& fleet,
 /// duties and hours begin; the old ones apply until then. Dresspacks of only one table are added or removed today.
 void keep_ages(Fleet& changed, const Fleet& now, const std::map<std::string, LifeTable>& tables, Day today, Day from);
 
-/// Returns the hours under its present duty that wear a dresspack as much as its `age` hours so far, some of which may belong to other
-/// duties. life: hours until wear ends a dresspack under a duty; infinite: no wear.
+/// Returns the hours under its present duty that wear a dresspack as much as its first `age` hours, which may include hours under
+/// earlier duties. life: hours until wear ends a dresspack under a duty; infinite: no wear.
 double worn_hours(const Installed& row, double age, const std::function<double(const std::string& duty)>& life);
 
 /// Sets the spells of dresspacks whose duty has a history. A history by dates counts from the day on which a dresspack was

@@ -2,11 +2,10 @@
 // (pipeline/job/inspection.h). No test validates abrasion, and the cost of the plan does not include its failures.
 //
 // Under its duty, abrasion ends dresspack i at the age T_i(z) = T_50 10^(s z). z is one standard normal number for the plant,
-// because the wear rate of a pair of materials causes most of the scatter s. All dresspacks have survived until their ages a_i
-// (worn_hours() of their hours under all duties),
-// so z > max over i of log10(a_i / T_50) / s. A check can see the wear from the age v T on and finds it with the probability p. A
-// dresspack with wear is replaced at the cost C_p before it fails at the cost C_u. l(t): share of the dresspacks whose wires live
-// until t.
+// because the wear rate of a pair of materials causes most of the scatter s. All dresspacks have survived until their ages a_i,
+// the worn_hours() of their hours under all duties, so z > max over i of log10(a_i / T_50) / s. A check can see the wear from the
+// age v T on and finds it with the probability p. A dresspack with wear is replaced at the cost C_p before it fails at the cost C_u.
+// l(t): share of the dresspacks whose wires live until t.
 //
 // One check today, without later checks, has a value if the wear would end the dresspack within the H hours until the window of
 // its replacement or the end of the plan:
@@ -41,8 +40,8 @@ struct CheckValue {
   double found = 0;    ///< number of these failures that checks find before they occur
 };
 
-/// Returns the values, (row of the fleet). lives: by duties, also earlier ones; without an entry: nothing rubs. plan: plan of this fleet. Absent: in
-/// fewer than 1 in 1,000 plants with this abrasion all dresspacks live today.
+/// Returns the values, (row of the fleet). lives: by duties, also earlier ones; without an entry: nothing rubs. plan: plan of
+/// this fleet. Absent: in fewer than 1 in 1,000 plants with this abrasion all dresspacks live today.
 std::optional<std::vector<CheckValue>> values_of_checks(const Fleet& fleet,
                                                         const std::map<std::string, LifeTable>& tables,
                                                         const std::map<std::string, AbrasionLife>& lives,

@@ -105,7 +105,8 @@ TEST_CASE("service records: without a first day the first removal is it, and doe
              Contains("has no dresspack that was removed") && Contains("--records-since"));
   CHECK_THAT(plant.words, !Contains("no failure counts"));
   CHECK_THAT(read("robot,installed,replaced,reason\nA,2024-01-01,2025-01-06,failed\nC,2024-03-03,,\n").words,
-             Contains("no failure counts, because all 1 failed on 2025-01-06") && Contains("--records-since DATE"));
+             Contains("no failure counts: the table's only failures (1) are on 2025-01-06, the day") &&
+                 Contains("--records-since DATE"));
 }
 
 TEST_CASE("service records: what cannot be used is refused at its place, with a remedy") {
