@@ -51,6 +51,13 @@ Cure held_cure(const CableFacts& facts, bool known_bore, double least, double mo
                               std::isfinite(most) && least <= most
                                   ? slack_line(facts, least, most)
                                   : fmt::format("{} and tool_grip_N as measured", cable_key(facts, "base_grip_N")))};
+  if (facts.motion && facts.motion->is_prescribed()) {
+    const auto& rig = facts.motion->rig;
+    const bool held = rig && rig->kind == pipeline::RigKind::torsion && !rig->weight;
+    return {path, fmt::format("{}less bend or twist in {}",
+                              held ? "motion.rig.weight_kg: 0 if the lower end is free to move, or " : "",
+                              rig ? "motion.rig" : "motion.deformation")};
+  }
   // Inside a cable friction may hold the pull, and then a clamp that lets the part slip changes little.
   return {
       path,
@@ -146,6 +153,7 @@ std::vector<CableFacts> facts_of(const pipeline::FileReader& strain, const pipel
     facts.between = pipeline::between_clamps(job.dresspacks[in].routing,
                                              static_cast<std::size_t>(span[k] - first_span.at(dresspack[k])));
     facts.number = entry_number(facts.dresspack->components, which);
+    facts.motion = &job.motion;
     facts.has_room = has_room;
     facts.slack_factor = job.strain.factors.slack;
     facts.winding_slack = pipeline::winding_slack(job.dresspacks[in], *facts.component);

@@ -26,6 +26,7 @@ struct CableFacts {
   bool has_room = false;                           ///< the file contains these
   double winding_slack = 0;                        ///< see pipeline/cable/excess.h; 0: unknown, or not needed
   double slack_factor = 1;                         ///< its slack over slack_percent
+  const pipeline::Motion* motion = nullptr;        ///< null: clamps of a robot move the dresspack
   std::string between{};  ///< " between the base clamp and clamp 1"; empty: its dresspack has two clamps
 };
 
