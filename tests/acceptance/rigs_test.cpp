@@ -195,6 +195,16 @@ TEST_CASE("torsion rig: a held cable that is pulled has a remedy, with which not
   CHECK_THAT(said("--set motion.rig.weight_kg=0"), !Catch::Contains("warning"));
 }
 
+TEST_CASE("torsion rig: the life of a hanging cable does not depend on the number of segments") {
+  const auto life = [](int segments) {
+    Scratch scratch;
+    return life_of(scratch, "'" + rigs + "torsion_hanging.yaml' --set 'dresspack.cable={from: thesis_welding}'" +
+                                " --set simulation.segments=" + std::to_string(segments));
+  };
+  // The twist is the same everywhere. Single precision of strains (3e-6) changes a life by its tenth power.
+  CHECK(life(25) == Approx(life(50)).epsilon(1e-4));
+}
+
 TEST_CASE("rolling flex: its worst wire lives as long as one bent and straightened twice a cycle") {
   Scratch scratch;
   const std::string cable = "dresspack: {cable: {from: spot_welding}}\n";
