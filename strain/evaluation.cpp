@@ -232,11 +232,9 @@ void Evaluation::end_first_pass() {
     bends += lengths_[i] * bends_[2 * i].variance();
     if (i + 1 < lengths_.size()) slopes += bends_[2 * i + 1].variance() / (arcs_[i + 1] - arcs_[i]);
   }
-  double length = 0;
-  for (const double of : lengths_) length += of;
   // Poses give curvatures with an error of up to 1e-9 1/m. A bend of 1e-6 1/m strains the jacket of a hose of 0.1 m by 5e-8.
-  const bool bent = bends > 1e-12 * length;
-  evening_.bend_wave = bent && slopes > 0 ? 2 * std::numbers::pi * std::sqrt(bends / slopes) : HUGE_VAL;
+  const bool bent = bends > 1e-12 * total(lengths_);
+  if (bent && slopes > 0) evening_.bend_wave = 2 * std::numbers::pi * std::sqrt(bends / slopes);
   const ShortenedPlan of = means_.shorten(evening_.bend_wave);
   evening_.layer = of.longest;
   evening_.longest = of.evening;

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <string>
@@ -146,11 +147,11 @@ class Evaluation {
   void go_on_from(const Evaluation& other) { cables_.go_on_from(other.cables_); }
   void end_first_pass();
   /// bend_wave: length over which the span's curvature changes, 2 pi rms/rms of its slope, of the part that varies in time [m];
-  /// infinite: no variation. layer: of the layers on which friction has an effect, the one whose strain evens out over the
+  /// infinite: no bend, or an even one. layer: of the layers on which friction has an effect, the one whose strain evens out over the
   /// greatest length; -1: none. longest: this length (LayerSlip::evening) [m]. straight: this layer evens out from clamp to clamp,
   /// because it has no lay or fewer than four turns.
   struct BendScale {
-    double bend_wave = 0, longest = 0;
+    double bend_wave = HUGE_VAL, longest = 0;
     int layer = -1;
     bool straight = false;
   };
