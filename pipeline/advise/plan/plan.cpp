@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <tuple>
 
@@ -125,13 +126,26 @@ double hours_in_day(const Installed& row, const LifeTable& table) {
   return row.hours_per_week.value_or(table.hours_per_week) / 7;
 }
 
+/// Returns the hours under the harder duty that wear a dresspack as much as an hour under a duty, by the medians of the lives: exact
+/// if all lives differ by one factor.
+double harder_hours_in_hour(const LifeTable& harder, const LifeTable& table) {
+  constexpr double least = 1e-3;  // a window of a month still has a part of an hour
+  if (&harder == &table) return 1;
+  const double share = harder.median() / table.median();
+  return std::isfinite(share) ? std::clamp(share, least, 1.0) : 1;
+}
+
 /// Hours of operation of a dresspack, over the days from today.
 class Pace {
  public:
-  Pace(const Installed& row, const LifeTable& table)
+  /// earlier: lives under the duty before the change; of the same duty without a change
+  Pace(const Installed& row, const LifeTable& table, const LifeTable& earlier)
       : after_(hours_in_day(row, table)),
         before_(row.change ? row.change->hours_per_day : after_),
-        change_(row.change ? row.change->day : 0) {}
+        change_(row.change ? row.change->day : 0),
+        harder_(&earlier != &table && earlier.median() < table.median() ? &earlier : &table),
+        harder_before_(harder_hours_in_hour(*harder_, earlier)),
+        harder_after_(harder_hours_in_hour(*harder_, table)) {}
   /// Returns the hours until a day. Days before today have negative hours.
   double hours(double day) const { return before_ * std::min(day, change_) + after_ * std::max(0.0, day - change_); }
   /// Returns the day after these hours.
@@ -139,10 +153,21 @@ class Pace {
     const double until_change = before_ * change_;
     return hours < until_change ? hours / before_ : change_ + (hours - until_change) / after_;
   }
+  /// Returns whether a time [hours from today] lies before the change.
+  bool before_change(double hours) const { return hours < before_ * change_; }
+  /// Returns the lives under the harder of both duties.
+  const LifeTable& harder() const { return *harder_; }
+  /// Returns hours from today as hours under the harder duty that wear as much.
+  double harder_hours(double hours) const {
+    const double before = std::min(hours, before_ * change_);
+    return harder_before_ * before + harder_after_ * (hours - before);
+  }
 
  private:
-  double after_, before_;  ///< [hours per day]
-  double change_;          ///< [days from today]
+  double after_, before_;                ///< [hours per day]
+  double change_;                        ///< [days from today]
+  const LifeTable* harder_;              ///< of the two duties
+  double harder_before_, harder_after_;  ///< harder_hours_in_hour()
 };
 
 double run_of(const Installed& row, const LifeTable& table, Day today) {
@@ -175,6 +200,13 @@ LifeTable lives_after(const std::vector<Installed::Spell>& before, const LifeTab
     }
     std::sort(hours, hours + own.draws);
   }
+  return lives;
+}
+
+/// Returns the lives of today's dresspack with its hours from today as Pace::harder_hours().
+LifeTable in_harder_hours(LifeTable lives, double age, const Pace& pace) {
+  for (float& life : lives.hours)
+    if (life > age && std::isfinite(life)) life = static_cast<float>(age + pace.harder_hours(life - age));
   return lives;
 }
 
@@ -352,11 +384,12 @@ class Simulation {
     weeks_ = weeks_until(times.back());
   }
 
-  /// Simulates one plant. decision: null: only failed dresspacks are replaced.
-  Outcome plant(RandomNumbers& random, const Decision* decision) const {
+  /// Simulates one plant. decision: null: only failed dresspacks are replaced. before: for dresspacks that are installed before a
+  /// change of their duty, in Pace::harder_hours().
+  Outcome plant(RandomNumbers& random, const Decision* decision, const Decision* before) const {
     Outcome outcome{std::vector<int>(years_, 0), std::vector<int>(years_, 0), std::vector<int>(weeks_, 0)};
     const std::size_t world = draw_world(random);
-    for (std::size_t i = 0; i < fleet_.rows.size(); ++i) dresspack(i, world, random, decision, outcome);
+    for (std::size_t i = 0; i < fleet_.rows.size(); ++i) dresspack(i, world, random, decision, before, outcome);
     return outcome;
   }
 
@@ -389,7 +422,7 @@ class Simulation {
   }
 
   void dresspack(std::size_t i, std::size_t world, RandomNumbers& random, const Decision* decision,
-                 Outcome& outcome) const {
+                 const Decision* before, Outcome& outcome) const {
     const Pace& pace = paces_[i];
     // All times are hours of operation from today.
     double begun = -rows_[i].age_hours, fails = begun + draw(*rows_[i].lives, world, rows_[i].age_hours, random);
@@ -414,8 +447,13 @@ class Simulation {
         put_in(next, false);
         continue;
       }
-      const double hours = pace.hours(times_[window + 1]) - opens;
-      const bool replaces = is_first ? rows_[i].window == window : decision->replace_new(i, next - begun, hours);
+      const auto replaces_new = [&] {
+        const double until = pace.hours(times_[window + 1]);
+        if (!pace.before_change(begun)) return decision->replace_new(i, opens - begun, until - opens);
+        const double now = pace.harder_hours(opens);
+        return before->replace_new(i, now - pace.harder_hours(begun), pace.harder_hours(until) - now);
+      };
+      const bool replaces = is_first ? rows_[i].window == window : replaces_new();
       if (replaces) put_in(next, true);
       ++window;
     }
@@ -622,17 +660,25 @@ Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
   plan.effective_worlds = worlds.effective();
   plan.all_alive = worlds.all_alive();
   if (plan.effective_worlds < rule.enough_worlds) return plan;
-  std::vector<const LifeTable*> of_row, earlier;
+  std::vector<const LifeTable*> of_row, earlier, harder;
+  Fleet under_harder = fleet;
   std::vector<Pace> paces;
   double most_hours = 0;  // hours of operation within the plan
   for (const Installed& row : fleet.rows) {
     of_row.push_back(&tables.at(row.duty));
     earlier.push_back(row.change ? &tables.at(row.before.back().duty) : of_row.back());
-    most_hours = std::max(most_hours, paces.emplace_back(row, *of_row.back()).hours(times.back()));
+    const Pace& pace = paces.emplace_back(row, *of_row.back(), *earlier.back());
+    most_hours = std::max(most_hours, pace.hours(times.back()));
+    harder.push_back(&pace.harder());
+    if (harder.back() != of_row.back()) under_harder.rows[harder.size() - 1].duty = row.before.back().duty;
     plan.rows.emplace_back().age_hours = run_of(row, *of_row.back(), today);
     plan.rows.back().lives = first[plan.rows.size() - 1];
   }
   const Decision decision(fleet, of_row, worlds, rule, most_hours);
+  // A replacement before a change of duty is decided by the wear under both duties.
+  std::optional<const Decision> before_change;
+  if (std::ranges::any_of(fleet.rows, [](const Installed& row) { return row.change.has_value(); }))
+    before_change.emplace(under_harder, harder, worlds, rule, most_hours);
   const auto plan_row = [&](std::size_t i) {
     RowPlan& row = plan.rows[i];
     const LifeTable& lives = *row.lives;
@@ -645,11 +691,20 @@ Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
     row.fails_before_first = worlds.fails(lives, row.age_hours, row.age_hours, age_at(times.front()));
     double failed = row.fails_before_first;
     const LaterLife life = decision.later_life(i, lives, row.age_hours);
+    std::optional<LaterLife> until_change;
+    if (fleet.rows[i].change)
+      until_change = before_change->later_life(i, in_harder_hours(lives, row.age_hours, paces[i]), row.age_hours);
+    const auto replaces_at = [&](double from, double to) {
+      const double opens = from - row.age_hours;
+      if (!paces[i].before_change(opens)) return decision.replace(i, life, from, to - from);
+      const double now = paces[i].harder_hours(opens), until = paces[i].harder_hours(to - row.age_hours);
+      return before_change->replace(i, *until_change, row.age_hours + now, until - now);
+    };
     for (std::size_t n = 0; n < windows.size(); ++n) {
       const double left = 1 - failed, from = age_at(times[n]), to = age_at(times[n + 1]);
       const double fails = worlds.fails(lives, row.age_hours, from, to);
       row.fails_until_next.push_back(left > 0 ? fails / left : 1);
-      if (!row.window && decision.replace(i, life, from, to - from)) row.window = n, row.fails_before = failed;
+      if (!row.window && replaces_at(from, to)) row.window = n, row.fails_before = failed;
       failed += fails;
     }
     if (!row.window) row.fails_before = failed;
@@ -675,7 +730,7 @@ Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
   for (std::size_t p = 0; p < plants; ++p) {
     // both simulations of a plant use the same random numbers, so that their costs are comparable
     RandomNumbers random(mixed(seed + p)), same(mixed(seed + p));
-    const Outcome outcome = simulation.plant(random, &decision);
+    const Outcome outcome = simulation.plant(random, &decision, before_change ? &*before_change : nullptr);
     plan.years.resize(outcome.planned.size());
     replaced.resize(outcome.planned.size());
     for (std::size_t y = 0; y < plan.years.size(); ++y) {
@@ -683,7 +738,7 @@ Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
       plan.years[y].unplanned += outcome.unplanned[y] * share;
       replaced[y].push_back(outcome.planned[y] + outcome.unplanned[y]);
     }
-    const Outcome without = simulation.plant(same, nullptr);
+    const Outcome without = simulation.plant(same, nullptr, nullptr);
     for (std::size_t week = 0; week < plan.failures_in_week.size(); ++week) {
       plan.failures_in_week[week] += outcome.failures[week] * share;
       plan.failures_in_week_without_windows[week] += without.failures[week] * share;

@@ -563,6 +563,48 @@ TEST_CASE("what if from a later day: until then a dresspack wears as before, the
   CHECK(failures == Approx(expected).margin(4 * std::sqrt(expected / 1000)));
 }
 
+TEST_CASE("what if from a later day: each part of the plan has the replacements and the cost of its own duty") {
+  constexpr double shape = 4, scale = 6000, planned = 1, unplanned = 10, harder = 4;
+  constexpr int change = 150, end = 300;  // [weeks]
+  const std::map<std::string, LifeTable> tables{{"d", weibull(shape, {scale}, 4000)},
+                                                {"hard", weibull(shape, {scale / harder}, 4000)}};
+  // The least cost per hour of age replacement, by brute force over ages of an hour.
+  double least = std::numeric_limits<double>::infinity(), running = 0;
+  for (double age = 1; age < 2 * scale; ++age) {
+    const double lives = std::exp(-std::pow(age / scale, shape));
+    running += std::exp(-std::pow((age - 0.5) / scale, shape));
+    least = std::min(least, (planned * lives + unplanned * (1 - lives)) / running);
+  }
+  std::vector<int> weeks(end - 1);
+  std::iota(weeks.begin(), weeks.end(), 1);
+  std::vector<int> ages(20);  // so that replacements are spread over all weeks
+  std::iota(ages.begin(), ages.end(), 0);
+  for (const bool to_hard : {true, false}) {
+    const char *const before = to_hard ? "d" : "hard", *const after = to_hard ? "hard" : "d";
+    Fleet fleet = fleet_of(ages, planned, unplanned);
+    for (Installed& row : fleet.rows) row.duty = before;
+    Fleet changed = fleet;
+    for (Installed& row : changed.rows) row.duty = after;
+    keep_ages(changed, fleet, tables, start, start + std::chrono::days(7 * change));
+    const Plan plan = plan_of(changed, tables, windows_in(weeks), start, {0.1, true});
+    const double hours = double(ages.size()) * week, expected = least * hours * (change + harder * (end - change));
+    const double of_hard_first = least * hours * (harder * change + (end - change));
+    INFO(before << " then " << after);
+    // The last life of each dresspack is not at its end; 20 to 100 lives each.
+    CHECK(plan.cost == Approx(to_hard ? expected : of_hard_first).epsilon(0.1));
+    // Before the change today's dresspacks are replaced at the ages of the unchanged plan.
+    const Plan now = plan_of(fleet, tables, windows_in(weeks), start, {0.1, true});
+    for (std::size_t k = 0; k < ages.size(); ++k)
+      if (now.rows[k].window && *now.rows[k].window + 2 < change) {
+        REQUIRE(plan.rows[k].window);
+        CHECK(std::abs(double(*plan.rows[k].window) - double(*now.rows[k].window)) <= 2);  // the cost is flat there
+      }
+    // 1,000 simulated plants: the smaller number has an error of 3 %
+    CHECK(plan.years[1].planned == Approx(now.years[1].planned).epsilon(0.1));
+    CHECK(plan.years[1].unplanned == Approx(now.years[1].unplanned).epsilon(0.1));
+  }
+}
+
 TEST_CASE("a fleet is read from a spreadsheet's table, and what is wrong in it is named at its cell") {
   const Scratch scratch;
   const auto read = [&](const std::string& text) {
