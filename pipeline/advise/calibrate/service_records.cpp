@@ -109,6 +109,7 @@ struct Row {
   std::string name;  ///< name of the place: robot and dresspack
   Day from{}, to{};
   End end = End::in_use;
+  std::string reason;
   bool of_hose = false;  ///< its reason names a hose
   std::optional<double> hours_per_week;
   std::string job;
@@ -152,7 +153,11 @@ class Export {
     std::vector<std::string> words;
     for (std::size_t c = 0; c < column_count; ++c)
       if (at_[c]) words.push_back(fmt::format("{} = '{}'", columns()[c].name, titles_[*at_[c]].text));
-    return joined(words, ", ");
+    std::vector<std::string> unused;
+    for (std::size_t k = 0; k < titles_.size(); ++k)
+      if (!titles_[k].text.empty() && std::ranges::find(at_, k) == at_.end())
+        unused.push_back("'" + titles_[k].text + "'");
+    return joined(words, ", ") + (unused.empty() ? "" : ". Not used: " + joined(unused, ", "));
   }
   /// Returns a line that names the job if neither the table nor the request does.
   const std::string& job_words() const { return job_words_; }
@@ -265,7 +270,7 @@ class Export {
              day_remedy(written) + ", or nothing while it is in use");
     row.to = is_date ? day(cells, replaced) : request_.today;
     row.end = *why_end;
-    row.of_hose = names_hose(why);
+    row.reason = why, row.of_hose = names_hose(why);
     if (is_date && row.end == End::in_use)
       refuse(cells, at_[reason] ? reason : replaced, "a dresspack was removed and no reason is given",
              at_[reason] ? "write failed or preventive as its reason"
@@ -284,15 +289,21 @@ class Export {
   void check_overlaps(const std::vector<Row>& rows) const {
     Problems problems;
     std::map<std::string, std::vector<const Row*>> places;
-    for (const Row& row : rows) places[row.name].push_back(&row);
-    for (auto& [name, at] : places) {
+    // Exports write one name with other capitals and blanks.
+    for (const Row& row : rows) {
+      std::string name;
+      for (const unsigned char letter : row.name)
+        if (letter != ' ') name += static_cast<char>(std::tolower(letter));
+      places[name].push_back(&row);
+    }
+    for (auto& [key, at] : places) {
       std::stable_sort(at.begin(), at.end(), [](const Row* a, const Row* b) {
         return std::pair(a->from, a->to) < std::pair(b->from, b->to);
       });
       for (std::size_t k = 1; k < at.size(); ++k)
         if (at[k]->from < at[k - 1]->to || (at[k]->from == at[k - 1]->from && at[k]->to == at[k - 1]->to))
           problems.add(at[k]->where,
-                       fmt::format("'{}' is in use from {} on, and line {} has it until {}", name,
+                       fmt::format("'{}' is in use from {} on, and line {} has it until {}", at[k]->name,
                                    day_text(at[k]->from), at[k - 1]->line, day_text(at[k - 1]->to)),
                        "correct a date, remove the row that is there twice, or name the dresspack of each");
     }
@@ -366,6 +377,9 @@ ServiceTests read_service_tests(const ServiceRequest& request) {
   std::vector<std::string> hoses;  // one line per failure whose reason names a hose
   Where first_hose;
   const Row* short_week = nullptr;
+  std::map<std::string, std::size_t> of_reason;  // (reason) failures
+  std::map<std::pair<Day, Day>, std::pair<const Row*, std::size_t>>
+      on_day;  // (dates) first failure, number of failures
   for (const Row& row : rows) {
     const auto [at, is_new] = known.try_emplace(row.job, read.tests.size());
     if (is_new) {
@@ -405,6 +419,10 @@ ServiceTests read_service_tests(const ServiceRequest& request) {
       if (hoses.empty()) first_hose = row.where;
       hoses.push_back(std::to_string(row.line));
     }
+    if (record.failed) {
+      ++of_reason[row.reason];
+      ++on_day.try_emplace({row.from, row.to}, &row, 0).first->second.second;
+    }
     ObservedTest& test = read.tests[at->second];
     test.observation.service.push_back(record);
     test.text += fmt::format("{} {} {}\n", record.hours, record.entry_hours, record.failed);
@@ -430,6 +448,24 @@ ServiceTests read_service_tests(const ServiceRequest& request) {
                     std::filesystem::path(of_job).filename().string(), hours_per_week[of_job]);
   read.words += fmt::format("{} dresspacks: {} failed, {} were removed without a failure, {} are in use on {}.\n",
                             failed + removed + in_use, failed, removed, in_use, day_text(request.today));
+  if (failed > 0)
+    read.words += fmt::format(
+        "Counted as broken wires by their reasons: {}.\n",
+        joined(mapped(of_reason, [](const auto& of) { return fmt::format("'{}' ({})", of.first, of.second); }), ", "));
+  for (const auto& [days, of] : on_day) {
+    constexpr std::size_t few = 3;  // two dresspacks of one cell may fail on one day
+    if (of.second < few || 2 * of.second < failed) continue;
+    read.words +=
+        warning_of(WarningKind::calibration, of.first->where.text(),
+                   fmt::format("{} of {} failures are of dresspacks that were installed on {} and replaced on "
+                               "{} (limit fewer than half, or two)",
+                               of.second, failed, day_text(days.first), day_text(days.second)),
+                   "a planned replacement of all, or the day of the entry instead of that of the failure",
+                   "preventive for those that had not failed, and the day of each failure; equal lives leave "
+                   "no scatter between dresspacks")
+            .line() +
+        "\n";
+  }
   read.words += fmt::format("Records begin on {}{}. Put in before: {}; these count from their age on that day.\n",
                             day_text(*since), request.since ? "" : ", the day of the first removal", before);
   if (early > 0)

@@ -215,6 +215,45 @@ TEST_CASE("service records: a failure of a hose does not silently count as broke
     CHECK_THAT(words_of(other), !Contains("warning"));
 }
 
+TEST_CASE("service records: the report names unused columns and the reasons that count as broken wires") {
+  const std::string titles = "robot,installed,replaced,reason,quantity,counter\n";
+  const std::string words = read(titles +
+                                     "A,2024-01-01,2025-01-06,gun defect,4,900\nB,2024-01-01,2025-01-07,failed,1,800\n"
+                                     "C,2024-01-01,2025-01-08,gun defect,1,\nD,2024-01-01,2025-01-09,planned,1,\n",
+                                 "2024-01-01")
+                                .words;
+  CHECK_THAT(words, Contains("Not used: 'quantity', 'counter'.") &&
+                        Contains("Counted as broken wires by their reasons: 'failed' (1), 'gun defect' (2).\n"));
+  CHECK_THAT(read("robot,installed,replaced,reason\nA,2024-01-01,2025-01-06,planned\n", "2024-01-01").words,
+             !Contains("Not used") && !Contains("broken wires"));
+}
+
+TEST_CASE("service records: one dresspack under two spellings counts once") {
+  const auto table = [](const std::string& name, const std::string& until) {
+    return "robot,dresspack,installed,replaced,reason\nR 2,A,2024-01-01,2025-01-06,failed\n" + name + ",2024-01-01," +
+           until + ",failed\n";
+  };
+  for (const char* name : {"r2,A", "R  2,a", "R2,A"})
+    CHECK_THAT(refusal(table(name, "2025-01-06"), "2024-01-01"),
+               Contains("plant.csv:3:1: error: ") && Contains("and line 2 has it until 2025-01-06"));
+  CHECK(refusal(table("R 3,A", "2025-01-06"), "2024-01-01") == "read");
+}
+
+TEST_CASE("service records: failures of one age on one day are doubted") {
+  const auto words_of = [](int alike, int others) {
+    std::string table = "robot,installed,replaced,reason\n";
+    for (int k = 0; k < alike; ++k) table += fmt::format("A{},2024-01-01,2025-01-06,failed\n", k);
+    for (int k = 0; k < others; ++k) table += fmt::format("B{},2024-01-01,2025-02-{:02},failed\n", k, k + 1);
+    return read(table, "2024-01-01").words;
+  };
+  CHECK_THAT(words_of(4, 1),
+             Contains("plant.csv:2:1: warning: 4 of 5 failures are of dresspacks that were installed on "
+                      "2024-01-01 and replaced on 2025-01-06"));
+  CHECK_THAT(words_of(3, 3), Contains("3 of 6 failures"));
+  for (const auto& [alike, others] : {std::pair(3, 4), {2, 0}})
+    CHECK_THAT(words_of(alike, others), !Contains("warning"));
+}
+
 TEST_CASE("service records: titles and reasons in Spanish") {
   const auto of = [](const std::string& titles, const std::string& reason) {
     return read(titles + "\nA;x;2024-01-01;2025-01-06;" + reason + ";76\nB;x;2024-01-01;;;76\n", "2024-01-01");
