@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "pipeline/base/lists.h"
@@ -58,10 +59,15 @@ void add_service_doubts(const LearnedTest& test, double surprising, Learned& lea
   }
 }
 
-double surprise(const LearnedTest& test, const PredictedDeciles& predicted) {
+double surprise(const LearnedTest& test, PredictedDeciles predicted) {
   const Observation& observation = test.observation;
   if (!observation.service.empty()) return 0;  // many lives have no single surprise
-  const double seen = observation.is_life() ? observed_life(observation) : test.measured;
+  double seen = observation.is_life() ? observed_life(observation) : test.measured;
+  if (seen < 0) {  // the largest moment of a loop that ends in the other direction
+    seen = -seen;
+    predicted = {-predicted[2], -predicted[1], -predicted[0]};
+  }
+  if (!observation.is_life() && seen > 0 && predicted[2] < 0) return std::numeric_limits<double>::infinity();
   const auto off = [&](double side) {
     return std::log(seen / predicted[1]) / (std::log(side / predicted[1]) / normal_decile);
   };

@@ -319,6 +319,21 @@ TEST_CASE("learned: a surprise is counted in deviations of its own side, and onl
   CHECK(surprise(test) == 0);  // a measured 0 has no logarithm
 }
 
+TEST_CASE("learned: the largest moment of a loop is as surprising in either direction") {
+  const auto surprise_of = [](double measured, PredictedDeciles before) {
+    LearnedTest test;
+    test.observation.bending = "loop.csv";
+    test.measured = measured, test.before = before;
+    return surprise(test);
+  };
+  const double above = surprise_of(0.07, {0.01, 0.02, 0.04}), below = surprise_of(0.005, {0.01, 0.02, 0.04});
+  CHECK(above > 2);
+  CHECK(below > 2);
+  CHECK(surprise_of(-0.07, {-0.04, -0.02, -0.01}) == Approx(above));
+  CHECK(surprise_of(-0.005, {-0.04, -0.02, -0.01}) == Approx(below));
+  CHECK(std::isinf(surprise_of(-0.02, {0.01, 0.02, 0.04})));  // in the wrong direction
+}
+
 TEST_CASE("learned: a row that only the other rows contradict has a note") {
   const Made hours("    hours: 300\n");
   const Axes axes(*hours.round);
