@@ -23,6 +23,7 @@ constexpr double least_unshared = 0.005;         // 1 %: two tests never agree s
 constexpr double stiffest = 10, softest = 1e-5;  // [N m2]: 35 mm2 of glued copper; a lead of 1 mm
 constexpr double least_noise = 1;                // [%]: scales and rulers have errors of 2 % and more
 constexpr double tightest = 50, widest = 0.05;   // [1/m]: radii of 20 mm and of 20 m
+constexpr std::size_t most_points = 300;         // a loop by hand has 20 to 100
 constexpr double largest_decrement = 2;          // a swing that ends after one turn
 
 class Doubts {
@@ -104,6 +105,11 @@ class Doubts {
     const BendingPoint tight = *std::max_element(
         points.begin(), points.end(),
         [](const BendingPoint& a, const BendingPoint& b) { return std::abs(a.curvature) < std::abs(b.curvature); });
+    if (points.size() > most_points)
+      add(test, "the number of points of the curve", double(points.size()), fmt::format("{} or less", most_points),
+          "all readings of a testing machine: each counts as a measurement with an error of its own, so the result is too "
+          "certain, and takes long",
+          "means of neighbouring readings, 20 to 100 over the loop");
     const double curvature = std::abs(tight.curvature), stiffness = std::abs(tight.moment / tight.curvature);
     if (curvature > tightest || curvature < widest)
       add(test, "the largest curvature_1_per_m", curvature, fmt::format("{:g} .. {:g}", widest, tightest),

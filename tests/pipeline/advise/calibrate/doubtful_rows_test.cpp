@@ -150,6 +150,16 @@ TEST_CASE("observations: what another unit, a copy or an exchange explains is wa
     REQUIRE(doubts.size() == 1);
     CHECK_THAT(doubts[0], Contains(one.problem) && Contains(one.remedy));
   }
+  const auto doubts_of_points = [](int count) {
+    std::string points = "curvature_1_per_m,moment_Nm\n";
+    for (int k = 1; k <= count; ++k) points += fmt::format("{},{}\n", 0.01 * k, 0.0002 * k);
+    return answer_to("observations:\n" + row("x", "bending: bend.csv"), points).doubts;
+  };
+  REQUIRE(doubts_of_points(301).size() == 1);
+  CHECK_THAT(doubts_of_points(301)[0],
+             Contains("the number of points of the curve of 'x' is 301 (limit 300 or less)") &&
+                 Contains("means of neighbouring readings"));
+  CHECK(doubts_of_points(300).empty());
 }
 
 TEST_CASE("observations: the shipped tables and usual rows have no doubts") {
