@@ -24,6 +24,10 @@ constexpr double stiffest = 10, softest = 1e-5;  // [N m2]: 35 mm2 of glued copp
 constexpr double least_noise = 1;                // [%]: scales and rulers have errors of 2 % and more
 constexpr double tightest = 50, widest = 0.05;   // [1/m]: radii of 20 mm and of 20 m
 constexpr std::size_t most_points = 300;         // a loop by hand has 20 to 100
+constexpr std::size_t few_points = 4;            // more: the first branch has points at small bends
+constexpr double from_straight = 0.5;            // of the largest bend: the first of three points lies below it
+constexpr double straight = 0.02;                // of the largest bend: the error of a ruler
+constexpr double largest_zero = 0.1;             // of the largest moment: twice the usual noise of 5 %
 constexpr double largest_decrement = 2;          // a swing that ends after one turn
 
 class Doubts {
@@ -110,6 +114,19 @@ class Doubts {
           "all readings of a testing machine: each counts as a measurement with an error of its own, so the result is too "
           "certain, and takes long",
           "means of neighbouring readings, 20 to 100 over the loop");
+    const BendingPoint& first = points.front();
+    const double first_bend = std::abs(first.curvature / tight.curvature);
+    double largest_moment = 0;
+    for (const BendingPoint& point : points) largest_moment = std::max(largest_moment, std::abs(point.moment));
+    if (points.size() > few_points && first_bend > from_straight)
+      add(test, "the first curvature_1_per_m over the largest one", first_bend,
+          fmt::format("{:g} or less: a test begins with a straight cable", from_straight),
+          "a sorted table, or one without its first branch", "all readings in the order of the test, from straight");
+    if (first_bend <= straight && std::abs(first.moment) > largest_zero * largest_moment)
+      add(test, "the moment of the straight cable over the largest one", std::abs(first.moment) / largest_moment,
+          fmt::format("{:g} or less", largest_zero),
+          "a scale that was not set to zero, or a cable that is bent by itself",
+          fmt::format("each moment_Nm less {:.3g}", first.moment));
     const double curvature = std::abs(tight.curvature), stiffness = std::abs(tight.moment / tight.curvature);
     if (curvature > tightest || curvature < widest)
       add(test, "the largest curvature_1_per_m", curvature, fmt::format("{:g} .. {:g}", widest, tightest),

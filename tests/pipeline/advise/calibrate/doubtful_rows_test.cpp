@@ -142,7 +142,12 @@ TEST_CASE("observations: what another unit, a copy or an exchange explains is wa
               "1000 over the bend radius"},
         Table{"2000,0.02\n1000,0.03\n", "the largest curvature_1_per_m of 'x' is 2000",
               "1000 over the bend radius in mm"},
-        Table{"0.01,0.5\n0.02,1\n", "exchanged columns", "curvature_1_per_m"}}) {
+        Table{"0.01,0.5\n0.02,1\n", "exchanged columns", "curvature_1_per_m"},
+        Table{"5,0.07\n2.5,0.02\n0,-0.03\n-2.5,-0.05\n-5,-0.07\n",
+              "the first curvature_1_per_m over the largest one of 'x' is 1",
+              "in the order of the test, from straight"},
+        Table{"0,0.02\n1,0.04\n5,0.09\n", "the moment of the straight cable over the largest one of 'x' is 0.222",
+              "each moment_Nm less 0.02"}}) {
     const std::vector<std::string> doubts = answer_to("observations:\n" + row("x", "bending: bend.csv"),
                                                       std::string("curvature_1_per_m,moment_Nm\n") + one.lines)
                                                 .doubts;
