@@ -587,12 +587,17 @@ bool is_shield(const std::string& phrase) {
   return std::regex_match(phrase, words);
 }
 
-/// Divides "4 x 2 x 0.25 mm2 shielded" into its two phrases.
+/// Divides "4 x 2 x 0.25 mm2 shielded class 6" into its phrases.
 std::vector<std::string> phrases_of(const std::string& phrase) {
-  static const std::regex at_end("(.*?[^ ]) +(un(?:shielded|screened)|" + shield_words + ")");
+  static const std::regex at_end("(.*?[^ ]) +(un(?:shielded|screened)|" + shield_words + ")"),
+      section_and_class(R"((\d.*[^ ]) +(class *[1-6]))");
   std::smatch found;
-  if (is_shield(phrase) || !std::regex_match(phrase, found, at_end)) return {phrase};
-  return {found[1], found[2]};
+  if (is_shield(phrase) ||
+      (!std::regex_match(phrase, found, at_end) && !std::regex_match(phrase, found, section_and_class)))
+    return {phrase};
+  std::vector<std::string> phrases = phrases_of(found[1]);
+  phrases.push_back(found[2]);
+  return phrases;
 }
 
 /// Returns whether a phrase of shops and standards has no effect on a life.
@@ -684,6 +689,9 @@ std::vector<std::pair<const char*, std::string>> keys_of_phrase(const std::strin
       std::any_of(lengths.begin(), lengths.end(),
                   [&](const auto& of) { return std::regex_match(found[1].str(), of.first); }))
     meant = fmt::format("write '{} {} mm'", found[1].str(), found[2].str());
+  static const std::regex bare(R"([\d.]+ *mm)");
+  if (meant.empty() && std::regex_match(phrase, bare))
+    meant = fmt::format("write 'outer diameter {}' if it is that of the cable", phrase);
   static const std::regex two_kinds(R"((\d+ *[x*g] *.*\d) *\+ *\(?\d+ *[x*g(].*)");
   if (meant.empty() && std::regex_match(phrase, found, two_kinds))
     meant =

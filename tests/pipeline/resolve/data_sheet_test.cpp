@@ -254,9 +254,12 @@ TEST_CASE("a data sheet's line takes the sections of shops, and proposes what ot
   CHECK(text("4x(2x0.25) mm2") == text("4 x 2 x 0.25 mm2"));
   CHECK(text("12 x 0,75 mm² geschirmt, Klasse 6, Außendurchmesser 12,5 mm, Mantel PUR 1,1 mm, Schlaglänge 60 mm") ==
         text("12 x 0.75 mm2 shielded, class 6, outer diameter 12.5 mm, jacket PUR 1.1 mm, lay length 60 mm"));
+  CHECK(text("18G1.0 class 6") == text("18 x 1.0 mm2, class 6"));
+  CHECK(text("4 x 2 x 0.25 mm2 shielded class 5") == text("4 x 2 x 0.25 mm2, shielded, class 5"));
   CHECK(text("2 x 1 mm2, ungeschirmt") == text("2 x 1 mm2, unshielded"));
   const auto refused = [&](const std::string& line) { return message_of([&] { text(line); }); };
   CHECK_THAT(refused("2.5 x 4 mm2"), Catch::Contains("write '4 x 2.5 mm2': the number of cores comes first"));
+  CHECK_THAT(refused("5 x 1 mm2, 14.5 mm"), Catch::Contains("write 'outer diameter 14.5 mm'"));
   CHECK_THAT(refused("4 x 2.5 mm"), Catch::Contains("write '4 x 2.5 mm2'"));
   CHECK_THAT(refused("4x2x0.25 shielded"), Catch::Contains("write '4x2 x 0.25 mm2'"));
   CHECK_THAT(refused("4x2.5 + 2x(2x0.5) mm2"),
