@@ -111,8 +111,7 @@ class Doubts {
         [](const BendingPoint& a, const BendingPoint& b) { return std::abs(a.curvature) < std::abs(b.curvature); });
     if (points.size() > most_points)
       add(test, "the number of points of the curve", double(points.size()), fmt::format("{} or less", most_points),
-          "all readings of a testing machine: each counts as a measurement with an error of its own, so the result is too "
-          "certain, and takes long",
+          "all readings of a testing machine, with which the result takes long",
           "means of neighbouring readings, 20 to 100 over the loop");
     const BendingPoint& first = points.front();
     const double first_bend = std::abs(first.curvature / tight.curvature);

@@ -129,6 +129,9 @@ std::vector<BendingPoint> read_bending(const std::filesystem::path& file) {
 }
 
 BendingNumbers bending_numbers(const std::vector<BendingPoint>& points, double noise) {
+  // All readings of a loop share the errors of its scale, its grips and the model's shape, so more readings do not make the result
+  // ever more certain. Ten are two or three per branch of a loop.
+  constexpr double most_independent = 10;
   const double most = largest_of(points, 0.0, [](const BendingPoint& point) { return std::abs(point.moment); });
   BendingNumbers made;
   std::map<double, std::size_t> places;
@@ -143,6 +146,9 @@ BendingNumbers bending_numbers(const std::vector<BendingPoint>& points, double n
     }
     if (!number.parts.empty()) made.numbers.push_back(std::move(number));
   }
+  const double share = static_cast<double>(made.numbers.size()) / most_independent;
+  if (share > 1)
+    for (MeasuredNumber& number : made.numbers) number.deviation *= std::sqrt(share);
   return made;
 }
 

@@ -28,7 +28,7 @@ struct BendingPoint {
 std::vector<BendingPoint> read_bending(const std::filesystem::path& file);
 
 /// Returns the points as sums of M1 at curvatures > 0 [1/m]. noise: relative error of a moment; the error is at least a tenth of
-/// that of the largest moment.
+/// that of the largest moment. More than ten points together count as ten independent ones.
 struct BendingNumbers {
   std::vector<double> curvatures;
   std::vector<MeasuredNumber> numbers;

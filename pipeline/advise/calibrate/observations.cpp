@@ -49,8 +49,9 @@ void describe(Fields& f, Observation& observation) {
       "bending", observation.bending, Need::optional,
       "A CSV of a bending test with the columns curvature_1_per_m and moment_Nm, from straight, in the order of the test. It "
       "replaces a life.");
-  f.number("noise_percent", observation.noise_percent, Need::optional, between(0.1, 100),
-           "The standard deviation of a measured moment, stiffness or decrement.");
+  f.number(
+      "noise_percent", observation.noise_percent, Need::optional, between(0.1, 100),
+      "The standard deviation of a measured moment, stiffness or decrement. A curve counts as at most ten independent moments.");
   f.number(
       "cycles_per_repeat", observation.cycles_per_repeat, Need::optional, above(0),
       "The number of cycles that the observer counts in one repeat of the job's motion: 2 if single strokes are counted.");

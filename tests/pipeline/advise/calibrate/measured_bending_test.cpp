@@ -67,6 +67,9 @@ TEST_CASE("bending: noise is a share of a moment, and not nothing where it cross
   CHECK(bent.numbers[0].deviation == Approx(0.1));
   CHECK(bent.numbers[2].deviation == Approx(0.01));
   CHECK(bending_numbers({{0, 0}, {1, 2}}, 0.05).numbers.size() == 1);
+  // Forty readings of one moment say as much as ten.
+  CHECK(bending_numbers(std::vector<BendingPoint>(10, {1, 2}), 0.05).numbers[0].deviation == Approx(0.1));
+  CHECK(bending_numbers(std::vector<BendingPoint>(40, {1, 2}), 0.05).numbers[0].deviation == Approx(0.2));
 }
 
 TEST_CASE("bending: tables between their values, straight in logarithms") {
