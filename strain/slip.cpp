@@ -55,6 +55,7 @@ std::vector<LayerSlip> plan_slip(const Construction& construction, const std::ve
     if (layer.is_cable()) {
       plan[k].loose = layer.loose;
       plan[k].sliding = layer.loose ? Sliding::glued : Sliding::clamp_to_clamp;
+      if (!layer.loose) plan[k].radial_share = 1;  // CablePaths gives the strain that remains with the bed
       continue;
     }
     if (helical)

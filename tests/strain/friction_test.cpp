@@ -686,7 +686,8 @@ TEST_CASE("a bed that gives takes its share of conductors and wires in every way
     const Construction construction(dresspack, Kinematics::exact);
     Settings settings = settings_with({slip});
     settings.surface_fibres = 0;
-    settings.probes = {{1, "signal cable 1/conductor 1/layer 1/wire 1"}};
+    const bool in_cable = dresspack.components[0].name == "signal cable";
+    settings.probes = {{1, (in_cable ? "signal cable 1/" : std::string()) + "conductor 1/layer 1/wire 1"}};
     Evaluation evaluation(construction, settings, {2.0}, 2);
     DeformationHistory history(1, 2);
     history.set(0, 0, {0, 0, 0, 0});
@@ -713,6 +714,10 @@ TEST_CASE("a bed that gives takes its share of conductors and wires in every way
   // its wires by R^2 x 19 rad/m of it.
   constexpr double twisting = 2.5e-3;
   CHECK(strain_of_pulled(dresspack, free) == Approx(share * rigid).epsilon(twisting));
+  // A dresspack that is a cable has the conductors at its first level: it is pulled like a cable in a hose.
+  Dresspack alone = dresspack;
+  alone.components = dresspack.components[0].components;
+  CHECK(strain_of_pulled(alone, free) == Approx(share * rigid).epsilon(twisting));
 }
 
 TEST_CASE(
