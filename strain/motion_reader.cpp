@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "pipeline/job/parts_room.h"
+
 namespace dresslife::strain {
 namespace {
 
@@ -36,10 +38,14 @@ MotionReader::MotionReader(const pipeline::FileReader& file, const pipeline::Job
   for (std::size_t k = 0; k < spans_.size(); ++k)
     gauges_.emplace_back(lengths_of(spans_[k]), job.strain.deformation, free_end(job, k));
   shortening_.resize(spans_.size());
+  pulled_stiffness_.resize(spans_.size());
   if (job.motion.is_prescribed()) return;
-  for (std::size_t k = 0; k < spans_.size(); ++k)
-    if (const auto of = static_cast<std::size_t>(spans_[k].dresspack); of < job.dresspacks.size())
-      shortening_[k] = pipeline::twist_shortening(job.dresspacks[of].dresspack);
+  for (std::size_t k = 0; k < spans_.size(); ++k) {
+    const auto of = static_cast<std::size_t>(spans_[k].dresspack);
+    if (of >= job.dresspacks.size() || !pipeline::is_single_cable(job.dresspacks[of].dresspack)) continue;
+    shortening_[k] = pipeline::twist_shortening(job.dresspacks[of].dresspack);
+    pulled_stiffness_[k] = job.dresspacks[of].dresspack.axial_stiffness;
+  }
 }
 
 std::vector<double> MotionReader::lengths_of(const pipeline::MotionSpan& span) const {
@@ -59,13 +65,15 @@ void MotionReader::run(bool with_pull, const std::function<void(const MotionBloc
   const std::size_t clamps = file_.row_size("/clamp/position") / 3;
   std::vector<double> position, orientation, clamp_position, clamp_orientation;
   std::vector<Deformation> deformation, at_wires;
-  std::vector<double> pull;
+  std::vector<double> pull, tension;
+  const bool any_pulled = std::ranges::any_of(pulled_stiffness_, [](double of) { return of > 0; });
   for (std::size_t first = from; first < end; first += motion_block_samples) {
     const std::size_t count = std::min(motion_block_samples, end - first);
     file_.read_rows(group_ + "/segment/position", first, count, position);
     file_.read_rows(group_ + "/segment/orientation", first, count, orientation);
     file_.read_rows(group_ + "/clamp/position", first, count, clamp_position);
     file_.read_rows(group_ + "/clamp/orientation", first, count, clamp_orientation);
+    if (any_pulled) file_.read_rows("/tension", first, count, tension);
     deformation.resize(count * segments);
     at_wires.resize(count * segments);
     for (std::size_t t = 0; t < count; ++t) {
@@ -81,7 +89,9 @@ void MotionReader::run(bool with_pull, const std::function<void(const MotionBloc
                             row(clamp_position, 3 * clamps).subspan(3 * base, 3 * held),
                             row(clamp_orientation, 4 * clamps).subspan(4 * base, 4 * held)},
                            own(deformation));
-        for (Deformation& of : own(deformation)) of.elongation -= shortening_[k].at(of.twist);
+        if (pulled_stiffness_[k] > 0)
+          for (std::size_t i = 0; Deformation & of : own(deformation))
+            of.elongation = tension[t * segments + begin + i++] / pulled_stiffness_[k] - shortening_[k].at(of.twist);
         std::ranges::copy(own(deformation), own(at_wires).begin());
         gauges_[k].move_to_ends(own(at_wires));
       }

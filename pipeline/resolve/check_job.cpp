@@ -89,11 +89,12 @@ void check_simulated(const Dresspack& dresspack) {
                                                    {"axial_stiffness_N", dresspack.axial_stiffness}};
   for (const auto& [key, value] : needed)
     if (value <= 0)
-      problems.add(dresspack.where, fmt::format("dresspack.{} is missing (a cable that is simulated needs it)", key),
-                   "give it, or let motion.rig or motion.deformation move the cable");
+      problems.add(
+          dresspack.where, fmt::format("dresspack.{} is missing (a cable that is simulated needs it)", key),
+          "give from_construction or the measured value, or let motion.rig or motion.deformation move the cable");
   if (dresspack.damping_source.empty())
     problems.add(dresspack.where, "dresspack.damping_source is missing (a cable that is simulated needs it)",
-                 "give damping_time_ms and where it comes from");
+                 "give damping_time_ms (20 is usual) and where it comes from, or ESTIMATE");
   problems.finish();
 }
 

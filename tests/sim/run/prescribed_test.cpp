@@ -226,7 +226,7 @@ TEST_CASE("prescribed: a job with a rig, written out, is the same job") {
   CHECK(job.dresspacks.front().routing.free_length == Approx(0.08 * pi * 2.75));
   CHECK(message_of([&] {
           job_of(cable_job("{clamp_poses: p.csv}", "routing: {free_length_m: 1}\n"));
-        }).find("dresspack.mass_kg_per_m is missing (a cable that is simulated needs it); give it, or let") !=
+        }).find("dresspack.mass_kg_per_m is missing (a cable that is simulated needs it); give from_construction") !=
         std::string::npos);
 }
 
