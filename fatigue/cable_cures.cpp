@@ -59,14 +59,16 @@ Cure held_cure(const CableFacts& facts, bool known_bore, double least, double mo
                               rig ? "motion.rig" : "motion.deformation")};
   }
   // Inside a cable friction may hold the pull, and then a clamp that lets the part slip changes little.
-  return {
-      path,
-      fmt::format("{}.inner_diameter_mm: {:.3g} (ESTIMATE) if it lies in a hose, else {}{} and tool_grip_N as measured",
-                  facts.key, 1e3 * pipeline::usual_bore_share * facts.dresspack->diameter,
-                  pipeline::is_single_cable(*facts.dresspack)
-                      ? "the lengths and clamps that `dresslife improve` finds (less bend and twist), or "
-                      : "",
-                  cable_key(facts, "base_grip_N"))};
+  const double bore = pipeline::usual_bore_share * facts.dresspack->diameter;
+  const std::string in_hose =
+      2 * facts.component->radius < bore
+          ? fmt::format("{}.inner_diameter_mm: {:.3g} (ESTIMATE) if it lies in a hose, else ", facts.key, 1e3 * bore)
+          : "";
+  return {path, fmt::format("{}{}{} and tool_grip_N as measured", in_hose,
+                            pipeline::is_single_cable(*facts.dresspack)
+                                ? "the lengths and clamps that `dresslife improve` finds (less bend and twist), or "
+                                : "",
+                            cable_key(facts, "base_grip_N"))};
 }
 
 /// Returns the room per wound excess. Excess s in a room c makes a helix of curvature 2 s/c (excess.h), which must keep

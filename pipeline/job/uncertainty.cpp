@@ -50,8 +50,8 @@ const std::array<UncertainParameter, uncertain_count>& uncertain_parameters() {
        3.0},  // the cables of the next dresspack have other rest positions
       {"hose_stiffness", "simulation.stiffness_factor", true, 1.75, true, SharedBy::construction,
        "ESTIMATE, from five published jacketed cables. The key has no effect if the hose does not move",
-       "the sag of a hanging length of the filled hose with a weight: bending_stiffness_Nm2",
-       "the stiffness of the hose", "A hanging length of the filled hose bent by a weight (one hour)",
+       "the sag of a hanging length of the dresspack with a weight: bending_stiffness_Nm2",
+       "the stiffness of the dresspack", "A hanging length of the dresspack bent by a weight (one hour)",
        0.15},  // the sag is measured to 15 %
       {"strength", "fatigue.strength_factor", true, 1.3, false, SharedBy::material,
        "Source: errors of rules from tensile tests (Nachtigall 1975) and the differences of the soft coppers in "

@@ -65,7 +65,9 @@ class Converter {
       throw InputError(where, "merge keys (<<) are not supported",
                        "write 'from: NAME' to start from a catalogue entry");
     if (!keys.insert(key.Scalar()).second)
-      throw InputError(where, fmt::format("duplicate key '{}'", key.Scalar()), "keep one of the two");
+      throw InputError(
+          where, fmt::format("duplicate key '{}'", key.Scalar()),
+          value.IsSequence() ? "keep one of the two, with the items of both in its list" : "keep one of the two");
     Node converted = convert(value, depth + 1);
     // The library gives a missing value the place of the next line.
     if (converted.where.line <= 0 || converted.kind == Node::Kind::null) converted.where = where;

@@ -377,10 +377,10 @@ std::string relief_remark(const CheckedMotion& motion, const Check& broken) {
   const pipeline::BendRelief tried =
       pipeline::first_relief(dresspack.diameter, dresspack.bending_stiffness, routing.free_length / now);
   return fmt::format(
-      "; a sleeve or spring beside the clamp may spread the bend, which dresslife improve tries: {}.bend_relief={}{}",
+      "; a sleeve or spring beside the clamp may spread the bend, which dresslife improve tries: {}.bend_relief: {}{}",
       key_of(motion.setup, broken.dresspack, std::min_element(bare.begin(), bare.end())->second),
       pipeline::relief_text(relief),
-      segments > now ? fmt::format(" and simulation.segments={:.0f} (with {} it tries four segments, {:.0f} mm)",
+      segments > now ? fmt::format(" and simulation.segments: {:.0f} (with {} it tries four segments, {:.0f} mm)",
                                    segments, now, 1e3 * tried.length)
                      : "");
 }

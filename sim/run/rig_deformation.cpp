@@ -140,6 +140,12 @@ class Expansion {
   /// Returns the number of segments if segments are too long by this factor.
   int segments_for(double factor) const { return static_cast<int>(segments_ * factor) + 1; }
 
+  /// Refuses segments that are too long by this factor for the whole bend. where: "onto the mandrel".
+  [[noreturn]] void refuse_segments(const char* where, double factor) const {
+    throw InputError(rig_.where, fmt::format("{} segments cannot follow the cable {}", segments_, where),
+                     fmt::format("give simulation.segments: {}", segments_for(factor)));
+  }
+
   /// Sets places at half the distance of the chain's links.
   void places() {
     result_.positions.clear();
@@ -188,15 +194,14 @@ class Expansion {
 
   void two_pulley() {
     const double radius = this->radius(), half = way_.bend / 2;
+    if (half < edge_) refuse_segments("around a pulley", edge_ / half);
     sweep("carriage there", "carriage back", [&](double position, double at) {
       return (bent_between(position, at, at + half) - bent_between(position, at + half, at + 2 * half)) / radius;
     });
   }
 
   void tick_tock() {
-    if (way_.bend < 2 * edge_)
-      throw InputError(rig_.where, fmt::format("{} segments cannot follow the cable onto the mandrel", segments_),
-                       fmt::format("give simulation.segments: {}", segments_for(2 * edge_ / way_.bend)));
+    if (way_.bend < 2 * edge_) refuse_segments("onto the mandrel", 2 * edge_ / way_.bend);
     const double radius = this->radius();
     places();
     to_either_side(fmt::format("{:.4g} deg", *rig_.angle * degrees), "", [&](double level) {

@@ -158,6 +158,9 @@ TEST_CASE("cures: what holds a cable or sticks to it goes before its slack") {
       Catch::Contains(
           "dresspack.inner_diameter_mm: 42.5 (ESTIMATE) if it lies in a hose, else the lengths and clamps that `dresslife improve` finds (less "
           "bend and twist), or dresspack.components.2.base_grip_N"));
+  cable.dresspack.diameter = 2 * part.radius;  // a cable does not lie in a hose of its own width
+  CHECK_THAT(cure().remedy, Catch::StartsWith("the lengths and clamps that `dresslife improve` finds"));
+  cable.dresspack.diameter = 0.05;
   cable.dresspack.inner_diameter = 0.044;
   CHECK_THAT(cure().remedy,
              Catch::StartsWith("dresspack.components.2.position: loose, or dresspack.components.2.slack_percent: "));

@@ -53,6 +53,8 @@ TEST_CASE("document: quoted values are marked, because a quoted number is no num
 
 TEST_CASE("document: duplicate keys are refused at the second one") {
   CHECK(refusal("a: 1\nb: 2\na: 3\n") == "f.yaml:3:1: error: duplicate key 'a'; keep one of the two");
+  CHECK(refusal("a: [1]\na: [2]\n") ==
+        "f.yaml:2:1: error: duplicate key 'a'; keep one of the two, with the items of both in its list");
   CHECK(refusal("deep: {x: 1, y: 2, x: 3}\n") == "f.yaml:1:20: error: duplicate key 'x'; keep one of the two");
 }
 

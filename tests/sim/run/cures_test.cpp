@@ -304,8 +304,8 @@ TEST_CASE("cures: a bend beside a clamp names its bend relief, unless it has one
   job.dresspacks[0].routing.base_clamp->direction = {0, -1, 0};  // away from the other clamp
   job.dresspacks[0].dresspack.least_bend_radius = 0.25;
   const std::string words = words_of(job, pipeline::WarningKind::bend_radius);
-  CHECK_THAT(words, Catch::Contains("dresslife improve tries: routing.base_clamp.bend_relief={length_mm: 120, ") &&
-                        Catch::Contains(" and simulation.segments=44 (with 20 it tries four segments, 260 mm)"));
+  CHECK_THAT(words, Catch::Contains("dresslife improve tries: routing.base_clamp.bend_relief: {length_mm: 120, ") &&
+                        Catch::Contains(" and simulation.segments: 44 (with 20 it tries four segments, 260 mm)"));
   CHECK(pipeline::first_relief(0.04, 2, 1.3 / 20).length == Approx(0.26));  // the relief of improve
   job.dresspacks[0].routing.base_clamp->bend_relief = {0.1, 0};             // without stiffness: an identical run
   CHECK_THAT(words_of(job, pipeline::WarningKind::bend_radius),

@@ -103,7 +103,7 @@ TEST_CASE(
   const double share = pipeline::share_beyond({{-1.65, limit / soft}, {0, limit / own}, {1.65, limit / stiff}}, 0, 1);
   CHECK_THAT(
       between.warnings[0].words,
-      Catch::Contains("with 0.4 times the stiffness of the hose (simulation.stiffness_factor: 0.397)") &&
+      Catch::Contains("with 0.4 times the stiffness of the dresspack (simulation.stiffness_factor: 0.397)") &&
           Catch::Contains(fmt::format("smallest bend radius: {:.1f} mm (limit {:.1f} mm)", 1e3 * soft, 1e3 * limit)) &&
           Catch::Contains(
               fmt::format("about {} of such dresspacks exceed this limit", pipeline::percent_words(share))) &&
