@@ -183,7 +183,8 @@ TEST_CASE("every warning of a stage reaches its log, the terminal, ranking.csv a
       {"robot", "", "force", "that is unrealistic: do not plan with the hours"},
       {"cable", "", "material", "material odd: K' 100 MPa"},
       // the softer hose bends to 134 mm, the job's own to 142 mm
-      {"cable", "--set dresspack.least_bend_radius_mm=138", "other_values", "with 0.4 times the stiffness of the dresspack"},
+      {"cable", "--set dresspack.least_bend_radius_mm=138", "other_values",
+       "with 0.4 times the stiffness of the dresspack"},
   };
   const Scratch scratch;
   write_jobs(scratch);
