@@ -66,7 +66,7 @@ std::vector<Warning> warnings_in(const fs::path& life) {
 
 /// Returns the lines of a job that the remedies of warnings propose: "strain.friction_factor: 2.5".
 std::set<std::string> lines_in(const std::string& warnings) {
-  static const std::regex line(R"(([a-z][a-zA-Z_0-9]*(\.[a-zA-Z_0-9]+)+: )(\[[^\]]*\]|[^ ,;()]+))");
+  static const std::regex line(R"(([a-z][a-zA-Z_0-9]*(\.[a-zA-Z_0-9]+)+: )(\[[^\]]*\]|\{[^}]*\}|[^ ,;()]+))");
   std::set<std::string> lines;
   for (std::size_t at = 0; (at = warnings.find("Remedy: ", at)) != std::string::npos; ++at) {
     const std::string remedy = warnings.substr(at, warnings.find('\n', at) - at);
