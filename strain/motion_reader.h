@@ -63,7 +63,8 @@ class MotionReader {
   std::vector<DeformationGauge> gauges_;               // (span)
   std::vector<pipeline::TwistShortening> shortening_;  // (span) of a simulated cable without pull (W44)
   // (span) E A of a simulated cable [N]; 0: the elongation is that of the poses. A step of h leaves gaps of (omega h)^2/2 between
-  // segments that turn with omega: 7e-4 at 7 rad/s and 5 ms, as much as a pull of 190 N on a cable of 12 x 0.25 mm2.
+  // segments that turn with omega: 7e-4 at 7 rad/s and 5 ms, as much as a pull of 190 N on a cable of 12 x 0.25 mm2. Motions at
+  // other stiffnesses have no tension in the file. They use that of the job's own motion, by weight and inertia: 1 N there.
   std::vector<double> pulled_stiffness_;
 };
 
