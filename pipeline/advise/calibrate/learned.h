@@ -42,7 +42,7 @@ struct Learned {
 std::vector<LearnedAxis> learned_axes(const Posterior& posterior, const Axes& axes);
 
 /// Returns the standard deviations between the prediction before any observation and the observation, if it lies on the wrong
-/// side; 0 if they agree.
+/// side; 0 if they agree; infinite for a moment in the other direction.
 double surprise(const LearnedTest& test);
 /// Returns the same for the prediction from all other observations.
 double surprise_by_others(const LearnedTest& test);
