@@ -184,8 +184,12 @@ std::vector<BendingFriction> friction_of(const Wires& wires, double sliding) {
   double before = 0, moment_before = 0, slope_before = 0;
   for (const double k : at) {
     const double moment = wires.friction(k), slope = (moment - moment_before) / (k - before);
-    if (moment - moment_before < 1e-3 * most) continue;  // if a stiff element has almost all friction
-    if (!elements.empty()) elements.back().stiffness = slope_before - slope;
+    if (moment - moment_before < 1e-3 * most) continue;       // if a stiff element has almost all friction
+    const bool straight = slope > (1 - 1e-6) * slope_before;  // within the halvings: nothing slides between the two
+    if (!elements.empty() && straight)
+      elements.pop_back();
+    else if (!elements.empty())
+      elements.back().stiffness = slope_before - slope;
     elements.push_back({slope, k});
     before = k, moment_before = moment, slope_before = slope;
   }
@@ -256,11 +260,23 @@ std::vector<std::string> missing_in_construction(const Dresspack& dresspack) {
 }
 
 void take_from_construction(Dresspack& dresspack) {
-  if (!is_from_construction(dresspack)) return;
+  if (!is_from_construction(dresspack) && !lacks_friction(dresspack)) return;
   if (dresspack.mass_from_construction) dresspack.mass_per_length = mass_of_construction(dresspack);
   const Wires wires(dresspack);
   const HoseStiffness taken =
       stiffness_with(wires, dresspack, dresspack.construction_state, dresspack.construction_curvature);
+  if (lacks_friction(dresspack)) {
+    // A number below that of the construction has the construction's share of friction, so that something elastic is left. A number
+    // above it has a stiffer wall or polymer, which has no friction.
+    const double friction = wires.friction(dresspack.construction_curvature) / dresspack.construction_curvature,
+                 given = dresspack.bending_stiffness, share = std::min(1.0, given / taken.bending);
+    // Less changes a swing less than the usual uncertainty of loss_factor, a factor of two of 0.3. Then the motion depends on no
+    // cable, and dresspacks with other cables share it.
+    constexpr double negligible = 0.1;
+    if (share * friction > negligible * given)
+      dresspack.bending_friction = friction_of(wires, given / share - friction);
+    for (BendingFriction& element : dresspack.bending_friction) element.stiffness *= share;
+  }
   const auto take = [&](bool wanted, const char* key, double value, double& to) {
     if (!wanted) return;
     if (!(value > 0))

@@ -58,8 +58,9 @@ std::string missing_wall(const Dresspack& dresspack);
 /// Returns the parts of the construction that are missing in these numbers, in words: "what fills its core (...)". Empty: none.
 std::vector<std::string> missing_in_construction(const Dresspack& dresspack);
 
-/// Sets the mass, the stiffnesses and the friction that the dresspack computes from its construction. Precondition:
-/// check_dresspack(). Errors: InputError if the construction is missing.
+/// Sets the mass, the stiffnesses and the friction that the dresspack computes from its construction. A bending stiffness as a
+/// number without bending_friction gets the friction of the parts, if that is more than a tenth. Precondition: check_dresspack().
+/// Errors: InputError if the construction is missing.
 void take_from_construction(Dresspack& dresspack);
 
 /// Returns warnings. Hose: the given E I differs by more than a factor of two from that of its parts with the given friction and

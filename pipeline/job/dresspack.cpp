@@ -165,7 +165,7 @@ void describe(Fields& f, Dresspack& dresspack) {
         "bending_friction", dresspack.bending_friction, Need::optional,
         "The part of bending_stiffness_Nm2 that is friction, as at most four elements. bending_stiffness_Nm2 is then "
         "moment over curvature of the first bend to construction_curvature_1_per_m. The key needs a stiffness as a "
-        "number.");
+        "number. Default: the friction of the parts if that is more than a tenth; none with construction_state: sliding.");
   f.text("damping_source", dresspack.damping_source, need, "The source of the damping. The life depends on it.");
   f.number("friction_coefficient", dresspack.friction, Need::optional, between(0, 2),
            "The Coulomb friction of the hose on the robot. Between two dresspacks the smaller one counts. "
@@ -507,6 +507,12 @@ bool has_wires(const Dresspack& dresspack) { return hold_wires(dresspack.compone
 bool is_from_construction(const Dresspack& dresspack) {
   return dresspack.mass_from_construction || dresspack.bending_from_construction ||
          dresspack.torsional_from_construction || dresspack.axial_from_construction;
+}
+
+bool lacks_friction(const Dresspack& dresspack) {
+  return !dresspack.bending_from_construction && dresspack.bending_stiffness > 0 &&
+         dresspack.bending_friction.empty() && dresspack.construction_state == SlipState::friction &&
+         has_wires(dresspack);
 }
 
 void drop_ratings(Dresspack& dresspack) {

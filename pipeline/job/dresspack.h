@@ -185,6 +185,9 @@ inline constexpr std::size_t most_bending_frictions = 4;
 /// Returns whether any of its stiffnesses or its mass is computed from its construction.
 bool is_from_construction(const Dresspack& dresspack);
 
+/// Returns whether its bending stiffness is a number without the part of it that is friction, and its parts have friction.
+bool lacks_friction(const Dresspack& dresspack);
+
 /// Removes keys that only dresslife-fatigue uses: ratings, core components, damage exponents and least bend radii.
 void drop_ratings(Dresspack& dresspack);
 

@@ -17,7 +17,7 @@ namespace {
 /// temperature. Most jobs of a study share a few dresspacks, so each result is kept: without it the expansion of a study takes 1.4
 /// times as long.
 void take_stiffnesses(Dresspack& dresspack, const std::vector<Slip>& slip) {
-  if (!is_from_construction(dresspack)) return;
+  if (!is_from_construction(dresspack) && !lacks_friction(dresspack)) return;
   check_dresspack(dresspack, slip);
   struct Stiffnesses {
     double mass_per_length, bending, torsional, axial;

@@ -257,11 +257,11 @@ TEST_CASE("stiffness: a hose's moment with more friction is that of a hose whose
 TEST_CASE("stiffness: a hose from its construction keeps its secant, and its links get spring and friction apart") {
   const std::string words = "dresspack.bending_stiffness_Nm2=from_construction", loss = "dresspack.loss_factor=0.3";
   const Job job = job_with({words, loss});
-  CHECK(job_with({words}).dresspacks[0].dresspack.bending_friction.size() == most_bending_frictions);
   const Dresspack& dresspack = job.dresspacks[0].dresspack;
   const double sliding = in_state(dresspack, SlipState::sliding).bending;
   CHECK(dresspack.bending_stiffness == in_state(dresspack, SlipState::friction).bending);
-  CHECK(dresspack.bending_friction.size() == most_bending_frictions);
+  // The curve is straight up to the first wire that slides: two of the four elements are one.
+  CHECK(dresspack.bending_friction.size() == most_bending_frictions - 1);
   // Elements are below the friction's curve between their curvatures, and by 0.5 % at its end.
   CHECK(elastic_bending_stiffness(dresspack) == Approx(sliding).epsilon(0.01));
   const Job again = job_from(parse_yaml(job_text(job), "job.yaml"));
@@ -392,6 +392,39 @@ TEST_CASE("stiffness: a given one that its construction cannot have is warned of
   dresspack.bending_from_construction = true;
   take_from_construction(dresspack);
   CHECK_THAT(told(), Contains("too low: bending_stiffness_Nm2 1.72") && Contains("lacks what fills its core of 26 mm"));
+}
+
+TEST_CASE("stiffness: a bending stiffness as a number has the friction of the parts in it") {
+  Dresspack dresspack = read_dresspack(DRESSLIFE_SOURCE_DIR "/config/dresspacks/control_cable.yaml");
+  const std::vector<BendingFriction> taken = dresspack.bending_friction;
+  const double of_parts = dresspack.bending_stiffness, elastic = elastic_bending_stiffness(dresspack);
+  REQUIRE(elastic < 0.5 * of_parts);  // friction holds most of this cable
+  const auto with = [&](double stiffness, SlipState state) {
+    Dresspack typed = dresspack;
+    typed.bending_from_construction = false;
+    typed.bending_friction.clear();
+    typed.bending_stiffness = stiffness, typed.construction_state = state;
+    take_from_construction(typed);
+    CHECK(typed.bending_stiffness == stiffness);
+    return typed;
+  };
+  const Dresspack same = with(of_parts, SlipState::friction), half = with(of_parts / 2, SlipState::friction),
+                  twice = with(2 * of_parts, SlipState::friction);
+  REQUIRE(same.bending_friction.size() == taken.size());
+  REQUIRE(half.bending_friction.size() == taken.size());
+  for (std::size_t k = 0; k < taken.size(); ++k) {
+    CHECK(same.bending_friction[k].stiffness == Approx(taken[k].stiffness).epsilon(1e-6));
+    CHECK(half.bending_friction[k].stiffness == Approx(taken[k].stiffness / 2).epsilon(1e-6));
+    CHECK(same.bending_friction[k].slides_at == Approx(taken[k].slides_at).epsilon(1e-6));
+  }
+  CHECK(elastic_bending_stiffness(half) == Approx(elastic / 2).epsilon(1e-6));
+  // The wall or the polymer is stiffer than estimated; the first element may be stiffer too, and holds as much.
+  CHECK(elastic_bending_stiffness(twice) == Approx(of_parts + elastic).epsilon(0.05));
+  CHECK(with(of_parts, SlipState::sliding).bending_friction.empty());
+  Dresspack given = same;
+  given.bending_friction = {{0.001, 0.5}};
+  take_from_construction(given);
+  CHECK(given.bending_friction.size() == 1);
 }
 
 TEST_CASE("stiffness: a hose without a wall gives a warning with its stiffness and the key to write") {
