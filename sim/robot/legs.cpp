@@ -269,7 +269,7 @@ class Layout {
       place_ = move.to;
       return;
     }
-    if ((move.to - move.from).lpNorm<Eigen::Infinity>() == 0) {  // the robot is already at the target: at most a stop
+    if (move.to == move.from && !stands(move)) {  // the robot is already at the target: at most a stop
       if (zone_is_stop(step) && !moves_.empty()) stops_.push_back(moves_.size() - 1);
       return;
     }
@@ -430,6 +430,15 @@ class Layout {
       ++paths;
       for (std::size_t k = begin; k < end; ++k) moves_[k].chain = paths;
     }
+    bool waits = false;
+    for (Move& move : moves_) {  // a stand beside a tool path is a wait with a full stop, which divides the chain
+      if (move.chain == 0 || !stands(move)) continue;
+      move.dwell = *move.step->duration / overridden();
+      waits = true;
+    }
+    if (!waits) return;
+    for (Move& move : moves_) move.chain = 0;
+    find_paths();
   }
 
   void round_corner(std::size_t k) {
@@ -546,10 +555,14 @@ class Layout {
       }
     }
     double duration = step.duration.value_or(0) / overridden();
-    if (duration > 0 && stops(k) && (k == 0 || stops(k - 1))) duration = cruise_time(end - begin, duration);
     last_ = end;
     const std::size_t before = made_.legs.size();
-    add_leg(begin, end, distance, turn, {&step, move.line}, duration);
+    if (stands(move)) {
+      add_stand(move, duration);
+    } else {
+      if (duration > 0 && stops(k) && (k == 0 || stops(k - 1))) duration = cruise_time(end - begin, duration);
+      add_leg(begin, end, distance, turn, {&step, move.line}, duration);
+    }
     if (made_.legs.size() == before) return;
     Leg& leg = made_.legs.back();
     leg.straight = true;
@@ -562,6 +575,27 @@ class Layout {
       const VectorXd way = moves_[k + 1].to - moves_[k + 1].from;
       leg.zone_behind = way.lpNorm<Eigen::Infinity>() * std::min(0.5, zone / tool_way(moves_[k + 1]));
     }
+    if (stands(move)) leg.zone = INFINITY;
+    if (stands(moves_[k + 1])) leg.zone_behind = INFINITY;
+  }
+
+  /// Returns whether a joint move leads to where the robot is already, in a time of its own, as a row of a recorded wait does.
+  static bool stands(const Move& move) {
+    return !move.is_path() && move.dwell == 0 && move.step->duration && move.from == move.to;
+  }
+
+  /// Adds a leg without a way. Its length is its duration and its speed 1, so that blends at its ends keep the time.
+  void add_stand(const Move& move, double duration) {
+    Leg leg;
+    leg.from = move.from;
+    leg.direction = VectorXd::Zero(move.from.size());
+    leg.length = duration;
+    leg.cruise = 1;
+    leg.acceleration = 1e9;  // no axis moves: a change of this speed takes no time
+    std::tie(leg.ramp, leg.slowing) = ramp_of(motion_.ramp_percent / 100, 1);
+    leg.zone = leg.zone_behind = INFINITY;
+    leg.step = move.line;
+    made_.legs.push_back(std::move(leg));
   }
 
   /// Returns the time L/v at the speed v of a move from rest to rest in the time T: L/v + tau(v) = T.

@@ -85,6 +85,25 @@ TEST_CASE("motion: one long move takes the time of the trapezoidal law") {
   CHECK(motion.position(-1)[0] == 0);
 }
 
+TEST_CASE("motion: moves to where the robot stands already keep their durations, as rows of a recorded wait do") {
+  const auto row = [](double place, double duration) {
+    pipeline::MotionStep step = move_to({place});
+    step.stop_zone = 100;
+    step.duration = duration;
+    return step;
+  };
+  pipeline::Motion motion = motion_of({move_to({0}), row(1, 1), row(1, 0.04), row(1, 2.96), row(0, 1), row(0, 0.5)});
+  for (const bool jerk : {false, true}) {
+    if (jerk) motion.jerk = 1e4;
+    const JointMotion made(motion, robot_with({2}, {40}));
+    // The blend with the wait begins half its time before the row. Only the start from rest adds the other half of its own.
+    CHECK(made.duration() == Approx(5.5).margin(1 / (mean_share * 40)));
+    CHECK(made.position(2.5)[0] == 1);
+    CHECK(made.velocity(2.5)[0] == 0);
+    CHECK(made.position(4.5)[0] == Approx(0.5).margin(1 / (mean_share * 40)));
+  }
+}
+
 TEST_CASE("motion: one short move is a triangle of speed") {
   // Top speed sqrt(A L), time 2 sqrt(L/A).
   const JointMotion motion(motion_of({move_to({0}), move_to({-0.3})}), robot_with({2}, {4}));
