@@ -486,8 +486,7 @@ std::string not_evaluated(const FileReader& strain, const pipeline::Job& job,
     if (is_hose(dresspack) && dresspack.hose_material.empty()) add(UnvalidatedMode::wall);
     for (const pipeline::Component* const each : parts_of(dresspack)) {
       const pipeline::Component& part = *each;
-      // The jacket of a single cable is the surface of its dresspack: abrasion alone wears it. A millionth is rounding.
-      if (!is_hose(dresspack) && std::abs(2 * part.radius - dresspack.diameter) < 1e-6 * dresspack.diameter) continue;
+      if (is_surface(dresspack, part)) continue;
       if (part.components.empty() && !(part.plain && part.plain->kind == pipeline::PlainKind::cable)) continue;
       ++cables;
       // The work of a cable without friction is not in the file.

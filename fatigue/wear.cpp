@@ -108,8 +108,15 @@ std::optional<WornMaterial> worn_of(const pipeline::Dresspack& dresspack) {
     worn.layer.crest = worn.layer.pitch / 4;
     worn.material = find_material(dresspack, dresspack.hose_material);
   }
+  for (const pipeline::Component& part : dresspack.components)
+    if (!dresspack.sleeve && is_surface(dresspack, part)) return jacket_of(dresspack, part);
   if (!worn.material || worn.material->wear.empty()) return {};
   return worn;
+}
+
+bool is_surface(const pipeline::Dresspack& dresspack, const pipeline::Component& part) {
+  constexpr double rounding = 1e-6;
+  return !is_hose(dresspack) && std::abs(2 * part.radius - dresspack.diameter) < rounding * dresspack.diameter;
 }
 
 std::optional<WornMaterial> jacket_of(const pipeline::Dresspack& dresspack, const pipeline::Component& cable) {

@@ -47,13 +47,16 @@ struct WornLayer {
   double area(double depth, double arc) const;
 };
 
-/// The layer of a dresspack that is worn first, and its material.
+/// The layer of a dresspack that is worn first, and its material. Without a hose and a sleeve it is the jacket of the cable.
 struct WornMaterial {
   WornLayer layer;
   const pipeline::Material* material;  ///< of the dresspack
   pipeline::WarmWear warm{};           ///< factor on its wear rates
 };
 std::optional<WornMaterial> worn_of(const pipeline::Dresspack& dresspack);
+
+/// Returns whether the jacket of a cable is the surface of a dresspack without a hose: abrasion alone wears it.
+bool is_surface(const pipeline::Dresspack& dresspack, const pipeline::Component& part);
 
 /// Returns the jacket of a cable in the dresspack; std::nullopt: it or its wear rates are not given.
 std::optional<WornMaterial> jacket_of(const pipeline::Dresspack& dresspack, const pipeline::Component& cable);

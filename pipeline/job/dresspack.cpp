@@ -197,7 +197,7 @@ void describe(Fields& f, Dresspack& dresspack) {
   f.maybe_group(
       "sleeve", dresspack.sleeve,
       "A sleeve over the hose, or the jacket of a cable without a hose, that may wear through. Default: the wall "
-      "of hose_corrugation wears.");
+      "of hose_corrugation, or the `jacket` of the cable.");
   f.list("components", dresspack.components, Need::optional,
          "The parts in the hose. Without them only the motion is computed. `place: auto` instead of "
          "helix_radius_mm and phase_deg packs parts into the bore.");

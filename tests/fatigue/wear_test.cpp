@@ -172,4 +172,21 @@ TEST_CASE("wear: a sleeve wears before the hose, a hose without thickness or rat
   CHECK_FALSE(worn_of(dresspack));
 }
 
+TEST_CASE("wear: the jacket of a cable without a hose wears, unless a sleeve covers it") {
+  pipeline::Dresspack dresspack;
+  dresspack.diameter = 0.012;
+  dresspack.materials = {polymer()};
+  pipeline::Component cable;
+  cable.radius = 0.006;
+  cable.jacket = pipeline::Sleeve{1.1e-3, "polymer", {}};
+  dresspack.components = {cable};
+  REQUIRE(worn_of(dresspack));
+  CHECK(worn_of(dresspack)->layer.thickness == 1.1e-3);
+  dresspack.sleeve = pipeline::Sleeve{2e-3, "polymer", {}};
+  CHECK(worn_of(dresspack)->layer.thickness == 2e-3);
+  dresspack.sleeve.reset();
+  dresspack.inner_diameter = 0.012;  // now it lies in a hose
+  CHECK_FALSE(worn_of(dresspack));
+}
+
 }  // namespace dresslife::fatigue
