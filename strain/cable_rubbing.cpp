@@ -51,12 +51,17 @@ void CableRubbing::move_across(std::size_t sample, const LooseCable& cable, cons
     for (std::size_t e = first; e < end; ++e) {
       const double to_x = middle(state.offset, e, 0), to_y = middle(state.offset, e, 1), now = pressing(state.press, e);
       double at_x = laid_[e][0] + to_x, at_y = laid_[e][1] + to_y;
-      if (at_x * at_x + at_y * at_y < between * between) at_x = -at_x, at_y = -at_y;
+      const double turned = at_x * at_x + at_y * at_y < between * between ? -1 : 1;
+      at_x *= turned, at_y *= turned;
       x += (line_load + now) * at_x, y += (line_load + now) * at_y;
       if (pressed_.empty()) continue;
       const double by_x = to_x - middle(offset_, e, 0), by_y = to_y - middle(offset_, e, 1);
       const double moved = std::sqrt(by_x * by_x + by_y * by_y);
-      const double work = (line_load + std::min(now, pressing(pressed_, e))) * moved * length;
+      const double before = pressing(pressed_, e), less = std::min(now, before);
+      const double mid_x = at_x - turned * by_x / 2, mid_y = at_y - turned * by_y / 2,
+                   radius = std::sqrt(mid_x * mid_x + mid_y * mid_y);
+      const double around = radius > 0 ? std::abs(by_x * mid_y - by_y * mid_x) / radius : 0;
+      const double work = ((line_load + less) * moved + ((now + before) / 2 - less) * around) * length;
       if (!(work > 0)) continue;
       const std::size_t sector = sector_of(at_x, at_y, sector_[e]);
       sector_[e] = static_cast<std::uint8_t>(sector);

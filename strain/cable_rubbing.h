@@ -3,7 +3,8 @@
 // A cable that presses with q [N/m] and slides by ds within a sample does the work q ds per length. Sliding along the hose
 // follows from friction (W34), sliding across it from the change of the cable's place (W32). The two works are added, which is
 // too much by a factor of at most sqrt(2) where they occur together. Across the hose the smaller of the pressures before and
-// after the sample counts, so that a cable that jumps from wall to wall does no work on its way.
+// after the sample counts, so that a cable that jumps from wall to wall does no work on its way. Around the hose's axis their
+// mean counts: with the smaller one, samples at 25 Hz lost 37 % of the work that those at 200 Hz have in a thin hose with room.
 // The cable does not turn about itself against the hose. It touches the hose's wall with its outer side, or the parts around
 // the axis with its inner side, whichever is nearer. A held cable touches on the inside of the bend.
 //

@@ -199,3 +199,20 @@ TEST_CASE("a cable that leaves one wall for another does not rub on its way") {
   rubbing.move_across(2, in_ring(), pressed_at(20e-3, 0, 10, 3), 0, 0.01);
   CHECK(rubbing.patches().empty());
 }
+
+TEST_CASE("a cable whose pressure rises and falls rubs by as much with a quarter of the samples") {
+  const auto sum = [](std::size_t steps) {
+    CableRubbing rubbing(1, steps + 1);
+    for (std::size_t t = 0; t <= steps; ++t) {
+      const double phase = 2 * std::numbers::pi * static_cast<double>(t) / static_cast<double>(steps);
+      const double angle = 0.2 * phase, press = 10 * (1 - std::cos(5 * phase));
+      rubbing.move_across(t, in_ring(), pressed_at(20e-3 * std::cos(angle), 20e-3 * std::sin(angle), press, 3), 0,
+                          0.01);
+    }
+    double work = 0;
+    for (const CableRubbing::Patch& patch : rubbing.patches()) work += patch.work;
+    return work;
+  };
+  const double exact = 10 * 0.2 * 2 * std::numbers::pi * 20e-3 * 0.02;  // mean pressure, way, length
+  for (const std::size_t steps : {40u, 160u}) CHECK(sum(steps) == Approx(exact).epsilon(1e-3));  // chords
+}
