@@ -1030,6 +1030,28 @@ void doubt_bend_reliefs(const MountedDresspack& mounted, int segments, std::vect
   }
 }
 
+/// Warns of a cable whose cores are the parts of the first level: then clamps grip each core, which spares none of its slip.
+void doubt_cores(const Dresspack& dresspack, std::vector<Warning>& warnings) {
+  if (!is_single_cable(dresspack) || dresspack.cable_alone) return;
+  int count = 0;
+  double filled = 0;  // share of the cross-section
+  for (const Component& part : dresspack.components) {
+    count += part.count;
+    filled += part.count * std::pow(2 * part.radius / dresspack.diameter, 2);
+  }
+  constexpr double usual =
+      0.25;  // the cores of two to 25 fill 0.3 to 0.5 of a cable, a few cables on a robot's arm less
+  if (count < 2 || filled < usual) return;
+  warnings.push_back(warning_of(
+      WarningKind::material, dresspack.components.front().where.text(),
+      fmt::format("the {} parts of the dresspack look like the cores of one cable, and its clamps grip each of them",
+                  count),
+      "clamps grip the jacket of a cable, in which the cores slip; wires that are gripped have other strains",
+      fmt::format(
+          "one part `{{name: cable, helix_radius_mm: 0, radius_mm: {:.4g}}}`, with these parts as its components",
+          500 * dresspack.diameter)));
+}
+
 }  // namespace
 
 std::vector<Warning> plausibility_of_lives(const Job& job) {
@@ -1074,8 +1096,10 @@ std::vector<Warning> plausibility_of_lives(const Job& job) {
           value > 1 ? fmt::format("{}: {:g} if that was per cent", key, value / 100) : fmt::format("{}: 1", key));
   doubt_spreads(job, adding_to(warnings));
   for (const MountedDresspack& mounted : job.dresspacks)
-    if (!job.motion.is_prescribed())
+    if (!job.motion.is_prescribed()) {
       warnings = joined(std::move(warnings), radians_in(echo_fields(mounted.dresspack), "dresspack"));
+      if (job.motion.needs_robot() && slides(job.strain.slip.front())) doubt_cores(mounted.dresspack, warnings);
+    }
   if (job.strain.gate > largest_gate)
     warnings.push_back(
         warning_of(WarningKind::strain, "",

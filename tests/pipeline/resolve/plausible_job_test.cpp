@@ -183,6 +183,35 @@ TEST_CASE("plausible jobs: a sample rate that misses the swing, a gate that hide
   CHECK(doubts_of(1, 0.1, false) == 2);
 }
 
+TEST_CASE(
+    "plausible jobs: cores at the first level of a dresspack are those of one cable, whose clamps grip the jacket") {
+  Job job;
+  job.motion.steps.resize(2);
+  MountedDresspack& mounted = job.dresspacks.emplace_back();
+  Component core, wire;
+  core.count = 7, core.radius = 1.2e-3, core.helix_radius = 2.8e-3;
+  wire.radius = 1e-4;
+  core.components = {wire};
+  mounted.dresspack.diameter = 10e-3;
+  mounted.dresspack.components = {core};
+  const auto warned = [&] {
+    return std::ranges::any_of(plausibility_of_lives(job), [](const Warning& warning) {
+      return warning.words.find("the 7 parts of the dresspack look like the cores of one cable") != std::string::npos;
+    });
+  };
+  CHECK(warned());
+  mounted.dresspack.diameter = 20e-3;  // single cores on the arm
+  CHECK_FALSE(warned());
+  mounted.dresspack.diameter = 10e-3;
+  job.strain.slip = {Slip::stick};  // a grip changes nothing
+  CHECK_FALSE(warned());
+  job.strain.slip = {Slip::friction};
+  Component cable = core;
+  cable.count = 1, cable.radius = 5e-3, cable.helix_radius = 0, cable.components = {core};
+  mounted.dresspack.components = {cable};
+  CHECK_FALSE(warned());
+}
+
 TEST_CASE("plausible jobs: a bend relief of fewer than four segments, or that is a tube") {
   const auto words_of = [](double length, double stiffness) {
     Job job;
