@@ -694,9 +694,9 @@ std::vector<std::pair<const char*, std::string>> keys_of_phrase(const std::strin
     meant = fmt::format("write 'outer diameter {}' if it is that of the cable", phrase);
   static const std::regex two_kinds(R"((\d+ *[x*g] *.*\d) *\+ *\(?\d+ *[x*g(].*)");
   if (meant.empty() && std::regex_match(phrase, found, two_kinds))
-    meant =
-        fmt::format("a data sheet has one kind of cores: write '{} mm2' alone, or describe the cable by its components",
-                    std::string(found[1]).substr(0, found[1].str().find(" mm")));
+    meant = fmt::format(
+        "a data sheet has one kind of cores: write '{} mm2' alone, or describe the cable by its components, as the hybrid cable in config/README.md",
+        std::string(found[1]).substr(0, found[1].str().find(" mm")));
   static const std::regex angle(R"((?:(pair|group|wire) )?lay angle *:? *([\d.]+) *(?:deg(?:rees?)?|°)?)");
   if (meant.empty() && std::regex_match(phrase, found, angle))
     meant = fmt::format(
