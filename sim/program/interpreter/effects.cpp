@@ -1,5 +1,6 @@
 // Possible effects of statements on the robot and on data, found without running them.
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "sim/program/interpreter/interpreter.h"
@@ -158,6 +159,27 @@ bool Interpreter::leaves(const Statement& statement, bool in_loop) const {
   return std::any_of(statement.branches.begin(), statement.branches.end(), [&](const Branch& branch) {
     return std::any_of(branch.body.begin(), branch.body.end(),
                        [&](const Statement& inner) { return leaves(inner, loop); });
+  });
+}
+
+/// Whether a statement of the program may write to data of this name. Each mention in an assignment or a call counts,
+/// because a routine may return a value through its argument.
+bool Interpreter::may_be_written(const std::string& name) {
+  const std::function<bool(const Expression&)> mentions = [&](const Expression& expression) {
+    return (expression.kind == Expression::Kind::name && expression.text == name) ||
+           std::any_of(expression.items.begin(), expression.items.end(), mentions);
+  };
+  const std::function<bool(const Statement&)> writes = [&](const Statement& statement) {
+    charge(1);
+    const bool takes = statement.kind == Kind::assign || statement.kind == Kind::instruction;
+    return statement.name == name ||
+           (takes && std::any_of(statement.arguments.begin(), statement.arguments.end(), mentions)) ||
+           std::any_of(statement.branches.begin(), statement.branches.end(), [&](const Branch& branch) {
+             return std::any_of(branch.body.begin(), branch.body.end(), writes);
+           });
+  };
+  return std::any_of(code_.routines.begin(), code_.routines.end(), [&](const Routine& routine) {
+    return std::any_of(routine.body.begin(), routine.body.end(), writes);
   });
 }
 

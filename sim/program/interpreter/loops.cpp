@@ -178,6 +178,10 @@ Interpreter::Flow Interpreter::run_while(const Statement& statement) {
   std::optional<bool> decision = assumed(statement.place);
   const Expression& condition = statement.arguments[0];
   if (!decision && condition.kind == Expression::Kind::truth && condition.number != 0) return run_endless(statement);
+  if (!decision && condition.kind == Expression::Kind::name && !may_be_written(condition.text)) {
+    const Value always = evaluate(condition);
+    if (always.known() && always.number != 0) return run_endless(statement);
+  }
   Flow flow = Flow::next;
   Round round(*this, statement.place);
   while (flow == Flow::next) {

@@ -162,6 +162,25 @@ TEST_CASE("rapid: an endless main loop is one pass, a known condition ends a loo
   CHECK(r.program.skipped[0].what == "an endless loop; the motion is one pass");
 }
 
+TEST_CASE("rapid: a loop over a flag that nothing writes to is an endless main loop") {
+  // The counter differs in each pass, so that the data never repeat. The motion repeats after two passes.
+  const std::string body =
+      "WHILE go DO\n IF n MOD 2=0 THEN\n MoveJ p1,v5,fine,tool0;\n ELSE\n MoveAbsJ home,v5,fine,tool0;\n ENDIF\n "
+      "n:=n+1;\nENDWHILE";
+  const std::string flag = "PERS bool go:=TRUE; VAR num n:=0;\n";
+  const Reading r = run(body, {}, flag);
+  REQUIRE(r.problem() == "no such problem");
+  CHECK(r.program.instructions.size() == 2);
+  REQUIRE(r.program.skipped.size() == 1);
+  CHECK(r.program.skipped[0].what == "an endless loop; the motion is 2 passes");
+  // A loop that the program ends by its flag ends there, also if a routine writes to its argument.
+  CHECK(run("WHILE go DO\n MoveJ p1,v5,fine,tool0;\n n:=n+1;\n go:=n<3;\nENDWHILE", {}, flag)
+            .program.instructions.size() == 3);
+  CHECK(run("WHILE go DO\n MoveJ p1,v5,fine,tool0;\n n:=n+1;\n decide go;\nENDWHILE", {},
+            flag + "PROC decide(INOUT bool b)\n b:=n<3;\nENDPROC\n")
+            .program.instructions.size() == 3);
+}
+
 TEST_CASE("rapid: problems are collected, with place, reason and remedy") {
   const Reading r =
       run("MoveL p9,v100,fine,tool0;\nMoveL p1,v100,z77,tool0;\nMoveL p1,v100,fine,torch;\nMoveL "
