@@ -464,12 +464,14 @@ std::string waits_note(const Program& program) {
 
 namespace {
 
-/// Cause and remedy of a doubtful number, by the first words of the reason.
+/// Cause and remedy of a doubtful number or frame, by the first words of the reason.
 struct NumberDoubt {
   const char *reason, *cause, *remedy;
 };
-constexpr std::array<NumberDoubt, 3> doubts{
+constexpr std::array<NumberDoubt, 4> doubts{
     {{beyond_range, "a digit too many or another unit", "a number within this range"},
+     {other_frame, "a called program chose another frame, or the line before the move that chooses it is missing",
+      "UFRAME_NUM= or UTOOL_NUM= before the move, with the number of the position"},
      {above_all_speed, "a digit too many", "a percentage up to 100"},
      {tiny_move, "metres instead of millimetres", "a thousand times these numbers if they were metres"}}};
 

@@ -153,7 +153,7 @@ void FanucRun::compare_active(bool tool, int listed) {
   if (!values_.has_named(name)) return values_.set_named(name, listed);
   const int number = whole_number(*values_.named(name));
   if (number == listed) return;
-  note(fmt::format("the position is taught in {} {} and {} is active: the controller stops here; read as taught",
+  note(fmt::format("{} {} {} and {} is active (the controller stops here; read as taught)", other_frame,
                    tool ? "tool" : "user frame", listed, number),
        true);
 }
@@ -186,11 +186,13 @@ std::optional<NamedFrame> FanucRun::frame(bool tool, int number) {
     made.frame = frame_of_fanuc(found->second.values);
     return made;
   }
-  missing(made.name, fmt::format("uses {}, which lies in the controller", made.name),
-          fmt::format("give it in motion.{} (--frames of dresslife import) with the name '{}', or sysframe.va of the "
-                      "backup",
-                      tool ? "tools" : "work_objects", made.name),
-          {{tool ? Question::Kind::tool : Question::Kind::work_object, made.name, ""}});
+  missing(
+      made.name, fmt::format("uses {}, which lies in the controller", made.name),
+      fmt::format(
+          "give it in motion.{} (--frames of dresslife import) with the name '{}': [{{name: '{}', position_mm: [X, Y, Z], "
+          "quaternion: [W, X, Y, Z]}}], or sysframe.va of the backup",
+          tool ? "tools" : "work_objects", made.name, made.name),
+      {{tool ? Question::Kind::tool : Question::Kind::work_object, made.name, ""}});
   return {};
 }
 

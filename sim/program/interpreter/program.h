@@ -116,6 +116,8 @@ struct Skipped {
 
 /// First words of the reason in Skipped::what for a percentage above 100, which is read as 100.
 inline constexpr const char* above_all_speed = "more than 100 % (limit 100, which counts)";
+/// First words of the reason in Skipped::what for a position whose tool or user frame is not the active one.
+inline constexpr const char* other_frame = "the position is taught in";
 /// First words of the reason in Skipped::what for another number outside of the controller's range, whose nearest end counts.
 inline constexpr const char* beyond_range = "outside of the controller's range";
 std::string beyond_range_words(double low, double high);

@@ -573,6 +573,15 @@ TEST_CASE("fanuc: what programs beside and condition handlers write is unknown")
   CHECK(run("   1:  R[1]=0 ;\n   2:  MONITOR WATCH ;\n" + choice).problems.size() == 1);
 }
 
+TEST_CASE("fanuc: a position of another frame than the active one is told to choose its frame") {
+  const Reading r = run("   1:  UFRAME_NUM=1 ;\n   2:  UTOOL_NUM=2 ;\n   3:J P[3] 100% FINE ;\n");
+  const std::vector<pipeline::Warning> lines = moves_left_out(r.program);
+  REQUIRE(lines.size() == 1);
+  CHECK_THAT(lines[0].line(), Catch::Contains("taught in user frame 3 and 1 is active"));
+  CHECK_THAT(lines[0].line(), Catch::Contains("Remedy: UFRAME_NUM= or UTOOL_NUM= before the move"));
+  CHECK_THAT(lines[0].line(), !Catch::Contains("motion.values"));
+}
+
 TEST_CASE("fanuc: all that a move lacks is asked for in one round") {
   // The move needs a position, a speed, a blend, an offset, and the frames of the position.
   const Reading r = run("   1:L PR[9] R[7]mm/sec CNT R[8] Offset,PR[4] ;\n");
