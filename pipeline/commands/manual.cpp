@@ -117,6 +117,10 @@ std::vector<KeyRow> keys_of(const std::string& wanted) {
   take([&](const KeyRow& row) { return path_of(row) == path; });
   take([&](const KeyRow& row) { return ("." + path_of(row)).ends_with("." + path); });
   take([&](const KeyRow& row) { return row.key == last; });
+  if (found.size() == 1) {  // a list of maps: the keys of an item say how to write it
+    const std::string item = path_of(found[0]) + "[]";
+    std::copy_if(all.begin(), all.end(), std::back_inserter(found), [&](const KeyRow& row) { return row.map == item; });
+  }
   take([&](const KeyRow& row) {
     return ("." + row.map).ends_with("." + path);
   });  // all keys of a map that is not a key itself

@@ -117,7 +117,8 @@ void describe(Fields& f, Motion& motion) {
   f.list("steps", motion.steps, Need::optional,
          "The steps of the program. The robot starts at rest at the target of the first step.");
   f.list("tools", motion.tools, Need::optional,
-         "The tools in the flange's frame, also those that a program uses without a definition.");
+         "The tools in the flange's frame, also those that a program uses without a definition: [{name: gun, "
+         "position_mm: [0, 0, 350]}].");
   f.list("work_objects", motion.work_objects, Need::optional,
          "The work objects in the robot's base frame, also those that a program uses without a definition.");
   f.path("program", motion.program, Need::optional,

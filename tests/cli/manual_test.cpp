@@ -35,6 +35,7 @@ TEST_CASE("manual prints one key, by its path, the end of its path or its name")
   CHECK(paths("dresspack.components.2.count") == "dresspack.components[].count ");  // the form of --set
   CHECK(paths("base_clamp.link") == "routing.base_clamp.link ");
   CHECK(paths("routing.tool_clamp.link").find("routing.base_clamp.link ") != std::string::npos);  // the same keys
+  CHECK_THAT(paths("motion.tools"), Catch::Contains("motion.tools motion.tools[].name motion.tools[].position_mm "));
   const Outcome text = run(scratch, "dresslife", "manual free_length_m");
   CHECK(
       text.out ==
