@@ -689,13 +689,14 @@ std::vector<std::pair<const char*, std::string>> keys_of_phrase(const std::strin
       std::any_of(lengths.begin(), lengths.end(),
                   [&](const auto& of) { return std::regex_match(found[1].str(), of.first); }))
     meant = fmt::format("write '{} {} mm'", found[1].str(), found[2].str());
-  static const std::regex bare(R"([\d.]+ *mm)");
-  if (meant.empty() && std::regex_match(phrase, bare))
-    meant = fmt::format("write 'outer diameter {}' if it is that of the cable", phrase);
-  static const std::regex two_kinds(R"((\d+ *[x*g] *.*\d) *\+ *\(?\d+ *[x*g(].*)");
+  static const std::regex bare(R"((?:Ø|ø|⌀)? *([\d.]+ *mm))");
+  if (meant.empty() && std::regex_match(phrase, found, bare))
+    meant = fmt::format("write 'outer diameter {}' if it is that of the cable", found[1].str());
+  static const std::regex two_kinds(R"((?:[a-z -]+ )?(\d+ *[x*g] *.*\d) *\+ *\(?\d+ *[x*g(].*)");
   if (meant.empty() && std::regex_match(phrase, found, two_kinds))
     meant = fmt::format(
-        "a data sheet has one kind of cores: write '{} mm2' alone, or describe the cable by its components, as the hybrid cable in config/README.md",
+        "a data sheet has one kind of cores: write '{} mm2' alone (the other cores have no life then), or describe the "
+        "cable by its components, as the hybrid cable in config/README.md",
         std::string(found[1]).substr(0, found[1].str().find(" mm")));
   static const std::regex angle(R"((?:(pair|group|wire) )?lay angle *:? *([\d.]+) *(?:deg(?:rees?)?|°)?)");
   if (meant.empty() && std::regex_match(phrase, found, angle))

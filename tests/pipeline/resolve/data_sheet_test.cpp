@@ -264,6 +264,9 @@ TEST_CASE("a data sheet's line takes the sections of shops, and proposes what ot
   CHECK_THAT(refused("4x2x0.25 shielded"), Catch::Contains("write '4x2 x 0.25 mm2'"));
   CHECK_THAT(refused("4x2.5 + 2x(2x0.5) mm2"),
              Catch::Contains("a data sheet has one kind of cores: write '4x2.5 mm2' alone"));
+  CHECK_THAT(refused("hybrid servo cable 4x1.5 mm2 + 2x0.75 mm2"),
+             Catch::Contains("write '4x1.5 mm2' alone (the other cores have no life then)"));
+  CHECK_THAT(refused("5 x 1 mm2, Ø 14.5 mm"), Catch::Contains("write 'outer diameter 14.5 mm'"));
   CHECK_THAT(refused("32 x 0.1 mm"), Catch::Contains("or 'wire 0.1 mm' if those are the wires of a core"));
   for (const char* pairs : {"4x2xAWG26/7", "4 x (2 x AWG 26/7) shielded", "4x2x26AWG/7"})
     CHECK_THAT(refused(pairs), Catch::Contains("write '4 x 2 x 0.129 mm2, wire 0.153 mm' for AWG 26 of 7 wires"));
