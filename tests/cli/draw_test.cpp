@@ -97,6 +97,15 @@ TEST_CASE("draw: a cable alone has the mass of its construction") {
   // 9.97 mm2 of wires of 8900 kg/m3 and the remaining 105 mm2 of 1200 kg/m3: 0.2148 kg/m. Lays add 2 % to the copper.
   CHECK(drawn.find("lead: 12.1 mm, 0.2164 kg/m by its construction") == 0);
   CHECK(drawn.find("E I [N m2] of its construction") != std::string::npos);
+  // A measured mass beside the data sheet counts, as it does for a part of a hose.
+  const auto weighed = [&](const std::string& mass) {
+    scratch.write("cable.yaml", "cable: {name: lead, source: test, mass_kg_per_m: " + mass +
+                                    ", data_sheet: \"4G2.5, class 6, outer diameter 12.1 mm\"}\n");
+    return run(scratch, "dresslife", "draw cable.yaml");
+  };
+  CHECK(weighed("0.25").out.find("lead: 12.1 mm, 0.25 kg/m") == 0);
+  const Outcome grams = weighed("250");
+  CHECK((grams.out + grams.err).find("mass_kg_per_m: 0.25 if that was g/m") != std::string::npos);
 }
 
 TEST_CASE("draw replaces pictures and nothing else") {
