@@ -33,8 +33,9 @@ constexpr double wire_lay_ratio = 16;  // lay length / width of the conductor: s
 constexpr double core_lay_ratio = 12;  // lay length / width of the cores: flexible cables have 8 to 16
 constexpr int fewest_wires =
     7;  // of a flexible conductor; IEC 60228 has solid ones (class 1) and 7 thick wires (class 2) for fixed laying
-constexpr double section_tolerance = 0.25;     // a standard's nominal section is rounded: 0.22 for 7 x 0.2 mm
-constexpr double thickest_insulation = 5;      // core / conductor: control cables have 1.5 to 3, those for 1 kV up to 4
+constexpr double section_tolerance = 0.25;  // a standard's nominal section is rounded: 0.22 for 7 x 0.2 mm
+// Core / conductor: control cables have 1.5 to 3, those for 1 kV up to 4; data sheets round by up to 5 %.
+constexpr double thickest_insulation = 4.2;
 constexpr double thinnest_insulation = 50e-6;  // [m]: signal cables have 0.15 mm and more
 constexpr int rounds = 60;                     // of the bisection for the cores' diameter
 
