@@ -106,7 +106,8 @@ bool names_hose(const std::string& text) {
 struct Row {
   int line = 0;
   Where where;
-  std::string name;  ///< name of the place: robot and dresspack
+  std::string name;       ///< name of the place: robot and dresspack
+  std::string dresspack;  ///< empty: the table has no such column
   Day from{}, to{};
   End end = End::in_use;
   std::string reason;
@@ -239,7 +240,8 @@ class Export {
     Row row;
     row.line = reader_.line(), row.where = reader_.where(*cell(cells, robot)), row.name = text(cells, robot);
     if (row.name.empty()) refuse(cells, robot, "the robot has no name", "fill the cell");
-    if (at_[dresspack]) row.name += ", " + text(cells, dresspack);
+    row.dresspack = text(cells, dresspack);
+    if (at_[dresspack]) row.name += ", " + row.dresspack;
     row.from = day(cells, installed);
     read_end(cells, row);
     if (const std::string hours = text(cells, hours_per_week); !hours.empty()) {
@@ -446,6 +448,14 @@ ServiceTests read_service_tests(const ServiceRequest& request) {
     read.words +=
         fmt::format("Rows of {} without hours per week: {:g} (fatigue.operating_hours_per_week of the job).\n",
                     std::filesystem::path(of_job).filename().string(), hours_per_week[of_job]);
+  std::map<std::string, std::set<std::string>> named;  // dresspacks by job
+  for (const Row& row : rows)
+    if (!row.dresspack.empty()) named[row.job].insert(row.dresspack);
+  constexpr std::size_t most_named = 10;  // more are serial numbers, which name no kind of dresspack
+  for (const auto& [of_job, of] : named)
+    if (of.size() > 1 && of.size() <= most_named)
+      read.words += fmt::format("'{}' all count as {}. If they differ, name a job for each in a column job.\n",
+                                fmt::join(of, "', '"), std::filesystem::path(of_job).filename().string());
   read.words += fmt::format("{} dresspacks: {} failed, {} were removed without a failure, {} are in use on {}.\n",
                             failed + removed + in_use, failed, removed, in_use, day_text(request.today));
   if (failed > 0)

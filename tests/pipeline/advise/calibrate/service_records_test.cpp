@@ -215,6 +215,13 @@ TEST_CASE("service records: a failure of a hose does not silently count as broke
     CHECK_THAT(words_of(other), !Contains("warning"));
 }
 
+TEST_CASE("service records: dresspacks of several names that count as one job are named") {
+  const std::string titles = "robot,dresspack,installed,replaced,reason\n", ends = ",2024-01-01,2025-01-06,failed\n";
+  CHECK_THAT(read(titles + "A,roof" + ends + "A,floor" + ends, "2024-01-01").words,
+             Contains("'floor', 'roof' all count as "));
+  CHECK_THAT(read(titles + "A,roof" + ends + "B,roof" + ends, "2024-01-01").words, !Contains("all count as"));
+}
+
 TEST_CASE("service records: the report names unused columns and the reasons that count as broken wires") {
   const std::string titles = "robot,installed,replaced,reason,quantity,counter\n";
   const std::string words = read(titles +
