@@ -183,6 +183,23 @@ bool Interpreter::may_be_written(const std::string& name) {
   });
 }
 
+/// Whether a condition of constants and of data that no statement may write to.
+bool Interpreter::stays_the_same(const Expression& condition) {
+  switch (condition.kind) {
+    case Expression::Kind::truth:
+    case Expression::Kind::number:
+      return true;
+    case Expression::Kind::name:
+      return !may_be_written(condition.text);
+    case Expression::Kind::unary:
+    case Expression::Kind::binary:
+      return std::all_of(condition.items.begin(), condition.items.end(),
+                         [&](const Expression& item) { return stays_the_same(item); });
+    default:
+      return false;
+  }
+}
+
 bool Interpreter::holds_loop_exit(const std::vector<Statement>& body) const {
   for (const Statement& statement : body) {
     if (statement.kind == Kind::leave_loop || statement.kind == Kind::give_back || statement.kind == Kind::jump ||

@@ -277,6 +277,7 @@ class Interpreter {
   void forget_written(const Statement& statement, const Cause& why, std::set<const Routine*>& done);
   void forget_arguments(const std::string& name, const std::vector<Expression>& arguments, const Place& place);
   bool may_be_written(const std::string& name);
+  bool stays_the_same(const Expression& condition);
   bool holds_loop_exit(const std::vector<Statement>& body) const;
   bool jumps_for_ever(const std::vector<Statement>& body, std::size_t label, std::size_t jump) const;
   void end_where_it_repeats(Passes& passes, const Place& place);

@@ -177,8 +177,7 @@ Interpreter::Flow Interpreter::run_count(const Statement& statement) {
 Interpreter::Flow Interpreter::run_while(const Statement& statement) {
   std::optional<bool> decision = assumed(statement.place);
   const Expression& condition = statement.arguments[0];
-  if (!decision && condition.kind == Expression::Kind::truth && condition.number != 0) return run_endless(statement);
-  if (!decision && condition.kind == Expression::Kind::name && !may_be_written(condition.text)) {
+  if (!decision && stays_the_same(condition)) {
     const Value always = evaluate(condition);
     if (always.known() && always.number != 0) return run_endless(statement);
   }

@@ -173,6 +173,9 @@ TEST_CASE("rapid: a loop over a flag that nothing writes to is an endless main l
   CHECK(r.program.instructions.size() == 2);
   REQUIRE(r.program.skipped.size() == 1);
   CHECK(r.program.skipped[0].what == "an endless loop; the motion is 2 passes");
+  std::string stop = body;
+  stop.replace(stop.find("go"), 2, "NOT stop");
+  CHECK(run(stop, {}, "PERS bool stop:=FALSE; VAR num n:=0;\n").program.instructions.size() == 2);
   // A loop that the program ends by its flag ends there, also if a routine writes to its argument.
   CHECK(run("WHILE go DO\n MoveJ p1,v5,fine,tool0;\n n:=n+1;\n go:=n<3;\nENDWHILE", {}, flag)
             .program.instructions.size() == 3);
