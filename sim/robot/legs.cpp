@@ -657,7 +657,8 @@ class Layout {
       }
       if (i == points) target = end;
       const Frame now = tooling.pose(arm_.flange(target));
-      const Move& driven = u <= 0.5 ? move : next;
+      // The way along the move is left, and the way along the next one is begun: at the corner of a flat curve both are equal.
+      const Move& driven = (1 - u) * (1 - u) * before >= u * u * behind ? move : next;
       add_leg(joints, target, (now.position - seen.position).norm(),
               rotation_vector(seen.orientation.conjugate() * now.orientation).norm(), {driven.step, driven.line}, 0);
       joints = target;

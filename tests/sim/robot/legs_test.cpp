@@ -446,6 +446,8 @@ TEST_CASE("legs: beside a line, two joint moves are joined by a parabola within 
   line.path = PathKind::linear;
   turn.zone = 0.1, lift.tool_zone = 0.02;
   const Legs made = legs_of(motion({start, turn, lift, line}), arm(), VectorXd::Constant(6, 8));
+  // 0.1 / 0.6 and 0.1 / 0.3 of the tool's two paths
+  const double way = 2 * std::sin(0.3) / 6, way_behind = 2 * std::sqrt(2.0) * std::sin(0.15) / 3;
   int on_curve = 0, before = 0;
   VectorXd place = made.legs[0].from;
   for (const Leg& leg : made.legs) {
@@ -456,14 +458,25 @@ TEST_CASE("legs: beside a line, two joint moves are joined by a parabola within 
     // Ends at 0.5, 0 and 0.6, 0.1: the second angle is 0.1 u^2.
     const double u = std::sqrt(place[1] / 0.1), first = 0.5 * (1 - u) * (1 - u) + 1.2 * u * (1 - u) + 0.6 * u * u;
     CHECK(place[0] == Approx(first).epsilon(1e-9));
-    CHECK(leg.step == (u <= 0.5 + rounding ? 1 : 2));
-    ++on_curve, before += u <= 0.5 + rounding;
+    CHECK(leg.step == ((1 - u) * (1 - u) * way >= u * u * way_behind ? 1 : 2));
+    ++on_curve, before += leg.step == 1;
   }
-  // Points at most 10 mm apart on 0.1 / 0.6 and 0.1 / 0.3 of the tool's two paths.
-  const double way = 2 * std::sin(0.3) / 6 + 2 * std::sqrt(2.0) * std::sin(0.15) / 3;
-  CHECK(on_curve == int(std::ceil(way / 0.01)));
-  CHECK(before == on_curve / 2);
+  CHECK(on_curve == int(std::ceil((way + way_behind) / 0.01)));  // points at most 10 mm apart
+  CHECK(before == int(on_curve / (1 + std::sqrt(way_behind / way))));
   CHECK((place - Eigen::Map<const VectorXd>(line.joints.data(), 6)).norm() < 1e-7);  // acos near its limits
+}
+
+TEST_CASE("legs: a larger zone before a slow short line does not make the line before it slow") {
+  const auto lasts = [](double zone) {
+    pipeline::MotionStep first = to(PathKind::joint, corner - Vector3(0, 0.5, 0), 0.5, 0);
+    first.tool_speed.reset();
+    return JointMotion(motion({first, to(PathKind::linear, corner, 0.5, zone),
+                               to(PathKind::linear, corner + Vector3(0, 0.02, 0), 0.02, 0)}),
+                       arm())
+        .duration();
+  };
+  // At most half of either line is in the zone. One leg of up to 10 mm across the corner has the lower speed of 20 mm/s.
+  CHECK(lasts(0.25) < lasts(0.01) + 0.5);
 }
 
 TEST_CASE("legs: many targets out of reach are one problem with their number and first places") {
