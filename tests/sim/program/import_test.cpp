@@ -259,7 +259,7 @@ TEST_CASE("import: the cycle times of the example programs") {
     const char *program, *robot;
     double duration;  // [s]
   } const examples[] = {{"side_panel.mod", "abb_irb6640_185_280", 23.56},
-                        {"pick_and_place.src", "kuka_kr16_2", 15.53},
+                        {"pick_and_place.src", "kuka_kr16_2", 15.50},
                         {"frame_weld.ls", "fanuc_m20ia", 123.83}};
   for (const auto& [program, robot, duration] : examples) {
     INFO(program);
