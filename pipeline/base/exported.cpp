@@ -70,6 +70,11 @@ std::optional<Day> exported_day(std::string_view text) {
 }
 
 std::string day_remedy(const std::string& text) {
+  const auto days_words = [](int of_year, int of_month) {
+    int last = 31;
+    while (last > 28 && !day_in_order(of_year, of_month, last)) --last;
+    return fmt::format("{} ({:04}-{:02} has {} days)", date_remedy, of_year, of_month, last);
+  };
   int first = 0, second = 0, year = 0, used = 0;
   char mark = 0, again = 0;
   if (std::sscanf(text.c_str(), "%2d%c%2d%c%4d%n", &first, &mark, &second, &again, &year, &used) == 5 &&
@@ -79,16 +84,13 @@ std::string day_remedy(const std::string& text) {
       return fmt::format("{}: {} if the day comes first, {} if the month does", date_remedy, day_text(*by_day),
                          day_text(*by_month));
     if (by_day || by_month) return fmt::format("write {}", day_text(by_day ? *by_day : *by_month));
+    if (second >= 1 && second <= 12) return days_words(year, second);
   }
   int month = 0, day = 0;
   if (std::sscanf(text.c_str(), "%4d-%2d-%2d%n", &year, &month, &day, &used) == 3 &&
       used == static_cast<int>(text.size())) {
-    int last = 31;
-    while (last > 28 && !day_in_order(year, month, last)) --last;
-    if (month >= 1 && month <= 12 && day >= 1 && day <= last)
-      return fmt::format("write {:04}-{:02}-{:02}", year, month, day);
-    return date_remedy + (month < 1 || month > 12 ? std::string(" (a year has 12 months)")
-                                                  : fmt::format(" ({:04}-{:02} has {} days)", year, month, last));
+    if (day_in_order(year, month, day)) return fmt::format("write {:04}-{:02}-{:02}", year, month, day);
+    return month < 1 || month > 12 ? date_remedy + std::string(" (a year has 12 months)") : days_words(year, month);
   }
   constexpr double spreadsheet_1970 = 25569, spreadsheet_2100 = 73051;  // days since 1899-12-30
   if (const std::optional<double> days = number_in(text); days && *days > spreadsheet_1970 && *days < spreadsheet_2100)
