@@ -165,6 +165,8 @@ bool Interpreter::leaves(const Statement& statement, bool in_loop) const {
 /// Whether a statement of the program may write to data of this name. Each mention in an assignment or a call counts,
 /// because a routine may return a value through its argument.
 bool Interpreter::may_be_written(const std::string& name) {
+  const auto [at, is_new] = written_.try_emplace(name);  // a loop may begin a thousand times, and the code is long
+  if (!is_new) return at->second;
   const std::function<bool(const Expression&)> mentions = [&](const Expression& expression) {
     return (expression.kind == Expression::Kind::name && expression.text == name) ||
            std::any_of(expression.items.begin(), expression.items.end(), mentions);
@@ -178,9 +180,9 @@ bool Interpreter::may_be_written(const std::string& name) {
              return std::any_of(branch.body.begin(), branch.body.end(), writes);
            });
   };
-  return std::any_of(code_.routines.begin(), code_.routines.end(), [&](const Routine& routine) {
-    return std::any_of(routine.body.begin(), routine.body.end(), writes);
-  });
+  return at->second = std::any_of(code_.routines.begin(), code_.routines.end(), [&](const Routine& routine) {
+           return std::any_of(routine.body.begin(), routine.body.end(), writes);
+         });
 }
 
 /// Whether a condition of constants and of data that no statement may write to.

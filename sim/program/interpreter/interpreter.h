@@ -313,6 +313,7 @@ class Interpreter {
   void charge(std::size_t work);
 
   const Code& code_;
+  std::map<std::string, bool> written_;  ///< may_be_written() of each name that was asked for
   Dialect& dialect_;
   const ImportOptions& options_;
   Program& program_;

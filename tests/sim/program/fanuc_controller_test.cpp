@@ -573,7 +573,7 @@ TEST_CASE("fanuc: what programs beside and condition handlers write is unknown")
   CHECK(run("   1:  R[1]=0 ;\n   2:  MONITOR WATCH ;\n" + choice).problems.size() == 1);
 }
 
-TEST_CASE("fanuc: a position of another frame than the active one is told to choose its frame") {
+TEST_CASE("fanuc: the remedy of a position of another frame than the active one chooses its frame") {
   const Reading r = run("   1:  UFRAME_NUM=1 ;\n   2:  UTOOL_NUM=2 ;\n   3:J P[3] 100% FINE ;\n");
   const std::vector<pipeline::Warning> lines = moves_left_out(r.program);
   REQUIRE(lines.size() == 1);

@@ -184,6 +184,16 @@ TEST_CASE("rapid: a loop over a flag that nothing writes to is an endless main l
             .program.instructions.size() == 3);
 }
 
+TEST_CASE("rapid: a loop that begins often in a long program ends by its counter") {
+  std::string before = "VAR num n:=0;\nVAR num i:=0;\nPROC unused()\n";
+  for (int line = 0; line < 3000; ++line) before += "n:=n+1;\n";
+  const Reading r =
+      run("FOR k FROM 1 TO 2000 DO\n i:=0;\n WHILE i<2 DO\n i:=i+1;\n ENDWHILE\nENDFOR\nMoveJ p1,v5,fine,tool0;", {},
+          before + "ENDPROC\n");
+  CHECK(r.problem() == "no such problem");
+  CHECK(r.program.instructions.size() == 1);
+}
+
 TEST_CASE("rapid: problems are collected, with place, reason and remedy") {
   const Reading r =
       run("MoveL p9,v100,fine,tool0;\nMoveL p1,v100,z77,tool0;\nMoveL p1,v100,fine,torch;\nMoveL "
