@@ -108,8 +108,9 @@ std::optional<WornMaterial> worn_of(const pipeline::Dresspack& dresspack) {
     worn.layer.crest = worn.layer.pitch / 4;
     worn.material = find_material(dresspack, dresspack.hose_material);
   }
-  for (const pipeline::Component& part : dresspack.components)
-    if (!dresspack.sleeve && is_surface(dresspack, part)) return jacket_of(dresspack, part);
+  if (!dresspack.sleeve)
+    for (const pipeline::Component& part : dresspack.components)
+      if (is_surface(dresspack, part)) return jacket_of(dresspack, part);
   if (!worn.material || worn.material->wear.empty()) return {};
   return worn;
 }

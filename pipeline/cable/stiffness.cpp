@@ -270,8 +270,8 @@ void take_from_construction(Dresspack& dresspack) {
     // above it has a stiffer wall or polymer, which has no friction.
     const double friction = wires.friction(dresspack.construction_curvature) / dresspack.construction_curvature,
                  given = dresspack.bending_stiffness, share = std::min(1.0, given / taken.bending);
-    // Less changes a swing less than the usual uncertainty of loss_factor, a factor of two of 0.3. Then the motion depends on no
-    // cable, and dresspacks with other cables share it.
+    // Less friction changes the damping by less than the uncertainty of loss_factor, a factor of two of 0.3. It is left out: then
+    // the motion depends on no cable, and dresspacks with other cables share it.
     constexpr double negligible = 0.1;
     if (share * friction > negligible * given)
       dresspack.bending_friction = friction_of(wires, given / share - friction);
@@ -419,6 +419,9 @@ std::string stiffness_text(const Dresspack& dresspack) {
                         sliding.*of, friction.*of, curvature, stuck.*of);
   };
   line("E I", "N m2", dresspack.bending_stiffness, dresspack.bending_from_construction, &HoseStiffness::bending);
+  if (!dresspack.bending_from_construction && !dresspack.bending_friction.empty())
+    text += fmt::format("friction holds {:.2g} N m2 of the given E I\n",
+                        dresspack.bending_stiffness - elastic_bending_stiffness(dresspack));
   line("G J", "N m2", dresspack.torsional_stiffness, dresspack.torsional_from_construction, &HoseStiffness::torsional);
   line("E A", "N", dresspack.axial_stiffness, dresspack.axial_from_construction, &HoseStiffness::axial);
   const auto missing = missing_in_construction(dresspack);

@@ -1030,7 +1030,7 @@ void doubt_bend_reliefs(const MountedDresspack& mounted, int segments, std::vect
   }
 }
 
-/// Warns of a cable whose cores are the parts of the first level: then clamps grip each core, which spares none of its slip.
+/// Warns of a cable whose cores are the parts of the first level. Clamps then grip each core, and in the plant only the jacket.
 void doubt_cores(const Dresspack& dresspack, std::vector<Warning>& warnings) {
   if (!is_single_cable(dresspack) || dresspack.cable_alone) return;
   int count = 0;
@@ -1044,9 +1044,11 @@ void doubt_cores(const Dresspack& dresspack, std::vector<Warning>& warnings) {
   if (count < 2 || filled < usual) return;
   warnings.push_back(warning_of(
       WarningKind::material, dresspack.components.front().where.text(),
-      fmt::format("the {} parts of the dresspack look like the cores of one cable, and its clamps grip each of them",
-                  count),
-      "clamps grip the jacket of a cable, in which the cores slip; wires that are gripped have other strains",
+      fmt::format(
+          "the {} parts of the dresspack fill {:.0f} % of its cross-section (limit {:.0f} %), as the cores of one "
+          "cable do, and the clamps grip each of them",
+          count, 100 * filled, 100 * usual),
+      "one cable, whose clamps grip only the jacket in the plant; gripped cores have other strains",
       fmt::format(
           "one part `{{name: cable, helix_radius_mm: 0, radius_mm: {:.4g}}}`, with these parts as its components",
           500 * dresspack.diameter)));

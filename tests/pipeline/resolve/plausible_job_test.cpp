@@ -196,7 +196,8 @@ TEST_CASE(
   mounted.dresspack.components = {core};
   const auto warned = [&] {
     return std::ranges::any_of(plausibility_of_lives(job), [](const Warning& warning) {
-      return warning.words.find("the 7 parts of the dresspack look like the cores of one cable") != std::string::npos;
+      return warning.words.find("the 7 parts of the dresspack fill 40 % of its cross-section (limit 25 %)") !=
+             std::string::npos;
     });
   };
   CHECK(warned());
