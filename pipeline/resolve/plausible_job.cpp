@@ -17,6 +17,7 @@
 #include "pipeline/cable/bend_limit.h"
 #include "pipeline/cable/excess.h"
 #include "pipeline/job/line_key.h"
+#include "pipeline/job/parts_room.h"
 #include "pipeline/resolve/radians.h"
 #include "pipeline/settings/fields.h"
 
