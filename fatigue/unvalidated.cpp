@@ -248,10 +248,6 @@ void put_inspection(UnvalidatedMode& mode, const std::vector<double>& own, doubl
       unseen < least ? fmt::format("less than {:g}", least) : pipeline::readable(unseen, 2));
 }
 
-bool is_hose(const pipeline::Dresspack& dresspack) {
-  return dresspack.hose_corrugation || dresspack.inner_diameter || !dresspack.hose_material.empty();
-}
-
 /// Returns whether the law of kinks applies to the hose.
 bool is_smooth_hose(const pipeline::Dresspack& dresspack) {
   return dresspack.inner_diameter && !dresspack.hose_corrugation;

@@ -115,6 +115,10 @@ std::optional<WornMaterial> worn_of(const pipeline::Dresspack& dresspack) {
   return worn;
 }
 
+bool is_hose(const pipeline::Dresspack& dresspack) {
+  return dresspack.hose_corrugation || dresspack.inner_diameter || !dresspack.hose_material.empty();
+}
+
 bool is_surface(const pipeline::Dresspack& dresspack, const pipeline::Component& part) {
   constexpr double rounding = 1e-6;
   return !is_hose(dresspack) && std::abs(2 * part.radius - dresspack.diameter) < rounding * dresspack.diameter;

@@ -55,6 +55,9 @@ struct WornMaterial {
 };
 std::optional<WornMaterial> worn_of(const pipeline::Dresspack& dresspack);
 
+/// Returns whether the dresspack has a hose around its parts.
+bool is_hose(const pipeline::Dresspack& dresspack);
+
 /// Returns whether the jacket of a cable is the surface of a dresspack without a hose: abrasion alone wears it.
 bool is_surface(const pipeline::Dresspack& dresspack, const pipeline::Component& part);
 
