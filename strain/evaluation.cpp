@@ -138,7 +138,8 @@ void Evaluation::find_probes(const std::vector<pipeline::ProbeRequest>& probes) 
                                  fmt::format("strain.probes: no wire is called '{}' (a path from the outermost part "
                                              "inward)",
                                              probe.component),
-                                 fmt::format("write it like '{}'", wires_.empty() ? "" : wires_.front().path));
+                                 wires_.empty() ? "leave it out: the dresspack has no wires"
+                                                : fmt::format("write it like '{}'", wires_.front().path));
     const int segments = static_cast<int>(place_.segments_in_all);
     if (probe.segment_from_tool < 1 || probe.segment_from_tool > segments)
       throw pipeline::InputError({},

@@ -126,6 +126,7 @@ class VariationWriter {
     file.append("/variation/inside", inside);
     file.append("/variation/rest", variations.rests());
     file.append("/variation/stiffness", std::vector<double>(inside.size(), variations.stiffness()));
+    put()(0, {}, {});  // a dresspack without wires has no rows
   }
 
   /// Precondition: all samples were added to the variations.
@@ -188,15 +189,6 @@ void check(const FileReader& motion, const pipeline::Job& job, const MotionReade
   if (!(reader.step() > 0))
     throw pipeline::InputError(motion.where(), "has a second sample that is not later than the first",
                                "run dresslife-sim again");
-  for (std::size_t d = 0; d < job.dresspacks.size(); ++d)
-    if (const pipeline::Dresspack& dresspack = job.dresspacks[d].dresspack; !has_wires(dresspack)) {
-      const std::string name = pipeline::name_among(job, d);
-      throw pipeline::InputError(
-          motion.where(),
-          fmt::format("comes from a dresspack {}without {} (there is no wire to evaluate)",
-                      name.empty() ? "" : "'" + name + "' ", dresspack.components.empty() ? "components" : "wires"),
-          "give dresspack.components that hold wires");
-    }
 }
 
 /// Returns whether a path begins with the name of dresspack d. With a single dresspack every path does.
@@ -513,6 +505,9 @@ class OwnResults {
     sink_.sites = [&](const SiteRows& rows) { sites_.append(rows); };
     sink_.bound_stick = [&](const SiteRows& rows) { stick_.append(rows); };
     sink_.bound_free = [&](const SiteRows& rows) { free_.append(rows); };
+    sites_.append({});  // a dresspack without wires has no site and no probe
+    file.append("/probe/site", std::vector<std::uint32_t>{});
+    file.append("/probe/strain", std::vector<float>{});
     sink_.probe = [&file](const Probe& probe) {
       file.append("/probe/site", std::vector<std::uint32_t>{static_cast<std::uint32_t>(probe.site)});
       file.append("/probe/strain", probe.strain);

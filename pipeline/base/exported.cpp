@@ -75,15 +75,16 @@ std::string day_remedy(const std::string& text) {
     while (last > 28 && !day_in_order(of_year, of_month, last)) --last;
     return fmt::format("{} ({:04}-{:02} has {} days)", date_remedy, of_year, of_month, last);
   };
+  constexpr const char* whole_column = ". A spreadsheet can give the whole column the format YYYY-MM-DD";
   int first = 0, second = 0, year = 0, used = 0;
   char mark = 0, again = 0;
   if (std::sscanf(text.c_str(), "%2d%c%2d%c%4d%n", &first, &mark, &second, &again, &year, &used) == 5 &&
       used == static_cast<int>(text.size()) && mark == again && year >= 1000) {
     const std::optional<Day> by_day = day_in_order(year, second, first), by_month = day_in_order(year, first, second);
     if (by_day && by_month && first != second)
-      return fmt::format("{}: {} if the day comes first, {} if the month does", date_remedy, day_text(*by_day),
-                         day_text(*by_month));
-    if (by_day || by_month) return fmt::format("write {}", day_text(by_day ? *by_day : *by_month));
+      return fmt::format("{}: {} if the day comes first, {} if the month does{}", date_remedy, day_text(*by_day),
+                         day_text(*by_month), whole_column);
+    if (by_day || by_month) return fmt::format("write {}{}", day_text(by_day ? *by_day : *by_month), whole_column);
     if (second >= 1 && second <= 12) return days_words(year, second);
   }
   int month = 0, day = 0;

@@ -26,6 +26,7 @@
 #include "pipeline/settings/units.h"
 #include "pipeline/study/row_warnings.h"
 #include "pipeline/study/stage_program.h"
+#include "pipeline/study/study_problems.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -258,6 +259,7 @@ int reprogram(const ReprogramOptions& options) {
   const OwnFolder own(options, name + "_reprogram", request.file);
   const StudyPlaces& places = own.places;
   Study study{name, changed_jobs(request, {}, "as_it_is")};
+  require_wires(study, {request.file.string()});
   int failed = 0;
   const std::vector<RankingRow> rows = made_rows(study, places, options);
   for (std::size_t k = 0; k < study.jobs.size(); ++k) {

@@ -210,8 +210,8 @@ class Page {
     for (const std::string& note : notes_) text += fmt::format("<p class=\"failed\">{}</p>\n", escaped(note));
     text +=
         "<div id=\"view\"></div>\n<div class=\"beside\"><div id=\"timeline\"></div>\n<div id=\"place\"></div></div>\n"
-        "<div id=\"section\"></div>\n<div id=\"wire\"></div>\n<h2>Lives of the wires</h2>\n" +
-        lives(row_);
+        "<div id=\"section\"></div>\n<div id=\"wire\"></div>\n";
+    if (row_.has_wires()) text += "<h2>Lives of the wires</h2>\n" + lives(row_);
     if (row_.damaged()) {
       const LifeSummary life = read_life(files_.life());
       text += "<h2>Where the damage comes from</h2>\n" + damage_along(life, row_) + damage_tables(life, row_);

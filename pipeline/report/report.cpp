@@ -117,7 +117,10 @@ std::vector<std::string> ranking_rows(const std::vector<RankingRow>& rows, const
     const std::string worst =
         fmt::format("<span class=\"soft\">worst wire:</span> {}<br>{}", escaped(row.worst_component), place_words(row));
     const std::string failing = escaped(failing_place_words(row));  // the worst wire may be in another cable
-    const std::string where = !row.damaged() ? "no wire is damaged" : failing.empty() ? worst : failing;
+    const std::string where = !row.has_wires()  ? "no wires"
+                              : !row.damaged()  ? "no wire is damaged"
+                              : failing.empty() ? worst
+                                                : failing;
     const std::string moved =
         !row.damaged() ? ""
                        : fmt::format("{}{}<br><span class=\"soft\">at {:.1f} s of {:.0f} s</span>",
@@ -243,7 +246,7 @@ std::string dresspack_table(const LifeSummary& life, const RankingRow& row) {
                              "class=\"number\">{}</td></tr>\n",
                              escaped(life.dresspack[d]), printed(row.hours_of(1 / damage)), printed(1 / damage),
                              printed(damage))
-                       : fmt::format("<tr><td>{}</td><td class=\"number\" colspan=\"3\">no damage</td></tr>\n",
+                       : fmt::format("<tr><td>{}</td><td class=\"number\" colspan=\"3\">no wire is damaged</td></tr>\n",
                                      escaped(life.dresspack[d]));
   }
   return "<h3>Life by dresspack</h3>\n<p class=\"soft\">Of the worst wire in each; the charts below are about the worst of them.</p>\n" +
@@ -268,7 +271,8 @@ std::string facts(const RankingRow& row) {
                            row.failing_conductor.empty() ? "" : "; likeliest " + escaped(failing_place_words(row))));
   }
   fact(row.planned() ? "worst wire" : "life",
-       std::isinf(row.life_hours)
+       !row.has_wires() ? "no wires"
+       : std::isinf(row.life_hours)
            ? "no damage"
            : fmt::format("{}{} h{} of motion = {} repeats of {:.1f} s = {} by the calendar, median of the "
                          "worst wire",
@@ -293,7 +297,9 @@ std::string facts(const RankingRow& row) {
   const std::array<const char*, 3> shares{"bounds of 10 % failed", "bounds of half failed", "bounds of 90 % failed"};
   for (std::size_t i = 0; i < shares.size() && !std::isnan(row.glued_hours[0]); ++i)
     bounds(shares[i], row.glued_hours[i], row.free_hours[i]);
-  bounds("bounds of the worst wire", row.hours_of(row.life_repeats_all_stick), row.hours_of(row.life_repeats_all_free));
+  if (row.has_wires())
+    bounds("bounds of the worst wire", row.hours_of(row.life_repeats_all_stick),
+           row.hours_of(row.life_repeats_all_free));
   if (!row.estimates.empty()) fact("ESTIMATE, not in the dresspack", escaped(row.estimates));
   if (row.hours_mean_stress_kept)
     fact("mean stress",

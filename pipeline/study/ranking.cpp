@@ -75,7 +75,6 @@ void read_scatter(const LifeRoot& file, RankingRow& row) {
   }
   if (!plans) return;
   read("life_months_p10", row.planned_months);
-  read("robot_life_hours", row.robot_life_hours);
   for (std::size_t i = 0; i < ends.size(); ++i)
     read(fmt::format("scatter_life_hours_{}", ends[i]), row.scatter_hours[i]);
   if (file.has_attribute("life_response")) {
@@ -145,14 +144,8 @@ RankingRow read_row(const JobResult& result) {
   if (!row.has_result()) return row;
   try {
     const LifeRoot file(result);
-    row.life_repeats = file.number_attribute("life_repeats");
-    row.life_hours = file.number_attribute("life_hours");
-    row.life_months = file.number_attribute("life_months");
-    row.life_repeats_all_stick = file.number_attribute("life_repeats_all_stick");
-    row.life_repeats_all_free = file.number_attribute("life_repeats_all_free");
     row.repeat_seconds = file.number_attribute("repeat_seconds");
-    row.damage_per_repeat = file.number_attribute("damage_per_repeat");
-    read_scatter(file, row);
+    if (file.has_attribute("robot_life_hours")) row.robot_life_hours = file.number_attribute("robot_life_hours");
     read_unvalidated(file, row);
     if (file.has_attribute("largest_force_share")) {
       if (const double share = file.number_attribute("largest_force_share"); share > 0) row.largest_force_share = share;
@@ -169,6 +162,13 @@ RankingRow read_row(const JobResult& result) {
     if (file.has_attribute("estimates")) row.estimates = file.text_attribute("estimates");
     if (file.has_attribute("warnings")) row.warnings = warnings_from(file.text_attribute("warnings"));
     if (file.number_attribute("worst_site") < 0) return row;
+    row.life_repeats = file.number_attribute("life_repeats");
+    row.life_hours = file.number_attribute("life_hours");
+    row.life_months = file.number_attribute("life_months");
+    row.life_repeats_all_stick = file.number_attribute("life_repeats_all_stick");
+    row.life_repeats_all_free = file.number_attribute("life_repeats_all_free");
+    row.damage_per_repeat = file.number_attribute("damage_per_repeat");
+    read_scatter(file, row);
     row.worst_segment_from_tool = count_attribute(file, "worst_segment_from_tool");
     row.worst_position_from_tool = file.number_attribute("worst_position_from_tool");
     row.worst_time = file.number_attribute("worst_time");
@@ -239,7 +239,7 @@ void order_beyond_robot(std::vector<RankingRow>& rows, std::vector<std::vector<d
 void report_orders(std::vector<RankingRow>& rows) {
   // 500 samples: a share of 90 % is known to 1.3 %. 10,000 jobs then take 1.5 s for each failure mode.
   constexpr std::size_t most = 20'000, samples_in_all = 2'000'000, fewest = 500;
-  for (std::size_t k = 0; k < rows.size(); ++k) rows[k].rank = rows[k].done() ? k + 1 : 0;
+  for (std::size_t k = 0; k < rows.size(); ++k) rows[k].rank = rows[k].done() && rows[k].has_wires() ? k + 1 : 0;
   if (rows.empty() || rows.size() > most) return;
   const std::size_t samples = std::clamp(samples_in_all / rows.size(), fewest, life_samples);
   std::map<std::string_view, std::string_view> moved_as;  // the first job by the recipe of its simulation
@@ -256,7 +256,7 @@ void report_orders(std::vector<RankingRow>& rows) {
     if (known && before) rows[k - 1].outlives_next = share_outliving(*before, lives[k]);
     const bool tied = known && leader && share_outliving(*leader, lives[k]) < separated_share;
     if (!tied) leader = known ? &lives[k] : nullptr, rank = k + 1;
-    rows[k].rank = rows[k].done() ? rank : 0;
+    if (rows[k].rank) rows[k].rank = rank;
     before = known ? &lives[k] : nullptr;
   }
 }
@@ -264,9 +264,10 @@ void report_orders(std::vector<RankingRow>& rows) {
 bool better(const RankingRow& one, const RankingRow& other) {
   if (one.done() != other.done()) return one.done();
   if (one.stale != other.stale) return one.stale;
-  if (one.has_result() && one.headline_hours() != other.headline_hours())
+  if (one.has_wires() != other.has_wires()) return one.has_wires();
+  if (one.has_wires() && one.headline_hours() != other.headline_hours())
     return one.headline_hours() > other.headline_hours();
-  if (one.has_result() && one.life_hours != other.life_hours) return one.life_hours > other.life_hours;
+  if (one.has_wires() && one.life_hours != other.life_hours) return one.life_hours > other.life_hours;
   return one.job < other.job;
 }
 

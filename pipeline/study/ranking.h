@@ -39,7 +39,7 @@ struct RelativeLife {
   double hours() const { return rated_cycles / cycles_per_hour; }
 };
 
-/// One row of the ranking. Lives without damage are infinite.
+/// One row of the ranking. Lives without damage are infinite; those of a job without wires are unknown.
 struct RankingRow {
   std::string job;
   std::filesystem::path life_file;
@@ -50,14 +50,14 @@ struct RankingRow {
   std::string simulated;  ///< JobResult::simulated
   /// (varied key) key and the job's value, as in the job's name; empty: the job belongs to no study.
   std::vector<std::pair<std::string, std::string>> varied;
-  double life_repeats = 0;            ///< repeats of the motion until the worst wire breaks
-  double life_hours = 0;              ///< hours of motion
-  double life_months = 0;             ///< life_hours in months, at the job's operating hours per week
-  double life_repeats_all_stick = 0;  ///< bound: no part of the cables slips
-  double life_repeats_all_free = 0;   ///< bound: all parts of the cables slip without friction
-  double repeat_seconds = 0;          ///< duration of one repeat [s]
-  double damage_per_repeat = 0;       ///< damage of the worst wire
-  std::string worst_dresspack;        ///< dresspack of the worst wire, among several; empty: the only one
+  double life_repeats = unknown;            ///< repeats of the motion until the worst wire breaks
+  double life_hours = unknown;              ///< hours of motion
+  double life_months = unknown;             ///< life_hours in months, at the job's operating hours per week
+  double life_repeats_all_stick = unknown;  ///< bound: no part of the cables slips
+  double life_repeats_all_free = unknown;   ///< bound: all parts of the cables slip without friction
+  double repeat_seconds = 0;                ///< duration of one repeat [s]
+  double damage_per_repeat = 0;             ///< damage of the worst wire
+  std::string worst_dresspack;              ///< dresspack of the worst wire, among several; empty: the only one
   int worst_segment_from_tool =
       0;  ///< segment of the worst wire's place, 1 is nearest to the tool; 0: no wire was evaluated
   double worst_position_from_tool = 0;  ///< place of the worst wire along the dresspack, from the tool clamp [m]
@@ -120,7 +120,8 @@ struct RankingRow {
   /// Returns the unvalidated mode `mode` that fails first by its median; null: it was not evaluated.
   const UnvalidatedMode* unvalidated_mode(std::string_view mode) const;
   bool done() const { return failure.empty(); }
-  bool damaged() const { return worst_segment_from_tool > 0 && damage_per_repeat > 0; }
+  bool has_wires() const { return worst_segment_from_tool > 0; }
+  bool damaged() const { return has_wires() && damage_per_repeat > 0; }
   bool has_result() const { return done() || stale; }
   bool waits() const {
     return failure == "stale" || failure == "to do";

@@ -33,7 +33,7 @@ RankingColumn where(std::string name, std::string unit, std::string meaning, App
 }
 
 bool always(const RankingRow&) { return true; }
-bool evaluated(const RankingRow& row) { return row.worst_segment_from_tool > 0; }
+bool evaluated(const RankingRow& row) { return row.has_wires(); }
 /// Returns a column whose cells describe an unvalidated mode; empty in rows without this mode.
 template <class Value>
 RankingColumn of_mode(std::string name, std::string unit, std::string meaning, const char* mode, Value value) {

@@ -23,6 +23,9 @@ bool outlives_robot(const RankingRow& row, double hours) {
 
 bool is_damaged(const RankingRow& row) { return !row.worst_component.empty() && row.damage_per_repeat > 0; }
 
+/// Returns the hours from which an unvalidated mode is of no interest: those of the headline, at most the robot's life.
+double hours_of_interest(const RankingRow& row) { return std::fmin(row.headline_hours(), row.robot_life_hours); }
+
 std::string cause_words(const RankingRow& row) {
   if (!(row.measure_next_share > 0)) return "";
   const UncertainParameter* const cause = find_in(uncertain_parameters(), &UncertainParameter::name, row.measure_next);
@@ -72,7 +75,7 @@ std::string wall_life(const UnvalidatedMode& mode) {
 /// Returns the modes after earlier_unvalidated() that also come before the headline and within the robot's life, the
 /// earliest first: ", abrasion: from 25,000 h". Empty: none.
 std::string further_unvalidated(const RankingRow& row) {
-  const double end = std::min(row.headline_hours(), row.robot_life_hours);
+  const double end = hours_of_interest(row);
   std::map<std::string, double> hours;  // of several parts the earliest hours
   for (const UnvalidatedMode& mode : row.unvalidated)
     if (mode.early_hours() < end && is_credible(mode))
@@ -140,7 +143,7 @@ std::string inspection_words(const RankingRow& row) {
 
 const UnvalidatedMode* earlier_unvalidated(const RankingRow& row) {
   const UnvalidatedMode* first = nullptr;
-  double before = std::min(row.headline_hours(), row.robot_life_hours);
+  double before = hours_of_interest(row);
   for (const UnvalidatedMode& mode : row.unvalidated)
     if (mode.early_hours() < before && is_credible(mode)) before = mode.early_hours(), first = &mode;
   return first;
@@ -204,13 +207,14 @@ std::string range_text(double low_hours, double high_hours) {
 }
 
 std::string shown_life(const RankingRow& row, double hours) {
+  if (std::isnan(hours)) return row.has_wires() ? "-" : "no wires";
   // If some samples fail, a life without damage means a life longer than the robot's.
   const bool longer = std::isfinite(row.headline_hours()) && hours > row.robot_life_hours;
   return longer || outlives_robot(row, hours) ? "over " + readable(row.robot_life_hours) : life_text(hours);
 }
 
 std::string shown_range(const RankingRow& row, double low_hours, double high_hours) {
-  return shown_life(row, low_hours) + " .. " + shown_life(row, high_hours);
+  return std::isnan(low_hours) ? "-" : shown_life(row, low_hours) + " .. " + shown_life(row, high_hours);
 }
 
 std::string shown_calendar(const RankingRow& row) {
@@ -259,11 +263,21 @@ std::string action_words(const RankingRow& row) {
   const double hours = row.headline_hours();
   if (!is_believable(row))
     return fmt::format("Do not plan with {}: {} (see the warnings).",
-                       std::isinf(hours) || outlives_robot(row, hours) ? "this result" : hours_text(hours),
+                       !std::isfinite(hours) || outlives_robot(row, hours) ? "this result" : hours_text(hours),
                        warning_kinds(row));
-  if (row.worst_segment_from_tool == 0) return "No wire was evaluated.";
   const std::string inspection = inspection_words(row), bound = bound_words(row), others = other_values_words(row);
   const bool may_fail_before = earlier_unvalidated(row);
+  const std::string left_out = row.not_evaluated.empty() ? "" : fmt::format("Not evaluated: {}.", row.not_evaluated);
+  if (!row.has_wires())
+    return joined_words(
+        {inspection,
+         row.unvalidated.empty() ? "No part was evaluated."
+                                 : "No wire was evaluated, so the table's hours are not validated.",
+         row.unvalidated.empty() || may_fail_before
+             ? ""
+             : fmt::format("No evaluated mode comes within the robot's life ({} h) in 10 % of such dresspacks.",
+                           readable(row.robot_life_hours)),
+         others, left_out});
   if (std::isinf(hours))
     return joined_words(
         {inspection, !may_fail_before ? "No replacement is foreseen:" : "For the wires no replacement is foreseen:",
@@ -272,8 +286,7 @@ std::string action_words(const RankingRow& row) {
     return joined_words({inspection,
                          fmt::format("The {} last longer than the robot ({} h).",
                                      may_fail_before ? "wires" : "evaluated parts", readable(row.robot_life_hours)),
-                         bound, others,
-                         row.not_evaluated.empty() ? "" : fmt::format("Not evaluated: {}.", row.not_evaluated)});
+                         bound, others, left_out});
   return joined_words({fmt::format("Plan a replacement after {} of motion ({}).", hours_text(hours),
                                    calendar_text(row.headline_months())),
                        inspection, bound, others});
@@ -301,7 +314,7 @@ std::string failing_place_words(const RankingRow& row) {
 }
 
 std::string failure_words(const RankingRow& row) {
-  if (row.worst_component.empty()) return "No wire was evaluated.";
+  if (!row.has_wires()) return "";
   if (!is_damaged(row)) return "No wire is damaged.";
   const std::string first =
       row.failing_mode.empty()

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "pipeline/base/joined.h"
+#include "pipeline/job/job.h"
 #include "pipeline/settings/problems.h"
 #include "pipeline/study/study.h"
 
@@ -44,6 +45,20 @@ std::string problem_words(const Study& study) {
     text += '\n';
   }
   return text;
+}
+
+void refuse_without_wires(const Where& where, const std::string& job) {
+  throw InputError(
+      where, fmt::format("job '{}' has no wires, and this command compares lives of wires", job),
+      "describe a cable by its data sheet (config/README.md), or leave the job out; dresslife run predicts the "
+      "other failure modes");
+}
+
+void require_wires(const Study& study, const Where& where) {
+  for (const StudyJob& job : study.jobs)
+    if (job.job && std::ranges::none_of(job.job->dresspacks,
+                                        [](const MountedDresspack& mounted) { return has_wires(mounted.dresspack); }))
+      refuse_without_wires(where, job.name);
 }
 
 }  // namespace dresslife::pipeline

@@ -1,6 +1,7 @@
 // Two dresspacks in one file have the same strains and lives as in two separate files.
 #include <Eigen/Geometry>
 #include <cmath>
+#include <map>
 
 #include "fatigue/life_file.h"
 #include "pipeline/base/plain_file.h"
@@ -278,8 +279,27 @@ TEST_CASE("what does not fit together among several dresspacks is reported") {
                  Catch::Contains("write it like 'sensor cable/core 1'"));
   CHECK_THAT(pipeline::message_of([&] { evaluate(scratch, "thick", job_of(both, {"main hose/cable 1/wire 1"})); }),
              Catch::Contains("holds 1 dresspacks (its job has 2)"));
+}
+
+TEST_CASE("a dresspack without wires leaves the wires of the others as they are") {
+  const Scratch scratch;
+  write_motion(scratch / "both.motion.h5", {thick, thin});
+  write_motion(scratch / "bare.motion.h5", {thick, thin});
+  evaluate(scratch, "both", job_of(both, {"main hose/cable 1/wire 1"}));
   pipeline::Job bare = job_of(both, {"main hose/cable 1/wire 1"});
   bare.dresspacks[1].dresspack.components.clear();
-  CHECK_THAT(pipeline::message_of([&] { evaluate(scratch, "both", bare); }),
-             Catch::Contains("comes from a dresspack 'sensor cable' without components"));
+  evaluate(scratch, "bare", bare);
+  const pipeline::FileReader with(scratch / "both.life.h5", pipeline::life_format()),
+      without(scratch / "bare.life.h5", pipeline::life_format());
+  const auto damage_of = [](const pipeline::FileReader& life) {
+    const auto segment = life.read<std::int32_t>("/site/segment");
+    const auto wire = life.read<std::string>("/site/component");
+    const auto damage = life.read<double>("/damage");
+    std::map<std::pair<std::string, std::int32_t>, double> of_main;
+    for (std::size_t k = 0; k < damage.size(); ++k)
+      if (wire[k].starts_with("main hose/")) of_main[{wire[k], segment[k]}] += damage[k];
+    return of_main;
+  };
+  CHECK_FALSE(damage_of(without).empty());
+  CHECK(damage_of(without) == damage_of(with));
 }

@@ -425,7 +425,7 @@ TEST_CASE("starts that do not close the first repeat after the lead-in follow th
   }
 }
 
-TEST_CASE("a motion without samples or a dresspack without wires is refused in words") {
+TEST_CASE("a motion without samples is refused in words, a dresspack without wires has no sites") {
   const Scratch scratch;
   write_motion(scratch / "motion.h5", 0);
   CHECK_THAT(pipeline::message_of([&] { evaluate(scratch / "motion.h5", scratch / "strain.h5", job_with()); }),
@@ -434,11 +434,16 @@ TEST_CASE("a motion without samples or a dresspack without wires is refused in w
   CHECK_THAT(pipeline::message_of([&] { evaluate(scratch / "motion.h5", scratch / "strain.h5", job_with()); }),
              Catch::Contains("not later than the first"));
   write_motion(scratch / "motion.h5");
+  CHECK(scratch.entries() == 1);  // no partial output remains
   pipeline::Job bare = job_with();
   bare.dresspacks[0].dresspack.components.clear();
   CHECK_THAT(pipeline::message_of([&] { evaluate(scratch / "motion.h5", scratch / "strain.h5", bare); }),
-             Catch::Contains("without components"));
-  CHECK(scratch.entries() == 1);  // no partial output remains
+             Catch::Contains("leave it out: the dresspack has no wires"));
+  bare.strain.probes.clear();
+  evaluate(scratch / "motion.h5", scratch / "strain.h5", bare);
+  const pipeline::FileReader strain(scratch / "strain.h5", pipeline::strain_format());
+  CHECK(strain.rows("/site/segment") == 0);
+  CHECK(strain.rows("/probe/site") == 0);
 }
 
 TEST_CASE(

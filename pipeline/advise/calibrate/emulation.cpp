@@ -1,14 +1,13 @@
+
+
 #include "pipeline/advise/calibrate/emulation.h"
-
 #include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <memory>
 #include <numbers>
 #include <utility>
-
 #include "pipeline/advise/calibrate/life_over_parameters.h"
 #include "pipeline/advise/calibrate/measured_bending.h"
 #include "pipeline/advise/calibrate/typical_cables.h"
@@ -19,6 +18,7 @@
 #include "pipeline/files/files.h"
 #include "pipeline/job/job.h"
 #include "pipeline/life/first_failure.h"
+#include "pipeline/study/study_problems.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -84,7 +84,7 @@ class RoundEmulation {
     life.specimens = observation.outcome == ObservedEnd::rating ? 1 : observation.specimens;
     life.unshared_spread = observation.unshared_log10 * std::numbers::ln10;
     for (const RoundOfJobs::Runs& runs : variants) {
-      const RankingRow& row = row_of(test, runs.centre);
+      const RankingRow& row = life_row_of(test, runs.centre);
       life.variants.push_back(variant_of(test, runs, row));
       life.common_share = std::max(life.common_share, common_share(runs, log_life_of(observation, row)));
     }
@@ -130,7 +130,7 @@ class RoundEmulation {
     ObservedLife life;
     life.service = factors_of(test.observation.service, true);
     const std::size_t worst = most_damaging(test, programs);
-    const RankingRow& row = row_of(test, programs[worst].centre);
+    const RankingRow& row = life_row_of(test, programs[worst].centre);
     const LogLife centre = log_life_of(test.observation, row);
     if (row.life_response.empty() || centre.median >= endless_log_life) {
       const double log_hours = std::min(endless_log_life, centre.median - std::log(test.variants[worst].share_of_time));
@@ -141,7 +141,7 @@ class RoundEmulation {
     }
     std::vector<ProgramModes> modes;
     for (std::size_t k = 0; k < programs.size(); ++k) {
-      const RankingRow& of = row_of(test, programs[k].centre);
+      const RankingRow& of = life_row_of(test, programs[k].centre);
       modes.push_back({modes_from_text(of.life_response), test.variants[k].share_of_time * 3600 / of.repeat_seconds});
       if (!have_same_modes(modes.back().modes, modes.front().modes))
         throw InputError(test.where, fmt::format("'{}': its programs have different dresspacks", test.observation.name),
@@ -217,6 +217,12 @@ class RoundEmulation {
     }
     std::sort(factors.begin(), factors.end());
     return joined(mapped(factors, [](const auto& factor) { return factor.second; }), ", ");
+  }
+
+  const RankingRow& life_row_of(const ObservedTest& test, std::size_t job) const {
+    const RankingRow& row = row_of(test, job);
+    if (!row.has_wires()) refuse_without_wires(test.where, test.observation.name);
+    return row;
   }
 
   const RankingRow& row_of(const ObservedTest& test, std::size_t job) const {

@@ -266,8 +266,9 @@ Prediction predicted(const Observation& observation, const Study& study, const s
   for (const std::size_t index : observation.jobs) {
     const RankingRow* const row = find_in(rows, &RankingRow::job, study.jobs[index].name);
     ++prediction.variants;
-    if (!row || !row->done()) {
-      if (prediction.failure.empty()) prediction.failure = row ? row->failure : "not computed";
+    if (!row || !row->done() || !row->has_wires()) {
+      if (prediction.failure.empty())
+        prediction.failure = !row ? "not computed" : row->done() ? "its dresspack has no wires" : row->failure;
       ++prediction.failed;
       continue;
     }

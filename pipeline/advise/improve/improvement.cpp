@@ -22,6 +22,7 @@
 #include "pipeline/settings/fields.h"
 #include "pipeline/settings/units.h"
 #include "pipeline/study/changes.h"
+#include "pipeline/study/study_problems.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -76,6 +77,7 @@ class Improver {
     const Node document = read_document(request.file);
     done_.limits = limits_of(document);
     const Study study = read_study(request.file, request.sets);
+    require_wires(study, {request.file.string()});
     if (document.find("keep")) done_.keep_trials = done_.keep_finals = study.keep;
     for (const StudyJob& job : study.jobs) {
       if (!job.failure.empty())

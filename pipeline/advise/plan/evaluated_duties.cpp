@@ -27,6 +27,7 @@
 #include "pipeline/settings/fields.h"
 #include "pipeline/study/row_warnings.h"
 #include "pipeline/study/row_words.h"
+#include "pipeline/study/study_problems.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -268,6 +269,7 @@ class Programs {
 
   EvaluatedProgram of(const DutyProgram& program) {
     const RankingRow& of = row(program);
+    if (!of.has_wires()) refuse_without_wires(program.where, program.job);
     if (of.life_response.empty()) refuse_without_samples(program);
     // Jobs that share a result have hard links to one file (shared_stages.h).
     const FileState state = state_of(of.life_file);

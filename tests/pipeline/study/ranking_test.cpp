@@ -133,16 +133,22 @@ TEST_CASE("ranking: a missing or damaged life file is a failed job with its reas
   CHECK(read_ranking({}).empty());
 }
 
-TEST_CASE("ranking: a dresspack without wires has no worst place") {
+TEST_CASE("ranking: a dresspack without wires has no life and no rank, and comes after those with one") {
   const Scratch scratch;
   SampleLife life = living(10);
   life.wires = false;
-  const auto rows = read_ranking({job_with(scratch, "empty hose", life)});
+  const JobResult hose = job_with(scratch, "empty hose", life);
+  const auto rows = read_ranking({hose});
   CHECK(rows[0].done());
-  CHECK(std::isinf(rows[0].life_hours));
+  CHECK(std::isnan(rows[0].headline_hours()));
   CHECK(rows[0].worst_segment_from_tool == 0);
-  CHECK(ranking_csv(rows).find("\nempty hose,inf,inf,,,0,inf,inf,inf,,,,done,,") != std::string::npos);
-  CHECK(ranking_table(rows).starts_with("No wire was evaluated.\n\n"));
+  CHECK(ranking_csv(rows).find("\nempty hose,,,,,0,,,,,,,done,,") != std::string::npos);
+  CHECK(ranking_table(rows).starts_with("No part was evaluated."));
+  CHECK_THAT(ranking_table(rows), Catch::Contains("no wires"));
+  const auto both = read_ranking({hose, job_with(scratch, "short", living(10))});
+  CHECK(both[0].job == "short");
+  CHECK(both[0].rank == 1);
+  CHECK(both[1].rank == 0);
 }
 
 /// Reads CSV by RFC 4180: an independent reader for the round trip.
@@ -947,7 +953,7 @@ TEST_CASE("ranking: a small share of samples in which a mode comes first is not 
        {std::pair{0.0, "0 %"}, {0.0004, "under 0.1 %"}, {0.005, "0.5 %"}, {0.0096, "1 %"}, {0.574, "57 %"}}) {
     mode.first_share = share;
     RankingRow row;
-    row.unvalidated = {mode};
+    row.unvalidated = {mode}, row.worst_segment_from_tool = 1;
     CHECK(mode_lines(row).back().before_wires == text);
   }
 }
