@@ -465,7 +465,8 @@ class Layout {
                double duration) {
     const VectorXd way = to - from;
     const double length = way.lpNorm<Eigen::Infinity>();
-    if (length == 0) return;
+    constexpr double rounded = 1e-12;  // [rad]: two zones that meet leave a way of 1e-16, which has no direction
+    if (length < rounded) return;
     const MotionStep& step = *limits.step;
     Leg leg;
     leg.from = from;

@@ -124,9 +124,10 @@ class Profile {
     }
     c.way_up = (top - squared_[k]) / (2 * a);
     const double way_down = (top - squared_[k + 1]) / (2 * a);
-    c.up = (c.top - c.begin) / a;
+    // from the ways: the speeds of an even leg may be equal but for rounding
+    c.up = 2 * c.way_up / (c.begin + c.top);
     c.along = std::max(0.0, length - c.way_up - way_down) / c.top;
-    c.down = (c.top - c.end) / a;
+    c.down = 2 * way_down / (c.top + c.end);
     return c;
   }
   double time_on(std::size_t k) const {

@@ -163,6 +163,39 @@ TEST_CASE("cycle time: random programs of lines and axis moves exceed no limit n
   CHECK(run_through > 10);
 }
 
+TEST_CASE("cycle time: a larger zone makes no program longer, also where two zones meet within a move") {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  // Each change of direction may cost a control step, because the curve through its points turns more tightly than the zone.
+  constexpr double of_a_zone = 0.03;  // [s]
+  int run_through = 0;
+  for (int program = 0; program < 60; ++program) {
+    std::vector<std::string> moves;
+    for (int move = 0; move < 4; ++move) {
+      const auto grid = [&] {
+        return 150 * std::lround(1.5 * uniform(random));
+      };  // equal distances, so that zones meet
+      moves.push_back(fmt::format("{} Offs(p0,{},{},{}),{},", uniform(random) < 0 ? "MoveL" : "MoveJ", grid(), grid(),
+                                  grid(), uniform(random) < 0 ? "v500" : "v2000"));
+    }
+    double shorter = 0;
+    for (const char* zone : {"z200", "z150", "z100", "z50", "z10"}) {
+      std::string text = "MoveJ Offs(p0,0,0,0),vmax,fine,tool0;\n";
+      for (const std::string& move : moves) text += move + zone + ",tool0;\n";
+      CAPTURE(text);
+      try {
+        const double duration = run(text).duration();
+        CHECK(duration > shorter - of_a_zone);
+        shorter = duration;
+        ++run_through;
+      } catch (const pipeline::InputError&) {
+        break;  // the wrist would turn over on a line
+      }
+    }
+  }
+  CHECK(run_through > 100);
+}
+
 TEST_CASE("cycle time: a path speeds up once and slows down once") {
   // The hose responds to every change of sign of an axis' acceleration. On a line away from singular positions axis 1 has
   // three: acceleration, the middle of the line, deceleration.
