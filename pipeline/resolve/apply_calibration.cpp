@@ -36,6 +36,28 @@ std::set<std::string> stated_by(const Node& tree, const Job& job) {
   return names;
 }
 
+/// Reads the sections with keys of uncertain parameters again.
+void read_keys(const Node& tree, Job& job) {
+  if (const Node* simulation = tree.find("simulation")) read_fields(*simulation, job.simulation);
+  if (const Node* strain = tree.find("strain")) read_fields(*strain, job.strain);
+  if (const Node* fatigue = tree.find("fatigue")) read_fields(*fatigue, job.fatigue);
+}
+
+/// Replaces the medians that put_medians() wrote by the neutral values, and forgets the calibration.
+void take_medians_back(Node& tree, Job& job) {
+  for (const LearnedParameter& learned : job.calibration->parameters) {
+    if (is_wall_strength(learned.name)) continue;
+    const UncertainParameter& parameter = uncertain_parameters()[index_of(learned.name)];
+    const std::size_t dot = parameter.key.find('.');
+    const Node* section = tree.find(parameter.key.substr(0, dot));
+    const Node* value = section && section->is_map() ? section->find(parameter.key.substr(dot + 1)) : nullptr;
+    if (!value || value->text != shortest_text(parameter.value(learned.median))) continue;
+    set_value(tree, std::string(parameter.key), scalar(shortest_text(parameter.value(0))), value->where);
+  }
+  job.calibration.reset();
+  read_keys(tree, job);
+}
+
 /// Writes the medians into the keys with default values.
 void put_medians(Node& tree, Job& job) {
   job.calibration->applied = true;
@@ -47,9 +69,7 @@ void put_medians(Node& tree, Job& job) {
     value.where = learned.where;
     set_value(tree, std::string(parameter.key), std::move(value), job.calibration->where);
   }
-  if (const Node* simulation = tree.find("simulation")) read_fields(*simulation, job.simulation);
-  if (const Node* strain = tree.find("strain")) read_fields(*strain, job.strain);
-  if (const Node* fatigue = tree.find("fatigue")) read_fields(*fatigue, job.fatigue);
+  read_keys(tree, job);
 }
 
 }  // namespace
@@ -71,6 +91,9 @@ void read_calibration(Node& job) {
 void apply_calibration(Node& tree, Job& job) {
   if (!job.calibration) return;
   const bool applied = job.calibration->applied;
+  // A resolved job contains the ratings; a key that is set later may leave them out.
+  const bool rates = job.uncertainty.enabled && job.uncertainty.ratings != KnownRatings::none;
+  if (applied && job.calibration->typical && !rates) return take_medians_back(tree, job);
   if (!applied || !job.calibration->under.settings.empty())
     check_learned_settings(job);  // older resolved jobs contain no settings
   if (applied) return;

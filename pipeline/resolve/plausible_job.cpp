@@ -53,6 +53,7 @@ constexpr double least_speed = 0.5 * degree;  // [rad/s] of the fastest axis: ro
 constexpr double standard_gravity = 9.80665;
 constexpr double gravity_spread = 0.01;     // relative: gravity varies by 0.5 % over the earth
 constexpr double down = 0.999;              // cosine of 2.6 deg, more than the slope of floors
+constexpr double most_failed_wires = 30;    // [%]: by then the other wires carry half as much current and load again
 constexpr double least_robot_life = 1000;   // [h]: half a year of one shift
 constexpr double least_week = 5;            // [h]: an hour per working day
 constexpr double hours_of_day = 24;         // robots in plants move 40 h a week or more
@@ -1067,6 +1068,10 @@ std::vector<Warning> plausibility_of_lives(const Job& job) {
   if (fatigue.failed_wires_percent > 0 && fatigue.failed_wires_percent < 1)
     add("fatigue.failed_wires_percent", fatigue.failed_wires_percent, "0, or 1 or more", "a share instead of per cent",
         fmt::format("fatigue.failed_wires_percent: {:g}", 100 * fatigue.failed_wires_percent));
+  if (fatigue.failed_wires_percent > most_failed_wires)
+    add("fatigue.failed_wires_percent", fatigue.failed_wires_percent, fmt::format("{:g} or less", most_failed_wires),
+        "a conductor that works with few wires, whose current and load the lives do not contain",
+        "fatigue.failed_wires_percent: 10");
   if (fatigue.robot_life_hours < least_robot_life)
     add("fatigue.robot_life_hours", fatigue.robot_life_hours, fmt::format("{:g} or more", least_robot_life),
         "years instead of hours", "fatigue.robot_life_hours: 40000, or leave the key out");

@@ -26,6 +26,25 @@ bool is_damaged(const RankingRow& row) { return !row.worst_component.empty() && 
 /// Returns the hours from which an unvalidated mode is of no interest: those of the headline, at most the robot's life.
 double hours_of_interest(const RankingRow& row) { return std::fmin(row.headline_hours(), row.robot_life_hours); }
 
+/// Returns "uncertainty.ratings typical (strength x 1.33)", what makers' ratings change in the job; empty: nothing.
+std::string ratings_of(const RankingRow& row) {
+  const std::size_t first = row.estimates.find("uncertainty.ratings typical");
+  return first == std::string::npos ? "" : row.estimates.substr(first, row.estimates.find(')', first) + 1 - first);
+}
+
+/// Returns a remark on jobs of which makers' ratings change some more than others; empty: none.
+std::string ratings_words(const std::vector<RankingRow>& rows) {
+  std::vector<std::string> ratings, job;  // (group) the ratings, and the first of its jobs
+  for (const RankingRow& row : rows)
+    if (row.done() && !row.life_response.empty() && std::ranges::find(ratings, ratings_of(row)) == ratings.end())
+      ratings.push_back(ratings_of(row)), job.push_back(row.job);
+  if (ratings.size() < 2) return "";
+  return fmt::format(
+      "Do not compare jobs such as {} and {}: makers' ratings change them by {} and by {}. A job that states a rated parameter, or "
+      "settings that the tests did not have, leaves ratings out. uncertainty.ratings: none leaves them out of all jobs.",
+      job[0], job[1], ratings[0].empty() ? "nothing" : ratings[0], ratings[1].empty() ? "nothing" : ratings[1]);
+}
+
 std::string cause_words(const RankingRow& row) {
   if (!(row.measure_next_share > 0)) return "";
   const UncertainParameter* const cause = find_in(uncertain_parameters(), &UncertainParameter::name, row.measure_next);
@@ -246,7 +265,7 @@ std::string bound_words(const RankingRow& row) {
   const bool is_free = life > free * (1 - same);
   if (!is_free && life > glued * (1 + same)) return "";
   // Ratings were compared with tests under friction, so other jobs do not include them (pipeline/resolve/apply_calibration.h).
-  const bool has_ratings = row.estimates.find("uncertainty.ratings typical") != std::string::npos;
+  const bool has_ratings = !ratings_of(row).empty();
   const std::string rest =
       has_ratings
           ? "best estimate."
@@ -380,7 +399,8 @@ std::string comparison_words(const std::vector<RankingRow>& rows) {
        done > 1 && !uncertain
            ? "The ranks compare the jobs' own values only (uncertainty.enabled: false). Other values, and the numerical error "
              "of cables that move in their hose, may reverse them: run the study with uncertainty before you decide."
-           : ""});
+           : "",
+       ratings_words(rows)});
 }
 
 std::string own_values_words(const RankingRow& row) {

@@ -635,6 +635,8 @@ const Doubtful doubtful[] = {
                    "simulation.periodic_tolerance_mm: 1"),
     setting("fatigue: {failed_wires_percent: 0.1}", "fatigue.failed_wires_percent is 0.1 (limit 0, or 1 or more)",
             "fatigue.failed_wires_percent: 10"),
+    setting("fatigue: {failed_wires_percent: 60}", "fatigue.failed_wires_percent is 60 (limit 30 or less)",
+            "fatigue.failed_wires_percent: 10"),
     setting("fatigue: {robot_life_hours: 10}",
             "fatigue.robot_life_hours is 10 (limit 1000 or more). Likely cause: years",
             "fatigue.robot_life_hours: 40000"),

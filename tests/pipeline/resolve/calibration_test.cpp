@@ -281,6 +281,12 @@ TEST_CASE("ratings: a job without a calibration starts from what makers state of
     CHECK(plain.fatigue.strength_factor == 1);
     CHECK(plain.strain.factors == StrainFactors{});
   }
+  // A key that is set later also takes them out of the resolved job.
+  for (const char* without : {"uncertainty.ratings=none", "uncertainty.enabled=false"}) {
+    const Job later = job_from(parse_yaml(job_text(job), "elsewhere.yaml"), {without});
+    INFO(without);
+    CHECK(job_text(later) == job_text(soft_copper({without})));
+  }
 }
 
 TEST_CASE("ratings: what a job states itself stands") {

@@ -943,6 +943,13 @@ TEST_CASE("ranking: a remark states that ranks without uncertain parameters comp
   CHECK_THAT(comparison_words({uncertain, row}), Catch::Contains("own values only"));
   for (const auto& rows : {std::vector{row}, std::vector{uncertain, uncertain}, std::vector{uncertain, undamaged}})
     CHECK(comparison_words(rows).empty());
+  RankingRow rated = uncertain, stronger = uncertain;
+  rated.job = "rated", stronger.job = "stronger";
+  rated.estimates = "slack_percent 1; uncertainty.ratings typical (strength x 1.33)";
+  CHECK(comparison_words({rated, rated}).empty());
+  CHECK_THAT(comparison_words({rated, stronger}),
+             Catch::Contains("such as rated and stronger: makers' ratings change them by uncertainty.ratings typical "
+                             "(strength x 1.33) and by nothing."));
 }
 
 TEST_CASE("ranking: a small share of samples in which a mode comes first is not printed as zero") {
