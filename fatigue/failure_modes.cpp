@@ -13,9 +13,8 @@ using pipeline::LifeResponse;
 // Most decades from the first wire's life to the conductor's. In a bend the wires within 18 deg of the worst have 0.95 of its
 // strain and twice its life; they are the tenth whose loss is the failure. A larger distance, up to no damage, occurs only at the
 // medians of the parameters, where hardly any wire is damaged. W(z) is known for the worst wire only, and is added to the
-// distance. A larger share has a larger distance: the fifth within 36 deg has 0.81 of the strain and 20 times the life.
-// More than three tenths are not credible, because the others take over load (pipeline/resolve/plausible_job.cpp warns).
-double most_after_first_wire(double failed_percent) { return std::clamp(failed_percent / 10, 1.0, 3.0); }
+// distance.
+constexpr double most_after_first_wire = 1;
 constexpr std::size_t likely_anywhere =
     32;  // number of worst wires of a mode, in addition to the worst wire of each segment
 
@@ -127,7 +126,7 @@ class Modes {
       response.scatter = {-reach, 0, reach};
       response.planned = {with(-reach), here, with(reach)};
     }
-    const double excess = here[1] - (first_wire_life(response) + most_after_first_wire(settings.failed_wires_percent));
+    const double excess = here[1] - (first_wire_life(response) + most_after_first_wire);
     for (auto& lives : response.planned)
       for (double& life : lives) life -= std::max(0.0, excess);
   }
