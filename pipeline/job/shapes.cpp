@@ -1,5 +1,7 @@
 #include "pipeline/job/shapes.h"
 
+#include <fmt/format.h>
+
 #include "pipeline/settings/fields.h"
 
 namespace dresslife::pipeline {
@@ -42,10 +44,14 @@ void describe(Fields& f, Cell& cell) {
   f.list("meshes", cell.meshes, Need::optional, "Fixtures, in the world's frame.");
 }
 
-void check_boxes(const std::vector<Box>& boxes, const Where& where) {
-  for (const Box& box : boxes)
+void check_boxes(const std::vector<Box>& boxes, const Where& where, double longest) {
+  for (const Box& box : boxes) {
     if (!(box.sides.minCoeff() > 0))
       throw InputError(where, "a box has a side of length 0 or less", "correct its sides_m");
+    if (const double side = box.sides.maxCoeff(); side > longest)
+      throw InputError(where, fmt::format("a box has a side of {:.4g} m (at most {:g})", side, longest),
+                       fmt::format("give sides_m in metres: {:.4g} if that was in mm", side / 1000));
+  }
 }
 
 }  // namespace dresslife::pipeline

@@ -50,7 +50,7 @@ void describe(Fields& f, Box& box);
 void describe(Fields& f, MeshFile& mesh);
 void describe(Fields& f, Cell& cell);
 
-/// Errors: InputError at `where` for a box without volume.
-void check_boxes(const std::vector<Box>& boxes, const Where& where);
+/// Errors: InputError at `where` for a box without volume, or with a side above `longest` [m].
+void check_boxes(const std::vector<Box>& boxes, const Where& where, double longest);
 
 }  // namespace dresslife::pipeline

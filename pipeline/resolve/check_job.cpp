@@ -1,6 +1,7 @@
 #include "pipeline/resolve/check_job.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "pipeline/cable/overlap.h"
 #include "pipeline/job/job_forms.h"
@@ -224,10 +225,11 @@ void check_job(const Job& job, const Node& document, Problems& problems) {
   if (job.motion.is_prescribed() && !job.dresspacks.empty())
     judge({"motion", "routing"}, [&] { check_prescribed(job, document); });
   if (job.motion.needs_robot()) judge({"robot"}, [&] { check_robot(job.robot, where("robot")); });
+  constexpr double longest_on_link = 10;  // [m]: more than the longest arm and its gripper
   judge({"robot"}, [&] {
-    for (const Link& link : job.robot.links) check_boxes(link.boxes, where("robot"));
+    for (const Link& link : job.robot.links) check_boxes(link.boxes, where("robot"), longest_on_link);
   });
-  judge({"cell"}, [&] { check_boxes(job.cell.boxes, where("cell")); });
+  judge({"cell"}, [&] { check_boxes(job.cell.boxes, where("cell"), INFINITY); });  // plausible_job.cpp warns
   judge({"motion", "robot"}, [&] { check_motion(job.motion, job.robot); });
   if (!job.dresspacks.empty()) check_dresspacks(job, where("strain"), problems);
   judge({"simulation"}, [&] { check_simulation(job.simulation, where("simulation")); });

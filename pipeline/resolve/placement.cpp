@@ -227,13 +227,14 @@ void expand_places(Node& dresspack, const std::string& path, Problems& problems)
   const std::vector<AutoPart> parts = auto_parts(*components, path, core, own);
   if (const double diameter = number_of(dresspack, "diameter_mm");
       bore < 0 && diameter > 0 && !dresspack.find("inner_diameter_mm")) {
+    constexpr double in_metres = 1;  // [mm]: no hose is thinner
     own.add(
         where,
         fmt::format("place: auto is given, and hose_corrugation leaves no bore in the hose (diameter_mm is {:g})",
                     diameter),
-        fmt::format(
-            "give diameter_mm: {:g} if a zero was lost, or check height_mm: the diameter is the bore and twice the height",
-            10 * diameter),
+        fmt::format("give diameter_mm: {:g} if {}, or check height_mm: the diameter is the bore and twice the height",
+                    (diameter < in_metres ? 1000 : 10) * diameter,
+                    diameter < in_metres ? "that was metres" : "a zero was lost"),
         path);
   } else if (!(bore > 0)) {
     Dresspack hose;

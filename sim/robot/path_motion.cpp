@@ -163,7 +163,8 @@ Controls controls_of(const Profile& profile, double step) {
       made.legs.push_back(profile.leg_at(time));
     }
   };
-  const int last = std::max(1, static_cast<int>(std::ceil(profile.duration() / step)));
+  constexpr double rounded = 1e-9;  // of a step: a duration of whole steps but for rounding takes no step more
+  const int last = std::max(1, static_cast<int>(std::ceil(profile.duration() / step - rounded)));
   add(0, 3);
   for (int j = 1; j < last; ++j) add(j * step, 1);
   add(profile.duration(), 3);

@@ -26,6 +26,7 @@ namespace {
 namespace check_name = pipeline::check_name;
 using pipeline::WarningKind;
 
+constexpr double long_program = 300;   // [s]: a run then takes some minutes
 constexpr int rest_moments = 1000;     // of the program; equilibria are computed only after enough motion
 constexpr int mounting_moments = 100;  // of the move from the mounting pose to the program
 // Rotation between two equilibria: far below half a turn, at which the direction of rotation would be ambiguous.
@@ -108,6 +109,11 @@ class QuickChecks {
     }
     add_winding(found.others);
     add_zero_pose(found.notes);
+    if (const double lasts = path_->program_duration(); lasts > long_program)
+      found.notes.push_back(fmt::format(
+          "The program lasts {:.0f} s, with all passes of its main loop. A run simulates it several times, also "
+          "with other stiffnesses of the hose. For first trials motion.passes: 1 shortens an endless loop",
+          lasts));
     return found;
   }
 

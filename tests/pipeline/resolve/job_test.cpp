@@ -127,6 +127,13 @@ TEST_CASE("job: numbers out of range are refused with the range and its unit") {
        "part and the parent's axis (alpha)"});
 }
 
+TEST_CASE("job: a box on a link has sides in metres") {
+  CHECK_THAT(message_of([] {
+               job_of_text(sample_job, {"robot.links.1.boxes=[{position_m: [0, 0, 0], sides_m: [120, 80, 120]}]"});
+             }),
+             Catch::Contains("a box has a side of 120 m (at most 10); give sides_m in metres: 0.12 if that was in mm"));
+}
+
 TEST_CASE("job: numbers that are not finite are refused") {
   for (const char* word : {".nan", ".inf", "-.inf", "nan", "inf"})
     check_case({"free_length_m: 1.2", std::string("free_length_m: ") + word, std::string(word) + "\n  base_clamp",
