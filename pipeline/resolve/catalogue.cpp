@@ -261,7 +261,7 @@ void resolve_entry(Node* entry, const std::string& path, const std::string& fold
   if (folder != "dresspacks" || !entry->is_map()) return;
   expand_data_sheets(*entry, path, problems);
   expand_places(*entry, path, problems);
-  add_estimates(*entry);
+  add_estimates(*entry, job.find("robot"));
   add_beds(*entry, job);
   add_materials(*entry, job, path, problems);
 }

@@ -89,7 +89,7 @@ class Estimates {
  public:
   explicit Estimates(Node& dresspack) : dresspack_(dresspack) {}
 
-  void add_all() {
+  void add_all(bool on_robot) {
     Node* const components = dresspack_.find("components");
     if (!components || !components->is_list() || components->items.empty()) return;
     const bool hose = is_hose(dresspack_);
@@ -98,7 +98,7 @@ class Estimates {
       if (hose) add_slack(component);
       add_friction(component, hose ? Inside::hose : Inside::jacket, estimated_jacket_pressure);
     }
-    if (!dresspack_.find("cable_alone")) add_to_hose(components->items);
+    if (on_robot || !dresspack_.find("cable_alone")) add_to_hose(components->items);
     if (const std::string text = list_.text(); !text.empty()) {
       const Node* const before = dresspack_.find("estimates");
       add(dresspack_, "estimates", before ? before->text + "; " + text : text);
@@ -174,6 +174,6 @@ class Estimates {
 
 }  // namespace
 
-void add_estimates(Node& dresspack) { Estimates(dresspack).add_all(); }
+void add_estimates(Node& dresspack, bool on_robot) { Estimates(dresspack).add_all(on_robot); }
 
 }  // namespace dresslife::pipeline

@@ -35,7 +35,8 @@ inline constexpr double estimated_hose_loss = 0.3, estimated_cable_loss = 0.6;
 inline constexpr double estimated_axial_stiffness = 1e5;
 
 /// Adds estimates for the missing keys. dresspack: a catalogue entry as written, with its data sheets expanded. Values that
-/// cannot be read are ignored; the reader of the settings reports them.
-void add_estimates(Node& dresspack);
+/// cannot be read are ignored; the reader of the settings reports them. on_robot: a robot moves it; on a rig a cable alone needs
+/// neither mass nor stiffness.
+void add_estimates(Node& dresspack, bool on_robot);
 
 }  // namespace dresslife::pipeline

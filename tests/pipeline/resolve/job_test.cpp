@@ -127,6 +127,23 @@ TEST_CASE("job: numbers out of range are refused with the range and its unit") {
        "part and the parent's axis (alpha)"});
 }
 
+TEST_CASE("job: a cable alone on a robot has its mass, stiffness and damping by default") {
+  const std::string routing =
+      "routing:\n  base_clamp: {link: link_3, position_m: [-0.1, 0, 0.45], direction: [1, 0, 0.45]}\n"
+      "  tool_clamp: {link: link_6, position_m: [0.144, 0, 0.174], direction: [1, 0, -0.45]}\n  free_length_m: 2.02\n";
+  const std::string text =
+      "robot: abb_irb6640_185_280\nmotion: easy\n" + routing +
+      "dresspack: {name: lead, source: test, cable: {name: c, data_sheet: \"4 x 0.5 mm2, class 6, outer diameter 6.5 mm\"}}\n";
+  const Job job = job_of_text(text);
+  const Dresspack& lead = job.dresspacks.front().dresspack;
+  CHECK(lead.mass_per_length == Approx(0.0551).epsilon(0.02));  // by hand: 2 mm2 of copper, the rest of polymer
+  CHECK(lead.bending_stiffness > 0);
+  CHECK(lead.torsional_stiffness > 0);
+  CHECK(lead.axial_stiffness > 0);
+  CHECK_THAT(lead.estimates, Catch::Contains("damping_time_ms 20"));
+  CHECK(job_text(job_of_text(job_text(job))) == job_text(job));
+}
+
 TEST_CASE("job: a box on a link has sides in metres") {
   CHECK_THAT(message_of([] {
                job_of_text(sample_job, {"robot.links.1.boxes=[{position_m: [0, 0, 0], sides_m: [120, 80, 120]}]"});
