@@ -218,9 +218,10 @@ Choice proposed(const Draft& draft) {
     throw InputError(
         {"dresslife new"}, "no routing can be proposed (see above), nothing was written",
         std::string("correct the errors above; dresslife route has the options --bracket, --from and --to") +
-            (draft.exercise ? ""
-                            : "; a key motion.KEY belongs to a job: make one without --program, and write motion: "
-                              "{program: FILE, KEY: VALUE} into it"));
+            (draft.exercise
+                 ? ""
+                 : "; for keys motion.KEY write {program: FILE, KEY: VALUE, ...} into a file MOTION.yaml, and give "
+                   "--program MOTION.yaml"));
   const ScreenedList found = read_screening(screening.path());
   const ScreenedCandidate& best = found.candidates.front();
   Choice choice{parse_yaml(best.changes, "proposal"), "proposed from the robot's shape; put your brackets here"};

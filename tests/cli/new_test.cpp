@@ -270,5 +270,8 @@ TEST_CASE("new: names that are no names are answered with those that are near") 
   CHECK(has(refused("--robot kuka_kr16_2 --program hrad"), "--program: error: 'hrad' is not in the catalogue"));
   CHECK(has(refused("--robot nowhere.urdf"), "nowhere.urdf"));
   // A program that the robot cannot run.
-  CHECK(has(refused("--robot kuka_kr210_l150 --program easy"), "nothing was written"));
+  CHECK(has(
+      refused("--robot kuka_kr210_l150 --program easy"),
+      "nothing was written; correct the errors above; dresslife route has the options --bracket, --from and --to; for keys "
+      "motion.KEY write {program: FILE, KEY: VALUE, ...} into a file MOTION.yaml, and give --program MOTION.yaml"));
 }
