@@ -76,6 +76,23 @@ std::string wrapped(const std::string& text, std::size_t columns, const std::str
   return line.empty() ? lines : lines + indent + line + '\n';
 }
 
+std::string wrapped_lines(const std::string& text, std::size_t columns) {
+  constexpr std::size_t hanging = 4;
+  std::string lines;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    const std::string line = text.substr(begin, end - begin);
+    begin = end + 1;
+    if (columns_of(line) <= columns) {
+      lines += line + '\n';
+      continue;
+    }
+    const std::size_t blanks = std::min(line.find_first_not_of(' '), line.size());
+    lines += wrapped(line.substr(blanks), columns, std::string(blanks + hanging, ' ')).substr(hanging);
+  }
+  return lines;
+}
+
 std::string shortened(const std::string& text, std::size_t columns) {
   if (columns_of(text) <= columns) return text;
   const std::size_t kept = columns > 3 ? columns - 3 : 0;

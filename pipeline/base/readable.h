@@ -30,6 +30,8 @@ std::size_t columns_of(const std::string& text);
 /// Breaks a text at spaces into lines of at most `columns` that begin with `indent`. The result ends with a line feed. A longer
 /// word stays whole. An empty text stays empty.
 std::string wrapped(const std::string& text, std::size_t columns, const std::string& indent);
+/// Breaks the lines that are wider than `columns`. Their further parts begin four blanks behind the first.
+std::string wrapped_lines(const std::string& text, std::size_t columns);
 
 /// Shortens a text to at most `columns` whole characters; a shortened text ends with "...".
 std::string shortened(const std::string& text, std::size_t columns);

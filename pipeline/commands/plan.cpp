@@ -18,6 +18,7 @@
 #include "pipeline/base/joined.h"
 #include "pipeline/base/lists.h"
 #include "pipeline/base/readable.h"
+#include "pipeline/base/screen.h"
 #include "pipeline/base/warning_words.h"
 #include "pipeline/base/whole_file.h"
 #include "pipeline/commands/as_json.h"
@@ -294,8 +295,8 @@ int plan(const PlanOptions& options) {
             ? json()
             : shown(fmt::format(
                         "{}{}{}\n{}Table: {} (columns: comma, decimals: point)\nWeeks: {}\nCalendar: {}\nPage: {}\n",
-                        block(doubts(duties)), plan_words(fleet, found), wrapped_lines(tests), block(cautions(duties)),
-                        table.string(), weeks.string(), calendar.string(), page.string()) +
+                        block(doubts(duties)), plan_words(fleet, found), wrapped_lines(tests, screen_columns()),
+                        block(cautions(duties)), table.string(), weeks.string(), calendar.string(), page.string()) +
                     what_if));
   write_stderr(warning_lines(rows_of(file, made.rows)));
   return 0;

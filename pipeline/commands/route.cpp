@@ -371,10 +371,10 @@ void write_page(const fs::path& job, const fs::path& page) {
     write_text_if_changed(page, preview_page(passing.path(), job.stem().string(), xxh3(shell_digest())));
 }
 
-/// Returns "p10 347,000 h; jacket wear from 24,400 h; keeps all limits".
+/// Returns "1 of 10 has failed after 347,000 h; jacket wear from 24,400 h; keeps all limits".
 std::string outcome_words(const Outcome& outcome) {
   const std::string modes = mode_words(outcome);
-  return fmt::format("p10 {}; {}{}", hours_text(outcome.hours), modes.empty() ? "" : modes + "; ",
+  return fmt::format("1 of 10 has failed after {}; {}{}", hours_text(outcome.hours), modes.empty() ? "" : modes + "; ",
                      outcome.feasible() ? "keeps all limits" : outcome.words());
 }
 
@@ -386,8 +386,9 @@ std::string comparison_words(const Trial& trial, const MountingTolerance& tolera
   if (trial.best == trial.start && !trial.found)
     return "It is the job's own routing: none that was found is better in limits, modes and life.\n";
   const Outcome& other = trial.outcomes[trial.found.value_or(*trial.best)];
-  const std::string both =
-      fmt::format("the best of the others: {}\n  the job's own: {}\n", outcome_words(other), outcome_words(own));
+  const std::string both = fmt::format("{}: {}\n  the job's own: {}\n",
+                                       trial.best == trial.start ? "the best of the others" : "this routing",
+                                       outcome_words(other), outcome_words(own));
   if (trial.best == trial.start)
     return "It is the job's own routing, because no other is better in life, limits and modes together.\n  " + both;
   std::string text = "It is better than the job's own routing.\n  " + both;
@@ -398,7 +399,7 @@ std::string comparison_words(const Trial& trial, const MountingTolerance& tolera
 std::string words_of(const Trial& trial, const Draft& draft, const MountingTolerance& tolerance) {
   const Outcome& best = trial.outcomes[*trial.best];
   const Dresspack& dresspack = draft.job.dresspacks.front().dresspack;
-  std::string text = trial.proposals.candidates[*trial.best].changes;
+  std::string text;
   if (trial.factor != 1)
     text += fmt::format(
         "This is not for {} as it is but for one of the same make at {:.0f} % of its size, {:.0f} mm wide\n",
@@ -419,6 +420,7 @@ std::string words_of(const Trial& trial, const Draft& draft, const MountingToler
   const RankingRow& row = trial.rows[*trial.best];
   for (const std::string& words : {action_words(row), uncertainty_words(row), failure_words(row)})
     text += words + (words.empty() ? "" : "\n");
+  text = trial.proposals.candidates[*trial.best].changes + wrapped_lines(text, screen_columns());
   return text + mode_table(row, screen_columns(), "") + mode_legend({row}, screen_columns(), "");
 }
 

@@ -67,7 +67,7 @@ TEST_CASE("improve finds a job that lives longer, and says by what") {
   CHECK(fs::exists(scratch / "runs/better_improve/before/life.h5"));
   // Its page compares both, and states the effect of mounting errors in the length (a recording moves this job's clamps).
   CHECK(
-      told.out.find(
+      unwrapped(told.out).find(
           "With a clamp or length off by 10 mm, a clamp tilted by 5.7 deg or an end turned by 10 deg the wires live at least ") !=
       std::string::npos);
   const std::string page = content(scratch / "runs/better_improve/improve.html");
@@ -133,8 +133,9 @@ TEST_CASE("improve states the worst life within the tolerance of a turned end, a
       must_run(scratch, "dresslife", "improve turn.yaml --trials 3 --short-runs 0 --off 0 --off-deg 10 --quiet");
   INFO(told.out);
   std::smatch stated, turn;
+  const std::string out = unwrapped(told.out);
   REQUIRE(std::regex_search(
-      told.out, stated, std::regex("With an end turned by 10 deg the wires live at least ([0-9.]+) times as long")));
+      out, stated, std::regex("With an end turned by 10 deg the wires live at least ([0-9.]+) times as long")));
   REQUIRE(std::regex_search(told.out, turn, std::regex("--set 'routing.pre_twist_deg=([-0-9.]+)'")));
   const double best = std::stod(turn[1]);
   std::string reliefs;  // of the winner, for its neighbours

@@ -212,7 +212,7 @@ std::string improvement_words(const Improvement& found, const Finals& finals, co
     text += fmt::format("No other job that keeps all limits was found in {} trial{} and {} short runs.\n",
                         found.trials.size(), found.trials.size() == 1 ? "" : "s", found.short_runs);
     for (const std::string& line : found.obstacle) text += line + "\n";
-    return text + relief_words(found) + left_of(finals, finals.of.front());
+    return wrapped_lines(text + relief_words(found) + left_of(finals, finals.of.front()), screen_columns());
   }
   if (found.front.size() > 1) return text + front_words(found, finals, story, second, tolerance);
   const Final& best = *finals.best();
@@ -223,13 +223,14 @@ std::string improvement_words(const Improvement& found, const Finals& finals, co
   text += fmt::format("{}{} {} of {}: {}\n{}{}{}{}", story.keep, gain ? "Trial" : " The best of it is trial",
                       best.trial, found.trials.size(), outcome_words(trial.worst, best.hours), story.gain,
                       story.gain.empty() ? "" : "\n", judged, story.choice);
-  if (!gain) return text + left_of(finals, finals.of.front());
+  if (!gain) return wrapped_lines(text + left_of(finals, finals.of.front()), screen_columns());
   if (const RankingRow* const row = finals.worst_row(best)) {
     for (const std::string& words : {action_words(*row), uncertainty_words(*row), failure_words(*row)})
       text += words + (words.empty() ? "" : "\n");
     const RankingRow* const original = finals.worst_row(finals.of.front());
-    text += left_at_other_values(*row) + (original ? beyond_words(*row, *original) : "") +
-            mode_table(*row, screen_columns(), "") + mode_legend({*row}, screen_columns(), "");
+    text += left_at_other_values(*row) + (original ? beyond_words(*row, *original) : "");
+    text = wrapped_lines(text, screen_columns()) + mode_table(*row, screen_columns(), "") +
+           mode_legend({*row}, screen_columns(), "");
   }
   text += change_lines(trial);
   for (const std::string& job : best.jobs) text += fmt::format("Job: {}\n", (places.job(job) / "job.yaml").string());

@@ -257,17 +257,6 @@ std::string age_words(const Fleet& fleet, const Plan& plan, const std::map<std::
   return text;
 }
 
-std::string wrapped_lines(const std::string& text) {
-  std::string lines;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    const std::string line = text.substr(begin, end - begin);
-    begin = end + 1;
-    lines += columns_of(line) > width ? wrapped(line, width, "") : line + '\n';
-  }
-  return lines;
-}
-
 std::vector<BesideRow> beside_rows(const Fleet& fleet, const Plan& plan, const Fleet& changed, const Plan& other) {
   std::vector<BesideRow> rows;
   // digits: 0: the number is a count.

@@ -45,9 +45,6 @@ struct AgeLimit {
 std::string age_words(const Fleet& fleet, const Plan& plan, const std::map<std::string, std::vector<AgeLimit>>& limits,
                       const std::map<std::string, double>& week_hours);
 
-/// Breaks the lines of test_words(), check_words() and age_words() that are wider than a terminal. A page breaks them by itself.
-std::string wrapped_lines(const std::string& text);
-
 /// A number of two plans and its increase; more is empty if it is no difference of numbers.
 struct BesideRow {
   std::string what, now, then, more;

@@ -2,6 +2,7 @@
 #include "pipeline/advise/improve/story.h"
 
 #include "tests/catch.h"
+#include "tests/pipeline/scratch.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -39,7 +40,8 @@ struct Searched {
     return of;
   }
   std::string words(const MountingTolerance& tolerance = tolerance_of(0, 0)) const {
-    return improvement_words(found, finals, story(), SecondAim::none, tolerance, {});
+    // long lines are broken
+    return replaced_all(improvement_words(found, finals, story(), SecondAim::none, tolerance, {}), "\n    ", " ");
   }
 
  private:
