@@ -47,7 +47,7 @@ struct Made {
   RankingRow row(double median, double spread) const {
     RankingRow made;
     made.job = round->study().jobs.at(0).name;
-    made.repeat_seconds = 36;
+    made.repeat_seconds = 36, made.worst_segment_from_tool = 1;
     made.conductor_hours = {median * std::exp(-decile * spread), median, median * std::exp(decile * spread)};
     return made;
   }

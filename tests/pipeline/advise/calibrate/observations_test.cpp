@@ -88,7 +88,7 @@ TEST_CASE("observations: lives in the observer's unit, over all variants that ra
   for (std::size_t k = 0; k < 4; ++k) {
     RankingRow& row = rows[k];
     row.job = study.jobs[3 - k].name;  // in another order
-    row.repeat_seconds = 1800;
+    row.repeat_seconds = 1800, row.worst_segment_from_tool = 1;
     const double hours = 10.0 * double(4 - k);
     row.conductor_hours = {hours, 2 * hours, 3 * hours}, row.first_wire_hours = {hours / 2, hours, 1.5 * hours};
     row.life_repeats_all_stick = 4 + double(k), row.life_repeats_all_free = 400 - double(k);

@@ -40,8 +40,10 @@ struct Searched {
     return of;
   }
   std::string words(const MountingTolerance& tolerance = tolerance_of(0, 0)) const {
-    // long lines are broken
-    return replaced_all(improvement_words(found, finals, story(), SecondAim::none, tolerance, {}), "\n    ", " ");
+    // Long lines are broken, with four blanks before their further parts.
+    return replaced_all(
+        replaced_all(improvement_words(found, finals, story(), SecondAim::none, tolerance, {}), "\n    --", "\n--"),
+        "\n    ", " ");
   }
 
  private:

@@ -44,7 +44,7 @@ RankingRow row_of(const Scratch& scratch, const Program& program, FailureModes m
   life.conductors = {{"lead 1", 1}, {"lead 2", 1}, {"bus", 1}};
   RankingRow row;
   row.job = program.job, row.repeat_seconds = program.repeat_seconds, row.life_file = scratch / (program.job + ".h5");
-  row.robot_life_hours = 40000;
+  row.robot_life_hours = 40000, row.worst_segment_from_tool = 1;
   if (modes.empty())
     modes = {response_of("lead", 1 / program.worst_of_lead()), response_of("bus", 1 / program.damage[2])};
   row.life_response = modes_text(modes);

@@ -13,6 +13,7 @@
 #include "pipeline/advise/plan/doubtful_plan.h"
 #include "pipeline/advise/plan/plan_words.h"
 #include "pipeline/advise/plan/pooled_lives.h"
+#include "pipeline/base/readable.h"
 #include "tests/catch.h"
 #include "tests/pipeline/scratch.h"
 
@@ -93,7 +94,7 @@ TEST_CASE("a plan names the dresspacks that reach the age of a mode without vali
   CHECK(words(100).find("Inspect now: r0, r1, r2.") != std::string::npos);
   CHECK(words(4200 + 24 * week + 1).empty());
   CHECK(age_words(fleet, plan, {}, {}).empty());
-  const std::string lines = wrapped_lines("  1,234  a test\n" + words(2900));
+  const std::string lines = wrapped_lines("  1,234  a test\n" + words(2900), 118);
   CHECK(lines.starts_with("  1,234  a test\nNot validated"));
   for (std::size_t begin = 0, end; (end = lines.find('\n', begin)) != std::string::npos; begin = end + 1)
     CHECK(end - begin <= 118);
