@@ -43,6 +43,7 @@ FanucRun::WrittenPosition FanucRun::position(FanucCursor& at) {
   read.number = whole_number(*index->number);
   const auto& list = routine().listing->positions;
   if (index->group != 1) return read;
+  if (read.registered) values_.read_positions();
   if (read.registered)
     read.position = values_.position_register(*read.number);
   else if (const auto found = list.find(*read.number); found != list.end())

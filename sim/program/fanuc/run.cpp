@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <sstream>
+#include <utility>
 
 #include "pipeline/base/joined.h"
 #include "sim/program/interpreter/tokens.h"
@@ -11,12 +14,14 @@ namespace {
 
 std::string file_of(const std::string& path) { return path.substr(path.find_last_of('/') + 1); }
 
-/// Returns whether two instructions of a loop have the same move and the same line.
-bool same_move(const Instruction& a, const Instruction& b) {
-  return a.kind == b.kind && a.target.joints == b.target.joints && a.target.pose.position == b.target.pose.position &&
-         a.target.pose.orientation.coeffs() == b.target.pose.orientation.coeffs() && a.tool == b.tool &&
-         a.work_object == b.work_object && a.dwell == b.dwell && a.where.line == b.where.line &&
-         a.where.file == b.where.file;
+/// Returns the names of the values that differ between two texts of FanucValues::deciding_state().
+std::string changed_names(const std::string& before, const std::string& after) {
+  std::string names;
+  std::istringstream entries(after);
+  for (std::string entry; entries >> entry;)
+    if ((" " + before).find(" " + entry + " ") == std::string::npos)
+      names += (names.empty() ? "" : ", ") + entry.substr(0, entry.find('='));
+  return names.empty() ? "a value" : names;
 }
 
 }  // namespace
@@ -245,6 +250,7 @@ void FanucRun::execute(const FanucStatement& s) {
   }
   if (word == "if") return if_statement(at);
   if (word == "select") return select();
+  if (word == "lbl") endless(routine().at);  // its first pass begins here
   if (word == "lbl" || (word.empty() && !at.take_sign('='))) return;
   if (word.empty() || (word == "else" && !fanuc_action(text).empty()))
     return;  // a case of a SELECT that chose another case
@@ -370,7 +376,7 @@ void FanucRun::jump_to(std::size_t target, bool certain) {
 
 /// Returns whether a pass of a loop made no move and changed no value: all further passes would be the same.
 bool FanucRun::waits(std::size_t label) {
-  Endless& loop = endless_[{routine().listing, label}];
+  Endless& loop = endless(label);
   const auto& made = program_.instructions;
   const bool moved = std::any_of(made.begin() + static_cast<std::ptrdiff_t>(std::min(loop.begin, made.size())),
                                  made.end(), [](const Instruction& i) { return i.kind != Instruction::Kind::dwell; });
@@ -380,49 +386,49 @@ bool FanucRun::waits(std::size_t label) {
   const auto is_power_of_two = [](int number) { return (number & (number - 1)) == 0; };
   const bool again = !moved && is_power_of_two(loop.passes - 1) && loop.states.contains(values_.state());
   loop.states.clear();
-  if (is_power_of_two(loop.passes) && !again) loop.states.emplace(values_.state(), 0);
+  if (is_power_of_two(loop.passes) && !again) loop.states.insert(values_.state());
   return again;
 }
 
 /// Returns whether one of the last three passes of a loop met new statements or questions. Only while guessing.
 bool FanucRun::still_new(std::size_t label) {
   constexpr int enough = 3;  // consecutive passes without news
-  Endless& loop = endless_[{routine().listing, label}];
+  Endless& loop = endless(label);
   loop.barren = loop.news == exploration_.news() ? loop.barren + 1 : 0;
   loop.news = exploration_.news();
   return loop.barren < enough;
 }
 
-/// Removes the moves from index `from` on if they equal as many moves before index `before`. Returns whether they did.
-bool FanucRun::drop_repeated(std::size_t from, std::size_t before) {
-  auto& made = program_.instructions;
-  const Instruction* all = made.data();
-  const std::size_t count = made.size() - from;
-  if (count > before || !std::equal(all + from, all + made.size(), all + before - count, same_move)) return false;
-  made.resize(from);
-  return true;
+FanucRun::Endless& FanucRun::endless(std::size_t label) {
+  return endless_.try_emplace({routine().listing, label}, program_.instructions).first->second;
 }
 
 /// Returns whether an endless loop that is back at its label runs another pass. It runs options.passes passes if given.
-/// Otherwise it ends when the moves equal those of the previous pass, when all values equal those after an earlier
-/// pass, or, with a problem, after ImportLimits::passes. If the values equal those after pass N and the last N passes
-/// have the moves of the first N, each pass is kept once.
+/// Otherwise it ends when a pass has the moves of an earlier one and the same values that decide. A counter that
+/// decides may never return to an earlier value: after a long search the moves alone count, with a warning. Without
+/// a period of moves it ends, with a problem, after ImportLimits::passes.
 bool FanucRun::goes_on(std::size_t label) {
-  Endless& loop = endless_[{routine().listing, label}];
-  auto& made = program_.instructions;
+  Endless& loop = endless(label);
   ++loop.passes;
   if (around_.options.passes > 0) return loop.passes < around_.options.passes;
-  loop.ends.push_back(made.size());
-  const auto [known, fresh] = loop.states.try_emplace(values_.state(), loop.ends.size());
-  const bool alike = loop.passes > 1 && made.size() > loop.begin && drop_repeated(loop.begin, loop.begin);
-  if (const std::size_t pass = known->second; !fresh && !alike && pass > 0)
-    drop_repeated(loop.ends[loop.ends.size() - pass - 1], loop.ends[pass - 1]);
-  loop.begin = made.size();
-  if (!fresh || alike) return false;
-  if (loop.passes < ImportLimits::passes) return true;
-  complain(fmt::format("does not repeat itself within {} passes", ImportLimits::passes),
-           "say how many are wanted: --passes N (motion.passes)");
-  return false;
+  const std::string before = std::exchange(loop.last, values_.deciding_state());
+  loop.all.add(std::hash<std::string>{}(loop.last));
+  loop.begin = program_.instructions.size();
+  const bool last = loop.passes >= ImportLimits::passes, repeats = loop.all.repeats();
+  const bool searched = last || executed_ + values_.charged() > ImportLimits::searched_work ||
+                        program_.instructions.size() > ImportLimits::searched_moves;
+  const std::size_t kept = repeats ? loop.all.kept(0) : searched ? loop.all.by_motion() : 0;
+  if (kept > 0) program_.instructions.resize(loop.all.end(kept));
+  if (kept > 0 && !repeats)
+    note(fmt::format("repeats without end: {} decides and has other values after each of {} passes; the motion is {}, "
+                     "which later passes may not repeat (take more with --passes N, motion.passes in a job)",
+                     changed_names(before, loop.last), loop.passes, passes_text(static_cast<long>(kept))),
+         true);
+  if (kept > 0) return false;
+  if (last)
+    complain(fmt::format("does not repeat itself within {} passes", ImportLimits::passes),
+             "say how many are wanted: --passes N (motion.passes)");
+  return !last;
 }
 
 void FanucRun::wait(FanucCursor& at) {
@@ -458,8 +464,9 @@ void FanucRun::assign_register(FanucCursor& at) {
   const auto index = values_.index(at);
   at.skip_to('=');
   values_.forget_missing();
-  const FanucNumber value = values_.expression(at);
-  if (index && index->number) return values_.set_register(whole_number(*index->number), value);
+  const bool known = index && index->number;
+  const FanucNumber value = known ? values_.source(whole_number(*index->number), at) : values_.expression(at);
+  if (known) return values_.set_register(whole_number(*index->number), value);
   values_.forget_registers(values_.causes());
   note("R: writes a register whose number is known only while the robot runs");
 }

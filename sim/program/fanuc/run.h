@@ -11,6 +11,7 @@
 #include "sim/program/fanuc/effects.h"
 #include "sim/program/fanuc/values.h"
 #include "sim/program/interpreter/exploration.h"
+#include "sim/program/interpreter/passes.h"
 
 namespace dresslife::sim {
 
@@ -47,9 +48,11 @@ class FanucRun {
   };
   /// Passes of a loop up to now, to find the pass after which the loop repeats itself.
   struct Endless {
-    std::map<std::string, std::size_t> states;  // state -> number of the pass that ended in it; 0: added by waits()
-    std::vector<std::size_t> ends;              // (pass) number of instructions at the end of the pass
-    std::size_t begin = 0;                      // number of instructions at the start of the pass
+    explicit Endless(const std::vector<Instruction>& moves) : all(moves), begin(moves.size()) {}
+    Passes all;                    // the passes of goes_on()
+    std::string last;              // FanucValues::deciding_state() at the last pass
+    std::set<std::string> states;  // those of waits()
+    std::size_t begin;             // number of instructions at the start of the pass
     int passes = 0;
     long news = -1;  // Exploration::news() at the last pass
     int barren = 0;  // number of consecutive passes without news
@@ -69,7 +72,7 @@ class FanucRun {
   void block(const std::string& word);
   void jump(FanucCursor& at, bool certain);
   void jump_to(std::size_t target, bool certain);
-  bool drop_repeated(std::size_t from, std::size_t before);
+  Endless& endless(std::size_t label);
   bool goes_on(std::size_t label);  // whether an endless loop runs another pass
   bool waits(std::size_t label);
   bool still_new(std::size_t label);

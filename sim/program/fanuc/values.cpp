@@ -249,6 +249,37 @@ std::string FanucValues::state() const {
   return text;
 }
 
+void FanucValues::read_for(int read) {
+  if (std::set<int>& known = reads_[reader_]; known.size() < ImportLimits::values) known.insert(read);
+}
+
+FanucNumber FanucValues::source(int number, FanucCursor& at) {
+  reader_ = number;
+  const FanucNumber value = expression(at);
+  reader_ = program_key;
+  return value;
+}
+
+std::string FanucValues::deciding_state() const {
+  std::set<int> deciding;
+  std::vector<int> open{program_key};
+  while (!open.empty()) {
+    const auto found = reads_.find(open.back());
+    open.pop_back();
+    if (found == reads_.end()) continue;
+    for (int read : found->second)
+      if (deciding.insert(read).second) open.push_back(read);
+  }
+  std::string text;
+  for (const auto& [number, stored] : registers_)
+    if (stored.value && deciding.contains(number)) text += fmt::format("R[{}]={} ", number, *stored.value);
+  if (deciding.contains(positions_key))
+    for (const auto& [number, position] : positions_)
+      text += fmt::format("PR[{}]={} ", number, fmt::join(position.values, ","));
+  for (const auto& [name, value] : named_) text += fmt::format("{}={} ", upper_case(name), value.value_or(NAN));
+  return text;
+}
+
 // ---- expressions -----------------------------------------------------------------------------------------
 
 std::optional<FanucValues::Index> FanucValues::index(FanucCursor& at, int depth) {
@@ -283,6 +314,7 @@ FanucNumber FanucValues::function(const std::string& word, FanucNumber of) const
 /// may have changed it, the call is the question. If the program has not set the register, the register is the question.
 FanucNumber FanucValues::register_value(int number) {
   const auto own = registers_.find(number);
+  if (own != registers_.end()) read_for(number);
   if (own != registers_.end() && own->second.value) return own->second.value;
   const FanucCauses& causes = own != registers_.end() ? own->second.causes : forgotten_by_;
   const bool calls = std::any_of(causes.begin(), causes.end(),
@@ -317,6 +349,7 @@ FanucNumber FanucValues::operand(FanucCursor& at, int depth) {
   const int number = whole_number(*read->number);
   if (read->group != 1) return unknown(fmt::format("{}[GP{}:{}]", name, read->group, number));
   if (word == "pr" && read->part) {
+    read_positions();
     const FanucPosition position = position_register(number);
     const int part = whole_number(*read->part);
     if (part >= 1 && part <= static_cast<int>(position.values.size()) && std::isfinite(position.values[part - 1]))

@@ -90,6 +90,13 @@ class FanucValues {
   void leave() { arguments_.pop_back(); }
 
   std::string state() const;  ///< text of all known values; equal texts mean equal values
+  /// Evaluates the value of an assignment to R[number]. What it reads decides only if R[number] does.
+  FanucNumber source(int number, FanucCursor& at);
+  /// Returns the text of all known values that decided something since the program began: a branch, a move, a call.
+  /// Registers that only count are left out: "R[1]=3 ".
+  std::string deciding_state() const;
+  /// Records that the values of position registers decide.
+  void read_positions() { read_for(positions_key); }
   long charged() const { return charged_; }
 
  private:
@@ -99,6 +106,7 @@ class FanucValues {
   FanucNumber register_value(int number);
   FanucNumber level(FanucCursor& at, int lowest, int depth);
   void take(const std::string& name, const std::string& text, Problems& problems);
+  void read_for(int read);
   const FanucCauses* position_causes(int number, int part) const;
 
   std::map<int, Stored> registers_;
@@ -113,7 +121,10 @@ class FanucValues {
   std::map<int, std::map<int, FanucCauses>> position_causes_;  // PR number -> component, or whole_position
   FanucCauses forgotten_by_;                                   // causes of registers without an own entry
   std::set<int> written_;                                      // registers that the program has set
-  long charged_ = 0;                                           // number of operands and operators evaluated
+  static constexpr int program_key = -1, positions_key = -2;   // readers that are no register
+  int reader_ = program_key;
+  std::map<int, std::set<int>> reads_;  // register that is assigned, or the program -> registers that it has read
+  long charged_ = 0;                    // number of operands and operators evaluated
 };
 
 /// Returns a name in lower case without comments and blanks: "R[ 5 :speed]" -> "r[5]".

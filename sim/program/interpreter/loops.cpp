@@ -9,11 +9,8 @@ namespace {
 
 using Kind = Statement::Kind;
 
-// Limits of the search for the repetition of an endless loop: enough for a pallet of 200 boxes, and a small part of
-// the work that a program may need.
+// Passes in the search for the repetition of an endless loop: enough for a pallet of 200 boxes.
 constexpr int searched_passes = 200;
-constexpr long searched_work = ImportLimits::executed / 3;
-constexpr std::size_t searched_moves = 20'000;
 
 }  // namespace
 
@@ -280,8 +277,8 @@ Interpreter::Flow Interpreter::run_endless(const Statement& statement) {
       continue;
     }
     if (passes.count() == wanted || (!wanted && passes.repeats())) break;
-    const bool searched = passes.count() >= searched_passes || executed_ - work_before > searched_work ||
-                          program_.instructions.size() - before > searched_moves;
+    const bool searched = passes.count() >= searched_passes || executed_ - work_before > ImportLimits::searched_work ||
+                          program_.instructions.size() - before > ImportLimits::searched_moves;
     if (!wanted && !leaves && searched) break;
   }
   if (!wanted && program_.instructions.size() == before) {
@@ -375,8 +372,8 @@ void Interpreter::run_cycles(const Routine& routine) {
     }
     if (passes.count() == 1 && wanted <= 1 && state() == state_before) return;
     if (passes.count() == wanted || (!wanted && passes.repeats())) break;
-    if (!wanted && (passes.count() >= searched_passes || executed_ - work_before > searched_work ||
-                    program_.instructions.size() > searched_moves))
+    if (!wanted && (passes.count() >= searched_passes || executed_ - work_before > ImportLimits::searched_work ||
+                    program_.instructions.size() > ImportLimits::searched_moves))
       break;
   }
   const std::size_t last = passes.count();

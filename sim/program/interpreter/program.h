@@ -231,6 +231,9 @@ struct ImportLimits {
   static constexpr std::size_t skipped = 20'000;
   static constexpr std::size_t values = 100'000;  ///< numbers in one variable; number of variables
   static constexpr int passes = 1000;             ///< passes of an endless loop in the search for its repetition
+  /// The search for the repetition of an endless loop: a small part of the work that a program may need.
+  static constexpr long searched_work = executed / 3;
+  static constexpr std::size_t searched_moves = 20'000;
 };
 
 /// A source file in memory.

@@ -506,6 +506,31 @@ TEST_CASE("fanuc loops: an endless one runs until it repeats itself, or as often
             .program.instructions.size() == 4);
 }
 
+TEST_CASE("fanuc loops: an endless one has all passes of a counter that decides") {
+  // Every fourth pass cleans the torch. Another counter decides nothing.
+  const auto loop = [](const std::string& decision) {
+    return "   1:  R[1]=0 ;\n   2:  R[9]=0 ;\n   3:  LBL[1] ;\n   4:J P[1] 100% FINE ;\n   5:  R[9]=R[9]+1 ;\n"
+           "   6:  R[1]=R[1]+1 ;\n" +
+           decision + "   8:  CALL CLEAN ;\n   9:  R[1]=0 ;\n  10:  LBL[9] ;\n  11:  JMP LBL[1] ;\n";
+  };
+  const Files clean{{"clean.ls", listing("CLEAN", "   1:J P[2] 100% FINE ;\n")}};
+  const Reading reset = run(loop("   7:  IF R[1]<4,JMP LBL[9] ;\n"), {}, clean);
+  CHECK(reset.problem() == "no such problem");
+  CHECK(stops(reset) == std::vector<int>{1, 1, 1, 1, 2});
+  CHECK(warnings(reset).empty());
+  // The decision reads a register that is computed from the counter.
+  CHECK(stops(run(loop("   7:  R[2]=R[1]*2 ;\n   7:  IF R[2]<8,JMP LBL[9] ;\n"), {}, clean)) ==
+        std::vector<int>{1, 1, 1, 1, 2});
+  // The counter is never set back: the moves alone have a period. A limit that no search reaches is a warning.
+  const Reading modulo = run(loop("   7:  IF (R[9] MOD 4<>0),JMP LBL[9] ;\n"), {}, clean);
+  CHECK(stops(modulo) == std::vector<int>{1, 1, 1, 1, 2});
+  const Reading far = run(loop("   7:  IF R[1]<100000,JMP LBL[9] ;\n"), {}, clean);
+  CHECK(far.problem() == "no such problem");
+  CHECK(stops(far) == std::vector<int>{1});
+  REQUIRE(warnings(far).size() == 1);
+  CHECK_THAT(warnings(far)[0], Catch::Contains("R[1] decides and has other values after each of 1000 passes"));
+}
+
 TEST_CASE("fanuc moves: what changes a target is followed, or named") {
   const Asked known{.values = {{"PR[1]", "X 0 Y 0 Z 50 W 0 P 0 R 0"}, {"PR[2]", "0,0,0,0,0,0"}}};
   const Reading r =
