@@ -52,6 +52,7 @@ void FanucEffects::add(const FanucEffects& other) {
   waits |= other.waits;
   leaves |= other.leaves;
   written.insert(other.written.begin(), other.written.end());
+  unread.insert(other.unread.begin(), other.unread.end());
 }
 
 std::string fanuc_action(const std::string& statement) {
@@ -71,6 +72,10 @@ std::string fanuc_action(const std::string& statement) {
   if (comma == std::string::npos) return "";
   const std::size_t begin = statement.find_first_not_of(" \t\r\n:", comma + 1);
   return begin == std::string::npos ? "" : statement.substr(begin);
+}
+
+std::string macro_name(const std::string& statement) {
+  return "MACRO " + statement.substr(0, std::min<std::size_t>(statement.find_first_of("('="), 40));
 }
 
 FanucWord fanuc_word(const std::string& word) {
@@ -220,15 +225,17 @@ FanucEffects FanucOutlook::effects(const std::string& action) {
   } else if (const FanucSetting setting = fanuc_setting(action); !setting.name.empty()) {
     made.written.insert(setting.name);
   } else if (word == "call") {
-    if (const FanucListing* called = program(lower_case(at.name())))
+    const std::string name(at.name());
+    if (const FanucListing* called = program(lower_case(name)))
       made.add(whole(*called));
     else
-      made.written.insert(any_register);
+      made.written.insert(any_register), made.unread.insert("CALL " + name);
   } else if (const FanucListing* called = macro(action)) {
     made.add(whole(*called));
   } else if (fanuc_word(word) == FanucWord::other && word != "run" && word != "jmp" && word != "end" &&
              word != "endif" && word != "endfor" && word != "abort") {
     made.written.insert(any_register);  // a macro without a listing
+    made.unread.insert(macro_name(action));
   }
   return made;
 }

@@ -19,6 +19,7 @@ struct FanucEffects {
   /// What may be written: "r[5]", "pr[2]", "override", "$prgoverride", "uframe_num", "utool_num", "utool[2]".
   /// "uframe[]": a user frame of unknown number; "r[]": R[] or PR[] of unknown numbers.
   std::set<std::string> written;
+  std::set<std::string> unread;  ///< programs and macros without a listing: "CALL GRIP"
 
   void add(const FanucEffects& other);
 };
@@ -52,6 +53,9 @@ class FanucOutlook {
 
 /// Returns the action after the comma of an IF, SELECT, = or ELSE; empty: no action. Returns other statements unchanged.
 std::string fanuc_action(const std::string& statement);
+
+/// Returns the name of the macro that a statement calls, at most 40 characters: "MACRO OPEN GUN".
+std::string macro_name(const std::string& statement);
 
 enum class FanucWord { motion, logic, shapes_motion, other };
 

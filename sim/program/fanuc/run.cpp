@@ -326,7 +326,7 @@ void FanucRun::assignment(const std::string& word, FanucCursor& at) {
     FanucCursor arguments(std::string_view(text).substr(std::min(open, text.size())));
     return call(*macro, arguments_in(arguments));
   }
-  unread("MACRO " + text.substr(0, std::min<std::size_t>(text.find_first_of("('="), 40)));
+  unread(macro_name(text));
 }
 
 /// Executes ENDFOR, ELSE, ENDIF or END of a running block.
@@ -606,6 +606,9 @@ bool FanucRun::no_matter(const FanucEffects& effects) {
     note("IF, SELECT, FOR: waits on a condition that is known only while the robot runs; left out", true);
   else
     note("IF, SELECT, FOR: a branch on a condition that is known only while the robot runs, without moves");
+  for (const std::string& name : effects.unread)
+    note(name + ": not among the files read; a branch calls it on a condition that is known only while the robot runs",
+         true);
   FanucCauses why = values_.causes();
   for (FanucCause& cause : why) cause.line = line_name();
   if (why.empty()) why = {{"", line_name()}};

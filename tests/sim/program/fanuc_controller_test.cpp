@@ -579,6 +579,22 @@ TEST_CASE("fanuc: an empty line may have lost its number") {
   CHECK(stops(run("   1:J P[1] 50% FINE ;\n ;\n   3:J P[2] 50% FINE ;\n")) == std::vector<int>{1, 2});
 }
 
+TEST_CASE("fanuc: a program without a file is named where an undecided branch calls it, too") {
+  const std::string ends = "   2:J P[1] 50% FINE ;\n";
+  const Reading skipped = run("   1:  IF R[1]<10,JMP LBL[9] ;\n   1:  CALL CLEAN ;\n   1:  LBL[9] ;\n" + ends);
+  CHECK(stops(skipped) == std::vector<int>{1});
+  REQUIRE(warnings(skipped).size() == 1);
+  CHECK_THAT(warnings(skipped)[0], Catch::StartsWith("CALL CLEAN: not among the files read"));
+  const Reading called = run("   1:  CALL OUTER ;\n" + ends, {},
+                             {{"outer.ls", listing("OUTER", "   1:  IF DI[1]=ON,CALL CLEAN ;\n   2:  OPEN GUN ;\n")}});
+  REQUIRE(warnings(called).size() == 2);
+  CHECK_THAT(warnings(called)[0], Catch::StartsWith("CALL CLEAN: not among the files read"));
+  CHECK_THAT(warnings(called)[1], Catch::StartsWith("MACRO OPEN GUN: not among the files read"));
+  const Reading read =
+      run("   1:  IF DI[1]=ON,CALL CLEAN ;\n" + ends, {}, {{"clean.ls", listing("CLEAN", "   1:  R[5]=1 ;\n")}});
+  CHECK(warnings(read).empty());
+}
+
 TEST_CASE("fanuc: frame 0 cannot be assigned") {
   const Reading r = run("   1:  UTOOL[0]=PR[1] ;\n   2:J P[1] 50% FINE ;\n");
   CHECK(stops(r) == std::vector<int>{1});
