@@ -306,7 +306,7 @@ bool Rapid::read_options(const Statement& statement, Instruction& move, Interpre
       whole = false;
       continue;
     }
-    if (option == "t") move.speed.duration = number;
+    if (option == "t") move.speed.duration = number / (speed_factor_ * override_);  // an override makes it longer
     if (option == "v") move.speed.tool = std::min(number * millimetre * speed_factor_ * override_, speed_limit_);
     if (option == "z") move.zone.distance = number * millimetre;
   }

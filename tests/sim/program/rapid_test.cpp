@@ -261,6 +261,15 @@ TEST_CASE("rapid: settings, displacement, unknown instructions") {
   CHECK(r.program.skipped[1].may_move);
 }
 
+TEST_CASE("rapid: an override makes the time of a move longer, and a limit of the speed does not") {
+  const Reading r =
+      run("VelSet 50,1;\nMoveL p1,v100\\T:=5,fine,tool0;\nVelSet 100,5000;\nSpeedRefresh 25;\n"
+          "MoveL p1,v100\\T:=5,fine,tool0;");
+  REQUIRE(r.program.instructions.size() == 2);
+  CHECK(r.move(0).speed.duration.value() == Approx(10).epsilon(rounding));
+  CHECK(r.move(1).speed.duration.value() == Approx(20).epsilon(rounding));
+}
+
 TEST_CASE("rapid: a typing error in the name of a move is the first problem, and asks for nothing else") {
   const Reading r = run("MoveAbs home, v1000, z10, gun;\nMoveJ p1, v1000, fine, gun;");
   REQUIRE(r.problems.size() == 1);
