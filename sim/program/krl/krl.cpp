@@ -121,6 +121,11 @@ std::optional<std::array<double, 6>> Krl::given_place(bool axes, Interpreter& ru
 
 /// Asks for the position before the move: components that a target omits keep their values.
 void Krl::ask_for_place_before(const Expression& written, bool axes, Interpreter& run) {
+  if (axes)
+    return run.ask_for(place_here(axes, run), written.place,
+                       "gives some axes only, from a place whose other axis angles are not known: the move before goes "
+                       "to a pose or is not known",
+                       "write PTP {A1 .., A2 .., A3 .., A4 .., A5 .., A6 ..} here, or move to axis angles before", "");
   run.ask_for(
       place_here(axes, run), written.place,
       "gives some coordinates only, from a place whose other coordinates are not known: the move before goes to axis "

@@ -784,6 +784,17 @@ TEST_CASE("krl: RSI_MOVECORR leads the robot away, and back where the program sa
   CHECK(led.program.skipped[0].may_move);
   CHECK(led.program.skipped[0].what == "RSI_MOVECORR: a sensor leads the robot");
   // The axes that the move leaves out are unknown.
-  CHECK_THAT(run("PTP " + axes(1) + "\nRSI_MOVECORR()\nPTP {A1 2}").problem(),
-             Catch::Contains("gives some coordinates only"));
+  CHECK_THAT(run("PTP " + axes(1) + "\nRSI_MOVECORR()\nPTP {A1 2}").problem(), Catch::Contains("gives some axes only"));
+}
+
+TEST_CASE("krl: the remedies of a move of some axes after a pose work") {
+  const std::string frames = "$TOOL=$NULLFRAME\n$BASE=$NULLFRAME\n", here = frames + "PTP " + pose + "\n";
+  for (const char* move : {"PTP_REL {A1 10}", "PTP {A1 0}"}) {
+    const Reading asked = run(here + move);
+    REQUIRE(asked.problems.size() == 1);
+    CHECK_THAT(asked.problem(), Catch::Contains("the move before goes to a pose") &&
+                                    Catch::Contains("or move to axis angles before") && Catch::Contains("$axis_act="));
+    CHECK(run(here + "PTP " + axes(1) + "\n" + move).problems.empty());
+  }
+  CHECK(run(here + "PTP " + axes(1)).problems.empty());
 }
