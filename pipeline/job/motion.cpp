@@ -7,6 +7,7 @@
 
 #include "pipeline/base/joined.h"
 #include "pipeline/base/lists.h"
+#include "pipeline/job/shapes.h"
 #include "pipeline/settings/fields.h"
 
 namespace dresslife::pipeline {
@@ -64,6 +65,19 @@ void describe(Fields& f, MotionFrame& frame) {
   f.text("name", frame.name, Need::required, "The name of the tool or work object.");
   f.vector("position_mm", frame.position, Need::optional, "The position of its origin.");
   f.numbers("quaternion", frame.quaternion, Need::optional, "Its orientation: w, x, y, z.");
+  f.place_of("quaternion", frame.quaternion_where);
+  std::vector<double> angles;  // read only: kept and written as the quaternion
+  f.numbers(
+      "wpr_deg", angles, Need::optional,
+      "Its orientation as W, P, R of a Fanuc controller, instead of `quaternion`: turns about the fixed axes x, y "
+      "and z, in this order.");
+  f.place_of("wpr_deg", frame.wpr_where);
+  if (angles.size() == 3) {
+    const Eigen::Quaterniond q = from_roll_pitch_yaw({angles[0], angles[1], angles[2]});
+    frame.quaternion = {q.w(), q.x(), q.y(), q.z()};
+  } else if (!angles.empty()) {
+    frame.quaternion.clear();  // refused by check_frames()
+  }
   f.boolean("stationary", frame.stationary, Need::optional,
             "Whether the tool stands still and the robot holds the work object.");
 }
@@ -212,7 +226,13 @@ void check_steps(const std::vector<MotionStep>& steps, const Robot& robot, Probl
 
 void check_frames(const Motion& motion) {
   for (const std::vector<MotionFrame>* frames : {&motion.tools, &motion.work_objects})
-    for (const MotionFrame& frame : *frames) check_pose({0, 0, 0}, frame.quaternion, motion.where);
+    for (const MotionFrame& frame : *frames) {
+      if (frame.wpr_where.line > 0 && frame.quaternion_where.line > 0)
+        throw InputError(frame.wpr_where, "both quaternion and wpr_deg are given", "keep one of the two");
+      if (frame.wpr_where.line > 0 && frame.quaternion.empty())
+        throw InputError(frame.wpr_where, "wpr_deg is not three angles W, P, R", "give the three");
+      check_pose({0, 0, 0}, frame.quaternion, motion.where);
+    }
 }
 
 void check_held_joint(const Motion& motion, const Robot& robot) {

@@ -62,7 +62,9 @@ std::string line_of(const Question& question) {
     return fmt::format("{{name: {}, value: {}}}", quoted(question.name), quoted(question.preset));
   if (question.kind == Kind::branch)
     return fmt::format("{{line: {}, take: {}}}", quoted(question.name), quoted(question.preset));
-  return fmt::format("{{name: {}, position_mm: [], quaternion: [1, 0, 0, 0]}}", quoted(question.name));
+  const bool fanuc = question.name.starts_with("UTOOL[") || question.name.starts_with("UFRAME[");
+  return fmt::format("{{name: {}, position_mm: [], {}}}", quoted(question.name),
+                     fanuc ? "wpr_deg: [0, 0, 0]" : "quaternion: [1, 0, 0, 0]");
 }
 
 std::string frame_line(const pipeline::MotionFrame& frame) {

@@ -388,7 +388,7 @@ const Wrong wrong[] = {
     {"nod.ls", "250mm/sec", "25m/sec", "nod.ls:4:6: error: ", "has a speed without a known unit", "write %, mm/sec",
      check_listing},
     {"nod.ls", "UF : 0, UT : 0", "UF : 0, UT : 2", "nod.ls:4:6: error: ", "uses UTOOL[2], which lies in the controller",
-     "[{name: 'UTOOL[2]', position_mm: [X, Y, Z], quaternion: [W, X, Y, Z]}]", check_listing},
+     "[{name: 'UTOOL[2]', position_mm: [X, Y, Z], wpr_deg: [W, P, R]}]", check_listing},
     // Circles of RAPID
     {"arc.mod", "p2:=[[1600,0", "p2:=[[1500,0",
      "arc.mod:7:3: error: ", "has no circle: its start, the point on the way and its end lie on a line",

@@ -191,7 +191,7 @@ std::optional<NamedFrame> FanucRun::frame(bool tool, int number) {
       made.name, fmt::format("uses {}, which lies in the controller", made.name),
       fmt::format(
           "give it in motion.{} (--frames of dresslife import) with the name '{}': [{{name: '{}', position_mm: [X, Y, Z], "
-          "quaternion: [W, X, Y, Z]}}], or sysframe.va of the backup",
+          "wpr_deg: [W, P, R]}}], or sysframe.va of the backup",
           tool ? "tools" : "work_objects", made.name, made.name),
       {{tool ? Question::Kind::tool : Question::Kind::work_object, made.name, ""}});
   return {};

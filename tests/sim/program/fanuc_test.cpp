@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/settings/document.h"
 #include "sim/program/fanuc/run.h"
 #include "tests/catch.h"
 #include "tests/sim/program/reading.h"
@@ -185,4 +186,22 @@ TEST_CASE("fanuc: a position without its head is one problem, at its line") {
   CHECK(
       r.problem() ==
       "cell.ls:6:1: error: is no position; list the program again, or write P[n]{ with its number at the begin of the position");
+}
+
+TEST_CASE("fanuc: a frame may be given as W, P, R") {
+  const auto motion_of = [](const std::string& orientation) {
+    return pipeline::motion_from(pipeline::parse_yaml(
+        "tools: [{name: 'UTOOL[1]', position_mm: [1, 2, 3], " + orientation + "}]\n", "frames.yaml"));
+  };
+  const pipeline::Motion motion = motion_of("wpr_deg: [10, -20, 130]");
+  const Frame frame = frame_of_fanuc({1, 2, 3, 10, -20, 130});  // the position of a listing
+  const std::vector<double>& q = motion.tools.at(0).quaternion;
+  REQUIRE(q.size() == 4);
+  CHECK(Quaternion(q[0], q[1], q[2], q[3]).angularDistance(frame.orientation) == Approx(0).margin(1e-7));  // acos
+  CHECK(
+      pipeline::motion_from(pipeline::parse_yaml(pipeline::motion_text(motion), "again.yaml")).tools.at(0).quaternion ==
+      q);
+  CHECK_THROWS_WITH(motion_of("wpr_deg: [0, 0, 0], quaternion: [1, 0, 0, 0]"),
+                    Catch::Contains("both quaternion and wpr_deg are given"));
+  CHECK_THROWS_WITH(motion_of("wpr_deg: [0, 0]"), Catch::Contains("is not three angles W, P, R"));
 }
