@@ -294,7 +294,8 @@ bool FanucRun::read_speed(FanucCursor& at, Instruction& move) {
   values_.forget_missing();
   if (at.take("max_speed")) return true;
   std::string text(at.rest());
-  if (at.take("WELD_SPEED")) {  // a value of the controller's weld schedule
+  const bool weld = at.take("WELD_SPEED");
+  if (weld) {  // a value of the controller's weld schedule
     const auto given = values_.given("weld_speed");
     if (!given) {
       missing("WELD_SPEED", "moves with WELD_SPEED, which lies in the controller's weld schedule",
@@ -305,13 +306,19 @@ bool FanucRun::read_speed(FanucCursor& at, Instruction& move) {
     text = *given;
   }
   FanucCursor written(text);
-  const FanucNumber speed = values_.value(written);
+  const FanucNumber speed = weld ? written.number() : values_.value(written);
+  const auto wrong_value = [&](const char* what) {  // the cause is the user's value, not the line
+    return refuse(fmt::format("moves with WELD_SPEED, whose value '{}' in motion.values (--value) {}", text, what),
+                  "write it with its unit: WELD_SPEED=8mm/sec");
+  };
+  if (weld && !speed) return wrong_value("is no number");
   const auto share = override_share();
   if (!share) return false;
   if (!speed) {
     missing_value("has a speed by");
     return false;
   }
+  if (weld && !(*speed > 0)) return wrong_value("is not above 0");
   if (!(*speed > 0)) return refuse("has no speed above 0", "write one");
   if (written.take_sign('%')) {
     if (*speed > 100) note(fmt::format("{:g}%: {}", *speed, above_all_speed), true);
@@ -328,9 +335,11 @@ bool FanucRun::read_speed(FanucCursor& at, Instruction& move) {
     move.speed.duration = *speed * 1e-3 / *share;
   else if (written.take("sec"))
     move.speed.duration = *speed / *share;
+  else if (weld)
+    return wrong_value("has no known unit");
   else
     return refuse("has a speed without a known unit", "write %, mm/sec, cm/min, inch/min, deg/sec or sec");
-  if (text.size() == at.rest().size()) at.move_to(at.offset() + written.offset());
+  if (!weld) at.move_to(at.offset() + written.offset());
   return true;
 }
 

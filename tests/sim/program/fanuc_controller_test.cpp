@@ -562,6 +562,18 @@ TEST_CASE("fanuc moves: what changes a target is followed, or named") {
         "goes over into the next move by CNT R[4], which is known only while the robot runs");
 }
 
+TEST_CASE("fanuc: a value of WELD_SPEED that is no speed is named as the user's") {
+  const std::string seam = "   1:L P[3] WELD_SPEED CNT100 ;\n";
+  const auto weld = [&](const std::string& value) { return run(seam, {.values = {{"WELD_SPEED", value}}}); };
+  for (const char* value : {"9", "8 mm/s", "0mm/sec", "fast"})
+    CHECK_THAT(weld(value).problem(),
+               Catch::Contains(fmt::format("whose value '{}' in motion.values (--value)", value)) &&
+                   Catch::Contains("WELD_SPEED=8mm/sec"));
+  // A value of as many characters as the rest of the line takes nothing from it.
+  REQUIRE(weld("8mm/sec").problem() == "no such problem");
+  CHECK(weld("8mm/sec").move(0).zone.percent == weld("08mm/sec").move(0).zone.percent);
+}
+
 TEST_CASE("fanuc programs: names with hyphens, logs beside, doubles, faults in programs that never run") {
   const Files one{{"-bcked2-.ls", listing("-BCKED2-\t  Macro", "   1:J P[1] 100% FINE ;\n")}};
   CHECK(Reader{Language::fanuc}(one).program.instructions.size() == 1);
