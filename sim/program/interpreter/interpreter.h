@@ -280,7 +280,7 @@ class Interpreter {
   bool stays_the_same(const Expression& condition);
   bool holds_loop_exit(const std::vector<Statement>& body) const;
   bool jumps_for_ever(const std::vector<Statement>& body, std::size_t label, std::size_t jump) const;
-  void end_where_it_repeats(Passes& passes, const Place& place);
+  void end_where_it_repeats(Passes& passes, const Place& place, bool for_ever);
 
   Value evaluate_inner(const Expression& expression);
   Value name_value(const Expression& expression);

@@ -11,6 +11,7 @@ using Kind = Statement::Kind;
 
 // Passes in the search for the repetition of an endless loop: enough for a pallet of 200 boxes.
 constexpr int searched_passes = 200;
+constexpr const char* differing = " (its passes differ and none repeats an earlier one; take more with --passes N)";
 
 }  // namespace
 
@@ -76,11 +77,13 @@ Interpreter::Flow Interpreter::execute(const std::vector<Statement>& body) {
     if (target <= i) {
       if (!round) round.emplace(*this, jump_->place);
       const long count = round->again();
-      if (jumps_for_ever(body, target, i) && count >= std::max(1, options_.passes)) {
+      const bool for_ever = jumps_for_ever(body, target, i);
+      const bool asks = problems_.count() > 0 || exploration_.guessing();  // one pass finds its questions
+      if (for_ever && (options_.passes > 0 ? count >= options_.passes : asks)) {
         note(jump_->place, "an endless loop; the motion is " + passes_text(count));
         throw Stop{};
       }
-      end_where_it_repeats(passes.try_emplace(target, program_.instructions).first->second, jump_->place);
+      end_where_it_repeats(passes.try_emplace(target, program_.instructions).first->second, jump_->place, for_ever);
     }
     charge(1);
     i = target;
@@ -88,15 +91,22 @@ Interpreter::Flow Interpreter::execute(const std::vector<Statement>& body) {
   return Flow::next;
 }
 
-/// At a backward jump: ends the program if the data equal those at an earlier jump, because everything then repeats.
-void Interpreter::end_where_it_repeats(Passes& passes, const Place& place) {
+/// At a backward jump: ends the program if the data equal those at an earlier jump, because everything then repeats. A
+/// jump that loops forever (for_ever) also ends it after a long search: a counter never returns to an earlier value.
+void Interpreter::end_where_it_repeats(Passes& passes, const Place& place, bool for_ever) {
   if (passes.count() >= searched_passes) return;
   passes.add(state());
   const auto wanted = static_cast<std::size_t>(options_.passes);
-  if (!passes.repeats() || passes.count() < wanted) return;
+  const bool repeats = passes.repeats();
+  const bool searched = passes.count() >= searched_passes || executed_ > ImportLimits::searched_work ||
+                        program_.instructions.size() > ImportLimits::searched_moves;
+  if (!(repeats || (for_ever && searched)) || passes.count() < wanted) return;
   const std::size_t kept = passes.kept(wanted);
+  const bool cut = !wanted && !repeats && passes.by_motion() == 0;
   program_.instructions.resize(passes.end(kept));
-  note(place, "an endless loop; the motion is " + passes_text(static_cast<long>(kept)));
+  note(place,
+       fmt::format("an endless loop; the motion is {}{}", passes_text(static_cast<long>(kept)), cut ? differing : ""),
+       cut);
   throw Stop{};
 }
 
@@ -294,8 +304,7 @@ Interpreter::Flow Interpreter::run_endless(const Statement& statement) {
   const bool cut = !wanted && !passes.repeats() && passes.by_motion() == 0;
   program_.instructions.resize(passes.end(kept));
   note(statement.place,
-       fmt::format("an endless loop; the motion is {}{}", passes_text(static_cast<long>(kept)),
-                   cut ? " (its passes differ and none repeats an earlier one; take more with --passes N)" : ""),
+       fmt::format("an endless loop; the motion is {}{}", passes_text(static_cast<long>(kept)), cut ? differing : ""),
        cut);
   throw Stop{};
 }
@@ -390,8 +399,7 @@ void Interpreter::run_cycles(const Routine& routine) {
   if (kept > 1 || cut)
     note(routine.place,
          fmt::format("{} begins again at its end; the motion is {}{}", routine.written,
-                     passes_text(static_cast<long>(kept)),
-                     cut ? " (its passes differ and none repeats an earlier one; take more with --passes N)" : ""),
+                     passes_text(static_cast<long>(kept)), cut ? differing : ""),
          cut);
 }
 
