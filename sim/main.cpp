@@ -108,7 +108,9 @@ void simulate(const pipeline::StageCall& call, const pipeline::Job& job, pipelin
       sim::other_side_warnings(job, summary.time_step, ends), sim::write_other_stiffnesses(job, summary, *file));
   for (const std::string& note : {sim::repeats_note(summary), simulation.program_note()})
     if (!note.empty()) progress.note(note);
-  pipeline::note_warnings(*file, call, progress, pipeline::joined(sim::warnings_of(simulation, summary), refused));
+  pipeline::note_warnings(
+      *file, call, progress,
+      pipeline::joined(pipeline::joined(sim::warnings_of(simulation, summary), sim::way_out_warnings(job)), refused));
   pipeline::stamp(*file, call, job, "");
   file->commit();
 }

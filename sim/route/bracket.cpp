@@ -8,6 +8,7 @@
 
 #include "sim/contact/mesh.h"
 #include "sim/route/screening.h"
+#include "sim/run/checks.h"
 
 namespace dresslife::sim {
 namespace {
@@ -81,6 +82,44 @@ bool Surfaces::has_shapes(int link) const { return !parts_->links[static_cast<st
 
 double BracketFit::beyond(double most_length, double diameter) const {
   return std::max((length - most_length) / diameter, -clearance / diameter);
+}
+
+double way_out(const Surfaces& surfaces, int link, const Vector3& position, const Vector3& out, double diameter) {
+  const Vector3 point = position + diameter * out.normalized();
+  return std::max(0.0, diameter - 2 * surfaces.of_link(link, point, diameter)) / (diameter * diameter);
+}
+
+std::vector<pipeline::Warning> way_out_warnings(const pipeline::Setup& setup) {
+  if (setup.robot.links.empty() || !setup.simulation.contact) return {};
+  std::vector<pipeline::Warning> warnings;
+  std::optional<Surfaces> surfaces;
+  for (const pipeline::MountedDresspack& mounted : setup.dresspacks) {
+    const double diameter = mounted.dresspack.diameter, radius = limits_of(mounted.dresspack).least_bend_radius;
+    const auto see = [&](const pipeline::Clamp& clamp, const std::string& name, double sense) {
+      const auto of = std::ranges::find(setup.robot.links, clamp.link, &pipeline::Link::name);
+      if (of == setup.robot.links.end() || (of->capsules.empty() && of->boxes.empty() && of->meshes.empty())) return;
+      if (!surfaces) surfaces.emplace(setup);
+      const int link = static_cast<int>(of - setup.robot.links.begin());
+      const double curvature = way_out(*surfaces, link, clamp.position, sense * clamp.direction, diameter);
+      if (curvature * radius <= 1) return;
+      const double depth = curvature * diameter * diameter / 2;
+      warnings.push_back(pipeline::warning_of(
+          pipeline::WarningKind::bend_radius, clamp.where.text(),
+          fmt::format(
+              "straight on from {}, the dresspack is {:.1f} mm inside {} at one diameter from the clamp: it comes out "
+              "with a bend radius of {:.1f} mm or less (limit {:.1f} mm), also where the segments are too long to show it",
+              name, 1e3 * depth, clamp.link, 1e3 / curvature, 1e3 * radius),
+          "the clamp lies in the surface of its link, or its direction leads into it",
+          fmt::format("{}.position_m {:.0f} mm farther from the surface, or a direction that leads away from it", name,
+                      std::ceil(1e3 * depth))));
+    };
+    const pipeline::Routing& routing = mounted.routing;
+    if (routing.base_clamp && !routing.retraction) see(*routing.base_clamp, "routing.base_clamp", 1);
+    for (std::size_t k = 0; k < routing.clamps.size(); ++k)
+      for (const double sense : {-1, 1}) see(routing.clamps[k].clamp, fmt::format("routing.clamps.{}", k + 1), sense);
+    if (routing.tool_clamp) see(*routing.tool_clamp, "routing.tool_clamp", -1);
+  }
+  return warnings;
 }
 
 BracketFit fit_of(const BracketPlace& place, const Surfaces& surfaces, std::span<const std::vector<Frame>> poses) {

@@ -5,6 +5,9 @@
 //                                               c: least distance over the motion between the dresspack at the clamp and
 //                                               any other link or the cell; negative inside
 //                                               d: diameter
+// (V8) way out  kappa >= 2 p/d^2                p: depth of the dresspack in its clamp's link at d from the clamp, where the
+//                                               contact with this link begins, if it goes straight on; a bend that comes out
+//                                               there by a circular arc has this curvature, by other shapes a larger one
 #pragma once
 
 #include <memory>
@@ -13,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/base/warning_words.h"
 #include "pipeline/base/warnings.h"
 #include "pipeline/job/setup.h"
 #include "sim/rod/rotation.h"
@@ -51,6 +55,13 @@ std::optional<ToolSpace> unknown_tool_space(const pipeline::Setup& setup, const 
 
 /// Returns a note about this space; empty: absent.
 std::string tool_space_note(const std::optional<ToolSpace>& space);
+
+/// Returns the curvature of the way out of the clamp's link (V8) [1/m]; 0: it is outside. out: direction of the dresspack away from
+/// the clamp. Meshes count up to their surface only.
+double way_out(const Surfaces& surfaces, int link, const Vector3& position, const Vector3& out, double diameter);
+
+/// Warns of clamps whose dresspack cannot come out of the clamp's link within its bend radius, whatever the mesh. Without contact: none.
+std::vector<pipeline::Warning> way_out_warnings(const pipeline::Setup& setup);
 
 /// A clamp or ring on its link.
 struct BracketPlace {

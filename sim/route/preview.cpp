@@ -112,6 +112,7 @@ class Previewer {
     if (robot_)
       if (std::string note = tool_space_note(unknown_tool_space(job_, robot_->tools())); !note.empty())
         quick.notes.push_back(std::move(note));
+    quick.warnings = pipeline::joined(std::move(quick.warnings), way_out_warnings(job_));
     write_refusal(quick.warnings, file);
     file.attribute("warnings", pipeline::warnings_text(quick.warnings));
     file.attribute("notes", pipeline::joined(quick.notes, "\n"));

@@ -375,6 +375,15 @@ void Screener::Parts::see_brackets(const pipeline::Setup& setup, Screening& scre
       if (g > screening.beyond[limit]) screening.beyond[limit] = g, screening.time[limit] = moments[fit.moment].time;
     };
     const pipeline::Routing& routing = mounted.routing;
+    const auto see_way_out = [&](const pipeline::Clamp& clamp, double sense) {  // (V8) as (V3)
+      const int link = find_link(setup.robot, clamp.link, clamp.where);
+      const double curvature = way_out(*surfaces, link, clamp.position, sense * clamp.direction, diameter);
+      const double g = std::log(limits_of(mounted.dresspack).least_bend_radius * std::max(curvature, 1e-6));
+      double& bend = screening.beyond[static_cast<std::size_t>(ScreenedLimit::bend)];
+      bend = std::max(bend, g);
+    };
+    if (routing.base_clamp && !routing.retraction) see_way_out(*routing.base_clamp, 1);
+    if (routing.tool_clamp) see_way_out(*routing.tool_clamp, -1);
     for (const auto& clamp : {routing.base_clamp, routing.tool_clamp})
       if (clamp) see(*clamp, diameter / 2);
     for (const pipeline::IntermediateClamp& between : routing.clamps) see(between.clamp, diameter / 2);

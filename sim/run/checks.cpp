@@ -58,7 +58,8 @@ MotionChecks::MotionChecks(const Rod& rod, std::vector<MotionLimits> limits)
       tension_(rod.links()),
       least_slack_(rod.spans().size()),
       most_slack_(rod.spans().size()),
-      travel_(rod.spans().size()) {
+      travel_(rod.spans().size()),
+      line_(rod.links()) {
   assert(static_cast<int>(limits_.size()) == rod.dresspacks());
 }
 
@@ -87,6 +88,7 @@ void MotionChecks::see_links(const RodState& state, double time) {
     whole_[rod_.span_of_link(j).dresspack].net_twist += turn.z();
     const double curvature = rod_.curvature(turn, j);
     const double twist = turn.z() / rod_.bending_length(j);
+    if (!curvature_[j].seen || curvature > curvature_[j].value) line_[j] = line_at(state, j);
     curvature_[j].see(curvature, curvature > curvature_[j].value, time, j);
     twist_[j].see(twist, std::abs(twist) > std::abs(twist_[j].value), time, j);
     tension_[j].see(pull[j], pull[j] > tension_[j].value, time, j);
@@ -98,6 +100,16 @@ void MotionChecks::see_links(const RodState& state, double time) {
     whole.lowest = std::min(whole.lowest, whole.net_twist);
     whole.highest = std::max(whole.highest, whole.net_twist);
   }
+}
+
+std::optional<double> MotionChecks::line_at(const RodState& state, int link) const {
+  const Span& span = rod_.span_of_link(link);
+  const int inward = link == span.first_link ? 1 : link == span.last_link() ? -1 : 0;
+  if (inward == 0 || span.segments() < 4) return {};
+  const auto bend = [&](int j) -> Eigen::Vector2d { return rod_.turn(state, j).head<2>() / rod_.bending_length(j); };
+  const Eigen::Vector2d at_clamp = bend(link);
+  if (at_clamp.norm() == 0) return {};
+  return at_clamp.normalized().dot(2 * bend(link + inward) - bend(link + 2 * inward));
 }
 
 void MotionChecks::see_spans(const RodState& state, double time, const std::vector<double>& ways) {
@@ -161,6 +173,9 @@ void MotionChecks::add_lines(int dresspack, std::vector<Check>& checks) const {
       {{}, check_name::contact_force, "N", whole.force.value, unlimited, false, whole.force.time, segment(whole.force)},
   };
   checks.insert(checks.end(), std::begin(lines), std::end(lines));
+  Check& radius_line = checks[checks.size() - std::size(lines)];
+  radius_line.line = line_[bend.place];
+  radius_line.segment = rod_.span_of_link(bend.place).segment_length;
 }
 
 void MotionChecks::add_slack(int dresspack, std::vector<Check>& checks) const {

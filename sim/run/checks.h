@@ -53,6 +53,9 @@ struct Check {
   double position = -1;  ///< from the base clamp along the dresspack [m]; -1: the whole dresspack
   int dresspack = 0;
   double centre = 0;  ///< for net twist: the mean of its extremes [rad]
+  /// for the bend radius at a clamp: curvature there by the straight line through the next two links [1/m]; absent: elsewhere
+  std::optional<double> line{};
+  double segment = 0;  ///< for the bend radius: length of a segment [m]
 };
 
 /// Limits of a dresspack in motion.
@@ -87,6 +90,7 @@ class MotionChecks {
     double net_twist = 0, net_twist_at_begin = 0, lowest = 0, highest = 0;
   };
   void see_links(const RodState& state, double time);
+  std::optional<double> line_at(const RodState& state, int link) const;
   void see_spans(const RodState& state, double time, const std::vector<double>& ways);
   void see_contact(int segment, const Contact& contact, double time);
   void add_lines(int dresspack, std::vector<Check>& checks) const;
@@ -98,6 +102,7 @@ class MotionChecks {
   std::vector<Extreme> curvature_, twist_, tension_;
   std::vector<Extreme> least_slack_, most_slack_;  // (span)
   std::vector<Extreme> travel_;                    // (span)
+  std::vector<std::optional<double>> line_;        // (link) Check::line of its largest curvature
   bool begun_ = false;
   double end_ = 0;
 };

@@ -32,6 +32,36 @@ TEST_CASE("bracket: its length is from the link's surface to that of the dresspa
   CHECK(fit_of({0, {0.5, 0, 0.05}, 0.02}, surfaces, poses).length == 0);  // inside its own link
 }
 
+TEST_CASE(
+    "bracket: a dresspack that leads into its clamp's link comes out with the curvature of a circular arc at least") {
+  pipeline::Job job = two_links();
+  const Surfaces surfaces(job);
+  CHECK(way_out(surfaces, 0, {0.5, 0, 0.121}, {1, 0, 0}, 0.04) == 0);
+  CHECK(way_out(surfaces, 0, {0.5, 0, 0.11}, {2, 0, 0}, 0.04) == Approx(2 * 0.01 / (0.04 * 0.04)));
+  CHECK(way_out(surfaces, 0, {0.5, 0, 0.15}, {0, 0, -1}, 0.04) == Approx(2 * 0.01 / (0.04 * 0.04)));
+  CHECK(way_out(surfaces, 0, {0.5, 0, 0.11}, {0, 0, 1}, 0.04) == 0);
+
+  auto& clamp = job.dresspacks[0].routing.base_clamp;
+  clamp->position = {0.5, 0, 0.11};
+  clamp->direction = {1, 0, 0};
+  job.dresspacks[0].routing.tool_clamp->position = {0, 0, 0.13};
+  job.dresspacks[0].routing.tool_clamp->direction = {0, 0, -1};  // it comes from above
+  const double radius = 0.04 * 0.04 / (2 * 0.01);
+  job.dresspacks[0].dresspack.least_bend_radius = 0.99 * radius;
+  CHECK(way_out_warnings(job).empty());
+  job.dresspacks[0].dresspack.least_bend_radius = 1.01 * radius;
+  REQUIRE(way_out_warnings(job).size() == 1);
+  CHECK_THAT(way_out_warnings(job)[0].words,
+             Catch::Contains(
+                 "10.0 mm inside bench at one diameter from the clamp: it comes out with a bend radius of 80.0 mm"));
+  clamp->direction = {0, 0, 1};
+  CHECK(way_out_warnings(job).empty());
+  job.dresspacks[0].routing.tool_clamp->direction = {0, 0, 1};  // through the tool
+  CHECK(way_out_warnings(job).size() == 1);
+  job.simulation.contact = false;
+  CHECK(way_out_warnings(job).empty());
+}
+
 TEST_CASE("bracket: clearance is the least over the motion, and names link and moment") {
   const pipeline::Job job = two_links();
   const Surfaces surfaces(job);

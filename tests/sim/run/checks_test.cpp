@@ -34,6 +34,7 @@ TEST_CASE("checks: an evenly bent and twisted chain has one radius and one twist
   CHECK(radius.limit == Approx(0.4));  // ten diameters
   CHECK(radius.warning);
   CHECK(radius.time == 0.5);
+  CHECK((!radius.line || *radius.line == Approx(1 / 0.35)));  // at a clamp: its neighbours lead to the same bend
   const Check& twist = find(table, "largest twist");
   CHECK(twist.value == Approx(-2));
   CHECK_FALSE(twist.warning);

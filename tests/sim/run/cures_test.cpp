@@ -312,6 +312,18 @@ TEST_CASE("cures: a bend beside a clamp names its bend relief, unless it has one
              Catch::Contains("Remedy") && !Catch::Contains("bend_relief"));
 }
 
+TEST_CASE("cures: a bend that its clamp's link causes within a segment is warned of, with the number that shows it") {
+  pipeline::Job job = simple_job();
+  job.simulation.most_repeats = 1;
+  CHECK(words_of(job, pipeline::WarningKind::mesh) == "");
+  job.robot.links[0].capsules = {{{0.06, -0.2, 0.892}, {0.06, 0.2, 0.892}, 0.1}};  // lifts the hose by 12 mm
+  const std::string words = words_of(job, pipeline::WarningKind::mesh);
+  CHECK_THAT(words, Catch::Contains("the segments are 50 mm long, and the smallest bend radius, ") &&
+                        Catch::Contains("simulation.segments: 50;"));
+  job.simulation.segments = 50;
+  CHECK(words_of(job, pipeline::WarningKind::mesh) == "");
+}
+
 TEST_CASE(
     "cures: segments longer than the decay of a bend beside a pulled clamp are warned of, with the number that cures it") {
   pipeline::Job job = swinging_job(1.3);
