@@ -106,6 +106,9 @@ void simulate(const pipeline::StageCall& call, const pipeline::Job& job, pipelin
   motion->finish(summary, [&](double time) { return simulation.path().step(time); });
   const std::vector<pipeline::Warning> refused = pipeline::joined(
       sim::other_side_warnings(job, summary.time_step, ends), sim::write_other_stiffnesses(job, summary, *file));
+  if (const auto* const robot = dynamic_cast<const sim::RobotPath*>(&simulation.path()))
+    if (const std::string note = sim::tool_space_note(sim::unknown_tool_space(job, robot->tools())); !note.empty())
+      file->attribute("tool_note", note);
   for (const std::string& note : {sim::repeats_note(summary), simulation.program_note()})
     if (!note.empty()) progress.note(note);
   pipeline::note_warnings(

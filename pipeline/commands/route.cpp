@@ -436,7 +436,13 @@ int route(const RouteOptions& options) {
   Draft draft = draft_of(request);
   for (const Warning& fault : dresspack_faults(draft.job, true)) write_stderr(fault.paragraph());
   fill_tool_space(draft);
-  if (draft.tool_space && !options.quiet) write_stderr(shown(paragraph(tool_space_words(draft))));
+  if (draft.tool_space && !options.quiet)
+    write_stderr(shown(paragraph(
+        tool_space_words(draft) + " " +
+        fmt::format(
+            "dresslife route added it: {} does not have it. All hours here, also those of the job's own routing, "
+            "are computed with it. dresslife run {} computes other hours without it; with it: --set {}=...",
+            shown(options.request.of), shown(options.request.of), draft.tool_space->key))));
   const fs::path job = options.job.empty() ? fs::path(draft.name + "_routed.yaml") : fs::path(options.job);
   const fs::path page = job.parent_path() / (job.stem().string() + "_preview.html");
   check_replaceable(job);

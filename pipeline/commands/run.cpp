@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <memory>
+#include <set>
 
 #include "pipeline/base/screen.h"
 #include "pipeline/commands/as_json.h"
 #include "pipeline/commands/making.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/commands/results.h"
+#include "pipeline/files/files.h"
 #include "pipeline/resolve/plausible_job.h"
 #include "pipeline/resolve/sources.h"
 #include "pipeline/study/changes.h"
@@ -79,6 +81,24 @@ void locate(std::vector<RankingRow>& rows, const fs::path& file) {
     rows.front().warnings = located(*std::move(rows.front().warnings), document);
 }
 
+/// Returns the notes of the jobs about tools whose space is not known, each once.
+std::string tool_notes(const Study& study, const StudyPlaces& places) {
+  std::set<std::string> notes;
+  for (const StudyJob& job : study.jobs) {
+    const fs::path file = places.job(job.name) / "motion.h5";
+    if (!job.failure.empty() || kind_of(file) != FileKind::file) continue;
+    try {
+      const FileReader motion(file, motion_format(), FileReader::Scope::attributes);
+      if (motion.has_attribute("tool_note")) notes.insert(motion.text_attribute("tool_note"));
+    } catch (const InputError&) {  // a damaged file: the table states it
+    }
+  }
+  std::string text;
+  for (const std::string& note : notes)
+    text += paragraph(fmt::format("note: {}. The hours above are computed without it", note));
+  return text;
+}
+
 int run(const RunArguments& options) {
   if (options.dry_run) return dry_run(options);
   if (!options.shard.empty()) return run_shard(options);
@@ -109,6 +129,7 @@ int run(const RunArguments& options) {
                      : shown(fmt::format("{}\nReport: {}\n", ranking_table(rows, screen_columns()),
                                          (places.folder / "report.html").string())));
   write_stderr(warning_lines(rows));
+  if (!options.quiet) write_stderr(shown(tool_notes(study, places)));
   const int failed = count_failed(rows);
   if (failed == 0) return not_shown.empty() ? 0 : 1;
   write_stderr(shown(problem_words(study)));

@@ -74,7 +74,7 @@ struct MotionFrame {
   Vector3d position = Vector3d::Zero();  ///< [m]
   std::vector<double> quaternion{1, 0, 0, 0};
   bool stationary = false;  ///< a tool that is fixed in the base frame while the flange carries the work object
-  Where quaternion_where, wpr_where;  ///< of these keys; line 0: not given
+  Where quaternion_where{}, wpr_where{};  ///< of these keys; line 0: not given
 };
 
 /// A branch of a program whose condition is known only while the robot runs.

@@ -41,10 +41,14 @@ class Surfaces {
   std::unique_ptr<Parts> parts_;
 };
 
+/// Radius of the flange of the smallest robots (ISO 9409-1-31.5), which every tool covers [m].
+inline constexpr double adapter_radius = 0.02;
+
 /// The space of a tool whose shape is not known.
 struct ToolSpace {
-  double reach = 0;  ///< distance of the tool's tip from the flange [m]
-  std::string link;  ///< name of the last link
+  double reach = 0;                                      ///< distance of the tool's tip from the flange [m]
+  std::string link;                                      ///< name of the last link
+  Vector3 from = Vector3::Zero(), to = Vector3::Zero();  ///< its axis, from the flange, in the link's frame [m]
   pipeline::KeyValue
       line;  ///< key of a job and YAML of a shape between flange and tip (ESTIMATE); empty: the link has all kinds of shapes
 };
@@ -52,6 +56,9 @@ struct ToolSpace {
 /// Returns the space of the longest tool with a tip that is farther from the shapes of the last link than half of its distance from
 /// the flange; absent: no such tool, or no contact with the robot. tools: origins of the motion's tools in the flange's frame [m].
 std::optional<ToolSpace> unknown_tool_space(const pipeline::Setup& setup, const std::vector<Vector3>& tools);
+
+/// Warns of tool clamps on the last link that lie inside the part of this space that every tool fills: its adapter at the flange.
+std::vector<pipeline::Warning> tool_clamp_warnings(const pipeline::Setup& setup, const std::optional<ToolSpace>& space);
 
 /// Returns a note about this space; empty: absent.
 std::string tool_space_note(const std::optional<ToolSpace>& space);

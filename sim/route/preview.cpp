@@ -109,9 +109,11 @@ class Previewer {
         std::ranges::none_of(quick.run.checks, [](const Check& check) { return check.warning; }))
       quick.warnings = pipeline::joined(std::move(quick.warnings), other_stiffness_warnings(job_, quick.run));
     if (robot_ && !robot_->note().empty()) quick.notes.push_back(robot_->note());
-    if (robot_)
-      if (std::string note = tool_space_note(unknown_tool_space(job_, robot_->tools())); !note.empty())
-        quick.notes.push_back(std::move(note));
+    if (robot_) {
+      const std::optional<ToolSpace> space = unknown_tool_space(job_, robot_->tools());
+      if (space) quick.notes.push_back(tool_space_note(space));
+      quick.warnings = pipeline::joined(std::move(quick.warnings), tool_clamp_warnings(job_, space));
+    }
     quick.warnings = pipeline::joined(std::move(quick.warnings), way_out_warnings(job_));
     write_refusal(quick.warnings, file);
     file.attribute("warnings", pipeline::warnings_text(quick.warnings));

@@ -415,12 +415,21 @@ class Search {
 
   bool is_flange(int link) const { return link + 1 == static_cast<int>(setup_.robot.links.size()); }
 
+  /// Returns whether a clamp lies within the adapter, by which a tool is bolted to the flange.
+  bool is_in_adapter(int link, const Vector3& position) const {
+    if (!is_flange(link)) return false;
+    const Vector3 axis = from_roll_pitch_yaw(setup_.robot.flange_orientation) * Vector3::UnitZ();
+    const Vector3 off = position - setup_.robot.flange_position;
+    return off.dot(axis) > -diameter_ && off.cross(axis).norm() < adapter_radius + diameter_ / 2;
+  }
+
   /// Samples places beside a link until a bracket can carry one.
   Vector3 beside(int place) {
     BracketFit nearest;
     double least = never;
     for (int k = 0; k < drawn_places; ++k) {
       const Vector3 position = rounded(drawn_beside(link_[place]), millimetre);
+      if (is_in_adapter(link_[place], position)) continue;
       const BracketFit fit = bracket(place, position);
       const double beyond = fit.beyond(longest_bracket(), diameter_);
       if (beyond <= 0) return position;
@@ -458,7 +467,8 @@ class Search {
     const Vector3 axis = along.norm() > 1e-6 ? Vector3(along.normalized()) : Vector3(Vector3::UnitZ());
     Vector3 out = chance_.normal_vector();
     out -= out.dot(axis) * axis;
-    const double off = capsule.radius + chance_.between(is_flange(link) ? 1.5 : 0.8, farthest) * diameter_;
+    double off = capsule.radius + chance_.between(is_flange(link) ? 1.5 : 0.8, farthest) * diameter_;
+    if (is_flange(link)) off = std::max(off, adapter_radius + diameter_);
     return capsule.from + chance_.between(0, 1) * along + off * out.normalized();
   }
 
@@ -471,7 +481,8 @@ class Search {
     for (int k = 0; k < used(); ++k) {
       if (chance_.below(2)) {
         const Vector3 place = rounded(candidate.position[k] + size * diameter_ * chance_.normal_vector(), millimetre);
-        if (is_same_place(k, place) && bracket(k, place).beyond(longest_bracket(), diameter_) <= 0)
+        if (is_same_place(k, place) && !is_in_adapter(link_[k], place) &&
+            bracket(k, place).beyond(longest_bracket(), diameter_) <= 0)
           candidate.position[k] = place;
       }
       if (chance_.below(2))

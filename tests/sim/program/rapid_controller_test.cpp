@@ -605,7 +605,7 @@ TEST_CASE("rapid controller: a GOTO that loops forever has all passes of a count
   const auto loop = [](const std::string& reset) {
     return "VAR num n:=0;\ntop:\n" + go(1) + "n:=n+1;\n" + reset + "GOTO top;\n";
   };
-  CHECK(first_axes(run(loop("IF n>=3 THEN\n" + go(2) + "n:=0;\nENDIF\n")).program) == Angles{1, 1, 1, 2});
-  CHECK(first_axes(run(loop("IF n MOD 3=0 THEN\n" + go(2) + "ENDIF\n")).program) == Angles{1, 1, 1, 2});
-  CHECK(first_axes(run(loop("")).program) == Angles{1});  // a counter of parts
+  CHECK(first_axes(run(loop("IF n>=3 THEN\n" + go(2) + "n:=0;\nENDIF\n"))) == Angles{1, 1, 1, 2});
+  CHECK(first_axes(run(loop("IF n MOD 3=0 THEN\n" + go(2) + "ENDIF\n"))) == Angles{1, 1, 1, 2});
+  CHECK(first_axes(run(loop(""))) == Angles{1});  // a counter of parts
 }

@@ -106,6 +106,14 @@ TEST_CASE("bracket: the space of a tool without a shape is not known, and the pr
   job.robot.links[1].capsules = {{{0.14, 0, 0}, {0.42, 0, 0}, 0.06}};
   CHECK_FALSE(space({{0, 0, 0.4}}));
   CHECK(space({{0, 0, 2}})->line.key == "robot.links.2.boxes");
+  // The adapter of a tool 2 m long, along x of the link
+  auto& clamp = job.dresspacks[0].routing.tool_clamp;
+  clamp->position = {0.12, 0.01, 0};
+  REQUIRE(tool_clamp_warnings(job, space({{0, 0, 2}})).size() == 1);
+  CHECK_THAT(tool_clamp_warnings(job, space({{0, 0, 2}}))[0].words,
+             Catch::Contains("is 10 mm beside the line from the flange"));
+  clamp->position = {0.12, 0.05, 0};
+  CHECK(tool_clamp_warnings(job, space({{0, 0, 2}})).empty());
   job.robot.links[1].boxes = {{{0.14, 0, 0}, {0, 0, 0}, {0.1, 0.1, 0.1}}};
   CHECK(space({{0, 0, 2}})->line.key.empty());
   CHECK_THAT(tool_space_note(space({{0, 0, 2}})), Catch::Contains("Add the shape of your tool to those of this link"));
