@@ -103,7 +103,7 @@ void describe(Fields& f, Routing& routing) {
       "either: the left side if both are alike.");
   f.numbers("mounting_pose_deg", routing.mounting_pose, Need::optional,
             "The joint angles at which the dresspack was clamped without twist. Default: the first target. "
-            "It is one pose for all dresspacks.");
+            "It is one pose for all dresspacks. For joint_3 of a Fanuc robot add J3 and J2 of the pendant.");
   f.maybe_number(
       "longest_bracket_mm", routing.longest_bracket, between(0, 10'000),
       "The longest bracket that can be built between a link's surface and a clamp or ring. Default: 150. route and "

@@ -91,9 +91,11 @@ void read_calibration(Node& job) {
 void apply_calibration(Node& tree, Job& job) {
   if (!job.calibration) return;
   const bool applied = job.calibration->applied;
-  // A resolved job contains the ratings; a key that is set later may leave them out.
+  // A resolved job contains the ratings; a key that is set later may leave them out. A calibration that the job names itself has
+  // settings.
   const bool rates = job.uncertainty.enabled && job.uncertainty.ratings != KnownRatings::none;
-  if (applied && job.calibration->typical && !rates) return take_medians_back(tree, job);
+  if (applied && job.calibration->typical && job.calibration->under.settings.empty() && !rates)
+    return take_medians_back(tree, job);
   if (!applied || !job.calibration->under.settings.empty())
     check_learned_settings(job);  // older resolved jobs contain no settings
   if (applied) return;

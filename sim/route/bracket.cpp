@@ -125,8 +125,10 @@ std::vector<pipeline::Warning> way_out_warnings(const pipeline::Setup& setup) {
 BracketFit fit_of(const BracketPlace& place, const Surfaces& surfaces, std::span<const std::vector<Frame>> poses) {
   BracketFit fit;
   fit.clearance = std::numeric_limits<double>::infinity();
-  if (surfaces.has_shapes(place.link))
-    fit.length = std::max(0.0, surfaces.of_link(place.link, place.position, far_away) - place.radius);
+  if (surfaces.has_shapes(place.link)) {
+    const double away = surfaces.of_link(place.link, place.position, far_away) - place.radius;
+    fit.length = std::max(0.0, away), fit.inside = std::max(0.0, -away);
+  }
   for (std::size_t m = 0; m < poses.size(); ++m) {
     const std::vector<Frame>& links = poses[m];
     const Frame& own = links[static_cast<std::size_t>(place.link)];

@@ -78,10 +78,11 @@ struct BracketPlace {
 };
 
 struct BracketFit {
-  double length = 0;                                         ///< b [m]; 0 on the surface, or if the link has no shapes
-  double clearance = 0;                                      ///< c [m]; infinite: no object within 0.3 m
-  int neighbour = -1;                                        ///< nearest link; -1: the cell
-  std::size_t moment = 0;                                    ///< index of the link poses
+  double inside = 0;       ///< depth of the dresspack in the link itself [m]; 0: outside
+  double length = 0;       ///< b [m]; 0 on the surface, or if the link has no shapes
+  double clearance = 0;    ///< c [m]; infinite: no object within 0.3 m
+  int neighbour = -1;      ///< nearest link; -1: the cell
+  std::size_t moment = 0;  ///< index of the link poses
   double beyond(double most_length, double diameter) const;  ///< (V7)
 };
 

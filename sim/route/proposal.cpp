@@ -415,8 +415,9 @@ class Search {
 
   bool is_flange(int link) const { return link + 1 == static_cast<int>(setup_.robot.links.size()); }
 
-  /// Returns whether a clamp lies within the adapter, by which a tool is bolted to the flange.
-  bool is_in_adapter(int link, const Vector3& position) const {
+  /// Returns whether a clamp lies within its own link, or within the adapter by which a tool is bolted to the flange.
+  bool is_inside(int link, const Vector3& position, const BracketFit& fit) const {
+    if (fit.inside > diameter_ / 2) return true;
     if (!is_flange(link)) return false;
     const Vector3 axis = from_roll_pitch_yaw(setup_.robot.flange_orientation) * Vector3::UnitZ();
     const Vector3 off = position - setup_.robot.flange_position;
@@ -429,8 +430,8 @@ class Search {
     double least = never;
     for (int k = 0; k < drawn_places; ++k) {
       const Vector3 position = rounded(drawn_beside(link_[place]), millimetre);
-      if (is_in_adapter(link_[place], position)) continue;
       const BracketFit fit = bracket(place, position);
+      if (is_inside(link_[place], position, fit)) continue;
       const double beyond = fit.beyond(longest_bracket(), diameter_);
       if (beyond <= 0) return position;
       if (beyond < least) least = beyond, nearest = fit;
@@ -461,6 +462,7 @@ class Search {
   double longest_bracket() const { return longest_bracket_of(setup_.dresspacks.front().routing); }
 
   Vector3 drawn_beside(int link) {
+    constexpr int most_steps_outward = 40;
     const std::vector<pipeline::Capsule> shapes = shapes_of(link);
     const pipeline::Capsule& capsule = shapes[chance_.below(shapes.size())];
     const Vector3 along = capsule.to - capsule.from;
@@ -469,7 +471,15 @@ class Search {
     out -= out.dot(axis) * axis;
     double off = capsule.radius + chance_.between(is_flange(link) ? 1.5 : 0.8, farthest) * diameter_;
     if (is_flange(link)) off = std::max(off, adapter_radius + diameter_);
-    return capsule.from + chance_.between(0, 1) * along + off * out.normalized();
+    const Vector3 beside = capsule.from + chance_.between(0, 1) * along;
+    const auto place = [&] { return Vector3(beside + off * out.normalized()); };
+    // The line from the flange lies inside the shapes of the last link and its tool: outward until the dresspack is outside.
+    for (int k = 0; is_flange(link) && k < most_steps_outward; ++k) {
+      const double inside = screener_.bracket({link, place(), diameter_ / 2}).inside;
+      if (inside <= 0) break;
+      off += std::max(inside, diameter_ / 2);
+    }
+    return place();
   }
 
   BracketFit bracket(int place, const Vector3& position) const {
@@ -481,8 +491,9 @@ class Search {
     for (int k = 0; k < used(); ++k) {
       if (chance_.below(2)) {
         const Vector3 place = rounded(candidate.position[k] + size * diameter_ * chance_.normal_vector(), millimetre);
-        if (is_same_place(k, place) && !is_in_adapter(link_[k], place) &&
-            bracket(k, place).beyond(longest_bracket(), diameter_) <= 0)
+        const BracketFit fit = bracket(k, place);
+        if (is_same_place(k, place) && !is_inside(link_[k], place, fit) &&
+            fit.beyond(longest_bracket(), diameter_) <= 0)
           candidate.position[k] = place;
       }
       if (chance_.below(2))
