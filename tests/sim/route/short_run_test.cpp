@@ -136,8 +136,11 @@ TEST_CASE("proposals with a short run keep all limits in the job's own run") {
   CHECK_FALSE(warns(job));
   pipeline::Routing& routing = job.dresspacks.front().routing;
   const Vector3 along = routing.base_clamp->direction.normalized();
-  routing.base_clamp->direction = along + std::numbers::sqrt3 * along.unitOrthogonal();  // turned by 60 deg
   routing.tool_clamp->bend_relief = pipeline::BendRelief{0.05, 1};
+  for (const double turn : {1.0, 1.5, 2.0, 2.5}) {  // [rad] until the hose bends too much
+    routing.base_clamp->direction = std::cos(turn) * along + std::sin(turn) * along.unitOrthogonal();
+    if (warns(job)) break;
+  }
   REQUIRE(warns(job));
   const pipeline::Routing spoiled = routing;
   const std::optional<pipeline::Routing> near = routing_near(job);
