@@ -64,6 +64,12 @@ bool written_without_run(const Request& request, const pipeline::StageCall& call
   return true;
 }
 
+/// Returns the space of a tool whose shape is not known; absent: none.
+std::optional<sim::ToolSpace> tool_space(const pipeline::Job& job, const sim::ClampPath& path) {
+  const auto* const robot = dynamic_cast<const sim::RobotPath*>(&path);
+  return robot ? sim::unknown_tool_space(job, robot->tools()) : std::nullopt;
+}
+
 void write_duration(const pipeline::StageCall& call, const pipeline::Job& job) {
   if (job.motion.is_prescribed())
     throw pipeline::InputError(job.motion.where, "a prescribed deformation has no path whose duration is computed",
@@ -71,9 +77,8 @@ void write_duration(const pipeline::StageCall& call, const pipeline::Job& job) {
   const auto path = sim::path_of(job);
   const double rate = job.simulation.sample_rate, seconds = sim::intervals(path->duration(), rate) / rate;
   std::string text = fmt::format("repeat_seconds: {}\n", seconds);
-  if (const auto* const robot = dynamic_cast<const sim::RobotPath*>(path.get()))
-    if (const auto space = sim::unknown_tool_space(job, robot->tools()); space && !space->line.key.empty())
-      text += fmt::format("tool_space:\n  {}: {}\n", space->line.key, space->line.value);
+  if (const auto space = tool_space(job, *path); space && !space->line.key.empty())
+    text += fmt::format("tool_space:\n  {}: {}\n", space->line.key, space->line.value);
   pipeline::write_text_if_changed(call.output, pipeline::with_mark(text, pipeline::Mark::yaml));
 }
 
@@ -106,14 +111,14 @@ void simulate(const pipeline::StageCall& call, const pipeline::Job& job, pipelin
   motion->finish(summary, [&](double time) { return simulation.path().step(time); });
   const std::vector<pipeline::Warning> refused = pipeline::joined(
       sim::other_side_warnings(job, summary.time_step, ends), sim::write_other_stiffnesses(job, summary, *file));
-  if (const auto* const robot = dynamic_cast<const sim::RobotPath*>(&simulation.path()))
-    if (const std::string note = sim::tool_space_note(sim::unknown_tool_space(job, robot->tools())); !note.empty())
-      file->attribute("tool_note", note);
+  const std::optional<sim::ToolSpace> space = tool_space(job, simulation.path());
+  if (space) file->attribute("tool_note", sim::tool_space_note(space));
   for (const std::string& note : {sim::repeats_note(summary), simulation.program_note()})
     if (!note.empty()) progress.note(note);
   pipeline::note_warnings(
       *file, call, progress,
-      pipeline::joined(pipeline::joined(sim::warnings_of(simulation, summary), sim::way_out_warnings(job)), refused));
+      pipeline::joined(pipeline::joined(sim::warnings_of(simulation, summary), sim::clamp_warnings(job, space)),
+                       refused));
   pipeline::stamp(*file, call, job, "");
   file->commit();
 }

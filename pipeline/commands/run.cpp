@@ -81,9 +81,12 @@ void locate(std::vector<RankingRow>& rows, const fs::path& file) {
     rows.front().warnings = located(*std::move(rows.front().warnings), document);
 }
 
-/// Returns the notes of the jobs about tools whose space is not known, each once.
+/// Returns the notes of the jobs about tools whose space is not known, each once. Of more jobs than a terminal describes: none, because
+/// each file takes a millisecond; check prints the note of each job.
 std::string tool_notes(const Study& study, const StudyPlaces& places) {
+  constexpr std::size_t most = 3;  // jobs
   std::set<std::string> notes;
+  if (study.jobs.size() > most) return "";
   for (const StudyJob& job : study.jobs) {
     const fs::path file = places.job(job.name) / "motion.h5";
     if (!job.failure.empty() || kind_of(file) != FileKind::file) continue;

@@ -16,12 +16,17 @@ namespace dresslife::pipeline {
 
 namespace {
 
+/// Returns the value of the parameter's key in a job's tree; null: it is not there.
+const Node* value_of(const Node& job, const UncertainParameter& parameter) {
+  const std::size_t dot = parameter.key.find('.');
+  const Node* section = job.find(parameter.key.substr(0, dot));
+  return section && section->is_map() ? section->find(parameter.key.substr(dot + 1)) : nullptr;
+}
+
 /// Returns whether a job's tree contains a value of the parameter's key that differs from the neutral value, which resolved jobs
 /// contain.
 bool gives(const Node& job, const UncertainParameter& parameter) {
-  const std::size_t dot = parameter.key.find('.');
-  const Node* section = job.find(parameter.key.substr(0, dot));
-  const Node* value = section && section->is_map() ? section->find(parameter.key.substr(dot + 1)) : nullptr;
+  const Node* value = value_of(job, parameter);
   return value && value->text != shortest_text(parameter.value(0));
 }
 
@@ -48,9 +53,7 @@ void take_medians_back(Node& tree, Job& job) {
   for (const LearnedParameter& learned : job.calibration->parameters) {
     if (is_wall_strength(learned.name)) continue;
     const UncertainParameter& parameter = uncertain_parameters()[index_of(learned.name)];
-    const std::size_t dot = parameter.key.find('.');
-    const Node* section = tree.find(parameter.key.substr(0, dot));
-    const Node* value = section && section->is_map() ? section->find(parameter.key.substr(dot + 1)) : nullptr;
+    const Node* value = value_of(tree, parameter);
     if (!value || value->text != shortest_text(parameter.value(learned.median))) continue;
     set_value(tree, std::string(parameter.key), scalar(shortest_text(parameter.value(0))), value->where);
   }

@@ -26,23 +26,27 @@ bool is_damaged(const RankingRow& row) { return !row.worst_component.empty() && 
 /// Returns the hours from which an unvalidated mode is of no interest: those of the headline, at most the robot's life.
 double hours_of_interest(const RankingRow& row) { return std::fmin(row.headline_hours(), row.robot_life_hours); }
 
-/// Returns "uncertainty.ratings typical (strength x 1.33)", what makers' ratings change in the job; empty: nothing.
+/// Returns "strength x 1.33": the change of the job by makers' ratings; empty: none.
 std::string ratings_of(const RankingRow& row) {
-  const std::size_t first = row.estimates.find("uncertainty.ratings typical");
-  return first == std::string::npos ? "" : row.estimates.substr(first, row.estimates.find(')', first) + 1 - first);
+  constexpr std::string_view before = "uncertainty.ratings typical (";
+  const std::size_t at = row.estimates.find(before), first = at + before.size();
+  return at == std::string::npos ? "" : row.estimates.substr(first, row.estimates.find(')', first) - first);
 }
 
-/// Returns a remark on jobs of which makers' ratings change some more than others; empty: none.
+/// Returns a remark on a ranking in which makers' ratings change some jobs more than others; empty: none.
 std::string ratings_words(const std::vector<RankingRow>& rows) {
-  std::vector<std::string> ratings, job;  // (group) the ratings, and the first of its jobs
+  std::vector<std::string> ratings, job;  // (group) the change, and the first of its jobs
   for (const RankingRow& row : rows)
     if (row.done() && !row.life_response.empty() && std::ranges::find(ratings, ratings_of(row)) == ratings.end())
       ratings.push_back(ratings_of(row)), job.push_back(row.job);
   if (ratings.size() < 2) return "";
+  const auto words = [&](std::size_t k) {
+    return fmt::format("{} ({})", job[k], ratings[k].empty() ? "no change" : ratings[k]);
+  };
   return fmt::format(
-      "Do not compare jobs such as {} and {}: makers' ratings change them by {} and by {}. A job that states a rated parameter, or "
-      "settings that the tests did not have, leaves ratings out. uncertainty.ratings: none leaves them out of all jobs.",
-      job[0], job[1], ratings[0].empty() ? "nothing" : ratings[0], ratings[1].empty() ? "nothing" : ratings[1]);
+      "Makers' ratings do not change all jobs in the same way: {}, {}. Do not compare these jobs. Set uncertainty.ratings: none in "
+      "all, or remove the rated parameters and the fatigue settings from the jobs that state them.",
+      words(0), words(1));
 }
 
 std::string cause_words(const RankingRow& row) {

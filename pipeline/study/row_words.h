@@ -72,7 +72,7 @@ std::string joint_words(const RankingRow& row);
 /// within the robot's life.
 std::string repeat_words(const RankingRow& row);
 /// Returns remarks on the order of the jobs: hours mislead if the repeats have different durations, and ranks without uncertain
-/// parameters compare the jobs' own values only, as do lives of which only some contain makers' ratings. Empty: nothing misleads.
+/// parameters compare the jobs' own values only, and makers' ratings may change only some jobs. Empty: nothing misleads.
 std::string comparison_words(const std::vector<RankingRow>& rows);
 
 /// Returns "Lives longer than the next job in 93 of 100 samples.", and whether the difference is clear. Empty: not known.

@@ -174,7 +174,7 @@ std::optional<ToolSpace> unknown_tool_space(const pipeline::Setup& setup, const 
         (1e3 * (robot.flange_position + turn * (share * longest))).array().round() / 1e3 + 0.0;  // + 0.0 avoids -0
     return fmt::format("[{:g}, {:g}, {:g}]", at.x(), at.y(), at.z());
   };
-  ToolSpace space{longest.norm(), last.name, robot.flange_position, robot.flange_position + end * (turn * longest), {}};
+  ToolSpace space{longest.norm(), last.name, {}};
   const std::string shapes = fmt::format("robot.links.{}.", robot.links.size());
   if (last.capsules.empty())  // a list replaces the existing one
     space.line = {shapes + "capsules",
@@ -185,24 +185,28 @@ std::optional<ToolSpace> unknown_tool_space(const pipeline::Setup& setup, const 
   return space;
 }
 
+double off_flange_axis(const pipeline::Robot& robot, const Vector3& position, double diameter) {
+  const Vector3 axis = pipeline::from_roll_pitch_yaw(robot.flange_orientation) * Vector3::UnitZ();
+  const Vector3 off = position - robot.flange_position;
+  return off.dot(axis) > -diameter ? off.cross(axis).norm() : std::numeric_limits<double>::infinity();
+}
+
 std::vector<pipeline::Warning> tool_clamp_warnings(const pipeline::Setup& setup,
                                                    const std::optional<ToolSpace>& space) {
   std::vector<pipeline::Warning> warnings;
   if (!space) return warnings;
-  const Vector3 axis = space->to - space->from;
   for (const pipeline::MountedDresspack& mounted : setup.dresspacks) {
     const std::optional<pipeline::Clamp>& clamp = mounted.routing.tool_clamp;
     if (!clamp || clamp->link != space->link) continue;
-    const double share = axis.dot(clamp->position - space->from) / axis.squaredNorm();
-    const double off = (clamp->position - space->from - share * axis).norm(),
-                 limit = adapter_radius + mounted.dresspack.diameter / 2;
-    if (share <= 0 || share >= 1 || off >= limit) continue;
+    const double diameter = mounted.dresspack.diameter, off = off_flange_axis(setup.robot, clamp->position, diameter);
+    const bool beyond_tool = (clamp->position - setup.robot.flange_position).norm() > space->reach;
+    if (off >= adapter_radius(diameter) || beyond_tool) continue;
     warnings.push_back(pipeline::warning_of(
         pipeline::WarningKind::overlap, clamp->where.text(),
         fmt::format(
-            "routing.tool_clamp.position_m is {:.0f} mm beside the line from the flange to the tip of the tool (limit "
-            "{:.0f} mm), {:.0f} mm from the flange: there the adapter of the tool is, and no clamp can be built",
-            1e3 * off, 1e3 * limit, 1e3 * share * axis.norm()),
+            "routing.tool_clamp.position_m is {:.0f} mm beside the axis of the flange (limit {:.0f} mm): there the adapter of "
+            "the tool is, and no clamp can be built",
+            1e3 * off, 1e3 * adapter_radius(diameter)),
         "a place inside the tool, whose shape the job does not have",
         fmt::format(
             "a place beside the tool; {}: {} gives {} its shape (sizes: those of your tool), which dresslife route "
@@ -211,6 +215,10 @@ std::vector<pipeline::Warning> tool_clamp_warnings(const pipeline::Setup& setup,
             space->line.key.empty() ? "those of your tool" : space->line.value, space->link)));
   }
   return warnings;
+}
+
+std::vector<pipeline::Warning> clamp_warnings(const pipeline::Setup& setup, const std::optional<ToolSpace>& space) {
+  return pipeline::joined(way_out_warnings(setup), tool_clamp_warnings(setup, space));
 }
 
 std::string tool_space_note(const std::optional<ToolSpace>& space) {

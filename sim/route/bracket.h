@@ -41,14 +41,17 @@ class Surfaces {
   std::unique_ptr<Parts> parts_;
 };
 
-/// Radius of the flange of the smallest robots (ISO 9409-1-31.5), which every tool covers [m].
-inline constexpr double adapter_radius = 0.02;
+/// Returns the least distance of a clamp from the axis of the flange [m]: the radius of the flange of the smallest robots (ISO
+/// 9409-1-31.5), which the adapter of every tool covers, and that of the dresspack.
+inline double adapter_radius(double diameter) { return 0.02 + diameter / 2; }
+/// Returns the distance of a place in the last link's frame from the axis of the flange [m]; infinite: it lies more than a diameter
+/// behind the flange.
+double off_flange_axis(const pipeline::Robot& robot, const Vector3& position, double diameter);
 
 /// The space of a tool whose shape is not known.
 struct ToolSpace {
-  double reach = 0;                                      ///< distance of the tool's tip from the flange [m]
-  std::string link;                                      ///< name of the last link
-  Vector3 from = Vector3::Zero(), to = Vector3::Zero();  ///< its axis, from the flange, in the link's frame [m]
+  double reach = 0;  ///< distance of the tool's tip from the flange [m]
+  std::string link;  ///< name of the last link
   pipeline::KeyValue
       line;  ///< key of a job and YAML of a shape between flange and tip (ESTIMATE); empty: the link has all kinds of shapes
 };
@@ -59,6 +62,8 @@ std::optional<ToolSpace> unknown_tool_space(const pipeline::Setup& setup, const 
 
 /// Warns of tool clamps on the last link that lie inside the part of this space that every tool fills: its adapter at the flange.
 std::vector<pipeline::Warning> tool_clamp_warnings(const pipeline::Setup& setup, const std::optional<ToolSpace>& space);
+/// Returns way_out_warnings() and tool_clamp_warnings(): check and run give the same.
+std::vector<pipeline::Warning> clamp_warnings(const pipeline::Setup& setup, const std::optional<ToolSpace>& space);
 
 /// Returns a note about this space; empty: absent.
 std::string tool_space_note(const std::optional<ToolSpace>& space);

@@ -109,12 +109,9 @@ class Previewer {
         std::ranges::none_of(quick.run.checks, [](const Check& check) { return check.warning; }))
       quick.warnings = pipeline::joined(std::move(quick.warnings), other_stiffness_warnings(job_, quick.run));
     if (robot_ && !robot_->note().empty()) quick.notes.push_back(robot_->note());
-    if (robot_) {
-      const std::optional<ToolSpace> space = unknown_tool_space(job_, robot_->tools());
-      if (space) quick.notes.push_back(tool_space_note(space));
-      quick.warnings = pipeline::joined(std::move(quick.warnings), tool_clamp_warnings(job_, space));
-    }
-    quick.warnings = pipeline::joined(std::move(quick.warnings), way_out_warnings(job_));
+    const auto space = robot_ ? unknown_tool_space(job_, robot_->tools()) : std::nullopt;
+    if (space) quick.notes.push_back(tool_space_note(space));
+    quick.warnings = pipeline::joined(std::move(quick.warnings), clamp_warnings(job_, space));
     write_refusal(quick.warnings, file);
     file.attribute("warnings", pipeline::warnings_text(quick.warnings));
     file.attribute("notes", pipeline::joined(quick.notes, "\n"));

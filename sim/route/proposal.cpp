@@ -417,11 +417,8 @@ class Search {
 
   /// Returns whether a clamp lies within its own link, or within the adapter by which a tool is bolted to the flange.
   bool is_inside(int link, const Vector3& position, const BracketFit& fit) const {
-    if (fit.inside > diameter_ / 2) return true;
-    if (!is_flange(link)) return false;
-    const Vector3 axis = from_roll_pitch_yaw(setup_.robot.flange_orientation) * Vector3::UnitZ();
-    const Vector3 off = position - setup_.robot.flange_position;
-    return off.dot(axis) > -diameter_ && off.cross(axis).norm() < adapter_radius + diameter_ / 2;
+    return fit.inside > diameter_ / 2 ||
+           (is_flange(link) && off_flange_axis(setup_.robot, position, diameter_) < adapter_radius(diameter_));
   }
 
   /// Samples places beside a link until a bracket can carry one.
@@ -462,7 +459,7 @@ class Search {
   double longest_bracket() const { return longest_bracket_of(setup_.dresspacks.front().routing); }
 
   Vector3 drawn_beside(int link) {
-    constexpr int most_steps_outward = 40;
+    constexpr int most_steps_outward = 40;  // 20 diameters at least: farther places need too long a bracket
     const std::vector<pipeline::Capsule> shapes = shapes_of(link);
     const pipeline::Capsule& capsule = shapes[chance_.below(shapes.size())];
     const Vector3 along = capsule.to - capsule.from;
@@ -470,7 +467,7 @@ class Search {
     Vector3 out = chance_.normal_vector();
     out -= out.dot(axis) * axis;
     double off = capsule.radius + chance_.between(is_flange(link) ? 1.5 : 0.8, farthest) * diameter_;
-    if (is_flange(link)) off = std::max(off, adapter_radius + diameter_);
+    if (is_flange(link)) off = std::max(off, adapter_radius(diameter_) + diameter_ / 2);
     const Vector3 beside = capsule.from + chance_.between(0, 1) * along;
     const auto place = [&] { return Vector3(beside + off * out.normalized()); };
     // The line from the flange lies inside the shapes of the last link and its tool: outward until the dresspack is outside.

@@ -378,7 +378,8 @@ void Screener::Parts::see_brackets(const pipeline::Setup& setup, Screening& scre
     const auto see_way_out = [&](const pipeline::Clamp& clamp, double sense) {  // (V8) as (V3)
       const int link = find_link(setup.robot, clamp.link, clamp.where);
       const double curvature = way_out(*surfaces, link, clamp.position, sense * clamp.direction, diameter);
-      const double g = std::log(limits_of(mounted.dresspack).least_bend_radius * std::max(curvature, 1e-6));
+      constexpr double straight = 1e-6;  // [1/m]: its logarithm is finite
+      const double g = std::log(limits_of(mounted.dresspack).least_bend_radius * std::max(curvature, straight));
       double& bend = screening.beyond[static_cast<std::size_t>(ScreenedLimit::bend)];
       bend = std::max(bend, g);
     };

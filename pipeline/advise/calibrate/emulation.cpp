@@ -1,13 +1,14 @@
-
-
 #include "pipeline/advise/calibrate/emulation.h"
+
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <memory>
 #include <numbers>
 #include <utility>
+
 #include "pipeline/advise/calibrate/life_over_parameters.h"
 #include "pipeline/advise/calibrate/measured_bending.h"
 #include "pipeline/advise/calibrate/typical_cables.h"

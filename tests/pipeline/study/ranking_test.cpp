@@ -947,9 +947,9 @@ TEST_CASE("ranking: a remark states that ranks without uncertain parameters comp
   rated.job = "rated", stronger.job = "stronger";
   rated.estimates = "slack_percent 1; uncertainty.ratings typical (strength x 1.33)";
   CHECK(comparison_words({rated, rated}).empty());
-  CHECK_THAT(comparison_words({rated, stronger}),
-             Catch::Contains("such as rated and stronger: makers' ratings change them by uncertainty.ratings typical "
-                             "(strength x 1.33) and by nothing."));
+  CHECK_THAT(
+      comparison_words({rated, stronger}),
+      Catch::Contains("in the same way: rated (strength x 1.33), stronger (no change). Do not compare these jobs."));
 }
 
 TEST_CASE("ranking: a small share of samples in which a mode comes first is not printed as zero") {

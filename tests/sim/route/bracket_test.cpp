@@ -111,7 +111,7 @@ TEST_CASE("bracket: the space of a tool without a shape is not known, and the pr
   clamp->position = {0.12, 0.01, 0};
   REQUIRE(tool_clamp_warnings(job, space({{0, 0, 2}})).size() == 1);
   CHECK_THAT(tool_clamp_warnings(job, space({{0, 0, 2}}))[0].words,
-             Catch::Contains("is 10 mm beside the line from the flange"));
+             Catch::Contains("is 10 mm beside the axis of the flange (limit 40 mm)"));
   clamp->position = {0.12, 0.05, 0};
   CHECK(tool_clamp_warnings(job, space({{0, 0, 2}})).empty());
   job.robot.links[1].boxes = {{{0.14, 0, 0}, {0, 0, 0}, {0.1, 0.1, 0.1}}};
