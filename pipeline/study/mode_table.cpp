@@ -58,7 +58,7 @@ ModeLine line_of(const RankingRow& row, const UnvalidatedMode& mode) {
     return line;
   }
   if (row.has_wires() && !std::isnan(mode.first_share)) line.before_wires = share_text(mode.first_share);
-  if (!std::isnan(mode.together_p10)) line.with_it = shown_life(row, mode.together_p10);
+  if (row.has_wires() && !std::isnan(mode.together_p10)) line.with_it = shown_life(row, mode.together_p10);
   line.from_tool = fmt::format("{:.2f}", mode.position_from_tool);
   if (mode.mode != UnvalidatedMode::wall) line.time = fmt::format("{:.1f}", mode.time);
   line.step = mode.step;
