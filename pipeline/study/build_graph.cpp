@@ -471,23 +471,29 @@ void write_build_graph(const Study& study, const StudyPlaces& places, const std:
   for (const char* memory : {".ninja_log", ".ninja_deps"})  // they record times, which this graph does not use
     remove_ours(notes / memory);
   renew_receipts(study, places, states);
-  std::string graph = rules(places, limits, launcher);
   const std::vector<Makers> makers = makers_of(study, states);
   const SameOutput same = same_output_of(study, states, makers);
-  for (std::size_t k = 0; k < states.size(); ++k) {
+  std::vector<std::string> chains(states.size());
+  const auto prepare = [&](std::size_t k) {
     const StudyJob& job = study.jobs[k];
-    if (!job.failure.empty()) continue;
+    if (!job.failure.empty()) return;
     const fs::path folder = places.job(job.name);
     const bool is_new = fs::create_directory(folder);
     make_notes(folder / ".stage");
     write_text_if_changed(folder / "job.yaml", with_mark(stored_job_text(*job.job, folder), Mark::yaml), Sync::never);
-    if (states[k].done()) continue;
+    if (states[k].done()) return;
     check_notes(folder / ".stage");
     for (const char* result : {"log", "page.html", "preview.html"}) check_replaceable(folder / result);
     for (std::size_t stage = states[k].next; stage < stage_count && !is_new; ++stage)
       for (const fs::path& log : {log_file(stages[stage]), launcher_log(stages[stage])}) remove_ours(folder / log);
-    graph += chain_of(study, places, states[k], k, makers, same);
-  }
+    chains[k] = chain_of(study, places, states[k], k, makers, same);
+  };
+  const std::size_t parts = std::min(thread_count(), states.size());
+  in_parallel(parts, [&](std::size_t part) {
+    for (std::size_t k = part; k < states.size(); k += parts) prepare(k);
+  });
+  std::string graph = rules(places, limits, launcher);
+  for (const std::string& chain : chains) graph += chain;
   write_text_if_changed(places.folder / places.graph(), graph);
 }
 
