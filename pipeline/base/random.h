@@ -30,6 +30,17 @@ inline double normal_of(double one, double other) {
   return std::sqrt(-2 * std::log(one)) * std::cos(2 * std::numbers::pi * other);
 }
 
+/// The sequence of splitmix64. Its start costs nothing, so each of many small tasks can have its own.
+class RandomStream {
+ public:
+  explicit RandomStream(std::uint64_t seed) : at_(mixed(seed)) {}
+  /// Returns a uniform number between 0 and 1, both excluded.
+  double uniform() { return uniform_of(mixed(at_ += mix_step)); }
+
+ private:
+  std::uint64_t at_;
+};
+
 class RandomNumbers {
  public:
   explicit RandomNumbers(std::uint64_t seed) : engine_(seed) {}

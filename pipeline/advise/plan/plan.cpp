@@ -11,6 +11,7 @@
 
 #include "pipeline/advise/plan/pooled_lives.h"
 #include "pipeline/base/constants.h"
+#include "pipeline/base/digest.h"
 #include "pipeline/base/lists.h"
 #include "pipeline/base/random.h"
 #include "pipeline/base/readable.h"
@@ -380,31 +381,36 @@ class Simulation {
       : fleet_(fleet), tables_(tables), earlier_(earlier), paces_(paces), rows_(rows), times_(times) {
     double sum = 0;
     for (const double weight : worlds.weights()) until_.push_back(sum += weight);
+    for (const Installed& row : fleet.rows) names_.push_back(xxh3_64(row.name.data(), row.name.size()));
     years_ = static_cast<std::size_t>(std::ceil(times.back() / days_per_year));
     weeks_ = weeks_until(times.back());
   }
 
-  /// Simulates one plant. decision: null: only failed dresspacks are replaced. before: for dresspacks that are installed before a
+  /// Simulates one plant. world: position of its world in the sum of the weights, 0 .. 1. decision: null: only failed dresspacks are replaced. before: for dresspacks that are installed before a
   /// change of their duty, in Pace::harder_hours().
-  Outcome plant(RandomNumbers& random, const Decision* decision, const Decision* before) const {
+  Outcome plant(double world, std::uint64_t seed, const Decision* decision, const Decision* before) const {
     Outcome outcome{std::vector<int>(years_, 0), std::vector<int>(years_, 0), std::vector<int>(weeks_, 0)};
-    const std::size_t world = draw_world(random);
-    for (std::size_t i = 0; i < fleet_.rows.size(); ++i) dresspack(i, world, random, decision, before, outcome);
+    const std::size_t its_world = world_at(world);
+    for (std::size_t i = 0; i < fleet_.rows.size(); ++i) {
+      // A dresspack's numbers follow from its name, so the order of the rows and other dresspacks do not change them.
+      RandomStream random(seed ^ names_[i]);
+      dresspack(i, its_world, random, decision, before, outcome);
+    }
     return outcome;
   }
 
  private:
-  std::size_t draw_world(RandomNumbers& random) const {
-    const double at = random.uniform() * until_.back();
+  std::size_t world_at(double position) const {
+    const double at = position * until_.back();
     const auto world = static_cast<std::size_t>(std::upper_bound(until_.begin(), until_.end(), at) - until_.begin());
     return std::min(world, until_.size() - 1);
   }
 
   /// Samples a life in a world that is longer than an age. If no life of this world is, it is one of another world, as in
   /// Worlds::fails().
-  double draw(const LifeTable& table, std::size_t world, double age, RandomNumbers& random) const {
+  double draw(const LifeTable& table, std::size_t world, double age, RandomStream& random) const {
     constexpr int tries = 100;
-    for (int k = 0; k < tries; ++k, world = draw_world(random)) {
+    for (int k = 0; k < tries; ++k, world = world_at(random.uniform())) {
       const float *const first = table.first_after(world, age), *const end =
                                                                     table.hours.data() + (world + 1) * table.draws;
       if (first != end) return first[static_cast<std::size_t>(random.uniform() * double(end - first))];
@@ -413,7 +419,7 @@ class Simulation {
   }
 
   /// Samples the life of a dresspack that is installed at these hours from today.
-  double draw_new(std::size_t i, std::size_t world, double begun, RandomNumbers& random) const {
+  double draw_new(std::size_t i, std::size_t world, double begun, RandomStream& random) const {
     const LifeTable& table = *tables_[i];
     const double until_change = fleet_.rows[i].change ? paces_[i].hours(fleet_.rows[i].change->day) - begun : 0;
     if (!(until_change > 0)) return draw(table, world, 0, random);
@@ -421,7 +427,7 @@ class Simulation {
     return life_after({{{until_change, earlier_[i]->life(world, d)}}}, table.life(world, d));
   }
 
-  void dresspack(std::size_t i, std::size_t world, RandomNumbers& random, const Decision* decision,
+  void dresspack(std::size_t i, std::size_t world, RandomStream& random, const Decision* decision,
                  const Decision* before, Outcome& outcome) const {
     const Pace& pace = paces_[i];
     // All times are hours of operation from today.
@@ -465,6 +471,7 @@ class Simulation {
   const std::vector<RowPlan>& rows_;
   const std::vector<double>& times_;
   std::vector<double> until_;
+  std::vector<std::uint64_t> names_;  ///< (row) digest of the name
   std::size_t years_ = 1, weeks_ = 1;
 };
 
@@ -728,9 +735,11 @@ Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
   const auto share = 1 / static_cast<double>(plants);
   std::vector<std::vector<double>> replaced;  // (year, plant)
   for (std::size_t p = 0; p < plants; ++p) {
-    // both simulations of a plant use the same random numbers, so that their costs are comparable
-    RandomNumbers random(mixed(seed + p)), same(mixed(seed + p));
-    const Outcome outcome = simulation.plant(random, &decision, before_change ? &*before_change : nullptr);
+    // Both simulations of a plant use the same random numbers, so that their costs are comparable. Worlds are equally spaced in the
+    // sum of their weights, so that each has its share of the plants.
+    const std::uint64_t own = mixed(seed + p);
+    const double world = (double(p) + 0.5) * share;
+    const Outcome outcome = simulation.plant(world, own, &decision, before_change ? &*before_change : nullptr);
     plan.years.resize(outcome.planned.size());
     replaced.resize(outcome.planned.size());
     for (std::size_t y = 0; y < plan.years.size(); ++y) {
@@ -738,7 +747,7 @@ Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
       plan.years[y].unplanned += outcome.unplanned[y] * share;
       replaced[y].push_back(outcome.planned[y] + outcome.unplanned[y]);
     }
-    const Outcome without = simulation.plant(same, nullptr, nullptr);
+    const Outcome without = simulation.plant(world, own, nullptr, nullptr);
     for (std::size_t week = 0; week < plan.failures_in_week.size(); ++week) {
       plan.failures_in_week[week] += outcome.failures[week] * share;
       plan.failures_in_week_without_windows[week] += without.failures[week] * share;

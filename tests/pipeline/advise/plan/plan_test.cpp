@@ -817,3 +817,21 @@ TEST_CASE("a plant of unlike dresspacks has the plan of each alone, if the world
                           0.0) == Approx(std::accumulate(bare.begin(), bare.end(), 0.0)).margin(of_count));
   }
 }
+
+TEST_CASE("a plan does not depend on the order of its rows") {
+  const std::map<std::string, LifeTable> tables{{"a", weibull(3, {4000, 6000}, 2000)},
+                                                {"b", weibull(1.5, {900, 300}, 2000)}};
+  Fleet fleet = fleet_of({5, 40, 25, 12, 33}, 1, 6);
+  for (const std::size_t row : {1, 2}) fleet.rows[row].duty = "b";
+  for (const std::size_t row : {0, 3, 4}) fleet.rows[row].duty = "a";
+  Fleet reversed = fleet;
+  std::reverse(reversed.rows.begin(), reversed.rows.end());
+  const Plan one = plan_of(fleet, tables, windows_in({4, 14, 40}), start, {0.1, true});
+  const Plan other = plan_of(reversed, tables, windows_in({4, 14, 40}), start, {0.1, true});
+  CHECK(one.cost > 0);
+  CHECK(one.cost < one.cost_without_windows);
+  CHECK(other.cost == Approx(one.cost).epsilon(1e-9));  // sums in another order differ by rounding
+  CHECK(other.cost_without_windows == Approx(one.cost_without_windows).epsilon(1e-9));
+  for (std::size_t year = 0; year < one.years.size(); ++year)
+    CHECK(other.years[year].unplanned == Approx(one.years[year].unplanned).epsilon(1e-9));
+}
