@@ -498,6 +498,13 @@ std::vector<pipeline::Warning> moves_left_out(const Program& program) {
       warnings.push_back({pipeline::WarningKind::program, group.first.text(), what});
       continue;
     }
+    if (what.find(later_passes_differ) != std::string::npos) {
+      warnings.push_back(pipeline::warning_of(
+          pipeline::WarningKind::program, group.first.text(), what.substr(what.find(": ") + 2),
+          "a counter, or an order, that decides in a later pass",
+          "motion.passes: N in the job (--passes N), with the number of passes of one cycle of the cell"));
+      continue;
+    }
     const auto doubt =
         std::ranges::find_if(doubts, [&](const NumberDoubt& of) { return group.reason.starts_with(of.reason); });
     if (doubt != doubts.end()) {

@@ -420,9 +420,9 @@ bool FanucRun::goes_on(std::size_t label) {
   const std::size_t kept = repeats ? loop.all.kept(0) : searched ? loop.all.by_motion() : 0;
   if (kept > 0) program_.instructions.resize(loop.all.end(kept));
   if (kept > 0 && !repeats)
-    note(fmt::format("repeats without end: {} decides and has other values after each of {} passes; the motion is {}, "
-                     "which later passes may not repeat (take more with --passes N, motion.passes in a job)",
-                     changed_names(before, loop.last), loop.passes, passes_text(static_cast<long>(kept))),
+    note(fmt::format(
+             "repeats without end; the motion is {}; {} decides and has other values after each of {} passes, so {}",
+             passes_text(static_cast<long>(kept)), changed_names(before, loop.last), loop.passes, later_passes_differ),
          true);
   if (kept > 0) return false;
   if (last)

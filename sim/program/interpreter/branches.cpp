@@ -42,6 +42,46 @@ bool Interpreter::compares_known(const Expression& condition) {
                      [&](const Expression& item) { return compares_known(item); });
 }
 
+/// Adds the values of the known variables in a condition that the program assigns.
+void Interpreter::add_compared(const Expression& condition, std::vector<Value>& values) {
+  if (condition.kind == Expression::Kind::call) return;
+  for (const Expression& item : condition.items) add_compared(item, values);
+  if (condition.items.empty() && compares_known(condition)) values.push_back(evaluate(condition));
+}
+
+/// Notes the arm of a decided branch. The number of arms means that it took none.
+void Interpreter::take_arm(const Statement& statement, std::size_t arm) {
+  const auto [at, is_new] = arms_.try_emplace(&statement);
+  Arms& arms = at->second;
+  if (is_new) {
+    arms.first = arm;
+    for (std::size_t other = 0; other < statement.branches.size(); ++other)
+      arms.others_move |= other != arm && std::ranges::any_of(statement.branches[other].body,
+                                                              [&](const Statement& of) { return moves(of, module_); });
+  }
+  if (!arms.others_move) return;
+  arms.several |= arm != arms.first;
+  if (arms.several || (!is_new && arms.pass == pass_)) return;
+  arms.pass = pass_;
+  std::vector<Value> compared;
+  for (const Expression& argument : statement.arguments) add_compared(argument, compared);
+  for (const Branch& branch : statement.branches)
+    for (const Expression& condition : branch.conditions) add_compared(condition, compared);
+  arms.changes += !is_new && compared != arms.compared;
+  arms.compared = std::move(compared);
+}
+
+/// Returns the beginning of a sentence about a branch that took the same arm in all passes of a loop, although the values that it compares are
+/// new in each pass: a later pass may take another arm. Empty: no such branch.
+std::string Interpreter::same_arm_in_all(const Passes& passes) const {
+  for (const auto& [statement, arms] : arms_)
+    if (!arms.several && arms.changes > 1 && arms.changes + 2 >= passes.count())
+      return fmt::format(
+          "; {} compares a value that is new in each pass, and no pass of {} made the moves of its other arm, so ",
+          short_place(statement->place), passes.count());
+  return "";
+}
+
 namespace {
 
 /// Returns the form of the value `asked` in a condition, from the value that it is compared with. Empty: not known.
@@ -109,9 +149,14 @@ int Interpreter::guess(const Place& place, int ways) {
 }
 
 Interpreter::Flow Interpreter::run_branch(const Statement& statement) {
+  bool is_known = true;
   for (const Branch& branch : statement.branches) {
-    if (branch.conditions.empty()) return execute(branch.body);
+    if (branch.conditions.empty()) {
+      if (is_known) take_arm(statement, static_cast<std::size_t>(&branch - statement.branches.data()));
+      return execute(branch.body);
+    }
     std::optional<bool> decision = assumed(branch.place);
+    is_known &= !decision;
     Value condition;
     const std::size_t problems = problem_count();
     if (!decision) {
@@ -119,6 +164,7 @@ Interpreter::Flow Interpreter::run_branch(const Statement& statement) {
       if (condition.kind == Value::Kind::truth || condition.is_number()) decision = condition.number != 0;
     }
     if (!decision) {
+      is_known = false;
       if (!matters(statement) && !exploration_.follows(short_place(statement.place)))
         return leave_out(statement, condition);
       if (const Branch* way = waited_for(statement)) return go_on(*way, condition);
@@ -129,8 +175,11 @@ Interpreter::Flow Interpreter::run_branch(const Statement& statement) {
               : ask(branch.place, "branches on a condition that is known only while the robot runs", condition,
                     "then or =else", 2, true, form_within(branch.conditions[0], cause ? cause->asked() : "")) == 0;
     }
-    if (*decision) return execute(branch.body);
+    if (!*decision) continue;
+    if (is_known) take_arm(statement, static_cast<std::size_t>(&branch - statement.branches.data()));
+    return execute(branch.body);
   }
+  if (is_known) take_arm(statement, statement.branches.size());
   return Flow::next;
 }
 
@@ -138,7 +187,11 @@ Interpreter::Flow Interpreter::run_choice(const Statement& statement) {
   const Expression* chosen = answer(code_.choices, statement.place);
   const Value subject = evaluate(chosen ? *chosen : statement.arguments[0]);
   for (const Branch& branch : statement.branches) {
-    if (branch.conditions.empty()) return execute(branch.body);
+    const auto arm = static_cast<std::size_t>(&branch - statement.branches.data());
+    if (branch.conditions.empty()) {
+      take_arm(statement, arm);
+      return execute(branch.body);
+    }
     const std::optional<bool> decision = assumed(branch.place);
     if (decision ? *decision : false) return execute(branch.body);
     if (decision) continue;
@@ -154,9 +207,12 @@ Interpreter::Flow Interpreter::run_choice(const Statement& statement) {
                             "VALUE, the value that it then has", ways + 1, true, form_of_cases(*this, statement));
         return way < ways ? execute(statement.branches[way].body) : Flow::next;
       }
-      if (value == subject) return execute(branch.body);
+      if (value != subject) continue;
+      take_arm(statement, arm);
+      return execute(branch.body);
     }
   }
+  take_arm(statement, statement.branches.size());
   return Flow::next;
 }
 

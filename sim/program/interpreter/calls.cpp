@@ -263,16 +263,20 @@ Value Interpreter::call(const Routine& routine, const std::vector<Expression>& a
 void Interpreter::call_within_itself(const Routine& routine) {
   Passes& passes = *within_itself_;
   constexpr bool with_locals = false;  // the locals of the outer calls are never used again
-  passes.add(state(with_locals));
+  end_pass(passes, with_locals);
   const auto wanted = static_cast<std::size_t>(options_.passes);
   if (wanted ? passes.count() >= wanted : passes.repeats()) end_within_itself(routine);
 }
 
 void Interpreter::end_within_itself(const Routine& routine) {
-  const std::size_t kept = within_itself_->kept(static_cast<std::size_t>(options_.passes));
+  const auto wanted = static_cast<std::size_t>(options_.passes);
+  const std::size_t kept = within_itself_->kept(wanted);
+  const std::string doubt = doubt_about(*within_itself_, wanted);
   program_.instructions.resize(within_itself_->end(kept));
-  note(routine.place, fmt::format("{} calls itself without end; the motion is {}", routine.written,
-                                  passes_text(static_cast<long>(kept))));
+  note(routine.place,
+       fmt::format("{} calls itself without end; the motion is {}{}", routine.written,
+                   passes_text(static_cast<long>(kept)), doubt),
+       !doubt.empty());
   throw Stop{};
 }
 

@@ -259,6 +259,7 @@ class Interpreter {
   int guess(const Place& place, int ways);
   std::string form_of(const std::string& name);
   bool compares_known(const Expression& condition);
+  void add_compared(const Expression& condition, std::vector<Value>& values);
   template <class Answers>
   const typename Answers::mapped_type* answer(const Answers& answers, const Place& place);
   std::optional<bool> assumed(const Place& place);
@@ -281,6 +282,10 @@ class Interpreter {
   bool holds_loop_exit(const std::vector<Statement>& body) const;
   bool jumps_for_ever(const std::vector<Statement>& body, std::size_t label, std::size_t jump) const;
   void end_where_it_repeats(Passes& passes, const Place& place, bool for_ever);
+  void end_pass(Passes& passes, bool with_locals = true);
+  void take_arm(const Statement& statement, std::size_t arm);
+  std::string same_arm_in_all(const Passes& passes) const;
+  std::string doubt_about(const Passes& passes, std::size_t wanted) const;
 
   Value evaluate_inner(const Expression& expression);
   Value name_value(const Expression& expression);
@@ -340,6 +345,15 @@ class Interpreter {
   std::optional<Passes> within_itself_;                 // passes of the started routine that end with a call of itself
   std::vector<Loop> loops_;                             // running loops, outermost first
   std::vector<const std::vector<Statement>*> endless_;  // bodies of running endless loops, outermost first
+  /// Arms that a decided branch took, and the values that it compared at its first run in a pass.
+  struct Arms {
+    std::size_t first = 0, pass = 0;
+    bool others_move = false, several = false;  // others_move: an arm other than `first` moves the robot
+    std::size_t changes = 0;                    // number of passes with other values than in the pass before
+    std::vector<Value> compared{};
+  };
+  std::map<const Statement*, Arms> arms_;
+  std::size_t pass_ = 0;  // number of ended passes of all endless loops
   std::set<const Routine*> reported_handlers_;
   std::vector<const Routine*> routines_;
   Value result_;

@@ -11,7 +11,7 @@ using Kind = Statement::Kind;
 
 // Passes in the search for the repetition of an endless loop: enough for a pallet of 200 boxes.
 constexpr int searched_passes = 200;
-constexpr const char* differing = " (its passes differ and none repeats an earlier one; take more with --passes N)";
+constexpr const char* differing = "; its passes differ and none repeats an earlier one, so ";
 
 }  // namespace
 
@@ -91,22 +91,34 @@ Interpreter::Flow Interpreter::execute(const std::vector<Statement>& body) {
   return Flow::next;
 }
 
+/// Returns words on why later passes of an endless loop may differ from those that are kept. wanted: the user's number of
+/// passes, 0: none.
+std::string Interpreter::doubt_about(const Passes& passes, std::size_t wanted) const {
+  if (wanted > 0 || passes.repeats()) return "";
+  const std::string reason = passes.by_motion() == 0 ? differing : same_arm_in_all(passes);
+  return reason.empty() ? "" : reason + later_passes_differ;
+}
+
+void Interpreter::end_pass(Passes& passes, bool with_locals) {
+  passes.add(state(with_locals));
+  ++pass_;
+}
+
 /// At a backward jump: ends the program if the data equal those at an earlier jump, because everything then repeats. A
 /// jump that loops forever (for_ever) also ends it after a long search: a counter never returns to an earlier value.
 void Interpreter::end_where_it_repeats(Passes& passes, const Place& place, bool for_ever) {
   if (passes.count() >= searched_passes) return;
-  passes.add(state());
+  end_pass(passes);
   const auto wanted = static_cast<std::size_t>(options_.passes);
   const bool repeats = passes.repeats();
   const bool searched = passes.count() >= searched_passes || executed_ > ImportLimits::searched_work ||
                         program_.instructions.size() > ImportLimits::searched_moves;
   if (!(repeats || (for_ever && searched)) || passes.count() < wanted) return;
   const std::size_t kept = passes.kept(wanted);
-  const bool cut = !wanted && !repeats && passes.by_motion() == 0;
+  const std::string doubt = doubt_about(passes, wanted);
   program_.instructions.resize(passes.end(kept));
-  note(place,
-       fmt::format("an endless loop; the motion is {}{}", passes_text(static_cast<long>(kept)), cut ? differing : ""),
-       cut);
+  note(place, fmt::format("an endless loop; the motion is {}{}", passes_text(static_cast<long>(kept)), doubt),
+       !doubt.empty());
   throw Stop{};
 }
 
@@ -275,7 +287,7 @@ Interpreter::Flow Interpreter::run_endless(const Statement& statement) {
   while (true) {
     const Flow flow = execute(statement.branches[0].body);
     if (flow != Flow::next) return flow == Flow::leave_loop ? Flow::next : flow;
-    passes.add(state());
+    end_pass(passes);
     round.again();
     if (problems_.count() > problems || exploration_.guessing()) {  // the questions of further passes are needed, too
       if (passes.count() > 1 && !hinted)
@@ -301,11 +313,10 @@ Interpreter::Flow Interpreter::run_endless(const Statement& statement) {
     throw Stop{};
   }
   const std::size_t kept = passes.kept(wanted);
-  const bool cut = !wanted && !passes.repeats() && passes.by_motion() == 0;
+  const std::string doubt = doubt_about(passes, wanted);
   program_.instructions.resize(passes.end(kept));
-  note(statement.place,
-       fmt::format("an endless loop; the motion is {}{}", passes_text(static_cast<long>(kept)), cut ? differing : ""),
-       cut);
+  note(statement.place, fmt::format("an endless loop; the motion is {}{}", passes_text(static_cast<long>(kept)), doubt),
+       !doubt.empty());
   throw Stop{};
 }
 
@@ -373,7 +384,7 @@ void Interpreter::run_cycles(const Routine& routine) {
     }
     asking |= problems_.count() > before.count() || exploration_.guessing();
     if (ended) return;
-    passes.add(state());
+    end_pass(passes);
     if (asking) {  // the questions of later cycles are needed, too
       const bool mistaken = !exploration_.guessing() && problems_.mistakes() > 0;
       if (mistaken || barren.again() || (wanted && passes.count() >= wanted)) return;
@@ -394,13 +405,13 @@ void Interpreter::run_cycles(const Routine& routine) {
                        routine.written, shared),
            true);
   const std::size_t kept = passes.kept(wanted);
-  const bool cut = !wanted && !passes.repeats() && passes.by_motion() == 0;
+  const std::string doubt = doubt_about(passes, wanted);
   program_.instructions.resize(passes.end(kept));
-  if (kept > 1 || cut)
+  if (kept > 1 || !doubt.empty())
     note(routine.place,
          fmt::format("{} begins again at its end; the motion is {}{}", routine.written,
-                     passes_text(static_cast<long>(kept)), cut ? differing : ""),
-         cut);
+                     passes_text(static_cast<long>(kept)), doubt),
+         !doubt.empty());
 }
 
 }  // namespace dresslife::sim

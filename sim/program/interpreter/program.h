@@ -114,6 +114,8 @@ struct Skipped {
   bool may_move = false;  ///< the statement may move the robot or change its motion
 };
 
+/// Words in Skipped::what for an endless loop whose later passes may differ from those that are kept.
+inline constexpr const char* later_passes_differ = "later passes may differ";
 /// First words of the reason in Skipped::what for a percentage above 100, which is read as 100.
 inline constexpr const char* above_all_speed = "more than 100 % (limit 100, which counts)";
 /// First words of the reason in Skipped::what for a position whose tool or user frame is not the active one.

@@ -609,3 +609,25 @@ TEST_CASE("rapid controller: a GOTO that loops forever has all passes of a count
   CHECK(first_axes(run(loop("IF n MOD 3=0 THEN\n" + go(2) + "ENDIF\n"))) == Angles{1, 1, 1, 2});
   CHECK(first_axes(run(loop(""))) == Angles{1});  // a counter of parts
 }
+
+TEST_CASE("rapid controller: moves that come after more passes than are searched are a warning") {
+  const auto body = [](const std::string& condition) {
+    return go(1) + "n:=n+1;\nIF " + condition + " THEN\n" + go(2) + "ENDIF\n";
+  };
+  const std::string data = "VAR num n:=0;\n", words = "compares a value that is new in each pass";
+  for (const auto& [begin, end] :
+       {std::pair("WHILE TRUE DO\n", "ENDWHILE\n"), {"top:\n", "GOTO top;\n"}, {"", ""}, {"", "main;\n"}}) {
+    INFO(begin);
+    const Reading seldom = run(begin + body("n>=1000") + end, data);
+    CHECK(first_axes(seldom) == Angles{1});
+    CHECK(skips(seldom, words, true));
+    CHECK_THAT(moves_left_out(seldom.program).front().line(), Catch::Contains("Remedy: motion.passes: N in the job"));
+    // the other arm does not move, or the values of the comparison return: no doubt
+    CHECK_FALSE(skips(run(begin + body("n>0") + end, data), words, true));
+    CHECK_FALSE(skips(run(begin + body("n MOD 3=0") + end, data), words, true));
+    CHECK_FALSE(skips(run(begin + std::string("FOR i FROM 1 TO 3 DO\nIF i=5 THEN\n") + go(2) + "ENDIF\nENDFOR\n" +
+                              go(1) + "n:=n+1;\n" + end,
+                          data),
+                      words, true));
+  }
+}
