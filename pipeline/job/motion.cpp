@@ -50,6 +50,9 @@ void describe(Fields& f, MotionStep& step) {
                  "The highest acceleration of the tool along its path. The limits of the axes hold as well.");
   f.maybe_number("zone_mm", step.tool_zone, at_least(0),
                  "The distance to the target at which the tool leaves its path. 0: the robot stops.");
+  f.maybe_number("zone_turn_deg", step.turn_zone, at_least(0),
+                 "The angle to the target's orientation at which the tool leaves its turn, beside zone_mm (zone_ori "
+                 "in RAPID). Without it the turn is cut by the same share as the path.");
   f.maybe_number("zone_percent", step.stop_zone, between(0, 100),
                  "The share of the braking distance at which the next move begins.");
   f.maybe_number("zone_deg", step.zone, at_least(0),
@@ -200,6 +203,8 @@ void check_move(const MotionStep& step, const Robot& robot) {
         "keep one of the two");
   if (step.zone.has_value() + step.tool_zone.has_value() + step.stop_zone.has_value() > 1)
     throw InputError(where, "more than one of zone_deg, zone_mm, zone_percent is given", "keep one of them");
+  if (step.turn_zone && !step.tool_zone)
+    throw InputError(where, "zone_turn_deg is given without zone_mm", "give both, or take zone_turn_deg out");
 }
 
 /// Checks one step without the steps of its block.
@@ -212,8 +217,8 @@ void check_lone_step(const MotionStep& step, const Robot& robot) {
   if (block && (step.repeat < 1 || step.steps.empty()))
     throw InputError(step.where, "a block needs both repeat (at least 1) and steps", "give both");
   if (move) check_move(step, robot);
-  if (!move && (step.speed || step.speed_percent || step.zone || step.tool_speed || step.tool_zone || step.stop_zone ||
-                step.duration || step.acceleration || step.tool_acceleration))
+  if (!move && (step.speed || step.speed_percent || step.zone || step.tool_speed || step.tool_zone || step.turn_zone ||
+                step.stop_zone || step.duration || step.acceleration || step.tool_acceleration))
     throw InputError(step.where, "speed and zone belong to a move", "take them out of this step");
 }
 

@@ -56,6 +56,8 @@ struct MotionStep {
   std::optional<double> jerk_percent;       ///< share of the usual rate at which acceleration increases [%]
   std::optional<double> zone;  ///< blending begins at this distance of the farthest axis from its target [rad]; 0: stop
   std::optional<double> tool_zone;  ///< blending begins at this distance of the tool from its target [m]; 0: stop
+  std::optional<double>
+      turn_zone;  ///< beside tool_zone: blending of the tool's turn begins at this angle from its target [rad]
   std::optional<double> stop_zone;  ///< blending begins at this share of the stopping distance [%]
   double dwell = 0;                 ///< [s]
   int repeat = 0;                   ///< 0: not a block

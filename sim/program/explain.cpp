@@ -70,8 +70,10 @@ std::string speed(const Instruction& instruction) {
 
 std::string zone(const Instruction& instruction) {
   if (instruction.zone.percent > 0) return fmt::format("zone {} %", number(instruction.zone.percent));
-  if (instruction.zone.distance > 0) return fmt::format("zone {} mm", number(instruction.zone.distance / millimetre));
-  return "stop";
+  if (instruction.zone.distance == 0) return "stop";
+  const std::string turn =
+      instruction.zone.turn ? fmt::format(", {} deg", number(*instruction.zone.turn / degree)) : "";
+  return fmt::format("zone {} mm{}", number(instruction.zone.distance / millimetre), turn);
 }
 
 std::string named(const char* what, const std::vector<NamedFrame>& list, int index, const char* none) {

@@ -102,6 +102,7 @@ pipeline::MotionStep step_of(const Instruction& instruction, const Program& prog
     step.stop_zone = instruction.zone.percent;
   else
     step.tool_zone = instruction.zone.distance;
+  if (instruction.zone.distance > 0) step.turn_zone = instruction.zone.turn;
   return step;
 }
 

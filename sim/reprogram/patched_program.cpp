@@ -78,7 +78,8 @@ std::string difference(const pipeline::Motion& before, const pipeline::MotionSte
       a.jerk_percent != b.jerk_percent || a.acceleration != b.acceleration ||
       a.tool_acceleration != b.tool_acceleration)
     return "time or acceleration";
-  if (a.zone != b.zone || a.tool_zone != b.tool_zone || a.stop_zone != b.stop_zone) return "zone";
+  if (a.zone != b.zone || a.tool_zone != b.tool_zone || a.turn_zone != b.turn_zone || a.stop_zone != b.stop_zone)
+    return "zone";
   return "";
 }
 

@@ -401,6 +401,33 @@ class Layout {
     return std::max((t.pose(arm_.flange(move.to)).position - t.pose(arm_.flange(move.from)).position).norm(), 1e-6);
   }
 
+  double tool_turn(const Move& move) const {
+    if (move.is_path()) return move.path->turn();
+    const Tooling& t = move.tooling;
+    const Frame from = t.pose(arm_.flange(move.from)), to = t.pose(arm_.flange(move.to));
+    return rotation_vector(from.orientation.conjugate() * to.orientation).norm();
+  }
+
+  /// Returns the zone of the turn at the end of move k over the turn of a move beside it; infinity: no such zone.
+  double turn_cut(std::size_t k, const Move& of) const {
+    const std::optional<double>& zone = moves_[k].step->turn_zone;
+    const double turn = zone ? tool_turn(of) : 0;
+    return turn > 0 ? *zone / turn : INFINITY;
+  }
+
+  /// Returns the share of a move that the tool's zone at the end of move k cuts. In joint space the path and the turn are cut
+  /// together, so the smaller zone decides.
+  double tool_cut(std::size_t k, const Move& of) const {
+    const double share = std::min(0.5, tool_zone(k) / tool_way(of));
+    return has_tool_corner(k) ? share : std::min(share, turn_cut(k, of));
+  }
+
+  /// Returns whether the corner at the end of move k is a curve of the tool (M6), not one in joint space.
+  bool has_tool_corner(std::size_t k) const {
+    const Move &move = moves_[k], &next = moves_[k + 1];
+    return move.is_path() && next.is_path() && move.path->same_tooling(*next.path);
+  }
+
   /// Returns the largest rate of a share of `way` at which no axis exceeds its limit.
   static double axis_limit(const VectorXd& way, const VectorXd& limits) {
     double rate = INFINITY;
@@ -446,10 +473,12 @@ class Layout {
     if (stops(k) || move.chain == 0) return;
     const MotionStep& step = *move.step;
     const bool angle = !move.is_path() && !next.is_path() && !step.tool_zone && !step.stop_zone;
-    const double zone = angle ? step.zone.value_or(motion_.zone) : tool_zone(k);
-    const auto way = [&](const Move& m) { return angle ? (m.to - m.from).lpNorm<Eigen::Infinity>() : tool_way(m); };
-    move.cut_behind = std::min(0.5, zone / way(move));
-    next.cut_before = std::min(0.5, zone / way(next));
+    const double zone = step.zone.value_or(motion_.zone);
+    const auto cut = [&](const Move& of) {
+      return angle ? std::min(0.5, zone / (of.to - of.from).lpNorm<Eigen::Infinity>()) : tool_cut(k, of);
+    };
+    move.cut_behind = cut(move);
+    next.cut_before = cut(next);
   }
 
   // ---- legs
@@ -571,10 +600,9 @@ class Layout {
     if (step.zone || (!step.tool_zone && !step.stop_zone)) {
       leg.zone = leg.zone_behind = step.zone.value_or(motion_.zone);
     } else {  // a zone of the tool between two joint moves
-      const double zone = tool_zone(k);
-      leg.zone = leg.length * std::min(0.5, zone / tool_way(move));
+      leg.zone = leg.length * tool_cut(k, move);
       const VectorXd way = moves_[k + 1].to - moves_[k + 1].from;
-      leg.zone_behind = way.lpNorm<Eigen::Infinity>() * std::min(0.5, zone / tool_way(moves_[k + 1]));
+      leg.zone_behind = way.lpNorm<Eigen::Infinity>() * tool_cut(k, moves_[k + 1]);
     }
     if (stands(move)) leg.zone = INFINITY;
     if (stands(moves_[k + 1])) leg.zone_behind = INFINITY;
@@ -616,11 +644,20 @@ class Layout {
     return length / ((time - std::sqrt(root)) * acceleration / 2);
   }
 
+  /// Returns the share of a corner in which the turn is blended (M6). A small turn zone is one of `least` of the corner: then the
+  /// turn misses its target by less than least/4 of what the corner cuts.
+  double turn_window(std::size_t k) const {
+    constexpr double least = 1.0 / 16;
+    const double share =
+        std::min(turn_cut(k, moves_[k]) / moves_[k].cut_behind, turn_cut(k, moves_[k + 1]) / moves_[k + 1].cut_before);
+    return std::clamp(share, least, 1.0);
+  }
+
   /// Adds a corner (M6): from the end of the cut path of move k to the begin of the next cut path.
   void lay_corner(std::size_t k) {
     const Move &move = moves_[k], &next = moves_[k + 1];
     const VectorXd begin = last_, corner = move.to;
-    const bool straight = move.is_path() && next.is_path() && move.path->same_tooling(*next.path);
+    const bool straight = has_tool_corner(k);
     VectorXd end = next.from + next.cut_before * (next.to - next.from);
     if (next.is_path() && !arm_.without_closed_form().empty()) {  // follow the next path on the branch of the corner
       end = corner;
@@ -638,7 +675,8 @@ class Layout {
       end = *reached;
     }
     const double before = move.cut_behind * tool_way(move), behind = next.cut_before * tool_way(next);
-    const int points = std::max(8, static_cast<int>(std::ceil((before + behind) / point_distance)));
+    const double window = straight ? turn_window(k) : 1;
+    const int points = static_cast<int>(std::ceil(std::max(8 / window, (before + behind) / point_distance)));
     const Tooling& tooling = next.tooling;
     VectorXd joints = begin;
     Frame seen = tooling.pose(arm_.flange(joints));
@@ -647,8 +685,8 @@ class Layout {
       VectorXd target = (1 - u) * (1 - u) * begin + 2 * u * (1 - u) * corner + u * u * end;
       if (straight && i < points) {
         std::string reason;
-        const Frame pose =
-            bezier(move.path->pose(1 - move.cut_behind), next.path->pose(0), next.path->pose(next.cut_before), u);
+        const Frame pose = bezier(move.path->pose(1 - move.cut_behind), next.path->pose(0),
+                                  next.path->pose(next.cut_before), u, window);
         VectorXd near = joints;  // external axes follow the same curve
         const long external = near.size() - static_cast<long>(robot_.axes());
         near.tail(external) = target.tail(external);

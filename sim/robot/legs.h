@@ -10,7 +10,8 @@
 // (M6) Zones of tool paths: within the zone d of a corner (at most half of either move) the path is the
 //      quadratic Bezier curve of A, the corner and B. A and B are d before and behind the corner. The curve leaves and
 //      joins both paths tangentially and stays in their triangle, so the tool deviates by less than d.
-//      Orientations follow three slerps in the same way. If one of the moves is a joint move, the curve is in
+//      Orientations follow three slerps in the same way. With a zone of the turn (zone_turn_deg), which is a share w of what the
+//      corner cuts, the turn goes on to (1 - w)/2 of the corner and is blended from there to (1 + w)/2. If one of the moves is a joint move, the curve is in
 //      joint space.
 // (M11) A move with a share p of the jerk has ramps 1/p times as long: r' = r/(r + p (1 - r)) and
 //      A' = A p/(r + p (1 - r)) with the same acceleration. If r' would exceed 1/2, the acceleration is never

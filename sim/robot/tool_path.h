@@ -81,11 +81,17 @@ class ToolPath {
   Vector3 centre_ = Vector3::Zero(), axis_ = Vector3::UnitZ();
 };
 
-/// Returns the quadratic Bezier curve (M6) of a, b and c.
-inline Frame bezier(const Frame& a, const Frame& b, const Frame& c, double u) {
+/// Returns the quadratic Bezier curve (M6) of a, b and c. window: share of the corner in which the turn is blended; the turn goes
+/// to b before it, and on from b behind it.
+inline Frame bezier(const Frame& a, const Frame& b, const Frame& c, double u, double window = 1) {
   const Vector3 position = (1 - u) * (1 - u) * a.position + 2 * u * (1 - u) * b.position + u * u * c.position;
-  const Quaternion first = a.orientation.slerp(u, b.orientation), second = b.orientation.slerp(u, c.orientation);
-  return {position, first.slerp(u, second)};
+  const double begin = (1 - window) / 2;
+  if (u < begin) return {position, a.orientation.slerp(2 * u, b.orientation)};
+  if (u > 1 - begin) return {position, b.orientation.slerp(2 * u - 1, c.orientation)};
+  const double v = (u - begin) / window;
+  const Quaternion from = window < 1 ? b.orientation.slerp(window, a.orientation) : a.orientation,
+                   to = window < 1 ? b.orientation.slerp(window, c.orientation) : c.orientation;
+  return {position, from.slerp(v, b.orientation).slerp(v, b.orientation.slerp(v, to))};
 }
 
 }  // namespace dresslife::sim

@@ -73,6 +73,8 @@ struct MoveSpeed {
 struct MoveZone {
   double distance = 0;  ///< distance to the target at which the tool may leave its path [m]; 0 and percent 0: stop
   double percent = 0;   ///< share of the braking distance, if the controller blends by speed [%]
+  /// angle to the target at which the tool may leave its turn [rad]; absent: the turn is cut by the same share as the path
+  std::optional<double> turn{};
 };
 
 /// The place where a part of an instruction last got its value.

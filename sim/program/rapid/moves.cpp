@@ -230,6 +230,7 @@ bool Rapid::read_zone(const Expression& written, Instruction& move, Interpreter&
   if (!value) return false;
   remember(move, "zone", written, run);
   move.zone.distance = value->items[0].number != 0 ? 0 : std::max(0.0, item_number(*value, 1)) * millimetre;
+  if (move.zone.distance > 0) move.zone.turn = std::max(0.0, item_number(*value, 4)) * degree;
   return true;
 }
 

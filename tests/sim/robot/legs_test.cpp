@@ -207,6 +207,42 @@ TEST_CASE("legs: a zone cuts the corner inside its radius, without a stop, witho
   CHECK(slowest > 0.1);
 }
 
+TEST_CASE("legs: a zone of the turn lets the tool come nearer to a target's orientation than to its place") {
+  // There and back by 50 deg about the tool's axis, with steps of 40 mm, and on the spot.
+  constexpr double turn = 50 * degree;
+  constexpr double off =
+      2e-3;  // [rad]: the smoothing of a tool path (M10) and the legs of a corner cut the tip of the turn
+  const pipeline::Robot robot = arm();
+  const InverseKinematics kinematics(robot);
+  for (const double way : {0.04, 0.0}) {
+    const auto reached = [&](std::optional<double> zone_of_turn) {
+      std::vector<pipeline::MotionStep> steps{to(PathKind::linear, corner, 0.2, 0),
+                                              to(PathKind::linear, corner + Vector3(0, way, 0), 0.2, 0.01),
+                                              to(PathKind::linear, corner + Vector3(0, 2 * way, 0), 0.2, 0)};
+      const Quaternion before(steps[0].quaternion[0], steps[0].quaternion[1], steps[0].quaternion[2],
+                              steps[0].quaternion[3]);
+      const Quaternion turned = before * rotation({0, 0, turn});
+      steps[1].quaternion = {turned.w(), turned.x(), turned.y(), turned.z()};
+      steps[1].turn_zone = zone_of_turn;
+      steps[0].path = PathKind::joint;
+      const JointMotion run(motion(steps), robot);
+      double largest = 0;
+      for (double t = 0; t < run.duration(); t += 5e-4) {
+        const Quaternion now = kinematics.flange(run.position(t)).orientation;
+        largest = std::max(largest, rotation_vector(before.conjugate() * now).norm());
+      }
+      return largest;
+    };
+    // The path is cut by a quarter, or by a half on the spot. The middle of the curve is at three quarters of the cut turn.
+    const double cut = way > 0 ? 0.25 : 0.5;
+    CHECK(reached({}) == Approx(turn * (1 - cut / 2)).margin(off));
+    // The middle of the window of the turn, the zone over what is cut, misses a quarter of the zone twice.
+    for (const double zone : {2 * degree, 6 * degree}) CHECK(reached(zone) == Approx(turn - zone / 2).margin(off));
+    CHECK(reached(0.0) == Approx(turn * (1 - cut / 2 / 16)).margin(off));  // the least window
+    CHECK(reached(90 * degree) == reached({}));
+  }
+}
+
 TEST_CASE("legs: a circle keeps its radius") {
   const pipeline::Robot robot = arm();
   const InverseKinematics kinematics(robot);
