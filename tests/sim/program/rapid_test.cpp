@@ -44,7 +44,7 @@ TEST_CASE("rapid: a linear move with everything, in SI units") {
   CHECK(move.speed.tool.value() == Approx(0.25).epsilon(rounding));
   CHECK(move.speed.orientation.value() == Approx(500 * degree).epsilon(rounding));
   CHECK(move.zone.distance == Approx(0.015).epsilon(rounding));
-  CHECK(move.zone.turn.value() == Approx(2.25 * degree).epsilon(rounding));  // zone_ori of z15
+  CHECK(move.zone.turn.value() == Approx(1.5 * degree).epsilon(rounding));
   const NamedFrame& tool = r.program.tools.at(move.tool);
   CHECK(tool.name == "gun");
   CHECK((tool.frame.position - Vector3(0.1, 0, 0.25)).norm() < rounding);
