@@ -695,7 +695,9 @@ Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
     for (std::size_t week = 1; week <= weeks_until(times.back()); ++week)
       weeks.push_back(age_at(std::min(7.0 * double(week), times.back())));
     row.fails_in_week = worlds.fails_in(lives, row.age_hours, weeks);
-    row.fails_before_first = worlds.fails(lives, row.age_hours, row.age_hours, age_at(times.front()));
+    // The same law as for the weeks, so that their sums agree.
+    const std::vector<double> fails_until = worlds.fails_in(lives, row.age_hours, mapped(times, age_at));
+    row.fails_before_first = fails_until.front();
     double failed = row.fails_before_first;
     const LaterLife life = decision.later_life(i, lives, row.age_hours);
     std::optional<LaterLife> until_change;
@@ -709,7 +711,7 @@ Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
     };
     for (std::size_t n = 0; n < windows.size(); ++n) {
       const double left = 1 - failed, from = age_at(times[n]), to = age_at(times[n + 1]);
-      const double fails = worlds.fails(lives, row.age_hours, from, to);
+      const double fails = fails_until[n + 1];
       row.fails_until_next.push_back(left > 0 ? fails / left : 1);
       if (!row.window && replaces_at(from, to)) row.window = n, row.fails_before = failed;
       failed += fails;

@@ -309,6 +309,15 @@ std::string what_if_words(const std::string& name, const Fleet& fleet, const Pla
   text +=
       fmt::format("Replaced at another time (now): {}\n", changes.empty() ? "none" : std::to_string(changes.size()));
   if (!changes.empty()) text += wrapped(fmt::format("{}", fmt::join(changes, ", ")), width, "  ");
+  const bool other_duty = std::ranges::any_of(changed.rows, [&](const Installed& row) {
+    const Installed* const old = find_in(fleet.rows, &Installed::name, row.name);
+    return old && old->since == row.since && old->duty != row.duty;
+  });
+  if (other_duty)
+    text += wrapped(
+        "A dresspack that survived its duty has shown that it withstands this duty, not that it withstands another one. So "
+        "even a milder duty can have more failures at first.",
+        width, "");
   return text;
 }
 
