@@ -109,7 +109,8 @@ bool write_short_job(const ImproveRequest& request, const Improvement& found, co
   const Node document = read_document(request.file);
   check_replaceable(job);  // checked a second time, because the file may have changed during the search
   if (!best || !finals.is_gain(*best) || !document.find("robot") || !document.find("routing")) {
-    if (written) remove_ours(job);
+    if (written && remove_ours(job))
+      print(shown(fmt::format("Removed: {}, the best as drawn, because nothing is clearly better.\n", job.string())));
     return false;
   }
   RouteRequest route{.of = request.file.string()};

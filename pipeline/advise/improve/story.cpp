@@ -100,7 +100,7 @@ std::string choice_words(const Improvement& found, const Finals& finals) {
   std::string text;
   const auto add_worst = [&](const char* of, const Final& judged) {
     if (judged.tolerance)
-      text += fmt::format("{}, within the mounting tolerance: {} in the worst case found\n", of,
+      text += fmt::format("{}, within the mounting tolerance, at worst: {}\n", of,
                           outcome_words(judged.tolerance->worst_outcome, judged.tolerance->worst_outcome.hours));
   };
   if (finals.of.front().tolerance) add_worst("The proposed job", best);

@@ -97,14 +97,16 @@ void evaluate(WithinTolerance& judged, const Finalist& of, const std::vector<std
   const std::vector<Outcome> outcomes = estimates ? of.run_known(numbers) : of.run(numbers);
   for (std::size_t k = 0; k < numbers.size(); ++k)
     add(judged, of, numbers[k], estimates ? estimated(outcomes[k + 1], outcomes[0], of.drawn) : outcomes[k], estimates);
-  judged.worst = merit_of(of.drawn, as_it_is), judged.worst_outcome = of.drawn;
+  judged.worst = merit_of(of.drawn, as_it_is);
   std::pair<Kept, double> worst_of_full = to_verify(of.drawn, as_it_is), worst_estimated{Kept::modes, HUGE_VAL};
   for (std::size_t k = 0; k < judged.outcomes.size(); ++k) {
     auto& worst = judged.nudges[k].estimated ? worst_estimated : worst_of_full;
     worst = std::min(worst, to_verify(judged.outcomes[k], as_it_is));
-    if (const Merit merit = merit_of(judged.outcomes[k], as_it_is); merit < judged.worst)
-      judged.worst = merit, judged.worst_outcome = judged.outcomes[k];
+    judged.worst = std::min(judged.worst, merit_of(judged.outcomes[k], as_it_is));
   }
+  std::vector<Outcome> all = judged.outcomes;
+  all.push_back(of.drawn);
+  judged.worst_outcome = worst_of(all);
   judged.whole = judged.numbers.size() == of.nudges.size() && worst_of_full <= worst_estimated &&
                  full_runs(judged) >= std::min(full_at_once, of.nudges.size());
 }

@@ -65,9 +65,9 @@ struct WithinTolerance {
   std::vector<ImprovementStory::Nudge> nudges;  ///< evaluated nudges
   std::vector<std::size_t> numbers;             ///< (evaluated) index in Finalist::nudges, rising
   Merit worst;                                  ///< m_w of the evaluated nudges
-  Outcome worst_outcome;                        ///< outcome with this merit
-  bool whole = false;                           ///< whether m_w is known
-  std::vector<Outcome> outcomes{};              ///< (evaluated)
+  Outcome worst_outcome;            ///< the shortest life, the largest violation and the earliest modes of all cases
+  bool whole = false;               ///< whether m_w is known
+  std::vector<Outcome> outcomes{};  ///< (evaluated)
 };
 
 /// Evaluates the nudges of one finalist until m_w is known or `enough` returns true for the worst merit so
