@@ -451,7 +451,8 @@ std::optional<pipeline::Remedy> slack_remedy(const pipeline::FileReader& strain,
       remedy.values.push_back({key, best.shift > 0 ? pipeline::percent_above(to) : pipeline::percent_below(to)});
       before.push_back(fmt::format("{:.3g}", 100 * now));
     }
-    remedy.words = fmt::format(" (now {}; all of them, by the forces at {})", pipeline::joined(before, ", "), range);
+    remedy.words = fmt::format(" (now {}; all of them, by the forces at {}{})", pipeline::joined(before, ", "), range,
+                               best.shift > 0 ? "; more slack rubs more, so jackets wear through sooner" : "");
   }
   if (best.share > 0)
     remedy.words += fmt::format("; run again, because {} of such dresspacks may exceed a limit then, too",

@@ -330,11 +330,12 @@ struct Slack : Varied {
 TEST_CASE("forces at other values: the slack of all cables together that cures them, and the next run has no warning") {
   Slack tight({1.4, 0.5, 0.2});
   // The load at -1.5 + 0.5 is 1.4 (0.5 / 1.4)^(1/3) = 0.993, and at -1.5 + 0.45 1.028. 1.5^0.5 = 1.22.
-  CHECK_THAT(
-      tight.text(),
-      Catch::Contains("too little slack: 1.09 % instead of 2 %. Remedy: dresspack.components.1.slack_percent: 1.3 "
-                      "and dresspack.components.2.slack_percent: 2.5 (now 1, 2; all of them, by the forces at "
-                      "0.54 .. 1.8 times the slack of all cables together)\n"));
+  CHECK_THAT(tight.text(),
+             Catch::Contains(
+                 "too little slack: 1.09 % instead of 2 %. Remedy: dresspack.components.1.slack_percent: 1.3 "
+                 "and dresspack.components.2.slack_percent: 2.5 (now 1, 2; all of them, by the forces at "
+                 "0.54 .. 1.8 times the slack of all cables together; more slack rubs more, so jackets wear through "
+                 "sooner)\n"));
   const std::vector<pipeline::KeyValue> cure{{"dresspack.components.1.slack_percent", "1.3"},
                                              {"dresspack.components.2.slack_percent", "2.5"}};
   REQUIRE(tight.warnings().size() == 2);  // of the force and of the moment at a clamp
