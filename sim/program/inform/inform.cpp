@@ -96,6 +96,7 @@ class Inform final : public Dialect {
     if (name == "settool" || name == "mframe") return set_frame(statement, run), true;
     if (name == "clear") return clear(statement, run), true;
     if (calculates(name)) return calculate(statement, run), true;
+    if (name == "gete" && read_element(statement, run)) return true;
     if (name == "pstart") return start_beside(statement, run), true;
     if (name == "wvon")
       return run.note(statement.place, "WVON: the torch swings about its path, which is followed without it", true),
@@ -232,9 +233,24 @@ class Inform final : public Dialect {
   /// Executes SFTON P000 UF#(1), which shifts the positions of the following moves, or SFTOF, which ends the shift.
   void shift(const Statement& statement, Interpreter& run) {
     shift_.reset();
-    if (statement.name == "sftof" || statement.arguments.empty()) return;
-    shift_ = {statement.arguments[0], statement.arguments.size() > 1 ? statement.arguments[1].text : ""};
+    if (statement.name == "sftof") return;
+    if (statement.arguments.empty())
+      return run.note(statement.place, "SFTON: names no position, so the moves behind it are not shifted", true);
+    shift_ = {statement.arguments[0],
+              statement.arguments.size() > 1 ? frame_name(statement.arguments.back(), statement, run) : ""};
     shift_value_ = run.evaluate(statement.arguments[0]);
+  }
+
+  /// Returns the name of the frame of a SFTON or IMOV: bf, rf, tf or uf#(1). Another one is read as bf, with a warning.
+  std::string frame_name(const Expression& written, const Statement& statement, Interpreter& run) const {
+    std::string name = written.text;
+    if (written.kind == Expression::Kind::call && written.items.size() == 1)
+      if (const auto number = run.number(written.items[0])) name = indexed(name, *number);
+    if (name == "bf" || name == "rf" || name == "tf" || name.starts_with("uf#(")) return name;
+    run.note(statement.place,
+             fmt::format("{}: what {} does to the move is not read; read as BF", statement.text, upper_case(name)),
+             true);
+    return "bf";
   }
 
   /// Returns `pose` (tool in the robot's base frame) shifted by the numbers of `by` in the frame `frame_name`.
@@ -413,7 +429,8 @@ class Inform final : public Dialect {
                                 : "moves by a distance from the robot's start position (IMOV)",
                             "store the position before it as BASE or USER"),
              false;
-    const auto moved = shifted(reached_->base, by, system ? system->text : "", statement.place);
+    const auto moved =
+        shifted(reached_->base, by, system ? frame_name(*system, statement, *run_) : "", statement.place);
     if (!moved) return false;
     reached_->base = move.target.pose = *moved;
     reached_->position.type = "base";
@@ -436,7 +453,8 @@ class Inform final : public Dialect {
 
   // ---- moves ------------------------------------------------------------------------------------------------------
 
-  void speed(const Statement& statement, Interpreter&) {
+  void speed(const Statement& statement, Interpreter& run) {
+    unread_words(statement, run);
     for (const char* option : {"vj", "v", "vr"})
       if (const auto number = tag(statement, option)) default_speed_[option] = *number;
   }
@@ -451,10 +469,11 @@ class Inform final : public Dialect {
     const bool axes = move.kind == Instruction::Kind::joint;
     const char* option = axes ? "vj" : "v";
     auto number = speed_of(statement, option);
-    if (!number && argument_of(statement, option)) return false;  // tag() has asked for it
-    if (!axes && argument_of(statement, "vr")) number = std::nullopt;
-    std::optional<double> turn;
-    if (!axes) turn = speed_of(statement, "vr");
+    const bool own = argument_of(statement, option), own_turn = !axes && argument_of(statement, "vr");
+    if (!number && own) return false;  // tag() has asked for it
+    if (own_turn && !own) number = std::nullopt;
+    std::optional<double> turn;  // V or VR of the line replaces both of SPEED
+    if (own_turn || (!axes && !own)) turn = speed_of(statement, "vr");
     if (!number && !turn) {
       if (const auto given = run_->given(option); given && given->is_number()) number = given->number;
       if (!number)
@@ -575,6 +594,10 @@ class Inform final : public Dialect {
                true);
     if (argument_of(statement, "until"))
       run.note(statement.place, statement.text + ": an input may end the move; it is taken to its end", true);
+    unread_words(statement, run);
+  }
+
+  static void unread_words(const Statement& statement, Interpreter& run) {
     for (const Expression& argument : statement.arguments)
       if (argument.option == "unknown")
         run.note(statement.place,
@@ -585,7 +608,8 @@ class Inform final : public Dialect {
     if (statement.arguments.empty()) return;
     const Expression& written = statement.arguments[0];
     const auto number = needed(written, "time");
-    if (!number || !(*number > 0)) return;
+    if (number && *number < 0) return run.complain(statement.place, "waits for a time below 0", "correct the time");
+    if (!number || *number == 0) return;
     run.emit(dwell_of(*number * (written.kind == Expression::Kind::number ? 1 : unit_of_variable("t"))), statement);
   }
 
@@ -621,19 +645,42 @@ class Inform final : public Dialect {
       run.assign(name_at(fmt::format("{}{:03}", first.substr(0, digits), i), statement.place), number_value(0));
   }
 
+  /// Returns what one count of the number `which` of a position is in SETE and GETE: 1 pulse, 0.001 mm or 0.0001 deg.
+  static double unit_of_element(const Position& position, double which) {
+    return position.type == "pulse" ? 1 : which <= 3 ? 1e-3 : 1e-4;
+  }
+
+  /// Returns the variable that an instruction writes to: B003, or B[I000] with its number. Reports an unknown number.
+  static std::optional<Expression> target_of(const Expression& written, const Statement& statement, Interpreter& run) {
+    if (written.kind != Expression::Kind::call) return written;
+    const auto index = written.items.size() == 1 ? run.number(written.items[0]) : std::nullopt;
+    if (index) return name_at(indexed(written.text, *index), statement.place);
+    run.complain(statement.place, "writes to a variable whose number is known only while the robot runs",
+                 "write its number");
+    return {};
+  }
+
+  /// Executes GETE D000 P000 (3). Returns false if the position or the number is not known.
+  bool read_element(const Statement& statement, Interpreter& run) {
+    const auto& given = statement.arguments;
+    const auto target = given.size() == 3 ? target_of(given[0], statement, run) : std::nullopt;
+    if (!target) return given.size() == 3;
+    const auto position = position_in(run.evaluate(given[1]));
+    const auto which = run.number(given[2]);
+    if (!position || !which || *which < 1 || *which > static_cast<double>(position->numbers.size())) return false;
+    const double number = position->numbers[static_cast<std::size_t>(*which) - 1];
+    run.assign(*target, number_value(std::round(number / unit_of_element(*position, *which))));
+    return true;
+  }
+
   /// Executes calculations that are not assignments in the tree: arithmetic of positions, one number of a position (SETE),
   /// and variables with an index.
   void calculate(const Statement& statement, Interpreter& run) {
     const auto& given = statement.arguments;
     if (given.empty()) return;
-    Expression target = given[0];
-    if (target.kind == Expression::Kind::call) {
-      const auto index = target.items.size() == 1 ? run.number(target.items[0]) : std::nullopt;
-      if (!index)
-        return run.complain(statement.place, "writes to a variable whose number is known only while the robot runs",
-                            "write its number");
-      target = name_at(indexed(target.text, *index), statement.place);
-    }
+    const auto written = target_of(given[0], statement, run);
+    if (!written) return;
+    const Expression& target = *written;
     const Value with = given.size() > 1 ? run.evaluate(given.back()) : number_value(1);
     if (statement.name == "set") return run.assign(target, with);
     Value value = run.evaluate(target);
@@ -645,7 +692,7 @@ class Inform final : public Dialect {
       if (!which || !read || !with.is_number() || *which < 1 || *which > static_cast<double>(read->numbers.size()))
         return run.make_unknown(target,
                                 {"", fmt::format("is set in part by SETE ({})", run.short_place(statement.place))});
-      const double unit = read->type == "pulse" ? 1 : *which <= 3 ? 1e-3 : 1e-4;  // SETE counts 0.001 mm or 0.0001 deg
+      const double unit = unit_of_element(*read, *which);
       value.items[0].items[static_cast<std::size_t>(*which) - 1] = number_value(with.number * unit);
       return run.assign(target, std::move(value));
     }

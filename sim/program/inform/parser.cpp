@@ -632,6 +632,9 @@ class InformParser {
       if (s.name == "wait" && !same_word(at.peek_word(), "t")) return into.push_back(std::move(s));
       s.name = "timer";
       if (!at.take("T") || !at.take_sign("=")) at.fail("waits without T=");
+      s.arguments.push_back(at.operand());
+      if (const std::string_view rest = at.rest(); !rest.empty() && !rest.starts_with("//"))
+        at.fail(fmt::format("has '{}' behind a time, which counts seconds", rest));
     }
     while (!at.at_end() && !at.rest().starts_with("//")) {
       if (at.take_sign("(")) {  // SETE P000 (3) D000

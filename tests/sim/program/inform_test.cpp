@@ -351,3 +351,54 @@ TEST_CASE("inform: a position that several jobs hold is asked for where they dif
   REQUIRE(told.program.instructions.size() == 2);
   for (int i : {0, 1}) CHECK(told.move(i).target.pose.position.y() == Approx(0.009).epsilon(rounding));
 }
+
+TEST_CASE("inform: V of a line replaces both speeds of SPEED") {
+  const Reading r = run(three, "SPEED V=300.0 VR=20.0\nMOVL C00000 V=100.0\nMOVL C00001 VR=30.0\nMOVL C00002\n");
+  REQUIRE(r.problem() == "no such problem");
+  CHECK(r.move(0).speed.tool.value() == Approx(0.1));
+  CHECK(!r.move(0).speed.orientation);
+  CHECK(!r.move(1).speed.tool);
+  CHECK(r.move(1).speed.orientation.value() == Approx(30 * degree));
+  CHECK(r.move(2).speed.tool.value() == Approx(0.3));
+  CHECK(r.move(2).speed.orientation.value() == Approx(20 * degree));
+}
+
+TEST_CASE("inform: times of TIMER are seconds") {
+  CHECK_THAT(run(three, "MOVJ C00000 VJ=9\nTIMER T=500ms\n").problem(),
+             Catch::Contains("has 'ms' behind a time, which counts seconds"));
+  for (const char* time : {"TIMER T=-1\n", "SET I000 -1\nTIMER T=I000\n"})
+    CHECK_THAT(run(three, "MOVJ C00000 VJ=9\n" + std::string(time)).problem(),
+               Catch::Contains("waits for a time below 0"));
+  CHECK(run(three, "MOVJ C00000 VJ=9\nTIMER T=0.00 //none\n").problem() == "no such problem");
+}
+
+TEST_CASE("inform: frames of SFTON and IMOV that are not read, and words of SPEED, are named") {
+  const std::string taught = three + "P00001=10.000,20.000,30.000,0.0000,0.0000,0.0000\n";
+  const auto lines = [&](const std::string& first) {
+    return run(taught, "MOVL C00000 V=9\n" + first + "MOVL C00001 V=9\n");
+  };
+  CHECK(skips(lines("SFTON P001 XF\n"), "SFTON: what XF does to the move is not read", true));
+  CHECK(skips(lines("SFTON P001 MTF\n"), "SFTON: what MTF does to the move is not read", true));
+  CHECK(skips(lines("IMOV P001 V=9 MTF\n"), "IMOV: what MTF does to the move is not read", true));
+  CHECK(skips(lines("IMOV P001 V=9 XF\n"), "IMOV: what XF does to the move is not read", true));
+  CHECK(skips(lines("SFTON\n"), "SFTON: names no position", true));
+  CHECK(skips(lines("SPEED VV=30\n"), "SPEED: what VV=30 does to the move is not read", true));
+  for (const char* first :
+       {"SFTON P001\n", "SFTON P001 BF\n", "SFTON P001 RF\n", "SFTON P001 TF\n", "SPEED VJ=9 V=9 VR=9 VE=9\n"}) {
+    INFO(first);
+    CHECK(!skips(lines(first), "is not read", true));
+  }
+}
+
+TEST_CASE("inform: GETE reads a number of a position in counts of SETE") {
+  const std::string taught = three + "P00001=10.000,20.000,30.500,0.0000,0.0000,1.5000\n";
+  const auto read = [&](const std::string& gete, const std::string& count) {
+    return lines_of(run(taught, gete + "JUMP *END IF D001=" + count + "\nMOVJ C00000 VJ=9\n*END\nMOVJ C00001 VJ=9\n"));
+  };
+  CHECK(read("GETE D001 P001 (3)\n", "30500").size() == 1);
+  CHECK(read("GETE D001 P001 (6)\n", "15000").size() == 1);
+  CHECK(read("SET I000 1\nGETE D[I000] P001 (1)\n", "10000").size() == 1);
+  CHECK(run(taught, "GETE D001 P009 (3)\nJUMP *END IF D001=1\nMOVJ C00000 VJ=9\n*END\n")
+            .problem()
+            .find("may be written by gete") != std::string::npos);
+}
