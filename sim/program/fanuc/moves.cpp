@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "pipeline/base/constants.h"
+#include "pipeline/settings/fields.h"
 #include "sim/program/fanuc/run.h"
 #include "sim/program/interpreter/tokens.h"
 
@@ -320,7 +322,16 @@ bool FanucRun::read_speed(FanucCursor& at, Instruction& move) {
   }
   if (weld && !(*speed > 0)) return wrong_value("is not above 0");
   if (!(*speed > 0)) return refuse("has no speed above 0", "write one");
+  const bool axes = move.kind == Instruction::Kind::joint;
+  const auto of_other_moves = [&](const char* unit) {
+    note(fmt::format("{:g}{}: {}: J takes %, deg/sec or sec, the others mm/sec, cm/min, inch/min, deg/sec or sec",
+                     *speed, unit, other_speed),
+         true);
+  };
+  for (const char* unit : {"mm/sec", "cm/min", "inch/min"})
+    if (axes && FanucCursor(written).take(unit)) of_other_moves(unit);
   if (written.take_sign('%')) {
+    if (!axes) of_other_moves("%");
     if (*speed > 100) note(fmt::format("{:g}%: {}", *speed, above_all_speed), true);
     move.speed.axis_percent = std::min(*speed, 100.0) * *share;
   } else if (written.take("mm/sec"))
@@ -345,6 +356,11 @@ bool FanucRun::read_speed(FanucCursor& at, Instruction& move) {
 
 /// Reads the number of an option. Asks for it if it is unknown.
 FanucNumber FanucRun::needed(FanucCursor& at, const char* what) {
+  FanucCursor next = at;
+  if (!next.number() && !next.take("R") && !next.take("AR") && !next.take_sign('(')) {
+    complain(fmt::format("{} without a number", what), "write the number behind the word: CNT50, CR10, ACC80");
+    return {};
+  }
   values_.forget_missing();
   const FanucNumber number = values_.value(at);
   if (!number) missing_value(what);
@@ -459,6 +475,8 @@ bool FanucRun::read_option(FanucCursor& at, Instruction& move, Options& options)
     note("Wjnt, MROT: the tool turns otherwise on its way than read here", true);
   } else if (at.take("CALL")) {
     options.calls = std::string(at.rest());
+    at.name();
+    if (at.take_sign('(')) at.skip_to(')');
   } else if (at.take("PSPD") || at.take("EV") || at.take("IND")) {
     note("PSPD, EV: changes the speed of the move", true);
   } else {
@@ -473,11 +491,39 @@ bool FanucRun::read_options(FanucCursor& at, Instruction& move, Options& options
     if (at.take_sign(',') || at.take_sign(':') || read_option(at, move, options)) continue;
     if (at.rest().starts_with("[")) {  // brackets of a skipped word: SPOT[SD=1], DO[3:on]
       at.skip_to(']');
-    } else if (at.word().empty()) {
+    } else if (const std::size_t begin = at.offset(); at.word().empty()) {
       at.move_to(at.offset() + 1);
+    } else {
+      unread_option(at.from(begin));
     }
   }
   return !options.failed;
+}
+
+/// Notes a word behind the speed that read_option() does not know, unless the word belongs to a call at a time or a
+/// distance from the point (TB .10sec,DO[3]=ON), to Skip (PR[5]=LPOS), or to a process (SPOT[..], Arc Start[..]).
+void FanucRun::unread_option(std::string_view written) {
+  static const std::set<std::string> silent{"tb",  "ta",   "db", "da", "time", "before",      "after", "ta_ref",
+                                            "sec", "msec", "mm", "p",  "sps",  "point_logic", "pulse", "on",
+                                            "off", "lbl",  "r",  "pr", "ar",   "lpos",        "jpos",  "start",
+                                            "end", "spot", "ss", "se", "seal"};
+  static const std::set<std::string> at_corners{"pth", "rt_ld", "ap_ld", "rt_ldr", "ap_ldr", "break"};
+  static const std::vector<std::string> known{"FINE", "CNT",      "ACC",  "Offset", "Tool_Offset", "VOFFSET", "INC",
+                                              "RTCP", "COORD",    "Skip", "Wjnt",   "MROT",        "PSPD",    "PTH",
+                                              "CALL", "SkipJump", "SPOT", "RT_LD",  "AP_LD",       "BREAK"};
+  std::string word = lower_case(written);
+  while (!word.empty() && word.back() >= '0' && word.back() <= '9') word.pop_back();
+  const bool number = written[0] >= '0' && written[0] <= '9';  // of TB, DB and the like
+  if (number || silent.contains(word) || fanuc_word(word) == FanucWord::logic) return;
+  if (at_corners.contains(word)) return note("PTH, RT_LD, AP_LD, BREAK: change the path at corners, not read");
+  if (word == "fplin" || fanuc_word(word) == FanucWord::shapes_motion)
+    return note(word + ": changes how the robot moves; what it does lies in the controller", true);
+  std::vector<std::string> lower;
+  for (const std::string& name : known) lower.push_back(lower_case(name));
+  const auto near = std::find(lower.begin(), lower.end(), pipeline::nearest_word(word, lower));
+  note(fmt::format("{}: {}; it does nothing here{}", written, unknown_word,
+                   near == lower.end() ? "" : fmt::format(" (near: {})", known[near - lower.begin()])),
+       true);
 }
 
 // ---- moves -----------------------------------------------------------------------------------------------

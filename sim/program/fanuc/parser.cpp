@@ -142,7 +142,11 @@ class ListingParser {
       FanucCursor at(statements[i].text);
       const std::string word = at.word();
       if (word == "lbl" && at.take_sign('[')) {
-        if (const auto number = at.number()) listing_.labels.try_emplace(whole_number(*number), i);
+        const auto number = at.number();
+        if (const auto [first, added] =
+                number ? listing_.labels.try_emplace(whole_number(*number), i) : std::pair(listing_.labels.end(), true);
+            !added)
+          listing_.doubled.insert(first->second);
       } else if (word == "if" && lower_case(statements[i].text).ends_with("then")) {
         ifs.push_back(i);
       } else if (word == "else" && at.at_end() && !ifs.empty()) {
@@ -195,7 +199,9 @@ class ListingParser {
                     "write six coordinates or the joint angles, in mm and deg, with decimal points");
       return;
     }
-    listing_.positions[whole_number(*number)] = std::move(read);
+    if (!listing_.positions.try_emplace(whole_number(*number), std::move(read)).second)
+      problems_.add({source_.name(), line, 1}, fmt::format("is a second P[{}]", whole_number(*number)),
+                    "keep one of them");
   }
 
   /// Returns whether the remaining text begins with a position or a section, or is empty.

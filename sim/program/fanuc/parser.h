@@ -7,6 +7,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -42,6 +43,7 @@ struct FanucListing {
   std::vector<FanucStatement> statements;
   std::map<int, FanucPosition> positions;
   std::map<int, std::size_t> labels;  ///< LBL[n] -> index of the statement
+  std::set<std::size_t> doubled;      ///< indices of labels that a later line has, too
 };
 
 FanucListing parse_fanuc(const SourceFile& source, int file, Program& program, Problems& problems);

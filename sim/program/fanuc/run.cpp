@@ -12,6 +12,16 @@
 namespace dresslife::sim {
 namespace {
 
+/// Returns the unit [s] of a time "0.50(sec)" from the text behind its number; std::nullopt: another text.
+std::optional<double> fanuc_unit_of_time(std::string_view text) {
+  std::string unit;
+  for (const char c : lower_case(text))
+    if (c != '(' && c != ')' && static_cast<unsigned char>(c) > ' ') unit += c;
+  if (unit.empty() || unit == "sec" || unit == "sek" || unit == "s") return 1;
+  if (unit == "msec" || unit == "msek" || unit == "ms") return 1e-3;
+  return {};
+}
+
 std::string file_of(const std::string& path) { return path.substr(path.find_last_of('/') + 1); }
 
 /// Returns the names of the values that differ between two texts of FanucValues::deciding_state().
@@ -299,7 +309,9 @@ void FanucRun::assignment(const std::string& word, FanucCursor& at) {
   if (word == "override" || word == "uframe_num" || word == "utool_num" || left == "$mcr.$genoverride" ||
       left == "$prgoverride") {
     at.skip_to('=');
-    const FanucNumber number = values_.expression(at);
+    FanucNumber number = values_.expression(at);
+    at.take_sign('%');
+    if (number && !read_whole(at)) number.reset();
     return values_.set_named(left == "$mcr.$genoverride" ? "override" : left.starts_with("$") ? left : word, number);
   }
   if (left.starts_with("$mnuframe[") || left.starts_with("$mnutool[")) {  // [group,number]
@@ -354,6 +366,10 @@ void FanucRun::jump(FanucCursor& at, bool certain) {
 
 void FanucRun::jump_to(std::size_t target, bool certain) {
   const std::size_t here = routine().at;
+  if (const FanucListing& listing = *routine().listing; listing.doubled.contains(target))
+    note(fmt::format("{}: {}; the jump leads to line {}", listing.statements[target].text, doubled_label,
+                     listing.statements[target].line),
+         true);
   if (target <= here) last_jump_ = where();
   const bool looking = exploration_.guessing();
   if (looking && target <= here && !still_new(target)) throw Stop{};
@@ -433,6 +449,7 @@ bool FanucRun::goes_on(std::size_t label) {
 
 void FanucRun::wait(FanucCursor& at) {
   const std::size_t begin = at.offset();
+  const std::string written(at.rest());
   FanucNumber time = at.number();
   if (!time && (at.take("R") || at.take("AR"))) {
     at.move_to(begin);
@@ -455,17 +472,34 @@ void FanucRun::wait(FanucCursor& at) {
     }
     return note("WAIT: input");
   }
-  if (*time > 0) emit(dwell_of(*time));
+  const auto unit = fanuc_unit_of_time(at.rest());
+  if (!unit)
+    return complain(fmt::format("waits for a time in a form that is not read: '{}'", trimmed(written)),
+                    "write it in seconds, with a decimal point: WAIT 0.50(sec)");
+  if (*time < 0) return complain("waits for a time below 0", "correct the time");
+  if (*time > 0) emit(dwell_of(*time * *unit));
 }
 
 // ---- assignments -----------------------------------------------------------------------------------------
+
+/// Returns whether an expression was read to the end of its line. If not, its value is unknown, with a warning.
+bool FanucRun::read_whole(FanucCursor& at) {
+  if (at.at_end()) return true;
+  note(fmt::format("{}: {}", at.rest(), unread_rest), true);
+  values_.forget_missing();
+  return false;
+}
 
 void FanucRun::assign_register(FanucCursor& at) {
   const auto index = values_.index(at);
   at.skip_to('=');
   values_.forget_missing();
   const bool known = index && index->number;
-  const FanucNumber value = known ? values_.source(whole_number(*index->number), at) : values_.expression(at);
+  FanucNumber value = known ? values_.source(whole_number(*index->number), at) : values_.expression(at);
+  if (known && value && !read_whole(at)) {
+    value.reset();
+    values_.miss({{fmt::format("R[{}]", whole_number(*index->number))}});
+  }
   if (known) return values_.set_register(whole_number(*index->number), value);
   values_.forget_registers(values_.causes());
   note("R: writes a register whose number is known only while the robot runs");
@@ -483,10 +517,18 @@ void FanucRun::assign_position(FanucCursor& at) {
   const int number = whole_number(*index->number);
   values_.forget_missing();
   if (index->part) {
-    const FanucNumber value = values_.expression(at);
+    FanucNumber value = values_.expression(at);
+    if (value && !read_whole(at)) {
+      value.reset();
+      values_.miss({FanucCause{}});
+    }
     return values_.set_component(number, whole_number(*index->part), value);
   }
-  const auto sum = position_sum(at);
+  auto sum = position_sum(at);
+  if (sum && sum->known() && !read_whole(at)) {
+    sum.reset();
+    values_.miss({{fmt::format("PR[{}]", number)}});
+  }
   const bool known = values_.given(fmt::format("pr[{}]", number)).has_value();  // used if the sum is unknown
   if (sum && sum->known()) return values_.set_position(number, *sum);
   values_.forget_position(number, known ? FanucCauses{} : values_.causes());
@@ -552,7 +594,11 @@ void FanucRun::assign_frame(const std::string& word, FanucCursor& at) {
 /// Assigns a frame. Six components that a program wrote are taken as a pose. An unknown value makes the frame unknown.
 void FanucRun::set_frame(bool tool, int number, FanucCursor& at) {
   values_.forget_missing();
-  const std::optional<FanucPosition> read = position_sum(at);
+  std::optional<FanucPosition> read = position_sum(at);
+  if (read && read->known() && !read_whole(at)) {
+    read.reset();
+    values_.miss({FanucCause{}});
+  }
   if (read && read->form != FanucPosition::Form::joints && read->known() && read->values.size() == 6)
     frames_[{tool, number}] = {frame_of_fanuc(read->values), {}};
   else
@@ -562,7 +608,11 @@ void FanucRun::set_frame(bool tool, int number, FanucCursor& at) {
 /// Assigns one component of a frame. The frame is asked for if its other components are unknown.
 void FanucRun::set_frame_component(bool tool, int number, int component, FanucCursor& at) {
   values_.forget_missing();
-  const FanucNumber value = values_.expression(at);
+  FanucNumber value = values_.expression(at);
+  if (value && !read_whole(at)) {
+    value.reset();
+    values_.miss({FanucCause{}});
+  }
   const FanucCauses why = values_.causes();
   const auto before = frame(tool, number);
   if (!before) return;
@@ -668,6 +718,9 @@ void FanucRun::if_statement(FanucCursor& at) {
   const bool block = lower_case(s.text).ends_with("then");
   const std::string rest = block ? "" : fanuc_action(s.text);
   std::optional<bool> decision = values_.condition(at);
+  at.skip_blanks();
+  const bool whole = at.rest().starts_with(",") || at.rest() == rest || FanucCursor(at.rest()).take("THEN");
+  if (decision && !whole && !read_whole(at)) decision.reset();
   if (decision) {
     routine().decided.insert(routine().at);
     last_decision_ = where();
@@ -776,7 +829,7 @@ std::optional<std::size_t> FanucRun::chosen(const std::vector<Case>& cases, Fanu
     if (known[i]) continue;
     if (cases[i].otherwise) return value ? std::optional(i) : std::nullopt;
     if (!value || !cases[i].value) return {};
-    if (*value == *cases[i].value) return i;
+    if (fanuc_real(*value) == fanuc_real(*cases[i].value)) return i;
   }
   return value ? std::optional(cases.size()) : std::nullopt;
 }
@@ -816,7 +869,8 @@ void FanucRun::for_statement(FanucCursor& at) {
   const FanucNumber from = values_.expression(at);
   const bool down = at.take("DOWNTO");
   if (!down) at.take("TO");
-  const FanucNumber to = values_.expression(at);
+  FanucNumber to = values_.expression(at);
+  if (to && !read_whole(at)) to.reset();
   if (!index || !index->number || !from || !to) {
     const bool left_out = no_matter(outlook_.effects(*routine().listing, here + 1, end));
     if (!left_out) missing_value("counts by");

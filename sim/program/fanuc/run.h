@@ -80,6 +80,7 @@ class FanucRun {
   std::vector<FanucValues::Stored> arguments_in(FanucCursor& at);
   void unread(const std::string& what);
   void wait(FanucCursor& at);
+  bool read_whole(FanucCursor& at);
   void assign_register(FanucCursor& at);
   void assign_position(FanucCursor& at);
   std::optional<FanucPosition> position_sum(FanucCursor& at);
@@ -112,6 +113,7 @@ class FanucRun {
   };
   bool read_options(FanucCursor& at, Instruction& move, Options& options);
   bool read_option(FanucCursor& at, Instruction& move, Options& options);
+  void unread_option(std::string_view written);
   FanucNumber needed(FanucCursor& at, const char* what);
   void offset_by(FanucCursor& at, std::optional<FanucPosition>& into, const std::string& condition);
   void offset_by_camera(FanucCursor& at, std::optional<FanucPosition>& into);

@@ -128,6 +128,14 @@ std::string beyond_range_words(double low, double high);
 /// Reason in Skipped::what for a relative move that is shorter than those of plants' programs. Robots repeat a position within
 /// 0.05 mm, and numbers up to 1 mm are likely metres.
 inline constexpr const char* tiny_move = "a relative move of less than 1 mm";
+/// First words of the reason in Skipped::what for a word behind a move that no reader knows.
+inline constexpr const char* unknown_word = "no known word behind a move";
+/// First words of the reason in Skipped::what for a speed in a unit that belongs to another kind of move.
+inline constexpr const char* other_speed = "a speed of other moves";
+/// First words of the reason in Skipped::what for a jump to a label that a program has twice.
+inline constexpr const char* doubled_label = "stands twice in the program";
+/// Reason in Skipped::what for the rest of an expression that is not read.
+inline constexpr const char* unread_rest = "the rest of an expression is not read, so its value is unknown";
 
 struct Program {
   std::string name;

@@ -655,3 +655,160 @@ TEST_CASE("fanuc: a position register that is given counts where the program cop
   CHECK(r.move(0).target.pose.position.x() == Approx(0.5).epsilon(rounding));
   CHECK(r.move(0).target.pose.position.z() == Approx(0.4).epsilon(rounding));
 }
+
+TEST_CASE("fanuc: a word behind a move that no reader knows is named, with the nearest word") {
+  const Asked known{.values = {{"PR[1]", "X 0 Y 0 Z 50 W 0 P 0 R 0"}}};
+  const auto behind = [&](const std::string& words) {
+    return warnings(run("   1:J P[1] 50% " + words + " ;\n   2:  LBL[1] ;\n", known));
+  };
+  for (const auto& [words, warned] :
+       {std::pair("FINE Ofset,PR[1]", "Ofset: no known word behind a move"),
+        std::pair("FINE Ofset,PR[1]", "(near: Offset)"), std::pair("CTN50", "CTN50: no known word behind a move"),
+        std::pair("CNTT50", "(near: CNT)"), std::pair("CNT50 ACCEL50", "(near: ACC)"), std::pair("FIN", "(near: FINE)"),
+        std::pair("FINE INKR", "INKR: no known word"),
+        std::pair("FINE Search[X]", "search: changes how the robot moves"),
+        std::pair("FINE FPLIN", "fplin: changes how the robot moves")}) {
+    INFO(words);
+    REQUIRE(behind(words).size() == 1);
+    CHECK_THAT(behind(words)[0], Catch::Contains(warned));
+  }
+  // What listings of controllers contain there.
+  for (const char* words :
+       {"FINE", "CNT100 ACC100", "CNT R[1] ACC R[1]", "CD50", "CR10", "CNT50 TB   0.00sec,P-SPS",
+        "CNT50 TB .10sec,CALL SUB(1,'a',R[2])", "CNT50 TA   0.00sec,AO[1]=R[5]", "CNT50 DB    0.0mm,POINT_LOGIC",
+        "CNT50 TIME BEFORE .10sec,DO[3:gun]=ON", "CNT50 ZEIT VOR    .10sek,P-SPS", "FINE PTH",
+        "CNT50 RT_LD50 AP_LD R[1]", "CNT50 RT_LDR[1] BREAK", "FINE SPOT[SD=1,P=1]", "FINE\n    :  Arc Start[6]",
+        "FINE COORD[2:L]", "CNT50 DB 10.0mm,DO[3]=PULSE,0.5sec"}) {
+    INFO(words);
+    Asked asked = known;
+    asked.values["R[1]"] = "50";
+    asked.values["CALL SUB"] = "nothing";
+    std::vector<std::string> all = warnings(run(std::string("   1:J P[1] 50% ") + words + " ;\n", asked));
+    std::erase_if(all, [](const std::string& w) { return w.starts_with("CALL SUB"); });
+    CHECK(all.empty());
+  }
+  CHECK(skips(run("   1:J P[1] 50% FINE PTH ;\n"), "change the path at corners, not read", false));
+  const std::vector<pipeline::Warning> lines = moves_left_out(run("   1:J P[1] 50% CTN50 ;\n").program);
+  REQUIRE(lines.size() == 1);
+  CHECK_THAT(lines[0].line(), Catch::Contains("Likely cause: a misspelt word"));
+}
+
+TEST_CASE("fanuc: CNT without a number is refused by name, not asked as a value") {
+  for (const char* words : {"CNT", "CNT Offset,PR[1]", "ACC"}) {
+    INFO(words);
+    const Reading r = run(std::string("   1:J P[1] 50% ") + words + " ;\n", {.values = {{"PR[1]", "0,0,0,0,0,0"}}});
+    REQUIRE(r.problems.size() == 1);
+    CHECK_THAT(r.problem(), Catch::Contains("without a number") && !Catch::Contains("--value"));
+  }
+}
+
+TEST_CASE("fanuc: a speed of another kind of move is a warning") {
+  for (const char* move : {"L P[3] 50% FINE", "J P[1] 100mm/sec FINE", "J P[1] 10cm/min FINE"}) {
+    INFO(move);
+    const Reading r = run(fmt::format("   1:{} ;\n", move));
+    REQUIRE(warnings(r).size() == 1);
+    CHECK_THAT(moves_left_out(r.program)[0].line(), Catch::Contains("a speed of other moves"));
+  }
+  for (const char* move : {"L P[3] 2sec FINE", "J P[1] 2sec FINE", "J P[1] 200msec FINE", "L P[3] 5deg/sec FINE",
+                           "J P[1] 5deg/sec FINE", "L P[3] 5inch/min FINE", "L P[3] max_speed FINE"}) {
+    INFO(move);
+    CHECK(warnings(run(fmt::format("   1:{} ;\n", move))).empty());
+  }
+}
+
+TEST_CASE("fanuc: times of WAIT have their units") {
+  const auto dwell = [](const char* time) {
+    const Reading r = run(fmt::format("   1:  R[1]=2 ;\n   2:  WAIT   {} ;\n   3:J P[1] 50% FINE ;\n", time));
+    REQUIRE(r.problem() == "no such problem");
+    return r.move(0).dwell;
+  };
+  for (const char* time : {".50(sec)", "0.5", "500(msec)", "0.50 (sec)", ".5(SEC)"}) {
+    INFO(time);
+    CHECK(dwell(time) == 0.5);
+  }
+  CHECK(dwell("R[1]") == 2);
+  CHECK(dwell("R[1](sec)") == 2);
+  for (const char* time : {"0,5(sec)", "2(min)", "2 FOO"}) {
+    INFO(time);
+    const Reading r = run(fmt::format("   1:  WAIT   {} ;\n   2:J P[1] 50% FINE ;\n", time));
+    REQUIRE(r.problems.size() == 1);
+    CHECK_THAT(r.problem(), Catch::Contains(fmt::format("in a form that is not read: '{}'", time)));
+  }
+  CHECK(run("   1:  WAIT -1(sec) ;\n   2:J P[1] 50% FINE ;\n").problems.at(0).what == "waits for a time below 0");
+}
+
+TEST_CASE("fanuc: a second position of one number is refused, a second label is a warning where a jump leads to it") {
+  const std::string twice = "/PROG  CELL\n/MN\n   1:J P[1] 50% FINE ;\n/POS\n" + joints + joints + "/END\n";
+  const Reading positions = Reader{Language::fanuc}({{"cell.ls", twice}});
+  REQUIRE(positions.problems.size() == 2);
+  CHECK(positions.problems[0].what == "is a second P[1]");
+  const std::string labels = "   2:J P[1] 50% FINE ;\n   3:  LBL[1] ;\n   4:J P[2] 50% FINE ;\n   5:  LBL[1] ;\n";
+  CHECK(warnings(run(labels)).empty());
+  const Reading jump = run("   1:  JMP LBL[1] ;\n" + labels);
+  CHECK(stops(jump) == std::vector<int>{2});
+  REQUIRE(warnings(jump).size() == 1);
+  CHECK(warnings(jump)[0] == "LBL[1]: stands twice in the program; the jump leads to line 6");
+}
+
+TEST_CASE("fanuc: an expression that is not read to its end gives no value") {
+  const Asked known{.values = {{"PR[1]", "X 500 Y 0 Z 100 W 180 P 0 R 0"},
+                               {"PR[2]", "X 0 Y 0 Z 50 W 0 P 0 R 0"},
+                               {"UFRAME_NUM", "3"},
+                               {"UTOOL_NUM", "2"}}};
+  for (const char* sum : {"PR[1]*PR[2]", "PR[1]*2", "PR[1]:PR[2]"}) {
+    INFO(sum);
+    const std::string lines = fmt::format("   1:  PR[3]={} ;\n   2:L PR[3] 100mm/sec FINE ;\n", sum);
+    const Reading r = run(lines, known);
+    REQUIRE(r.problems.size() == 1);
+    CHECK_THAT(r.problem(), Catch::Contains("--value 'PR[3]="));
+    Asked given_value = known;
+    given_value.values["PR[3]"] = "X 600 Y 0 Z 100 W 180 P 0 R 0";
+    CHECK(run(lines, given_value).move(0).target.pose.position.x() == Approx(0.6).epsilon(rounding));
+    CHECK(skips(run(lines, given_value), "the rest of an expression is not read", true));
+  }
+  for (const char* sum : {"2^3", "5 FOO 3", "0,5", "R[2]=1"}) {
+    INFO(sum);
+    const std::string lines = fmt::format("   1:  R[2]=1 ;\n   2:  R[1]={} ;\n   3:J P[1] R[1]% FINE ;\n", sum);
+    const Reading r = run(lines);
+    REQUIRE(r.problems.size() == 1);
+    CHECK_THAT(r.problem(), Catch::Contains("has a speed by R[1]") && Catch::Contains("--value 'R[1]=...'"));
+    CHECK(run(lines, {.values = {{"R[1]", "8"}}}).move(0).speed.axis_percent.value() == 8);
+  }
+  CHECK_THAT(run("   1:  PR[1,3]=2^3 ;\n   2:L PR[1] 100mm/sec FINE ;\n", known).problem(),
+             Catch::Contains("moves to PR[1], which depends on a value") && Catch::Contains("write it as a constant"));
+  CHECK_THAT(run("   1:  UTOOL[2]=PR[1]*2 ;\n   2:L PR[1] 100mm/sec FINE ;\n", known).problem(),
+             Catch::Contains("uses UTOOL[2]"));
+  CHECK(run("   1:  IF R[1]=2^3,JMP LBL[1] ;\n   2:J P[1] 50% FINE ;\n   3:  LBL[1] ;\n   4:J P[2] 50% FINE ;\n",
+            {.values = {{"R[1]", "8"}}})
+            .problems.size() == 1);
+  CHECK(run("   1:  FOR R[1]=1 TO 2^3 ;\n   2:J P[1] 50% FINE ;\n   3:  ENDFOR ;\n").problems.size() == 1);
+  CHECK(run("   1:  R[1]= ;\n   2:J P[1] R[1]% FINE ;\n").problem().find("--value 'a value") == std::string::npos);
+  // Expressions of controllers are read to their end.
+  const Reading whole =
+      run("   1:  R[1:count]=(R[2]+1)*2 DIV 2    ;\n   2:  OVERRIDE=50% ;\n   3:  IF (R[1]=2 AND !(R[2]>5)) THEN ;\n"
+          "   4:  IF R[1]=2,JMP LBL[1] ;\n   5:  ENDIF ;\n   6:  LBL[1] ;\n   7:  IF (R[1]=2)R[3]=(-R[2]) ;\n"
+          "   8:  PR[3:x]=PR[1:y]-PR[2]    ;\n   9:  FOR R[4]=1 TO 2 ;\n  10:  ENDFOR ;\n  11:J P[1] 50% FINE ;\n",
+          {.values = {{"R[2]", "1"}, {"PR[1]", "1,2,3,4,5,6"}, {"PR[2]", "1,2,3,4,5,6"}}});
+  CHECK(whole.problem() == "no such problem");
+  CHECK(warnings(whole).empty());
+}
+
+TEST_CASE("fanuc: registers hold single precision") {
+  // Ten sums of 0.1 are 1.0000001 in single precision and 0.99999999999999989 in double precision.
+  const Reading loop =
+      run("   1:  R[1]=0 ;\n   2:  LBL[1] ;\n   3:J P[1] 50% FINE ;\n   4:  R[1]=R[1]+0.1 ;\n"
+          "   5:  IF R[1]<1,JMP LBL[1] ;\n");
+  REQUIRE(loop.problem() == "no such problem");
+  CHECK(stops(loop).size() == 10);
+  const auto taken = [](const std::string& condition) {
+    return stops(
+               run("   1:  R[1]=0.1 ;\n   2:  R[2]=R[1]*3 ;\n   3:  R[3]=123456789 ;\n   4:  R[3]=R[3]+1 ;\n   5:  IF (" +
+                   condition +
+                   ") THEN ;\n   6:J P[1] 50% FINE ;\n   7:  ELSE ;\n   8:J P[2] 50% FINE ;\n   9:  ENDIF ;\n"))
+               .at(0) == 1;
+  };
+  CHECK(taken("R[1]=0.1"));
+  CHECK(taken("R[3]=123456790"));  // integers stay exact
+  CHECK(stops(run("   1:  R[1]=0.05*2 ;\n   2:  SELECT R[1]=0.1,JMP LBL[1] ;\n   3:J P[1] 50% FINE ;\n   4:  LBL[1] ;\n"
+                  "   5:J P[2] 50% FINE ;\n")) == std::vector<int>{2});
+}
