@@ -10,7 +10,8 @@ namespace {
 
 const std::string any_register = "r[]";
 
-/// Returns the offset of the first comma outside brackets, parentheses and quotes; npos: none.
+/// Returns the offset of the first comma outside brackets, parentheses and quotes; npos: none. Controllers accept a ')' too
+/// many: IF (DI[1]=ON)),JMP LBL[1].
 std::size_t top_comma(std::string_view text) {
   int depth = 0;
   bool quoted = false;
@@ -18,7 +19,7 @@ std::size_t top_comma(std::string_view text) {
     if (text[i] == '\'') quoted = !quoted;
     if (quoted) continue;
     if (text[i] == '[' || text[i] == '(') ++depth;
-    if (text[i] == ']' || text[i] == ')') --depth;
+    if ((text[i] == ']' || text[i] == ')') && depth > 0) --depth;
     if (text[i] == ',' && depth == 0) return i;
   }
   return std::string_view::npos;

@@ -124,11 +124,13 @@ class ListingParser {
     return !line.empty() && (!number || number->empty());
   }
 
+  /// Returns the offset of the ';' that ends a statement; npos: none. A comment in brackets may contain one: R[5:count;].
   static std::size_t semicolon(std::string_view line) {
-    bool quoted = false;
+    bool quoted = false, bracket = false;
     for (std::size_t i = 0; i < line.size(); ++i) {
       if (line[i] == '\'') quoted = !quoted;
-      if (line[i] == ';' && !quoted) return i;
+      if (line[i] == '[' || line[i] == ']') bracket = line[i] == '[';
+      if (line[i] == ';' && !quoted && !(bracket && line.find(']', i) != std::string_view::npos)) return i;
     }
     return quoted ? line.rfind(';') : std::string_view::npos;
   }

@@ -718,6 +718,8 @@ void FanucRun::if_statement(FanucCursor& at) {
   const bool block = lower_case(s.text).ends_with("then");
   const std::string rest = block ? "" : fanuc_action(s.text);
   std::optional<bool> decision = values_.condition(at);
+  while (at.take_sign(')')) {  // one too many, which controllers accept
+  }
   at.skip_blanks();
   const bool whole = at.rest().starts_with(",") || at.rest() == rest || FanucCursor(at.rest()).take("THEN");
   if (decision && !whole && !read_whole(at)) decision.reset();

@@ -812,3 +812,15 @@ TEST_CASE("fanuc: registers hold single precision") {
   CHECK(stops(run("   1:  R[1]=0.05*2 ;\n   2:  SELECT R[1]=0.1,JMP LBL[1] ;\n   3:J P[1] 50% FINE ;\n   4:  LBL[1] ;\n"
                   "   5:J P[2] 50% FINE ;\n")) == std::vector<int>{2});
 }
+
+TEST_CASE("fanuc lines: a comment in brackets may contain a semicolon, and a condition one parenthesis too many") {
+  // Both stand in backups of controllers.
+  const Reading r = run("   1:  R[1:count;]=30    ;\n   2:J P[1] R[1:count;]% FINE    ;\n   3:J P[2] 50% FINE ;\n");
+  REQUIRE(r.problem() == "no such problem");
+  CHECK(stops(r) == std::vector<int>{1, 2});
+  CHECK(r.move(0).speed.axis_percent.value() == 30);
+  const std::string lines =
+      "   1:  IF (DO[1:x]=ON)),JMP LBL[1] ;\n   2:J P[1] 50% FINE ;\n   3:  LBL[1] ;\n   4:J P[2] 50% FINE ;\n";
+  CHECK(stops(run(lines, {.values = {{"DO[1]", "ON"}}})) == std::vector<int>{2});
+  CHECK(stops(run(lines, {.values = {{"DO[1]", "OFF"}}})) == std::vector<int>{1, 2});
+}
