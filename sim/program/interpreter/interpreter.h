@@ -112,6 +112,8 @@ class Dialect {
   virtual std::optional<std::string> form_of_copies(const std::string&) const { return {}; }
   /// Returns the number of a text of one letter; std::nullopt: the language does not convert letters.
   virtual std::optional<double> letter(const Value&) const { return {}; }
+  /// Whether the controller computes with numbers of single precision: a loop that adds 0.1 ends after ten passes at 1.
+  virtual bool has_single_precision() const { return true; }
   /// Handles an instruction of an undecided branch: it may have run or not.
   virtual void may_have_run(const Statement&, const Cause&, Interpreter&) {}
   /// Returns the value of a variable that is declared without a value.

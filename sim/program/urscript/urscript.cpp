@@ -124,6 +124,7 @@ class Script final : public Dialect {
   std::string form_of(const std::string&) const override { return ""; }  // variables have no declared types
   Value initial(const std::string&) const override { return {}; }
   int first_index() const override { return 0; }
+  bool has_single_precision() const override { return false; }
 
  private:
   const RecordType* record(const char* name) const { return code_.record(name); }

@@ -631,3 +631,14 @@ TEST_CASE("rapid controller: moves that come after more passes than are searched
                       words, true));
   }
 }
+
+TEST_CASE("rapid controller: numbers have single precision, so a loop that adds 0.1 ends at 1") {
+  const std::string loop = "x:=0;\nWHILE x<1 DO\n" + go(1) + "x:=x+0.1;\nENDWHILE\n", data = "VAR num x:=0;\n";
+  CHECK(first_axes(run(loop, data)).size() ==
+        10);  // the sum of ten 0.1 is 1.0000001; in double precision it is below 1
+  CHECK(first_axes(run("x:=0.1;\nx:=x+0.2;\nIF x=0.3 THEN\n" + go(1) + "ELSE\n" + go(2) + "ENDIF\n", data)) ==
+        Angles{1});
+  // whole numbers above 2^24 stay exact
+  CHECK(first_axes(run("x:=16777217;\nIF x-1=16777216 THEN\n" + go(1) + "ELSE\n" + go(2) + "ENDIF\n", data)) ==
+        Angles{1});
+}
