@@ -11,7 +11,6 @@ using Kind = Statement::Kind;
 
 // Passes in the search for the repetition of an endless loop: enough for a pallet of 200 boxes.
 constexpr int searched_passes = 200;
-constexpr const char* differing = "; its passes differ and none repeats an earlier one, so ";
 
 }  // namespace
 
@@ -95,7 +94,10 @@ Interpreter::Flow Interpreter::execute(const std::vector<Statement>& body) {
 /// passes, 0: none.
 std::string Interpreter::doubt_about(const Passes& passes, std::size_t wanted) const {
   if (wanted > 0 || passes.repeats()) return "";
-  const std::string reason = passes.by_motion() == 0 ? differing : same_arm_in_all(passes);
+  const std::string reason =
+      passes.by_motion() == 0
+          ? fmt::format("; its passes differ, and no pass repeats an earlier one within {} passes, so ", passes.count())
+          : same_arm_in_all(passes);
   return reason.empty() ? "" : reason + later_passes_differ;
 }
 
