@@ -469,7 +469,7 @@ namespace {
 struct NumberDoubt {
   const char *reason, *cause, *remedy;
 };
-constexpr std::array<NumberDoubt, 8> doubts{
+constexpr std::array<NumberDoubt, 15> doubts{
     {{beyond_range, "a digit too many or another unit", "a number within this range"},
      {other_frame, "a called program chose another frame, or the line before the move that chooses it is missing",
       "UFRAME_NUM= or UTOOL_NUM= before the move, with the number of the position"},
@@ -480,6 +480,19 @@ constexpr std::array<NumberDoubt, 8> doubts{
      {unread_rest, "an operator that is not read, or a slip",
       "numbers joined by + - * / DIV MOD, positions by + and -, in several lines"},
      {other_speed, "a move that became another kind, with its old speed", "a speed in a unit of this kind of move"},
+     {two_robholds, "robhold is TRUE in both; a controller stops here",
+      "robhold FALSE in the work object that stands in the cell, or FALSE in the tool that stands there"},
+     {no_robhold, "robhold is FALSE in both, or the move has no \\WObj; a controller stops here",
+      "\\WObj with a work object whose robhold is TRUE, or robhold TRUE in a tool that the robot holds"},
+     {given_twice, "a component that is written twice, where another one was meant", "each component once"},
+     {unlike_turns,
+      "the swivel of the tool has another limit than its turn about itself, and the two are not read apart",
+      "$VEL.ORI1 and $VEL.ORI2 alike, in a copy of the program, to choose the limit"},
+     {reduced_speed, "$RED_VEL slows all moves of the program",
+      "$OV_PRO with the same percentage in a copy of the program"},
+     {turn_acceleration, "a soft start of turns, which the simulation takes as fast as the robot allows",
+      "a smaller $VEL.ORI1 in a copy of the program if the turns are slow"},
+     {fast_path, "mm/s or % instead of m/s", "a thousandth of this number if it is mm/s"},
      {tiny_move, "metres instead of millimetres", "a thousand times these numbers if they were metres"}}};
 
 }  // namespace
@@ -510,6 +523,17 @@ std::vector<pipeline::Warning> moves_left_out(const Program& program) {
           pipeline::WarningKind::program, group.first.text(), what.substr(what.find(": ") + 2),
           "a counter, or an order, that decides in a later pass",
           "motion.passes: N in the job (--passes N), with the number of passes of one cycle of the cell"));
+      continue;
+    }
+    if (group.reason.starts_with(unread_word)) {
+      const std::size_t nearest = group.reason.find(nearest_known);
+      const std::string word =
+          nearest == group.reason.npos ? "" : group.reason.substr(nearest + std::string(nearest_known).size());
+      warnings.push_back(
+          pipeline::warning_of(pipeline::WarningKind::program, group.first.text(), what.substr(what.find(": ") + 2),
+                               "a mistyped word, or a word of an option that the importer does not know",
+                               (word.empty() ? "" : fmt::format("write {} if this is meant; else ", word)) +
+                                   "take the word out of a copy of the program if it does not change the motion"));
       continue;
     }
     const auto doubt =

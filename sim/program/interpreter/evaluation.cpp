@@ -480,6 +480,9 @@ void Interpreter::assign(const Expression& target, Value value) {
     *whole = unknown_value(answer_name(path_of(target.items[0])), "is written letter by letter");
     return;
   }
+  if (target.kind == Form::field)
+    if (const Value* record = locate(target.items[0]); record && record->type)
+      dialect_.no_such_component(target, *record->type);
   const std::string path = path_of(target);
   if (path.empty()) return assign_somewhere(target);
   if (globals_.size() >= ImportLimits::values) {
@@ -674,6 +677,7 @@ Value Interpreter::aggregate(const Expression& expression) {
   std::vector<Value> items;
   for (const Expression& item : expression.items) items.push_back(evaluate(item));
   if (expression.keys.empty()) return list_value(std::move(items));
+  dialect_.check_components(expression);
   std::string name;
   for (const std::string& key : expression.keys) name += key + " ";
   const RecordType*& type = record_of_[name];

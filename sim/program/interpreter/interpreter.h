@@ -120,6 +120,10 @@ class Dialect {
   virtual Value initial(const std::string& type) const = 0;
   /// Assigns a value to a variable or to a part of a variable.
   virtual void store(Value& place, Value value) const { place = std::move(value); }
+  /// Gives warnings of the components of an aggregate that no position has.
+  virtual void check_components(const Expression& /*aggregate*/) {}
+  /// Handles an assignment to a component that the record does not have.
+  virtual void no_such_component(const Expression& /*target*/, const RecordType& /*record*/) {}
   /// Returns the index of a list's first element in the language.
   virtual int first_index() const { return 1; }
   /// Whether all modules share a name that this module uses and that no file declares.
@@ -179,6 +183,9 @@ class Interpreter {
   std::string path_of(const Expression& expression);
   void emit(Instruction instruction, const Statement& statement);
   void note(const Place& place, const std::string& what, bool may_move = false);
+  /// Gives a warning of a word that `of` does not have: a switch, a component, a mark. known: its words.
+  void unread(const Place& place, const std::string& word, const std::string& of,
+              const std::vector<std::string>& known);
   /// Returns the nearest value within a range, and notes a value outside of it. name: of the number, for the note.
   double within(double value, double low, double high, const std::string& name, const Place& place);
   void complain(const Place& place, const std::string& what, const std::string& remedy);

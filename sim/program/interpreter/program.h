@@ -137,6 +137,22 @@ inline constexpr const char* doubled_label = "stands twice in the program";
 /// Reason in Skipped::what for the rest of an expression that is not read.
 inline constexpr const char* unread_rest = "the rest of an expression is not read, so its value is unknown";
 
+/// Reasons in Skipped::what for a tool and a work object of RAPID whose robhold do not fit together.
+inline constexpr const char* two_robholds = "the robot holds the tool and the work object";
+inline constexpr const char* no_robhold = "the tool stands in the cell, and no work object is held by the robot";
+
+/// First words of reasons in Skipped::what for settings of KRL that are not read as the controller does.
+inline constexpr const char* given_twice = "given twice in one position";
+inline constexpr const char* unlike_turns = "two speeds of turns, of which the smaller one counts";
+inline constexpr const char* reduced_speed = "a reduced speed that is not read";
+inline constexpr const char* turn_acceleration = "a low acceleration of turns that is not read";
+inline constexpr const char* fast_path = "a path speed above that of any robot";
+
+/// First words of the reason in Skipped::what for a word that its instruction, function, record or system variable does not
+/// have. The reader ignores the word; Interpreter::unread() adds the nearest known word after nearest_known.
+inline constexpr const char* unread_word = "not read, because there is no such word in";
+inline constexpr const char* nearest_known = "; the nearest one is ";
+
 struct Program {
   std::string name;
   std::vector<Instruction> instructions;

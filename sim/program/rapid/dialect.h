@@ -35,6 +35,7 @@ class Rapid final : public Dialect {
   bool writes(const std::string& name, int position, const Expression& argument) const override;
   const RecordType* type_of(const std::string& name) const override { return code_.record(name); }
   void store(Value& place, Value value) const override;
+  void no_such_component(const Expression& target, const RecordType& record) override;
   Value initial(const std::string& type) const override;
   std::string form_of(const std::string& type) const override;
 
@@ -51,8 +52,12 @@ class Rapid final : public Dialect {
   std::optional<NamedFrame> tool_of(const Expression& written, Interpreter& run);
   std::optional<NamedFrame> work_object_of(const Expression& written, Interpreter& run);
   bool read_options(const Statement& statement, Instruction& move, Interpreter& run);
+  static void check_arguments(const std::string& of, const std::vector<Expression>& arguments, int most,
+                              const std::vector<std::string>& switches, Interpreter& run);
   static void print_options(const Statement& statement, Interpreter& run);
   std::optional<Value> typed(const Expression& written, const char* type, const char* what, Interpreter& run);
+  std::optional<Quaternion> turn_of_displacement(const Value& orient, const char* what, const Expression& written,
+                                                 Interpreter& run);
   void displace(const Statement& statement, Interpreter& run);
   std::optional<Value> position_with(const Expression* tool, const Expression* work_object, Interpreter& run);
   Value current_position(const Expression& call, Interpreter& run);

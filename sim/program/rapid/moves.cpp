@@ -4,6 +4,7 @@
 
 #include "pipeline/base/constants.h"
 #include "pipeline/settings/fields.h"
+#include "sim/program/interpreter/tokens.h"
 #include "sim/program/rapid/dialect.h"
 #include "sim/program/rapid/functions.h"
 #include "sim/program/rapid/types.h"
@@ -51,6 +52,46 @@ constexpr Signature signatures[] = {
     {"spotmj", J, false, -1, 0, 1, -1, -2},
 };
 
+/// Switches of the moves of RobotWare and of its options for welding, gluing and spot welding.
+const std::vector<std::string> move_switches{"Conc",       "ID",
+                                             "V",          "T",
+                                             "Z",          "Inpos",
+                                             "WObj",       "Corr",
+                                             "TLoad",      "NoEOffs",
+                                             "T1",         "T2",
+                                             "T3",         "T4",
+                                             "T5",         "T6",
+                                             "T7",         "T8",
+                                             "TriggData1", "TriggData2",
+                                             "TriggData3", "Stop",
+                                             "PStop",      "SStop",
+                                             "Sup",        "Flanks",
+                                             "PosFlank",   "NegFlank",
+                                             "HighLevel",  "LowLevel",
+                                             "Value",      "DValue",
+                                             "NoCorr",     "Weave",
+                                             "SeamName",   "Track",
+                                             "AdvData",    "PreProcessTracking",
+                                             "Time",       "NoProcess",
+                                             "On",         "Off",
+                                             "D",          "NoConc",
+                                             "Retract",    "OpenHLift",
+                                             "CloseHLift", "QuickRelease",
+                                             "G1",         "G2",
+                                             "G3",         "G4",
+                                             "Gun",        "Gun1",
+                                             "Gun2",       "Gun3",
+                                             "Gun4",       "TrackLock"};
+
+/// Returns the largest number of arguments without a name of a move; -1: any number.
+int most_arguments(const Signature& signature) {
+  const std::string name = signature.name;
+  if (signature.tool < 0) return -1;
+  const bool value = name.starts_with("move") && (name.ends_with("do") || name.ends_with("ao"));  // signal and value
+  const bool one = name.starts_with("move") && (name.ends_with("go") || name.ends_with("sync"));
+  return signature.tool + 1 + (value ? 2 : one ? 1 : 0);
+}
+
 bool is_weld(const std::string& name) { return name.starts_with("arc") && !name.starts_with("arcmove"); }
 
 bool is_frame(std::string_view type) { return type == "tooldata" || type == "wobjdata"; }
@@ -70,6 +111,22 @@ void remember(Instruction& move, const char* part, const Expression& written, In
 }
 
 }  // namespace
+
+/// Gives a warning of each switch that an instruction or function does not have, and of arguments after the last one.
+/// most: its number of arguments without a name; -1: any number.
+void Rapid::check_arguments(const std::string& of, const std::vector<Expression>& arguments, int most,
+                            const std::vector<std::string>& switches, Interpreter& run) {
+  std::vector<std::string> known;
+  for (const std::string& name : switches) known.push_back("\\" + name);
+  int count = 0;
+  for (const Expression& argument : arguments) {
+    const auto same = [&](const std::string& name) { return argument.option == lower_case(name); };
+    if (argument.option.empty() && ++count > most && most >= 0)
+      run.unread(argument.place, run.written(argument), fmt::format("{} after its argument {}", of, most), {});
+    else if (!argument.option.empty() && std::none_of(switches.begin(), switches.end(), same))
+      run.unread(argument.place, "\\" + argument.option, of, known);
+  }
+}
 
 std::string Rapid::move_meant(const Statement& statement) const {
   constexpr std::ptrdiff_t fewest = 4;  // target, speed, zone, tool
@@ -320,6 +377,10 @@ void Rapid::print_options(const Statement& statement, Interpreter& run) {
     if (argument.option == "id")
       run.note(argument.place,
                "\\ID: another robot or a positioner moves at the same time (MultiMove), only this one is read", true);
+    if (argument.option == "corr")
+      run.note(argument.place,
+               "\\Corr: path corrections (CorrWrite) move the robot off its line, which is followed without them",
+               true);
     if (argument.option == "weave")
       run.note(argument.place,
                fmt::format("\\Weave:={}: the torch swings about its line, which is followed without it",
@@ -363,7 +424,11 @@ bool Rapid::move(const Signature& signature, const Statement& statement, Interpr
   whole &= read_options(statement, move, run);
   if (is_weld(statement.name)) read_weld_speed(statement, move, run);
   if (!whole || run.problem_count() != problems) return true;
+  if (!signature.joints && reached_->tool.stationary != reached_->work_object.stationary)
+    run.note(statement.place,
+             fmt::format("{}: {}", statement.text, reached_->tool.stationary ? no_robhold : two_robholds), true);
   print_options(statement, run);
+  check_arguments(statement.text, statement.arguments, most_arguments(signature), move_switches, run);
   if (statement.name.starts_with("search")) {
     run.note(statement.place, statement.text + ": the search goes to its end point", true);
     run.assign(*given[1], reached_->target);
@@ -425,6 +490,16 @@ Value Rapid::current_position(const Expression& call, Interpreter& run) {
   return call.text == "cpos" ? position->items[0] : *position;
 }
 
+/// Like checked(); a quaternion of zeros is a problem, too.
+std::optional<Quaternion> Rapid::turn_of_displacement(const Value& orient, const char* what, const Expression& written,
+                                                      Interpreter& run) {
+  const auto q = checked(orient, what, written, run);
+  if (!q)
+    run.complain(written.place, fmt::format("displaces by {} with the quaternion [0,0,0,0]", what),
+                 "give its orientation, [1,0,0,0] without a turn");
+  return q;
+}
+
 /// Runs PDispOn \Rot \ExeP:=reached, programmed, tool \WObj:=w (the displacement from the programmed point to the robot's
 /// position; without \Rot only a translation), PDispSet frame, PDispOff.
 void Rapid::displace(const Statement& statement, Interpreter& run) {
@@ -432,7 +507,8 @@ void Rapid::displace(const Statement& statement, Interpreter& run) {
   if (name == "pdispoff") displacement_ = Frame{};
   if (name == "pdispset" && !statement.arguments.empty())
     if (const auto pose = typed(statement.arguments[0], "pose", "a displacement", run))
-      if (const auto frame = rapid_frame(*pose)) displacement_ = *frame;
+      if (const auto q = turn_of_displacement(pose->items[1], "a displacement", statement.arguments[0], run))
+        displacement_ = {rapid_position(pose->items[0]), *q};
   if (name != "pdispon") return;
   const Expression *programmed = nullptr, *tool = nullptr, *executed = nullptr, *work_object = nullptr;
   bool turns = false;
@@ -459,8 +535,9 @@ void Rapid::displace(const Statement& statement, Interpreter& run) {
                 "displaces by the robot's position, which is known only with the robot "
                 "(axis angles, or the start)",
                 "give the point as \\ExeP, write the displacement with PDispSet", form_of("robtarget"));
-  const auto q = from ? rapid_orientation(from->items[1]) : std::nullopt;
-  const auto p = to ? rapid_orientation(to->items[1]) : std::nullopt;
+  const auto q = from ? turn_of_displacement(from->items[1], "a programmed point", *programmed, run) : std::nullopt;
+  const auto p = to ? turn_of_displacement(to->items[1], "a point that was reached", executed ? *executed : *tool, run)
+                    : std::nullopt;
   if (!q || !p) return;
   const Frame written{rapid_position(from->items[0]), *q}, reached{rapid_position(to->items[0]), *p};
   displacement_ =

@@ -17,6 +17,66 @@ namespace {
 
 bool same(const std::string& lower, const std::string& written) { return lower == lower_case(written); }
 
+/// The arguments of an instruction or of a function.
+struct Arguments {
+  std::string written;  ///< its name as RAPID's manual writes it
+  int most;             ///< number of arguments without a name; -1: any number
+  std::vector<std::string> switches;
+};
+
+/// Returns the arguments of the instructions and functions that change the motion or compute its numbers; null: another one.
+const Arguments* arguments_of(const std::string& name) {
+  static const std::map<std::string, Arguments> all = [] {
+    std::map<std::string, Arguments> by_name;
+    for (const Arguments& one : std::initializer_list<Arguments>{{"AccSet", 2, {"FinePointRamp"}},
+                                                                 {"VelSet", 2, {}},
+                                                                 {"SpeedRefresh", 1, {}},
+                                                                 {"WaitTime", 1, {"InPos"}},
+                                                                 {"PDispSet", 1, {}},
+                                                                 {"PDispOff", 0, {}},
+                                                                 {"PDispOn", 2, {"Rot", "ExeP", "WObj"}},
+                                                                 {"EOffsSet", 1, {}},
+                                                                 {"EOffsOff", 0, {}},
+                                                                 {"EOffsOn", 1, {"ExeP"}},
+                                                                 {"ConfL", 0, {"On", "Off"}},
+                                                                 {"ConfJ", 0, {"On", "Off"}},
+                                                                 {"Offs", 4, {}},
+                                                                 {"RelTool", 4, {"Rx", "Ry", "Rz"}},
+                                                                 {"CRobT", 0, {"TaskRef", "TaskName", "Tool", "WObj"}},
+                                                                 {"CPos", 0, {"Tool", "WObj"}},
+                                                                 {"CJointT", 0, {"TaskRef", "TaskName"}},
+                                                                 {"PoseMult", 2, {}},
+                                                                 {"PoseInv", 1, {}},
+                                                                 {"PoseVect", 2, {}},
+                                                                 {"Distance", 2, {}},
+                                                                 {"DotProd", 2, {}},
+                                                                 {"VectMagn", 1, {}},
+                                                                 {"NOrient", 1, {}},
+                                                                 {"OrientZYX", 3, {}},
+                                                                 {"EulerZYX", 1, {"X", "Y", "Z"}},
+                                                                 {"DefFrame", 3, {"Origin"}},
+                                                                 {"Round", 1, {"Dec"}},
+                                                                 {"Trunc", 1, {"Dec"}},
+                                                                 {"RoundDnum", 1, {"Dec"}},
+                                                                 {"TruncDnum", 1, {"Dec"}},
+                                                                 {"Abs", 1, {}},
+                                                                 {"Sqrt", 1, {}},
+                                                                 {"Sin", 1, {}},
+                                                                 {"Cos", 1, {}},
+                                                                 {"Tan", 1, {}},
+                                                                 {"ASin", 1, {}},
+                                                                 {"ACos", 1, {}},
+                                                                 {"ATan", 1, {}},
+                                                                 {"ATan2", 2, {}},
+                                                                 {"Exp", 1, {}},
+                                                                 {"Pow", 2, {}}})
+      by_name.emplace(lower_case(one.written), one);
+    return by_name;
+  }();
+  const auto found = all.find(name);
+  return found == all.end() ? nullptr : &found->second;
+}
+
 }  // namespace
 
 std::optional<Value> Rapid::constant(const std::string& name) {
@@ -78,6 +138,10 @@ void Rapid::store(Value& place, Value value) const {
   if (place.type && value.kind != Value::Kind::list && value.kind != Value::Kind::unknown)
     value = forgotten(place, unknown_value("", fmt::format("is given a value that is no {}", place.type->name)).cause);
   place = std::move(value);
+}
+
+void Rapid::no_such_component(const Expression& target, const RecordType& record) {
+  run_->unread(target.place, target.text, record.name, record.fields);
 }
 
 std::string Rapid::form_of(const std::string& type) const {
@@ -236,6 +300,8 @@ void Rapid::connect(const Statement& statement, Interpreter& run) {
 bool Rapid::instruction(const Statement& statement, Interpreter& run) {
   const std::string& name = statement.name;
   if (const Signature* signature = rapid_move(name)) return move(*signature, statement, run);
+  if (const Arguments* known = arguments_of(name))
+    check_arguments(known->written, statement.arguments, known->most, known->switches, run);
   if (name == "accset" || name == "velset" || name == "speedrefresh") {
     settings(statement, run);
   } else if (name == "waittime") {
@@ -288,12 +354,15 @@ Value Rapid::offset(const Expression& call, bool in_tool, Interpreter& run) {
   int k = 0;
   for (std::size_t i = 1; i < call.items.size(); ++i) {
     const Value& given = numbers[i - 1];
+    if (given.known() && !given.is_number())
+      run.complain(call.items[i].place, fmt::format("gives {} no number as its argument {}", call.text, i + 1),
+                   "correct the argument, or the call that gives its value");
     if (!given.is_number()) return unknown_value(given);
     const double number = given.number;
     const std::string& option = call.items[i].option;
     if (option.size() == 2 && option[0] == 'r' && option[1] >= 'x' && option[1] <= 'z')
       turn[option[1] - 'x'] = number * degree;
-    else if (k < 3)
+    else if (option.empty() && k < 3)
       by[k++] = number;
   }
   if (k < 3) return {};
@@ -331,6 +400,8 @@ Value Rapid::text_to_value(const Expression& call, Interpreter& run) {
 
 std::optional<Value> Rapid::function(const Expression& call, Interpreter& run) {
   const std::string& name = call.text;
+  if (const Arguments* known = arguments_of(name))
+    check_arguments(known->written, call.items, known->most, known->switches, run);
   if (name == "offs") return offset(call, false, run);
   if (name == "reltool") return offset(call, true, run);
   if (name == "crobt" || name == "cjointt" || name == "cpos") return current_position(call, run);

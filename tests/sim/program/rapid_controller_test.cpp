@@ -526,7 +526,7 @@ TEST_CASE("rapid controller: one state of a machine is no motion") {
   const Reading cycle = run(shift, pose + "VAR num state:=0;\nVAR num y:=0;\n");
   CHECK(cycle.problem() == "no such problem");
   CHECK(cycle.program.instructions.size() == 2);
-  CHECK(skips(cycle, "its passes differ and none repeats an earlier one", true));
+  CHECK(skips(cycle, "its passes differ, and no pass repeats an earlier one within 200 passes", true));
 }
 
 TEST_CASE("rapid controller: a PERS without a value has it from another task's module") {
@@ -641,4 +641,87 @@ TEST_CASE("rapid controller: numbers have single precision, so a loop that adds 
   // whole numbers above 2^24 stay exact
   CHECK(first_axes(run("x:=16777217;\nIF x-1=16777216 THEN\n" + go(1) + "ELSE\n" + go(2) + "ENDIF\n", data)) ==
         Angles{1});
+}
+
+TEST_CASE("rapid controller: a displacement by a quaternion that is not of length 1 is refused") {
+  const auto moved = [](const std::string& displacement) {
+    return run(displacement + "\nMoveL p,v100,fine,tool0;\n", pose +
+                                                                  "CONST pose half:=[[0,0,100],[0.5,0.5,0,0]];\n"
+                                                                  "CONST pose none:=[[0,0,100],[0,0,0,0]];\n");
+  };
+  const std::string reached = "[[0,0,0],{},[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]";
+  for (const std::string& half :
+       {std::string("PDispSet half;"),
+        "PDispOn\\Rot\\ExeP:=" + fmt::format(fmt::runtime(reached), "[0.5,0.5,0,0]") + ",p,tool0;"})
+    CHECK_THAT(moved(half).problem(), Catch::Contains("has the length 0.70711 (must be 1)") &&
+                                          Catch::Contains("write [0.707107,0.707107,0.000000,0.000000]"));
+  for (const std::string& none : {std::string("PDispSet none;"),
+                                  "PDispOn\\ExeP:=" + fmt::format(fmt::runtime(reached), "[0,0,0,0]") + ",p,tool0;"})
+    CHECK_THAT(moved(none).problem(),
+               Catch::Contains("with the quaternion [0,0,0,0]") && Catch::Contains("give its orientation"));
+  CHECK(moved("PDispSet [[0,0,100],[1,0,0,0]];").problem() == "no such problem");
+}
+
+TEST_CASE("rapid controller: tool and work object that are both held, or both stand, are a warning") {
+  const std::string data = pose +
+                           "PERS tooldata held:=[TRUE,[[0,0,100],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];\n"
+                           "PERS tooldata stands:=[FALSE,[[900,0,900],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];\n"
+                           "PERS wobjdata table:=[FALSE,TRUE,\"\",[[1,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];\n"
+                           "PERS wobjdata part:=[TRUE,TRUE,\"\",[[1,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];\n";
+  const auto warned = [&](const std::string& frames, const char* words) {
+    const Reading reading = run("MoveL p,v100,fine," + frames + ";\n", data);
+    CHECK(reading.problem() == "no such problem");
+    return skips(reading, words, true);
+  };
+  CHECK(warned("held\\WObj:=part", two_robholds));
+  CHECK(warned("stands\\WObj:=table", no_robhold));
+  CHECK(warned("stands", no_robhold));
+  for (const char* fits : {"held", "held\\WObj:=table", "stands\\WObj:=part"}) {
+    CHECK_FALSE(warned(fits, two_robholds));
+    CHECK_FALSE(warned(fits, no_robhold));
+  }
+  const Reading both = run("MoveL p,v100,fine,held\\WObj:=part;\n", data);
+  CHECK_THAT(moves_left_out(both.program).at(0).line(), Catch::Contains("Remedy: robhold FALSE in the work object"));
+}
+
+TEST_CASE("rapid controller: switches and arguments that an instruction does not have are a warning") {
+  const std::string data = pose +
+                           "PERS wobjdata wo:=[FALSE,TRUE,\"\",[[1,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];\n"
+                           "VAR robtarget q;\nVAR pose d;\n";
+  const auto warnings = [&](const std::string& body) {
+    const Reading reading = run(body + "\nMoveL p,v100,fine,tool0;\n", data);
+    CHECK(reading.problem() == "no such problem");
+    std::string lines;
+    for (const pipeline::Warning& warning : moves_left_out(reading.program)) lines += warning.line() + "\n";
+    return lines;
+  };
+  for (const auto& [body, word] : std::map<std::string, std::string>{
+           {"MoveL p,v100,fine,tool0\\WObjj:=wo;", "write \\WObj if this is meant"},
+           {"MoveL p,v100,fine,tool0,wo;", "wo: not read, because there is no such word in MoveL after its argument 4"},
+           {"MoveL p,v100\\Tt:=3,fine,tool0;", "write \\T if this is meant"},
+           {"MoveL RelTool(p,1,2,3\\Rxx:=5),v100,fine,tool0;", "write \\Rx if this is meant"},
+           {"MoveL Offs(p,1,2,3,4),v100,fine,tool0;", "4: not read, because there is no such word in Offs"},
+           {"PDispOn\\Rott\\ExeP:=p,p,tool0;", "write \\Rot if this is meant"},
+           {"MoveL p,v100,fine,tool0;\nq:=CRobT(\\Tol:=tool0);", "write \\Tool if this is meant"},
+           {"WaitTime\\Foo,3;", "\\foo: not read, because there is no such word in WaitTime"},
+           {"MoveL p,v100,fine,tool0\\Corr;", "\\Corr: path corrections"}}) {
+    INFO(body);
+    CHECK_THAT(warnings(body), Catch::Contains(word));
+  }
+  for (const char* legal :
+       {"MoveL\\Conc,p,v100\\V:=50,z10\\Z:=5\\Inpos:=inpos50,tool0\\WObj:=wo\\TLoad:=load0;",
+        "MoveJ\\Conc,p,v100\\T:=3,z10,tool0\\WObj:=wo;", "MoveC p,Offs(p,1,1,1),v100,z10,tool0\\WObj:=wo;",
+        "MoveAbsJ [[1,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]]\\NoEOffs,v100,fine,tool0\\WObj:=wo;",
+        "TriggL p,v100,t1\\T2:=t2\\T3:=t3,z10,tool0\\WObj:=wo;", "MoveLDO p,v100,z10,tool0\\WObj:=wo,do1,1;",
+        "MoveLSync p,v100,z10,tool0\\WObj:=wo,\"sync\";", "MoveLGO p,v100,z10,tool0,go1\\Value:=3;",
+        "WaitTime\\InPos,3;", "AccSet 50,50\\FinePointRamp:=50;", "PDispOn\\Rot\\ExeP:=p,p,tool0\\WObj:=wo;",
+        "ConfL\\Off;", "MoveL RelTool(p,1,2,3\\Rx:=5\\Ry:=5\\Rz:=5),v100,fine,tool0;"}) {
+    INFO(legal);
+    CHECK(warnings(legal) == "");
+  }
+}
+
+TEST_CASE("rapid controller: a shift by a text is named as the fault") {
+  const Reading reading = run("by \"x\";\n", pose + "PROC by(num n)\nMoveL Offs(p,n,0,0),v100,fine,tool0;\nENDPROC\n");
+  CHECK_THAT(reading.problem(), Catch::Contains("gives offs no number as its argument 2"));
 }
