@@ -135,6 +135,50 @@ void Krl::store(Value& place, Value value) const {
   }
 }
 
+namespace {
+
+std::vector<std::string> upper_cases(std::vector<std::string> words) {
+  for (std::string& word : words) word = upper_case(word);
+  return words;
+}
+
+}  // namespace
+
+/// Only aggregates with a component of a position are checked, and short names, because the STRUC of another aggregate may
+/// be in a file that is not read.
+void Krl::check_components(const Expression& aggregate) {
+  const std::vector<std::string>& keys = aggregate.keys;
+  constexpr std::size_t longest = 2;  // letters of a position's component
+  const auto any = [&](const char* const(&names)[6]) {
+    return std::any_of(keys.begin(), keys.end(), [&](const std::string& key) {
+      return std::find(std::begin(names), std::end(names), key) != std::end(names);
+    });
+  };
+  const bool joint = any(axis_names);
+  if (!joint && !any(frame_names)) return;
+  std::vector<std::string> missing;
+  for (const std::string name : joint ? axis_names : frame_names)
+    if (std::find(keys.begin(), keys.end(), name) == keys.end()) missing.push_back(name);
+  for (auto key = keys.begin(); key != keys.end(); ++key) {
+    const auto has = [&](const RecordType& record) {
+      return std::find(record.fields.begin(), record.fields.end(), *key) != record.fields.end();
+    };
+    if (std::find(keys.begin(), key, *key) != key)
+      run_->note(aggregate.place, fmt::format("{}: {}, of which the first counts", upper_case(*key), given_twice),
+                 true);
+    else if (key->size() <= longest && std::none_of(code_.records.begin(), code_.records.end(), has))
+      run_->unread(aggregate.place, upper_case(*key), "a position", upper_cases(missing));
+  }
+}
+
+/// Only records whose components are all known are checked.
+void Krl::no_such_component(const Expression& target, const RecordType& record) {
+  static const std::set<std::string> whole{"cp", "cont", "frame", "pos", "e3pos", "e6pos", "axis", "e3axis", "e6axis"};
+  if (whole.contains(record.name))
+    run_->unread(target.place, upper_case(target.text), upper_case(run_->path_of(target.items[0])),
+                 upper_cases(record.fields));
+}
+
 /// Returns the character code of a text of one letter, because a KRL CHAR is a number.
 std::optional<double> Krl::letter(const Value& text) const {
   if (text.kind != Value::Kind::text || text.text.size() != 1) return {};
@@ -423,6 +467,9 @@ void Krl::basics(const Statement& statement, Interpreter& run) {
   } else if (what == "#acc_ptp") {
     set_axes("$acc_axis", axis_acceleration(number, run), place, run);
   } else if (what == "#vel_cp") {
+    const auto most = setting("def_vel_cp", "", run);  // limits the speed; else the moves give the warning
+    if (number.is_number() && number.number > fastest_path && most && *most < number.number)
+      run.note(place, fmt::format("BAS({}, {:g}): {}", what, number.number, fast_path), true);
     set_speed(number);
   } else if (what == "#acc_cp" || what == "#acc_glue") {
     set_path_acceleration(number, place, run);

@@ -28,6 +28,8 @@ class Krl final : public Dialect {
   const RecordType* type_of(const std::string& name) const override;
   Value initial(const std::string& type) const override;
   void store(Value& place, Value value) const override;
+  void check_components(const Expression& aggregate) override;
+  void no_such_component(const Expression& target, const RecordType& record) override;
   std::string form_of(const std::string& type) const override;
   bool gives_lists() const override { return false; }
   Value of_form(const Value& value, const char* type) const;
@@ -68,6 +70,9 @@ class Krl final : public Dialect {
   void go_round(const Statement& statement, const Expression* whole_angle,
                 const std::optional<std::array<double, 6>>& start, Instruction move, Interpreter& run);
   static void ask_for_kind(const Value* kind, const char* what, const Place& place, Interpreter& run);
+  static void check_word(const Value* word, const char* of, const std::vector<std::string>& known, const Place& place,
+                         Interpreter& run);
+  static void check_marks(const Statement& statement, Interpreter& run);
   static bool keeps_orientation(const Place& place, bool unknown, Interpreter& run);
   bool stands_still(const Expression& target, Interpreter& run) const;
   bool read_via(const Expression& via, From from, const Frames& frames, Instruction& move, Interpreter& run);
@@ -85,6 +90,8 @@ class Krl final : public Dialect {
   bool ask_for_frames(const Frames& frames, const Statement& statement, Interpreter& run);
   static void ask_for_frame(const Value& unknown, const Statement& statement, Interpreter& run);
   bool read_speed(const Statement& statement, Instruction& move, Interpreter& run);
+  static void note_setting(const char* variable, const std::string& what, const Place& place, Interpreter& run);
+  static std::optional<double> turn_speed(const Place& place, Interpreter& run);
   bool read_axis_speed(const Statement& statement, Instruction& move, Interpreter& run);
   bool read_path_speed(const Statement& statement, Instruction& move, Interpreter& run);
   bool read_override(const Statement& statement, Instruction& move, Interpreter& run);
@@ -147,6 +154,8 @@ namespace krl {
 
 /// DEF_ACC_CP as delivered by KUKA [m/s2]. Without $config.dat it cancels, because accelerations are percentages of it.
 constexpr double standard_path_acceleration = 2.3;
+/// Path speed [m/s] that no robot reaches.
+constexpr double fastest_path = 10;
 /// $JERK_MA.CP and DEF_JERK_STRUC.CP [m/s3] of public backups of KR 6, KR 125, KR 210 (KSS 8.3 to 8.6).
 constexpr double standard_path_jerk = 500;
 

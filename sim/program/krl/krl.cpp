@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <sstream>
 
 #include "pipeline/base/joined.h"
 #include "sim/program/interpreter/arc.h"
@@ -37,6 +38,8 @@ constexpr double no_distance = 1e5;
 
 constexpr const char* target_form =
     "{X .., Y .., Z .., A .., B .., C .., S .., T ..} in mm and deg, or {A1 .., A2 .., A3 .., A4 .., A5 .., A6 ..}";
+
+constexpr double usual_turn_acceleration = 100;  // [deg/s2] least $ACC.ORI1 of public programs
 
 constexpr double most_angle = 3600;  // largest CA [deg]
 
@@ -224,14 +227,38 @@ void Krl::ask_for_kind(const Value* kind, const char* what, const Place& place, 
                 "a name");
 }
 
+/// Gives a warning of a word that an enumeration does not have. of: the variable; known: its words in capitals.
+void Krl::check_word(const Value* word, const char* of, const std::vector<std::string>& known, const Place& place,
+                     Interpreter& run) {
+  if (!word || word->kind != Value::Kind::text) return;
+  const std::string written = upper_case(word->text);
+  if (std::find(known.begin(), known.end(), written) == known.end()) run.unread(place, written, of, known);
+}
+
+/// Gives a warning of a mark after the target (C_DIST) that no move has.
+void Krl::check_marks(const Statement& statement, Interpreter& run) {
+  static const std::set<std::string> known{"c_ptp", "c_dis", "c_vel",     "c_ori", "c_spl",
+                                           "#tool", "#base", "in_spline", "last"};
+  std::istringstream words(statement.text);
+  std::string word;
+  words >> word;  // the move
+  while (words >> word)
+    if (!known.contains(word))
+      run.unread(statement.place, upper_case(word), "the marks of a move",
+                 {"C_PTP", "C_DIS", "C_VEL", "C_ORI", "C_SPL", "#TOOL", "#BASE"});
+}
+
 /// Whether $ORI_TYPE is #CONSTANT: the tool keeps its orientation, and the target's orientation is ignored. unknown: the
 /// position before the move is not known; then returns false with a warning.
 bool Krl::keeps_orientation(const Place& place, bool unknown, Interpreter& run) {
   const Value* type = run.variable("$ori_type");
   ask_for_kind(type, "turns the tool by an $ORI_TYPE", place, run);
+  check_word(type, "$ORI_TYPE", {"#VAR", "#CONSTANT", "#JOINT", "#IGNORE"}, place, run);
   const std::string kind = type && type->kind == Value::Kind::text ? type->text : "";
   if (kind == "#joint")
     run.note(place, "turns the tool by the wrist's axes ($ORI_TYPE #JOINT): it is turned evenly", true);
+  if (kind == "#ignore")
+    run.note(place, "ignores the orientation of its point ($ORI_TYPE #IGNORE): the tool is turned to it", true);
   if (kind != "#constant") return false;
   if (unknown)
     run.note(place, "keeps the orientation ($ORI_TYPE #CONSTANT) of an unknown place: the target's is taken", true);
@@ -314,6 +341,26 @@ std::optional<double> Krl::setting(const std::string& name, const char* field, I
   return value && value->is_number() ? std::optional(value->number) : std::nullopt;
 }
 
+/// Gives a warning of a setting, at its last assignment; at the move if the files do not contain it.
+void Krl::note_setting(const char* variable, const std::string& what, const Place& place, Interpreter& run) {
+  const Place assigned = run.origin(name_at(variable, {}));
+  run.note(assigned.line > 0 ? assigned : place, what, true);
+}
+
+/// Returns the smaller one of $VEL.ORI1 (swivel) and $VEL.ORI2 (turn about the tool) [deg/s]; std::nullopt: none is known.
+std::optional<double> Krl::turn_speed(const Place& place, Interpreter& run) {
+  std::optional<double> slowest;
+  for (const char* field : {"ori1", "ori2"}) {
+    const auto speed = setting("$vel", field, run);
+    if (!speed || !(*speed > 0)) continue;
+    if (slowest && *slowest != *speed)
+      note_setting("$vel", fmt::format("$VEL.ORI1 {:g} and $VEL.ORI2 {:g}: {}", *slowest, *speed, unlike_turns), place,
+                   run);
+    slowest = std::min(*speed, slowest.value_or(*speed));
+  }
+  return slowest;
+}
+
 bool Krl::read_axis_speed(const Statement& statement, Instruction& move, Interpreter& run) {
   const auto slowest = [&](const char* list) -> std::optional<double> {  // the slowest axis limits a joint move
     double percent = 100;
@@ -365,7 +412,13 @@ bool Krl::read_path_speed(const Statement& statement, Instruction& move, Interpr
     return false;
   }
   move.speed.tool = speed->number;
-  if (const auto turn = setting("$vel", "ori1", run); turn && *turn > 0) move.speed.orientation = *turn * degree;
+  if (speed->number > fastest_path)
+    note_setting("$vel", fmt::format("$VEL.CP {:g} m/s: {}", speed->number, fast_path), statement.place, run);
+  if (const auto turn = turn_speed(statement.place, run)) move.speed.orientation = *turn * degree;
+  for (const char* field : {"ori1", "ori2"})
+    if (const auto turn = setting("$acc", field, run); turn && *turn < usual_turn_acceleration)
+      note_setting("$acc", fmt::format("$ACC.{} {:g}: {}", upper_case(field), *turn, turn_acceleration),
+                   statement.place, run);
   const Value* accelerations = run.variable("$acc");
   const Value* path = accelerations ? accelerations->field("cp") : nullptr;
   if (path && path->kind == Value::Kind::unknown && !is_unset(*path) && path->first_cause()) {
@@ -386,6 +439,8 @@ bool Krl::read_path_speed(const Statement& statement, Instruction& move, Interpr
 
 /// Applies the override $OV_PRO to the speed of a move.
 bool Krl::read_override(const Statement& statement, Instruction& move, Interpreter& run) {
+  if (const auto percent = setting("$red_vel", "", run); percent && *percent < 100)
+    note_setting("$red_vel", fmt::format("$RED_VEL {:g}: {}", *percent, reduced_speed), statement.place, run);
   const Value* value = run.variable("$ov_pro");
   if (!value || is_unset(*value)) return true;
   if (!value->is_number() || !(value->number > 0)) {
@@ -520,6 +575,7 @@ void Krl::go_round(const Statement& statement, const Expression* whole_angle,
                    const std::optional<std::array<double, 6>>& start, Instruction move, Interpreter& run) {
   const Value* type = run.variable("$circ_type");
   ask_for_kind(type, "turns the tool on its arc by a $CIRC_TYPE", statement.place, run);
+  check_word(type, "$CIRC_TYPE", {"#BASE", "#PATH"}, statement.place, run);
   const bool by_path = type && type->kind == Value::Kind::text && type->text == "#path";
   const bool turning = by_path && start && keeps_orientation(statement.place, false, run);
   if (by_path && !turning)
@@ -579,6 +635,8 @@ void Krl::move_now(Instruction::Kind kind, const Statement& statement, Interpret
     run.note(statement.place, "the robot is already there: no move");
     return;
   }
+  check_marks(statement, run);
+  check_word(run.variable("$ipo_mode"), "$IPO_MODE", {"#BASE", "#TCP", "#NONE"}, statement.place, run);
   const Frames frames = current_frames(run);
   const auto start = place_before(frames);
   bool whole = kind != Instruction::Kind::circular || read_via(*via, from, frames, move, run);

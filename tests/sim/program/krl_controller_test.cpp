@@ -798,3 +798,64 @@ TEST_CASE("krl: the remedies of a move of some axes after a pose work") {
   }
   CHECK(run(here + "PTP " + axes(1)).problems.empty());
 }
+
+TEST_CASE("krl controller: words that a move, a record or an enumeration does not have are a warning") {
+  const auto warnings = [](const std::string& body, const std::string& move) {
+    const Reading reading = run("$VEL.CP=1\n$APO.CDIS=5\n$APO.CPTP=5\nPTP " + pose + "\n" + body + "\n" + move);
+    CHECK(reading.problem() == "no such problem");
+    std::string lines;
+    for (const pipeline::Warning& warning : moves_left_out(reading.program)) lines += warning.line() + "\n";
+    return lines;
+  };
+  for (const auto& [move, word] : std::map<std::string, std::string>{
+           {"LIN_REL {X 20} #TOOLL", "write #TOOL if this is meant"},
+           {"LIN {X 900} C_DIST", "write C_DIS if this is meant"},
+           {"LIN {X 900} C_FOO", "C_FOO: not read, because there is no such word in the marks of a move"},
+           {"LIN {X 900,Y 0,Z 900,A 30,B 90,D 10}", "write C if this is meant"},
+           {"PTP {A1 10,A2 -90,A3 90,A4 0,A5 60,A6 5}\nPTP {A1 10,A2 -90,A3 90,A4 0,A5 60,A7 20}",
+            "write A6 if this is meant"},
+           {"LIN {X 900,Y 0,X 800}", "X: given twice in one position, of which the first counts"}}) {
+    INFO(move);
+    CHECK_THAT(warnings("", move), Catch::Contains(word));
+  }
+  for (const auto& [body, word] :
+       std::map<std::string, std::string>{{"$ORI_TYPE=#CONST", "write #CONSTANT if this is meant"},
+                                          {"$IPO_MODE=#BASEE", "write #BASE if this is meant"},
+                                          {"$VEL.CPP=0.1", "write CP if this is meant"},
+                                          {"$APO.CDISS=30", "write CDIS if this is meant"}}) {
+    INFO(body);
+    CHECK_THAT(warnings(body, "LIN {X 900}"), Catch::Contains(word));
+  }
+  for (const char* legal :
+       {"PTP {X 900,Y 0,Z 900,A 0,B 90,C 0,S 2,T 35,E1 0,E2 0,E3 0,E4 0,E5 0,E6 0} C_PTP C_DIS", "LIN_REL {X 20} #BASE",
+        "LIN_REL {X 20} #TOOL C_DIS", "SLIN {X 900} WITH $VEL.CP=0.5 C_SPL",
+        "PTP {A1 10,A2 -90,A3 90,A4 0,A5 60,A6 0,E1 3} C_DIS", "$ORI_TYPE=#CONSTANT\n$CIRC_TYPE=#PATH\nLIN {X 900}",
+        "$ORI_TYPE=#VAR\n$IPO_MODE=#BASE\nLIN {X 900} C_DIS"}) {
+    INFO(legal);
+    CHECK(warnings("", legal) == "");
+  }
+}
+
+TEST_CASE("krl controller: a structure of the program may have components of its own") {
+  const Reading reading = run("STRUC spot REAL X,Y,Q\nDECL spot s\ns={X 1,Y 2,Q 3}\ns.Q=4\nPTP " + axes(1));
+  CHECK(reading.problem() == "no such problem");
+  CHECK(moves_left_out(reading.program).empty());
+}
+
+TEST_CASE("krl controller: settings of turns, $RED_VEL and a path speed in mm/s are not silent") {
+  const auto read = [](const std::string& settings) {
+    return run("$VEL.CP=1\nPTP " + pose + "\n" + settings + "\nLIN {X 900}");
+  };
+  const Reading turns = read("$VEL.ORI1=200\n$VEL.ORI2=100");
+  CHECK(turns.move(1).speed.orientation.value() == Approx(100 * degree).epsilon(rounding));
+  CHECK(skips(turns, unlike_turns, true));
+  const Reading alike = read("$VEL.ORI1=200\n$VEL.ORI2=200\n$ACC.ORI1=200\n$ACC.ORI2=200\n$RED_VEL=100");
+  CHECK(alike.move(1).speed.orientation.value() == Approx(200 * degree).epsilon(rounding));
+  CHECK(moves_left_out(alike.program).empty());
+  CHECK(skips(read("$ACC.ORI2=20"), turn_acceleration, true));
+  CHECK(skips(read("$RED_VEL=50"), reduced_speed, true));
+  CHECK(skips(read("$VEL.CP=250"), fast_path, true));
+  CHECK(skips(read("BAS(#VEL_CP,100)"), fast_path, true));
+  const Reading limited = run("BAS(#VEL_CP,100)\nPTP " + pose + "\nLIN {X 900}", "", {{"$config.dat", config}});
+  CHECK(skips(limited, fast_path, true));
+}
