@@ -155,7 +155,8 @@ void Krl::check_components(const Expression& aggregate) {
     });
   };
   const bool joint = any(axis_names);
-  if (!joint && !any(frame_names)) return;
+  const bool box = std::find(keys.begin(), keys.end(), "x1") != keys.end();  // $WORKSPACE: a frame and two corners
+  if (box || (!joint && !any(frame_names))) return;
   std::vector<std::string> missing;
   for (const std::string name : joint ? axis_names : frame_names)
     if (std::find(keys.begin(), keys.end(), name) == keys.end()) missing.push_back(name);
@@ -467,7 +468,7 @@ void Krl::basics(const Statement& statement, Interpreter& run) {
   } else if (what == "#acc_ptp") {
     set_axes("$acc_axis", axis_acceleration(number, run), place, run);
   } else if (what == "#vel_cp") {
-    const auto most = setting("def_vel_cp", "", run);  // limits the speed; else the moves give the warning
+    const auto most = setting("def_vel_cp", "", run);  // hides the slip; else the job warns of the speed
     if (number.is_number() && number.number > fastest_path && most && *most < number.number)
       run.note(place, fmt::format("BAS({}, {:g}): {}", what, number.number, fast_path), true);
     set_speed(number);

@@ -412,8 +412,6 @@ bool Krl::read_path_speed(const Statement& statement, Instruction& move, Interpr
     return false;
   }
   move.speed.tool = speed->number;
-  if (speed->number > fastest_path)
-    note_setting("$vel", fmt::format("$VEL.CP {:g} m/s: {}", speed->number, fast_path), statement.place, run);
   if (const auto turn = turn_speed(statement.place, run)) move.speed.orientation = *turn * degree;
   for (const char* field : {"ori1", "ori2"})
     if (const auto turn = setting("$acc", field, run); turn && *turn < usual_turn_acceleration)
