@@ -831,7 +831,7 @@ std::optional<std::size_t> FanucRun::chosen(const std::vector<Case>& cases, Fanu
     if (known[i]) continue;
     if (cases[i].otherwise) return value ? std::optional(i) : std::nullopt;
     if (!value || !cases[i].value) return {};
-    if (fanuc_real(*value) == fanuc_real(*cases[i].value)) return i;
+    if (as_single(*value) == as_single(*cases[i].value)) return i;
   }
   return value ? std::optional(cases.size()) : std::nullopt;
 }

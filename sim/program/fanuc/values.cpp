@@ -50,12 +50,6 @@ FanucNumber number_in(const std::string& text) {
 
 }  // namespace
 
-double fanuc_real(double number) {
-  constexpr double integers = 2147483648;  // 2^31
-  const bool whole = std::abs(number) <= integers && std::trunc(number) == number;
-  return whole ? number : static_cast<double>(static_cast<float>(number));
-}
-
 void add_causes(FanucCauses& to, const FanucCauses& more) {
   constexpr std::size_t most = 12;  // largest number of causes of a value
   for (const FanucCause& cause : more)
@@ -313,7 +307,7 @@ FanucNumber FanucValues::function(const std::string& word, FanucNumber of) const
   if (word == "tan") result = std::tan(*of * degree);
   if (word == "round") result = std::round(*of);
   if (word == "trunc") result = std::trunc(*of);
-  return std::isfinite(result) ? FanucNumber(fanuc_real(result)) : FanucNumber{};
+  return std::isfinite(result) ? FanucNumber(shortest_single(result)) : FanucNumber{};
 }
 
 /// Returns the value of an unknown register from the user. If the program has set the register and a call without a file
@@ -438,7 +432,7 @@ FanucNumber combined(std::string_view op, FanucNumber a, FanucNumber b) {
     return a && b ? FanucNumber(!either) : FanucNumber{};
   }
   if (!a || !b) return {};
-  const double x = fanuc_real(*a), y = fanuc_real(*b);
+  const double x = as_single(*a), y = as_single(*b);
   const double result = op == "+"     ? x + y
                         : op == "-"   ? x - y
                         : op == "*"   ? x * y
@@ -448,7 +442,7 @@ FanucNumber combined(std::string_view op, FanucNumber a, FanucNumber b) {
                         : x < y       ? op[0] == '<'  // <, <=, <>
                         : x > y       ? op.back() == '>' || op == ">="
                                       : op.back() == '=';
-  return std::isfinite(result) ? FanucNumber(fanuc_real(result)) : FanucNumber{};
+  return std::isfinite(result) ? FanucNumber(shortest_single(result)) : FanucNumber{};
 }
 
 }  // namespace

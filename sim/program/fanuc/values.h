@@ -19,9 +19,6 @@ namespace dresslife::sim {
 
 using FanucNumber = std::optional<double>;
 
-/// Returns a number as a register holds it: an integer, or a REAL of single precision.
-double fanuc_real(double number);
-
 /// Cause of an unknown value. name: the value that the user can give ("DI[3]", "CALL GRIP"; empty: none).
 /// line: the undecided branch that it depends on ("cell.ls:12"; empty: none).
 struct FanucCause {

@@ -821,19 +821,14 @@ Value as_number(const Value& value, const Value& other) {
 
 }  // namespace
 
-/// Rounds a number to single precision; whole numbers stay exact, as those of a controller's whole types.
-static void round_to_single(Value& value) {
-  constexpr double whole_numbers = 2147483648;  // 2^31
-  if (!value.is_number() || (std::abs(value.number) <= whole_numbers && std::trunc(value.number) == value.number))
-    return;
-  value.number = static_cast<double>(static_cast<float>(value.number));
-}
-
 Value Interpreter::binary(const Expression& expression) {
   const std::string& op = expression.text;
   if (op == ":") return dialect_.function(expression, *this).value_or(Value{});
   Value a = evaluate(expression.items[0]), b = evaluate(expression.items[1]);
-  if (dialect_.has_single_precision()) round_to_single(a), round_to_single(b);
+  const auto round = [&](Value& value, double (*rounded)(double)) {
+    if (dialect_.has_single_precision() && value.is_number()) value.number = rounded(value.number);
+  };
+  round(a, as_single), round(b, as_single);
   if (op == "and" || op == "or") {  // one known side can be enough
     const bool deciding = op == "or";
     for (const Value* side : {&a, &b})
@@ -863,7 +858,7 @@ Value Interpreter::binary(const Expression& expression) {
   }
   if (const Value relation = compared(op, a, b); relation.known()) return relation;
   Value result = a.is_number() ? computed(op, a, b) : Value{};
-  if (dialect_.has_single_precision()) round_to_single(result);
+  round(result, shortest_single);
   return result;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <sstream>
 
@@ -17,6 +19,22 @@ constexpr std::array<std::string_view, 6> configuration_words{"",      "abb",   
                                                               "fanuc", "motoman", "near"};  // by ArmConfiguration::Kind
 
 }  // namespace
+
+double as_single(double number) {
+  constexpr double whole_numbers = 2147483648;  // 2^31
+  const bool whole = std::abs(number) <= whole_numbers && std::trunc(number) == number;
+  return whole ? number : static_cast<double>(static_cast<float>(number));
+}
+
+double shortest_single(double number) {
+  const double single = as_single(number);
+  if (!std::isfinite(single) || std::trunc(single) == single) return single;
+  std::array<char, 32> text;  // of at most 15 characters
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), static_cast<float>(single)).ptr;
+  double decimal = single;
+  std::from_chars(text.data(), end, decimal);
+  return decimal;
+}
 
 std::string beyond_range_words(double low, double high) {
   return fmt::format("{} {:g} .. {:g} (the nearest of these counts)", beyond_range, low, high);

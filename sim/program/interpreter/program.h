@@ -153,6 +153,11 @@ inline constexpr const char* fast_path = "a path speed above that of any robot";
 inline constexpr const char* unread_word = "not read, because there is no such word in";
 inline constexpr const char* nearest_known = "; the nearest one is ";
 
+/// Returns the value of a number in single precision, with which controllers compute; whole numbers up to 2^31 stay exact.
+double as_single(double number);
+/// Returns the shortest decimal number with the same value in single precision: 53.7, not 53.70000076.
+double shortest_single(double number);
+
 struct Program {
   std::string name;
   std::vector<Instruction> instructions;
