@@ -16,6 +16,7 @@
 #include "pipeline/base/readable.h"
 #include "pipeline/base/warning_words.h"
 #include "pipeline/job/job.h"
+#include "pipeline/life/likely_age.h"
 #include "pipeline/resolve/catalogue.h"
 #include "pipeline/resolve/document_kind.h"
 #include "pipeline/resolve/job_text.h"
@@ -374,7 +375,8 @@ ServiceTests read_service_tests(const ServiceRequest& request) {
   ServiceTests read;
   std::map<std::string, std::size_t> known;  // (job) index of its test
   std::set<std::string> names;
-  std::map<std::string, double> hours_per_week;
+  std::map<std::string, double> hours_per_week, robot_life;
+  std::vector<Warning> ages;
   std::size_t failed = 0, removed = 0, in_use = 0, before = 0, early = 0, early_failed = 0;
   std::vector<std::string> hoses;  // one line per failure whose reason names a hose
   Where first_hose;
@@ -399,7 +401,8 @@ ServiceTests read_service_tests(const ServiceRequest& request) {
         test.variants.push_back(
             {name, catalogue_entry("jobs", program.job, row.job_where, row.job_where), "", program.share_of_time});
       }
-      hours_per_week[row.job] = job_from(test.variants.front().job, request.sets).fatigue.operating_hours_per_week;
+      const Fatigue fatigue = job_from(test.variants.front().job, request.sets).fatigue;
+      hours_per_week[row.job] = fatigue.operating_hours_per_week, robot_life[row.job] = fatigue.robot_life_hours;
     }
     // Removals on the first day define this day, so they are no evidence of lives (a stopping time).
     const bool too_early = row.to < *since || (!request.since && row.end != End::in_use && row.to == *since);
@@ -415,6 +418,10 @@ ServiceTests read_service_tests(const ServiceRequest& request) {
     const double entry_days = std::max(0.0, days_between(row.from, *since));
     const double days = std::max(days_between(row.from, row.to), entry_days + 0.5);
     const ServiceRecord record{days * hours_per_day, entry_days * hours_per_day, row.end == End::failed};
+    if (const auto doubt =
+            doubt_about_age(row.name, row.from, row.to, record.hours, robot_life[row.job], record.failed))
+      ages.push_back(
+          warning_of(WarningKind::calibration, row.where.text(), doubt->problem, doubt->cause, doubt->remedy));
     ++(row.end == End::failed ? failed : row.end == End::removed ? removed : in_use);
     before += record.entry_hours > 0;
     if (record.failed && row.of_hose) {
@@ -492,6 +499,10 @@ ServiceTests read_service_tests(const ServiceRequest& request) {
                              "--records-since DATE: the first day from which the table has every removal")
                       .line() +
                   "\n";
+  constexpr std::size_t most_ages = 5;
+  for (std::size_t k = 0; k < std::min(most_ages, ages.size()); ++k) read.words += ages[k].line() + "\n";
+  if (ages.size() > most_ages)
+    read.words += fmt::format("{} further rows have unlikely ages.\n", ages.size() - most_ages);
   if (short_week)
     read.words +=
         warning_of(WarningKind::calibration, short_week->where.text(),

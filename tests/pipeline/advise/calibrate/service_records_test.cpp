@@ -318,3 +318,25 @@ TEST_CASE("service records: hours of a day in the column of a week are doubted, 
             Contains(fmt::format("hours_per_week: {} if that was per working day", 5 * std::stoi(hours))));
   for (const char* hours : {"40", "120", "168"}) CHECK_THAT(words_with(hours), !Contains("hours_per_week of"));
 }
+
+TEST_CASE("service records: ages that no dresspack has, and failures of the first days, are doubted") {
+  const auto words_with = [](const std::string& row) {
+    return read("robot,installed,replaced,reason,hours_per_week\n" + row + "\nR2,2024-02-01,,,70\n", "1960-01-01")
+        .words;
+  };
+  CHECK_THAT(
+      words_with("R1,1970-03-02,2026-02-14,failed,80"),
+      Contains("plant.csv:2:1: warning: 'R1' was installed 20438 days before 2026-02-14 (limit 7300: 20 years)") &&
+          Contains("Likely cause: the date of the robot, or a wrong year") && Contains("Remedy: installed: "));
+  CHECK_THAT(words_with("R1,2014-01-06,2026-01-05,planned,80"),
+             Contains("'R1' ran 50,100 h until 2026-01-05 (limit 40,000 h: the robot's life)"));
+  CHECK_THAT(words_with("R1,2026-02-14,2026-02-15,failed,80"),
+             Contains("'R1' failed 1 day after its installation (limit 7 or more)") && Contains("preventive"));
+  for (const char* likely : {"R1,2026-02-14,2026-02-15,planned,80", "R1,2026-02-14,2026-02-21,failed,80",
+                             "R1,2017-01-02,2026-02-14,failed,80"})
+    CHECK_THAT(words_with(likely), !Contains("warning"));
+  std::string many;
+  for (int k = 0; k < 7; ++k) many += fmt::format("A{},1970-03-02,2025-02-{:02},failed,80\n", k, k + 1);
+  CHECK_THAT(words_with(many + "B,2024-02-01,,,70"),
+             Contains("'A4' was") && !Contains("'A5' was") && Contains("2 further rows have unlikely ages.\n"));
+}
