@@ -749,9 +749,12 @@ void judge(Context& c) {
       c.damage, c.counters, group_of.count, group_of, [&](std::size_t site) { return c.strains_of(site); }, c.threads);
 }
 
-/// Returns warnings where the job exceeds the tests from which its calibration was learned.
+/// Returns warnings where the job exceeds the tests from which its calibration was learned, and that of the calibration's records.
 std::vector<pipeline::Warning> beyond_calibration(const Context& c) {
   if (!c.job.calibration || c.job.calibration->typical || c.worst == no_site) return {};
+  std::vector<pipeline::Warning> warnings;
+  if (const std::string& words = c.job.calibration->contradiction; !words.empty())
+    warnings.push_back({pipeline::WarningKind::calibration, "", "calibration: " + words});
   pipeline::Experience experience;
   experience.strain_range = c.damage.range[c.worst];
   const auto curvature = c.strain.read<double>("/deformation/curvature");
@@ -759,7 +762,6 @@ std::vector<pipeline::Warning> beyond_calibration(const Context& c) {
     experience.curvature = std::max(experience.curvature, std::hypot(curvature[k], curvature[k + 1]));
   for (const double twist : c.strain.read<double>("/deformation/twist"))
     experience.twist = std::max(experience.twist, std::abs(twist));
-  std::vector<pipeline::Warning> warnings;
   for (const std::string& words : pipeline::beyond(c.job.calibration->within, experience))
     warnings.push_back(pipeline::warning_of(
         pipeline::WarningKind::calibration, "", "the job goes beyond the tests of its calibration: " + words,

@@ -82,6 +82,8 @@ void describe(Fields& f, Calibration& calibration) {
   f.boolean("typical", calibration.typical, Need::optional,
             "whether it was learned from cables of different makers, for a cable that none of its tests had");
   f.text("note", calibration.note, Need::optional, "how it was learned");
+  f.text("contradiction", calibration.contradiction, Need::optional,
+         "warning that its records contradict the prediction with it");
   f.list("parameters", calibration.parameters, Need::required, "what was learned");
   f.group("under", calibration.under, Need::optional, "what the tests were computed with");
   f.group("within", calibration.within, Need::optional, "the range of the tests; outside it nothing was tested");

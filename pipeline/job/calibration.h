@@ -81,6 +81,8 @@ struct Calibration {
   bool typical =
       false;  ///< true: learned from makers' ratings of many cables; its parameters are those of a cable without tests
   std::string note;
+  /// Warning that records of dresspacks in service contradict the prediction with this calibration; empty: none. Runs repeat it.
+  std::string contradiction;
   std::vector<LearnedParameter> parameters;
   LearnedUnder under;
   LearnedWithin within;

@@ -10,6 +10,7 @@
 #include "pipeline/base/lists.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/statistics.h"
+#include "pipeline/base/warning_words.h"
 #include "pipeline/job/uncertainty.h"
 #include "pipeline/job/wall_strength.h"
 #include "pipeline/life/planning.h"
@@ -59,6 +60,29 @@ void add_service_doubts(const LearnedTest& test, double surprising, Learned& lea
   }
 }
 
+/// Returns "10 % had failed by 4,200 h, half by 9,000 h".
+std::string observed_words(const ObservedAges& ages) {
+  std::string words;
+  if (!ages.tenth)
+    words = fmt::format("{:.0f} % had failed by {}", 100 * ages.failed_until, hours_text(ages.until));
+  else
+    words = fmt::format("10 % had failed by {}, ", hours_text(*ages.tenth)) +
+            (ages.half ? "half by " + hours_text(*ages.half)
+                       : fmt::format("{:.0f} % by {}", 100 * ages.failed_until, hours_text(ages.until)));
+  return words + (ages.from > 0 ? fmt::format(", of those that reached {}", hours_text(ages.from)) : "");
+}
+
+/// Returns the line below the table that compares ages of dresspacks in service.
+std::string service_line(const LearnedTest& test) {
+  if (!test.fit.observed)
+    return fmt::format("\nThe records of '{}' have fewer than {} dresspacks of one age: no observed hours.\n",
+                       test.observation.name, ObservedAges::fewest);
+  return fmt::format(
+      "\nObserved hours of '{}' (Kaplan-Meier): {}. Predicted after, of new ones: 10 % by {}, half by {}.\n",
+      test.observation.name, observed_words(*test.fit.observed), life_text(test.after[0], 2) + " h",
+      life_text(test.after[1], 2) + " h");
+}
+
 double surprise(const LearnedTest& test, PredictedDeciles predicted) {
   const Observation& observation = test.observation;
   if (!observation.service.empty()) return 0;  // many lives have no single surprise
@@ -85,6 +109,39 @@ std::string chance_words(double deviations) {
 }
 
 }  // namespace
+
+std::optional<Warning> contradiction_of(const LearnedTest& test) {
+  const ServiceFit& fit = test.fit;
+  if (fit.chance >= least_service_chance) return std::nullopt;
+  constexpr double alike = 1.2;  // b, a change of the scatter that is no cause of a contradiction
+  const bool narrower = fit.shape > alike, wider = fit.shape < 1 / alike;
+  std::string what =
+      fmt::format("'{}': the records contradict the prediction after the calibration (probability {} {}, limit 1 %)",
+                  test.observation.name, fit.chance < 1e-6 ? "below" : "of",
+                  fit.chance < 1e-6 ? "0.0001 %" : readable(100 * fit.chance, 2) + " %");
+  if (fit.observed) {
+    what += ". Observed: " + observed_words(*fit.observed);
+    if (fit.observed->tenth)
+      what += fmt::format(". Predicted: {} by {}", readable(100 * fit.predicted_tenth, 2) + " %",
+                          hours_text(*fit.observed->tenth));
+    if (fit.observed->half)
+      what += fmt::format(", {} by {}", readable(100 * fit.predicted_half, 2) + " %", hours_text(*fit.observed->half));
+  }
+  const std::string cause =
+      narrower
+          ? "the dresspacks of this plant differ less from each other than the model assumes (slack, rest, motion and the "
+            "error of computed lives, which a calibration does not learn)"
+      : wider ? "failures by another cause than wear, wrong dates, or dresspacks with different motions under one job"
+              : "a job, dates or hours per week that are not theirs";
+  std::string remedy = "do not plan with this calibration";
+  if (fit.observed && fit.observed->tenth)
+    remedy += fmt::format(". Plan with the observed hours: 10 % had failed by {}", hours_text(*fit.observed->tenth));
+  else if (fit.observed)
+    remedy += fmt::format(". Plan with the observed hours: fewer than 10 % had failed by {}",
+                          hours_text(fit.observed->until));
+  if (!narrower) remedy += "; or correct the rows, or give each motion its own job (column job)";
+  return warning_of(WarningKind::calibration, "", what, cause, remedy);
+}
 
 double surprise(const LearnedTest& test) { return surprise(test, test.before); }
 double surprise_by_others(const LearnedTest& test) { return surprise(test, test.by_others); }
@@ -120,7 +177,10 @@ std::string words_of(const PredictedDeciles& deciles) {
 
 void add_doubts(Learned& learned, const Axes& axes) {
   constexpr double surprising = 2, skewed = 0.3;  // standard deviations
-  for (const LearnedTest& test : learned.tests) add_service_doubts(test, normal_share(-surprising), learned);
+  for (const LearnedTest& test : learned.tests) {
+    if (const auto contradiction = contradiction_of(test)) learned.warnings.push_back(contradiction->words);
+    add_service_doubts(test, normal_share(-surprising), learned);
+  }
   for (const LearnedTest& test : learned.tests) {
     if (const double off = surprise(test); off > surprising) {
       learned.notes.push_back(fmt::format(
@@ -164,6 +224,8 @@ std::string learned_table(const Learned& learned) {
   for (const LearnedTest& test : learned.tests)
     text += fmt::format(fmt::runtime(columns), test.observation.name, name, seen(test), words_of(test.before),
                         words_of(test.by_others), words_of(test.after), test.fails_first);
+  for (const LearnedTest& test : learned.tests)
+    if (!test.observation.service.empty()) text += service_line(test);
   for (const LearnedTest& test : learned.tests)
     if (!test.observation.service.empty())
       text += fmt::format(

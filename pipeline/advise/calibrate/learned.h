@@ -7,6 +7,7 @@
 
 #include "pipeline/advise/calibrate/learned_walls.h"
 #include "pipeline/advise/calibrate/prediction.h"
+#include "pipeline/advise/calibrate/service_fit.h"
 #include "pipeline/job/calibration.h"
 
 namespace dresslife::pipeline {
@@ -24,6 +25,7 @@ struct LearnedTest {
   PredictedDeciles before{}, after{};  ///< predictions over all variants; after: weighted by their likelihood
   PredictedDeciles by_others{};        ///< prediction over all variants, from the posterior of all other tests
   ServiceChance chance_before{}, chance_after{};  ///< for dresspacks in service
+  ServiceFit fit{};                               ///< for dresspacks in service
   double measured = 0;                            ///< measured value; 0 for a life
   std::string fails_first{}, moved_by{};          ///< from EmulatedTest
 };
@@ -38,6 +40,9 @@ struct Learned {
   bool settled = false;  ///< the centre has converged
   std::vector<std::string> notes, warnings;
 };
+
+/// Returns the warning of a test whose records contradict the prediction after the calibration; absent: they do not.
+std::optional<Warning> contradiction_of(const LearnedTest& test);
 
 std::vector<LearnedAxis> learned_axes(const Posterior& posterior, const Axes& axes);
 

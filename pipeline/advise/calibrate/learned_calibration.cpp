@@ -89,6 +89,10 @@ Calibration calibration_of(const Learned& learned, const std::vector<ObservedTes
   calibration.note = fmt::format(
       "{} observations, {} rounds{}; draws worth {} independent ones, chains disagree by {:.3f}", learned.tests.size(),
       learned.rounds, learned.settled ? "" : " (not settled)", readable(posterior.worth, 2), posterior.chains_disagree);
+  std::vector<std::string> contradictions;
+  for (const LearnedTest& test : learned.tests)
+    if (const auto warning = contradiction_of(test)) contradictions.push_back(warning->words);
+  calibration.contradiction = joined(contradictions, " ");
   for (Index i = 0; i < axes.size(); ++i) {
     const auto p = static_cast<std::size_t>(axes.places()[static_cast<std::size_t>(i)]);
     LearnedParameter parameter;

@@ -117,6 +117,7 @@ Learned learn(const std::vector<ObservedTest>& tests, const std::vector<std::str
           learned.tests[t].chance_before = service_chance(*emulated.life, records, prior_draws(axes));
         learned.tests[t].chance_after =
             service_chance(*emulated.life, records, posterior_draws(learned.posterior, axes));
+        learned.tests[t].fit = service_fit(*emulated.life, records, posterior_draws(learned.posterior, axes));
       }
       learned.tests[t].fails_first = emulated.fails_first;
       learned.tests[t].moved_by = emulated.moved_by;
