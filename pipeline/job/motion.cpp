@@ -96,7 +96,8 @@ void describe(Fields& f, ProgramValue& value) {
   f.text("name", value.name, Need::required,
          "The name of an input, a register, a variable or a position, as in the program: di5, $IN[3], R[1], "
          "PR[2].");
-  f.text("value", value.value, Need::required, "The value, as in the program: TRUE, 3, [[0,0,100],[1,0,0,0]].");
+  f.text("value", value.value, Need::required,
+         "The value, as in the program, a list in quotes: TRUE, 3, '[[0,0,100],[1,0,0,0]]'.");
 }
 
 void describe(Fields& f, ProgramFile& file) { f.path("file", file.file, Need::required, "A module or data file."); }
