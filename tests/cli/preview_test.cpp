@@ -17,8 +17,8 @@ TEST_CASE("preview reports how far the clamps are apart and which lengths suit")
   // The distance of the clamps is 0.8 m at the start and falls to hypot(0.7, 0.05).
   CHECK(
       unwrapped(told.out).find(
-          "Dresspack is 0.900 m long. Over the program its clamps are 0.702 .. 0.800 m apart: this length fits. Lengths of 0.82 .. 1.20 m "
-          "fit the program: 2 % to a third longer than the largest distance.") != std::string::npos);
+          "Dresspack is 0.900 m long. Over the program its clamps are 0.702 .. 0.800 m apart: its slack fits. For the slack alone 0.82 .. 1.20 m "
+          "suit the program: 2 % to a third longer than the largest distance.") != std::string::npos);
   // The warnings of `check` come first.
   const std::string checked = run(scratch, "dresslife", "check job.yaml").out;
   CHECK(checked.find("strain.slip is stick") != std::string::npos);
@@ -54,7 +54,7 @@ TEST_CASE("preview opens a job that is refused where it is refused") {
   INFO(told.err);
   CHECK(told.out.find("The simulation refuses the job: ") != std::string::npos);
   CHECK(told.out.find("dresspack is 50.0 mm too short at 0.000 s") != std::string::npos);
-  CHECK(told.out.find("apart: too short. Lengths of ") != std::string::npos);
+  CHECK(told.out.find("apart: too short. For the slack alone ") != std::string::npos);
   CHECK(told.out.find("With the robot") == std::string::npos);  // the page of a refused length contains no results
   const std::string seen = in_browser(scratch, "short.html", R"(
     return [await evaluate('document.body.dataset.time'), await evaluate('dresslife.viewer() !== null'),
