@@ -150,8 +150,8 @@ void add_filling(const Dresspack& dresspack, std::vector<Warning>& warnings) {
             "the parts fill {:.0f} % of the bore of {:.4g} mm (limit {:g} % of a hose that moves: the parts rub more on each other)",
             100 * share, 2e3 * *bore, 100 * most),
         "a hose that is too narrow for its parts",
-        fmt::format("a hose with inner_diameter_mm: {:.4g} or more, or fewer parts",
-                    std::ceil(2e4 * std::sqrt(squares / most)) / 10)));
+        fmt::format("a hose with {}, or fewer parts",
+                    wider_hose(std::ceil(2e4 * std::sqrt(squares / most)) / 10, dresspack))));
 }
 
 }  // namespace

@@ -414,16 +414,14 @@ void check_place(const Dresspack& dresspack, const Component& component) {
   const double by = outside_bore(room, component);
   if (by == 0 || room.estimated) return;  // an estimated bore only gives a warning (overlap.h)
   const bool hose = inner_radius(dresspack).has_value();
-  throw InputError(component.where,
-                   fmt::format("'{}' reaches {:.4g} mm from the axis, {:.3g} mm outside the {} (radius {:.4g} mm)",
-                               component.name, 1e3 * (component.helix_radius + component.radius), 1e3 * by,
-                               hose ? "hose's bore" : "dresspack", 1e3 * room.bore),
-                   fmt::format("give helix_radius_mm: {:.4g} or less, or {}: {:.4g} or more",
-                               1e3 * std::max(0.0, room.bore - component.radius),
-                               !hose                      ? "diameter_mm"
-                               : dresspack.inner_diameter ? "inner_diameter_mm"
-                                                          : "inner_diameter_mm (now by hose_corrugation)",
-                               2e3 * (component.helix_radius + component.radius)));
+  const double needed = 2e3 * (component.helix_radius + component.radius);
+  throw InputError(
+      component.where,
+      fmt::format("'{}' reaches {:.4g} mm from the axis, {:.3g} mm outside the {} (radius {:.4g} mm)", component.name,
+                  1e3 * (component.helix_radius + component.radius), 1e3 * by, hose ? "hose's bore" : "dresspack",
+                  1e3 * room.bore),
+      fmt::format("give helix_radius_mm: {:.4g} or less, or {}", 1e3 * std::max(0.0, room.bore - component.radius),
+                  hose ? wider_hose(needed, dresspack) : fmt::format("diameter_mm: {:.4g} or more", needed)));
 }
 
 /// Refuses wires in a hose without a known bore: it is unknown whether the parts fit, and how far they can move.

@@ -60,6 +60,19 @@ double outside_bore(const PartsRoom& room, const Component& component) {
   return beyond_caliper(component, component.helix_radius + component.radius - room.bore);
 }
 
+std::string wider_hose(double bore, double height, bool has_inner_diameter) {
+  const auto up = [](double size) { return std::ceil(100 * size - 1e-6) / 100; };
+  const std::string inner = fmt::format("inner_diameter_mm: {:.4g}", up(bore)),
+                    outer = fmt::format("diameter_mm: {:.4g} or more", up(bore + 2 * height));
+  if (!(height > 0)) return inner + " or more";
+  return has_inner_diameter ? inner + " and " + outer : outer;
+}
+
+std::string wider_hose(double bore, const Dresspack& dresspack) {
+  return wider_hose(bore, dresspack.hose_corrugation ? 1e3 * dresspack.hose_corrugation->height : 0,
+                    dresspack.inner_diameter.has_value());
+}
+
 double inside_core(const PartsRoom& room, const Component& component) {
   return beyond_caliper(component,
                         component.helix_radius == 0 ? 0 : room.core - component.helix_radius + component.radius);
@@ -70,8 +83,7 @@ namespace {
 constexpr double touching = 1e-3;  // share of the bore; place: auto arranges parts without contact
 
 std::string wider_bore(const Dresspack& dresspack, double radius) {
-  return fmt::format("inner_diameter_mm{}: {:.4g} or more",
-                     dresspack.inner_diameter ? "" : " (now by hose_corrugation)", std::ceil(2e4 * radius - 1e-6) / 10);
+  return wider_hose(std::ceil(2e4 * radius - 1e-6) / 10, dresspack);
 }
 
 std::string thickness(const Component& part) { return fmt::format("'{}' ({:.4g} mm)", part.name, 2e3 * part.radius); }

@@ -39,6 +39,11 @@ inline constexpr double caliper_error = 0.02;
 double outside_bore(const PartsRoom& room, const Component& component);
 double inside_core(const PartsRoom& room, const Component& component);
 
+/// Returns the keys of a hose whose bore is wide enough: "inner_diameter_mm: 58.5 or more". The bore of a corrugated hose follows from
+/// its diameter and the height of its corrugations: "diameter_mm: 67.5 or more". bore: the least one [mm].
+std::string wider_hose(double bore, double height, bool has_inner_diameter);
+std::string wider_hose(double bore, const Dresspack& dresspack);
+
 /// A conflict of parts that do not fit into a hose of known bore in any arrangement.
 struct Crowd {
   Where where;               ///< of the thickest part

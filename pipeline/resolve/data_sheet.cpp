@@ -839,8 +839,9 @@ void expand_data_sheets(Node& dresspack) {
 
 namespace {
 
-/// Refuses a cable that is thicker than the bore [mm] of its hose, before its other errors. 0: unknown bore.
-void refuse_thicker_than(double bore, const Node& component) {
+/// Refuses a cable that is thicker than the known bore of its hose, before its other errors.
+void refuse_thicker_than_bore(const Node& dresspack, const Node& component) {
+  const double bore = bore_of(dresspack);
   const Node* const written = component.find("data_sheet");
   if (!(bore > 0) || !written) return;
   Node keys;
@@ -854,7 +855,7 @@ void refuse_thicker_than(double bore, const Node& component) {
   if (diameter > bore)
     throw InputError(
         outer->where, fmt::format("the cable is {:.4g} mm thick (the hose is {:.4g} mm wide inside)", diameter, bore),
-        fmt::format("check outer_diameter_mm, or take a hose with inner_diameter_mm: {:.4g} or more", diameter));
+        fmt::format("check outer_diameter_mm, or take a hose with {}", wider_hose_of(dresspack, diameter)));
 }
 
 void expand_all(Node& dresspack, const std::string& path, Problems& problems, LeftOut& left_out) {
@@ -865,7 +866,7 @@ void expand_all(Node& dresspack, const std::string& path, Problems& problems, Le
     if (!component.is_map()) continue;
     const std::string item = fmt::format("{}{}components[{}]", path, path.empty() ? "" : ".", i + 1);
     if (problems.attempt(item, component.where, [&] {
-          if (path.find("components") == std::string::npos) refuse_thicker_than(bore_of(dresspack), component);
+          if (path.find("components") == std::string::npos) refuse_thicker_than_bore(dresspack, component);
           expand(component, left_out);
         }))
       expand_all(component, item, problems, left_out);

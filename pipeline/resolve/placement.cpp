@@ -207,6 +207,12 @@ double bore_of(const Node& dresspack) {
   return number_of(dresspack, "diameter_mm") - 2 * number_of(*profile, "height_mm");
 }
 
+std::string wider_hose_of(const Node& dresspack, double bore) {
+  const Node* profile = dresspack.find("hose_corrugation");
+  return wider_hose(bore, profile && profile->is_map() ? number_of(*profile, "height_mm") : 0,
+                    dresspack.find("inner_diameter_mm") != nullptr);
+}
+
 std::optional<std::vector<PlacedPart>> pack_in_bore(const std::vector<double>& radii, double bore, double core) {
   std::vector<PlacedPart> places(radii.size());
   std::vector<std::size_t> parts = indices_of(radii.size());
@@ -266,7 +272,7 @@ void expand_places(Node& dresspack, const std::string& path, Problems& problems)
     }
     problems.add(
         where, fmt::format("{} parts with place: auto do not fit into the bore of {:.4g} mm", parts.size(), 2e3 * bore),
-        fmt::format("take fewer or thinner parts, or a hose with inner_diameter_mm: {:.4g} or more", 2e3 * enough),
+        fmt::format("take fewer or thinner parts, or a hose with {}", wider_hose_of(dresspack, 2e3 * enough)),
         path + ".components");
     return;
   }

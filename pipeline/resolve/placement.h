@@ -19,6 +19,9 @@ namespace dresslife::pipeline {
 /// Returns the bore of a dresspack as written [mm]; 0: unknown.
 double bore_of(const Node& dresspack);
 
+/// Returns the keys of the dresspack as written with a bore [mm] that is wide enough (wider_hose()).
+std::string wider_hose_of(const Node& dresspack, double bore);
+
 struct PlacedPart {
   double helix_radius = 0;  ///< [m]
   double phase = 0;         ///< [rad]

@@ -142,6 +142,13 @@ TEST_CASE("placement: what cannot be placed is refused with what would do") {
   CHECK_THAT(full, Contains("12 parts with place: auto do not fit into the bore of 30 mm") && Contains("hose.yaml:7:"));
   const double enough = std::stod(full.substr(full.find("inner_diameter_mm: ") + 19));
   CHECK(refusal(hose_text(fmt::format("inner_diameter_mm: {}\n", enough), cable("lead", 12, 5))) == "");
+  const std::string corrugation = "hose_corrugation: {pitch_mm: 5, height_mm: 4, wall_mm: 0.8}\n",
+                    narrow = hose_text(corrugation, cable("lead", 40, 5)), key = "diameter_mm: ";
+  const std::string corrugated = refusal(narrow);
+  CHECK_THAT(corrugated, Contains("or a hose with " + key));
+  const double wide = std::stod(corrugated.substr(corrugated.find(key) + key.size()));
+  CHECK(refusal("name: hose\nsource: made up\n" + key + fmt::format("{}", wide) +
+                narrow.substr(narrow.find("\nbending_stiffness"))) == "");
   // The search for inner rings must not try every number of parts in every ring: that takes hours for 40 parts.
   for (const int count : {40, 200, 1000})
     CHECK_THAT(refusal(hose_text("inner_diameter_mm: 42\n", cable("lead", count, 5.7) + cable("thin", 7, 2))),
