@@ -949,6 +949,27 @@ AddDoubt adding_to(std::vector<Warning>& warnings) {
   };
 }
 
+/// Warns of the quaternion of a tool or work object in the order x, y, z, w that leaves the frame nearly unturned. Read as w, x,
+/// y, z it is nearly half a turn about z, which a robot's program may really have, and a key of a job rarely.
+void doubt_order_of_quaternions(const Motion& motion, const AddDoubt& add) {
+  constexpr double nearly_whole = 0.98;  // 23 deg from no turn
+  for (const auto& [key, frames] : {std::pair{"tools", &motion.tools}, {"work_objects", &motion.work_objects}})
+    for (std::size_t k = 0; k < frames->size(); ++k) {
+      const MotionFrame& frame = (*frames)[k];
+      const std::vector<double>& q = frame.quaternion;
+      if (frame.quaternion_where.line == 0 || q.size() != 4 || std::abs(q[3]) < nearly_whole) continue;
+      const bool whole = q[0] == 0 && q[1] == 0 && q[2] == 0;
+      add(frame.quaternion_where,
+          fmt::format(
+              "the quaternion of motion.{}[{}] ('{}') is [{:g}, {:g}, {:g}, {:g}] (order: w, x, y, z), {} by 180 deg "
+              "about z",
+              key, k + 1, frame.name, q[0], q[1], q[2], q[3], whole ? "a turn" : "nearly a turn"),
+          "the order x, y, z, w",
+          fmt::format("[{:g}, {:g}, {:g}, {:g}] {}; leave it if the frame is turned so", q[3], q[0], q[1], q[2],
+                      whole ? "if no turn is meant" : "if that was x, y, z, w"));
+    }
+}
+
 std::vector<Warning> doubts_of_motion(const Job& job) {
   std::vector<Warning> warnings;
   const auto add = [&](WarningKind kind, const char* key, double value, const std::string& limit,
@@ -958,6 +979,7 @@ std::vector<Warning> doubts_of_motion(const Job& job) {
   const AddDoubt doubt = adding_to(warnings);
   if (job.motion.is_prescribed()) return warnings;
   doubt_robot(job.robot, doubt);
+  doubt_order_of_quaternions(job.motion, doubt);
   doubt_cell(job.cell, job.simulation, doubt);
   doubt_boxes(job.cell, job.robot, doubt);
   for (const MountedDresspack& mounted : job.dresspacks)

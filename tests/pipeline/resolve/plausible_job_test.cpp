@@ -64,6 +64,34 @@ TEST_CASE("plausible job: a speed for moves that all have their own has no effec
   CHECK(plausibility_of_steps(motion)[0].words.find("motion.override_percent: 50") != std::string::npos);
 }
 
+TEST_CASE("plausible job: the quaternion of a tool in the order x, y, z, w") {
+  const auto words = [](std::vector<double> quaternion, int line) {
+    Job job;
+    MotionFrame frame;
+    frame.name = "gun", frame.quaternion = std::move(quaternion), frame.quaternion_where = {"job.yaml", line};
+    job.motion.tools = job.motion.work_objects = {frame};
+    std::vector<std::string> lines;
+    for (const Warning& warning : plausibility_of_motion(job)) lines.push_back(warning.line());
+    return lines;
+  };
+  const auto whole = words({0, 0, 0, 1}, 7);
+  REQUIRE(whole.size() == 2);
+  CHECK(
+      whole[0].find(
+          "the quaternion of motion.tools[1] ('gun') is [0, 0, 0, 1] (order: w, x, y, z), a turn by 180 deg about z") !=
+      std::string::npos);
+  CHECK_THAT(whole[0],
+             Catch::Contains("job.yaml:7") &&
+                 Catch::Contains("Likely cause: the order x, y, z, w. Remedy: [1, 0, 0, 0] if no turn is meant"));
+  CHECK_THAT(whole[1], Catch::Contains("motion.work_objects[1]"));
+  const auto nearly = words({0, 0.1, 0, 0.995}, 7);
+  REQUIRE(nearly.size() == 2);
+  CHECK_THAT(nearly[0], Catch::Contains("[0.995, 0, 0.1, 0] if that was x, y, z, w"));
+  CHECK(words({0.2, 0.1, 0, 0.97468}, 7).empty());
+  CHECK(words({1, 0, 0, 0}, 7).empty());
+  CHECK(words({0, 0, 0, 1}, 0).empty());  // of a program
+}
+
 TEST_CASE("plausible steps: angles that are all below a turn in radians and yet move") {
   CHECK(doubts({}) == 0);
   CHECK(doubts({move_to({1, 2}), move_to({1.2, 2})}) == 1);
