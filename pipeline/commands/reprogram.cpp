@@ -47,6 +47,7 @@ struct TriedWay {
   std::string doubt;   ///< kinds of the warnings that make its life wrong; empty: none
   std::string patch;   ///< unified diff of the program; empty: the motion is a list of steps
   fs::path file;       ///< file with the patch
+  double error = 1;    ///< numerical error of the life, a factor
 };
 
 std::vector<double> cost_of_lines(const fs::path& life_file) {
@@ -125,6 +126,17 @@ std::string csv_of(const TriedWay& before, const std::vector<TriedWay>& ways) {
   return text;
 }
 
+/// Returns a sentence if all gains are smaller than the numerical error of the life; else an empty text.
+std::string error_words(const TriedWay& before, const std::vector<TriedWay>& ways) {
+  double gain = 0;
+  for (const TriedWay& tried : ways)
+    if (tried.outcome.failure.empty()) gain = std::max(gain, times_as_long(tried, before));
+  if (!(gain > 0 && gain < before.error)) return "";
+  return fmt::format(
+      "  The largest gain ({:.3g} x) is below the numerical error of these lives (a factor of {}): it may be chance.\n",
+      gain, readable(before.error, 2));
+}
+
 std::string table_of(const std::string& job, const TriedWay& before, const std::vector<TriedWay>& ways) {
   std::string text =
       fmt::format("{}: {} h, {:.1f} s{}\n", job, readable(before.outcome.hours), before.seconds, remarks(before));
@@ -143,6 +155,7 @@ std::string table_of(const std::string& job, const TriedWay& before, const std::
   }
   text +=
       "  life: of the wires, in hours of motion. The first way is the best by limits, lives in repeats, and modes that are not validated.\n";
+  text += error_words(before, ways);
   if (const auto failed =
           std::ranges::count_if(ways, [](const TriedWay& tried) { return !tried.outcome.failure.empty(); });
       failed > 0)
@@ -166,7 +179,8 @@ TriedWay seen(const RankingRow& row, const StudyPlaces& places) {
           row.done() ? row.repeat_seconds : 0,
           row.done() ? doubt_of(row) : "",
           {},
-          {}};
+          {},
+          row.done() && std::isfinite(row.planned_errors[0]) ? row.planned_errors[0] : 1};
 }
 
 std::vector<std::string> lines_of(const std::string& text) {
