@@ -130,9 +130,12 @@ std::vector<KeyRow> keys_of(const std::string& wanted) {
            row.meaning.find("'" + last + ":") != std::string::npos;
   });
   if (!found.empty()) return found;
-  const std::string near = nearest_word(last, mapped(all, &KeyRow::key));
-  throw InputError({"dresslife manual"}, fmt::format("there is no key '{}'", wanted),
-                   near.empty() ? "see 'dresslife manual keys'" : fmt::format("did you mean '{}'?", near));
+  std::vector<std::string> names = mapped(all, &KeyRow::key);
+  for (const RankingColumn& column : ranking_columns()) names.push_back(column.name);
+  const std::string near = nearest_word(last, names);
+  throw InputError({"dresslife manual"}, fmt::format("there is no key or column '{}'", wanted),
+                   near.empty() ? "see 'dresslife manual keys' and 'dresslife manual ranking.csv'"
+                                : fmt::format("did you mean '{}'?", near));
 }
 
 std::string keys_text(const std::string& wanted) {
@@ -145,6 +148,12 @@ std::string keys_text(const std::string& wanted) {
   return text;
 }
 
+/// Returns the column of ranking.csv with this name; null: none, or a key has this name.
+const RankingColumn* column_named(const std::string& name) {
+  const std::vector<KeyRow> keys = every_key();
+  return find_in(keys, &KeyRow::key, name) ? nullptr : find_in(ranking_columns(), &RankingColumn::name, name);
+}
+
 int manual(const Command& program, const std::string& what) {
   if (what == "keys")
     print(keys_page());
@@ -154,6 +163,8 @@ int manual(const Command& program, const std::string& what) {
     print(ranking_manual());
   else if (std::find(manual_kinds().begin(), manual_kinds().end(), what) != manual_kinds().end())
     print(program_manual(program, what));
+  else if (const RankingColumn* const column = column_named(what))
+    print(fmt::format("column {} of ranking.csv\n  {}\n  unit: {}\n", column->name, column->meaning, column->unit));
   else
     print(keys_text(what));
   return 0;
@@ -167,11 +178,11 @@ Command manual_command(const Command& program) {
   references.insert(references.end(), manual_kinds().begin(), manual_kinds().end());
   return {
       "manual",
-      "print a reference: one KEY, such as slack_percent; all keys, all files or the columns of ranking.csv (Markdown); the "
-      "man page, a shell's completion",
+      "print a reference: one KEY, such as slack_percent, or COLUMN of ranking.csv; all keys, all files or the columns of "
+      "ranking.csv (Markdown); the man page, a shell's completion",
       {{"what",
         "",
-        "KEY, keys, files, ranking.csv, man, bash or zsh",
+        "KEY, COLUMN, keys, files, ranking.csv, man, bash or zsh",
         what.get(),
         {.required = true, .choices = references, .other_values = true}}},
       [&program, what] { return manual(program, *what); }};

@@ -89,13 +89,10 @@ void add_manual(CLI::App& app, const Command& program, const Option& manual) {
       ->trigger_on_parse();
 }
 
-/// Returns the command whose name is nearest to the first word of a command line. Empty: the word is a command or an option, or
-/// no name is near.
-std::string meant_command(const Command& program, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return "";
-  const std::vector<std::string> names = mapped(program.commands, &Command::name);
-  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return "";
-  return nearest_word(argv[1], names);
+/// Returns whether the first word of a command line should be a command, and is none.
+bool is_no_command(const Command& program, int argc, char** argv) {
+  return argc > 1 && argv[1][0] != '-' && !program.commands.empty() &&
+         std::ranges::find(program.commands, argv[1], &Command::name) == program.commands.end();
 }
 
 /// Returns the option that a word of a command line names; null: none.
@@ -137,6 +134,17 @@ std::string meant_option(const Command& program, int argc, char** argv) {
     if (!is_flag && option_named(command, argv[k]))
       return fmt::format("'{}' needs {} before '{}'\n", argv[k - 1], option->value, argv[k]);
   }
+  return "";
+}
+
+/// Returns "manual needs KEY, keys or files; see 'dresslife manual --help'" if that word is missing behind a command.
+std::string missing_word(const Command& program, int argc, char** argv, const std::string& problem) {
+  for (const Command& command : program.commands)
+    for (const Option& option : command.options)
+      if (argc > 1 && command.name == argv[1] && option.rules.required && option.names[0] != '-' &&
+          problem == option.names + " is required")
+        return fmt::format("{} needs {}; see '{} {} --help'\n", command.name, option.meaning, program.name,
+                           command.name);
   return "";
 }
 
@@ -193,10 +201,24 @@ std::optional<int> read_command_line(const Command& program, int argc, char** ar
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
-    if (const std::string meant = meant_command(program, argc, argv); !meant.empty() && problem.get_exit_code() != 0)
-      fmt::print(stderr, "'{}' is no command of {}; did you mean '{}'?\n", shown(argv[1]), program.name, meant);
-    else if (problem.get_exit_code() != 0)
-      fmt::print(stderr, "{}", meant_option(program, argc, argv));
+    if (!commands.empty() && argc > 1 && std::string_view(argv[1]) == "help") {
+      const std::vector<Command>& all = program.commands;
+      const auto of = std::ranges::find_if(all, [&](const Command& one) { return argc > 2 && one.name == argv[2]; });
+      fmt::print("{}", of == all.end() ? app.help() : app.get_subcommand(of->name)->help());
+      return finish_output(0);
+    }
+    if (const std::string missing = missing_word(program, argc, argv, problem.what()); !missing.empty()) {
+      fmt::print(stderr, "{}", missing);
+      return finish_output(2);
+    }
+    if (problem.get_exit_code() != 0 && is_no_command(program, argc, argv)) {
+      const std::string meant = nearest_word(argv[1], mapped(program.commands, &Command::name));
+      fmt::print(stderr, "'{}' is no command of {}; {}\n", shown(argv[1]), program.name,
+                 meant.empty() ? fmt::format("'{} --help' lists them", program.name)
+                               : fmt::format("did you mean '{}'?", meant));
+      return finish_output(2);
+    }
+    if (problem.get_exit_code() != 0) fmt::print(stderr, "{}", meant_option(program, argc, argv));
     return finish_output(app.exit(problem) == 0 ? 0 : 2);
   }
   for (std::size_t k = 0; k < commands.size(); ++k)

@@ -45,6 +45,10 @@ TEST_CASE("manual prints one key, by its path, the end of its path or its name")
         std::string::npos);
   CHECK(run(scratch, "dresslife", "manual place").out.find("'place: auto'") !=
         std::string::npos);  // a short form of keys
+  CHECK_THAT(run(scratch, "dresslife", "manual life_hours_p10").out,
+             Catch::Contains("column life_hours_p10 of ranking.csv\n  ") && Catch::Contains("unit: h"));
+  CHECK(run(scratch, "dresslife", "manual life_hours_p11").err.find("did you mean 'life_hours_p10'?") !=
+        std::string::npos);
   const Outcome unknown = run(scratch, "dresslife", "manual slack_procent");
   CHECK(unknown.status == 1);
   CHECK(unknown.err.find("did you mean 'slack_percent'?") != std::string::npos);
