@@ -123,6 +123,18 @@ void CsvReader::read_quoted(CsvCell& cell) {
                      "write a quote within quotes twice");
 }
 
+std::string width_remedy(const CsvRow& row, std::size_t titles, char separator) {
+  const auto digits = [](const std::string& text) {
+    return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+  };
+  constexpr std::size_t decimals = 3;
+  for (std::size_t k = 0; separator == ',' && row.size() > titles && k + 1 < row.size(); ++k)
+    if (digits(row[k].text) && digits(row[k + 1].text) && row[k + 1].text.size() <= decimals)
+      return fmt::format("if {0},{1} is one number with a decimal comma, write {0}.{1} or quote it: \"{0},{1}\"",
+                         row[k].text, row[k + 1].text);
+  return "fill its cells, and quote those that contain the separator, such as \"12,5\"";
+}
+
 void check_titles(const CsvReader& table, const CsvRow& titles, std::initializer_list<std::string_view> needed) {
   std::set<std::string_view> seen;
   for (const CsvCell& title : titles) {

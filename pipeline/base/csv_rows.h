@@ -56,6 +56,10 @@ class CsvReader {
   int line_ = 0;
 };
 
+/// Returns the remedy for a row of another number of cells than titles: that of decimal commas if it has two neighbours such as "80" and
+/// "5" too many.
+std::string width_remedy(const CsvRow& row, std::size_t titles, char separator);
+
 /// Checks the row of titles. Errors: InputError for an empty title, a title that occurs twice, and a missing one of `needed`.
 void check_titles(const CsvReader& table, const CsvRow& titles, std::initializer_list<std::string_view> needed);
 

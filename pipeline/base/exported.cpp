@@ -171,6 +171,8 @@ const std::vector<std::string_view>& titles_of_weekly_hours() {
                                                     "betriebsstundenprowoche",
                                                     "hprowoche",
                                                     "stundenwoche",
+                                                    "wochenstunden",
+                                                    "wochenbetriebsstunden",
                                                     "betriebsstundenwoche",
                                                     "hwoche",
                                                     "horasporsemana",

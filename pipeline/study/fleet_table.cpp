@@ -36,7 +36,7 @@ Variant variant_of(const CsvReader& table, const CsvRow& titles, const CsvRow& r
   if (row.size() != titles.size())
     throw InputError(table.where(row.back()),
                      fmt::format("a row of {} cells (the table has {} columns)", row.size(), titles.size()),
-                     "fill or quote its cells");
+                     width_remedy(row, titles.size(), table.separator()));
   Variant variant;
   for (std::size_t k = 0; k < row.size(); ++k) {
     const Where where = table.where(row[k]);

@@ -294,4 +294,7 @@ TEST_CASE(
   const Outcome unknown = run(scratch, "dresslife", plan + "2026-11-25");
   CHECK(unknown.status == 1);
   CHECK(unknown.err.find("fleet.csv:2:1: error: there is no duty 'dd'; did you mean 'd'?") != std::string::npos);
+  scratch.write("fleet.csv", "name,duty,installed\none,something else,\n");
+  CHECK(run(scratch, "dresslife", plan + "2026-11-25").err.find("'something else'; the file's duties: d") !=
+        std::string::npos);
 }

@@ -97,7 +97,7 @@ class Doubts {
       if (fleet.has_costs && row.planned_cost > 0 && row.unplanned_cost > most_times_cost * row.planned_cost &&
           of_thousands++ == 0)
         thousands = &row;
-      if (row.since == today && new_ones++ == 0) new_today = &row;
+      if (row.undated && new_ones++ == 0) new_today = &row;
     }
     const auto more = [](int count) { return count > 1 ? fmt::format(" (and {} more)", count - 1) : std::string(); };
     if (short_week)

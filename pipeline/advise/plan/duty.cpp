@@ -6,6 +6,7 @@
 #include <set>
 
 #include "pipeline/base/exported.h"
+#include "pipeline/base/joined.h"
 #include "pipeline/base/lists.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/resolve/document_kind.h"
@@ -215,7 +216,8 @@ const Duty& duty_named(const DutyFile& file, const std::string& name, const Wher
   if (const Duty* const duty = find_in(file.duties, &Duty::name, name)) return *duty;
   const std::string near = nearest_word(name, mapped(file.duties, &Duty::name));
   throw InputError(named_at, fmt::format("there is no duty '{}'", name),
-                   near.empty() ? "name one of the file's duties" : fmt::format("did you mean '{}'?", near));
+                   near.empty() ? fmt::format("the file's duties: {}", joined(mapped(file.duties, &Duty::name), ", "))
+                                : fmt::format("did you mean '{}'?", near));
 }
 
 std::vector<KeyRow> duty_keys() {

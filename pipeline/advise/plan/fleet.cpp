@@ -27,7 +27,7 @@ class Row {
     if (row.size() != titles.size())
       throw InputError(table.where(row.back()),
                        fmt::format("a row of {} cells (the table has {} columns)", row.size(), titles.size()),
-                       "fill its cells, and quote those that contain the separator, such as \"12,5\"");
+                       width_remedy(row, titles.size(), table.separator()));
     for (std::size_t k = 0; k < row.size(); ++k) cells_[titles[k].text] = &row[k];
   }
   Where where(const std::string& title) const { return table_.where(*cells_.at(title)); }
@@ -88,7 +88,7 @@ Installed installed_from(const Row& row, Day today, bool has_costs, Problems& pr
   const auto attempt = [&](const char* title, const auto& act) { return problems.attempt("", row.where(title), act); };
   attempt("name", [&] { one.name = row.needed("name"); });
   attempt("duty", [&] { one.duty = row.needed("duty"); });
-  attempt("installed", [&] { one.since = installed_on(row, today); });
+  attempt("installed", [&] { one.since = installed_on(row, today), one.undated = row.text("installed").empty(); });
   attempt("name", [&] { one.hours_per_week = row.number("hours_per_week", 0.1, 168); });
   if (!has_costs) return one;
   const auto cost = [&](const char* title, double& value) {

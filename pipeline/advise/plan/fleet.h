@@ -35,6 +35,7 @@ struct Installed {
     double day = 0;            ///< [days from today]
     double hours_per_day = 0;  ///< hours of operation until that day, under the duty of the last spell
   };
+  bool undated = false;            ///< the cell of the date is empty: installed today
   std::optional<Change> change{};  ///< set if its duty begins later than today (keep_ages())
 };
 

@@ -49,6 +49,19 @@ TEST_CASE("CSV: quotes hold separators and quotes, and a cell knows its place") 
                     "f.csv:1:4: error: text follows a closing quote; write a quote within quotes twice");
 }
 
+TEST_CASE("CSV: a row that is too long has the remedy of decimal commas if it shows them") {
+  const auto remedy = [](const std::string& row, std::size_t titles) {
+    CsvReader reader(row + "\n", "t.csv");
+    const CsvRow cells = reader.next();
+    return width_remedy(cells, titles, reader.separator());
+  };
+  CHECK(remedy("R01,fast,80,5,900", 4) ==
+        "if 80,5 is one number with a decimal comma, write 80.5 or quote it: \"80,5\"");
+  CHECK_THAT(remedy("R01,fast,80,5", 5), Catch::StartsWith("fill its cells"));
+  CHECK_THAT(remedy("R01,fast,b,5", 3), Catch::StartsWith("fill its cells"));
+  CHECK_THAT(remedy("R01;80;5", 2), Catch::StartsWith("fill its cells"));
+}
+
 TEST_CASE("CSV: a number is one whole decimal number") {
   CHECK(number_in("+1.5e3") == 1500);
   CHECK(number_in("-2") == -2);

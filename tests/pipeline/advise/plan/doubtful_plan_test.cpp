@@ -103,7 +103,7 @@ TEST_CASE("fleets: numbers that another unit or a slip explains are warned of") 
         {"name,duty,installed\na,d,1926-11-20\n", "'a' was installed", "the date of the dresspack"},
         {"name,duty,installed\nb,d,2026-01-05\na,d,2026-01-05\nA ,d,2026-01-05\n",
          "'A' and 'a' differ only in blanks, signs or capitals", "names that differ more"},
-        {"name,duty,installed\na,d,\nb,d,\n", "'a' counts as installed today (and 1 more)",
+        {"name,duty,installed\nc,d,2026-11-23\na,d,\nb,d,\n", "'a' counts as installed today (and 1 more)",
          "the date on which it was installed"},
         {"name,duty,installed,hours_per_week\na,d,2026-01-05,0.5\n", "hours_per_week of 'a' is 0.5",
          "hours_per_week: 84"},

@@ -665,7 +665,7 @@ TEST_CASE("a fleet is read from a spreadsheet's table, and what is wrong in it i
   CHECK(day_text(german.rows[0].since) == "2025-02-28");
   CHECK(german.rows[0].hours_per_week == 37.5);
   const Fleet titles =
-      read("Roboter;Einsatz;Einbaudatum;Stunden/Woche;Kosten geplant;Kosten ungeplant\nr;day;28.02.2025;37,5;5;50\n");
+      read("Roboter;Einsatz;Einbaudatum;Wochenstunden;Kosten geplant;Kosten ungeplant\nr;day;28.02.2025;37,5;5;50\n");
   CHECK(titles.rows[0].name == "r");
   CHECK(day_text(titles.rows[0].since) == "2025-02-28");
   CHECK(titles.rows[0].hours_per_week == 37.5);
