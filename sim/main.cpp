@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "pipeline/base/joined.h"
 #include "pipeline/base/whole_file.h"
 #include "pipeline/files/checks.h"
 #include "pipeline/job/job.h"
@@ -113,6 +114,8 @@ void simulate(const pipeline::StageCall& call, const pipeline::Job& job, pipelin
       sim::other_side_warnings(job, summary.time_step, ends), sim::write_other_stiffnesses(job, summary, *file));
   const std::optional<sim::ToolSpace> space = tool_space(job, simulation.path());
   if (space) file->attribute("tool_note", sim::tool_space_note(space));
+  if (const std::vector<std::string> assumed = simulation.assumed(); !assumed.empty())
+    file->attribute("assumed", pipeline::joined(assumed, "\n"));
   for (const std::string& note : {sim::repeats_note(summary), simulation.program_note()})
     if (!note.empty()) progress.note(note);
   pipeline::note_warnings(

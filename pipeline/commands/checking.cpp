@@ -100,7 +100,10 @@ JobCheck check_of(const std::filesystem::path& file, const std::vector<std::stri
     for (std::string note; std::getline(notes, note);) {
       if (note.starts_with("The short run of the checks was left out"))
         check.limits = "The motion of the dresspack was not checked (see the note).";
-      check.notes.push_back("note: " + note);
+      if (note.starts_with("ESTIMATE"))
+        check.estimates.push_back(note);
+      else
+        check.notes.push_back("note: " + note);
     }
   } catch (const InputError&) {  // the file was written just now, so its faults are no fault of the job
     throw DiskError(preview_file.string(), EIO);

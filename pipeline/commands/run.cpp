@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 #include <set>
+#include <sstream>
 
 #include "pipeline/base/screen.h"
 #include "pipeline/commands/as_json.h"
@@ -81,11 +82,11 @@ void locate(std::vector<RankingRow>& rows, const fs::path& file) {
     rows.front().warnings = located(*std::move(rows.front().warnings), document);
 }
 
-/// Returns the notes of the jobs about tools whose space is not known, each once. Of more jobs than a terminal describes: none, because
-/// each file takes a millisecond; check prints the note of each job.
+/// Returns the notes of the jobs about tools whose space is not known and about assumed values of their programs, each once. Of more
+/// jobs than a terminal describes: none, because each file takes a millisecond; check prints the notes of each job.
 std::string tool_notes(const Study& study, const StudyPlaces& places) {
   constexpr std::size_t most = 3;  // jobs
-  std::set<std::string> notes;
+  std::set<std::string> notes, assumed;
   if (study.jobs.size() > most) return "";
   for (const StudyJob& job : study.jobs) {
     const fs::path file = places.job(job.name) / "motion.h5";
@@ -93,12 +94,16 @@ std::string tool_notes(const Study& study, const StudyPlaces& places) {
     try {
       const FileReader motion(file, motion_format(), FileReader::Scope::attributes);
       if (motion.has_attribute("tool_note")) notes.insert(motion.text_attribute("tool_note"));
+      if (!motion.has_attribute("assumed")) continue;
+      std::istringstream lines(motion.text_attribute("assumed"));
+      for (std::string line; std::getline(lines, line);) assumed.insert(line);
     } catch (const InputError&) {  // a damaged file: the table states it
     }
   }
   std::string text;
   for (const std::string& note : notes)
     text += paragraph(fmt::format("note: {}. The hours above are computed without it", note));
+  for (const std::string& line : assumed) text += paragraph(line.starts_with("ESTIMATE") ? line : "note: " + line);
   return text;
 }
 

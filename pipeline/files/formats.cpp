@@ -210,6 +210,7 @@ Format make_motion_format() {
     {"curvature_error", f64, maybe,
      "estimated relative rms error of the curvature by the time step, in the most dynamic seconds"},
     {"tool_note", text, maybe, "note about a tool whose space is not known; absent: none"},
+    {"assumed", text, maybe, "values of the robot program that are assumed, one per line; absent: none"},
     {"warnings", text, maybe,
      "warnings of this stage and those before it, one per line: kind, place, words and each KEY: VALUE of the remedy, "
      "separated by tabs; empty: none"},

@@ -159,6 +159,7 @@ void describe(Fields& f, Motion& motion) {
   f.integer("passes", motion.passes, Need::optional, at_least(0),
             "The number of passes of the program's endless main loop. 0: until it repeats itself.");
   f.number("spot_time_s", motion.spot_time, Need::optional, at_least(0), "The dwell at each spot weld of the program.");
+  f.place_of("spot_time_s", motion.spot_time_where);
   f.path("clamp_poses", motion.clamp_poses, Need::optional,
          "A CSV file with the poses of both clamps instead of steps: t, then x y z qw qx qy qz of base and "
          "tool clamp (s, m).");

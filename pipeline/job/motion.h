@@ -116,6 +116,7 @@ struct Motion {
   int passes = 0;                             ///< of the program's endless main loop; 0: until it repeats
   RecordedRows rows = RecordedRows::blended;  ///< for steps with durations
   double spot_time = 1;                       ///< dwell of a spot weld in a program [s]
+  Where spot_time_where{};                    ///< of this key; line 0: not given
   std::filesystem::path clamp_poses;          ///< CSV with the poses of both clamps, instead of steps; empty: none
   std::filesystem::path deformation;  ///< CSV with the deformation of the dresspack, instead of steps; empty: none
   std::optional<Rig> rig;             ///< test rig that deforms the dresspack, instead of steps

@@ -412,11 +412,37 @@ pipeline::Motion motion_of(const Program& program, const pipeline::Motion& defau
   return motion;
 }
 
+namespace {
+
+/// Returns notes about the unit of speeds and the duration of spot welds that are assumed.
+std::vector<std::string> assumed_of(const Program& program, const pipeline::Motion& motion) {
+  std::vector<std::string> assumed;
+  for (const Skipped& skipped : program.skipped)
+    if (!skipped.may_move && skipped.what.starts_with(unit_of_speeds))
+      assumed.push_back(fmt::format("{}: {}",
+                                    std::filesystem::path(skipped.where.file).filename().string() +
+                                        (skipped.where.line > 0 ? fmt::format(":{}", skipped.where.line) : ""),
+                                    in_words_of_a_job(skipped.what.substr(std::string_view("note: ").size()))));
+  const auto welds = std::ranges::count_if(program.instructions, [&](const Instruction& instruction) {
+    const std::string line = lower_case(
+        instruction.text.substr(std::min(instruction.text.find_first_not_of(" \t"), instruction.text.size())));
+    return instruction.kind == Instruction::Kind::dwell && instruction.dwell == motion.spot_time &&
+           (line.starts_with("spot") || line.starts_with("svspot") || line.find("spot[") != std::string::npos);
+  });
+  if (welds > 0 && motion.spot_time > 0 && motion.spot_time_where.line == 0)
+    assumed.push_back(fmt::format("ESTIMATE, not in the job: motion.spot_time_s: {:g} ({} in the program)",
+                                  motion.spot_time,
+                                  welds == 1 ? "1 spot weld" : fmt::format("each of {} spot welds", welds)));
+  return assumed;
+}
+
+}  // namespace
+
 RunMotion run_motion_of(const pipeline::Motion& motion, const FlangeAt& flange) {
   if (motion.program.empty()) return {motion, ""};
   try {
     const Program program = read_program(motion, flange);
-    RunMotion run{motion_of(program, motion), waits_note(program)};
+    RunMotion run{motion_of(program, motion), waits_note(program), assumed_of(program, motion)};
     for (pipeline::Warning& warning : run.motion.left_out) warning.words = in_words_of_a_job(warning.words);
     return run;
   } catch (const pipeline::InputError& error) {

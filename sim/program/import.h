@@ -40,6 +40,7 @@ pipeline::Motion motion_of(const Program& program, const pipeline::Motion& defau
 struct RunMotion {
   pipeline::Motion motion;
   std::string note;
+  std::vector<std::string> assumed = {};  ///< notes about values that neither the program nor the job gives
 };
 
 /// Returns the motion itself, or the motion of its program. flange: see ImportOptions.

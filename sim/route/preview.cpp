@@ -109,6 +109,8 @@ class Previewer {
         std::ranges::none_of(quick.run.checks, [](const Check& check) { return check.warning; }))
       quick.warnings = pipeline::joined(std::move(quick.warnings), other_stiffness_warnings(job_, quick.run));
     if (robot_ && !robot_->note().empty()) quick.notes.push_back(robot_->note());
+    if (robot_)
+      for (const std::string& assumed : robot_->assumed()) quick.notes.push_back(assumed);
     const auto space = robot_ ? unknown_tool_space(job_, robot_->tools()) : std::nullopt;
     if (space) quick.notes.push_back(tool_space_note(space));
     quick.warnings = pipeline::joined(std::move(quick.warnings), clamp_warnings(job_, space));

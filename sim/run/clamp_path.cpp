@@ -314,6 +314,7 @@ RobotPath::RobotPath(const pipeline::Setup& setup, const RunMotion& run)
           setup.motion.program.empty() ? std::vector<pipeline::Warning>{}
                                        : pipeline::plausibility_of_steps(run.motion))),
       note_(note_of(run, program_duration())),
+      assumed_(run.assumed),
       tools_(tool_points(run.motion)) {
   hold_joint(setup);
   mounting_pose_ = motion_.position(0);

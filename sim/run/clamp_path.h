@@ -77,6 +77,7 @@ class RobotPath final : public ClampPath {
   /// Returns whether the place of a clamp is probably in the frame of the world; doubts() contains the warning.
   bool clamps_in_world() const { return clamps_in_world_; }
   const std::string& note() const { return note_; }  ///< note of a run about its program; empty: none
+  const std::vector<std::string>& assumed() const { return assumed_; }  ///< RunMotion::assumed
   /// Origins of the motion's tools in the flange's frame [m].
   const std::vector<Vector3>& tools() const { return tools_; }
   Pose pose(const Eigen::VectorXd& joints) const;
@@ -103,6 +104,7 @@ class RobotPath final : public ClampPath {
   JointMotion motion_;
   std::vector<pipeline::Warning> doubts_;
   std::string note_;
+  std::vector<std::string> assumed_;
   std::vector<Vector3> tools_;
   std::vector<int> end_links_, ring_links_;
   std::vector<int> end_clamps_;  // (end) index into clamps_; for a free end the previous clamp

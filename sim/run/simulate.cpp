@@ -84,6 +84,7 @@ std::vector<pipeline::Warning> Simulation::doubts() const {
 }
 
 std::string Simulation::program_note() const { return robot_ ? robot_->note() : ""; }
+std::vector<std::string> Simulation::assumed() const { return robot_ ? robot_->assumed() : std::vector<std::string>{}; }
 
 /// Checks that the free length reaches the distance between the ends of each span at every moment; reports the worst
 /// moment.

@@ -128,7 +128,8 @@ class Simulation {
   const Rod& rod() const { return rod_; }
   /// Returns warnings about the robot program (Motion::left_out); empty without one.
   std::vector<pipeline::Warning> doubts() const;
-  std::string program_note() const;  ///< note of a run about the program; empty: none
+  std::string program_note() const;          ///< note of a run about the program; empty: none
+  std::vector<std::string> assumed() const;  ///< RunMotion::assumed
   /// Returns the given setup; its simulation.time_step is the first step of the run.
   const pipeline::Setup& setup() const { return setup_; }
   std::string moment(double time) const { return path_->moment(time); }

@@ -494,8 +494,8 @@ class Inform final : public Dialect {
   double unit_of_v(const Place& place) {
     const auto given = run_->given("speed_unit");
     if (!given && !unit_reported_)
-      run_->note(place,
-                 "note: V= counts mm/s; where the controller counts cm/min give --value 'speed_unit=\"cm/min\"'");
+      run_->note(place, std::string(unit_of_speeds) +
+                            "; where the controller counts cm/min give --value 'speed_unit=\"cm/min\"'");
     unit_reported_ = true;
     if (!given || given->text == "mm/s") return millimetre;
     if (given->text == "cm/min") return 10 * millimetre / 60;

@@ -118,6 +118,8 @@ struct Skipped {
 
 /// Words in Skipped::what for an endless loop whose later passes may differ from those that are kept.
 inline constexpr const char* later_passes_differ = "later passes may differ";
+/// First words of Skipped::what for speeds whose unit is set in the controller.
+inline constexpr const char* unit_of_speeds = "note: V= counts mm/s";
 /// First words of the reason in Skipped::what for a percentage above 100, which is read as 100.
 inline constexpr const char* above_all_speed = "more than 100 % (limit 100, which counts)";
 /// First words of the reason in Skipped::what for a position whose tool or user frame is not the active one.

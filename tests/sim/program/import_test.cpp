@@ -252,6 +252,30 @@ TEST_CASE("import: waits for signals count no time, and are counted, in every la
   CHECK(note("without.mod", "MODULE w\nPROC main()\nMoveAbsJ " + joints + "WaitTime 2;\nENDPROC\nENDMODULE\n") == "");
 }
 
+TEST_CASE("import: assumed units of speeds and durations of spot welds are notes of a run") {
+  const pipeline::Scratch scratch;
+  const std::string begin =
+      "/JOB\n//NAME W\n//POS\n///NPOS 2,0,0,0,0,0\n///TOOL 0\n///POSTYPE ANGLE\n///ANGLE\nC00000=10,0,0,0,-90,0\n"
+      "C00001=12,0,0,0,-90,0\n//INST\n///ATTR SC,RW\n///GROUP1 RB1\nNOP\nMOVJ C00000 VJ=1\n";
+  pipeline::Motion motion;
+  motion.program = scratch.write(
+      "w.jbi",
+      begin + "SVSPOT GUN#(1) PRESS#(1) WTM=1 WST=1\nMOVJ C00001 VJ=1\nSVSPOT GUN#(1) PRESS#(1) WTM=1 WST=1\nEND\n");
+  CHECK(run_motion_of(motion).assumed ==
+        std::vector<std::string>{
+            "ESTIMATE, not in the job: motion.spot_time_s: 1 (each of 2 spot welds in the program)"});
+  motion.spot_time_where.line = 3;  // the job has the key
+  CHECK(run_motion_of(motion).assumed.empty());
+  pipeline::Motion rapid;
+  rapid.program =
+      scratch.write("s.mod",
+                    "MODULE s\nPROC main()\nMoveAbsJ [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,tool0;\n"
+                    "SpotL [[900,0,1200],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,gun1,spot1,tool0;\n"
+                    "ENDPROC\nENDMODULE\n");
+  CHECK(run_motion_of(rapid).assumed ==
+        std::vector<std::string>{"ESTIMATE, not in the job: motion.spot_time_s: 1 (1 spot weld in the program)"});
+}
+
 TEST_CASE("import: the cycle times of the example programs") {
   // Reference values from the program; motion_cycle_time_test has times derived by hand. A fault in a corner, a zone or a
   // wait changes these times. Such a fault changed the life of one program by 40 %.
