@@ -147,6 +147,8 @@ Draft draft_of(const RouteRequest& request) {
   if (draft.document.find("dresspacks"))
     throw InputError(draft.document.find("dresspacks")->where, "a routing is proposed for one dresspack",
                      "name a job with dresspack and routing");
+  std::ranges::copy_if(draft.document.entries, std::back_inserter(draft.robot_lines),
+                       [](const Entry& line) { return line.key == "robot" || line.key.starts_with("robot."); });
   apply_lines(draft.document);
   if (!draft.document.find("robot")) refuse_other_kind(draft.document, DocumentKind::job);
   if (!draft.document.find("robot"))
@@ -189,6 +191,26 @@ std::string tool_space_words(const Draft& draft) {
       draft.tool_space->key, set_text(draft.tool_space->value));
 }
 
+namespace {
+
+/// Writes a named robot and the lines that change it as the job has them, instead of the whole robot. Returns whether that is
+/// possible: the robot is the same, and its files have the same meaning in the folder.
+bool keep_robot_lines(const Draft& draft, const std::optional<fs::path>& folder, Node& document) {
+  Node named;
+  named.entries = draft.robot_lines, named.kind = Node::Kind::map, named.where = document.where;
+  const Node* const robot = named.find("robot");
+  if (named.entries.size() < 2 || !robot || !folder) return false;
+  const auto means_the_same = [&](const Entry& line) { return counts_from(line.value, *folder); };
+  if (!std::ranges::all_of(named.entries, means_the_same)) return false;
+  Node whole = named;
+  apply_lines(whole);
+  if (to_yaml(*whole.find("robot")) != to_yaml(*document.find("robot"))) return false;
+  for (const Entry& line : named.entries) document[line.key] = line.value;
+  return true;
+}
+
+}  // namespace
+
 Node routed(const Draft& draft, const std::string& routing, const std::string& motion, double factor,
             const std::optional<fs::path>& folder) {
   Node document = draft.document;
@@ -199,7 +221,7 @@ Node routed(const Draft& draft, const std::string& routing, const std::string& m
     const Node named = reference(entry, folder);
     document[key] = named.kind != Node::Kind::null ? named : *resolved.find(key);
   };
-  replace("robots", "robot");
+  if (!keep_robot_lines(draft, folder, document)) replace("robots", "robot");
   if (draft.exercise)
     document["motion"] = parse_yaml(motion, std::string(command_line));
   else

@@ -21,10 +21,11 @@ struct RouteRequest {
 };
 
 struct Draft {
-  std::string name;       ///< name of the job or robot, fit for a file name
-  Node document;          ///< document as it was written
-  Job job;                ///< only the links of its routing are valid
-  bool exercise = false;  ///< true: the motion is a placeholder for a standard exercise
+  std::string name;                  ///< name of the job or robot, fit for a file name
+  Node document;                     ///< document as it was written
+  std::vector<Entry> robot_lines{};  ///< the name of the robot and the lines that change it, "robot.links.7.boxes"
+  Job job;                           ///< only the links of its routing are valid
+  bool exercise = false;             ///< true: the motion is a placeholder for a standard exercise
   /// Line of a job with an estimated shape for the space of the program's tool; absent: its shape is known, or no tool is named.
   std::optional<Entry> tool_space{};
 };

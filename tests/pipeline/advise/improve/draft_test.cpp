@@ -10,6 +10,7 @@
 #include "pipeline/advise/improve/scaled.h"
 #include "pipeline/advise/improve/screened.h"
 #include "pipeline/base/errors.h"
+#include "pipeline/base/plain_file.h"
 #include "pipeline/files/check_names.h"
 #include "pipeline/files/receipt.h"
 #include "pipeline/resolve/job_text.h"
@@ -105,6 +106,20 @@ TEST_CASE("entries of a job stay references in its own folder, and in another on
   CHECK(std::count(lines.begin(), lines.end(), '\n') <= 15);  // robot 1, motion 3, dresspack 1, routing 10
   const auto found = scratch.write("found.yaml", lines);
   CHECK(job_text(read_job(found)) == job_text(job_from(routed(draft, found_routing, "", 1))));
+  // Lines that change a named robot stay lines, unless --set changes more of it.
+  const std::string boxes = "robot.links.7.boxes";
+  const auto changed = scratch.write(
+      "changed.yaml", read_text(job) + boxes + ": [{position_m: [0.2, 0, 0], sides_m: [0.1, 0.1, 0.1]}]\n");
+  const Draft of_changed = draft_of({.of = changed.string()});
+  const Node lines_beside = routed(of_changed, found_routing, "", 1, scratch / ".");
+  CHECK(lines_beside.find("robot")->text == "mine");
+  REQUIRE(lines_beside.find(boxes));
+  const auto found_changed = scratch.write("found_changed.yaml", to_yaml(lines_beside));
+  CHECK(job_text(read_job(found_changed)) == job_text(job_from(routed(of_changed, found_routing, "", 1))));
+  CHECK(routed(draft_of({.of = changed.string(), .sets = {"robot.links.7.boxes=[]"}}), found_routing, "", 1,
+               scratch / ".")
+            .find("robot")
+            ->find("joints"));
   // In another folder a name relative to this folder is not valid.
   const auto other = scratch.write("other/found.yaml", to_yaml(routed(draft, found_routing, "", 1, scratch / "other")));
   CHECK(read_document(other).find("dresspack")->text == "./../hose.yaml");
