@@ -204,7 +204,7 @@ std::optional<int> read_command_line(const Command& program, int argc, char** ar
     if (!commands.empty() && argc > 1 && std::string_view(argv[1]) == "help") {
       const std::vector<Command>& all = program.commands;
       const auto of = std::ranges::find_if(all, [&](const Command& one) { return argc > 2 && one.name == argv[2]; });
-      fmt::print("{}", of == all.end() ? app.help() : app.get_subcommand(of->name)->help());
+      fmt::print("{}", of == all.end() ? app.help() : app.get_subcommand(of->name)->help(program.name));
       return finish_output(0);
     }
     if (const std::string missing = missing_word(program, argc, argv, problem.what()); !missing.empty()) {
