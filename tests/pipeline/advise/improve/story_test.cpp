@@ -142,19 +142,16 @@ TEST_CASE("improve: a trial that is better as drawn and worse within the toleran
   CHECK_THAT(
       searched.words(tolerance_of(10, 10)),
       Catch::Contains("\nTrial 2 of 3") && Catch::Contains("--set") &&
-          Catch::Contains(
-              "The proposed job, within the mounting tolerance, at worst: 700 h, all limits kept\n"
-              "The job as it is, within the mounting tolerance, at worst: 300 h, all limits kept\n"));
+          Catch::Contains("The proposed job, within the mounting tolerance, at worst: 700 h, all limits kept\n"
+                          "The job as it is, within the mounting tolerance, at worst: 300 h, all limits kept\n"));
   // The page agrees, also if both lives of the proposed job are shorter without deviation.
   searched.found.trials[2].worst.hours = searched.finals.of[2].hours = 900;
   const std::string chosen = improvement_page(searched.story());
   CHECK_THAT(
       chosen,
       Catch::Contains("<p>The wires live 0.9 times as long.") &&
-          Catch::Contains(
-              "<p>The proposed job, within the mounting tolerance, at worst: 700 h, all limits kept</p>") &&
-          Catch::Contains(
-              "<p>The job as it is, within the mounting tolerance, at worst: 300 h, all limits kept</p>"));
+          Catch::Contains("<p>The proposed job, within the mounting tolerance, at worst: 700 h, all limits kept</p>") &&
+          Catch::Contains("<p>The job as it is, within the mounting tolerance, at worst: 300 h, all limits kept</p>"));
   judge(0, 900);
   CHECK_THAT(improvement_page(searched.story()),
              Catch::Contains("<p><b>Keep the job as it is. Nothing that was tried is clearly better") &&
