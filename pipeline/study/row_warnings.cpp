@@ -32,6 +32,10 @@ std::string lines_of_kind(const std::vector<RankingRow>& rows, WarningKind kind)
 
 }  // namespace
 
+bool spoils_plan(const Warning& warning) {
+  return spoils_plan(warning.kind) || warning.words.find(records_contradict) != std::string::npos;
+}
+
 std::vector<Warning> warnings_of(const RankingRow& row) {
   if (!row.done()) return {};
   if (row.warnings) return *row.warnings;

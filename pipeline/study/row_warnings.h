@@ -11,6 +11,11 @@ namespace dresslife::pipeline {
 /// Returns the warnings of a row; for an older file without warnings the warning about its forces.
 std::vector<Warning> warnings_of(const RankingRow& row);
 
+/// Words of the warning of a calibration whose records contradict its prediction.
+inline constexpr const char* records_contradict = "the records contradict the prediction";
+/// Returns whether a plan must not use the hours of a job with this warning, by its kind or because of such a calibration.
+bool spoils_plan(const Warning& warning);
+
 /// Returns the kinds of the warnings: "bend radius, program x3"; empty: none, or not known. with_other_values: also those of limits
 /// at other values, which the job's own values keep.
 std::string warning_kinds(const RankingRow& row, bool with_other_values = false);

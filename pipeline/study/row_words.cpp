@@ -219,8 +219,7 @@ std::string marks_note(const std::vector<RankingRow>& rows) {
 
 bool is_believable(const RankingRow& row) {
   const std::vector<Warning> warnings = warnings_of(row);
-  return std::none_of(warnings.begin(), warnings.end(),
-                      [](const Warning& warning) { return spoils_plan(warning.kind); });
+  return std::ranges::none_of(warnings, [](const Warning& warning) { return spoils_plan(warning); });
 }
 
 std::string range_text(double low_hours, double high_hours) {

@@ -14,6 +14,7 @@
 #include "pipeline/job/uncertainty.h"
 #include "pipeline/job/wall_strength.h"
 #include "pipeline/life/planning.h"
+#include "pipeline/study/row_warnings.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -115,10 +116,9 @@ std::optional<Warning> contradiction_of(const LearnedTest& test) {
   if (fit.chance >= least_service_chance) return std::nullopt;
   constexpr double alike = 1.2;  // b, a change of the scatter that is no cause of a contradiction
   const bool narrower = fit.shape > alike, wider = fit.shape < 1 / alike;
-  std::string what =
-      fmt::format("'{}': the records contradict the prediction after the calibration (probability {} {}, limit 1 %)",
-                  test.observation.name, fit.chance < 1e-6 ? "below" : "of",
-                  fit.chance < 1e-6 ? "0.0001 %" : readable(100 * fit.chance, 2) + " %");
+  std::string what = fmt::format("'{}': {} after the calibration (probability {} {}, limit 1 %)", test.observation.name,
+                                 records_contradict, fit.chance < 1e-6 ? "below" : "of",
+                                 fit.chance < 1e-6 ? "0.0001 %" : readable(100 * fit.chance, 2) + " %");
   if (fit.observed) {
     what += ". Observed: " + observed_words(*fit.observed);
     if (fit.observed->tenth)

@@ -583,7 +583,7 @@ DutyResult outline_of(const Duty& duty, Programs& programs, std::vector<Rate>& r
     if (const RankingRow& row = programs.row(program); !is_believable(row)) {
       result.doubtful.push_back(fmt::format("{} ({})", row.job, warning_kinds(row)));
       for (const Warning& warning : warnings_of(row))
-        if (spoils_plan(warning.kind)) result.warnings.push_back(row.job + ": " + warning.text());
+        if (spoils_plan(warning)) result.warnings.push_back(row.job + ": " + warning.text());
     }
   result.robot_life_hours = programs.row(duty.programs.front()).robot_life_hours;
   if (const Job* const job = programs.job(duty.programs.front())) result.inspection = job->inspection;

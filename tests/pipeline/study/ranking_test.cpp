@@ -447,6 +447,13 @@ TEST_CASE("ranking: jacket wear has words and columns, and the first action name
           "* Plan with this number, and inspect for modes that are not validated. {}, jacket wear: from 300 h, abrasion: from "
           "25,000 h. ! Do not plan with this number before its warnings are cured. {}, bend radius.",
           marked[0].job, marked[1].job));
+  // A job outside the tests of its calibration is one for planning, a job whose calibration its records contradict is none.
+  marked[1].warnings = std::vector<Warning>{{WarningKind::calibration, "", "the curvature is outside of the tests"}};
+  CHECK(plan_mark(marked[1]) == "*");
+  marked[1].warnings =
+      std::vector<Warning>{{WarningKind::calibration, "", std::string("'cell': ") + records_contradict}};
+  CHECK(plan_mark(marked[1]) == "!");
+  marked[1].warnings = std::vector<Warning>{{WarningKind::bend_radius, "", "smallest bend radius"}};
   const std::string printed = ranking_table(marked);
   CHECK_THAT(printed, Catch::Contains("*over 40,000") && Catch::Contains("!over 40,000"));
   CHECK_THAT(unvalidated_legend(marked),

@@ -14,7 +14,10 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double log_median = 9, shift = 0.7, own_spread = 1.2, spread = 0.4;
+/// ln life: median + shift z + own deviation + scatter.
+struct LnLife {
+  static constexpr double median = 9, shift = 0.7, own = 1.2, scatter = 0.4;
+};
 
 ObservedLife predicted_life(const std::vector<ServiceRecord>& records) {
   ObservedLife life;
@@ -24,7 +27,7 @@ ObservedLife predicted_life(const std::vector<ServiceRecord>& records) {
   }
   for (const double own : standard_normals("own", 64))
     life.variants.push_back([own](const VectorXd& z) {
-      return LifeAt{log_median + shift * z[0] + own_spread * own, spread};
+      return LifeAt{LnLife::median + LnLife::shift * z[0] + LnLife::own * own, LnLife::scatter};
     });
   return life;
 }
@@ -64,7 +67,7 @@ std::vector<ServiceRecord> plant(double truth, double deviation, int robots, dou
   std::vector<ServiceRecord> records;
   for (int robot = 0; robot < robots; ++robot)
     for (double from = 0; from < end;) {
-      const double life = std::exp(log_median + shift * truth + deviation * number(random));
+      const double life = std::exp(LnLife::median + LnLife::shift * truth + deviation * number(random));
       const double planned = uniform(random) < 0.3 ? 2 * end * uniform(random) : HUGE_VAL;
       const double to = std::min({from + life, from + planned, end});
       if (to > begin) records.push_back({to - from, std::max(0.0, begin - from), to == from + life});
@@ -112,7 +115,7 @@ TEST_CASE("service fit: plants of the model itself are rarely doubted, plants of
   std::mt19937 random(31);
   std::normal_distribution<double> number;
   constexpr int true_ones = 100, others = 30;
-  const double deviation = std::hypot(own_spread, spread);
+  const double deviation = std::hypot(LnLife::own, LnLife::scatter);
   const auto warned = [&](int plants, double scatter, int robots, double begin) {
     int count = 0;
     for (int p = 0; p < plants; ++p)
