@@ -39,6 +39,8 @@ class Lines {
     l.changed = true;
     return l.now.at(l.own);
   }
+  /// Returns the line as it is now, with the lines added before and after it.
+  const std::vector<std::string>& written(int line) const { return lines_.at(static_cast<std::size_t>(line) - 1).now; }
   void before(int line, std::string text) {
     Line& l = lines_.at(static_cast<std::size_t>(line) - 1);
     l.now.insert(l.now.begin() + static_cast<long>(l.own), std::move(text));
@@ -406,11 +408,15 @@ void change_fanuc_position(Writer& w, const LineChange& change, int number) {
     const std::string& text = w.lines.at(line);
     for (std::size_t at = find_position(text, 0); at != std::string::npos; at = find_position(text, at + 1)) {
       const int found = position_number(text, at);
-      if (line > begin) highest = std::max(highest, found);
       if (line > begin && found == number) first = line;
       if (line < begin && found == number) ++uses;
     }
     if (first > 0 && last == 0 && line >= first && text.find("};") != std::string::npos) last = line;
+    // an earlier change may have added a position
+    if (line > begin)
+      for (const std::string& now : w.lines.written(line))
+        if (const std::size_t at = find_position(now, 0); at != std::string::npos)
+          highest = std::max(highest, position_number(now, at));
   }
   if (first == 0 || last == 0) refuse(change, fmt::format("P[{}] is not found", number));
   const bool own = uses == 1;
