@@ -155,8 +155,10 @@ void Krl::check_components(const Expression& aggregate) {
     });
   };
   const bool joint = any(axis_names);
-  const bool box = std::find(keys.begin(), keys.end(), "x1") != keys.end();  // $WORKSPACE: a frame and two corners
-  if (box || (!joint && !any(frame_names))) return;
+  // $WORKSPACE and $CYLWORKSPACE: a frame, the numbers of a space (X1, R) and its MODE
+  const bool space = std::find(keys.begin(), keys.end(), "x1") != keys.end() ||
+                     std::ranges::any_of(keys, [](const std::string& key) { return key.size() > longest; });
+  if (space || (!joint && !any(frame_names))) return;
   std::vector<std::string> missing;
   for (const std::string name : joint ? axis_names : frame_names)
     if (std::find(keys.begin(), keys.end(), name) == keys.end()) missing.push_back(name);

@@ -838,7 +838,8 @@ TEST_CASE("krl controller: words that a move, a record or an enumeration does no
 
 TEST_CASE("krl controller: a structure of the program may have components of its own") {
   const Reading reading = run(
-      "STRUC spot REAL X,Y,Q\nDECL spot s\ns={X 1,Y 2,Q 3}\ns.Q=4\n$WORKSPACE[1]={X 0,Y 0,Z 0,A 0,B 0,C 0,X1 1,Y1 1,Z1 1,X2 2,Y2 2,Z2 2,MODE #OFF}\nPTP " +
+      "STRUC spot REAL X,Y,Q\nDECL spot s\ns={X 1,Y 2,Q 3}\ns.Q=4\n$WORKSPACE[1]={X 0,Y 0,Z 0,A 0,B 0,C 0,X1 1,Y1 1,Z1 1,X2 2,Y2 2,Z2 2,MODE #OFF}\n"
+      "$CYLWORKSPACE[1]={X 0,Y 0,Z 0,A 0,B 0,C 0,Z1 1,Z2 2,R 3,MODE #OFF,REFERENCE #WORLD,STATE FALSE}\nPTP " +
       axes(1));
   CHECK(reading.problem() == "no such problem");
   CHECK(moves_left_out(reading.program).empty());
