@@ -237,8 +237,8 @@ std::string learned_table(const Learned& learned) {
       "Predicted: the life after which 10 % of such specimens have failed (half, 90 %); of a bending test its largest moment.\n"
       "Predicted before: without any observation. By the others: without this observation. Fails first: in which share of the samples.\n"
       "Compare 'predicted after' with the 'replace after' that dresslife run prints for a job with this calibration. They differ somewhat,\n"
-      "because run computes the strains at the middle values above: plan with those of run. 'Predicted before' is not what run prints\n"
-      "without a calibration: run includes makers' ratings (uncertainty.ratings), which a calibration replaces.\n";
+      "because run computes the strains at the middle values above. If no warning follows, plan with those of run. 'Predicted before' is\n"
+      "not what run prints without a calibration: run includes makers' ratings (uncertainty.ratings), which a calibration replaces.\n";
   if (!learned.settled)
     text +=
         fmt::format("warning: after {} rounds the result still changes: it is less exact than usual\n", learned.rounds);
