@@ -241,6 +241,7 @@ int plan(const PlanOptions& options) {
                      fmt::format("the ages of these dresspacks contradict the model: {:.1f} of {} samples explain them",
                                  found.effective_worlds, tables.begin()->second.worlds),
                      "learn from them first: dresslife calibrate");
+  for (const Warning& warning : doubtful_hours(fleet, found, tables)) write_stderr(shown(warning.paragraph()));
   for (const Warning& warning : doubtful_ages(fleet, found)) write_stderr(shown(warning.paragraph()));
   std::optional<Plan> other;
   std::string what_if;

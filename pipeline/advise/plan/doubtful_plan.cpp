@@ -6,10 +6,12 @@
 #include <cctype>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "pipeline/advise/plan/plan_words.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/warning_words.h"
+#include "pipeline/life/likely_age.h"
 #include "pipeline/life/planning.h"
 
 namespace dresslife::pipeline {
@@ -24,7 +26,6 @@ constexpr double least_shift = 2, most_shift = 24;  // [h]
 constexpr double longest_history = 175'000;         // [h]: 20 years day and night
 constexpr double most_times_cost = 100;             // between the largest and the smallest cost of one kind
 constexpr double rounded_percent = 1.5;             // rounding error of three programs of 33 % each
-constexpr std::chrono::days oldest{20 * 365};       // robots are overhauled or replaced after 40,000 h
 
 class Doubts {
  public:
@@ -81,10 +82,10 @@ class Doubts {
                             [](const Installed& a, const Installed& b) { return a.planned_cost < b.planned_cost; });
     for (const Installed& row : fleet.rows) {
       if (row.hours_per_week && *row.hours_per_week <= day && short_weeks++ == 0) short_week = &row;
-      if (today - row.since > oldest)
+      if (today - row.since > oldest_likely)
         add(row.where,
             fmt::format("'{}' was installed {} days ago (limit {}: 20 years)", row.name, (today - row.since).count(),
-                        oldest.count()),
+                        oldest_likely.count()),
             "the date of the robot, or a wrong year", "installed: the date of the dresspack");
       const auto [same, is_new] = names.try_emplace(plain(row.name), &row);
       if (!is_new)
@@ -172,6 +173,29 @@ std::vector<Warning> doubtful_fleet(const Fleet& fleet, Day today) {
   Doubts doubts;
   doubts.of(fleet, today);
   return doubts.warnings;
+}
+
+std::vector<Warning> doubtful_hours(const Fleet& fleet, const Plan& plan,
+                                    const std::map<std::string, LifeTable>& tables) {
+  std::optional<AgeDoubt> first;
+  const Installed* of = nullptr;
+  std::size_t more = 0;
+  for (std::size_t i = 0; i < fleet.rows.size(); ++i) {
+    const Installed& row = fleet.rows[i];
+    if (plan.today - row.since > oldest_likely) continue;  // of doubtful_fleet()
+    const double robot_life = tables.at(row.duty).robot_life_hours;
+    if (!(robot_life > 0)) continue;  // a test rig
+    const auto doubt = doubt_about_age(row.name, row.since, plan.today, plan.rows[i].age_hours, robot_life, false);
+    if (!doubt) continue;
+    if (!first)
+      first = doubt, of = &row;
+    else
+      ++more;
+  }
+  if (!first) return {};
+  return {warning_of(WarningKind::motion, of->where.text(),
+                     first->problem + (more > 0 ? fmt::format(" (and {} more)", more) : ""), first->cause,
+                     first->remedy)};
 }
 
 std::vector<Warning> doubtful_ages(const Fleet& fleet, const Plan& plan) {

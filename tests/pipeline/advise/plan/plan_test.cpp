@@ -419,6 +419,21 @@ TEST_CASE("survivors that the model hardly expects are named, and an age that no
   CHECK(past.failures_in_week[0] == Approx(1).margin(0.1));  // plus some of the new ones
 }
 
+TEST_CASE("a dresspack that ran longer than its robot's life is doubted") {
+  std::map<std::string, LifeTable> tables{{"d", weibull(1, {40000})}};
+  const Fleet fleet = fleet_of({5, 60, 70});  // at most 4,900 h
+  const Plan plan = plan_of(fleet, tables, windows_in({10}), start, {0.1, false});
+  tables.at("d").robot_life_hours = 5000;
+  CHECK(doubtful_hours(fleet, plan, tables).empty());
+  tables.at("d").robot_life_hours = 4000;
+  const std::vector<Warning> warnings = doubtful_hours(fleet, plan, tables);
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0].words, Catch::Contains("ran 4,200 h until ") &&
+                                    Catch::Contains("(limit 4,000 h: the robot's life) (and 1 more)"));
+  tables.at("d").robot_life_hours = 0;  // a test rig
+  CHECK(doubtful_hours(fleet, plan, tables).empty());
+}
+
 TEST_CASE("the damage of earlier duties adds up in each draw") {
   LifeTable now{1, 2, {2000, 8000}, 40000, week}, before{1, 2, {1000, 4000}, 40000, week},
       never{1, 2, {INFINITY, INFINITY}, 40000, week};
