@@ -495,13 +495,11 @@ namespace {
 struct NumberDoubt {
   const char *reason, *cause, *remedy;
 };
-constexpr std::array<NumberDoubt, 15> doubts{
+constexpr std::array<NumberDoubt, 14> doubts{
     {{beyond_range, "a digit too many or another unit", "a number within this range"},
      {other_frame, "a called program chose another frame, or the line before the move that chooses it is missing",
       "UFRAME_NUM= or UTOOL_NUM= before the move, with the number of the position"},
      {above_all_speed, "a digit too many", "a percentage up to 100"},
-     {unknown_word, "a misspelt word, or an option that is not read",
-      "the correct word; take an option that changes no motion out of a copy of the program"},
      {doubled_label, "a block of lines that was copied with its label", "another number for one of the labels"},
      {unread_rest, "an operator that is not read, or a slip",
       "numbers joined by + - * / DIV MOD, positions by + and -, in several lines"},

@@ -12,18 +12,19 @@ using dresslife::pipeline::preview_format;
 TEST_CASE("preview reports how far the clamps are apart and which lengths suit") {
   Scratch scratch;
   write_small_job(scratch);
-  const Outcome told = must_run(scratch, "dresslife", "preview job.yaml");
-  INFO(told.err);
+  const Outcome previewed = must_run(scratch, "dresslife", "preview job.yaml");
+  INFO(previewed.err);
   // The distance of the clamps is 0.8 m at the start and falls to hypot(0.7, 0.05).
   CHECK(
-      unwrapped(told.out).find(
-          "Dresspack is 0.900 m long. Over the program its clamps are 0.702 .. 0.800 m apart: its slack fits. For the slack alone 0.82 .. 1.20 m "
-          "suit the program: 2 % to a third longer than the largest distance.") != std::string::npos);
+      unwrapped(previewed.out)
+          .find(
+              "Dresspack is 0.900 m long. Over the program its clamps are 0.702 .. 0.800 m apart: its slack fits. For the slack alone 0.82 .. 1.20 m "
+              "suit the program: 2 % to a third longer than the largest distance.") != std::string::npos);
   // The warnings of `check` come first.
   const std::string checked = run(scratch, "dresslife", "check job.yaml").out;
   CHECK(checked.find("strain.slip is stick") != std::string::npos);
-  CHECK(told.out.find(checked.substr(0, checked.find("Dresspack is"))) == 0);
-  CHECK(told.out.find("Preview: job_preview.html\n") != std::string::npos);
+  CHECK(previewed.out.find(checked.substr(0, checked.find("Dresspack is"))) == 0);
+  CHECK(previewed.out.find("Preview: job_preview.html\n") != std::string::npos);
   const std::string page = content(scratch / "job_preview.html");
   CHECK(page.find("The simulation takes this job.") != std::string::npos);
   CHECK(page.find("http") == page.find("http://"));  // only three.js's own, if any
@@ -49,13 +50,13 @@ TEST_CASE("preview reports how far the clamps are apart and which lengths suit")
 TEST_CASE("preview opens a job that is refused where it is refused") {
   Scratch scratch;
   write_small_job(scratch);
-  const Outcome told =
+  const Outcome previewed =
       must_run(scratch, "dresslife", "preview job.yaml --set routing.free_length_m=0.75 -o short.html");
-  INFO(told.err);
-  CHECK(told.out.find("The simulation refuses the job: ") != std::string::npos);
-  CHECK(told.out.find("dresspack is 50.0 mm too short at 0.000 s") != std::string::npos);
-  CHECK(unwrapped(told.out).find("apart: too short. For the slack alone ") != std::string::npos);
-  CHECK(told.out.find("With the robot") == std::string::npos);  // the page of a refused length contains no results
+  INFO(previewed.err);
+  CHECK(previewed.out.find("The simulation refuses the job: ") != std::string::npos);
+  CHECK(previewed.out.find("dresspack is 50.0 mm too short at 0.000 s") != std::string::npos);
+  CHECK(unwrapped(previewed.out).find("apart: too short. For the slack alone ") != std::string::npos);
+  CHECK(previewed.out.find("With the robot") == std::string::npos);  // the page of a refused length contains no results
   const std::string seen = in_browser(scratch, "short.html", R"(
     return [await evaluate('document.body.dataset.time'), await evaluate('dresslife.viewer() !== null'),
             await evaluate('document.getElementById("refusal").textContent.includes("too short")')].join(' ');)");
@@ -75,13 +76,13 @@ routing:
   tool_clamp: {link: link_6, position_m: [0.15, 0, 0.18], direction: [1, 0, -0.35]}
   free_length_m: 1.9
 )");
-  const Outcome told = must_run(scratch, "dresslife", "preview job.yaml");
-  INFO(told.out << told.err);
-  CHECK(told.out.find("mm deep through link_") != std::string::npos);
-  CHECK(told.out.find("bring a clamp ") != std::string::npos);
-  const std::size_t end = told.out.find(" m from its base clamp"), begin = told.out.rfind(' ', end - 1);
+  const Outcome previewed = must_run(scratch, "dresslife", "preview job.yaml");
+  INFO(previewed.out << previewed.err);
+  CHECK(previewed.out.find("mm deep through link_") != std::string::npos);
+  CHECK(previewed.out.find("bring a clamp ") != std::string::npos);
+  const std::size_t end = previewed.out.find(" m from its base clamp"), begin = previewed.out.rfind(' ', end - 1);
   REQUIRE(end != std::string::npos);
-  const double place = std::stod(told.out.substr(begin, end - begin));
+  const double place = std::stod(previewed.out.substr(begin, end - begin));
   const std::string seen = in_browser(scratch, "job_preview.html", R"(
     return await evaluate(`(() => { const {marked, tubes} = dresslife.viewer(); return (marked.visible ? (marked.segment + .5) / tubes[0].segments * 1.9 : -1) + ' ' +
         [...document.querySelectorAll('.label.mark')].map(label => label.textContent).join(); })()`);)");

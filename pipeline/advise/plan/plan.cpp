@@ -67,16 +67,8 @@ class Worlds {
   }
   const std::vector<double>& weights() const { return weight_; }
 
-  /// Returns P(failure at an age in (from, to] | it lives at `now`). Its survival is already included in the weights.
-  double fails(const LifeTable& table, double now, double from, double to) const {
-    double sum = 0, all = 0;
-    for (std::size_t w = 0; w < weight_.size(); ++w)
-      if (const double lives = table.alive(w, now); lives > 0)
-        sum += weight_[w] * (table.alive(w, from) - table.alive(w, to)) / lives, all += weight_[w];
-    if (all > 0) return sum / all;
-    return from <= now && to > from ? 1 : 0;  // no world has such a long life: it fails at once
-  }
-  /// Returns, (interval), P(failure in it | it lives at `now`), for intervals that end at these ages. Each life is spread evenly
+  /// Returns, (interval), P(failure in it | it lives at `now`), for intervals that end at these ages. Its survival is
+  /// already included in the weights. Each life is spread evenly
   /// between the midpoints to its neighbours, because in an interval with few lives the result would depend on chance.
   std::vector<double> fails_in(const LifeTable& table, double now, const std::vector<double>& ends) const {
     std::vector<double> fails(ends.size(), 0.0);
@@ -113,7 +105,7 @@ class Worlds {
         }
       }
     }
-    if (!(all > 0)) fails.front() = 1;
+    if (!(all > 0)) fails.front() = 1;  // no world has such a long life: it fails at once
     for (double& of_interval : fails) of_interval /= all > 0 ? all : 1;
     return fails;
   }
@@ -407,7 +399,7 @@ class Simulation {
   }
 
   /// Samples a life in a world that is longer than an age. If no life of this world is, it is one of another world, as in
-  /// Worlds::fails().
+  /// Worlds::fails_in().
   double draw(const LifeTable& table, std::size_t world, double age, RandomStream& random) const {
     constexpr int tries = 100;
     for (int k = 0; k < tries; ++k, world = world_at(random.uniform())) {

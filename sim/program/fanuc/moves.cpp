@@ -3,7 +3,6 @@
 #include <set>
 
 #include "pipeline/base/constants.h"
-#include "pipeline/settings/fields.h"
 #include "sim/program/fanuc/run.h"
 #include "sim/program/interpreter/tokens.h"
 
@@ -518,12 +517,7 @@ void FanucRun::unread_option(std::string_view written) {
   if (at_corners.contains(word)) return note("PTH, RT_LD, AP_LD, BREAK: change the path at corners, not read");
   if (word == "fplin" || fanuc_word(word) == FanucWord::shapes_motion)
     return note(word + ": changes how the robot moves; what it does lies in the controller", true);
-  std::vector<std::string> lower;
-  for (const std::string& name : known) lower.push_back(lower_case(name));
-  const auto near = std::find(lower.begin(), lower.end(), pipeline::nearest_word(word, lower));
-  note(fmt::format("{}: {}; it does nothing here{}", written, unknown_word,
-                   near == lower.end() ? "" : fmt::format(" (near: {})", known[near - lower.begin()])),
-       true);
+  note(unread_reason(std::string(written.substr(0, word.size())), "the options of a move", known), true);
 }
 
 // ---- moves -----------------------------------------------------------------------------------------------

@@ -6,9 +6,6 @@
 #include <filesystem>
 #include <utility>
 
-#include "pipeline/settings/fields.h"
-#include "sim/program/interpreter/tokens.h"
-
 namespace dresslife::sim {
 namespace {
 
@@ -148,18 +145,7 @@ void Interpreter::note(const Place& place, const std::string& what, bool may_mov
 
 void Interpreter::unread(const Place& place, const std::string& word, const std::string& of,
                          const std::vector<std::string>& known) {
-  std::vector<std::string> lower;
-  for (const std::string& other : known) lower.push_back(lower_case(other));
-  const std::string nearest = pipeline::nearest_word(lower_case(word), lower);
-  auto at = std::find(lower.begin(), lower.end(), nearest);
-  constexpr std::size_t shortest = 3;  // letters of a word that stands for a longer one: #CONST
-  if (at == lower.end() && word.size() >= shortest)
-    at = std::find_if(lower.begin(), lower.end(),
-                      [&](const std::string& longer) { return longer.starts_with(lower_case(word)); });
-  note(place,
-       fmt::format("{}: {} {}{}", word, unread_word, of,
-                   at == lower.end() ? "" : nearest_known + known[static_cast<std::size_t>(at - lower.begin())]),
-       true);
+  note(place, unread_reason(word, of, known), true);
 }
 
 double Interpreter::within(double value, double low, double high, const std::string& name, const Place& place) {

@@ -8,6 +8,8 @@
 #include <sstream>
 
 #include "pipeline/base/text.h"
+#include "pipeline/settings/fields.h"
+#include "sim/program/interpreter/tokens.h"
 
 namespace dresslife::sim {
 
@@ -19,6 +21,19 @@ constexpr std::array<std::string_view, 6> configuration_words{"",      "abb",   
                                                               "fanuc", "motoman", "near"};  // by ArmConfiguration::Kind
 
 }  // namespace
+
+std::string unread_reason(const std::string& word, const std::string& of, const std::vector<std::string>& known) {
+  const std::string written = lower_case(word);
+  std::vector<std::string> lower;
+  for (const std::string& other : known) lower.push_back(lower_case(other));
+  auto at = std::find(lower.begin(), lower.end(), pipeline::nearest_word(written, lower));
+  constexpr std::size_t shortest = 3;  // letters: fewer begin too many words
+  if (at == lower.end() && word.size() >= shortest)
+    at = std::find_if(lower.begin(), lower.end(),
+                      [&](const std::string& longer) { return longer.starts_with(written); });
+  return fmt::format("{}: {} {}{}", word, unread_word, of,
+                     at == lower.end() ? "" : nearest_known + known[static_cast<std::size_t>(at - lower.begin())]);
+}
 
 double as_single(double number) {
   constexpr double whole_numbers = 2147483648;  // 2^31

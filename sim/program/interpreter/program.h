@@ -130,8 +130,6 @@ std::string beyond_range_words(double low, double high);
 /// Reason in Skipped::what for a relative move that is shorter than those of plants' programs. Robots repeat a position within
 /// 0.05 mm, and numbers up to 1 mm are likely metres.
 inline constexpr const char* tiny_move = "a relative move of less than 1 mm";
-/// First words of the reason in Skipped::what for a word behind a move that no reader knows.
-inline constexpr const char* unknown_word = "no known word behind a move";
 /// First words of the reason in Skipped::what for a speed in a unit that belongs to another kind of move.
 inline constexpr const char* other_speed = "a speed of other moves";
 /// First words of the reason in Skipped::what for a jump to a label that a program has twice.
@@ -145,15 +143,18 @@ inline constexpr const char* no_robhold = "the tool stands in the cell, and no w
 
 /// First words of reasons in Skipped::what for settings of KRL that are not read as the controller does.
 inline constexpr const char* given_twice = "given twice in one position";
-inline constexpr const char* unlike_turns = "two speeds of turns, of which the smaller one counts";
+inline constexpr const char* unlike_turns = "two speeds of turns; the smaller one counts";
 inline constexpr const char* reduced_speed = "a reduced speed that is not read";
 inline constexpr const char* turn_acceleration = "a low acceleration of turns that is not read";
 inline constexpr const char* fast_path = "a path speed above that of any robot";
 
 /// First words of the reason in Skipped::what for a word that its instruction, function, record or system variable does not
-/// have. The reader ignores the word; Interpreter::unread() adds the nearest known word after nearest_known.
+/// have. The reader ignores the word. The nearest known word follows nearest_known.
 inline constexpr const char* unread_word = "not read, because there is no such word in";
 inline constexpr const char* nearest_known = "; the nearest one is ";
+/// Returns the word with this reason. of: what does not have the word; known: its words. The nearest one has few other letters, or begins
+/// with `word` (#CONST).
+std::string unread_reason(const std::string& word, const std::string& of, const std::vector<std::string>& known);
 
 /// Returns the value of a number in single precision, with which controllers compute; whole numbers up to 2^31 stay exact.
 double as_single(double number);

@@ -167,9 +167,8 @@ void Krl::check_components(const Expression& aggregate) {
       return std::find(record.fields.begin(), record.fields.end(), *key) != record.fields.end();
     };
     if (std::find(keys.begin(), key, *key) != key)
-      run_->note(aggregate.place, fmt::format("{}: {}, of which the first counts", upper_case(*key), given_twice),
-                 true);
-    else if (key->size() <= longest && std::none_of(code_.records.begin(), code_.records.end(), has))
+      run_->note(aggregate.place, fmt::format("{}: {}; the first one counts", upper_case(*key), given_twice), true);
+    else if (std::none_of(code_.records.begin(), code_.records.end(), has))
       run_->unread(aggregate.place, upper_case(*key), "a position", upper_cases(missing));
   }
 }

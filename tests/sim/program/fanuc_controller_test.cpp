@@ -662,10 +662,10 @@ TEST_CASE("fanuc: a word behind a move that no reader knows is named, with the n
     return warnings(run("   1:J P[1] 50% " + words + " ;\n   2:  LBL[1] ;\n", known));
   };
   for (const auto& [words, warned] :
-       {std::pair("FINE Ofset,PR[1]", "Ofset: no known word behind a move"),
-        std::pair("FINE Ofset,PR[1]", "(near: Offset)"), std::pair("CTN50", "CTN50: no known word behind a move"),
-        std::pair("CNTT50", "(near: CNT)"), std::pair("CNT50 ACCEL50", "(near: ACC)"), std::pair("FIN", "(near: FINE)"),
-        std::pair("FINE INKR", "INKR: no known word"),
+       {std::pair("FINE Ofset,PR[1]", "Ofset: not read, because there is no such word in the options of a move"),
+        std::pair("FINE Ofset,PR[1]", "; the nearest one is Offset"), std::pair("CTN50", "CTN: not read"),
+        std::pair("CNTT50", "; the nearest one is CNT"), std::pair("CNT50 ACCEL50", "; the nearest one is ACC"),
+        std::pair("FIN", "; the nearest one is FINE"), std::pair("FINE INKR", "INKR: not read"),
         std::pair("FINE Search[X]", "search: changes how the robot moves"),
         std::pair("FINE FPLIN", "fplin: changes how the robot moves")}) {
     INFO(words);
@@ -690,7 +690,7 @@ TEST_CASE("fanuc: a word behind a move that no reader knows is named, with the n
   CHECK(skips(run("   1:J P[1] 50% FINE PTH ;\n"), "change the path at corners, not read", false));
   const std::vector<pipeline::Warning> lines = moves_left_out(run("   1:J P[1] 50% CTN50 ;\n").program);
   REQUIRE(lines.size() == 1);
-  CHECK_THAT(lines[0].line(), Catch::Contains("Likely cause: a misspelt word"));
+  CHECK_THAT(lines[0].line(), Catch::Contains("Likely cause: a mistyped word"));
 }
 
 TEST_CASE("fanuc: CNT without a number is refused by name, not asked as a value") {

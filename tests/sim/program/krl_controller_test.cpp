@@ -814,7 +814,7 @@ TEST_CASE("krl controller: words that a move, a record or an enumeration does no
            {"LIN {X 900,Y 0,Z 900,A 30,B 90,D 10}", "write C if this is meant"},
            {"PTP {A1 10,A2 -90,A3 90,A4 0,A5 60,A6 5}\nPTP {A1 10,A2 -90,A3 90,A4 0,A5 60,A7 20}",
             "write A6 if this is meant"},
-           {"LIN {X 900,Y 0,X 800}", "X: given twice in one position, of which the first counts"}}) {
+           {"LIN {X 900,Y 0,X 800}", "X: given twice in one position; the first one counts"}}) {
     INFO(move);
     CHECK_THAT(warnings("", move), Catch::Contains(word));
   }
