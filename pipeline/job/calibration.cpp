@@ -85,6 +85,8 @@ void describe(Fields& f, Calibration& calibration) {
   f.text("contradiction", calibration.contradiction, Need::optional,
          "warning that its records contradict the prediction with it");
   f.list("parameters", calibration.parameters, Need::required, "what was learned");
+  f.number("own_spread", calibration.own_spread, Need::optional, between(0.001, 100),
+           "factor of the spread between dresspacks: of slack, rest and motion, and of the error of computed lives");
   f.group("under", calibration.under, Need::optional, "what the tests were computed with");
   f.group("within", calibration.within, Need::optional, "the range of the tests; outside it nothing was tested");
   f.list("observations", calibration.observations, Need::optional, "from what it was learned");
@@ -143,6 +145,11 @@ void check_calibration(const Calibration& calibration) {
 
 ParameterKnowledge knowledge_of(const Calibration& calibration, ParameterKnowledge prior) {
   ParameterKnowledge& knowledge = prior;
+  for (std::size_t p = 0; p < uncertain_count; ++p)
+    if (uncertain_parameters()[p].shared == SharedBy::installation) {
+      knowledge.covariance.row(static_cast<Eigen::Index>(p)) *= calibration.own_spread;
+      knowledge.covariance.col(static_cast<Eigen::Index>(p)) *= calibration.own_spread;
+    }
   const Eigen::MatrixXd covariance = covariance_of(calibration);
   std::vector<std::pair<Eigen::Index, Eigen::Index>> places;  // index in the list, index of the parameter
   for (std::size_t i = 0; i < calibration.parameters.size(); ++i)

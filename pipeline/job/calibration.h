@@ -84,6 +84,9 @@ struct Calibration {
   /// Warning that records of dresspacks in service contradict the prediction with this calibration; empty: none. Runs repeat it.
   std::string contradiction;
   std::vector<LearnedParameter> parameters;
+  /// factor of the deviations between dresspacks: of the parameters of SharedBy::installation that are not calibrated, and of the
+  /// residual of computed lives (LifeResponse::own_spread)
+  double own_spread = 1;
   LearnedUnder under;
   LearnedWithin within;
   std::vector<LearnedFrom> observations;
@@ -102,7 +105,8 @@ void describe(Fields& f, Calibration& calibration);
 /// not square, symmetric and positive.
 void check_calibration(const Calibration& calibration);
 
-/// Returns the calibration's parameters in the order of uncertain_parameters(). Parameters without calibration keep their prior.
+/// Returns the calibration's parameters in the order of uncertain_parameters(). Parameters without calibration keep their prior;
+/// own_spread changes the prior of those that each dresspack has for itself.
 ParameterKnowledge knowledge_of(const Calibration& calibration, ParameterKnowledge prior);
 
 /// A job's quantities that are compared with the ranges of a calibration. beyond() returns each quantity outside of its range in

@@ -145,7 +145,7 @@ Samples samples_of(const LifeResponse& response, bool has_residual, const std::s
   Samples samples{std::vector<ParameterPoint>(count), normals("scatter of wires/" + own_name(response, job)), {}};
   if (has_residual) {
     samples.residual = normals("residual/" + own_name(response, job));
-    for (double& decades : samples.residual) decades *= residual_decades;
+    for (double& decades : samples.residual) decades *= residual_decades * response.own_spread;
   }
   if (response.scatter_shared < 1) {  // modes of one dresspack share a part of their scatter
     const std::vector<double> own = normals("scatter of wires/" + own_name(response, job) + "/" + response.mode);
@@ -175,8 +175,9 @@ Samples samples_of(const LifeResponse& response, const std::string& job, std::si
 /// Returns whether two modes have equal samples, if both have a residual or none has.
 bool share_samples(const LifeResponse& one, const LifeResponse& other) {
   return one.construction == other.construction && one.material == other.material && one.dresspack == other.dresspack &&
-         one.scatter_shared == other.scatter_shared && (one.scatter_shared == 1 || one.mode == other.mode) &&
-         one.knowledge.mean == other.knowledge.mean && one.knowledge.covariance == other.knowledge.covariance;
+         one.scatter_shared == other.scatter_shared && one.own_spread == other.own_spread &&
+         (one.scatter_shared == 1 || one.mode == other.mode) && one.knowledge.mean == other.knowledge.mean &&
+         one.knowledge.covariance == other.knowledge.covariance;
 }
 
 std::vector<Samples> samples_of(const FailureModes& modes, const std::string& job, std::size_t count,
@@ -479,9 +480,9 @@ std::vector<FailureModes> coarser(const FailureModes& modes) {
         return point[of_friction] != 0 && (point[of_slack] != 0 || point[of_stiffness] != 0);
       });
     });
-  if (residual_of(modes) > 0)
+  if (const double residual = residual_of(modes); residual > 0)
     for (const StrainPoint& place : places_of(modes))
-      add([&](const LifeResponse& mode) { return with_longer_lives(mode, place, residual_decades); });
+      add([&](const LifeResponse& mode) { return with_longer_lives(mode, place, residual); });
   return all;
 }
 
@@ -493,7 +494,7 @@ std::vector<FailureModes> coarser(const FailureModes& modes) {
 ///     nodes       without one node of friction, slack or strength, each in turn. The error of a linear interpolation grows with
 ///                 the square of the distance of nodes, so this is three times the error there. It counts in full,
 ///                 because other intervals are as wide as the one without the node
-///     places      computed lives have the error residual_decades, too: lives at each place of the cables are longer by this, each
+///     places      computed lives have the error residual_of(), too: lives at each place of the cables are longer by this, each
 ///                 in turn
 ///     together()  together() of friction with slack and with stiffness instead of their computed combinations; counts if other
 ///                 parameters are combined in this way. Slack and stiffness, whose combinations change lives most, stay together
@@ -527,7 +528,7 @@ LifePercentiles error_factors(const FailureModes& modes, const std::vector<Sampl
 }  // namespace
 
 double residual_of(const FailureModes& modes) {
-  return std::ranges::any_of(modes, depends_on_place) ? residual_decades : 0;
+  return std::ranges::any_of(modes, depends_on_place) ? residual_decades * modes.front().own_spread : 0;
 }
 
 std::string modes_text(const FailureModes& modes) { return joined(mapped(modes, &LifeResponse::text), ""); }
@@ -593,7 +594,7 @@ const ModeLives::Known& ModeLives::samples_for(const LifeResponse& mode, bool ha
   Known& made = *known_.emplace_back(std::make_unique<Known>());
   made.mode.mode = mode.mode, made.mode.dresspack = mode.dresspack, made.mode.construction = mode.construction;
   made.mode.material = mode.material, made.mode.knowledge = mode.knowledge,
-  made.mode.scatter_shared = mode.scatter_shared;
+  made.mode.scatter_shared = mode.scatter_shared, made.mode.own_spread = mode.own_spread;
   made.has_residual = has_residual;
   made.samples = samples_of(mode, has_residual, job_, job_, samples_, false);
   for (const ParameterPoint& z : made.samples.z) made.factors.push_back(LifeSurface::factors_at(z));

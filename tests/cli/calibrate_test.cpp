@@ -222,6 +222,18 @@ TEST_CASE("calibrate: a maintenance system's table in one command teaches the jo
       all.find(
           "warning: 'job': fewer failures than predicted (0 of 8 failed): without any observation (makers' ratings, too) 1 of ") !=
       std::string::npos);
+  // Thirty lives differ by 4 %. Lives of equal wires differ more.
+  std::string equal = "Robot;Installed;Replaced;Reason\n";
+  for (int k = 0; k < 30; ++k) equal += fmt::format("R{};03.01.2000;{};failed\n", k, day(before * (8 + 0.01 * k)));
+  scratch.write("equal.csv", equal);
+  const Outcome refused =
+      run(scratch, "dresslife",
+          "calibrate equal.csv --job job.yaml --quiet --records-since 2000-01-03 --today " + day(before * 13));
+  INFO(refused.err);
+  CHECK(refused.status == 1);
+  CHECK(refused.err.find("it would need a scatter ") != std::string::npos);
+  CHECK(refused.err.find("correct the reasons (preventive)") != std::string::npos);
+  CHECK(refused.err.find("until then plan with the observed hours: 10 % had failed by ") != std::string::npos);
   CHECK(run(scratch, "dresslife", "calibrate plant.csv --job job.yaml --records-since soon")
             .err.find("'soon' is no date") != std::string::npos);
   scratch.write("o.yaml", "observations:\n" + row("as_predicted", "    cycles: 5\n"));

@@ -11,6 +11,7 @@
 
 #include "pipeline/advise/calibrate/life_over_parameters.h"
 #include "pipeline/advise/calibrate/measured_bending.h"
+#include "pipeline/advise/calibrate/own_spread.h"
 #include "pipeline/advise/calibrate/typical_cables.h"
 #include "pipeline/base/joined.h"
 #include "pipeline/base/lists.h"
@@ -151,7 +152,7 @@ class RoundEmulation {
     const auto over = std::make_shared<const LifeOverParameters>(std::move(modes), programs.front().moves);
     for (OwnValues& own : own_values(over->modes(), programs.front().own, round_.prior(), draws))
       life.variants.push_back([over, own = std::move(own), at = round_.centre()](const VectorXd& z) {
-        const LifeAt hours = over->at(z - at, &own);
+        const LifeAt hours = over->at(z.head(at.size()) - at, &own, own_spread_at(z[own_spread_place]));
         return LifeAt{std::min(endless_log_life, hours.log_median), hours.spread};
       });
     return life;
@@ -305,10 +306,11 @@ class RoundEmulation {
     const LifeAt modelled = life->at(VectorXd::Zero(uncertain_count));
     return
         [life, centre, modelled, at = round_.centre(), typical = test.typical, moves = runs.moves](const VectorXd& z) {
-          const LifeAt here = life->at(z - at);
+          const VectorXd beside = z.head(at.size()) - at;
+          const LifeAt here = life->at(beside);
           const double between =
-              typical ? deviation_between_cables([&](const VectorXd& beside) { return life->log_median_at(beside); },
-                                                 moves, z - at)
+              typical ? deviation_between_cables([&](const VectorXd& there) { return life->log_median_at(there); },
+                                                 moves, beside)
                       : 0;
           return LifeAt{std::min(endless_log_life, centre.median + here.log_median - modelled.log_median),
                         std::exp(centre.spread) * here.spread / modelled.spread, between, life->residual()};

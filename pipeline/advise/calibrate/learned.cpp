@@ -61,18 +61,6 @@ void add_service_doubts(const LearnedTest& test, double surprising, Learned& lea
   }
 }
 
-/// Returns "10 % had failed by 4,200 h, half by 9,000 h".
-std::string observed_words(const ObservedAges& ages) {
-  std::string words;
-  if (!ages.tenth)
-    words = fmt::format("{:.0f} % had failed by {}", 100 * ages.failed_until, hours_text(ages.until));
-  else
-    words = fmt::format("10 % had failed by {}, ", hours_text(*ages.tenth)) +
-            (ages.half ? "half by " + hours_text(*ages.half)
-                       : fmt::format("{:.0f} % by {}", 100 * ages.failed_until, hours_text(ages.until)));
-  return words + (ages.from > 0 ? fmt::format(", of those that reached {}", hours_text(ages.from)) : "");
-}
-
 /// Returns the line below the table that compares ages of dresspacks in service.
 std::string service_line(const LearnedTest& test) {
   if (!test.fit.observed)
@@ -80,7 +68,7 @@ std::string service_line(const LearnedTest& test) {
                        test.observation.name, ObservedAges::fewest);
   return fmt::format(
       "\nObserved hours of '{}' (Kaplan-Meier): {}. Predicted after, of new ones: 10 % by {}, half by {}.\n",
-      test.observation.name, observed_words(*test.fit.observed), life_text(test.after[0], 2) + " h",
+      test.observation.name, words_of(*test.fit.observed), life_text(test.after[0], 2) + " h",
       life_text(test.after[1], 2) + " h");
 }
 
@@ -120,7 +108,7 @@ std::optional<Warning> contradiction_of(const LearnedTest& test) {
                                  records_contradict, fit.chance < 1e-6 ? "below" : "of",
                                  fit.chance < 1e-6 ? "0.0001 %" : readable(100 * fit.chance, 2) + " %");
   if (fit.observed) {
-    what += ". Observed: " + observed_words(*fit.observed);
+    what += ". Observed: " + words_of(*fit.observed);
     if (fit.observed->tenth)
       what += fmt::format(". Predicted: {} by {}", readable(100 * fit.predicted_tenth, 2) + " %",
                           hours_text(*fit.observed->tenth));
@@ -129,8 +117,7 @@ std::optional<Warning> contradiction_of(const LearnedTest& test) {
   }
   const std::string cause =
       narrower
-          ? "the dresspacks of this plant differ less from each other than the model assumes (slack, rest, motion and the "
-            "error of computed lives, which a calibration does not learn)"
+          ? "dresspacks that were replaced by plan at one age and are marked as failed, or dates that were copied from row to row"
       : wider ? "failures by another cause than wear, wrong dates, or dresspacks with different motions under one job"
               : "a job, dates or hours per week that are not theirs";
   std::string remedy = "do not plan with this calibration";
@@ -139,7 +126,8 @@ std::optional<Warning> contradiction_of(const LearnedTest& test) {
   else if (fit.observed)
     remedy += fmt::format(". Plan with the observed hours: fewer than 10 % had failed by {}",
                           hours_text(fit.observed->until));
-  if (!narrower) remedy += "; or correct the rows, or give each motion its own job (column job)";
+  remedy += narrower ? "; or correct the reasons (preventive) and dates of the rows"
+                     : "; or correct the rows, or give each motion its own job (column job)";
   return warning_of(WarningKind::calibration, "", what, cause, remedy);
 }
 
@@ -210,6 +198,12 @@ std::string learned_table(const Learned& learned) {
     return test.observation.bending.empty() ? observed_text(test.observation) : readable(test.measured, 3) + " N m";
   };
   std::string text = parameter_lines(learned);
+  if (learned.own_spread)
+    text += fmt::format(
+        "\nSpread between dresspacks: x {} ({} .. {}), before x 1 ({} .. {}). It multiplies the deviations of slack, grip, rest and motion\n"
+        "between dresspacks, and of the error of computed lives.\n",
+        readable(learned.own_spread->factor), readable(learned.own_spread->low), readable(learned.own_spread->high),
+        readable(own_spread_at(-normal_decile)), readable(own_spread_at(normal_decile)));
   for (const LearnedWall& wall : learned.walls) {
     const auto factor = [](double z) { return readable(std::pow(wall_strength_step, z)); };
     text += fmt::format(

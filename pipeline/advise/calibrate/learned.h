@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "pipeline/advise/calibrate/learned_walls.h"
+#include "pipeline/advise/calibrate/own_spread.h"
 #include "pipeline/advise/calibrate/prediction.h"
 #include "pipeline/advise/calibrate/service_fit.h"
 #include "pipeline/job/calibration.h"
@@ -35,6 +36,7 @@ struct Learned {
   std::vector<LearnedAxis> axes;  ///< (parameter)
   std::vector<LearnedTest> tests;
   std::vector<LearnedWall> walls;
+  std::optional<OwnSpread> own_spread;  ///< absent: not learned
   Calibration calibration;
   int rounds = 0;
   bool settled = false;  ///< the centre has converged

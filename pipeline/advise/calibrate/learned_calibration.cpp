@@ -84,6 +84,7 @@ Calibration calibration_of(const Learned& learned, const std::vector<ObservedTes
   constexpr double decimals = 1e6;
   const auto rounded = [&](double value) { return std::round(value * decimals) / decimals; };
   Calibration calibration;
+  if (learned.own_spread) calibration.own_spread = to_figures(learned.own_spread->factor, 3);
   const Posterior& posterior = learned.posterior;
   calibration.typical = std::any_of(tests.begin(), tests.end(), [](const ObservedTest& test) { return test.typical; });
   calibration.note = fmt::format(

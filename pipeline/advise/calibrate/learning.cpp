@@ -47,13 +47,14 @@ Posterior posterior_of(std::vector<LogLikelihood> terms, const Axes& axes, const
 /// Throws InputError at the row that differs most from its prediction, if the most likely parameters are beyond `farthest`.
 void refuse_contradiction(const std::vector<ObservedTest>& tests, const std::vector<LearnedTest>& learned,
                           const Axes& axes, const VectorXd& most_likely) {
-  const VectorXd off = most_likely.cwiseQuotient(axes.some(axes.prior())).cwiseAbs();
+  const VectorXd off = most_likely.cwiseQuotient(axes.some(axes.prior())).head(axes.size()).cwiseAbs();
   Index axis = 0;
   if (off.maxCoeff(&axis) <= farthest) return;
   std::size_t row = 0;
   for (std::size_t t = 1; t < tests.size(); ++t)
     if (surprise(learned[t]) > surprise(learned[row])) row = t;
   const Observation& observation = tests[row].observation;
+  const std::optional<ObservedAges>& ages = learned[row].fit.observed;
   throw InputError(
       tests[row].where,
       fmt::format(
@@ -62,7 +63,10 @@ void refuse_contradiction(const std::vector<ObservedTest>& tests, const std::vec
           observation.name, observed_text(observation), words_of(learned[row].before),
           uncertain_parameters()[static_cast<std::size_t>(axes.places()[static_cast<std::size_t>(axis)])].name,
           off[axis], farthest),
-      "correct the unit of the observation, or its job; else leave the row out");
+      observation.service.empty()
+          ? "correct the unit of the observation, or its job; else leave the row out"
+          : "correct the reasons (preventive), dates and hours per week of the rows, or their job" +
+                (ages ? "; until then plan with the observed hours: " + words_of(*ages) : ""));
 }
 
 /// Predicts each test from all others. This shows a test that contradicts the model, which a prediction that includes the test
@@ -78,8 +82,10 @@ void predict_by_others(const std::vector<EmulatedTest>& emulated_tests, const Ax
     tests[t].by_others =
         others.empty()
             ? tests[t].before
-            : predicted_deciles(emulated_tests[t],
-                                posterior_draws(posterior_of(others, axes, start, typical, short_chains), axes), false);
+            : predicted_deciles(
+                  emulated_tests[t],
+                  with_one_spread(posterior_draws(posterior_of(others, axes, start, typical, short_chains), axes)),
+                  false);
   }
 }
 
@@ -88,12 +94,12 @@ void predict_by_others(const std::vector<EmulatedTest>& emulated_tests, const Ax
 Learned learn(const std::vector<ObservedTest>& tests, const std::vector<std::string>& sets, const StudyPlaces& places,
               const MakeRows& make_rows) {
   Learned learned;
-  VectorXd centre = VectorXd::Zero(uncertain_count), step = VectorXd::Ones(uncertain_count);
+  VectorXd centre = VectorXd::Zero(own_spread_place + 1), step = VectorXd::Ones(own_spread_place);
   const bool typical = of_typical_cables(tests);
   const std::string name = places.folder.filename().string();
   for (const ObservedTest& test : tests) learned.tests.push_back({test.observation});
   while (!learned.settled && learned.rounds < most_rounds) {
-    const RoundOfJobs round(tests, sets, name, centre, step);
+    const RoundOfJobs round(tests, sets, name, centre.head(own_spread_place), step);
     const std::vector<EmulatedTest> emulated_tests = emulate(tests, round, make_rows(round.study()), places);
     const Axes axes(round);
     learned.posterior = posterior_of(terms_of(emulated_tests, axes), axes, axes.some(centre), typical);
@@ -108,16 +114,17 @@ Learned learn(const std::vector<ObservedTest>& tests, const std::vector<std::str
       if (std::abs(there[p] - centre[p]) > (has_arms(round, p) ? still * left : near)) learned.settled = false;
       step[p] = std::clamp(2 * left, 0.25, 1.0);
     }
+    if (axes.has_own_spread()) learned.own_spread = own_spread_of(learned.posterior.draws.col(axes.size()));
+    const Eigen::MatrixXd drawn = posterior_draws(learned.posterior, axes);
     for (std::size_t t = 0; t < tests.size(); ++t) {
       const EmulatedTest& emulated = emulated_tests[t];
       if (learned.rounds == 1) learned.tests[t].before = predicted_deciles(emulated, prior_draws(axes), false);
-      learned.tests[t].after = predicted_deciles(emulated, posterior_draws(learned.posterior, axes), true);
+      learned.tests[t].after = predicted_deciles(emulated, with_one_spread(drawn), true);
       if (const std::vector<ServiceRecord>& records = tests[t].observation.service; !records.empty()) {
         if (learned.rounds == 1)
           learned.tests[t].chance_before = service_chance(*emulated.life, records, prior_draws(axes));
-        learned.tests[t].chance_after =
-            service_chance(*emulated.life, records, posterior_draws(learned.posterior, axes));
-        learned.tests[t].fit = service_fit(*emulated.life, records, posterior_draws(learned.posterior, axes));
+        learned.tests[t].chance_after = service_chance(*emulated.life, records, drawn);
+        learned.tests[t].fit = service_fit(*emulated.life, records, drawn);
       }
       learned.tests[t].fails_first = emulated.fails_first;
       learned.tests[t].moved_by = emulated.moved_by;

@@ -41,23 +41,25 @@ LifeOverParameters::LifeOverParameters(std::vector<ProgramModes> programs,
   }
 }
 
-LifeAt LifeOverParameters::at(const VectorXd& beside, const OwnValues* own) const {
-  const ParameterPoint z = point(beside, own);
+LifeAt LifeOverParameters::at(const VectorXd& beside, const OwnValues* own, double own_spread) const {
+  const ParameterPoint z = point(beside, own, own_spread);
   const double early = first(z, -normal_decile, own), median = first(z, 0, own), late = first(z, normal_decile, own);
   const double by_wires = (late - early) / (2 * normal_decile);
-  return {median, std::max(std::exp(least_log_spread), own ? std::hypot(by_wires, residual()) : by_wires)};
+  return {median, std::max(std::exp(least_log_spread), own ? std::hypot(by_wires, own_spread * residual()) : by_wires)};
 }
 
 double LifeOverParameters::residual() const { return residual_of(modes()) * std::numbers::ln10; }
 
 double LifeOverParameters::log_median_at(const VectorXd& beside) const {
-  return first(point(beside, nullptr), 0, nullptr);
+  return first(point(beside, nullptr, 1), 0, nullptr);
 }
 
-ParameterPoint LifeOverParameters::point(const VectorXd& beside, const OwnValues* own) const {
-  ParameterPoint z = own ? own->z : ParameterPoint{};
-  for (std::size_t p = 0; p < uncertain_count; ++p)
+ParameterPoint LifeOverParameters::point(const VectorXd& beside, const OwnValues* own, double own_spread) const {
+  ParameterPoint z{};
+  for (std::size_t p = 0; p < uncertain_count; ++p) {
+    if (own) z[p] = own_spread * own->z[p];
     if (moves_[p]) z[p] = beside[static_cast<Index>(p)];
+  }
   return z;
 }
 

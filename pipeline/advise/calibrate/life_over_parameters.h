@@ -15,7 +15,7 @@ inline constexpr double endless_log_life = 41.4;  // ln 1e18: represents a life 
 // ln 0.001: lower limit of ln of the deviation of ln life, used if nothing scatters
 inline constexpr double least_log_spread = -6.9;
 
-/// Values of a single dresspack.
+/// Values of a single dresspack, at the spread 1 between dresspacks.
 struct OwnValues {
   ParameterPoint z{};           ///< (parameter) 0 for parameters that dresspacks share
   std::vector<double> scatter;  ///< (mode) standard normal: the part of u that is independent between the modes
@@ -43,15 +43,15 @@ class LifeOverParameters {
   const FailureModes& modes() const { return programs_.front().modes; }
 
   /// Returns the life in repeats, or in hours of operation. beside: (parameter) z relative to the job's keys. own: values of one
-  /// dresspack, with its residual; null: median values, with a scatter of wires that is common to all modes and without residual. A
-  /// life without end gives endless_log_life.
-  LifeAt at(const Eigen::VectorXd& beside, const OwnValues* own = nullptr) const;
+  /// dresspack, with its residual; null: median values, with a scatter of wires that is common to all modes and without residual.
+  /// own_spread: factor of own values and residual (own_spread.h). A life without end gives endless_log_life.
+  LifeAt at(const Eigen::VectorXd& beside, const OwnValues* own = nullptr, double own_spread = 1) const;
   double log_median_at(const Eigen::VectorXd& beside) const;
   /// Returns the standard deviation of the residual of ln life (residual_of()).
   double residual() const;
 
  private:
-  ParameterPoint point(const Eigen::VectorXd& beside, const OwnValues* own) const;
+  ParameterPoint point(const Eigen::VectorXd& beside, const OwnValues* own, double own_spread) const;
   double first(const ParameterPoint& z, double u, const OwnValues* own) const;
   double log10_life(std::size_t mode, const ParameterPoint& z, double u) const;
 

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "pipeline/advise/calibrate/life_over_parameters.h"
+#include "pipeline/advise/calibrate/own_spread.h"
 #include "pipeline/base/lists.h"
 #include "pipeline/base/random.h"
 #include "pipeline/base/statistics.h"
@@ -94,18 +95,26 @@ ServiceChance service_chance(const ObservedLife& life, const std::vector<Service
 
 Eigen::MatrixXd prior_draws(const Axes& axes) {
   RandomNumbers numbers(5);
-  Eigen::MatrixXd draws(predicted_draws, static_cast<Index>(uncertain_count));
+  Eigen::MatrixXd draws = Eigen::MatrixXd::Constant(predicted_draws, own_spread_place + 1, own_spread_as_is);
   for (Index k = 0; k < draws.rows(); ++k)
-    draws.row(k) = numbers.normals(VectorXd(draws.cols())).cwiseProduct(axes.prior()).transpose();
+    draws.row(k).head(own_spread_place) =
+        numbers.normals(VectorXd(own_spread_place)).cwiseProduct(axes.prior().head(own_spread_place)).transpose();
   return draws;
 }
 
 Eigen::MatrixXd posterior_draws(const Posterior& posterior, const Axes& axes) {
   Eigen::MatrixXd draws = prior_draws(axes);
   const Index every = posterior.draws.rows() / draws.rows();
-  for (Index k = 0; k < draws.rows(); ++k)
+  for (Index k = 0; k < draws.rows(); ++k) {
     for (Index i = 0; i < axes.size(); ++i)
       draws(k, axes.places()[static_cast<std::size_t>(i)]) = posterior.draws(k * every, i);
+    if (axes.has_own_spread()) draws(k, own_spread_place) = posterior.draws(k * every, axes.size());
+  }
+  return draws;
+}
+
+Eigen::MatrixXd with_one_spread(Eigen::MatrixXd draws) {
+  draws.col(own_spread_place).setConstant(own_spread_z(own_spread_of(draws.col(own_spread_place)).factor));
   return draws;
 }
 

@@ -12,9 +12,12 @@ namespace dresslife::pipeline {
 /// Quantiles of a life or a number: 10, 50, 90 %. A life without damage is infinite.
 using PredictedDeciles = std::array<double, 3>;
 
-/// Return samples of all parameters, (draw, parameter): from the prior; from the posterior, with the prior for the others.
+/// Return samples of all parameters, (draw, parameter; last the spread between dresspacks): from the prior, with the spread 1;
+/// from the posterior, with the prior for the others.
 Eigen::MatrixXd prior_draws(const Axes& axes);
 Eigen::MatrixXd posterior_draws(const Posterior& posterior, const Axes& axes);
+/// Returns the samples with OwnSpread::factor as the spread of all: predictions of new dresspacks use it, as jobs do.
+Eigen::MatrixXd with_one_spread(Eigen::MatrixXd draws);
 
 /// Returns deciles over samples and variants. For a life: life of one specimen with its scatter, in the observer's unit. For a
 /// bending test: moment at its largest curvature [N m], or stiffness [N m2]. weighed: variants are weighted by their likelihood

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "pipeline/advise/calibrate/own_spread.h"
 #include "pipeline/base/digest.h"
 #include "pipeline/job/job.h"
 #include "pipeline/resolve/job_text.h"
@@ -67,6 +68,7 @@ RoundOfJobs::RoundOfJobs(const std::vector<ObservedTest>& tests, const std::vect
   study_.name = std::move(name);
   for (const ObservedTest& test : tests) {
     runs_.emplace_back();
+    if (std::ranges::any_of(test.observation.service, &ServiceRecord::failed)) has_failures_in_service_ = true;
     for (const ObservedTest::Variant& variant : test.variants) runs_.back().push_back(runs_of(test, variant));
   }
 }
@@ -126,7 +128,9 @@ std::size_t RoundOfJobs::add(const ObservedTest& test, const ObservedTest::Varia
   return known->second;
 }
 
-Axes::Axes(const RoundOfJobs& round) : prior_(round.prior()) {
+Axes::Axes(const RoundOfJobs& round)
+    : prior_(VectorXd::Ones(own_spread_place + 1)), has_own_spread_(round.has_failures_in_service()) {
+  prior_.head(own_spread_place) = round.prior();
   for (const auto& variants : round.runs())
     for (const RoundOfJobs::Runs& runs : variants)
       for (std::size_t p = 0; p < uncertain_count; ++p) own_[p] = own_[p] || runs.own[p];
@@ -138,14 +142,16 @@ Axes::Axes(const RoundOfJobs& round) : prior_(round.prior()) {
 }
 
 VectorXd Axes::all(const VectorXd& some) const {
-  VectorXd z = VectorXd::Zero(uncertain_count);
+  VectorXd z = VectorXd::Zero(own_spread_place + 1);
   for (Index i = 0; i < size(); ++i) z[places_[static_cast<std::size_t>(i)]] = some[i];
+  z[own_spread_place] = has_own_spread_ ? some[size()] : own_spread_as_is;
   return z;
 }
 
 VectorXd Axes::some(const VectorXd& all_of_them) const {
-  VectorXd z(size());
+  VectorXd z(size() + has_own_spread_);
   for (Index i = 0; i < size(); ++i) z[i] = all_of_them[places_[static_cast<std::size_t>(i)]];
+  if (has_own_spread_) z[size()] = all_of_them[own_spread_place];
   return z;
 }
 

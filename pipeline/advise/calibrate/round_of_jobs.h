@@ -42,6 +42,8 @@ class RoundOfJobs {
   /// Returns the standard deviations of z before the observations (parameter), from the jobs' section `uncertainty`; 1 without it.
   const Eigen::VectorXd& prior() const { return prior_; }
   const std::vector<std::vector<Runs>>& runs() const { return runs_; }  ///< (test, variant)
+  /// whether dresspacks in service failed, so that the spread between them can be learned
+  bool has_failures_in_service() const { return has_failures_in_service_; }
 
  private:
   Runs runs_of(const ObservedTest& test, const ObservedTest::Variant& variant);
@@ -52,24 +54,30 @@ class RoundOfJobs {
   Study study_;
   std::map<std::string, std::size_t> known_;  ///< job indices by the digest of their settings
   std::vector<std::vector<Runs>> runs_;
+  bool has_failures_in_service_ = false;
 };
 
-/// Map between all parameters and the parameters on which some test depends.
+/// Map between all parameters and the axes of a posterior: the parameters on which some test depends, then the spread between
+/// dresspacks (own_spread.h) if it is learned. Vectors of all parameters have that spread as their last entry.
 class Axes {
  public:
   explicit Axes(const RoundOfJobs& round);
-  const std::vector<Eigen::Index>& places() const { return places_; }  ///< indices of the parameters
-  Eigen::Index size() const { return static_cast<Eigen::Index>(places_.size()); }
+  const std::vector<Eigen::Index>& places() const { return places_; }              ///< indices of the parameters
+  Eigen::Index size() const { return static_cast<Eigen::Index>(places_.size()); }  ///< number of parameters
+  bool has_own_spread() const { return has_own_spread_; }
   /// whether it is Runs::own in some test
   bool has_own(Eigen::Index parameter) const { return own_[static_cast<std::size_t>(parameter)]; }
-  const Eigen::VectorXd& prior() const { return prior_; }  ///< RoundOfJobs::prior()
-  Eigen::VectorXd all(const Eigen::VectorXd& some) const;  ///< values of all parameters, 0 for the others
+  /// RoundOfJobs::prior(), and 1 for the spread between dresspacks
+  const Eigen::VectorXd& prior() const { return prior_; }
+  /// Returns values of all parameters, 0 for the others, and the spread between dresspacks (1 if it is not learned).
+  Eigen::VectorXd all(const Eigen::VectorXd& some) const;
   Eigen::VectorXd some(const Eigen::VectorXd& all_of_them) const;
 
  private:
   std::vector<Eigen::Index> places_;
   std::array<bool, uncertain_count> own_{};
   Eigen::VectorXd prior_;
+  bool has_own_spread_;
 };
 
 }  // namespace dresslife::pipeline

@@ -1,10 +1,13 @@
 #include "pipeline/advise/calibrate/service_fit.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "pipeline/base/lists.h"
+#include "pipeline/base/readable.h"
 #include "pipeline/base/statistics.h"
 
 namespace dresslife::pipeline {
@@ -99,6 +102,17 @@ std::optional<ObservedAges> observed_ages(const std::vector<ServiceRecord>& reco
   }
   if (!has_begun) return std::nullopt;
   return ages;
+}
+
+std::string words_of(const ObservedAges& ages) {
+  std::string words;
+  if (!ages.tenth)
+    words = fmt::format("{:.0f} % had failed by {}", 100 * ages.failed_until, hours_text(ages.until));
+  else
+    words = fmt::format("10 % had failed by {}, ", hours_text(*ages.tenth)) +
+            (ages.half ? "half by " + hours_text(*ages.half)
+                       : fmt::format("{:.0f} % by {}", 100 * ages.failed_until, hours_text(ages.until)));
+  return words + (ages.from > 0 ? fmt::format(", of those that reached {}", hours_text(ages.from)) : "");
 }
 
 ServiceFit service_fit(const ObservedLife& life, const std::vector<ServiceRecord>& records,

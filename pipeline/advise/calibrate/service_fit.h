@@ -15,6 +15,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "pipeline/advise/calibrate/likelihood.h"
@@ -33,6 +34,8 @@ struct ObservedAges {
 };
 /// Absent: fewer than `fewest` dresspacks were in use at one age.
 std::optional<ObservedAges> observed_ages(const std::vector<ServiceRecord>& records);
+/// Returns "10 % had failed by 4,200 h, half by 9,000 h".
+std::string words_of(const ObservedAges& ages);
 
 struct ServiceFit {
   std::optional<ObservedAges> observed{};

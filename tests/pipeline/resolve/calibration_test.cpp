@@ -80,6 +80,20 @@ TEST_CASE("calibration: draws are its own, of what it does not know the prior's"
   CHECK(known.covariance(slack, friction) == 0);
 }
 
+TEST_CASE("calibration: the spread between dresspacks multiplies the deviations that each has for itself") {
+  const Scratch scratch;
+  scratch.write("learned.yaml", "own_spread: 0.5\n" + two_learned());
+  const Job job = read_job(scratch.write("job.yaml", sample_job + "calibration: learned.yaml\n"));
+  const ParameterKnowledge known = knowledge_of(job);
+  for (const Uncertain own : {Uncertain::slack, Uncertain::grip, Uncertain::rest, Uncertain::motion})
+    CHECK(known.covariance(index_of(own), index_of(own)) == Approx(0.25));
+  for (const Uncertain shared : {Uncertain::play, Uncertain::model, Uncertain::scatter, Uncertain::hose_stiffness})
+    CHECK(known.covariance(index_of(shared), index_of(shared)) == Approx(1));
+  CHECK(known.covariance(index_of(Uncertain::strength), index_of(Uncertain::strength)) == 0.25);
+  CHECK(job_text(job_from(parse_yaml(job_text(job), "elsewhere.yaml"))) == job_text(job));
+  CHECK(refusal("own_spread: -1\n" + two_learned()).find("own_spread") != std::string::npos);
+}
+
 TEST_CASE("calibration: the strength of a hose's wall stands beside the wires' parameters and moves none of them") {
   const std::string wall = "wall strength of polyamide (0.01 1e+06, 0.001 1e+09)";
   const std::string with =

@@ -137,11 +137,18 @@ TEST_CASE("learned: the likelihood of a life has all that an observation states,
     CHECK(test.moved_by ==
           "motion (each dresspack's own) 3.7, model 2.0, strength 2.0, slack (each dresspack's own) 1.6");
     for (const double strength : {-0.8, 0.0, 0.5}) {
-      Eigen::VectorXd z = Eigen::VectorXd::Constant(uncertain_count, centre);
+      Eigen::VectorXd z = Eigen::VectorXd::Constant(own_spread_place + 1, centre), narrow = z;
       z[index_of(Uncertain::strength)] += strength;
-      double mean = 0;
+      z[own_spread_place] = own_spread_as_is, narrow[own_spread_place] = own_spread_z(0.5);
+      double mean = 0, variance = 0, narrowed = 0;
       for (const LifeVariant& each : test.life->variants)
         mean += each(z).log_median / double(test.life->variants.size());
+      for (const LifeVariant& each : test.life->variants) {
+        variance += std::pow(each(z).log_median - mean, 2);
+        narrowed += std::pow(each(narrow).log_median - (mean - 0.3 * ln10 * strength), 2);
+        CHECK(each(narrow).spread < each(z).spread);
+      }
+      CHECK(std::sqrt(narrowed / variance) == Approx(0.5).epsilon(1e-5));
       const double per_hour = 0.8 * 3600 / 36 / 1e5 + 0.2 * 3600 / 72 / 2e5;
       CHECK(mean == Approx(-std::log(per_hour) + 0.3 * ln10 * strength).epsilon(1e-5));
     }
@@ -394,7 +401,7 @@ TEST_CASE("learned: a life says of the hoses' walls that they lived at least as 
   CHECK(lived.service[0].log_age == Approx(std::log(300)));
   CHECK(lived.service[0].count == 4);
   CHECK_FALSE(lived.service[0].failed);
-  Eigen::VectorXd stronger = Eigen::VectorXd::Zero(uncertain_count);
+  Eigen::VectorXd stronger = Eigen::VectorXd::Zero(own_spread_place + 1);
   stronger[index_of(Uncertain::strength)] = 1;
   // 1e5 repeats of 36 s; a deviation is 1.5 decades. The median factor of the motion is 1.
   double median = 0;

@@ -149,7 +149,7 @@ TEST_CASE("service fit: the warning has the observed hours, the direction and a 
   CHECK_THAT(warning->words,
              Catch::Contains("'cell': the records contradict the prediction") && Catch::Contains("limit 1 %") &&
                  Catch::Contains("10 % had failed by 4,080 h") &&
-                 Catch::Contains("Likely cause: the dresspacks of this plant differ less") &&
+                 Catch::Contains("Likely cause: dresspacks that were replaced by plan") &&
                  Catch::Contains("Remedy: do not plan with this calibration. Plan with the observed hours"));
   std::vector<ServiceRecord> wide;
   for (int k = 0; k < 12; ++k) wide.push_back({1.0 + k, 0, true});
