@@ -27,7 +27,10 @@ struct Adder {
 
   CLI::Option* operator()(bool* flag) const { return app.add_flag(option.names, *flag, option.meaning); }
   CLI::Option* operator()(std::string* text) const { return added(*text); }
-  CLI::Option* operator()(std::vector<std::string>* list) const { return added(*list)->allow_extra_args(false); }
+  CLI::Option* operator()(std::vector<std::string>* list) const {
+    const bool is_argument = option.names[0] != '-';
+    return added(*list)->allow_extra_args(is_argument);
+  }
   CLI::Option* operator()(std::filesystem::path* path) const {
     return (*this)([path](const std::string& text) { *path = text; });
   }

@@ -15,7 +15,7 @@
 
 namespace dresslife::pipeline {
 
-/// Destination of an option's value. bool: a flag without a value. A list: the option may be given several times. A function: it
+/// Destination of an option's value. bool: a flag without a value. A list: several arguments, or an option that may be given several times. A function: it
 /// gets the text and may throw InputError.
 using Target =
     std::variant<bool*, int*, std::uint64_t*, double*, std::optional<int>*, std::optional<double>*, std::string*,

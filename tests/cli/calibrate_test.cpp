@@ -204,6 +204,22 @@ TEST_CASE("calibrate: a maintenance system's table in one command teaches the jo
   // The prior of ln life has a deviation of ln 6 to ln 10, the mean of ten lives one of some tenths.
   CHECK(after > 6 * before);
   CHECK(after < 13 * before);
+  // The same rows in two tables teach the same. A table that is given twice is doubted.
+  std::istringstream rows(table);
+  std::string title, line;
+  std::getline(rows, title);
+  std::array<std::string, 2> halves{title + "\n", title + "\n"};
+  for (int k = 0; std::getline(rows, line); ++k) halves[static_cast<std::size_t>(k % 2)] += line + "\n";
+  scratch.write("odd.csv", halves[0]), scratch.write("even.csv", halves[1]);
+  const std::string options = " --job job.yaml --quiet --records-since 2000-01-03 --today " + day(before * 13);
+  const Outcome joined = must_run(scratch, "dresslife", "calibrate odd.csv even.csv" + options);
+  CHECK_THAT(joined.out, Catch::Contains("job, even "));
+  CHECK_THAT(joined.err, !Catch::Contains("a row that was copied"));
+  const double after_both = life_hours(scratch, "--set calibration=runs/calibrate_odd/calibration.yaml");
+  CHECK(after_both == Approx(after).epsilon(0.05));  // medians of 48,000 correlated samples
+  scratch.write("again.csv", halves[0]);
+  CHECK_THAT(must_run(scratch, "dresslife", "calibrate odd.csv again.csv" + options).err,
+             Catch::Contains("a row that was copied"));
   // Eight dresspacks live thirty times as long as predicted. Records of their last hours contradict what was learned.
   std::string alive = "robot,installed,replaced\n";
   for (int k = 0; k < 8; ++k) alive += fmt::format("R{},2000-01-03,\n", k);

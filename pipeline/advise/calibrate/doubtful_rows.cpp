@@ -81,7 +81,8 @@ class Doubts {
     if (!same_test(test, earlier)) return;
     if (row.cycles == other.cycles && row.hours == other.hours && row.stiffness == other.stiffness &&
         row.decrement == other.decrement && row.bending == other.bending && row.at_curvature == other.at_curvature &&
-        row.outcome == other.outcome && row.cycles_per_repeat == other.cycles_per_repeat) {
+        row.outcome == other.outcome && row.cycles_per_repeat == other.cycles_per_repeat &&
+        row.service == other.service) {
       warn(test, fmt::format("the observation and the job of '{}' are those of '{}'", row.name, other.name),
            "a row that was copied",
            row.is_life() ? "one of the two rows; with specimens: 2 if two were tested" : "one of the two rows");

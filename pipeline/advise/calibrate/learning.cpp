@@ -4,9 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "pipeline/advise/calibrate/learned_calibration.h"
 #include "pipeline/advise/calibrate/typical_cables.h"
+#include "pipeline/base/joined.h"
+#include "pipeline/base/lists.h"
+#include "pipeline/study/row_warnings.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -89,6 +93,28 @@ void predict_by_others(const std::vector<EmulatedTest>& emulated_tests, const Ax
   }
 }
 
+/// Returns warnings of dresspacks in service whose jobs exceed limits: the model does not include what may have ended them.
+std::vector<std::string> spoiled_records(const std::vector<ObservedTest>& tests, const RoundOfJobs& round,
+                                         const std::vector<RankingRow>& rows) {
+  std::vector<std::string> warnings;
+  for (std::size_t t = 0; t < tests.size(); ++t) {
+    if (tests[t].observation.service.empty()) continue;
+    std::set<std::string> kinds;
+    for (const RoundOfJobs::Runs& runs : round.runs()[t]) {
+      const RankingRow* const row = find_in(rows, &RankingRow::job, round.study().jobs[runs.centre].name);
+      if (!row) continue;
+      for (const Warning& warning : warnings_of(*row))
+        if (spoils_plan(warning.kind)) kinds.insert(title(warning.kind));
+    }
+    if (!kinds.empty())
+      warnings.push_back(fmt::format(
+          "'{}': its job exceeds limits ({}). The model does not include such damage, so these records may teach wrong "
+          "parameters. Remedy: dresslife run of the job shows the limits; correct the job if the plant's dresspacks keep them",
+          tests[t].observation.name, joined(kinds, ", ")));
+  }
+  return warnings;
+}
+
 }  // namespace
 
 Learned learn(const std::vector<ObservedTest>& tests, const std::vector<std::string>& sets, const StudyPlaces& places,
@@ -100,7 +126,8 @@ Learned learn(const std::vector<ObservedTest>& tests, const std::vector<std::str
   for (const ObservedTest& test : tests) learned.tests.push_back({test.observation});
   while (!learned.settled && learned.rounds < most_rounds) {
     const RoundOfJobs round(tests, sets, name, centre.head(own_spread_place), step);
-    const std::vector<EmulatedTest> emulated_tests = emulate(tests, round, make_rows(round.study()), places);
+    const std::vector<RankingRow> rows = make_rows(round.study());
+    const std::vector<EmulatedTest> emulated_tests = emulate(tests, round, rows, places);
     const Axes axes(round);
     learned.posterior = posterior_of(terms_of(emulated_tests, axes), axes, axes.some(centre), typical);
     ++learned.rounds;
@@ -134,6 +161,7 @@ Learned learn(const std::vector<ObservedTest>& tests, const std::vector<std::str
     refuse_contradiction(tests, learned.tests, axes, learned.posterior.laplace.most_likely);
     centre = there;
     if (!learned.settled && learned.rounds < most_rounds) continue;
+    learned.warnings = spoiled_records(tests, round, rows);
     learned.axes = learned_axes(learned.posterior, axes);
     predict_by_others(emulated_tests, axes, learned.posterior.laplace.most_likely, typical, learned.tests);
     learned.walls = learned_walls(emulated_tests);

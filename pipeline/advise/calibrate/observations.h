@@ -48,6 +48,7 @@ constexpr std::string_view word(FailureCriterion value) { return word_at({"first
 struct ServiceRecord {
   double hours = 0, entry_hours = 0;
   bool failed = false;  ///< false: it was removed without a failure, or is in use
+  bool operator==(const ServiceRecord&) const = default;
 };
 
 struct Observation {
