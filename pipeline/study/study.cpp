@@ -318,10 +318,12 @@ std::vector<KeyRow> study_keys() {
        "value, `ANGLE deg around` a direction, `LOW .. HIGH along LINK` for a position, or a list of values."},
       {"study", "limits", "",
        "contact_force_N, tension_N, abrasion_life_h, wall_life_h, rating_life_h, jacket_life_h, corkscrew_life_h, "
-       "kink_margin",
+       "kink_margin, other_values_percent",
        "none",
        "Further limits of `dresslife improve`: largest forces, and least lives (p10) by modes that are not validated. "
-       "kink_margin: the least ratio of a bend's radius to the radius at which a tube kinks."},
+       "kink_margin: the least ratio of a bend's radius to the radius at which a tube kinks. other_values_percent: the "
+       "share of dresspacks that may exceed a limit at other values of stiffness, slack or friction; else, or if that is "
+       "larger, as many as of the original job."},
       {"study", "sample", "", "map", "none",
        "The keys that are sampled at random for each of the other jobs: its `keys` are key paths with `!normal`, "
        "`!uniform` or `!choice`."}};

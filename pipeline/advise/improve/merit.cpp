@@ -9,6 +9,7 @@
 #include "pipeline/base/joined.h"
 #include "pipeline/base/lists.h"
 #include "pipeline/base/readable.h"
+#include "pipeline/job/beyond_limit.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -19,6 +20,12 @@ constexpr double alike = 1.1;  // smallest relevant ratio of two lives; reason: 
 /// Returns the life below which a mode gets worse (M1).
 double least_life(const ModeLife& mode, const Outcome& outcome, const Outcome& as_it_is) {
   return std::min({outcome.robot_life, outcome.hours, life_by(as_it_is, mode.mode) / alike});
+}
+
+/// Returns the share of dresspacks that may exceed a limit at other values (M1).
+double most_exceeding(const Outcome& outcome, const Outcome& as_it_is) {
+  if (!as_it_is.failure.empty()) return outcome.asked_exceeding;
+  return as_it_is.feasible() ? std::max(as_it_is.exceeding, outcome.asked_exceeding) : 1;
 }
 
 std::vector<ModeLife> earliest_first(std::vector<ModeLife> modes) {
@@ -39,6 +46,10 @@ std::vector<ModeLife> worse_modes(const Outcome& outcome, const Outcome& as_it_i
       filtered(outcome.modes, [&](const ModeLife& mode) { return mode.hours < least_life(mode, outcome, as_it_is); }));
 }
 
+bool exceeds_more(const Outcome& outcome, const Outcome& as_it_is) {
+  return std::round(100 * outcome.exceeding) > std::round(100 * most_exceeding(outcome, as_it_is));
+}
+
 ModeLife first_mode(const Outcome& outcome) {
   ModeLife first{"", endless};
   for (const ModeLife& mode : outcome.modes)
@@ -50,7 +61,8 @@ Merit merit_of(const Outcome& outcome, const Outcome& as_it_is) {
   if (!outcome.failure.empty()) return {};
   const std::vector<ModeLife> worse = worse_modes(outcome, as_it_is);
   Merit merit;
-  merit.kept = !outcome.feasible() ? Kept::run : !worse.empty() ? Kept::limits : Kept::modes;
+  const bool gets_worse = !worse.empty() || exceeds_more(outcome, as_it_is);
+  merit.kept = !outcome.feasible() ? Kept::run : gets_worse ? Kept::limits : Kept::modes;
   merit.counted_hours = std::min(outcome.hours, outcome.robot_life);
   if (!worse.empty()) merit.counted_hours = std::min(merit.counted_hours, worse.front().hours);
   merit.first_hours = std::min(outcome.robot_life, first_mode(outcome).hours);
@@ -71,6 +83,8 @@ double search_value(const Outcome& outcome, const Outcome& as_it_is) {
   }
   for (const ModeLife& mode : worse_modes(outcome, as_it_is))
     value -= log_life(least_life(mode, outcome, as_it_is)) - log_life(std::max(1.0, mode.hours));
+  if (exceeds_more(outcome, as_it_is))
+    value -= std::log(outcome.exceeding / std::max(least_share_beyond, most_exceeding(outcome, as_it_is)));
   return value;
 }
 

@@ -234,9 +234,13 @@ Outcome outcome_of(const RankingRow& row, const std::filesystem::path& folder, c
   const double share = std::max(row.largest_force_share.value_or(0), row.clamp_moment_share.value_or(0));
   see(outcome, believable, log_ratio(share, believable_share));
   // Lives of a motion or of loose cables without a cycle are wrong: plans refuse them, too (spoils_plan()).
-  for (const Warning& warning : warnings_of(row))
+  for (const Warning& warning : warnings_of(row)) {
     if (warning.kind == WarningKind::periodic)
       see(outcome, periodic, log_ratio(warning.amount.value_or(1), 1), "remedy: " + parts_of(warning.words).remedy);
+    if (warning.kind == WarningKind::other_values)
+      outcome.exceeding = std::max(outcome.exceeding, warning.amount.value_or(0));
+  }
+  outcome.asked_exceeding = asked.other_values.value_or(0) / 100;
   see_modes(outcome, row, asked);
   constexpr std::size_t simulation = 0;
   const std::filesystem::path receipt = folder / files_of_stage(simulation).receipt;
@@ -261,6 +265,8 @@ void describe(Fields& f, AskedLimits& limits) {
   f.maybe_number("contact_force_N", limits.contact_force, above(0), "largest of the dresspack on robot and cell");
   f.maybe_number("tension_N", limits.tension, above(0), "largest of the hose, besides its maker's");
   for (const ModeLimit& of : mode_limits) f.maybe_number(of.key, limits.*of.least, above(0), of.meaning);
+  f.maybe_number("other_values_percent", limits.other_values, {0, 100, true},
+                 "largest share of dresspacks that may exceed a limit at other values of stiffness, slack or friction");
 }
 
 Outcome worst_of(const std::vector<Outcome>& jobs) {
@@ -272,6 +278,8 @@ Outcome worst_of(const std::vector<Outcome>& jobs) {
     if (worst.failure.empty()) worst.failure = job.failure;
     worst.hours = std::min(worst.hours, job.hours);
     worst.robot_life = std::min(worst.robot_life, job.robot_life);
+    worst.exceeding = std::max(worst.exceeding, job.exceeding);
+    worst.asked_exceeding = std::max(worst.asked_exceeding, job.asked_exceeding);
     for (const ModeLife& mode : job.modes) see_lives(worst.modes, mode);
     for (std::size_t k = 0; k < worst.beyond.size(); ++k)
       see(worst, static_cast<Limit>(k), job.beyond[k], k < job.reached.size() ? job.reached[k] : "");

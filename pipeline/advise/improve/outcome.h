@@ -19,7 +19,8 @@ struct AskedLimits {
   std::optional<double> tension;        ///< largest allowed tension of the hose [N]
   /// Least time until 1 of 10 (for the wall: half) has failed by a mode that the planner's hours do not include [h].
   std::optional<double> abrasion, wall, rating, jacket, corkscrew;
-  std::optional<double> kink;  ///< least allowed UnvalidatedMode::margin
+  std::optional<double> kink;          ///< least allowed UnvalidatedMode::margin
+  std::optional<double> other_values;  ///< most Outcome::exceeding, if larger than that of the original job [%]
   Where where;
 };
 void describe(Fields& f, AskedLimits& limits);
@@ -60,8 +61,11 @@ struct Outcome {
   std::vector<ModeLife>
       modes{};  ///< modes that do not contradict a published test (is_credible()), one entry for each name
   double robot_life = std::numeric_limits<double>::infinity();  ///< RankingRow::robot_life_hours
-  bool feasible() const;                                        ///< the job is done, and every limit is satisfied
-  double violation() const;                                     ///< sum of the violations
+  /// Largest share of such dresspacks that exceed a limit at other values of stiffness, slack or friction. 0: none, or not computed.
+  double exceeding = 0;
+  double asked_exceeding = 0;  ///< AskedLimits::other_values; 0: absent
+  bool feasible() const;       ///< the job is done, and every limit is satisfied
+  double violation() const;    ///< sum of the violations
 
   /// Returns "bend radius violated by 11 % (532 mm, at least 600 mm), ...": violated limits, or the failure; empty: feasible.
   std::string words() const;

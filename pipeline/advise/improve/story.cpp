@@ -14,6 +14,7 @@
 #include "pipeline/base/readable.h"
 #include "pipeline/base/screen.h"
 #include "pipeline/base/warning_words.h"
+#include "pipeline/job/beyond_limit.h"
 #include "pipeline/study/mode_table.h"
 #include "pipeline/study/row_warnings.h"
 #include "pipeline/study/row_words.h"
@@ -52,7 +53,8 @@ std::string other_words(const Improvement& found, const Finals& finals) {
                      outcome_words(found.trials[drawn.trial].worst, drawn.hours), outcome_words(worst, worst.hours));
 }
 
-/// Returns a note that the wires of another trial live longer, but a mode without a validated law gets worse; empty: none do.
+/// Returns a note that the wires of another trial live longer, but a mode without a validated law or a limit at other values gets
+/// worse; empty: none do.
 std::string refused_words(const Improvement& found, const Outcome& best) {
   const Outcome& as_it_is = found.trials.front().worst;
   std::optional<std::size_t> longest;
@@ -60,7 +62,7 @@ std::string refused_words(const Improvement& found, const Outcome& best) {
     if (found.merit(k).kept == Kept::limits &&
         found.trials[k].worst.hours > (longest ? found.trials[*longest].worst.hours : best.hours))
       longest = k;
-  if (!longest || !worse_modes(best, as_it_is).empty()) return "";
+  if (!longest || merit_of(best, as_it_is).kept <= Kept::limits) return "";
   const Outcome& of = found.trials[*longest].worst;
   std::string modes;
   for (const ModeLife& mode : worse_modes(of, as_it_is)) {
@@ -68,6 +70,9 @@ std::string refused_words(const Improvement& found, const Outcome& best) {
     modes += fmt::format("{}{} comes after {} (as it is: {})", modes.empty() ? "" : ", ", mode.mode,
                          hours_text(mode.hours), std::isinf(own) ? "never" : "after " + hours_text(own));
   }
+  if (exceeds_more(of, as_it_is))
+    modes += fmt::format("{}{} exceed a limit at other values (as it is: {})", modes.empty() ? "" : ", ",
+                         percent_words(of.exceeding) + " of such dresspacks", percent_words(as_it_is.exceeding));
   return fmt::format("Trial {} was not chosen: its wires live longer ({}), but {}.\n", *longest, hours_text(of.hours),
                      modes);
 }
@@ -223,12 +228,12 @@ std::string improvement_words(const Improvement& found, const Finals& finals, co
   text += fmt::format("{}{} {} of {}: {}\n{}{}{}{}", story.keep, gain ? "Trial" : " The best of it is trial",
                       best.trial, found.trials.size(), outcome_words(trial.worst, best.hours), story.gain,
                       story.gain.empty() ? "" : "\n", judged, story.choice);
+  text += beyond_words(trial.worst, was);
   if (!gain) return wrapped_lines(text + left_of(finals, finals.of.front()), screen_columns());
   if (const RankingRow* const row = finals.worst_row(best)) {
     for (const std::string& words : {action_words(*row), uncertainty_words(*row), failure_words(*row)})
       text += words + (words.empty() ? "" : "\n");
-    const RankingRow* const original = finals.worst_row(finals.of.front());
-    text += left_at_other_values(*row) + (original ? beyond_words(*row, *original) : "");
+    text += left_at_other_values(*row);
     text = wrapped_lines(text, screen_columns()) + mode_table(*row, screen_columns(), "") +
            mode_legend({*row}, screen_columns(), "");
   }
@@ -251,16 +256,9 @@ std::string remedy_after_search(const std::string& remedy) {
   return "";
 }
 
-std::string beyond_words(const RankingRow& proposed, const RankingRow& original) {
-  const auto most_percent = [](const RankingRow& row) {
-    double most = 0;
-    for (const Warning& warning : warnings_of(row))
-      if (warning.kind == WarningKind::other_values)
-        most = std::max(most, std::round(100 * warning.amount.value_or(0)));
-    return most;
-  };
-  const double now = most_percent(proposed), before = most_percent(original);
-  if (now == 0 || !is_believable(original)) return "";
+std::string beyond_words(const Outcome& proposed, const Outcome& original) {
+  const double now = std::round(100 * proposed.exceeding), before = std::round(100 * original.exceeding);
+  if (now == 0 || !original.feasible()) return "";
   return fmt::format(
       "{}The limit that most dresspacks exceed at other values: {:.0f} % of them (as it is: {:.0f} %).\n",
       now > before ? "Worse at other values than the job as it is. " : "", now, before);

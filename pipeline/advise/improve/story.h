@@ -29,7 +29,7 @@ std::string remedy_after_search(const std::string& remedy);
 std::string left_at_other_values(const RankingRow& row);
 
 /// Returns a line with the share of dresspacks beyond the limit that most of them exceed at other values, and that of the original
-/// job; empty: the proposed job exceeds none.
-std::string beyond_words(const RankingRow& proposed, const RankingRow& original);
+/// job; empty: the proposed job exceeds none, or the original job is no reference (M1).
+std::string beyond_words(const Outcome& proposed, const Outcome& original);
 
 }  // namespace dresslife::pipeline

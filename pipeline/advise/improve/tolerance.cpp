@@ -95,8 +95,11 @@ void evaluate(WithinTolerance& judged, const Finalist& of, const std::vector<std
   const bool all_have_results = judged.numbers.size() == of.nudges.size();
   const bool estimates = of.run_known && !all_have_results;
   const std::vector<Outcome> outcomes = estimates ? of.run_known(numbers) : of.run(numbers);
-  for (std::size_t k = 0; k < numbers.size(); ++k)
-    add(judged, of, numbers[k], estimates ? estimated(outcomes[k + 1], outcomes[0], of.drawn) : outcomes[k], estimates);
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    Outcome outcome = estimates ? estimated(outcomes[k + 1], outcomes[0], of.drawn) : outcomes[k];
+    outcome.exceeding = of.drawn.exceeding;  // runs without uncertain inputs do not have it: no case counts its own
+    add(judged, of, numbers[k], outcome, estimates);
+  }
   judged.worst = merit_of(of.drawn, as_it_is);
   std::pair<Kept, double> worst_of_full = to_verify(of.drawn, as_it_is), worst_estimated{Kept::modes, HUGE_VAL};
   for (std::size_t k = 0; k < judged.outcomes.size(); ++k) {

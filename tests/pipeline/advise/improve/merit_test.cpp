@@ -86,6 +86,50 @@ TEST_CASE("merit: wires that live longer than the robot gain nothing by wearing 
   CHECK_FALSE(clearly_better(merit_of(outcome(21000), as_it_is), merit_of(outcome(20000), as_it_is)));
 }
 
+TEST_CASE("outcome: the largest share of dresspacks that exceed a limit at other values") {
+  const Scratch scratch;
+  const auto file = scratch.folder() / files_of_stage(0).receipt;
+  std::filesystem::create_directories(file.parent_path());
+  write_receipt(file, {.recipe = "", .input = "", .output = "", .state = {}, .results = {}},
+                scratch.write("output", ""));
+  RankingRow row;
+  for (const double share : {0.04, 0.25, 0.02})
+    row.warnings = joined(row.warnings.value_or(std::vector<Warning>{}),
+                          {Warning{WarningKind::other_values, "", "bent. Likely cause: a. Remedy: b", {}, share}});
+  const Outcome made = outcome_of(row, scratch.folder(), {.other_values = 30});
+  CHECK(made.exceeding == 0.25);
+  CHECK(made.asked_exceeding == 0.3);
+  CHECK(made.feasible());  // with its own values
+  CHECK(worst_of({made, outcome(1)}).exceeding == 0.25);
+}
+
+TEST_CASE("merit: a job in which more dresspacks exceed a limit at other values is no gain") {
+  // Lives and shares of a search on a spot welding robot: it gained 4,400 h of jacket wear and bent 25 instead of 5 %
+  // of the dresspacks too tightly.
+  const auto exceeding = [](Outcome of, double share) {
+    of.exceeding = share;
+    return of;
+  };
+  const Outcome as_it_is = exceeding(outcome(72400, {{"jacket wear", 13100}}), 0.05);
+  const Outcome proposed = exceeding(outcome(59400, {{"jacket wear", 17500}}), 0.25);
+  const Merit own = merit_of(as_it_is, as_it_is);
+  CHECK(merit_of(proposed, as_it_is).kept == Kept::limits);
+  CHECK_FALSE(clearly_better(merit_of(proposed, as_it_is), own));
+  CHECK(search_value(proposed, as_it_is) < search_value(as_it_is, as_it_is));
+  // The same share is a gain. 5.4 % is shown as 5 %.
+  CHECK(clearly_better(merit_of(exceeding(proposed, 0.054), as_it_is), own));
+  // A user may allow more.
+  Outcome asked = proposed;
+  asked.asked_exceeding = 0.3;
+  CHECK(clearly_better(merit_of(asked, as_it_is), own));
+  // A job that exceeds a limit with its own values is no reference, and one that does not run has no dresspack that exceeds one.
+  const Outcome broken = outcome(72400, {{"jacket wear", 13100}}, 0.1);
+  CHECK(merit_of(proposed, broken).kept == Kept::modes);
+  Outcome fails = as_it_is;
+  fails.failure = "too short";
+  CHECK(exceeds_more(proposed, fails));
+}
+
 TEST_CASE("merit: a mode gets worse only before the wires and the end of the robot's life, and by more than a tenth") {
   const Outcome as_it_is = outcome(1000, {{"jacket wear", 2000}, {"abrasion", 60000}});
   const auto worse = [&](double hours, double jacket, double abrasion) {

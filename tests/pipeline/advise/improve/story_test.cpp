@@ -169,22 +169,21 @@ TEST_CASE("story: a remedy after a search names no clamps that were searched") {
 }
 
 TEST_CASE("story: a proposal states whether more dresspacks exceed a limit at other values than before") {
-  const auto row = [](WarningKind kind, double amount) {
-    RankingRow made;
-    made.warnings = {Warning{kind, "", "", {}, amount}, Warning{kind, "", "", {}, amount / 2}};
-    return made;
+  const auto beyond = [](int percent) {
+    Outcome of;
+    of.exceeding = percent / 100.0;
+    return of;
   };
-  const auto beyond = [&](int percent) { return row(WarningKind::other_values, percent / 100.0); };
-  RankingRow none;
-  none.warnings.emplace();
   CHECK(
       beyond_words(beyond(44), beyond(29)) ==
       "Worse at other values than the job as it is. The limit that most dresspacks exceed at other values: 44 % of them (as it is: 29 %).\n");
   CHECK(beyond_words(beyond(10), beyond(29)) ==
         "The limit that most dresspacks exceed at other values: 10 % of them (as it is: 29 %).\n");
-  CHECK(beyond_words(beyond(10), none).find("Worse at other values than the job as it is.") == 0);
-  CHECK(beyond_words(none, beyond(29)).empty());
-  CHECK(beyond_words(beyond(10), row(WarningKind::bend_radius, 0.2)).empty());
+  CHECK(beyond_words(beyond(10), beyond(0)).find("Worse at other values than the job as it is.") == 0);
+  CHECK(beyond_words(beyond(0), beyond(29)).empty());
+  Outcome broken = beyond(5);
+  broken.beyond = {0.2};
+  CHECK(beyond_words(beyond(10), broken).empty());
 }
 
 }  // namespace dresslife::pipeline

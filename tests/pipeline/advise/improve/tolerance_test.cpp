@@ -44,6 +44,19 @@ TEST_CASE("tolerance: the longest life in the worst place wins, not the longest 
   CHECK(judged[1].nudges[0].share == Approx(650.0 / 700));
 }
 
+TEST_CASE("tolerance: each case has the share beyond limits at other values of the job as drawn") {
+  int runs = 0;
+  Finalist of = finalist(1000, {900, 800}, runs);
+  Outcome as_it_is = outcome(1000);
+  as_it_is.exceeding = of.drawn.exceeding = 0.05;
+  of.run = [](const std::vector<std::size_t>& numbers) {
+    std::vector<Outcome> outcomes(numbers.size(), outcome(900));
+    for (Outcome& one : outcomes) one.exceeding = 0.5;  // known of full runs only
+    return outcomes;
+  };
+  CHECK(within_tolerance({of}, as_it_is).front().worst.kept == Kept::modes);
+}
+
 TEST_CASE("tolerance: the job's own routing stays, unless another one is clearly better in lives and modes") {
   Outcome own = outcome(1e5), other = outcome(2e5);
   own.robot_life = other.robot_life = 40'000;
