@@ -81,7 +81,7 @@ double Surfaces::of_cell(const Vector3& point, double most) const { return parts
 bool Surfaces::has_shapes(int link) const { return !parts_->links[static_cast<std::size_t>(link)].empty(); }
 
 double BracketFit::beyond(double most_length, double diameter) const {
-  return std::max((length - most_length) / diameter, -clearance / diameter);
+  return std::max({length - most_length, -clearance, unbuildable}) / diameter;
 }
 
 double way_out(const Surfaces& surfaces, int link, const Vector3& position, const Vector3& out, double diameter) {
@@ -122,13 +122,19 @@ std::vector<pipeline::Warning> way_out_warnings(const pipeline::Setup& setup) {
   return warnings;
 }
 
-BracketFit fit_of(const BracketPlace& place, const Surfaces& surfaces, std::span<const std::vector<Frame>> poses) {
+BracketFit fit_of(const BracketPlace& place, const pipeline::Robot& robot, const Surfaces& surfaces,
+                  std::span<const std::vector<Frame>> poses) {
   BracketFit fit;
   fit.clearance = std::numeric_limits<double>::infinity();
   if (surfaces.has_shapes(place.link)) {
     const double away = surfaces.of_link(place.link, place.position, far_away) - place.radius;
     fit.length = std::max(0.0, away), fit.inside = std::max(0.0, -away);
   }
+  const double diameter = 2 * place.radius;
+  fit.unbuildable = fit.inside - place.radius;
+  if (place.link + 1 == static_cast<int>(robot.links.size()))
+    fit.unbuildable =
+        std::max(fit.unbuildable, adapter_radius(diameter) - off_flange_axis(robot, place.position, diameter));
   for (std::size_t m = 0; m < poses.size(); ++m) {
     const std::vector<Frame>& links = poses[m];
     const Frame& own = links[static_cast<std::size_t>(place.link)];

@@ -1,9 +1,11 @@
 // Places where a bracket can carry a clamp: near the surface of its link, and clear of all other links over the whole motion.
 //
-// (V7) bracket  g = max((b - b_most)/d, -c/d)   b: distance from the link's surface to the dresspack's surface at the clamp
+// (V7) bracket  g = max(b - b_most, -c, i)/d    b: distance from the link's surface to the dresspack's surface at the clamp
 //                                               b_most: longest allowed bracket (--bracket of dresslife-sim)
 //                                               c: least distance over the motion between the dresspack at the clamp and
 //                                               any other link or the cell; negative inside
+//                                               i: depth of the dresspack's axis in its own link, or in the adapter by which
+//                                               a tool is bolted to the flange
 //                                               d: diameter
 // (V8) way out  kappa >= 2 p/d^2                p: depth of the dresspack in its clamp's link at d from the clamp, where the
 //                                               contact with this link begins, if it goes straight on; a bend that comes out
@@ -84,6 +86,7 @@ struct BracketPlace {
 
 struct BracketFit {
   double inside = 0;       ///< depth of the dresspack in the link itself [m]; 0: outside
+  double unbuildable = 0;  ///< i [m]; below 0 outside
   double length = 0;       ///< b [m]; 0 on the surface, or if the link has no shapes
   double clearance = 0;    ///< c [m]; infinite: no object within 0.3 m
   int neighbour = -1;      ///< nearest link; -1: the cell
@@ -92,6 +95,7 @@ struct BracketFit {
 };
 
 /// Returns the fit of a bracket. poses: (moment, link) frames in the world.
-BracketFit fit_of(const BracketPlace& place, const Surfaces& surfaces, std::span<const std::vector<Frame>> poses);
+BracketFit fit_of(const BracketPlace& place, const pipeline::Robot& robot, const Surfaces& surfaces,
+                  std::span<const std::vector<Frame>> poses);
 
 }  // namespace dresslife::sim

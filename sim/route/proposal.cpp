@@ -415,12 +415,6 @@ class Search {
 
   bool is_flange(int link) const { return link + 1 == static_cast<int>(setup_.robot.links.size()); }
 
-  /// Returns whether a clamp lies within its own link, or within the adapter by which a tool is bolted to the flange.
-  bool is_inside(int link, const Vector3& position, const BracketFit& fit) const {
-    return fit.inside > diameter_ / 2 ||
-           (is_flange(link) && off_flange_axis(setup_.robot, position, diameter_) < adapter_radius(diameter_));
-  }
-
   /// Samples places beside a link until a bracket can carry one.
   Vector3 beside(int place) {
     BracketFit nearest;
@@ -428,7 +422,7 @@ class Search {
     for (int k = 0; k < drawn_places; ++k) {
       const Vector3 position = rounded(drawn_beside(link_[place]), millimetre);
       const BracketFit fit = bracket(place, position);
-      if (is_inside(link_[place], position, fit)) continue;
+      if (fit.unbuildable > 0) continue;
       const double beyond = fit.beyond(longest_bracket(), diameter_);
       if (beyond <= 0) return position;
       if (beyond < least) least = beyond, nearest = fit;
@@ -488,9 +482,7 @@ class Search {
     for (int k = 0; k < used(); ++k) {
       if (chance_.below(2)) {
         const Vector3 place = rounded(candidate.position[k] + size * diameter_ * chance_.normal_vector(), millimetre);
-        const BracketFit fit = bracket(k, place);
-        if (is_same_place(k, place) && !is_inside(link_[k], place, fit) &&
-            fit.beyond(longest_bracket(), diameter_) <= 0)
+        if (is_same_place(k, place) && bracket(k, place).beyond(longest_bracket(), diameter_) <= 0)
           candidate.position[k] = place;
       }
       if (chance_.below(2))

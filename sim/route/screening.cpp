@@ -200,6 +200,7 @@ struct Screener::Parts {
   std::size_t first = 0;             // index of the first moment of the program
   std::vector<std::size_t> poses;    // poses with curves, in order
   std::optional<Surfaces> surfaces;  // for a robot with brackets
+  pipeline::Robot robot;             // with surfaces
   std::vector<Frames> carriers;      // (moment, link), for brackets
 
   void add_robot(const pipeline::Setup& setup, const RobotPath& path);
@@ -217,6 +218,7 @@ Screener::Screener(const pipeline::Setup& setup, bool brackets) : parts_(std::ma
     parts_->add_robot(setup, *robot);
     if (!brackets) return;
     parts_->surfaces.emplace(setup);
+    parts_->robot = setup.robot;
     for (const Moment& moment : parts_->moments) parts_->carriers.push_back(moment.links);
     return;
   }
@@ -370,7 +372,7 @@ void Screener::Parts::see_brackets(const pipeline::Setup& setup, Screening& scre
     const double diameter = mounted.dresspack.diameter;
     const auto see = [&](const auto& place, double radius) {
       const BracketPlace on_link{find_link(setup.robot, place.link, place.where), place.position, radius};
-      const BracketFit fit = fit_of(on_link, *surfaces, carriers);
+      const BracketFit fit = fit_of(on_link, robot, *surfaces, carriers);
       const double g = fit.beyond(longest_bracket_of(mounted.routing), diameter);
       if (g > screening.beyond[limit]) screening.beyond[limit] = g, screening.time[limit] = moments[fit.moment].time;
     };
@@ -393,7 +395,7 @@ void Screener::Parts::see_brackets(const pipeline::Setup& setup, Screening& scre
 }
 
 BracketFit Screener::bracket(const BracketPlace& place) const {
-  return fit_of(place, *parts_->surfaces, parts_->carriers);
+  return fit_of(place, parts_->robot, *parts_->surfaces, parts_->carriers);
 }
 double Screener::time_of(std::size_t moment) const { return parts_->moments[moment].time; }
 

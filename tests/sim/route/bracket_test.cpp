@@ -23,13 +23,30 @@ TEST_CASE("bracket: its length is from the link's surface to that of the dresspa
   const Surfaces surfaces(job);
   const std::vector<std::vector<Frame>> poses{{at(0, 0, 0), at(5, 0, 0)}};
   // 0.25 m above the axis: 0.15 m above the surface, minus 0.02 m of hose.
-  BracketFit fit = fit_of({0, {0.5, 0, 0.25}, 0.02}, surfaces, poses);
+  BracketFit fit = fit_of({0, {0.5, 0, 0.25}, 0.02}, job.robot, surfaces, poses);
   CHECK(fit.length == Approx(0.13));
   CHECK(std::isinf(fit.clearance));
   CHECK(fit.beyond(0.15, 0.04) < 0);
   CHECK(fit.beyond(0.1, 0.04) == Approx(0.03 / 0.04));
-  CHECK(fit_of({0, {0.5, 0, 0.12}, 0.02}, surfaces, poses).length == Approx(0).margin(1e-12));
-  CHECK(fit_of({0, {0.5, 0, 0.05}, 0.02}, surfaces, poses).length == 0);  // inside its own link
+  CHECK(fit_of({0, {0.5, 0, 0.12}, 0.02}, job.robot, surfaces, poses).length == Approx(0).margin(1e-12));
+  CHECK(fit_of({0, {0.5, 0, 0.05}, 0.02}, job.robot, surfaces, poses).length == 0);  // inside its own link
+}
+
+TEST_CASE("bracket: no clamp is built inside its own link or the adapter of the tool") {
+  const pipeline::Job job = two_links();
+  const Surfaces surfaces(job);
+  const std::vector<std::vector<Frame>> poses{{at(0, 0, 0), at(5, 0, 0)}};
+  const auto beyond = [&](int link, const Vector3& position) {
+    return fit_of({link, position, 0.02}, job.robot, surfaces, poses).beyond(1, 0.04);
+  };
+  CHECK(beyond(0, {0.5, 0, 0.11}) < 0);
+  CHECK(beyond(0, {0.5, 0, 0.09}) == Approx(0.01 / 0.04));
+  // Beside the axis of the flange, in front of it: the adapter has 20 mm, the dresspack 20 mm.
+  const Eigen::Quaterniond turn = pipeline::from_roll_pitch_yaw(job.robot.flange_orientation);
+  const auto beside = [&](double off) { return Vector3(job.robot.flange_position + turn * Vector3(off, 0, 0.3)); };
+  CHECK(beyond(1, beside(0.05)) < 0);
+  CHECK(beyond(1, beside(0.03)) == Approx(0.01 / 0.04));
+  CHECK(beyond(0, beside(0.03)) < 0);
 }
 
 TEST_CASE(
@@ -67,12 +84,12 @@ TEST_CASE("bracket: clearance is the least over the motion, and names link and m
   const Surfaces surfaces(job);
   std::vector<std::vector<Frame>> poses;
   for (const double height : {0.6, 0.4, 0.8}) poses.push_back({at(0, 0, 0), at(0.5, 0, height)});
-  const BracketFit fit = fit_of({0, {0.5, 0, 0.2}, 0.02}, surfaces, poses);
+  const BracketFit fit = fit_of({0, {0.5, 0, 0.2}, 0.02}, job.robot, surfaces, poses);
   CHECK(fit.clearance == Approx(0.4 - 0.1 - 0.2 - 0.02));
   CHECK(fit.neighbour == 1);
   CHECK(fit.moment == 1);
   poses.push_back({at(0, 0, 0), at(0.5, 0, 0.25)});
-  const BracketFit inside = fit_of({0, {0.5, 0, 0.2}, 0.02}, surfaces, poses);
+  const BracketFit inside = fit_of({0, {0.5, 0, 0.2}, 0.02}, job.robot, surfaces, poses);
   CHECK(inside.clearance == Approx(-0.05 - 0.02));
   CHECK(inside.beyond(1, 0.04) == Approx(0.07 / 0.04));
 }
@@ -84,7 +101,7 @@ TEST_CASE("bracket: a link without shapes limits nothing, and the cell counts as
   const Surfaces surfaces(job);
   CHECK_FALSE(surfaces.has_shapes(0));
   const BracketFit fit =
-      fit_of({0, {0, 0, 0.7}, 0.05}, surfaces, std::vector<std::vector<Frame>>{{at(0, 0, 0), at(9, 0, 0)}});
+      fit_of({0, {0, 0, 0.7}, 0.05}, job.robot, surfaces, std::vector<std::vector<Frame>>{{at(0, 0, 0), at(9, 0, 0)}});
   CHECK(fit.length == 0);
   CHECK(fit.clearance == Approx(0.9 - 0.7 - 0.05));
   CHECK(fit.neighbour == -1);

@@ -105,7 +105,8 @@ TEST_CASE("a clamp in the air or in a neighbour has no bracket (V7)") {
   const auto tool = static_cast<std::size_t>(find_link(job.robot, routing(job).tool_clamp->link, {}));
   REQUIRE(base != tool);
   for (pipeline::Link& link : job.robot.links) link.capsules.clear(), link.boxes.clear();
-  job.robot.links[tool].capsules = {{routing(job).tool_clamp->position, routing(job).tool_clamp->position, 0.01}};
+  const Vector3 beside = routing(job).tool_clamp->position + Vector3{0, 0.03, 0};
+  job.robot.links[tool].capsules = {{beside, beside, 0.01}};
   job.robot.links[base].capsules = {{clamp + Vector3{0, 0, 0.4}, clamp + Vector3{0, 0, 1}, 0.1}};
   CHECK(g(0.15) == Approx((0.3 - diameter / 2 - 0.15) / diameter));
   CHECK(Screener(job, true).screen(job).rejected());
