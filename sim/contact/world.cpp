@@ -98,6 +98,12 @@ struct MeshShape {
 
 }  // namespace
 
+/// A piece of a segment's axis, from its centre [m].
+struct Piece {
+  double from, to;
+  double length() const { return to - from; }
+};
+
 struct World::Parts {
   Parts(const Rod& chain, const WorldSettings& given, const RodState& start, std::span<const Frame> frames)
       : rod(chain), settings(given), solver(rod), state(start), links(frames.begin(), frames.end()) {}
@@ -119,7 +125,7 @@ struct World::Parts {
   // (segment) for collide_with(): coordinates of the centres; half a length plus the radius; distance of the surface [m]
   std::array<std::vector<double>, 3> middles;
   std::vector<double> reaches, beyonds;
-  dGeomID end_sphere = nullptr;
+  dGeomID end_sphere = nullptr, free_capsule = nullptr;  // of a segment that a clamp holds in part
   std::vector<Shape> shapes;
   std::vector<MeshShape> meshes;
   std::vector<GuideRing> rings;
@@ -143,7 +149,7 @@ struct World::Parts {
   void keep(int shape, const Contact& contact);
   double friction(const Contact& contact) const;
   double radius(int segment) const { return rod.span_of(segment).properties.diameter / 2; }
-  bool held_by_clamp(int segment, int link) const;
+  Piece free_piece(int segment, int link) const;
   Vector3 obstacle_velocity(int link, const Vector3& point, std::span<const Frame> next) const;
   void push_bodies();
 };
@@ -162,6 +168,7 @@ World::~World() {
     dSpaceDestroy(p.hose);
     dSpaceDestroy(p.obstacles);
     dGeomDestroy(p.end_sphere);
+    dGeomDestroy(p.free_capsule);
   }
   dWorldDestroy(p.world);
   dThreadingFreeImplementation(p.threading);
@@ -200,6 +207,7 @@ void World::Parts::build_hose() {
     reaches.push_back(rod.span_of(i).segment_length / 2 + radius(i));
   }
   end_sphere = dCreateSphere(nullptr, radius(0) + margin);
+  free_capsule = dCreateCapsule(nullptr, radius(0) + margin, 1);
   for (std::vector<double>& places : middles) places.resize(capsules.size());
   beyonds.resize(capsules.size());
 }
@@ -276,13 +284,17 @@ void World::Parts::choose_margin(const ClampFrames& clamps, std::span<const Fram
     dGeomCapsuleSetParams(capsules[i], radius(i) + margin, rod.span_of(i).segment_length);
 }
 
-bool World::Parts::held_by_clamp(int segment, int link) const {
-  if (link < 0) return false;
+// Returns the piece that no clamp on this link holds, to its exact length: whole segments would make the results jump with
+// their number.
+Piece World::Parts::free_piece(int segment, int link) const {
   const Span& span = rod.span_of(segment);
   const int k = static_cast<int>(&span - rod.spans().data()), place = segment - span.first_segment;
   const double l = span.segment_length, diameter = span.properties.diameter;
-  return (link == settings.end_link(2 * k) && place * l < diameter) ||
-         (link == settings.end_link(2 * k + 1) && (span.segments() - 1 - place) * l < diameter);
+  Piece free{-l / 2, l / 2};
+  if (link < 0) return free;
+  if (link == settings.end_link(2 * k)) free.from = std::max(free.from, diameter - (place + 0.5) * l);
+  if (link == settings.end_link(2 * k + 1)) free.to = std::min(free.to, (span.segments() - place - 0.5) * l - diameter);
+  return free;
 }
 
 Vector3 World::Parts::obstacle_velocity(int link, const Vector3& point, std::span<const Frame> next) const {
@@ -321,13 +333,14 @@ Frame World::Parts::placed(int link, const Frame& local, std::span<const Frame> 
 // A segment whose axis crosses the surface counts as overlapping by its whole diameter.
 void World::Parts::collide(int segment, size_t mesh, const Frame& frame) {
   const MeshShape& shape = meshes[mesh];
-  if (held_by_clamp(segment, shape.link)) return;
-  const double l = rod.span_of(segment).segment_length, thick = radius(segment), reach = thick + margin;
+  const Piece free = free_piece(segment, shape.link);
+  if (free.length() <= 0) return;
+  const double thick = radius(segment), reach = thick + margin;
   const Quaternion back = frame.orientation.conjugate();
   const Vector3 centre = back * (state.position[segment] - frame.position);
-  if (centre.norm() > shape.mesh->radius() + l / 2 + reach) return;
-  const Vector3 arm = (l / 2) * (back * tangent(state.orientation[segment]));
-  for (const Mesh::MeshContact& touching : shape.mesh->near(centre - arm, centre + arm, reach)) {
+  if (centre.norm() > shape.mesh->radius() + rod.span_of(segment).segment_length / 2 + reach) return;
+  const Vector3 t = back * tangent(state.orientation[segment]);
+  for (const Mesh::MeshContact& touching : shape.mesh->near(centre + free.from * t, centre + free.to * t, reach)) {
     Contact contact;
     contact.segment = segment;
     contact.obstacle = shape.link;
@@ -372,17 +385,24 @@ void World::Parts::collide_with(Shape& shape) {
 
 void World::Parts::collide(dGeomID a, dGeomID b) {
   const int segment = tag_of(a), shape = tag_of(b);
-  if (held_by_clamp(segment, shapes[shape].link)) return;
+  const Piece free = free_piece(segment, shapes[shape].link);
+  if (free.length() <= 0) return;
+  const Vector3 t = tangent(state.orientation[segment]);
+  const auto on_axis = [&](double s) { return Vector3(state.position[segment] + s * t); };
+  if (free.length() < rod.span_of(segment).segment_length) {
+    a = free_capsule;
+    dGeomCapsuleSetParams(a, radius(segment) + margin, free.length());
+    place(a, {on_axis((free.from + free.to) / 2), state.orientation[segment]});
+  }
   dContactGeom points[most_points];
   const int count = dCollide(a, b, most_points, points, sizeof(dContactGeom));
   if (count == 0) return;
   for (int k = 0; k < count; ++k) add_contact(segment, shape, points[k]);
   if (dGeomGetClass(b) != dBoxClass) return;
   // A capsule on a box gets one point and would rock about it. Its two end spheres give further points.
-  const Vector3 arm = (rod.span_of(segment).segment_length / 2) * tangent(state.orientation[segment]);
   dGeomSphereSetRadius(end_sphere, radius(segment) + margin);
-  for (const double side : {-1.0, 1.0}) {
-    const Vector3 end = state.position[segment] + side * arm;
+  for (const double s : {free.from, free.to}) {
+    const Vector3 end = on_axis(s);
     dGeomSetPosition(end_sphere, end.x(), end.y(), end.z());
     if (dCollide(end_sphere, b, 1, points, sizeof(dContactGeom)) > 0) add_contact(segment, shape, points[0]);
   }

@@ -183,3 +183,25 @@ TEST_CASE("the link that holds the clamp does not push the piece of hose at the 
     CHECK((report.touching == 0) == clamped);
   }
 }
+
+TEST_CASE("a clamp holds one diameter of hose, whatever the number of segments") {
+  for (int segments = 30; segments < 60; ++segments) {
+    const Rod rod(hose(segments));
+    const Equilibrium start = find_equilibrium(rod, hanging);
+    const double diameter = rod.spans().front().properties.diameter;
+    for (const bool base : {true, false}) {
+      const Frame at_clamp = base ? start.state.clamps.base : start.state.clamps.tool;
+      WorldSettings settings;
+      (base ? settings.base_link : settings.tool_link) = 0;
+      for (const double at : {0.3, 1.1}) {  // [diameters] from the clamp
+        World world(rod, settings, start.state, std::span(&at_clamp, 1));
+        // A small ball beneath the surface of the hose.
+        const double s = (base ? at : -at) * diameter;
+        const Vector3 place = s * Vector3::UnitZ() + 0.45 * diameter * Vector3::UnitX();
+        world.add(0, CapsuleShape{place, place, 0.05 * diameter});
+        INFO(segments << " segments, " << at);
+        CHECK((world.advance(hanging, std::span(&at_clamp, 1)).touching > 0) == (at > 1));
+      }
+    }
+  }
+}
