@@ -111,7 +111,7 @@ const char* title(WarningKind kind) {
     case WarningKind::force:
       return "forces";
     case WarningKind::material:
-      return "material, stiffness";
+      return "doubtful input";
     case WarningKind::motion:
       return "unusual motion";
     case WarningKind::side:

@@ -509,10 +509,10 @@ Format make_life_format() {
     {"worst_joint", text, maybe, "the cause in /joint/name with the largest damage"},
     {"worst_joint_share", f64, maybe, "its share of the worst site's damage; above 1 if other causes reduce it"},
     {"hose_life_repeats", f64, maybe,
-     "repeats until the hose's wall cracks, with dresspack.hose_material only; the attributes and tables without "
-     "`hose` are about wires"},
-    {"hose_life_hours", f64, maybe, "the same in hours of motion"},
-    {"hose_life_months", f64, maybe, "the same at the job's operating hours per week"},
+     "repeats until the hose's wall cracks (not validated), with dresspack.hose_material only; the attributes and tables "
+     "without `hose` are about wires"},
+    {"hose_life_hours", f64, maybe, "the same in hours of motion (not validated)"},
+    {"hose_life_months", f64, maybe, "the same at the job's operating hours per week (not validated)"},
     {"hose_damage_per_repeat", f64, maybe, "of the wall's worst place"},
     {"hose_component", text, maybe, "that place: hose 1 to hose 16 around the wall"},
     {"hose_segment_from_tool", f64, maybe, "its segment, counted from the tool, 1 first"},

@@ -30,6 +30,18 @@ std::string lines_of_kind(const std::vector<RankingRow>& rows, WarningKind kind)
   return last;
 }
 
+/// Returns the key that all warnings about doubtful input are about: " (least_bend_radius_mm)". Empty: there is no such key.
+std::string doubtful_key(const std::vector<Warning>& warnings) {
+  std::string key;
+  for (const Warning& warning : warnings) {
+    if (warning.kind != WarningKind::material) continue;
+    const std::string first = warning.words.substr(0, warning.words.find(' '));
+    if (first.find('_') == std::string::npos || (!key.empty() && first != key)) return "";
+    key = first;
+  }
+  return fmt::format(" ({})", key);
+}
+
 }  // namespace
 
 bool spoils_plan(const Warning& warning) {
@@ -50,7 +62,8 @@ std::string warning_kinds(const RankingRow& row, bool with_other_values) {
     const auto kind = static_cast<WarningKind>(k);
     if (const auto count = std::ranges::count(warnings, kind, &Warning::kind);
         count > 0 && (with_other_values || kind != WarningKind::other_values))
-      words.push_back(count == 1 ? std::string(title(kind)) : fmt::format("{} x{}", title(kind), count));
+      words.push_back((count == 1 ? std::string(title(kind)) : fmt::format("{} x{}", title(kind), count)) +
+                      (kind == WarningKind::material ? doubtful_key(warnings) : ""));
   }
   return joined(words, ", ");
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -64,10 +65,12 @@ std::string cause_words(const RankingRow& row) {
 std::string test_words(const RankingRow& row) {
   if (row.life_response.empty() || std::isinf(row.planned_hours[0])) return "";
   const UncertainParameter* const test = find_in(uncertain_parameters(), &UncertainParameter::name, row.best_test);
-  if (!test) return "No single test would narrow the range much.";
-  return fmt::format("{} would narrow the range from {} to about {}, if it confirms today's estimate.", test->test,
-                     range_text(row.planned_hours[0], row.planned_hours[2]),
-                     range_text(row.tested_p10, row.tested_p90));
+  if (!test) return "No single measurement narrows the range much.";
+  std::string measurement(test->test);
+  measurement.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(measurement.front())));
+  return fmt::format(
+      "The measurement that narrows the range most: {}. If it confirms the estimate, the range becomes about {} (now {}).",
+      measurement, range_text(row.tested_p10, row.tested_p90), range_text(row.planned_hours[0], row.planned_hours[2]));
 }
 
 std::string error_words(const RankingRow& row) {

@@ -42,8 +42,8 @@ std::string shown_calendar(const RankingRow& row);
 /// Returns the hours that shown_life() replaces by "over ..". Empty: it replaces none.
 std::string uncapped_words(const RankingRow& row);
 
-/// Returns "71 % of the uncertainty is the friction inside the cables. One bending test of a cable (one hour) would
-/// narrow the range from .. to about ..". Empty: no input is uncertain.
+/// Returns "71 % of the uncertainty is the friction inside the cables. The measurement that narrows the range most: one bending
+/// test of a cable (one hour). If it confirms the estimate, the range becomes about .. (now ..)." Empty: no input is uncertain.
 std::string uncertainty_words(const RankingRow& row);
 
 /// Returns the conductor that is likeliest to fail first: "signal cable 3/conductor 2, 0.12 m from the tool". The worst wire may

@@ -699,9 +699,9 @@ TEST_CASE("ranking: how sure an order is, what makes a life uncertain, and what 
   CHECK(
       std::regex_replace(table, std::regex("\n +"), " ")
           .find(
-              "53 % of the uncertainty is the friction inside the cables. One bending test of a cable (one hour) would "
-              "narrow the range from 60.0 .. 150 h to about 66.0 .. 102 h, if it confirms today's estimate.") !=
-      std::string::npos);
+              "53 % of the uncertainty is the friction inside the cables. The measurement that narrows the range most: one "
+              "bending test of a cable (one hour). If it confirms the estimate, the range becomes about 66.0 .. 102 h (now "
+              "60.0 .. 150 h).") != std::string::npos);
   CHECK(table.find("\n   Lives longer than the next job in 100 of 100 samples.\n") != std::string::npos);
   const auto csv = read_csv(ranking_csv(rows));
   CHECK(csv[0].size() == csv[1].size());
@@ -1010,6 +1010,11 @@ TEST_CASE("ranking: warnings are counted, told in full, and each kind says wheth
   CHECK(cell(3, "twist_ok").empty());
   CHECK(warning_kinds(rows[0]) == "skipped instructions x2, twist");
   CHECK(warning_kinds(rows[1]).empty());
+  RankingRow doubtful = rows[1];
+  doubtful.warnings = {{WarningKind::material, "", "least_bend_radius_mm is 160, 2.94 diameters"}};
+  CHECK(warning_kinds(doubtful) == "doubtful input (least_bend_radius_mm)");
+  doubtful.warnings->push_back({WarningKind::material, "", "material copper: K' and n' disagree"});
+  CHECK(warning_kinds(doubtful) == "doubtful input x2");
   CHECK(ranking_table(rows).find("\n   WARNING: skipped instructions x2, twist\n") != std::string::npos);
   CHECK(warning_lines(rows) ==
         "warned: warning: a.mod:3: skipped: \"SearchL\", and waits\nwarned: warning: a.mod:9: skipped: WaitSyncTask\n"
