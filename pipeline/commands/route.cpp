@@ -298,12 +298,27 @@ std::vector<double> beyond(const Trial& trial) {
 struct DecidingLimit {
   std::string by, remedy;
 };
+/// Returns the remedy of other links. The next one toward the tool is named: a shorter dresspack follows the wrist with less bending.
+std::string other_links(const Trial& trial, const Draft& draft) {
+  const Node routing = parse_yaml(trial.proposals.candidates[trial.best.value_or(0)].changes, "proposal");
+  const std::vector<Link>& links = draft.job.robot.links;
+  const auto place = [&](const char* name) {
+    const Node* const clamp = routing.find(name);
+    const Node* const link = clamp ? clamp->find("link") : nullptr;
+    return std::ranges::find(links, link ? link->text : "", &Link::name) - links.begin();
+  };
+  const auto next = place("base_clamp") + 1;
+  return next < place("tool_clamp")
+             ? fmt::format("--from {} or another link (--from, --to)", links[static_cast<std::size_t>(next)].name)
+             : "another link (--from, --to)";
+}
+
 DecidingLimit decided(const Trial& trial, const Draft& draft) {
   std::vector<double> passed = beyond(trial);
   for (double& g : passed)
     if (!(g > 0)) g = 0;  // NaN: not known
   const auto most = static_cast<std::size_t>(std::max_element(passed.begin(), passed.end()) - passed.begin());
-  const std::string other = "another link (--from, --to), more --tried and --short-runs, or a gentler program";
+  const std::string other = other_links(trial, draft) + ", more --tried and --short-runs, or a gentler program";
   if (passed.empty() || passed[most] == 0) return {"no routing runs", other};
   const std::string& limit = outcome_limit_names()[most];
   if (limit != "bend radius") {
@@ -338,9 +353,11 @@ DecidingLimit decided(const Trial& trial, const Draft& draft) {
                                   ? ""
                                   : fmt::format(", or dresspack.least_bend_radius_mm: {:.0f} if its maker allows it",
                                                 std::floor(1e3 * allowed));
-  return {fmt::format("the limit that decides: bend radius, {:.0f} mm of at least {:.0f} mm", 1e3 * least * share,
-                      1e3 * least),
-          smaller + other + tighter};
+  const std::string by = fmt::format("the limit that decides: bend radius, {:.0f} mm of at least {:.0f} mm",
+                                     1e3 * least * share, 1e3 * least);
+  if (dresspack.least_bend_radius) return {by, smaller + other + tighter};
+  return {fmt::format("{} (dresspack.least_bend_radius_mm is not given, so that {})", by, bend_rule(dresspack)),
+          "the maker's dresspack.least_bend_radius_mm, " + smaller + other + tighter};
 }
 
 /// Returns the reason why the best routing of a search is not feasible.
