@@ -317,6 +317,11 @@ DecidingLimit decided(const Trial& trial, const Draft& draft) {
   std::vector<double> passed = beyond(trial);
   for (double& g : passed)
     if (!(g > 0)) g = 0;  // NaN: not known
+  // A remedy for repeats that differ cures no other limit.
+  if (const auto repeats = static_cast<std::size_t>(std::ranges::find(outcome_limit_names(), "repeatability") -
+                                                    outcome_limit_names().begin());
+      repeats < passed.size() && std::ranges::count(passed, 0.0) + 1 < std::ssize(passed))
+    passed[repeats] = 0;
   const auto most = static_cast<std::size_t>(std::max_element(passed.begin(), passed.end()) - passed.begin());
   const std::string other = other_links(trial, draft) + ", more --tried and --short-runs, or a gentler program";
   if (passed.empty() || passed[most] == 0) return {"no routing runs", other};
