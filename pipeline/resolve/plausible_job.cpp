@@ -1094,6 +1094,10 @@ std::vector<Warning> plausibility_of_lives(const Job& job) {
     add("fatigue.failed_wires_percent", fatigue.failed_wires_percent, fmt::format("{:g} or less", most_failed_wires),
         "a conductor that works with few wires, whose current and load the lives do not contain",
         "fatigue.failed_wires_percent: 10");
+  for (const auto& [key, value] : {std::pair{"inspection.found_percent", job.inspection.found_percent},
+                                   {"inspection.visible_depth_percent", job.inspection.visible_depth_percent}})
+    if (value > 0 && value <= 1)
+      add(key, value, "0, or more than 1", "a share instead of per cent", fmt::format("{}: {:g}", key, 100 * value));
   if (fatigue.robot_life_hours < least_robot_life)
     add("fatigue.robot_life_hours", fatigue.robot_life_hours, fmt::format("{:g} or more", least_robot_life),
         "years instead of hours", "fatigue.robot_life_hours: 40000, or leave the key out");
