@@ -19,6 +19,9 @@ namespace dresslife::sim {
 /// elongation beyond 0.5.
 PrescribedDeformation read_deformation(const pipeline::Setup& setup);
 
+/// Warns of a deformation of a file whose times may be in another unit: the strain at the surface changes too fast or too slowly.
+std::vector<pipeline::Warning> doubts_of_times(const PrescribedDeformation& deformation, const pipeline::Setup& setup);
+
 /// Largest rotation between the centres of two successive segments [rad]: beyond it the direction of rotation is ambiguous.
 inline constexpr double most_turn = 2 * EIGEN_PI / 3;
 

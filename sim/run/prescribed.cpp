@@ -219,7 +219,8 @@ std::vector<pipeline::Warning> write_prescribed(const pipeline::Setup& setup, pi
     const auto step = static_cast<std::size_t>(step_at(time));
     return fmt::format("at {:.3f} s, program step {} '{}'", time, step + 1, deformation.step_texts.at(step));
   };
-  return check_warnings({setup, moment}, summary.checks);
+  std::vector<pipeline::Warning> warnings = check_warnings({setup, moment}, summary.checks);
+  return setup.motion.rig ? warnings : joined(std::move(warnings), doubts_of_times(deformation, setup));
 }
 
 }  // namespace dresslife::sim

@@ -1,5 +1,7 @@
 #include "sim/run/prescribed.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 
@@ -278,6 +280,26 @@ TEST_CASE("deformation file: what is wrong is reported by line and column") {
   const auto pulled = job_with("t_s,tension_N\n0,0\n1,100\n");
   CHECK(deformation_of(pulled).states[1].elongation ==
         Approx(100 / axial_stiffness(pulled.dresspacks.front().dresspack)));
+}
+
+TEST_CASE("prescribed: a deformation whose times are in another unit is warned of") {
+  const Scratch scratch;
+  const auto doubts = [&](double unit, const char* rows = "kappa_1_1_per_m\n0,0\n{},10\n{},0\n") {
+    scratch.write("d.csv", "t_s," + fmt::format(fmt::runtime(rows), unit, 2 * unit));
+    const auto job =
+        job_of(cable_job("{deformation: " + (scratch / "d.csv").string() + "}", "routing: {free_length_m: 1}\n"));
+    const auto warnings = doubts_of_times(deformation_of(job), job);
+    return warnings.empty() ? std::string() : warnings[0].words;
+  };
+  CHECK(doubts(1) == "");
+  CHECK_THAT(doubts(1e-3),
+             Catch::Contains("takes 0.002 s, and the strain at the surface changes by up to 40 per second "
+                             "(limits 0.0001 .. 10)") &&
+                 Catch::Contains("a thousand times too small") && Catch::Contains("a repeat of 2 s if so"));
+  CHECK_THAT(doubts(1e3), Catch::Contains("milliseconds instead of seconds"));
+  CHECK_THAT(doubts(1e-4, "elongation\n0,0\n{},0.002\n{},0\n"), Catch::Contains("up to 20 per second"));
+  CHECK(doubts(1, "kappa_1_1_per_m\n0,0\n{},0.001\n{},0\n") == "");  // it hardly moves
+  CHECK(doubts(1e-3, "kappa_1_1_per_m\n0,3\n{},3\n{},3\n") == "");   // it stands still
 }
 
 }  // namespace
