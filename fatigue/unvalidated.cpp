@@ -392,8 +392,10 @@ std::vector<SmoothTube> tubes_of(const pipeline::Dresspack& dresspack) {
     if (part->plain && part->plain->kind == pipeline::PlainKind::hose)
       tubes.push_back({part->name, part->helix_radius, pipeline::kink_radius(*part)});
   if (is_smooth_hose(dresspack))
-    tubes.push_back(
-        {"the hose", 0, pipeline::kink_radius(pipeline::Tube{dresspack.diameter, *dresspack.inner_diameter})});
+    tubes.push_back({"the hose", 0,
+                     dresspack.least_bend_radius
+                         ? pipeline::KinkRadius{*dresspack.least_bend_radius, 0}
+                         : pipeline::kink_radius(pipeline::Tube{dresspack.diameter, *dresspack.inner_diameter})});
   return tubes;
 }
 

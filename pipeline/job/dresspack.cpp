@@ -170,9 +170,10 @@ void describe(Fields& f, Dresspack& dresspack) {
   f.number("friction_coefficient", dresspack.friction, Need::optional, between(0, 2),
            "The Coulomb friction of the hose on the robot. Between two dresspacks the smaller one counts. "
            "Default with components: 0.3, an ESTIMATE.");
-  f.maybe_number("least_bend_radius_mm", dresspack.least_bend_radius, above(0),
-                 "The smallest bend radius that the maker allows in motion. A smaller one causes a warning. "
-                 "Default: ten diameters, in a corrugated hose those of its parts and at least three of the hose.");
+  f.maybe_number(
+      "least_bend_radius_mm", dresspack.least_bend_radius, above(0),
+      "The smallest bend radius that the maker allows in motion. A smaller one causes a warning, and counts as a kink of a smooth hose. "
+      "Default: ten diameters, in a corrugated hose those of its parts and at least three of the hose.");
   f.place_of("least_bend_radius_mm", dresspack.least_bend_radius_where);
   f.maybe_number("most_twist_deg_per_m", dresspack.most_twist, above(0),
                  "The largest twist that the maker allows in motion. More causes a warning. Default: 180.");

@@ -1414,6 +1414,18 @@ TEST_CASE(
   const auto straight = kink_of(FileReader(run(folder, f, job, "straight.h5").file, pipeline::life_format()));
   CHECK(std::isinf(straight.margin));
   CHECK(straight.first_share == 0);
+  // A smooth hose around the tubes, with and without the radius of its maker.
+  f.curvature = 5;
+  dresspack.inner_diameter = 0.8 * dresspack.diameter;
+  dresspack.components.pop_back(), dresspack.core_components.clear();
+  const auto own = kink_of(FileReader(run(folder, f, job, "hose.h5").file, pipeline::life_format()));
+  CHECK(own.place == "the hose");
+  CHECK_THAT(own.note, Catch::Contains("By its two diameters"));
+  dresspack.least_bend_radius = 0.25;
+  const auto stated = kink_of(FileReader(run(folder, f, job, "stated.h5").file, pipeline::life_format()));
+  CHECK(stated.margin == Approx(0.2 / 0.25));
+  CHECK(stated.first_share == 1);
+  CHECK_THAT(stated.note, Catch::Contains("Its maker allows 250 mm or more") && !Catch::Contains("PTFE"));
 }
 
 TEST_CASE("life.h5: surfaces wear faster in a warm cell, and as before at 23 C") {
