@@ -59,7 +59,7 @@ void describe(Fields& f, Component& component) {
       "The force per length by which jacket and tape press the part on its support. Default: 0.17 MPa times the width "
       "of the part (ESTIMATE), or the pressure on its parent, and 0 for a cable in a hose.");
   f.number("tension_N", component.tension, Need::optional, at_least(0),
-           "The tension of the part in the dresspack at rest.");
+           "The tension at rest of a part with a lay inside of a cable. It presses the part on its support.");
   describe(f, component.laying);
   f.text("material", component.material, Need::optional,
          "The material of a wire: a name of config/materials. A part with components has none.");
@@ -265,6 +265,19 @@ void check_plain(const Component& part, const Component* parent, Problems& probl
                  "give it: data sheets state it");
 }
 
+/// Refuses a tension that has no effect. Tension presses a helix on its support. Along a cable in the hose friction acts with the
+/// forces of its path (strain/loose/tension.h). parent: null for a part of the dresspack.
+void check_tension(const Component& part, const Component* parent, Problems& problems) {
+  const bool whole = !parent && !is_wire(part);
+  if (part.tension == 0 || (!whole && part.lay_angle > 0)) return;
+  problems.add(part.where,
+               fmt::format("tension_N of '{}' is {:.4g} (limit 0: {})", part.name, part.tension,
+                           whole ? "a part right in the dresspack is pulled by its path and its slack"
+                                 : "a part without a lay does not press on its support"),
+               whole ? "remove it, or give slack_percent, the length of the part beyond its path"
+                     : "remove it, or give lay_angle_deg");
+}
+
 /// parent: null for a part of the dresspack. Returns the number of levels of parts, including this one.
 int check_component(const Component& component, const Component* parent, Problems& problems) {
   const Where& where = component.where;
@@ -282,6 +295,7 @@ int check_component(const Component& component, const Component* parent, Problem
     problems.add(where, fmt::format("'{}' on the axis has a lay angle", component.name), "set lay_angle_deg to 0");
   if (component.name.find('/') != std::string::npos || component.layer.find('/') != std::string::npos)
     problems.add(where, fmt::format("name '{}' holds a '/'", component.name), "choose another name");
+  check_tension(component, parent, problems);
   const double reach = component.helix_radius + component.radius;
   if (parent && reach > parent->radius * (1 + caliper_error))
     problems.add(
@@ -480,7 +494,8 @@ void check_core(const Dresspack& dresspack, Problems& problems) {
   for (const Component& part : dresspack.core_components) {
     Laying mass_alone;
     mass_alone.mass = part.laying.mass;
-    if (!part.plain || part.lay_angle != 0 || !(part.laying == mass_alone) || part.jacket || !part.components.empty()) {
+    if (!part.plain || part.lay_angle != 0 || !(part.laying == mass_alone) || part.jacket || part.tension > 0 ||
+        !part.components.empty()) {
       problems.add(part.where, fmt::format("'{}' of core_components has more than a life", part.name),
                    "give name, count, radius_mm, helix_radius_mm, without_wires and ratings only");
       continue;

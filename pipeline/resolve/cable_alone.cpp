@@ -20,7 +20,7 @@ std::string name_of(const Node& node) {
 /// Returns whether a key of a component describes its place among others.
 bool is_place(const std::string& key) {
   for (const char* word : {"count", "layer", "helix_radius_mm", "lay_angle_deg", "hand", "phase_deg", "position",
-                           "slack_percent", "play_mm", "base_grip_N", "tool_grip_N", "tension_N"})
+                           "slack_percent", "play_mm", "base_grip_N", "tool_grip_N"})
     if (key == word) return true;
   return false;
 }

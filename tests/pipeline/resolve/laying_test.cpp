@@ -52,3 +52,21 @@ TEST_CASE("laying: what cannot be is refused with its place and a remedy") {
   CHECK_THAT(refusal({cable + "slack_percent=-1"}), Contains("slack_percent"));
   CHECK_THAT(refusal({cable + "base_grip_N=0"}), Contains("base_grip_N"));
 }
+
+TEST_CASE("laying: a tension without effect is refused, the one of a part with a lay in a cable is not") {
+  using Catch::Contains;
+  const std::string wire = cable + "components.1.", hose = "dresspack.inner_diameter_mm=50";
+  for (const std::string& place : {"position=held", "position=loose", "position=auto", "lay_angle_deg=10"}) {
+    CAPTURE(place);
+    CHECK_THAT(refusal({free_cables, hose, cable + place, cable + "tension_N=2000"}),
+               Contains("is 2000 (limit 0: a part right in the dresspack") && Contains("slack_percent"));
+  }
+  CHECK_THAT(refusal({wire + "lay_angle_deg=0", wire + "tension_N=2"}),
+             Contains("is 2 (limit 0: a part without a lay does not press") && Contains("give lay_angle_deg"));
+  CHECK(refusal({wire + "lay_angle_deg=5", wire + "tension_N=2"}) == "");
+  CHECK(refusal({cable + "tension_N=0"}) == "");
+  CHECK_THAT(refusal({hose, "dresspack.core_diameter_mm=8",
+                      "dresspack.core_components=[{name: tube, radius_mm: 4, helix_radius_mm: 0, tension_N: 5, "
+                      "without_wires: {kind: hose}}]"}),
+             Contains("'tube' of core_components has more than a life"));
+}
