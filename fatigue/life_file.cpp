@@ -590,10 +590,12 @@ std::vector<pipeline::UnvalidatedMode> write_hose(const Context& c, const std::v
 }
 
 /// Writes the modes that are not in the planner's hours. Returns notes for the terminal. lives: (sample) log10 repeats of the
-/// validated modes. tension: see corkscrew.h.
+/// validated modes. tension: see corkscrew.h. Adds to the warnings.
 std::string write_unvalidated(const Context& c, const std::vector<double>& lives,
-                              const std::vector<std::vector<double>>& tension) {
-  auto [modes, left_out] = unvalidated_modes(c.strain, c.job, lives, tension);
+                              const std::vector<std::vector<double>>& tension,
+                              std::vector<pipeline::Warning>& warnings) {
+  auto [modes, left_out, doubts] = unvalidated_modes(c.strain, c.job, lives, tension);
+  warnings = pipeline::joined(std::move(warnings), std::move(doubts));
   const auto wall = write_hose(c, lives);
   modes.insert(modes.end(), wall.begin(), wall.end());
   c.life.attribute("unvalidated_modes", pipeline::unvalidated_text(modes));
@@ -847,8 +849,9 @@ Notes write_life(const FileReader& strain, const pipeline::Job& job, FileWriter&
   write_causes(c, cycles, write_worst_strain(c));
   const std::string summary = write_worst(c, cycles, p10_repeats);
   const CableForces forces = write_cable_forces(strain, job, life);
-  return {pipeline::joined(forces.warnings, warnings_of(c, cycles)),
-          summary + write_unvalidated(c, first.log10_life, forces.tension)};
+  std::vector<pipeline::Warning> warnings = pipeline::joined(forces.warnings, warnings_of(c, cycles));
+  const std::string unvalidated = write_unvalidated(c, first.log10_life, forces.tension, warnings);
+  return {std::move(warnings), summary + unvalidated};
 }
 
 }  // namespace dresslife::fatigue

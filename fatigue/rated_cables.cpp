@@ -81,12 +81,14 @@ class Promise {
         const std::vector<double> cycle = rig_cycle(rating, 2 * cable.radius);
         const double largest = *std::max_element(cycle.begin(), cycle.end());
         if (unit_ == 0) unit_ = largest;
-        const Damage each = sum_of(cycle, exponents, unit_).sum;
-        for (std::size_t i = 0; i < each.size(); ++i) all_[i] = std::max(all_[i], each[i] * rating.cycles);
+        const Sum each = sum_of(cycle, exponents, unit_);
+        largest_ = std::max(largest_, each.largest);
+        for (std::size_t i = 0; i < all_.size(); ++i) all_[i] = std::max(all_[i], each.sum[i] * rating.cycles);
       }
   }
   bool given() const { return unit_ > 0; }
   double unit() const { return unit_; }
+  double times(const Sum& motion) const { return motion.largest / largest_; }
   Damage damage(const Sum& motion) const {
     Damage damage{};
     for (std::size_t i = 0; i < damage.size(); ++i) damage[i] = motion.sum[i] / all_[i];
@@ -94,8 +96,9 @@ class Promise {
   }
 
  private:
-  double unit_ = 0;  // range of the first rating; keeps the powers in the range of floating-point numbers
-  Damage all_{};     // allowed sum of range^m
+  double unit_ = 0;     // range of the first rating; keeps the powers in the range of floating-point numbers
+  double largest_ = 0;  // range of all ratings, in units
+  Damage all_{};        // allowed sum of range^m
 };
 
 }  // namespace
@@ -113,6 +116,8 @@ RatedLife rated_life(const pipeline::Component& cable, std::span<const SegmentMo
     Sum bends, twists;
     if (life.bends) bends = bends_of(segments[k], exponents, bending.unit()), all = bending.damage(bends);
     if (life.twists) twists = sum_of(segments[k].twist, exponents, torsion.unit()), by_twist = torsion.damage(twists);
+    if (life.bends) life.bend_times = std::max(life.bend_times, bending.times(bends));
+    if (life.twists) life.twist_times = std::max(life.twist_times, torsion.times(twists));
     const bool twist_leads = by_twist[1] > all[1];
     for (std::size_t i = 0; i < all.size(); ++i) {
       all[i] += by_twist[i];

@@ -36,6 +36,8 @@ struct RatedLife {
   std::size_t sample = 0;              ///< sample of the larger extreme of its most damaging cycle
   bool bends = false, twists = false;  ///< the cable has ratings of this kind
   double twist_share = 0;              ///< share of the damage from twist
+  /// Largest range of a cycle over that of the test with the largest one, in bending and in twist; 0: not rated.
+  double bend_times = 0, twist_times = 0;
 };
 
 /// Returns the result of (F31). Precondition: a hose or a cable without described wires, with at least one rating, valid by

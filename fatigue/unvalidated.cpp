@@ -20,6 +20,7 @@
 #include "fatigue/wear.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/statistics.h"
+#include "pipeline/base/warning_words.h"
 #include "pipeline/cable/kink.h"
 #include "pipeline/cable/warmth.h"
 #include "pipeline/files/motion_layout.h"
@@ -118,6 +119,7 @@ struct Search {
   std::vector<std::string> text = strain.read<std::string>("/program/text");
   std::vector<UnvalidatedMode> modes = {};
   std::vector<std::string> left_out = {};  ///< modes of some dresspack that are not evaluated
+  std::vector<pipeline::Warning> warnings = {};
 
   UnvalidatedMode& add(const char* mode, std::size_t dresspack) {
     UnvalidatedMode& added = modes.emplace_back();
@@ -325,6 +327,22 @@ void find_jackets(Search& found) {
   }
 }
 
+/// Warns of motion far beyond the tests. At twice the range, one deviation of the damage exponent is a factor of 2.8 on the life.
+void doubt_extrapolation(const RatedLife& rated, const std::string& part, std::vector<pipeline::Warning>& warnings) {
+  constexpr double most = 2;
+  for (const auto& [times, bends] : {std::pair{rated.bend_times, true}, {rated.twist_times, false}})
+    if (times > most)
+      warnings.push_back(pipeline::warning_of(
+          pipeline::WarningKind::material, "",
+          fmt::format(
+              "the motion {} '{}' with {} times the range of its maker's test (limit {:g}): its life by the rating "
+              "is extrapolated",
+              bends ? "bends" : "twists", part, pipeline::readable(times, 2), most),
+          bends ? "a bend that is tighter than in the test, or a rig with a radius in another unit"
+                : "more twist than in the test, or a rig with a twist in another unit",
+          fmt::format("the rating of a test with {}, or a motion with less", bends ? "tighter bends" : "more twist")));
+}
+
 /// The life by the makers' ratings of hoses and cables without described wires (rated_cables.h), one mode for each. The damage
 /// exponent is sampled in addition to the samples of the validated modes.
 void find_ratings(Search& found) {
@@ -334,6 +352,7 @@ void find_ratings(Search& found) {
       if (!is_rated(*part)) continue;
       if (!hose) hose.emplace(found.strain, d);
       const RatedLife rated = rated_life(*part, hose->segments);
+      doubt_extrapolation(rated, part->name, found.warnings);
       UnvalidatedMode& mode = found.add(UnvalidatedMode::rating, d);
       mode.place = part->name;
       mode.note = rating_words(rated);
@@ -529,7 +548,7 @@ Unvalidated unvalidated_modes(const FileReader& strain, const pipeline::Job& job
   find_corkscrews(found, tension);
   find_kinks(found);
   std::string rest = not_evaluated(strain, job, found.left_out);
-  return {std::move(found.modes), std::move(rest)};
+  return {std::move(found.modes), std::move(rest), std::move(found.warnings)};
 }
 
 }  // namespace dresslife::fatigue

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/base/warnings.h"
 #include "pipeline/files/files.h"
 #include "pipeline/life/unvalidated_modes.h"
 
@@ -18,6 +19,7 @@ struct Unvalidated {
   std::vector<pipeline::UnvalidatedMode> modes;
   std::string
       not_evaluated;  ///< parts and modes without a life: "power cable, kinks of the hose, corkscrew, connectors"
+  std::vector<pipeline::Warning> warnings;
 };
 
 /// Evaluates these modes. lives: (sample) log10 repeats by the validated modes. The samples of model and motion uncertainty are

@@ -62,7 +62,11 @@ constexpr double thinnest_sleeve = 0.05e-3, thickest_sleeve = 0.25;  // [m], and
 constexpr double least_wear = 1e-17, most_wear = 1e-10;
 constexpr double strongest_part =
     200e6;  // [Pa] over the whole cross-section of a part: half of a cable is metal, which breaks at 400 MPa
-constexpr double fewest_rated = 100;                          // cycles
+constexpr double fewest_rated = 100;  // cycles
+// Of test rigs. Radius of the cable's axis in diameters: published ratings have 4 to 20. Twist [deg/m]: they have 180 to 2700.
+constexpr double tightest_rig = 2, widest_rig = 100, least_rig_twist = 10, most_rig_twist = 3600;
+constexpr std::pair usual_rig{4.0, 20.0};
+constexpr double longest_rig = 20;                            // [m]: test chains have up to 10
 constexpr double softest_wire = 10e9, stiffest_wire = 450e9;  // [Pa]: magnesium 45, tungsten 400
 constexpr double weakest_wire = 30e6, strongest_wire = 10e9;  // [Pa]: soft aluminium 50 MPa, steel cord 4 GPa
 constexpr double largest_ductility = 10;                      // copper of the thesis has 2.4
@@ -194,12 +198,7 @@ class Judge {
             fmt::format("mass_kg_per_m of '{}' is {:.3g} (limit {:.3g}: its wires, if they were of aluminium)", of.name,
                         *of.laying.mass, least),
             "another unit", "mass_kg_per_m from the data sheet (kg/km over 1000), or no key");
-      for (const Rating& rating : of.ratings)
-        if (rating.cycles < fewest_rated)
-          add(of.where,
-              fmt::format("cycles of a rating of '{}' is {:g} (limit {:g} or more)", of.name, rating.cycles,
-                          fewest_rated),
-              "millions of cycles", fmt::format("cycles: {:g} if that was millions", 1e6 * rating.cycles));
+      ratings(of.ratings, of.name, 2 * of.radius);
       for (std::size_t other = 0; other < k; ++other)
         if (components[other].name == of.name && components[other].layer == of.layer)
           add(of.where,
@@ -210,7 +209,56 @@ class Judge {
     }
   }
 
+  /// diameter: of the cable or hose with these ratings [m].
+  void ratings(const std::vector<Rating>& ratings, const std::string& name, double diameter) {
+    for (const Rating& rating : ratings) {
+      if (rating.cycles < fewest_rated)
+        add(rating.where,
+            fmt::format("cycles of a rating of '{}' is {:g} (limit {:g} or more)", name, rating.cycles, fewest_rated),
+            "millions of cycles", fmt::format("cycles: {:g} if that was millions", 1e6 * rating.cycles));
+      rig(rating.rig, name, diameter);
+    }
+  }
+
  private:
+  void rig(const Rig& rig, const std::string& name, double diameter) {
+    if (const double twist = rig.twist.value_or(least_rig_twist * degree) / degree;
+        twist < least_rig_twist * (1 - 1e-9) || twist > most_rig_twist * (1 + 1e-9))
+      add(rig.where,
+          fmt::format("twist_deg_per_m in a rating of '{}' is {:.4g} (limits {:g} .. {:g})", name, twist,
+                      least_rig_twist, most_rig_twist),
+          twist < least_rig_twist ? "radians or turns per metre" : "another unit, or a length in millimetres",
+          twist < least_rig_twist
+              ? fmt::format("twist_deg_per_m: {:.4g} if that was rad/m, {:.4g} if turns", twist / degree, 360 * twist)
+              : "twist_deg_per_m: the maker's angle to either side, over the length in metres");
+    if (const double travel = rig.travel.value_or(0); travel > longest_rig)
+      add(rig.where, fmt::format("travel_m in a rating of '{}' is {:.4g} (limit {:g})", name, travel, longest_rig),
+          "millimetres instead of metres",
+          fmt::format("travel_m: {:.4g} if that was mm; leave it if the maker states it", travel / 1000));
+    const bool bends = rig.radius || rig.radius_diameters || rig.pulley_diameter;
+    if (!bends || rig.kind == RigKind::swivel || !(diameter > 0)) return;  // clips may have sharp edges
+    const double times = axis_radius(rig, diameter) / diameter;
+    if (times >= tightest_rig * (1 - 1e-9) && times <= widest_rig * (1 + 1e-9)) return;
+    struct Given {
+      const char* key;
+      double value, one;  // one: a diameter of the cable in the unit of the key
+    };
+    const Given given = rig.kind == RigKind::two_pulley
+                            ? Given{"pulley_diameter_mm", 1e3 * *rig.pulley_diameter, 2e3 * diameter}
+                        : rig.radius ? Given{"radius_mm", 1e3 * *rig.radius, 1e3 * diameter}
+                                     : Given{"radius_diameters", *rig.radius_diameters, 1};
+    const auto [low, high] = usual_rig;
+    Meant meant = meant_length(given.key, given.value, low * given.one, high * given.one);
+    if (rig.radius && given.value >= low && given.value <= high)
+      meant = {"diameters instead of millimetres", fmt::format("radius_diameters: {:.4g} if so", given.value)};
+    else if (rig.radius_diameters || meant.remedy.empty())
+      meant = {"another unit", fmt::format("{} as the maker states", given.key)};
+    add(rig.where,
+        fmt::format("{} in a rating of '{}' is {:.4g}: its axis is bent to {:.3g} diameters (limits {:g} .. {:g})",
+                    given.key, name, given.value, times, tightest_rig, widest_rig),
+        meant.cause, meant.remedy);
+  }
+
   /// Judges bore and outer diameter of a hose in the hose [mm].
   void tube(const Component& of, double bore, double outer) {
     if (bore >= narrowest_bore * outer && bore <= widest_bore * outer) return;
@@ -539,6 +587,8 @@ std::vector<Warning> plausibility_warnings(const Dresspack& dresspack) {
                             1e3 * *of.laying.play, 1e3 * dresspack.diameter / 2),
                 "another unit", "no play_mm: it follows from the bore");
   judge.parts(dresspack.components);
+  judge.parts(dresspack.core_components);
+  judge.ratings(dresspack.ratings, dresspack.name, dresspack.diameter);
   return warnings;
 }
 

@@ -464,11 +464,27 @@ void check_bending_friction(const Dresspack& dresspack) {
                    "give as bending_stiffness_Nm2 moment over curvature of the first bend, friction included");
 }
 
+/// Checks that a test can bend the axis so: at half the diameter, the inner side of the bend has the length 0.
+void check_rig_radius(const Rig& rig, double diameter) {
+  if (!rig.radius && !rig.radius_diameters) return;
+  const double radius = axis_radius(rig, diameter);
+  if (!(diameter > 0) || radius >= diameter / 2) return;
+  constexpr double low = 4, high = 20;  // in diameters: published ratings
+  const Meant meant = meant_length("radius_mm", 1e3 * radius, 1e3 * low * diameter, 1e3 * high * diameter);
+  throw InputError(rig.where,
+                   fmt::format("the rig of a rating bends the axis to {:.4g} mm (must be at least {:.4g} mm: half the "
+                               "diameter of the cable or hose)",
+                               1e3 * radius, 5e2 * diameter),
+                   rig.radius && !meant.remedy.empty() ? "give " + meant.remedy
+                                                       : "give the radius of the axis that the maker states");
+}
+
 /// Checks copies of the ratings, because check_rig() fills in defaults and the job must stay unchanged.
-void check_ratings(const std::vector<Rating>& ratings, bool of_plain) {
+void check_ratings(const std::vector<Rating>& ratings, double diameter, bool of_plain) {
   for (Rating rating : ratings) {
     if (!rating.rig.where.line) rating.rig.where = rating.where;
     check_rig(rating.rig);
+    check_rig_radius(rating.rig, diameter);
     if (of_plain && (rating.rig.kind == RigKind::swivel || rating.rig.kind == RigKind::axial))
       throw InputError(rating.rig.where,
                        fmt::format("a rating of kind {} says nothing about a hose or a cable without described wires",
@@ -485,7 +501,7 @@ void check_ratings(const Component& component, bool first_level) {
         component.ratings.front().where,
         fmt::format("'{}' has ratings (they are of cables and hoses right in the dresspack)", component.name),
         component.plain ? "set without_wires.kind: cable or hose, or leave them out" : "give them to the cable");
-  check_ratings(component.ratings, plain);
+  check_ratings(component.ratings, 2 * component.radius, plain);
   for (const Component& inner : component.components) check_ratings(inner, false);
 }
 
@@ -552,7 +568,7 @@ int check_dresspack(const Dresspack& dresspack, const std::vector<Slip>& slip) {
   if (!dresspack.ratings.empty() && inner_radius(dresspack))
     problems.add(dresspack.ratings.front().where, "ratings stand beside a hose (they are of a cable)",
                  "give them to the cable in dresspack.components");
-  attempt(dresspack.where, [&] { check_ratings(dresspack.ratings, false); });
+  attempt(dresspack.where, [&] { check_ratings(dresspack.ratings, dresspack.diameter, false); });
   const auto crowd = dresspack.diameter > 0 ? crowd_in(dresspack) : std::nullopt;
   if (crowd) problems.add(crowd->where, crowd->what, crowd->remedy);
   check_core(dresspack, problems);

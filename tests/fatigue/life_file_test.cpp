@@ -1352,6 +1352,16 @@ TEST_CASE("life.h5: a cable without described wires has the life of its rating, 
   CHECK(modes[0].hours[1] == Approx(hours(1e6 * std::pow(ratio, 5), duration)).epsilon(strata));
   CHECK(std::log10(modes[0].hours[2] / modes[0].hours[0]) ==
         Approx(2 * 1.28155 * 1.5 * std::log10(ratio)).epsilon(strata));
+  // Bends to either side, with the range 2 f.curvature as the rig.
+  for (const auto& [times, warned] : {std::pair{1.9, false}, {2.1, true}}) {
+    f.curvature = times * 5 * ratio;
+    const auto warnings = run(folder, f, job, "beyond.h5").notes.warnings;
+    CHECK(std::ranges::any_of(warnings, [](const pipeline::Warning& warning) {
+            return warning.words.starts_with(
+                "the motion bends 'power cable' with 2.1 times the range of its maker's test");
+          }) == warned);
+  }
+  f.curvature = 5;
   dresspack.components.back().plain->kind = pipeline::PlainKind::hose;
   const FileReader of_hose(run(folder, f, job, "hose.h5").file, pipeline::life_format());
   REQUIRE(rated_modes(of_hose).size() == 1);

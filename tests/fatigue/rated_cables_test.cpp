@@ -72,6 +72,8 @@ TEST_CASE("rating: another range lives by the exponent, whose deviation is the o
     const RatedLife life = rated_life(part, {&segment, 1});
     CHECK(life.repeats == Approx(rated * std::pow(factor, -pipeline::usual_damage_exponent)));
     CHECK(life.log10_spread == Approx(pipeline::damage_exponent_deviation * std::abs(std::log10(factor))));
+    CHECK(life.bend_times == Approx(factor));
+    CHECK(life.twist_times == 0);
     part.plain->damage_exponent = 3;
     CHECK(repeats(part, segment) == Approx(rated * std::pow(factor, -3)));
   }
@@ -110,6 +112,7 @@ TEST_CASE(
       rated_life(cable({rating(RigKind::rolling_flex, 0.1), rating(RigKind::torsion, 3, 3 * rated)}), {&both, 1});
   CHECK(life.repeats == Approx(0.75 * rated));
   CHECK(life.twist_share == Approx(0.25));
+  CHECK(life.twist_times == Approx(1));
   const RatedLife twisted = rated_life(cable({rating(RigKind::torsion, 3)}), {&both, 1});
   CHECK(twisted.repeats == Approx(rated));
   CHECK_FALSE(twisted.bends);

@@ -135,6 +135,59 @@ TEST_CASE("plausible: wear rates between a tenth of the least that slides and mo
   CHECK_THAT(words(0.11), Catch::Contains("rate_mm3_per_Nm of 'hose_polyamide' is 0.11 (limits 1e-08 .. 0.1)"));
 }
 
+TEST_CASE("plausible: the rig of a rating beside the diameter of its cable, also in the core") {
+  const auto words = [](const auto& change) {
+    Dresspack core = read_dresspack(DRESSLIFE_SOURCE_DIR "/config/dresspacks/spot_welding.yaml");
+    Component& power = core.core_components.at(1);  // 8 mm
+    REQUIRE(power.ratings.size() == 1);
+    change(power.ratings[0].rig);
+    std::string all;
+    for (const Warning& warning : plausibility_warnings(core)) all += warning.words + "\n";
+    Dresspack alone = read_dresspack(DRESSLIFE_SOURCE_DIR "/config/dresspacks/sensor_cable.yaml");
+    alone.ratings = power.ratings, alone.diameter = 2 * power.radius;  // other keys contradict this diameter
+    const auto doubts = plausibility_warnings(alone);
+    CHECK(std::any_of(doubts.begin(), doubts.end(), [](const Warning& warning) {
+            return warning.words.find("in a rating of") != std::string::npos;
+          }) == !all.empty());
+    return all;
+  };
+  const auto bent = [&](RigKind kind, double millimetres) {
+    return words([&](Rig& rig) {
+      rig = Rig{};
+      rig.kind = kind;
+      (kind == RigKind::two_pulley ? rig.pulley_diameter : rig.radius) = 1e-3 * millimetres;
+      if (kind == RigKind::rolling_flex) rig.travel = 1;
+    });
+  };
+  for (const double radius : {16.0, 32.0, 90.0, 800.0}) CHECK(bent(RigKind::rolling_flex, radius) == "");
+  CHECK(bent(RigKind::tick_tock, 12) == "");
+  CHECK(bent(RigKind::two_pulley, 24) == "");
+  CHECK_THAT(
+      bent(RigKind::rolling_flex, 7.5),
+      Catch::Contains("radius_mm in a rating of 'power cable' is 7.5: its axis is bent to 0.938 diameters (limits 2 .. "
+                      "100)") &&
+          Catch::Contains("radius_diameters: 7.5 if so"));
+  CHECK_THAT(bent(RigKind::rolling_flex, 10000), Catch::Contains("bent to 1.25e+03 diameters"));
+  CHECK_THAT(bent(RigKind::tick_tock, 0.08), Catch::Contains("radius_mm: 80 if that was metres"));
+  CHECK_THAT(bent(RigKind::two_pulley, 1), Catch::Contains("pulley_diameter_mm in a rating of 'power cable' is 1"));
+  CHECK_THAT(words([](Rig& rig) { rig.radius.reset(), rig.radius_diameters = 1.9; }),
+             Catch::Contains("radius_diameters in a rating of 'power cable' is 1.9"));
+  CHECK_THAT(words([](Rig& rig) { rig.travel = 320; }),
+             Catch::Contains("travel_m in a rating of 'power cable' is 320 (limit 20)") &&
+                 Catch::Contains("travel_m: 0.32 if that was mm"));
+  const auto twisted = [&](double degrees) {
+    return words([&](Rig& rig) {
+      rig = Rig{};
+      rig.twist = degrees * std::numbers::pi / 180;
+    });
+  };
+  for (const double twist : {10.0, 180.0, 2700.0, 3600.0}) CHECK(twisted(twist) == "");
+  CHECK_THAT(twisted(3.14),
+             Catch::Contains("twist_deg_per_m in a rating of 'power cable' is 3.14 (limits 10 .. 3600)") &&
+                 Catch::Contains("twist_deg_per_m: 179.9 if that was rad/m"));
+  CHECK_THAT(twisted(1e5), Catch::Contains("is 1e+05"));
+}
+
 TEST_CASE("plausible: slack as a share") {
   Dresspack dresspack = read_dresspack(DRESSLIFE_SOURCE_DIR "/config/dresspacks/handling.yaml");
   for (const auto& [percent, doubts] : {std::pair{0.0, 0u}, {0.01, 1u}, {0.049, 1u}, {0.051, 0u}, {1.0, 0u}}) {

@@ -228,6 +228,26 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("checks: no test bends a cable to less than half its diameter") {
+  Dresspack dresspack;
+  dresspack.diameter = 0.05, dresspack.inner_diameter = 0.04;
+  Component& cable = dresspack.components.emplace_back();
+  cable.name = "power cable", cable.radius = 0.004, cable.laying.mass = 0.1;
+  cable.plain.emplace(), cable.plain->kind = PlainKind::cable;
+  Rating& rating = cable.ratings.emplace_back();
+  rating.rig.kind = RigKind::rolling_flex, rating.rig.travel = 1, rating.cycles = 1e6;
+  const auto refusal = [&] { return message_of([&] { check_dresspack(dresspack, {Slip::free}); }); };
+  rating.rig.radius = 0.00401;
+  CHECK(refusal() == "");
+  rating.rig.radius = 0.08e-3;
+  CHECK_THAT(refusal(), Catch::Contains("bends the axis to 0.08 mm (must be at least 4 mm: half the diameter") &&
+                            Catch::Contains("give radius_mm: 80 if that was metres"));
+  rating.rig.radius.reset(), rating.rig.radius_diameters = 0.49;
+  CHECK_THAT(refusal(), Catch::Contains("bends the axis to 3.92 mm"));
+  rating.rig.radius_diameters = 0.51;
+  CHECK(refusal() == "");
+}
+
 TEST_CASE("checks: only a hose has a bore or a filling, and its bore is the smaller diameter") {
   for (const PlainKind kind : {PlainKind::filler, PlainKind::hose, PlainKind::fibre, PlainKind::cable})
     for (const double bore : {0.0, 0.0079, 0.008, 0.009})
