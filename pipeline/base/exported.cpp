@@ -8,6 +8,7 @@
 
 #include "pipeline/base/csv_rows.h"
 #include "pipeline/base/errors.h"
+#include "pipeline/base/text.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -136,54 +137,19 @@ std::string letters_of(std::string_view text) {
 }
 
 const std::vector<std::string_view>& titles_of_installation() {
-  static const std::vector<std::string_view> titles{"installed",
-                                                    "installedon",
-                                                    "installdate",
-                                                    "installationdate",
-                                                    "installation",
-                                                    "dateinstalled",
-                                                    "mounted",
-                                                    "einbau",
-                                                    "einbaudatum",
-                                                    "eingebaut",
-                                                    "eingebautam",
-                                                    "dateofinstallation",
-                                                    "instalado",
-                                                    "instaladoel",
-                                                    "instalacion",
-                                                    "instalacin",
-                                                    "fechadeinstalacion",
-                                                    "fechadeinstalacin",
-                                                    "fechainstalacion",
-                                                    "fechainstalacin",
-                                                    "montado",
-                                                    "montadoel",
-                                                    "fechademontaje",
-                                                    "fechamontaje"};
+  static const std::vector<std::string_view> titles = words_in(
+      "installed installedon installdate installationdate installation dateinstalled mounted einbau einbaudatum "
+      "eingebaut eingebautam dateofinstallation instalado instaladoel instalacion instalacin fechadeinstalacion "
+      "fechadeinstalacin fechainstalacion fechainstalacin montado montadoel fechademontaje fechamontaje");
   return titles;
 }
 
 const std::vector<std::string_view>& titles_of_weekly_hours() {
-  static const std::vector<std::string_view> titles{"hoursperweek",
-                                                    "hperweek",
-                                                    "operatinghoursperweek",
-                                                    "stundenprowoche",
-                                                    "betriebsstundenprowoche",
-                                                    "hprowoche",
-                                                    "stundenwoche",
-                                                    "wochenstunden",
-                                                    "wochenbetriebsstunden",
-                                                    "betriebsstundenwoche",
-                                                    "hwoche",
-                                                    "horasporsemana",
-                                                    "hporsemana",
-                                                    "horassemanales",
-                                                    "horassemana",
-                                                    "hsemana",
-                                                    "horasdetrabajoporsemana",
-                                                    "horasdeoperacionporsemana",
-                                                    "horasdeoperacinporsemana",
-                                                    "horasdefuncionamientoporsemana"};
+  static const std::vector<std::string_view> titles = words_in(
+      "hoursperweek hperweek operatinghoursperweek stundenprowoche betriebsstundenprowoche hprowoche stundenwoche "
+      "wochenstunden wochenbetriebsstunden betriebsstundenwoche hwoche horasporsemana hporsemana horassemanales "
+      "horassemana hsemana horasdetrabajoporsemana horasdeoperacionporsemana horasdeoperacinporsemana "
+      "horasdefuncionamientoporsemana");
   return titles;
 }
 

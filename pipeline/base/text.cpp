@@ -39,4 +39,13 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
+std::vector<std::string_view> words_in(std::string_view text, std::string_view blanks) {
+  std::vector<std::string_view> words;
+  for (std::size_t at = text.find_first_not_of(blanks); at != text.npos; at = text.find_first_not_of(blanks, at)) {
+    words.push_back(text.substr(at, text.find_first_of(blanks, at) - at));
+    at += words.back().size();
+  }
+  return words;
+}
+
 }  // namespace dresslife::pipeline

@@ -3,8 +3,10 @@
 
 #include <charconv>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace dresslife::pipeline {
 
@@ -16,6 +18,16 @@ std::string upper_case(std::string_view text);
 bool same_word(std::string_view a, std::string_view b);
 /// Returns the text without spaces and control characters at both ends.
 std::string_view trimmed(std::string_view text);
+/// Returns the words of a text that one or more blanks separate. They point into the text.
+std::vector<std::string_view> words_in(std::string_view text, std::string_view blanks = " \t\r\n");
+
+using WordSet = std::set<std::string, std::less<>>;
+
+/// Returns the words of a text that blanks separate, as a set.
+inline WordSet word_set(std::string_view text) {
+  const std::vector<std::string_view> words = words_in(text);
+  return {words.begin(), words.end()};
+}
 
 /// Returns the number that is the whole text; std::nullopt if the text is no number, is out of range or contains anything else.
 template <class Number>

@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <memory>
 
 #include "pipeline/advise/plan/duty.h"
 #include "pipeline/base/lists.h"
+#include "pipeline/base/text.h"
 #include "pipeline/commands/command.h"
 #include "pipeline/commands/options.h"
 #include "pipeline/files/files.h"
@@ -21,48 +21,19 @@ namespace dresslife::pipeline {
 namespace {
 
 /// Keys that a first job needs. All other keys have a default or belong to a special case.
-constexpr std::array first_keys{"motion",
-                                "robot",
-                                "dresspack",
-                                "routing",
-                                "study.base",
-                                "study.vary",
-                                "study.jobs",
-                                "study.table",
-                                "motion.program",
-                                "motion.modules",
-                                "motion.routine",
-                                "motion.speed_percent",
-                                "motion.steps",
-                                "motion.steps[].joints_deg",
-                                "motion.steps[].speed_percent",
-                                "motion.steps[].dwell_s",
-                                "dresspack.diameter_mm",
-                                "dresspack.inner_diameter_mm",
-                                "dresspack.components",
-                                "dresspack.components[].name",
-                                "dresspack.components[].count",
-                                "dresspack.components[].radius_mm",
-                                "dresspack.components[].slack_percent",
-                                "dresspack.components[].measured_bending_stiffness_Nm2",
-                                "dresspack.components[].without_wires",
-                                "dresspack.components[].without_wires.kind",
-                                "dresspack.components[].without_wires.bore_mm",
-                                "dresspack.components[].without_wires.filled_with",
-                                "dresspack.components[].data_sheet.cores",
-                                "dresspack.components[].data_sheet.cross_section_mm2",
-                                "dresspack.components[].data_sheet.conductor_class",
-                                "dresspack.components[].data_sheet.outer_diameter_mm",
-                                "routing.free_length_m",
-                                "routing.base_clamp",
-                                "routing.base_clamp.link",
-                                "routing.base_clamp.position_m",
-                                "routing.base_clamp.direction",
-                                "routing.tool_clamp",
-                                "simulation.segments",
-                                "fatigue.operating_hours_per_week",
-                                "fatigue.robot_life_hours",
-                                "calibration"};
+const WordSet first_keys = word_set(
+    "motion robot dresspack routing study.base study.vary study.jobs study.table motion.program motion.modules "
+    "motion.routine motion.speed_percent motion.steps motion.steps[].joints_deg motion.steps[].speed_percent "
+    "motion.steps[].dwell_s dresspack.diameter_mm dresspack.inner_diameter_mm dresspack.components "
+    "dresspack.components[].name dresspack.components[].count dresspack.components[].radius_mm "
+    "dresspack.components[].slack_percent dresspack.components[].measured_bending_stiffness_Nm2 "
+    "dresspack.components[].without_wires dresspack.components[].without_wires.kind "
+    "dresspack.components[].without_wires.bore_mm dresspack.components[].without_wires.filled_with "
+    "dresspack.components[].data_sheet.cores dresspack.components[].data_sheet.cross_section_mm2 "
+    "dresspack.components[].data_sheet.conductor_class dresspack.components[].data_sheet.outer_diameter_mm "
+    "routing.free_length_m routing.base_clamp routing.base_clamp.link routing.base_clamp.position_m "
+    "routing.base_clamp.direction routing.tool_clamp simulation.segments fatigue.operating_hours_per_week "
+    "fatigue.robot_life_hours calibration");
 
 /// Returns the path of a key as on a command line: "motion.program"; for a key of the job itself "motion".
 std::string path_of(const KeyRow& row) { return row.map == "job" ? row.key : row.map + "." + row.key; }
@@ -79,7 +50,7 @@ std::string keys_page() {
   std::vector<KeyRow> first, others;
   for (KeyRow& row : every_key()) {
     const std::string path = path_of(row);
-    if (std::find(first_keys.begin(), first_keys.end(), path) == first_keys.end())
+    if (!first_keys.contains(path))
       others.push_back(std::move(row));
     else
       first.push_back({"Keys of a first job", path, row.unit, row.allowed, row.fallback, row.meaning});

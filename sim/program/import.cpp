@@ -477,8 +477,8 @@ void add_to_group(SkippedGroup& group, const Skipped& skipped) {
 }  // namespace
 
 std::string waits_note(const Program& program) {
-  static const std::set<std::string> waits{"wait",   "waitdi", "waitdo",       "waitgi",   "waitgo",
-                                           "waitai", "waitao", "waitsynctask", "waituntil"};
+  static const pipeline::WordSet waits =
+      pipeline::word_set("wait waitdi waitdo waitgi waitgo waitai waitao waitsynctask waituntil");
   const auto count = std::count_if(program.skipped.begin(), program.skipped.end(), [](const Skipped& skipped) {
     return waits.contains(lower_case(name_and_reason(skipped.what).first));
   });

@@ -80,73 +80,14 @@ std::string macro_name(const std::string& statement) {
 }
 
 FanucWord fanuc_word(const std::string& word) {
-  static const std::set<std::string> logic{"do",
-                                           "di",
-                                           "ro",
-                                           "ri",
-                                           "go",
-                                           "gi",
-                                           "ao",
-                                           "ai",
-                                           "so",
-                                           "si",
-                                           "uo",
-                                           "ui",
-                                           "wo",
-                                           "wi",
-                                           "f",
-                                           "m",
-                                           "timer",
-                                           "ualm",
-                                           "message",
-                                           "pause",
-                                           "payload",
-                                           "lock",
-                                           "unlock",
-                                           "skip",
-                                           "tc_online",
-                                           "monitor",
-                                           "rsr",
-                                           "sr",
-                                           "str",
-                                           "print",
-                                           "remark",
-                                           "lbl",
-                                           "col",
-                                           "rec",
-                                           "prompt",
-                                           "diag",
-                                           "error_prog",
-                                           "resume_prog",
-                                           "return_path_dsbl",
-                                           "maint_prog",
-                                           "clear_resume_prog",
-                                           "ps",
-                                           "user",
-                                           "$waittmout",
-                                           "arc",
-                                           "weld",
-                                           "tool",
-                                           "stopwatch",
-                                           "log",
-                                           "sensor_on",
-                                           "sensor_off",
-                                           "stop",
-                                           "fault",
-                                           "gun",
-                                           "backup",
-                                           "monit.",
-                                           "monend",
-                                           "pi",
-                                           "dcs",
-                                           "collision",
-                                           "end_monitor",
-                                           "vr",
-                                           "cstop"};
-  static const std::set<std::string> shaping{"weave",           "track",    "touch",  "search",      "softfloat",
-                                             "force",           "multi",    "stitch", "torq_limit",  "linear_max_speed",
-                                             "joint_max_speed", "tracking", "mpofs",  "singularity", "pal_end",
-                                             "vision",          "voffset",  "coord",  "indev",       "press_motn"};
+  static const pipeline::WordSet logic = pipeline::word_set(
+      "do di ro ri go gi ao ai so si uo ui wo wi f m timer ualm message pause payload lock unlock skip tc_online "
+      "monitor rsr sr str print remark lbl col rec prompt diag error_prog resume_prog return_path_dsbl maint_prog "
+      "clear_resume_prog ps user $waittmout arc weld tool stopwatch log sensor_on sensor_off stop fault gun backup "
+      "monit. monend pi dcs collision end_monitor vr cstop");
+  static const pipeline::WordSet shaping = pipeline::word_set(
+      "weave track touch search softfloat force multi stitch torq_limit linear_max_speed joint_max_speed tracking "
+      "mpofs singularity pal_end vision voffset coord indev press_motn");
   if (word == "j" || word == "l" || word == "c" || word == "a" || word == "s") return FanucWord::motion;
   if (logic.contains(word) || word.starts_with("$")) return FanucWord::logic;
   return shaping.contains(word) ? FanucWord::shapes_motion : FanucWord::other;

@@ -502,10 +502,9 @@ bool FanucRun::read_options(FanucCursor& at, Instruction& move, Options& options
 /// Notes a word behind the speed that read_option() does not know, unless the word belongs to a call at a time or a
 /// distance from the point (TB .10sec,DO[3]=ON), to Skip (PR[5]=LPOS), or to a process (SPOT[..], Arc Start[..]).
 void FanucRun::unread_option(std::string_view written) {
-  static const std::set<std::string> silent{"tb",  "ta",   "db", "da", "time", "before",      "after", "ta_ref",
-                                            "sec", "msec", "mm", "p",  "sps",  "point_logic", "pulse", "on",
-                                            "off", "lbl",  "r",  "pr", "ar",   "lpos",        "jpos",  "start",
-                                            "end", "spot", "ss", "se", "seal"};
+  static const pipeline::WordSet silent = pipeline::word_set(
+      "tb ta db da time before after ta_ref sec msec mm p sps point_logic pulse on off lbl r pr ar lpos jpos start "
+      "end spot ss se seal");
   static const std::set<std::string> at_corners{"pth", "rt_ld", "ap_ld", "rt_ldr", "ap_ldr", "break"};
   static const std::vector<std::string> known{"FINE", "CNT",      "ACC",  "Offset", "Tool_Offset", "VOFFSET", "INC",
                                               "RTCP", "COORD",    "Skip", "Wjnt",   "MROT",        "PSPD",    "PTH",

@@ -41,18 +41,6 @@ std::optional<Position> position_in(const Value& value) {
   return read;
 }
 
-const std::set<std::string>& harmless_words() {
-  static const std::set<std::string> words{
-      "dout",   "din",     "wait",    "pulse",    "aout",    "aration", "aratiof", "antout", "pause",   "cwait",
-      "msg",    "advinit", "advstop", "arcon",    "arcof",   "arcset",  "arccts",  "arccte", "aweld",   "vweld",
-      "hand",   "hsen",    "guncl",   "toolon",   "toolof",  "setualm", "dialog",  "almchk", "tsync",   "setreg",
-      "getreg", "setfile", "getfile", "stroke",   "strwait", "wvof",    "refp",    "gets",   "gete",    "getpos",
-      "cnvrt",  "mulmat",  "invmat",  "pwait",    "val",     "len",     "asc",     "mid",    "cat",     "val2str",
-      "sqrt",   "sin",     "cos",     "atan",     "and",     "or",      "not",     "xor",    "shckset", "shckrst",
-      "retry",  "antstk",  "replay",  "skillsnd", "pop",     "push"};
-  return words;
-}
-
 /// The form of a position that the user gives: the fields of its record in the tree.
 constexpr const char* position_form =
     "[[x, y, z, Rx, Ry, Rz], \"base\", 0, TOOL NUMBER, [0, 0, 0, 0, 0, 0]] in mm and deg";
@@ -122,7 +110,14 @@ class Inform final : public Dialect {
            name == "mframe" || name == "formcut" || name == "call" || name == "pstart";
   }
   bool only_waits(const std::string& name) const override { return name == "timer"; }
-  bool harmless(const std::string& name) const override { return harmless_words().contains(name); }
+  bool harmless(const std::string& name) const override {
+    static const pipeline::WordSet words = pipeline::word_set(
+        "dout din wait pulse aout aration aratiof antout pause cwait msg advinit advstop arcon arcof arcset arccts "
+        "arccte aweld vweld hand hsen guncl toolon toolof setualm dialog almchk tsync setreg getreg setfile getfile "
+        "stroke strwait wvof refp gets gete getpos cnvrt mulmat invmat pwait val len asc mid cat val2str sqrt sin "
+        "cos atan and or not xor shckset shckrst retry antstk replay skillsnd pop push");
+    return words.contains(name);
+  }
   bool writes(const std::string&, int position, const Expression&) const override { return position == 0; }
   const RecordType* type_of(const std::string& name) const override { return code_.record(name); }
   /// A job contains a copy of the controller's P variables. Their values are those at the time when the job was saved.

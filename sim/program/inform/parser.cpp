@@ -622,11 +622,9 @@ class InformParser {
 
   /// Reads SET B000 1, ADD I000 EXPRESS I001 + 1, TIMER T=1.00, DOUT OT#(1) ON, and all other instructions.
   void operation(Words& at, Statement s, std::vector<Statement>& into) {
-    static const std::set<std::string> read{
-        "set",    "add",    "sub",    "mul",   "div",  "inc",   "dec",   "clear",  "sete",    "gete",
-        "gets",   "din",    "getarg", "timer", "wait", "sfton", "sftof", "mframe", "settool", "sqrt",
-        "sin",    "cos",    "atan",   "cnvrt", "and",  "or",    "not",   "xor",    "getpos",  "mulmat",
-        "invmat", "mshift", "getreg", "val",   "len",  "asc",   "mid",   "cat",    "val2str"};
+    static const pipeline::WordSet read = pipeline::word_set(
+        "set add sub mul div inc dec clear sete gete gets din getarg timer wait sfton sftof mframe settool sqrt sin "
+        "cos atan cnvrt and or not xor getpos mulmat invmat mshift getreg val len asc mid cat val2str");
     if (!read.contains(s.name)) return into.push_back(std::move(s));
     if (s.name == "timer" || s.name == "wait") {
       if (s.name == "wait" && !same_word(at.peek_word(), "t")) return into.push_back(std::move(s));
@@ -805,8 +803,8 @@ std::string inform_name(const std::string& written) {
   std::erase(name, ']');
   const std::size_t digits = std::min(name.find_first_of("0123456789"), name.size());
   const std::string letters = name.substr(0, digits);
-  static const std::set<std::string> variables{"b",  "i",  "d",  "r",  "s",  "p",  "px", "bp",  "ex",  "c",  "bc",
-                                               "ec", "lb", "li", "ld", "lr", "ls", "lp", "lpx", "lbp", "lex"};
+  static const pipeline::WordSet variables =
+      pipeline::word_set("b i d r s p px bp ex c bc ec lb li ld lr ls lp lpx lbp lex");
   if (digits == 0 || digits == name.size() || !variables.contains(letters)) return lower_case(written);
   const auto number = pipeline::whole_number_in<int>(std::string_view(name).substr(digits));
   if (!number) return lower_case(written);

@@ -39,8 +39,7 @@ fs::path robot_of(const fs::path& file) {
 }
 
 Calls calls_of(const fs::path& file) {
-  static const std::set<std::string> moves{"ptp",   "lin",    "circ",    "sptp",   "slin",
-                                           "scirc", "spline", "ptp_rel", "lin_rel"};
+  static const pipeline::WordSet moves = pipeline::word_set("ptp lin circ sptp slin scirc spline ptp_rel lin_rel");
   Calls calls;
   const SourceFile source(file.string(), decoded_text(pipeline::read_text(file)));
   Problems ignored;  // the parser reports them

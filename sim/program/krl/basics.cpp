@@ -14,18 +14,15 @@ using namespace krl;
 
 namespace {
 
-constexpr const char* harmless_names[] = {
-    "wait",     "halt",    "interrupt", "trigger",     "pulse",        "signal",   "ext",
-    "extfct",   "extp",    "extfctp",   "import",      "enum",         "struc",    "channel",
-    "anin",     "anout",   "brake",     "resume",      "cwrite",       "cread",    "copen",
-    "cclose",   "gripper", "err_raise", "err_clear",   "eb_test",      "sync",     "on_error_proceed",
-    "continue", "sread",   "swrite",    "sopen",       "strclear",     "stradd",   "strcopy",
-    "strfind",  "h50",     "$timer",    "$timer_flag", "clear_krlmsg", "ir_stopm", "$cycflag",
-    "$in",      "$anin",   "$err",      "ciostate",    advance_stop};
+const pipeline::WordSet harmless_names = pipeline::word_set(
+    "wait halt interrupt trigger pulse signal ext extfct extp extfctp import enum struc channel anin anout brake "
+    "resume cwrite cread copen cclose gripper err_raise err_clear eb_test sync on_error_proceed continue sread "
+    "swrite sopen strclear stradd strcopy strfind h50 $timer $timer_flag clear_krlmsg ir_stopm $cycflag $in $anin "
+    "$err ciostate");
 constexpr const char* harmless_beginnings[] = {"eki_", "msg", "set_krl", "exists_krl", "diag_"};
 /// Harmless functions that write to their arguments.
-constexpr const char* writing_names[] = {"cread",  "sread",   "copen",  "sopen",    "swrite",    "cwrite",
-                                         "cclose", "strcopy", "stradd", "strclear", "msgdialog", "exists_krldlg"};
+const pipeline::WordSet writing_names =
+    pipeline::word_set("cread sread copen sopen swrite cwrite cclose strcopy stradd strclear msgdialog exists_krldlg");
 
 /// Fields of an FDAT that inline forms use.
 constexpr const char* fdat_fields[] = {".tool_no", ".base_no", ".ipo_frame"};
@@ -54,14 +51,14 @@ Expression element_at(const std::string& name, int index, const Place& place) {
 }  // namespace krl
 
 bool Krl::harmless(const std::string& name) const {
-  return std::find(std::begin(harmless_names), std::end(harmless_names), name) != std::end(harmless_names) ||
+  return name == advance_stop || harmless_names.contains(name) ||
          std::any_of(std::begin(harmless_beginnings), std::end(harmless_beginnings),
                      [&](const char* beginning) { return name.starts_with(beginning); });
 }
 
 bool Krl::writes(const std::string& name, int, const Expression&) const {
   if (kind_of(name) || name == "bas" || name == "asyptp") return false;  // moves read their targets
-  const bool writing = std::find(std::begin(writing_names), std::end(writing_names), name) != std::end(writing_names);
+  const bool writing = writing_names.contains(name);
   return writing || name.starts_with("eki_") || !harmless(name);
 }
 
@@ -453,8 +450,8 @@ void Krl::basics(const Statement& statement, Interpreter& run) {
   const Place& place = statement.place;
   const std::string what = run.evaluate(statement.arguments[0]).text;
   const Value number = statement.arguments.size() > 1 ? run.evaluate(statement.arguments[1]) : Value{};
-  static const std::set<std::string> with_number{"#vel_ptp", "#acc_ptp", "#vel_cp",  "#acc_cp",     "#acc_glue",
-                                                 "#tool",    "#base",    "#ex_base", "#ptp_params", "#cp_params"};
+  static const pipeline::WordSet with_number =
+      pipeline::word_set("#vel_ptp #acc_ptp #vel_cp #acc_cp #acc_glue #tool #base #ex_base #ptp_params #cp_params");
   if (statement.arguments.size() < 2 && with_number.contains(what))
     return run.complain(place, fmt::format("has BAS({}) without a number", what),
                         fmt::format("write BAS({}, NUMBER)", what));

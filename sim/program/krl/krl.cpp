@@ -18,11 +18,10 @@ using namespace krl;
 
 namespace {
 
-constexpr const char* standing_names[] = {"$axis_act", "$axis_act_meas", "$pos_act",  "$pos_act_mes",
-                                          "$axis_int", "$pos_int",       "$axis_ret", "$pos_ret"};
-
 bool is_standing(const std::string& name) {
-  return std::find(std::begin(standing_names), std::end(standing_names), name) != std::end(standing_names);
+  static const pipeline::WordSet names =
+      pipeline::word_set("$axis_act $axis_act_meas $pos_act $pos_act_mes $axis_int $pos_int $axis_ret $pos_ret");
+  return names.contains(name);
 }
 
 /// Whether a move has a mark: C_DIS, #TOOL, in_spline.
@@ -237,14 +236,11 @@ void Krl::check_word(const Value* word, const char* of, const std::vector<std::s
 
 /// Gives a warning of a mark after the target (C_DIST) that no move has.
 void Krl::check_marks(const Statement& statement, Interpreter& run) {
-  static const std::set<std::string> known{"c_ptp", "c_dis", "c_vel",     "c_ori", "c_spl",
-                                           "#tool", "#base", "in_spline", "last"};
-  std::istringstream words(statement.text);
-  std::string word;
-  words >> word;  // the move
-  while (words >> word)
-    if (!known.contains(word))
-      run.unread(statement.place, upper_case(word), "the marks of a move",
+  static const pipeline::WordSet known = pipeline::word_set("c_ptp c_dis c_vel c_ori c_spl #tool #base in_spline last");
+  const std::vector<std::string_view> words = pipeline::words_in(statement.text);
+  for (std::size_t i = 1; i < words.size(); ++i)  // after the move
+    if (!known.contains(words[i]))
+      run.unread(statement.place, upper_case(words[i]), "the marks of a move",
                  {"C_PTP", "C_DIS", "C_VEL", "C_ORI", "C_SPL", "#TOOL", "#BASE"});
 }
 

@@ -27,11 +27,10 @@ constexpr const char* living_names[] = {"$timer", "$timer_flag", "$cycflag", "$i
 /// Source: KUKA's course on programming (HALT, WAIT, PULSE, ANIN, ANOUT, $IN, $OUT, $ANIN, $ANOUT, imported
 /// variables) and the description of $AXIS_ACT; the same effect of the other robot positions is ESTIMATED.
 /// Names declared by SIGNAL and IMPORT: advance.cpp.
-constexpr const char* present_words[] = {
-    "wait",       "halt",      "pulse",        "anin",      "anout",          "$in",       "$out",
-    "$anin",      "$anout",    "$digin1",      "$digin2",   "$digin3",        "$digin4",   "$digin5",
-    "$digin6",    "$pos_act",  "$pos_act_mes", "$axis_act", "$axis_act_meas", "$axis_int", "$pos_int",
-    "$axis_back", "$pos_back", "$axis_for",    "$pos_for",  "$axis_ret",      "$pos_ret"};
+const pipeline::WordSet present_words = pipeline::word_set(
+    "wait halt pulse anin anout $in $out $anin $anout $digin1 $digin2 $digin3 $digin4 $digin5 $digin6 $pos_act "
+    "$pos_act_mes $axis_act $axis_act_meas $axis_int $pos_int $axis_back $pos_back $axis_for $pos_for $axis_ret "
+    "$pos_ret");
 
 class KrlParser : StatementParser {
  public:
@@ -262,9 +261,7 @@ class KrlParser : StatementParser {
     if (at_any({"trigger", "interrupt", "global", "decl", "const", "signal", "ext", "extfct"})) return false;
     for (int ahead = 0; at_.peek(ahead).kind != Token::Kind::line_end && at_.peek(ahead).kind != Token::Kind::end;
          ++ahead)
-      if (at_.peek(ahead).kind == Token::Kind::word &&
-          std::find(std::begin(present_words), std::end(present_words), lower_case(at_.peek(ahead).text)) !=
-              std::end(present_words))
+      if (at_.peek(ahead).kind == Token::Kind::word && present_words.contains(lower_case(at_.peek(ahead).text)))
         return true;
     return false;
   }
@@ -534,8 +531,7 @@ namespace {
 /// have any value at any time. Its own declarations and system variables ($...) are excluded; the system variables are
 /// settings of moves, or no program reads them.
 void note_what_is_submitted(Code& code, int file, const std::vector<Token>& tokens) {
-  static const std::set<std::string> declaring{"decl",   "int",    "bool", "real",  "char",
-                                               "global", "signal", "ext",  "extfct"};
+  static const pipeline::WordSet declaring = pipeline::word_set("decl int bool real char global signal ext extfct");
   const std::string name = std::filesystem::path(code.files[file].name()).filename().string();
   std::set<std::string> own, written;
   for (std::size_t begin = 0, end = 0; begin < tokens.size(); begin = end + 1) {

@@ -53,7 +53,7 @@ class Rapid final : public Dialect {
   std::optional<NamedFrame> work_object_of(const Expression& written, Interpreter& run);
   bool read_options(const Statement& statement, Instruction& move, Interpreter& run);
   static void check_arguments(const std::string& of, const std::vector<Expression>& arguments, int most,
-                              const std::vector<std::string>& switches, Interpreter& run);
+                              const std::vector<std::string_view>& switches, Interpreter& run);
   static void print_options(const Statement& statement, Interpreter& run);
   std::optional<Value> typed(const Expression& written, const char* type, const char* what, Interpreter& run);
   std::optional<Quaternion> turn_of_displacement(const Value& orient, const char* what, const Expression& written,

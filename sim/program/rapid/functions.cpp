@@ -286,83 +286,16 @@ std::optional<Value> rapid_function(const Code& code, const std::string& name,
 }
 
 bool rapid_asks_the_robot(const std::string& function) {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> list{"ainput",
-                                  "aoutput",
-                                  "bittst",
-                                  "cdate",
-                                  "clkread",
-                                  "cspeedoverride",
-                                  "ctime",
-                                  "ctool",
-                                  "cwobj",
-                                  "dinput",
-                                  "doutput",
-                                  "executionmode",
-                                  "filesize",
-                                  "finddata",
-                                  "fssize",
-                                  "getmecunitname",
-                                  "getnextmechunit",
-                                  "getnextsym",
-                                  "getserviceinfo",
-                                  "getsignalorigin",
-                                  "gettaskname",
-                                  "gettime",
-                                  "ginput",
-                                  "ginputdnum",
-                                  "goutput",
-                                  "goutputdnum",
-                                  "indinpos",
-                                  "indspeed",
-                                  "iomodestate",
-                                  "iounitstate",
-                                  "isfile",
-                                  "ismechunitactive",
-                                  "ispers",
-                                  "isstopmoveact",
-                                  "isstopstateevent",
-                                  "issyncmoveon",
-                                  "issysid",
-                                  "isvar",
-                                  "motionplannerno",
-                                  "nonmotionmode",
-                                  "opmode",
-                                  "pathlevel",
-                                  "pathlengthget",
-                                  "pfrestart",
-                                  "ppmovedinmanmode",
-                                  "rawbyteslen",
-                                  "readbin",
-                                  "readdir",
-                                  "readmotor",
-                                  "readnum",
-                                  "readstr",
-                                  "readstrbin",
-                                  "robname",
-                                  "robos",
-                                  "runmode",
-                                  "socketgetstatus",
-                                  "socketpeek",
-                                  "taskrunmec",
-                                  "taskrunrob",
-                                  "testandset",
-                                  "testdi",
-                                  "testsignread",
-                                  "triggdatavalid",
-                                  "uialphaentry",
-                                  "uiclientexist",
-                                  "uidnumentry",
-                                  "uidnumtune",
-                                  "uilistview",
-                                  "uimessagebox",
-                                  "uinumentry",
-                                  "uinumtune",
-                                  "validio"};
-    std::sort(list.begin(), list.end());
-    return list;
-  }();
-  return std::binary_search(names.begin(), names.end(), function);
+  static const pipeline::WordSet names = pipeline::word_set(
+      "ainput aoutput bittst cdate clkread cspeedoverride ctime ctool cwobj dinput doutput executionmode filesize "
+      "finddata fssize getmecunitname getnextmechunit getnextsym getserviceinfo getsignalorigin gettaskname gettime "
+      "ginput ginputdnum goutput goutputdnum indinpos indspeed iomodestate iounitstate isfile ismechunitactive "
+      "ispers isstopmoveact isstopstateevent issyncmoveon issysid isvar motionplannerno nonmotionmode opmode "
+      "pathlevel pathlengthget pfrestart ppmovedinmanmode rawbyteslen readbin readdir readmotor readnum readstr "
+      "readstrbin robname robos runmode socketgetstatus socketpeek taskrunmec taskrunrob testandset testdi "
+      "testsignread triggdatavalid uialphaentry uiclientexist uidnumentry uidnumtune uilistview uimessagebox "
+      "uinumentry uinumtune validio");
+  return names.contains(function);
 }
 
 }  // namespace dresslife::sim

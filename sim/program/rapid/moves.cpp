@@ -53,35 +53,11 @@ constexpr Signature signatures[] = {
 };
 
 /// Switches of the moves of RobotWare and of its options for welding, gluing and spot welding.
-const std::vector<std::string> move_switches{"Conc",       "ID",
-                                             "V",          "T",
-                                             "Z",          "Inpos",
-                                             "WObj",       "Corr",
-                                             "TLoad",      "NoEOffs",
-                                             "T1",         "T2",
-                                             "T3",         "T4",
-                                             "T5",         "T6",
-                                             "T7",         "T8",
-                                             "TriggData1", "TriggData2",
-                                             "TriggData3", "Stop",
-                                             "PStop",      "SStop",
-                                             "Sup",        "Flanks",
-                                             "PosFlank",   "NegFlank",
-                                             "HighLevel",  "LowLevel",
-                                             "Value",      "DValue",
-                                             "NoCorr",     "Weave",
-                                             "SeamName",   "Track",
-                                             "AdvData",    "PreProcessTracking",
-                                             "Time",       "NoProcess",
-                                             "On",         "Off",
-                                             "D",          "NoConc",
-                                             "Retract",    "OpenHLift",
-                                             "CloseHLift", "QuickRelease",
-                                             "G1",         "G2",
-                                             "G3",         "G4",
-                                             "Gun",        "Gun1",
-                                             "Gun2",       "Gun3",
-                                             "Gun4",       "TrackLock"};
+const std::vector<std::string_view> move_switches = pipeline::words_in(
+    "Conc ID V T Z Inpos WObj Corr TLoad NoEOffs T1 T2 T3 T4 T5 T6 T7 T8 TriggData1 TriggData2 TriggData3 Stop "
+    "PStop SStop Sup Flanks PosFlank NegFlank HighLevel LowLevel Value DValue NoCorr Weave SeamName Track AdvData "
+    "PreProcessTracking Time NoProcess On Off D NoConc Retract OpenHLift CloseHLift QuickRelease G1 G2 G3 G4 Gun "
+    "Gun1 Gun2 Gun3 Gun4 TrackLock");
 
 /// Returns the largest number of arguments without a name of a move; -1: any number.
 int most_arguments(const Signature& signature) {
@@ -115,12 +91,12 @@ void remember(Instruction& move, const char* part, const Expression& written, In
 /// Gives a warning of each switch that an instruction or function does not have, and of arguments after the last one.
 /// most: its number of arguments without a name; -1: any number.
 void Rapid::check_arguments(const std::string& of, const std::vector<Expression>& arguments, int most,
-                            const std::vector<std::string>& switches, Interpreter& run) {
+                            const std::vector<std::string_view>& switches, Interpreter& run) {
   std::vector<std::string> known;
-  for (const std::string& name : switches) known.push_back("\\" + name);
+  for (const std::string_view name : switches) known.push_back("\\" + std::string(name));
   int count = 0;
   for (const Expression& argument : arguments) {
-    const auto same = [&](const std::string& name) { return argument.option == lower_case(name); };
+    const auto same = [&](std::string_view name) { return argument.option == lower_case(name); };
     if (argument.option.empty() && ++count > most && most >= 0)
       run.unread(argument.place, run.written(argument), fmt::format("{} after its argument {}", of, most), {});
     else if (!argument.option.empty() && std::none_of(switches.begin(), switches.end(), same))

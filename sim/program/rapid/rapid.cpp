@@ -21,56 +21,24 @@ bool same(const std::string& lower, const std::string& written) { return lower =
 struct Arguments {
   std::string written;  ///< its name as RAPID's manual writes it
   int most;             ///< number of arguments without a name; -1: any number
-  std::vector<std::string> switches;
+  std::vector<std::string_view> switches;
 };
 
 /// Returns the arguments of the instructions and functions that change the motion or compute its numbers; null: another one.
 const Arguments* arguments_of(const std::string& name) {
   static const std::map<std::string, Arguments> all = [] {
     std::map<std::string, Arguments> by_name;
-    for (const Arguments& one : std::initializer_list<Arguments>{{"AccSet", 2, {"FinePointRamp"}},
-                                                                 {"VelSet", 2, {}},
-                                                                 {"SpeedRefresh", 1, {}},
-                                                                 {"WaitTime", 1, {"InPos"}},
-                                                                 {"PDispSet", 1, {}},
-                                                                 {"PDispOff", 0, {}},
-                                                                 {"PDispOn", 2, {"Rot", "ExeP", "WObj"}},
-                                                                 {"EOffsSet", 1, {}},
-                                                                 {"EOffsOff", 0, {}},
-                                                                 {"EOffsOn", 1, {"ExeP"}},
-                                                                 {"ConfL", 0, {"On", "Off"}},
-                                                                 {"ConfJ", 0, {"On", "Off"}},
-                                                                 {"Offs", 4, {}},
-                                                                 {"RelTool", 4, {"Rx", "Ry", "Rz"}},
-                                                                 {"CRobT", 0, {"TaskRef", "TaskName", "Tool", "WObj"}},
-                                                                 {"CPos", 0, {"Tool", "WObj"}},
-                                                                 {"CJointT", 0, {"TaskRef", "TaskName"}},
-                                                                 {"PoseMult", 2, {}},
-                                                                 {"PoseInv", 1, {}},
-                                                                 {"PoseVect", 2, {}},
-                                                                 {"Distance", 2, {}},
-                                                                 {"DotProd", 2, {}},
-                                                                 {"VectMagn", 1, {}},
-                                                                 {"NOrient", 1, {}},
-                                                                 {"OrientZYX", 3, {}},
-                                                                 {"EulerZYX", 1, {"X", "Y", "Z"}},
-                                                                 {"DefFrame", 3, {"Origin"}},
-                                                                 {"Round", 1, {"Dec"}},
-                                                                 {"Trunc", 1, {"Dec"}},
-                                                                 {"RoundDnum", 1, {"Dec"}},
-                                                                 {"TruncDnum", 1, {"Dec"}},
-                                                                 {"Abs", 1, {}},
-                                                                 {"Sqrt", 1, {}},
-                                                                 {"Sin", 1, {}},
-                                                                 {"Cos", 1, {}},
-                                                                 {"Tan", 1, {}},
-                                                                 {"ASin", 1, {}},
-                                                                 {"ACos", 1, {}},
-                                                                 {"ATan", 1, {}},
-                                                                 {"ATan2", 2, {}},
-                                                                 {"Exp", 1, {}},
-                                                                 {"Pow", 2, {}}})
-      by_name.emplace(lower_case(one.written), one);
+    for (const std::string_view one : pipeline::words_in(
+             "AccSet 2 FinePointRamp, VelSet 2, SpeedRefresh 1, WaitTime 1 InPos, PDispSet 1, PDispOff 0, PDispOn 2 "
+             "Rot ExeP WObj, EOffsSet 1, EOffsOff 0, EOffsOn 1 ExeP, ConfL 0 On Off, ConfJ 0 On Off, Offs 4, RelTool "
+             "4 Rx Ry Rz, CRobT 0 TaskRef TaskName Tool WObj, CPos 0 Tool WObj, CJointT 0 TaskRef TaskName, PoseMult "
+             "2, PoseInv 1, PoseVect 2, Distance 2, DotProd 2, VectMagn 1, NOrient 1, OrientZYX 3, EulerZYX 1 X Y Z, "
+             "DefFrame 3 Origin, Round 1 Dec, Trunc 1 Dec, RoundDnum 1 Dec, TruncDnum 1 Dec, Abs 1, Sqrt 1, Sin 1, "
+             "Cos 1, Tan 1, ASin 1, ACos 1, ATan 1, ATan2 2, Exp 1, Pow 2",
+             ",")) {
+      const std::vector<std::string_view> words = pipeline::words_in(one);
+      by_name[lower_case(words[0])] = {std::string(words[0]), words[1][0] - '0', {words.begin() + 2, words.end()}};
+    }
     return by_name;
   }();
   const auto found = all.find(name);
@@ -106,20 +74,17 @@ std::optional<Value> Rapid::constant(const std::string& name) {
 }
 
 bool Rapid::matters(const std::string& name) const {
-  static const std::set<std::string> others{"accset",  "velset",   "speedrefresh", "pdispset",  "pdispon", "pdispoff",
-                                            "eoffson", "eoffsset", "eoffsoff",     "callbyvar", "confl",   "confj"};
+  static const pipeline::WordSet others = pipeline::word_set(
+      "accset velset speedrefresh pdispset pdispon pdispoff eoffson eoffsset eoffsoff callbyvar confl confj");
   return rapid_move(name) || others.contains(name) || name.starts_with("move");
 }
 
-bool Rapid::harmless(const std::string& name) const {
-  const auto& names = harmless_rapid_instructions();
-  return std::binary_search(names.begin(), names.end(), name);
-}
+bool Rapid::harmless(const std::string& name) const { return is_harmless_in_rapid(name); }
 
 bool Rapid::writes(const std::string& name, int position, const Expression& argument) const {
-  static const std::set<std::string> options{
-      "timeflag",    "breakflag", "result", "str",        "rawdata",   "data", "value", "value1", "value2",
-      "errornumber", "duration",  "time",   "norecbytes", "uielapsed", "bwd",  "fwd",   "index",  "buttonanswer"};
+  static const pipeline::WordSet options = pipeline::word_set(
+      "timeflag breakflag result str rawdata data value value1 value2 errornumber duration time norecbytes "
+      "uielapsed bwd fwd index buttonanswer");
   if (!argument.option.empty()) return options.contains(argument.option);
   static const std::map<std::string, int> outputs{
       {"tpreadfk", 0},     {"tpreadnum", 0},    {"tpreaddnum", 0},    {"unpackrawbytes", 2}, {"readanybin", 1},
@@ -409,8 +374,8 @@ std::optional<Value> Rapid::function(const Expression& call, Interpreter& run) {
   if (name == "runmode" && !run.given(name)) return constant("run_cont_cycle");
   if (name == "strtoval") return text_to_value(call, run);
   if (name == "present" && call.items.size() == 1) return truth_value(run.present(call.items[0]));
-  static const std::set<std::string> signals{"dinput", "doutput", "ginput",     "goutput",
-                                             "ainput", "aoutput", "ginputdnum", "goutputdnum"};
+  static const pipeline::WordSet signals =
+      pipeline::word_set("dinput doutput ginput goutput ainput aoutput ginputdnum goutputdnum");
   if (signals.contains(name) && call.items.size() == 1) return run.evaluate(call.items[0]);
   if (name == "testdi" && call.items.size() == 1) {
     const Value signal = run.evaluate(call.items[0]);

@@ -1,8 +1,9 @@
 // RAPID's records, and the predefined speeds and zones of every controller.
 #include "sim/program/rapid/types.h"
 
-#include <algorithm>
 #include <map>
+
+#include "pipeline/base/text.h"
 
 namespace dresslife::sim {
 namespace {
@@ -98,36 +99,22 @@ Value rapid_initial(const Code& code, const std::string& type_name, int depth) {
   return list_value(std::move(items), type);
 }
 
-const std::vector<std::string>& harmless_rapid_instructions() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> list{
-        "set",           "reset",          "setdo",         "setgo",          "setao",          "pulsedo",
-        "invertdo",      "waitdi",         "waitdo",        "waitgi",         "waitgo",         "waitai",
-        "waitao",        "waituntil",      "waitrob",       "waitsynctask",   "tpwrite",        "tperase",
-        "tpreadfk",      "tpreadnum",      "tpreaddnum",    "tpshow",         "uimsgbox",       "uishow",
-        "uimsgwrite",    "errwrite",       "errlog",        "errraise",       "bookerrno",      "stop",
-        "break",         "retry",          "trynext",       "skipwarn",       "open",           "close",
-        "write",         "writebin",       "writestrbin",   "writerawbytes",  "writeanybin",    "readrawbytes",
-        "readanybin",    "readbin",        "packrawbytes",  "unpackrawbytes", "clearrawbytes",  "packdnheader",
-        "rewind",        "clkstart",       "clkstop",       "clkreset",       "trygint",        "bitset",
-        "bitclear",      "isignaldi",      "isignaldo",     "isignalgi",      "isignalai",      "isleep",
-        "iwatch",        "idelete",        "ienable",       "idisable",       "itimer",         "ierror",
-        "ipers",         "connect",        "triggio",       "triggequip",     "triggint",       "triggcheckio",
-        "triggspeed",    "triggstopproc",  "triggramp",     "gripload",       "motsup",         "singarea",
-        "cirpathmode",   "dynamics",       "resetaxis",     "actunit",        "deactunit",      "confjoff",
-        "pathresol",     "softdeact",      "tunereset",     "tuneservo",      "startmove",      "stopmove",
-        "stopmovereset", "startmoveretry", "clearpath",     "storepath",      "setsysdata",     "unload",
-        "checkprogref",  "socketcreate",   "socketconnect", "socketsend",     "socketreceive",  "socketclose",
-        "socketbind",    "socketlisten",   "socketaccept",  "rmqfindslot",    "rmqsendmessage", "rmqempty",
-        "getsysdata",    "opendir",        "closedir",      "makedir",        "removefile",     "copyfile",
-        "timex",         "savecfgdata",    "warmstart",     "spystart",       "spystop",        "egmgetid",
-        "egmreset",      "egmactjoint",    "egmactpose",    "egmactmove",     "egmsetupuc",     "egmsetupai",
-        "egmsetupao",    "egmstop",        "egmstreamstop", "toolchange",     "setgun",         "calib",
-        "stcalib",       "stclose",        "stopen",        "indgun",         "gunopen",        "gunclose"};
-    std::sort(list.begin(), list.end());
-    return list;
-  }();
-  return names;
+bool is_harmless_in_rapid(const std::string& instruction) {
+  static const pipeline::WordSet names = pipeline::word_set(
+      "set reset setdo setgo setao pulsedo invertdo waitdi waitdo waitgi waitgo waitai waitao waituntil waitrob "
+      "waitsynctask tpwrite tperase tpreadfk tpreadnum tpreaddnum tpshow uimsgbox uishow uimsgwrite errwrite errlog "
+      "errraise bookerrno stop break retry trynext skipwarn open close write writebin writestrbin writerawbytes "
+      "writeanybin readrawbytes readanybin readbin packrawbytes unpackrawbytes clearrawbytes packdnheader rewind "
+      "clkstart clkstop clkreset trygint bitset bitclear isignaldi isignaldo isignalgi isignalai isleep iwatch "
+      "idelete ienable idisable itimer ierror ipers connect triggio triggequip triggint triggcheckio triggspeed "
+      "triggstopproc triggramp gripload motsup singarea cirpathmode dynamics resetaxis actunit deactunit confjoff "
+      "pathresol softdeact tunereset tuneservo startmove stopmove stopmovereset startmoveretry clearpath storepath "
+      "setsysdata unload checkprogref socketcreate socketconnect socketsend socketreceive socketclose socketbind "
+      "socketlisten socketaccept rmqfindslot rmqsendmessage rmqempty getsysdata opendir closedir makedir removefile "
+      "copyfile timex savecfgdata warmstart spystart spystop egmgetid egmreset egmactjoint egmactpose egmactmove "
+      "egmsetupuc egmsetupai egmsetupao egmstop egmstreamstop toolchange setgun calib stcalib stclose stopen indgun "
+      "gunopen gunclose");
+  return names.contains(instruction);
 }
 
 const char* rapid_named_effect(const std::string& instruction) {

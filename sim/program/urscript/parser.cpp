@@ -255,9 +255,8 @@ class ScriptParser : StatementParser {
 /// spellings of a name but one get a number: "count#2". The spelling in small letters keeps its name, because the words
 /// of the language are small. `names` stores the new names. Precondition: it lives as long as the tokens.
 void number_spellings(const Code& code, std::vector<Token>& tokens, std::deque<std::string>& names) {
-  static const std::set<std::string> words{"true",     "false", "none",   "def",    "end",   "if",     "elif",
-                                           "else",     "while", "return", "global", "local", "thread", "break",
-                                           "continue", "and",   "or",     "not",    "xor",   "run"};
+  static const pipeline::WordSet words = pipeline::word_set(
+      "true false none def end if elif else while return global local thread break continue and or not xor run");
   std::map<std::string, std::set<std::string, std::greater<>>> spellings;  // descending ASCII: small letters first
   Problems ignored;                                                        // the parser reports them
   for (const SourceFile& source : code.files)

@@ -93,27 +93,10 @@ class Script final : public Dialect {
   }
   bool only_waits(const std::string& name) const override { return name == "sleep"; }
   bool harmless(const std::string& name) const override {
-    static const std::set<std::string> words{"textmsg",
-                                             "popup",
-                                             "sync",
-                                             "stopj",
-                                             "stopl",
-                                             "kill",
-                                             "join",
-                                             "halt",
-                                             "end_force_mode",
-                                             "zero_ftsensor",
-                                             "enter_critical",
-                                             "exit_critical",
-                                             "powerdown",
-                                             "servo_stop",
-                                             "end_freedrive_mode",
-                                             "end_teach_mode",
-                                             "write_output",
-                                             "protective_stop",
-                                             "varmsg",
-                                             "request_boolean_from_primary_client",
-                                             "tool_contact"};
+    static const pipeline::WordSet words = pipeline::word_set(
+        "textmsg popup sync stopj stopl kill join halt end_force_mode zero_ftsensor enter_critical exit_critical "
+        "powerdown servo_stop end_freedrive_mode end_teach_mode write_output protective_stop varmsg "
+        "request_boolean_from_primary_client tool_contact");
     return words.contains(name) || begins_with_any(name, {"set_", "get_", "socket_", "modbus_", "write_", "read_",
                                                           "rtde_", "reset_", "blocking_"});
   }
