@@ -23,8 +23,7 @@ void fill_terms(const Eigen::VectorXd& q, Eigen::VectorXd& terms) {
 }
 
 std::size_t link_index(const pipeline::Robot& robot, const std::string& name) {
-  const auto found = std::find_if(robot.links.begin(), robot.links.end(),
-                                  [&](const pipeline::Link& link) { return link.name == name; });
+  const auto found = std::ranges::find_if(robot.links, [&](const pipeline::Link& link) { return link.name == name; });
   return found - robot.links.begin();
 }
 
@@ -146,7 +145,7 @@ JointDamage damage_by_joint(std::span<const DamagingCycle> cycles, const StrainO
 
 std::vector<double> damage_by_clamp(std::span<const double> segment_damage, std::span<const double> length,
                                     std::span<const double> clamp_at) {
-  assert(!clamp_at.empty() && std::is_sorted(clamp_at.begin(), clamp_at.end()));
+  assert(!clamp_at.empty() && std::ranges::is_sorted(clamp_at));
   std::vector<double> damage(clamp_at.size(), 0.0);
   double start = 0;
   std::size_t nearest = 0;

@@ -79,7 +79,7 @@ void write_tensions(pipeline::FileWriter& life, const std::vector<std::string>& 
                     const std::vector<std::vector<double>>& tension, std::size_t samples) {
   life.set_axis("cable", names.size());
   const auto shorter = [](const std::string& a, const std::string& b) { return a.size() < b.size(); };
-  life.set_text_width("/cable/name", std::max_element(names.begin(), names.end(), shorter)->size());
+  life.set_text_width("/cable/name", std::ranges::max_element(names, shorter)->size());
   life.append("/cable/name", names);
   std::vector<double> rows;
   for (std::size_t t = 0; t < samples; ++t)
@@ -125,9 +125,8 @@ CableForces write_cable_forces(const pipeline::FileReader& strain, const pipelin
     const double share = pipeline::moment_share(pulls, of_hose);
     if (!cable_moment.empty() && share <= moment_share) continue;
     moment_share = share;
-    bent_sample =
-        static_cast<std::size_t>(std::max_element(pulls.moment.begin(), pulls.moment.end()) - pulls.moment.begin());
-    bender = *std::max_element(in_span.begin(), in_span.end(), [&](std::size_t a, std::size_t b) {
+    bent_sample = static_cast<std::size_t>(std::ranges::max_element(pulls.moment) - pulls.moment.begin());
+    bender = *std::ranges::max_element(in_span, [&](std::size_t a, std::size_t b) {
       return std::abs(tension[a][bent_sample]) < std::abs(tension[b][bent_sample]);
     });
     cable_moment = pulls.moment;
@@ -163,7 +162,7 @@ CableForces write_cable_forces(const pipeline::FileReader& strain, const pipelin
             "the cables{} bend a clamp with {:.2g} times the moment of the hose ({} of {} N m, limit {:g} times) {}; "
             "'{}' {} most, with {} N",
             facts[bender].between, moment_share, pipeline::readable(cable_moment[bent_sample]),
-            pipeline::readable(*std::max_element(hose_moment.begin(), hose_moment.end())), pipeline::believable_share,
+            pipeline::readable(*std::ranges::max_element(hose_moment)), pipeline::believable_share,
             moment_of(strain, bent_sample), facts[bender].name, tension[bender][bent_sample] < 0 ? "presses" : "pulls",
             pipeline::readable(std::abs(tension[bender][bent_sample]))),
         cure.cause, remedy_of(facts[bender], cure)));

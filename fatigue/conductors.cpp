@@ -23,7 +23,7 @@ std::vector<std::size_t> worst_site_of_wires(const SiteDamage& all, const TextCo
 std::string conductor_of(const std::string& wire, const std::vector<std::string>& layer_names) {
   const std::string parent = parent_of(wire);
   const std::string last = parent.substr(parent.rfind('/') + 1);  // npos + 1 is 0
-  const bool layer = std::find(layer_names.begin(), layer_names.end(), last) != layer_names.end();
+  const bool layer = std::ranges::find(layer_names, last) != layer_names.end();
   return layer ? parent_of(parent) : parent;
 }
 

@@ -105,8 +105,7 @@ std::optional<Corkscrew> corkscrew(const pipeline::FileReader& strain, const pip
     const pipeline::CableForce force(mounted, part);
     const double most =
         force.strength() > 0 ? pipeline::believable_share * force.strength() : std::numeric_limits<double>::infinity();
-    if (std::any_of(tension[k].begin(), tension[k].end(), [&](double pull) { return std::abs(pull) > most; }))
-      return {};
+    if (std::ranges::any_of(tension[k], [&](double pull) { return std::abs(pull) > most; })) return {};
     const BoredCable cable = bored(mounted, part, force, room[k], shape.length);
     const double growth = cable.torsion * shape.turn_left / shape.length;  // increase of the torque per repeat
     if (!worst)

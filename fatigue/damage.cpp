@@ -29,8 +29,8 @@ std::vector<Reversal> numbered(std::span<const Reversal> path) {
 /// Returns the stress that a history loses when `share` of its offset remains (F22). The whole offset is the middle of its
 /// outermost loop, whose tips are its largest and its smallest strain.
 double relaxed_by(std::span<const Reversal> path, std::span<const double> stress, double share) {
-  const auto [low, high] = std::minmax_element(
-      path.begin(), path.end(), [](const Reversal& a, const Reversal& b) { return a.strain < b.strain; });
+  const auto [low, high] =
+      std::ranges::minmax_element(path, [](const Reversal& a, const Reversal& b) { return a.strain < b.strain; });
   return (1 - share) * (stress[low - path.begin()] / 2 + stress[high - path.begin()] / 2);
 }
 
@@ -94,8 +94,7 @@ std::vector<double> stress_along(std::span<const double> strain, const pipeline:
   const auto smaller = [](double a, double b) { return std::fabs(a) < std::fabs(b); };
   const std::size_t samples = strain.size();
   const std::size_t first =
-      repeating ? static_cast<std::size_t>(std::max_element(strain.begin(), strain.end(), smaller) - strain.begin())
-                : 0;
+      repeating ? static_cast<std::size_t>(std::ranges::max_element(strain, smaller) - strain.begin()) : 0;
   std::vector<double> stress(samples);
   std::vector<Reversal> path(samples);
   for (std::size_t i = 0; i < samples; ++i) {
@@ -342,7 +341,7 @@ bool alternates(std::span<const float> strains) {
 /// the joint of its end and its begin. Empty for a constant history.
 std::vector<float> alternating_period(std::span<const float> strains) {
   const auto is_smaller = [](float a, float b) { return std::fabs(a) < std::fabs(b); };
-  const std::size_t largest = std::max_element(strains.begin(), strains.end(), is_smaller) - strains.begin();
+  const std::size_t largest = std::ranges::max_element(strains, is_smaller) - strains.begin();
   std::vector<float> period;
   for (std::size_t i = 0; i <= strains.size(); ++i) {
     const float strain = strains[(largest + i) % strains.size()];
@@ -583,7 +582,7 @@ namespace {
 
 double amplitude_of(std::span<const float> strains) {
   if (strains.empty()) return 0;
-  const auto [low, high] = std::minmax_element(strains.begin(), strains.end());
+  const auto [low, high] = std::ranges::minmax_element(strains);
   return (double{*high} - double{*low}) / 2;
 }
 

@@ -95,7 +95,7 @@ class Modes {
     std::partial_sort(damaged.begin(), damaged.begin() + static_cast<std::ptrdiff_t>(kept), damaged.end(),
                       [&](std::size_t a, std::size_t b) { return in_.damage.worse(a, b); });
     sites.insert(sites.end(), damaged.begin(), damaged.begin() + static_cast<std::ptrdiff_t>(kept));
-    std::sort(sites.begin(), sites.end());
+    std::ranges::sort(sites);
     sites.erase(std::unique(sites.begin(), sites.end()), sites.end());
     if (!sites.empty() && sites.back() == no_site) sites.pop_back();
     VariedStrains own;
@@ -135,7 +135,7 @@ class Modes {
   /// Returns log10 of the worst wire's median life at a point of the strain parameters; at 0: W(0).
   static double first_wire_life(const LifeResponse& response, std::size_t point = 0) {
     const auto zero = [](const std::vector<double>& nodes) {
-      return static_cast<std::size_t>(std::find(nodes.begin(), nodes.end(), 0.0) - nodes.begin());
+      return static_cast<std::size_t>(std::ranges::find(nodes, 0.0) - nodes.begin());
     };
     const std::size_t slopes = response.slope.size();
     return response.worst_life.at((point * response.strength.size() + zero(response.strength)) * slopes +
@@ -173,7 +173,7 @@ ModeList::ModeList(const pipeline::Job& job, const TextColumn& component) : job_
 std::size_t ModeList::of(const std::string& wire) const {
   const PathInJob place = path_in_job(job_, wire);
   if (pipeline::is_hose_wall(job_.dresspacks[place.dresspack].dresspack, place.inside)) return no_site;
-  const auto found = std::find(name_.begin(), name_.end(), name_of_mode(job_, place, layers_));
+  const auto found = std::ranges::find(name_, name_of_mode(job_, place, layers_));
   return found == name_.end() ? no_site : static_cast<std::size_t>(found - name_.begin());
 }
 

@@ -150,7 +150,7 @@ Percentiles first_of(const std::vector<LifeDistribution>& distributions) {
 Wires::Wires(std::span<const double> damage) {
   for (const double d : damage)
     if (d > 0) lives_.push_back(1 / d);
-  std::sort(lives_.begin(), lives_.end());
+  std::ranges::sort(lives_);
   for (const double life : lives_) log_.push_back(std::log(life));
 }
 

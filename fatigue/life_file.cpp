@@ -229,7 +229,7 @@ Layers layers_of(const Context& c, const TextColumn& components) {
     }
     const std::string before = component.substr(0, component.size() - place.inside.size());
     const std::string layer = before + layer_of(place.inside, layer_names(dresspack));
-    const auto found = std::find(layers.begin(), layers.end(), layer);
+    const auto found = std::ranges::find(layers, layer);
     layer_of_component.push_back(found - layers.begin());
     if (found == layers.end()) layers.push_back(layer);
   }
@@ -335,8 +335,7 @@ Worst worst_of(const Context& c, std::size_t site, const std::vector<DamagingCyc
   worst.segment_from_tool = double(c.segments_of(c.dresspack[segment]).end - segment);
   worst.position_from_tool = c.from_tool(segment);
   worst.component = c.component[site];
-  const auto most =
-      std::max_element(cycles.begin(), cycles.end(), [](const auto& a, const auto& b) { return a.damage < b.damage; });
+  const auto most = std::ranges::max_element(cycles, [](const auto& a, const auto& b) { return a.damage < b.damage; });
   const std::size_t sample = most == cycles.end() ? 0 : most->cycle.end.sample;
   worst.time = c.time.empty() ? 0 : c.time[sample];
   if (const std::string* const step = c.step_at(sample)) worst.step = *step;
@@ -362,7 +361,7 @@ void write_first_place(const Context& c, const Conductors& conductors, const Fir
   const double p10 = hours(p10_repeats, c.repeat_seconds());
   c.life.attribute("life_months_p10", pipeline::months(p10, c.job.fatigue.operating_hours_per_week));
   if (!c.job.robot.joints.empty()) c.life.attribute("robot_life_hours", c.job.fatigue.robot_life_hours);
-  auto place = std::find_if(first.soonest.begin(), first.soonest.end(), [&](const FirstPlace::Soonest& of) {
+  auto place = std::ranges::find_if(first.soonest, [&](const FirstPlace::Soonest& of) {
     return modes.of(c.component[conductors.worst[of.conductor]]) == failing_mode;
   });
   if (place == first.soonest.end()) place = first.soonest.begin();
@@ -381,7 +380,7 @@ std::vector<double> worst_history(const Context& c) {
   if (c.worst == no_site) return {};
   if (c.planes && c.planes->of(c.worst)) return c.planes->strain_of(c.worst);
   const auto probed = c.strain.read<std::uint32_t>("/probe/site");
-  const auto probe = std::find(probed.begin(), probed.end(), c.worst);
+  const auto probe = std::ranges::find(probed, c.worst);
   std::vector<double> strain;
   if (probe != probed.end()) c.strain.read_rows("/probe/strain", probe - probed.begin(), 1, strain);
   return strain;
@@ -465,7 +464,7 @@ void write_causes(const Context& c, const std::vector<DamagingCycle>& cycles, co
   put(c.life, "/joint/damage", by_joint.damage);
   put(c.life, "/program/joint_damage", by_joint.by_line);
   c.life.attribute("joint_explained", surface.explained());
-  const auto most = std::max_element(by_joint.damage.begin(), by_joint.damage.end()) - by_joint.damage.begin();
+  const auto most = std::ranges::max_element(by_joint.damage) - by_joint.damage.begin();
   const double total = sum_of_damage(cycles);
   c.life.attribute("worst_joint", total > 0 ? names[most] : "");
   c.life.attribute("worst_joint_share", total > 0 ? by_joint.damage[most] / total : 0);
@@ -619,11 +618,11 @@ std::string write_unvalidated(const Context& c, const std::vector<double>& lives
 /// Then the job's own sites are the bound; they are all wires, not only the likely worst ones.
 bool is_own_slip(const pipeline::Job& job, pipeline::Slip slip) {
   const auto holds_wires = [](const pipeline::MountedDresspack& mounted) {
-    return std::any_of(mounted.dresspack.components.begin(), mounted.dresspack.components.end(),
-                       [](const pipeline::Component& part) { return is_wire(part); });
+    return std::ranges::any_of(mounted.dresspack.components,
+                               [](const pipeline::Component& part) { return is_wire(part); });
   };
   const bool cables_only = pipeline::slides(job.strain.slip.front()) && job.strain.slip.size() > 1 &&
-                           std::none_of(job.dresspacks.begin(), job.dresspacks.end(), holds_wires);
+                           std::ranges::none_of(job.dresspacks, holds_wires);
   return std::all_of(job.strain.slip.begin() + (cables_only ? 1 : 0), job.strain.slip.end(),
                      [&](pipeline::Slip own) { return own == slip; });
 }
@@ -679,11 +678,11 @@ void write_shear(const Context& c) {
   }
   if (!c.strain.has("/probe/shear")) return;
   const auto probed = c.strain.read<std::uint32_t>("/probe/site");
-  const auto probe = std::find(probed.begin(), probed.end(), c.worst);
+  const auto probe = std::ranges::find(probed, c.worst);
   if (probe == probed.end()) return;
   std::vector<double> shear;
   c.strain.read_rows("/probe/shear", probe - probed.begin(), 1, shear);
-  const auto [low, high] = std::minmax_element(shear.begin(), shear.end());
+  const auto [low, high] = std::ranges::minmax_element(shear);
   c.life.attribute("worst_shear_range", *high - *low);
 }
 
@@ -697,7 +696,7 @@ pipeline::FirstFailures write_first_failures(const Context& c, const pipeline::F
     put_hours(fmt::format("life_hours_{}_all_glued", ends[i]), lives.glued[i]);
     put_hours(fmt::format("life_hours_{}_all_free", ends[i]), lives.free[i]);
   }
-  const auto most = std::max_element(lives.first.begin(), lives.first.end());
+  const auto most = std::ranges::max_element(lives.first);
   c.life.attribute("failing_mode",
                    *most > 0 ? modes[static_cast<std::size_t>(most - lives.first.begin())].mode : std::string());
   c.life.attribute("failing_mode_share", *most);
@@ -777,21 +776,19 @@ std::vector<pipeline::Warning> warnings_of(const Context& c, const std::vector<D
   std::map<std::string, pipeline::Warning> contradictions;  // sorted, without duplicates
   for (const std::string& name : c.sites.material().values) {
     const auto& packs = c.job.dresspacks;
-    if (std::any_of(packs.begin(), packs.end(),
-                    [&](const pipeline::MountedDresspack& mounted) { return mounted.dresspack.hose_material == name; }))
+    if (std::ranges::any_of(
+            packs, [&](const pipeline::MountedDresspack& mounted) { return mounted.dresspack.hose_material == name; }))
       continue;
     const pipeline::Material& material = pipeline::material_of(c.job, name);
     if (!yields(c.job.fatigue.stress) || !material.strain_life_table.empty()) continue;
     if (const auto warning = compatibility_warning(material)) contradictions.emplace(warning->words, *warning);
   }
-  const auto torn = std::count_if(worst_cycles.begin(), worst_cycles.end(), [](const DamagingCycle& d) {
-    return d.damage >= d.cycle.count * 2 / fewest_reversals;
-  });
+  const auto torn = std::ranges::count_if(
+      worst_cycles, [](const DamagingCycle& d) { return d.damage >= d.cycle.count * 2 / fewest_reversals; });
   std::vector<pipeline::Warning> warnings;
   for (const auto& [words, warning] : contradictions) warnings.push_back(warning);
   if (torn > 0) {
-    const bool sticks = std::any_of(c.job.strain.slip.begin(), c.job.strain.slip.end(),
-                                    [](pipeline::Slip slip) { return !slides(slip); });
+    const bool sticks = std::ranges::any_of(c.job.strain.slip, [](pipeline::Slip slip) { return !slides(slip); });
     warnings.push_back(pipeline::warning_of(
         pipeline::WarningKind::strain, "",
         fmt::format(
@@ -841,7 +838,7 @@ Notes write_life(const FileReader& strain, const pipeline::Job& job, FileWriter&
   const pipeline::FirstFailures first = first_failures_of(c, modes, conductors, places, lives, glued, free);
   const double p10_repeats = job.uncertainty.enabled ? first.percentiles[0] : lives.first_place.lives[0];
   write_scatter(c, conductors, lives, job.uncertainty.enabled ? &first : nullptr);
-  const auto most = std::max_element(first.first.begin(), first.first.end());
+  const auto most = std::ranges::max_element(first.first);
   write_first_place(c, conductors, lives.first_place, modes, static_cast<std::size_t>(most - first.first.begin()),
                     p10_repeats);
   write_shear(c);

@@ -39,7 +39,7 @@ std::vector<Place> places_of(std::span<const PlacesOfConductor> places, std::spa
       if (damage[count - 1] > 0) all.push_back({conductor, segment, -std::log(damage[count - 1])});
     }
   }
-  std::stable_sort(all.begin(), all.end(), [](const Place& a, const Place& b) { return a.log_life < b.log_life; });
+  std::ranges::stable_sort(all, [](const Place& a, const Place& b) { return a.log_life < b.log_life; });
   return all;
 }
 
@@ -117,8 +117,8 @@ class Places {
  private:
   /// Sorts the evaluated places by conductor, and creates each conductor's wires with their worst places.
   void take_conductors(std::span<const ConductorWires> bundles) {
-    std::stable_sort(judged_.begin(), judged_.end(),
-                     [](const JudgedPlace& a, const JudgedPlace& b) { return a.conductor < b.conductor; });
+    std::ranges::stable_sort(judged_,
+                             [](const JudgedPlace& a, const JudgedPlace& b) { return a.conductor < b.conductor; });
     anywhere_.clear();
     for (const JudgedPlace& place : judged_)
       if (anywhere_.empty() || anywhere_.back().conductor != place.conductor)
@@ -164,8 +164,7 @@ FirstPlace first_place_lives(std::span<const PlacesOfConductor> places, std::spa
   std::map<std::size_t, std::vector<Place>> of_dresspack;
   for (const Place& place : all) of_dresspack[bundles[place.conductor].dresspack].push_back(place);
 
-  const bool sharing =
-      std::any_of(bundles.begin(), bundles.end(), [](const ConductorWires& b) { return !b.rate.empty(); });
+  const bool sharing = std::ranges::any_of(bundles, [](const ConductorWires& b) { return !b.rate.empty(); });
   double haste = 0;
   for (const ConductorWires& bundle : bundles)
     for (std::size_t k = 0;

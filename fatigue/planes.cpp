@@ -50,9 +50,7 @@ double JudgedPlanes::poisson_ratio_of(std::size_t site) const {
   return pipeline::material_of(job_, sites_.material()[site]).poisson_ratio;
 }
 
-std::size_t JudgedPlanes::row_of(std::size_t site) const {
-  return std::find(site_.begin(), site_.end(), site) - site_.begin();
-}
+std::size_t JudgedPlanes::row_of(std::size_t site) const { return std::ranges::find(site_, site) - site_.begin(); }
 
 const CriticalPlane* JudgedPlanes::of(std::size_t site) const {
   const std::size_t row = row_of(site);

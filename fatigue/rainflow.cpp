@@ -91,9 +91,8 @@ std::vector<Cycle> count_half_cycles(std::span<const Reversal> reversals) {
 
 std::vector<Reversal> rotate_to_largest(std::span<const Reversal> reversals) {
   assert(!reversals.empty());
-  const auto largest = std::max_element(reversals.begin(), reversals.end(), [](const Reversal& a, const Reversal& b) {
-    return std::fabs(a.strain) < std::fabs(b.strain);
-  });
+  const auto largest = std::ranges::max_element(
+      reversals, [](const Reversal& a, const Reversal& b) { return std::fabs(a.strain) < std::fabs(b.strain); });
   std::vector<Reversal> period;
   period.reserve(reversals.size() + 1);
   for (auto r = largest; r != reversals.end(); ++r) append_alternating(period, *r);

@@ -79,7 +79,7 @@ class Promise {
     for (const Rating& rating : cable.ratings)
       if (is_twisted(rating) == twisted) {
         const std::vector<double> cycle = rig_cycle(rating, 2 * cable.radius);
-        const double largest = *std::max_element(cycle.begin(), cycle.end());
+        const double largest = *std::ranges::max_element(cycle);
         if (unit_ == 0) unit_ = largest;
         const Sum each = sum_of(cycle, exponents, unit_);
         largest_ = std::max(largest_, each.largest);

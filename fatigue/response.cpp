@@ -58,7 +58,7 @@ std::vector<std::size_t> worst_of(const std::vector<std::size_t>& wires, const s
   std::vector<std::size_t> worst;
   const std::vector<std::size_t> order = pipeline::largest_first(damage);
   for (std::size_t k = 0; k < std::min(count, order.size()); ++k) worst.push_back(wires[order[k]]);
-  std::sort(worst.begin(), worst.end());
+  std::ranges::sort(worst);
   return worst;
 }
 
@@ -79,7 +79,7 @@ constexpr std::size_t of_rest = index_of(pipeline::Uncertain::rest), of_slack = 
 /// Returns whether a variation differs from the job only by the rest.
 bool is_rest(const VariedStrains& at) {
   return at.rest > 0 && at.inside == pipeline::Inside::as_is &&
-         std::all_of(at.z.begin(), at.z.end(), [](double z) { return z == 0; });
+         std::ranges::all_of(at.z, [](double z) { return z == 0; });
 }
 
 }  // namespace
@@ -178,8 +178,8 @@ void put_rests(pipeline::LifeResponse& response, std::span<const VariedStrains> 
   const auto life = [&](std::size_t at, std::size_t node) -> double& { return response.worst_life[at * nodes + node]; };
   for (std::size_t rest = 0; rest < starts.size(); ++rest)
     if (rest == 0 || point[rest] > 0) order.push_back(rest);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return life(point[a], middle) < life(point[b], middle); });
+  std::ranges::stable_sort(
+      order, [&](std::size_t a, std::size_t b) { return life(point[a], middle) < life(point[b], middle); });
   double all = 0, before = 0;
   for (const std::size_t rest : order) all += static_cast<double>(starts[rest]);
   std::vector<double> score(starts.size());

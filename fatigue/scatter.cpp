@@ -22,7 +22,7 @@ double quantile(const std::vector<double>& sorted, double share) {
 }
 
 Percentiles quantiles(std::vector<double>& lives) {
-  std::sort(lives.begin(), lives.end());
+  std::ranges::sort(lives);
   Percentiles result{};
   for (std::size_t i = 0; i < result.size(); ++i) result[i] = quantile(lives, percentiles[i]);
   return result;

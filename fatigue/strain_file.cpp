@@ -43,11 +43,11 @@ SiteSet::SiteSet(const pipeline::FileReader& file, std::string group)
 void SiteSet::check(std::size_t segments) const {
   const std::string remedy = "make the file again with dresslife-strain";
   const auto outside = [&](std::int32_t s) { return s < 0 || static_cast<std::size_t>(s) >= segments; };
-  if (const auto bad = std::find_if(segment_.begin(), segment_.end(), outside); bad != segment_.end()) {
+  if (const auto bad = std::ranges::find_if(segment_, outside); bad != segment_.end()) {
     throw pipeline::InputError(
         file_.where(), fmt::format("{}/site/segment names segment {} (there are {})", group_, *bad, segments), remedy);
   }
-  if (offset_.empty() || offset_.front() != 0 || !std::is_sorted(offset_.begin(), offset_.end()) ||
+  if (offset_.empty() || offset_.front() != 0 || !std::ranges::is_sorted(offset_) ||
       offset_.back() != file_.rows(group_ + "/reversal/strain")) {
     throw pipeline::InputError(
         file_.where(), fmt::format("{}/reversal/offset does not divide the turning points among the sites", group_),
@@ -59,7 +59,7 @@ std::vector<std::size_t> SiteSet::Block::cuts(std::size_t parts) const {
   std::vector<std::size_t> sites;
   for (std::size_t part = 0; part < parts; ++part) {
     const std::uint64_t from = offset.front() + (offset.back() - offset.front()) * part / parts;
-    sites.push_back(begin + (std::lower_bound(offset.begin(), offset.end(), from) - offset.begin()));
+    sites.push_back(begin + (std::ranges::lower_bound(offset, from) - offset.begin()));
   }
   sites.front() = begin;
   sites.push_back(end);
@@ -68,10 +68,9 @@ std::vector<std::size_t> SiteSet::Block::cuts(std::size_t parts) const {
 
 void SiteSet::check_materials(const pipeline::Job& job) const {
   const auto describes = [&](const std::string& name) {
-    return std::any_of(job.dresspacks.begin(), job.dresspacks.end(), [&](const auto& mounted) {
+    return std::ranges::any_of(job.dresspacks, [&](const auto& mounted) {
       const auto& materials = mounted.dresspack.materials;
-      return std::any_of(materials.begin(), materials.end(),
-                         [&](const pipeline::Material& material) { return material.name == name; });
+      return std::ranges::any_of(materials, [&](const pipeline::Material& material) { return material.name == name; });
     });
   };
   for (const std::string& name : material_.values)

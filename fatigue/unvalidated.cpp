@@ -172,7 +172,7 @@ struct Search {
   std::vector<double> put_wear(UnvalidatedMode& mode, std::size_t dresspack, const Abrasion& worn) const {
     if (std::isfinite(worn.repeats))
       put_place(mode, dresspack, worn.position,
-                static_cast<std::size_t>(std::lower_bound(time.begin(), time.end(), worn.time) - time.begin()));
+                static_cast<std::size_t>(std::ranges::lower_bound(time, worn.time) - time.begin()));
     return own_lives(mode, worn.repeats, worn.log10_spread);
   }
 };
@@ -477,11 +477,11 @@ std::string not_evaluated(const FileReader& strain, const pipeline::Job& job,
                           const std::vector<std::string>& left_out) {
   std::vector<std::string> names;
   const auto add = [&](const std::string& name) {
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
   };
   const auto add_plain = [&](const pipeline::Component& part) {
     const auto twisted = [](const pipeline::Rating& rating) { return rating.rig.kind == pipeline::RigKind::torsion; };
-    const auto of_twist = std::count_if(part.ratings.begin(), part.ratings.end(), twisted);
+    const auto of_twist = std::ranges::count_if(part.ratings, twisted);
     const bool hose = part.plain->kind == pipeline::PlainKind::hose;
     if (part.ratings.empty()) return add((hose ? "fatigue and pressure of " : "") + part.name);
     if (hose) add("pressure of " + part.name);
@@ -511,9 +511,9 @@ std::string not_evaluated(const FileReader& strain, const pipeline::Job& job,
       if (!rubs || !is_hose(dresspack) || !jacket_of(dresspack, part)) bare.push_back(part.name);
     }
   }
-  const bool worn = knows_contacts(strain, job) &&
-                    std::all_of(job.dresspacks.begin(), job.dresspacks.end(),
-                                [](const auto& mounted) { return worn_of(mounted.dresspack).has_value(); });
+  const bool worn = knows_contacts(strain, job) && std::ranges::all_of(job.dresspacks, [](const auto& mounted) {
+                      return worn_of(mounted.dresspack).has_value();
+                    });
   if (!worn) add(UnvalidatedMode::abrasion);
   const auto bodiless = links_without_shape(job.robot);
   if (worn && !bodiless.empty()) add(fmt::format("abrasion on {}", fmt::join(bodiless, " and ")));

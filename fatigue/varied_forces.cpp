@@ -160,11 +160,11 @@ class VariedLimit {
       if (parameters.size() == 1) add(parameters, variations);
     const std::vector<Cause> alone = causes_;
     for (const auto& [parameters, variations] : groups)
-      if (parameters.size() > 1 && std::none_of(alone.begin(), alone.end(), [&of = parameters](const Cause& cause) {
+      if (parameters.size() > 1 && std::ranges::none_of(alone, [&of = parameters](const Cause& cause) {
             return std::ranges::find(of, cause.parameters.front()) != of.end();
           }))
         add(parameters, variations);
-    std::stable_sort(causes_.begin(), causes_.end(), [](const Cause& a, const Cause& b) { return a.share > b.share; });
+    std::ranges::stable_sort(causes_, [](const Cause& a, const Cause& b) { return a.share > b.share; });
   }
 
   const std::vector<Cause>& causes() const { return causes_; }  ///< the one with the largest share first

@@ -84,8 +84,7 @@ const DamageCounter& SiteCounters::of(std::size_t site) const {
 }
 
 bool SiteCounters::settle() const {
-  return std::any_of(by_material_.begin(), by_material_.end(),
-                     [](const DamageCounter& counter) { return counter.settles(); });
+  return std::ranges::any_of(by_material_, [](const DamageCounter& counter) { return counter.settles(); });
 }
 
 namespace {
@@ -209,7 +208,7 @@ std::string layer_of(const std::string& component, const std::vector<std::string
   for (std::size_t begin = 0; begin <= component.size();) {
     const std::size_t end = std::min(component.find('/', begin), component.size());
     const std::string part = component.substr(begin, end - begin);
-    const bool is_layer = std::find(layer_names.begin(), layer_names.end(), part) != layer_names.end();
+    const bool is_layer = std::ranges::find(layer_names, part) != layer_names.end();
     layer += (begin > 0 ? "/" : "") + (is_layer ? part : without_number(part));
     begin = end + 1;
   }

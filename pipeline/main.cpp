@@ -55,7 +55,7 @@ std::vector<Command> commands(const Command& program, bool& force) {
       manual_command(program)};
   constexpr std::array<std::string_view, 6> write_nothing{"status", "show", "check", "clean", "import", "manual"};
   for (Command& command : all)
-    if (std::find(write_nothing.begin(), write_nothing.end(), command.name) == write_nothing.end())
+    if (std::ranges::find(write_nothing, command.name) == write_nothing.end())
       command.options.push_back(
           {"--force", "", "replace files that dresslife did not write; never one that it reads", &force});
   return all;

@@ -80,10 +80,9 @@ std::string counted(std::size_t questions) {
 bool all_are_empty(const std::vector<sim::Problem>& problems, const pipeline::Motion& asked) {
   for (const sim::Problem& problem : problems)
     for (const sim::Question& question : problem.questions)
-      if (std::none_of(asked.values.begin(), asked.values.end(),
-                       [&](const auto& v) { return v.value.empty() && v.name == question.name; }) &&
-          std::none_of(asked.assume.begin(), asked.assume.end(),
-                       [&](const auto& a) { return a.take.empty() && a.line == question.name; }))
+      if (std::ranges::none_of(asked.values,
+                               [&](const auto& v) { return v.value.empty() && v.name == question.name; }) &&
+          std::ranges::none_of(asked.assume, [&](const auto& a) { return a.take.empty() && a.line == question.name; }))
         return false;
   return true;
 }
@@ -188,7 +187,7 @@ void note_log(const Request& request, const pipeline::StageCall& call, pipeline:
   const auto fits = [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_'; };
   if (call.output.empty())
     throw pipeline::InputError({"--log"}, "needs a file of duties to write", "name it: -o shift.yaml");
-  if (call.output.extension() != ".yaml" || !std::all_of(name.begin(), name.end(), fits))
+  if (call.output.extension() != ".yaml" || !std::ranges::all_of(name, fits))
     throw pipeline::InputError({call.output.string()}, "is no name for a file of duties",
                                "name it with letters, digits, - and _: -o shift.yaml");
   if (!call.sets.empty())

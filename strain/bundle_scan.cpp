@@ -207,8 +207,7 @@ void BundleScan::settle(const std::vector<LayerSlip>& plan, const BundlePointers
 void BundleScan::run_all(const Bundle& bundle, const std::vector<LayerSlip>& plan, const BundlePointers& nesting,
                          bool mixed, const DeformationColumns& columns, std::size_t samples, Wanted wanted) {
   start(bundle, plan, nesting, mixed);
-  const bool settles = std::any_of(bundle.wire_layers.begin(), bundle.wire_layers.end(),
-                                   [&](int layer) { return plan[layer].friction; });
+  const bool settles = std::ranges::any_of(bundle.wire_layers, [&](int layer) { return plan[layer].friction; });
   if (settles) settle(plan, nesting, columns, samples);
   run_blocks(nesting, mixed, wanted, columns, samples);
 }

@@ -233,12 +233,11 @@ void CablePaths::add_held(const SpanBlock& block) {
   const auto attach = [](BundleNesting&) {};
   for (std::size_t segment = 0; segment < lengths_.size(); ++segment) {
     const DeformationColumns columns = block.deformation.columns(segment);
-    const bool apart =
-        std::any_of(held_.begin(), held_.end(), [&](std::size_t c) { return cables_[c].rubs || cables_[c].sticks; });
+    const bool apart = std::ranges::any_of(held_, [&](std::size_t c) { return cables_[c].rubs || cables_[c].sticks; });
     if (!apart) {
       rates_->add(segment, columns, count, attach, path.data(), stride);
     } else {
-      std::fill(in_segment.begin(), in_segment.end(), 0.0);
+      std::ranges::fill(in_segment, 0.0);
       rates_->add(segment, columns, count, attach, in_segment.data(), stride);
       for (std::size_t k = 0; k < path.size(); ++k) path[k] += in_segment[k];
     }
@@ -558,7 +557,7 @@ std::vector<int> CablePaths::bent_most(std::size_t segment) const {
 }
 
 bool CablePaths::remembers() const {
-  return std::any_of(cables_.begin(), cables_.end(), [](const Cable& cable) { return cable.remembers; });
+  return std::ranges::any_of(cables_, [](const Cable& cable) { return cable.remembers; });
 }
 
 void CablePaths::repeat() {

@@ -149,7 +149,7 @@ std::vector<int> Construction::ancestry(int part) const {
 int Construction::cable_of(int part) const {
   if (part == dresspack_itself) return no_cable;
   while (parts_[part].parent != dresspack_itself) part = parts_[part].parent;
-  return static_cast<int>(std::lower_bound(cables_.begin(), cables_.end(), part) - cables_.begin());
+  return static_cast<int>(std::ranges::lower_bound(cables_, part) - cables_.begin());
 }
 
 /// Returns the lay angle of the kinematics. The thesis does not know hands: all its lay angles are positive.

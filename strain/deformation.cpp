@@ -69,7 +69,7 @@ DeformationGauge::DeformationGauge(std::vector<double> lengths, pipeline::Deform
                                    std::optional<Vector3d> free_end)
     : lengths_(std::move(lengths)), measure_(measure), free_end_(std::move(free_end)), links_(lengths_.size() + 1) {
   assert(!lengths_.empty());
-  const auto [shortest, longest] = std::minmax_element(lengths_.begin(), lengths_.end());
+  const auto [shortest, longest] = std::ranges::minmax_element(lengths_);
   equal_lengths_ =
       *longest - *shortest <= 1e-9 * *longest;  // rounding when a length is divided by the number of segments
   link_lengths_.push_back(lengths_.front() / 2);

@@ -131,8 +131,7 @@ Evaluation::Evaluation(const Construction& construction, const pipeline::Strain&
 
 void Evaluation::find_probes(const std::vector<pipeline::ProbeRequest>& probes) {
   for (const pipeline::ProbeRequest& probe : probes) {
-    const auto wire =
-        std::find_if(wires_.begin(), wires_.end(), [&](const Wire& w) { return w.path == probe.component; });
+    const auto wire = std::ranges::find_if(wires_, [&](const Wire& w) { return w.path == probe.component; });
     if (wire == wires_.end())
       throw pipeline::InputError({},
                                  fmt::format("strain.probes: no wire is called '{}' (a path from the outermost part "
@@ -271,12 +270,11 @@ const SegmentMotion& Evaluation::motion_at_wires(std::size_t segment, const Defo
 }
 
 bool Evaluation::mixed(const ClampMeans& means) const {
-  return scan_.with_shear ||
-         std::any_of(means.plan().begin(), means.plan().end(), [](const LayerSlip& slip) { return slip.friction; });
+  return scan_.with_shear || std::ranges::any_of(means.plan(), [](const LayerSlip& slip) { return slip.friction; });
 }
 
 bool Evaluation::rubs_inside() const {
-  return std::any_of(means_.plan().begin(), means_.plan().end(), [](const LayerSlip& slip) { return slip.friction; });
+  return std::ranges::any_of(means_.plan(), [](const LayerSlip& slip) { return slip.friction; });
 }
 
 void Evaluation::add_held(const ClampMeans& means) {
@@ -286,8 +284,8 @@ void Evaluation::add_held(const ClampMeans& means) {
 
 bool Evaluation::holds_down_to(int part, const ClampMeans& means) const {
   const std::vector<int> line = construction_.ancestry(part);
-  return std::any_of(line.begin(), line.end(),
-                     [&](int above) { return means.plan()[construction_.parts()[above].layer].friction; });
+  return std::ranges::any_of(line,
+                             [&](int above) { return means.plan()[construction_.parts()[above].layer].friction; });
 }
 
 HeldStrains* Evaluation::held_of(const ClampMeans& means, Worker& worker) const {
@@ -332,8 +330,7 @@ bool parent_suffices(const BundleNesting& nesting) {
     return slide.sliding == Sliding::along_ancestor && slide.helical_level < steps;
   };
   return steps > 0 && !reaches_above(nesting.steps.back().slide) &&
-         std::none_of(nesting.nodes.begin(), nesting.nodes.end(),
-                      [&](const WireNode& node) { return reaches_above(node.slide); });
+         std::ranges::none_of(nesting.nodes, [&](const WireNode& node) { return reaches_above(node.slide); });
 }
 
 BundlePointers Evaluation::from_parent(const BundleNesting& nesting, int part, std::size_t segment,
@@ -454,8 +451,7 @@ void Evaluation::list_turns(std::span<const Site> sites, std::size_t segment, co
     const auto histories = histories_of(sites, segment, means, motion, worker);
     std::vector<float> in_single(motion.samples);
     for (std::size_t k = 0; k < sites.size(); ++k) {
-      std::transform(histories[k].begin(), histories[k].end(), in_single.begin(),
-                     [](double strain) { return static_cast<float>(strain); });
+      std::ranges::transform(histories[k], in_single.begin(), [](double strain) { return static_cast<float>(strain); });
       list(in_single, lists[k]);
     }
     return;
@@ -580,8 +576,8 @@ void Evaluation::Worst::consider(const SiteMeasures& seen) {
     auto& most = by_sum[k];
     const float sum = seen.by[sums[k]];
     if (most.size() == most_by_sum && sum <= most.back().first) continue;
-    const auto smaller = [](float than, const auto& other) { return than > other.first; };
-    most.insert(std::upper_bound(most.begin(), most.end(), sum, smaller), {sum, seen.site});
+    most.insert(std::ranges::upper_bound(most, sum, std::greater<>(), &std::pair<float, Site>::first),
+                {sum, seen.site});
     if (most.size() > most_by_sum) most.pop_back();
   }
 }
@@ -617,7 +613,7 @@ void Evaluation::find_likely(const std::vector<const Worst*>& wires) {
     const auto& list = layer->by_sum.front();
     for (std::size_t k = 0; k < std::min(by_cycles, list.size()); ++k) likely_.push_back(list[k].second);
   }
-  std::sort(likely_.begin(), likely_.end());
+  std::ranges::sort(likely_);
   likely_.erase(std::unique(likely_.begin(), likely_.end()), likely_.end());
 }
 

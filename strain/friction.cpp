@@ -62,8 +62,8 @@ int turned_level(const Construction& construction, const std::vector<int>& line)
 }  // namespace
 
 bool HeldStrains::any_turned() const {
-  return std::any_of(means_.plan().begin(), means_.plan().end(),
-                     [](const LayerSlip& slip) { return slip.sliding == Sliding::along_ancestor; });
+  return std::ranges::any_of(means_.plan(),
+                             [](const LayerSlip& slip) { return slip.sliding == Sliding::along_ancestor; });
 }
 
 std::size_t HeldStrains::bytes(std::size_t samples) const {

@@ -65,8 +65,8 @@ BundleNesting nesting_to(const Construction& construction, const std::vector<Lay
   nesting.fibres = fibres;
   nesting.dresspack_at_rest = uniform_rod<double>(0, 0, construction.rest_curvature(), 0, order);
   nesting.order = order_for(fibres);
-  const bool any_turned = std::any_of(plan.begin(), plan.end(),
-                                      [](const LayerSlip& slip) { return slip.sliding == Sliding::along_ancestor; });
+  const bool any_turned =
+      std::ranges::any_of(plan, [](const LayerSlip& slip) { return slip.sliding == Sliding::along_ancestor; });
   const std::vector<int> line = construction.ancestry(part);
   nesting.steps.reserve(line.size());
   for (const int level_part : line) {
@@ -120,8 +120,8 @@ void add_wire_layer(const Construction& construction, const std::vector<LayerSli
 }
 
 int order_for(const std::vector<Fibre>& fibres) {
-  return std::any_of(fibres.begin(), fibres.end(),
-                     [](const Fibre& fibre) { return !fibre.on_axis && std::abs(fibre.phi_sine) > 1e-12; });
+  return std::ranges::any_of(fibres,
+                             [](const Fibre& fibre) { return !fibre.on_axis && std::abs(fibre.phi_sine) > 1e-12; });
 }
 
 double fibre_angle(int fibre, int count) { return count == 0 ? 0 : pi + 2 * pi * fibre / count; }

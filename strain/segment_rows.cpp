@@ -44,8 +44,7 @@ void SegmentRows::end() {
 
 void SegmentRows::read(std::size_t segment, std::size_t row, std::size_t first, std::size_t count, double* to) const {
   std::vector<float> from_file;
-  auto block = std::upper_bound(blocks_.begin(), blocks_.end(), first,
-                                [](std::size_t sample, const Block& of) { return sample < of.first + of.samples; });
+  auto block = std::ranges::upper_bound(blocks_, first, {}, [](const Block& of) { return of.first + of.samples; });
   for (; count > 0; ++block) {
     assert(block != blocks_.end());
     const std::size_t skipped = first - block->first, here = std::min(count, block->samples - skipped);

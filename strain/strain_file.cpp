@@ -329,7 +329,7 @@ class CableRows {
   void write(FileWriter& file, std::size_t samples) const {
     file.set_axis("cable", names_.size());
     const auto shorter = [](const std::string& a, const std::string& b) { return a.size() < b.size(); };
-    file.set_text_width("/cable/name", std::max_element(names_.begin(), names_.end(), shorter)->size());
+    file.set_text_width("/cable/name", std::ranges::max_element(names_, shorter)->size());
     file.append("/cable/name", names_);
     file.append("/cable/span", span_);
     file.append("/cable/dresspack", dresspack_);
@@ -454,8 +454,7 @@ std::vector<Warning> evening_warnings(const std::vector<std::unique_ptr<Evaluati
 /// Writes the moment of a cable by itself, from the curvature of a hanging cable to that of a wire around a finger.
 void write_bending(FileWriter& file, const pipeline::Job& job) {
   const pipeline::Dresspack& dresspack = job.dresspacks.front().dresspack;
-  const bool rub =
-      std::any_of(job.strain.slip.begin(), job.strain.slip.end(), [](pipeline::Slip slip) { return rubs(slip); });
+  const bool rub = std::ranges::any_of(job.strain.slip, [](pipeline::Slip slip) { return rubs(slip); });
   if (!dresspack.cable_alone || !rub || dresspack.components.size() != 1 || dresspack.components[0].components.empty())
     return;
   constexpr int of_a_decade = 20, decades = 5;
@@ -681,8 +680,8 @@ Notes write_strain(const FileReader& motion, const pipeline::Job& job, FileWrite
     work.other_motions(other + 1);
   }
   if (places.all > 0) strain.attribute("moving_places", static_cast<double>(places.moving));
-  const auto worst = std::max_element(evaluations.begin(), evaluations.end(),
-                                      [](const auto& a, const auto& b) { return a->worst_range() < b->worst_range(); });
+  const auto worst = std::ranges::max_element(
+      evaluations, [](const auto& a, const auto& b) { return a->worst_range() < b->worst_range(); });
   return {warnings, (*worst)->summary(evaluations.back()->sites_so_far())};
 }
 

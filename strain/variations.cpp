@@ -14,8 +14,8 @@ using pipeline::Uncertain;
 constexpr double low_slack = -2.25;
 
 bool any_component(const pipeline::Job& job, const std::function<bool(const pipeline::Component&)>& holds) {
-  return std::any_of(job.dresspacks.begin(), job.dresspacks.end(), [&](const pipeline::MountedDresspack& mounted) {
-    return std::any_of(mounted.dresspack.components.begin(), mounted.dresspack.components.end(), holds);
+  return std::ranges::any_of(job.dresspacks, [&](const pipeline::MountedDresspack& mounted) {
+    return std::ranges::any_of(mounted.dresspack.components, holds);
   });
 }
 

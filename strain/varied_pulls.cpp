@@ -8,8 +8,7 @@ namespace {
 
 std::size_t largest(const std::vector<double>& values) {
   return static_cast<std::size_t>(
-      std::max_element(values.begin(), values.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }) -
-      values.begin());
+      std::ranges::max_element(values, [](double a, double b) { return std::abs(a) < std::abs(b); }) - values.begin());
 }
 
 }  // namespace

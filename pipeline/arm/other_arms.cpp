@@ -133,7 +133,7 @@ std::vector<OtherArm> other_arms(const Robot& robot, const std::vector<double>& 
     const std::optional<Vector3d> found = arm_at(robot, target, start);
     if (!found) continue;
     const auto same = [&](const Vector3d& one) { return (one - *found).cwiseAbs().maxCoeff() < apart; };
-    if (std::any_of(known.begin(), known.end(), same)) continue;
+    if (std::ranges::any_of(known, same)) continue;
     known.push_back(*found);
     const std::optional<Vector3d> turned =
         wrist_at(robot, forearm(robot, *found).linear().transpose() * rotation, wrist);

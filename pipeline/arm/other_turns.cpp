@@ -35,7 +35,7 @@ std::vector<NamedTurn> configurations_of_arm(const Robot& robot) {
     turns.push_back({fmt::format("other arm: {}", name), [&robot, name](const std::vector<double>& joints) {
                        const std::vector<OtherArm> arms = other_arms(robot, joints);
                        const auto is_it = [&](const OtherArm& arm) { return arm.what == name; };
-                       const auto found = std::find_if(arms.begin(), arms.end(), is_it);
+                       const auto found = std::ranges::find_if(arms, is_it);
                        return found == arms.end() ? std::nullopt : std::optional(found->joints);
                      }});
   return turns;

@@ -60,7 +60,7 @@ CsvRow CsvReader::next() {
     CsvRow row;
     if (text_.compare(at_, 1, "#") != 0) at_ = line_begin_, row = cells();
     skip_line();
-    if (std::any_of(row.begin(), row.end(), [](const CsvCell& cell) { return !cell.text.empty(); })) return row;
+    if (std::ranges::any_of(row, [](const CsvCell& cell) { return !cell.text.empty(); })) return row;
   }
   return {};
 }
@@ -82,8 +82,8 @@ CsvRow CsvReader::cells() {
       separator_ = stated[0];
       return {};
     }
-    const auto found = std::find_if(separators_.begin(), separators_.end(),
-                                    [&](char separator) { return line.find(separator) != line.npos; });
+    const auto found =
+        std::ranges::find_if(separators_, [&](char separator) { return line.find(separator) != line.npos; });
     separator_ = found == separators_.end() ? separators_.front() : *found;
   }
   CsvRow row{cell()};

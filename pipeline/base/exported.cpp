@@ -104,7 +104,7 @@ std::string day_remedy(const std::string& text) {
 std::optional<double> exported_number(std::string text) {
   if (may_be_thousands(text)) return std::nullopt;
   text = without_thousands(text);
-  if (text.find('.') == text.npos && std::count(text.begin(), text.end(), ',') == 1) text[text.find(',')] = '.';
+  if (text.find('.') == text.npos && std::ranges::count(text, ',') == 1) text[text.find(',')] = '.';
   return number_in(text);
 }
 

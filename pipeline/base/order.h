@@ -19,7 +19,7 @@ inline std::vector<std::size_t> indices_of(std::size_t size) {
 template <class Key>
 std::vector<std::size_t> smallest_first(std::size_t size, const Key& key) {
   std::vector<std::size_t> order = indices_of(size);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
   return order;
 }
 
@@ -27,7 +27,7 @@ std::vector<std::size_t> smallest_first(std::size_t size, const Key& key) {
 template <class Key>
 std::vector<std::size_t> largest_first(std::size_t size, const Key& key) {
   std::vector<std::size_t> order = indices_of(size);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) > key(b); });
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return key(a) > key(b); });
   return order;
 }
 

@@ -97,9 +97,9 @@ bool is_notes(const fs::path& folder) {
   const std::vector<fs::path> entries = entries_of(folder);
   const auto is_temporary = [](const fs::path& entry) { return is_part(entry.filename().native()); };
   // A program that was killed before it wrote the mark leaves an empty folder or a temporary file.
-  return std::ranges::all_of(entries, is_temporary) ||
-         std::any_of(entries.begin(), entries.end(),
-                     [](const fs::path& entry) { return begins_as_ours(beginning_of(entry, ownership_bytes)); });
+  return std::ranges::all_of(entries, is_temporary) || std::ranges::any_of(entries, [](const fs::path& entry) {
+           return begins_as_ours(beginning_of(entry, ownership_bytes));
+         });
 }
 
 struct Policy {
@@ -163,8 +163,7 @@ bool begins_as_ours(std::string_view text) {
   const std::string_view begin = text.substr(0, ownership_bytes);
   return !marked(begin).digest.empty() ||
          (begin.size() >= png_head + 4 && begin.substr(png_head + 4).starts_with(png_words)) ||
-         std::any_of(beginnings.begin(), beginnings.end(),
-                     [&](std::string_view known) { return begin.starts_with(known); });
+         std::ranges::any_of(beginnings, [&](std::string_view known) { return begin.starts_with(known); });
 }
 
 bool lies_in_notes(const fs::path& file) {
@@ -244,8 +243,8 @@ void remove_notes(const fs::path& folder) {
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
     const fs::path& path = entry.path();
     const std::string name = path.filename().string(), end = path.extension().string();
-    const bool is_note = std::find(notes.begin(), notes.end(), name) != notes.end() ||
-                         std::find(ends_of_notes.begin(), ends_of_notes.end(), end) != ends_of_notes.end();
+    const bool is_note =
+        std::ranges::find(notes, name) != notes.end() || std::ranges::find(ends_of_notes, end) != ends_of_notes.end();
     if (entry.is_symlink()) continue;
     if (entry.is_directory())
       folders.push_back(path);

@@ -81,7 +81,7 @@ std::vector<std::filesystem::path> entries_of(const std::filesystem::path& folde
     entries.push_back(at->path());
   if (failure && !is_absence(failure.value()) && failure.value() != EACCES)
     throw DiskError(folder.string(), failure.value());
-  std::sort(entries.begin(), entries.end());
+  std::ranges::sort(entries);
   return entries;
 }
 
@@ -95,7 +95,7 @@ std::vector<std::filesystem::path> files_below(const std::filesystem::path& fold
       if (kind_of(entry) == FileKind::file) files.push_back(entry);
     }
   }
-  std::sort(files.begin(), files.end());
+  std::ranges::sort(files);
   return files;
 }
 

@@ -89,7 +89,7 @@ std::vector<fs::path> program_files(const fs::path& program) {
         if ((end == ".va" || (end == ".ls" && place == folder)) && beside != program && files.size() < most_files)
           files.push_back(beside);
       }
-  std::sort(files.begin(), files.end());
+  std::ranges::sort(files);
   return files;
 }
 

@@ -58,7 +58,7 @@ std::string calendar_words(double months) {
 std::string calendar_text(double months) { return std::isinf(months) ? life_text(months) : calendar_words(months); }
 
 std::size_t columns_of(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char byte) { return !continues(byte); }));
+  return static_cast<std::size_t>(std::ranges::count_if(text, [](char byte) { return !continues(byte); }));
 }
 
 std::string wrapped(const std::string& text, std::size_t columns, const std::string& indent) {

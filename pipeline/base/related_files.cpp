@@ -201,7 +201,7 @@ std::vector<fs::path> related_files(const std::vector<fs::path>& programs, std::
       return true;
     });
   }
-  std::sort(related.begin(), related.end());
+  std::ranges::sort(related);
   return related;
 }
 

@@ -212,7 +212,7 @@ std::vector<Warning> warnings_from(const std::string& text) {
 
 std::vector<Warning> joined(std::vector<Warning> earlier, const std::vector<Warning>& own) {
   for (const Warning& warning : own)
-    if (std::find(earlier.begin(), earlier.end(), warning) == earlier.end()) earlier.push_back(warning);
+    if (std::ranges::find(earlier, warning) == earlier.end()) earlier.push_back(warning);
   return earlier;
 }
 

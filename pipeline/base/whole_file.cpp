@@ -88,7 +88,7 @@ bool is_part(std::string_view name) {
   if (!name.starts_with(part_begin) || !name.ends_with(part_end)) return false;
   const std::string_view middle = name.substr(part_begin.size(), name.size() - part_begin.size() - part_end.size());
   return !middle.empty() && middle.find_first_not_of("0123456789-") == std::string_view::npos &&
-         std::count(middle.begin(), middle.end(), '-') == 1;
+         std::ranges::count(middle, '-') == 1;
 }
 
 WholeFile::WholeFile(fs::path final_name) : final_name_(std::move(final_name)) {

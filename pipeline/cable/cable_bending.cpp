@@ -170,7 +170,7 @@ CableBending::CableBending(const Dresspack& dresspack, const Component& cable, S
     const double sine = std::sin(layer.lay_angle), press = sine * sine / layer.helix_radius;
     const double gathers = layer.friction.value_or(0) * of.evening / 4;  // (W16) [m]
     const double line_load = of.parent.friction_level * layer.radial_line_load.value_or(0);
-    auto known = std::find(layers.begin(), layers.end(), &layer);
+    auto known = std::ranges::find(layers, &layer);
     if (known == layers.end()) layers.push_back(&layer), held_.emplace_back(), known = layers.end() - 1;
     HeldLayer& held = held_[known - layers.begin()];
     held.depth = of.depth;

@@ -41,7 +41,7 @@ void CableForce::add(const Dresspack& dresspack, const Component& part, double c
     wires.hardening = hardening_exponent(*material);
     wires.cyclic_strength = cyclic_strength(*material);
   }
-  const auto same = std::find_if(wires_.begin(), wires_.end(), [&](const Wires& other) {
+  const auto same = std::ranges::find_if(wires_, [&](const Wires& other) {
     return other.share == wires.share && other.modulus == wires.modulus &&
            other.cyclic_strength == wires.cyclic_strength && other.hardening == wires.hardening;
   });

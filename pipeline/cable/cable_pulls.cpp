@@ -39,8 +39,8 @@ CablePulls pulls_of(std::span<const PulledCable> cables, std::size_t samples) {
 
 double moment_share(const CablePulls& pulls, std::span<const double> hose_moment) {
   if (pulls.moment.empty() || hose_moment.empty()) return 0;
-  const double largest_moment = *std::max_element(hose_moment.begin(), hose_moment.end());
-  return largest_moment > 0 ? *std::max_element(pulls.moment.begin(), pulls.moment.end()) / largest_moment : 0;
+  const double largest_moment = *std::ranges::max_element(hose_moment);
+  return largest_moment > 0 ? *std::ranges::max_element(pulls.moment) / largest_moment : 0;
 }
 
 }  // namespace dresslife::pipeline

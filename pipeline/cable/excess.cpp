@@ -91,8 +91,8 @@ double winding_slack(const MountedDresspack& mounted, const Component& component
   const Routing& routing = mounted.routing;
   if (!routing.base_clamp || !routing.tool_clamp || !routing.clamps.empty()) return 0;
   const std::vector<LooseRoom> rooms = loose_rooms(mounted.dresspack);
-  const bool in_ring = std::any_of(rooms.begin(), rooms.end(),
-                                   [&](const LooseRoom& room) { return room.component == &component && room.in_ring; });
+  const bool in_ring =
+      std::ranges::any_of(rooms, [&](const LooseRoom& room) { return room.component == &component && room.in_ring; });
   const double turn = 2 * std::numbers::pi * component.helix_radius / routing.free_length;
   return in_ring && std::abs(std::tan(component.lay_angle)) < turn ? turn * turn / 2 : 0;
 }

@@ -288,7 +288,7 @@ class Judge {
 
 /// Returns whether a wire is of this material.
 bool has_wire_of(const std::vector<Component>& components, const std::string& material) {
-  return std::any_of(components.begin(), components.end(), [&](const Component& of) {
+  return std::ranges::any_of(components, [&](const Component& of) {
     return is_wire(of) ? of.material == material : has_wire_of(of.components, material);
   });
 }

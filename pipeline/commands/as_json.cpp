@@ -37,7 +37,7 @@ std::vector<Json> rows_of_csv(const std::string& csv) {
   for (CsvRow row = reader.next(); !row.empty(); row = reader.next()) {
     Json object = empty_object();
     for (std::size_t k = 0; k < std::min(row.size(), titles.size()); ++k) {
-      const bool text = std::find(always_text.begin(), always_text.end(), titles[k].text) != always_text.end();
+      const bool text = std::ranges::find(always_text, titles[k].text) != always_text.end();
       object.add(titles[k].text, row[k].text.empty() ? null() : text ? Json(row[k].text) : json_of_cell(row[k].text));
     }
     rows.push_back(object);

@@ -203,7 +203,7 @@ void ToleranceRuns::show(double share) {
 void add_relative_lives(const Study& study, const StudyPlaces& of_study, const RunOptions* to_run,
                         std::vector<RankingRow>& rows) {
   const auto is_rated = [](const StudyJob& job) { return job.failure.empty() && job.job && has_ratings(*job.job); };
-  if (study.keep == Keep::lives && std::any_of(study.jobs.begin(), study.jobs.end(), is_rated))
+  if (study.keep == Keep::lives && std::ranges::any_of(study.jobs, is_rated))
     write_stderr(
         "note: no life in rated cycles, because keep: lives keeps no damage of single places. Remedy: "
         "keep: histories\n");
@@ -216,7 +216,7 @@ void add_relative_lives(const Study& study, const StudyPlaces& of_study, const R
 }
 
 int count_failed(const std::vector<RankingRow>& rows) {
-  return static_cast<int>(std::count_if(rows.begin(), rows.end(), [](const RankingRow& row) { return !row.done(); }));
+  return static_cast<int>(std::ranges::count_if(rows, [](const RankingRow& row) { return !row.done(); }));
 }
 
 int say_failures(const std::string& input, const std::vector<RankingRow>& rows) {

@@ -132,7 +132,7 @@ int manual(const Command& program, const std::string& what) {
     print(file_manual());
   else if (what == "ranking.csv")
     print(ranking_manual());
-  else if (std::find(manual_kinds().begin(), manual_kinds().end(), what) != manual_kinds().end())
+  else if (std::ranges::find(manual_kinds(), what) != manual_kinds().end())
     print(program_manual(program, what));
   else if (const RankingColumn* const column = column_named(what))
     print(fmt::format("column {} of ranking.csv\n  {}\n  unit: {}\n", column->name, column->meaning, column->unit));

@@ -84,7 +84,7 @@ fs::path shipped_file(const fs::path& entry) {
 /// Returns the file of a name. shelves: the first shelf with the entry is used. "studies/NAME" is an entry of one shelf.
 fs::path file_or_entry(const std::string& name, const std::vector<std::string>& shelves) {
   const std::string shelf_of_name = fs::path(name).parent_path().string();
-  const bool on_shelf = std::find(shelves.begin(), shelves.end(), shelf_of_name) != shelves.end();
+  const bool on_shelf = std::ranges::find(shelves, shelf_of_name) != shelves.end();
   const bool is_name = (shelf_of_name.empty() || on_shelf) && fs::path(name).extension() != ".yaml";
   if (!is_name || kind_of(name) == FileKind::file) return name;
   std::string looked_for;
@@ -104,7 +104,7 @@ fs::path file_or_entry(const std::string& name, const std::vector<std::string>& 
     for (const fs::directory_entry& entry : fs::directory_iterator(shipped_catalogue() / shelf, failure))
       if (entry.path().extension() == ".yaml") entries.push_back(entry.path().stem().string());
   }
-  std::sort(entries.begin(), entries.end());
+  std::ranges::sort(entries);
   if (name.find_first_not_of("0123456789") == std::string::npos)
     throw InputError(
         {name}, "is a number where a study or job is expected",

@@ -95,7 +95,7 @@ std::vector<std::string> doubts_with_warnings(const std::vector<DutyResult>& dut
   const std::size_t all = lines.size() + most_named;
   for (const DutyResult& duty : duties)
     for (const std::string& warning : duty.warnings)
-      if (lines.size() < all && std::find(lines.begin(), lines.end(), warning) == lines.end()) lines.push_back(warning);
+      if (lines.size() < all && std::ranges::find(lines, warning) == lines.end()) lines.push_back(warning);
   return lines;
 }
 
@@ -108,7 +108,7 @@ std::vector<std::string> cautions(const std::vector<DutyResult>& duties) {
   }
   const std::size_t named = std::min(order.size(), most_named);
   if (order.size() > most_named)
-    std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::ranges::stable_sort(order, [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<std::string> texts;
   for (std::size_t k = 0; k < named; ++k)
     texts.push_back(order[k].second->name + ":\n" + caution_words(*order[k].second));
@@ -121,7 +121,7 @@ std::vector<std::string> cautions(const std::vector<DutyResult>& duties) {
 
 /// Returns whether the samples come from a calibration with the table of a maintenance system.
 bool knows_survivors(const Study& study) {
-  return std::any_of(study.jobs.begin(), study.jobs.end(), [](const StudyJob& one) {
+  return std::ranges::any_of(study.jobs, [](const StudyJob& one) {
     return one.job && one.job->calibration && counts_survivors(*one.job->calibration);
   });
 }

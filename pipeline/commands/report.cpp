@@ -32,12 +32,12 @@ int report(const StudyOptions& options) {
   add_relative_lives(rated ? with_dresspacks(standing) : study, places, nullptr, rows);
   print(options.json ? json_of(rows).text + "\n" : shown(ranking_table(rows, screen_columns())));
   write_stderr(shown(problem_words(study)) + warning_lines(rows));
-  const auto open = std::count_if(states.begin(), states.end(), [](const JobState& state) {
+  const auto open = std::ranges::count_if(states, [](const JobState& state) {
     return !state.done() && !state.has_last && state.has_results && state.failure.empty();
   });
   bool all_written = true;
   std::string kept;
-  const auto others = std::count_if(rows.begin(), rows.end(), [](const RankingRow& row) { return !row.done(); });
+  const auto others = std::ranges::count_if(rows, [](const RankingRow& row) { return !row.done(); });
   if (!options.sets.empty() && others > 0)
     kept = fmt::format("of {} jobs there are no results with these --set", others);
   else if (open > 0)

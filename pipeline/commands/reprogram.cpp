@@ -259,9 +259,8 @@ std::vector<TriedWay> tried_ways(const ImproveRequest& request, std::size_t job,
     if (!way.patch.empty()) way.way.sets.clear();  // the patch contains these changes
     tried.push_back(std::move(way));
   }
-  std::stable_sort(tried.begin(), tried.end(), [&](const TriedWay& a, const TriedWay& b) {
-    return merit_at_pace(a, before) > merit_at_pace(b, before);
-  });
+  std::ranges::stable_sort(
+      tried, [&](const TriedWay& a, const TriedWay& b) { return merit_at_pace(a, before) > merit_at_pace(b, before); });
   return tried;
 }
 

@@ -152,7 +152,7 @@ void judge(Trial& trial, const Draft& draft, const RouteOptions& options, const 
   std::vector<std::size_t> best_first;
   for (std::size_t k = 0; k < trial.outcomes.size(); ++k)
     if (!trial.rows[k].job.empty() && trial.outcomes[k].feasible()) best_first.push_back(k);
-  std::stable_sort(best_first.begin(), best_first.end(), [&](std::size_t a, std::size_t b) {
+  std::ranges::stable_sort(best_first, [&](std::size_t a, std::size_t b) {
     return merit_of(trial.outcomes[a], as_it_is) > merit_of(trial.outcomes[b], as_it_is);
   });
   std::vector<Finalist> finalists;
@@ -322,7 +322,7 @@ DecidingLimit decided(const Trial& trial, const Draft& draft) {
                                                     outcome_limit_names().begin());
       repeats < passed.size() && std::ranges::count(passed, 0.0) + 1 < std::ssize(passed))
     passed[repeats] = 0;
-  const auto most = static_cast<std::size_t>(std::max_element(passed.begin(), passed.end()) - passed.begin());
+  const auto most = static_cast<std::size_t>(std::ranges::max_element(passed) - passed.begin());
   const std::string other = other_links(trial, draft) + ", more --tried and --short-runs, or a gentler program";
   if (passed.empty() || passed[most] == 0) return {"no routing runs", other};
   const std::string& limit = outcome_limit_names()[most];

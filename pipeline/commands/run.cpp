@@ -123,8 +123,7 @@ int run(const RunArguments& options) {
   const int executed = make_rest(request, standing, options);
   report_changes(standing.study, standing.places, standing.states);
   const auto& [study, places, states, remembered, rated, look_ups, digests] = standing;
-  const bool any =
-      std::any_of(study.jobs.begin(), study.jobs.end(), [](const StudyJob& job) { return job.failure.empty(); });
+  const bool any = std::ranges::any_of(study.jobs, [](const StudyJob& job) { return job.failure.empty(); });
   if (!options.quiet && any)
     write_stderr(fmt::format("{}: {}\n", study.name, executed == 0 ? "nothing to do" : ran_words(executed)));
   std::vector<RankingRow> rows = ranking_of(study, places, states);

@@ -108,7 +108,7 @@ H5FD_class_t driver_table() {
   table.write = write_bytes;
   table.truncate = cut_file;
   const H5FD_mem_t map[] = H5FD_FLMAP_DICHOTOMY;  // that of the library: raw data separate from its tables
-  std::copy(std::begin(map), std::end(map), table.fl_map);
+  std::ranges::copy(map, table.fl_map);
   return table;
 }
 

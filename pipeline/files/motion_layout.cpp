@@ -54,8 +54,7 @@ std::vector<MotionSpan> motion_spans(const FileReader& motion) {
   if (!motion.has("/clamp/segment")) return {{0, 0, dresspack.size(), 0, clamps - 1}};
   const auto before = motion.read<std::int32_t>("/clamp/segment");
   bool fits = before.size() == clamps && before.size() >= 2 && before.front() == 0 &&
-              before.back() == static_cast<std::int32_t>(dresspack.size()) &&
-              std::is_sorted(before.begin(), before.end());
+              before.back() == static_cast<std::int32_t>(dresspack.size()) && std::ranges::is_sorted(before);
   std::vector<MotionSpan> spans;
   for (std::size_t c = 0; fits && c + 1 < before.size(); ++c) {
     const auto first = static_cast<std::size_t>(before[c]), end = static_cast<std::size_t>(before[c + 1]);

@@ -181,7 +181,7 @@ bool unpack_chunk(std::span<const char> chunk, int decimals, std::span<float> nu
 }
 
 void pack_chunk(std::span<const double> numbers, int decimals, std::vector<char>& chunk) {
-  const auto [smallest, largest] = std::minmax_element(numbers.begin(), numbers.end());
+  const auto [smallest, largest] = std::ranges::minmax_element(numbers);
   const double scale = std::pow(10.0, decimals), least = *smallest;
   const std::int32_t bits = bits_for(*largest, least, scale);
   char* const out = begin_chunk(numbers.size(), bits, least, sizeof(std::uint64_t),
@@ -218,7 +218,7 @@ bool unpack_chunk(std::span<const char> chunk, int decimals, std::span<double> n
     return static_cast<double>(static_cast<std::int64_t>(step)) / scale + smallest;
   };
   if (bits == 0) {
-    std::fill(numbers.begin(), numbers.end(), number_of(0));
+    std::ranges::fill(numbers, number_of(0));
     return true;
   }
   const auto number_at = [&](const char* at, std::size_t bit) {

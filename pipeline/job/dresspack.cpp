@@ -336,8 +336,7 @@ void check_hose(const Dresspack& dresspack) {
 }
 
 bool hold_wires(const std::vector<Component>& parts) {
-  return std::any_of(parts.begin(), parts.end(),
-                     [](const Component& part) { return is_wire(part) || hold_wires(part.components); });
+  return std::ranges::any_of(parts, [](const Component& part) { return is_wire(part) || hold_wires(part.components); });
 }
 
 /// Checks the keys of laying: a loose part needs a known space and must be straight; deeper parts and wires cannot be loose.

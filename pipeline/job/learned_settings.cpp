@@ -32,7 +32,7 @@ std::string listed(const std::vector<std::string>& parts, std::string_view by = 
 
 template <class T>
 void add_once(std::vector<T>& all, T one) {
-  if (std::find(all.begin(), all.end(), one) == all.end()) all.push_back(std::move(one));
+  if (std::ranges::find(all, one) == all.end()) all.push_back(std::move(one));
 }
 
 std::size_t levels_of(const std::vector<Component>& parts) {
@@ -63,7 +63,7 @@ bool slips_agree(const std::string& one, const std::string& other) {
 std::string slip_words(const std::string& slip) {
   std::vector<std::string> words = split(slip);
   if (words.size() > 1 && words.front() == any) words.erase(words.begin());
-  const bool alike = std::all_of(words.begin(), words.end(), [&](const auto& one) { return one == words.front(); });
+  const bool alike = std::ranges::all_of(words, [&](const auto& one) { return one == words.front(); });
   return alike ? words.front() : "[" + listed(words) + "]";
 }
 
@@ -118,9 +118,7 @@ LearnedCable cable_of(const std::string& name, const std::string& hose, const st
   return cable;
 }
 
-bool holds_wires(const Component& part) {
-  return is_wire(part) || std::any_of(part.components.begin(), part.components.end(), holds_wires);
-}
+bool holds_wires(const Component& part) { return is_wire(part) || std::ranges::any_of(part.components, holds_wires); }
 
 /// Returns the cables with evaluated wires. A dresspack without a hose is a cable, or has one on its axis.
 std::vector<LearnedCable> cables_of(const Dresspack& dresspack) {
@@ -257,7 +255,7 @@ void check_learned_settings(const Job& job) {
 std::string service_text(std::size_t failed, std::size_t all) { return fmt::format("{} of {} failed", failed, all); }
 
 bool counts_survivors(const Calibration& calibration) {
-  return std::any_of(calibration.observations.begin(), calibration.observations.end(), [](const LearnedFrom& from) {
+  return std::ranges::any_of(calibration.observations, [](const LearnedFrom& from) {
     const std::size_t end = from.observed.find(" failed"), of = from.observed.find(" of ");
     return end != std::string::npos && of != std::string::npos;
   });
@@ -280,7 +278,7 @@ void leave_out(Calibration& calibration, const std::set<std::string>& names) {
 void leave_out_foreign_parameters(Job& job) {
   Calibration& calibration = *job.calibration;
   const LearnedUnder &under = calibration.under, own = learned_under({&job});
-  const auto has = [](const auto& all, const auto& is_same) { return std::any_of(all.begin(), all.end(), is_same); };
+  const auto has = [](const auto& all, const auto& is_same) { return std::ranges::any_of(all, is_same); };
   const std::vector<std::string> cables = foreign(own.cables, [&](const LearnedCable& cable) {
     return has(under.cables, [&](const LearnedCable& other) { return other.construction == cable.construction; });
   });

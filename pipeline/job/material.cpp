@@ -67,8 +67,8 @@ void check_materials(const std::vector<Material>& materials) {
           problems.add(material.where,
                        fmt::format("wear of '{}' lists '{}' twice", material.name, word(material.wear[i].against)),
                        "keep one of them");
-    if (!material.wear.empty() && std::none_of(material.wear.begin(), material.wear.end(),
-                                               [](const WearRate& rate) { return rate.against == Counterface::robot; }))
+    if (!material.wear.empty() &&
+        std::ranges::none_of(material.wear, [](const WearRate& rate) { return rate.against == Counterface::robot; }))
       problems.add(material.where, fmt::format("wear of '{}' does not list 'robot'", material.name),
                    "give its rate against robot, which the other counterfaces fall back to");
     const auto& table = material.strain_life_table;

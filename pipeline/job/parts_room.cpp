@@ -14,9 +14,9 @@ namespace {
 bool holds_cables(const Dresspack& dresspack) {
   const std::vector<Component>& parts = dresspack.components;
   if (dresspack.cable_alone || (parts.size() == 1 && parts[0].count == 1 && parts[0].helix_radius == 0)) return false;
-  return std::any_of(parts.begin(), parts.end(), [](const Component& part) {
-    return part.plain || std::any_of(part.components.begin(), part.components.end(),
-                                     [](const Component& inner) { return !inner.components.empty(); });
+  return std::ranges::any_of(parts, [](const Component& part) {
+    return part.plain ||
+           std::ranges::any_of(part.components, [](const Component& inner) { return !inner.components.empty(); });
   });
 }
 

@@ -8,7 +8,7 @@ namespace dresslife::pipeline {
 
 std::size_t Robot::axes() const {
   return static_cast<std::size_t>(
-      std::count_if(joints.begin(), joints.end(), [](const Joint& joint) { return joint.follows.empty(); }));
+      std::ranges::count_if(joints, [](const Joint& joint) { return joint.follows.empty(); }));
 }
 
 void describe(Fields& f, Joint& joint) {
@@ -110,9 +110,8 @@ void check_range(double lower, double upper, const std::string& name, const Wher
 void check_joint(const Joint& joint, const Robot& robot) {
   check_direction(joint.axis, joint.name, joint.where);
   if (joint.follows.empty()) return check_range(joint.lower, joint.upper, joint.name, joint.where);
-  const bool driven = std::any_of(robot.joints.begin(), robot.joints.end(), [&](const Joint& other) {
-    return other.name == joint.follows && other.follows.empty();
-  });
+  const bool driven = std::ranges::any_of(
+      robot.joints, [&](const Joint& other) { return other.name == joint.follows && other.follows.empty(); });
   if (!driven)
     throw InputError(joint.where, fmt::format("{} follows '{}', which is no driven joint", joint.name, joint.follows),
                      "name a joint that follows no other");

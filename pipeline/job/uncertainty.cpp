@@ -83,7 +83,7 @@ const std::array<UncertainParameter, uncertain_count>& uncertain_parameters() {
 
 std::size_t index_of(std::string_view name) {
   const auto& known = uncertain_parameters();
-  const auto found = std::find_if(known.begin(), known.end(), [&](const auto& one) { return one.name == name; });
+  const auto found = std::ranges::find_if(known, [&](const auto& one) { return one.name == name; });
   return static_cast<std::size_t>(found - known.begin());
 }
 

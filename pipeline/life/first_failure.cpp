@@ -211,14 +211,12 @@ std::vector<double> lives_of(const std::vector<LifeSurface>& surfaces, const std
 /// Returns whether a cause is uncertain and affects any mode.
 bool is_active(const FailureModes& modes, const std::vector<LifeSurface>& surfaces, std::size_t cause) {
   if (cause == of_wires)
-    return std::any_of(modes.begin(), modes.end(), [](const LifeResponse& mode) {
-      return std::any_of(mode.planned.begin(), mode.planned.end(),
-                         [](const auto& lives) { return lives[0] != lives[2]; });
+    return std::ranges::any_of(modes, [](const LifeResponse& mode) {
+      return std::ranges::any_of(mode.planned, [](const auto& lives) { return lives[0] != lives[2]; });
     });
   const auto at = static_cast<Eigen::Index>(cause);
   if (!(modes.front().knowledge.covariance(at, at) > 0)) return false;
-  return std::any_of(surfaces.begin(), surfaces.end(),
-                     [&](const LifeSurface& surface) { return surface.depends_on(cause); });
+  return std::ranges::any_of(surfaces, [&](const LifeSurface& surface) { return surface.depends_on(cause); });
 }
 
 /// Samples that have the causes in `kept` in common with `one`, and otherwise the distribution under this condition: z' + C(rest,
@@ -264,7 +262,7 @@ class Mixed {
           apart(a) = one_[m].z[s][p] - other_[m].z[s][p];
         }
         for (std::size_t p = 0; p < uncertain_count; ++p)
-          if (std::find(kept.begin(), kept.end(), p) == kept.end())
+          if (std::ranges::find(kept, p) == kept.end())
             mixed[m].z[s][p] += weights.row(static_cast<Eigen::Index>(p)) * apart;
       }
   }
@@ -545,7 +543,7 @@ FailureModes modes_from_text(const std::string& text) {
 }
 
 LifePercentiles percentiles_of(std::vector<double> lives) {
-  std::sort(lives.begin(), lives.end());
+  std::ranges::sort(lives);
   constexpr std::array<double, 3> shares{0.1, 0.5, 0.9};
   LifePercentiles percentiles{};
   for (std::size_t i = 0; i < shares.size(); ++i)
@@ -694,7 +692,7 @@ std::string share_words(const CauseShares& estimate) {
     else
       other += 100 * share[p];
   }
-  std::stable_sort(parts.begin(), parts.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::ranges::stable_sort(parts, [](const auto& a, const auto& b) { return a.second > b.second; });
   parts.emplace_back("other", other);
   int missing = 100;
   for (const auto& [name, percent] : parts) missing -= static_cast<int>(std::floor(percent));

@@ -26,12 +26,12 @@ std::size_t number_of(Inside inside) { return static_cast<std::size_t>(inside); 
 /// Returns whether all z of a point, except those in `free`, are 0.
 bool is_zero_but(const StrainPoint& point, std::initializer_list<std::size_t> free) {
   for (std::size_t p = 0; p < point.size(); ++p)
-    if (point[p] != 0 && std::find(free.begin(), free.end(), p) == free.end()) return false;
+    if (point[p] != 0 && std::ranges::find(free, p) == free.end()) return false;
   return true;
 }
 
 void sort_once(std::vector<double>& nodes) {
-  std::sort(nodes.begin(), nodes.end());
+  std::ranges::sort(nodes);
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
 }
 
@@ -254,8 +254,7 @@ bool LifeSurface::depends_on(std::size_t parameter) const {
     return false;
   }
   return parameter == index_of(Uncertain::model) || parameter == index_of(Uncertain::motion) ||
-         std::any_of(response_.planned.begin(), response_.planned.end(),
-                     [&](const auto& lives) { return lives != response_.planned.front(); });
+         std::ranges::any_of(response_.planned, [&](const auto& lives) { return lives != response_.planned.front(); });
 }
 
 /// Returns whether W differs between two points with as_is that differ in this parameter only.
@@ -299,7 +298,7 @@ std::vector<double> numbers_after(std::istringstream& line) {
 
 void check(const LifeResponse& response) {
   const auto holds_zero = [](const std::vector<double>& nodes) {
-    return std::find(nodes.begin(), nodes.end(), 0.0) != nodes.end() &&
+    return std::ranges::find(nodes, 0.0) != nodes.end() &&
            std::adjacent_find(nodes.begin(), nodes.end(), std::greater_equal<>()) == nodes.end();
   };
   const bool whole =
@@ -331,7 +330,7 @@ std::vector<double> completed(std::vector<double> numbers, std::size_t whole) {
 template <std::size_t size>
 void fix(std::array<double, size>& array, const std::vector<double>& numbers) {
   if (numbers.size() != array.size()) throw std::invalid_argument("a list of another length");
-  std::copy(numbers.begin(), numbers.end(), array.begin());
+  std::ranges::copy(numbers, array.begin());
 }
 
 /// Reads a line that consists of a name and a text; returns whether it is one.

@@ -130,7 +130,7 @@ double bend_of_cables(const FileReader& strain, std::size_t dresspack, std::size
 std::string bending_chart(const std::filesystem::path& strain_file, std::size_t which) {
   const FileReader strain(strain_file, strain_format());
   const Job job = job_from(stored_job(strain));
-  if (std::none_of(job.strain.slip.begin(), job.strain.slip.end(), rubs))
+  if (std::ranges::none_of(job.strain.slip, rubs))
     throw InputError({strain_file.string()}, "comes from a job without friction in its cables (strain.slip)",
                      "set strain.slip: friction and run again");
   const Dresspack& dresspack = job.dresspacks.at(which).dresspack;

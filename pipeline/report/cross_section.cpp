@@ -161,7 +161,7 @@ class Drawing {
 
   /// Returns whether the parts of a component overlap each other or the parts of another component of `among`.
   static bool overlap(const Component& component, const std::vector<Component>& among) {
-    return overlaps(component) || std::any_of(among.begin(), among.end(), [&](const Component& other) {
+    return overlaps(component) || std::ranges::any_of(among, [&](const Component& other) {
              return &other != &component && overlap_each_other(component, other);
            });
   }

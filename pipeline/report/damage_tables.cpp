@@ -52,7 +52,7 @@ std::string main_causes(const LifeSummary& life, std::size_t line) {
 std::string cause_table(const LifeSummary& life) {
   const double total = sum_of(life.cause_damage);
   if (!(total > 0)) return "";
-  const double largest = *std::max_element(life.cause_damage.begin(), life.cause_damage.end());
+  const double largest = *std::ranges::max_element(life.cause_damage);
   std::string rows;
   for (std::size_t cause = 0; cause < life.cause.size(); ++cause) {
     const double damage = life.cause_damage[cause];

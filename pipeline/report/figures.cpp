@@ -62,7 +62,7 @@ std::string needed(const std::string& chart, const std::filesystem::path& life_f
 }
 
 std::pair<double, double> extremes(const std::vector<double>& values) {
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const auto [low, high] = std::ranges::minmax_element(values);
   return values.empty() ? std::pair{0.0, 1.0} : std::pair{*low, *high};
 }
 

@@ -48,7 +48,7 @@ std::string range_words(const FileReader& file, const Dataset& dataset) {
   const std::size_t at_a_time = std::max<std::size_t>(1, block_values / row);
   for (std::size_t first = 0; first < rows; first += at_a_time) {
     file.read_rows(dataset.path, first, std::min(at_a_time, rows - first), values);
-    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    const auto [least, most] = std::ranges::minmax_element(values);
     low = std::min(low, *least);
     high = std::max(high, *most);
   }

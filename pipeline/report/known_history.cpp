@@ -22,7 +22,7 @@ bool known_whole(const FileReader& strain, std::uint32_t site) {
   for (const char* whole : {"/probe/site", "/plane/site"}) {
     if (!strain.has(whole)) continue;
     const auto sites = strain.read<std::uint32_t>(whole);
-    if (std::find(sites.begin(), sites.end(), site) != sites.end()) return true;
+    if (std::ranges::find(sites, site) != sites.end()) return true;
   }
   return false;
 }

@@ -66,7 +66,7 @@ std::vector<Label> costly_lines(const LifeSummary& life, const std::vector<Progr
                       fmt::format("{:.0f} %: line {}, {}", in_percent * life.step_damage[line] / total, line + 1,
                                   life.step_text[line])});
   }
-  std::stable_sort(labels.begin(), labels.end(), [](const Label& a, const Label& b) { return a.x < b.x; });
+  std::ranges::stable_sort(labels, [](const Label& a, const Label& b) { return a.x < b.x; });
   return labels;
 }
 
@@ -176,7 +176,7 @@ PlaceInFile read_worst_dresspack(const FileReader& file, LifeSummary& life) {
   life.dresspack = dresspack_names(file);
   if (file.has("/dresspack/damage")) life.dresspack_damage = file.read<double>("/dresspack/damage");
   const std::string worst = file.has_attribute("worst_dresspack") ? file.text_attribute("worst_dresspack") : "";
-  const auto found = std::find(life.dresspack.begin(), life.dresspack.end(), worst);
+  const auto found = std::ranges::find(life.dresspack, worst);
   PlaceInFile place;
   if (found != life.dresspack.end()) place.dresspack = static_cast<std::size_t>(found - life.dresspack.begin());
   const std::vector<std::size_t> of_segment = dresspack_of_segments(file);
@@ -266,7 +266,7 @@ LineRuns runs_of(std::size_t line, const std::vector<ProgramRun>& runs) {
 std::string strain_chart(const LifeSummary& life) {
   if (life.time.size() < 2) return "";
   constexpr double label_row = 17, strain_height = 230, strip_height = 17, share_height = 76, gap = 7;
-  const auto [low, high] = std::minmax_element(life.strain.begin(), life.strain.end());
+  const auto [low, high] = std::ranges::minmax_element(life.strain);
   const std::vector<ProgramRun> runs = program_runs(life);
   PlotAxis time{"time [s]", life.time.front(), life.time.back()};
   Panel strain{chart_left,    0,    chart_panel,
@@ -352,10 +352,9 @@ std::string cycle_chart(const LifeSummary& life) {
   for (double& share : shares) share *= total > 0 ? in_percent / total : 0;
   const PlotAxis x = range_axis(bins);
   const Panel count{chart_left, 10, chart_panel, 130, x, axis_of_amounts("cycles per repeat", counts)};
-  const Panel share{
-      chart_left,  count.bottom() + 16,
-      chart_panel, 130,
-      x,           linear_axis("share of damage [%]", 0, *std::max_element(shares.begin(), shares.end()), 5)};
+  const Panel share{chart_left,  count.bottom() + 16,
+                    chart_panel, 130,
+                    x,           linear_axis("share of damage [%]", 0, *std::ranges::max_element(shares), 5)};
   Picture picture(chart_width, share.bottom() + x_axis_height, "Cycles of the worst wire",
                   fmt::format("{} cycles per repeat.", printed(sum_of(counts))));
   count.draw_axes(picture, false);

@@ -266,7 +266,7 @@ class Data {
         std::nth_element(at.begin(), at.begin() + most_closings, at.end(),
                          [&](auto a, auto b) { return rate[a] > rate[b]; });
         at.resize(most_closings);
-        std::sort(at.begin(), at.end());
+        std::ranges::sort(at);
       }
       std::vector<float> pairs;
       for (const std::size_t k : at) {
@@ -342,7 +342,7 @@ class Data {
   }
 
   static Json packed(const std::vector<double>& values) {
-    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    const auto [low, high] = std::ranges::minmax_element(values);
     const Steps steps(*low, *high);
     return {{"low", steps.low},
             {"step", steps.step},

@@ -38,7 +38,7 @@ struct Key {
   std::vector<std::string> values;
 
   std::size_t place(const std::string& value) const {
-    return static_cast<std::size_t>(std::find(values.begin(), values.end(), value) - values.begin());
+    return static_cast<std::size_t>(std::ranges::find(values, value) - values.begin());
   }
 };
 
@@ -61,7 +61,7 @@ std::vector<Key> axes_of(const std::vector<RankingRow>& rows) {
     Key axis{key, {}};
     for (const RankingRow& row : rows)
       if (row.varied.size() == keys) axis.values.push_back(row.varied[key].second);
-    std::sort(axis.values.begin(), axis.values.end(), before);
+    std::ranges::sort(axis.values, before);
     axis.values.erase(std::unique(axis.values.begin(), axis.values.end()), axis.values.end());
     if (axis.values.size() > 1) axes.push_back(std::move(axis));
   }

@@ -18,10 +18,10 @@ std::optional<MarkedPlace> marked_place(const FileReader& life) {
   place.time = life.number_attribute(of + "time");
   place.fails_first = fails;
   const std::vector<std::string> names = dresspack_names(life);
-  const auto named = std::find(names.begin(), names.end(), place.dresspack);
+  const auto named = std::ranges::find(names, place.dresspack);
   const std::size_t dresspack = named == names.end() ? 0 : static_cast<std::size_t>(named - names.begin());
   const std::vector<std::size_t> of_segments = dresspack_of_segments(life);
-  const auto end = std::upper_bound(of_segments.begin(), of_segments.end(), dresspack) - of_segments.begin();
+  const auto end = std::ranges::upper_bound(of_segments, dresspack) - of_segments.begin();
   place.segment = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, end - place.from_tool));
   return place;
 }

@@ -83,8 +83,7 @@ class Calendar {
       by_plan.push_back(plan_.failures_in_week[k] / part);
       without.push_back(plan_.failures_in_week_without_windows[k] / part);
     }
-    const double most =
-        std::max(*std::max_element(by_plan.begin(), by_plan.end()), *std::max_element(without.begin(), without.end()));
+    const double most = std::max(*std::ranges::max_element(by_plan), *std::ranges::max_element(without));
     if (!(most > 0)) return;
     const Panel panel{plan_names, top, plan_width - plan_names - plan_right,
                       strip,      {},  linear_axis("failures a week", 0, most, 4)};

@@ -120,8 +120,7 @@ std::string words(const SpanPreview& span, bool bends) {
 bool warns_of_bends(const FileReader& preview) {
   if (!preview.has_attribute("warnings")) return true;
   const std::vector<Warning> warnings = warnings_from(preview.text_attribute("warnings"));
-  return std::any_of(warnings.begin(), warnings.end(),
-                     [](const Warning& one) { return one.kind == WarningKind::bend_radius; });
+  return std::ranges::any_of(warnings, [](const Warning& one) { return one.kind == WarningKind::bend_radius; });
 }
 
 std::string scan_table(const std::vector<SpanPreview>& spans) {

@@ -223,7 +223,7 @@ std::string ranking_section(const std::vector<RankingRow>& rows, const std::vect
       "of such dresspacks. {}{}</p>\n",
       sorted_table(heads, ranking_rows(rows, detailed), "jobs", "ranking.csv"), matrix,
       remarks.empty() ? "" : fmt::format("<p>{}</p>\n", escaped(remarks)), escaped(unvalidated_legend(rows)),
-      std::any_of(rows.begin(), rows.end(), [](const RankingRow& row) { return plan_mark(row) == "!"; })
+      std::ranges::any_of(rows, [](const RankingRow& row) { return plan_mark(row) == "!"; })
           ? " ! marks jobs whose warnings forbid a plan with these hours."
           : "",
       chart.empty()
@@ -412,9 +412,7 @@ std::string job_section(const RankingRow& row, std::size_t rank, std::vector<Rep
 }
 
 std::string summary(const std::vector<RankingRow>& rows) {
-  const auto count = [&](const auto& counts) {
-    return static_cast<std::size_t>(std::count_if(rows.begin(), rows.end(), counts));
-  };
+  const auto count = [&](const auto& counts) { return static_cast<std::size_t>(std::ranges::count_if(rows, counts)); };
   const std::size_t done = count([](const RankingRow& row) { return row.done(); });
   const std::size_t stale = count([](const RankingRow& row) { return row.stale; });
   const std::size_t waiting = count([](const RankingRow& row) { return !row.stale && row.waits(); });
@@ -431,8 +429,8 @@ std::string summary(const std::vector<RankingRow>& rows) {
 }  // namespace
 
 std::vector<bool> detailed_jobs(const std::vector<RankingRow>& rows) {
-  const auto done = static_cast<std::size_t>(
-      std::count_if(rows.begin(), rows.end(), [](const RankingRow& row) { return row.has_result(); }));
+  const auto done =
+      static_cast<std::size_t>(std::ranges::count_if(rows, [](const RankingRow& row) { return row.has_result(); }));
   std::vector<bool> detailed(rows.size(), false);
   for (std::size_t i = 0; i < done; ++i)
     detailed[i] = (done <= most_detailed || i < most_detailed / 2 || i >= done - most_detailed / 2) &&

@@ -164,7 +164,7 @@ std::string scale_bar(const View& view, double height) {
 }  // namespace
 
 std::size_t nearest_sample(const std::vector<double>& times, double time) {
-  const auto later = std::lower_bound(times.begin(), times.end(), time);
+  const auto later = std::ranges::lower_bound(times, time);
   const auto at = static_cast<std::size_t>(later - times.begin());
   if (at == 0) return 0;
   return later == times.end() || time - times[at - 1] <= *later - time ? at - 1 : at;
@@ -186,7 +186,7 @@ std::string scene_picture(const std::filesystem::path& motion_file, double time,
 
   double height = 0;
   const View view = fit(strokes, height);
-  std::stable_sort(strokes.begin(), strokes.end(), [&](const Stroke& a, const Stroke& b) {
+  std::ranges::stable_sort(strokes, [&](const Stroke& a, const Stroke& b) {
     return a.nearness(view.toward_viewer) < b.nearness(view.toward_viewer);
   });
   std::string body;

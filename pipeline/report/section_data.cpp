@@ -104,8 +104,7 @@ std::optional<Json> section_data(const FileReader& life, const Setup& setup) {
   const auto damage = life.read<double>("/damage"), of_segment = life.read<double>("/segment/damage");
   const double most = life.number_attribute("damage_per_repeat");
   const std::vector<std::size_t> dresspack = dresspack_of_segments(life);
-  if (!(most > 0) || dresspack.size() != of_segment.size() || !std::is_sorted(segment.begin(), segment.end()))
-    return {};
+  if (!(most > 0) || dresspack.size() != of_segment.size() || !std::ranges::is_sorted(segment)) return {};
   std::vector<Wires> wires(setup.dresspacks.size());
   std::vector<Json> rows, dresspacks;
   std::size_t bytes = 0;

@@ -38,7 +38,7 @@ std::vector<Triangle> clustered(const std::vector<Triangle>& mesh, const Vector3
       moved[k] = middle.sum / middle.corners;
     }
     if (cubes[0] == cubes[1] || cubes[1] == cubes[2] || cubes[2] == cubes[0]) continue;
-    std::sort(cubes.begin(), cubes.end());
+    std::ranges::sort(cubes);
     if (seen.insert(cubes).second) left.push_back(moved);
   }
   return left;

@@ -117,7 +117,7 @@ std::vector<std::string> cables_of(const Node& written) {
 Node cable_alone(const Node& written, const std::string& part, const Where& asked) {
   const Node dresspack = expanded(written);
   const std::vector<std::string> names = cables_of(dresspack);
-  const auto known = std::find(names.begin(), names.end(), part);
+  const auto known = std::ranges::find(names, part);
   if ((part.empty() && names.size() != 1) || (!part.empty() && known == names.end()))
     throw InputError(asked,
                      part.empty() ? fmt::format("dresspack '{}' holds {} cables", name_of(dresspack), names.size())

@@ -23,9 +23,8 @@ constexpr double rounding = 1e-6;                           // relative, of a se
 template <class Table>
 double length_at(const Table& table, double section) {
   const double square_millimetres = 1e6 * section;
-  const auto found = std::find_if(std::begin(table), std::end(table), [&](const Step& entry) {
-    return square_millimetres <= entry.section * (1 + rounding);
-  });
+  const auto found = std::ranges::find_if(
+      table, [&](const Step& entry) { return square_millimetres <= entry.section * (1 + rounding); });
   return found == std::end(table) ? 0 : found->length / 1e3;
 }
 

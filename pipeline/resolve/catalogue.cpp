@@ -71,8 +71,8 @@ void merge_by_name(Node& base, const Node& over) {
     return found ? found->text : std::string();
   };
   for (const Node& item : over.items) {
-    const auto same = std::find_if(base.items.begin(), base.items.end(),
-                                   [&](const Node& known) { return !name(item).empty() && name(known) == name(item); });
+    const auto same = std::ranges::find_if(
+        base.items, [&](const Node& known) { return !name(item).empty() && name(known) == name(item); });
     if (same != base.items.end())
       merge(*same, item);
     else
@@ -242,7 +242,7 @@ void add_materials(Node& dresspack, const Node& job, const std::string& path, Pr
   if (materials.kind == Node::Kind::null) materials.kind = Node::Kind::list;
   std::set<std::string> unknown;  // each is reported at its first place
   for (const Node& name : wanted) {
-    const bool there = std::any_of(materials.items.begin(), materials.items.end(), [&](const Node& material) {
+    const bool there = std::ranges::any_of(materials.items, [&](const Node& material) {
       const Node* known = material.find("name");
       return known && known->text == name.text;
     });
@@ -375,7 +375,7 @@ Node catalogue_entry(const std::string& folder, const std::string& name, const W
                      fmt::format("name a file in it, such as '{}/{}'", name,
                                  file == inside.end() ? "NAME.yaml" : file->filename().string()));
   }
-  std::sort(names.begin(), names.end());
+  std::ranges::sort(names);
   names.erase(std::unique(names.begin(), names.end()), names.end());
   const std::string near = nearest_entry(name, names);
   const bool may_be_file = folder == "programs" && fs::path(name).has_extension();

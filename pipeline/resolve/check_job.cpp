@@ -41,7 +41,7 @@ void check_shared(const std::vector<MountedDresspack>& dresspacks) {
     }
     for (const Material& material : mounted.dresspack.materials) {
       const auto same =
-          std::find_if(known.begin(), known.end(), [&](const Material* other) { return other->name == material.name; });
+          std::ranges::find_if(known, [&](const Material* other) { return other->name == material.name; });
       if (same == known.end())
         known.push_back(&material);
       else if (to_yaml(echo_fields(**same)) != to_yaml(echo_fields(material)))
@@ -219,7 +219,7 @@ void check_slopes(const Job& job, const Where& where) {
 void check_job(const Job& job, const Node& document, Problems& problems) {
   const auto where = [&](const char* key) { return document.find(key) ? document.find(key)->where : document.where; };
   const auto judge = [&](std::initializer_list<const char*> keys, const auto& check) {
-    if (std::none_of(keys.begin(), keys.end(), [&](const char* key) { return problems.touch(key); }))
+    if (std::ranges::none_of(keys, [&](const char* key) { return problems.touch(key); }))
       problems.attempt(*keys.begin(), where(*keys.begin()), check);
   };
   if (job.motion.is_prescribed() && !job.dresspacks.empty())

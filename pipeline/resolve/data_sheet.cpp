@@ -616,7 +616,7 @@ bool changes_nothing(const std::string& phrase) {
           R"((rated )?(voltage )?[\d./ ]+ *k?v( ac| dc)?|-?\d+ *(\.\.|to|\+|/)+ *\+?-?\d+ *(deg|°)? *c|temperature.*)"),
       std::regex(
           R"((insulation|core insulation|cores?) *:? *(pvc|tpe|pp|pe|pur|etfe|xlpe)|(black|grey|gray|orange|green|blue|yellow|colou?r.*|numbered.*))")};
-  return std::any_of(words.begin(), words.end(), [&](const std::regex& of) { return std::regex_match(phrase, of); });
+  return std::ranges::any_of(words, [&](const std::regex& of) { return std::regex_match(phrase, of); });
 }
 
 /// Returns a remedy for a phrase that belongs to a key outside of the data sheet: "leave it out and give least_bend_radius_mm: 80
@@ -687,8 +687,7 @@ std::vector<std::pair<const char*, std::string>> keys_of_phrase(const std::strin
   static const std::regex without_unit(R"(([a-z][a-z -]*?) *([\d.]+))");
   std::string meant = meant_section(phrase);
   if (meant.empty() && std::regex_match(phrase, found, without_unit) &&
-      std::any_of(lengths.begin(), lengths.end(),
-                  [&](const auto& of) { return std::regex_match(found[1].str(), of.first); }))
+      std::ranges::any_of(lengths, [&](const auto& of) { return std::regex_match(found[1].str(), of.first); }))
     meant = fmt::format("write '{} {} mm'", found[1].str(), found[2].str());
   static const std::regex bare(R"((?:Ø|ø|⌀)? *([\d.]+ *mm))");
   if (meant.empty() && std::regex_match(phrase, found, bare))

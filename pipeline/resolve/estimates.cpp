@@ -42,7 +42,7 @@ class List {
   void note(const std::string& key, const std::string& value, const std::string& part) {
     Key& of = found(keys_, key);
     std::vector<std::string>& parts = found(of.values, value).parts;
-    if (!part.empty() && std::find(parts.begin(), parts.end(), part) == parts.end()) parts.push_back(part);
+    if (!part.empty() && std::ranges::find(parts, part) == parts.end()) parts.push_back(part);
   }
 
   /// "friction_coefficient 0.3 (conductor, wire); radial_line_load_N_per_m 94 (conductor), 18.8 (wire)"
@@ -151,8 +151,9 @@ class Estimates {
   /// Returns whether any part limits the dresspack's length; cables with slack do not.
   bool is_held(const std::vector<Node>& components) const {
     return dresspack_.find("hose_material") || dresspack_.find("core_axial_stiffness_N") || !is_hose(dresspack_) ||
-           std::any_of(components.begin(), components.end(),
-                       [](const Node& component) { return number_at(component, "slack_percent").value_or(0) == 0; });
+           std::ranges::any_of(components, [](const Node& component) {
+             return number_at(component, "slack_percent").value_or(0) == 0;
+           });
   }
 
   void add_to_hose(const std::vector<Node>& components) {

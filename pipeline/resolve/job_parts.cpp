@@ -30,7 +30,7 @@ void describe(Fields& echo, MetalKeys& keys) {
 }
 
 bool has_wires_of(const std::vector<Component>& components, const std::string& material) {
-  return std::any_of(components.begin(), components.end(), [&](const Component& component) {
+  return std::ranges::any_of(components, [&](const Component& component) {
     return component.material == material || has_wires_of(component.components, material);
   });
 }
@@ -42,7 +42,7 @@ struct StrainKeys {
 
   explicit StrainKeys(const MountedDresspack& of) : mounted(of) {
     const std::vector<Component>& components = of.dresspack.components;
-    const bool grips = std::any_of(components.begin(), components.end(), [](const Component& component) {
+    const bool grips = std::ranges::any_of(components, [](const Component& component) {
       return component.laying.base_grip || component.laying.tool_grip;
     });
     for (const Material& material : of.dresspack.materials)

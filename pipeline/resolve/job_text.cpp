@@ -68,7 +68,7 @@ Job resolved_job(Node& document, const std::vector<std::string>& sets) {
   read_fields(document, Describe([&](Fields& f) { describe(f, job); }), problems);
   const std::initializer_list<const char*> parts{"calibration", "strain",    "fatigue",
                                                  "uncertainty", "dresspack", "dresspacks"};
-  if (std::none_of(parts.begin(), parts.end(), [&](const char* part) { return problems.touch(part); }))
+  if (std::ranges::none_of(parts, [&](const char* part) { return problems.touch(part); }))
     problems.attempt("calibration", document.where, [&] {
       apply_calibration(document, job);
       apply_ratings(document, job);

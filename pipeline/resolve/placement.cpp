@@ -32,7 +32,7 @@ double asked(const std::vector<double>& radii, double circle) {
 
 /// Returns thick and thin parts in turn, which distributes the weight.
 std::vector<std::size_t> spread(const std::vector<double>& radii, std::vector<std::size_t> parts) {
-  std::stable_sort(parts.begin(), parts.end(), [&](std::size_t a, std::size_t b) { return radii[a] > radii[b]; });
+  std::ranges::stable_sort(parts, [&](std::size_t a, std::size_t b) { return radii[a] > radii[b]; });
   if (radii[parts.front()] == radii[parts.back()]) return parts;
   std::vector<std::size_t> order;
   for (std::size_t front = 0, back = parts.size(); front < back;) {
@@ -45,7 +45,7 @@ std::vector<std::size_t> spread(const std::vector<double>& radii, std::vector<st
 /// Returns the circle of a ring in a bore; std::nullopt: the parts do not fit, or would reach into the core. Precondition: two or
 /// more parts.
 std::optional<double> circle_of(const std::vector<double>& radii, double bore, double core) {
-  const double thickest = *std::max_element(radii.begin(), radii.end());
+  const double thickest = *std::ranges::max_element(radii);
   const double widest = bore - thickest;
   if (widest <= 0 || asked(radii, widest) > 2 * pi * (1 + touching_of_radius)) return std::nullopt;
   const double least_circle =
@@ -89,7 +89,7 @@ bool fill(const std::vector<double>& radii, std::vector<std::size_t> parts, doub
   }
   const auto sum = [&](const auto& of) { return sum_of(parts, [&](std::size_t part) { return of(radii[part]); }); };
   if (sum([](double r) { return r * r; }) > bore * bore - core * core) return false;  // by area
-  std::stable_sort(parts.begin(), parts.end(), [&](std::size_t a, std::size_t b) { return radii[a] > radii[b]; });
+  std::ranges::stable_sort(parts, [&](std::size_t a, std::size_t b) { return radii[a] > radii[b]; });
   // First the thickest part is put into the middle, then more and more parts inside of the ring.
   double in_ring = sum([](double r) { return r; }), too_narrow = 0;
   for (std::size_t inside = 0; inside < parts.size(); in_ring -= radii[parts[inside++]]) {
@@ -224,7 +224,7 @@ void expand_places(Node& dresspack, const std::string& path, Problems& problems)
   Node* components = dresspack.is_map() ? dresspack.find("components") : nullptr;
   if (!components || !components->is_list()) return;
   const auto asks = [](const Node& component) { return component.is_map() && component.find("place"); };
-  const auto first = std::find_if(components->items.begin(), components->items.end(), asks);
+  const auto first = std::ranges::find_if(components->items, asks);
   if (first == components->items.end()) return;
   const Where where = first->where;
   Problems own;
@@ -254,8 +254,7 @@ void expand_places(Node& dresspack, const std::string& path, Problems& problems)
             path);
   }
   if (!problems.attempt(path + ".components", where, [&] { own.finish(); })) return;
-  if (std::any_of(components->items.begin(), components->items.end(),
-                  [](const Node& of) { return of.is_map() && of.find("data_sheet"); })) {
+  if (std::ranges::any_of(components->items, [](const Node& of) { return of.is_map() && of.find("data_sheet"); })) {
     for (Node& component : components->items)
       if (asks(component)) set_place(component, {});  // their places depend on the cable whose data sheet was refused
     return;

@@ -249,12 +249,12 @@ void doubt_single_targets(const std::vector<MotionStep>& steps, std::vector<Warn
   const std::vector<double> reaches =
       mapped(places, [](const MotionStep* step) { return largest_size(step->position); });
   if (reaches.empty()) return;
-  const double farthest_place = *std::max_element(reaches.begin(), reaches.end());
+  const double farthest_place = *std::ranges::max_element(reaches);
   for (std::size_t k = 0; k < places.size(); ++k)
     // Only positions in one work object are compared: the origin of another one may be its only position.
     if (const double reach = reaches[k];
         reach >= least_metres && reach <= most_metres && farthest_place >= far_place &&
-        nonzero(places[k]->position) >= 2 && std::any_of(places.begin(), places.end(), [&](const MotionStep* other) {
+        nonzero(places[k]->position) >= 2 && std::ranges::any_of(places, [&](const MotionStep* other) {
           return other->work_object == places[k]->work_object && largest_size(other->position) >= far_place;
         }))
       metres.add(*places[k]);
@@ -497,7 +497,7 @@ void doubt_order(const std::vector<const Joint*>& driven, const AddDoubt& add) {
                most = *std::max_element(numbers.begin() + arm, numbers.end());
   const Joint& first = *driven.front();
   if (!(least > most) || !(most > 0)) return;
-  std::reverse(numbers.begin(), numbers.end());
+  std::ranges::reverse(numbers);
   const auto words = mapped(numbers, [](double number) { return fmt::format("{:.5g}", number); });
   add(first.acceleration_where,
       fmt::format(

@@ -106,7 +106,7 @@ void check_size(const std::string& text, const std::string& file) {
   if (text.size() > most_bytes)
     throw InputError({file}, fmt::format("has {} bytes (at most {} are read as YAML)", text.size(), most_bytes),
                      "leave out what is not needed, or keep poses in a CSV file");
-  const auto values = std::count_if(text.begin(), text.end(), [](char letter) {
+  const auto values = std::ranges::count_if(text, [](char letter) {
     return letter == ',' || letter == '\n' || letter == ':' || letter == '[' || letter == '{';
   });
   if (values > most_nodes)
@@ -171,7 +171,7 @@ InputError refusal_of(const YAML::Exception& problem, const std::string& text, c
 }
 
 bool all_scalars(const Node& list) {
-  return std::all_of(list.items.begin(), list.items.end(), [](const Node& item) { return item.is_scalar(); });
+  return std::ranges::all_of(list.items, [](const Node& item) { return item.is_scalar(); });
 }
 
 /// Returns whether a text certainly needs no quotes: numbers, names, paths, sentences. This is a fast test; the library tests
@@ -183,16 +183,15 @@ bool plain_at_sight(std::string_view text, bool in_brackets) {
   const bool begins = is_letter(text[0]) || is_digit(text[0]) || text[0] == '/' ||
                       (text[0] == '-' && text.size() > 1 && is_digit(text[1]));
   const std::string_view others = in_brackets ? " _.+-/();='" : " _.+-/();=',";
-  return begins && std::all_of(text.begin(), text.end(), [&](char letter) {
+  return begins && std::ranges::all_of(text, [&](char letter) {
            return is_letter(letter) || is_digit(letter) || others.find(letter) != std::string_view::npos;
          });
 }
 
 /// Returns a scalar with the quotes and escapes that the library adds, for a line of its own or an item of [].
 std::string quoted_text(const std::string& text, bool quoted, bool in_brackets) {
-  const bool printed_as_it_is = std::all_of(text.begin(), text.end(), [](char letter) {
-    return letter >= ' ' && letter <= '~' && letter != '"' && letter != '\\';
-  });
+  const bool printed_as_it_is = std::ranges::all_of(
+      text, [](char letter) { return letter >= ' ' && letter <= '~' && letter != '"' && letter != '\\'; });
   if (printed_as_it_is && (quoted || text.find(": ") != std::string::npos)) return '"' + text + '"';
   YAML::Emitter out;
   if (in_brackets) out << YAML::Flow << YAML::BeginSeq;

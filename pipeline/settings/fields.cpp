@@ -363,7 +363,7 @@ class FieldReader final : public Fields {
       }
     for (const OtherWord& other : other_words)
       if (const std::string known(other.key);
-          other.word == unknown.key && std::find(level.known.begin(), level.known.end(), known) != level.known.end()) {
+          other.word == unknown.key && std::ranges::find(level.known, known) != level.known.end()) {
         const Node* const radius = level.map->find("helix_radius_mm");
         const std::optional<double> helix = radius ? parse_number(radius->text) : std::nullopt;
         remedy = fmt::format("did you mean '{}'?", known);
@@ -402,7 +402,7 @@ class FieldReader final : public Fields {
     const auto path_of = [&](const std::string& key) { return level.path.empty() ? key : level.path + "." + key; };
     std::vector<std::string> misnamed;
     for (const Entry& entry : level.map->entries) {
-      if (std::find(level.known.begin(), level.known.end(), entry.key) != level.known.end()) continue;
+      if (std::ranges::find(level.known, entry.key) != level.known.end()) continue;
       std::string remedy;
       std::string likely = likely_key(level, entry, remedy);
       // In "{percent_of_time: 12,5}", YAML takes the comma as the end of the value.
@@ -418,7 +418,7 @@ class FieldReader final : public Fields {
                     likely.empty() ? "" : path_of(likely));
     }
     for (const auto& [key, meaning] : level.missing)
-      if (std::find(misnamed.begin(), misnamed.end(), key) == misnamed.end())
+      if (std::ranges::find(misnamed, key) == misnamed.end())
         problems_.add(level.map->where, fmt::format("{} is missing", path_of(key)),
                       fmt::format("add '{}: ...': {}", key, named(meaning)), path_of(key));
   }

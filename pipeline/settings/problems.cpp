@@ -31,8 +31,7 @@ void Problems::add(const Where& where, const std::string& what, const std::strin
 
 void Problems::note(Problem problem) {
   if (!problem.key.empty()) keys_.insert(problem.key);
-  const bool known =
-      std::any_of(problems_.begin(), problems_.end(), [&](const Problem& other) { return other.line == problem.line; });
+  const bool known = std::ranges::any_of(problems_, [&](const Problem& other) { return other.line == problem.line; });
   if (known) return;
   if (problems_.size() < most_problems)
     problems_.push_back(std::move(problem));
@@ -41,22 +40,20 @@ void Problems::note(Problem problem) {
 }
 
 bool Problems::touch(const std::string& key) const {
-  return std::any_of(keys_.begin(), keys_.end(),
-                     [&](const std::string& refused) { return lies_in(refused, key) || lies_in(key, refused); });
+  return std::ranges::any_of(
+      keys_, [&](const std::string& refused) { return lies_in(refused, key) || lies_in(key, refused); });
 }
 
 void Problems::finish(const std::string& first_file) const {
   if (problems_.empty()) return;
   std::vector<std::string> files{first_file};  // in the order of their first problem
   for (const Problem& problem : problems_)
-    if (std::find(files.begin(), files.end(), problem.where.file) == files.end()) files.push_back(problem.where.file);
+    if (std::ranges::find(files, problem.where.file) == files.end()) files.push_back(problem.where.file);
   const auto place = [&](const Problem& problem) {
-    return std::make_tuple(std::find(files.begin(), files.end(), problem.where.file), problem.where.line,
-                           problem.where.column);
+    return std::make_tuple(std::ranges::find(files, problem.where.file), problem.where.line, problem.where.column);
   };
   std::vector<Problem> sorted = problems_;
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [&](const Problem& a, const Problem& b) { return place(a) < place(b); });
+  std::ranges::stable_sort(sorted, [&](const Problem& a, const Problem& b) { return place(a) < place(b); });
   if (more_)
     sorted.push_back({Where{first_file, 0, 0}, "",
                       fmt::format("{}: error: only the first {} problems are shown; correct them first", first_file,

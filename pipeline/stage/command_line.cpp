@@ -100,7 +100,7 @@ bool is_no_command(const Command& program, int argc, char** argv) {
 
 /// Returns the option that a word of a command line names; null: none.
 const Option* option_named(const Command& command, const std::string& word) {
-  const auto found = std::find_if(command.options.begin(), command.options.end(), [&](const Option& option) {
+  const auto found = std::ranges::find_if(command.options, [&](const Option& option) {
     return word.starts_with('-') && (',' + option.names + ',').find(',' + word + ',') != std::string::npos;
   });
   return found == command.options.end() ? nullptr : &*found;
@@ -109,8 +109,8 @@ const Option* option_named(const Command& command, const std::string& word) {
 /// Returns "'--trial' is no option of improve; did you mean '--trials'?" for the first unknown option with a similar name, or a
 /// message for a number behind a flag, or for an option without its value. Empty: there is none of these.
 std::string meant_option(const Command& program, int argc, char** argv) {
-  const auto called = std::find_if(program.commands.begin(), program.commands.end(),
-                                   [&](const Command& command) { return argc > 1 && command.name == argv[1]; });
+  const auto called = std::ranges::find_if(program.commands,
+                                           [&](const Command& command) { return argc > 1 && command.name == argv[1]; });
   const Command& command = called == program.commands.end() ? program : *called;
   std::vector<std::string> names{"--help"};
   for (const Option& option : command.options)
@@ -118,7 +118,7 @@ std::string meant_option(const Command& program, int argc, char** argv) {
       names.push_back(option.names.substr(at));
   for (int k = 1; k < argc; ++k) {
     const std::string word = std::string(argv[k]).substr(0, std::string_view(argv[k]).find('='));
-    if (!word.starts_with("--") || std::find(names.begin(), names.end(), word) != names.end()) continue;
+    if (!word.starts_with("--") || std::ranges::find(names, word) != names.end()) continue;
     if (const std::string near = nearest_word(word, names); !near.empty())
       return fmt::format("'{}' is no option of {}; did you mean '{}'?\n", shown(word), command.name, near);
   }

@@ -155,7 +155,7 @@ void say_known_warnings(const StageCall& call) {
   Progress silent(call.info.program, true);
   for (const Warning& warning :
        warnings_in(FileReader(call.output, format_of_output(*call.info.part), FileReader::Scope::attributes)))
-    if (std::find(before.begin(), before.end(), warning) == before.end()) say(call, silent, warning);
+    if (std::ranges::find(before, warning) == before.end()) say(call, silent, warning);
 }
 
 /// Gives the output to the jobs of a study that are equal up to this stage, by a second name for each. The names are made before

@@ -387,7 +387,7 @@ void look_at(JobState& state, const fs::path& folder) {
     return;
   }
   state.failure = noted_failure(state, folder);
-  state.has_results = std::any_of(stages.begin(), stages.end(), [&](const Stage& stage) {
+  state.has_results = std::ranges::any_of(stages, [&](const Stage& stage) {
     return state_of(folder / stage.output).exists() ||
            (state.keep == Keep::lives && state_of(folder / receipt_file(stage)).exists());
   });

@@ -20,8 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 bool is_plain(const Node& node) {
-  return node.is_list() &&
-         std::all_of(node.items.begin(), node.items.end(), [](const Node& item) { return item.is_scalar(); });
+  return node.is_list() && std::ranges::all_of(node.items, [](const Node& item) { return item.is_scalar(); });
 }
 
 std::string value_words(const Node* value) {
@@ -106,7 +105,7 @@ std::vector<std::string> changed_files(const StudyJob& job, const StudyPlaces& p
         changed.push_back(fmt::format("{} is new beside the program", (folder / seen).lexically_normal().string()));
     later = receipt;
   }
-  std::reverse(changed.begin(), changed.end());
+  std::ranges::reverse(changed);
   return changed;
 }
 

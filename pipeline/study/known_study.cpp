@@ -150,7 +150,7 @@ std::optional<std::string> text_of(const StudyRequest& request, const StudyState
 }  // namespace
 
 bool StudyState::all_done() const {
-  return std::all_of(states.begin(), states.end(), [](const JobState& state) { return state.done(); });
+  return std::ranges::all_of(states, [](const JobState& state) { return state.done(); });
 }
 
 void look_again(StudyState& standing) {

@@ -207,7 +207,7 @@ std::vector<double> outlived(std::span<const std::vector<double>> lives) {
   std::vector<std::size_t> order = indices_of(lives.size());
   const std::size_t samples = lives.front().size();
   for (std::size_t s = 0; s < samples; ++s) {
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return lives[a][s] < lives[b][s]; });
+    std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return lives[a][s] < lives[b][s]; });
     for (std::size_t first = 0, end = 0; first < order.size(); first = end) {
       while (end < order.size() && lives[order[end]][s] == lives[order[first]][s]) ++end;
       for (std::size_t k = first; k < end; ++k) count[order[k]] += double(first + end - 1) / 2 / double(samples);
@@ -273,7 +273,7 @@ bool better(const RankingRow& one, const RankingRow& other) {
 
 std::vector<RankingRow> sorted_rows(const std::vector<JobResult>& results) {
   std::vector<RankingRow> rows = mapped(results, read_row);
-  std::stable_sort(rows.begin(), rows.end(), better);
+  std::ranges::stable_sort(rows, better);
   return rows;
 }
 

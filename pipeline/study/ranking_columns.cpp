@@ -43,8 +43,8 @@ RankingColumn of_mode(std::string name, std::string unit, std::string meaning, c
           }};
 }
 bool has_warning(const RankingRow& row, WarningKind kind) {
-  return row.warnings && std::any_of(row.warnings->begin(), row.warnings->end(),
-                                     [&](const Warning& warning) { return warning.kind == kind; });
+  return row.warnings &&
+         std::ranges::any_of(*row.warnings, [&](const Warning& warning) { return warning.kind == kind; });
 }
 bool has_rating(const RankingRow& row) { return row.relative.has_value(); }
 

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 bool tells_friction(const Node& component) {
   const Node* parts = component.find("components");
-  return !parts || std::all_of(parts->items.begin(), parts->items.end(), [](const Node& part) {
+  return !parts || std::ranges::all_of(parts->items, [](const Node& part) {
     return part.find("friction_coefficient") && part.find("radial_line_load_N_per_m") && tells_friction(part);
   });
 }
@@ -76,8 +76,7 @@ class RatedStudyMaker {
   void refuse_common_fault() const {
     const std::vector<StudyJob>& jobs = made_.study.jobs;
     const std::string& fault = jobs.front().failure;
-    if (!fault.empty() &&
-        std::all_of(jobs.begin(), jobs.end(), [&](const StudyJob& job) { return job.failure == fault; }))
+    if (!fault.empty() && std::ranges::all_of(jobs, [&](const StudyJob& job) { return job.failure == fault; }))
       throw InputError(fault);
   }
 

@@ -164,11 +164,10 @@ std::string relate_one(const RatedCable& rated, const RankingRow& rig, RankingRo
 }  // namespace
 
 bool has_ratings(const Job& job) {
-  return std::any_of(job.dresspacks.begin(), job.dresspacks.end(), [](const MountedDresspack& mounted) {
+  return std::ranges::any_of(job.dresspacks, [](const MountedDresspack& mounted) {
     const auto& parts = mounted.dresspack.components;
-    return !mounted.dresspack.ratings.empty() || std::any_of(parts.begin(), parts.end(), [](const Component& part) {
-      return !part.plain && !part.ratings.empty();
-    });
+    return !mounted.dresspack.ratings.empty() ||
+           std::ranges::any_of(parts, [](const Component& part) { return !part.plain && !part.ratings.empty(); });
   });
 }
 

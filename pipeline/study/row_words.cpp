@@ -110,7 +110,7 @@ std::string further_unvalidated(const RankingRow& row) {
   if (const UnvalidatedMode* const first = earlier_unvalidated(row)) hours.erase(first->mode);
   std::vector<std::pair<double, std::string>> by_time;
   for (const auto& [mode, from] : hours) by_time.emplace_back(from, mode);
-  std::sort(by_time.begin(), by_time.end());
+  std::ranges::sort(by_time);
   std::string text;
   for (const auto& [from, mode] : by_time) text += fmt::format(", {}: from {}", mode, hours_text(from));
   return text;
@@ -182,7 +182,7 @@ std::string unvalidated_legend(const std::vector<RankingRow>& rows) {
     if (!row.has_result()) continue;
     if (plan_mark(row) == "*") ++first[earlier_unvalidated(row)->mode];
     for (const UnvalidatedMode& mode : row.unvalidated)
-      if (std::find(modes.begin(), modes.end(), mode.mode) == modes.end()) modes.push_back(mode.mode);
+      if (std::ranges::find(modes, mode.mode) == modes.end()) modes.push_back(mode.mode);
   }
   if (modes.empty()) return "";
   std::vector<std::string> counts;

@@ -63,7 +63,7 @@ std::vector<std::size_t> part_of(const std::vector<Variant>& variants, const Sha
                                        static_cast<std::size_t>(shard.count));
   };
   std::vector<std::size_t> part(order.begin() + begin_of(shard.index), order.begin() + begin_of(shard.index + 1));
-  std::sort(part.begin(), part.end());
+  std::ranges::sort(part);
   return part;
 }
 

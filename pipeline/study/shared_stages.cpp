@@ -151,8 +151,7 @@ void give_stage(const fs::path& from, const std::vector<fs::path>& folders, std:
 }  // namespace
 
 void share_stages(const Study& study, const StudyPlaces& places, std::vector<JobState>& states) {
-  if (std::all_of(states.begin(), states.end(),
-                  [](const JobState& state) { return state.done() || state.recipes[0].empty(); }))
+  if (std::ranges::all_of(states, [](const JobState& state) { return state.done() || state.recipes[0].empty(); }))
     return;
   std::unordered_map<std::string, std::size_t> havers;
   for (std::size_t k = 0; k < states.size(); ++k)

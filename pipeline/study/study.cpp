@@ -183,7 +183,7 @@ void check_keys(const Node& study) {
   refuse_other_kind(study, DocumentKind::study);
   const std::vector<std::string> known{"name", "base", "vary", "jobs", "table", "sample", "keep", "free", "limits"};
   for (const Entry& entry : study.entries) {
-    if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
+    if (std::ranges::find(known, entry.key) != known.end()) continue;
     const std::string near = nearest_word(entry.key, known);
     throw InputError(entry.where, fmt::format("unknown key '{}' of a study", entry.key),
                      near.empty() ? "keys here: name, base, vary, jobs, table, sample, keep, free, limits"

@@ -30,7 +30,7 @@ std::string problem_words(const Study& study) {
       if (jobs.empty()) lines.push_back(line);
       jobs.push_back(job.name);
     }
-  const bool complete = std::all_of(study.jobs.begin(), study.jobs.end(), [&](const StudyJob& job) {
+  const bool complete = std::ranges::all_of(study.jobs, [&](const StudyJob& job) {
     return job.failure.empty() || (problem_lines(job.failure).size() == 1 && jobs_of[job.failure].size() == 1);
   });
   if (complete) return "";

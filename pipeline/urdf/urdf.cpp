@@ -321,7 +321,7 @@ class Chain {
     std::vector<const urdf::Joint*> joints;  // starting at the root
     for (const urdf::Link* link = &tip(); link->parent_joint; link = link->getParent().get())
       joints.push_back(link->parent_joint.get());
-    std::reverse(joints.begin(), joints.end());
+    std::ranges::reverse(joints);
     carriers_.push_back({model_.getRoot().get()});
     for (const urdf::Joint* joint : joints) {
       const Isometry3d origin = carried_ * transform(joint->parent_to_joint_origin_transform);
@@ -356,7 +356,7 @@ class Chain {
   }
 
   void check_axes() {
-    const auto axes = std::count_if(moved_.begin(), moved_.end(), [](const MovedLink& m) { return !m.joint->mimic; });
+    const auto axes = std::ranges::count_if(moved_, [](const MovedLink& m) { return !m.joint->mimic; });
     if (axes < 4 || axes > 7)
       fail(file_, fmt::format("has {} axes between its root and its tip (a robot has 4 to 7)", axes),
            "choose another tip");
@@ -544,7 +544,7 @@ class Chain {
       fail(where, fmt::format("mesh '{}' is scaled by different factors", mesh.filename), "scale it evenly");
     const fs::path file = mesh_file(mesh.filename, where);
     std::string end = file.extension().string();
-    std::transform(end.begin(), end.end(), end.begin(), [](unsigned char c) { return std::tolower(c); });
+    std::ranges::transform(end, end.begin(), [](unsigned char c) { return std::tolower(c); });
     if (end != ".stl" && end != ".obj")
       fail(where, fmt::format("mesh '{}' is neither STL nor OBJ", mesh.filename),
            "convert it, or leave the URDF's shapes out with 'collision: drop'");

@@ -92,9 +92,8 @@ std::string answers_text(const std::vector<Problem>& problems, const pipeline::M
     if (kind == Kind::work_object)
       for (const auto& frame : given.work_objects) lines += frame_line(frame);
     const auto answered = [&](const std::string& name) {
-      return std::any_of(entries.begin(), entries.end(), [&](const Entry& entry) {
-        return entry.question.kind == kind && entry.question.name == name;
-      });
+      return std::ranges::any_of(
+          entries, [&](const Entry& entry) { return entry.question.kind == kind && entry.question.name == name; });
     };
     if (kind == Kind::value)
       for (const auto& value : given.values)

@@ -14,7 +14,7 @@ bool letter(char c) { return c >= 'a' && c <= 'z'; }
 
 template <std::size_t n>
 bool among(const std::string& word, const std::array<std::string_view, n>& list) {
-  return std::find(list.begin(), list.end(), word) != list.end();
+  return std::ranges::find(list, word) != list.end();
 }
 
 constexpr std::array<std::string_view, 9> times{"time", "t",       "timestamp", "stamp", "sec",
@@ -36,7 +36,7 @@ std::vector<int> numbers_of(const std::vector<std::string>& names, bool last) {
     numbers.push_back(std::stoi(last ? words.back() : words.front()));
   }
   std::vector<int> sorted = numbers;
-  std::sort(sorted.begin(), sorted.end());
+  std::ranges::sort(sorted);
   for (std::size_t i = 1; i < sorted.size(); ++i)
     if (sorted[i] != sorted[i - 1] + 1) return {};
   return numbers;
@@ -55,14 +55,13 @@ std::optional<std::vector<std::size_t>> order_by(const std::vector<std::string>&
     std::size_t found = names.size();
     for (std::size_t i = 0; i < names.size(); ++i) {
       const std::vector<std::string> words = words_of_name(names[i]);
-      const bool fits = std::all_of(wanted.begin(), wanted.end(), [&](const std::string& w) {
-        return std::find(words.begin(), words.end(), w) != words.end();
-      });
+      const bool fits =
+          std::ranges::all_of(wanted, [&](const std::string& w) { return std::ranges::find(words, w) != words.end(); });
       if (!fits) continue;
       if (found < names.size()) return {};
       found = i;
     }
-    if (found == names.size() || std::find(order.begin(), order.end(), found) != order.end()) return {};
+    if (found == names.size() || std::ranges::find(order, found) != order.end()) return {};
     order.push_back(found);
   }
   return order;
@@ -87,12 +86,12 @@ std::vector<std::string> words_of_name(std::string_view name) {
 ColumnName column_name(std::string_view name) {
   ColumnName made;
   const std::vector<std::string> words = words_of_name(name);
-  const auto has = [&](const char* word) { return std::find(words.begin(), words.end(), word) != words.end(); };
+  const auto has = [&](const char* word) { return std::ranges::find(words, word) != words.end(); };
   if (has("rad") || has("radian") || has("radians")) made.unit = ColumnName::Unit::radians;
   if (has("deg") || has("degree") || has("degrees") || name.find("\xC2\xB0") != std::string_view::npos)
     made.unit = ColumnName::Unit::degrees;
-  const bool any_other = std::any_of(words.begin(), words.end(), [](const auto& w) { return among(w, others); });
-  const bool coordinate = std::any_of(words.begin(), words.end(), [](const auto& w) { return among(w, coordinates); });
+  const bool any_other = std::ranges::any_of(words, [](const auto& w) { return among(w, others); });
+  const bool coordinate = std::ranges::any_of(words, [](const auto& w) { return among(w, coordinates); });
   if (!words.empty() && (among(words[0], times) || (words.size() > 1 && words.back() == "time") || name == "%time")) {
     made.kind = ColumnName::Kind::time;
     made.unit_told = has("s") || has("sec") || has("secs") || has("seconds");
@@ -130,14 +129,14 @@ std::optional<std::vector<std::size_t>> order_of_axes(const std::vector<std::str
         return text;
       };
       const std::string name = without_blanks(wanted.substr(begin, end - begin));
-      const auto found = std::find_if(names.begin(), names.end(),
-                                      [&](const std::string& n) { return same_word(without_blanks(n), name); });
+      const auto found =
+          std::ranges::find_if(names, [&](const std::string& n) { return same_word(without_blanks(n), name); });
       if (found == names.end()) return {};
       order.push_back(static_cast<std::size_t>(found - names.begin()));
       begin = end + 1;
     }
     std::vector<std::size_t> sorted = order;
-    std::sort(sorted.begin(), sorted.end());
+    std::ranges::sort(sorted);
     const bool twice = std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
     return twice ? std::nullopt : std::optional(order);
   }

@@ -22,7 +22,7 @@ namespace {
 bool holds_moves(const fs::path& file) {
   const std::string end = lower_case(file.extension().string());
   const auto among = [&](std::initializer_list<const char*> ends) {
-    return std::any_of(ends.begin(), ends.end(), [&](const char* other) { return end == other; });
+    return std::ranges::any_of(ends, [&](const char* other) { return end == other; });
   };
   return among({".mod", ".modx", ".prg", ".sys", ".sysx", ".src", ".ls", ".jbi"});
 }
@@ -54,12 +54,12 @@ Backup backup_of(const fs::path& program, const std::string& routine) {
     return rapid_backup(folder, own, routine);
   }
   std::erase_if(files, [](const auto& of_language) {  // files with settings alone are not a program
-    return std::none_of(of_language.second.begin(), of_language.second.end(), holds_moves);
+    return std::ranges::none_of(of_language.second, holds_moves);
   });
   // System modules alone are not an ABB program beside another controller's files, which may have the same extension.
   if (const auto rapid = files.find(Language::rapid); files.size() > 1 && rapid != files.end())
-    if (std::all_of(rapid->second.begin(), rapid->second.end(),
-                    [](const fs::path& file) { return lower_case(file.extension().string()) == ".sys"; }))
+    if (std::ranges::all_of(rapid->second,
+                            [](const fs::path& file) { return lower_case(file.extension().string()) == ".sys"; }))
       files.erase(rapid);
   if (files.size() != 1)
     throw pipeline::InputError({folder.string()},

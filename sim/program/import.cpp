@@ -197,7 +197,7 @@ void report_external_axes(Program& program) {
       ways[i].low = std::min(ways[i].low, instruction.target.external_axes[i]);
       ways[i].high = std::max(ways[i].high, instruction.target.external_axes[i]);
     }
-  if (std::none_of(ways.begin(), ways.end(), [](const Way& way) { return way.high > way.low; })) return;
+  if (std::ranges::none_of(ways, [](const Way& way) { return way.high > way.low; })) return;
   std::string moving, entries;
   for (std::size_t i = 0; i < ways.size(); ++i) {
     const Way& way = ways[i];
@@ -233,8 +233,8 @@ void drop_unused(std::vector<NamedFrame>& frames, int Instruction::*index, std::
 }
 
 bool moves_anywhere(const Program& program) {
-  return std::any_of(program.instructions.begin(), program.instructions.end(),
-                     [](const Instruction& i) { return i.kind != Instruction::Kind::dwell; });
+  return std::ranges::any_of(program.instructions,
+                             [](const Instruction& i) { return i.kind != Instruction::Kind::dwell; });
 }
 
 }  // namespace
@@ -370,7 +370,7 @@ Program read_program(const pipeline::Motion& motion, const FlangeAt& flange,
   if (language == Language::fanuc &&
       !is_backup(motion.program))  // called programs and registers are in the same folder
     for (const std::filesystem::path& beside : fanuc_files_beside(motion.program)) {
-      const bool listed = std::any_of(motion.modules.begin(), motion.modules.end(), [&](const auto& m) {
+      const bool listed = std::ranges::any_of(motion.modules, [&](const auto& m) {
         return pipeline::inode_of(m.file) == pipeline::inode_of(beside) ||
                lower_case(m.file.filename().string()) == lower_case(beside.filename().string());
       });
@@ -406,8 +406,7 @@ pipeline::Motion motion_of(const Program& program, const pipeline::Motion& defau
   motion.left_out = pipeline::joined(std::move(motion.left_out), left_out);
   for (const Instruction& instruction : program.instructions) motion.steps.push_back(step_of(instruction, program));
   // A motion begins at the target of its first move: the robot stands there during dwells before that move.
-  const auto first_move =
-      std::find_if(motion.steps.begin(), motion.steps.end(), [](const auto& step) { return step.is_move(); });
+  const auto first_move = std::ranges::find_if(motion.steps, [](const auto& step) { return step.is_move(); });
   if (first_move != motion.steps.end()) std::rotate(motion.steps.begin(), first_move, first_move + 1);
   return motion;
 }
@@ -479,7 +478,7 @@ void add_to_group(SkippedGroup& group, const Skipped& skipped) {
 std::string waits_note(const Program& program) {
   static const pipeline::WordSet waits =
       pipeline::word_set("wait waitdi waitdo waitgi waitgo waitai waitao waitsynctask waituntil");
-  const auto count = std::count_if(program.skipped.begin(), program.skipped.end(), [](const Skipped& skipped) {
+  const auto count = std::ranges::count_if(program.skipped, [](const Skipped& skipped) {
     return waits.contains(lower_case(name_and_reason(skipped.what).first));
   });
   if (count == 0) return "";

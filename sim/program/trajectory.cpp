@@ -137,7 +137,7 @@ class Columns {
     if (points)
       return refuse(fmt::format("names points or lengths ({})", pipeline::joined(left_out_, ", ")),
                     "give the angles of the axes, one column each");
-    const bool long_form = axes.size() == 1 && std::any_of(left_out_.begin(), left_out_.end(), [](const auto& name) {
+    const bool long_form = axes.size() == 1 && std::ranges::any_of(left_out_, [](const auto& name) {
                              return lower_case(name) == "name" || lower_case(name).ends_with("joint_name");
                            });
     if (long_form)
@@ -154,7 +154,7 @@ class Columns {
     for (const std::string& name : left_out_)
       program_.skipped.push_back({where(), fmt::format("column '{}': no angle of an axis", name)});
     for (std::size_t i = 0; i < axes.size() && !wanted.empty(); ++i)
-      if (std::find(order->begin(), order->end(), i) == order->end())
+      if (std::ranges::find(*order, i) == order->end())
         program_.skipped.push_back({where(), fmt::format("column '{}': none of the axes asked for", axes[i])});
   }
 
@@ -162,7 +162,7 @@ class Columns {
     if (cells.size() != names_.size())
       return problems_.add(where(), fmt::format("has {} cells (there are {} names)", cells.size(), names_.size()),
                            "give one number per name");
-    if (std::none_of(cells.begin(), cells.end(), [](const auto& cell) { return number_in_cell(cell.text); }))
+    if (std::ranges::none_of(cells, [](const auto& cell) { return number_in_cell(cell.text).has_value(); }))
       return problems_.add(where(), "has no numbers",
                            "put one line of names first, then a row of joint angles per line");
     Row made{number_, {}, {}};

@@ -241,14 +241,13 @@ void Course::check_speeds(const pipeline::Robot& robot) {
 }
 
 VectorXd Course::at(double time) const {
-  const auto after = std::upper_bound(runs_.begin(), runs_.end(), time,
-                                      [&](double t, const Run& run) { return t < times_[run.begin]; });
+  const auto after = std::ranges::upper_bound(runs_, time, {}, [&](const Run& run) { return times_[run.begin]; });
   if (after == runs_.begin()) return knot(0);
   return std::prev(after)->spline.at(time);
 }
 
 std::uint32_t Course::line(double time) const {
-  const auto after = std::upper_bound(times_.begin(), times_.end(), time);
+  const auto after = std::ranges::upper_bound(times_, time);
   return lines_[static_cast<std::size_t>(std::max<long>(0, after - times_.begin() - 1))];
 }
 

@@ -77,11 +77,11 @@ class Places {
     const VectorXf range = samples.values.rowwise().maxCoeff() - samples.values.rowwise().minCoeff();
     std::vector<long> axes(static_cast<std::size_t>(range.size()));
     std::iota(axes.begin(), axes.end(), 0);
-    std::stable_sort(axes.begin(), axes.end(), [&](long a, long b) { return range[a] > range[b]; });
+    std::ranges::stable_sort(axes, [&](long a, long b) { return range[a] > range[b]; });
     first_ = axes[0], second_ = axes[std::min<std::size_t>(1, axes.size() - 1)];
     for (std::size_t k = 0; k < samples.count(); ++k)
       sorted_.emplace_back(key(cell(first_, k), cell(second_, k)), static_cast<std::uint32_t>(k));
-    std::sort(sorted_.begin(), sorted_.end());
+    std::ranges::sort(sorted_);
   }
 
   /// Returns later samples, from `from` on, at which the axes come nearest to those of sample k, in their order; one sample for
@@ -91,11 +91,11 @@ class Places {
     for (int a = -1; a <= 1; ++a)
       for (int b = -1; b <= 1; ++b) {
         const std::uint64_t wanted = key(cell(first_, k) + a, cell(second_, k) + b);
-        auto at = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair(wanted, static_cast<std::uint32_t>(from)));
+        auto at = std::ranges::lower_bound(sorted_, std::pair(wanted, static_cast<std::uint32_t>(from)));
         for (; at != sorted_.end() && at->first == wanted && near.size() < 4096; ++at)
           if (distance(k, at->second) <= cell_) near.push_back(at->second);
       }
-    std::sort(near.begin(), near.end());
+    std::ranges::sort(near);
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < near.size();) {
       std::size_t best = near[i], end = i + 1;
@@ -267,10 +267,10 @@ Cycles cycles_of(const Course& course, const CycleOptions& options, const std::f
   std::vector<std::size_t> order;
   for (std::size_t k = 0; k < search.known(); ++k)
     if (appears[k] > 1) order.push_back(k);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return length[a] > length[b]; });
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return length[a] > length[b]; });
   made.count = order.size();
   for (const Part& part : parts) {
-    const auto rank = std::find(order.begin(), order.end(), part.cycle);
+    const auto rank = std::ranges::find(order, part.cycle);
     if (rank == order.end()) continue;
     made.parts.push_back({static_cast<std::size_t>(rank - order.begin()), samples.time(part.begin),
                           samples.time(part.end), part.difference});

@@ -78,8 +78,7 @@ LogColumns log_columns(const pipeline::CsvReader& log, const pipeline::CsvRow& c
   std::vector<std::string> titles;
   for (const CsvCell& cell : cells) titles.push_back(with_words(cell.text));
   const pipeline::Where where = log.where(cells.front());
-  if (std::all_of(cells.begin(), cells.end(),
-                  [](const CsvCell& cell) { return pipeline::number_in(cell.text).has_value(); }))
+  if (std::ranges::all_of(cells, [](const CsvCell& cell) { return pipeline::number_in(cell.text).has_value(); }))
     throw InputError(where, "the log begins with numbers", "put a line of names first: time,axis_1_deg,axis_2_deg, ..");
   for (std::size_t k = 0; k < titles.size(); ++k) {
     const std::vector<std::string> words = words_of_name(titles[k]);
@@ -87,7 +86,7 @@ LogColumns log_columns(const pipeline::CsvReader& log, const pipeline::CsvRow& c
     const bool date = words == std::vector<std::string>{"date"} || words == std::vector<std::string>{"datum"};
     if (date && !made.date) made.date = k;
     const auto is_any_of = [](const std::string& word, std::initializer_list<std::string_view> known) {
-      return std::find(known.begin(), known.end(), word) != known.end();
+      return std::ranges::find(known, word) != known.end();
     };
     const bool stamp =
         read.kind == ColumnName::Kind::time ||

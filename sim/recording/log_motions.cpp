@@ -46,7 +46,7 @@ StretchRows rows_between(const Course& course, double begin, double end) {
   StretchRows rows;
   rows.add(0, course.at(begin));
   const std::vector<double>& knots = course.knots();
-  auto at = std::upper_bound(knots.begin(), knots.end(), begin + near_knots);
+  auto at = std::ranges::upper_bound(knots, begin + near_knots);
   for (; at != knots.end() && *at < end - near_knots; ++at)
     rows.add(*at - begin, course.knot(static_cast<std::size_t>(at - knots.begin())));
   rows.add(end - begin, course.at(end));
@@ -138,7 +138,7 @@ LogMotion motion_for(const Course& course, const Cycles& cycles, std::span<const
     sum += damage;
   }
   const double mean = sum / static_cast<double>(made.count);
-  made.part = std::min_element(damages.begin(), damages.end(), [&](const auto& a, const auto& b) {
+  made.part = std::ranges::min_element(damages, [&](const auto& a, const auto& b) {
                 return std::abs(a.first - mean) < std::abs(b.first - mean);
               })->second;
   StretchRows rows = rows_between(course, cycles.parts[made.part].begin, cycles.parts[made.part].end);
@@ -164,7 +164,7 @@ void add_cycle(const Course& course, const Cycles& cycles, std::size_t cycle, do
     if (const CyclePart& part = cycles.parts[k]; part.cycle == cycle)
       damages.emplace_back(damage_of(rows_between(course, part.begin, part.end), bound), k),
           seconds += part.end - part.begin;
-  std::sort(damages.begin(), damages.end());
+  std::ranges::sort(damages);
   const double cheap = std::max(few_recordings, recorded_seconds * static_cast<double>(damages.size()) / seconds);
   const std::size_t count =
       std::min({damages.size(), static_cast<std::size_t>(recordings), static_cast<std::size_t>(cheap)});

@@ -89,7 +89,7 @@ std::string other_difference(const pipeline::Motion& before, const pipeline::Mot
                              const std::vector<LineChange>& changes) {
   std::size_t next = 0;
   for (const pipeline::MotionStep& step : before.steps) {
-    const auto change = std::find_if(changes.begin(), changes.end(), [&](const LineChange& c) {
+    const auto change = std::ranges::find_if(changes, [&](const LineChange& c) {
       return c.where.file == step.where.file && c.where.line == step.where.line && c.where.column == step.where.column;
     });
     const LineChange* own = change == changes.end() ? nullptr : &*change;

@@ -90,7 +90,7 @@ class Ways {
     const auto add = [&](std::optional<ProgramWay> way) {
       if (!way) return;
       const auto same = [&](const ProgramWay& other) { return other.what == way->what && other.lines == way->lines; };
-      if (std::none_of(ways.begin(), ways.end(), same)) ways.push_back(*std::move(way));
+      if (std::ranges::none_of(ways, same)) ways.push_back(*std::move(way));
     };
     std::set<std::size_t> every;
     for (std::size_t k = 0; k < chain_of_.size(); ++k)

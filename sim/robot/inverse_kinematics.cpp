@@ -404,7 +404,7 @@ std::optional<VectorXd> InverseKinematics::solve(const Frame& flange, const ArmC
     }
   }
   if (best) return whole(*best, near);
-  std::sort(others.begin(), others.end());
+  std::ranges::sort(others);
   others.erase(std::unique(others.begin(), others.end()), others.end());
   if (others.size() > 8) others.resize(8);
   if (reaching.empty())

@@ -178,9 +178,8 @@ class Layout {
               "robot.external_axes does not have: without them the robot's base is elsewhere"
             : "check target, tool, work object, configuration and the place of the robot's base; or name the robot of the program";
     const std::string& group = of.empty() ? reason : of;
-    const auto same = std::find_if(refused_.begin(), refused_.end(), [&](const Refused& other) {
-      return other.group == group && other.remedy == remedy;
-    });
+    const auto same = std::ranges::find_if(
+        refused_, [&](const Refused& other) { return other.group == group && other.remedy == remedy; });
     Refused refused{step.where, made_.texts[line], reason, remedy, group, excess, {}};
     if (same == refused_.end()) {
       refused_.push_back(std::move(refused));
@@ -378,7 +377,7 @@ class Layout {
 
   bool stops(std::size_t k) const {
     return k + 1 >= moves_.size() || moves_[k].dwell > 0 || moves_[k + 1].dwell > 0 || zone_is_stop(*moves_[k].step) ||
-           std::find(stops_.begin(), stops_.end(), k) != stops_.end();
+           std::ranges::find(stops_, k) != stops_.end();
   }
 
   /// Returns the tool's zone at the end of move k [m].

@@ -310,8 +310,8 @@ JointMotion::JointMotion(const pipeline::Motion& motion, const pipeline::Robot& 
 
 void JointMotion::hold(std::size_t axis) {
   const auto of = static_cast<Eigen::Index>(axis);
-  const auto [low, high] = std::minmax_element(
-      pieces_.begin(), pieces_.end(), [&](const auto& a, const auto& b) { return a.position[of] < b.position[of]; });
+  const auto [low, high] = std::ranges::minmax_element(
+      pieces_, [&](const auto& a, const auto& b) { return a.position[of] < b.position[of]; });
   const double middle = (low->position[of] + high->position[of]) / 2;
   for (MotionPiece& piece : pieces_) {
     piece.position[of] = middle;
@@ -355,8 +355,7 @@ double JointMotion::program_time(double time) const {
 }
 
 const MotionPiece& JointMotion::piece_at(double time) const {
-  const auto after = std::upper_bound(pieces_.begin(), pieces_.end(), time,
-                                      [](double t, const MotionPiece& piece) { return t < piece.start; });
+  const auto after = std::ranges::upper_bound(pieces_, time, {}, &MotionPiece::start);
   return after == pieces_.begin() ? *after : *(after - 1);
 }
 

@@ -102,7 +102,7 @@ std::vector<NumericalInverse::Angles> NumericalInverse::arms(const Frame& flange
       for (int i = 0; i < 6; ++i) off = std::max(off, std::abs(std::remainder((*arm)[i] - other[i], 2 * pi)));
       return off < same_arm;
     };
-    if (std::any_of(found.begin(), found.end(), same)) continue;
+    if (std::ranges::any_of(found, same)) continue;
     found.push_back(*arm);
     in_vain = 0;
   }

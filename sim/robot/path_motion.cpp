@@ -54,7 +54,7 @@ class Profile {
 
   double duration() const { return times_.back(); }
   std::size_t leg_at(double time) const {
-    const auto after = std::upper_bound(times_.begin(), times_.end(), time);
+    const auto after = std::ranges::upper_bound(times_, time);
     return static_cast<std::size_t>(
         std::clamp<long>(after - times_.begin() - 1, 0, static_cast<long>(legs_.size()) - 1));
   }

@@ -83,7 +83,7 @@ void CubicSpline::find_second_derivatives() {
 VectorXd CubicSpline::at(double time) const {
   if (time <= times_.front()) return values_.col(0);
   if (time >= times_.back()) return values_.col(values_.cols() - 1);
-  const long k = std::upper_bound(times_.begin(), times_.end(), time) - times_.begin() - 1;
+  const long k = std::ranges::upper_bound(times_, time) - times_.begin() - 1;
   const double h = times_[k + 1] - times_[k];
   const double a = (times_[k + 1] - time) / h, b = 1 - a;
   return a * values_.col(k) + b * values_.col(k + 1) +

@@ -70,8 +70,7 @@ Rod::Rod(const RodProperties& properties) { add(properties, true); }
 Rod::Rod(const std::vector<RodProperties>& spans, const std::vector<int>& first_of_dresspack) {
   assert(!spans.empty());
   for (size_t k = 0; k < spans.size(); ++k)
-    add(spans[k], k == 0 || std::find(first_of_dresspack.begin(), first_of_dresspack.end(), static_cast<int>(k)) !=
-                                first_of_dresspack.end());
+    add(spans[k], k == 0 || std::ranges::find(first_of_dresspack, static_cast<int>(k)) != first_of_dresspack.end());
 }
 
 void Rod::add(const RodProperties& p, bool new_dresspack) {
@@ -260,9 +259,8 @@ double Rod::mean_elongation(const RodState& state, const Span& span) const {
 }
 
 const Span& Rod::most_stretched(const RodState& state) const {
-  return *std::max_element(spans_.begin(), spans_.end(), [&](const Span& a, const Span& b) {
-    return mean_elongation(state, a) < mean_elongation(state, b);
-  });
+  return *std::ranges::max_element(
+      spans_, [&](const Span& a, const Span& b) { return mean_elongation(state, a) < mean_elongation(state, b); });
 }
 
 std::vector<double> Rod::tensions(const RodState& state) const {

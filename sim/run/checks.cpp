@@ -21,13 +21,12 @@ constexpr double unlimited = std::numeric_limits<double>::infinity();
 using Places = std::span<const Extreme>;
 
 const Extreme& largest(Places places) {
-  return *std::max_element(places.begin(), places.end(),
-                           [](const Extreme& a, const Extreme& b) { return a.value < b.value; });
+  return *std::ranges::max_element(places, [](const Extreme& a, const Extreme& b) { return a.value < b.value; });
 }
 
 const Extreme& largest_by_size(Places places) {
-  return *std::max_element(places.begin(), places.end(),
-                           [](const Extreme& a, const Extreme& b) { return std::abs(a.value) < std::abs(b.value); });
+  return *std::ranges::max_element(
+      places, [](const Extreme& a, const Extreme& b) { return std::abs(a.value) < std::abs(b.value); });
 }
 
 }  // namespace

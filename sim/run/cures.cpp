@@ -53,9 +53,8 @@ const pipeline::MountedDresspack& mounted_of(const CheckedMotion& motion, const 
 }
 
 const Check* find(const std::vector<Check>& checks, std::string_view name, int dresspack) {
-  const auto found = std::find_if(checks.begin(), checks.end(), [&](const Check& check) {
-    return check.name == name && check.dresspack == dresspack;
-  });
+  const auto found = std::ranges::find_if(
+      checks, [&](const Check& check) { return check.name == name && check.dresspack == dresspack; });
   return found == checks.end() ? nullptr : &*found;
 }
 
@@ -141,7 +140,7 @@ std::string no_other_words(const CheckedMotion& motion, const std::string& limit
 
 using Kinds = std::vector<WarningKind>;
 bool is_among(const Kinds& kinds, const Check& check) {
-  return check.kind && std::find(kinds.begin(), kinds.end(), *check.kind) != kinds.end();
+  return check.kind && std::ranges::find(kinds, *check.kind) != kinds.end();
 }
 
 /// Results of the checks of a changed job.
@@ -161,13 +160,11 @@ Trial trial_of(const CheckedMotion& motion, const pipeline::Setup& changed, cons
   if (motion.work > most_work) return {};
   const auto keeps = [&](const Check& check) {
     return check.dresspack != dresspack || !check.warning ||
-           (!is_among(kinds, check) && std::any_of(now.begin(), now.end(), [&](const Check& before) {
+           (!is_among(kinds, check) && std::ranges::any_of(now, [&](const Check& before) {
              return before.warning && before.kind == check.kind && before.dresspack == dresspack;
            }));
   };
-  const auto rejects = [&](const QuickFindings& found) {
-    return !std::all_of(found.checks.begin(), found.checks.end(), keeps);
-  };
+  const auto rejects = [&](const QuickFindings& found) { return !std::ranges::all_of(found.checks, keeps); };
   const double limit = limits_of(changed.dresspacks[static_cast<std::size_t>(dresspack)].dresspack).least_bend_radius;
   const QuickFindings found = findings_unless(changed, rejects, std::min(least_radius, limit), dresspack);
   motion.work += found.run.work;
@@ -184,7 +181,7 @@ Trial trial_of(const CheckedMotion& motion, const pipeline::Setup& changed, cons
     motion.work += as_it_is.run.work;
     trial.keeps = as_it_is.run.refusal.empty() && !rejects(as_it_is);
   }
-  trial.cured = trial.keeps && std::none_of(found.checks.begin(), found.checks.end(), [&](const Check& check) {
+  trial.cured = trial.keeps && std::ranges::none_of(found.checks, [&](const Check& check) {
                   return check.dresspack == dresspack && is_among(kinds, check) &&
                          check.name == check_name::bend_radius && check.value < margin * check.limit;
                 });
@@ -290,8 +287,8 @@ class RemedySearch {
     if (now >= range.least && now <= range.most) all.push_back(now);
     for (int k = 0; k < count; ++k)
       all.push_back(std::round(1e3 * least * std::pow(most / least, static_cast<double>(k) / (count - 1))) / 1e3);
-    std::stable_sort(all.begin(), all.end(),
-                     [&](double a, double b) { return std::abs(std::log(a / now)) < std::abs(std::log(b / now)); });
+    std::ranges::stable_sort(
+        all, [&](double a, double b) { return std::abs(std::log(a / now)) < std::abs(std::log(b / now)); });
     return all;
   }
 
@@ -378,8 +375,7 @@ std::string relief_remark(const CheckedMotion& motion, const Check& broken) {
       pipeline::first_relief(dresspack.diameter, dresspack.bending_stiffness, routing.free_length / now);
   return fmt::format(
       "; a sleeve or spring beside the clamp may spread the bend, which dresslife improve tries: {}.bend_relief: {}{}",
-      key_of(motion.setup, broken.dresspack, std::min_element(bare.begin(), bare.end())->second),
-      pipeline::relief_text(relief),
+      key_of(motion.setup, broken.dresspack, std::ranges::min_element(bare)->second), pipeline::relief_text(relief),
       segments > now ? fmt::format(" and simulation.segments: {:.0f} (with {} it tries four segments, {:.0f} mm)",
                                    segments, now, 1e3 * tried.length)
                      : "");

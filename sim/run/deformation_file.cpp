@@ -65,8 +65,8 @@ class Reader {
   void read_header(const CsvRow& cells) {
     std::array<std::string_view, quantities> names{};
     for (const CsvCell& cell : cells) {
-      const auto* column = std::find_if(std::begin(known), std::end(known),
-                                        [&](const Column& candidate) { return candidate.name == cell.text; });
+      const auto* column =
+          std::ranges::find_if(known, [&](const Column& candidate) { return candidate.name == cell.text; });
       if (column == std::end(known)) {
         std::vector<std::string_view> all;
         for (const Column& other : known) all.push_back(other.name);

@@ -433,7 +433,7 @@ std::vector<TwistFreeClamp> rest_shapes(const RodProperties& hose, const ClampFr
     const RodState from = clamped.equilibrium.state;
     clamped.equilibrium = find_equilibrium(rod, from.clamps, from, {}, settings);
     if (clamped.equilibrium.status != EquilibriumStatus::converged) continue;
-    const bool known = std::any_of(shapes.begin(), shapes.end(), [&](const TwistFreeClamp& shape) {
+    const bool known = std::ranges::any_of(shapes, [&](const TwistFreeClamp& shape) {
       double most = 0;
       for (int i = 0; i < rod.segments(); ++i)
         most = std::max(most, (shape.equilibrium.state.position[i] - clamped.equilibrium.state.position[i]).norm());

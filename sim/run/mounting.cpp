@@ -365,7 +365,7 @@ class Mounting {
     const double segment_length = properties.length / properties.segments;
     const auto shallower = [](const Contact& a, const Contact& b) { return a.depth < b.depth; };
     if (const auto& contacts = world.contacts(); !contacts.empty()) {
-      const Contact& deepest = *std::max_element(contacts.begin(), contacts.end(), shallower);
+      const Contact& deepest = *std::ranges::max_element(contacts, shallower);
       held.obstacle = deepest.obstacle;
       held.place = (deepest.segment + 0.5) * segment_length;
     }

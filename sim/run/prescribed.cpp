@@ -62,9 +62,8 @@ class Extremes {
 
   std::vector<Check> table() const {
     const auto of = [](const std::vector<Extreme>& all) {
-      return *std::max_element(all.begin(), all.end(), [](const Extreme& a, const Extreme& b) {
-        return std::abs(a.value) < std::abs(b.value);
-      });
+      return *std::ranges::max_element(
+          all, [](const Extreme& a, const Extreme& b) { return std::abs(a.value) < std::abs(b.value); });
     };
     const Extreme bend = of(curvature), turn = of(twist), pull = of(tension);
     const double radius = bend.value > 0 ? 1 / bend.value : std::numeric_limits<double>::infinity();
@@ -125,7 +124,7 @@ RunDescription description_of(const PrescribedDeformation& deformation, const pi
 
 State PrescribedDeformation::at(std::size_t sample, double position) const {
   const State* row = states.data() + sample * positions.size();
-  const auto after = std::upper_bound(positions.begin(), positions.end(), position) - positions.begin();
+  const auto after = std::ranges::upper_bound(positions, position) - positions.begin();
   if (after == 0) return row[0];
   if (after == static_cast<std::ptrdiff_t>(positions.size())) return row[after - 1];
   return between(row[after - 1], row[after],
@@ -211,7 +210,7 @@ std::vector<pipeline::Warning> write_prescribed(const pipeline::Setup& setup, pi
   summary.tension = extremes.tension;
   summary.checks = extremes.table();
   const auto step_at = [&](double time) {
-    const auto sample = std::lower_bound(deformation.times.begin(), deformation.times.end(), time);
+    const auto sample = std::ranges::lower_bound(deformation.times, time);
     return deformation.steps[std::min<std::size_t>(sample - deformation.times.begin(), samples - 1)];
   };
   motion.finish(summary, step_at);

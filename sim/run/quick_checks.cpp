@@ -147,8 +147,7 @@ class QuickChecks {
     const CheckedMotion motion{setup_, [&](double time) { return moment(time); }, &rod_, path_.get(), other_places};
     std::vector<Check> said;  // a bend that exists at rest is not reported a second time for the motion
     for (const Check& check : found.checks)
-      if (check.name != check_name::bend_radius ||
-          std::none_of(found.checks.begin(), found.checks.end(), [&](const Check& other) {
+      if (check.name != check_name::bend_radius || std::ranges::none_of(found.checks, [&](const Check& other) {
             return other.name == check_name::bend_radius_at_rest && other.warning && other.dresspack == check.dresspack;
           }))
         said.push_back(check);
@@ -356,7 +355,7 @@ class QuickChecks {
     const Resting resting{few.properties, span, base_roll, last ? mounted.routing.pre_twist : 0,
                           limits_of(mounted.dresspack)};
     const std::vector<double> all = moments();
-    const std::vector<double> mounting(all.begin(), std::find(all.begin(), all.end(), 0.0) + 1);
+    const std::vector<double> mounting(all.begin(), std::ranges::find(all, 0.0) + 1);
     std::vector<TwistFreeClamp> shapes =
         rest_shapes(few.properties, rolled_clamps(resting, all.front(), 0), twist_free, rest_settings());
     if (shapes.empty()) return {{{}, {}, 0, 0.0}};
@@ -364,7 +363,7 @@ class QuickChecks {
       std::vector<double> distances;
       for (const TwistFreeClamp& shape : shapes)
         distances.push_back(shape_distance(rests(resting, shape, mounting).begin, few, *begin, run));
-      std::swap(shapes.front(), shapes[std::min_element(distances.begin(), distances.end()) - distances.begin()]);
+      std::swap(shapes.front(), shapes[std::ranges::min_element(distances) - distances.begin()]);
       if (!all_shapes) shapes.resize(1);
     }
     std::vector<Rests> found;
@@ -393,8 +392,8 @@ class QuickChecks {
       double roll = 0;
       for (auto span = static_cast<std::size_t>(rod_.first_span(d));
            span < static_cast<std::size_t>(rod_.first_span(d + 1)); ++span) {
-        const bool ringed = std::any_of(rings.begin(), rings.end(),
-                                        [&](const RoutedRing& ring) { return ring.span == static_cast<int>(span); });
+        const bool ringed =
+            std::ranges::any_of(rings, [&](const RoutedRing& ring) { return ring.span == static_cast<int>(span); });
         const double base_roll = std::exchange(roll, 0);
         if (is_free(span) || ringed || properties(span).slider || longest_[span].way >= properties(span).length)
           continue;
@@ -425,9 +424,8 @@ class QuickChecks {
     std::vector<double> radii;
     for (const Rests& shape : shapes)
       for (const Check& check : shape.checks)
-        if (check.name == check_name::bend_radius && std::none_of(radii.begin(), radii.end(), [&](double r) {
-              return std::abs(r - check.value) <= same_radius * r;
-            }))
+        if (check.name == check_name::bend_radius &&
+            std::ranges::none_of(radii, [&](double r) { return std::abs(r - check.value) <= same_radius * r; }))
           radii.push_back(check.value);
     if (radii.size() < 2) return;
     std::string others;

@@ -55,9 +55,9 @@ class Rows {
   }
 
   void add(const CsvRow& cells) {
-    const bool header = times.empty() && !header_seen_ &&
-                        std::none_of(cells.begin(), cells.end(),
-                                     [](const CsvCell& cell) { return pipeline::number_in(cell.text).has_value(); });
+    const bool header = times.empty() && !header_seen_ && std::ranges::none_of(cells, [](const CsvCell& cell) {
+                          return pipeline::number_in(cell.text).has_value();
+                        });
     if (header) {
       header_seen_ = true;
       return;

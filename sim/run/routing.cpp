@@ -81,10 +81,9 @@ std::vector<RoutedRing> routed_rings(const pipeline::Setup& setup) {
   for (const pipeline::MountedDresspack& mounted : setup.dresspacks) {
     const pipeline::Routing& routing = mounted.routing;
     for (const pipeline::GuideRing& ring : routing.rings) {
-      const auto before =
-          std::count_if(routing.clamps.begin(), routing.clamps.end(), [&](const pipeline::IntermediateClamp& clamp) {
-            return ring.at_length && clamp.at_length <= *ring.at_length;
-          });
+      const auto before = std::ranges::count_if(routing.clamps, [&](const pipeline::IntermediateClamp& clamp) {
+        return ring.at_length && clamp.at_length <= *ring.at_length;
+      });
       routed.push_back({ring, first_span + static_cast<int>(before)});
     }
     first_span += static_cast<int>(routing.clamps.size()) + 1;
@@ -158,8 +157,8 @@ std::vector<pipeline::Warning> one_link_warnings(const pipeline::Setup& setup) {
     const std::string& link = wrong->link;
     const bool base = wrong == &*routing.base_clamp;
     const auto is_there = [&](const auto& place) { return place.link == link; };
-    if (!std::all_of(routing.rings.begin(), routing.rings.end(), is_there) ||
-        !std::all_of(routing.clamps.begin(), routing.clamps.end(), [&](const auto& of) { return is_there(of.clamp); }))
+    if (!std::ranges::all_of(routing.rings, is_there) ||
+        !std::ranges::all_of(routing.clamps, [&](const auto& of) { return is_there(of.clamp); }))
       continue;
     warnings.push_back(pipeline::warning_of(
         pipeline::WarningKind::motion, wrong->where.text(),

@@ -250,7 +250,7 @@ RunSummary Simulation::run(const RunSinks& sinks) const {
 
 std::vector<double> Simulation::pulled_out(const RodState& state) const {
   const auto slides = [](const Span& span) { return span.properties.slider.has_value(); };
-  if (std::none_of(rod_.spans().begin(), rod_.spans().end(), slides)) return {};
+  if (std::ranges::none_of(rod_.spans(), slides)) return {};
   std::vector<double> ways;
   for (int d = 0; d < rod_.dresspacks(); ++d) ways.push_back(state.travel[rod_.first_span(d)].way);
   return ways;

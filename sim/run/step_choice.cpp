@@ -58,11 +58,11 @@ std::vector<StepWindow> lively_windows(const ClampPath& path, double h, int step
   std::vector<std::pair<double, int>> candidates;  // (sum over the window, its first step)
   for (int begin = 0; begin + length <= steps; begin += std::max(1, length / 4))
     candidates.emplace_back(std::accumulate(squares.begin() + begin, squares.begin() + begin + length, 0.0), begin);
-  std::stable_sort(candidates.begin(), candidates.end(), [](auto& a, auto& b) { return a.first > b.first; });
+  std::ranges::stable_sort(candidates, [](auto& a, auto& b) { return a.first > b.first; });
   std::vector<StepWindow> windows;
   for (const auto& [sum, begin] : candidates) {
-    const bool apart = std::all_of(windows.begin(), windows.end(),
-                                   [&, b = begin](const StepWindow& w) { return std::abs(w.begin - b) >= length; });
+    const bool apart =
+        std::ranges::all_of(windows, [&, b = begin](const StepWindow& w) { return std::abs(w.begin - b) >= length; });
     if (apart && static_cast<int>(windows.size()) < wanted)
       windows.push_back({begin, begin + length / 2, begin + length});
   }
@@ -86,8 +86,8 @@ void StepError::see(int k, const RodState& state) {
     }
     if (k >= window.compare && k <= window.end) append_curvatures(rod_, state, records_[w].curvature);
   }
-  const bool begins_next = std::any_of(windows_.begin(), windows_.end(),
-                                       [k](const StepWindow& window) { return k + 1 == std::max(window.begin, 1); });
+  const bool begins_next =
+      std::ranges::any_of(windows_, [k](const StepWindow& window) { return k + 1 == std::max(window.begin, 1); });
   if (begins_next) before_ = state;
 }
 

@@ -41,12 +41,11 @@ void check(const Duty& duty, const std::string& key, Problems& problems) {
                    "give repeats_per_hour of the duty: all programs together");
   }
   const auto in_batches = [](const DutyProgram& program) { return program.batch_size > 0; };
-  const auto batch = std::find_if(duty.programs.begin(), duty.programs.end(), in_batches);
+  const auto batch = std::ranges::find_if(duty.programs, in_batches);
   if (batch != duty.programs.end() && !duty.order.empty())
     problems.add(batch->where, fmt::format("'{}' has a batch_size, and duty '{}' an order", batch->job, duty.name),
                  "remove batch_size and give repeats in the order, or remove the order");
-  else if (std::count_if(duty.programs.begin(), duty.programs.end(), in_batches) == 1 &&
-           !problems.touch(key + ".programs"))
+  else if (std::ranges::count_if(duty.programs, in_batches) == 1 && !problems.touch(key + ".programs"))
     problems.add(batch->where,
                  fmt::format("'{}' alone has a batch_size, so it changes to no other program", batch->job),
                  "give the batch_size of the other programs, too");

@@ -489,7 +489,7 @@ std::vector<DutyMode> other_modes(const std::vector<DutyPart>& parts, const std:
     for (const UnvalidatedMode& mode : rows[k].unvalidated) {
       if (!is_credible(mode)) continue;
       const std::string part = mode.mode == UnvalidatedMode::rating ? mode.place : "";
-      const auto found = std::find_if(modes.begin(), modes.end(), [&](const DutyMode& one) {
+      const auto found = std::ranges::find_if(modes, [&](const DutyMode& one) {
         return one.mode == mode.mode && one.dresspack == mode.dresspack && one.place == part;
       });
       const auto at = static_cast<std::size_t>(found - modes.begin());

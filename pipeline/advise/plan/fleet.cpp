@@ -183,7 +183,7 @@ Fleet read_fleet(const std::filesystem::path& file, Day today) {
                            [](unsigned char letter) { return letter == ' ' ? '_' : std::tolower(letter); });
   rename_titles(reader, written, titles, fleet.renamed);
   const auto has = [&](const std::string& title) {
-    return std::any_of(titles.begin(), titles.end(), [&](const CsvCell& cell) { return cell.text == title; });
+    return std::ranges::any_of(titles, [&](const CsvCell& cell) { return cell.text == title; });
   };
   std::vector<std::string> missing = known;
   std::erase_if(missing, has);

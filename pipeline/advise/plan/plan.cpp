@@ -48,7 +48,7 @@ class Worlds {
     for (std::size_t w = 0; w < log_weight_.size(); ++w) log_weight_[w] += log_factors[w];
   }
   void weigh() {
-    const double most = *std::max_element(log_weight_.begin(), log_weight_.end());
+    const double most = *std::ranges::max_element(log_weight_);
     double sum = 0;
     for (std::size_t w = 0; w < weight_.size(); ++w) sum += weight_[w] = std::exp(log_weight_[w] - most);
     for (double& weight : weight_) weight /= sum;
@@ -73,7 +73,7 @@ class Worlds {
   std::vector<double> fails_in(const LifeTable& table, double now, const std::vector<double>& ends) const {
     std::vector<double> fails(ends.size(), 0.0);
     const auto interval_of = [&](double age) {
-      return static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), age) - ends.begin());
+      return static_cast<std::size_t>(std::ranges::upper_bound(ends, age) - ends.begin());
     };
     double all = 0;
     for (std::size_t w = 0; w < weight_.size(); ++w) {
@@ -394,7 +394,7 @@ class Simulation {
  private:
   std::size_t world_at(double position) const {
     const double at = position * until_.back();
-    const auto world = static_cast<std::size_t>(std::upper_bound(until_.begin(), until_.end(), at) - until_.begin());
+    const auto world = static_cast<std::size_t>(std::ranges::upper_bound(until_, at) - until_.begin());
     return std::min(world, until_.size() - 1);
   }
 
@@ -518,7 +518,7 @@ Eigen::VectorXd AgeRates::least(const Eigen::VectorXd& weights) const {
 }
 
 AgeRates age_rates(const LifeTable& table, double planned_cost, double unplanned_cost) {
-  const double shortest = *std::min_element(table.hours.begin(), table.hours.end()), last = table.horizon();
+  const double shortest = *std::ranges::min_element(table.hours), last = table.horizon();
   const double first = std::max(shortest_life, std::min(last, shortest)) / 10;
   AgeRates rates{Eigen::MatrixXd(Eigen::Index(ages), Eigen::Index(table.worlds))};
   std::vector<double> at;
@@ -750,7 +750,7 @@ Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
     plan.cost_without_windows += without.cost * share;
   }
   for (std::size_t y = 0; y < plan.years.size(); ++y) {
-    std::sort(replaced[y].begin(), replaced[y].end());
+    std::ranges::sort(replaced[y]);
     plan.years[y].low = number_at(replaced[y], 0.05 * double(plants - 1));
     plan.years[y].high = number_at(replaced[y], 0.95 * double(plants - 1));
   }

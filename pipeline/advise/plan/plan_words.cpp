@@ -100,7 +100,7 @@ std::string kept_words(const Fleet& fleet, const Plan& plan) {
   for (std::size_t i = 0; i < plan.rows.size(); ++i) {
     const RowPlan& row = plan.rows[i];
     if (row.window) continue;
-    const double fails = *std::max_element(row.fails_until_next.begin(), row.fails_until_next.end());
+    const double fails = *std::ranges::max_element(row.fails_until_next);
     (plan.by_cost ? costly : fails > plan.risk ? no_better : safe).push_back(fleet.rows[i].name);
     if (!plan.by_cost && fails <= plan.risk) most = std::max(most, fails);
   }
@@ -127,7 +127,7 @@ std::string plan_words(const Fleet& fleet, const Plan& plan) {
                         names.empty() ? "nothing to replace" : fmt::format("replace {}", names.size()));
     if (!names.empty()) text += wrapped(fmt::format("{}", fmt::join(names, ", ")), width, "  ");
   }
-  const auto kept = std::count_if(plan.rows.begin(), plan.rows.end(), [](const RowPlan& row) { return !row.window; });
+  const auto kept = std::ranges::count_if(plan.rows, [](const RowPlan& row) { return !row.window; });
   text += fmt::format("\nIn no window: {}\n{}", kept, kept_words(fleet, plan));
   std::vector<std::size_t> risky =
       largest_first(plan.rows.size(), [&](std::size_t i) { return plan.rows[i].fails_before; });
@@ -200,8 +200,7 @@ std::string check_words(const std::optional<std::vector<CheckValue>>& checks, co
     fails += check.fails, found += check.found, saves += check.regular;
     if (check.today > worth_a_line * fleet.rows[i].unplanned_cost) best.push_back(i);
   }
-  std::stable_sort(best.begin(), best.end(),
-                   [&](std::size_t a, std::size_t b) { return (*checks)[a].today > (*checks)[b].today; });
+  std::ranges::stable_sort(best, [&](std::size_t a, std::size_t b) { return (*checks)[a].today > (*checks)[b].today; });
   std::string text =
       best.empty()
           ? "No visual check for abrasion today saves a thousandth of an unplanned replacement (not validated).\n"

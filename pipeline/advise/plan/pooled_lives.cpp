@@ -81,8 +81,7 @@ PooledLives::PooledLives(const LifeTable& table) : draws_(table.draws), mean_(ta
 
 double PooledLives::alive(std::size_t world, double age) const {
   const std::vector<float>& all = distance_[pool_of_[world]];
-  const auto longer =
-      all.end() - std::upper_bound(all.begin(), all.end(), static_cast<float>(std::log(age) - mean_[world]));
+  const auto longer = all.end() - std::ranges::upper_bound(all, static_cast<float>(std::log(age) - mean_[world]));
   return (double(longer) + 0.5) / (double(all.size()) + 0.5);
 }
 

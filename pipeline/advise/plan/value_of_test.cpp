@@ -177,7 +177,7 @@ std::vector<TestValue> values_of_tests(const Fleet& fleet, const std::map<std::s
   std::vector<MatrixXd> results;
   for (const auto& [name, table] : tables)
     for (const SharedValue& shared : table.shared) {
-      if (std::any_of(values.begin(), values.end(), [&](const TestValue& known) {
+      if (std::ranges::any_of(values, [&](const TestValue& known) {
             return known.what.parameter == shared.parameter && known.what.of == shared.of;
           }))
         continue;
@@ -187,8 +187,7 @@ std::vector<TestValue> values_of_tests(const Fleet& fleet, const std::map<std::s
     }
   const std::vector<double> saves = Values(fleet, tables, plan).of(results);
   for (std::size_t k = 0; k < values.size(); ++k) values[k].saves = saves[k];
-  std::stable_sort(values.begin(), values.end(),
-                   [](const TestValue& a, const TestValue& b) { return a.saves > b.saves; });
+  std::ranges::stable_sort(values, [](const TestValue& a, const TestValue& b) { return a.saves > b.saves; });
   return values;
 }
 

@@ -142,7 +142,7 @@ constexpr std::array variable_files{"numreg.va", "posreg.va", "sysframe.va", "fr
 bool is_listing(const fs::path& file) { return lower_case(file.extension().string()) == ".ls"; }
 bool is_variable_file(const fs::path& file) {
   const std::string name = lower_case(file.filename().string());
-  return std::find(variable_files.begin(), variable_files.end(), name) != variable_files.end();
+  return std::ranges::find(variable_files, name) != variable_files.end();
 }
 
 std::vector<fs::path> files_in(const fs::path& folder) {
@@ -251,7 +251,7 @@ fs::path folder_of_listings(const fs::path& folder, const std::vector<fs::path>&
     if (!is_listing(file) || text_of(file).find("/PROG") == std::string::npos) continue;
     if (pipeline::inode_of(file.parent_path()) == pipeline::inode_of(folder)) return folder;
     const std::string place = file.parent_path().string();
-    if (std::find(within.begin(), within.end(), place) == within.end()) within.push_back(place);
+    if (std::ranges::find(within, place) == within.end()) within.push_back(place);
   }
   if (within.size() == 1) return within[0];
   if (within.size() > 12) within.resize(12);

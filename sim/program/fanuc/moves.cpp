@@ -13,7 +13,7 @@ constexpr const char* position_form =
     "X .. Y .. Z .. W .. P .. R .. in mm and deg, or J1 .. J2 .. J3 .. J4 .. J5 .. J6 ..";
 
 bool nothing(const FanucPosition& offset) {
-  return std::all_of(offset.values.begin(), offset.values.end(), [](double v) { return v == 0; });
+  return std::ranges::all_of(offset.values, [](double v) { return v == 0; });
 }
 
 }  // namespace
@@ -143,8 +143,7 @@ bool FanucRun::active(bool tool, int& number) {
 /// Returns the user's frame of this name; null: none.
 const NamedFrame* FanucRun::given_frame(bool tool, const std::string& name) const {
   const auto& given = tool ? around_.tools : around_.work_objects;
-  const auto found =
-      std::find_if(given.begin(), given.end(), [&](const NamedFrame& frame) { return same_word(frame.name, name); });
+  const auto found = std::ranges::find_if(given, [&](const NamedFrame& frame) { return same_word(frame.name, name); });
   return found == given.end() ? nullptr : &*found;
 }
 
@@ -209,8 +208,7 @@ void FanucRun::use(const NamedFrame& wanted, bool as_tool, Instruction& move) {
         list[i].frame.orientation.coeffs() == frame.frame.orientation.coeffs())
       index = static_cast<int>(i);
   if (index >= 0) return;
-  for (int variant = 2;
-       std::any_of(list.begin(), list.end(), [&](const NamedFrame& f) { return f.name == frame.name; }); ++variant)
+  for (int variant = 2; std::ranges::any_of(list, [&](const NamedFrame& f) { return f.name == frame.name; }); ++variant)
     frame.name = fmt::format("{} ({})", wanted.name, variant);
   list.push_back(frame);
   index = static_cast<int>(list.size()) - 1;

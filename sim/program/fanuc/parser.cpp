@@ -77,7 +77,7 @@ class ListingParser {
     const std::size_t colon = line.find(':');
     if (colon == std::string_view::npos) return {};
     const std::string_view before = trimmed(line.substr(0, colon));
-    return std::all_of(before.begin(), before.end(), digit) ? std::optional(before) : std::nullopt;
+    return std::ranges::all_of(before, digit) ? std::optional(before) : std::nullopt;
   }
 
   /// Reads a statement "  12:  L P[1] ... ;" and its continued lines up to the ';'.
@@ -235,13 +235,13 @@ class ListingParser {
         const std::string problem = letters ? configuration() : field(name);
         if (!problem.empty()) return problem;
       }
-      const bool pose = std::all_of(std::begin(seen_), std::end(seen_), [](bool s) { return s; });
-      const bool any = std::any_of(std::begin(seen_), std::end(seen_), [](bool s) { return s; });
+      const bool pose = std::ranges::all_of(seen_, [](bool s) { return s; });
+      const bool any = std::ranges::any_of(seen_, [](bool s) { return s; });
       if (!joints_.empty()) {
         read_.form = FanucPosition::Form::joints;
         read_.values = joints_;
       } else if (pose) {
-        const bool taught = std::any_of(std::begin(pose_), std::end(pose_), [](double v) { return std::isfinite(v); });
+        const bool taught = std::ranges::any_of(pose_, [](double v) { return std::isfinite(v); });
         if (taught && read_.configuration.kind == ArmConfiguration::Kind::any) return "has a pose without CONFIG";
         read_.form = FanucPosition::Form::pose;
         read_.values.assign(std::begin(pose_), std::end(pose_));
@@ -319,8 +319,7 @@ class ListingParser {
 
 bool FanucPosition::known() const {
   const auto finite = [](double value) { return std::isfinite(value); };
-  return !values.empty() && std::all_of(values.begin(), values.end(), finite) &&
-         std::all_of(external_axes.begin(), external_axes.end(), finite);
+  return !values.empty() && std::ranges::all_of(values, finite) && std::ranges::all_of(external_axes, finite);
 }
 
 /// "N U T, 0, 0, 0": wrist not flipped (F: flipped), arm up (D: down), arm in front (B: behind); turns of axes 1, 4, 6.

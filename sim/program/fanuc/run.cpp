@@ -705,7 +705,7 @@ bool FanucRun::whole_program_no_matter() {
     const std::string action = fanuc_action(s.text);
     return FanucCursor(action).word() == "abort";
   };
-  if (std::any_of(listing.statements.begin(), listing.statements.end(), aborts)) return false;
+  if (std::ranges::any_of(listing.statements, aborts)) return false;
   FanucEffects effects = outlook_.effects(listing, 0, listing.statements.size());
   effects.leaves = false;  // jumps stay within a program
   if (effects.waits || !no_matter(effects)) return false;
@@ -825,7 +825,7 @@ std::optional<std::size_t> FanucRun::chosen(const std::vector<Case>& cases, Fanu
     return cases.empty() || !cases.back().otherwise ? cases.size() : cases.size() - 1;
   std::vector<std::optional<bool>> known;  // --assume FILE:LINE=then with the line of one case
   for (const Case& one : cases) known.push_back(assumed(routine().listing->statements[one.statement].line));
-  if (const auto taken = std::find(known.begin(), known.end(), true); taken != known.end())
+  if (const auto taken = std::ranges::find(known, true); taken != known.end())
     return static_cast<std::size_t>(taken - known.begin());
   for (std::size_t i = 0; i < cases.size(); ++i) {
     if (known[i]) continue;

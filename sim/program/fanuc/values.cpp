@@ -34,7 +34,7 @@ std::optional<FanucPosition> position_in(const std::string& text) {
     else
       return {};
   }
-  if (plain.size() == 6) std::copy(plain.begin(), plain.end(), std::begin(pose));
+  if (plain.size() == 6) std::ranges::copy(plain, std::begin(pose));
   made.form = joints.empty() ? FanucPosition::Form::pose : FanucPosition::Form::joints;
   made.values = joints.empty() ? std::vector<double>(std::begin(pose), std::end(pose)) : joints;
   return made.known() ? std::optional(made) : std::nullopt;
@@ -53,7 +53,7 @@ FanucNumber number_in(const std::string& text) {
 void add_causes(FanucCauses& to, const FanucCauses& more) {
   constexpr std::size_t most = 12;  // largest number of causes of a value
   for (const FanucCause& cause : more)
-    if (to.size() < most && std::find(to.begin(), to.end(), cause) == to.end()) to.push_back(cause);
+    if (to.size() < most && std::ranges::find(to, cause) == to.end()) to.push_back(cause);
 }
 
 std::string plain_fanuc_name(std::string_view written) {
@@ -317,8 +317,8 @@ FanucNumber FanucValues::register_value(int number) {
   if (own != registers_.end()) read_for(number);
   if (own != registers_.end() && own->second.value) return own->second.value;
   const FanucCauses& causes = own != registers_.end() ? own->second.causes : forgotten_by_;
-  const bool calls = std::any_of(causes.begin(), causes.end(),
-                                 [](const FanucCause& cause) { return cause.name.find(' ') != std::string::npos; });
+  const bool calls =
+      std::ranges::any_of(causes, [](const FanucCause& cause) { return cause.name.find(' ') != std::string::npos; });
   if (causes.empty() || (calls ? !written_.contains(number) : given(fmt::format("r[{}]", number)).has_value()))
     return unknown(fmt::format("R[{}]", number));
   add_causes(missing_, causes);
@@ -344,8 +344,7 @@ FanucNumber FanucValues::operand(FanucCursor& at, int depth) {
   }
   static const auto functions = {"abs", "sqrt", "sin", "cos", "tan", "round", "trunc"};
   const auto read = index(at, depth);
-  if (std::find(functions.begin(), functions.end(), word) != functions.end())
-    return read ? function(word, read->number) : FanucNumber{};
+  if (std::ranges::find(functions, word) != functions.end()) return read ? function(word, read->number) : FanucNumber{};
   const std::string name = upper_case(word);
   if (!read || begin == at.offset()) return unknown(name);
   if (!read->number) return {};

@@ -435,9 +435,8 @@ class Inform final : public Dialect {
   bool read_tool(const Statement& statement, const Position& position, Instruction& move) {
     const bool free = statement.name == "movj" && position.joints() && move.zone.distance == 0;
     const std::string name = fmt::format("TL#({})", position.tool);
-    const bool known =
-        run_->variable(lower_case(name)) ||
-        std::any_of(tools_.begin(), tools_.end(), [&](const NamedFrame& t) { return same_word(t.name, name); });
+    const bool known = run_->variable(lower_case(name)) ||
+                       std::ranges::any_of(tools_, [&](const NamedFrame& t) { return same_word(t.name, name); });
     if (free && !known) return true;  // a move of the axes does not need the tool
     const auto tool = frame(true, position.tool, statement.place);
     if (!tool) return false;
@@ -709,9 +708,9 @@ class Inform final : public Dialect {
     } else {
       value = unknown_value(value.known() ? with : value);
     }
-    const bool finite = value.kind == Value::Kind::unknown || (value.is_number() && std::isfinite(value.number)) ||
-                        (list && std::all_of(value.items[0].items.begin(), value.items[0].items.end(),
-                                             [](const Value& v) { return std::isfinite(v.number); }));
+    const bool finite =
+        value.kind == Value::Kind::unknown || (value.is_number() && std::isfinite(value.number)) ||
+        (list && std::ranges::all_of(value.items[0].items, [](const Value& v) { return std::isfinite(v.number); }));
     run.assign(target, finite ? std::move(value) : Value{});
   }
 

@@ -339,7 +339,7 @@ class InformParser {
     }
     while (!done()) {
       const std::string word = first_word();
-      if (std::any_of(until.begin(), until.end(), [&](const char* end) { return word == end; })) break;
+      if (std::ranges::any_of(until, [&](const char* end) { return word == end; })) break;
       try {
         statement(word, statements);
       } catch (const SyntaxError& error) {
@@ -660,8 +660,8 @@ class InformParser {
     if ((s.name == "set" || s.name == "getarg") && two) {
       value = given[1];
     } else {
-      const auto found = std::find_if(calculations.begin(), calculations.end(),
-                                      [&](const auto& calculation) { return calculation.first == s.name; });
+      const auto found =
+          std::ranges::find_if(calculations, [&](const auto& calculation) { return calculation.first == s.name; });
       const bool counts = s.name == "inc" || s.name == "dec";
       if (found == calculations.end() || position || !(counts ? one : two)) return;
       value = expression_at(s.place, Expression::Kind::binary, found->second,

@@ -38,8 +38,7 @@ bool Interpreter::compares_known(const Expression& condition) {
     return variable && !is_constant(*variable) && variable->assigned && evaluate(condition).known();
   }
   return condition.kind != Expression::Kind::call &&
-         std::any_of(condition.items.begin(), condition.items.end(),
-                     [&](const Expression& item) { return compares_known(item); });
+         std::ranges::any_of(condition.items, [&](const Expression& item) { return compares_known(item); });
 }
 
 /// Adds the values of the known variables in a condition that the program assigns.
@@ -221,8 +220,8 @@ Interpreter::Flow Interpreter::leave_out(const Statement& statement, const Value
   const std::string line = short_place(statement.place);
   const std::shared_ptr<const Cause> cause = unknown_value(unknown).cause;
   ++quiet_;  // no problems about indices in statements that may not run
-  const bool waits = std::any_of(statement.branches.begin(), statement.branches.end(),
-                                 [&](const Branch& branch) { return only_waits(branch.body); });
+  const bool waits =
+      std::ranges::any_of(statement.branches, [&](const Branch& branch) { return only_waits(branch.body); });
   note(statement.place,
        fmt::format("branch {}{}: known only while the robot runs", waits ? "that waits" : "without moves",
                    cause ? fmt::format(" on '{}'", cause->name) : ""));

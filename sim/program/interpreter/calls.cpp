@@ -42,9 +42,8 @@ void Interpreter::run_instruction(const Statement& statement) {
 /// Whether a call by a computed name, with this number of arguments, can start a routine that moves the robot. Routines
 /// that already run do not count.
 bool Interpreter::is_command(const Routine& routine, std::size_t arguments) {
-  const auto needed =
-      std::count_if(routine.parameters.begin(), routine.parameters.end(), [](const Parameter& p) { return !p.option; });
-  const bool runs = std::find(routines_.begin(), routines_.end(), &routine) != routines_.end();
+  const auto needed = std::ranges::count_if(routine.parameters, [](const Parameter& p) { return !p.option; });
+  const bool runs = std::ranges::find(routines_, &routine) != routines_.end();
   return !routine.local && !runs && &routine != started_ && static_cast<std::size_t>(needed) == arguments &&
          moves(routine) && code_.find(routine.name, module_) == &routine;
 }

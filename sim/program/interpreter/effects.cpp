@@ -15,31 +15,30 @@ using Kind = Statement::Kind;
 /// Whether the evaluation of an expression moves the robot: a function of the program may do this.
 bool Interpreter::moves(const Expression& expression, int module) {
   const Routine* called = expression.kind == Expression::Kind::call ? code_.find(expression.text, module) : nullptr;
-  return (called && moves(*called)) || std::any_of(expression.items.begin(), expression.items.end(),
-                                                   [&](const Expression& item) { return moves(item, module); });
+  return (called && moves(*called)) ||
+         std::ranges::any_of(expression.items, [&](const Expression& item) { return moves(item, module); });
 }
 
 bool Interpreter::moves(const Statement& statement, int module) {
   const auto in_any = [&](const std::vector<Expression>& expressions) {
-    return std::any_of(expressions.begin(), expressions.end(),
-                       [&](const Expression& expression) { return moves(expression, module); });
+    return std::ranges::any_of(expressions, [&](const Expression& expression) { return moves(expression, module); });
   };
   if (in_any(statement.arguments)) return true;
   if (statement.kind == Kind::instruction) {
     const Routine* routine = code_.find(statement.name, module);
     if (routine ? moves(*routine) : statement.name == late_binding || dialect_.matters(statement.name)) return true;
   }
-  return std::any_of(statement.branches.begin(), statement.branches.end(), [&](const Branch& branch) {
-    return in_any(branch.conditions) || std::any_of(branch.body.begin(), branch.body.end(),
-                                                    [&](const Statement& inner) { return moves(inner, module); });
+  return std::ranges::any_of(statement.branches, [&](const Branch& branch) {
+    return in_any(branch.conditions) ||
+           std::ranges::any_of(branch.body, [&](const Statement& inner) { return moves(inner, module); });
   });
 }
 
 bool Interpreter::moves(const Routine& routine) {
   const auto [known, is_new] = routine_moves_.emplace(&routine, false);  // false ends a recursion
   if (is_new)
-    known->second = std::any_of(routine.body.begin(), routine.body.end(),
-                                [&](const Statement& inner) { return moves(inner, routine.module); });
+    known->second =
+        std::ranges::any_of(routine.body, [&](const Statement& inner) { return moves(inner, routine.module); });
   return known->second;
 }
 
@@ -51,10 +50,9 @@ bool Interpreter::matters(const Statement& statement) {
 
 /// Whether the statements, or their branches, contain a wait.
 bool Interpreter::only_waits(const std::vector<Statement>& body) const {
-  return std::any_of(body.begin(), body.end(), [&](const Statement& statement) {
+  return std::ranges::any_of(body, [&](const Statement& statement) {
     return (statement.kind == Kind::instruction && dialect_.only_waits(statement.name)) ||
-           std::any_of(statement.branches.begin(), statement.branches.end(),
-                       [&](const Branch& branch) { return only_waits(branch.body); });
+           std::ranges::any_of(statement.branches, [&](const Branch& branch) { return only_waits(branch.body); });
   });
 }
 
@@ -82,24 +80,23 @@ bool Interpreter::changes_nothing(const Statement& statement, int module, int de
                      : dialect_.only_waits(statement.name) || dialect_.harmless(statement.name);
     }
     default:
-      return std::all_of(statement.branches.begin(), statement.branches.end(),
-                         [&](const Branch& branch) { return changes_nothing(branch.body, module, depth); });
+      return std::ranges::all_of(statement.branches,
+                                 [&](const Branch& branch) { return changes_nothing(branch.body, module, depth); });
   }
 }
 
 bool Interpreter::changes_nothing(const std::vector<Statement>& body, int module, int depth) {
-  return std::all_of(body.begin(), body.end(),
-                     [&](const Statement& statement) { return changes_nothing(statement, module, depth); });
+  return std::ranges::all_of(body,
+                             [&](const Statement& statement) { return changes_nothing(statement, module, depth); });
 }
 
 /// Reports once that a routine's error handler may move the robot. A handler runs only after an error.
 void Interpreter::report_handler(const Routine& routine) {
   if (routine.handler_words.empty() || !reported_handlers_.insert(&routine).second) return;
-  const bool may_move =
-      std::any_of(routine.handler_words.begin(), routine.handler_words.end(), [&](const std::string& word) {
-        const Routine* called = code_.find(word, routine.module);
-        return called ? moves(*called) : dialect_.matters(word);
-      });
+  const bool may_move = std::ranges::any_of(routine.handler_words, [&](const std::string& word) {
+    const Routine* called = code_.find(word, routine.module);
+    return called ? moves(*called) : dialect_.matters(word);
+  });
   if (may_move)
     note(routine.handler, routine.written + ": its handler of errors moves the robot; errors are taken not to happen");
 }
@@ -156,9 +153,8 @@ bool Interpreter::leaves(const Statement& statement, bool in_loop) const {
   if (statement.kind == Kind::give_back || statement.kind == Kind::jump) return true;
   if (statement.kind == Kind::leave_loop) return !in_loop;
   const bool loop = in_loop || (statement.kind != Kind::branch && statement.kind != Kind::choose);
-  return std::any_of(statement.branches.begin(), statement.branches.end(), [&](const Branch& branch) {
-    return std::any_of(branch.body.begin(), branch.body.end(),
-                       [&](const Statement& inner) { return leaves(inner, loop); });
+  return std::ranges::any_of(statement.branches, [&](const Branch& branch) {
+    return std::ranges::any_of(branch.body, [&](const Statement& inner) { return leaves(inner, loop); });
   });
 }
 
@@ -169,20 +165,17 @@ bool Interpreter::may_be_written(const std::string& name) {
   if (!is_new) return at->second;
   const std::function<bool(const Expression&)> mentions = [&](const Expression& expression) {
     return (expression.kind == Expression::Kind::name && expression.text == name) ||
-           std::any_of(expression.items.begin(), expression.items.end(), mentions);
+           std::ranges::any_of(expression.items, mentions);
   };
   const std::function<bool(const Statement&)> writes = [&](const Statement& statement) {
     charge(1);
     const bool takes = statement.kind == Kind::assign || statement.kind == Kind::instruction;
-    return statement.name == name ||
-           (takes && std::any_of(statement.arguments.begin(), statement.arguments.end(), mentions)) ||
-           std::any_of(statement.branches.begin(), statement.branches.end(), [&](const Branch& branch) {
-             return std::any_of(branch.body.begin(), branch.body.end(), writes);
-           });
+    return statement.name == name || (takes && std::ranges::any_of(statement.arguments, mentions)) ||
+           std::ranges::any_of(statement.branches,
+                               [&](const Branch& branch) { return std::ranges::any_of(branch.body, writes); });
   };
-  return at->second = std::any_of(code_.routines.begin(), code_.routines.end(), [&](const Routine& routine) {
-           return std::any_of(routine.body.begin(), routine.body.end(), writes);
-         });
+  return at->second = std::ranges::any_of(
+             code_.routines, [&](const Routine& routine) { return std::ranges::any_of(routine.body, writes); });
 }
 
 /// Whether a condition of constants and of data that no statement may write to.
@@ -195,8 +188,7 @@ bool Interpreter::stays_the_same(const Expression& condition) {
       return !may_be_written(condition.text);
     case Expression::Kind::unary:
     case Expression::Kind::binary:
-      return std::all_of(condition.items.begin(), condition.items.end(),
-                         [&](const Expression& item) { return stays_the_same(item); });
+      return std::ranges::all_of(condition.items, [&](const Expression& item) { return stays_the_same(item); });
     default:
       return false;
   }

@@ -107,7 +107,7 @@ std::string decoded_text(std::string bytes) {
   if (bytes.starts_with("\xFE\xFF")) return from_utf16(bytes, 2, true);
   if (every_other_byte_is_zero(bytes, 1)) return from_utf16(bytes, 0, false);
   if (every_other_byte_is_zero(bytes, 0)) return from_utf16(bytes, 0, true);
-  if (bytes.find('\n') == std::string::npos) std::replace(bytes.begin(), bytes.end(), '\r', '\n');  // old line ends
+  if (bytes.find('\n') == std::string::npos) std::ranges::replace(bytes, '\r', '\n');  // old line ends
   return is_utf8(bytes) ? bytes : from_single_bytes(bytes);
 }
 

@@ -80,8 +80,8 @@ Value Interpreter::answered(const Expression& expression) {
   const std::string text = written(expression);
   if (std::optional<Value> known = given_here(text)) return *known;
   const std::vector<const Cause*> causes = value.causes();
-  const bool named = std::any_of(causes.begin(), causes.end(),
-                                 [](const Cause* cause) { return !cause->asked().empty() || !cause->line.empty(); });
+  const bool named =
+      std::ranges::any_of(causes, [](const Cause* cause) { return !cause->asked().empty() || !cause->line.empty(); });
   if (named || text.empty()) return value;
   return unknown_value(name_here(text), causes.empty() ? "is not known offline" : causes[0]->why);
 }
@@ -378,8 +378,7 @@ namespace {
 /// Whether a value is unknown and its cause has no name (an input, a variable that was never written).
 bool unset(const Value& value) {
   if (value.kind == Value::Kind::unknown) return value.cause && value.cause->name.empty();
-  return value.kind == Value::Kind::list && !value.items.empty() &&
-         std::all_of(value.items.begin(), value.items.end(), unset);
+  return value.kind == Value::Kind::list && !value.items.empty() && std::ranges::all_of(value.items, unset);
 }
 
 }  // namespace
@@ -434,8 +433,7 @@ Value Interpreter::unknown_index(const Expression& expression) {
     if (const Value index = evaluate(expression.items[i]); !index.known()) {
       // If no part of the list is known, the element is a question in the same round, too.
       const Value list = evaluate(expression.items[0]);
-      const bool empty = list.kind == Value::Kind::unknown ||
-                         std::none_of(list.items.begin(), list.items.end(), [](const Value& item) {
+      const bool empty = list.kind == Value::Kind::unknown || std::ranges::none_of(list.items, [](const Value& item) {
                            return item.kind != Value::Kind::unknown && item.first_cause() == nullptr;
                          });
       return empty && list.first_cause() ? unknown_value(index, list) : unknown_value(index);
@@ -515,8 +513,7 @@ Value* Interpreter::part_of_given(Value& whole, const Expression& part) {
   if (whole.kind != Value::Kind::list) return nullptr;
   if (part.kind == Form::field) {
     for (const RecordType& type : code_.records)
-      if (!whole.type && std::find(type.fields.begin(), type.fields.end(), part.text) != type.fields.end())
-        shape(whole, &type);
+      if (!whole.type && std::ranges::find(type.fields, part.text) != type.fields.end()) shape(whole, &type);
     return const_cast<Value*>(whole.field(part.text));
   }
   Value* found = &whole;

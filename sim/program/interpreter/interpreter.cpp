@@ -68,7 +68,7 @@ void Interpreter::start(const Routine& routine) {
              fmt::format("contains '{}', which is also in {}", routine.written, where(rival->place).text()),
              "leave one of the two out");
   const auto needed = [](const Parameter& parameter) { return !parameter.option; };
-  const auto count = std::count_if(routine.parameters.begin(), routine.parameters.end(), needed);
+  const auto count = std::ranges::count_if(routine.parameters, needed);
   if (static_cast<long>(code_.start_arguments.size()) < count) {
     std::string names;
     for (const Parameter& parameter : routine.parameters)
@@ -160,7 +160,7 @@ void Interpreter::charge(std::size_t work) {
   if (executed_ <= ImportLimits::executed) return;
   // The endless loop is the loop with the most passes since its start, not the loops around it or inside of it.
   const auto longest =
-      std::max_element(loops_.begin(), loops_.end(), [](const Loop& a, const Loop& b) { return a.passes < b.passes; });
+      std::ranges::max_element(loops_, [](const Loop& a, const Loop& b) { return a.passes < b.passes; });
   const Place place = longest != loops_.end() ? longest->place : routines_.empty() ? Place{} : routines_.back()->place;
   miss(short_place(place), place,
        fmt::format("has run {} statements without an end (a loop that input would end?)", ImportLimits::executed),

@@ -68,7 +68,7 @@ Interpreter::Flow Interpreter::execute(const std::vector<Statement>& body) {
     const Flow flow = execute(body[i]);
     if (flow == Flow::next) continue;
     if (flow != Flow::jump) return flow;
-    const auto label = std::find_if(body.begin(), body.end(), [&](const Statement& statement) {
+    const auto label = std::ranges::find_if(body, [&](const Statement& statement) {
       return statement.kind == Kind::label && statement.name == jump_->name;
     });
     if (label == body.end()) return flow;  // the label is in an enclosing block

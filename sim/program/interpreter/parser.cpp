@@ -318,7 +318,7 @@ std::vector<Expression> Cursor::arguments(std::string_view close) {
 // ---- statements -------------------------------------------------------------------------------------------
 
 bool StatementParser::at_any(const std::vector<const char*>& words) const {
-  return std::any_of(words.begin(), words.end(), [&](const char* word) { return at_.at_word(word); });
+  return std::ranges::any_of(words, [&](const char* word) { return at_.at_word(word); });
 }
 
 void StatementParser::fail_at_end(std::string_view end) const {

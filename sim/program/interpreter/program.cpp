@@ -26,11 +26,10 @@ std::string unread_reason(const std::string& word, const std::string& of, const 
   const std::string written = lower_case(word);
   std::vector<std::string> lower;
   for (const std::string& other : known) lower.push_back(lower_case(other));
-  auto at = std::find(lower.begin(), lower.end(), pipeline::nearest_word(written, lower));
+  auto at = std::ranges::find(lower, pipeline::nearest_word(written, lower));
   constexpr std::size_t shortest = 3;  // letters: fewer begin too many words
   if (at == lower.end() && word.size() >= shortest)
-    at = std::find_if(lower.begin(), lower.end(),
-                      [&](const std::string& longer) { return longer.starts_with(written); });
+    at = std::ranges::find_if(lower, [&](const std::string& longer) { return longer.starts_with(written); });
   return fmt::format("{}: {} {}{}", word, unread_word, of,
                      at == lower.end() ? "" : nearest_known + known[static_cast<std::size_t>(at - lower.begin())]);
 }
@@ -94,7 +93,7 @@ void Problems::add(const pipeline::Where& where, const std::string& what, const 
   const auto same = [&](const Problem& p) {
     return p.where.line == where.line && p.where.column == where.column && p.where.file == where.file && p.what == what;
   };
-  if (full() || std::any_of(problems_.begin(), problems_.end(), same)) return;  // a line in a loop is reported once
+  if (full() || std::ranges::any_of(problems_, same)) return;  // a line in a loop is reported once
   problems_.push_back({.where = where, .what = what, .remedy = remedy, .routine = routine});
 }
 
@@ -109,7 +108,7 @@ bool Problems::counted(const Problem& problem) {
     known.more_uses.insert(problem.more_uses.begin(), problem.more_uses.end());
     known.certain |= problem.certain;
     for (const Question& question : problem.questions)
-      if (std::none_of(known.questions.begin(), known.questions.end(), [&](const Question& asked) {
+      if (std::ranges::none_of(known.questions, [&](const Question& asked) {
             return asked.kind == question.kind && asked.name == question.name;
           }))
         known.questions.push_back(question);
@@ -136,14 +135,13 @@ void note_forms(std::vector<Problem>& problems, const Problem& by) {
 /// Whether all names that a branch depends on are questions of other problems.
 bool asked_already(const std::vector<Problem>& problems, const Problem& branch) {
   const auto asked = [&](const Question& question) {
-    return std::any_of(problems.begin(), problems.end(), [&](const Problem& known) {
-      return known.certain >= branch.certain &&
-             std::any_of(known.questions.begin(), known.questions.end(),
-                         [&](const Question& q) { return q.kind == question.kind && q.name == question.name; });
+    return std::ranges::any_of(problems, [&](const Problem& known) {
+      return known.certain >= branch.certain && std::ranges::any_of(known.questions, [&](const Question& q) {
+               return q.kind == question.kind && q.name == question.name;
+             });
     });
   };
-  return branch.decision && !branch.questions.empty() &&
-         std::all_of(branch.questions.begin(), branch.questions.end(), asked);
+  return branch.decision && !branch.questions.empty() && std::ranges::all_of(branch.questions, asked);
 }
 
 }  // namespace
@@ -163,8 +161,8 @@ void Problems::hint(std::size_t from, const std::string& more) {
 }
 
 std::size_t Problems::mistakes() const {
-  return static_cast<std::size_t>(std::count_if(problems_.begin(), problems_.end(),
-                                                [](const Problem& problem) { return problem.questions.empty(); }));
+  return static_cast<std::size_t>(
+      std::ranges::count_if(problems_, [](const Problem& problem) { return problem.questions.empty(); }));
 }
 
 bool Problems::asks() const { return mistakes() < problems_.size(); }
@@ -191,7 +189,7 @@ std::string further_uses(const Problem& problem) {
 
 std::vector<Problem> Problems::sorted() const {
   std::vector<Problem> sorted = problems_;
-  std::stable_sort(sorted.begin(), sorted.end(), [](const Problem& a, const Problem& b) {
+  std::ranges::stable_sort(sorted, [](const Problem& a, const Problem& b) {
     return std::tie(a.where.file, a.where.line, a.where.column) < std::tie(b.where.file, b.where.line, b.where.column);
   });
   return sorted;

@@ -31,7 +31,7 @@ std::set<std::string> reached_from(const std::string& program, const CallGraph& 
 bool moves(const std::string& program, const CallGraph& graph) {
   std::set<std::string> reached = reached_from(program, graph);
   reached.insert(program);
-  return std::any_of(reached.begin(), reached.end(), [&](const std::string& name) { return graph.at(name).moves; });
+  return std::ranges::any_of(reached, [&](const std::string& name) { return graph.at(name).moves; });
 }
 
 std::vector<std::string> uncalled_programs(const CallGraph& graph) {

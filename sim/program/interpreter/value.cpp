@@ -5,8 +5,7 @@
 namespace dresslife::sim {
 
 bool Value::known() const {
-  return kind != Kind::unknown &&
-         std::all_of(items.begin(), items.end(), [](const Value& item) { return item.known(); });
+  return kind != Kind::unknown && std::ranges::all_of(items, [](const Value& item) { return item.known(); });
 }
 
 const Value* Value::field(const std::string& name) const {
@@ -40,7 +39,7 @@ std::vector<const Cause*> Value::causes() const {
   const auto add = [&](const Cause& one) {
     constexpr std::size_t most = 12;  // causes of one value; a position has six numbers
     const auto same = [&](const Cause* known) { return known->asked() == one.asked() && known->line == one.line; };
-    if (found.size() < most && std::none_of(found.begin(), found.end(), same)) found.push_back(&one);
+    if (found.size() < most && std::ranges::none_of(found, same)) found.push_back(&one);
   };
   if (kind == Kind::unknown && cause) {
     add(*cause);
@@ -97,9 +96,8 @@ Value unknown_value(const Value& because, const Value& and_because) {
   if (more.empty()) return unknown_value(because);
   if (causes.empty()) return unknown_value(and_because);
   for (const Cause* cause : more)
-    if (std::none_of(causes.begin(), causes.end(), [&](const Cause* known) {
-          return known->asked() == cause->asked() && known->line == cause->line;
-        }))
+    if (std::ranges::none_of(
+            causes, [&](const Cause* known) { return known->asked() == cause->asked() && known->line == cause->line; }))
       causes.push_back(cause);
   return causes.size() == 1 ? unknown_value(because) : unknown_value(causes);
 }

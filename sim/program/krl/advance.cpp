@@ -47,17 +47,16 @@ class Marker {
 
   bool has_signal(const Expression& expression) const {
     if (expression.kind == Expression::Kind::name && is_signal(expression.text).value_or(false)) return true;
-    return std::any_of(expression.items.begin(), expression.items.end(),
-                       [&](const Expression& item) { return has_signal(item); });
+    return std::ranges::any_of(expression.items, [&](const Expression& item) { return has_signal(item); });
   }
 
   /// Whether the statement's own line contains a signal; its inner blocks do not count.
   bool has_signal(const Statement& statement) const {
     const auto in = [&](const std::vector<Expression>& expressions) {
-      return std::any_of(expressions.begin(), expressions.end(), [&](const Expression& e) { return has_signal(e); });
+      return std::ranges::any_of(expressions, [&](const Expression& e) { return has_signal(e); });
     };
-    return in(statement.arguments) || std::any_of(statement.branches.begin(), statement.branches.end(),
-                                                  [&](const Branch& branch) { return in(branch.conditions); });
+    return in(statement.arguments) ||
+           std::ranges::any_of(statement.branches, [&](const Branch& branch) { return in(branch.conditions); });
   }
 
   void mark(std::vector<Statement>& body) const {

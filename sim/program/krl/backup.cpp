@@ -27,8 +27,7 @@ bool is_program(const fs::path& file) { return lower_case(file.extension().strin
 /// Whether the path from `folder` to a file contains a folder of one of these names.
 bool lies_in(const fs::path& file, const fs::path& folder, const std::set<std::string>& names) {
   const fs::path below = file.lexically_relative(folder).parent_path();
-  return std::any_of(below.begin(), below.end(),
-                     [&](const fs::path& part) { return names.contains(lower_case(part.string())); });
+  return std::ranges::any_of(below, [&](const fs::path& part) { return names.contains(lower_case(part.string())); });
 }
 
 /// Returns the folder R1 that contains a file; empty: none.

@@ -52,8 +52,7 @@ Expression element_at(const std::string& name, int index, const Place& place) {
 
 bool Krl::harmless(const std::string& name) const {
   return name == advance_stop || harmless_names.contains(name) ||
-         std::any_of(std::begin(harmless_beginnings), std::end(harmless_beginnings),
-                     [&](const char* beginning) { return name.starts_with(beginning); });
+         std::ranges::any_of(harmless_beginnings, [&](const char* beginning) { return name.starts_with(beginning); });
 }
 
 bool Krl::writes(const std::string& name, int, const Expression&) const {
@@ -103,8 +102,7 @@ namespace {
 
 /// Whether a field is an external axis at zero. Such an axis stays at zero if an aggregate omits it.
 bool is_idle_axis(const std::string& field, const Value& value) {
-  return value.is_number() && value.number == 0 &&
-         std::find(std::begin(external_names), std::end(external_names), field) != std::end(external_names);
+  return value.is_number() && value.number == 0 && std::ranges::find(external_names, field) != std::end(external_names);
 }
 
 }  // namespace
@@ -147,25 +145,24 @@ void Krl::check_components(const Expression& aggregate) {
   const std::vector<std::string>& keys = aggregate.keys;
   constexpr std::size_t longest = 2;  // letters of a position's component
   const auto any = [&](const char* const(&names)[6]) {
-    return std::any_of(keys.begin(), keys.end(), [&](const std::string& key) {
-      return std::find(std::begin(names), std::end(names), key) != std::end(names);
-    });
+    return std::ranges::any_of(
+        keys, [&](const std::string& key) { return std::ranges::find(names, key) != std::end(names); });
   };
   const bool joint = any(axis_names);
   // $WORKSPACE and $CYLWORKSPACE: a frame, the numbers of a space (X1, R) and its MODE
-  const bool space = std::find(keys.begin(), keys.end(), "x1") != keys.end() ||
+  const bool space = std::ranges::find(keys, "x1") != keys.end() ||
                      std::ranges::any_of(keys, [](const std::string& key) { return key.size() > longest; });
   if (space || (!joint && !any(frame_names))) return;
   std::vector<std::string> missing;
   for (const std::string name : joint ? axis_names : frame_names)
-    if (std::find(keys.begin(), keys.end(), name) == keys.end()) missing.push_back(name);
+    if (std::ranges::find(keys, name) == keys.end()) missing.push_back(name);
   for (auto key = keys.begin(); key != keys.end(); ++key) {
     const auto has = [&](const RecordType& record) {
-      return std::find(record.fields.begin(), record.fields.end(), *key) != record.fields.end();
+      return std::ranges::find(record.fields, *key) != record.fields.end();
     };
     if (std::find(keys.begin(), key, *key) != key)
       run_->note(aggregate.place, fmt::format("{}: {}; the first one counts", upper_case(*key), given_twice), true);
-    else if (std::none_of(code_.records.begin(), code_.records.end(), has))
+    else if (std::ranges::none_of(code_.records, has))
       run_->unread(aggregate.place, upper_case(*key), "a position", upper_cases(missing));
   }
 }
@@ -499,7 +496,7 @@ void Krl::basics(const Statement& statement, Interpreter& run) {
 std::optional<Value> Krl::spline_function(const Expression& call, const std::vector<Value>& values, Interpreter& run) {
   const std::string& name = call.text;
   const auto is = [&](std::initializer_list<const char*> names) {
-    return std::any_of(names.begin(), names.end(), [&](const char* other) { return name == other; });
+    return std::ranges::any_of(names, [&](const char* other) { return name == other; });
   };
   const bool of_whole = !call.items.empty() && call.items[0].kind == Expression::Kind::field;
   const char* data = is({"stool2"}) || (of_whole && is({"sbase", "sipo_mode"})) ? "fdat"

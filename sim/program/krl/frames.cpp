@@ -16,7 +16,7 @@ Value unset_value() {
 
 bool is_unset(const Value& value) {
   if (value.kind == Value::Kind::unknown) return value.cause && value.cause->why == no_value;
-  return value.kind == Value::Kind::list && std::all_of(value.items.begin(), value.items.end(), is_unset);
+  return value.kind == Value::Kind::list && std::ranges::all_of(value.items, is_unset);
 }
 
 Coordinates coordinates(const Value& record, const char* const (&names)[6]) {

@@ -22,10 +22,10 @@ struct Coordinates {
   std::array<bool, 6> given{};
   Value unknown;  ///< unknown component with its causes; a known value: no component is unknown
   bool any() const {
-    return std::any_of(given.begin(), given.end(), [](bool g) { return g; });
+    return std::ranges::any_of(given, [](bool g) { return g; });
   }
   bool all() const {
-    return std::all_of(given.begin(), given.end(), [](bool g) { return g; });
+    return std::ranges::all_of(given, [](bool g) { return g; });
   }
 };
 

@@ -231,7 +231,7 @@ void Krl::check_word(const Value* word, const char* of, const std::vector<std::s
                      Interpreter& run) {
   if (!word || word->kind != Value::Kind::text) return;
   const std::string written = upper_case(word->text);
-  if (std::find(known.begin(), known.end(), written) == known.end()) run.unread(place, written, of, known);
+  if (std::ranges::find(known, written) == known.end()) run.unread(place, written, of, known);
 }
 
 /// Gives a warning of a mark after the target (C_DIST) that no move has.
@@ -520,7 +520,7 @@ bool Krl::stands_still(const Expression& target, Interpreter& run) const {
   if (is_standing(target.text)) return true;
   const auto moves = [](const Instruction& i) { return i.kind != Instruction::Kind::dwell; };
   const auto& made = run.program().instructions;
-  if (std::any_of(made.begin(), made.end(), moves)) return false;
+  if (std::ranges::any_of(made, moves)) return false;
   const Place last = run.origin(target);  // the line "p = $AXIS_ACT", if no part of p was written later
   if (last.line == 0) return false;
   std::string line = lower_case(code_.files[last.file].from(last.line, last.column));
@@ -662,7 +662,7 @@ namespace {
 /// Whether statements, or routines that they call, stop the robot's move.
 bool brakes(const Code& code, const std::vector<Statement>& body, int module, int depth) {
   constexpr int deepest = 4;  // levels of calls in handlers
-  return depth < deepest && std::any_of(body.begin(), body.end(), [&](const Statement& statement) {
+  return depth < deepest && std::ranges::any_of(body, [&](const Statement& statement) {
            if (statement.name == "brake" || statement.name == "resume") return true;
            for (const Branch& branch : statement.branches)
              if (brakes(code, branch.body, module, depth)) return true;
@@ -832,9 +832,9 @@ namespace {
 /// Removes the external axes if all their positions are 0, because KUKA writes 0 for missing axes.
 void leave_out_unused_axes(Program& program) {
   const auto unused = [](const Instruction& i) {
-    return std::all_of(i.target.external_axes.begin(), i.target.external_axes.end(), [](double e) { return e == 0; });
+    return std::ranges::all_of(i.target.external_axes, [](double e) { return e == 0; });
   };
-  if (std::all_of(program.instructions.begin(), program.instructions.end(), unused))
+  if (std::ranges::all_of(program.instructions, unused))
     for (Instruction& instruction : program.instructions) instruction.target.external_axes.clear();
 }
 

@@ -82,8 +82,7 @@ class KrlParser : StatementParser {
 
   /// Whether a name of $krl.dat is already declared. $krl.dat is read last; declarations of the controller have priority.
   bool is_declared_already(const std::string& name) const {
-    return code_.files[file_].name() == "$krl.dat" &&
-           std::any_of(code_.data.begin(), code_.data.end(), [&](const Datum& datum) {
+    return code_.files[file_].name() == "$krl.dat" && std::ranges::any_of(code_.data, [&](const Datum& datum) {
              return datum.statement.kind == Kind::declare && !datum.local && datum.statement.name == name;
            });
   }

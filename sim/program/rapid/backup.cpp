@@ -55,9 +55,8 @@ std::vector<fs::path> listed(const fs::path& list, const std::vector<fs::path>& 
     if (end == std::string::npos) break;
     std::string name = lower.substr(begin, end - begin);
     name = name.substr(name.find_last_of("/\\") + 1);
-    const auto found = std::find_if(files.begin(), files.end(), [&](const fs::path& file) {
-      return name_of(file) == name && file.parent_path() == list.parent_path();
-    });
+    const auto found = std::ranges::find_if(
+        files, [&](const fs::path& file) { return name_of(file) == name && file.parent_path() == list.parent_path(); });
     if (found == files.end())
       throw pipeline::InputError({list.string()}, fmt::format("lists {}, which is not beside it", name),
                                  "add the module, or give those that there are with --module");
@@ -81,7 +80,7 @@ std::vector<std::string> contents_of(const fs::path& backinfo, const std::string
     const std::size_t end = line.find(" @");
     if (!within || end == std::string::npos) continue;
     modules.push_back(line.substr(0, end));
-    std::replace(modules.back().begin(), modules.back().end(), '\\', '/');
+    std::ranges::replace(modules.back(), '\\', '/');
   }
   return modules;
 }
@@ -151,10 +150,9 @@ void add_what_others_write(const fs::path& task, const std::vector<fs::path>& fi
 void drop_copies(const fs::path& folder, std::set<fs::path>& tasks) {
   const auto is_copy = [&](const fs::path& task) {
     const fs::path within = task.lexically_relative(folder);
-    return std::any_of(within.begin(), within.end(),
-                       [](const fs::path& part) { return lower_case(part.string()) == "home"; });
+    return std::ranges::any_of(within, [](const fs::path& part) { return lower_case(part.string()) == "home"; });
   };
-  if (!std::all_of(tasks.begin(), tasks.end(), is_copy)) std::erase_if(tasks, is_copy);
+  if (!std::ranges::all_of(tasks, is_copy)) std::erase_if(tasks, is_copy);
 }
 
 std::string names_of(const std::set<fs::path>& paths) {
@@ -167,14 +165,13 @@ std::string names_of(const std::set<fs::path>& paths) {
 /// folder RAPID. If neither is unique, keeps all.
 void keep_nearest(const fs::path& folder, std::set<fs::path>& lists) {
   const auto only = [&](const auto& is_meant) {
-    if (std::count_if(lists.begin(), lists.end(), is_meant) == 1)
+    if (std::ranges::count_if(lists, is_meant) == 1)
       std::erase_if(lists, [&](const fs::path& list) { return !is_meant(list); });
   };
   const fs::path here = folder.lexically_normal() / "";
   only([&](const fs::path& list) { return list.parent_path().lexically_normal() / "" == here; });
   only([](const fs::path& list) {
-    return std::any_of(list.begin(), list.end(),
-                       [](const fs::path& part) { return lower_case(part.string()) == "rapid"; });
+    return std::ranges::any_of(list, [](const fs::path& part) { return lower_case(part.string()) == "rapid"; });
   });
 }
 
@@ -207,7 +204,7 @@ Backup rapid_backup(const fs::path& folder, const std::vector<fs::path>& files, 
   if (!lists.empty()) backup.files = listed(*lists.begin(), files);
   for (const fs::path& file : files)
     if (is_module(file) && (lists.empty() || extension_of(file).starts_with(".sys")) &&
-        std::find(backup.files.begin(), backup.files.end(), file) == backup.files.end())
+        std::ranges::find(backup.files, file) == backup.files.end())
       backup.files.push_back(file);
   return backup;
 }

@@ -99,15 +99,15 @@ void Rapid::check_arguments(const std::string& of, const std::vector<Expression>
     const auto same = [&](std::string_view name) { return argument.option == lower_case(name); };
     if (argument.option.empty() && ++count > most && most >= 0)
       run.unread(argument.place, run.written(argument), fmt::format("{} after its argument {}", of, most), {});
-    else if (!argument.option.empty() && std::none_of(switches.begin(), switches.end(), same))
+    else if (!argument.option.empty() && std::ranges::none_of(switches, same))
       run.unread(argument.place, "\\" + argument.option, of, known);
   }
 }
 
 std::string Rapid::move_meant(const Statement& statement) const {
   constexpr std::ptrdiff_t fewest = 4;  // target, speed, zone, tool
-  const auto given = std::count_if(statement.arguments.begin(), statement.arguments.end(),
-                                   [](const Expression& argument) { return argument.option.empty(); });
+  const auto given =
+      std::ranges::count_if(statement.arguments, [](const Expression& argument) { return argument.option.empty(); });
   if (given < fewest || !statement.name.starts_with("mov")) return "";
   static const std::map<std::string, std::string> moves{
       {"moveabsj", "MoveAbsJ"}, {"movej", "MoveJ"}, {"movel", "MoveL"}, {"movec", "MoveC"}};
@@ -382,8 +382,8 @@ bool Rapid::move(const Signature& signature, const Statement& statement, Interpr
   move.acceleration_percent = acceleration_percent_;
   move.jerk_percent = jerk_percent_;
   const std::size_t problems = run.problem_count();
-  const bool unshifted = std::any_of(statement.arguments.begin(), statement.arguments.end(),
-                                     [](const Expression& e) { return e.option == "noeoffs"; });
+  const bool unshifted =
+      std::ranges::any_of(statement.arguments, [](const Expression& e) { return e.option == "noeoffs"; });
   const std::vector<double> shift = external_shift_;
   if (unshifted) external_shift_.clear();
   bool whole = read_target(*given[signature.target], signature.joints, move, run);

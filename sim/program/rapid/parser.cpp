@@ -346,7 +346,7 @@ bool is_encoded(const std::string& text) {
     return byte < ' ' && byte != '\t' && byte != '\n' && byte != '\r' && byte != '\f' && byte != 0x1a;
   };
   constexpr std::ptrdiff_t one_in = 50;  // random bytes have one in ten, text has none
-  return std::count_if(text.begin(), text.end(), is_control) * one_in > static_cast<std::ptrdiff_t>(text.size());
+  return std::ranges::count_if(text, is_control) * one_in > static_cast<std::ptrdiff_t>(text.size());
 }
 
 }  // namespace
@@ -358,7 +358,7 @@ void parse_rapid(Code& code, int file, Problems& problems) {
   Problems in_words;
   const std::vector<Token> tokens = tokens_of(code.files[file], {'!', "", false, false}, in_words);
   const auto opens = [](const Token& token) { return lower_case(token.text) == "module"; };
-  if (std::none_of(tokens.begin(), tokens.end(), opens))
+  if (std::ranges::none_of(tokens, opens))
     return problems.add({code.files[file].name(), 1, 1}, "holds no MODULE", "give a RAPID module (.mod, .prg, .sys)");
   for (const Problem& problem : in_words.list()) problems.add(problem.where, problem.what, problem.remedy);
   RapidParser(code, file, tokens, problems).run();

@@ -237,7 +237,7 @@ bool Rapid::named_data(const Statement& statement, Interpreter& run) {
 /// Whether a trap, or a routine that it calls, moves or stops the robot or changes its motion.
 bool Rapid::steers(const std::vector<Statement>& body, int module, int depth) const {
   constexpr int deepest = 4;  // levels of calls in traps
-  return depth < deepest && std::any_of(body.begin(), body.end(), [&](const Statement& statement) {
+  return depth < deepest && std::ranges::any_of(body, [&](const Statement& statement) {
            if (statement.name == "stopmove" || statement.name == "storepath" || matters(statement.name)) return true;
            for (const Branch& branch : statement.branches)
              if (steers(branch.body, module, depth)) return true;

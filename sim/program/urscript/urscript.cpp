@@ -32,12 +32,12 @@ const Signature* move_of(const std::string& name) {
       {"movec", Kind::circular, {"pose_via", "pose_to", "a", "v", "r", "mode"}, 1.2, 0.25},
       {"servoj", Kind::joint, {"q", "a", "v", "t", "lookahead_time", "gain"}, 0, 0},
       {"servoc", Kind::linear, {"pose", "a", "v", "r"}, 1.2, 0.25}};
-  const auto found = std::find_if(moves.begin(), moves.end(), [&](const Signature& m) { return name == m.name; });
+  const auto found = std::ranges::find_if(moves, [&](const Signature& m) { return name == m.name; });
   return found == moves.end() ? nullptr : &*found;
 }
 
 bool begins_with_any(const std::string& name, std::initializer_list<std::string_view> list) {
-  return std::any_of(list.begin(), list.end(), [&](std::string_view begin) { return name.starts_with(begin); });
+  return std::ranges::any_of(list, [&](std::string_view begin) { return name.starts_with(begin); });
 }
 
 class Script final : public Dialect {
@@ -177,7 +177,7 @@ class Script final : public Dialect {
         {"sqrt", [](double x) { return std::sqrt(x); }}, {"floor", [](double x) { return std::floor(x); }},
         {"ceil", [](double x) { return std::ceil(x); }}, {"d2r", [](double x) { return x * degree; }},
         {"r2d", [](double x) { return x / degree; }},    {"log10", [](double x) { return std::log10(x); }}};
-    const auto unknown = std::find_if(values.begin(), values.end(), [](const Value& v) { return !v.known(); });
+    const auto unknown = std::ranges::find_if(values, [](const Value& v) { return !v.known(); });
     const bool pose_function = begins_with_any(name, {"pose_", "interpolate_pose"});
     const auto function = plain.find(name);
     const bool two = name == "atan2" || name == "pow";
@@ -403,12 +403,11 @@ class Script final : public Dialect {
   /// Returns whether a thread, or a function that it calls, moves the robot.
   bool steers(const std::vector<Statement>& body, int depth) const {
     constexpr int deepest = 8;  // largest depth of calls
-    return depth < deepest && std::any_of(body.begin(), body.end(), [&](const Statement& s) {
+    return depth < deepest && std::ranges::any_of(body, [&](const Statement& s) {
              if (s.kind == Statement::Kind::instruction && matters(s.name)) return true;
              const Routine* called = s.kind == Statement::Kind::instruction ? code_.find(s.name, -1) : nullptr;
              if (called && steers(called->body, depth + 1)) return true;
-             return std::any_of(s.branches.begin(), s.branches.end(),
-                                [&](const Branch& branch) { return steers(branch.body, depth); });
+             return std::ranges::any_of(s.branches, [&](const Branch& branch) { return steers(branch.body, depth); });
            });
   }
 
@@ -427,7 +426,7 @@ const Problem* first_problem(const Code& code) {
 
 /// Returns whether a function is defined within another one. PolyScope writes one function around all others.
 bool is_within_another(const Routine& routine, const Code& code) {
-  return std::any_of(code.routines.begin(), code.routines.end(), [&](const Routine& other) {
+  return std::ranges::any_of(code.routines, [&](const Routine& other) {
     return other.place.file == routine.place.file && !other.name.starts_with("script:") &&
            other.place.line < routine.place.line && other.last_line >= routine.last_line;
   });
