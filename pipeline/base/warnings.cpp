@@ -21,6 +21,32 @@ constexpr std::string_view cause_mark = ". Likely cause: ", remedy_mark = ". Rem
 constexpr const char* separator = ": ";            // between key and value
 constexpr std::string_view amount_key = "amount";  // no key of a job
 
+struct KindTexts {
+  const char *word, *title;
+  bool spoils_plan;
+};
+constexpr KindTexts kinds[] = {
+    {"program", "skipped instructions", true},
+    {"bend_radius", "bend radius", true},
+    {"twist", "twist", true},
+    {"tension", "tension", true},
+    {"slack", "slack", true},
+    {"periodic", "not periodic", true},
+    {"overlap", "overlapping parts", false},  // overlap of nominal cross-sections; real cables deform
+    {"mesh", "numerical error", false},       // the message states the size of the error
+    {"force", "forces", true},
+    {"material", "doubtful input", false},  // the constants may be right
+    {"strain", "strain", true},
+    {"calibration", "calibration", false},  // the uncertainty of the prior applies
+    {"motion", "unusual motion", true},
+    {"side", "two sides", true},
+    // The message states the share of such dresspacks and the measurement that rules them out.
+    {"other_values", "limits at other values", false},
+};
+static_assert(std::size(kinds) == warning_kinds_count);
+
+const KindTexts& texts_of(WarningKind kind) { return kinds[static_cast<std::size_t>(kind)]; }
+
 std::optional<WarningKind> kind_named(std::string_view name) {
   for (int k = 0; k < warning_kinds_count; ++k)
     if (name == word(static_cast<WarningKind>(k))) return static_cast<WarningKind>(k);
@@ -36,97 +62,9 @@ std::string plain(std::string text) {
 
 }  // namespace
 
-const char* word(WarningKind kind) {
-  switch (kind) {
-    case WarningKind::program:
-      return "program";
-    case WarningKind::bend_radius:
-      return "bend_radius";
-    case WarningKind::twist:
-      return "twist";
-    case WarningKind::tension:
-      return "tension";
-    case WarningKind::slack:
-      return "slack";
-    case WarningKind::periodic:
-      return "periodic";
-    case WarningKind::overlap:
-      return "overlap";
-    case WarningKind::mesh:
-      return "mesh";
-    case WarningKind::force:
-      return "force";
-    case WarningKind::material:
-      return "material";
-    case WarningKind::strain:
-      return "strain";
-    case WarningKind::calibration:
-      return "calibration";
-    case WarningKind::motion:
-      return "motion";
-    case WarningKind::side:
-      return "side";
-    case WarningKind::other_values:
-      return "other_values";
-  }
-  return "";
-}
-
-bool spoils_plan(WarningKind kind) {
-  switch (kind) {
-    case WarningKind::program:
-    case WarningKind::bend_radius:
-    case WarningKind::twist:
-    case WarningKind::tension:
-    case WarningKind::slack:
-    case WarningKind::periodic:
-    case WarningKind::force:
-    case WarningKind::strain:
-    case WarningKind::motion:
-    case WarningKind::side:
-      return true;
-    case WarningKind::overlap:      // overlap of nominal cross-sections; real cables deform
-    case WarningKind::mesh:         // a numerical error, whose size the message states
-    case WarningKind::material:     // the constants may be right
-    case WarningKind::calibration:  // the uncertainty of the prior applies
-    case WarningKind::
-        other_values:  // the message states the share of such dresspacks and the measurement that rules them out
-      return false;
-  }
-  return false;
-}
-
-const char* title(WarningKind kind) {
-  switch (kind) {
-    case WarningKind::program:
-      return "skipped instructions";
-    case WarningKind::bend_radius:
-      return "bend radius";
-    case WarningKind::periodic:
-      return "not periodic";
-    case WarningKind::overlap:
-      return "overlapping parts";
-    case WarningKind::mesh:
-      return "numerical error";
-    case WarningKind::force:
-      return "forces";
-    case WarningKind::material:
-      return "doubtful input";
-    case WarningKind::motion:
-      return "unusual motion";
-    case WarningKind::side:
-      return "two sides";
-    case WarningKind::other_values:
-      return "limits at other values";
-    case WarningKind::twist:
-    case WarningKind::tension:
-    case WarningKind::slack:
-    case WarningKind::strain:
-    case WarningKind::calibration:
-      return word(kind);
-  }
-  return "";
-}
+const char* word(WarningKind kind) { return texts_of(kind).word; }
+const char* title(WarningKind kind) { return texts_of(kind).title; }
+bool spoils_plan(WarningKind kind) { return texts_of(kind).spoils_plan; }
 
 std::string Warning::line() const { return where.empty() ? "warning: " + words : where + ": warning: " + words; }
 std::string paragraph(const std::string& of) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 #include <vector>
 
@@ -20,41 +21,25 @@ enum class Use { none, optional, required };
 struct Parameter {
   const char* key;
   std::optional<double> Rig::*value;
-  Use torsion, rolling_flex, two_pulley, tick_tock, swivel, axial;
+  std::array<Use, 6> uses;  ///< in the order of RigKind
 
-  Use of(RigKind kind) const {
-    switch (kind) {
-      case RigKind::torsion:
-        return torsion;
-      case RigKind::rolling_flex:
-        return rolling_flex;
-      case RigKind::two_pulley:
-        return two_pulley;
-      case RigKind::tick_tock:
-        return tick_tock;
-      case RigKind::swivel:
-        return swivel;
-      case RigKind::axial:
-        return axial;
-    }
-    return Use::none;
-  }
+  Use of(RigKind kind) const { return uses[static_cast<std::size_t>(kind)]; }
 };
 
 constexpr Use no = Use::none, may = Use::optional, must = Use::required;
 /// radius_mm or radius_diameters: see check_radius().
 const Parameter parameters[] = {
     // key, member, torsion, rolling_flex, two_pulley, tick_tock, swivel, axial
-    {"length_m", &Rig::length, may, no, no, no, no, no},
-    {"twist_deg_per_m", &Rig::twist, must, no, no, no, no, no},
-    {"radius_mm", &Rig::radius, no, may, no, may, may, no},
-    {"radius_diameters", &Rig::radius_diameters, no, may, no, may, may, no},
-    {"pulley_diameter_mm", &Rig::pulley_diameter, no, no, must, no, no, no},
-    {"travel_m", &Rig::travel, no, must, may, no, no, no},
-    {"angle_deg", &Rig::angle, no, no, may, may, must, no},
-    {"weight_kg", &Rig::weight, may, no, may, may, must, no},
-    {"elongation_percent", &Rig::elongation, no, no, no, no, no, must},
-    {"mean_elongation_percent", &Rig::mean_elongation, no, no, no, no, no, may},
+    {"length_m", &Rig::length, {may, no, no, no, no, no}},
+    {"twist_deg_per_m", &Rig::twist, {must, no, no, no, no, no}},
+    {"radius_mm", &Rig::radius, {no, may, no, may, may, no}},
+    {"radius_diameters", &Rig::radius_diameters, {no, may, no, may, may, no}},
+    {"pulley_diameter_mm", &Rig::pulley_diameter, {no, no, must, no, no, no}},
+    {"travel_m", &Rig::travel, {no, must, may, no, no, no}},
+    {"angle_deg", &Rig::angle, {no, no, may, may, must, no}},
+    {"weight_kg", &Rig::weight, {may, no, may, may, must, no}},
+    {"elongation_percent", &Rig::elongation, {no, no, no, no, no, must}},
+    {"mean_elongation_percent", &Rig::mean_elongation, {no, no, no, no, no, may}},
 };
 
 std::vector<std::string_view> keys_of(RigKind kind) {
