@@ -6,8 +6,6 @@
 #include <map>
 #include <numbers>
 
-#include "pipeline/base/halving.h"
-
 namespace dresslife::fatigue {
 namespace {
 

@@ -1,6 +1,5 @@
 #include "strain/reversals.h"
 
-#include <algorithm>
 #include <cassert>
 #include <cmath>
 

@@ -9,7 +9,6 @@
 #include <span>
 
 #include "pipeline/base/warning_words.h"
-#include "pipeline/cable/believable.h"
 #include "pipeline/cable/cable_bending.h"
 #include "pipeline/cable/excess.h"
 #include "pipeline/cable/overlap.h"

@@ -1,6 +1,5 @@
 #include "pipeline/base/mesh_file.h"
 
-#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <sstream>

@@ -1,6 +1,5 @@
 #include "pipeline/commands/command.h"
 
-#include <cmath>
 #include <memory>
 
 #include "pipeline/base/errors.h"

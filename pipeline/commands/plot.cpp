@@ -7,7 +7,6 @@
 #include "pipeline/base/ownership.h"
 #include "pipeline/commands/pictures.h"
 #include "pipeline/report/figures.h"
-#include "pipeline/report/job_page.h"
 
 namespace dresslife::pipeline {
 namespace {

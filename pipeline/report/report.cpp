@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "pipeline/base/errors.h"
-#include "pipeline/base/installation.h"
 #include "pipeline/base/plain_file.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/whole_file.h"
@@ -17,7 +16,6 @@
 #include "pipeline/report/life_matrix.h"
 #include "pipeline/report/marked_place.h"
 #include "pipeline/report/motion_checks.h"
-#include "pipeline/report/page_assets.h"
 #include "pipeline/report/page_shell.h"
 #include "pipeline/report/plot.h"
 #include "pipeline/report/scene.h"

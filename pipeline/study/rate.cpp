@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "pipeline/base/csv_rows.h"
 #include "pipeline/base/joined.h"

@@ -7,7 +7,6 @@
 #include "sim/program/fanuc/backup.h"
 #include "sim/program/import.h"
 #include "sim/program/inform/inform.h"
-#include "sim/program/interpreter/encoding.h"
 #include "sim/program/interpreter/tokens.h"
 #include "sim/program/krl/krl.h"
 #include "sim/program/rapid/rapid.h"

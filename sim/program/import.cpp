@@ -160,10 +160,6 @@ void parse_files(Code& code, Language language, Problems& problems) {
   }
 }
 
-}  // namespace
-
-namespace {
-
 constexpr int listed_reasons = 5;
 
 /// Reports a program without a move. Executed statements that were skipped may be the cause.

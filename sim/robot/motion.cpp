@@ -203,10 +203,6 @@ class Pieces {
   }
 };
 
-}  // namespace
-
-namespace {
-
 /// Adds legs that belong to no path, one by one.
 void add_legs(const std::vector<Leg>& legs, const VectorXd& accelerations, const VectorXd& jerks, Pieces& pieces) {
   const CornerSpeeds corners(legs, accelerations, jerks);

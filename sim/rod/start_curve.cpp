@@ -1,7 +1,5 @@
 #include "sim/rod/start_curve.h"
 
-#include <algorithm>
-
 namespace dresslife::sim {
 namespace {
 

@@ -1,7 +1,6 @@
 #include "sim/run/mounting.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "pipeline/job/setup.h"

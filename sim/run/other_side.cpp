@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "pipeline/base/warning_words.h"
 #include "pipeline/job/line_key.h"

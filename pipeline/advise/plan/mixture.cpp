@@ -1,7 +1,5 @@
 #include "pipeline/advise/plan/mixture.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>

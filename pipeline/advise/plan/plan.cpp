@@ -10,7 +10,6 @@
 #include <tuple>
 
 #include "pipeline/advise/plan/pooled_lives.h"
-#include "pipeline/base/constants.h"
 #include "pipeline/base/digest.h"
 #include "pipeline/base/lists.h"
 #include "pipeline/base/random.h"

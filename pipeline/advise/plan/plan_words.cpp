@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <numeric>
 
 #include "pipeline/base/csv_rows.h"
 #include "pipeline/base/digest.h"

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
-#include <sstream>
 
 #include "pipeline/base/joined.h"
 #include "sim/program/interpreter/arc.h"
@@ -837,10 +835,6 @@ void leave_out_unused_axes(Program& program) {
   if (std::ranges::all_of(program.instructions, unused))
     for (Instruction& instruction : program.instructions) instruction.target.external_axes.clear();
 }
-
-}  // namespace
-
-namespace {
 
 /// Returns the start routine: the requested one, else the first one of the first file or of its module; null: none.
 const Routine* start_of(const Code& code) {

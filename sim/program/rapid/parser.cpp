@@ -335,10 +335,6 @@ class RapidParser : StatementParser {
   }
 };
 
-}  // namespace
-
-namespace {
-
 /// Whether a module is encoded by ABB: it has many control characters.
 bool is_encoded(const std::string& text) {
   const auto is_control = [](char c) {
