@@ -54,11 +54,8 @@ std::vector<Option> study_options(StudyOptions& options) {
 }
 
 std::vector<Option> run_options(RunOptions& options) {
-  return {{"-j,--jobs",
-           "COUNT",
-           "stages at a time",
-           &options.jobs,
-           {.range = {{1, 1024}}, .shown_default = "one per core"}},
+  return {number_option("-j,--jobs", "COUNT", "stages at a time", &options.jobs, 1, 1024,
+                        {.shown_default = "one per core"}),
           {"--quiet", "", "no progress, no notes", &options.quiet}};
 }
 

@@ -317,12 +317,11 @@ Command plan_command() {
              "the maintenance windows: 2027-07-12..2027-08-01,2027-12-20..2028-01-02",
              &options->windows,
              {.required = true}},
-            {"--risk",
-             "PERCENT",
-             "replace a dresspack when its probability of failure before the next window is larger; default: 10, or by "
-             "the costs of the table",
-             &options->risk_percent,
-             {.range = {{0, 100}}}},
+            number_option(
+                "--risk", "PERCENT",
+                "replace a dresspack when its probability of failure before the next window is larger; default: 10, or by "
+                "the costs of the table",
+                &options->risk_percent, 0, 100),
             {"--what-if", "OTHER.csv", "a changed table of the same plant: its plan beside that of the first",
              &options->what_if},
             {"--what-if-from", "DATE",

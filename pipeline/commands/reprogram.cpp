@@ -300,11 +300,8 @@ Command reprogram_command() {
           "try what the program could do instead: the lines that cost most by other turns of wrist and arm, by "
           "a point, or slower; of a robot program, patches in its own language are written for the ways that help",
           joined({{study_or_job(*options),
-                   {"--lines",
-                    "COUNT",
-                    "of the program that are tried, those first that cost most",
-                    &options->lines,
-                    {.range = {{0, 1000}}}}},
+                   number_option("--lines", "COUNT", "of the program that are tried, those first that cost most",
+                                 &options->lines, 0, 1000)},
                   run_options(*options),
                   {launcher_option(*options)},
                   study_options(*options)}),

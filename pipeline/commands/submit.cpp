@@ -117,11 +117,8 @@ Command submit_command() {
   return {"submit", "let a cluster's queue run a study: the same graph, each stage behind the cluster's launcher",
           joined({{study_or_job(*options),
                    {"--cluster", "", "YAML of config/clusters, or a file", &options->cluster},
-                   {"-n,--tasks",
-                    "N",
-                    "stages at a time, a core each; default: the cluster's tasks",
-                    &options->tasks,
-                    {.range = {{1, 1024}}}},
+                   number_option("-n,--tasks", "N", "stages at a time, a core each; default: the cluster's tasks",
+                                 &options->tasks, 1, 1024),
                    {"--only-write", "", "write the batch script, and submit nothing", &options->only_write}},
                   study_options(*options)}),
           [options] { return submit(*options); }};

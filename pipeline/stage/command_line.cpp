@@ -153,6 +153,12 @@ std::string missing_word(const Command& program, int argc, char** argv, const st
 
 }  // namespace
 
+Option number_option(const std::string& names, const std::string& value, const std::string& meaning, Target target,
+                     double low, double high, OptionRules rules) {
+  rules.range = {{low, high}};
+  return {names, value, meaning, std::move(target), std::move(rules)};
+}
+
 std::vector<Option> joined(std::initializer_list<std::vector<Option>> tables) {
   std::vector<Option> all;
   for (const std::vector<Option>& table : tables) all.insert(all.end(), table.begin(), table.end());

@@ -49,6 +49,10 @@ struct Command {
   std::vector<Command> commands = {};  ///< of a program: one of them is required
 };
 
+/// Returns an option whose value is a number from `low` to `high`.
+Option number_option(const std::string& names, const std::string& value, const std::string& meaning, Target target,
+                     double low, double high, OptionRules rules = {});
+
 /// Returns an option that sets an enumeration by one of its words: "surrogate|random". word(Choice) returns the words.
 template <class Choice>
 Option choice_option(const std::string& names, const std::string& meaning, Choice& target,
