@@ -96,6 +96,15 @@ constexpr double widest_ring = 10;                            // in diameters of
 constexpr double longest_stroke = 5, largest_pull = 2000, stiffest_spring = 1e4,
                  heaviest_slider = 50;  // [m], [N], [N/m], [kg]
 
+using AddDoubt =
+    std::function<void(const Where&, const std::string& what, const std::string& cause, const std::string& remedy)>;
+
+AddDoubt adding_to(std::vector<Warning>& warnings) {
+  return [&](const Where& where, const std::string& what, const std::string& cause, const std::string& remedy) {
+    warnings.push_back(warning_of(WarningKind::motion, where.text(), what, cause, remedy));
+  };
+}
+
 /// Steps with one fault: the first one, and the number of further ones.
 struct Doubted {
   const MotionStep* first = nullptr;
@@ -109,9 +118,8 @@ struct Doubted {
     first = &step;
     line = of.line > 0 ? of : step.where;
   }
-  Warning warning(const std::string& what, const std::string& cause, const std::string& remedy) const {
-    return warning_of(WarningKind::motion, line.text(), what + (more ? fmt::format(" (and {} more)", more) : ""), cause,
-                      remedy);
+  void warn(const AddDoubt& add, const std::string& what, const std::string& cause, const std::string& remedy) const {
+    add(line, what + (more ? fmt::format(" (and {} more)", more) : ""), cause, remedy);
   }
 };
 
@@ -183,7 +191,7 @@ std::ptrdiff_t nonzero(const std::vector<double>& numbers) {
 
 /// Warns of one axis of one target in radians: at all other targets the axis is far from 0 on the same side, and the number in
 /// radians lies near to them.
-void doubt_single_axes(const std::vector<const MotionStep*>& joints, std::vector<Warning>& warnings) {
+void doubt_single_axes(const std::vector<const MotionStep*>& joints, const AddDoubt& add) {
   constexpr std::size_t fewest = 3;           // other targets: two are no pattern
   constexpr double neighbours = 30 * degree;  // ESTIMATE: from the angles of the axis at other targets
   for (std::size_t k = 0; !joints.empty() && k < joints.front()->joints.size(); ++k) {
@@ -206,18 +214,17 @@ void doubt_single_axes(const std::vector<const MotionStep*>& joints, std::vector
       continue;
     const auto [low, high] = std::ranges::minmax(others);
     if (low * number < 0 || high * number < 0 || number < low - neighbours || number > high + neighbours) continue;
-    warnings.push_back(warning_of(
-        WarningKind::motion, odd->where.text(),
+    add(odd->where,
         fmt::format(
             "axis {} of this target is at {:.4g} deg (limit: at the other targets it is at {:.4g} .. {:.4g} deg)",
             k + 1, number, low / degree, high / degree),
         "radians instead of degrees in one number",
-        fmt::format("{:.4g} if that was radians; leave it if the axis moves so far here", number / degree)));
+        fmt::format("{:.4g} if that was radians; leave it if the axis moves so far here", number / degree));
   }
 }
 
 /// Warns of few targets in radians among others in degrees, and of few positions in metres among others in millimetres.
-void doubt_single_targets(const std::vector<MotionStep>& steps, std::vector<Warning>& warnings) {
+void doubt_single_targets(const std::vector<MotionStep>& steps, const AddDoubt& add) {
   std::vector<const MotionStep*> joints, places;
   gather(steps, joints, places);
   Doubted radians, metres;
@@ -238,14 +245,15 @@ void doubt_single_targets(const std::vector<MotionStep>& steps, std::vector<Warn
   if (few(radians, different.size())) {
     const auto meant =
         mapped(radians.first->joints, [](double angle) { return fmt::format("{:.4g}", angle / degree / degree); });
-    warnings.push_back(radians.warning(
+    radians.warn(
+        add,
         fmt::format("all angles of this target are below {:.3g} deg (limit: those of other targets reach {:.0f} deg)",
                     half_turn, widest / degree),
         "radians instead of degrees in one target",
         fmt::format("[{}] if those were radians; leave it if the robot's pose is this near to its zero pose",
-                    fmt::join(meant, ", "))));
+                    fmt::join(meant, ", ")));
   }
-  doubt_single_axes(joints, warnings);
+  doubt_single_axes(joints, add);
   const std::vector<double> reaches =
       mapped(places, [](const MotionStep* step) { return largest_size(step->position); });
   if (reaches.empty()) return;
@@ -260,20 +268,21 @@ void doubt_single_targets(const std::vector<MotionStep>& steps, std::vector<Warn
       metres.add(*places[k]);
   if (few(metres, places.size())) {
     const std::vector<double>& at = metres.first->position;
-    warnings.push_back(metres.warning(
+    metres.warn(
+        add,
         fmt::format(
             "this target lies {:.3g} mm from the origin of its frame (limit: others lie up to {:.0f} mm from theirs)",
             1e3 * largest_size(at), 1e3 * farthest_place),
         "metres instead of millimetres in one target",
         fmt::format(
             "[{:.4g}, {:.4g}, {:.4g}] if those were metres; leave it if it is a place at the origin of the work object",
-            1e6 * at[0], 1e6 * at[1], 1e6 * at[2])));
+            1e6 * at[0], 1e6 * at[1], 1e6 * at[2]));
   }
 }
 
 /// Warns of few positions beside the preceding one in the same orientation, for example by Offs in RAPID with an offset in
 /// metres.
-void doubt_small_steps(const std::vector<MotionStep>& steps, std::vector<Warning>& warnings) {
+void doubt_small_steps(const std::vector<MotionStep>& steps, const AddDoubt& add) {
   std::vector<const MotionStep*> joints, places;
   gather(steps, joints, places);
   Doubted small;
@@ -290,10 +299,11 @@ void doubt_small_steps(const std::vector<MotionStep>& steps, std::vector<Warning
     small.add(now);
   }
   if (!small.first || 3 * (static_cast<std::size_t>(small.more) + 1) > places.size()) return;  // a dense path
-  warnings.push_back(small.warning(
+  small.warn(
+      add,
       fmt::format("this target lies {:.3g} mm from the one before (limit {:g} mm or more)", 1e3 * way, 1e3 * most_step),
       "an offset in metres instead of millimetres",
-      fmt::format("{:.4g} mm in the program if that was metres", 1e6 * way)));
+      fmt::format("{:.4g} mm in the program if that was metres", 1e6 * way));
 }
 
 /// Returns the place of the line in a program that assigns this tool or work object; line 0: none.
@@ -308,27 +318,24 @@ Where assigned_at(const std::vector<MotionStep>& steps, const std::string& name)
 }
 
 /// Warns of tools and work objects that are close to their reference frame, but not equal to it.
-void doubt_frames(const std::vector<MotionFrame>& frames, const char* kind, const Motion& motion,
-                  std::vector<Warning>& warnings) {
+void doubt_frames(const std::vector<MotionFrame>& frames, const char* kind, const Motion& motion, const AddDoubt& add) {
   for (const MotionFrame& frame : frames) {
     const Where assigned = assigned_at(motion.steps, frame.name), &where = assigned.line > 0 ? assigned : motion.where;
     const Vector3d& at = frame.position;
     if (std::string_view(kind) == "tool" && !frame.stationary &&
         at.z() < -std::max(tool_behind, std::hypot(at.x(), at.y())))
-      warnings.push_back(warning_of(
-          WarningKind::motion, where.text(),
+      add(where,
           fmt::format("the centre of tool '{}' lies {:.4g} mm behind the flange, in the arm (limit {:g})", frame.name,
                       -1e3 * at.z(), 1e3 * tool_behind),
           "a wrong sign: z points out of the flange",
-          fmt::format("[{:.4g}, {:.4g}, {:.4g}] in its declaration if so", 1e3 * at.x(), 1e3 * at.y(), -1e3 * at.z())));
+          fmt::format("[{:.4g}, {:.4g}, {:.4g}] in its declaration if so", 1e3 * at.x(), 1e3 * at.y(), -1e3 * at.z()));
     if (const double reach = at.cwiseAbs().maxCoeff(); reach < least_metres || reach > most_metres) continue;
-    warnings.push_back(warning_of(
-        WarningKind::motion, where.text(),
+    add(where,
         fmt::format("{} '{}' lies {:.3g} mm from the frame in which it is given (limit 0, or more than {:g} mm)", kind,
                     frame.name, 1e3 * at.norm(), 1e3 * most_metres),
         "metres instead of millimetres",
         fmt::format("[{:.4g}, {:.4g}, {:.4g}] in its declaration if those were metres", 1e6 * at.x(), 1e6 * at.y(),
-                    1e6 * at.z())));
+                    1e6 * at.z()));
   }
 }
 
@@ -338,76 +345,77 @@ std::vector<Warning> plausibility_of_steps(const Motion& motion) {
   Seen seen;
   add_steps(motion.steps, seen);
   std::vector<Warning> warnings;
+  const AddDoubt add = adding_to(warnings);
   // A controller's program has no keys.
   const auto key = [](const char* in_job, const char* in_program, const MotionStep& step) {
     const std::string& file = step.where.file;
     return file.empty() || file.ends_with(".yaml") || file.ends_with(".yml") ? in_job : in_program;
   };
   if (const MotionStep* step = seen.slow.first)
-    warnings.push_back(seen.slow.warning(
-        fmt::format("speed_percent is {:g} (limit {:g} or more)", *step->speed_percent, least_percent),
-        "a share instead of a percentage",
-        fmt::format("{}{:g}{} if that was a share", key("speed_percent: ", "", *step), 100 * *step->speed_percent,
-                    key("", " %", *step))));
+    seen.slow.warn(add, fmt::format("speed_percent is {:g} (limit {:g} or more)", *step->speed_percent, least_percent),
+                   "a share instead of a percentage",
+                   fmt::format("{}{:g}{} if that was a share", key("speed_percent: ", "", *step),
+                               100 * *step->speed_percent, key("", " %", *step)));
   if (const MotionStep* step = seen.fast.first)
-    warnings.push_back(seen.fast.warning(
+    seen.fast.warn(
+        add,
         fmt::format("the tool's speed is {:g} m/s (limit {:g} or less)", *step->tool_speed, fastest_tool_of(*step)),
         *step->tool_speed < surely_millimetres ? "a slip of the decimal point"
                                                : "a speed in another unit, such as mm/s instead of m/s",
         *step->tool_speed < surely_millimetres
             ? fmt::format("{:g} m/s if the decimal point slipped, in the program's unit", 0.1 * *step->tool_speed)
-            : fmt::format("{:g} m/s if that was mm/s, in the program's unit", 1e-3 * *step->tool_speed)));
+            : fmt::format("{:g} m/s if that was mm/s, in the program's unit", 1e-3 * *step->tool_speed));
   if (const MotionStep* step = seen.lazy.first)
-    warnings.push_back(seen.lazy.warning(
+    seen.lazy.warn(
+        add,
         fmt::format("the acceleration is {:g} % (limit more than {:g})", *step->acceleration_percent, least_percent),
         "a share instead of a percentage",
-        fmt::format("the acceleration in per cent: {:g} if that was a share", 100 * *step->acceleration_percent)));
+        fmt::format("the acceleration in per cent: {:g} if that was a share", 100 * *step->acceleration_percent));
   if (const MotionStep* step = seen.wide.first)
-    warnings.push_back(seen.wide.warning(
-        fmt::format("the zone is {:g} mm (limit {:g} or less)", 1e3 * *step->tool_zone, 1e3 * widest_path_zone),
+    seen.wide.warn(
+        add, fmt::format("the zone is {:g} mm (limit {:g} or less)", 1e3 * *step->tool_zone, 1e3 * widest_path_zone),
         "another unit or a slip of the decimal point",
         fmt::format("{}{:g} mm if there are zeros too many", key("zone_mm: ", "a zone of ", *step),
-                    10 * *step->tool_zone)));
+                    10 * *step->tool_zone));
   if (const MotionStep* step = seen.repeats.first)
-    warnings.push_back(seen.repeats.warning(fmt::format("repeat is {} (limit {} or less)", step->repeat, most_repeats),
-                                            "the repeats of the whole program, which goes round by itself",
-                                            "no repeat; hours of operation are fatigue.operating_hours_per_week"));
+    seen.repeats.warn(add, fmt::format("repeat is {} (limit {} or less)", step->repeat, most_repeats),
+                      "the repeats of the whole program, which goes round by itself",
+                      "no repeat; hours of operation are fatigue.operating_hours_per_week");
   if (const MotionStep* step = seen.creeping.first)
-    warnings.push_back(seen.creeping.warning(
+    seen.creeping.warn(
+        add,
         fmt::format("the tool's speed is {:.4g} mm/s (limit {:g} or more)", 1e3 * *step->tool_speed,
                     1e3 * slowest_tool),
         "m/s instead of mm/s, or a slip of the decimal point",
         fmt::format(
             "{}{:g}{} if that was m/s; 10 or 100 times as much if the decimal point slipped; leave it if the tool moves so slowly",
-            key("speed_mm_per_s: ", "a speed of ", *step), 1e6 * *step->tool_speed, key("", " mm/s", *step))));
+            key("speed_mm_per_s: ", "a speed of ", *step), 1e6 * *step->tool_speed, key("", " mm/s", *step)));
   if (const MotionStep* step = seen.turning.first)
-    warnings.push_back(seen.turning.warning(
+    seen.turning.warn(
+        add,
         fmt::format("speed_deg_per_s is {:.4g} (limit {:g} or more)", *step->speed / degree, slowest_move / degree),
         "radians per second instead of degrees",
-        fmt::format("speed_deg_per_s: {:.3g} if that was rad/s", *step->speed / degree / degree)));
+        fmt::format("speed_deg_per_s: {:.3g} if that was rad/s", *step->speed / degree / degree));
   if (const MotionStep* step = seen.waits.first)
-    warnings.push_back(seen.waits.warning(
+    seen.waits.warn(
+        add,
         fmt::format("{} is {:g} (limit {:g} or less)", key("dwell_s", "the wait in seconds", *step), step->dwell,
                     longest_dwell),
         "milliseconds instead of seconds",
-        fmt::format("{}{:g} if that was milliseconds", key("dwell_s: ", "a wait of ", *step), step->dwell / 1000)));
+        fmt::format("{}{:g} if that was milliseconds", key("dwell_s: ", "a wait of ", *step), step->dwell / 1000));
   if (motion.speed_percent != 100 && seen.moves > 0 && !seen.default_speed)
-    warnings.push_back(warning_of(
-        WarningKind::motion, motion.where.text(),
-        fmt::format("motion.speed_percent {:g} has no effect", motion.speed_percent),
+    add(motion.where, fmt::format("motion.speed_percent {:g} has no effect", motion.speed_percent),
         "each move of the program has its own speed",
         fmt::format("motion.override_percent: {:g} for the speed override of the controller",
-                    motion.speed_percent < least_percent ? 100 * motion.speed_percent : motion.speed_percent)));
+                    motion.speed_percent < least_percent ? 100 * motion.speed_percent : motion.speed_percent));
   if (motion.override_percent <= least_percent)
-    warnings.push_back(warning_of(
-        WarningKind::motion, motion.where.text(),
+    add(motion.where,
         fmt::format("motion.override_percent is {:g} (limit more than {:g})", motion.override_percent, least_percent),
-        "a share instead of a percentage",
-        fmt::format("motion.override_percent: {:g}", 100 * motion.override_percent)));
-  doubt_single_targets(motion.steps, warnings);
-  doubt_small_steps(motion.steps, warnings);
-  doubt_frames(motion.tools, "tool", motion, warnings);
-  doubt_frames(motion.work_objects, "work object", motion, warnings);
+        "a share instead of a percentage", fmt::format("motion.override_percent: {:g}", 100 * motion.override_percent));
+  doubt_single_targets(motion.steps, add);
+  doubt_small_steps(motion.steps, add);
+  doubt_frames(motion.tools, "tool", motion, add);
+  doubt_frames(motion.work_objects, "work object", motion, add);
   if (!seen.first) return warnings;
   double largest = 0, way = 0;  // [deg]
   for (std::size_t k = 0; k < seen.low.size(); ++k) {
@@ -415,37 +423,30 @@ std::vector<Warning> plausibility_of_steps(const Motion& motion) {
     way = std::max(way, (seen.high[k] - seen.low[k]) / degree);
   }
   if (seen.moves > 1 && seen.all_joints && way <= moves)
-    warnings.push_back(warning_of(
-        WarningKind::motion, seen.first->where.text(),
-        fmt::format("no axis moves by more than {:.2g} deg (limit {:.2g} or more)", way, moves),
-        "targets that are copies of one, or turns instead of degrees", "joints_deg: the angles of each target"));
+    add(seen.first->where, fmt::format("no axis moves by more than {:.2g} deg (limit {:.2g} or more)", way, moves),
+        "targets that are copies of one, or turns instead of degrees", "joints_deg: the angles of each target");
   if (largest <= most_radians && way > moves)
-    warnings.push_back(
-        warning_of(WarningKind::motion, seen.first->where.text(),
-                   fmt::format("no joint angle of the motion is larger than {:.3g} deg (limit {:.3g} or more)", largest,
-                               most_radians),
-                   "radians instead of degrees", "joints_deg in degrees; leave it if the robot moves so little"));
+    add(seen.first->where,
+        fmt::format("no joint angle of the motion is larger than {:.3g} deg (limit {:.3g} or more)", largest,
+                    most_radians),
+        "radians instead of degrees", "joints_deg in degrees; leave it if the robot moves so little");
   if (seen.all_joints && seen.untimed == seen.moves && seen.moves >= least_targets && way > moves &&
       seen.farthest <= near_targets)
-    warnings.push_back(warning_of(
-        WarningKind::motion, seen.first->where.text(),
+    add(seen.first->where,
         fmt::format(
             "{} targets without times are at most {:.2g} deg apart (limit more than {:.2g}): the robot stops at each",
             seen.moves, seen.farthest / degree, near_targets / degree),
         "a recording without its column of times",
-        "a column time_s with the time of each row, or motion.zone_deg if these are targets of a program"));
+        "a column time_s with the time of each row, or motion.zone_deg if these are targets of a program");
   if (seen.only_timed && way > moves && seen.fastest < least_speed)
-    warnings.push_back(warning_of(WarningKind::motion, seen.first->where.text(),
-                                  fmt::format("no axis is faster than {:.2g} deg/s (limit {:.2g} or more)",
-                                              seen.fastest / degree, least_speed / degree),
-                                  "milliseconds instead of seconds", "times in seconds"));
+    add(seen.first->where,
+        fmt::format("no axis is faster than {:.2g} deg/s (limit {:.2g} or more)", seen.fastest / degree,
+                    least_speed / degree),
+        "milliseconds instead of seconds", "times in seconds");
   return warnings;
 }
 
 namespace {
-
-using AddDoubt =
-    std::function<void(const Where&, const std::string& what, const std::string& cause, const std::string& remedy)>;
 
 /// Returns whether a place is in a URDF, whose lengths and angles are in m and rad.
 bool is_urdf(const Where& where) { return where.file.ends_with(".urdf") || where.file.ends_with(".xml"); }
@@ -941,12 +942,6 @@ void doubt_spreads(const Job& job, const AddDoubt& add) {
 Warning beyond_limit(WarningKind kind, const char* key, double value, const std::string& limit,
                      const std::string& cause, const std::string& remedy) {
   return warning_of(kind, "", fmt::format("{} is {:.6g} (limit {})", key, value, limit), cause, remedy);
-}
-
-AddDoubt adding_to(std::vector<Warning>& warnings) {
-  return [&](const Where& where, const std::string& what, const std::string& cause, const std::string& remedy) {
-    warnings.push_back(warning_of(WarningKind::motion, where.text(), what, cause, remedy));
-  };
 }
 
 /// Warns of the quaternion of a tool or work object in the order x, y, z, w that leaves the frame nearly unturned. Read as w, x,
