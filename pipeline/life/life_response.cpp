@@ -313,19 +313,6 @@ void check(const LifeResponse& response) {
   if (!whole) throw std::invalid_argument("lists of other lengths");
 }
 
-/// Returns how many of the last parameters of the strain side are missing in an older list: versions lacked `hose_stiffness`, or
-/// `rest` and `hose_stiffness`. 0: none is missing, or the list has another length.
-std::size_t later_parameters(std::size_t size, std::size_t whole) {
-  return size < whole && whole - size <= strain_parameters - of_rest ? whole - size : 0;
-}
-
-/// Returns a list of the uncertain parameters, or of the first of them, with 0 for each missing one.
-std::vector<double> completed(std::vector<double> numbers, std::size_t whole) {
-  const std::size_t lacks = later_parameters(numbers.size(), whole);
-  numbers.insert(numbers.begin() + static_cast<std::ptrdiff_t>(lacks > 0 ? strain_parameters - lacks : 0), lacks, 0.0);
-  return numbers;
-}
-
 /// Copies numbers into an array; throws std::invalid_argument for another length.
 template <std::size_t size>
 void fix(std::array<double, size>& array, const std::vector<double>& numbers) {
@@ -347,18 +334,14 @@ bool read_name(LifeResponse& response, const std::string& name, const std::strin
 void read_numbers(LifeResponse& response, const std::string& name, const std::vector<double>& numbers,
                   std::vector<double>& covariance) {
   const auto add_point = [&](Inside inside) {
-    fix(response.points.emplace_back(), completed(numbers, strain_parameters));
+    fix(response.points.emplace_back(), numbers);
     response.inside.push_back(inside);
   };
   if (name == "mean") {
-    const std::vector<double> mean = completed(numbers, uncertain_count);
-    response.knowledge.mean = Eigen::Map<const Eigen::VectorXd>(mean.data(), static_cast<Eigen::Index>(mean.size()));
+    response.knowledge.mean =
+        Eigen::Map<const Eigen::VectorXd>(numbers.data(), static_cast<Eigen::Index>(numbers.size()));
   } else if (name == "covariance") {
-    const std::vector<double> row = completed(numbers, uncertain_count);
-    const std::size_t lacks = later_parameters(numbers.size(), uncertain_count);
-    if (lacks > 0 && covariance.size() == (strain_parameters - lacks) * uncertain_count)
-      covariance.resize(covariance.size() + lacks * uncertain_count, 0.0);
-    covariance.insert(covariance.end(), row.begin(), row.end());
+    covariance.insert(covariance.end(), numbers.begin(), numbers.end());
   }
   if (name == "point")
     add_point(Inside::as_is);

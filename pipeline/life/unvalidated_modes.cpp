@@ -48,8 +48,7 @@ std::vector<UnvalidatedMode> unvalidated_from(const std::string& text) {
     std::vector<std::string> words;
     std::istringstream values(line);
     for (std::string word; std::getline(values, word, '\t');) words.push_back(word);
-    if (words.size() == 11) words.emplace_back();  // without a program line
-    if (words.size() < 12) throw std::invalid_argument("a mode without all of its values");
+    if (words.size() < 18) throw std::invalid_argument("a mode without all of its values");
     UnvalidatedMode& mode = modes.emplace_back();
     mode.mode = words[0], mode.dresspack = words[1];
     for (std::size_t i = 0; i < 3; ++i) mode.hours[i] = number_of(words[2 + i]);
@@ -59,11 +58,11 @@ std::vector<UnvalidatedMode> unvalidated_from(const std::string& text) {
     mode.place = words[9];
     mode.time = number_of(words[10]);
     mode.step = words[11];
-    if (words.size() > 12) mode.bends_at_limit = number_of(words[12]);
-    if (words.size() > 13) mode.note = words[13];
-    if (words.size() > 15) mode.found_share = number_of(words[14]), mode.unseen_share = number_of(words[15]);
-    if (words.size() > 16) mode.visible_from = number_of(words[16]);
-    if (words.size() > 17) mode.margin = number_of(words[17]);
+    mode.bends_at_limit = number_of(words[12]);
+    mode.note = words[13];
+    mode.found_share = number_of(words[14]), mode.unseen_share = number_of(words[15]);
+    mode.visible_from = number_of(words[16]);
+    mode.margin = number_of(words[17]);
   }
   return modes;
 }

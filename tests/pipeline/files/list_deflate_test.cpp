@@ -93,18 +93,4 @@ TEST_CASE("list deflate: what departs from the list before is what costs") {
   CHECK(bits_a_number(wild) < 32 + 0.1);  // numbers that do not repeat are stored unpacked
 }
 
-TEST_CASE("list deflate: files of older versions, shuffled before, are read") {
-  const Scratch scratch;
-  Format older{"dresslife-sample", 1, "dresslife-maker", "tests", {}, {}};
-  older.datasets = {{"/a", Type::u32, {"sample"}, "1", ""}};
-  Format newer = older;
-  older.datasets[0].deflate = true;
-  newer.datasets[0].lists = true;
-  const Numbers numbers = similar_lists(70001, 20, 13);
-  FileWriter writer(scratch / "f.h5", older);
-  writer.append("/a", std::span<const std::uint32_t>(numbers));
-  writer.commit();
-  CHECK(FileReader(scratch / "f.h5", newer).read<std::uint32_t>("/a") == numbers);
-}
-
 }  // namespace dresslife::pipeline

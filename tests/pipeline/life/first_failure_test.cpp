@@ -408,23 +408,12 @@ TEST_CASE("modes and their text lead to each other, also from a response alone, 
   CHECK_THROWS_AS(modes_from_text(one.text() + "mode second\n"), std::exception);
 }
 
-TEST_CASE("unvalidated modes are read as written, also without the last values, which older files lack") {
+TEST_CASE("unvalidated modes are read as written") {
   UnvalidatedMode kink;
   kink.mode = UnvalidatedMode::kink, kink.hours = {1, 2, 3}, kink.first_share = 0.1, kink.together_p10 = 4,
   kink.place = "hose 5";
   kink.found_share = 0.2, kink.unseen_share = 0.3, kink.visible_from = 0.5, kink.margin = 1.5;
-  std::string text = unvalidated_text({kink});
-  CHECK(unvalidated_from(text) == std::vector{kink});
-  const UnvalidatedMode unset;
-  const auto check_without = [&](auto UnvalidatedMode::*value) {
-    text.erase(text.rfind('\t'));
-    kink.*value = unset.*value;
-    CHECK(unvalidated_text(unvalidated_from(text)) == unvalidated_text({kink}));  // an unknown value equals no number
-  };
-  check_without(&UnvalidatedMode::margin);
-  check_without(&UnvalidatedMode::visible_from);
-  kink.found_share = unset.found_share;  // written and read together with unseen_share
-  check_without(&UnvalidatedMode::unseen_share);
+  CHECK(unvalidated_from(unvalidated_text({kink})) == std::vector{kink});
 }
 
 TEST_CASE("percentiles are straight between the middles of samples, shares of outliving count pairs") {
