@@ -123,16 +123,19 @@ void CsvReader::read_quoted(CsvCell& cell) {
                      "write a quote within quotes twice");
 }
 
-std::string width_remedy(const CsvRow& row, std::size_t titles, char separator) {
+void check_width(const CsvReader& table, const CsvRow& titles, const CsvRow& row) {
+  if (row.size() == titles.size()) return;
   const auto digits = [](const std::string& text) {
     return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
   };
   constexpr std::size_t decimals = 3;
-  for (std::size_t k = 0; separator == ',' && row.size() > titles && k + 1 < row.size(); ++k)
+  std::string remedy = "fill its cells, and quote those that contain the separator, such as \"12,5\"";
+  for (std::size_t k = row.size() - 1; table.separator() == ',' && row.size() > titles.size() && k-- > 0;)
     if (digits(row[k].text) && digits(row[k + 1].text) && row[k + 1].text.size() <= decimals)
-      return fmt::format("if {0},{1} is one number with a decimal comma, write {0}.{1} or quote it: \"{0},{1}\"",
-                         row[k].text, row[k + 1].text);
-  return "fill its cells, and quote those that contain the separator, such as \"12,5\"";
+      remedy = fmt::format("if {0},{1} is one number with a decimal comma, write {0}.{1} or quote it: \"{0},{1}\"",
+                           row[k].text, row[k + 1].text);
+  throw InputError(table.where(row.back()),
+                   fmt::format("a row of {} cells (the table has {} columns)", row.size(), titles.size()), remedy);
 }
 
 void check_titles(const CsvReader& table, const CsvRow& titles, std::initializer_list<std::string_view> needed) {

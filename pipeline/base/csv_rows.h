@@ -56,9 +56,9 @@ class CsvReader {
   int line_ = 0;
 };
 
-/// Returns the remedy for a row of another number of cells than titles: that of decimal commas if it has two neighbours such as "80" and
-/// "5" too many.
-std::string width_remedy(const CsvRow& row, std::size_t titles, char separator);
+/// Checks that a row has as many cells as titles. Errors: InputError; its remedy is that of decimal commas if the row has two
+/// neighbours such as "80" and "5" too many.
+void check_width(const CsvReader& table, const CsvRow& titles, const CsvRow& row);
 
 /// Checks the row of titles. Errors: InputError for an empty title, a title that occurs twice, and a missing one of `needed`.
 void check_titles(const CsvReader& table, const CsvRow& titles, std::initializer_list<std::string_view> needed);

@@ -1,5 +1,6 @@
 #include "pipeline/base/text.h"
 
+#include <algorithm>
 #include <cctype>
 
 namespace dresslife::pipeline {
@@ -46,6 +47,16 @@ std::vector<std::string_view> words_in(std::string_view text, std::string_view b
     at += words.back().size();
   }
   return words;
+}
+
+std::vector<std::string> parts_between(std::string_view text, std::string_view separator) {
+  std::vector<std::string> parts;
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t end = std::min(text.find(separator, at), text.size());
+    parts.emplace_back(text.substr(at, end - at));
+    at = end + separator.size();
+  }
+  return parts;
 }
 
 }  // namespace dresslife::pipeline

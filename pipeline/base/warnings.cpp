@@ -11,6 +11,7 @@
 #include "pipeline/base/lists.h"
 #include "pipeline/base/readable.h"
 #include "pipeline/base/screen.h"
+#include "pipeline/base/text.h"
 #include "pipeline/base/warning_words.h"
 
 namespace dresslife::pipeline {
@@ -128,9 +129,7 @@ std::vector<Warning> warnings_from(const std::string& text) {
   std::vector<Warning> warnings;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
-    std::vector<std::string> fields;
-    std::istringstream parts(line);
-    for (std::string part; std::getline(parts, part, '\t');) fields.push_back(part);
+    const std::vector<std::string> fields = parts_between(line, "\t");
     if (fields.size() < 3) continue;
     const auto kind = kind_named(fields[0]);
     if (!kind) continue;

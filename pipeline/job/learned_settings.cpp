@@ -8,6 +8,7 @@
 #include "pipeline/base/digest.h"
 #include "pipeline/base/joined.h"
 #include "pipeline/base/lists.h"
+#include "pipeline/base/text.h"
 #include "pipeline/settings/fields.h"
 #include "pipeline/settings/problems.h"
 
@@ -17,16 +18,6 @@ namespace {
 constexpr std::string_view separator = ", ";
 constexpr std::string_view any = "any";
 constexpr std::string_view slip_key = "strain.slip";
-
-std::vector<std::string> split(std::string_view text) {
-  std::vector<std::string> parts;
-  for (std::size_t at = 0; at <= text.size();) {
-    const std::size_t end = std::min(text.find(separator, at), text.size());
-    parts.emplace_back(text.substr(at, end - at));
-    at = end + separator.size();
-  }
-  return parts;
-}
 
 std::string listed(const std::vector<std::string>& parts, std::string_view by = separator) { return joined(parts, by); }
 
@@ -51,7 +42,7 @@ std::string slip_of(const Job& job, const Dresspack& dresspack) {
 /// Returns whether two slip settings agree. Levels are counted from the wires, because the cable may be in a hose in only one of
 /// the jobs.
 bool slips_agree(const std::string& one, const std::string& other) {
-  const std::vector<std::string> a = split(one), b = split(other);
+  const std::vector<std::string> a = parts_between(one, separator), b = parts_between(other, separator);
   for (std::size_t level = 1; level <= std::min(a.size(), b.size()); ++level) {
     const std::string &of_a = a[a.size() - level], &of_b = b[b.size() - level];
     if (of_a != of_b && of_a != any && of_b != any) return false;
@@ -61,7 +52,7 @@ bool slips_agree(const std::string& one, const std::string& other) {
 
 /// Returns one word if all levels have the same.
 std::string slip_words(const std::string& slip) {
-  std::vector<std::string> words = split(slip);
+  std::vector<std::string> words = parts_between(slip, separator);
   if (words.size() > 1 && words.front() == any) words.erase(words.begin());
   const bool alike = std::ranges::all_of(words, [&](const auto& one) { return one == words.front(); });
   return alike ? words.front() : "[" + listed(words) + "]";
@@ -165,7 +156,7 @@ void add_job(const Job& job, LearnedUnder& under) {
 
 /// Returns the words of `of` that are not in `beside`.
 std::string different(const std::string& of, const std::string& beside) {
-  const std::vector<std::string> all = split(of), others = split(beside);
+  const std::vector<std::string> all = parts_between(of, separator), others = parts_between(beside, separator);
   const auto left =
       filtered(all, [&](const std::string& one) { return std::ranges::find(others, one) == others.end(); });
   return left.empty() ? "none" : listed(left);

@@ -6,6 +6,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "pipeline/base/text.h"
+
 namespace dresslife::pipeline {
 namespace {
 
@@ -45,9 +47,7 @@ std::vector<UnvalidatedMode> unvalidated_from(const std::string& text) {
   std::vector<UnvalidatedMode> modes;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
-    std::vector<std::string> words;
-    std::istringstream values(line);
-    for (std::string word; std::getline(values, word, '\t');) words.push_back(word);
+    const std::vector<std::string> words = parts_between(line, "\t");
     if (words.size() < 18) throw std::invalid_argument("a mode without all of its values");
     UnvalidatedMode& mode = modes.emplace_back();
     mode.mode = words[0], mode.dresspack = words[1];

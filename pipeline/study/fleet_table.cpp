@@ -32,10 +32,7 @@ Node value_of(const CsvCell& cell, const Where& where) {
 }
 
 Variant variant_of(const CsvReader& table, const CsvRow& titles, const CsvRow& row) {
-  if (row.size() != titles.size())
-    throw InputError(table.where(row.back()),
-                     fmt::format("a row of {} cells (the table has {} columns)", row.size(), titles.size()),
-                     width_remedy(row, titles.size(), table.separator()));
+  check_width(table, titles, row);
   Variant variant;
   for (std::size_t k = 0; k < row.size(); ++k) {
     const Where where = table.where(row[k]);

@@ -14,21 +14,12 @@ using pipeline::InputError;
 using pipeline::Where;
 
 constexpr int columns = 15;
-constexpr const char* column_names[columns] = {"t",
-                                               "x of the base clamp",
-                                               "y of the base clamp",
-                                               "z of the base clamp",
-                                               "qw of the base clamp",
-                                               "qx of the base clamp",
-                                               "qy of the base clamp",
-                                               "qz of the base clamp",
-                                               "x of the tool clamp",
-                                               "y of the tool clamp",
-                                               "z of the tool clamp",
-                                               "qw of the tool clamp",
-                                               "qx of the tool clamp",
-                                               "qy of the tool clamp",
-                                               "qz of the tool clamp"};
+
+std::string column_name(int column) {
+  constexpr const char* parts[] = {"x", "y", "z", "qw", "qx", "qy", "qz"};
+  return column == 0 ? "t" : fmt::format("{} of the {} clamp", parts[(column - 1) % 7], column <= 7 ? "base" : "tool");
+}
+
 /// Four decimals of each component give |q| within 1e-4 of 1; a larger error means other numbers.
 constexpr double length_tolerance = 1e-3;
 /// Dot product of the quaternions of successive rows for a rotation of 120 deg.
@@ -78,7 +69,7 @@ class Rows {
   double value_of(const CsvCell& cell, int column) const {
     const std::optional<double> value = pipeline::number_in(cell.text);
     if (!value || !std::isfinite(*value))
-      fail(cell.column, fmt::format("'{}' is not a finite number ({})", cell.text, column_names[column]),
+      fail(cell.column, fmt::format("'{}' is not a finite number ({})", cell.text, column_name(column)),
            "write a decimal number");
     return *value;
   }

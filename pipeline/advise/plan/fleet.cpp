@@ -24,10 +24,7 @@ constexpr std::chrono::days longest_plan{3653};  // duties and robots change ear
 class Row {
  public:
   Row(const CsvReader& table, const CsvRow& titles, const CsvRow& row) : table_(table) {
-    if (row.size() != titles.size())
-      throw InputError(table.where(row.back()),
-                       fmt::format("a row of {} cells (the table has {} columns)", row.size(), titles.size()),
-                       width_remedy(row, titles.size(), table.separator()));
+    check_width(table, titles, row);
     for (std::size_t k = 0; k < row.size(); ++k) cells_[titles[k].text] = &row[k];
   }
   Where where(const std::string& title) const { return table_.where(*cells_.at(title)); }

@@ -65,7 +65,7 @@ class Krl final : public Dialect {
 
   // ---- krl.cpp: moves
   static std::optional<Instruction::Kind> kind_of(const std::string& name);
-  bool move(Instruction::Kind kind, const Statement& statement, Interpreter& run);
+  void move(Instruction::Kind kind, const Statement& statement, Interpreter& run);
   void move_now(Instruction::Kind kind, const Statement& statement, Interpreter& run);
   void go_round(const Statement& statement, const Expression* whole_angle,
                 const std::optional<std::array<double, 6>>& start, Instruction move, Interpreter& run);
@@ -96,7 +96,7 @@ class Krl final : public Dialect {
   bool read_path_speed(const Statement& statement, Instruction& move, Interpreter& run);
   bool read_override(const Statement& statement, Instruction& move, Interpreter& run);
   void read_zone(const Statement& statement, Instruction& move, Interpreter& run);
-  bool wait(const Statement& statement, Interpreter& run);
+  void wait(const Statement& statement, Interpreter& run);
   static void wait_for_robot(const Statement& statement, Interpreter& run);
   void interrupt(const Statement& statement, Interpreter& run);
   void handlers_happen(long number, Interpreter& run);

@@ -704,7 +704,7 @@ void Krl::interrupt(const Statement& statement, Interpreter& run) {
 }
 
 /// Runs a move. The settings of WITH apply to this move only.
-bool Krl::move(Instruction::Kind kind, const Statement& statement, Interpreter& run) {
+void Krl::move(Instruction::Kind kind, const Statement& statement, Interpreter& run) {
   std::map<std::string, std::pair<Value, Place>> before;
   const auto keep = [&](const std::string& name) {
     if (const Value* value = run.variable(name)) before.emplace(name, std::pair(*value, run.origin(name_at(name, {}))));
@@ -723,10 +723,9 @@ bool Krl::move(Instruction::Kind kind, const Statement& statement, Interpreter& 
     }
   move_now(kind, statement, run);
   for (auto& [name, kept] : before) run.set(name, std::move(kept.first), kept.second);
-  return true;
 }
 
-bool Krl::wait(const Statement& statement, Interpreter& run) {
+void Krl::wait(const Statement& statement, Interpreter& run) {
   const Value time = run.answered(statement.arguments[0]);
   if (!time.is_number()) {
     run.ask_for(time, statement.place, "waits for a time that is known only while the robot runs",
@@ -739,7 +738,6 @@ bool Krl::wait(const Statement& statement, Interpreter& run) {
     wait.dwell = time.number;
     run.emit(wait, statement);
   }
-  return true;
 }
 
 namespace {
@@ -780,31 +778,20 @@ void Krl::may_have_run(const Statement& statement, const Cause& why, Interpreter
 }
 
 bool Krl::instruction(const Statement& statement, Interpreter& run) {
-  if (const auto kind = kind_of(statement.name)) return move(*kind, statement, run);
-  if (statement.name == "wait_sec") return wait(statement, run);
-  if (statement.name == advance_stop) {
-    wait_for_robot(statement, run);
-    return true;
-  }
-  if (statement.name == "asyptp") {
-    run.note(statement.place, "ASYPTP: external axes move on their own, beside the robot", true);
-    return true;
-  }
-  if (statement.name == "bas") {
-    basics(statement, run);
-    return true;
-  }
-  if (statement.name == "rsi_movecorr") {
+  const std::string& name = statement.name;
+  if (const auto kind = kind_of(name)) return move(*kind, statement, run), true;
+  if (name == "wait_sec") return wait(statement, run), true;
+  if (name == advance_stop) return wait_for_robot(statement, run), true;
+  if (name == "bas") return basics(statement, run), true;
+  if (name.starts_with("interrupt_")) return interrupt(statement, run), true;
+  if (name == "asyptp")
+    return run.note(statement.place, "ASYPTP: external axes move on their own, beside the robot", true), true;
+  if (name == "rsi_movecorr") {
     numbers_.reset(), axes_.reset();
     lost_ = {};
-    run.note(statement.place, "RSI_MOVECORR: a sensor leads the robot", true);
-    return true;
+    return run.note(statement.place, "RSI_MOVECORR: a sensor leads the robot", true), true;
   }
-  if (statement.name.starts_with("interrupt_")) {
-    interrupt(statement, run);
-    return true;
-  }
-  if (statement.name == "trigger") {  // its action runs during a move, before or after the next statements
+  if (name == "trigger") {  // its action runs during a move, before or after the next statements
     const Statement& inner = statement.branches[0].body[0];
     const std::string why = fmt::format("is written by the TRIGGER in {}", run.short_place(statement.place));
     if (inner.kind == Statement::Kind::assign)
@@ -814,7 +801,7 @@ bool Krl::instruction(const Statement& statement, Interpreter& run) {
     run.note(statement.place, "TRIGGER: input, output or logic");
     return true;
   }
-  if (statement.name == "p00") {  // the line's controller gives the program number
+  if (name == "p00") {  // the line's controller gives the program number
     run.make_unknown(name_at("pgno", statement.place),
                      {"", "is the program's number that the line's controller sends"});
     run.note(statement.place, "P00: input, output or logic");

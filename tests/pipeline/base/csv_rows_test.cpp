@@ -53,7 +53,8 @@ TEST_CASE("CSV: a row that is too long has the remedy of decimal commas if it sh
   const auto remedy = [](const std::string& row, std::size_t titles) {
     CsvReader reader(row + "\n", "t.csv");
     const CsvRow cells = reader.next();
-    return width_remedy(cells, titles, reader.separator());
+    const std::string refused = message_of([&] { check_width(reader, CsvRow(titles), cells); });
+    return refused.substr(refused.find("; ") + 2);
   };
   CHECK(remedy("R01,fast,80,5,900", 4) ==
         "if 80,5 is one number with a decimal comma, write 80.5 or quote it: \"80,5\"");
