@@ -1,5 +1,5 @@
-// User errors at the command line: one line with place, reason and remedy, exit status 1, and no file left behind. (The tests
-// of pipeline check every message of the job reader.)
+// User errors at the command line: one line with place, reason and remedy, exit status 1, and no file left behind. Wrong jobs:
+// wrong_inputs_test.cpp.
 #include <algorithm>
 
 #include "tests/catch.h"
@@ -23,40 +23,6 @@ void check_refused(const Scratch& scratch, const Outcome& outcome, const std::st
 
 }  // namespace
 
-TEST_CASE("dresslife-sim refuses a job with one line that names the place") {
-  Scratch scratch;
-  write_small_job(scratch);
-  const std::string job = content(scratch / "job.yaml");
-  struct Case {
-    std::string from, to, words;
-  };
-  const Case cases[] = {
-      {"free_length_m: 0.9", "free_length_mm: 900",
-       "job.yaml:20:3: error: unknown key 'routing.free_length_mm'; its unit is m, write 'free_length_m: 0.9'"},
-      {"free_length_m: 0.9", "free_length_m: 0.9 m",
-       "job.yaml:20:18: error: routing.free_length_m is '0.9 m' (must be a number"},
-      {"free_length_m: 0.9", "free_length_m: .nan",
-       "job.yaml:20:18: error: routing.free_length_m is .nan (must be finite)"},
-      {"free_length_m: 0.9", "free_length_m: -1", "job.yaml:20:18: error: routing.free_length_m is -1 (must be > 0 m)"},
-      {"free_length_m: 0.9", "free_length_m: 0.9\n  free_length_m: 1",
-       "job.yaml:21:3: error: duplicate key 'free_length_m'"},
-      {"routing:\n  free_length_m: 0.9\n", "", "job.yaml:1:1: error: routing is missing"},
-      {"segments: 12", "segmets: 12",
-       "job.yaml:22:3: error: unknown key 'simulation.segmets'; did you mean 'segments'?"},
-      {"segments: 12", "segments: 2", "job.yaml:22:13: error: simulation.segments is 2 (must be 4 .. 2000)"},
-      {"sample_rate_Hz: 50", "sample_rate_Hz: 60",
-       "job.yaml:22:3: error: simulation.sample_rate_Hz 60 leaves 3.33333 steps of 5 ms"},
-      {"material: copper", "material: coper", "job.yaml:18:99: error: 'coper' is not in the catalogue"},
-      {"clamp_poses: poses.csv", "clamp_poses: none.csv", ""},
-      {"motion: {", "motion: {{", "job.yaml:1:"},
-  };
-  for (const Case& c : cases) {
-    scratch.write("job.yaml", edited(job, c.from, c.to));
-    INFO(c.to);
-    check_refused(scratch, run(scratch, "dresslife-sim", "job.yaml -o motion.h5"), c.words, "motion.h5");
-  }
-}
-
 TEST_CASE("dresslife-sim refuses what is not there") {
   Scratch scratch;
   check_refused(scratch, run(scratch, "dresslife-sim", "job.yaml -o motion.h5"),
@@ -66,16 +32,6 @@ TEST_CASE("dresslife-sim refuses what is not there") {
                 "none/motion.h5: error: lies in a folder that does not exist", "none/motion.h5");
   check_refused(scratch, run(scratch, "dresslife-sim", "job.yaml -o motion.h5 --set segments"),
                 "--set segments: error: is not key.path=value", "motion.h5");
-}
-
-TEST_CASE("dresslife-sim says when, in which step and by how much a dresspack is too short") {
-  Scratch scratch;
-  write_small_job(scratch);
-  scratch.write("job.yaml", edited(content(scratch / "job.yaml"), "free_length_m: 0.9", "free_length_m: 0.75"));
-  const Outcome outcome = run(scratch, "dresslife-sim", "job.yaml -o motion.h5");
-  check_refused(scratch, outcome, "job.yaml:", "motion.h5");
-  CHECK(outcome.err.find("too short") != std::string::npos);
-  CHECK(outcome.err.find(" mm") != std::string::npos);
 }
 
 TEST_CASE("the later stages refuse files that are not theirs, cut off or damaged") {

@@ -12,6 +12,7 @@
 #include "tests/catch.h"
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
+#include "tests/strain/hose_poses.h"
 
 using namespace dresslife;
 using pipeline::FileReader;
@@ -31,35 +32,6 @@ struct Hose {
   double length, much;
 };
 const Hose thick{"main hose", 8, 1.2, 1}, thin{"sensor cable", 5, 0.9, 1.7};
-
-struct Poses {
-  std::vector<double> position, orientation, clamp_position, clamp_orientation;
-};
-
-void add_poses(const Hose& hose, std::size_t t, Poses& poses) {
-  const Eigen::Vector3d rate =
-      hose.much * Eigen::Vector3d(2 * std::sin(0.3 * t), 1.5 * std::cos(0.2 * t), 3 * std::sin(0.1 * t));
-  const double l = hose.length / hose.segments;
-  Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
-  Eigen::Vector3d x(0, 0, 0);
-  const auto put = [&](std::vector<double>& positions, std::vector<double>& orientations) {
-    positions.insert(positions.end(), {x.x(), x.y(), x.z()});
-    orientations.insert(orientations.end(), {q.w(), q.x(), q.y(), q.z()});
-  };
-  const auto advance = [&](double by) {
-    const double angle = rate.norm() * by;
-    if (angle > 0) q = q * Eigen::Quaterniond(Eigen::AngleAxisd(angle, rate.normalized()));
-  };
-  put(poses.clamp_position, poses.clamp_orientation);
-  advance(l / 2);
-  for (std::size_t i = 0; i < hose.segments; ++i) {
-    x += l / 2 * (q * Eigen::Vector3d::UnitZ());
-    put(poses.position, poses.orientation);
-    x += l / 2 * (q * Eigen::Vector3d::UnitZ());
-    advance(i + 1 < hose.segments ? l : l / 2);
-  }
-  put(poses.clamp_position, poses.clamp_orientation);
-}
 
 void stamp(FileWriter& file) {
   for (const char* name : {"job", "history", "input_sha256"}) file.attribute(name, "");
@@ -82,13 +54,11 @@ void write_motion(const std::filesystem::path& name, const std::vector<Hose>& ho
   file.set_axis("clamp", clamp_segment.size());
   file.set_axis("dresspack", names.size());
   for (std::size_t t = 0; t < samples; ++t) {
-    Poses poses;
-    for (const Hose& hose : hoses) add_poses(hose, t, poses);
+    tests::HosePoses poses;
+    const Eigen::Vector3d rate(2 * std::sin(0.3 * t), 1.5 * std::cos(0.2 * t), 3 * std::sin(0.1 * t));
+    for (const Hose& hose : hoses) poses.add(hose.much * rate, hose.length, hose.segments);
     file.append("/time", std::vector<double>{0.04 * t});
-    file.append("/segment/position", poses.position);
-    file.append("/segment/orientation", poses.orientation);
-    file.append("/clamp/position", poses.clamp_position);
-    file.append("/clamp/orientation", poses.clamp_orientation);
+    poses.append_to(file);
     file.append("/program/step", std::vector<std::int32_t>{static_cast<std::int32_t>(t / 10)});
     file.append("/contact/count", std::vector<std::int32_t>{0});
     file.append("/contact/max_depth", std::vector<double>{0});

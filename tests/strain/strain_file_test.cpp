@@ -25,6 +25,7 @@
 #include "tests/catch.h"
 #include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
+#include "tests/strain/hose_poses.h"
 
 using namespace dresslife;
 using pipeline::FileReader;
@@ -55,33 +56,10 @@ void write_motion(const std::filesystem::path& name, std::size_t count = samples
   FileWriter file(name, pipeline::motion_format());
   file.set_axis("segment", segments);
   file.set_axis("clamp", 2);
-  const double l = length / segments;
   const auto append_places = [&](const std::string& group, const Eigen::Vector3d& rate) {
-    std::vector<double> position, orientation, clamp_position, clamp_orientation;
-    Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
-    Eigen::Vector3d x(0, 0, 0);
-    auto put = [&](std::vector<double>& positions, std::vector<double>& orientations) {
-      positions.insert(positions.end(), {x.x(), x.y(), x.z()});
-      orientations.insert(orientations.end(), {q.w(), q.x(), q.y(), q.z()});
-    };
-    auto advance = [&](double by) {
-      const double angle = rate.norm() * by;
-      if (angle > 0) q = q * Eigen::Quaterniond(Eigen::AngleAxisd(angle, rate.normalized()));
-    };
-    auto half = [&] { x += l / 2 * (q * Eigen::Vector3d::UnitZ()); };
-    put(clamp_position, clamp_orientation);
-    advance(l / 2);
-    for (std::size_t i = 0; i < segments; ++i) {
-      half();
-      put(position, orientation);
-      half();
-      advance(i + 1 < segments ? l : l / 2);
-    }
-    put(clamp_position, clamp_orientation);
-    file.append(group + "/segment/position", position);
-    file.append(group + "/segment/orientation", orientation);
-    file.append(group + "/clamp/position", clamp_position);
-    file.append(group + "/clamp/orientation", clamp_orientation);
+    tests::HosePoses poses;
+    poses.add(rate, length, segments);
+    poses.append_to(file, group);
   };
   for (std::size_t t = 0; t < count; ++t) {
     append_places("", rate_of(t));
@@ -102,7 +80,7 @@ void write_motion(const std::filesystem::path& name, std::size_t count = samples
       file.append(dataset, std::span<const std::int32_t>());
   if (softer) file.attribute("softer_z", -1.2);
   if (!loops.empty()) file.append("/program/loop", loops);
-  file.append("/segment/length", std::vector<double>(segments, l));
+  file.append("/segment/length", std::vector<double>(segments, length / segments));
   file.append("/program/text", std::vector<std::string>{"nod", "rest", "nod", "rest", "nod", "home"});
   file.attribute("job", "");
   file.attribute("history", "made for a test");
