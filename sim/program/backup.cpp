@@ -19,11 +19,8 @@ namespace {
 
 /// Whether a file can contain moves, not only settings.
 bool holds_moves(const fs::path& file) {
-  const std::string end = lower_case(file.extension().string());
-  const auto among = [&](std::initializer_list<const char*> ends) {
-    return std::ranges::any_of(ends, [&](const char* other) { return end == other; });
-  };
-  return among({".mod", ".modx", ".prg", ".sys", ".sysx", ".src", ".ls", ".jbi"});
+  static const pipeline::WordSet ends = pipeline::word_set(".mod .modx .prg .sys .sysx .src .ls .jbi");
+  return ends.contains(lower_case(file.extension().string()));
 }
 
 /// Returns the language of a file of a backup; VAR.DAT contains the variables of a Motoman.

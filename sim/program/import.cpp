@@ -109,28 +109,17 @@ pipeline::MotionStep step_of(const Instruction& instruction, const Program& prog
 }  // namespace
 
 Language language_of(const std::filesystem::path& file) {
-  static const std::pair<const char*, Language> ends[] = {{".mod", Language::rapid},
-                                                          {".pgf", Language::rapid},
-                                                          {".modx", Language::rapid},
-                                                          {".prg", Language::rapid},
-                                                          {".sys", Language::rapid},
-                                                          {".sysx", Language::rapid},
-                                                          {".src", Language::krl},
-                                                          {".dat", Language::krl},
-                                                          {".sub", Language::krl},
-                                                          {".ls", Language::fanuc},
-                                                          {".va", Language::fanuc},
-                                                          {".jbi", Language::inform},
-                                                          {".cnd", Language::inform},
-                                                          {".script", Language::urscript},
-                                                          {".urscript", Language::urscript},
-                                                          {".csv", Language::joint_columns},
-                                                          {".yaml", Language::ros_trajectory},
-                                                          {".yml", Language::ros_trajectory},
-                                                          {".json", Language::ros_trajectory}};
+  static const std::pair<Language, pipeline::WordSet> ends[] = {
+      {Language::rapid, pipeline::word_set(".mod .modx .prg .sys .sysx .pgf")},
+      {Language::krl, pipeline::word_set(".src .dat .sub")},
+      {Language::fanuc, pipeline::word_set(".ls .va")},
+      {Language::inform, pipeline::word_set(".jbi .cnd")},
+      {Language::urscript, pipeline::word_set(".script .urscript")},
+      {Language::joint_columns, {".csv"}},
+      {Language::ros_trajectory, pipeline::word_set(".yaml .yml .json")}};
   const std::string extension = lower_case(file.extension().string());
-  for (const auto& [end, language] : ends)
-    if (extension == end) return language;
+  for (const auto& [language, of_language] : ends)
+    if (of_language.contains(extension)) return language;
   throw pipeline::InputError(
       {file.string()}, fmt::format("is no robot program by its name ('{}')", extension),
       "rename it by its language: RAPID (.mod, .prg, .sys, .pgf), KRL (.src, .dat), Fanuc (.ls), INFORM "
