@@ -28,8 +28,9 @@ RankingColumn of(std::string name, std::string unit, std::string meaning, Member
 /// Returns a column whose cells are computed for some rows and empty for the others.
 template <class Applies, class Value>
 RankingColumn where(std::string name, std::string unit, std::string meaning, Applies applies, Value value) {
-  return {std::move(name), std::move(unit), std::move(meaning),
-          [=](const RankingRow& row) { return applies(row) ? cell(value(row)) : std::string(); }};
+  return {std::move(name), std::move(unit), std::move(meaning), [=](const RankingRow& row) {
+            return std::invoke(applies, row) ? cell(std::invoke(value, row)) : std::string();
+          }};
 }
 
 bool always(const RankingRow&) { return true; }
@@ -61,20 +62,20 @@ class Table {
     add_lives(
         "conductor_life_hours_{}",
         "by then {} have a conductor that has lost its share of wires at one place, by the scatter of wires alone",
-        [](const RankingRow& row) -> const Lives& { return row.conductor_hours; });
+        &RankingRow::conductor_hours);
     add_hose_and_causes();
     add_lives("first_wire_life_hours_{}", "by then {} have a broken wire, by the scatter of wires alone",
-              [](const RankingRow& row) -> const Lives& { return row.first_wire_hours; });
+              &RankingRow::first_wire_hours);
     add_failure_and_rating();
     add_lives("scatter_life_hours_{}", "life_hours_p10 with the scatter of wires only: all inputs are exact",
-              [](const RankingRow& row) -> const Lives& { return row.scatter_hours; });
+              &RankingRow::scatter_hours);
     add_uncertainty();
     add_warnings();
     add_rank();
     add_lives("life_hours_{}_all_glued", "life_hours_p10 if everything inside the cables were glued",
-              [](const RankingRow& row) -> const Lives& { return row.glued_hours; });
+              &RankingRow::glued_hours);
     add_lives("life_hours_{}_all_free", "life_hours_p10 if everything inside the cables slipped without friction",
-              [](const RankingRow& row) -> const Lives& { return row.free_hours; });
+              &RankingRow::free_hours);
     add_test();
     add_abrasion();
     add_rating();
@@ -100,10 +101,8 @@ class Table {
            &RankingRow::moving_places));
     add_kind(WarningKind::other_values);
     add_kind(WarningKind::side);
-    add(where(
-        "life_repeats_p10", "1", "repeats of the motion in life_hours_p10: compares jobs that do the same work",
-        [](const RankingRow& row) { return row.planned(); },
-        [](const RankingRow& row) { return row.headline_repeats(); }));
+    add(where("life_repeats_p10", "1", "repeats of the motion in life_hours_p10: compares jobs that do the same work",
+              &RankingRow::planned, &RankingRow::headline_repeats));
   }
   std::vector<RankingColumn> columns;
 
@@ -120,7 +119,7 @@ class Table {
   void add_lives(const char* name, const char* meaning, Of lives) {
     for (std::size_t i = 0; i < ends.size(); ++i)
       add(where(fmt::format(fmt::runtime(name), ends[i]), "h", meaning_of(meaning, i), always,
-                [lives, i](const RankingRow& row) { return lives(row)[i]; }));
+                [lives, i](const RankingRow& row) { return std::invoke(lives, row)[i]; }));
   }
   void add_mode_lives(const char* name, const char* meaning, const char* mode) {
     for (std::size_t i = 0; i < ends.size(); ++i)
@@ -209,7 +208,7 @@ class Table {
            &RankingRow::life_repeats));
     add(of("life_hours", "h", "the same in hours of motion", &RankingRow::life_hours));
     add(where("worst_segment_from_tool", "1", "segment of the worst wire's place, 1 is nearest to the tool", evaluated,
-              [](const RankingRow& row) { return row.worst_segment_from_tool; }));
+              &RankingRow::worst_segment_from_tool));
     add(of("worst_component", "text", "path of the worst wire, outermost part first", &RankingRow::worst_component));
     add(of("damage_per_repeat", "1", "of the worst wire", &RankingRow::damage_per_repeat));
     add(of("life_months", "months", "life_hours at the job's operating hours per week", &RankingRow::life_months));
@@ -219,9 +218,9 @@ class Table {
     add(of("life_repeats_all_free", "1", "life_repeats if everything in the cables slipped without friction",
            &RankingRow::life_repeats_all_free));
     add(where("worst_position_from_tool_m", "m", "the worst wire's place along the dresspack, from the tool clamp",
-              evaluated, [](const RankingRow& row) { return row.worst_position_from_tool; }));
+              evaluated, &RankingRow::worst_position_from_tool));
     add(where("worst_time_s", "s", "when the most damaging cycle of the worst wire closes", evaluated,
-              [](const RankingRow& row) { return row.worst_time; }));
+              &RankingRow::worst_time));
     add(of("worst_step", "text", "program line that runs then", &RankingRow::worst_step));
     add(where(
         "status", "text",
@@ -247,8 +246,7 @@ class Table {
            &RankingRow::worst_joint));
     add(where(
         "worst_joint_share", "1", "its share of the damage; above 1 if other joints reduce it",
-        [](const RankingRow& row) { return !row.worst_joint.empty(); },
-        [](const RankingRow& row) { return row.worst_joint_share; }));
+        [](const RankingRow& row) { return !row.worst_joint.empty(); }, &RankingRow::worst_joint_share));
     add(of("worst_dresspack", "text", "dresspack of the worst wire, among several", &RankingRow::worst_dresspack));
     add(of("settings", "text", "digest of the settings that the row belongs to", &RankingRow::settings));
     add(of("largest_force_share", "1", "largest force of a cable over the force that tears it",
@@ -264,9 +262,8 @@ class Table {
            &RankingRow::hours_mean_stress_kept));
     add(of("life_hours_without_mean_stress", "h", "life_hours without any mean stress",
            &RankingRow::hours_without_mean_stress));
-    add(where(
-        "life_months_p10", "months", "life_hours_p10 at the job's operating hours per week",
-        [](const RankingRow& row) { return row.planned(); }, [](const RankingRow& row) { return row.planned_months; }));
+    add(where("life_months_p10", "months", "life_hours_p10 at the job's operating hours per week", &RankingRow::planned,
+              &RankingRow::planned_months));
     add(where("life_hours_all_stick", "h", "life_repeats_all_stick in hours of motion", always,
               [](const RankingRow& row) { return row.hours_of(row.life_repeats_all_stick); }));
     add(where("life_hours_all_free", "h", "life_repeats_all_free in hours of motion", always,
@@ -277,8 +274,7 @@ class Table {
     add(of("failing_conductor", "text", "conductor that is most likely to fail first", &RankingRow::failing_conductor));
     add(where(
         "failing_position_from_tool_m", "m", "its place along the dresspack, from the tool clamp",
-        [](const RankingRow& row) { return !row.failing_conductor.empty(); },
-        [](const RankingRow& row) { return row.failing_position_from_tool; }));
+        [](const RankingRow& row) { return !row.failing_conductor.empty(); }, &RankingRow::failing_position_from_tool));
     add(where("rated_cycles_per_hour", "1/h", "cycles of the maker's rig that do the damage of one hour of the program",
               has_rating, [](const RankingRow& row) { return row.relative->cycles_per_hour; }));
     add(where("relative_life_hours", "h", "hours until the damage of the rated cycles is reached", has_rating,
@@ -294,7 +290,7 @@ class Table {
     add(of("measure_next", "text", "uncertain parameter with the largest share", &RankingRow::measure_next));
     add(where(
         "measure_next_share", "1", "its share", [](const RankingRow& row) { return !row.measure_next.empty(); },
-        [](const RankingRow& row) { return row.measure_next_share; }));
+        &RankingRow::measure_next_share));
   }
 
   void add_warnings() {
@@ -330,8 +326,7 @@ class Table {
     add(of("failing_mode", "text", "what fails first in most of the samples", &RankingRow::failing_mode));
     add(where(
         "failing_mode_share", "1", "in which share of them",
-        [](const RankingRow& row) { return !row.failing_mode.empty(); },
-        [](const RankingRow& row) { return row.failing_mode_share; }));
+        [](const RankingRow& row) { return !row.failing_mode.empty(); }, &RankingRow::failing_mode_share));
   }
 
   void add_test() {
