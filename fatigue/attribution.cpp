@@ -23,7 +23,7 @@ void fill_terms(const Eigen::VectorXd& q, Eigen::VectorXd& terms) {
 }
 
 std::size_t link_index(const pipeline::Robot& robot, const std::string& name) {
-  const auto found = std::ranges::find_if(robot.links, [&](const pipeline::Link& link) { return link.name == name; });
+  const auto found = std::ranges::find(robot.links, name, &pipeline::Link::name);
   return found - robot.links.begin();
 }
 

@@ -29,8 +29,7 @@ std::vector<Reversal> numbered(std::span<const Reversal> path) {
 /// Returns the stress that a history loses when `share` of its offset remains (F22). The whole offset is the middle of its
 /// outermost loop, whose tips are its largest and its smallest strain.
 double relaxed_by(std::span<const Reversal> path, std::span<const double> stress, double share) {
-  const auto [low, high] =
-      std::ranges::minmax_element(path, [](const Reversal& a, const Reversal& b) { return a.strain < b.strain; });
+  const auto [low, high] = std::ranges::minmax_element(path, {}, &Reversal::strain);
   return (1 - share) * (stress[low - path.begin()] / 2 + stress[high - path.begin()] / 2);
 }
 

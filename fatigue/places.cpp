@@ -39,7 +39,7 @@ std::vector<Place> places_of(std::span<const PlacesOfConductor> places, std::spa
       if (damage[count - 1] > 0) all.push_back({conductor, segment, -std::log(damage[count - 1])});
     }
   }
-  std::ranges::stable_sort(all, [](const Place& a, const Place& b) { return a.log_life < b.log_life; });
+  std::ranges::stable_sort(all, {}, &Place::log_life);
   return all;
 }
 
@@ -117,8 +117,7 @@ class Places {
  private:
   /// Sorts the evaluated places by conductor, and creates each conductor's wires with their worst places.
   void take_conductors(std::span<const ConductorWires> bundles) {
-    std::ranges::stable_sort(judged_,
-                             [](const JudgedPlace& a, const JudgedPlace& b) { return a.conductor < b.conductor; });
+    std::ranges::stable_sort(judged_, {}, &JudgedPlace::conductor);
     anywhere_.clear();
     for (const JudgedPlace& place : judged_)
       if (anywhere_.empty() || anywhere_.back().conductor != place.conductor)

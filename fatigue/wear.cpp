@@ -131,7 +131,7 @@ std::optional<WornMaterial> jacket_of(const pipeline::Dresspack& dresspack, cons
 
 const pipeline::WearRate& wear_rate(const pipeline::Material& material, const std::string& obstacle) {
   const auto of = [&](Counterface against) {
-    return std::ranges::find_if(material.wear, [&](const pipeline::WearRate& rate) { return rate.against == against; });
+    return std::ranges::find(material.wear, against, &pipeline::WearRate::against);
   };
   const auto found = of(counterface(obstacle));
   return found != material.wear.end() ? *found : *of(Counterface::robot);

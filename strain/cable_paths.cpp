@@ -556,9 +556,7 @@ std::vector<int> CablePaths::bent_most(std::size_t segment) const {
   return parts;
 }
 
-bool CablePaths::remembers() const {
-  return std::ranges::any_of(cables_, [](const Cable& cable) { return cable.remembers; });
-}
+bool CablePaths::remembers() const { return std::ranges::any_of(cables_, &Cable::remembers); }
 
 void CablePaths::repeat() {
   assert(!finished_);

@@ -131,7 +131,7 @@ Evaluation::Evaluation(const Construction& construction, const pipeline::Strain&
 
 void Evaluation::find_probes(const std::vector<pipeline::ProbeRequest>& probes) {
   for (const pipeline::ProbeRequest& probe : probes) {
-    const auto wire = std::ranges::find_if(wires_, [&](const Wire& w) { return w.path == probe.component; });
+    const auto wire = std::ranges::find(wires_, probe.component, &Wire::path);
     if (wire == wires_.end())
       throw pipeline::InputError({},
                                  fmt::format("strain.probes: no wire is called '{}' (a path from the outermost part "
@@ -270,12 +270,10 @@ const SegmentMotion& Evaluation::motion_at_wires(std::size_t segment, const Defo
 }
 
 bool Evaluation::mixed(const ClampMeans& means) const {
-  return scan_.with_shear || std::ranges::any_of(means.plan(), [](const LayerSlip& slip) { return slip.friction; });
+  return scan_.with_shear || std::ranges::any_of(means.plan(), &LayerSlip::friction);
 }
 
-bool Evaluation::rubs_inside() const {
-  return std::ranges::any_of(means_.plan(), [](const LayerSlip& slip) { return slip.friction; });
-}
+bool Evaluation::rubs_inside() const { return std::ranges::any_of(means_.plan(), &LayerSlip::friction); }
 
 void Evaluation::add_held(const ClampMeans& means) {
   for (Worker& worker : workers_)

@@ -22,7 +22,7 @@ struct LoadLine {
 }  // namespace
 
 double share_beyond(std::vector<LoadNode> nodes, double mean, double deviation) {
-  std::ranges::sort(nodes, [](const LoadNode& a, const LoadNode& b) { return a.z < b.z; });
+  std::ranges::sort(nodes, {}, &LoadNode::z);
   const auto share_below = [&](double z) { return normal_share((z - mean) / deviation); };
   if (nodes.size() == 1) return nodes.front().load > 1 ? 1 : 0;
   double share = 0;

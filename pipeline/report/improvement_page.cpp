@@ -161,8 +161,7 @@ std::string front_charts(const ImprovementStory& story) {
 std::string history_section(const ImprovementStory& story) {
   const auto failed =
       std::ranges::count_if(story.points, [](const ImprovementStory::TrialPoint& point) { return !point.ran; });
-  const auto feasible =
-      std::ranges::count_if(story.points, [](const ImprovementStory::TrialPoint& point) { return point.feasible; });
+  const auto feasible = std::ranges::count_if(story.points, &ImprovementStory::TrialPoint::feasible);
   return fmt::format(
              "<h2>The search</h2>\n<p>{} trials, of which {} keep all limits (blue), {} break some (orange) and {} do not "
              "run; the line is the longest life so far. A longer life that makes another mode worse, or that exceeds the robot's, is not better.</p>\n",

@@ -66,7 +66,7 @@ std::vector<Label> costly_lines(const LifeSummary& life, const std::vector<Progr
                       fmt::format("{:.0f} %: line {}, {}", in_percent * life.step_damage[line] / total, line + 1,
                                   life.step_text[line])});
   }
-  std::ranges::stable_sort(labels, [](const Label& a, const Label& b) { return a.x < b.x; });
+  std::ranges::stable_sort(labels, {}, &Label::x);
   return labels;
 }
 

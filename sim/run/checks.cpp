@@ -20,9 +20,7 @@ constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 using Places = std::span<const Extreme>;
 
-const Extreme& largest(Places places) {
-  return *std::ranges::max_element(places, [](const Extreme& a, const Extreme& b) { return a.value < b.value; });
-}
+const Extreme& largest(Places places) { return *std::ranges::max_element(places, {}, &Extreme::value); }
 
 const Extreme& largest_by_size(Places places) {
   return *std::ranges::max_element(

@@ -65,8 +65,7 @@ class Reader {
   void read_header(const CsvRow& cells) {
     std::array<std::string_view, quantities> names{};
     for (const CsvCell& cell : cells) {
-      const auto* column =
-          std::ranges::find_if(known, [&](const Column& candidate) { return candidate.name == cell.text; });
+      const auto* column = std::ranges::find(known, cell.text, &Column::name);
       if (column == std::end(known)) {
         std::vector<std::string_view> all;
         for (const Column& other : known) all.push_back(other.name);

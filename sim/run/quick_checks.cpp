@@ -78,7 +78,7 @@ class QuickChecks {
     if (std::ranges::any_of(setup_.dresspacks,
                             [&](const auto& of) { return pipeline::clamps_exchanged(of.routing, setup_.robot); }) ||
         (robot_ && robot_->clamps_in_world()) ||
-        (!one_link.empty() && std::ranges::any_of(found.checks, [](const Check& check) { return check.warning; }))) {
+        (!one_link.empty() && std::ranges::any_of(found.checks, &Check::warning))) {
       found.checks.clear();
       found.notes.push_back(
           "The short run of the checks was left out. Correct the clamps first: the other limits follow from them");

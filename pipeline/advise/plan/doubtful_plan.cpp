@@ -77,8 +77,7 @@ class Doubts {
     std::map<std::string, const Installed*> names;
     const Installed *new_today = nullptr, *thousands = nullptr, *short_week = nullptr;
     int new_ones = 0, of_thousands = 0, short_weeks = 0;
-    const auto [low_planned, high_planned] = std::ranges::minmax_element(
-        fleet.rows, [](const Installed& a, const Installed& b) { return a.planned_cost < b.planned_cost; });
+    const auto [low_planned, high_planned] = std::ranges::minmax_element(fleet.rows, {}, &Installed::planned_cost);
     for (const Installed& row : fleet.rows) {
       if (row.hours_per_week && *row.hours_per_week <= day && short_weeks++ == 0) short_week = &row;
       if (today - row.since > oldest_likely)

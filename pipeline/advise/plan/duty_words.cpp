@@ -25,8 +25,7 @@ double robot_life_left(const DutyResult& duty) { return std::max(0.0, duty.robot
 
 /// Returns the possible failure by the first unvalidated mode before these hours, with the action.
 std::string inspection(const DutyResult& duty, double hours) {
-  const auto first =
-      std::ranges::min_element(duty.others, [](const DutyMode& a, const DutyMode& b) { return a.hours < b.hours; });
+  const auto first = std::ranges::min_element(duty.others, {}, &DutyMode::hours);
   if (first == duty.others.end() || !(first->hours < hours)) return "";
   // The hours of these modes count from a new dresspack, those of the wires from now.
   const std::string after =

@@ -159,8 +159,7 @@ void Interpreter::charge(std::size_t work) {
   if (guessed_at_ >= 0 && executed_ - guessed_at_ > ImportLimits::guessed) throw Stop{};
   if (executed_ <= ImportLimits::executed) return;
   // The endless loop is the loop with the most passes since its start, not the loops around it or inside of it.
-  const auto longest =
-      std::ranges::max_element(loops_, [](const Loop& a, const Loop& b) { return a.passes < b.passes; });
+  const auto longest = std::ranges::max_element(loops_, {}, &Loop::passes);
   const Place place = longest != loops_.end() ? longest->place : routines_.empty() ? Place{} : routines_.back()->place;
   miss(short_place(place), place,
        fmt::format("has run {} statements without an end (a loop that input would end?)", ImportLimits::executed),
