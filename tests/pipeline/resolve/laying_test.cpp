@@ -56,7 +56,7 @@ TEST_CASE("laying: what cannot be is refused with its place and a remedy") {
 TEST_CASE("laying: a tension without effect is refused, the one of a part with a lay in a cable is not") {
   using Catch::Contains;
   const std::string wire = cable + "components.1.", hose = "dresspack.inner_diameter_mm=50";
-  for (const std::string& place : {"position=held", "position=loose", "position=auto", "lay_angle_deg=10"}) {
+  for (const std::string place : {"position=held", "position=loose", "position=auto", "lay_angle_deg=10"}) {
     CAPTURE(place);
     CHECK_THAT(refusal({free_cables, hose, cable + place, cable + "tension_N=2000"}),
                Contains("is 2000 (limit 0: a part right in the dresspack") && Contains("slack_percent"));

@@ -96,7 +96,9 @@ TEST_CASE("outcome: the largest share of dresspacks that exceed a limit at other
   for (const double share : {0.04, 0.25, 0.02})
     row.warnings = joined(row.warnings.value_or(std::vector<Warning>{}),
                           {Warning{WarningKind::other_values, "", "bent. Likely cause: a. Remedy: b", {}, share}});
-  const Outcome made = outcome_of(row, scratch.folder(), {.other_values = 30});
+  AskedLimits asked;
+  asked.other_values = 30;
+  const Outcome made = outcome_of(row, scratch.folder(), asked);
   CHECK(made.exceeding == 0.25);
   CHECK(made.asked_exceeding == 0.3);
   CHECK(made.feasible());  // with its own values
