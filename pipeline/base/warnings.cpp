@@ -23,28 +23,31 @@ constexpr const char* separator = ": ";            // between key and value
 constexpr std::string_view amount_key = "amount";  // no key of a job
 
 struct KindTexts {
+  WarningKind kind;
   const char *word, *title;
   bool spoils_plan;
 };
 constexpr KindTexts kinds[] = {
-    {"program", "skipped instructions", true},
-    {"bend_radius", "bend radius", true},
-    {"twist", "twist", true},
-    {"tension", "tension", true},
-    {"slack", "slack", true},
-    {"periodic", "not periodic", true},
-    {"overlap", "overlapping parts", false},  // overlap of nominal cross-sections; real cables deform
-    {"mesh", "numerical error", false},       // the message states the size of the error
-    {"force", "forces", true},
-    {"material", "doubtful input", false},  // the constants may be right
-    {"strain", "strain", true},
-    {"calibration", "calibration", false},  // the uncertainty of the prior applies
-    {"motion", "unusual motion", true},
-    {"side", "two sides", true},
+    {WarningKind::program, "program", "skipped instructions", true},
+    {WarningKind::bend_radius, "bend_radius", "bend radius", true},
+    {WarningKind::twist, "twist", "twist", true},
+    {WarningKind::tension, "tension", "tension", true},
+    {WarningKind::slack, "slack", "slack", true},
+    {WarningKind::periodic, "periodic", "not periodic", true},
+    // nominal cross-sections; real cables deform
+    {WarningKind::overlap, "overlap", "overlapping parts", false},
+    {WarningKind::mesh, "mesh", "numerical error", false},  // the message states the size of the error
+    {WarningKind::force, "force", "forces", true},
+    {WarningKind::material, "material", "doubtful input", false},  // the constants may be right
+    {WarningKind::strain, "strain", "strain", true},
+    {WarningKind::calibration, "calibration", "calibration", false},  // the uncertainty of the prior applies
+    {WarningKind::motion, "motion", "unusual motion", true},
+    {WarningKind::side, "side", "two sides", true},
     // The message states the share of such dresspacks and the measurement that rules them out.
-    {"other_values", "limits at other values", false},
+    {WarningKind::other_values, "other_values", "limits at other values", false},
 };
 static_assert(std::size(kinds) == warning_kinds_count);
+static_assert(std::ranges::is_sorted(kinds, {}, &KindTexts::kind));
 
 const KindTexts& texts_of(WarningKind kind) { return kinds[static_cast<std::size_t>(kind)]; }
 
