@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <map>
 #include <random>
-#include <sstream>
 #include <stdexcept>
 
 #include "tests/catch.h"
@@ -289,36 +287,6 @@ TEST_CASE("beyond the rests of all starts a life is that of the last one") {
   for (const auto& [z, change] :
        {std::pair(-3.0, -1.0), {-0.7, -1.0}, {-0.35, -0.5}, {0.0, 0.0}, {0.9, 1.0}, {3.0, 1.0}})
     CHECK(LifeSurface(response).change(at(rest, z)) == Approx(change).margin(rounding));
-}
-
-TEST_CASE("a text from before there were rests, or the hose's stiffness, is read: the same lives") {
-  const LifeResponse response = straight_response(0.6, 0.2, 0.4);
-  constexpr std::size_t rest = index_of(Uncertain::rest), stiffness = index_of(Uncertain::hose_stiffness);
-  const std::size_t first = GENERATE(true, false) ? rest : stiffness;  // first parameter that is missing in the text
-  std::istringstream lines(response.text());
-  std::string older;
-  std::size_t row = 0;  // of the covariance
-  for (std::string line; std::getline(lines, line);) {
-    std::istringstream words(line);
-    std::vector<std::string> all{std::istream_iterator<std::string>(words), {}};
-    if (all[0] == "covariance") {
-      const std::size_t of = row++;
-      if (of >= first && of <= stiffness) continue;
-    }
-    if (all[0] == "mean" || all[0] == "covariance" || all[0] == "point")
-      all.erase(all.begin() + static_cast<std::ptrdiff_t>(1 + first),
-                all.begin() + static_cast<std::ptrdiff_t>(2 + stiffness));
-    for (const std::string& word : all) older += word + " ";
-    older += "\n";
-  }
-  REQUIRE(older.find(first == rest ? "point 0 0 -1.5 0 0 \n" : "point 0 0 -1.5 0 0 0 \n") != std::string::npos);
-  const LifeResponse read = LifeResponse::from_text(older);
-  for (const std::size_t parameter : {friction, slack, strength, model})
-    CHECK(LifeSurface(read).change(at(parameter, 0.8)) ==
-          Approx(LifeSurface(response).change(at(parameter, 0.8))).margin(1e-5));  // six digits
-  CHECK(read.knowledge.covariance(stiffness + 1, stiffness + 1) == 1);
-  CHECK(read.knowledge.covariance(stiffness, stiffness) == 0);
-  CHECK(read.knowledge.covariance(rest, rest) == (first == rest ? 0 : 1));
 }
 
 TEST_CASE("a response and its text lead to each other, no other text is one") {
