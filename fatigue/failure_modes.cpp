@@ -55,7 +55,7 @@ class Modes {
     response.construction = in_.job.dresspacks[list_.dresspack(mode)].dresspack.name;
     response.scatter_shared = neighbours(mode) > 1 ? in_.job.fatigue.scatter_shared : 1;
     response.knowledge = knowledge_of_job(in_.job);
-    if (in_.job.calibration) response.own_spread = in_.job.calibration->own_spread;
+    if (in_.job.calibration) response.residual_spread = in_.job.calibration->residual_spread;
     const VariedStrains own = likely_worst(mode);
     if (!own.site.empty())
       response.material = pipeline::material_of(in_.job, in_.sites.material()[worst_of(mode)]).name;

@@ -63,6 +63,8 @@ void describe(Fields& f, LearnedMaterial& material) {
 }
 
 void describe(Fields& f, LearnedUnder& under) {
+  f.text("motions", under.motions, Need::optional,
+         "digests of motion and routing of dresspacks in service; own_spread is that of their lives");
   f.list("settings", under.settings, Need::optional, "a job with others is refused");
   f.list(
       "cables", under.cables, Need::optional,
@@ -87,6 +89,8 @@ void describe(Fields& f, Calibration& calibration) {
   f.list("parameters", calibration.parameters, Need::required, "what was learned");
   f.number("own_spread", calibration.own_spread, Need::optional, between(0.001, 100),
            "factor of the spread between dresspacks: of slack, rest and motion, and of the error of computed lives");
+  f.number("residual_spread", calibration.residual_spread, Need::optional, between(0.001, 100),
+           "factor of the error of computed lives, in resolved jobs: own_spread if the records have the job's motion");
   f.group("under", calibration.under, Need::optional, "what the tests were computed with");
   f.group("within", calibration.within, Need::optional, "the range of the tests; outside it nothing was tested");
   f.list("observations", calibration.observations, Need::optional, "from what it was learned");

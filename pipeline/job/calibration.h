@@ -65,11 +65,12 @@ struct LearnedMaterial {
   bool operator==(const LearnedMaterial&) const = default;
 };
 
-/// Settings, cables and materials of the tests (learned_settings.h).
+/// Settings, cables, materials and motions of the tests (learned_settings.h).
 struct LearnedUnder {
   std::vector<LearnedSetting> settings;
   std::vector<LearnedCable> cables;
   std::vector<LearnedMaterial> materials;
+  std::string motions;  ///< motion_digest() of jobs with dresspacks in service, comma-separated
 };
 
 struct Calibration {
@@ -85,8 +86,11 @@ struct Calibration {
   std::string contradiction;
   std::vector<LearnedParameter> parameters;
   /// factor of the deviations between dresspacks: of the parameters of SharedBy::installation that are not calibrated, and of the
-  /// residual of computed lives (LifeResponse::own_spread)
+  /// residual of computed lives
   double own_spread = 1;
+  /// LifeResponse::residual_spread of the current job: own_spread if under.motions has its motion. Records of other motions contain
+  /// no information about the error of its computed life.
+  double residual_spread = 1;
   LearnedUnder under;
   LearnedWithin within;
   std::vector<LearnedFrom> observations;

@@ -145,7 +145,7 @@ Samples samples_of(const LifeResponse& response, bool has_residual, const std::s
   Samples samples{std::vector<ParameterPoint>(count), normals("scatter of wires/" + own_name(response, job)), {}};
   if (has_residual) {
     samples.residual = normals("residual/" + own_name(response, job));
-    for (double& decades : samples.residual) decades *= residual_decades * response.own_spread;
+    for (double& decades : samples.residual) decades *= residual_decades * response.residual_spread;
   }
   if (response.scatter_shared < 1) {  // modes of one dresspack share a part of their scatter
     const std::vector<double> own = normals("scatter of wires/" + own_name(response, job) + "/" + response.mode);
@@ -175,7 +175,7 @@ Samples samples_of(const LifeResponse& response, const std::string& job, std::si
 /// Returns whether two modes have equal samples, if both have a residual or none has.
 bool share_samples(const LifeResponse& one, const LifeResponse& other) {
   return one.construction == other.construction && one.material == other.material && one.dresspack == other.dresspack &&
-         one.scatter_shared == other.scatter_shared && one.own_spread == other.own_spread &&
+         one.scatter_shared == other.scatter_shared && one.residual_spread == other.residual_spread &&
          (one.scatter_shared == 1 || one.mode == other.mode) && one.knowledge.mean == other.knowledge.mean &&
          one.knowledge.covariance == other.knowledge.covariance;
 }
@@ -526,7 +526,7 @@ LifePercentiles error_factors(const FailureModes& modes, const std::vector<Sampl
 }  // namespace
 
 double residual_of(const FailureModes& modes) {
-  return std::ranges::any_of(modes, depends_on_place) ? residual_decades * modes.front().own_spread : 0;
+  return std::ranges::any_of(modes, depends_on_place) ? residual_decades * modes.front().residual_spread : 0;
 }
 
 std::string modes_text(const FailureModes& modes) { return joined(mapped(modes, &LifeResponse::text), ""); }
@@ -592,7 +592,7 @@ const ModeLives::Known& ModeLives::samples_for(const LifeResponse& mode, bool ha
   Known& made = *known_.emplace_back(std::make_unique<Known>());
   made.mode.mode = mode.mode, made.mode.dresspack = mode.dresspack, made.mode.construction = mode.construction;
   made.mode.material = mode.material, made.mode.knowledge = mode.knowledge,
-  made.mode.scatter_shared = mode.scatter_shared, made.mode.own_spread = mode.own_spread;
+  made.mode.scatter_shared = mode.scatter_shared, made.mode.residual_spread = mode.residual_spread;
   made.has_residual = has_residual;
   made.samples = samples_of(mode, has_residual, job_, job_, samples_, false);
   for (const ParameterPoint& z : made.samples.z) made.factors.push_back(LifeSurface::factors_at(z));

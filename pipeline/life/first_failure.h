@@ -66,7 +66,7 @@ std::vector<double> compared_failures(const FailureModes& modes, const std::stri
 /// Returns the lives of first_failures() and the results computed from them.
 FirstFailures summary_of(const FailureModes& modes, const std::string& job, std::size_t samples = life_samples);
 
-/// Returns the standard deviation of the residual of these modes: residual_decades times LifeResponse::own_spread, or 0 if no life
+/// Returns the standard deviation of the residual of these modes: residual_decades times LifeResponse::residual_spread, or 0 if no life
 /// depends on the place of the cables.
 double residual_of(const FailureModes& modes);
 /// Returns the log10 lives of each mode by itself, (mode, sample).

@@ -307,7 +307,7 @@ void check(const LifeResponse& response) {
       holds_zero(response.strength) && holds_zero(response.slope) && holds_zero(response.scatter) &&
       response.worst_life.size() == response.points.size() * response.strength.size() * response.slope.size() &&
       response.planned.size() == response.scatter.size() && response.scatter_shared >= 0 &&
-      response.scatter_shared <= 1 && response.own_spread >= 0 &&
+      response.scatter_shared <= 1 && response.residual_spread >= 0 &&
       response.knowledge.mean.size() == Eigen::Index(uncertain_count) &&
       response.knowledge.covariance.size() == Eigen::Index(uncertain_count * uncertain_count);
   if (!whole) throw std::invalid_argument("lists of other lengths");
@@ -361,8 +361,8 @@ void read_numbers(LifeResponse& response, const std::string& name, const std::ve
     response.scatter = numbers;
   else if (name == "scatter_shared" && numbers.size() == 1)
     response.scatter_shared = numbers[0];
-  else if (name == "own_spread" && numbers.size() == 1)
-    response.own_spread = numbers[0];
+  else if (name == "residual_spread" && numbers.size() == 1)
+    response.residual_spread = numbers[0];
   else if (name == "worst_life")
     response.worst_life = numbers;
 }
@@ -381,7 +381,7 @@ std::string LifeResponse::text() const {
   text += line("strength", strength) + line("slope", slope) + line("scatter", scatter) + line("bound", bound);
   for (const auto& lives : planned) text += line("planned", lives);
   text += line("scatter_shared", std::array{scatter_shared});
-  if (own_spread != 1) text += line("own_spread", std::array{own_spread});
+  if (residual_spread != 1) text += line("residual_spread", std::array{residual_spread});
   return text + line("worst_life", worst_life);
 }
 

@@ -60,8 +60,8 @@ struct LifeResponse {
   std::array<double, inside_count> bound{undamaged, undamaged, undamaged};
   std::vector<double> scatter{0};              ///< z of the scatter, like strength
   std::vector<std::array<double, 3>> planned;  ///< (scatter) log10 repeats until 10, 50, 90 % have failed
-  double own_spread = 1;                       ///< factor of the residual between dresspacks (Calibration::own_spread)
-  double scatter_shared = 1;                   ///< share of u's variance that all modes of one dresspack have in common
+  double residual_spread = 1;  ///< factor of the residual between dresspacks (Calibration::residual_spread)
+  double scatter_shared = 1;   ///< share of u's variance that all modes of one dresspack have in common
 
   /// text returns the response as text for an attribute of a file; from_text reads it back. Errors: std::invalid_argument for any
   /// other text.

@@ -1,5 +1,6 @@
 #include "pipeline/resolve/apply_calibration.h"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <set>
@@ -8,6 +9,7 @@
 #include "pipeline/job/learned_settings.h"
 #include "pipeline/job/wall_strength.h"
 #include "pipeline/resolve/catalogue.h"
+#include "pipeline/resolve/job_text.h"
 #include "pipeline/resolve/sources.h"
 #include "pipeline/settings/fields.h"
 #include "pipeline/settings/units.h"
@@ -104,6 +106,15 @@ void apply_calibration(Node& tree, Job& job) {
   if (applied) return;
   leave_out_foreign_parameters(job);
   put_medians(tree, job);
+}
+
+void apply_spread(Job& job) {
+  Calibration& calibration = *job.calibration;
+  const std::vector<std::filesystem::path> files = files_beside(job);
+  if (std::ranges::any_of(files, [](const auto& file) { return !std::filesystem::exists(file); })) return;
+  const bool learned =
+      calibration.own_spread != 1 && calibration.under.motions.find(motion_digest(job)) != std::string::npos;
+  calibration.residual_spread = learned ? calibration.own_spread : 1;
 }
 
 void apply_ratings(Node& tree, Job& job) {

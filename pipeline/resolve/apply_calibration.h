@@ -15,6 +15,10 @@ void read_calibration(Node& job);
 /// Errors: InputError.
 void apply_calibration(Node& tree, Job& job);
 
+/// Sets Calibration::residual_spread. A resolved job keeps it if the files of its motion are not there. Precondition: the job has a
+/// calibration and is complete.
+void apply_spread(Job& job);
+
 /// File of the catalogue with a calibration for cables without one: it was learned from makers' ratings by dresslife calibrate.
 inline constexpr const char* typical_ratings_file = "observations/typical_cables.yaml";
 

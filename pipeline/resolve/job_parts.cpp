@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "pipeline/base/digest.h"
 #include "pipeline/base/related_files.h"
 #include "pipeline/cable/cyclic_curve.h"
 #include "pipeline/job/job_forms.h"
@@ -245,6 +246,19 @@ std::string part_text(const Job& job, JobPart part) {
   const PathText name = [](const std::filesystem::path& file) { return file.filename().string(); };
   Job copy = job;  // a part changes it, in the same way at each call
   return echo_text(Describe([&](Fields& f) { described(f, copy); }), name);
+}
+
+std::string motion_digest(const Job& job) {
+  const PathText name = [](const std::filesystem::path& file) { return file.filename().string(); };
+  Motion motion = job.motion;
+  std::string text = job.robot.name + echo_text(Describe([&](Fields& f) { describe(f, motion); }), name);
+  for (const MountedDresspack& mounted : job.dresspacks) {
+    Routing routing = mounted.routing;
+    text += mounted.name + ":" + mounted.dresspack.name +
+            echo_text(Describe([&](Fields& f) { describe(f, routing); }), name);
+  }
+  for (const std::filesystem::path& file : files_beside(job)) text += xxh3_of_file(file);
+  return xxh3(text);
 }
 
 std::vector<std::filesystem::path> files_beside(const Job& job) {

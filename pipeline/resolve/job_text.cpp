@@ -77,6 +77,7 @@ Job resolved_job(Node& document, const std::vector<std::string>& sets) {
   check_job(job, document, problems);
   problems.finish(document.where.file);
   take_length_of_rig(job);
+  if (job.calibration) apply_spread(job);
   return job;
 }
 

@@ -61,6 +61,10 @@ std::string stored_job_text(const Job& job, const std::filesystem::path& folder)
 enum class JobPart { sim, strain, fatigue };
 std::string part_text(const Job& job, JobPart part);
 
+/// Returns a digest of motion, robot, routings and names of the dresspacks, with the content of the program. It does not depend on
+/// folders, settings of the calculation and uncertain parameters. Errors: InputError for a file that cannot be read.
+std::string motion_digest(const Job& job);
+
 /// Returns the files, in addition to the job and the catalogue, on which the result of dresslife-sim depends.
 std::vector<std::filesystem::path> files_beside(const Job& job);
 

@@ -14,6 +14,7 @@
 #include "pipeline/job/learned_settings.h"
 #include "pipeline/job/uncertainty.h"
 #include "pipeline/job/wall_strength.h"
+#include "pipeline/resolve/job_text.h"
 #include "pipeline/settings/units.h"
 
 namespace dresslife::pipeline {
@@ -68,6 +69,11 @@ LearnedUnder under_of(const std::vector<ObservedTest>& tests, const RoundOfJobs&
     }
   LearnedUnder under = learned_under(all);
   under.materials = learned_under(lives).materials;
+  std::set<std::string> motions;
+  for (std::size_t t = 0; t < tests.size(); ++t)
+    for (const RoundOfJobs::Runs& runs : round.runs()[t])
+      if (!tests[t].observation.service.empty()) motions.insert(motion_digest(*round.study().jobs[runs.centre].job));
+  under.motions = joined(motions, ", ");
   return under;
 }
 

@@ -4,6 +4,8 @@
 // ln f has the prior N(-s^2, s^2). Its mean of f^2 is 1, so records without information leave the variance of a job as it is. The
 // standardised value z = (ln f + s^2)/s is one more axis of the posterior, behind the parameters. All predictions of new
 // dresspacks, and jobs with the calibration, use one value: the root of the posterior mean of f^2, which keeps the variance.
+// For jobs with another motion or routing f does not reduce the residual: that the dresspacks of one job live equally long says
+// nothing about the error of the computed life of another job.
 #pragma once
 
 #include <Eigen/Core>

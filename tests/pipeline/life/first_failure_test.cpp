@@ -262,7 +262,7 @@ TEST_CASE("the residual of the response is an error of computed lives and widens
     CHECK(std::log10(factor) > residual_decades / 2);
     CHECK(std::log10(factor) < residual_decades);
   }
-  response.own_spread = 0.25;  // a calibration's factor of the residual
+  response.residual_spread = 0.25;  // a calibration's factor of the residual
   const LifePercentiles narrow = summary_of({response}, "job", samples).percentiles;
   const double spread = std::hypot(b, 0.25 * residual_decades);
   CHECK(std::log10(narrow[0]) == Approx(5 - decile * spread).margin(sampling_error));
@@ -393,14 +393,14 @@ TEST_CASE("few samples and many agree, and the same names give the same samples"
 TEST_CASE("modes and their text lead to each other, also from a response alone, no other text is one") {
   LifeResponse one = straight(0.6, 0.2, 0.4), other = straight(0.1, 0.2, 0.4);
   one.mode = "wires of signal cable", other.mode = "wires of power cable", other.scatter_shared = 0.5;
-  other.own_spread = 0.25;
+  other.residual_spread = 0.25;
   other.inside[4] = Inside::glued;
   const FailureModes again = modes_from_text(modes_text({one, other, one}));
   REQUIRE(again.size() == 3);
   CHECK(again[0].mode == one.mode);
   CHECK(again[1].scatter_shared == 0.5);
-  CHECK(again[0].own_spread == 1);
-  CHECK(again[1].own_spread == 0.25);
+  CHECK(again[0].residual_spread == 1);
+  CHECK(again[1].residual_spread == 0.25);
   CHECK(again[1].inside[4] == Inside::glued);
   CHECK(modes_text(again) == modes_text({one, other, one}));
   CHECK(modes_from_text(one.text()).size() == 1);

@@ -94,6 +94,27 @@ TEST_CASE("calibration: the spread between dresspacks multiplies the deviations 
   CHECK(refusal("own_spread: -1\n" + two_learned()).find("own_spread") != std::string::npos);
 }
 
+TEST_CASE(
+    "calibration: the error of computed lives is smaller only for jobs with a motion and routing of its records") {
+  const Scratch scratch;
+  const auto file = scratch.write("job.yaml", sample_job + "calibration: learned.yaml\n");
+  const std::string digest = motion_digest(job_from(parse_yaml(sample_job, "test.yaml")));
+  scratch.write("learned.yaml", "own_spread: 0.5\n" +
+                                    edited(two_learned(), "under:\n", "under:\n  motions: another, " + digest + "\n"));
+  const auto spread = [&](const std::vector<std::string>& sets) {
+    return read_job(file, sets).calibration->residual_spread;
+  };
+  CHECK(spread({}) == 0.5);
+  CHECK(spread({"simulation.segments=20", "strain.slack_factor=1.2", "uncertainty.enabled=false"}) == 0.5);
+  CHECK(spread({"routing.free_length_m=1.25"}) == 1);
+  CHECK(spread({"motion.speed_percent=90"}) == 1);
+  const Job job = read_job(file), again = job_from(parse_yaml(job_text(job), "elsewhere.yaml"));
+  CHECK(again.calibration->residual_spread == 0.5);
+  // A resolved job is another one after a change of its routing.
+  CHECK(job_from(parse_yaml(job_text(job), "elsewhere.yaml"), {"routing.free_length_m=1.25"})
+            .calibration->residual_spread == 1);
+}
+
 TEST_CASE("calibration: the strength of a hose's wall stands beside the wires' parameters and moves none of them") {
   const std::string wall = "wall strength of polyamide (0.01 1e+06, 0.001 1e+09)";
   const std::string with =
