@@ -763,11 +763,14 @@ std::vector<pipeline::Warning> beyond_calibration(const Context& c) {
     experience.curvature = std::max(experience.curvature, std::hypot(curvature[k], curvature[k + 1]));
   for (const double twist : c.strain.read<double>("/deformation/twist"))
     experience.twist = std::max(experience.twist, std::abs(twist));
-  std::vector<std::string> beyond = pipeline::beyond(c.job.calibration->within, experience);
   if (c.job.calibration->own_spread != 1 && c.job.calibration->residual_spread == 1)
-    beyond.emplace_back(
-        "its records have no job with this motion and routing, so the error of computed lives counts in full");
-  for (const std::string& words : beyond)
+    warnings.push_back(pipeline::warning_of(
+        pipeline::WarningKind::calibration, "",
+        "the records of the calibration have no dresspack with the motion and routing of this job, so the error of its computed "
+        "life counts in full",
+        "another program or routing than in the records",
+        "if its dresspacks have run, this job in the column Job of the maintenance system's table"));
+  for (const std::string& words : pipeline::beyond(c.job.calibration->within, experience))
     warnings.push_back(pipeline::warning_of(
         pipeline::WarningKind::calibration, "", "the job goes beyond the tests of its calibration: " + words,
         "no observation of the calibration strains a cable like this job",

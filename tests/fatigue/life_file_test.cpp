@@ -682,6 +682,12 @@ TEST_CASE("life.h5: a job beyond the curvature or twist of its calibration's tes
   const std::vector<pipeline::Warning> repeated = run(folder, f, job).notes.warnings;
   REQUIRE(repeated.size() == 1);
   CHECK(repeated[0].words == "calibration: 'cell': the records contradict the prediction. Remedy: none");
+  job.calibration.emplace().own_spread = 0.2;
+  const std::vector<pipeline::Warning> foreign = run(folder, f, job).notes.warnings;
+  REQUIRE(foreign.size() == 1);
+  CHECK_THAT(foreign[0].words, Catch::Contains("no dresspack with the motion and routing of this job"));
+  job.calibration->residual_spread = 0.2;  // the records have this job
+  CHECK(run(folder, f, job).notes.warnings.empty());
 }
 
 TEST_CASE("life.h5: the damage is divided among the joints and reported by clamp") {
