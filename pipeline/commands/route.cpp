@@ -125,8 +125,8 @@ void run(Trial& trial, const std::vector<std::size_t>& of, const Draft& draft, c
   Study study{draft.name, {}};
   for (const std::size_t k : of) {
     const Node document = routed(draft, trial.proposals.candidates[k].changes, trial.proposals.motion, trial.factor);
-    study.jobs.push_back({fmt::format("{:.0f}_percent_{}", 100 * trial.factor, k + 1),
-                          std::make_shared<const Job>(job_from(document)), ""});
+    study.jobs.push_back(
+        {fmt::format("{:.0f}_percent_{}", 100 * trial.factor, k + 1), as_candidate(job_from(document)), ""});
   }
   const std::vector<RankingRow> rows = made_rows(study, places, options, files);
   for (std::size_t n = 0; n < of.size(); ++n) {
@@ -165,8 +165,7 @@ void judge(Trial& trial, const Draft& draft, const RouteOptions& options, const 
       for (std::size_t j = 0; j < names.size(); ++j) {
         Node off = document;
         for (const std::string& set : sets_of_runs[j]) apply_set(off, set);
-        study.jobs.push_back(
-            {fmt::format("{}_off_{}", trial.rows[k].job, names[j]), std::make_shared<const Job>(job_from(off)), ""});
+        study.jobs.push_back({fmt::format("{}_off_{}", trial.rows[k].job, names[j]), as_candidate(job_from(off)), ""});
       }
       const std::vector<RankingRow> rows = made_rows(study, places, runs.options(), files);
       std::vector<Outcome> outcomes;

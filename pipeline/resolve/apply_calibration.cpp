@@ -104,6 +104,7 @@ void apply_calibration(Node& tree, Job& job) {
   if (!applied || !job.calibration->under.settings.empty())
     check_learned_settings(job);  // older resolved jobs contain no settings
   if (applied) return;
+  job.calibration->residual_spread = job.calibration->own_spread;
   leave_out_foreign_parameters(job);
   put_medians(tree, job);
 }
@@ -111,10 +112,10 @@ void apply_calibration(Node& tree, Job& job) {
 void apply_spread(Job& job) {
   Calibration& calibration = *job.calibration;
   const std::vector<std::filesystem::path> files = files_beside(job);
-  if (std::ranges::any_of(files, [](const auto& file) { return !std::filesystem::exists(file); })) return;
-  const bool learned =
-      calibration.own_spread != 1 && calibration.under.motions.find(motion_digest(job)) != std::string::npos;
-  calibration.residual_spread = learned ? calibration.own_spread : 1;
+  if (calibration.residual_spread == 1 ||
+      std::ranges::any_of(files, [](const auto& file) { return !std::filesystem::exists(file); }))
+    return;
+  if (calibration.under.motions.find(motion_digest(job)) == std::string::npos) calibration.residual_spread = 1;
 }
 
 void apply_ratings(Node& tree, Job& job) {

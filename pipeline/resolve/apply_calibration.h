@@ -15,7 +15,8 @@ void read_calibration(Node& job);
 /// Errors: InputError.
 void apply_calibration(Node& tree, Job& job);
 
-/// Sets Calibration::residual_spread. A resolved job keeps it if the files of its motion are not there. Precondition: the job has a
+/// Sets Calibration::residual_spread to 1 if the calibration has no records of the job's motion and routing. A resolved job keeps its
+/// value if the files of its motion are not there. Precondition: the job has a
 /// calibration and is complete.
 void apply_spread(Job& job);
 

@@ -405,8 +405,16 @@ std::vector<StudyJob> changed_jobs(const ImproveRequest& request, const std::vec
   std::vector<std::string> all = request.sets;
   all.insert(all.end(), sets.begin(), sets.end());
   std::vector<StudyJob> jobs = read_study(request.file, all).jobs;
-  for (StudyJob& job : jobs) job.name = jobs.size() == 1 ? prefix : prefix + "_" + job.name;
+  for (StudyJob& job : jobs) {
+    job.name = jobs.size() == 1 ? prefix : prefix + "_" + job.name;
+    if (job.job && job.job->calibration) job.job = as_candidate(*job.job);
+  }
   return jobs;
+}
+
+std::shared_ptr<const Job> as_candidate(Job job) {
+  if (job.calibration) job.calibration->residual_spread = 1;
+  return std::make_shared<const Job>(std::move(job));
 }
 
 Improvement improve(const ImproveRequest& request, const StudyPlaces& places, const TrialMakers& makers) {

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -92,7 +93,11 @@ Improvement improve(const ImproveRequest& request, const StudyPlaces& places, co
 /// Returns the value of a key in a trial's changes; empty: the trial does not change it.
 std::string value_in(const Trial& trial, const std::string& key);
 
-/// Returns the study's jobs with changes, named PREFIX; for several jobs PREFIX_JOB.
+/// Returns the job with the whole error of computed lives, which every change of routing or motion has (Calibration::residual_spread).
+/// So the original job has no advantage if a calibration has records of its dresspacks.
+std::shared_ptr<const Job> as_candidate(Job job);
+
+/// Returns the study's jobs with changes as candidates, named PREFIX; for several jobs PREFIX_JOB.
 std::vector<StudyJob> changed_jobs(const ImproveRequest& request, const std::vector<std::string>& sets,
                                    const std::string& prefix);
 

@@ -110,6 +110,10 @@ TEST_CASE(
   CHECK(spread({"motion.speed_percent=90"}) == 1);
   const Job job = read_job(file), again = job_from(parse_yaml(job_text(job), "elsewhere.yaml"));
   CHECK(again.calibration->residual_spread == 0.5);
+  // A search compares jobs with the whole error, also after it wrote and read them.
+  Job candidate = job;
+  candidate.calibration->residual_spread = 1;
+  CHECK(job_from(parse_yaml(job_text(candidate), "elsewhere.yaml")).calibration->residual_spread == 1);
   // A resolved job is another one after a change of its routing.
   CHECK(job_from(parse_yaml(job_text(job), "elsewhere.yaml"), {"routing.free_length_m=1.25"})
             .calibration->residual_spread == 1);

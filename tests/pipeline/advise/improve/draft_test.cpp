@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "pipeline/advise/improve/draft.h"
+#include "pipeline/advise/improve/improvement.h"
 #include "pipeline/advise/improve/merit.h"
 #include "pipeline/advise/improve/outcome.h"
 #include "pipeline/advise/improve/scaled.h"
@@ -13,10 +14,13 @@
 #include "pipeline/base/plain_file.h"
 #include "pipeline/files/check_names.h"
 #include "pipeline/files/receipt.h"
+#include "pipeline/job/learned_settings.h"
 #include "pipeline/resolve/job_text.h"
 #include "pipeline/resolve/sources.h"
+#include "pipeline/settings/fields.h"
 #include "pipeline/study/build_graph.h"
 #include "tests/catch.h"
+#include "tests/pipeline/sample_job.h"
 #include "tests/pipeline/scratch.h"
 
 namespace dresslife::pipeline {
@@ -271,6 +275,30 @@ TEST_CASE(
           Catch::Contains("abrasion, kinks"));
   row.failure = "too short";  // then the failure itself is reported
   CHECK_NOTHROW(check_evaluated(asked, row));
+}
+
+TEST_CASE(
+    "candidates have the whole error of computed lives, also the job whose dresspacks a calibration has observed") {
+  const Scratch scratch;
+  const Job plain = job_from(parse_yaml(sample_job, "test.yaml"));
+  Calibration calibration;
+  calibration.own_spread = 0.2;
+  calibration.under = learned_under({&plain});
+  calibration.under.motions = motion_digest(plain);
+  LearnedParameter strength;
+  strength.name = "strength", strength.covariance = {0.25};
+  calibration.parameters = {strength};
+  scratch.write("learned.yaml", to_yaml(echo_fields(calibration)));
+  const auto file = scratch.write("job.yaml", sample_job + "calibration: learned.yaml\n");
+  CHECK(read_job(file).calibration->residual_spread == 0.2);
+  ImproveRequest request;
+  request.file = file;
+  for (const auto& sets : {std::vector<std::string>{}, {"routing.free_length_m=1.25"}}) {
+    const std::vector<StudyJob> jobs = changed_jobs(request, sets, "trial");
+    REQUIRE(jobs.size() == 1);
+    CHECK(jobs[0].job->calibration->residual_spread == 1);
+    CHECK(jobs[0].job->calibration->own_spread == 0.2);
+  }
 }
 
 }  // namespace dresslife::pipeline
