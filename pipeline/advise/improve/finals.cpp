@@ -36,10 +36,10 @@ bool is_of(const RankingRow& row, const std::vector<std::string>& jobs) {
 }  // namespace
 
 const Final* Finals::best() const {
+  const auto rank = [](const Final& one) { return std::pair{!one.exceeds_more, one.tolerance->worst}; };
   const Final* found = nullptr;
   for (std::size_t k = 1; k < of.size(); ++k)
-    if (of[k].tolerance && of[k].tolerance->whole && (!found || of[k].tolerance->worst > found->tolerance->worst))
-      found = &of[k];
+    if (of[k].tolerance && of[k].tolerance->whole && (!found || rank(of[k]) > rank(*found))) found = &of[k];
   return found ? found : best_drawn();
 }
 
@@ -57,7 +57,7 @@ std::pair<Merit, Merit> Finals::compared(const Final& candidate) const {
 
 bool Finals::is_gain(const Final& candidate) const {
   const auto [one, original] = compared(candidate);
-  return clearly_better(one, original);
+  return !candidate.exceeds_more && clearly_better(one, original);
 }
 
 bool Finals::fails_earlier(const Final& candidate) const {
@@ -90,6 +90,7 @@ Finals finals_of(const Improvement& found, const ImproveRequest& request, const 
   for (const std::size_t trial : trials) {
     const std::string prefix = trial == 0 ? "before" : fmt::format("final_{:04}", trial);
     Final of{{}, HUGE_VAL, trial, found.merit(trial)};
+    of.exceeds_more = exceeds_more(found.trials[trial].worst, found.trials.front().worst);
     for (StudyJob& job : changed_jobs(request, found.trials[trial].sets, prefix)) {
       of.jobs.push_back(job.name);
       finals.study.jobs.push_back(std::move(job));

@@ -23,6 +23,8 @@ struct Final {
   std::size_t trial = 0;
   Merit merit{};                               ///< merit without offsets by the mounting tolerance
   std::optional<WithinTolerance> tolerance{};  ///< absent: not evaluated
+  /// exceeds_more() than the original jobs, without offsets: cases within the tolerance do not know their shares
+  bool exceeds_more = false;
 };
 
 struct Finals {
@@ -31,9 +33,11 @@ struct Finals {
   std::vector<RankingRow> rows;
 
   const Final* best_drawn() const;  ///< best candidate by `merit`; null: no candidate
-  /// Returns the best candidate by its merit within the tolerance, if this was evaluated. Null: no candidate.
+  /// Returns the best candidate by its merit within the tolerance, if this was evaluated; one that exceeds limits at other values
+  /// more often only if all do. Null: no candidate.
   const Final* best() const;
-  /// Returns whether the candidate is clearly better than the original jobs, within the tolerance if both were evaluated.
+  /// Returns whether the candidate is clearly better than the original jobs, within the tolerance if both were evaluated, and does
+  /// not exceed limits at other values more often.
   bool is_gain(const Final& candidate) const;
   /// Returns whether a mode gets worse by the candidate, so that it is no gain although it keeps more limits.
   bool fails_earlier(const Final& candidate) const;

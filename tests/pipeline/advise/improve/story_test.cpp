@@ -186,4 +186,27 @@ TEST_CASE("story: a proposal states whether more dresspacks exceed a limit at ot
   CHECK(beyond_words(beyond(10), broken).empty());
 }
 
+TEST_CASE(
+    "finals: no candidate that exceeds limits at other values more often is a gain, also if a mode of the job gets worse within "
+    "the tolerance") {
+  // Within the tolerance a mode of the original job gets worse, so its merit is no better than that of the candidates.
+  const auto final_of = [](double hours, bool exceeds_more) {
+    Final of;
+    of.merit.kept = exceeds_more ? Kept::limits : Kept::modes;
+    of.merit.counted_hours = of.merit.first_hours = of.merit.hours = hours;
+    of.tolerance.emplace().whole = true;
+    of.tolerance->worst = of.merit;
+    of.tolerance->worst.kept = Kept::limits;
+    of.exceeds_more = exceeds_more;
+    return of;
+  };
+  Finals finals;
+  finals.of = {final_of(7'000, false), final_of(80'000, true)};
+  CHECK_FALSE(finals.is_gain(finals.of[1]));
+  CHECK(finals.best() == &finals.of[1]);
+  finals.of.push_back(final_of(20'000, false));
+  CHECK(finals.best() == &finals.of[2]);
+  CHECK(finals.is_gain(finals.of[2]));
+}
+
 }  // namespace dresslife::pipeline
