@@ -8,6 +8,7 @@
 #include "pipeline/advise/calibrate/service_records.h"
 #include "pipeline/base/halving.h"
 #include "pipeline/base/statistics.h"
+#include "pipeline/life/first_failure.h"
 #include "tests/catch.h"
 
 namespace dresslife::pipeline {
