@@ -111,10 +111,8 @@ void apply_calibration(Node& tree, Job& job) {
 
 void apply_spread(Job& job) {
   Calibration& calibration = *job.calibration;
-  const std::vector<std::filesystem::path> files = files_beside(job);
-  if (calibration.residual_spread == 1 ||
-      std::ranges::any_of(files, [](const auto& file) { return !std::filesystem::exists(file); }))
-    return;
+  if (calibration.residual_spread == 1) return;  // of every job with ratings: the files are not read
+  if (!std::ranges::all_of(files_beside(job), [](const auto& file) { return std::filesystem::exists(file); })) return;
   if (calibration.under.motions.find(motion_digest(job)) == std::string::npos) calibration.residual_spread = 1;
 }
 

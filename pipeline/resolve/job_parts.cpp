@@ -236,26 +236,26 @@ void describe_fatigue(Fields& echo, Job& copy) {
   echo.maybe_group("calibration", copy.calibration, "");
 }
 
+// The content of a file matters, and its digest is compared in addition to the text; its folder does not matter.
+std::string file_name(const std::filesystem::path& file) { return file.filename().string(); }
+
 }  // namespace
 
 std::string part_text(const Job& job, JobPart part) {
   const auto described = part == JobPart::sim      ? describe_sim
                          : part == JobPart::strain ? describe_strain
                                                    : describe_fatigue;
-  // The content of a file matters, and its digest is compared in addition to this text; its folder does not matter.
-  const PathText name = [](const std::filesystem::path& file) { return file.filename().string(); };
   Job copy = job;  // a part changes it, in the same way at each call
-  return echo_text(Describe([&](Fields& f) { described(f, copy); }), name);
+  return echo_text(Describe([&](Fields& f) { described(f, copy); }), file_name);
 }
 
 std::string motion_digest(const Job& job) {
-  const PathText name = [](const std::filesystem::path& file) { return file.filename().string(); };
   Motion motion = job.motion;
-  std::string text = job.robot.name + echo_text(Describe([&](Fields& f) { describe(f, motion); }), name);
+  std::string text = job.robot.name + echo_text(Describe([&](Fields& f) { describe(f, motion); }), file_name);
   for (const MountedDresspack& mounted : job.dresspacks) {
     Routing routing = mounted.routing;
     text += mounted.name + ":" + mounted.dresspack.name +
-            echo_text(Describe([&](Fields& f) { describe(f, routing); }), name);
+            echo_text(Describe([&](Fields& f) { describe(f, routing); }), file_name);
   }
   for (const std::filesystem::path& file : files_beside(job)) text += xxh3_of_file(file);
   return xxh3(text);
