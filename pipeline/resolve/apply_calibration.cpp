@@ -111,7 +111,7 @@ void apply_calibration(Node& tree, Job& job) {
 
 void apply_spread(Job& job) {
   Calibration& calibration = *job.calibration;
-  if (calibration.residual_spread == 1) return;  // of every job with ratings: the files are not read
+  if (calibration.residual_spread == 1) return;  // as in each job without a calibration of its own
   if (!std::ranges::all_of(files_beside(job), [](const auto& file) { return std::filesystem::exists(file); })) return;
   if (calibration.under.motions.find(motion_digest(job)) == std::string::npos) calibration.residual_spread = 1;
 }

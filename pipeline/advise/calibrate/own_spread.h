@@ -29,8 +29,8 @@ inline double own_spread_at(double z) { return std::exp(own_spread_deviation * (
 inline double own_spread_z(double f) { return std::log(f) / own_spread_deviation + own_spread_deviation; }
 
 struct OwnSpread {
-  double factor = 1;                     ///< root of the mean of f^2
-  double low = 0, median = 0, high = 0;  ///< quantiles 10, 50 and 90 % of f
+  double factor = 1;         ///< root of the mean of f^2
+  double low = 0, high = 0;  ///< quantiles 10 and 90 % of f
 };
 /// z: samples.
 OwnSpread own_spread_of(const Eigen::VectorXd& z);

@@ -137,9 +137,8 @@ TEST_CASE("own spread: the prior keeps the variance of a job, and z is exact bot
   const std::vector<double> normals = standard_normals("spread", 4000);
   const OwnSpread prior = own_spread_of(Eigen::Map<const VectorXd>(normals.data(), 4000));
   CHECK(prior.factor == Approx(1).epsilon(0.03));
-  CHECK(prior.median == Approx(std::exp(-0.49)).epsilon(0.01));
-  CHECK(prior.high / prior.median == Approx(std::exp(normal_decile * 0.7)).epsilon(0.01));
-  CHECK(prior.median / prior.low == Approx(std::exp(normal_decile * 0.7)).epsilon(0.01));
+  CHECK(prior.low == Approx(std::exp(-0.49 - normal_decile * 0.7)).epsilon(0.01));
+  CHECK(prior.high == Approx(std::exp(-0.49 + normal_decile * 0.7)).epsilon(0.01));
   CHECK(own_spread_at(own_spread_as_is) == 1);
   for (const double f : {0.01, 0.3, 1.0, 4.0}) CHECK(own_spread_at(own_spread_z(f)) == Approx(f).epsilon(1e-12));
 }

@@ -46,13 +46,17 @@ TEST_CASE("outcome: slack beyond its limits counts as a share of the hose's leng
     CHECK(beyond(check_name::too_long, length / 3 + more, length / 3, place("too long")) == Approx(more / length));
 }
 
+void write_empty_receipt(const Scratch& scratch) {
+  const auto file = scratch.folder() / files_of_stage(0).receipt;
+  std::filesystem::create_directories(file.parent_path());
+  write_receipt(file, {.recipe = "", .input = "", .output = "", .state = {}, .results = {}},
+                scratch.write("output", ""));
+}
+
 TEST_CASE("outcome: a job whose repeats change the dresspack violates a limit, the more the larger the change") {
   const auto outcome = [](std::optional<double> amount) {
     const Scratch scratch;
-    const auto file = scratch.folder() / files_of_stage(0).receipt;
-    std::filesystem::create_directories(file.parent_path());
-    write_receipt(file, {.recipe = "", .input = "", .output = "", .state = {}, .results = {}},
-                  scratch.write("output", ""));
+    write_empty_receipt(scratch);
     RankingRow row;
     row.warnings = {Warning{WarningKind::periodic, "", "it differs. Likely cause: a. Remedy: b", {}, amount}};
     return outcome_of(row, scratch.folder());
@@ -88,10 +92,7 @@ TEST_CASE("merit: wires that live longer than the robot gain nothing by wearing 
 
 TEST_CASE("outcome: the largest share of dresspacks that exceed a limit at other values") {
   const Scratch scratch;
-  const auto file = scratch.folder() / files_of_stage(0).receipt;
-  std::filesystem::create_directories(file.parent_path());
-  write_receipt(file, {.recipe = "", .input = "", .output = "", .state = {}, .results = {}},
-                scratch.write("output", ""));
+  write_empty_receipt(scratch);
   RankingRow row;
   for (const double share : {0.04, 0.25, 0.02})
     row.warnings = joined(row.warnings.value_or(std::vector<Warning>{}),
