@@ -18,6 +18,7 @@ void describe(Fields& f, LearnedParameter& parameter) {
   f.number("median", parameter.median, Need::required, between(-20, 20), "of its standardised variable z");
   f.number("mean", parameter.mean, Need::required, between(-20, 20), "likewise");
   f.numbers("covariance", parameter.covariance, Need::required, "of z with every parameter of this list");
+  f.numbers("samples", parameter.samples, Need::optional, "of z; a place in this list is one sample of all parameters");
   f.number("value", parameter.value, Need::optional, any_number(), "median of its key, for people");
   f.number("value_p10", parameter.value_p10, Need::optional, any_number(),
            "80 % of what is likely lie between this ...");
@@ -98,6 +99,14 @@ void describe(Fields& f, Calibration& calibration) {
 
 namespace {
 
+/// Returns the number of samples of the first parameter that is none of a wall.
+std::size_t samples_in(const Calibration& calibration) {
+  const auto found = std::ranges::find_if(calibration.parameters, [](const LearnedParameter& parameter) {
+    return index_of(parameter.name) < uncertain_count;
+  });
+  return found == calibration.parameters.end() ? 0 : found->samples.size();
+}
+
 void check_parameter(const Calibration& calibration, std::size_t i) {
   const LearnedParameter& parameter = calibration.parameters[i];
   if (index_of(parameter.name) == uncertain_count && !is_wall_strength(parameter.name)) {
@@ -113,6 +122,11 @@ void check_parameter(const Calibration& calibration, std::size_t i) {
                      fmt::format("'{}' has {} covariances (there are {} parameters)", parameter.name,
                                  parameter.covariance.size(), calibration.parameters.size()),
                      "run dresslife calibrate again");
+  if (index_of(parameter.name) < uncertain_count && parameter.samples.size() != samples_in(calibration))
+    throw InputError(parameter.where,
+                     fmt::format("'{}' has {} samples, another parameter has {}", parameter.name,
+                                 parameter.samples.size(), samples_in(calibration)),
+                     "run dresslife calibrate again");
 }
 
 Eigen::MatrixXd covariance_of(const Calibration& calibration) {
@@ -122,6 +136,29 @@ Eigen::MatrixXd covariance_of(const Calibration& calibration) {
     for (Eigen::Index j = 0; j < n; ++j)
       covariance(i, j) = calibration.parameters[static_cast<std::size_t>(i)].covariance[static_cast<std::size_t>(j)];
   return covariance;
+}
+
+/// Returns the calibration's samples; null: it has none.
+std::shared_ptr<const StandardSamples> standard_samples(const Calibration& calibration,
+                                                        const ParameterKnowledge& knowledge) {
+  if (samples_in(calibration) == 0) return nullptr;
+  auto samples = std::make_shared<StandardSamples>();
+  std::vector<const LearnedParameter*> of;
+  for (const std::size_t p : sampling_order())
+    if (const LearnedParameter* const found =
+            find_in(calibration.parameters, &LearnedParameter::name, uncertain_parameters()[p].name))
+      samples->parameters.push_back(p), of.push_back(found);
+  const Eigen::MatrixXd factor = triangular_factor(knowledge.covariance, samples->parameters);
+  Eigen::MatrixXd& numbers = samples->numbers;
+  numbers.setZero(static_cast<Eigen::Index>(samples_in(calibration)), factor.rows());
+  for (Eigen::Index k = 0; k < factor.rows(); ++k) {
+    if (factor(k, k) == 0) continue;  // the parameter is known
+    const LearnedParameter& parameter = *of[static_cast<std::size_t>(k)];
+    const Eigen::Map<const Eigen::VectorXd> z(parameter.samples.data(), numbers.rows());
+    numbers.col(k) = ((z.array() - parameter.mean).matrix() - numbers.leftCols(k) * factor.row(k).head(k).transpose()) /
+                     factor(k, k);
+  }
+  return samples;
 }
 
 }  // namespace
@@ -162,6 +199,7 @@ ParameterKnowledge knowledge_of(const Calibration& calibration, ParameterKnowled
     knowledge.mean[p] = calibration.parameters[static_cast<std::size_t>(i)].mean;
     for (const auto& [j, q] : places) knowledge.covariance(p, q) = covariance(i, j);
   }
+  knowledge.samples = standard_samples(calibration, knowledge);
   return knowledge;
 }
 

@@ -24,6 +24,7 @@ struct LearnedParameter {
   std::string name;
   double median = 0, mean = 0;                     ///< of z
   std::vector<double> covariance;                  ///< of z, with every parameter of the list
+  std::vector<double> samples;                     ///< of z, (sample); empty: z is normal
   double value = 0, value_p10 = 0, value_p90 = 0;  ///< median of the key, and limits between which 80 % lie
   Where where;
 };
@@ -75,7 +76,7 @@ struct LearnedUnder {
 
 struct Calibration {
   static constexpr const char* format_word = "dresslife-calibration";
-  static constexpr int newest_version = 2;
+  static constexpr int newest_version = 3;
   std::string format = format_word;
   int format_version = newest_version;
   bool applied = false;
@@ -105,11 +106,11 @@ void describe(Fields& f, LearnedMaterial& material);
 void describe(Fields& f, LearnedUnder& under);
 void describe(Fields& f, Calibration& calibration);
 
-/// Errors: InputError at the place for another format, a newer version, an unknown or repeated parameter, or a covariance that is
-/// not square, symmetric and positive.
+/// Errors: InputError at the place for another format, a newer version, an unknown or repeated parameter, a covariance that is
+/// not square, symmetric and positive, or lists of samples of different lengths.
 void check_calibration(const Calibration& calibration);
 
-/// Returns the calibration's parameters in the order of uncertain_parameters(). Parameters without calibration keep their prior;
+/// Returns the calibration's parameters in the order of uncertain_parameters(), with the samples. Parameters without calibration keep their prior;
 /// own_spread changes the prior of those that each dresspack has for itself.
 ParameterKnowledge knowledge_of(const Calibration& calibration, ParameterKnowledge prior);
 

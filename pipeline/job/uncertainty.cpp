@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/base/order.h"
 #include "pipeline/job/fatigue.h"
 #include "pipeline/job/material.h"
 #include "pipeline/settings/fields.h"
@@ -130,6 +131,31 @@ double other_stiffness(const Uncertainty& uncertainty) {
   constexpr double reach = 1.65;
   const UncertainParameter& stiffness = uncertain_parameters()[index_of(Uncertain::hose_stiffness)];
   return uncertainty.enabled ? reach * stiffness.z_of(uncertainty.spread[index_of(Uncertain::hose_stiffness)]) : 0;
+}
+
+std::vector<std::size_t> sampling_order() {
+  std::vector<std::size_t> order = indices_of(uncertain_count);
+  std::ranges::stable_partition(
+      order, [](std::size_t p) { return uncertain_parameters()[p].shared != SharedBy::installation; });
+  return order;
+}
+
+Eigen::MatrixXd triangular_factor(const Eigen::MatrixXd& covariance, const std::vector<std::size_t>& order) {
+  const auto n = static_cast<Eigen::Index>(order.size());
+  Eigen::MatrixXd factor = Eigen::MatrixXd::Zero(n, n);
+  const auto of = [&](Eigen::Index a, Eigen::Index b) {
+    return covariance(static_cast<Eigen::Index>(order[std::size_t(a)]),
+                      static_cast<Eigen::Index>(order[std::size_t(b)]));
+  };
+  for (Eigen::Index column = 0; column < n; ++column) {
+    const double left = of(column, column) - factor.row(column).head(column).squaredNorm();
+    if (!(left > 1e-12)) continue;
+    factor(column, column) = std::sqrt(left);
+    for (Eigen::Index row = column + 1; row < n; ++row)
+      factor(row, column) = (of(row, column) - factor.row(row).head(column).dot(factor.row(column).head(column))) /
+                            factor(column, column);
+  }
+  return factor;
 }
 
 ParameterKnowledge prior_of(const Uncertainty& uncertainty) {

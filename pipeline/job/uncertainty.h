@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -92,10 +93,25 @@ void describe(Fields& f, Uncertainty& uncertainty);
 /// Returns whether the job states that it knows a parameter: its spread has no effect.
 bool is_known(const Uncertainty& uncertainty, Uncertain parameter);
 
-/// Joint knowledge about all parameters: a normal distribution of z. It is the prior of a job or the posterior of a calibration.
+/// Returns the parameters in the order of sampling: shared parameters come before those of one job, so that shared values do not
+/// depend on the job's own numbers.
+std::vector<std::size_t> sampling_order();
+/// Returns the lower triangle L with L L^T = covariance, for the rows and columns of `order`; a known parameter has a row of zeros.
+Eigen::MatrixXd triangular_factor(const Eigen::MatrixXd& covariance, const std::vector<std::size_t>& order);
+
+/// Samples of a posterior, standardised: L^-1 (z - mean), with the triangular_factor() L of these parameters. Their mean is 0 and
+/// their covariance is 1, but they are not normal: observed lives confine z to a curved surface.
+struct StandardSamples {
+  std::vector<std::size_t> parameters;  ///< in sampling_order()
+  Eigen::MatrixXd numbers;              ///< (sample, index in parameters)
+};
+
+/// Joint knowledge about all parameters. It is the prior of a job or the posterior of a calibration. Samples of z are mean + L n.
+/// n is standard normal, or one of `samples`.
 struct ParameterKnowledge {
-  Eigen::VectorXd mean;        ///< (parameter), in the order of uncertain_parameters()
-  Eigen::MatrixXd covariance;  ///< (parameter, parameter)
+  Eigen::VectorXd mean;                              ///< (parameter), in the order of uncertain_parameters()
+  Eigen::MatrixXd covariance;                        ///< (parameter, parameter)
+  std::shared_ptr<const StandardSamples> samples{};  ///< null: z is normal
 };
 /// Returns z of the two other hose stiffnesses that dresslife-sim and dresslife-strain evaluate: -z and z, by default 0.4 and 2.5
 /// times the hose's stiffness. 0: there are none, because the stiffness is known or has no effect.

@@ -7,9 +7,13 @@
 #include <cassert>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <map>
+#include <memory>
 #include <numeric>
 #include <set>
+#include <sstream>
+#include <stdexcept>
 
 #include "pipeline/base/constants.h"
 #include "pipeline/base/joined.h"
@@ -54,31 +58,11 @@ std::string stream_of(const LifeResponse& response, std::size_t parameter, const
   return name + own_name(response, job);
 }
 
-/// Returns the lower triangle L with L L^T = covariance; a known parameter has a row of zeros. Shared parameters come before
-/// those of one job, so that shared values do not depend on the job's own numbers. order: parameter of each row.
-Eigen::MatrixXd factor_of(const Eigen::MatrixXd& covariance, const std::vector<std::size_t>& order) {
-  const auto n = static_cast<Eigen::Index>(order.size());
-  Eigen::MatrixXd factor = Eigen::MatrixXd::Zero(n, n);
-  const auto of = [&](Eigen::Index a, Eigen::Index b) {
-    return covariance(static_cast<Eigen::Index>(order[std::size_t(a)]),
-                      static_cast<Eigen::Index>(order[std::size_t(b)]));
-  };
-  for (Eigen::Index column = 0; column < n; ++column) {
-    const double left = of(column, column) - factor.row(column).head(column).squaredNorm();
-    if (!(left > 1e-12)) continue;
-    factor(column, column) = std::sqrt(left);
-    for (Eigen::Index row = column + 1; row < n; ++row)
-      factor(row, column) = (of(row, column) - factor.row(row).head(column).dot(factor.row(column).head(column))) /
-                            factor(column, column);
-  }
-  return factor;
-}
-
 /// Returns the weights W, (row, column), with W C = numbers for a covariance C. Precondition: each row of `numbers` is a
 /// combination of rows of C. A column that depends on preceding ones has weight 0. (Eigen's pseudo-inverse takes nine seconds to
 /// compile.)
 Eigen::MatrixXd divided(const Eigen::MatrixXd& numbers, const Eigen::MatrixXd& covariance) {
-  const Eigen::MatrixXd factor = factor_of(covariance, indices_of(static_cast<std::size_t>(covariance.rows())));
+  const Eigen::MatrixXd factor = triangular_factor(covariance, indices_of(static_cast<std::size_t>(covariance.rows())));
   const Eigen::Index n = factor.rows();
   Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(numbers.rows(), n);
   for (Eigen::Index row = 0; row < numbers.rows(); ++row) {
@@ -133,15 +117,36 @@ std::set<StrainPoint> places_of(const FailureModes& modes) {
   return places;
 }
 
+/// Returns `count` row numbers from 0 to `rows` - 1, each equally often as far as possible, increasing.
+std::vector<double> even_rows(Eigen::Index rows, std::size_t count) {
+  std::vector<double> even(count);
+  for (std::size_t s = 0; s < count; ++s) even[s] = std::floor((double(s) + 0.5) / double(count) * double(rows));
+  return even;
+}
+
+bool are_equal(const std::shared_ptr<const StandardSamples>& one, const std::shared_ptr<const StandardSamples>& other) {
+  return one == other || (one && other && one->parameters == other->parameters && one->numbers == other->numbers);
+}
+
 /// has_residual: depends_on_place(response). again: returns another, independent set of samples.
 /// moved_as: name in place of `job` for the parameter `motion`.
 Samples samples_of(const LifeResponse& response, bool has_residual, const std::string& job, const std::string& moved_as,
                    std::size_t count, bool again) {
   const auto normals = [&](const std::string& name) { return standard_normals(again ? name + " again" : name, count); };
-  std::vector<std::size_t> order = indices_of(uncertain_count);
-  std::stable_partition(order.begin(), order.end(),
-                        [](std::size_t p) { return uncertain_parameters()[p].shared != SharedBy::installation; });
-  const Eigen::MatrixXd factor = factor_of(response.knowledge.covariance, order);
+  const std::vector<std::size_t> order = sampling_order();
+  const Eigen::MatrixXd factor = triangular_factor(response.knowledge.covariance, order);
+  const StandardSamples* const posterior = response.knowledge.samples.get();
+  const std::vector<double> rows =
+      posterior ? in_order_of(again ? "posterior again" : "posterior", even_rows(posterior->numbers.rows(), count))
+                : std::vector<double>{};
+  const auto numbers_of = [&](std::size_t parameter) {
+    if (posterior)
+      if (const auto found = std::ranges::find(posterior->parameters, parameter); found != posterior->parameters.end())
+        return mapped(rows, [&, column = found - posterior->parameters.begin()](double row) {
+          return posterior->numbers(static_cast<Eigen::Index>(row), column);
+        });
+    return normals(stream_of(response, parameter, parameter == index_of(Uncertain::motion) ? moved_as : job));
+  };
   Samples samples{std::vector<ParameterPoint>(count), normals("scatter of wires/" + own_name(response, job)), {}};
   if (has_residual) {
     samples.residual = normals("residual/" + own_name(response, job));
@@ -157,12 +162,11 @@ Samples samples_of(const LifeResponse& response, bool has_residual, const std::s
       samples.z[s][p] = response.knowledge.mean(static_cast<Eigen::Index>(p));
   for (std::size_t column = 0; column < uncertain_count; ++column) {
     if (factor.col(static_cast<Eigen::Index>(column)).isZero(0)) continue;
-    const bool moves = order[column] == index_of(Uncertain::motion);
-    const std::vector<double> normal = normals(stream_of(response, order[column], moves ? moved_as : job));
+    const std::vector<double> numbers = numbers_of(order[column]);
     for (std::size_t row = column; row < uncertain_count; ++row) {
       const double weight = factor(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column));
       if (weight == 0) continue;
-      for (std::size_t s = 0; s < count; ++s) samples.z[s][order[row]] += weight * normal[s];
+      for (std::size_t s = 0; s < count; ++s) samples.z[s][order[row]] += weight * numbers[s];
     }
   }
   return samples;
@@ -177,7 +181,8 @@ bool share_samples(const LifeResponse& one, const LifeResponse& other) {
   return one.construction == other.construction && one.material == other.material && one.dresspack == other.dresspack &&
          one.scatter_shared == other.scatter_shared && one.residual_spread == other.residual_spread &&
          (one.scatter_shared == 1 || one.mode == other.mode) && one.knowledge.mean == other.knowledge.mean &&
-         one.knowledge.covariance == other.knowledge.covariance;
+         one.knowledge.covariance == other.knowledge.covariance &&
+         are_equal(one.knowledge.samples, other.knowledge.samples);
 }
 
 std::vector<Samples> samples_of(const FailureModes& modes, const std::string& job, std::size_t count,
@@ -529,14 +534,62 @@ double residual_of(const FailureModes& modes) {
   return std::ranges::any_of(modes, depends_on_place) ? residual_decades * modes.front().residual_spread : 0;
 }
 
-std::string modes_text(const FailureModes& modes) { return joined(mapped(modes, &LifeResponse::text), ""); }
+namespace {
+
+constexpr std::string_view samples_word = "samples";
+
+std::string text_of(const StandardSamples& samples) {
+  std::string text;
+  for (std::size_t k = 0; k < samples.parameters.size(); ++k) {
+    text += fmt::format("{} {}", samples_word, uncertain_parameters()[samples.parameters[k]].name);
+    for (const double number : samples.numbers.col(static_cast<Eigen::Index>(k)))
+      text += fmt::format(" {:.3f}", number);
+    text += '\n';
+  }
+  return text;
+}
+
+/// Errors: std::invalid_argument for any text that text_of() does not return.
+StandardSamples samples_from_text(const std::string& text) {
+  StandardSamples samples;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string word, name;
+    words >> word >> name;
+    std::vector<double> numbers{std::istream_iterator<double>(words), {}};
+    const auto column = static_cast<Eigen::Index>(samples.parameters.size());
+    const auto rows = static_cast<Eigen::Index>(numbers.size());
+    samples.parameters.push_back(index_of(name));
+    if (word != samples_word || samples.parameters.back() == uncertain_count || !words.eof() || rows == 0 ||
+        (column > 0 && rows != samples.numbers.rows()))
+      throw std::invalid_argument("samples of a posterior of other lengths or names");
+    samples.numbers.conservativeResize(rows, column + 1);
+    samples.numbers.col(column) = Eigen::Map<const Eigen::VectorXd>(numbers.data(), rows);
+  }
+  return samples;
+}
+
+}  // namespace
+
+std::string modes_text(const FailureModes& modes) {
+  const auto& samples = modes.front().knowledge.samples;
+  assert(
+      std::ranges::all_of(modes, [&](const LifeResponse& mode) { return are_equal(mode.knowledge.samples, samples); }));
+  return (samples ? text_of(*samples) : "") + joined(mapped(modes, &LifeResponse::text), "");
+}
 
 FailureModes modes_from_text(const std::string& text) {
   FailureModes modes;
-  for (std::size_t begin = 0; begin < text.size() || modes.empty();) {
+  const std::size_t first = text.starts_with(samples_word) ? text.find("\nmode ") : std::string::npos;
+  std::size_t begin = first == std::string::npos ? 0 : first + 1;
+  const auto samples =
+      begin > 0 ? std::make_shared<const StandardSamples>(samples_from_text(text.substr(0, begin))) : nullptr;
+  while (begin < text.size() || modes.empty()) {
     const std::size_t next = text.find("\nmode ", begin);
     const std::size_t end = next == std::string::npos ? text.size() : next + 1;
     modes.push_back(LifeResponse::from_text(text.substr(begin, end - begin)));
+    modes.back().knowledge.samples = samples;
     begin = end;
   }
   return modes;

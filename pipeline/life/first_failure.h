@@ -25,7 +25,7 @@ namespace dresslife::pipeline {
 using FailureModes = std::vector<LifeResponse>;
 
 /// modes_text returns the modes as text for an attribute of a file. modes_from_text reads it back, and also reads a text of a
-/// single response. Errors: std::invalid_argument for any other text.
+/// single response. Errors: std::invalid_argument for any other text. Precondition: all modes have equal knowledge.samples.
 std::string modes_text(const FailureModes& modes);
 FailureModes modes_from_text(const std::string& text);
 

@@ -36,16 +36,36 @@ double learned(const std::string& calibration, const std::string& parameter, con
   return std::stod(calibration.substr(calibration.find("\n    " + key + ": ", entry) + key.size() + 7));
 }
 
-double life_hours(const Scratch& scratch, const std::string& sets) {
-  must_run(scratch, "dresslife", "run job.yaml --quiet --set uncertainty.enabled=false " + sets);
+/// Returns a number of the job in ranking.csv.
+double ranked(const Scratch& scratch, const std::string& column) {
   const std::string csv = content(scratch / "runs/job/ranking.csv");
-  const std::string names = csv.substr(0, csv.find('\n')), values = csv.substr(csv.find('\n') + 1);
-  std::istringstream keys(names), cells(values);
+  std::istringstream keys(csv.substr(0, csv.find('\n'))), cells(csv.substr(csv.find('\n') + 1));
   std::string key, cell;
   while (std::getline(keys, key, ',') && std::getline(cells, cell, ','))
-    if (key == "life_hours") return std::stod(cell);
-  FAIL("no life_hours");
+    if (key == column) return std::stod(cell);
+  FAIL("no " + column);
   return 0;
+}
+
+double life_hours(const Scratch& scratch, const std::string& sets) {
+  must_run(scratch, "dresslife", "run job.yaml --quiet --set uncertainty.enabled=false " + sets);
+  return ranked(scratch, "life_hours");
+}
+
+/// Compares deciles in the table of a calibration, such as "2,900 (4,600, 7,400) ...", with those of the job's run.
+void check_deciles(const Scratch& scratch, std::string text) {
+  std::erase(text, ',');
+  std::istringstream numbers(text);
+  char bracket = 0;
+  double early = 0, median = 0, late = 0;
+  numbers >> early >> bracket >> median >> late;
+  INFO(text);
+  // Three standard errors of a decile of 2,000 samples, each 0.04 of a deviation of the logarithm; plus rounding to two digits.
+  const double deviation = std::log(ranked(scratch, "life_hours_p90") / ranked(scratch, "life_hours_p10")) / 2.56;
+  const double within = 3 * 0.04 * deviation + 0.05;
+  CHECK(std::abs(std::log(early / ranked(scratch, "life_hours_p10"))) < within);
+  CHECK(std::abs(std::log(median / ranked(scratch, "life_hours_p50"))) < within);
+  CHECK(std::abs(std::log(late / ranked(scratch, "life_hours_p90"))) < within);
 }
 
 }  // namespace
@@ -63,7 +83,7 @@ TEST_CASE("calibrate: wires that lived longer than predicted lengthen what a job
   CHECK(outcome.out.find("friction_inside") != std::string::npos);
   CHECK(outcome.out.find("no test depends on it") != std::string::npos);
   const std::string file = unmarked_content(scratch / "runs/calibrate_o/calibration.yaml");
-  CHECK(file.starts_with("format: dresslife-calibration\nformat_version: 2\n"));
+  CHECK(file.starts_with("format: dresslife-calibration\nformat_version: 3\n"));
   CHECK(learned(file, "strength", "value") > 1.05);
   CHECK(learned(file, "model", "value") > 1.05);
   CHECK(file.find("name: slack") == std::string::npos);
@@ -153,28 +173,8 @@ TEST_CASE("calibrate: the prior predicts the hours that a run predicts") {
           "\n    what: twisted\n    source: made for the tests\n    hours: 1\n    outcome: run_out\n    unshared_log10: 0.01\n");
   const Outcome outcome = must_run(scratch, "dresslife", "calibrate o.yaml --quiet");
   INFO(outcome.out << outcome.err);
-  std::string line = outcome.out.substr(outcome.out.find("\none ") + 5);
-  line = line.substr(line.find(" h ") + 3);
-  std::erase(line, ',');
-  std::istringstream numbers(line);
-  char bracket = 0;
-  double early = 0, median = 0, late = 0;
-  numbers >> early >> bracket >> median >> late;
-  const std::string csv = content(scratch / "runs/job/ranking.csv");
-  const auto cell = [&](const std::string& name) {
-    std::istringstream keys(csv.substr(0, csv.find('\n'))), cells(csv.substr(csv.find('\n') + 1));
-    std::string key, value;
-    while (std::getline(keys, key, ',') && std::getline(cells, value, ','))
-      if (key == name) return std::stod(value);
-    FAIL(name);
-    return 0.0;
-  };
-  // Three standard errors of a decile of 2,000 samples, each 0.04 of a deviation of the logarithm; plus rounding to two digits.
-  const double deviation = std::log(cell("life_hours_p90") / cell("life_hours_p10")) / 2.56;
-  const double within = 3 * 0.04 * deviation + 0.05;
-  CHECK(std::abs(std::log(early / cell("life_hours_p10"))) < within);
-  CHECK(std::abs(std::log(median / cell("life_hours_p50"))) < within);
-  CHECK(std::abs(std::log(late / cell("life_hours_p90"))) < within);
+  const std::string line = outcome.out.substr(outcome.out.find("\none ") + 5);
+  check_deciles(scratch, line.substr(line.find(" h ") + 3));
 }
 
 TEST_CASE("calibrate: a maintenance system's table in one command teaches the job that names the result") {
@@ -204,6 +204,11 @@ TEST_CASE("calibrate: a maintenance system's table in one command teaches the jo
   // The prior of ln life has a deviation of ln 6 to ln 10, the mean of ten lives one of some tenths.
   CHECK(after > 6 * before);
   CHECK(after < 13 * before);
+  // A run with the calibration predicts what the calibration predicts: its samples are those of the posterior.
+  must_run(scratch, "dresslife", "run job.yaml --quiet --set calibration=runs/calibrate_plant/calibration.yaml");
+  std::string row_text = outcome.out.substr(outcome.out.find("10 of 12 failed") + 15);
+  for (int group = 0; group < 2; ++group) row_text = row_text.substr(row_text.find(')') + 1);
+  check_deciles(scratch, row_text);
   // The same rows in two tables teach the same. A table that is given twice is doubted.
   std::istringstream rows(table);
   std::string title, line;

@@ -26,6 +26,16 @@ double to_figures(double value, int figures) {
   return value == 0 || !std::isfinite(value) ? value : std::stod(fmt::format("{:.{}g}", value, figures));
 }
 
+/// Returns evenly distributed draws with two decimals: the numbers of a job's samples. A percentile's error is at most 6 % of the
+/// deviation.
+std::vector<double> some_of(const Eigen::VectorXd& draws) {
+  constexpr Index most = 1000;
+  const Index every = std::max<Index>(1, draws.size() / most);
+  std::vector<double> some;
+  for (Index k = 0; k < std::min(most, draws.size()); ++k) some.push_back(std::round(100 * draws[k * every]) / 100);
+  return some;
+}
+
 /// Returns the ranges of bend, twist and strain of the jobs at the centre, from their files.
 LearnedWithin within_of(const std::vector<ObservedTest>& tests, const RoundOfJobs& round, const StudyPlaces& places) {
   LearnedWithin within;
@@ -107,6 +117,7 @@ Calibration calibration_of(const Learned& learned, const std::vector<ObservedTes
     parameter.median = rounded(posterior.median[i]);
     parameter.mean = rounded(posterior.mean[i]);
     for (Index j = 0; j < axes.size(); ++j) parameter.covariance.push_back(rounded(posterior.covariance(i, j)));
+    if (!calibration.typical) parameter.samples = some_of(posterior.draws.col(i));
     parameter.value = to_figures(learned.axes[p].after[1], 4);
     parameter.value_p10 = to_figures(learned.axes[p].after[0], 4);
     parameter.value_p90 = to_figures(learned.axes[p].after[2], 4);

@@ -61,6 +61,46 @@ TEST_CASE("samples of a straight response are normal, with the sum of the varian
     CHECK(longer.share[cause] == Approx(lives.share[cause]).margin(1e-9));
 }
 
+TEST_CASE("samples of a posterior that is not normal keep the dependence of its parameters") {
+  // Strength follows from friction on a curve, so that lives are nearly equal, as after many failures in service. The covariance
+  // of the two parameters is 0.
+  constexpr double a = 0.5, c = 0.4;
+  LifeResponse curved = straight(0, 0, c);
+  for (std::size_t k = 0; k < curved.points.size(); ++k)  // the life is 5 - a |friction| + c strength
+    for (std::size_t s = 0; s < 3; ++s)
+      curved.worst_life[3 * k + s] = 5.3 - a * std::abs(curved.points[k][friction]) + c * curved.strength[s];
+  curved.planned = {{5, 5, 5}};
+  curved.knowledge.covariance.setZero();
+  const std::vector<double> f = standard_strata(1000);
+  double mean = 0, variance = 0;
+  for (const double z : f) mean += std::abs(z) * a / c / 1000;
+  for (const double z : f) variance += std::pow(std::abs(z) * a / c - mean, 2) / 1000;
+  StandardSamples samples{{friction, strength}, Eigen::MatrixXd(1000, 2)};
+  for (Eigen::Index k = 0; k < 1000; ++k) {
+    const double z = f[static_cast<std::size_t>(k)];
+    samples.numbers(k, 0) = z, samples.numbers(k, 1) = (std::abs(z) * a / c - mean) / std::sqrt(variance);
+  }
+  curved.knowledge.mean(strength) = mean;
+  curved.knowledge.covariance(friction, friction) = 1, curved.knowledge.covariance(strength, strength) = variance;
+  const auto width = [](const FirstFailures& lives) {
+    return std::log10(lives.percentiles[2]) - std::log10(lives.percentiles[0]);
+  };
+  const FirstFailures normal = summary_of({curved}, "job");
+  CHECK(width(normal) > 0.8);
+  curved.knowledge.samples = std::make_shared<const StandardSamples>(std::move(samples));
+  const FirstFailures lives = summary_of({curved}, "job");
+  CHECK(width(lives) < 1e-9);
+  CHECK(sum(lives.share) == Approx(1).margin(1e-9));
+  // As text the numbers have three decimals, which change a life by at most (a + c) 0.0005 decades.
+  const FailureModes read = modes_from_text(modes_text({curved, curved}));
+  REQUIRE(read.size() == 2);
+  CHECK(width(summary_of(read, "job")) < 2e-3);
+  CHECK(modes_text(read) == modes_text({curved, curved}));
+  CHECK_THROWS_AS(modes_from_text("samples strength 1 2\nsamples slope 1\n" + curved.text()), std::invalid_argument);
+  CHECK_THROWS_AS(modes_from_text("samples weight 1 2\n" + curved.text()), std::invalid_argument);
+  CHECK_THROWS_AS(modes_from_text("samples slope 1 two\n" + curved.text()), std::invalid_argument);
+}
+
 TEST_CASE("the swing of a mounted hose widens lives, each job's by its own") {
   LifeResponse swings = straight(0, 0, 0);
   swings.knowledge.covariance.setZero();

@@ -142,6 +142,27 @@ TEST_CASE("calibration: the strength of a hose's wall stands beside the wires' p
   CHECK(known.covariance(index_of(Uncertain::strength), index_of(Uncertain::strength)) == 0.3);
 }
 
+TEST_CASE("calibration: samples that are standardised give the samples of the file") {
+  const std::string with = edited(edited(two_learned(), "[0.25, -0.1]", "[0.25, -0.1], samples: [0.1, 0.9, 0.2]"),
+                                  "[-0.1, 0.5]", "[-0.1, 0.5], samples: [-0.4, -1.8, -0.3]");
+  const Scratch scratch;
+  scratch.write("learned.yaml", with);
+  const Job job = read_job(scratch.write("job.yaml", sample_job + "calibration: learned.yaml\n"));
+  CHECK(job_text(job_from(parse_yaml(job_text(job), "elsewhere.yaml"))) == job_text(job));
+  const ParameterKnowledge known = knowledge_of(job);
+  REQUIRE(known.samples);
+  constexpr std::size_t friction = index_of(Uncertain::friction_inside), strength = index_of(Uncertain::strength);
+  CHECK(known.samples->parameters == std::vector{friction, strength});
+  const Eigen::MatrixXd factor = triangular_factor(known.covariance, known.samples->parameters);
+  const Eigen::MatrixXd z = known.samples->numbers * factor.transpose();
+  for (const auto& [k, at_friction, at_strength] : {std::tuple{0, -0.4, 0.1}, {1, -1.8, 0.9}, {2, -0.3, 0.2}}) {
+    CHECK(z(k, 0) - 0.9 == Approx(at_friction));
+    CHECK(z(k, 1) + 0.4 == Approx(at_strength));
+  }
+  CHECK(refusal(edited(with, "[0.1, 0.9, 0.2]", "[0.1, 0.9]")).find("has 3 samples, another parameter has 2") !=
+        std::string::npos);
+}
+
 TEST_CASE("calibration: bad files are refused at their place") {
   CHECK(refusal(two_learned()) == "");
   CHECK(refusal(edited(two_learned(), "strength,", "strenght,"))
