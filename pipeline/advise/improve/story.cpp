@@ -108,7 +108,8 @@ std::string choice_words(const Improvement& found, const Finals& finals) {
       text += fmt::format("{}, within the mounting tolerance, at worst: {}\n", of,
                           outcome_words(judged.tolerance->worst_outcome, judged.tolerance->worst_outcome.hours));
   };
-  if (finals.of.front().tolerance) add_worst("The proposed job", best);
+  if (finals.of.front().tolerance && best.trial != 0)
+    add_worst(finals.is_gain(best) ? "The proposed job" : fmt::format("Trial {}", best.trial), best);
   add_worst("The job as it is", finals.of.front());
   return text + other_words(found, finals) +
          refused_words(found, finals.is_gain(best) ? found.trials[best.trial].worst : found.trials.front().worst) +
