@@ -103,7 +103,7 @@ std::string keep_words(const Finals& finals) {
 std::string choice_words(const Improvement& found, const Finals& finals) {
   const Final& best = *finals.best();
   std::string text;
-  const auto add_worst = [&](const char* of, const Final& judged) {
+  const auto add_worst = [&](const std::string& of, const Final& judged) {
     if (judged.tolerance)
       text += fmt::format("{}, within the mounting tolerance, at worst: {}\n", of,
                           outcome_words(judged.tolerance->worst_outcome, judged.tolerance->worst_outcome.hours));
