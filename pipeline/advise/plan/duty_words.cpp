@@ -221,10 +221,10 @@ std::string duty_words(const std::vector<DutyResult>& results) {
     for (const DutyPart& part : duty.parts) time += part.share_of_time, wide = std::max(wide, columns_of(part.job));
     text += fmt::format("{}{}\n", text.empty() ? "" : "\n", duty.name);
     text += indented_lines(duty_action(duty)) + indented_lines(percentile_words(duty));
-    text += fmt::format("  {:<{}}  {:>14}  {:>8}  {:>8}  {:>17}  {:>21}\n", "program", wide, "repeats per h", "time",
-                        "damage", "p10 without it [h]", "p10 if twice as often");
+    text += fmt::format("  {:<{}}  {:>14}  {:>8}  {:>8}  {:>18}  {:>25}\n", "program", wide, "repeats per h", "time",
+                        "damage", "p10 without it [h]", "p10 if twice as often [h]");
     for (std::size_t k = 0; k < duty.parts.size(); ++k)
-      text += fmt::format("  {:<{}}  {:>14}  {:>6.1f} %  {:>6.1f} %  {:>18}  {:>21}\n", duty.parts[k].job, wide,
+      text += fmt::format("  {:<{}}  {:>14}  {:>6.1f} %  {:>6.1f} %  {:>18}  {:>25}\n", duty.parts[k].job, wide,
                           readable(duty.parts[k].repeats_per_hour), 100 * duty.parts[k].share_of_time,
                           100 * duty.lives.share[k], shown_hours(duty.robot_life_hours, duty.parts[k].without[0]),
                           as_twice_text(duty, duty.parts[k]));

@@ -130,6 +130,14 @@ TEST_CASE("a duty names the mode beside the wires that comes first, and all that
   CHECK_THAT(in_one_line(caution_words(duty)), Catch::Contains("1 of 10 dresspacks has a corkscrew after 10,000 h"));
 }
 
+TEST_CASE("the table of a duty names the unit of each of its lives") {
+  DutyResult duty;
+  duty.name = "shift", duty.robot_life_hours = 40000;
+  duty.modes = {"wires"}, duty.changes = {1}, duty.damage.same_place = {1};
+  duty.parts.resize(1), duty.lives.share = {1}, duty.lives.percentiles = {1e4, 2e4, 3e4};
+  CHECK_THAT(duty_words({duty}), Catch::Contains("  p10 without it [h]  p10 if twice as often [h]\n"));
+}
+
 TEST_CASE("a duty states how much the damages of a cycle's recordings differ") {
   DutyResult duty;
   duty.modes = {"wires"}, duty.changes = {1}, duty.damage.same_place = {1}, duty.has_order = true;
