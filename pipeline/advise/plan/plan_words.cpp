@@ -174,7 +174,9 @@ std::string test_words(const std::vector<TestValue>& tests, const Plan& plan) {
   std::string lines;
   std::size_t count = 0;
   for (const TestValue& test : tests) {
-    if (!(test.saves > std::max(coin, worth_a_line * plan.cost)) || ++count > most) break;
+    if (!(test.saves > std::max(coin, worth_a_line * plan.cost))) break;
+    if (!(test.saves > test.by_chance)) continue;
+    if (++count > most) break;
     const UncertainParameter& parameter = uncertain_parameters()[test.what.parameter];
     lines += fmt::format("  {:>9}  {}: {}{}\n", readable(test.saves), parameter.test, parameter.name,
                          test.what.of.empty() ? "" : fmt::format(" of '{}'", test.what.of));

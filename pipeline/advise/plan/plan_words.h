@@ -26,7 +26,8 @@ std::vector<std::string> replaced_in(const Fleet& fleet, const Plan& plan, std::
 std::string window_text(const Window& window);
 std::string percent_text(double share);
 
-/// Returns the value of tests, one line for each test that saves a thousandth of the plan's cost or more, at most three.
+/// Returns the value of tests, one line for each test that saves a thousandth of the plan's cost or more and more than by
+/// chance, at most three.
 std::string test_words(const std::vector<TestValue>& tests, const Plan& plan);
 
 /// Returns the value of visual checks for abrasion: of one check today for the three dresspacks with the largest value, then of

@@ -1,5 +1,7 @@
 #include "pipeline/advise/plan/value_of_test.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -9,6 +11,7 @@
 #include "pipeline/base/statistics.h"
 #include "pipeline/base/threads.h"
 #include "pipeline/job/uncertainty.h"
+#include "pipeline/life/first_failure.h"
 
 namespace dresslife::pipeline {
 namespace {
@@ -187,6 +190,28 @@ std::vector<TestValue> values_of_tests(const Fleet& fleet, const std::map<std::s
     }
   const std::vector<double> saves = Values(fleet, tables, plan).of(results);
   for (std::size_t k = 0; k < values.size(); ++k) values[k].saves = saves[k];
+  // In a random order only chance is left. Only for tests with a value, because each order takes as long as a test.
+  constexpr double least_share = 1e-3;  // of the plan's cost, as in test_words()
+  constexpr std::size_t orders = 8;
+  std::vector<std::size_t> of;
+  std::vector<MatrixXd> by_chance;
+  for (std::size_t k = 0; k < values.size(); ++k)
+    for (std::size_t order = 0; order < orders && saves[k] > least_share * plan.cost; ++order) {
+      const SharedValue& what = values[k].what;
+      const UncertainParameter& parameter = uncertain_parameters()[what.parameter];
+      of.push_back(k);
+      by_chance.push_back(
+          results_of(in_order_of(fmt::format("{} of {}, order {}", parameter.name, what.of, order), what.z),
+                     parameter.test_deviation / parameter.deviation(), plan.weights));
+    }
+  const std::vector<double> chances = Values(fleet, tables, plan).of(by_chance);
+  for (std::size_t first = 0; first < of.size(); first += orders) {
+    double mean = 0, variance = 0;
+    for (std::size_t k = first; k < first + orders; ++k) mean += chances[k] / orders;
+    for (std::size_t k = first; k < first + orders; ++k)
+      variance += (chances[k] - mean) * (chances[k] - mean) / (orders - 1);
+    values[of[first]].by_chance = mean + 3 * std::sqrt(variance);
+  }
   std::ranges::stable_sort(values, [](const TestValue& a, const TestValue& b) { return a.saves > b.saves; });
   return values;
 }

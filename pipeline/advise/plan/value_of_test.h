@@ -12,6 +12,9 @@
 //     sum over dresspacks of min over T of sum_w W_w c_w(T, A) - sum over j of min over T, A of sum_w W_w P(j | w) c_w(T, A).
 // Before the result A is the age of (D6). After it, A is the same or the age of (D6) with the new weights, so no result makes a
 // plan more expensive. Bins lose a part of the information, so the value is a lower bound.
+//
+// The worlds are a sample, so the values of a parameter also explain by chance a part of the lives that do not depend on it. A
+// value counts if it is larger than those of the same parameter in random orders of the worlds.
 #pragma once
 
 #include <vector>
@@ -23,6 +26,8 @@ namespace dresslife::pipeline {
 struct TestValue {
   SharedValue what;
   double saves = 0;  ///< expected saving, in the unit of the costs
+  /// mean and three standard deviations of `saves` of the same values in random orders of the worlds, on which no life depends
+  double by_chance = 0;
 };
 
 /// Returns the value of a test of this parameter with a normally distributed error, in z. plan: by cost, of this fleet.

@@ -8,6 +8,7 @@
 #include "pipeline/advise/plan/plan_words.h"
 #include "pipeline/base/statistics.h"
 #include "pipeline/job/uncertainty.h"
+#include "pipeline/life/first_failure.h"
 #include "tests/catch.h"
 
 using namespace dresslife::pipeline;
@@ -188,4 +189,37 @@ TEST_CASE("tests of a plant of unlike dresspacks are worth what a search through
     CHECK(of.saves == Approx(sum).epsilon(single));
     CHECK(value_of_test(of.what, error, fleet, tables, plan) == Approx(of.saves).epsilon(1e-12));
   }
+}
+
+TEST_CASE("tests of parameters on which no life depends are worth no more than chance, and are not offered") {
+  // Few worlds, in which the strength sets the life. The friction of each of many hoses has the same values in another order.
+  constexpr std::size_t worlds = 60, draws = 100, hoses = 40;
+  const std::vector<double> strength = standard_normals("strength", worlds);
+  LifeTable table{worlds, draws, {}, 40000, week};
+  for (std::size_t w = 0; w < worlds; ++w)
+    for (std::size_t d = 0; d < draws; ++d)
+      table.hours.push_back(static_cast<float>(3000 * std::exp(0.7 * strength[w]) *
+                                               std::pow(-std::log1p(-(double(d) + 0.5) / double(draws)), 0.25)));
+  table.shared = {{index_of(Uncertain::strength), "copper", strength}};
+  for (std::size_t k = 0; k < hoses; ++k)
+    table.shared.push_back({index_of(Uncertain::friction_hose), "hose " + std::to_string(k),
+                            standard_normals("hose " + std::to_string(k), worlds)});
+  const Fleet fleet = new_dresspacks(4, 1, 10);
+  const std::map<std::string, LifeTable> tables{{"d", table}};
+  const Plan plan = plan_of(fleet, tables, windows_in({10, 20, 30}), start, {0.1, true});
+  const std::vector<TestValue> values = values_of_tests(fleet, tables, plan);
+  REQUIRE(values.size() == 1 + hoses);
+  CHECK(values[0].what.parameter == index_of(Uncertain::strength));
+  CHECK(values[0].saves > 2 * values[0].by_chance);
+  std::size_t worth = 0, offered = 0;
+  for (std::size_t k = 1; k < values.size(); ++k) {
+    if (!(values[k].saves > 1e-3 * plan.cost)) continue;
+    ++worth;  // by itself it would be offered
+    offered += values[k].saves > values[k].by_chance;
+  }
+  CHECK(worth > hoses / 2);
+  CHECK(offered <= hoses / 20);  // three deviations of a skewed distribution: a few per cent
+  const std::string words = test_words({values[0], {values[1].what, 1, 1.1}}, plan);
+  CHECK(words.find("strength of 'copper'") != std::string::npos);
+  CHECK(words.find("friction_hose") == std::string::npos);
 }
