@@ -95,20 +95,23 @@ std::string expected_words(const Plan& plan) {
 
 std::string kept_words(const Fleet& fleet, const Plan& plan) {
   std::vector<std::string> safe, no_better, costly;
-  double most = 0;
+  double most = 0, most_before = 0;
   for (std::size_t i = 0; i < plan.rows.size(); ++i) {
     const RowPlan& row = plan.rows[i];
     if (row.window) continue;
     const double fails = *std::ranges::max_element(row.fails_until_next);
     (plan.by_cost ? costly : fails > plan.risk ? no_better : safe).push_back(fleet.rows[i].name);
-    if (!plan.by_cost && fails <= plan.risk) most = std::max(most, fails);
+    if (!plan.by_cost && fails <= plan.risk)
+      most = std::max(most, fails), most_before = std::max(most_before, row.fails_before_first);
   }
   std::string text;
   const auto add = [&](const std::string& why, const std::vector<std::string>& names) {
     if (!names.empty()) text += wrapped(fmt::format("{}: {}.", why, names_text(names, " in the table")), width, "  ");
   };
-  add(fmt::format("Until {} the probability of failure between two windows is at most {} (limit {})",
-                  day_text(plan.end), percent_text(most), percent_text(plan.risk)),
+  add(fmt::format(
+          "Before the first window, when no replacement is planned, the probability of failure is at most {}. After that, "
+          "until {}, the probability between two windows is at most {} (limit {})",
+          percent_text(most_before), day_text(plan.end), percent_text(most), percent_text(plan.risk)),
       safe);
   add(fmt::format(
           "The probability of failure between two windows is above {}. A new dresspack fails as often or more often in this time",

@@ -51,6 +51,13 @@ std::vector<Window> windows_in(const std::vector<int>& weeks) {
   return windows;
 }
 
+/// Returns a text with its line breaks and indents as single blanks.
+std::string in_one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  for (std::size_t at; (at = text.find("  ")) != std::string::npos;) text.erase(at, 1);
+  return text;
+}
+
 std::vector<int> many(std::size_t count, int age) { return std::vector<int>(count, age); }
 
 }  // namespace
@@ -738,6 +745,21 @@ TEST_CASE("a plan states why a dresspack is in no window") {
   const std::vector<int> many(25, 4);
   CHECK_THAT(words(weibull(3, {20000}), fleet_of(many), {0.1, false}),
              Catch::Contains("r19") && !Catch::Contains("r20") && Catch::Contains("and 5 more in the table."));
+}
+
+TEST_CASE("a plan states the probability of failure before the first window beside that between windows") {
+  // 38 weeks until the first window, then two weeks between windows
+  const Fleet fleet = fleet_of({100});
+  const Plan plan = plan_of(fleet, {{"d", weibull(3, {20000})}}, windows_in({38, 40}), start, {0.1, false});
+  const RowPlan& row = plan.rows[0];
+  REQUIRE_FALSE(row.window);
+  const double between = std::max(row.fails_until_next[0], row.fails_until_next[1]);
+  CHECK(row.fails_before_first > 5 * between);
+  CHECK(in_one_line(kept_words(fleet, plan))
+            .find("Before the first window, when no replacement is planned, the probability of failure is at most " +
+                  percent_text(row.fails_before_first) + ". After that, until " + day_text(plan.end) +
+                  ", the probability between two windows is at most " + percent_text(between) + " (limit 10 %): r0.") !=
+        std::string::npos);
 }
 
 TEST_CASE("windows are days in order, after today") {
