@@ -301,16 +301,18 @@ std::string what_if_words(const std::string& name, const Fleet& fleet, const Pla
   for (const BesideRow& row : beside_rows(fleet, plan, changed, other))
     text += fmt::format("{:<34}  {:>20}  {:>20}  {:>12}\n", row.what, row.now, row.then, row.more);
   const auto when = [](const Plan& of, std::size_t i) {
-    return of.rows[i].window ? day_text(of.windows[*of.rows[i].window].first) : std::string("in no window");
+    return of.rows[i].window ? "from " + day_text(of.windows[*of.rows[i].window].first) : std::string("in no window");
   };
   std::vector<std::string> changes;
   for (std::size_t i = 0; i < changed.rows.size(); ++i) {
     const Installed* const old = find_in(fleet.rows, &Installed::name, changed.rows[i].name);
-    const std::string now = old ? when(plan, static_cast<std::size_t>(old - fleet.rows.data())) : "new";
-    if (now != when(other, i)) changes.push_back(fmt::format("{}: {} ({})", changed.rows[i].name, when(other, i), now));
+    const std::string now = old ? "today's fleet: " + when(plan, static_cast<std::size_t>(old - fleet.rows.data()))
+                                : "not in today's fleet";
+    if (!old || now != "today's fleet: " + when(other, i))
+      changes.push_back(fmt::format("{}: {} ({})", changed.rows[i].name, when(other, i), now));
   }
-  text +=
-      fmt::format("Replaced at another time (now): {}\n", changes.empty() ? "none" : std::to_string(changes.size()));
+  text += fmt::format("Replaced at another time than in the plan of today's fleet: {}\n",
+                      changes.empty() ? "none" : std::to_string(changes.size()));
   if (!changes.empty()) text += wrapped(fmt::format("{}", fmt::join(changes, ", ")), width, "  ");
   const bool other_duty = std::ranges::any_of(changed.rows, [&](const Installed& row) {
     const Installed* const old = find_in(fleet.rows, &Installed::name, row.name);

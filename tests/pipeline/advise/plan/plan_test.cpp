@@ -534,11 +534,12 @@ TEST_CASE("what if: a dresspack that gets a harder duty keeps its damage, and th
         Approx(std::abs(failures(other) - failures(plan))).epsilon(0.05));  // two digits
   CHECK(beside[2].more[0] == (failures(other) > failures(plan) ? '+' : '-'));
   CHECK(words.find("one more: ") != std::string::npos);
+  CHECK(words.find("(not in today's fleet)") != std::string::npos);
   // The same fleet again changes nothing.
   Fleet unchanged = fleet;
   keep_ages(unchanged, fleet, tables, start, start);
   CHECK(what_if_words("other", fleet, plan, unchanged, plan_of(unchanged, tables, windows_in({4, 14}), start, same))
-            .find("(now): none") != std::string::npos);
+            .find("Replaced at another time than in the plan of today's fleet: none") != std::string::npos);
 }
 
 TEST_CASE("what if from a later day: until then a dresspack wears as before, then as under its new duty") {
@@ -760,6 +761,18 @@ TEST_CASE("a plan states the probability of failure before the first window besi
                   percent_text(row.fails_before_first) + ". After that, until " + day_text(plan.end) +
                   ", the probability between two windows is at most " + percent_text(between) + " (limit 10 %): r0.") !=
         std::string::npos);
+}
+
+TEST_CASE("what if: a dresspack with another window has both windows, each with the name of its plan") {
+  const Fleet fleet = fleet_of({60});
+  const std::map<std::string, LifeTable> tables{{"d", weibull(3, {5000})}, {"gentle", weibull(3, {1e6})}};
+  Fleet changed = fleet;
+  changed.rows[0].duty = "gentle";
+  const Plan plan = plan_of(fleet, tables, windows_in({4, 30}), start, {0.05, false});
+  const Plan other = plan_of(changed, tables, windows_in({4, 30}), start, {0.05, false});
+  CHECK(what_if_words("other", fleet, plan, changed, other)
+            .find("Replaced at another time than in the plan of today's fleet: 1\n  r0: in no window (today's fleet: "
+                  "from 2026-12-21)\n") != std::string::npos);
 }
 
 TEST_CASE("windows are days in order, after today") {
