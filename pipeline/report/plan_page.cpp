@@ -172,11 +172,16 @@ std::string windows_table(const Fleet& fleet, const Plan& plan) {
   std::string rows;
   for (std::size_t n = 0; n < plan.windows.size(); ++n) {
     const std::vector<std::string> replaced = replaced_in(fleet, plan, n);
-    rows += fmt::format("<tr><td style=\"white-space: nowrap\">{}</td><td class=\"number\">{}</td><td>{}</td></tr>\n",
-                        window_text(plan.windows[n]), replaced.size(),
-                        replaced.empty() ? "nothing to replace" : escaped(joined(replaced, ", ")));
+    const double later = later_in(plan, n);
+    rows += fmt::format(
+        "<tr><td style=\"white-space: nowrap\">{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td><td>{}</td></tr>\n",
+        window_text(plan.windows[n]), replaced.size(), later > 0 ? printed(later, 2) : "0",
+        !replaced.empty() ? escaped(joined(replaced, ", "))
+        : later > 0       ? "none of today's dresspacks"
+                          : "nothing to replace");
   }
-  return "<h3>What to replace</h3>\n" + wide_table({"window", "#dresspacks", "names"}, rows);
+  return "<h3>What to replace</h3>\n" +
+         wide_table({"window", "#today's dresspacks", "#put in after today, on average", "names"}, rows);
 }
 
 std::string years_table(const Fleet& fleet, const Plan& plan) {

@@ -360,6 +360,7 @@ std::size_t weeks_until(double days) { return static_cast<std::size_t>(std::ceil
 struct Outcome {
   std::vector<int> planned, unplanned;  ///< (year)
   std::vector<int> failures;            ///< (week) failures of dresspacks that were installed later
+  std::vector<int> later;               ///< (window) planned replacements of dresspacks that were installed later
   double cost = 0;
 };
 
@@ -380,7 +381,8 @@ class Simulation {
   /// Simulates one plant. world: position of its world in the sum of the weights, 0 .. 1. decision: null: only failed dresspacks are replaced. before: for dresspacks that are installed before a
   /// change of their duty, in Pace::harder_hours().
   Outcome plant(double world, std::uint64_t seed, const Decision* decision, const Decision* before) const {
-    Outcome outcome{std::vector<int>(years_, 0), std::vector<int>(years_, 0), std::vector<int>(weeks_, 0)};
+    Outcome outcome{std::vector<int>(years_, 0), std::vector<int>(years_, 0), std::vector<int>(weeks_, 0),
+                    std::vector<int>(times_.size() - 1, 0)};
     const std::size_t its_world = world_at(world);
     for (std::size_t i = 0; i < fleet_.rows.size(); ++i) {
       // A dresspack's numbers follow from its name, so the order of the rows and other dresspacks do not change them.
@@ -429,6 +431,7 @@ class Simulation {
       const double day = pace.day(at);
       ++(planned ? outcome.planned
                  : outcome.unplanned)[std::min(years_ - 1, static_cast<std::size_t>(day / days_per_year))];
+      if (planned && !is_first) ++outcome.later[window];
       if (!planned && !is_first) ++outcome.failures[std::min(weeks_ - 1, static_cast<std::size_t>(day / 7))];
       outcome.cost += planned ? fleet_.rows[i].planned_cost : fleet_.rows[i].unplanned_cost;
       begun = at, is_first = false;
@@ -727,6 +730,7 @@ Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
   const std::size_t plants = plant_count(fleet.rows.size(), windows.size());
   const auto share = 1 / static_cast<double>(plants);
   std::vector<std::vector<double>> replaced;  // (year, plant)
+  plan.later_in_window.resize(windows.size());
   for (std::size_t p = 0; p < plants; ++p) {
     // Both simulations of a plant use the same random numbers, so that their costs are comparable. Worlds are equally spaced in the
     // sum of their weights, so that each has its share of the plants.
@@ -735,6 +739,7 @@ Plan plan_of(const Fleet& fleet, const std::map<std::string, LifeTable>& tables,
     const Outcome outcome = simulation.plant(world, own, &decision, before_change ? &*before_change : nullptr);
     plan.years.resize(outcome.planned.size());
     replaced.resize(outcome.planned.size());
+    for (std::size_t n = 0; n < windows.size(); ++n) plan.later_in_window[n] += outcome.later[n] * share;
     for (std::size_t y = 0; y < plan.years.size(); ++y) {
       plan.years[y].planned += outcome.planned[y] * share;
       plan.years[y].unplanned += outcome.unplanned[y] * share;

@@ -109,6 +109,8 @@ struct Plan {
   std::vector<Window> windows;
   std::vector<RowPlan> rows;
   std::vector<YearOfPlan> years;
+  /// (window) planned replacements of dresspacks that are put in after today: mean over simulated plants
+  std::vector<double> later_in_window;
   /// (week) failures of all dresspacks; for dresspacks installed later the mean over simulated plants
   std::vector<double> failures_in_week, failures_in_week_without_windows;
   double risk = 0;       ///< risk of the rule (D4)

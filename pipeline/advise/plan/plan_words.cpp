@@ -60,10 +60,25 @@ std::string names_text(std::vector<std::string> names, const char* where_others_
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
+/// Returns "replace 3; on average 1.2 of those put in after today". later: later_in(). day: first day of the plan.
+std::string window_words(std::size_t count, double later, const std::string& day = "today") {
+  if (count == 0 && later == 0) return "nothing to replace";
+  const std::string today = count == 0 ? "none of today's dresspacks" : fmt::format("replace {}", count);
+  return later == 0 ? today : fmt::format("{}; on average {} of those put in after {}", today, readable(later, 2), day);
+}
+
 std::string compact(Day day) {
   std::string text = day_text(day);
   std::erase(text, '-');
   return text;
+}
+
+/// Returns the title of a window's event. later: later_in().
+std::string event_words(std::size_t count, double later, const std::string& day) {
+  if (count == 0 && later == 0) return "No dresspack to replace";
+  if (count == 0) return fmt::format("Replace on average {} dresspacks put in after {}", readable(later, 2), day);
+  return fmt::format("Replace {} dresspack{}{}", count, count == 1 ? "" : "s",
+                     later > 0 ? fmt::format(" and on average {} put in after {}", readable(later, 2), day) : "");
 }
 
 }  // namespace
@@ -73,6 +88,12 @@ std::vector<std::string> replaced_in(const Fleet& fleet, const Plan& plan, std::
   for (std::size_t i = 0; i < fleet.rows.size(); ++i)
     if (plan.rows[i].window == window) names.push_back(fleet.rows[i].name);
   return names;
+}
+
+double later_in(const Plan& plan, std::size_t window) {
+  constexpr double worth_a_word = 0.01;
+  const double mean = window < plan.later_in_window.size() ? plan.later_in_window[window] : 0;
+  return mean < worth_a_word ? 0 : mean;
 }
 
 std::string window_text(const Window& window) { return day_text(window.first) + " .. " + day_text(window.last); }
@@ -125,9 +146,12 @@ std::string plan_words(const Fleet& fleet, const Plan& plan) {
   std::string text = wrapped(expected_words(plan), width, "");
   for (std::size_t n = 0; n < plan.windows.size(); ++n) {
     const std::vector<std::string> names = replaced_in(fleet, plan, n);
+    const double later = later_in(plan, n);
     text += fmt::format("\n{}: {}\n", window_text(plan.windows[n]),
-                        names.empty() ? "nothing to replace" : fmt::format("replace {}", names.size()));
+                        names.empty() ? window_words(0, later) : fmt::format("replace {}", names.size()));
     if (!names.empty()) text += wrapped(fmt::format("{}", fmt::join(names, ", ")), width, "  ");
+    if (!names.empty() && later > 0)
+      text += fmt::format("  On average also {} of those put in after today.\n", readable(later, 2));
   }
   const auto kept = std::ranges::count_if(plan.rows, [](const RowPlan& row) { return !row.window; });
   text += fmt::format("\nIn no window: {}\n{}", kept, kept_words(fleet, plan));
@@ -279,9 +303,12 @@ std::vector<BesideRow> beside_rows(const Fleet& fleet, const Plan& plan, const F
   add("dresspacks", double(plan.rows.size()), double(other.rows.size()), 0);
   add("fail before the first window", before_first(plan), before_first(other), 2);
   add("failures until " + day_text(plan.end), failures(plan), failures(other), 2);
-  for (std::size_t n = 0; n < plan.windows.size(); ++n)
-    add("replaced from " + day_text(plan.windows[n].first), double(replaced_in(fleet, plan, n).size()),
+  for (std::size_t n = 0; n < plan.windows.size(); ++n) {
+    add("today's replaced from " + day_text(plan.windows[n].first), double(replaced_in(fleet, plan, n).size()),
         double(replaced_in(changed, other, n).size()), 0);
+    if (const double now = later_in(plan, n), then = later_in(other, n); now > 0 || then > 0)
+      add("put in after today, on average", now, then, 2);
+  }
   for (std::size_t y = 0; y < std::min(plan.years.size(), other.years.size()); ++y) {
     const YearOfPlan &now = plan.years[y], &then = other.years[y];
     add(fmt::format("spare dresspacks in year {}", y + 1), now.planned + now.unplanned, then.planned + then.unplanned,
@@ -374,11 +401,13 @@ std::string plan_calendar(const Fleet& fleet, const Plan& plan) {
     text +=
         fmt::format("DTSTART;VALUE=DATE:{}\r\nDTEND;VALUE=DATE:{}\r\n", compact(window.first),
                     compact(window.last + std::chrono::days(1)));  // in iCalendar the end is the day after the last day
-    text += folded(names.empty()
-                       ? "SUMMARY:No dresspack to replace"
-                       : fmt::format("SUMMARY:Replace {} dresspack{}", names.size(), names.size() == 1 ? "" : "s"));
+    const double later = later_in(plan, n);
+    text += folded("SUMMARY:" + escaped(event_words(names.size(), later, day_text(plan.today))));
     text += folded("DESCRIPTION:" +
-                   escaped(names.empty() ? expected_words(plan) : fmt::format("{}", fmt::join(names, ", "))));
+                   escaped((names.empty() ? expected_words(plan) : fmt::format("{}", fmt::join(names, ", "))) +
+                           (later > 0 ? fmt::format("{} In this window: {}.", names.empty() ? "" : ".",
+                                                    window_words(names.size(), later, day_text(plan.today)))
+                                      : "")));
     text += "END:VEVENT\r\n";
   }
   return text + "END:VCALENDAR\r\n";

@@ -22,6 +22,9 @@ std::string later_saving_words(const Plan& plan);
 std::string kept_words(const Fleet& fleet, const Plan& plan);
 /// Returns the names of the dresspacks that are replaced in a window.
 std::vector<std::string> replaced_in(const Fleet& fleet, const Plan& plan, std::size_t window);
+/// Returns the mean number of replacements in a window of dresspacks that are put in after today, which have no names yet.
+/// 0: fewer than 1 in 100 plants.
+double later_in(const Plan& plan, std::size_t window);
 /// Return "2027-07-12 .. 2027-08-01", and "4.2 %".
 std::string window_text(const Window& window);
 std::string percent_text(double share);

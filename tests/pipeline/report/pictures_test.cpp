@@ -102,6 +102,27 @@ TEST_CASE("pictures: a plan's failures are stairs, a step per week from today to
         std::regex_search(page, std::regex(fmt::format("class=\"{}\"[^\n]*\n?[^\n]*robot 7, {} \\.\\.", style, day))));
 }
 
+TEST_CASE("the page of a plan counts in a window the replacements of dresspacks that are put in later") {
+  Fleet fleet;
+  Plan plan;
+  plan.today = *day_from("2026-11-23");
+  plan.end = plan.today + std::chrono::days(28);
+  plan.windows = {{plan.today + std::chrono::days(14), plan.today + std::chrono::days(15)}};
+  fleet.rows.push_back({{}, "robot 7", "day", plan.today, {}, 1, 10});
+  plan.rows.resize(1);
+  plan.rows[0].fails_in_week = {0, 0.002, 0.05, 0.5};
+  plan.rows[0].fails_until_next = {0.5};
+  plan.failures_in_week = plan.failures_in_week_without_windows = {1, 2, 3, 2};
+  plan.later_in_window = {15};
+  std::string page = plan_page("line", fleet, plan, {}, "plan.csv");
+  CHECK(page.find("<td class=\"number\">0</td><td class=\"number\">15</td><td>none of today's dresspacks</td>") !=
+        std::string::npos);
+  plan.later_in_window = {0};
+  page = plan_page("line", fleet, plan, {}, "plan.csv");
+  CHECK(page.find("<td class=\"number\">0</td><td class=\"number\">0</td><td>nothing to replace</td>") !=
+        std::string::npos);
+}
+
 TEST_CASE("pictures: each program of a duty has its own name and its own bars") {
   DutyResult duty;
   duty.name = "shift", duty.robot_life_hours = 40000;

@@ -763,6 +763,39 @@ TEST_CASE("a plan states the probability of failure before the first window besi
         std::string::npos);
 }
 
+TEST_CASE("a plan counts in each window also the replacements of dresspacks that are put in after today") {
+  const Fleet fleet = fleet_of(many(30, 60));
+  const std::map<std::string, LifeTable> tables{{"d", weibull(3, {5000})}};
+  const Plan plan = plan_of(fleet, tables, windows_in({4, 30}), start, {0.05, false});
+  // Today's are replaced in the first window. After 26 weeks the new ones fail in the next interval with 34 % and are replaced.
+  REQUIRE(plan.later_in_window.size() == 2);
+  double planned = 0, todays = 0;
+  for (const YearOfPlan& year : plan.years) planned += year.planned;
+  for (const RowPlan& row : plan.rows) todays += 1 - row.fails_before;
+  CHECK(plan.later_in_window[1] > 25);
+  // 4 deviations of 1,000 plants: of each, about 2 dresspacks
+  CHECK(todays + plan.later_in_window[0] + plan.later_in_window[1] == Approx(planned).margin(4 * 2 / std::sqrt(1000)));
+  const std::string later = readable(plan.later_in_window[1], 2),
+                    of_window = "none of today's dresspacks; on average " + later + " of those put in after today";
+  CHECK(plan_words(fleet, plan).find("2027-06-21 .. 2027-06-21: " + of_window + "\n") != std::string::npos);
+  const std::string calendar = plan_calendar(fleet, plan);
+  CHECK(calendar.find("SUMMARY:Replace on average " + later + " dresspacks put in after 2026-11-23\r\n") !=
+        std::string::npos);
+  CHECK(calendar.find("No dresspack") == std::string::npos);
+  const std::string beside = what_if_words("other", fleet, plan, fleet, plan);
+  const auto line = [&](const std::string& what, const std::string& number) {
+    std::string text = what + std::string(34 - what.size(), ' ');
+    for (int k = 0; k < 2; ++k) text += "  " + std::string(20 - number.size(), ' ') + number;
+    return text;
+  };
+  CHECK(beside.find(line("today's replaced from 2027-06-21", "0") + "             0\n" +
+                    line("put in after today, on average", later)) != std::string::npos);
+  // Without such replacements a window is empty.
+  const Plan empty = plan_of(fleet, tables, windows_in({4, 8}), start, {0.05, false});
+  CHECK(plan_words(fleet, empty).find("2027-01-18 .. 2027-01-18: nothing to replace\n") != std::string::npos);
+  CHECK(plan_calendar(fleet, empty).find("SUMMARY:No dresspack to replace\r\n") != std::string::npos);
+}
+
 TEST_CASE("what if: a dresspack with another window has both windows, each with the name of its plan") {
   const Fleet fleet = fleet_of({60});
   const std::map<std::string, LifeTable> tables{{"d", weibull(3, {5000})}, {"gentle", weibull(3, {1e6})}};
@@ -789,12 +822,12 @@ TEST_CASE("windows are days in order, after today") {
 
 TEST_CASE("the calendar has an event for each window with work, in lines of 75 bytes") {
   const Fleet fleet = fleet_of(many(30, 60));
-  const Plan plan = plan_of(fleet, {{"d", weibull(3, {5000})}}, windows_in({4, 30}), start, {0.05, false});
+  const Plan plan = plan_of(fleet, {{"d", weibull(3, {5000})}}, windows_in({4, 8}), start, {0.05, false});
   const std::string calendar = plan_calendar(fleet, plan);
   CHECK(calendar.find("SUMMARY:Replace 30 dresspacks\r\n") != std::string::npos);
   CHECK(calendar.find("DTSTART;VALUE=DATE:20261221\r\nDTEND;VALUE=DATE:20261222\r\n") != std::string::npos);
   CHECK(calendar.find(
-            "DTSTART;VALUE=DATE:20270621\r\nDTEND;VALUE=DATE:20270622\r\nSUMMARY:No dresspack to replace\r\n") !=
+            "DTSTART;VALUE=DATE:20270118\r\nDTEND;VALUE=DATE:20270119\r\nSUMMARY:No dresspack to replace\r\n") !=
         std::string::npos);
   std::size_t begin = 0;
   for (std::size_t end; (end = calendar.find("\r\n", begin)) != std::string::npos; begin = end + 2)
