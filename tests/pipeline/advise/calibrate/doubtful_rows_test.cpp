@@ -167,10 +167,14 @@ TEST_CASE("observations: what another unit, a copy or an exchange explains is wa
   CHECK(doubts_of_points(300).empty());
 }
 
-TEST_CASE("observations: the shipped tables and usual rows have no doubts") {
+TEST_CASE("observations: the shipped tables and usual rows have no doubts, and all variants are valid jobs") {
   const std::filesystem::path shipped = std::filesystem::path(DRESSLIFE_SOURCE_DIR) / "config" / "observations";
-  for (const char* name : {"your_cable.yaml", "ratings.yaml", "published.yaml"})
-    CHECK(doubtful_rows(read_observed_tests(shipped / name)).empty());
+  for (const char* name : {"your_cable.yaml", "ratings.yaml", "published.yaml"}) {
+    const std::vector<ObservedTest> tests = read_observed_tests(shipped / name);
+    CHECK(doubtful_rows(tests).empty());
+    for (const ObservedTest& test : tests)
+      for (const ObservedTest::Variant& variant : test.variants) CHECK(variant.failure == "");
+  }
   for (const char* usual :
        {"hours: 1, outcome: run_out", "hours: 4900, outcome: run_out, specimens: 5, unshared_log10: 0.3",
         "cycles: 1e7, cycles_per_repeat: 2, outcome: rating", "stiffness_Nm2: 0.02, noise_percent: 15",
