@@ -107,8 +107,8 @@ std::string words(const SpanPreview& span, bool bends) {
           ? ""
           : fmt::format(" ({:.2f} .. {:.2f} m in its first pose alone)", span.here[0], span.here[1]);
   return fmt::format(
-      "{} is {:.3f} m long. Over the program its clamps are {:.3f} .. {:.3f} m apart: {}. For the slack alone {:.2f} .. {:.2f} m suit the program{}: 2 % to "
-      "a third longer than the largest distance.{}",
+      "{} is {:.3f} m long. Over the program its clamps are {:.3f} .. {:.3f} m apart: {}. For the slack alone {:.2f} .. {:.2f} m suit the program{}: 2 to "
+      "50 % longer than the largest distance.{}",
       span.subject, span.length, span.least_way, span.most_way,
       span.works()                    ? "its slack fits"
       : span.length < span.most_way   ? "too short"

@@ -19,7 +19,7 @@ TEST_CASE("preview reports how far the clamps are apart and which lengths suit")
       unwrapped(previewed.out)
           .find(
               "Dresspack is 0.900 m long. Over the program its clamps are 0.702 .. 0.800 m apart: its slack fits. For the slack alone 0.82 .. 1.20 m "
-              "suit the program: 2 % to a third longer than the largest distance.") != std::string::npos);
+              "suit the program: 2 to 50 % longer than the largest distance.") != std::string::npos);
   // The warnings of `check` come first.
   const std::string checked = run(scratch, "dresslife", "check job.yaml").out;
   CHECK(checked.find("strain.slip is stick") != std::string::npos);
