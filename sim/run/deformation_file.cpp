@@ -51,6 +51,7 @@ class Reader {
     if (result_.times.empty())
       fail(0, "deformation holds no row", "write a header (t_s, kappa_1_1_per_m, ...) and a row per time");
     finish_time();
+    if (worst_.angle > most_turn) refuse_turn();
     result_.steps.assign(result_.times.size(), 0);
     result_.step_texts = {"deformation of " + setup.motion.deformation.filename().string()};
   }
@@ -101,8 +102,8 @@ class Reader {
       at[column.quantity] = cells[c].column;
       if (column.is_tension) value[elongation] = elongation_of(*number, cells[c].column);
     }
-    check_turn({value[curvature1], value[curvature2], value[twist]},
-               at[twist] ? at[twist] : std::max(at[curvature1], at[curvature2]));
+    see_turn({value[curvature1], value[curvature2], value[twist]},
+             at[twist] ? at[twist] : std::max(at[curvature1], at[curvature2]));
     if (std::abs(value[elongation]) > most_elongation)
       fail(at[elongation],
            fmt::format("elongation is {:.6g} (must be -0.5 .. 0.5: relative, 0.01 is one percent)", value[elongation]),
@@ -119,14 +120,17 @@ class Reader {
     return tension / stiffness_;
   }
 
-  void check_turn(const Vector3& rate, int column) const {
-    const double angle = rate.norm() * segment_;
-    if (angle > most_turn)
-      fail(column,
-           fmt::format("curvature and twist turn a segment of {:.4g} mm by {:.4g} deg (at most 120)", 1e3 * segment_,
-                       angle * 180 / EIGEN_PI),
-           fmt::format("check the units, or give simulation.segments: {:.0f}",
-                       std::ceil(length_ / segment_ * angle / most_turn)));
+  void see_turn(const Vector3& rate, int column) {
+    if (const double angle = rate.norm() * segment_; angle > worst_.angle) worst_ = {angle, line_, column};
+  }
+
+  /// Refuses the largest turn of all rows, so that its number of segments suits every row.
+  [[noreturn]] void refuse_turn() const {
+    throw InputError({file_, worst_.line, worst_.column},
+                     fmt::format("curvature and twist turn a segment of {:.4g} mm by {:.4g} deg (at most 120)",
+                                 1e3 * segment_, worst_.angle * 180 / EIGEN_PI),
+                     fmt::format("check the units, or give simulation.segments: {:.0f}",
+                                 std::ceil(length_ / segment_ * worst_.angle / most_turn)));
   }
 
   void add(const std::array<double, quantities>& value, const std::array<int, quantities>& at) {
@@ -176,6 +180,11 @@ class Reader {
   }
 
   static constexpr double most_elongation = 0.5;
+  struct Turn {
+    double angle = 0;  // of a segment [rad]
+    int line = 0, column = 0;
+  };
+  Turn worst_;
   std::string file_;
   int line_ = 0;
   double length_, segment_, stiffness_;

@@ -257,6 +257,10 @@ TEST_CASE("deformation file: what is wrong is reported by line and column") {
   CHECK(problem("t_s,elongation\n0,0\n2,0\n1,0\n").find("d.csv:4:1: error: time 1 s does not follow 2 s") == 0);
   CHECK(problem("t_s,kappa_1_1_per_m\n0,300\n")
             .find("d.csv:2:3: error: curvature and twist turn a segment of 20 mm by") == 0);
+  // The number of segments suits the worst row, not only the first one beyond the limit.
+  CHECK_THAT(problem("t_s,kappa_1_1_per_m\n0,110\n1,300\n2,200\n"),
+             Catch::Contains("d.csv:3:3: error: curvature and twist turn a segment of 20 mm by 343.8 deg") &&
+                 Catch::Contains("simulation.segments: 144"));
   CHECK(problem("t_s,position_m,elongation\n0,0,0\n0,2,0\n")
             .find("d.csv:3:3: error: position_m is 2 (must lie in 0 .. 1") == 0);
   CHECK(problem("t_s,position_m,elongation\n0,0,0\n0,1,0\n1,0,0\n2,0,0\n")
