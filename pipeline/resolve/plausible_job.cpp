@@ -41,6 +41,7 @@ constexpr double fastest_of_kuka =
     3;  // [m/s]: ESTIMATE of $VEL_MA.CP, the upper bound of $VEL.CP in the machine data of a robot
 constexpr double surely_millimetres = 50;  // [m/s]: a tenth of smaller numbers is a speed of robots
 constexpr double longest_dwell = 100;      // [s]: cycles of production lines are shorter
+constexpr double settling_wait = 10;  // [s]: the swing of a hose has decayed (settled_after in sim/run/clamp_path.h)
 
 constexpr double largest_step =
     10e-3;                        // [s]: the largest step that an automatic choice takes; larger ones were not tried
@@ -106,6 +107,11 @@ AddDoubt adding_to(std::vector<Warning>& warnings) {
 }
 
 /// Steps with one fault: the first one, and the number of further ones.
+/// Returns a remedy if its value keeps the limit that the present one exceeds, else another remedy.
+std::string if_kept(bool keeps, const std::string& remedy, const std::string& otherwise) {
+  return keeps ? remedy : otherwise;
+}
+
 struct Doubted {
   const MotionStep* first = nullptr;
   int more = 0;
@@ -402,7 +408,15 @@ std::vector<Warning> plausibility_of_steps(const Motion& motion) {
         fmt::format("{} is {:g} (limit {:g} or less)", key("dwell_s", "the wait in seconds", *step), step->dwell,
                     longest_dwell),
         "milliseconds instead of seconds",
-        fmt::format("{}{:g} if that was milliseconds", key("dwell_s: ", "a wait of ", *step), step->dwell / 1000));
+        fmt::format(
+            "{}if the hose waits so long, {}{:g}: a run simulates each second of a wait, in which the hose soon is at rest, and "
+            "the lives in repeats stay the same. Lives in hours then count without the rest of the wait; a duty with "
+            "repeats_per_hour (dresslife duty) gives them with it",
+            if_kept(step->dwell / 1000 <= longest_dwell,
+                    fmt::format("{}{:g} if that was milliseconds; ", key("dwell_s: ", "a wait of ", *step),
+                                step->dwell / 1000),
+                    ""),
+            key("dwell_s: ", "a wait of ", *step), settling_wait));
   if (motion.speed_percent != 100 && seen.moves > 0 && !seen.default_speed)
     add(motion.where, fmt::format("motion.speed_percent {:g} has no effect", motion.speed_percent),
         "each move of the program has its own speed",
