@@ -90,6 +90,7 @@ constexpr double longest_tool = 0.5,
 constexpr double near_bracket =
     0.15;  // [m]: bracket length that route tries; beyond it, exchanged coordinates must be 4 times nearer
 constexpr int few_segments = 16;         // with more segments, a hose whose segments are too long is itself too long
+constexpr int finest_of_job = 2000;      // simulation.segments
 constexpr double longest_segment = 0.5;  // of the least bend radius: chords of 0.5 rad are 1 % shorter than their arcs
 constexpr double inside_robot = 0.01;    // [m] below a box's surface: floors and tables end at the base
 constexpr double shortest_bracket = 1e-3, longest_built = 2;  // [m]
@@ -106,12 +107,12 @@ AddDoubt adding_to(std::vector<Warning>& warnings) {
   };
 }
 
-/// Steps with one fault: the first one, and the number of further ones.
 /// Returns a remedy if its value keeps the limit that the present one exceeds, else another remedy.
 std::string if_kept(bool keeps, const std::string& remedy, const std::string& otherwise) {
   return keeps ? remedy : otherwise;
 }
 
+/// Steps with one fault: the first one, and the number of further ones.
 struct Doubted {
   const MotionStep* first = nullptr;
   int more = 0;
@@ -360,29 +361,38 @@ std::vector<Warning> plausibility_of_steps(const Motion& motion) {
   if (const MotionStep* step = seen.slow.first)
     seen.slow.warn(add, fmt::format("speed_percent is {:g} (limit {:g} or more)", *step->speed_percent, least_percent),
                    "a share instead of a percentage",
-                   fmt::format("{}{:g}{} if that was a share", key("speed_percent: ", "", *step),
-                               100 * *step->speed_percent, key("", " %", *step)));
-  if (const MotionStep* step = seen.fast.first)
-    seen.fast.warn(
-        add,
-        fmt::format("the tool's speed is {:g} m/s (limit {:g} or less)", *step->tool_speed, fastest_tool_of(*step)),
-        *step->tool_speed < surely_millimetres ? "a slip of the decimal point"
-                                               : "a speed in another unit, such as mm/s instead of m/s",
-        *step->tool_speed < surely_millimetres
-            ? fmt::format("{:g} m/s if the decimal point slipped, in the program's unit", 0.1 * *step->tool_speed)
-            : fmt::format("{:g} m/s if that was mm/s, in the program's unit", 1e-3 * *step->tool_speed));
+                   if_kept(100 * *step->speed_percent >= least_percent,
+                           fmt::format("{}{:g}{} if that was a share", key("speed_percent: ", "", *step),
+                                       100 * *step->speed_percent, key("", " %", *step)),
+                           fmt::format("{}100{}, or the speed in per cent", key("speed_percent: ", "", *step),
+                                       key("", " %", *step))));
+  if (const MotionStep* step = seen.fast.first) {
+    const double speed = *step->tool_speed, limit = fastest_tool_of(*step);
+    const bool slipped = speed < surely_millimetres && 0.1 * speed <= limit;
+    seen.fast.warn(add, fmt::format("the tool's speed is {:g} m/s (limit {:g} or less)", speed, limit),
+                   slipped ? "a slip of the decimal point" : "a speed in another unit, such as mm/s instead of m/s",
+                   slipped ? fmt::format("{:g} m/s if the decimal point slipped, in the program's unit", 0.1 * speed)
+                           : if_kept(1e-3 * speed <= limit,
+                                     fmt::format("{:g} m/s if that was mm/s, in the program's unit", 1e-3 * speed),
+                                     fmt::format("{:g} m/s or less, in the program's unit", limit)));
+  }
   if (const MotionStep* step = seen.lazy.first)
     seen.lazy.warn(
         add,
         fmt::format("the acceleration is {:g} % (limit more than {:g})", *step->acceleration_percent, least_percent),
         "a share instead of a percentage",
-        fmt::format("the acceleration in per cent: {:g} if that was a share", 100 * *step->acceleration_percent));
+        if_kept(
+            100 * *step->acceleration_percent > least_percent,
+            fmt::format("the acceleration in per cent: {:g} if that was a share", 100 * *step->acceleration_percent),
+            "the acceleration in per cent: 100"));
   if (const MotionStep* step = seen.wide.first)
     seen.wide.warn(
         add, fmt::format("the zone is {:g} mm (limit {:g} or less)", 1e3 * *step->tool_zone, 1e3 * widest_path_zone),
         "another unit or a slip of the decimal point",
-        fmt::format("{}{:g} mm if there are zeros too many", key("zone_mm: ", "a zone of ", *step),
-                    10 * *step->tool_zone));
+        if_kept(*step->tool_zone / 100 <= widest_path_zone,
+                fmt::format("{}{:g} mm if there are zeros too many", key("zone_mm: ", "a zone of ", *step),
+                            10 * *step->tool_zone),
+                fmt::format("{}{:g} mm or less", key("zone_mm: ", "a zone of ", *step), 1e3 * widest_path_zone)));
   if (const MotionStep* step = seen.repeats.first)
     seen.repeats.warn(add, fmt::format("repeat is {} (limit {} or less)", step->repeat, most_repeats),
                       "the repeats of the whole program, which goes round by itself",
@@ -401,7 +411,9 @@ std::vector<Warning> plausibility_of_steps(const Motion& motion) {
         add,
         fmt::format("speed_deg_per_s is {:.4g} (limit {:g} or more)", *step->speed / degree, slowest_move / degree),
         "radians per second instead of degrees",
-        fmt::format("speed_deg_per_s: {:.3g} if that was rad/s", *step->speed / degree / degree));
+        if_kept(*step->speed / degree >= slowest_move,
+                fmt::format("speed_deg_per_s: {:.3g} if that was rad/s", *step->speed / degree / degree),
+                "the speed in deg/s; leave it if the axis turns so slowly"));
   if (const MotionStep* step = seen.waits.first)
     seen.waits.warn(
         add,
@@ -425,7 +437,9 @@ std::vector<Warning> plausibility_of_steps(const Motion& motion) {
   if (motion.override_percent <= least_percent)
     add(motion.where,
         fmt::format("motion.override_percent is {:g} (limit more than {:g})", motion.override_percent, least_percent),
-        "a share instead of a percentage", fmt::format("motion.override_percent: {:g}", 100 * motion.override_percent));
+        "a share instead of a percentage",
+        fmt::format("motion.override_percent: {:g}",
+                    100 * motion.override_percent > least_percent ? 100 * motion.override_percent : 100));
   doubt_single_targets(motion.steps, add);
   doubt_small_steps(motion.steps, add);
   doubt_frames(motion.tools, "tool", motion, add);
@@ -533,8 +547,12 @@ void doubt_speed(const Joint& joint, const AddDoubt& add) {
   if (!is_urdf(joint.where))
     return add(joint.where, fmt::format("speed_deg_per_s of {} is {:.4g} {})", joint.name, speed, limits),
                slow ? "radians per second instead of degrees" : "degrees per minute",
-               slow ? fmt::format("speed_deg_per_s: {:.4g} if that was rad/s", speed / degree)
-                    : fmt::format("speed_deg_per_s: {:.4g} if that was deg/min", speed / 60));
+               slow ? if_kept(joint.speed / degree >= slowest_axis,
+                              fmt::format("speed_deg_per_s: {:.4g} if that was rad/s", speed / degree),
+                              "speed_deg_per_s of the data sheet")
+                    : if_kept(joint.speed / 60 <= fastest_axis,
+                              fmt::format("speed_deg_per_s: {:.4g} if that was deg/min", speed / 60),
+                              "speed_deg_per_s of the data sheet"));
   add(joint.where,
       fmt::format("velocity of {} is {:.4g} rad/s, {:.4g} deg/s {} deg/s)", joint.name, joint.speed, speed, limits),
       slow ? "another unit, or a conversion that was made twice"
@@ -869,8 +887,11 @@ void doubt_routing(const Routing& routing, const Dresspack& dresspack, const Rob
   if (const double length = routing.free_length; length > longest_hose)
     add(routing.where, fmt::format("routing.free_length_m is {:.6g} (limit {:g})", length, longest_hose),
         length < shortest_in_mm ? "centimetres instead of metres" : "millimetres instead of metres",
-        length < shortest_in_mm ? fmt::format("routing.free_length_m: {:g} if that was centimetres", length / 100)
-                                : fmt::format("routing.free_length_m: {:g} if that was millimetres", length / 1e3));
+        length < shortest_in_mm
+            ? fmt::format("routing.free_length_m: {:g} if that was centimetres", length / 100)
+            : if_kept(length / 1e3 <= longest_hose,
+                      fmt::format("routing.free_length_m: {:g} if that was millimetres", length / 1e3),
+                      fmt::format("routing.free_length_m in metres: {:g} or less", longest_hose)));
   for (const auto& [key, clamp] : {std::pair{"base_clamp", &routing.base_clamp}, {"tool_clamp", &routing.tool_clamp}}) {
     if (*clamp) doubt_direction(key, **clamp, add);
     if (*clamp && (*clamp)->position.norm() > farthest_clamp) {
@@ -912,8 +933,9 @@ void doubt_routing(const Routing& routing, const Dresspack& dresspack, const Rob
         fmt::format("routing.longest_bracket_mm is {:.4g} (limits {:g} .. {:g}, or 0)", 1e3 * bracket,
                     1e3 * shortest_bracket, 1e3 * longest_built),
         bracket < shortest_bracket ? "metres instead of millimetres" : "another unit",
-        bracket < shortest_bracket ? fmt::format("routing.longest_bracket_mm: {:g} if that was metres", 1e6 * bracket)
-                                   : "routing.longest_bracket_mm: 150");
+        if_kept(bracket < shortest_bracket && 1e3 * bracket >= shortest_bracket,
+                fmt::format("routing.longest_bracket_mm: {:g} if that was metres", 1e6 * bracket),
+                "routing.longest_bracket_mm: 150"));
   for (const GuideRing& ring : routing.rings)
     if (2 * ring.radius > widest_ring * dresspack.diameter)
       add(ring.where,
@@ -925,20 +947,30 @@ void doubt_routing(const Routing& routing, const Dresspack& dresspack, const Rob
   const Retraction& unit = *routing.retraction;
   if (unit.stroke > longest_stroke)
     add(unit.where, fmt::format("stroke_m of the retraction unit is {:.4g} (limit {:g})", unit.stroke, longest_stroke),
-        "millimetres instead of metres", fmt::format("stroke_m: {:g} if that was millimetres", unit.stroke / 1e3));
+        "millimetres instead of metres",
+        if_kept(unit.stroke / 1e3 <= longest_stroke,
+                fmt::format("stroke_m: {:g} if that was millimetres", unit.stroke / 1e3),
+                fmt::format("stroke_m in metres: {:g} or less", longest_stroke)));
   if (unit.force > largest_pull)
     add(unit.where, fmt::format("force_N of the retraction unit is {:.4g} (limit {:g})", unit.force, largest_pull),
-        "another unit", fmt::format("force_N: {:g} if that was mN", unit.force / 1e3));
+        "another unit",
+        if_kept(unit.force / 1e3 <= largest_pull, fmt::format("force_N: {:g} if that was mN", unit.force / 1e3),
+                "force_N: 20 to 100 N, as its maker states"));
   if (unit.force == 0 && unit.spring == 0)
     add(unit.where, "force_N of the retraction unit is 0, and it has no spring: it pulls nothing back",
         "a force that is not known", "force_N: 20 to 100 N, as its maker states");
   if (unit.spring > stiffest_spring)
     add(unit.where,
         fmt::format("spring_N_per_m of the retraction unit is {:.4g} (limit {:g})", unit.spring, stiffest_spring),
-        "another unit", fmt::format("spring_N_per_m: {:g} if that was N/km", unit.spring / 1e3));
+        "another unit",
+        if_kept(unit.spring / 1e3 <= stiffest_spring,
+                fmt::format("spring_N_per_m: {:g} if that was N/km", unit.spring / 1e3),
+                "spring_N_per_m, as its maker states"));
   if (unit.mass > heaviest_slider)
     add(unit.where, fmt::format("mass_kg of the retraction unit is {:.4g} (limit {:g})", unit.mass, heaviest_slider),
-        "grams instead of kilograms", fmt::format("mass_kg: {:g} if that was grams", unit.mass / 1e3));
+        "grams instead of kilograms",
+        if_kept(unit.mass / 1e3 <= heaviest_slider, fmt::format("mass_kg: {:g} if that was grams", unit.mass / 1e3),
+                "mass_kg, as its maker states"));
 }
 
 /// Warns of spreads that are too large. Each is a factor of one standard deviation, except that of the slope, which is an addend.
@@ -949,8 +981,10 @@ void doubt_spreads(const Job& job, const AddDoubt& add) {
           fmt::format("uncertainty.{} is {:g} (limit {:g}: a factor in one standard deviation)",
                       uncertain_parameters()[p].name, job.uncertainty.spread[p], widest_spread),
           "per cent instead of a factor",
-          fmt::format("uncertainty.{}: {:g} if that was per cent", uncertain_parameters()[p].name,
-                      1 + job.uncertainty.spread[p] / 100));
+          if_kept(1 + job.uncertainty.spread[p] / 100 <= widest_spread,
+                  fmt::format("uncertainty.{}: {:g} if that was per cent", uncertain_parameters()[p].name,
+                              1 + job.uncertainty.spread[p] / 100),
+                  fmt::format("no uncertainty.{}", uncertain_parameters()[p].name)));
 }
 
 Warning beyond_limit(WarningKind kind, const char* key, double value, const std::string& limit,
@@ -1010,11 +1044,15 @@ std::vector<Warning> doubts_of_motion(const Job& job) {
   if (job.motion.spot_time > longest_spot)
     add(WarningKind::motion, "motion.spot_time_s", job.motion.spot_time, fmt::format("{:g} or less", longest_spot),
         "milliseconds instead of seconds",
-        fmt::format("motion.spot_time_s: {:g} if that was milliseconds", job.motion.spot_time / 1000));
+        if_kept(job.motion.spot_time / 1000 <= longest_spot,
+                fmt::format("motion.spot_time_s: {:g} if that was milliseconds", job.motion.spot_time / 1000),
+                "motion.spot_time_s: 1, or the time of a weld in seconds"));
   if (job.motion.speed_percent < least_percent)
     add(WarningKind::motion, "motion.speed_percent", job.motion.speed_percent,
         fmt::format("{:g} or more", least_percent), "a share instead of per cent",
-        fmt::format("motion.speed_percent: {:g} if that was a share", 100 * job.motion.speed_percent));
+        if_kept(100 * job.motion.speed_percent >= least_percent,
+                fmt::format("motion.speed_percent: {:g} if that was a share", 100 * job.motion.speed_percent),
+                "motion.speed_percent: 100, or the speed in per cent"));
   if (job.motion.zone > widest_zone)
     add(WarningKind::motion, "motion.zone_deg", job.motion.zone / degree,
         fmt::format("{:g} or less", widest_zone / degree), "another unit, such as mm or per cent",
@@ -1053,13 +1091,19 @@ void doubt_bend_reliefs(const MountedDresspack& mounted, int segments, std::vect
           fmt::format("bending_stiffness_Nm2: {:.2g}, as the dresspack", own)));
     const double length = clamp->bend_relief->length, within = length * segments / routing.free_length;
     if (within >= fewest) continue;
+    const double meant = length < 1e-3 ? 1e3 * length : length,
+                 needed = std::ceil(fewest * routing.free_length / meant);
+    const std::string finer = needed <= segments        ? ""
+                              : needed <= finest_of_job ? fmt::format("simulation.segments: {:.0f}", needed)
+                                                        : "a longer relief";
     warnings.push_back(warning_of(
         WarningKind::mesh, clamp->where.text(),
         fmt::format("bend_relief.length_mm is {:.4g}: {:.2g} segments (limit {}): the bend at the clamp is uncertain",
                     1e3 * length, within, fewest),
         length < 1e-3 ? "metres instead of millimetres" : "the segments are too long for it",
-        length < 1e-3 ? fmt::format("bend_relief.length_mm: {:.4g} if that was metres", 1e6 * length)
-                      : fmt::format("simulation.segments: {:.0f}", std::ceil(fewest * routing.free_length / length))));
+        length < 1e-3 ? fmt::format("bend_relief.length_mm: {:.4g}{}{} if that was metres", 1e3 * meant,
+                                    finer.empty() ? "" : " and ", finer)
+                      : finer));
   }
 }
 
@@ -1098,7 +1142,10 @@ std::vector<Warning> plausibility_of_lives(const Job& job) {
   const Fatigue& fatigue = job.fatigue;
   if (fatigue.failed_wires_percent > 0 && fatigue.failed_wires_percent < 1)
     add("fatigue.failed_wires_percent", fatigue.failed_wires_percent, "0, or 1 or more", "a share instead of per cent",
-        fmt::format("fatigue.failed_wires_percent: {:g}", 100 * fatigue.failed_wires_percent));
+        fmt::format("fatigue.failed_wires_percent: {:g}",
+                    100 * fatigue.failed_wires_percent >= 1 && 100 * fatigue.failed_wires_percent <= most_failed_wires
+                        ? 100 * fatigue.failed_wires_percent
+                        : 10));
   if (fatigue.failed_wires_percent > most_failed_wires)
     add("fatigue.failed_wires_percent", fatigue.failed_wires_percent, fmt::format("{:g} or less", most_failed_wires),
         "a conductor that works with few wires, whose current and load the lives do not contain",
@@ -1106,7 +1153,8 @@ std::vector<Warning> plausibility_of_lives(const Job& job) {
   for (const auto& [key, value] : {std::pair{"inspection.found_percent", job.inspection.found_percent},
                                    {"inspection.visible_depth_percent", job.inspection.visible_depth_percent}})
     if (value > 0 && value <= 1)
-      add(key, value, "0, or more than 1", "a share instead of per cent", fmt::format("{}: {:g}", key, 100 * value));
+      add(key, value, "0, or more than 1", "a share instead of per cent",
+          if_kept(100 * value > 1, fmt::format("{}: {:g}", key, 100 * value), fmt::format("no {}, or per cent", key)));
   if (fatigue.robot_life_hours < least_robot_life)
     add("fatigue.robot_life_hours", fatigue.robot_life_hours, fmt::format("{:g} or more", least_robot_life),
         "years instead of hours", "fatigue.robot_life_hours: 40000, or leave the key out");
@@ -1123,7 +1171,9 @@ std::vector<Warning> plausibility_of_lives(const Job& job) {
   if (fatigue.endurance_strain > largest_endurance)
     add("fatigue.endurance_strain", fatigue.endurance_strain, fmt::format("{:g} or less", largest_endurance),
         "per cent instead of a share",
-        fmt::format("fatigue.endurance_strain: {:g} if that was per cent", fatigue.endurance_strain / 100));
+        if_kept(fatigue.endurance_strain / 100 <= largest_endurance,
+                fmt::format("fatigue.endurance_strain: {:g} if that was per cent", fatigue.endurance_strain / 100),
+                "no fatigue.endurance_strain"));
   const std::pair<const char*, double> factors[] = {{"fatigue.strength_factor", fatigue.strength_factor},
                                                     {"fatigue.model_factor", fatigue.model_factor},
                                                     {"fatigue.motion_factor", fatigue.motion_factor},
@@ -1136,7 +1186,8 @@ std::vector<Warning> plausibility_of_lives(const Job& job) {
     if ((!job.calibration || job.calibration->typical) && (value > largest_factor || value < 1 / largest_factor))
       add(key, value, fmt::format("{:.2g} .. {:g}", 1 / largest_factor, largest_factor),
           "per cent instead of a factor, or a factor for a trial",
-          value > 1 ? fmt::format("{}: {:g} if that was per cent", key, value / 100) : fmt::format("{}: 1", key));
+          if_kept(value > 1 && value / 100 <= largest_factor,
+                  fmt::format("{}: {:g} if that was per cent", key, value / 100), fmt::format("{}: 1", key)));
   doubt_spreads(job, adding_to(warnings));
   for (const MountedDresspack& mounted : job.dresspacks)
     if (!job.motion.is_prescribed()) {
@@ -1148,8 +1199,10 @@ std::vector<Warning> plausibility_of_lives(const Job& job) {
         warning_of(WarningKind::strain, "",
                    fmt::format("strain.gate is {:g} (limit {:g} or less): cycles below it are left out",
                                job.strain.gate, largest_gate),
-                   "per cent instead of a share",
-                   fmt::format("strain.gate: {:g} if that was per cent, or no key", job.strain.gate / 100)));
+                   job.strain.gate / 100 <= largest_gate ? "per cent instead of a share" : "another unit",
+                   if_kept(job.strain.gate / 100 <= largest_gate,
+                           fmt::format("strain.gate: {:g} if that was per cent, or no key", job.strain.gate / 100),
+                           fmt::format("strain.gate: {:g}, or no key", largest_gate))));
   return warnings;
 }
 

@@ -239,7 +239,7 @@ const Row rows[] = {
     setting("uncertainty: {slack: 60}", "job.yaml:8:22", "uncertainty.slack is 60 (limit 20",
             "uncertainty.slack: 1.6 if that was per cent"),
     setting("strain: {gate: 0.1}", "job.yaml:8:16", "strain.gate is 0.1 (limit 0.0002 or less)",
-            "strain.gate: 0.001 if that was per cent"),
+            "strain.gate: 0.0002, or no key"),
     simulation_key("time_step_ms: 20", "simulation.time_step_ms is 20 (limit 10 or less)",
                    "simulation.time_step_ms: 5, or auto"),
     simulation_key("sample_rate_Hz: 2", "simulation.sample_rate_Hz is 2 (limit 5 or more)",

@@ -3,6 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <functional>
 
 #include "pipeline/base/constants.h"
 #include "pipeline/resolve/radians.h"
@@ -209,6 +213,112 @@ TEST_CASE("plausible jobs: a sample rate that misses the swing, a gate that hide
   CHECK(doubts_of(4.9, 2e-4, true) == 0);
   CHECK(doubts_of(5, 2.1e-4, true) == 1);
   CHECK(doubts_of(1, 0.1, false) == 2);
+}
+
+TEST_CASE(
+    "plausible jobs: a remedy with a number keeps the limit that it cures, from the smallest to the largest number") {
+  struct Key {
+    std::string name;
+    double unit;  ///< SI of a number in the key's unit
+    std::function<double&(Job&)> value;
+    double least, most;
+  };
+  const std::vector<Key> keys{
+      {"strain.gate", 1, [](Job& of) -> double& { return of.strain.gate; }, 1e-6, 0.1},
+      {"fatigue.endurance_strain", 1, [](Job& of) -> double& { return of.fatigue.endurance_strain; }, 1e-4, 0.1},
+      {"fatigue.failed_wires_percent", 1, [](Job& of) -> double& { return of.fatigue.failed_wires_percent; }, 1e-4,
+       100},
+      {"inspection.found_percent", 1, [](Job& of) -> double& { return of.inspection.found_percent; }, 1e-4, 100},
+      {"inspection.visible_depth_percent", 1, [](Job& of) -> double& { return of.inspection.visible_depth_percent; },
+       1e-4, 100},
+      {"fatigue.robot_life_hours", 1, [](Job& of) -> double& { return of.fatigue.robot_life_hours; }, 1, 1e7},
+      {"fatigue.operating_hours_per_week", 1, [](Job& of) -> double& { return of.fatigue.operating_hours_per_week; },
+       0.1, 168},
+      {"fatigue.strength_factor", 1, [](Job& of) -> double& { return of.fatigue.strength_factor; }, 0.01, 100},
+      {"fatigue.model_factor", 1, [](Job& of) -> double& { return of.fatigue.model_factor; }, 1e-4, 1e4},
+      {"strain.slack_factor", 1, [](Job& of) -> double& { return of.strain.factors.slack; }, 1e-3, 1e5},
+      {"uncertainty.model", 1, [](Job& of) -> double& { return of.uncertainty.spread[index_of(Uncertain::model)]; }, 1,
+       1e5},
+      {"motion.spot_time_s", 1, [](Job& of) -> double& { return of.motion.spot_time; }, 1e-3, 1e6},
+      {"motion.speed_percent", 1, [](Job& of) -> double& { return of.motion.speed_percent; }, 1e-3, 100},
+      {"motion.zone_deg", degree, [](Job& of) -> double& { return of.motion.zone; }, 1e-3, 1e4},
+      {"simulation.periodic_tolerance_mm", 1e-3, [](Job& of) -> double& { return of.simulation.periodic_tolerance; },
+       1e-3, 1e6},
+      {"routing.free_length_m", 1, [](Job& of) -> double& { return of.dresspacks[0].routing.free_length; }, 0.1, 1e6},
+      {"routing.longest_bracket_mm", 1e-3, [](Job& of) -> double& { return *of.dresspacks[0].routing.longest_bracket; },
+       1e-5, 1e4},
+      {"stroke_m", 1, [](Job& of) -> double& { return of.dresspacks[0].routing.retraction->stroke; }, 1e-2, 1e6},
+      {"force_N", 1, [](Job& of) -> double& { return of.dresspacks[0].routing.retraction->force; }, 1e-2, 1e9},
+      {"spring_N_per_m", 1, [](Job& of) -> double& { return of.dresspacks[0].routing.retraction->spring; }, 1e-2, 1e9},
+      {"mass_kg", 1, [](Job& of) -> double& { return of.dresspacks[0].routing.retraction->mass; }, 1e-2, 1e9}};
+  Job plain;
+  Routing& routing = plain.dresspacks[0].routing;
+  routing.free_length = 2, routing.longest_bracket = 0.15;
+  routing.retraction.emplace();
+  routing.retraction->stroke = 0.5, routing.retraction->force = 50;
+  REQUIRE(plausibility_warnings(plain).empty());
+  for (const Key& key : keys) {
+    int cured = 0;
+    for (double number = key.least; number <= key.most * 1.0001; number *= 1.7) {
+      Job job = plain;
+      key.value(job) = number * key.unit;
+      const std::vector<Warning> doubts = plausibility_warnings(job);
+      if (doubts.empty()) continue;
+      REQUIRE(doubts.size() == 1);
+      const std::string words = doubts[0].words, remedy = words.substr(words.find("Remedy: ") + 8);
+      CAPTURE(words);
+      double proposed = 0;
+      if (!remedy.starts_with(key.name + ": ") ||
+          std::sscanf(remedy.c_str() + key.name.size() + 2, "%lf", &proposed) != 1)
+        continue;  // "no key", or a data sheet
+      key.value(job) = proposed * key.unit;
+      const std::vector<Warning> left = plausibility_warnings(job);
+      CHECK((left.empty() ? "" : left[0].words) == "");
+      ++cured;
+    }
+    CAPTURE(key.name);
+    CHECK(cured > 0);
+  }
+}
+
+TEST_CASE("plausible steps: a remedy with a number keeps the limit that it cures") {
+  const auto problem = [](const MotionStep& step) {
+    Motion motion;
+    motion.steps = {move_to({0, 0}), step};
+    std::string words;
+    for (const Warning& warning : plausibility_of_steps(motion)) words += warning.words;
+    return words;
+  };
+  const auto number_after = [](const std::string& words, const char* key) {
+    const std::size_t at = words.find(key, words.find("Remedy: "));
+    return at == std::string::npos ? NAN : std::stod(words.substr(at + std::strlen(key)));
+  };
+  for (const double percent : {0.003, 0.02, 0.5}) {
+    MotionStep step = move_to({90, 0});
+    step.speed_percent = percent;
+    step.speed_percent = number_after(problem(step), "speed_percent: ");
+    CHECK(problem(step) == "");
+    step.acceleration_percent = percent;
+    step.acceleration_percent = number_after(problem(step), "the acceleration in per cent: ");
+    CHECK(problem(step) == "");
+  }
+  for (const char* const file : {"a.src", "a.mod"})
+    for (const double speed : {12.0, 35.0, 49.0, 51.0, 500.0, 4e4}) {
+      MotionStep step = move_to({90, 0});
+      step.where.file = file, step.tool_speed = speed;
+      step.tool_speed = number_after(problem(step), "Remedy: ");
+      CAPTURE(file, speed);
+      CHECK(problem(step) == "");
+    }
+  for (const double wait : {120.0, 36000.0, 5e5}) {
+    MotionStep step;
+    step.dwell = wait;
+    const std::string words = problem(step);
+    CHECK_THAT(words,
+               Catch::Contains("if the hose waits so long, dwell_s: 10: a run simulates each second of a wait") &&
+                   Catch::Contains("a duty with repeats_per_hour"));
+    CHECK((words.find("milliseconds; ") != std::string::npos) == (wait <= 1e5));
+  }
 }
 
 TEST_CASE(
