@@ -408,7 +408,9 @@ Remedy slower(const CheckedMotion& motion, const std::vector<Check>& checks, con
 }
 
 Cure bend_cure(const CheckedMotion& motion, const std::vector<Check>& checks, const Check& broken) {
-  const std::string remark = (motion.rod ? relief_remark(motion, broken) : "") + limit_remark(motion, broken);
+  const std::string warmth = warmth_words(motion.setup);
+  const std::string remark = (motion.rod ? relief_remark(motion, broken) : "") + limit_remark(motion, broken) +
+                             (!motion.rod || warmth.empty() ? "" : "; check " + warmth);
   if (!motion.rod)
     return {"the prescribed deformation bends it so",
             {{}, "a larger radius in motion.rig or motion.deformation" + remark}};

@@ -1,5 +1,7 @@
 #include "sim/run/mounting.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -402,10 +404,13 @@ class Mounting {
           fmt::format("{} (it still moves at {:.3g} m/s{})",
                       rod_.dresspacks() > 1 ? "or another does not come to rest" : "does not come to rest",
                       found.residual, contacts > 0 ? fmt::format(", with {} contacts", contacts) : "");
+      const std::string warmth = warmth_words(setup_);
       RoutingRefusal refusal(
           routing(0).where, fmt::format("{} {}", pipeline::dresspack_words(setup_, 0), what),
-          "check diameter and stiffness of the dresspack, the free length and the clamps' places and "
-          "directions in the mounting pose (dresslife preview shows them)",
+          fmt::format(
+              "check {}diameter and stiffness of the dresspack, the free length and the clamps' places and directions in "
+              "the mounting pose (dresslife preview shows them)",
+              warmth.empty() ? "" : warmth + ", "),
           0);
       refusal.work = world->work();
       throw refusal;

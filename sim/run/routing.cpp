@@ -1,10 +1,13 @@
 #include "sim/run/routing.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "pipeline/base/warning_words.h"
 #include "pipeline/cable/plain_properties.h"
+#include "pipeline/cable/warmth.h"
 #include "pipeline/job/setup.h"
 #include "pipeline/resolve/plausible_job.h"
 
@@ -170,6 +173,15 @@ std::vector<pipeline::Warning> one_link_warnings(const pipeline::Setup& setup) {
                     base ? "before" : "beyond", pipeline::probable_link(*wrong, setup.robot))));
   }
   return warnings;
+}
+
+std::string warmth_words(const pipeline::Setup& setup) {
+  constexpr double far = 10;  // [K]: 16 % of the modulus of a polymer (F36)
+  const double temperature = setup.cell.temperature;
+  if (std::abs(temperature - pipeline::Cell::usual_temperature) < far) return "";
+  return fmt::format(
+      "cell.temperature_C: {:g} (a polymer's stiffness from the construction is {:.2g} times that at {:g} C)",
+      temperature, pipeline::stiffness_at(temperature), pipeline::Cell::usual_temperature);
 }
 
 }  // namespace dresslife::sim

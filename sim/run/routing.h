@@ -58,4 +58,7 @@ std::vector<Frame> listed_clamps(const Rod& rod, const ClampFrames& clamps);
 /// Returns, (clamp), the number of segments before it, in the order of listed_clamps().
 std::vector<int> clamp_segments(const Rod& rod);
 
+/// Returns words about a cell far from the usual temperature, which changes a stiffness from the construction; empty: it is near.
+std::string warmth_words(const pipeline::Setup& setup);
+
 }  // namespace dresslife::sim

@@ -222,6 +222,13 @@ TEST_CASE("cures: a limit that no length and no direction keeps says so, with th
           Catch::Contains(
               "Remedy: other clamps (`dresslife route` searches for them; it cannot help where it proposed these clamps)") &&
           Catch::Contains(" mm at rest, too little for a short run; required: 30000.0 mm"));
+  CHECK_THAT(words, !Catch::Contains("temperature"));
+  job.cell.temperature = 60;
+  CHECK_THAT(
+      words_of(job, pipeline::WarningKind::bend_radius),
+      Catch::Contains(
+          "; check cell.temperature_C: 60 (a polymer's stiffness from the construction is 0.52 times that at 23 C)"));
+  job.cell.temperature = pipeline::Cell::usual_temperature;
   job.dresspacks[0].dresspack.least_bend_radius = value_of(words, "dresspack.least_bend_radius_mm") / 1000;
   CHECK(words_of(job, pipeline::WarningKind::bend_radius) == "");
 }
