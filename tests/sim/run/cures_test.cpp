@@ -220,7 +220,7 @@ TEST_CASE("cures: a limit that no length and no direction keeps says so, with th
       words,
       Catch::Contains("with these two clamps no length and no direction that was tried") &&
           Catch::Contains(
-              "Remedy: other clamps (`dresslife route` searches for them; it cannot help where it proposed these clamps)") &&
+              "Remedy: other clamps (`dresslife route` searches for them, longer than `dresslife new`; where `dresslife route` proposed these clamps, it finds no others)") &&
           Catch::Contains(" mm at rest, too little for a short run; required: 30000.0 mm"));
   CHECK_THAT(words, !Catch::Contains("temperature"));
   job.cell.temperature = 60;
@@ -246,7 +246,7 @@ TEST_CASE("cures: a limit that a length keeps at rest and none keeps in a run is
     CHECK_THAT(
         words,
         Catch::Contains(
-            "Remedy: other clamps (`dresslife route` searches for them; it cannot help where it proposed these clamps): with these two clamps no length and no direction"));
+            "Remedy: other clamps (`dresslife route` searches for them, longer than `dresslife new`; where `dresslife route` proposed these clamps, it finds no others): with these two clamps no length and no direction"));
     const double rest = std::stod(words.substr(at + 16));
     const std::size_t run = words.find(" mm at rest, ");
     REQUIRE(run != std::string::npos);
