@@ -60,6 +60,7 @@ struct Choice {
   bool refused = false;
   std::vector<KeyValue> remedies = {};  ///< of the faults: values of the routing, and slacks of the dresspack's cables
   std::vector<KeyValue> slacks = {};    ///< slacks that the job sets in its dresspack
+  bool remedies_tried = false;          ///< the remedies were tried, and leave as many faults
 
   /// The fewer, the better.
   std::pair<bool, std::size_t> badness() const { return {refused, faults.size()}; }
@@ -175,11 +176,16 @@ void judge(const Draft& draft, const std::string& motion, Choice& choice) {
   }
 }
 
-/// Returns a choice with its remedies, as long as they leave fewer faults: a remedy of one limit may exceed another one.
-Choice cured(const Draft& draft, const std::string& motion, Choice choice) {
+/// Returns the best of a choice and the choices to which its remedies lead. A remedy of one limit may exceed another one, whose
+/// remedy follows, so that only the end counts: on an IRB 6640 a longer hose bent less, and was then warned of its two sides and of
+/// the bends of a softer hose, and with the remedies of these two it kept all limits.
+Choice cured(const Draft& draft, const std::string& motion, const Choice& start) {
   constexpr int rounds = 3;
-  for (int round = 0; round < rounds && !choice.remedies.empty(); ++round) {
+  Choice best = start, choice = start;
+  bool is_best = true;  // whether `choice` is `best`
+  for (int round = 0; round < rounds && !best.faults.empty() && !choice.remedies.empty(); ++round) {
     Choice next = choice;
+    next.remedies_tried = false;
     Node job;
     job["routing"] = next.routing;
     for (const KeyValue& of : choice.remedies)
@@ -191,10 +197,12 @@ Choice cured(const Draft& draft, const std::string& motion, Choice choice) {
       }
     next.routing = *job.find("routing");
     judge(draft, motion, next);
-    if (next.badness() >= choice.badness()) break;
+    best.remedies_tried |= is_best;
+    is_best = next.badness() < best.badness();
+    if (is_best) best = next;
     choice = std::move(next);
   }
-  return choice;
+  return best;
 }
 
 /// Returns the draft with its preliminary routing. Its files stay references, so that errors name lines of the user's files.
@@ -226,7 +234,7 @@ Choice proposed(const Draft& draft) {
   const ScreenedCandidate& best = found.candidates.front();
   Choice choice{parse_yaml(best.changes, "proposal"), "proposed from the robot's shape; put your brackets here"};
   judge(draft, found.motion, choice);
-  return cured(draft, found.motion, std::move(choice));
+  return cured(draft, found.motion, choice);
 }
 
 /// Returns proposals for the accelerations of a URDF file [deg/s2], which contains none; empty: they are given. A proposal is the
@@ -281,7 +289,7 @@ Choice routing_for(const Draft& draft, const NewOptions& options) {
   if (known) suit_reliefs(known->routing, draft.job.dresspacks.front().dresspack.bending_stiffness);
   if (known && !draft.exercise) {
     judge(draft, "", *known);
-    known = cured(draft, "", *std::move(known));
+    known = cured(draft, "", *known);
   }
   if (known && !known->refused && known->faults.empty()) return *known;
   Choice made = proposed(draft);
@@ -290,6 +298,14 @@ Choice routing_for(const Draft& draft, const NewOptions& options) {
 
 std::string commented(const std::string& key, const std::string& value, const std::string& words) {
   return fmt::format("{:<33} # {}\n", key + ": " + value, words);
+}
+
+/// Returns words about remedies above that were tried in vain; empty: none was.
+std::string tried_words(const Choice& choice) {
+  if (!choice.remedies_tried) return "";
+  const auto keys = mapped(choice.remedies, [](const KeyValue& of) { return of.key; });
+  return fmt::format(", also not with the remedies for {} (as many warnings or more remain)",
+                     joined(std::vector<std::string_view>(keys.begin(), keys.end()), " and "));
 }
 
 std::string text_of(const NewOptions& options, const Draft& draft, const Choice& choice,
@@ -323,8 +339,8 @@ std::string text_of(const NewOptions& options, const Draft& draft, const Choice&
           : fmt::format("# Clamps: {}.\n", choice.source);
   if (!choice.refused && !choice.faults.empty()) {
     text += fmt::format(
-        "# No routing that was tried keeps all limits. dresslife route {0} searches longer. dresslife check {0}:\n",
-        job);
+        "# No routing that was tried keeps all limits{1}. dresslife route {0} searches longer. dresslife check {0}:\n",
+        job, tried_words(choice));
     for (const std::string& fault : choice.faults) text += fmt::format("# {}\n", shown(fault));
   }
   const char* const off = choice.refused ? "# " : "";
@@ -397,10 +413,9 @@ int make(NewOptions options) {
                           options.job, choice.faults.front())));
   else if (!choice.faults.empty()) {
     for (const std::string& fault : choice.faults) print(shown(paragraph(fault)));
-    print(shown(fmt::format(
-        "No routing of those that were tried keeps all limits. Use a remedy above, or dresslife route {0}, which "
-        "searches longer.\n",
-        options.job)));
+    print(shown(paragraph(fmt::format(
+        "No routing of those that were tried keeps all limits{1}. Use {2} above, or dresslife route {0}, which searches longer.",
+        options.job, tried_words(choice), choice.remedies_tried ? "another remedy" : "a remedy"))));
   }
   return 0;
 }

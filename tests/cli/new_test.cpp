@@ -186,6 +186,18 @@ TEST_CASE(
   CHECK(warnings > 0);  // of a short run, whose radius depends on the number of segments
 }
 
+TEST_CASE("new: a length that leads to other warnings is written if their remedies leave none") {
+  Scratch scratch;
+  const Outcome made =
+      make(scratch, "--robot abb_irb6640_185_280 --dresspack sensor_cable --program '" DRESSLIFE_SOURCE_DIR
+                    "/config/programs/side_panel.mod' job.yaml");
+  INFO(made.out << made.err);
+  REQUIRE(made.status == 0);
+  CHECK_FALSE(has(made.out, "keeps all limits"));
+  CHECK(has(content(scratch / "job.yaml"), "  free_length_m: 2.1"));
+  CHECK(has(run(scratch, "dresslife", "check job.yaml").out, "job.yaml: no warnings"));
+}
+
 TEST_CASE("new: a slack that check proposes stands in the job, and check of the job has no warnings") {
   Scratch scratch;
   write_short_program(scratch);
