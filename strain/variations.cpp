@@ -33,7 +33,10 @@ bool is_varied(const pipeline::Job& job, Uncertain parameter) {
   if (!job.uncertainty.enabled || pipeline::is_known(job.uncertainty, parameter)) return false;
   if (parameter == Uncertain::slack) return any_component(job, has_slack);
   if (parameter == Uncertain::grip) return any_component(job, has_grip);
-  return rubs(job.strain.slip.front()) && any_component(job, rubs_on_hose);
+  return rubs(job.strain.slip.front()) && std::ranges::any_of(job.dresspacks, [](const auto& mounted) {
+           return pipeline::inner_radius(mounted.dresspack) &&
+                  std::ranges::any_of(mounted.dresspack.components, rubs_on_hose);
+         });
 }
 
 /// Returns the job's factors with one strain parameter at z.

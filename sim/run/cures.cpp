@@ -131,9 +131,14 @@ class RestTrials {
 
 std::string radius_words(double curvature) { return in_words(1 / curvature, "m"); }
 
+/// The search for other clamps.
+constexpr const char* by_route =
+    "(`dresslife route` searches for them, longer than `dresslife new`; where `dresslife route` proposed these clamps, it finds no others)";
+
 std::string no_other_words(const CheckedMotion& motion, const std::string& limit) {
   return fmt::format(
-      "other clamps (`dresslife route` searches for them, longer than `dresslife new`; where `dresslife route` proposed these clamps, it finds no others): with these two clamps{} no length and no direction that was tried{} keeps the limit{}",
+      "other clamps {}: with these two clamps{} no length and no direction that was tried{} keeps the limit{}",
+      by_route,
       motion.other_places ? fmt::format(", also if they are moved by up to {:.0f} mm,", 1e3 * same_place) : "",
       motion.work > most_work ? " in the time of a check" : "", limit);
 }
@@ -398,11 +403,10 @@ Remedy slower(const CheckedMotion& motion, const std::vector<Check>& checks, con
     pipeline::Setup changed = motion.setup;
     changed.motion.acceleration_percent = next;
     if (!cures(motion, changed, {*broken.kind}, broken.dresspack, checks)) continue;
-    return {
-        {{"motion.acceleration_percent", fmt::format("{:.0f}", next)}},
-        fmt::format(" (now {:.0f}; tried in a short run; {})", motion.setup.motion.acceleration_percent,
-                    cycle_words(motion, next)),
-        "other clamps for the present program (`dresslife route` searches for them, longer than `dresslife new`; where `dresslife route` proposed these clamps, it finds no others); or a slower program, "};
+    return {{{"motion.acceleration_percent", fmt::format("{:.0f}", next)}},
+            fmt::format(" (now {:.0f}; tried in a short run; {})", motion.setup.motion.acceleration_percent,
+                        cycle_words(motion, next)),
+            fmt::format("other clamps for the present program {}; or a slower program, ", by_route)};
   }
   return {};
 }
@@ -571,7 +575,7 @@ Cure tension_cure(const CheckedMotion& motion, const std::vector<Check>& checks,
     remedy = slower(motion, checks, broken, motion.setup.motion.acceleration_percent * broken.limit / broken.value);
   if (remedy.empty())
     remedy.words =
-        "other clamps (`dresslife route` searches for them, longer than `dresslife new`; where `dresslife route` proposed these clamps, it finds no others): no length, direction or slower program that was tried keeps the limit";
+        fmt::format("other clamps {}: no length, direction or slower program that was tried keeps the limit", by_route);
   remedy.words +=
       fmt::format("; or {}: {:.0f} if the maker allows it",
                   key_of(motion.setup, broken.dresspack, "dresspack.most_tension_N"), std::ceil(broken.value));

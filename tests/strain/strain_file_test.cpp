@@ -484,6 +484,12 @@ TEST_CASE(
     CHECK(std::abs(to_same) < 0.2 * std::abs(to_own));
     CHECK((to_own > 0) == (z > 0));  // more friction, more strain
   }
+  // A cable without a hose rubs on none.
+  text = replaced(text, "  inner_diameter_mm: 52\n", "");
+  text = replaced(text, "slack_percent: 1\n      ", "");
+  const std::vector<double> z = evaluated({"uncertainty.enabled=true"}).read<double>("/variation/z");
+  REQUIRE(z.size() > 5);
+  for (std::size_t at = index_of(pipeline::Uncertain::friction_hose); at < z.size(); at += 5) CHECK(z[at] == 0);
 }
 
 TEST_CASE("variations hold the strains that the same job has with the keys that they stand for") {

@@ -663,24 +663,6 @@ std::vector<DutyResult> evaluated(const DutyFile& file, const Study& study, cons
 
 namespace {
 
-/// Returns the largest change of log10 life, if a parameter is one and a half standard deviations from its mean and the others have
-/// their means.
-double effect_of(const LifeSurface& life, const ParameterKnowledge& knowledge, std::size_t parameter) {
-  ParameterPoint middle{};
-  for (std::size_t p = 0; p < uncertain_count; ++p) middle[p] = knowledge.mean[static_cast<Eigen::Index>(p)];
-  const auto at = static_cast<Eigen::Index>(parameter);
-  const double step = 1.5 * std::sqrt(knowledge.covariance(at, at));
-  double most = 0;
-  for (const double u : {-1.0, 0.0, 1.0})
-    for (const double by : {-step, step}) {
-      ParameterPoint moved = middle;
-      moved[parameter] += by;
-      const double here = life.log10_life(middle, u), there = life.log10_life(moved, u);
-      if (here != there) most = std::max(most, std::abs(there - here));  // infinite lives may be equal
-    }
-  return most;
-}
-
 /// Values on which the lives of programs depend and that dresspacks share. Those of a result are computed once for all duties.
 class SharedValues {
  public:
@@ -711,10 +693,6 @@ class SharedValues {
         const SharedBy by = uncertain_parameters()[p].shared;
         const auto at = static_cast<Eigen::Index>(p);
         if (by == SharedBy::installation || !(mode.knowledge.covariance(at, at) > 0) || !life.depends_on(p)) continue;
-        // Friction on a hose changes the life of a cable without a hose in its fifth digit, because the strains at its nodes
-        // are computed in another way.
-        constexpr double least_effect = 0.01;  // decades: 2 % of a life
-        if (!(effect_of(life, mode.knowledge, p) > least_effect)) continue;
         const std::string of = by == SharedBy::construction ? mode.construction
                                : by == SharedBy::material   ? mode.material
                                                             : "";

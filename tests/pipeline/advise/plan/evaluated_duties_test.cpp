@@ -247,15 +247,4 @@ TEST_CASE("duties: a plant's table of lives is the same distribution, and holds 
   std::sort(found.begin(), found.end());
   CHECK(found ==
         std::vector<std::string>{"friction_inside of hose", "model of ", "strength of bronze", "strength of copper"});
-  // An effect of rounding is no dependence: 1e-4 decades.
-  LifeResponse hardly = straight_response(1e-4, 0.2, 0.3);
-  hardly.mode = lead.mode;
-  of.rows[0] = row_of(of.scratch, of.programs[0], {hardly, bus});
-  of.rows[1] = row_of(of.scratch, of.programs[1], {hardly, bus});
-  found.clear();
-  const std::map<std::string, LifeTable> left = PlantLives(file, of.study, of.rows, {"d"}).in(50, 64, false);
-  for (const SharedValue& value : left.at("d").shared)
-    found.push_back(std::string(uncertain_parameters()[value.parameter].name));
-  std::sort(found.begin(), found.end());
-  CHECK(found == std::vector<std::string>{"model", "strength", "strength"});
 }
