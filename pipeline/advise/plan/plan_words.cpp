@@ -91,7 +91,7 @@ std::vector<std::string> replaced_in(const Fleet& fleet, const Plan& plan, std::
 }
 
 double later_in(const Plan& plan, std::size_t window) {
-  constexpr double worth_a_word = 0.01;
+  constexpr double worth_a_word = 0.01;  // one dresspack in 100 simulated plants
   const double mean = window < plan.later_in_window.size() ? plan.later_in_window[window] : 0;
   return mean < worth_a_word ? 0 : mean;
 }
@@ -195,20 +195,20 @@ std::string later_saving_words(const Plan& plan) {
 }
 
 std::string test_words(const std::vector<TestValue>& tests, const Plan& plan) {
-  constexpr double worth_a_line = 1e-3;  // of the plan's cost
-  constexpr double coin = 0.01;          // smaller amounts are not relevant in any currency
+  constexpr double coin = 0.01;  // smaller amounts are not relevant in any currency
   constexpr std::size_t most = 3;
   std::string lines;
   std::size_t count = 0;
   for (const TestValue& test : tests) {
-    if (!(test.saves > std::max(coin, worth_a_line * plan.cost))) break;
+    if (!(test.saves > std::max(coin, least_saving * plan.cost))) break;
     if (!(test.saves > test.by_chance)) continue;
     if (++count > most) break;
     const UncertainParameter& parameter = uncertain_parameters()[test.what.parameter];
     lines += fmt::format("  {:>9}  {}: {}{}\n", readable(test.saves), parameter.test, parameter.name,
                          test.what.of.empty() ? "" : fmt::format(" of '{}'", test.what.of));
   }
-  if (lines.empty()) return "No test in a laboratory saves a thousandth of the plan's cost.\n";
+  if (lines.empty())
+    return "No test in a laboratory saves more than chance and more than a thousandth of the plan's cost.\n";
   return fmt::format(
       "A test before the first window saves, on average, until {} and by better replacements after that:\n{}",
       day_text(plan.end), lines);

@@ -191,12 +191,11 @@ std::vector<TestValue> values_of_tests(const Fleet& fleet, const std::map<std::s
   const std::vector<double> saves = Values(fleet, tables, plan).of(results);
   for (std::size_t k = 0; k < values.size(); ++k) values[k].saves = saves[k];
   // In a random order only chance is left. Only for tests with a value, because each order takes as long as a test.
-  constexpr double least_share = 1e-3;  // of the plan's cost, as in test_words()
   constexpr std::size_t orders = 8;
   std::vector<std::size_t> of;
   std::vector<MatrixXd> by_chance;
   for (std::size_t k = 0; k < values.size(); ++k)
-    for (std::size_t order = 0; order < orders && saves[k] > least_share * plan.cost; ++order) {
+    for (std::size_t order = 0; order < orders && saves[k] > least_saving * plan.cost; ++order) {
       const SharedValue& what = values[k].what;
       const UncertainParameter& parameter = uncertain_parameters()[what.parameter];
       of.push_back(k);

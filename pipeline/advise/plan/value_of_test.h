@@ -23,6 +23,9 @@
 
 namespace dresslife::pipeline {
 
+/// Share of a plan's cost. A test that saves less is of no interest.
+inline constexpr double least_saving = 1e-3;
+
 struct TestValue {
   SharedValue what;
   double saves = 0;  ///< expected saving, in the unit of the costs
