@@ -487,9 +487,7 @@ TEST_CASE(
   // A cable without a hose rubs on none.
   text = replaced(text, "  inner_diameter_mm: 52\n", "");
   text = replaced(text, "slack_percent: 1\n      ", "");
-  const std::vector<double> z = evaluated({"uncertainty.enabled=true"}).read<double>("/variation/z");
-  REQUIRE(z.size() > 5);
-  for (std::size_t at = index_of(pipeline::Uncertain::friction_hose); at < z.size(); at += 5) CHECK(z[at] == 0);
+  CHECK(!evaluated({"uncertainty.enabled=true"}).has("/variation/z"));  // nothing else varies here
 }
 
 TEST_CASE("variations hold the strains that the same job has with the keys that they stand for") {
