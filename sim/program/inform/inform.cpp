@@ -60,12 +60,12 @@ class Inform final : public Dialect {
     return unknown_value(shown, "has its value in the controller (VAR.DAT of the backup)");
   }
 
-  std::optional<Value> function(const Expression& call, Interpreter& run) override {
+  std::optional<Value> function(const Expression& call) override {
     if (call.items.size() != 1) return {};
-    const Value value = run.evaluate(call.items[0]);
+    const Value value = run_->evaluate(call.items[0]);
     if (!value.is_number()) return unknown_value(value);
     if (call.text.ends_with("[]") || call.text.ends_with('#'))
-      return run.evaluate(name_at(indexed(call.text, value.number), call.place));
+      return run_->evaluate(name_at(indexed(call.text, value.number), call.place));
     if (call.text == "trunc") return number_value(std::trunc(value.number));
     if (call.text == "sin") return number_value(std::sin(value.number * degree));
     if (call.text == "cos") return number_value(std::cos(value.number * degree));
@@ -74,34 +74,34 @@ class Inform final : public Dialect {
     return {};
   }
 
-  bool instruction(const Statement& statement, Interpreter& run) override {
+  bool instruction(const Statement& statement) override {
     const std::string& name = statement.name;
-    if (moves_inform_robot(name)) return move(statement, run), true;
-    if (name == "speed") return speed(statement, run), true;
-    if (name == "timer") return wait(statement, run), true;
-    if (name == "spot" || name.starts_with("svspot")) return spot(statement, run), true;
-    if (name == "sfton" || name == "sftof") return shift(statement, run), true;
-    if (name == "settool" || name == "mframe") return set_frame(statement, run), true;
-    if (name == "clear") return clear(statement, run), true;
-    if (calculates(name)) return calculate(statement, run), true;
-    if (name == "gete" && read_element(statement, run)) return true;
-    if (name == "pstart") return start_beside(statement, run), true;
+    if (moves_inform_robot(name)) return move(statement), true;
+    if (name == "speed") return speed(statement), true;
+    if (name == "timer") return wait(statement), true;
+    if (name == "spot" || name.starts_with("svspot")) return weld(statement), true;
+    if (name == "sfton" || name == "sftof") return shift(statement), true;
+    if (name == "settool" || name == "mframe") return set_frame(statement), true;
+    if (name == "clear") return clear(statement), true;
+    if (calculates(name)) return calculate(statement), true;
+    if (name == "gete" && read_element(statement)) return true;
+    if (name == "pstart") return start_beside(statement), true;
     if (name == "wvon")
-      return run.note(statement.place, "WVON: the torch swings about its path, which is followed without it", true),
+      return run_->note(statement.place, "WVON: the torch swings about its path, which is followed without it", true),
              true;
     if (name.starts_with("job:")) {
-      run.forget_numbers(fmt::format("may be written by {}, which no file read holds ({})", statement.text,
-                                     run.short_place(statement.place)));
-      run.note(statement.place,
-               statement.text + ": not among the files read; variables may have other values behind it", true);
+      run_->forget_numbers(fmt::format("may be written by {}, which no file read holds ({})", statement.text,
+                                       run_->short_place(statement.place)));
+      run_->note(statement.place,
+                 statement.text + ": not among the files read; variables may have other values behind it", true);
       return true;
     }
     if (const auto& given = statement.arguments;
-        !given.empty() && given[0].kind == Expression::Kind::name && harmless(name) && !run.variable(given[0].text) &&
-        !run.given(given[0].text) && is_variable(given[0].text))  // its value is in no file
-      run.set(given[0].text,
-              unknown_value(upper_case(given[0].text), fmt::format("may be written by {} ({})", statement.text,
-                                                                   run.short_place(statement.place))));
+        !given.empty() && given[0].kind == Expression::Kind::name && harmless(name) && !run_->variable(given[0].text) &&
+        !run_->given(given[0].text) && is_variable(given[0].text))  // its value is in no file
+      run_->set(given[0].text,
+                unknown_value(upper_case(given[0].text), fmt::format("may be written by {} ({})", statement.text,
+                                                                     run_->short_place(statement.place))));
     return false;
   }
 
@@ -194,17 +194,17 @@ class Inform final : public Dialect {
   }
 
   /// Executes SETTOOL TL#(1) P000 or MFRAME UF#(1) P000 P001 P002 (origin, a point on x, a point in the xy plane).
-  void set_frame(const Statement& statement, Interpreter& run) {
+  void set_frame(const Statement& statement) {
     const auto& given = statement.arguments;
     std::vector<Position> points;
     for (std::size_t i = 1; i < given.size(); ++i)
-      if (auto point = position_in(run.evaluate(given[i])); point && point->pose() && point->type != "user")
+      if (auto point = position_in(run_->evaluate(given[i])); point && point->pose() && point->type != "user")
         points.push_back(*std::move(point));
     const bool tool = statement.name == "settool";
     if (given.size() < 2 || points.size() + 1 != given.size() || (!tool && points.size() != 1 && points.size() < 3)) {
       if (!given.empty())
-        run.make_unknown(given[0], {"", fmt::format("is set by {} from positions that are not known ({})",
-                                                    statement.text, run.short_place(statement.place))});
+        run_->make_unknown(given[0], {"", fmt::format("is set by {} from positions that are not known ({})",
+                                                      statement.text, run_->short_place(statement.place))});
       return;
     }
     std::vector<double> numbers = points[0].numbers;
@@ -216,35 +216,35 @@ class Inform final : public Dialect {
       Matrix3 axes;
       axes << x, z.cross(x), z;
       if (!axes.allFinite())
-        return run.complain(statement.place, "sets a frame by points that lie on a line", "correct the points");
+        return run_->complain(statement.place, "sets a frame by points that lie on a line", "correct the points");
       numbers = fanuc_values_of({millimetre * at(0), Quaternion(axes)});
     }
-    Value value = run.evaluate(given[1]);
+    Value value = run_->evaluate(given[1]);
     value.items[0].items.clear();
     for (const double number : numbers) value.items[0].items.push_back(number_value(number));
-    run.assign(given[0], std::move(value));
+    run_->assign(given[0], std::move(value));
   }
 
   /// Executes SFTON P000 UF#(1), which shifts the positions of the following moves, or SFTOF, which ends the shift.
-  void shift(const Statement& statement, Interpreter& run) {
+  void shift(const Statement& statement) {
     shift_.reset();
     if (statement.name == "sftof") return;
     if (statement.arguments.empty())
-      return run.note(statement.place, "SFTON: names no position, so the moves behind it are not shifted", true);
+      return run_->note(statement.place, "SFTON: names no position, so the moves behind it are not shifted", true);
     shift_ = {statement.arguments[0],
-              statement.arguments.size() > 1 ? frame_name(statement.arguments.back(), statement, run) : ""};
-    shift_value_ = run.evaluate(statement.arguments[0]);
+              statement.arguments.size() > 1 ? frame_name(statement.arguments.back(), statement) : ""};
+    shift_value_ = run_->evaluate(statement.arguments[0]);
   }
 
   /// Returns the name of the frame of a SFTON or IMOV: bf, rf, tf or uf#(1). Another one is read as bf, with a warning.
-  std::string frame_name(const Expression& written, const Statement& statement, Interpreter& run) const {
+  std::string frame_name(const Expression& written, const Statement& statement) const {
     std::string name = written.text;
     if (written.kind == Expression::Kind::call && written.items.size() == 1)
-      if (const auto number = run.number(written.items[0])) name = indexed(name, *number);
+      if (const auto number = run_->number(written.items[0])) name = indexed(name, *number);
     if (name == "bf" || name == "rf" || name == "tf" || name.starts_with("uf#(")) return name;
-    run.note(statement.place,
-             fmt::format("{}: what {} does to the move is not read; read as BF", statement.text, upper_case(name)),
-             true);
+    run_->note(statement.place,
+               fmt::format("{}: what {} does to the move is not read; read as BF", statement.text, upper_case(name)),
+               true);
     return "bf";
   }
 
@@ -424,8 +424,7 @@ class Inform final : public Dialect {
                                 : "moves by a distance from the robot's start position (IMOV)",
                             "store the position before it as BASE or USER"),
              false;
-    const auto moved =
-        shifted(reached_->base, by, system ? frame_name(*system, statement, *run_) : "", statement.place);
+    const auto moved = shifted(reached_->base, by, system ? frame_name(*system, statement) : "", statement.place);
     if (!moved) return false;
     reached_->base = move.target.pose = *moved;
     reached_->position.type = "base";
@@ -447,8 +446,8 @@ class Inform final : public Dialect {
 
   // ---- moves ------------------------------------------------------------------------------------------------------
 
-  void speed(const Statement& statement, Interpreter& run) {
-    unread_words(statement, run);
+  void speed(const Statement& statement) {
+    unread_words(statement);
     for (const char* option : {"vj", "v", "vr"})
       if (const auto number = tag(statement, option)) default_speed_[option] = *number;
   }
@@ -513,8 +512,8 @@ class Inform final : public Dialect {
     return true;
   }
 
-  void move(const Statement& statement, Interpreter& run) {
-    if (!of_this_robot(statement, run)) return;
+  void move(const Statement& statement) {
+    if (!of_this_robot(statement)) return;
     const std::string& name = statement.name;
     Instruction move;
     const bool spots = name == "svspotmov";
@@ -523,48 +522,48 @@ class Inform final : public Dialect {
     for (const char* option : {"acc", "dec"})
       if (const auto percent = tag(statement, option))
         move.acceleration_percent =
-            std::min(move.acceleration_percent, run.within(*percent, 1, 100, upper_case(option), statement.place));
+            std::min(move.acceleration_percent, run_->within(*percent, 1, 100, upper_case(option), statement.place));
     const Expression* station = argument_of(statement, "station");
     if (!argument_of(statement, "") && station)
-      return run.note(statement.place, statement.text + ": moves a station alone, not the robot", true);
+      return run_->note(statement.place, statement.text + ": moves a station alone, not the robot", true);
     std::optional<Position> taught;
     const bool zone = read_zone(statement, move), speed = read_speed(statement, move);
     bool whole = read_target(statement, move, taught) && zone && speed;
     if (taught) whole &= read_tool(statement, *taught, move);
     if (!whole) return;
-    externals(statement, run);
-    notes(statement, run);
+    externals(statement);
+    notes(statement);
     if (name == "movc" || name == "smovc")
-      arc_points_[run.program().instructions.size()] = argument_of(statement, "fpt") != nullptr;
+      arc_points_[run_->program().instructions.size()] = argument_of(statement, "fpt") != nullptr;
     if (const Expression* target = argument_of(statement, ""))
-      move.origins.push_back({"target", upper_case(target->text), run.where(run.origin(*target))});
-    run.emit(move, statement);
-    if (spots) weld(statement, run);
+      run_->add_origin(move, "target", *target, upper_case(target->text));
+    run_->emit(move, statement);
+    if (spots) weld(statement);
   }
 
   /// Returns whether a move belongs to the robot of the start job. Notes moves of another robot (RB2); refuses moves of two.
-  bool of_this_robot(const Statement& statement, Interpreter& run) {
+  bool of_this_robot(const Statement& statement) {
     const Routine* job = nullptr;
     for (const Routine& routine : code_.routines)
-      if (routine.module == run.module()) job = &routine;
+      if (routine.module == run_->module()) job = &routine;
     const bool two = argument_of(statement, "other_robot") || (job && job->robot.find(',') != std::string::npos);
     if (two) {
-      run.miss("two robots", statement.place, "moves two robots at once",
-               "give a job that moves one of them (///GROUP1 RB1)");
+      run_->miss("two robots", statement.place, "moves two robots at once",
+                 "give a job that moves one of them (///GROUP1 RB1)");
       return false;
     }
     if (!job || job->robot.empty() || robot_.empty() || job->robot == robot_) return true;
-    run.note(statement.place, fmt::format("{}: moves {}, another robot than {}", statement.text, job->robot, robot_),
-             true);
+    run_->note(statement.place, fmt::format("{}: moves {}, another robot than {}", statement.text, job->robot, robot_),
+               true);
     return false;
   }
 
   /// Leaves base and station axes out of a move. Warns once if they do not stand still.
-  void externals(const Statement& statement, Interpreter& run) {
+  void externals(const Statement& statement) {
     for (const char* option : {"base", "station"}) {
       const Expression* written = argument_of(statement, option);
       if (!written) continue;
-      const auto at = position_in(run.evaluate(*written));
+      const auto at = position_in(run_->evaluate(*written));
       // Taught values of an axis that stands still differ by a few pulses.
       constexpr double same_place = 50;  // [pulses]; other positions: 0.05 mm or deg
       const auto& before = externals_[option];
@@ -572,59 +571,58 @@ class Inform final : public Dialect {
       for (std::size_t i = 0; !moved && i < before.size(); ++i)
         moved = std::abs(at->numbers[i] - before[i]) > (at->type == "pulse" ? same_place : same_place / 1000);
       if (moved && !reported_.contains(option))
-        run.note(statement.place,
-                 fmt::format("{}: {} axes move with the robot, and are left out: the {} is taken to stand still",
-                             statement.text, option, std::string_view(option) == "base" ? "robot's base" : "station"),
-                 true);
+        run_->note(statement.place,
+                   fmt::format("{}: {} axes move with the robot, and are left out: the {} is taken to stand still",
+                               statement.text, option, std::string_view(option) == "base" ? "robot's base" : "station"),
+                   true);
       if (moved) reported_.insert(option);
       if (at && before.empty()) externals_[option] = at->numbers;
     }
   }
 
-  void notes(const Statement& statement, Interpreter& run) {
-    if (statement.name == "movs") run.note(statement.place, "MOVS: a spline, read as straight lines", true);
+  void notes(const Statement& statement) {
+    if (statement.name == "movs") run_->note(statement.place, "MOVS: a spline, read as straight lines", true);
     if (statement.name.starts_with("smov"))
-      run.note(statement.place, statement.text + ": the station turns the work meanwhile; it is taken to stand still",
-               true);
+      run_->note(statement.place, statement.text + ": the station turns the work meanwhile; it is taken to stand still",
+                 true);
     if (argument_of(statement, "until"))
-      run.note(statement.place, statement.text + ": an input may end the move; it is taken to its end", true);
-    unread_words(statement, run);
+      run_->note(statement.place, statement.text + ": an input may end the move; it is taken to its end", true);
+    unread_words(statement);
   }
 
-  static void unread_words(const Statement& statement, Interpreter& run) {
+  void unread_words(const Statement& statement) {
     for (const Expression& argument : statement.arguments)
       if (argument.option == "unknown")
-        run.note(statement.place,
-                 fmt::format("{}: what {} does to the move is not read", statement.text, argument.text), true);
+        run_->note(statement.place,
+                   fmt::format("{}: what {} does to the move is not read", statement.text, argument.text), true);
   }
 
-  void wait(const Statement& statement, Interpreter& run) {
+  void wait(const Statement& statement) {
     if (statement.arguments.empty()) return;
     const Expression& written = statement.arguments[0];
     const auto number = needed(written, "time");
-    if (number && *number < 0) return run.complain(statement.place, "waits for a time below 0", "correct the time");
+    if (number && *number < 0) return run_->complain(statement.place, "waits for a time below 0", "correct the time");
     if (!number || *number == 0) return;
-    run.emit(dwell_of(*number * (written.kind == Expression::Kind::number ? 1 : unit_of_variable("t"))), statement);
+    run_->emit(dwell_of(*number * (written.kind == Expression::Kind::number ? 1 : unit_of_variable("t"))), statement);
   }
 
-  void spot(const Statement& statement, Interpreter& run) { weld(statement, run); }
-  static void weld(const Statement& statement, Interpreter& run) {
-    if (run.options().spot_time > 0) run.emit(dwell_of(run.options().spot_time), statement);
+  void weld(const Statement& statement) {
+    if (run_->options().spot_time > 0) run_->emit(dwell_of(run_->options().spot_time), statement);
   }
 
-  void start_beside(const Statement& statement, Interpreter& run) {
+  void start_beside(const Statement& statement) {
     const std::string job = statement.arguments.empty() ? "" : statement.arguments[0].text;
-    run.note(statement.place,
-             fmt::format("{}: runs beside this job, and is left out; --routine {} reads it alone", statement.text,
-                         job.substr(std::min<std::size_t>(job.find(':') + 1, job.size()))),
-             true);
-    run.forget_numbers(fmt::format("may be written by {}, which runs beside", statement.text));
+    run_->note(statement.place,
+               fmt::format("{}: runs beside this job, and is left out; --routine {} reads it alone", statement.text,
+                           job.substr(std::min<std::size_t>(job.find(':') + 1, job.size()))),
+               true);
+    run_->forget_numbers(fmt::format("may be written by {}, which runs beside", statement.text));
   }
 
   // ---- variables --------------------------------------------------------------------------------------------------
 
   /// Executes CLEAR B003 10: sets 10 variables from B003 on to 0. CLEAR B003 ALL: all variables from B003 on.
-  void clear(const Statement& statement, Interpreter& run) {
+  void clear(const Statement& statement) {
     const auto& given = statement.arguments;
     if (given.empty() || given[0].kind != Expression::Kind::name || given[0].text == "stack") return;
     const std::string& first = given[0].text;
@@ -632,11 +630,11 @@ class Inform final : public Dialect {
     if (digits == first.size()) return;
     constexpr int every = 1000;  // variable numbers are 000 .. 999
     const auto number =
-        given.size() > 1 && given[1].text != "all" ? run.number(given[1]) : std::optional<double>(every);
+        given.size() > 1 && given[1].text != "all" ? run_->number(given[1]) : std::optional<double>(every);
     const int from = std::atoi(first.c_str() + digits);
     const int count = static_cast<int>(std::clamp(number.value_or(1), 1.0, static_cast<double>(every)));
     for (int i = from; i < from + count && i < every; ++i)
-      run.assign(name_at(fmt::format("{}{:03}", first.substr(0, digits), i), statement.place), number_value(0));
+      run_->assign(name_at(fmt::format("{}{:03}", first.substr(0, digits), i), statement.place), number_value(0));
   }
 
   /// Returns what one count of the number `which` of a position is in SETE and GETE: 1 pulse, 0.001 mm or 0.0001 deg.
@@ -645,50 +643,50 @@ class Inform final : public Dialect {
   }
 
   /// Returns the variable that an instruction writes to: B003, or B[I000] with its number. Reports an unknown number.
-  static std::optional<Expression> target_of(const Expression& written, const Statement& statement, Interpreter& run) {
+  std::optional<Expression> target_of(const Expression& written, const Statement& statement) {
     if (written.kind != Expression::Kind::call) return written;
-    const auto index = written.items.size() == 1 ? run.number(written.items[0]) : std::nullopt;
+    const auto index = written.items.size() == 1 ? run_->number(written.items[0]) : std::nullopt;
     if (index) return name_at(indexed(written.text, *index), statement.place);
-    run.complain(statement.place, "writes to a variable whose number is known only while the robot runs",
-                 "write its number");
+    run_->complain(statement.place, "writes to a variable whose number is known only while the robot runs",
+                   "write its number");
     return {};
   }
 
   /// Executes GETE D000 P000 (3). Returns false if the position or the number is not known.
-  bool read_element(const Statement& statement, Interpreter& run) {
+  bool read_element(const Statement& statement) {
     const auto& given = statement.arguments;
-    const auto target = given.size() == 3 ? target_of(given[0], statement, run) : std::nullopt;
+    const auto target = given.size() == 3 ? target_of(given[0], statement) : std::nullopt;
     if (!target) return given.size() == 3;
-    const auto position = position_in(run.evaluate(given[1]));
-    const auto which = run.number(given[2]);
+    const auto position = position_in(run_->evaluate(given[1]));
+    const auto which = run_->number(given[2]);
     if (!position || !which || *which < 1 || *which > static_cast<double>(position->numbers.size())) return false;
     const double number = position->numbers[static_cast<std::size_t>(*which) - 1];
-    run.assign(*target, number_value(std::round(number / unit_of_element(*position, *which))));
+    run_->assign(*target, number_value(std::round(number / unit_of_element(*position, *which))));
     return true;
   }
 
   /// Executes calculations that are not assignments in the tree: arithmetic of positions, one number of a position (SETE),
   /// and variables with an index.
-  void calculate(const Statement& statement, Interpreter& run) {
+  void calculate(const Statement& statement) {
     const auto& given = statement.arguments;
     if (given.empty()) return;
-    const auto written = target_of(given[0], statement, run);
+    const auto written = target_of(given[0], statement);
     if (!written) return;
     const Expression& target = *written;
-    const Value with = given.size() > 1 ? run.evaluate(given.back()) : number_value(1);
-    if (statement.name == "set") return run.assign(target, with);
-    Value value = run.evaluate(target);
+    const Value with = given.size() > 1 ? run_->evaluate(given.back()) : number_value(1);
+    if (statement.name == "set") return run_->assign(target, with);
+    Value value = run_->evaluate(target);
     const bool list = value.kind == Value::Kind::list && value.items.size() == 5;
     if (statement.name == "sete") {
       std::optional<double> which;
-      if (given.size() == 3) which = run.number(given[1]);
+      if (given.size() == 3) which = run_->number(given[1]);
       const auto read = position_in(value);
       if (!which || !read || !with.is_number() || *which < 1 || *which > static_cast<double>(read->numbers.size()))
-        return run.make_unknown(target,
-                                {"", fmt::format("is set in part by SETE ({})", run.short_place(statement.place))});
+        return run_->make_unknown(target,
+                                  {"", fmt::format("is set in part by SETE ({})", run_->short_place(statement.place))});
       const double unit = unit_of_element(*read, *which);
       value.items[0].items[static_cast<std::size_t>(*which) - 1] = number_value(with.number * unit);
-      return run.assign(target, std::move(value));
+      return run_->assign(target, std::move(value));
     }
     const auto combined = [&](double a, double b) {
       return statement.name == "sub" || statement.name == "dec" ? a - b
@@ -711,7 +709,7 @@ class Inform final : public Dialect {
     const bool finite =
         value.kind == Value::Kind::unknown || (value.is_number() && std::isfinite(value.number)) ||
         (list && std::ranges::all_of(value.items[0].items, [](const Value& v) { return std::isfinite(v.number); }));
-    run.assign(target, finite ? std::move(value) : Value{});
+    run_->assign(target, finite ? std::move(value) : Value{});
   }
 
   const Code& code_;

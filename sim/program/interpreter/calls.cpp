@@ -23,7 +23,7 @@ void Interpreter::run_instruction(const Statement& statement) {
     return;
   }
   charge(instruction_work);
-  if (dialect_.instruction(statement, *this)) return;
+  if (dialect_.instruction(statement)) return;
   if (const std::string meant = dialect_.move_meant(statement); !meant.empty() && !dialect_.harmless(statement.name)) {
     complain(
         statement.place,

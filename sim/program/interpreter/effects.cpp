@@ -110,7 +110,7 @@ void Interpreter::forget_assigned(const std::vector<Statement>& body, const Caus
     if (statement.kind == Kind::count && statement.keeps_counter)
       make_unknown(name_at(statement.name, statement.place), why);
     if (statement.kind == Kind::instruction) {
-      dialect_.may_have_run(statement, why, *this);
+      dialect_.may_have_run(statement, why);
       forget_written(statement, why, done);
     }
     for (const Branch& branch : statement.branches) forget_assigned(branch.body, why, done);

@@ -89,7 +89,7 @@ Value Interpreter::answered(const Expression& expression) {
 Value Interpreter::call_value(const Expression& expression) {
   if (const Routine* routine = routine_named(expression.text, expression.place))
     return call(*routine, expression.items, expression.place);
-  std::optional<Value> value = dialect_.function(expression, *this);
+  std::optional<Value> value = dialect_.function(expression);
   if (value && value->known()) return *value;
   // A function that reads an input, or a routine of a missing file: the user may give the value.
   if (std::optional<Value> known = given_here(expression.text)) return *known;
@@ -281,6 +281,11 @@ Place Interpreter::origin(const Expression& expression) {
   if (base.kind == Form::call && !base.items.empty()) return origin(base.items[0]);
   const Variable* found = base.kind == Form::name ? find(base.text) : nullptr;
   return found ? found->written : Place{};
+}
+
+void Interpreter::add_origin(Instruction& move, const char* part, const Expression& from, const std::string& written) {
+  const Place place = origin(from);
+  move.origins.push_back({part, written, place.line > 0 ? where(place) : pipeline::Where{}});
 }
 
 std::string Interpreter::written(const Expression& expression) const {
@@ -820,7 +825,7 @@ Value as_number(const Value& value, const Value& other) {
 
 Value Interpreter::binary(const Expression& expression) {
   const std::string& op = expression.text;
-  if (op == ":") return dialect_.function(expression, *this).value_or(Value{});
+  if (op == ":") return dialect_.function(expression).value_or(Value{});
   Value a = evaluate(expression.items[0]), b = evaluate(expression.items[1]);
   const auto round = [&](Value& value, double (*rounded)(double)) {
     if (dialect_.has_single_precision() && value.is_number()) value.number = rounded(value.number);

@@ -85,9 +85,9 @@ class Dialect {
   /// Returns the value of a name that the program does not declare; std::nullopt: the language has no such name.
   virtual std::optional<Value> constant(const std::string& name) = 0;
   /// Returns the value of a function of the language; std::nullopt: the language has no such function.
-  virtual std::optional<Value> function(const Expression& call, Interpreter& run) = 0;
+  virtual std::optional<Value> function(const Expression& call) = 0;
   /// Runs an instruction of the language. Returns false if the instruction has no effect on the motion.
-  virtual bool instruction(const Statement& statement, Interpreter& run) = 0;
+  virtual bool instruction(const Statement& statement) = 0;
   /// Whether an instruction moves the robot or changes its later motion.
   virtual bool matters(const std::string& instruction) const = 0;
   /// Whether an instruction only waits.
@@ -115,7 +115,7 @@ class Dialect {
   /// Whether the controller computes with numbers of single precision: a loop that adds 0.1 ends after ten passes at 1.
   virtual bool has_single_precision() const { return true; }
   /// Handles an instruction of an undecided branch: it may have run or not.
-  virtual void may_have_run(const Statement&, const Cause&, Interpreter&) {}
+  virtual void may_have_run(const Statement&, const Cause&) {}
   /// Returns the value of a variable that is declared without a value.
   virtual Value initial(const std::string& type) const = 0;
   /// Assigns a value to a variable or to a part of a variable.
@@ -165,6 +165,11 @@ class Interpreter {
   bool was_assigned(const Expression& expression) const;
   /// Returns the expression's text in its file, up to the argument's end.
   std::string written(const Expression& expression) const;
+  /// Adds to a move the origin of a part: the place where the first variable of an expression was last written.
+  void add_origin(Instruction& move, const char* part, const Expression& from, const std::string& written);
+  void add_origin(Instruction& move, const char* part, const Expression& from) {
+    add_origin(move, part, from, written(from));
+  }
   /// Runs a routine by its name, "name" or "module:name".
   void run_named(const std::string& name, const std::vector<Expression>& arguments, const Place& place);
   /// Whether the caller of the current routine gave the argument that \name?value names.

@@ -267,18 +267,18 @@ std::optional<Value> Krl::named_frame(const std::string& path) {
 }
 
 /// Returns TOOL_DATA[n] or BASE_DATA[n]; n <= 0 is the flange or the world.
-Value Krl::numbered(const char* list, const Value& number, Interpreter& run) {
+Value Krl::numbered(const char* list, const Value& number) {
   if (!number.is_number()) return unknown_value(number);
   if (number.number <= 0) return frame_value(Frame{});
-  return run.evaluate(element_at(list, static_cast<int>(std::min(number.number, 1e6)), Place{}));
+  return run_->evaluate(element_at(list, static_cast<int>(std::min(number.number, 1e6)), Place{}));
 }
 
 /// Returns the name of the element of TOOL_DATA or BASE_DATA with these numbers, preferably the current one; else $TOOL
 /// or $BASE.
-std::string Krl::name_of(const char* list, const std::array<double, 6>& numbers, Interpreter& run) {
+std::string Krl::name_of(const char* list, const std::array<double, 6>& numbers) {
   const bool tool = std::string(list) == "tool_data";
-  const auto number = setting(tool ? "$act_tool" : "$act_base", "", run);
-  const Value* data = run.variable(list);
+  const auto number = setting(tool ? "$act_tool" : "$act_base", "");
+  const Value* data = run_->variable(list);
   std::string name;
   const auto add = [&](double index, const std::array<double, 6>& contents) {
     if (contents == numbers && (name.empty() || (number && *number == index)))
@@ -294,11 +294,11 @@ std::string Krl::name_of(const char* list, const std::array<double, 6>& numbers,
 }
 
 /// Returns $TOOL or $BASE. Before an assignment the controller keeps an earlier value, which the user must give.
-Frame Krl::current(const char* variable, const char* list, Frames& frames, std::string& name, Interpreter& run) {
-  const Value* value = run.variable(variable);
+Frame Krl::current(const char* variable, const char* list, Frames& frames, std::string& name) {
+  const Value* value = run_->variable(variable);
   Coordinates read = value ? coordinates(*value, frame_names) : Coordinates{};
   if (read.unknown.known() && !read.all())
-    if (const std::optional<Value> held = run.given(variable)) {
+    if (const std::optional<Value> held = run_->given(variable)) {
       const Coordinates given = coordinates(*held, frame_names);
       for (std::size_t i = 0; i < read.numbers.size(); ++i)
         if (!std::exchange(read.given[i], read.given[i] || given.given[i])) read.numbers[i] = given.numbers[i];
@@ -306,24 +306,24 @@ Frame Krl::current(const char* variable, const char* list, Frames& frames, std::
   if (!read.all()) {
     Value& why = frames.unknown.known() ? frames.unknown : frames.base_too;
     const char* none = read.any() ? "is set in part only" : "is assigned nowhere before: the controller holds it";
-    why = read.unknown.known() ? unknown_value(run.answer_name(variable), none, form_of("frame")) : read.unknown;
+    why = read.unknown.known() ? unknown_value(run_->answer_name(variable), none, form_of("frame")) : read.unknown;
     return {};
   }
-  name = name_of(list, read.numbers, run);
+  name = name_of(list, read.numbers);
   return frame_from(read.numbers);
 }
 
-Krl::Frames Krl::current_frames(Interpreter& run) {
+Krl::Frames Krl::current_frames() {
   Frames frames;
   frames.tool_name = "$TOOL", frames.base_name = "$BASE";
   frames.unknown = frames.base_too = truth_value(true);
-  frames.tool = current("$tool", "tool_data", frames, frames.tool_name, run);
-  frames.base = current("$base", "base_data", frames, frames.base_name, run);
-  const Value* mode = run.variable("$ipo_mode");
+  frames.tool = current("$tool", "tool_data", frames, frames.tool_name);
+  frames.base = current("$base", "base_data", frames, frames.base_name);
+  const Value* mode = run_->variable("$ipo_mode");
   frames.stationary = mode && mode->kind == Value::Kind::text && mode->text == "#tcp";
   if (mode && mode->kind == Value::Kind::unknown && !is_unset(*mode) && frames.unknown.known()) frames.unknown = *mode;
   // $BASE is given in $WORLD; $ROBROOT is the robot's place in it.
-  if (const Value* root = run.variable("$robroot")) {
+  if (const Value* root = run_->variable("$robroot")) {
     if (const Coordinates place = coordinates(*root, frame_names); place.all())
       frames.base = inverse(frame_from(place.numbers)) * frames.base;
     else if (!place.unknown.known() && frames.unknown.known())
@@ -335,165 +335,164 @@ Krl::Frames Krl::current_frames(Interpreter& run) {
 // ---- BAS --------------------------------------------------------------------------------------------------
 
 /// Returns the speed [%] of an axis' largest speed, from a percentage of DEF_VEL_PTP.
-Value Krl::axis_speed(const Value& percent, Interpreter& run) {
-  return scaled(at_most(percent, 100), setting("def_vel_ptp", "", run).value_or(100) / 100);
+Value Krl::axis_speed(const Value& percent) {
+  return scaled(at_most(percent, 100), setting("def_vel_ptp", "").value_or(100) / 100);
 }
 
 /// Returns the acceleration [%] of an axis. Controllers that adapt accelerations to the load use the percentage itself,
 /// others the percentage of DEF_ACC_PTP.
-Value Krl::axis_acceleration(const Value& percent, Interpreter& run) {
-  const Value* adapts = run.variable("$adap_acc");
+Value Krl::axis_acceleration(const Value& percent) {
+  const Value* adapts = run_->variable("$adap_acc");
   const bool whole = !adapts || adapts->kind != Value::Kind::text || adapts->text != "#none";
-  return whole ? at_most(percent, 100)
-               : scaled(at_most(percent, 100), setting("def_acc_ptp", "", run).value_or(100) / 100);
+  return whole ? at_most(percent, 100) : scaled(at_most(percent, 100), setting("def_acc_ptp", "").value_or(100) / 100);
 }
 
-Value Krl::path_speed(const Value& speed, Interpreter& run) {
-  const auto most = setting("def_vel_cp", "", run);
+Value Krl::path_speed(const Value& speed) {
+  const auto most = setting("def_vel_cp", "");
   if (most && speed.is_number() && speed.number > *most) return number_value(*most);
-  return scaled(speed, setting("def_vel_fact", "", run).value_or(1));
+  return scaled(speed, setting("def_vel_fact", "").value_or(1));
 }
 
-void Krl::set_axes(const char* list, const Value& percent, const Place& place, Interpreter& run) {
-  for (int axis = 1; axis <= 6; ++axis) run.assign(element_at(list, axis, place), percent);
+void Krl::set_axes(const char* list, const Value& percent, const Place& place) {
+  for (int axis = 1; axis <= 6; ++axis) run_->assign(element_at(list, axis, place), percent);
 }
 
-void Krl::set_path_acceleration(const Value& percent, const Place& place, Interpreter& run) {
-  const double whole = setting("def_acc_cp", "", run).value_or(standard_path_acceleration);
-  run.assign(field_at("$acc", "cp", place), scaled(at_most(percent, 100), whole / 100));
+void Krl::set_path_acceleration(const Value& percent, const Place& place) {
+  const double whole = setting("def_acc_cp", "").value_or(standard_path_acceleration);
+  run_->assign(field_at("$acc", "cp", place), scaled(at_most(percent, 100), whole / 100));
 }
 
-void Krl::use_tool(const Value& number, const Place& place, Interpreter& run) {
-  run.assign(name_at("$tool", place), numbered("tool_data", number, run));
-  run.assign(name_at("$act_tool", place), number);
+void Krl::use_tool(const Value& number, const Place& place) {
+  run_->assign(name_at("$tool", place), numbered("tool_data", number));
+  run_->assign(name_at("$act_tool", place), number);
 }
 
-void Krl::use_base(const Value& number, const Place& place, Interpreter& run) {
-  run.assign(name_at("$base", place), numbered("base_data", number, run));
-  run.assign(name_at("$act_base", place), number);
+void Krl::use_base(const Value& number, const Place& place) {
+  run_->assign(name_at("$base", place), numbered("base_data", number));
+  run_->assign(name_at("$act_base", place), number);
   if (!number.is_number() || number.number < 1) return;
   const auto machine = [&](const char* field, Expression whole) {
-    return run.evaluate(expression_at(place, Expression::Kind::field, field, {std::move(whole)}));
+    return run_->evaluate(expression_at(place, Expression::Kind::field, field, {std::move(whole)}));
   };
-  if (!run.variable("machine_frame_dat") || !run.variable("machine_def")) return;
+  if (!run_->variable("machine_frame_dat") || !run_->variable("machine_def")) return;
   const Value unit = machine("mach_def_index", element_at("machine_frame_dat", static_cast<int>(number.number), place));
   if (!unit.is_number() || unit.number < 1) return;
   const Value kind = machine("mech_type", element_at("machine_def", static_cast<int>(unit.number), place));
   if (kind.kind == Value::Kind::text && kind.text != "#none" && kind.text != "#robot")
-    run.note(place, fmt::format("BASE_DATA[{}] lies on an external axis: it is taken to stand still", number.number),
-             true);
+    run_->note(place, fmt::format("BASE_DATA[{}] lies on an external axis: it is taken to stand still", number.number),
+               true);
 }
 
-void Krl::form_frames(const Place& place, Interpreter& run) {
+void Krl::form_frames(const Place& place) {
   const auto part = [&](const char* field) {
-    return of_form(run.evaluate(field_at("fdat_act", field, place)), "fdat");
+    return of_form(run_->evaluate(field_at("fdat_act", field, place)), "fdat");
   };
-  use_tool(part("tool_no"), place, run);
-  use_base(part("base_no"), place, run);
-  run.assign(name_at("$ipo_mode", place), part("ipo_frame"));
+  use_tool(part("tool_no"), place);
+  use_base(part("base_no"), place);
+  run_->assign(name_at("$ipo_mode", place), part("ipo_frame"));
 }
 
-void Krl::joint_data(const Place& place, Interpreter& run) {
+void Krl::joint_data(const Place& place) {
   const auto part = [&](const char* field) {
-    return of_form(run.evaluate(field_at("pdat_act", field, place)), "pdat");
+    return of_form(run_->evaluate(field_at("pdat_act", field, place)), "pdat");
   };
-  set_axes("$acc_axis", axis_acceleration(part("acc"), run), place, run);
+  set_axes("$acc_axis", axis_acceleration(part("acc")), place);
   const Value distance = part("apo_dist");
   const Value mode = part("apo_mode");
   if (mode.kind == Value::Kind::text && mode.text == "#cdis")
-    run.assign(field_at("$apo", "cdis", place), distance);
+    run_->assign(field_at("$apo", "cdis", place), distance);
   else
-    run.assign(field_at("$apo", "cptp", place), at_most(distance, 100));
+    run_->assign(field_at("$apo", "cptp", place), at_most(distance, 100));
 }
 
-void Krl::path_data(const Place& place, Interpreter& run) {
+void Krl::path_data(const Place& place) {
   const auto part = [&](const char* field) {
-    return of_form(run.evaluate(field_at("ldat_act", field, place)), "ldat");
+    return of_form(run_->evaluate(field_at("ldat_act", field, place)), "ldat");
   };
-  set_path_acceleration(part("acc"), place, run);
-  run.assign(field_at("$apo", "cdis", place), part("apo_dist"));
-  run.assign(name_at("$ori_type", place), part("ori_typ"));
-  run.assign(name_at("$circ_type", place), part("circ_typ"));
+  set_path_acceleration(part("acc"), place);
+  run_->assign(field_at("$apo", "cdis", place), part("apo_dist"));
+  run_->assign(name_at("$ori_type", place), part("ori_typ"));
+  run_->assign(name_at("$circ_type", place), part("circ_typ"));
 }
 
 /// Runs BAS(#INITMOV, 0): sets the initial values of $CONFIG.DAT. Only a missing speed is a question.
-void Krl::initialise(const Place& place, Interpreter& run) {
+void Krl::initialise(const Place& place) {
   const auto standard = [&](const char* name) {
-    const Value value = run.evaluate(name_at(name, place));
+    const Value value = run_->evaluate(name_at(name, place));
     return value.known() ? value : unset_value();
   };
-  set_axes("$acc_axis", axis_acceleration(number_value(100), run), place, run);
-  set_axes("$vel_axis", axis_speed(number_value(100), run), place, run);
-  set_path_acceleration(number_value(100), place, run);
-  run.assign(field_at("$vel", "cp", place), path_speed(run.evaluate(name_at("def_vel_cp", place)), run));
-  run.assign(field_at("$vel", "ori1", place), standard("def_vel_ori1"));
-  run.assign(field_at("$vel", "ori2", place), standard("def_vel_ori2"));
+  set_axes("$acc_axis", axis_acceleration(number_value(100)), place);
+  set_axes("$vel_axis", axis_speed(number_value(100)), place);
+  set_path_acceleration(number_value(100), place);
+  run_->assign(field_at("$vel", "cp", place), path_speed(run_->evaluate(name_at("def_vel_cp", place))));
+  run_->assign(field_at("$vel", "ori1", place), standard("def_vel_ori1"));
+  run_->assign(field_at("$vel", "ori2", place), standard("def_vel_ori2"));
   for (const char* field : {"cptp", "cdis", "cvel", "cori"})
-    run.assign(field_at("$apo", field, place), standard(fmt::format("def_apo_{}", field).c_str()));
-  run.assign(name_at("$ipo_mode", place), text_value("#base"));
-  run.assign(name_at("$ori_type", place), text_value("#var"));
-  run.assign(name_at("$circ_type", place), text_value("#base"));
-  use_base(number_value(0), place, run);
-  if (run.variable("def_vel_cp") && !run.variable("tool_data")) {
-    run.note(place, "BAS(#INITMOV) takes TOOL_DATA[1], which $CONFIG.DAT does not hold: the flange is taken", true);
-    use_tool(number_value(0), place, run);
+    run_->assign(field_at("$apo", field, place), standard(fmt::format("def_apo_{}", field).c_str()));
+  run_->assign(name_at("$ipo_mode", place), text_value("#base"));
+  run_->assign(name_at("$ori_type", place), text_value("#var"));
+  run_->assign(name_at("$circ_type", place), text_value("#base"));
+  use_base(number_value(0), place);
+  if (run_->variable("def_vel_cp") && !run_->variable("tool_data")) {
+    run_->note(place, "BAS(#INITMOV) takes TOOL_DATA[1], which $CONFIG.DAT does not hold: the flange is taken", true);
+    use_tool(number_value(0), place);
   } else {
-    use_tool(number_value(1), place, run);
+    use_tool(number_value(1), place);
   }
 }
 
-void Krl::basics(const Statement& statement, Interpreter& run) {
+void Krl::basics(const Statement& statement) {
   if (statement.arguments.empty()) return;
   const Place& place = statement.place;
-  const std::string what = run.evaluate(statement.arguments[0]).text;
-  const Value number = statement.arguments.size() > 1 ? run.evaluate(statement.arguments[1]) : Value{};
+  const std::string what = run_->evaluate(statement.arguments[0]).text;
+  const Value number = statement.arguments.size() > 1 ? run_->evaluate(statement.arguments[1]) : Value{};
   static const pipeline::WordSet with_number =
       pipeline::word_set("#vel_ptp #acc_ptp #vel_cp #acc_cp #acc_glue #tool #base #ex_base #ptp_params #cp_params");
   if (statement.arguments.size() < 2 && with_number.contains(what))
-    return run.complain(place, fmt::format("has BAS({}) without a number", what),
-                        fmt::format("write BAS({}, NUMBER)", what));
-  const auto set_speed = [&](const Value& speed) { run.assign(field_at("$vel", "cp", place), path_speed(speed, run)); };
+    return run_->complain(place, fmt::format("has BAS({}) without a number", what),
+                          fmt::format("write BAS({}, NUMBER)", what));
+  const auto set_speed = [&](const Value& speed) { run_->assign(field_at("$vel", "cp", place), path_speed(speed)); };
   if (number.is_number() && number.number > 100 &&
       (what == "#vel_ptp" || what == "#acc_ptp" || what == "#acc_cp" || what == "#acc_glue" || what == "#ptp_params"))
-    run.note(place, fmt::format("BAS({}, {:g}): {}", what, number.number, above_all_speed), true);
+    run_->note(place, fmt::format("BAS({}, {:g}): {}", what, number.number, above_all_speed), true);
   if (what == "#initmov") {
-    initialise(place, run);
+    initialise(place);
   } else if (what == "#vel_ptp") {
-    set_axes("$vel_axis", axis_speed(number, run), place, run);
+    set_axes("$vel_axis", axis_speed(number), place);
   } else if (what == "#acc_ptp") {
-    set_axes("$acc_axis", axis_acceleration(number, run), place, run);
+    set_axes("$acc_axis", axis_acceleration(number), place);
   } else if (what == "#vel_cp") {
-    const auto most = setting("def_vel_cp", "", run);  // hides the slip; else the job warns of the speed
+    const auto most = setting("def_vel_cp", "");  // hides the slip; else the job warns of the speed
     if (number.is_number() && number.number > fastest_path && most && *most < number.number)
-      run.note(place, fmt::format("BAS({}, {:g}): {}", what, number.number, fast_path), true);
+      run_->note(place, fmt::format("BAS({}, {:g}): {}", what, number.number, fast_path), true);
     set_speed(number);
   } else if (what == "#acc_cp" || what == "#acc_glue") {
-    set_path_acceleration(number, place, run);
+    set_path_acceleration(number, place);
   } else if (what == "#tool") {
-    use_tool(number, place, run);
+    use_tool(number, place);
   } else if (what == "#base" || what == "#ex_base") {
-    use_base(number, place, run);
+    use_base(number, place);
   } else if (what == "#frames") {
-    form_frames(place, run);
+    form_frames(place);
   } else if (what == "#ptp_dat" || what == "#ptp_params") {
-    joint_data(place, run);
-    if (what == "#ptp_params") form_frames(place, run);
+    joint_data(place);
+    if (what == "#ptp_params") form_frames(place);
     const Value percent =
-        what == "#ptp_params" ? number : of_form(run.evaluate(field_at("pdat_act", "vel", place)), "pdat");
-    set_axes("$vel_axis", axis_speed(percent, run), place, run);
+        what == "#ptp_params" ? number : of_form(run_->evaluate(field_at("pdat_act", "vel", place)), "pdat");
+    set_axes("$vel_axis", axis_speed(percent), place);
   } else if (what == "#cp_dat" || what == "#cp_params") {
-    path_data(place, run);
-    if (what == "#cp_params") form_frames(place, run);
-    set_speed(what == "#cp_params" ? number : of_form(run.evaluate(field_at("ldat_act", "vel", place)), "ldat"));
+    path_data(place);
+    if (what == "#cp_params") form_frames(place);
+    set_speed(what == "#cp_params" ? number : of_form(run_->evaluate(field_at("ldat_act", "vel", place)), "ldat"));
   } else if (!what.starts_with("#out_") && what != "#group") {
-    run.note(place, fmt::format("BAS({}): not a known case", what.empty() ? "?" : what), true);
+    run_->note(place, fmt::format("BAS({}): not a known case", what.empty() ? "?" : what), true);
   }
 }
 
 // ---- functions --------------------------------------------------------------------------------------------
 
 /// Returns the value of a function that the editor writes after WITH; std::nullopt: another function.
-std::optional<Value> Krl::spline_function(const Expression& call, const std::vector<Value>& values, Interpreter& run) {
+std::optional<Value> Krl::spline_function(const Expression& call, const std::vector<Value>& values) {
   const std::string& name = call.text;
   const auto is = [&](std::initializer_list<const char*> names) {
     return std::ranges::any_of(names, [&](const char* other) { return name == other; });
@@ -516,15 +515,15 @@ std::optional<Value> Krl::spline_function(const Expression& call, const std::vec
   };
   if (name == "svel_joint" || name == "sacc_joint") {
     const bool speed = name == "svel_joint";
-    const Value percent = speed ? axis_speed(first, run) : axis_acceleration(part(first, "acc"), run);
-    set_axes(speed ? "$vel_axis" : "$acc_axis", percent, call.place, run);
+    const Value percent = speed ? axis_speed(first) : axis_acceleration(part(first, "acc"));
+    set_axes(speed ? "$vel_axis" : "$acc_axis", percent, call.place);
     return percent;
   }
   if (name == "svel_cp")
-    return with("cp", {{"cp", at_most(first, setting("def_vel_cp", "", run))},
-                       {"ori1", run.evaluate(name_at("def_vel_oris", call.place))}});
+    return with("cp", {{"cp", at_most(first, setting("def_vel_cp", ""))},
+                       {"ori1", run_->evaluate(name_at("def_vel_oris", call.place))}});
   if (name == "sacc_cp") {
-    const double whole = setting("def_acc_cp", "", run).value_or(standard_path_acceleration);
+    const double whole = setting("def_acc_cp", "").value_or(standard_path_acceleration);
     return with("cp", {{"cp", scaled(at_most(part(first, "acc"), 100), whole / 100)}});
   }
   if (name == "sapo") return with("cont", {{"cdis", part(first, "apo_dist")}, {"cptp", number_value(100)}});
@@ -534,25 +533,25 @@ std::optional<Value> Krl::spline_function(const Expression& call, const std::vec
                          {"cptp", by_distance ? number_value(100) : part(first, "apo_dist")}});
   }
   if (name == "stool2") {
-    run.assign(name_at("$act_tool", call.place), part(first, "tool_no"));
-    run.assign(name_at("$act_base", call.place), part(first, "base_no"));
-    return numbered("tool_data", part(first, "tool_no"), run);
+    run_->assign(name_at("$act_tool", call.place), part(first, "tool_no"));
+    run_->assign(name_at("$act_base", call.place), part(first, "base_no"));
+    return numbered("tool_data", part(first, "tool_no"));
   }
-  if (name == "stool") return numbered("tool_data", first, run);
-  if (name == "sbase") return numbered("base_data", first, run);
+  if (name == "stool") return numbered("tool_data", first);
+  if (name == "sbase") return numbered("base_data", first);
   if (name == "sipo_mode") return first.kind == Value::Kind::list ? part(first, "ipo_frame") : first;
   if (name == "sori_typ") return part(first, "ori_typ");
   if (name == "scirc_typ") return part(first, "circ_typ");
   if (name == "sgear_jerk") {
     const Value* percent = first.field("gear_jerk");
     if (!percent || !percent->is_number()) return unset_value();
-    set_axes("$gear_jerk", at_most(*percent, 100), call.place, run);
+    set_axes("$gear_jerk", at_most(*percent, 100), call.place);
     return *percent;
   }
   if (name == "sjerk") {
     const Value* percent = first.field("jerk_fac");
     if (!percent || !percent->is_number()) return unset_value();
-    const double whole = setting("def_jerk_struc", "cp", run).value_or(standard_path_jerk);
+    const double whole = setting("def_jerk_struc", "cp").value_or(standard_path_jerk);
     return with("jerk_struc", {{"cp", scaled(at_most(*percent, 100), whole / 100)}});
   }
   for (const char* other : {"sload", "scirc_m", "s_exax_ign"})
@@ -561,11 +560,11 @@ std::optional<Value> Krl::spline_function(const Expression& call, const std::vec
 }
 
 /// Returns VARSTATE("name"). A name that no file declares may be in a missing file.
-Value Krl::state_of(const Value& name, Interpreter& run) {
+Value Krl::state_of(const Value& name) {
   if (name.kind != Value::Kind::text) return unknown_value(name);
-  const Value* value = run.variable(lower_case(name.text));
+  const Value* value = run_->variable(lower_case(name.text));
   if (!value)
-    return run.variable("def_vel_cp") ? text_value("#unknown") : unknown_value(name.text, "is in no file read");
+    return run_->variable("def_vel_cp") ? text_value("#unknown") : unknown_value(name.text, "is in no file read");
   if (is_unset(*value)) return text_value("#declared");
   return value->known() ? text_value("#initialized") : unknown_value(*value);
 }
@@ -590,14 +589,14 @@ std::optional<Value> Krl::arithmetic(const Expression& call, const std::vector<V
   return {};
 }
 
-std::optional<Value> Krl::function(const Expression& call, Interpreter& run) {
+std::optional<Value> Krl::function(const Expression& call) {
   static const std::set<std::string> known{
       ":",          "inv_pos", "abs",        "sqrt",      "sin",     "cos",        "tan",   "acos",       "atan2",
       "svel_joint", "svel_cp", "sacc_joint", "sacc_cp",   "sapo",    "sapo_ptp",   "stool", "stool2",     "sbase",
       "sipo_mode",  "sload",   "sori_typ",   "scirc_typ", "scirc_m", "sgear_jerk", "sjerk", "s_exax_ign", "varstate"};
   if (!known.contains(call.text)) return {};
   std::vector<Value> values;
-  for (const Expression& argument : call.items) values.push_back(run.evaluate(argument));
+  for (const Expression& argument : call.items) values.push_back(run_->evaluate(argument));
   if (call.text == ":" || call.text == "inv_pos") {  // ":": the second frame is given in the first
     Frame product;
     for (const Value& value : values) {
@@ -607,9 +606,9 @@ std::optional<Value> Krl::function(const Expression& call, Interpreter& run) {
     }
     return frame_value(call.text == ":" ? product : inverse(product));
   }
-  if (call.text == "varstate") return state_of(values.empty() ? Value{} : values[0], run);
+  if (call.text == "varstate") return state_of(values.empty() ? Value{} : values[0]);
   if (auto value = arithmetic(call, values)) return value;
-  return spline_function(call, values, run);
+  return spline_function(call, values);
 }
 
 }  // namespace dresslife::sim

@@ -19,8 +19,8 @@ class Krl final : public Dialect {
   Krl(const Code& code, const std::vector<NamedFrame>& tools, const std::vector<NamedFrame>& work_objects);
 
   std::optional<Value> constant(const std::string& name) override;
-  std::optional<Value> function(const Expression& call, Interpreter& run) override;
-  bool instruction(const Statement& statement, Interpreter& run) override;
+  std::optional<Value> function(const Expression& call) override;
+  bool instruction(const Statement& statement) override;
   bool matters(const std::string& name) const override;
   bool only_waits(const std::string& name) const override { return name == "wait_sec"; }
   bool harmless(const std::string& name) const override;
@@ -36,7 +36,7 @@ class Krl final : public Dialect {
   std::optional<double> letter(const Value& text) const override;
   bool shares(const std::string& name, int module) const override;
   bool is_of_module(const std::string& name) const override;
-  void may_have_run(const Statement& statement, const Cause& why, Interpreter& run) override;
+  void may_have_run(const Statement& statement, const Cause& why) override;
 
   /// Indices of the instructions that are SPL points of spline blocks.
   const std::set<std::size_t>& spline_points() const { return spline_points_; }
@@ -65,70 +65,68 @@ class Krl final : public Dialect {
 
   // ---- krl.cpp: moves
   static std::optional<Instruction::Kind> kind_of(const std::string& name);
-  void move(Instruction::Kind kind, const Statement& statement, Interpreter& run);
-  void move_now(Instruction::Kind kind, const Statement& statement, Interpreter& run);
+  void move(Instruction::Kind kind, const Statement& statement);
+  void move_now(Instruction::Kind kind, const Statement& statement);
   void go_round(const Statement& statement, const Expression* whole_angle,
-                const std::optional<std::array<double, 6>>& start, Instruction move, Interpreter& run);
-  static void ask_for_kind(const Value* kind, const char* what, const Place& place, Interpreter& run);
-  static void check_word(const Value* word, const char* of, const std::vector<std::string>& known, const Place& place,
-                         Interpreter& run);
-  static void check_marks(const Statement& statement, Interpreter& run);
-  static bool keeps_orientation(const Place& place, bool unknown, Interpreter& run);
-  bool stands_still(const Expression& target, Interpreter& run) const;
-  bool read_via(const Expression& via, From from, const Frames& frames, Instruction& move, Interpreter& run);
-  bool read_target(const Expression& written, From from, const Frames& frames, Instruction& move, Interpreter& run);
-  bool read_known_target(const Expression& written, From from, const Frames& frames, Instruction& move,
-                         Interpreter& run);
-  static std::optional<std::array<double, 6>> given_place(bool axes, Interpreter& run);
-  Value place_here(bool axes, Interpreter& run) const;
-  void ask_for_place_before(const Expression& written, bool axes, Interpreter& run);
-  void ask_for_target(const Expression& written, const Value& value, Interpreter& run);
-  void ask_for_part(const Expression& written, const krl::Coordinates& read, Interpreter& run);
-  bool read_external(const Expression& written, const Value& value, bool relative, Instruction& move, Interpreter& run);
+                const std::optional<std::array<double, 6>>& start, Instruction move);
+  void ask_for_kind(const Value* kind, const char* what, const Place& place);
+  void check_word(const Value* word, const char* of, const std::vector<std::string>& known, const Place& place);
+  void check_marks(const Statement& statement);
+  bool keeps_orientation(const Place& place, bool unknown);
+  bool stands_still(const Expression& target) const;
+  bool read_via(const Expression& via, From from, const Frames& frames, Instruction& move);
+  bool read_target(const Expression& written, From from, const Frames& frames, Instruction& move);
+  bool read_known_target(const Expression& written, From from, const Frames& frames, Instruction& move);
+  std::optional<std::array<double, 6>> given_place(bool axes);
+  Value place_here(bool axes) const;
+  void ask_for_place_before(const Expression& written, bool axes);
+  void ask_for_target(const Expression& written, const Value& value);
+  void ask_for_part(const Expression& written, const krl::Coordinates& read);
+  bool read_external(const Expression& written, const Value& value, bool relative, Instruction& move);
   std::optional<std::array<double, 6>> place_before(const Frames& frames) const;
-  void set_frames(const Frames& frames, Instruction& move, Interpreter& run);
-  bool ask_for_frames(const Frames& frames, const Statement& statement, Interpreter& run);
-  static void ask_for_frame(const Value& unknown, const Statement& statement, Interpreter& run);
-  bool read_speed(const Statement& statement, Instruction& move, Interpreter& run);
-  static void note_setting(const char* variable, const std::string& what, const Place& place, Interpreter& run);
-  static std::optional<double> turn_speed(const Place& place, Interpreter& run);
-  bool read_axis_speed(const Statement& statement, Instruction& move, Interpreter& run);
-  bool read_path_speed(const Statement& statement, Instruction& move, Interpreter& run);
-  bool read_override(const Statement& statement, Instruction& move, Interpreter& run);
-  void read_zone(const Statement& statement, Instruction& move, Interpreter& run);
-  void wait(const Statement& statement, Interpreter& run);
-  static void wait_for_robot(const Statement& statement, Interpreter& run);
-  void interrupt(const Statement& statement, Interpreter& run);
-  void handlers_happen(long number, Interpreter& run);
-  void add_origins(const Expression& target, const Frames& frames, Instruction& move, Interpreter& run);
+  void set_frames(const Frames& frames, Instruction& move);
+  bool ask_for_frames(const Frames& frames, const Statement& statement);
+  void ask_for_frame(const Value& unknown, const Statement& statement);
+  bool read_speed(const Statement& statement, Instruction& move);
+  void note_setting(const char* variable, const std::string& what, const Place& place);
+  std::optional<double> turn_speed(const Place& place);
+  bool read_axis_speed(const Statement& statement, Instruction& move);
+  bool read_path_speed(const Statement& statement, Instruction& move);
+  bool read_override(const Statement& statement, Instruction& move);
+  void read_zone(const Statement& statement, Instruction& move);
+  void wait(const Statement& statement);
+  void wait_for_robot(const Statement& statement);
+  void interrupt(const Statement& statement);
+  void handlers_happen(long number);
+  void add_origins(const Expression& target, const Frames& frames, Instruction& move);
 
   // ---- basics.cpp: frames, BAS, functions
-  Frames current_frames(Interpreter& run);
-  Frame current(const char* variable, const char* list, Frames& frames, std::string& name, Interpreter& run);
-  std::string name_of(const char* list, const std::array<double, 6>& numbers, Interpreter& run);
+  Frames current_frames();
+  Frame current(const char* variable, const char* list, Frames& frames, std::string& name);
+  std::string name_of(const char* list, const std::array<double, 6>& numbers);
   std::optional<Value> named_frame(const std::string& path);
-  Value numbered(const char* list, const Value& number, Interpreter& run);
-  void basics(const Statement& statement, Interpreter& run);
-  void initialise(const Place& place, Interpreter& run);
-  void joint_data(const Place& place, Interpreter& run);
-  void path_data(const Place& place, Interpreter& run);
-  void form_frames(const Place& place, Interpreter& run);
-  void set_axes(const char* list, const Value& percent, const Place& place, Interpreter& run);
-  Value axis_speed(const Value& percent, Interpreter& run);
-  Value axis_acceleration(const Value& percent, Interpreter& run);
-  Value path_speed(const Value& speed, Interpreter& run);
-  void set_path_acceleration(const Value& percent, const Place& place, Interpreter& run);
-  void use_tool(const Value& number, const Place& place, Interpreter& run);
-  void use_base(const Value& number, const Place& place, Interpreter& run);
-  std::optional<Value> spline_function(const Expression& call, const std::vector<Value>& values, Interpreter& run);
-  static Value state_of(const Value& name, Interpreter& run);
+  Value numbered(const char* list, const Value& number);
+  void basics(const Statement& statement);
+  void initialise(const Place& place);
+  void joint_data(const Place& place);
+  void path_data(const Place& place);
+  void form_frames(const Place& place);
+  void set_axes(const char* list, const Value& percent, const Place& place);
+  Value axis_speed(const Value& percent);
+  Value axis_acceleration(const Value& percent);
+  Value path_speed(const Value& speed);
+  void set_path_acceleration(const Value& percent, const Place& place);
+  void use_tool(const Value& number, const Place& place);
+  void use_base(const Value& number, const Place& place);
+  std::optional<Value> spline_function(const Expression& call, const std::vector<Value>& values);
+  Value state_of(const Value& name);
   std::optional<Value> arithmetic(const Expression& call, const std::vector<Value>& values);
 
   // ---- values
   Value record(const std::array<double, 6>& numbers, const char* type) const;
   Value frame_value(const Frame& frame) const { return record(krl::numbers_of(frame), "frame"); }
   Value prototype(const std::string& type, int depth) const;
-  static std::optional<double> setting(const std::string& name, const char* field, Interpreter& run);
+  std::optional<double> setting(const std::string& name, const char* field);
 
   const Code& code_;
   const std::vector<NamedFrame>& tools_;

@@ -24,8 +24,8 @@ class Rapid final : public Dialect {
       : code_(code), tools_(tools), work_objects_(work_objects) {}
 
   std::optional<Value> constant(const std::string& name) override;
-  std::optional<Value> function(const Expression& call, Interpreter& run) override;
-  bool instruction(const Statement& statement, Interpreter& run) override;
+  std::optional<Value> function(const Expression& call) override;
+  bool instruction(const Statement& statement) override;
   bool matters(const std::string& name) const override;
   bool only_waits(const std::string& name) const override { return name == "waittime"; }
   /// Whether the routine is main: in production main repeats until the operator stops it.
@@ -41,42 +41,41 @@ class Rapid final : public Dialect {
 
  private:
   // ---- moves.cpp
-  bool move(const Signature& signature, const Statement& statement, Interpreter& run);
-  bool read_target(const Expression& written, bool joints, Instruction& move, Interpreter& run);
-  std::optional<Frame> read_via(const Expression& written, Interpreter& run);
-  bool read_speed(const Expression& written, Instruction& move, Interpreter& run);
-  void read_weld_speed(const Statement& statement, Instruction& move, Interpreter& run);
-  bool read_zone(const Expression& written, Instruction& move, Interpreter& run);
-  bool read_tool(const Expression& written, Instruction& move, Interpreter& run);
-  bool read_work_object(const Expression& written, Instruction& move, Interpreter& run);
-  std::optional<NamedFrame> tool_of(const Expression& written, Interpreter& run);
-  std::optional<NamedFrame> work_object_of(const Expression& written, Interpreter& run);
-  bool read_options(const Statement& statement, Instruction& move, Interpreter& run);
-  static void check_arguments(const std::string& of, const std::vector<Expression>& arguments, int most,
-                              const std::vector<std::string_view>& switches, Interpreter& run);
-  static void print_options(const Statement& statement, Interpreter& run);
-  std::optional<Value> typed(const Expression& written, const char* type, const char* what, Interpreter& run);
-  std::optional<Quaternion> turn_of_displacement(const Value& orient, const char* what, const Expression& written,
-                                                 Interpreter& run);
-  void displace(const Statement& statement, Interpreter& run);
-  std::optional<Value> position_with(const Expression* tool, const Expression* work_object, Interpreter& run);
-  Value current_position(const Expression& call, Interpreter& run);
-  void shift_external_axes(const Statement& statement, Interpreter& run);
+  bool move(const Signature& signature, const Statement& statement);
+  bool read_target(const Expression& written, bool joints, Instruction& move);
+  std::optional<Frame> read_via(const Expression& written);
+  bool read_speed(const Expression& written, Instruction& move);
+  void read_weld_speed(const Statement& statement, Instruction& move);
+  bool read_zone(const Expression& written, Instruction& move);
+  bool read_tool(const Expression& written, Instruction& move);
+  bool read_work_object(const Expression& written, Instruction& move);
+  std::optional<NamedFrame> tool_of(const Expression& written);
+  std::optional<NamedFrame> work_object_of(const Expression& written);
+  bool read_options(const Statement& statement, Instruction& move);
+  void check_arguments(const std::string& of, const std::vector<Expression>& arguments, int most,
+                       const std::vector<std::string_view>& switches);
+  void print_options(const Statement& statement);
+  std::optional<Value> typed(const Expression& written, const char* type, const char* what);
+  std::optional<Quaternion> turn_of_displacement(const Value& orient, const char* what, const Expression& written);
+  void displace(const Statement& statement);
+  std::optional<Value> position_with(const Expression* tool, const Expression* work_object);
+  Value current_position(const Expression& call);
+  void shift_external_axes(const Statement& statement);
 
   // ---- rapid.cpp
   Value tool_value(const NamedFrame& tool) const;
   Value work_object_value(const NamedFrame& object) const;
-  void settings(const Statement& statement, Interpreter& run);
-  void wait(const Statement& statement, Interpreter& run);
-  bool arithmetic(const Statement& statement, Interpreter& run);
-  void connect(const Statement& statement, Interpreter& run);
+  void settings(const Statement& statement);
+  void wait(const Statement& statement);
+  bool arithmetic(const Statement& statement);
+  void connect(const Statement& statement);
   bool steers(const std::vector<Statement>& body, int module, int depth) const;
-  bool named_data(const Statement& statement, Interpreter& run);
-  Value offset(const Expression& call, bool in_tool, Interpreter& run);
+  bool named_data(const Statement& statement);
+  Value offset(const Expression& call, bool in_tool);
   /// Returns the orientation as a unit quaternion. Another norm is a problem of `written`, and the quaternion is
   /// normalised. std::nullopt: the quaternion is 0.
-  std::optional<Quaternion> checked(const Value& orient, const char* what, const Expression& written, Interpreter& run);
-  Value text_to_value(const Expression& call, Interpreter& run);
+  std::optional<Quaternion> checked(const Value& orient, const char* what, const Expression& written);
+  Value text_to_value(const Expression& call);
 
   const Code& code_;
   const std::vector<NamedFrame>& tools_;

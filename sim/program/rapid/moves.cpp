@@ -80,27 +80,21 @@ std::vector<double> external_of(const Value& extax, const std::vector<double>& s
   return axes;
 }
 
-/// Stores the text of a move's part and the place where its value was last written.
-void remember(Instruction& move, const char* part, const Expression& written, Interpreter& run) {
-  const Place place = run.origin(written);
-  move.origins.push_back({part, run.written(written), place.line > 0 ? run.where(place) : pipeline::Where{}});
-}
-
 }  // namespace
 
 /// Gives a warning of each switch that an instruction or function does not have, and of arguments after the last one.
 /// most: its number of arguments without a name; -1: any number.
 void Rapid::check_arguments(const std::string& of, const std::vector<Expression>& arguments, int most,
-                            const std::vector<std::string_view>& switches, Interpreter& run) {
+                            const std::vector<std::string_view>& switches) {
   std::vector<std::string> known;
   for (const std::string_view name : switches) known.push_back("\\" + std::string(name));
   int count = 0;
   for (const Expression& argument : arguments) {
     const auto same = [&](std::string_view name) { return argument.option == lower_case(name); };
     if (argument.option.empty() && ++count > most && most >= 0)
-      run.unread(argument.place, run.written(argument), fmt::format("{} after its argument {}", of, most), {});
+      run_->unread(argument.place, run_->written(argument), fmt::format("{} after its argument {}", of, most), {});
     else if (!argument.option.empty() && std::ranges::none_of(switches, same))
-      run.unread(argument.place, "\\" + argument.option, of, known);
+      run_->unread(argument.place, "\\" + argument.option, of, known);
   }
 }
 
@@ -123,68 +117,68 @@ const Signature* rapid_move(const std::string& instruction) {
   return nullptr;
 }
 
-std::optional<Value> Rapid::typed(const Expression& written, const char* type, const char* what, Interpreter& run) {
-  const std::size_t problems = run.problem_count();
-  Value value = run.answered(written);
-  if (!value.known() && run.problem_count() != problems) return {};  // the cause is reported already
+std::optional<Value> Rapid::typed(const Expression& written, const char* type, const char* what) {
+  const std::size_t problems = run_->problem_count();
+  Value value = run_->answered(written);
+  if (!value.known() && run_->problem_count() != problems) return {};  // the cause is reported already
   if (!value.known()) {
     const std::vector<const Cause*> causes = value.causes();
     const std::string name = causes.size() == 1 && causes[0]->line.empty() ? causes[0]->asked() : "";
-    if (is_frame(type) && !name.empty() && name.find(':') == std::string::npos && !run.variable(name)) {
+    if (is_frame(type) && !name.empty() && name.find(':') == std::string::npos && !run_->variable(name)) {
       const auto kind = type == std::string("tooldata") ? Question::Kind::tool : Question::Kind::work_object;
-      run.miss(name, written.place, fmt::format("names {} '{}' that no module read declares", what, name),
-               "give the module that declares it too (--module, motion.modules), or its frame in --frames "
-               "FILE.yaml (motion.tools, motion.work_objects)",
-               {{kind, name, ""}});
-    } else if (written.kind == Expression::Kind::name && !run.variable(written.text)) {
-      run.miss(written.text, written.place,
-               fmt::format("names {} '{}' that no module read declares", what, written.text),
-               predefined(type, written.text) +
-                   fmt::format("give the module that declares it too (--module, motion.modules), or {} (motion.values)",
-                               run.remedy_for(value)),
-               run.questions_for(value, form_of(type)));
+      run_->miss(name, written.place, fmt::format("names {} '{}' that no module read declares", what, name),
+                 "give the module that declares it too (--module, motion.modules), or its frame in --frames "
+                 "FILE.yaml (motion.tools, motion.work_objects)",
+                 {{kind, name, ""}});
+    } else if (written.kind == Expression::Kind::name && !run_->variable(written.text)) {
+      run_->miss(
+          written.text, written.place, fmt::format("names {} '{}' that no module read declares", what, written.text),
+          predefined(type, written.text) +
+              fmt::format("give the module that declares it too (--module, motion.modules), or {} (motion.values)",
+                          run_->remedy_for(value)),
+          run_->questions_for(value, form_of(type)));
     } else {
       // The form of another name that the argument depends on differs from the argument's form.
-      const bool itself = name == run.answer_name(run.path_of(written)) || name == run.name_here(run.written(written));
-      run.ask_for(value, written.place, fmt::format("has {} that is known only while the robot runs", what), "",
-                  itself ? form_of(type) : "");
+      const bool itself =
+          name == run_->answer_name(run_->path_of(written)) || name == run_->name_here(run_->written(written));
+      run_->ask_for(value, written.place, fmt::format("has {} that is known only while the robot runs", what), "",
+                    itself ? form_of(type) : "");
     }
     return {};
   }
   const RecordType* record = code_.record(type);
-  if (value.type == record || (!value.type && value.kind == Value::Kind::list && run.shape(value, record)))
+  if (value.type == record || (!value.type && value.kind == Value::Kind::list && run_->shape(value, record)))
     return value;
-  run.complain(written.place, fmt::format("has no {} where {} is expected", type, what), "correct the argument");
+  run_->complain(written.place, fmt::format("has no {} where {} is expected", type, what), "correct the argument");
   return {};
 }
 
-std::optional<Quaternion> Rapid::checked(const Value& orient, const char* what, const Expression& written,
-                                         Interpreter& run) {
+std::optional<Quaternion> Rapid::checked(const Value& orient, const char* what, const Expression& written) {
   if (const auto q = rapid_orientation(orient)) return q;
   const Quaternion q(item_number(orient, 0), item_number(orient, 1), item_number(orient, 2), item_number(orient, 3));
   if (!(q.norm() > 0)) return {};
   const Quaternion unit = q.normalized();
-  const Place declared = run.origin(written);
-  const std::string name = run.name_of(written);
-  run.miss(
-      "quaternion of " + (name.empty() ? run.short_place(written.place) : name), written.place,
+  const Place declared = run_->origin(written);
+  const std::string name = run_->name_of(written);
+  run_->miss(
+      "quaternion of " + (name.empty() ? run_->short_place(written.place) : name), written.place,
       fmt::format("has {}{} whose quaternion [{:.6g},{:.6g},{:.6g},{:.6g}] has the length {:.5g} (must be 1){}", what,
                   name.empty() ? "" : fmt::format(" '{}'", name), q.w(), q.x(), q.y(), q.z(), q.norm(),
-                  declared.line > 0 ? fmt::format(" in {}", run.short_place(declared)) : ""),
+                  declared.line > 0 ? fmt::format(" in {}", run_->short_place(declared)) : ""),
       fmt::format("write [{:.6f},{:.6f},{:.6f},{:.6f}] for the same direction, or correct the number that is mistyped",
                   unit.w(), unit.x(), unit.y(), unit.z()));
   return unit;
 }
 
-bool Rapid::read_target(const Expression& written, bool joints, Instruction& move, Interpreter& run) {
-  const auto value = typed(written, joints ? "jointtarget" : "robtarget", "a target", run);
+bool Rapid::read_target(const Expression& written, bool joints, Instruction& move) {
+  const auto value = typed(written, joints ? "jointtarget" : "robtarget", "a target");
   if (!value) {
     reached_.reset();
-    lost_ = unknown_value(run.evaluate(written));
+    lost_ = unknown_value(run_->evaluate(written));
     lost_by_joints_ = joints;
     return false;
   }
-  remember(move, "target", written, run);
+  run_->add_origin(move, "target", written);
   reached_ = Reached{*value, joints, displacement_, {}, {}};
   if (joints) {
     for (const Value& axis : value->items[0].items)
@@ -192,19 +186,20 @@ bool Rapid::read_target(const Expression& written, bool joints, Instruction& mov
     move.target.external_axes = external_of(value->items[1], external_shift_);
     return true;
   }
-  const auto q = checked(value->items[1], "a target", written, run);
+  const auto q = checked(value->items[1], "a target", written);
   if (!q) {
     const bool unset = *value == rapid_initial(code_, "robtarget");
     // A target that the program itself has set to zeros is not a question: the controller stops here.
-    const std::string path = unset && !run.was_assigned(written) ? run.answer_name(run.path_of(written)) : "";
+    const std::string path = unset && !run_->was_assigned(written) ? run_->answer_name(run_->path_of(written)) : "";
     if (path.empty())
-      run.complain(written.place,
-                   unset ? "has a target that the program set to zeros" : "has a target whose quaternion is [0,0,0,0]",
-                   "give its orientation");
+      run_->complain(
+          written.place,
+          unset ? "has a target that the program set to zeros" : "has a target whose quaternion is [0,0,0,0]",
+          "give its orientation");
     else
-      run.miss(path, written.place, "has a target that was never given a value (all of it is 0)",
-               fmt::format("give it one, in the program or with --value '{}=...'", path),
-               {{Question::Kind::value, path, form_of("robtarget")}});
+      run_->miss(path, written.place, "has a target that was never given a value (all of it is 0)",
+                 fmt::format("give it one, in the program or with --value '{}=...'", path),
+                 {{Question::Kind::value, path, form_of("robtarget")}});
     return false;
   }
   move.target.pose = displacement_ * Frame{rapid_position(value->items[0]), *q};
@@ -218,19 +213,19 @@ bool Rapid::read_target(const Expression& written, bool joints, Instruction& mov
   return true;
 }
 
-std::optional<Frame> Rapid::read_via(const Expression& written, Interpreter& run) {
-  const auto value = typed(written, "robtarget", "a circle point", run);
+std::optional<Frame> Rapid::read_via(const Expression& written) {
+  const auto value = typed(written, "robtarget", "a circle point");
   if (!value) return {};
   const auto q = rapid_orientation(value->items[1]);
   return displacement_ * Frame{rapid_position(value->items[0]), q.value_or(Quaternion::Identity())};
 }
 
-bool Rapid::read_speed(const Expression& written, Instruction& move, Interpreter& run) {
-  const auto value = typed(written, "speeddata", "a speed", run);
+bool Rapid::read_speed(const Expression& written, Instruction& move) {
+  const auto value = typed(written, "speeddata", "a speed");
   if (!value) return false;
-  remember(move, "speed", written, run);
+  run_->add_origin(move, "speed", written);
   if (!(item_number(*value, 0) > 0) && !(item_number(*value, 1) > 0)) {
-    run.complain(written.place, "has a speed that is not above 0", "give v_tcp in mm/s");
+    run_->complain(written.place, "has a speed that is not above 0", "give v_tcp in mm/s");
     return false;
   }
   const double factor = speed_factor_ * override_;
@@ -242,101 +237,101 @@ bool Rapid::read_speed(const Expression& written, Instruction& move, Interpreter
 }
 
 /// Reads the speed of ArcL and ArcC from their welddata. On the way to the seam (...Start) the instruction's speed counts.
-void Rapid::read_weld_speed(const Statement& statement, Instruction& move, Interpreter& run) {
+void Rapid::read_weld_speed(const Statement& statement, Instruction& move) {
   if (statement.name.ends_with("start")) return;
   for (std::size_t i = 3; i < statement.arguments.size(); ++i) {
     const Expression& argument = statement.arguments[i];
     if (!argument.option.empty()) continue;
-    const Value value = run.evaluate(argument);
+    const Value value = run_->evaluate(argument);
     // welddata is a list of the speed and three more parts; seamdata begins with times, a zone has a type.
     if (value.kind != Value::Kind::list || value.type || value.items.size() < 2 || !value.items[0].is_number())
       continue;
     if (value.items[0].number > 0) {
       move.speed.tool = value.items[0].number * millimetre * override_;
-      remember(move, "speed", argument, run);
+      run_->add_origin(move, "speed", argument);
     }
   }
 }
 
-bool Rapid::read_zone(const Expression& written, Instruction& move, Interpreter& run) {
-  const auto value = typed(written, "zonedata", "a zone", run);
+bool Rapid::read_zone(const Expression& written, Instruction& move) {
+  const auto value = typed(written, "zonedata", "a zone");
   if (!value) return false;
-  remember(move, "zone", written, run);
+  run_->add_origin(move, "zone", written);
   move.zone.distance = value->items[0].number != 0 ? 0 : std::max(0.0, item_number(*value, 1)) * millimetre;
   if (move.zone.distance > 0) move.zone.turn = std::max(0.0, item_number(*value, 4)) * degree;
   return true;
 }
 
-std::optional<NamedFrame> Rapid::tool_of(const Expression& written, Interpreter& run) {
-  const auto value = typed(written, "tooldata", "a tool", run);
+std::optional<NamedFrame> Rapid::tool_of(const Expression& written) {
+  const auto value = typed(written, "tooldata", "a tool");
   if (!value) return {};
   const Value& frame = value->items[1];
-  const auto q = checked(frame.items[1], "a tool", written, run);
+  const auto q = checked(frame.items[1], "a tool", written);
   if (!q) {
-    run.complain(written.place, "has a tool whose quaternion is [0,0,0,0]",
-                 "give the orientation of its tframe, [1,0,0,0] without a turn");
+    run_->complain(written.place, "has a tool whose quaternion is [0,0,0,0]",
+                   "give the orientation of its tframe, [1,0,0,0] without a turn");
     return {};
   }
-  const std::string name = run.name_of(written);
+  const std::string name = run_->name_of(written);
   return NamedFrame{name.empty() ? "tool" : name, Frame{rapid_position(frame.items[0]), *q},
                     value->items[0].number == 0};
 }
 
-bool Rapid::read_tool(const Expression& written, Instruction& move, Interpreter& run) {
-  const auto tool = tool_of(written, run);
+bool Rapid::read_tool(const Expression& written, Instruction& move) {
+  const auto tool = tool_of(written);
   if (!tool) return false;
-  remember(move, "tool", written, run);
+  run_->add_origin(move, "tool", written);
   if (reached_) reached_->tool = *tool;
-  if (tool->name != "tool0") move.tool = run.frame_index(run.program().tools, *tool);
+  if (tool->name != "tool0") move.tool = run_->frame_index(run_->program().tools, *tool);
   return true;
 }
 
-std::optional<NamedFrame> Rapid::work_object_of(const Expression& written, Interpreter& run) {
-  const auto value = typed(written, "wobjdata", "a work object", run);
+std::optional<NamedFrame> Rapid::work_object_of(const Expression& written) {
+  const auto value = typed(written, "wobjdata", "a work object");
   if (!value) return {};
   const Value &user = value->items[3], &object = value->items[4];
-  const auto user_turn = checked(user.items[1], "a work object", written, run),
-             turn = checked(object.items[1], "a work object", written, run);
+  const auto user_turn = checked(user.items[1], "a work object", written),
+             turn = checked(object.items[1], "a work object", written);
   if (!user_turn || !turn) {
-    run.complain(written.place, "has a work object with a quaternion [0,0,0,0]",
-                 "give the orientation of uframe and oframe, [1,0,0,0] without a turn");
+    run_->complain(written.place, "has a work object with a quaternion [0,0,0,0]",
+                   "give the orientation of uframe and oframe, [1,0,0,0] without a turn");
     return {};
   }
   if (value->items[1].number == 0)
-    run.note(written.place,
-             fmt::format("work object {}: another mechanical unit moves it, but it is taken to stand still",
-                         run.written(written)),
-             true);
-  const std::string name = run.name_of(written);
+    run_->note(written.place,
+               fmt::format("work object {}: another mechanical unit moves it, but it is taken to stand still",
+                           run_->written(written)),
+               true);
+  const std::string name = run_->name_of(written);
   return NamedFrame{name.empty() ? "work object" : name,
                     Frame{rapid_position(user.items[0]), *user_turn} * Frame{rapid_position(object.items[0]), *turn},
                     value->items[0].number != 0};
 }
 
-bool Rapid::read_work_object(const Expression& written, Instruction& move, Interpreter& run) {
-  const auto object = work_object_of(written, run);
+bool Rapid::read_work_object(const Expression& written, Instruction& move) {
+  const auto object = work_object_of(written);
   if (!object) return false;
-  remember(move, "work object", written, run);
+  run_->add_origin(move, "work object", written);
   if (reached_) reached_->work_object = *object;
-  if (object->name != "wobj0") move.work_object = run.frame_index(run.program().work_objects, *object);
+  if (object->name != "wobj0") move.work_object = run_->frame_index(run_->program().work_objects, *object);
   return true;
 }
 
-bool Rapid::read_options(const Statement& statement, Instruction& move, Interpreter& run) {
+bool Rapid::read_options(const Statement& statement, Instruction& move) {
   bool whole = true;
   for (const Expression& argument : statement.arguments) {
     const std::string& option = argument.option;
-    if (option == "wobj" && !(argument.if_present && !run.present(argument)))
-      whole &= read_work_object(argument, move, run);
+    if (option == "wobj" && !(argument.if_present && !run_->present(argument)))
+      whole &= read_work_object(argument, move);
     if (option != "t" && option != "v" && option != "z") continue;
-    const Value given = run.answered(argument);
+    const Value given = run_->answered(argument);
     const double number = given.is_number() ? given.number : -1;
     if (!(number >= 0) || (number == 0 && option != "z")) {
-      run.ask_for(given, argument.place, fmt::format("has no number above 0 after \\{}", option),
-                  "write it as a constant",
-                  option == "t"   ? "a time in s"
-                  : option == "v" ? "mm/s"
-                                  : "mm");
+      run_->ask_for(given, argument.place, fmt::format("has no number above 0 after \\{}", option),
+                    "write it as a constant",
+                    option == "t"   ? "a time in s"
+                    : option == "v" ? "mm/s"
+                                    : "mm");
       whole = false;
       continue;
     }
@@ -348,24 +343,24 @@ bool Rapid::read_options(const Statement& statement, Instruction& move, Interpre
 }
 
 /// Notes the options of a move that are not read.
-void Rapid::print_options(const Statement& statement, Interpreter& run) {
+void Rapid::print_options(const Statement& statement) {
   for (const Expression& argument : statement.arguments) {
     if (argument.option == "id")
-      run.note(argument.place,
-               "\\ID: another robot or a positioner moves at the same time (MultiMove), only this one is read", true);
+      run_->note(argument.place,
+                 "\\ID: another robot or a positioner moves at the same time (MultiMove), only this one is read", true);
     if (argument.option == "corr")
-      run.note(argument.place,
-               "\\Corr: path corrections (CorrWrite) move the robot off its line, which is followed without them",
-               true);
+      run_->note(argument.place,
+                 "\\Corr: path corrections (CorrWrite) move the robot off its line, which is followed without them",
+                 true);
     if (argument.option == "weave")
-      run.note(argument.place,
-               fmt::format("\\Weave:={}: the torch swings about its line, which is followed without it",
-                           run.written(argument)),
-               true);
+      run_->note(argument.place,
+                 fmt::format("\\Weave:={}: the torch swings about its line, which is followed without it",
+                             run_->written(argument)),
+                 true);
   }
 }
 
-bool Rapid::move(const Signature& signature, const Statement& statement, Interpreter& run) {
+bool Rapid::move(const Signature& signature, const Statement& statement) {
   std::vector<const Expression*> given;
   for (const Expression& argument : statement.arguments)
     if (argument.option.empty() && argument.kind != Expression::Kind::none) given.push_back(&argument);
@@ -373,48 +368,48 @@ bool Rapid::move(const Signature& signature, const Statement& statement, Interpr
   const auto index = [&](int written) { return written == -2 ? count - 1 : written == -3 ? count - 2 : written; };
   const int zone = index(signature.zone), tool = index(signature.tool);
   if (std::max({signature.target, signature.speed, zone, tool}) >= count || tool <= signature.speed) {
-    run.complain(statement.place, fmt::format("gives {} {} arguments, too few", statement.text, count),
-                 "give target, speed, zone and tool");
+    run_->complain(statement.place, fmt::format("gives {} {} arguments, too few", statement.text, count),
+                   "give target, speed, zone and tool");
     return true;
   }
   Instruction move;
   move.kind = signature.kind;
   move.acceleration_percent = acceleration_percent_;
   move.jerk_percent = jerk_percent_;
-  const std::size_t problems = run.problem_count();
+  const std::size_t problems = run_->problem_count();
   const bool unshifted =
       std::ranges::any_of(statement.arguments, [](const Expression& e) { return e.option == "noeoffs"; });
   const std::vector<double> shift = external_shift_;
   if (unshifted) external_shift_.clear();
-  bool whole = read_target(*given[signature.target], signature.joints, move, run);
+  bool whole = read_target(*given[signature.target], signature.joints, move);
   external_shift_ = shift;
   if (signature.via >= 0) {
-    const auto via = read_via(*given[signature.via], run);
+    const auto via = read_via(*given[signature.via]);
     whole &= via.has_value();
     if (via) move.via = *via;
-    remember(move, "via", *given[signature.via], run);
+    run_->add_origin(move, "via", *given[signature.via]);
   }
-  whole &= read_speed(*given[signature.speed], move, run);
-  if (zone > signature.speed) whole &= read_zone(*given[zone], move, run);
-  whole &= read_tool(*given[tool], move, run);
-  whole &= read_options(statement, move, run);
-  if (is_weld(statement.name)) read_weld_speed(statement, move, run);
-  if (!whole || run.problem_count() != problems) return true;
+  whole &= read_speed(*given[signature.speed], move);
+  if (zone > signature.speed) whole &= read_zone(*given[zone], move);
+  whole &= read_tool(*given[tool], move);
+  whole &= read_options(statement, move);
+  if (is_weld(statement.name)) read_weld_speed(statement, move);
+  if (!whole || run_->problem_count() != problems) return true;
   if (!signature.joints && reached_->tool.stationary != reached_->work_object.stationary)
-    run.note(statement.place,
-             fmt::format("{}: {}", statement.text, reached_->tool.stationary ? no_robhold : two_robholds), true);
-  print_options(statement, run);
-  check_arguments(statement.text, statement.arguments, most_arguments(signature), move_switches, run);
+    run_->note(statement.place,
+               fmt::format("{}: {}", statement.text, reached_->tool.stationary ? no_robhold : two_robholds), true);
+  print_options(statement);
+  check_arguments(statement.text, statement.arguments, most_arguments(signature), move_switches);
   if (statement.name.starts_with("search")) {
-    run.note(statement.place, statement.text + ": the search goes to its end point", true);
-    run.assign(*given[1], reached_->target);
+    run_->note(statement.place, statement.text + ": the search goes to its end point", true);
+    run_->assign(*given[1], reached_->target);
   }
-  run.emit(move, statement);
+  run_->emit(move, statement);
   if (!statement.name.starts_with("spot")) return true;
   Instruction weld = move;
   weld.kind = Instruction::Kind::dwell;
-  weld.dwell = run.options().spot_time;
-  run.emit(weld, statement);
+  weld.dwell = run_->options().spot_time;
+  run_->emit(weld, statement);
   return true;
 }
 
@@ -422,10 +417,10 @@ bool Rapid::move(const Signature& signature, const Statement& statement, Interpr
 
 /// Returns the last target as a robtarget of another tool and work object (null: those of the last move), in the
 /// current displacement. std::nullopt: the last move went to axis angles, no move yet, or a frame is not known.
-std::optional<Value> Rapid::position_with(const Expression* tool, const Expression* work_object, Interpreter& run) {
+std::optional<Value> Rapid::position_with(const Expression* tool, const Expression* work_object) {
   if (!reached_ || reached_->by_joints) return {};
-  const auto new_tool = tool ? tool_of(*tool, run) : std::optional(reached_->tool);
-  const auto new_object = work_object ? work_object_of(*work_object, run) : std::optional(reached_->work_object);
+  const auto new_tool = tool ? tool_of(*tool) : std::optional(reached_->tool);
+  const auto new_object = work_object ? work_object_of(*work_object) : std::optional(reached_->work_object);
   const auto q = rapid_orientation(reached_->target.items[1]);
   if (!new_tool || !new_object || !q) return {};
   const bool standing =
@@ -443,7 +438,7 @@ std::optional<Value> Rapid::position_with(const Expression* tool, const Expressi
 }
 
 /// Returns CRobT(\Tool:=t \WObj:=w), CPos(...) or CJointT().
-Value Rapid::current_position(const Expression& call, Interpreter& run) {
+Value Rapid::current_position(const Expression& call) {
   const Expression *tool = nullptr, *work_object = nullptr;
   for (const Expression& argument : call.items) {
     if (argument.option == "tool") tool = &argument;
@@ -451,7 +446,7 @@ Value Rapid::current_position(const Expression& call, Interpreter& run) {
   }
   const bool joints = call.text == "cjointt", lost = !reached_ && lost_.cause;
   if (lost && lost_by_joints_ == joints) return lost_;  // the last target is a question already
-  const std::string name = run.name_here(call.text), form = form_of(joints ? "jointtarget" : "robtarget");
+  const std::string name = run_->name_here(call.text), form = form_of(joints ? "jointtarget" : "robtarget");
   if (joints) {
     if (reached_ && reached_->by_joints) return reached_->target;
     return unknown_value(
@@ -459,7 +454,7 @@ Value Rapid::current_position(const Expression& call, Interpreter& run) {
         reached_ || lost ? "asks for the axes at a target that is a pose" : "reads the robot's position at the start",
         form);
   }
-  const auto position = position_with(tool, work_object, run);
+  const auto position = position_with(tool, work_object);
   if (!position)
     return unknown_value(
         name, reached_ || lost ? "asks for the pose at axis angles" : "reads the robot's position at the start", form);
@@ -467,23 +462,23 @@ Value Rapid::current_position(const Expression& call, Interpreter& run) {
 }
 
 /// Like checked(); a quaternion of zeros is a problem, too.
-std::optional<Quaternion> Rapid::turn_of_displacement(const Value& orient, const char* what, const Expression& written,
-                                                      Interpreter& run) {
-  const auto q = checked(orient, what, written, run);
+std::optional<Quaternion> Rapid::turn_of_displacement(const Value& orient, const char* what,
+                                                      const Expression& written) {
+  const auto q = checked(orient, what, written);
   if (!q)
-    run.complain(written.place, fmt::format("displaces by {} with the quaternion [0,0,0,0]", what),
-                 "give its orientation, [1,0,0,0] without a turn");
+    run_->complain(written.place, fmt::format("displaces by {} with the quaternion [0,0,0,0]", what),
+                   "give its orientation, [1,0,0,0] without a turn");
   return q;
 }
 
 /// Runs PDispOn \Rot \ExeP:=reached, programmed, tool \WObj:=w (the displacement from the programmed point to the robot's
 /// position; without \Rot only a translation), PDispSet frame, PDispOff.
-void Rapid::displace(const Statement& statement, Interpreter& run) {
+void Rapid::displace(const Statement& statement) {
   const std::string& name = statement.name;
   if (name == "pdispoff") displacement_ = Frame{};
   if (name == "pdispset" && !statement.arguments.empty())
-    if (const auto pose = typed(statement.arguments[0], "pose", "a displacement", run))
-      if (const auto q = turn_of_displacement(pose->items[1], "a displacement", statement.arguments[0], run))
+    if (const auto pose = typed(statement.arguments[0], "pose", "a displacement"))
+      if (const auto q = turn_of_displacement(pose->items[1], "a displacement", statement.arguments[0]))
         displacement_ = {rapid_position(pose->items[0]), *q};
   if (name != "pdispon") return;
   const Expression *programmed = nullptr, *tool = nullptr, *executed = nullptr, *work_object = nullptr;
@@ -496,24 +491,25 @@ void Rapid::displace(const Statement& statement, Interpreter& run) {
   }
   displacement_ = Frame{};
   if (!programmed || !tool) {
-    run.complain(statement.place, "has a PDispOn without the programmed point or the tool", "correct the instruction");
+    run_->complain(statement.place, "has a PDispOn without the programmed point or the tool",
+                   "correct the instruction");
     return;
   }
   const Expression world = name_at("wobj0", statement.place);  // without \WObj
-  std::optional<Value> from = typed(*programmed, "robtarget", "a programmed point", run);
-  std::optional<Value> to = executed ? typed(*executed, "robtarget", "a point that was reached", run)
-                                     : position_with(tool, work_object ? work_object : &world, run);
-  if (!executed && !to) to = run.given_here("crobt");
-  if (to && to->type == nullptr && !run.shape(*to, code_.record("robtarget"))) to.reset();
+  std::optional<Value> from = typed(*programmed, "robtarget", "a programmed point");
+  std::optional<Value> to = executed ? typed(*executed, "robtarget", "a point that was reached")
+                                     : position_with(tool, work_object ? work_object : &world);
+  if (!executed && !to) to = run_->given_here("crobt");
+  if (to && to->type == nullptr && !run_->shape(*to, code_.record("robtarget"))) to.reset();
   if (!executed && !to)
-    run.ask_for(reached_ || !lost_.cause ? unknown_value(run.name_here("crobt"), "is the robot's position") : lost_,
-                statement.place,
-                "displaces by the robot's position, which is known only with the robot "
-                "(axis angles, or the start)",
-                "give the point as \\ExeP, write the displacement with PDispSet", form_of("robtarget"));
-  const auto q = from ? turn_of_displacement(from->items[1], "a programmed point", *programmed, run) : std::nullopt;
-  const auto p = to ? turn_of_displacement(to->items[1], "a point that was reached", executed ? *executed : *tool, run)
-                    : std::nullopt;
+    run_->ask_for(reached_ || !lost_.cause ? unknown_value(run_->name_here("crobt"), "is the robot's position") : lost_,
+                  statement.place,
+                  "displaces by the robot's position, which is known only with the robot "
+                  "(axis angles, or the start)",
+                  "give the point as \\ExeP, write the displacement with PDispSet", form_of("robtarget"));
+  const auto q = from ? turn_of_displacement(from->items[1], "a programmed point", *programmed) : std::nullopt;
+  const auto p =
+      to ? turn_of_displacement(to->items[1], "a point that was reached", executed ? *executed : *tool) : std::nullopt;
   if (!q || !p) return;
   const Frame written{rapid_position(from->items[0]), *q}, reached{rapid_position(to->items[0]), *p};
   displacement_ =
@@ -521,14 +517,14 @@ void Rapid::displace(const Statement& statement, Interpreter& run) {
 }
 
 /// Runs EOffsSet shift; EOffsOn \ExeP:=reached, programmed; EOffsOff. The shift is added to the external axes of all targets.
-void Rapid::shift_external_axes(const Statement& statement, Interpreter& run) {
+void Rapid::shift_external_axes(const Statement& statement) {
   external_shift_.clear();
   if (statement.name == "eoffsoff") return;
   const auto axes = [&](const Value& target) { return target.items.back(); };  // extjoint of either target
   const auto target = [&](const Expression& written) {
-    Value value = run.evaluate(written);
+    Value value = run_->evaluate(written);
     const bool joints = value.type == code_.record("jointtarget");
-    return typed(written, joints ? "jointtarget" : "robtarget", "a point", run);
+    return typed(written, joints ? "jointtarget" : "robtarget", "a point");
   };
   const Expression *first = nullptr, *executed = nullptr;
   for (const Expression& argument : statement.arguments) {
@@ -537,7 +533,7 @@ void Rapid::shift_external_axes(const Statement& statement, Interpreter& run) {
   }
   if (!first) return;
   if (statement.name == "eoffsset") {
-    if (const auto shift = typed(*first, "extjoint", "an offset", run))
+    if (const auto shift = typed(*first, "extjoint", "an offset"))
       for (const Value& axis : shift->items)
         external_shift_.push_back(std::abs(axis.number) < no_axis ? axis.number : 0);
     return;
@@ -545,8 +541,8 @@ void Rapid::shift_external_axes(const Statement& statement, Interpreter& run) {
   const auto programmed = target(*first);
   const auto reached = executed ? target(*executed) : reached_ ? std::optional(reached_->target) : std::nullopt;
   if (programmed && !reached && !lost_.cause)
-    run.complain(statement.place, "shifts external axes (EOffsOn) by where the external axes stand at the start",
-                 "give the point as \\ExeP, or write the offset with EOffsSet");
+    run_->complain(statement.place, "shifts external axes (EOffsOn) by where the external axes stand at the start",
+                   "give the point as \\ExeP, or write the offset with EOffsSet");
   if (!programmed || !reached) return;
   const Value from = axes(*programmed), to = axes(*reached);
   for (std::size_t i = 0; i < from.items.size() && i < to.items.size(); ++i) {

@@ -150,17 +150,17 @@ Value Rapid::work_object_value(const NamedFrame& object) const {
 // ---- instructions -----------------------------------------------------------------------------------------
 
 /// Runs AccSet acceleration, ramp; VelSet percent, largest; SpeedRefresh percent.
-void Rapid::settings(const Statement& statement, Interpreter& run) {
+void Rapid::settings(const Statement& statement) {
   std::vector<Value> values;
   for (const Expression& argument : statement.arguments)
-    if (argument.option.empty()) values.push_back(run.answered(argument));
+    if (argument.option.empty()) values.push_back(run_->answered(argument));
   const auto needed = [&](std::size_t i, double low, double high) {
     if (i < values.size() && values[i].is_number() && values[i].number >= low && values[i].number <= high)
       return values[i].number;
     const Value value = i < values.size() ? values[i] : Value{};
-    run.ask_for(value, statement.place,
-                fmt::format("gives {} no number in {} .. {} as argument {}", statement.text, low, high, i + 1),
-                "write it as a constant", fmt::format("a number in {} .. {}", low, high));
+    run_->ask_for(value, statement.place,
+                  fmt::format("gives {} no number in {} .. {} as argument {}", statement.text, low, high, i + 1),
+                  "write it as a constant", fmt::format("a number in {} .. {}", low, high));
     return high;
   };
   if (statement.name == "accset") {
@@ -172,7 +172,7 @@ void Rapid::settings(const Statement& statement, Interpreter& run) {
     if (percent > 0)
       override_ = percent / 100;
     else
-      run.note(statement.place, "SpeedRefresh 0: the robot stops until an interrupt starts it", true);
+      run_->note(statement.place, "SpeedRefresh 0: the robot stops until an interrupt starts it", true);
   }
   if (statement.name == "velset") {
     speed_factor_ = needed(0, 0.1, 100) / 100;
@@ -180,57 +180,57 @@ void Rapid::settings(const Statement& statement, Interpreter& run) {
   }
 }
 
-void Rapid::wait(const Statement& statement, Interpreter& run) {
+void Rapid::wait(const Statement& statement) {
   Value time;
   for (const Expression& argument : statement.arguments)
-    if (argument.option.empty()) time = run.answered(argument);
+    if (argument.option.empty()) time = run_->answered(argument);
   if (time.is_number() && time.number < 0)
-    run.complain(statement.place, fmt::format("waits for {:g} s (must be 0 or more)", time.number),
-                 fmt::format("write {:g} if the sign is a slip, or 0", -time.number));
+    run_->complain(statement.place, fmt::format("waits for {:g} s (must be 0 or more)", time.number),
+                   fmt::format("write {:g} if the sign is a slip, or 0", -time.number));
   else if (!time.is_number() || !(time.number >= 0))
-    run.ask_for(time, statement.place, "waits for a time that is known only while the robot runs",
-                "write it as a constant", "a time in s");
+    run_->ask_for(time, statement.place, "waits for a time that is known only while the robot runs",
+                  "write it as a constant", "a time in s");
   else if (time.number > 0)
-    run.emit(dwell_of(time.number), statement);
+    run_->emit(dwell_of(time.number), statement);
 }
 
 /// Runs Incr n; Decr n; Clear n; Add n, by.
-bool Rapid::arithmetic(const Statement& statement, Interpreter& run) {
+bool Rapid::arithmetic(const Statement& statement) {
   const std::string& name = statement.name;
   const bool one = name == "incr" || name == "decr" || name == "clear";
   if (!one && name != "add") return false;
   if (statement.arguments.size() != (one ? 1 : 2)) {
-    run.complain(statement.place, fmt::format("gives {} another number of arguments", statement.text),
-                 "correct the line");
+    run_->complain(statement.place, fmt::format("gives {} another number of arguments", statement.text),
+                   "correct the line");
     return true;
   }
   const Expression& target = statement.arguments[0];
-  const Value before = run.evaluate(target);
-  const Value by = one ? number_value(name == "incr" ? 1 : -1) : run.evaluate(statement.arguments[1]);
+  const Value before = run_->evaluate(target);
+  const Value by = one ? number_value(name == "incr" ? 1 : -1) : run_->evaluate(statement.arguments[1]);
   if (name == "clear")
-    run.assign(target, number_value(0));
+    run_->assign(target, number_value(0));
   else if (before.is_number() && by.is_number())
-    run.assign(target, number_value(before.number + by.number));
+    run_->assign(target, number_value(before.number + by.number));
   else
-    run.assign(target, unknown_value(before.is_number() ? by : before));
+    run_->assign(target, unknown_value(before.is_number() ? by : before));
   return true;
 }
 
 /// Runs GetDataVal "name", value or SetDataVal "name", value: access to data by a computed name.
-bool Rapid::named_data(const Statement& statement, Interpreter& run) {
+bool Rapid::named_data(const Statement& statement) {
   const bool get = statement.name == "getdataval";
   if ((!get && statement.name != "setdataval") || statement.arguments.size() < 2) return false;
-  const Value name = run.evaluate(statement.arguments[0]);
+  const Value name = run_->evaluate(statement.arguments[0]);
   const Expression& value = statement.arguments.back();
   const Expression data = name_at(lower_case(name.text), statement.place);
-  if (name.kind != Value::Kind::text || !run.variable(data.text)) {
+  if (name.kind != Value::Kind::text || !run_->variable(data.text)) {
     if (get)
-      run.make_unknown(value, {"", "is read by GetDataVal under a name that no file read declares"});
+      run_->make_unknown(value, {"", "is read by GetDataVal under a name that no file read declares"});
     else
-      run.note(statement.place, "SetDataVal: it writes data whose name is not known offline", true);
+      run_->note(statement.place, "SetDataVal: it writes data whose name is not known offline", true);
     return true;
   }
-  get ? run.assign(value, run.evaluate(data)) : run.assign(data, run.evaluate(value));
+  get ? run_->assign(value, run_->evaluate(data)) : run_->assign(data, run_->evaluate(value));
   return true;
 }
 
@@ -248,51 +248,51 @@ bool Rapid::steers(const std::vector<Statement>& body, int module, int depth) co
 }
 
 /// Runs CONNECT. Interrupts are assumed not to happen. The data that the trap writes is unknown until the program writes it.
-void Rapid::connect(const Statement& statement, Interpreter& run) {
-  run.note(statement.place, "CONNECT: input, output or logic");
+void Rapid::connect(const Statement& statement) {
+  run_->note(statement.place, "CONNECT: input, output or logic");
   if (statement.branches.empty()) return;
   const Statement& call = statement.branches[0].body[0];
-  run.forget_writes_of(call, run.module(),
-                       fmt::format("may be written by the trap {} ({})", call.text, run.short_place(call.place)));
-  if (steers({call}, run.module(), 0))
-    run.note(statement.place,
-             fmt::format("{0}: a trap that moves or stops the robot on its interrupt, which is taken not to come; "
-                         "--routine {0} reads it alone",
-                         call.text),
-             true);
+  run_->forget_writes_of(call, run_->module(),
+                         fmt::format("may be written by the trap {} ({})", call.text, run_->short_place(call.place)));
+  if (steers({call}, run_->module(), 0))
+    run_->note(statement.place,
+               fmt::format("{0}: a trap that moves or stops the robot on its interrupt, which is taken not to come; "
+                           "--routine {0} reads it alone",
+                           call.text),
+               true);
 }
 
-bool Rapid::instruction(const Statement& statement, Interpreter& run) {
+bool Rapid::instruction(const Statement& statement) {
   const std::string& name = statement.name;
-  if (const Signature* signature = rapid_move(name)) return move(*signature, statement, run);
+  if (const Signature* signature = rapid_move(name)) return move(*signature, statement);
   if (const Arguments* known = arguments_of(name))
-    check_arguments(known->written, statement.arguments, known->most, known->switches, run);
+    check_arguments(known->written, statement.arguments, known->most, known->switches);
   if (name == "accset" || name == "velset" || name == "speedrefresh") {
-    settings(statement, run);
+    settings(statement);
   } else if (name == "waittime") {
-    wait(statement, run);
+    wait(statement);
   } else if (name == "pdispset" || name == "pdispoff" || name == "pdispon") {
-    displace(statement, run);
+    displace(statement);
   } else if (name == "eoffsset" || name == "eoffsoff" || name == "eoffson") {
-    shift_external_axes(statement, run);
+    shift_external_axes(statement);
   } else if (name == "confl" || name == "confj") {
     for (const Expression& argument : statement.arguments)
       (name == "confl" ? configuration_of_paths_ : configuration_of_joint_moves_) = argument.option != "off";
   } else if (name == "connect") {
-    connect(statement, run);
+    connect(statement);
   } else if (name == "callbyvar" && statement.arguments.size() == 2) {
-    const Value routine = run.evaluate(statement.arguments[0]);
-    const Value number = run.evaluate(statement.arguments[1]);
+    const Value routine = run_->evaluate(statement.arguments[0]);
+    const Value number = run_->evaluate(statement.arguments[1]);
     if (routine.kind != Value::Kind::text || !number.is_number())
-      run.ask_for(unknown_value(routine, number), statement.place,
-                  "runs a routine whose name is known only while the robot runs", "write its name",
-                  "the number behind the routine's name");
+      run_->ask_for(unknown_value(routine, number), statement.place,
+                    "runs a routine whose name is known only while the robot runs", "write its name",
+                    "the number behind the routine's name");
     else
-      run.run_named(routine.text + fmt::format("{:g}", number.number), {}, statement.place);
+      run_->run_named(routine.text + fmt::format("{:g}", number.number), {}, statement.place);
   } else if (const char* effect = rapid_named_effect(name)) {
-    run.note(statement.place, fmt::format("{}: {}", statement.text, effect), true);
+    run_->note(statement.place, fmt::format("{}: {}", statement.text, effect), true);
   } else {
-    return arithmetic(statement, run) || named_data(statement, run);
+    return arithmetic(statement) || named_data(statement);
   }
   return true;
 }
@@ -300,18 +300,18 @@ bool Rapid::instruction(const Statement& statement, Interpreter& run) {
 // ---- functions --------------------------------------------------------------------------------------------
 
 /// Returns Offs(target, x, y, z) in the work object or RelTool(target, x, y, z \Rx \Ry \Rz) in the tool [mm, deg].
-Value Rapid::offset(const Expression& call, bool in_tool, Interpreter& run) {
+Value Rapid::offset(const Expression& call, bool in_tool) {
   if (call.items.size() < 4) {
-    run.complain(call.place, fmt::format("gives {} too few arguments", call.text), "give a target and x, y, z");
+    run_->complain(call.place, fmt::format("gives {} too few arguments", call.text), "give a target and x, y, z");
     return {};
   }
-  Value target = run.evaluate(call.items[0]);
-  if (!target.type && target.kind == Value::Kind::list) run.shape(target, code_.record("robtarget"));
+  Value target = run_->evaluate(call.items[0]);
+  if (!target.type && target.kind == Value::Kind::list) run_->shape(target, code_.record("robtarget"));
   double by[3], turn[3] = {0, 0, 0};
   Value unknown = target.known() ? Value{} : unknown_value(target);
   std::vector<Value> numbers;
   for (std::size_t i = 1; i < call.items.size(); ++i) {
-    numbers.push_back(run.evaluate(call.items[i]));
+    numbers.push_back(run_->evaluate(call.items[i]));
     if (!numbers.back().known()) unknown = unknown_value(unknown, numbers.back());
   }
   if (unknown.cause || !target.known()) return unknown;
@@ -320,8 +320,8 @@ Value Rapid::offset(const Expression& call, bool in_tool, Interpreter& run) {
   for (std::size_t i = 1; i < call.items.size(); ++i) {
     const Value& given = numbers[i - 1];
     if (given.known() && !given.is_number())
-      run.complain(call.items[i].place, fmt::format("gives {} no number as its argument {}", call.text, i + 1),
-                   "correct the argument, or the call that gives its value");
+      run_->complain(call.items[i].place, fmt::format("gives {} no number as its argument {}", call.text, i + 1),
+                     "correct the argument, or the call that gives its value");
     if (!given.is_number()) return unknown_value(given);
     const double number = given.number;
     const std::string& option = call.items[i].option;
@@ -331,11 +331,11 @@ Value Rapid::offset(const Expression& call, bool in_tool, Interpreter& run) {
       by[k++] = number;
   }
   if (k < 3) return {};
-  const auto q = checked(target.items[1], "a target", call.items[0], run);
+  const auto q = checked(target.items[1], "a target", call.items[0]);
   if (!q)
-    return unknown_value(run.answer_name(run.path_of(call.items[0])), target == rapid_initial(code_, "robtarget")
-                                                                          ? "was never given a value (all of it is 0)"
-                                                                          : "has the quaternion [0,0,0,0]");
+    return unknown_value(run_->answer_name(run_->path_of(call.items[0])),
+                         target == rapid_initial(code_, "robtarget") ? "was never given a value (all of it is 0)"
+                                                                     : "has the quaternion [0,0,0,0]");
   Vector3 shift(by[0], by[1], by[2]);
   Quaternion turned = *q;
   if (in_tool) {  // RelTool: rotation about x, then y, then z of the tool
@@ -349,41 +349,42 @@ Value Rapid::offset(const Expression& call, bool in_tool, Interpreter& run) {
 }
 
 /// Runs ok := StrToVal(text, value) for numbers and truth values; other data is unknown.
-Value Rapid::text_to_value(const Expression& call, Interpreter& run) {
-  const Value text = call.items.empty() ? Value{} : run.evaluate(call.items[0]);
+Value Rapid::text_to_value(const Expression& call) {
+  const Value text = call.items.empty() ? Value{} : run_->evaluate(call.items[0]);
   if (call.items.size() != 2) return Value{};
   if (text.kind == Value::Kind::text) {
     const auto number = pipeline::whole_number_in<double>(text.text);
     const std::string word = lower_case(text.text);
-    if (number && std::isfinite(*number)) return run.assign(call.items[1], number_value(*number)), truth_value(true);
+    if (number && std::isfinite(*number)) return run_->assign(call.items[1], number_value(*number)), truth_value(true);
     if (word == "true" || word == "false")
-      return run.assign(call.items[1], truth_value(word == "true")), truth_value(true);
+      return run_->assign(call.items[1], truth_value(word == "true")), truth_value(true);
   }
-  run.make_unknown(call.items[1], {"", "is read from a text by StrToVal"});
+  run_->make_unknown(call.items[1], {"", "is read from a text by StrToVal"});
   return text.known() ? Value{} : unknown_value(text);
 }
 
-std::optional<Value> Rapid::function(const Expression& call, Interpreter& run) {
+std::optional<Value> Rapid::function(const Expression& call) {
   const std::string& name = call.text;
   if (const Arguments* known = arguments_of(name))
-    check_arguments(known->written, call.items, known->most, known->switches, run);
-  if (name == "offs") return offset(call, false, run);
-  if (name == "reltool") return offset(call, true, run);
-  if (name == "crobt" || name == "cjointt" || name == "cpos") return current_position(call, run);
-  if (name == "opmode" && !run.given(name)) return constant("op_auto");  // the motion is a production cycle
-  if (name == "runmode" && !run.given(name)) return constant("run_cont_cycle");
-  if (name == "strtoval") return text_to_value(call, run);
-  if (name == "present" && call.items.size() == 1) return truth_value(run.present(call.items[0]));
+    check_arguments(known->written, call.items, known->most, known->switches);
+  if (name == "offs") return offset(call, false);
+  if (name == "reltool") return offset(call, true);
+  if (name == "crobt" || name == "cjointt" || name == "cpos") return current_position(call);
+  if (name == "opmode" && !run_->given(name)) return constant("op_auto");  // the motion is a production cycle
+  if (name == "runmode" && !run_->given(name)) return constant("run_cont_cycle");
+  if (name == "strtoval") return text_to_value(call);
+  if (name == "present" && call.items.size() == 1) return truth_value(run_->present(call.items[0]));
   static const pipeline::WordSet signals =
       pipeline::word_set("dinput doutput ginput goutput ainput aoutput ginputdnum goutputdnum");
-  if (signals.contains(name) && call.items.size() == 1) return run.evaluate(call.items[0]);
+  if (signals.contains(name) && call.items.size() == 1) return run_->evaluate(call.items[0]);
   if (name == "testdi" && call.items.size() == 1) {
-    const Value signal = run.evaluate(call.items[0]);
+    const Value signal = run_->evaluate(call.items[0]);
     return signal.is_number() ? truth_value(signal.number != 0) : signal;
   }
   std::vector<RapidArgument> arguments;
   for (const Expression& argument : call.items)
-    arguments.push_back({argument.option, argument.kind == Expression::Kind::none ? Value{} : run.evaluate(argument)});
+    arguments.push_back(
+        {argument.option, argument.kind == Expression::Kind::none ? Value{} : run_->evaluate(argument)});
   if (auto value = rapid_function(code_, name, arguments)) return value;
   if (name == "gettaskname") return unknown_value(name, "is the name of the task", form_of("string"));
   return rapid_asks_the_robot(name) ? std::optional(Value{}) : std::nullopt;

@@ -53,36 +53,37 @@ class Script final : public Dialect {
     return {};
   }
 
-  std::optional<Value> function(const Expression& call, Interpreter& run) override {
+  std::optional<Value> function(const Expression& call) override {
     std::vector<Value> values;
     for (const Expression& argument : call.items)
-      if (argument.option.empty()) values.push_back(run.evaluate(argument));
+      if (argument.option.empty()) values.push_back(run_->evaluate(argument));
     if (call.text == "p") return values.size() == 6 ? std::optional(list_value(values, record("pose"))) : Value{};
-    if (call.text == "get_inverse_kin") return inverse_kinematics(call, values, run);
+    if (call.text == "get_inverse_kin") return inverse_kinematics(call, values);
     if (call.text == "get_forward_kin") return forward_kinematics(values);
     if (std::optional<Value> known = arithmetic(call.text, values)) return known;
     if (begins_with_any(call.text, {"get_actual_tcp_pose", "get_target_tcp_pose"}) && standing_) return *standing_;
     if (begins_with_any(call.text, {"get_actual_joint_positions", "get_target_joint_positions"}) && axes_)
       return *axes_;
     if (begins_with_any(call.text, {"get_actual_", "get_target_"}))
-      return given_or_unknown(call, run, "reads the robot's position");
-    return given_or_unknown(call, run, "is known only while the robot runs");
+      return given_or_unknown(call, "reads the robot's position");
+    return given_or_unknown(call, "is known only while the robot runs");
   }
 
-  bool instruction(const Statement& statement, Interpreter& run) override {
+  bool instruction(const Statement& statement) override {
     const std::string& name = statement.name;
-    if (const Signature* signature = move_of(name)) return move(*signature, statement, run), true;
-    if (name == "sleep") return sleep(statement, run), true;
-    if (name == "set_tcp") return set_tcp(statement, run), true;
+    if (const Signature* signature = move_of(name)) return move(*signature, statement), true;
+    if (name == "sleep") return sleep(statement), true;
+    if (name == "set_tcp") return set_tcp(statement), true;
     if (name == "run") {
       const Routine* thread = code_.find(statement.text.substr(std::string_view("run ").size()), -1);
-      return run_thread(thread, statement, run), true;
+      return run_thread(thread, statement), true;
     }
     if (begins_with_any(name, {"speedj", "speedl", "force_mode", "freedrive_mode", "teach_mode", "path_offset",
                                "conveyor_", "track_conveyor"}) &&
         !name.ends_with("_stop") && !name.starts_with("end_")) {
       standing_.reset(), axes_.reset();
-      return run.note(statement.place, statement.text + ": leads the robot in a way that is not followed", true), true;
+      return run_->note(statement.place, statement.text + ": leads the robot in a way that is not followed", true),
+             true;
     }
     return false;
   }
@@ -140,21 +141,21 @@ class Script final : public Dialect {
   // ---- functions --------------------------------------------------------------------------------------------------
 
   /// Returns the user's value of a call such as "get_digital_in(3)"; otherwise an unknown value.
-  Value given_or_unknown(const Expression& call, Interpreter& run, const char* why) {
-    std::string name = run.written(call);
+  Value given_or_unknown(const Expression& call, const char* why) {
+    std::string name = run_->written(call);
     std::erase(name, ' ');
-    if (std::optional<Value> value = run.given(value_key(name))) return *value;
+    if (std::optional<Value> value = run_->given(value_key(name))) return *value;
     for (const Expression& argument : call.items)
-      if (const Value value = run.evaluate(argument); !value.known() && value.first_cause())
+      if (const Value value = run_->evaluate(argument); !value.known() && value.first_cause())
         return unknown_value(value);
     return unknown_value(name, why);
   }
 
   /// Returns the result of get_inverse_kin as a record of pose and nearby angles, because the robot is not known here.
-  Value inverse_kinematics(const Expression& call, const std::vector<Value>& values, Interpreter& run) {
+  Value inverse_kinematics(const Expression& call, const std::vector<Value>& values) {
     Value near = values.size() > 1 ? values[1] : list_value({});
     for (const Expression& argument : call.items) {
-      if (argument.option == "qnear") near = run.evaluate(argument);
+      if (argument.option == "qnear") near = run_->evaluate(argument);
       if (argument.option == "tcp") return unknown_value("", "is the inverse kinematics of another tool");
     }
     if (values.empty() || !values[0].known()) return values.empty() ? Value{} : unknown_value(values[0]);
@@ -260,8 +261,7 @@ class Script final : public Dialect {
   /// Reads a target: joint angles, a pose, or the result of get_inverse_kin or get_forward_kin.
   bool read_target(const Expression& written, Instruction& move, Value& value) {
     value = run_->answered(written);
-    move.origins.push_back({"target", run_->written(written), {}});
-    if (const Place from = run_->origin(written); from.line > 0) move.origins.back().where = run_->where(from);
+    run_->add_origin(move, "target", written);
     const Value& pose = is(value, "inverse") ? value.items[0] : value;
     const Value& joints = is(value, "forward") ? value.items[0] : value;
     if (const auto angles = joints_in(joints)) {
@@ -324,14 +324,14 @@ class Script final : public Dialect {
     return true;
   }
 
-  void move(const Signature& signature, const Statement& statement, Interpreter& run) {
+  void move(const Signature& signature, const Statement& statement) {
     Instruction move;
     move.kind = signature.kind;
     const Expression* target = argument(signature, statement,
                                         signature.kind == Instruction::Kind::circular ? "pose_to"
                                         : signature.kind == Instruction::Kind::joint  ? "q"
                                                                                       : "pose");
-    if (!target) return run.complain(statement.place, fmt::format("gives {} no target", statement.text), "write it");
+    if (!target) return run_->complain(statement.place, fmt::format("gives {} no target", statement.text), "write it");
     Value value;
     bool whole = read_target(*target, move, value);
     if (signature.kind == Instruction::Kind::circular) whole &= read_via(signature, statement, move);
@@ -346,7 +346,7 @@ class Script final : public Dialect {
       standing_ = pose_value(move.target.pose);
     else
       axes_ = is(value, "forward") ? value.items[0] : value;
-    run.emit(move, statement);
+    run_->emit(move, statement);
   }
 
   bool read_via(const Signature& signature, const Statement& statement, Instruction& move) {
@@ -370,31 +370,31 @@ class Script final : public Dialect {
     return mode.has_value();
   }
 
-  void sleep(const Statement& statement, Interpreter& run) {
-    const Value time = statement.arguments.empty() ? Value{} : run.answered(statement.arguments[0]);
+  void sleep(const Statement& statement) {
+    const Value time = statement.arguments.empty() ? Value{} : run_->answered(statement.arguments[0]);
     if (!time.known())
-      return run.ask_for(time, statement.place, "waits for a time that is known only while the robot runs", "",
-                         "a number, in s");
+      return run_->ask_for(time, statement.place, "waits for a time that is known only while the robot runs", "",
+                           "a number, in s");
     if (!time.is_number() || !(time.number >= 0))
-      return run.complain(statement.place, "waits for what is no time", "write seconds from 0 on");
-    if (time.number > 0) run.emit(dwell_of(time.number), statement);
+      return run_->complain(statement.place, "waits for what is no time", "write seconds from 0 on");
+    if (time.number > 0) run_->emit(dwell_of(time.number), statement);
   }
 
-  void set_tcp(const Statement& statement, Interpreter& run) {
-    const Value value = statement.arguments.empty() ? Value{} : run.answered(statement.arguments[0]);
+  void set_tcp(const Statement& statement) {
+    const Value value = statement.arguments.empty() ? Value{} : run_->answered(statement.arguments[0]);
     const auto frame = pose_in(value);
     if (!frame && value.known())
-      return run.complain(statement.place, "sets a tool by what is no pose", "write p[x, y, z, rx, ry, rz]");
+      return run_->complain(statement.place, "sets a tool by what is no pose", "write p[x, y, z, rx, ry, rz]");
     if (!frame)
-      return run.ask_for(value, statement.place, "sets a tool that is known only while the robot runs", "",
-                         "p[x, y, z, rx, ry, rz] in m and rad");
+      return run_->ask_for(value, statement.place, "sets a tool that is known only while the robot runs", "",
+                           "p[x, y, z, rx, ry, rz] in m and rad");
     tcp_ = NamedFrame{"tcp", *frame};
     standing_.reset();  // the pose belongs to the previous tool
   }
 
-  void run_thread(const Routine* thread, const Statement& statement, Interpreter& run) {
+  void run_thread(const Routine* thread, const Statement& statement) {
     const std::string name = thread ? thread->written : statement.text;
-    run.note(
+    run_->note(
         statement.place,
         fmt::format("thread {}: runs beside the program, and is left out; --routine {} reads it alone", name, name),
         !thread || steers(thread->body, 0));
