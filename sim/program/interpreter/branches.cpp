@@ -241,8 +241,7 @@ Interpreter::Flow Interpreter::leave_out(const Statement& statement, const Value
   if (goes) forget_assigned(routines_.back()->body, why, done);
   --quiet_;
   if (!goes) return Flow::next;
-  result_ = Value{};
-  result_.cause = std::make_shared<const Cause>(std::move(why));
+  result_ = unknown_value(std::move(why));
   return Flow::give_back;
 }
 

@@ -595,9 +595,7 @@ void Interpreter::make_unknown(const Expression& target, Cause cause) {
   if (const Variable* variable = base_of(target); variable && is_constant(*variable)) return;
   if (std::optional<Value> value = given(path)) return assign(target, *value);
   if (!locate(target)) return;
-  Value unknown;
-  unknown.cause = std::make_shared<const Cause>(std::move(cause));
-  assign(target, std::move(unknown));
+  assign(target, unknown_value(std::move(cause)));
 }
 
 void Interpreter::forget_numbers(const std::string& why) {
@@ -608,8 +606,7 @@ void Interpreter::forget_numbers(const std::string& why) {
                                      : variable.value.kind == Value::Kind::list;
     if (list) continue;
     variable.state = Variable::State::ready;
-    variable.value = Value{};
-    variable.value.cause = cause;
+    variable.value = {.cause = cause};
     variable.assigned = true;
   }
 }
@@ -696,23 +693,18 @@ Value Interpreter::aggregate(const Expression& expression) {
 }
 
 Value Interpreter::unary(const Expression& expression) {
-  const Value value = evaluate(expression.items[0]);
+  Value value = evaluate(expression.items[0]);
   if (expression.text == "not" && value.kind == Value::Kind::truth) return truth_value(value.number == 0);
-  if (expression.text == "-" && value.is_number()) {
-    Value negative = value;
-    negative.number = -value.number;
-    return negative;
-  }
-  if (expression.text == "-" && value.kind == Value::Kind::list && value.depth() == 1) {
-    Value negative = value;
-    for (Value& item : negative.items) item.number = -item.number;
-    return negative;
-  }
   if (expression.text == "+") return value;
+  const bool numbers = value.is_number() || (value.kind == Value::Kind::list && value.depth() == 1);
+  if (expression.text == "-" && numbers) {
+    value.number = -value.number;
+    for (Value& item : value.items) item.number = -item.number;
+    return value;
+  }
   if (expression.text == "b_not" && value.numeric == Value::Numeric::integer && value.is_number()) {
-    Value inverted = value;
-    inverted.number = -value.number - 1;  // bitwise NOT in two's complement
-    return inverted;
+    value.number = -value.number - 1;  // bitwise NOT in two's complement
+    return value;
   }
   return unknown_value(value);
 }
@@ -816,9 +808,7 @@ Value as_number(const Value& value, const Value& other) {
     return value;
   Cause cause = *value.cause;
   cause.form = "a number";
-  Value asked;
-  asked.cause = std::make_shared<const Cause>(std::move(cause));
-  return asked;
+  return unknown_value(std::move(cause));
 }
 
 }  // namespace

@@ -49,10 +49,10 @@ struct Value {
   Kind kind = Kind::unknown;
   Numeric numeric = Numeric::any;
   double number = 0;
-  std::string text;
-  std::vector<Value> items;
+  std::string text{};
+  std::vector<Value> items{};
   const RecordType* type = nullptr;
-  std::shared_ptr<const Cause> cause;  ///< why the value is unknown; null: the cause is not known
+  std::shared_ptr<const Cause> cause{};  ///< why the value is unknown; null: the cause is not known
 
   bool known() const;  ///< true: the value and all its items are known
   bool is_number() const { return kind == Kind::number; }
@@ -69,6 +69,7 @@ Value truth_value(bool truth);
 Value text_value(std::string text);
 Value list_value(std::vector<Value> items, const RecordType* type = nullptr);
 Value unknown_value(std::string name, std::string why, std::string form = "");
+Value unknown_value(Cause cause);
 Value unknown_value(const Value& because);  ///< an unknown value with the causes of `because`
 Value unknown_value(const Value& because, const Value& and_because);
 /// Returns a value with the lists of `value` in which every single value is unknown because of `cause`.

@@ -58,18 +58,15 @@ bool Value::operator==(const Value& other) const {
 }
 
 Value unknown_value(std::string name, std::string why, std::string form) {
-  Value value;
-  Cause cause{std::move(name), std::move(why)};
-  cause.form = std::move(form);
-  value.cause = std::make_shared<const Cause>(std::move(cause));
-  return value;
+  return unknown_value(Cause{.name = std::move(name), .why = std::move(why), .form = std::move(form)});
 }
+
+Value unknown_value(Cause cause) { return {.cause = std::make_shared<const Cause>(std::move(cause))}; }
 
 namespace {
 
 Value unknown_value(const std::vector<const Cause*>& causes) {
-  Value value;
-  if (causes.empty()) return value;
+  if (causes.empty()) return {};
   Cause all = *causes[0];
   all.others.clear();
   for (std::size_t i = 1; i < causes.size(); ++i) {
@@ -77,17 +74,14 @@ Value unknown_value(const std::vector<const Cause*>& causes) {
     other.others.clear();
     all.others.push_back(std::make_shared<const Cause>(std::move(other)));
   }
-  value.cause = std::make_shared<const Cause>(std::move(all));
-  return value;
+  return unknown_value(std::move(all));
 }
 
 }  // namespace
 
 Value unknown_value(const Value& because) {
   if (because.kind != Value::Kind::unknown) return unknown_value(because.causes());
-  Value value;
-  value.cause = because.cause;
-  return value;
+  return {.cause = because.cause};
 }
 
 Value unknown_value(const Value& because, const Value& and_because) {
@@ -107,38 +101,17 @@ Value forgotten(Value value, const std::shared_ptr<const Cause>& cause) {
     for (Value& item : value.items) item = forgotten(std::move(item), cause);
     return value;
   }
-  value = Value{};
-  value.cause = cause;
-  return value;
+  return {.cause = cause};
 }
 
-Value number_value(double number) {
-  Value value;
-  value.kind = Value::Kind::number;
-  value.number = number;
-  return value;
-}
+Value number_value(double number) { return {.kind = Value::Kind::number, .number = number}; }
 
-Value truth_value(bool truth) {
-  Value value;
-  value.kind = Value::Kind::truth;
-  value.number = truth;
-  return value;
-}
+Value truth_value(bool truth) { return {.kind = Value::Kind::truth, .number = double(truth)}; }
 
-Value text_value(std::string text) {
-  Value value;
-  value.kind = Value::Kind::text;
-  value.text = std::move(text);
-  return value;
-}
+Value text_value(std::string text) { return {.kind = Value::Kind::text, .text = std::move(text)}; }
 
 Value list_value(std::vector<Value> items, const RecordType* type) {
-  Value value;
-  value.kind = Value::Kind::list;
-  value.items = std::move(items);
-  value.type = type;
-  return value;
+  return {.kind = Value::Kind::list, .items = std::move(items), .type = type};
 }
 
 }  // namespace dresslife::sim

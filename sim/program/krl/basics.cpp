@@ -226,9 +226,7 @@ Value Krl::of_form(const Value& value, const char* type) const {
       if (cause.name.ends_with(field)) cause.name.resize(cause.name.size() - field.size());
   cause.form = form;
   cause.standard = kind == "pdat" ? "pdefault" : kind == "ldat" ? "ldefault" : "";
-  Value asked;
-  asked.cause = std::make_shared<const Cause>(std::move(cause));
-  return asked;
+  return unknown_value(std::move(cause));
 }
 
 // ---- frames -----------------------------------------------------------------------------------------------
