@@ -75,6 +75,17 @@ const RecordType* Code::record(const std::string& name) const {
   return nullptr;
 }
 
+bool Code::reaches(const std::vector<Statement>& body, int module, int levels,
+                   const std::function<bool(const Statement&)>& has) const {
+  return std::ranges::any_of(body, [&](const Statement& statement) {
+    const bool calls = levels > 1 && statement.kind == Statement::Kind::instruction;
+    const Routine* called = calls ? find(statement.name, module) : nullptr;
+    return has(statement) || (called && reaches(called->body, called->module, levels - 1, has)) ||
+           std::ranges::any_of(statement.branches,
+                               [&](const Branch& branch) { return reaches(branch.body, module, levels, has); });
+  });
+}
+
 void Code::sort_problems(int file, const Problems& found) {
   for (const Problem& problem : found.list()) {
     Routine* holder = nullptr;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -169,6 +170,9 @@ struct Code {
   /// Returns another routine with the same name and scope; null: none.
   const Routine* rival(const Routine& routine) const;
   const RecordType* record(const std::string& name) const;
+  /// Returns whether a statement of a body, or of a routine that the body calls, has a property. levels: of nested calls.
+  bool reaches(const std::vector<Statement>& body, int module, int levels,
+               const std::function<bool(const Statement&)>& has) const;
   /// Builds the tables of find(). To be called once after all files are read.
   void index();
   /// Moves the problems of a file to the routines that contain their lines, the others to `problems`.

@@ -652,23 +652,6 @@ void Krl::move_now(Instruction::Kind kind, const Statement& statement) {
 
 // ---- interrupts -------------------------------------------------------------------------------------------
 
-namespace {
-
-/// Whether statements, or routines that they call, stop the robot's move.
-bool brakes(const Code& code, const std::vector<Statement>& body, int module, int depth) {
-  constexpr int deepest = 4;  // levels of calls in handlers
-  return depth < deepest && std::ranges::any_of(body, [&](const Statement& statement) {
-           if (statement.name == "brake" || statement.name == "resume") return true;
-           for (const Branch& branch : statement.branches)
-             if (brakes(code, branch.body, module, depth)) return true;
-           const Routine* called =
-               statement.kind == Statement::Kind::instruction ? code.find(statement.name, module) : nullptr;
-           return called && brakes(code, called->body, called->module, depth + 1);
-         });
-}
-
-}  // namespace
-
 /// Makes the variables unknown that an interrupt's handler writes, because the handler may have run.
 void Krl::handlers_happen(long number) {
   const auto handler = handlers_.find(number);
@@ -691,7 +674,9 @@ void Krl::interrupt(const Statement& statement) {
     statement.arguments.empty() ? braking_.clear() : static_cast<void>(braking_.erase(key));
   } else if (const auto handler = handlers_.find(key); handler != handlers_.end()) {
     handlers_happen(key);
-    if (!brakes(code_, {*handler->second.call}, handler->second.module, 0)) return;
+    constexpr int deepest = 4;  // levels of calls in handlers
+    const auto brakes = [](const Statement& of) { return of.name == "brake" || of.name == "resume"; };
+    if (!code_.reaches({*handler->second.call}, handler->second.module, deepest, brakes)) return;
     braking_.insert(key);
     run_->note(
         statement.place,

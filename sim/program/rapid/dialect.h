@@ -69,7 +69,6 @@ class Rapid final : public Dialect {
   void wait(const Statement& statement);
   bool arithmetic(const Statement& statement);
   void connect(const Statement& statement);
-  bool steers(const std::vector<Statement>& body, int module, int depth) const;
   bool named_data(const Statement& statement);
   Value offset(const Expression& call, bool in_tool);
   /// Returns the orientation as a unit quaternion. Another norm is a problem of `written`, and the quaternion is

@@ -234,19 +234,6 @@ bool Rapid::named_data(const Statement& statement) {
   return true;
 }
 
-/// Whether a trap, or a routine that it calls, moves or stops the robot or changes its motion.
-bool Rapid::steers(const std::vector<Statement>& body, int module, int depth) const {
-  constexpr int deepest = 4;  // levels of calls in traps
-  return depth < deepest && std::ranges::any_of(body, [&](const Statement& statement) {
-           if (statement.name == "stopmove" || statement.name == "storepath" || matters(statement.name)) return true;
-           for (const Branch& branch : statement.branches)
-             if (steers(branch.body, module, depth)) return true;
-           const Routine* called =
-               statement.kind == Statement::Kind::instruction ? code_.find(statement.name, module) : nullptr;
-           return called && steers(called->body, called->module, depth + 1);
-         });
-}
-
 /// Runs CONNECT. Interrupts are assumed not to happen. The data that the trap writes is unknown until the program writes it.
 void Rapid::connect(const Statement& statement) {
   run_->note(statement.place, "CONNECT: input, output or logic");
@@ -254,7 +241,11 @@ void Rapid::connect(const Statement& statement) {
   const Statement& call = statement.branches[0].body[0];
   run_->forget_writes_of(call, run_->module(),
                          fmt::format("may be written by the trap {} ({})", call.text, run_->short_place(call.place)));
-  if (steers({call}, run_->module(), 0))
+  constexpr int deepest = 4;  // levels of calls in traps
+  const auto steers = [&](const Statement& of) {
+    return of.name == "stopmove" || of.name == "storepath" || matters(of.name);
+  };
+  if (code_.reaches({call}, run_->module(), deepest, steers))
     run_->note(statement.place,
                fmt::format("{0}: a trap that moves or stops the robot on its interrupt, which is taken not to come; "
                            "--routine {0} reads it alone",

@@ -393,22 +393,13 @@ class Script final : public Dialect {
   }
 
   void run_thread(const Routine* thread, const Statement& statement) {
+    constexpr int deepest = 8;  // largest depth of calls
+    const auto steers = [&](const Statement& s) { return s.kind == Statement::Kind::instruction && matters(s.name); };
     const std::string name = thread ? thread->written : statement.text;
     run_->note(
         statement.place,
         fmt::format("thread {}: runs beside the program, and is left out; --routine {} reads it alone", name, name),
-        !thread || steers(thread->body, 0));
-  }
-
-  /// Returns whether a thread, or a function that it calls, moves the robot.
-  bool steers(const std::vector<Statement>& body, int depth) const {
-    constexpr int deepest = 8;  // largest depth of calls
-    return depth < deepest && std::ranges::any_of(body, [&](const Statement& s) {
-             if (s.kind == Statement::Kind::instruction && matters(s.name)) return true;
-             const Routine* called = s.kind == Statement::Kind::instruction ? code_.find(s.name, -1) : nullptr;
-             if (called && steers(called->body, depth + 1)) return true;
-             return std::ranges::any_of(s.branches, [&](const Branch& branch) { return steers(branch.body, depth); });
-           });
+        !thread || code_.reaches(thread->body, thread->module, deepest, steers));
   }
 
   const Code& code_;
