@@ -128,20 +128,28 @@ Language language_of(const std::filesystem::path& file) {
 
 namespace {
 
-Grammar grammar_of(Language language) {
-  return language == Language::krl ? Grammar::krl : language == Language::urscript ? Grammar::urscript : Grammar::rapid;
-}
+/// The parts of a language that the interpreter runs.
+struct Interpreted {
+  Language language;
+  Grammar grammar;  ///< of the answers
+  void (*add_types)(Code&);
+  void (*parse)(Code&, int file, Problems&);
+  void (*run)(const Code&, const ImportOptions&, const std::vector<NamedFrame>& tools,
+              const std::vector<NamedFrame>& work_objects, Program&, Problems&);
+};
+constexpr Interpreted interpreted[] = {
+    {Language::rapid, Grammar::rapid, add_rapid_types, parse_rapid, run_rapid},
+    {Language::krl, Grammar::krl, add_krl_types, parse_krl, run_krl},
+    {Language::inform, Grammar::rapid, add_inform_types, parse_inform, run_inform},
+    {Language::urscript, Grammar::urscript, add_urscript_types, parse_urscript, run_urscript}};
 
 /// Parses the files. An error in a routine is reported only if the routine runs, an error outside of routines only if
 /// the program fails. With too many errors the parser stops in the file; then all errors are reported, because
 /// routines and data are missing.
-void parse_files(Code& code, Language language, Problems& problems) {
+void parse_files(Code& code, const Interpreted& language, Problems& problems) {
   for (int file = 0; file < static_cast<int>(code.files.size()); ++file) {
     Problems found;
-    language == Language::rapid    ? parse_rapid(code, file, found)
-    : language == Language::krl    ? parse_krl(code, file, found)
-    : language == Language::inform ? parse_inform(code, file, found)
-                                   : parse_urscript(code, file, found);
+    language.parse(code, file, found);
     if (!found.full())
       code.sort_problems(file, found);
     else
@@ -238,24 +246,15 @@ Program read_program(Language language, std::deque<SourceFile> files, const Impo
       Code code;
       code.files = std::move(files);
       code.written_beside = options.written_beside;
-      language == Language::rapid    ? add_rapid_types(code)
-      : language == Language::krl    ? add_krl_types(code)
-      : language == Language::inform ? add_inform_types(code)
-                                     : add_urscript_types(code);
-      parse_files(code, language, problems);
-      add_requests(code, options, grammar_of(language), problems);
+      const Interpreted& of = *std::ranges::find(interpreted, language, &Interpreted::language);
+      of.add_types(code);
+      parse_files(code, of, problems);
+      add_requests(code, options, of.grammar, problems);
       if (language == Language::inform) name_inform_values(code);
       if (language == Language::krl) stop_at_signals(code);
       code.index();
       if (!problems.empty()) return program;
-      if (language == Language::rapid)
-        run_rapid(code, options, tools, work_objects, program, problems);
-      else if (language == Language::krl)
-        run_krl(code, options, tools, work_objects, program, problems);
-      else if (language == Language::inform)
-        run_inform(code, options, tools, work_objects, program, problems);
-      else
-        run_urscript(code, options, tools, program, problems);
+      of.run(code, options, tools, work_objects, program, problems);
       for (const Problem& unread : code.problems)  // a possible cause
         if (problems.empty())
           program.skipped.push_back({unread.where, "not read: " + unread.what, true});
@@ -299,22 +298,19 @@ ImportOptions options_of(const pipeline::Motion& motion) {
 
 namespace {
 
-std::vector<std::filesystem::path> add_all(std::vector<std::filesystem::path> list,
-                                           const std::vector<std::filesystem::path>& more) {
-  list.insert(list.end(), more.begin(), more.end());
-  return list;
-}
-
 /// Adds the modules, each once. beside: also adds the other files in the folders of the program and of its modules,
 /// which KRL and INFORM programs see on the controller.
 void add_modules(const pipeline::Motion& motion, bool beside, const std::map<std::string, std::string>& instead,
                  std::deque<SourceFile>& files) {
   std::vector<std::filesystem::path> wanted;
   for (const pipeline::ProgramFile& module : motion.modules) wanted.push_back(module.file);
-  const std::size_t modules = wanted.size();
+  const auto add_folder_of = [&](const std::filesystem::path& file) {
+    const std::vector<std::filesystem::path> files_beside = pipeline::program_files(file);
+    wanted.insert(wanted.end(), files_beside.begin(), files_beside.end());
+  };
   if (beside) {
-    wanted = add_all(std::move(wanted), pipeline::program_files(motion.program));
-    for (std::size_t i = 0; i < modules; ++i) wanted = add_all(std::move(wanted), pipeline::program_files(wanted[i]));
+    add_folder_of(motion.program);
+    for (const pipeline::ProgramFile& module : motion.modules) add_folder_of(module.file);
   }
   std::set<std::filesystem::path> known;
   known.insert(std::filesystem::weakly_canonical(motion.program));
@@ -522,40 +518,32 @@ std::vector<pipeline::Warning> moves_left_out(const Program& program) {
     const std::string more = fmt::format(" (and {} more: line {})", group.more, group.lines);
     const std::string what = fmt::format("skipped: {}{}{}", group.name.empty() ? "" : fmt::format("{}: ", group.name),
                                          group.reason, group.more == 0 ? "" : more);
+    const auto warn = [&](const std::string& words, const char* cause, const std::string& remedy) {
+      warnings.push_back(
+          pipeline::warning_of(pipeline::WarningKind::program, group.first.text(), words, cause, remedy));
+    };
+    const std::string without_skipped = what.substr(what.find(": ") + 2);
+    const auto doubt =
+        std::ranges::find_if(doubts, [&](const NumberDoubt& of) { return group.reason.starts_with(of.reason); });
     if (what.find("--value") != std::string::npos) {  // the text contains the remedy
       warnings.push_back({pipeline::WarningKind::program, group.first.text(), what});
-      continue;
-    }
-    if (what.find(later_passes_differ) != std::string::npos) {
-      warnings.push_back(pipeline::warning_of(
-          pipeline::WarningKind::program, group.first.text(), what.substr(what.find(": ") + 2),
-          "a counter, or an order, that decides in a later pass",
-          "motion.passes: N in the job (--passes N), with the number of passes of one cycle of the cell"));
-      continue;
-    }
-    if (group.reason.starts_with(unread_word)) {
+    } else if (what.find(later_passes_differ) != std::string::npos) {
+      warn(without_skipped, "a counter, or an order, that decides in a later pass",
+           "motion.passes: N in the job (--passes N), with the number of passes of one cycle of the cell");
+    } else if (group.reason.starts_with(unread_word)) {
       const std::size_t nearest = group.reason.find(nearest_known);
       const std::string word =
           nearest == group.reason.npos ? "" : group.reason.substr(nearest + std::string(nearest_known).size());
-      warnings.push_back(
-          pipeline::warning_of(pipeline::WarningKind::program, group.first.text(), what.substr(what.find(": ") + 2),
-                               "a mistyped word, or a word of an option that the importer does not know",
-                               (word.empty() ? "" : fmt::format("write {} if this is meant; else ", word)) +
-                                   "take the word out of a copy of the program if it does not change the motion"));
-      continue;
+      warn(without_skipped, "a mistyped word, or a word of an option that the importer does not know",
+           (word.empty() ? "" : fmt::format("write {} if this is meant; else ", word)) +
+               "take the word out of a copy of the program if it does not change the motion");
+    } else if (doubt != doubts.end()) {
+      warn(without_skipped, doubt->cause, doubt->remedy);
+    } else {
+      warn(what, "an instruction that the importer does not run and that may move the robot",
+           "describe what it does by motion.values or motion.assume, or take it out of a copy of the program if it "
+           "moves nothing (dresslife import --explain lists every move)");
     }
-    const auto doubt =
-        std::ranges::find_if(doubts, [&](const NumberDoubt& of) { return group.reason.starts_with(of.reason); });
-    if (doubt != doubts.end()) {
-      warnings.push_back(pipeline::warning_of(pipeline::WarningKind::program, group.first.text(),
-                                              what.substr(what.find(": ") + 2), doubt->cause, doubt->remedy));
-      continue;
-    }
-    warnings.push_back(pipeline::warning_of(
-        pipeline::WarningKind::program, group.first.text(), what,
-        "an instruction that the importer does not run and that may move the robot",
-        "describe what it does by motion.values or motion.assume, or take it out of a copy of the program if it moves "
-        "nothing (dresslife import --explain lists every move)"));
   }
   return warnings;
 }

@@ -447,7 +447,7 @@ void take_calls(const std::vector<Statement>& body, std::set<std::string>& names
 }  // namespace
 
 void run_urscript(const Code& code, const ImportOptions& options, const std::vector<NamedFrame>& tools,
-                  Program& program, Problems& problems) {
+                  const std::vector<NamedFrame>&, Program& program, Problems& problems) {
   std::set<std::string> called;
   for (const Routine& routine : code.routines) take_calls(routine.body, called);
   Start start;

@@ -20,8 +20,8 @@ void add_urscript_types(Code& code);
 void parse_urscript(Code& code, int file, Problems& problems);
 
 /// Runs the parsed scripts and adds moves and dwells to `program`. The tool "tcp" of `tools` is the tool of the
-/// installation, for scripts without set_tcp.
+/// installation, for scripts without set_tcp. Scripts have no work objects.
 void run_urscript(const Code& code, const ImportOptions& options, const std::vector<NamedFrame>& tools,
-                  Program& program, Problems& problems);
+                  const std::vector<NamedFrame>& work_objects, Program& program, Problems& problems);
 
 }  // namespace dresslife::sim
