@@ -381,19 +381,20 @@ void Krl::use_base(const Value& number, const Place& place) {
                true);
 }
 
+/// Returns a part of FDAT_ACT, PDAT_ACT or LDAT_ACT.
+Value Krl::part_of_form(const std::string& type, const char* field, const Place& place) {
+  return of_form(run_->evaluate(field_at(type + "_act", field, place)), type.c_str());
+}
+
 void Krl::form_frames(const Place& place) {
-  const auto part = [&](const char* field) {
-    return of_form(run_->evaluate(field_at("fdat_act", field, place)), "fdat");
-  };
+  const auto part = [&](const char* field) { return part_of_form("fdat", field, place); };
   use_tool(part("tool_no"), place);
   use_base(part("base_no"), place);
   run_->assign(name_at("$ipo_mode", place), part("ipo_frame"));
 }
 
 void Krl::joint_data(const Place& place) {
-  const auto part = [&](const char* field) {
-    return of_form(run_->evaluate(field_at("pdat_act", field, place)), "pdat");
-  };
+  const auto part = [&](const char* field) { return part_of_form("pdat", field, place); };
   set_axes("$acc_axis", axis_acceleration(part("acc")), place);
   const Value distance = part("apo_dist");
   const Value mode = part("apo_mode");
@@ -404,9 +405,7 @@ void Krl::joint_data(const Place& place) {
 }
 
 void Krl::path_data(const Place& place) {
-  const auto part = [&](const char* field) {
-    return of_form(run_->evaluate(field_at("ldat_act", field, place)), "ldat");
-  };
+  const auto part = [&](const char* field) { return part_of_form("ldat", field, place); };
   set_path_acceleration(part("acc"), place);
   run_->assign(field_at("$apo", "cdis", place), part("apo_dist"));
   run_->assign(name_at("$ori_type", place), part("ori_typ"));
@@ -475,13 +474,12 @@ void Krl::basics(const Statement& statement) {
   } else if (what == "#ptp_dat" || what == "#ptp_params") {
     joint_data(place);
     if (what == "#ptp_params") form_frames(place);
-    const Value percent =
-        what == "#ptp_params" ? number : of_form(run_->evaluate(field_at("pdat_act", "vel", place)), "pdat");
+    const Value percent = what == "#ptp_params" ? number : part_of_form("pdat", "vel", place);
     set_axes("$vel_axis", axis_speed(percent), place);
   } else if (what == "#cp_dat" || what == "#cp_params") {
     path_data(place);
     if (what == "#cp_params") form_frames(place);
-    set_speed(what == "#cp_params" ? number : of_form(run_->evaluate(field_at("ldat_act", "vel", place)), "ldat"));
+    set_speed(what == "#cp_params" ? number : part_of_form("ldat", "vel", place));
   } else if (!what.starts_with("#out_") && what != "#group") {
     run_->note(place, fmt::format("BAS({}): not a known case", what.empty() ? "?" : what), true);
   }

@@ -111,6 +111,7 @@ class Krl final : public Dialect {
   void joint_data(const Place& place);
   void path_data(const Place& place);
   void form_frames(const Place& place);
+  Value part_of_form(const std::string& type, const char* field, const Place& place);
   void set_axes(const char* list, const Value& percent, const Place& place);
   Value axis_speed(const Value& percent);
   Value axis_acceleration(const Value& percent);

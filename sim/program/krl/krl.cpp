@@ -717,10 +717,7 @@ void Krl::wait(const Statement& statement) {
     run_->note(statement.place, "CONTINUE: the time passes while the robot moves, and is not added to the motion",
                true);
   } else if (time.number > 0) {  // the controller does not wait for 0 and less
-    Instruction wait;
-    wait.kind = Instruction::Kind::dwell;
-    wait.dwell = time.number;
-    run_->emit(wait, statement);
+    run_->emit(dwell_of(time.number), statement);
   }
 }
 

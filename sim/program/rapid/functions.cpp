@@ -64,10 +64,7 @@ std::optional<Value> of_one_number(const std::string& name, double x, double dec
   if (name == "trunc" || name == "truncdnum") return finite(to_decimals(x, decimals, std::trunc));
   if (name == "dnumtonum" || name == "numtodnum") return finite(x);
   if (name == "bitneg" && is_byte(x)) return number_value(byte_size - 1 - x);
-  if (name == "valtostr") {  // at most six digits (data type num)
-    std::string text = fmt::format("{:.6g}", x);
-    return text_value(text);
-  }
+  if (name == "valtostr") return text_value(fmt::format("{:.6g}", x));  // at most six digits (data type num)
   return {};
 }
 
@@ -93,20 +90,15 @@ std::optional<Value> of_text(const std::string& name, const std::vector<const Va
     if (!(from >= 1 && count >= 0 && from - 1 + count <= static_cast<double>(text.size()))) return Value{};
     return text_value(text.substr(static_cast<std::size_t>(from) - 1, static_cast<std::size_t>(count)));
   }
-  if ((name == "strfind" || name == "strfind not") && v.size() == 3 && v[1]->is_number() &&
-      v[2]->kind == Value::Kind::text) {
+  const bool searches = name == "strfind" || name == "strfind not" || name == "strmatch";
+  if (searches && v.size() == 3 && v[1]->is_number() && v[2]->kind == Value::Kind::text) {
     const double from = v[1]->number;
     if (!(from >= 1 && from <= static_cast<double>(text.size()) + 1)) return Value{};
     const auto begin = static_cast<std::size_t>(from) - 1;
-    const std::size_t found =
-        name == "strfind" ? text.find_first_of(v[2]->text, begin) : text.find_first_not_of(v[2]->text, begin);
-    return number_value(static_cast<double>((found == std::string::npos ? text.size() : found) + 1));
-  }
-  if (name == "strmatch" && v.size() == 3 && v[1]->is_number() && v[2]->kind == Value::Kind::text) {
-    const double from = v[1]->number;
-    if (!(from >= 1 && from <= static_cast<double>(text.size()) + 1)) return Value{};
-    const std::size_t found = text.find(v[2]->text, static_cast<std::size_t>(from) - 1);
-    return number_value(static_cast<double>((found == std::string::npos ? text.size() : found) + 1));
+    const std::size_t found = name == "strmatch"  ? text.find(v[2]->text, begin)
+                              : name == "strfind" ? text.find_first_of(v[2]->text, begin)
+                                                  : text.find_first_not_of(v[2]->text, begin);
+    return number_value(static_cast<double>(std::min(found, text.size()) + 1));
   }
   return {};
 }
@@ -164,9 +156,7 @@ std::optional<Value> of_poses(const Code& code, const std::string& name, const s
   }
   if (name == "poseinv") {
     const auto a = pose(0);
-    if (!a) return Value{};
-    const Quaternion back = a->orientation.conjugate();
-    return rapid_pose(code, {back * Vector3(-a->position), back});
+    return a ? rapid_pose(code, inverse(*a)) : Value{};
   }
   if (name == "posevect") {
     const auto frame = pose(0);
@@ -185,7 +175,7 @@ std::optional<Value> of_poses(const Code& code, const std::string& name, const s
   if (name == "norient") {
     const auto read = v.empty() ? std::nullopt : record(code, v[0], "orient");
     if (!read) return Value{};
-    const Quaternion q(item_number(*read, 0), item_number(*read, 1), item_number(*read, 2), item_number(*read, 3));
+    const Quaternion q = rapid_quaternion(*read);
     constexpr double shortest = 1e-6;
     return q.norm() > shortest ? rapid_orient(code, q.normalized()) : Value{};
   }
@@ -216,8 +206,12 @@ Vector3 rapid_position(const Value& pos) {
   return millimetre * Vector3(item_number(pos, 0), item_number(pos, 1), item_number(pos, 2));
 }
 
+Quaternion rapid_quaternion(const Value& orient) {
+  return Quaternion(item_number(orient, 0), item_number(orient, 1), item_number(orient, 2), item_number(orient, 3));
+}
+
 std::optional<Quaternion> rapid_orientation(const Value& orient) {
-  const Quaternion q(item_number(orient, 0), item_number(orient, 1), item_number(orient, 2), item_number(orient, 3));
+  const Quaternion q = rapid_quaternion(orient);
   constexpr double rounding = 0.02;  // error of the norm of components with two decimals
   if (!(std::abs(q.norm() - 1) < rounding)) return {};
   return q.normalized();

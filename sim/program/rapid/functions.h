@@ -12,6 +12,8 @@ namespace dresslife::sim {
 // ---- conversion between RAPID's records and frames. Precondition: the values have the right shape. ----------
 
 Vector3 rapid_position(const Value& pos);
+/// Returns the orientation as it is written.
+Quaternion rapid_quaternion(const Value& orient);
 /// Returns the normalised orientation, because programs write few digits; std::nullopt: the norm differs from 1.
 std::optional<Quaternion> rapid_orientation(const Value& orient);
 std::optional<Frame> rapid_frame(const Value& pose);

@@ -155,7 +155,7 @@ std::optional<Value> Rapid::typed(const Expression& written, const char* type, c
 
 std::optional<Quaternion> Rapid::checked(const Value& orient, const char* what, const Expression& written) {
   if (const auto q = rapid_orientation(orient)) return q;
-  const Quaternion q(item_number(orient, 0), item_number(orient, 1), item_number(orient, 2), item_number(orient, 3));
+  const Quaternion q = rapid_quaternion(orient);
   if (!(q.norm() > 0)) return {};
   const Quaternion unit = q.normalized();
   const Place declared = run_->origin(written);

@@ -334,8 +334,7 @@ Value Rapid::offset(const Expression& call, bool in_tool) {
     turned = *q * rotation({turn[0], 0, 0}) * rotation({0, turn[1], 0}) * rotation({0, 0, turn[2]});
   }
   for (int i = 0; i < 3; ++i) target.items[0].items[i].number += shift[i];
-  const double parts[] = {turned.w(), turned.x(), turned.y(), turned.z()};
-  for (int i = 0; i < 4; ++i) target.items[1].items[i].number = parts[i];
+  target.items[1] = rapid_orient(code_, turned);
   return target;
 }
 

@@ -337,11 +337,8 @@ class Script final : public Dialect {
     if (signature.kind == Instruction::Kind::circular) whole &= read_via(signature, statement, move);
     whole &= read_speed(signature, statement, move);
     if (whole || move.kind != Instruction::Kind::joint) whole &= read_tool(statement, move);
-    if (!whole) {  // later moves must not use the old position of the robot
-      standing_.reset(), axes_.reset();
-      return;
-    }
-    standing_.reset(), axes_.reset();
+    standing_.reset(), axes_.reset();  // later moves must not use the old position of the robot
+    if (!whole) return;
     if (move.target.joints.empty())
       standing_ = pose_value(move.target.pose);
     else
@@ -423,12 +420,6 @@ bool is_within_another(const Routine& routine, const Code& code) {
   });
 }
 
-/// The start of a run: the statements outside functions, then the only function that they do not call.
-struct Start {
-  const Routine* script = nullptr;
-  const Routine* function = nullptr;
-};
-
 void take_calls(const std::vector<Statement>& body, std::set<std::string>& names) {
   const std::function<void(const Expression&)> in = [&](const Expression& e) {
     if (e.kind == Expression::Kind::call) names.insert(e.text);
@@ -450,25 +441,27 @@ void run_urscript(const Code& code, const ImportOptions& options, const std::vec
                   const std::vector<NamedFrame>&, Program& program, Problems& problems) {
   std::set<std::string> called;
   for (const Routine& routine : code.routines) take_calls(routine.body, called);
-  Start start;
+  // The statements outside functions run first, then the only function that they do not call.
+  const Routine *script = nullptr, *function = nullptr;
   std::string names;
   int uncalled = 0;
   for (const Routine& routine : code.routines) {
-    const bool script = routine.name.starts_with("script:");
-    if (script && routine.place.file == 0) start.script = &routine;
-    if (script) continue;
+    if (routine.name.starts_with("script:")) {
+      if (routine.place.file == 0) script = &routine;
+      continue;
+    }
     if (names.size() < 1000) names += (names.empty() ? "" : ", ") + routine.written;
     if (code.start.empty() ? routine.robot != "thread" && routine.place.file == 0 && !called.contains(routine.name) &&
                                  !is_within_another(routine, code)
                            : routine.name == code.start) {
-      start.function = &routine;
+      function = &routine;
       ++uncalled;
     }
   }
   std::set<std::string> script_calls;
-  if (start.script) take_calls(start.script->body, script_calls);
+  if (script) take_calls(script->body, script_calls);
   const bool runs_itself = !script_calls.empty() && code.start.empty();
-  if (runs_itself) start.function = nullptr;
+  if (runs_itself) function = nullptr;
   if (!runs_itself && uncalled == 0 && code.start.empty())
     if (const Problem* why = first_problem(code)) return problems.add(why->where, why->what, why->remedy);
   if (!runs_itself && (uncalled == 0 || (uncalled > 1 && code.start.empty()))) {
@@ -478,18 +471,18 @@ void run_urscript(const Code& code, const ImportOptions& options, const std::vec
                  names.empty() ? "give a script with moves" : fmt::format("name one with --routine: {}", names));
     return;
   }
-  const Routine* routine = start.function ? start.function : start.script;
-  Routine both;  // statements outside functions run first
-  if (start.function && start.script) {
-    both = *start.function;
-    both.body.insert(both.body.begin(), start.script->body.begin(), start.script->body.end());
-    both.problems.insert(both.problems.begin(), start.script->problems.begin(), start.script->problems.end());
+  const Routine* routine = function ? function : script;
+  Routine both;
+  if (function && script) {
+    both = *function;
+    both.body.insert(both.body.begin(), script->body.begin(), script->body.end());
+    both.problems.insert(both.problems.begin(), script->problems.begin(), script->problems.end());
     routine = &both;
   }
   explore(
       [&](Exploration& exploration, Program& made, Problems& found) {
-        Script script(code, tools);
-        Interpreter(code, script, options, made, found, exploration).run(*routine);
+        Script rules(code, tools);
+        Interpreter(code, rules, options, made, found, exploration).run(*routine);
       },
       program, problems);
 }
