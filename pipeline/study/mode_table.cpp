@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "pipeline/study/row_words.h"
-#include "pipeline/study/text_column.h"
 
 namespace dresslife::pipeline {
 namespace {

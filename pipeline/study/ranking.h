@@ -174,4 +174,13 @@ std::string force_words(const RankingRow& row);
 /// it the sentences of row_words.h about each job, in lines of at most `width` columns. No cell is cut off. Ends with "\n".
 std::string ranking_table(const std::vector<RankingRow>& rows, std::size_t width = 120);
 
+struct ShownRows {
+  std::vector<std::size_t> indices;  ///< rising; of a short ranking all rows
+  std::string summary;               ///< one line about the other rows, with a line feed; empty: all rows are shown
+};
+
+/// Selects from a long ranking the best jobs, the worst jobs, the first failed jobs and the first jobs with warnings. rows: best
+/// first, failed last.
+ShownRows shown_rows(const std::vector<RankingRow>& rows);
+
 }  // namespace dresslife::pipeline

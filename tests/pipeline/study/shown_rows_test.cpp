@@ -1,4 +1,4 @@
-#include "pipeline/study/shown_rows.h"
+#include "pipeline/study/ranking.h"
 
 #include <fmt/format.h>
 
