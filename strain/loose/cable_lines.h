@@ -24,10 +24,26 @@
 
 #include "strain/loose/cable.h"
 #include "strain/loose/hose_line.h"
-#include "strain/loose/lane_rows.h"
+#include "strain/loose/kernels/loose_kernels.h"
 #include "strain/loose/tension.h"
 
 namespace dresslife::strain {
+
+/// Starts at a cache line.
+class LaneRows {
+ public:
+  void assign(std::size_t rows, std::size_t in_row) { blocks_.assign(rows * in_row / most_lanes, {}); }
+  double* data() { return blocks_.empty() ? nullptr : blocks_.front().of; }
+  const double* data() const { return blocks_.empty() ? nullptr : blocks_.front().of; }
+  double& operator[](std::size_t k) { return data()[k]; }
+  double operator[](std::size_t k) const { return data()[k]; }
+
+ private:
+  struct alignas(64) Block {
+    double of[most_lanes] = {};
+  };
+  std::vector<Block> blocks_;
+};
 
 /// Returns the curvature of a cable at a clamp. A cable with the tension T between clamps bends there by B e^(-s/l),
 /// l = sqrt(E I/T), in addition to a slow variation. At nodes h apart, with q = (h/l)^2, the same angle makes second differences

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "strain/loose/cable_lines.h"
-#include "strain/loose/lane_rows.h"
 
 namespace dresslife::strain {
 

@@ -2,8 +2,8 @@
 #include <array>
 #include <cmath>
 
+#include "strain/loose/cable_lines.h"
 #include "strain/loose/hose_line.h"
-#include "strain/loose/lane_rows.h"
 #include "tests/catch.h"
 #include "tests/strain/loose/hoses.h"
 
