@@ -126,18 +126,13 @@ class Clamps {
   }
 
   // ---- position of the pointer ----
-  ray(x, y) {
-    const ray = new THREE.Raycaster(), size = this.viewer.canvas.getBoundingClientRect();
-    ray.setFromCamera(new THREE.Vector2(2 * x / size.width - 1, 1 - 2 * y / size.height), this.viewer.camera);
-    return ray;
-  }
   // Returns {link, position, normal} on the shapes of the links, in the link's frame; null: none.
   surfaceAt(x, y) {
     const shapes = [];
     this.viewer.links.forEach((group, link) => group.children.forEach(part => {
       if (part.userData.shape) shapes.push(Object.assign(part, {link}));
     }));
-    const [hit] = this.ray(x, y).intersectObjects(shapes);
+    const [hit] = this.viewer.ray(x, y).intersectObjects(shapes);
     if (!hit) return null;
     const group = this.viewer.links[hit.object.link], inverse = new THREE.Matrix4().getInverse(group.matrixWorld);
     const normal = hit.face.normal.clone().transformDirection(hit.object.matrixWorld);
@@ -153,7 +148,7 @@ class Clamps {
   }
   clampAt(x, y) {
     const rings = this.clamps.flatMap((clamp, k) => clamp.group.children.filter(part => part.isMesh).map(part => Object.assign(part, {clamp: k})));
-    const [hit] = this.ray(x, y).intersectObjects(rings);
+    const [hit] = this.viewer.ray(x, y).intersectObjects(rings);
     return hit ? hit.object.clamp : -1;
   }
 

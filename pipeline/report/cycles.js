@@ -1,13 +1,6 @@
 // The wire that breaks first: a chart of its cycles by range and mean, and of its stress over strain.
 const svgNames = new DOMParser().parseFromString('<svg></svg>', 'text/html').querySelector('svg').namespaceURI;
-function drawing(tag, attributes = {}, ...children) {
-  const element = document.createElementNS(svgNames, tag);
-  for (const [name, value] of Object.entries(attributes))
-    if (name.startsWith('on')) element.addEventListener(name.slice(2), value);
-    else element.setAttribute(name, value);
-  element.append(...children);
-  return element;
-}
+const drawing = (tag, attributes = {}, ...children) => filled(document.createElementNS(svgNames, tag), attributes, children);
 const chart = {width: 420, height: 330, left: 62, right: 12, top: 10, bottom: 44};
 const chartX = part => chart.left + part * (chart.width - chart.left - chart.right);
 const chartY = part => chart.height - chart.bottom - part * (chart.height - chart.top - chart.bottom);

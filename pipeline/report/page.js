@@ -15,14 +15,14 @@ const state = {
 };
 let viewer = null, timeline = null, clamps = null;
 
-const make = (tag, attributes = {}, ...children) => {
-  const element = document.createElement(tag);
+const filled = (element, attributes, children) => {
   for (const [name, value] of Object.entries(attributes))
     if (name.startsWith('on')) element.addEventListener(name.slice(2), value);
     else element.setAttribute(name, value);
   element.append(...children);
   return element;
 };
+const make = (tag, attributes = {}, ...children) => filled(document.createElement(tag), attributes, children);
 
 // Closings of cycles: damage of a segment's worst wire near a given time.
 class Closings {

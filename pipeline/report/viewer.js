@@ -337,10 +337,15 @@ class Viewer {
     this.camera.position.copy(this.controls.target).add(new THREE.Vector3(to.x, -to.z, to.y));
     this.controls.update();
   }
-  // Returns the segment of the file at a point of the canvas [px]; -1: none.
-  segmentAt(x, y) {
+  // Returns the ray into the scene through a point of the canvas [px].
+  ray(x, y) {
     const ray = new THREE.Raycaster(), size = this.canvas.getBoundingClientRect();
     ray.setFromCamera(new THREE.Vector2(2 * x / size.width - 1, 1 - 2 * y / size.height), this.camera);
+    return ray;
+  }
+  // Returns the segment of the file at a point of the canvas [px]; -1: none.
+  segmentAt(x, y) {
+    const ray = this.ray(x, y);
     let nearest = null;
     for (const tube of this.tubes)
       for (const hit of ray.intersectObject(tube.mesh))
