@@ -103,8 +103,7 @@ class CablePaths {
   void repeat();
   void finish();  ///< after the last sample; a second call changes nothing
 
-  // ---- after finish()
-  // --------------------------------------------------------------------------------------
+  // ---- after finish() ------------------------------------------------------------------------------
 
   /// State of one segment at `count` samples from `first` on. hose: the hose's columns at these samples. Loose cables have their
   /// mean curvature in the segment; with at_wires the curvature where the wires are evaluated. Valid until the next of().

@@ -82,8 +82,7 @@ class Layout {
   }
 
  private:
-  // ---- lines
-  // ------------------------------------------------------------------------------------------------
+  // ---- lines ----------------------------------------------------------------------------------------
 
   /// Numbers every line once, depth first, and checks its waypoint.
   void number(const std::vector<MotionStep>& steps, const std::string& block) {
@@ -366,8 +365,7 @@ class Layout {
     }
   }
 
-  // ---- corners
-  // ----------------------------------------------------------------------------------------------
+  // ---- corners -------------------------------------------------------------------------------------
 
   bool zone_is_stop(const MotionStep& step) const {
     if (step.tool_zone) return *step.tool_zone == 0;
@@ -480,8 +478,7 @@ class Layout {
     next.cut_before = cut(next);
   }
 
-  // ---- legs
-  // -------------------------------------------------------------------------------------------------
+  // ---- legs ----------------------------------------------------------------------------------------
 
   /// Limits of a leg, from its move.
   struct Limits {
