@@ -750,12 +750,10 @@ void judge(Context& c) {
       c.damage, c.counters, group_of.count, group_of, [&](std::size_t site) { return c.strains_of(site); }, c.threads);
 }
 
-/// Returns warnings where the job exceeds the tests from which its calibration was learned, and that of the calibration's records.
+/// Returns warnings where the job exceeds the tests from which its calibration was learned.
 std::vector<pipeline::Warning> beyond_calibration(const Context& c) {
   if (!c.job.calibration || c.job.calibration->typical || c.worst == no_site) return {};
   std::vector<pipeline::Warning> warnings;
-  if (const std::string& words = c.job.calibration->contradiction; !words.empty())
-    warnings.push_back({pipeline::WarningKind::calibration, "", "calibration: " + words});
   pipeline::Experience experience;
   experience.strain_range = c.damage.range[c.worst];
   const auto curvature = c.strain.read<double>("/deformation/curvature");

@@ -87,6 +87,7 @@ void describe(Fields& f, Calibration& calibration) {
   f.text("note", calibration.note, Need::optional, "how it was learned");
   f.text("contradiction", calibration.contradiction, Need::optional,
          "warning that its records contradict the prediction with it");
+  f.text("doubts", calibration.doubts, Need::optional, "warnings of doubtful observations, one per line");
   f.list("parameters", calibration.parameters, Need::required, "what was learned");
   f.number("own_spread", calibration.own_spread, Need::optional, between(0.001, 100),
            "factor of the spread between dresspacks: of slack, rest and motion, and of the error of computed lives");

@@ -85,6 +85,9 @@ struct Calibration {
   std::string note;
   /// Warning that records of dresspacks in service contradict the prediction with this calibration; empty: none. Runs repeat it.
   std::string contradiction;
+  /// Further warnings, one per line: of observations that are far from their predictions, and of records whose job exceeds limits.
+  /// Runs repeat them.
+  std::string doubts;
   std::vector<LearnedParameter> parameters;
   /// factor of the deviations between dresspacks: of the parameters of SharedBy::installation that are not calibrated, and of the
   /// residual of computed lives

@@ -175,7 +175,7 @@ void check_settings(const Calibration& calibration, const LearnedUnder& own, Pro
     }
     if (agree || learned.empty()) continue;  // `learned` is empty for a key that is newer than the calibration
     problems.add(calibration.where,
-                 fmt::format("was learned with {}: {} (this job has {})", setting.key, listed(learned, " or "),
+                 fmt::format("{}{}: {} (this job has {})", learned_with, setting.key, listed(learned, " or "),
                              words(setting.value)),
                  fmt::format("set {} as the tests had it, calibrate again with --set '{}={}', or leave out the key "
                              "calibration",
@@ -195,7 +195,7 @@ void check_friction(const Calibration& calibration, const LearnedUnder& own, Pro
     if (same && !agree)
       problems.add(
           calibration.where,
-          fmt::format("was learned with {} in '{}' (this job has {})", different(same->friction, cable.friction),
+          fmt::format("{}{} in '{}' (this job has {})", learned_with, different(same->friction, cable.friction),
                       same->name, different(cable.friction, same->friction)),
           "give the cable the friction keys that it had in the tests, calibrate again with those of the job, or "
           "leave out the key calibration");
@@ -207,7 +207,7 @@ void check_constants(const Calibration& calibration, const LearnedUnder& own, Pr
     for (const LearnedMaterial& other : calibration.under.materials)
       if (other.name == material.name && other.constants != material.constants)
         problems.add(calibration.where,
-                     fmt::format("was learned with {} of material '{}' (this job has {})",
+                     fmt::format("{}{} of material '{}' (this job has {})", learned_with,
                                  different(other.constants, material.constants), material.name,
                                  different(material.constants, other.constants)),
                      "use the material of the tests, calibrate again with this one, or leave out the key calibration");

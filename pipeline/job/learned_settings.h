@@ -13,6 +13,9 @@ namespace dresslife::pipeline {
 /// Returns the different settings, cables and materials of these jobs, for a calibration.
 LearnedUnder learned_under(const std::vector<const Job*>& jobs);
 
+/// The beginning of the problems of check_learned_settings().
+constexpr std::string_view learned_with = "was learned with ";
+
 /// Checks that a job's settings are those of its calibration. Errors: InputErrors at the calibration, one for each different
 /// setting, friction key of a cable and constant of a material, and one for a calibration without settings.
 void check_learned_settings(const Job& job);

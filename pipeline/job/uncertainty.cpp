@@ -110,6 +110,8 @@ void describe(Fields& f, Uncertainty& uncertainty) {
   f.choice("ratings", uncertainty.ratings,
            "What is known of cables without a calibration. typical: what makers promise of their cables in tests "
            "(config/observations/ratings.yaml); without effect if enabled is false. none: only the deviations below.");
+  f.text("ratings_left_out", uncertainty.ratings_left_out, Need::written,
+         "The setting of the job with which the ratings of typical cables are not valid.");
   for (std::size_t p = 0; p < uncertain_count; ++p) {
     const UncertainParameter& parameter = uncertain_parameters()[p];
     f.number(parameter.name, uncertainty.spread[p], Need::optional,

@@ -84,6 +84,8 @@ constexpr std::string_view word(KnownRatings value) { return word_at({"typical",
 struct Uncertainty {
   bool enabled = true;
   KnownRatings ratings = KnownRatings::typical;
+  /// setting with which the typical ratings are not valid; empty: they are valid, or the job leaves them out
+  std::string ratings_left_out;
   std::array<double, uncertain_count> spread =
       default_spread();  ///< of the key at one standard deviation: a factor or an addend
 

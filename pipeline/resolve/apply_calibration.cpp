@@ -116,6 +116,18 @@ void apply_spread(Job& job) {
   if (calibration.under.motions.find(motion_digest(job)) == std::string::npos) calibration.residual_spread = 1;
 }
 
+namespace {
+
+/// Returns "strain.slip: friction (this job has free)" of a problem of check_learned_settings().
+std::string setting_in(const std::string& problem) {
+  const std::size_t begin = problem.find(learned_with);
+  return begin == std::string::npos
+             ? problem
+             : problem.substr(begin + learned_with.size(), problem.find("; ", begin) - begin - learned_with.size());
+}
+
+}  // namespace
+
 void apply_ratings(Node& tree, Job& job) {
   if (job.calibration || !job.uncertainty.enabled || job.uncertainty.ratings == KnownRatings::none) return;
   const auto without = [&] {
@@ -130,8 +142,10 @@ void apply_ratings(Node& tree, Job& job) {
   check_calibration(calibration);
   try {
     check_learned_settings(job);
-  } catch (const InputError&) {  // a calibration with other settings is not valid for this job
-    return without();
+  } catch (const InputErrors& other_settings) {  // a calibration with other settings is not valid for this job
+    without();
+    job.uncertainty.ratings_left_out = setting_in(other_settings.problems().front().line);
+    return;
   }
   leave_out_foreign_parameters(job);
   leave_out(calibration, stated_by(tree, job));

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <optional>
 #include <regex>
+#include <sstream>
 
 #include "pipeline/base/constants.h"
 #include "pipeline/base/joined.h"
@@ -1131,6 +1132,20 @@ void doubt_cores(const Dresspack& dresspack, std::vector<Warning>& warnings) {
           500 * dresspack.diameter)));
 }
 
+/// Adds the warnings that a calibration repeats, and that of makers' ratings without an effect.
+void doubt_calibration(const Job& job, std::vector<Warning>& warnings) {
+  if (const std::string& setting = job.uncertainty.ratings_left_out; !setting.empty())
+    warnings.push_back(warning_of(
+        WarningKind::calibration, "",
+        "makers' ratings of typical cables have no effect on this job, because they were learned with " + setting,
+        "a setting for a trial, or constants of the user",
+        "leave that setting out, or set uncertainty.ratings: none in all jobs that you compare"));
+  if (!job.calibration) return;
+  std::istringstream repeated(job.calibration->contradiction + "\n" + job.calibration->doubts);
+  for (std::string words; std::getline(repeated, words);)
+    if (!words.empty()) warnings.push_back({WarningKind::calibration, "", "calibration: " + words});
+}
+
 }  // namespace
 
 std::vector<Warning> plausibility_of_lives(const Job& job) {
@@ -1189,6 +1204,7 @@ std::vector<Warning> plausibility_of_lives(const Job& job) {
           if_kept(value > 1 && value / 100 <= largest_factor,
                   fmt::format("{}: {:g} if that was per cent", key, value / 100), fmt::format("{}: 1", key)));
   doubt_spreads(job, adding_to(warnings));
+  doubt_calibration(job, warnings);
   for (const MountedDresspack& mounted : job.dresspacks)
     if (!job.motion.is_prescribed()) {
       warnings = joined(std::move(warnings), radians_in(echo_fields(mounted.dresspack), "dresspack"));

@@ -14,8 +14,8 @@ namespace dresslife::pipeline {
 /// steps of a motion without a program. Motion::left_out contains these warnings.
 std::vector<Warning> plausibility_of_motion(const Job& job);
 
-/// Checks of other settings: those of strain and fatigue in another unit, angles of the dresspack in radians, and a strain gate
-/// that drops cycles which break wires. dresslife-fatigue makes these checks, because it runs again if a key of any stage changes.
+/// Checks of other settings: those of strain and fatigue in another unit, angles of the dresspack in radians, a strain gate that
+/// drops cycles which break wires, doubts of the calibration, and makers' ratings without an effect. dresslife-fatigue makes these checks, because it runs again if a key of any stage changes.
 std::vector<Warning> plausibility_of_lives(const Job& job);
 
 /// Returns the distance from a point in the frame of a link to its capsules and boxes, on the last link also to the flange [m];

@@ -678,10 +678,6 @@ TEST_CASE("life.h5: a job beyond the curvature or twist of its calibration's tes
   CHECK(doubted(5 / 1.04, 2 / 1.04).empty());
   CHECK_THAT(doubted(5 / 1.06, 2 / 1.04), Catch::Contains("a curvature [1/m] of 5.0 "));
   CHECK_THAT(doubted(5 / 1.04, 2 / 1.06), Catch::Contains("a twist [rad/m] of 2.0 "));
-  job.calibration.emplace().contradiction = "'cell': the records contradict the prediction. Remedy: none";
-  const std::vector<pipeline::Warning> repeated = run(folder, f, job).notes.warnings;
-  REQUIRE(repeated.size() == 1);
-  CHECK(repeated[0].words == "calibration: 'cell': the records contradict the prediction. Remedy: none");
   job.calibration.emplace().own_spread = 0.2;
   const std::vector<pipeline::Warning> foreign = run(folder, f, job).notes.warnings;
   REQUIRE(foreign.size() == 1);

@@ -163,24 +163,27 @@ std::string words_of(const PredictedDeciles& deciles) {
   return fmt::format("{} ({}, {})", life_text(deciles[0], 2), life_text(deciles[1], 2), life_text(deciles[2], 2));
 }
 
+std::string doubt_of(const LearnedTest& test, double surprising) {
+  if (const double off = surprise(test); off > surprising)
+    return fmt::format(
+        "'{}' is far from its prediction: {}. Remedy: check its construction and its test before you use this calibration",
+        test.observation.name, chance_words(off));
+  if (const double apart = surprise_by_others(test); apart > surprising)
+    return fmt::format(
+        "'{}' contradicts the other observations, which predict {}: {}. Remedy: check the cables, the tests and the outcomes "
+        "before you use this calibration",
+        test.observation.name, words_of(test.by_others), chance_words(apart));
+  return "";
+}
+
 void add_doubts(Learned& learned, const Axes& axes) {
   constexpr double surprising = 2, skewed = 0.3;  // standard deviations
   for (const LearnedTest& test : learned.tests) {
     if (const auto contradiction = contradiction_of(test)) learned.warnings.push_back(contradiction->words);
     add_service_doubts(test, normal_share(-surprising), learned);
   }
-  for (const LearnedTest& test : learned.tests) {
-    if (const double off = surprise(test); off > surprising) {
-      learned.notes.push_back(fmt::format(
-          "'{}' is far from its prediction: {}. Check its construction and its test before you use this calibration",
-          test.observation.name, chance_words(off)));
-    } else if (const double apart = surprise_by_others(test); apart > surprising) {
-      learned.notes.push_back(fmt::format(
-          "'{}' contradicts the other observations, which predict {}: {}. Check the cables, the tests and the outcomes before you "
-          "use this calibration",
-          test.observation.name, words_of(test.by_others), chance_words(apart)));
-    }
-  }
+  for (const LearnedTest& test : learned.tests)
+    if (const std::string doubt = doubt_of(test, surprising); !doubt.empty()) learned.notes.push_back(doubt);
   const Posterior& posterior = learned.posterior;
   for (Index i = 0; i < axes.size(); ++i) {
     const double off = (posterior.median[i] - posterior.laplace.most_likely[i]) / std::sqrt(posterior.covariance(i, i));

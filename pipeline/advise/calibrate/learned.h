@@ -54,6 +54,9 @@ double surprise(const LearnedTest& test);
 /// Returns the same for the prediction from all other observations.
 double surprise_by_others(const LearnedTest& test);
 
+/// Returns the doubt of an observation that is more than `surprising` standard deviations from its prediction, without it or by the
+/// others; empty: none.
+std::string doubt_of(const LearnedTest& test, double surprising);
 /// Adds notes on the limits of the result.
 void add_doubts(Learned& learned, const Axes& axes);
 

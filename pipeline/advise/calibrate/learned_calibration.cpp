@@ -87,6 +87,15 @@ LearnedUnder under_of(const std::vector<ObservedTest>& tests, const RoundOfJobs&
   return under;
 }
 
+/// Returns the warnings of records whose job exceeds limits, and the doubts of single observations.
+std::vector<std::string> doubts_of(const Learned& learned) {
+  constexpr double surprising = 2.6;  // one of 100 observations is as far off, the limit of records in service
+  std::vector<std::string> doubts = learned.warnings;
+  for (const LearnedTest& test : learned.tests)
+    if (const std::string doubt = doubt_of(test, surprising); !doubt.empty()) doubts.push_back(doubt);
+  return doubts;
+}
+
 std::string digest_of(const ObservedTest& test) {
   const std::filesystem::path& table = test.observation.bending;
   return xxh3(test.text + (table.empty() ? "" : xxh3_of_file(table)));
@@ -110,6 +119,7 @@ Calibration calibration_of(const Learned& learned, const std::vector<ObservedTes
   for (const LearnedTest& test : learned.tests)
     if (const auto warning = contradiction_of(test)) contradictions.push_back(warning->words);
   calibration.contradiction = joined(contradictions, " ");
+  if (!calibration.typical) calibration.doubts = joined(doubts_of(learned), "\n");
   for (Index i = 0; i < axes.size(); ++i) {
     const auto p = static_cast<std::size_t>(axes.places()[static_cast<std::size_t>(i)]);
     LearnedParameter parameter;

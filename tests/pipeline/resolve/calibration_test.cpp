@@ -341,6 +341,11 @@ TEST_CASE("ratings: a job without a calibration starts from what makers state of
     CHECK(plain.fatigue.strength_factor == 1);
     CHECK(plain.strain.factors == StrainFactors{});
   }
+  // Only ratings that a setting excludes leave a trace in the job, for a warning.
+  CHECK(soft_copper({"uncertainty.ratings=none"}).uncertainty.ratings_left_out.empty());
+  const Job elastic = soft_copper({"fatigue.stress=elastic"});
+  CHECK(elastic.uncertainty.ratings_left_out == "fatigue.stress: cyclic (this job has elastic)");
+  CHECK(job_text(job_from(parse_yaml(job_text(elastic), "elsewhere.yaml"))) == job_text(elastic));
   // A key that is set later also takes them out of the resolved job.
   for (const char* without : {"uncertainty.ratings=none", "uncertainty.enabled=false"}) {
     const Job later = job_from(parse_yaml(job_text(job), "elsewhere.yaml"), {without});

@@ -35,6 +35,24 @@ std::size_t doubts(std::vector<MotionStep> steps) {
 
 }  // namespace
 
+TEST_CASE("plausible jobs: the doubts of a calibration and ratings without an effect are warned of") {
+  Job job;
+  CHECK(plausibility_of_lives(job).empty());
+  job.uncertainty.ratings_left_out = "fatigue.stress: cyclic (this job has elastic)";
+  REQUIRE(plausibility_of_lives(job).size() == 1);
+  CHECK_THAT(plausibility_of_lives(job)[0].words,
+             Catch::Contains("because they were learned with fatigue.stress: cyclic (this job has elastic)"));
+  job.uncertainty.ratings_left_out.clear();
+  job.calibration.emplace().doubts = "'flex' is far from its prediction\n'cell': its job exceeds limits";
+  REQUIRE(plausibility_of_lives(job).size() == 2);
+  job.calibration->contradiction = "'cell': the records contradict the prediction. Remedy: none";
+  const std::vector<Warning> warnings = plausibility_of_lives(job);
+  REQUIRE(warnings.size() == 3);
+  CHECK(warnings[0].words == "calibration: 'cell': the records contradict the prediction. Remedy: none");
+  CHECK(warnings[1].words == "calibration: 'flex' is far from its prediction");
+  CHECK(warnings[2].words == "calibration: 'cell': its job exceeds limits");
+}
+
 TEST_CASE(
     "plausible steps: a place less than a millimetre beside the one before is an offset in metres, but not in a dense path") {
   const auto doubts_of = [](const std::vector<double>& heights) {  // [mm]

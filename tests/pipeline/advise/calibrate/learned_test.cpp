@@ -364,6 +364,21 @@ TEST_CASE("learned: a row that only the other rows contradict has a note") {
   CHECK(notes[0].find("'flex' contradicts the other observations, which predict 1,000 (2,000, 8,000)") == 0);
 }
 
+TEST_CASE("learned: runs repeat the doubt of an observation that is farther off than 1 of 100") {
+  LearnedTest test;
+  test.observation.name = "flex";
+  test.observation.hours = 100;
+  test.observation.outcome = ObservedEnd::broken;
+  const auto off_by = [&](double deviations) {  // the lower decile is half of the middle
+    test.before = {100, 200, 400};
+    test.by_others[1] = 100 * std::pow(2, deviations / normal_decile);
+    test.by_others[0] = test.by_others[1] / 2, test.by_others[2] = 2 * test.by_others[1];
+    return doubt_of(test, 2.6);
+  };
+  CHECK(off_by(2.59).empty());
+  CHECK_THAT(off_by(2.61), Catch::Contains("'flex' contradicts the other observations"));
+}
+
 TEST_CASE("learned: hoses that had not cracked move the strength of their wall as the closed form says") {
   // One hose survived until ln life = 9; ln median life = 8 + 2 z, deviation 0.5. With c = 2/0.5 and b = (8 - 9)/0.5 the
   // likelihood is Phi(b + c z). With q = b/sqrt(1 + c^2) the mean of z is c/sqrt(1 + c^2) phi(q)/Phi(q).
