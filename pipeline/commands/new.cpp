@@ -345,7 +345,10 @@ std::string text_of(const NewOptions& options, const Draft& draft, const Choice&
   }
   const char* const off = choice.refused ? "# " : "";
   text += fmt::format(
-      "# position_m and direction are in the frame of the link; free_length_m is the length between the clamps.\n{}routing:\n",
+      "# position_m and direction are in the frame of the link; free_length_m is the length between the clamps.\n{}{}routing:\n",
+      choice.routing.find("side")
+          ? "# side: the side of the arm on which the hose is mounted, seen from the base clamp.\n"
+          : "",
       off);
   for (const Entry& key : choice.routing.entries)
     text += fmt::format("{}  {}: {}\n", off, key.key, set_text(key.value));
