@@ -17,6 +17,7 @@ void describe(Fields& f, LearnedParameter& parameter) {
   f.text("name", parameter.name, Need::required, "as in job.uncertainty");
   f.number("median", parameter.median, Need::required, between(-20, 20), "of its standardised variable z");
   f.number("mean", parameter.mean, Need::required, between(-20, 20), "likewise");
+  f.number("prior", parameter.prior, Need::optional, at_least(0), "standard deviation of z before the observations");
   f.numbers("covariance", parameter.covariance, Need::required, "of z with every parameter of this list");
   f.numbers("samples", parameter.samples, Need::optional, "of z; a place in this list is one sample of all parameters");
   f.number("value", parameter.value, Need::optional, any_number(), "median of its key, for people");

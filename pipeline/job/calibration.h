@@ -23,6 +23,7 @@ class Fields;
 struct LearnedParameter {
   std::string name;
   double median = 0, mean = 0;                     ///< of z
+  double prior = 1;                                ///< standard deviation of z before the observations
   std::vector<double> covariance;                  ///< of z, with every parameter of the list
   std::vector<double> samples;                     ///< of z, (sample); empty: z is normal
   double value = 0, value_p10 = 0, value_p90 = 0;  ///< median of the key, and limits between which 80 % lie

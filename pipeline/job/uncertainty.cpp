@@ -107,9 +107,11 @@ void describe(Fields& f, Uncertainty& uncertainty) {
   f.boolean("enabled", uncertainty.enabled, Need::optional,
             "Whether lives include the uncertain parameters beside the wires' scatter. It takes at most twice as "
             "much time again.");
-  f.choice("ratings", uncertainty.ratings,
-           "What is known of cables without a calibration. typical: what makers promise of their cables in tests "
-           "(config/observations/ratings.yaml); without effect if enabled is false. none: only the deviations below.");
+  f.choice(
+      "ratings", uncertainty.ratings,
+      "What is known of cables without a calibration. typical: what makers promise of their cables in tests "
+      "(config/observations/ratings.yaml); without effect if enabled is false, on parameters that the job states, and if strain or "
+      "fatigue have other settings than the tests (a warning names the setting). none: only the deviations below.");
   f.text("ratings_left_out", uncertainty.ratings_left_out, Need::written,
          "The setting of the job with which the ratings of typical cables are not valid.");
   for (std::size_t p = 0; p < uncertain_count; ++p) {

@@ -50,16 +50,23 @@ void read_keys(const Node& tree, Job& job) {
   if (const Node* fatigue = tree.find("fatigue")) read_fields(*fatigue, job.fatigue);
 }
 
-/// Replaces the medians that put_medians() wrote by the neutral values, and forgets the calibration.
-void take_medians_back(Node& tree, Job& job) {
-  for (const LearnedParameter& learned : job.calibration->parameters) {
-    if (is_wall_strength(learned.name)) continue;
+/// Returns whether the parameter's key still has the median that put_medians() wrote.
+bool has_median(const Node& tree, const LearnedParameter& learned) {
+  const UncertainParameter& parameter = uncertain_parameters()[index_of(learned.name)];
+  const Node* value = value_of(tree, parameter);
+  return value && value->text == shortest_text(parameter.value(learned.median));
+}
+
+/// Replaces the medians that put_medians() wrote by the neutral values, for parameters that are no longer in the calibration.
+void take_medians_back(Node& tree, Job& job, const std::vector<LearnedParameter>& before) {
+  for (const LearnedParameter& learned : before) {
+    if (is_wall_strength(learned.name) || !has_median(tree, learned)) continue;
+    if (job.calibration && std::ranges::count(job.calibration->parameters, learned.name, &LearnedParameter::name) > 0)
+      continue;
     const UncertainParameter& parameter = uncertain_parameters()[index_of(learned.name)];
-    const Node* value = value_of(tree, parameter);
-    if (!value || value->text != shortest_text(parameter.value(learned.median))) continue;
-    set_value(tree, std::string(parameter.key), scalar(shortest_text(parameter.value(0))), value->where);
+    set_value(tree, std::string(parameter.key), scalar(shortest_text(parameter.value(0))),
+              value_of(tree, parameter)->where);
   }
-  job.calibration.reset();
   read_keys(tree, job);
 }
 
@@ -75,6 +82,69 @@ void put_medians(Node& tree, Job& job) {
     set_value(tree, std::string(parameter.key), std::move(value), job.calibration->where);
   }
   read_keys(tree, job);
+}
+
+/// Returns "strain.slip: friction (this job has free)" of a problem of check_learned_settings().
+std::string setting_in(const std::string& problem) {
+  const std::size_t begin = problem.find(learned_with);
+  return begin == std::string::npos
+             ? problem
+             : problem.substr(begin + learned_with.size(), problem.find("; ", begin) - begin - learned_with.size());
+}
+
+/// Removes the ratings from a job. setting: that excludes them; empty: none does.
+void remove_ratings(Job& job, const std::string& setting = "") {
+  job.calibration.reset();
+  job.uncertainty.ratings = KnownRatings::none;
+  job.uncertainty.ratings_left_out = setting;
+}
+
+/// Returns the setting of the job with which the calibration is not valid; empty: it is valid.
+std::string excluding_setting(const Job& job) {
+  try {
+    check_learned_settings(job);
+  } catch (const InputErrors& other_settings) {
+    return setting_in(other_settings.problems().front().line);
+  }
+  return "";
+}
+
+/// Returns the names of the learned parameters that a resolved job states itself, since the ratings were applied.
+std::set<std::string> stated_since(const Node& tree, const Job& job) {
+  const std::array<double, uncertain_count> usual = Uncertainty::default_spread();
+  std::set<std::string> names;
+  for (const LearnedParameter& learned : job.calibration->parameters)
+    if (const std::size_t p = index_of(learned.name);
+        job.uncertainty.spread[p] != usual[p] || !has_median(tree, learned))
+      names.insert(learned.name);
+  return names;
+}
+
+/// Checks again what of an applied calibration is valid, because keys of a resolved job may have been changed since.
+void update_calibration(Node& tree, Job& job) {
+  Calibration& calibration = *job.calibration;
+  const std::vector<LearnedParameter> before = calibration.parameters;
+  // A job that names a calibration keeps its observations, and is refused with other settings.
+  const bool by_default = calibration.typical && calibration.observations.empty();
+  if (by_default && (!job.uncertainty.enabled || job.uncertainty.ratings == KnownRatings::none)) {
+    job.calibration.reset();
+  } else if (calibration.under.settings.empty()) {
+    return;  // an older resolved job contains no settings
+  } else if (!by_default) {
+    check_learned_settings(job);
+    const std::string earlier = calibration.within.left_out;
+    leave_out_foreign_parameters(job);
+    std::string& words = calibration.within.left_out;
+    words = earlier + (earlier.empty() || words.empty() ? "" : "; ") + words;
+  } else if (const std::string setting = excluding_setting(job); !setting.empty()) {
+    remove_ratings(job, setting);
+  } else {
+    leave_out_foreign_parameters(job);
+    leave_out(calibration, stated_since(tree, job));
+    calibration.within = {};
+    if (calibration.parameters.empty()) remove_ratings(job);
+  }
+  take_medians_back(tree, job, before);
 }
 
 }  // namespace
@@ -95,16 +165,10 @@ void read_calibration(Node& job) {
 
 void apply_calibration(Node& tree, Job& job) {
   if (!job.calibration) return;
-  const bool applied = job.calibration->applied;
-  // A resolved job contains the ratings; a key that is set later may leave them out. A calibration that the job names itself has
-  // settings.
-  const bool rates = job.uncertainty.enabled && job.uncertainty.ratings != KnownRatings::none;
-  if (applied && job.calibration->typical && job.calibration->under.settings.empty() && !rates)
-    return take_medians_back(tree, job);
-  if (!applied || !job.calibration->under.settings.empty())
-    check_learned_settings(job);  // older resolved jobs contain no settings
-  if (applied) return;
-  job.calibration->residual_spread = job.calibration->own_spread;
+  Calibration& calibration = *job.calibration;
+  if (calibration.applied) return update_calibration(tree, job);
+  check_learned_settings(job);
+  calibration.residual_spread = calibration.own_spread;
   leave_out_foreign_parameters(job);
   put_medians(tree, job);
 }
@@ -116,41 +180,18 @@ void apply_spread(Job& job) {
   if (calibration.under.motions.find(motion_digest(job)) == std::string::npos) calibration.residual_spread = 1;
 }
 
-namespace {
-
-/// Returns "strain.slip: friction (this job has free)" of a problem of check_learned_settings().
-std::string setting_in(const std::string& problem) {
-  const std::size_t begin = problem.find(learned_with);
-  return begin == std::string::npos
-             ? problem
-             : problem.substr(begin + learned_with.size(), problem.find("; ", begin) - begin - learned_with.size());
-}
-
-}  // namespace
-
 void apply_ratings(Node& tree, Job& job) {
   if (job.calibration || !job.uncertainty.enabled || job.uncertainty.ratings == KnownRatings::none) return;
-  const auto without = [&] {
-    job.calibration.reset();
-    job.uncertainty.ratings = KnownRatings::none;
-  };
   const std::filesystem::path file = shipped_catalogue() / typical_ratings_file;
-  if (!std::filesystem::exists(file)) return without();  // a catalogue of the user
+  if (!std::filesystem::exists(file)) return remove_ratings(job);  // a catalogue of the user
   Node written = read_document(file);
   Calibration& calibration = job.calibration.emplace();
   read_fields(written, calibration);
   check_calibration(calibration);
-  try {
-    check_learned_settings(job);
-  } catch (const InputErrors& other_settings) {  // a calibration with other settings is not valid for this job
-    without();
-    job.uncertainty.ratings_left_out = setting_in(other_settings.problems().front().line);
-    return;
-  }
+  if (const std::string setting = excluding_setting(job); !setting.empty()) return remove_ratings(job, setting);
   leave_out_foreign_parameters(job);
   leave_out(calibration, stated_by(tree, job));
-  if (calibration.parameters.empty()) return without();
-  calibration.under = {};  // it was checked; a job that names no calibration is not refused later
+  if (calibration.parameters.empty()) return remove_ratings(job);
   calibration.within = {};
   calibration.observations.clear();
   put_medians(tree, job);

@@ -1141,6 +1141,21 @@ void doubt_calibration(const Job& job, std::vector<Warning>& warnings) {
         "a setting for a trial, or constants of the user",
         "leave that setting out, or set uncertainty.ratings: none in all jobs that you compare"));
   if (!job.calibration) return;
+  const Eigen::MatrixXd prior = prior_of(job.uncertainty).covariance;
+  constexpr double rounding = 1e-5;  // of LearnedParameter::prior
+  for (const LearnedParameter& learned : job.calibration->parameters) {
+    const auto p = static_cast<Eigen::Index>(index_of(learned.name));
+    if (!job.uncertainty.enabled || p >= prior.rows()) continue;
+    const double stated = std::sqrt(prior(p, p));
+    if (std::abs(stated - 1) < rounding || std::abs(stated - learned.prior) < rounding) continue;
+    warnings.push_back(warning_of(
+        WarningKind::calibration, "",
+        fmt::format("uncertainty.{}: {:g} has no effect, because the calibration has learned this parameter",
+                    learned.name, job.uncertainty.spread[static_cast<std::size_t>(p)]),
+        "a calibration replaces the uncertainty of the parameters that it has learned",
+        fmt::format("leave uncertainty.{} out, or calibrate again with the same value in the jobs of the observations",
+                    learned.name)));
+  }
   std::istringstream repeated(job.calibration->contradiction + "\n" + job.calibration->doubts);
   for (std::string words; std::getline(repeated, words);)
     if (!words.empty()) warnings.push_back({WarningKind::calibration, "", "calibration: " + words});

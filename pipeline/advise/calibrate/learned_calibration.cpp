@@ -126,6 +126,7 @@ Calibration calibration_of(const Learned& learned, const std::vector<ObservedTes
     parameter.name = uncertain_parameters()[p].name;
     parameter.median = rounded(posterior.median[i]);
     parameter.mean = rounded(posterior.mean[i]);
+    parameter.prior = rounded(axes.prior()[axes.places()[static_cast<std::size_t>(i)]]);
     for (Index j = 0; j < axes.size(); ++j) parameter.covariance.push_back(rounded(posterior.covariance(i, j)));
     if (!calibration.typical) parameter.samples = some_of(posterior.draws.col(i));
     parameter.value = to_figures(learned.axes[p].after[1], 4);

@@ -354,6 +354,20 @@ TEST_CASE("ratings: a job without a calibration starts from what makers state of
   }
 }
 
+TEST_CASE("ratings: a key that is changed in a resolved job has the same effect as in the job itself") {
+  const std::string resolved = job_text(soft_copper());
+  const auto changed = [&](const std::string& set) { return job_from(parse_yaml(resolved, "elsewhere.yaml"), {set}); };
+  for (const char* set : {"uncertainty.strength=1.5", "uncertainty.model=1", "fatigue.model_factor=2",
+                          "fatigue.strength_factor=1.1", "fatigue.mean_stress=morrow", "fatigue.scatter_shared=0.6"}) {
+    INFO(set);
+    CHECK(job_text(changed(set)) == job_text(soft_copper({set})));
+  }
+  const Job aluminium = changed("fatigue.material=aluminium_7070_t6");
+  CHECK(!knows(aluminium, "strength"));
+  CHECK(aluminium.fatigue.strength_factor == 1);
+  CHECK(knows(aluminium, "model"));
+}
+
 TEST_CASE("ratings: what a job states itself stands") {
   const Job key = soft_copper({"fatigue.strength_factor=1.1"});
   CHECK(key.fatigue.strength_factor == 1.1);

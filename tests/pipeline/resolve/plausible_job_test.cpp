@@ -43,6 +43,15 @@ TEST_CASE("plausible jobs: the doubts of a calibration and ratings without an ef
   CHECK_THAT(plausibility_of_lives(job)[0].words,
              Catch::Contains("because they were learned with fatigue.stress: cyclic (this job has elastic)"));
   job.uncertainty.ratings_left_out.clear();
+  LearnedParameter& strength = job.calibration.emplace().parameters.emplace_back();
+  strength.name = "strength";
+  CHECK(plausibility_of_lives(job).empty());
+  job.uncertainty.spread[index_of(Uncertain::strength)] = 1;
+  REQUIRE(plausibility_of_lives(job).size() == 1);
+  CHECK_THAT(plausibility_of_lives(job)[0].words, Catch::Contains("uncertainty.strength: 1 has no effect"));
+  strength.prior = 0;  // the jobs of its observations stated the same
+  CHECK(plausibility_of_lives(job).empty());
+  job.uncertainty = {};
   job.calibration.emplace().doubts = "'flex' is far from its prediction\n'cell': its job exceeds limits";
   REQUIRE(plausibility_of_lives(job).size() == 2);
   job.calibration->contradiction = "'cell': the records contradict the prediction. Remedy: none";
