@@ -90,6 +90,7 @@ DutiesRun run_duties(const DutyFile& file, const RunOptions& options) {
                                  file.study, file.study),
                      fmt::format("write study: {}.yaml for the file, or studies/{}", file.study, file.study));
   const std::filesystem::path study = named_study((is_path ? beside : named).string());
+  check_sets(study, options.sets, options.quiet);
   const StudyRequest request{study, options.sets, options.out, program_folder()};
   const std::filesystem::path folder = request.out / study_name(study);
   const bool begun = kind_of(folder) == FileKind::folder;

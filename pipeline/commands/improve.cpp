@@ -164,6 +164,7 @@ int judge_the_best(const ImproveOptions& options, const StudyPlaces& places, con
 int improve_study(ImproveOptions options) {
   options.request.file = named_study(options.study);
   options.request.sets = options.sets;
+  check_sets(options.request.file, options.sets, options.quiet);
   if (options.bracket_mm) options.request.longest_bracket = *options.bracket_mm / 1000;
   const std::string name = study_name(options.request.file);
   const OwnFolder own(options, name + "_improve", options.request.file);

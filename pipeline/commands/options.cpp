@@ -153,8 +153,15 @@ fs::path named_file(const std::string& name, const std::string& shelf) { return 
 
 fs::path named_study(const std::string& name) { return input(file_or_entry(name, {"jobs", "studies"})); }
 
-StudyRequest request_of(const StudyOptions& options) {
-  return {named_study(options.study), options.sets, options.out, program_folder()};
+void check_sets(const fs::path& study, const std::vector<std::string>& sets, bool quiet) {
+  const std::string notes = replaced_by_sets(study, sets);
+  if (!quiet) write_stderr(shown(notes));
+}
+
+StudyRequest request_of(const StudyOptions& options, bool quiet) {
+  StudyRequest request{named_study(options.study), options.sets, options.out, program_folder()};
+  check_sets(request.file, request.sets, quiet);
+  return request;
 }
 
 StudyState standing_study(const StudyRequest& request) {

@@ -56,7 +56,12 @@ std::filesystem::path named_file(const std::string& name, const std::string& she
 /// Returns the file of a study, or of a job, which is a study of one job. Names as in named_file().
 std::filesystem::path named_study(const std::string& name);
 
-StudyRequest request_of(const StudyOptions& options);
+/// Refuses `--set` of keys that a study varies. Prints which own values of its jobs the others replace, unless quiet. Errors:
+/// those of replaced_by_sets().
+void check_sets(const std::filesystem::path& study, const std::vector<std::string>& sets, bool quiet);
+
+/// Returns the study and its places. Errors: those of check_sets(), whose notes it prints unless quiet.
+StudyRequest request_of(const StudyOptions& options, bool quiet = true);
 
 /// Returns the state of a study for commands that compute nothing, with the changes since its stale results. Errors: those of
 /// check_source() and standing_of().

@@ -268,6 +268,7 @@ int reprogram(const ReprogramOptions& options) {
   ImproveRequest request;
   request.file = named_study(options.study);
   request.sets = options.sets;
+  check_sets(request.file, options.sets, options.quiet);
   const std::string name = study_name(request.file);
   const OwnFolder own(options, name + "_reprogram", request.file);
   const StudyPlaces& places = own.places;

@@ -45,7 +45,7 @@ int run_shard(const RunOptions& options) {
 
 /// Prints the stages that a run would start, without starting them.
 int dry_run(const RunOptions& options) {
-  const StudyRequest request = request_of(options);
+  const StudyRequest request = request_of(options, options.quiet);
   StudyState standing;
   if (options.shard.empty()) {
     standing = standing_study(request);
@@ -110,7 +110,7 @@ std::string tool_notes(const Study& study, const StudyPlaces& places) {
 int run(const RunArguments& options) {
   if (options.dry_run) return dry_run(options);
   if (!options.shard.empty()) return run_shard(options);
-  const StudyRequest request = request_of(options);
+  const StudyRequest request = request_of(options, options.quiet);
   const fs::path folder = request.out / study_name(request.file);
   StudyState standing;
   const bool begun = kind_of(folder) == FileKind::folder;

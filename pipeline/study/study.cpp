@@ -4,6 +4,7 @@
 #include <set>
 #include <unordered_map>
 
+#include "pipeline/base/joined.h"
 #include "pipeline/base/order.h"
 #include "pipeline/base/threads.h"
 #include "pipeline/job/job.h"
@@ -62,6 +63,20 @@ std::vector<Variant> named_changes(const Node* jobs) {
   return variants;
 }
 
+/// Returns whether a value for `key` states the key at a path: it is the key, or lies in a part that the value writes out.
+bool states(const std::string& key, const Node& value, const std::string& path) {
+  return path == key || (path.starts_with(key + ".") && value_at(value, path.substr(key.size() + 1)));
+}
+
+[[noreturn]] void refuse_twice(const std::string& path, const Where& where, const Where& other) {
+  throw InputError(
+      where,
+      fmt::format("{} is also set at {}: one would replace the other, and names of jobs would state values that the "
+                  "jobs do not have",
+                  path, other.text()),
+      "keep one of the two");
+}
+
 /// Combines every variant with every one of `others`; the index of `others` varies fastest. where: section for error messages.
 std::vector<Variant> combined(const std::vector<Variant>& variants, const std::vector<Variant>& others,
                               const Where& where) {
@@ -71,6 +86,9 @@ std::vector<Variant> combined(const std::vector<Variant>& variants, const std::v
   longer.reserve(variants.size() * others.size());
   for (const Variant& variant : variants)
     for (const Variant& other : others) {
+      for (const Change& own : variant.changes)
+        for (const Change& change : other.changes)
+          if (states(own.path, own.value, change.path)) refuse_twice(change.path, change.where, own.where);
       Variant& next = longer.emplace_back(variant);
       next.name += (next.name.empty() ? "" : "-") + other.name;
       next.changes.insert(next.changes.end(), other.changes.begin(), other.changes.end());
@@ -94,12 +112,39 @@ std::vector<Variant> all_combinations(std::vector<Variant> variants, const Node*
   return variants;
 }
 
-std::vector<Variant> variants_of(const Node& study) {
+/// Returns the keys of `vary` and `sample`, whose values make the names of jobs.
+std::vector<Entry> varied_keys(const Node& study) {
+  std::vector<Entry> keys;
+  if (const Node* vary = study.find("vary")) keys = vary->entries;
+  const Node* sample = study.find("sample");
+  if (const Node* sampled = sample ? sample->find("keys") : nullptr)
+    keys.insert(keys.end(), sampled->entries.begin(), sampled->entries.end());
+  return keys;
+}
+
+/// Returns whether one of the values of a varied key states the key at a path.
+bool varies(const Entry& key, const std::string& path) {
+  const bool sampled = key.value.is_map() && !key.value.entries.empty();  // {!choice: [...]}
+  const std::vector<Node>& values = sampled ? key.value.entries.front().value.items : key.value.items;
+  return std::ranges::any_of(values, [&](const Node& value) { return states(key.key, value, path); });
+}
+
+/// Returns the variants by name: those of `jobs` and `table`.
+std::vector<Variant> named_variants(const Node& study) {
   std::vector<Variant> variants = named_changes(study.find("jobs"));
   if (const Node* table = study.find("table")) {
     if (!table->is_scalar()) throw InputError(table->where, "table must be a file", "write 'table: FLEET.csv'");
     variants = combined(variants, table_variants(folder_of(table->where) / table->text), table->where);
   }
+  return variants;
+}
+
+std::vector<Variant> variants_of(const Node& study) {
+  std::vector<Variant> variants = named_variants(study);
+  const std::vector<Entry> keys = varied_keys(study);
+  for (const Entry& key : keys)
+    for (const Entry& other : keys)
+      if (&key != &other && varies(other, key.key)) refuse_twice(key.key, key.where, other.where);
   variants = all_combinations(std::move(variants), study.find("vary"));
   if (const Node* sample = study.find("sample"))
     variants = combined(variants, sampled_variants(*sample), sample->where);
@@ -296,6 +341,40 @@ Study read_study(const std::filesystem::path& file, const std::vector<std::strin
 
 Study read_study(const std::filesystem::path& file, const std::vector<std::string>& sets, const Shard& shard) {
   return read_jobs_of(file, sets, &shard);
+}
+
+std::string replaced_by_sets(const std::filesystem::path& file, const std::vector<std::string>& sets) {
+  const Node study = sets.empty() ? Node{} : read_document(file);
+  if (sets.empty() || is_job(study)) return "";
+  std::string notes;
+  const std::vector<Entry> varied = varied_keys(study);
+  const std::vector<Variant> named = named_variants(study);
+  for (const std::string& set : sets) {
+    const std::string path = set.substr(0, set.find('='));
+    const auto replaced = [&](const std::string& key) { return (key + ".").starts_with(path + "."); };
+    for (const Entry& key : varied)
+      if (replaced(key.key) || varies(key, path))
+        throw InputError({"--set " + set},
+                         fmt::format("replaces the values of {}, which the study varies: the names of its jobs would "
+                                     "state values that the jobs do not have",
+                                     key.key),
+                         fmt::format("leave it out, or change the values at {}", key.where.text()));
+      else if (path.starts_with(key.key + "."))
+        notes += fmt::format("note: --set {} changes all values of {}, which the study varies\n", path, key.key);
+    std::vector<std::string> jobs;
+    for (const Variant& variant : named)
+      if (std::ranges::any_of(variant.changes, [&](const Change& change) {
+            return replaced(change.path) || states(change.path, change.value, path);
+          }))
+        jobs.push_back(variant.name);
+    constexpr std::size_t most = 3;  // jobs that are named
+    const std::size_t more = jobs.size() - std::min(jobs.size(), most);
+    jobs.resize(jobs.size() - more);
+    if (!jobs.empty())
+      notes += fmt::format("note: --set {} replaces the own value of {}{}\n", path, joined(jobs, ", "),
+                           more > 0 ? fmt::format(" and {} more jobs", more) : "");
+  }
+  return notes;
 }
 
 std::vector<KeyRow> study_keys() {

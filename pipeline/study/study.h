@@ -59,6 +59,10 @@ std::string study_name(const std::filesystem::path& file);
 /// study's own changes. Errors: InputError for faults of the study itself. An invalid job has a `failure`.
 Study read_study(const std::filesystem::path& file, const std::vector<std::string>& sets = {});
 
+/// Returns notes about `--set` of keys that named jobs, rows of the table or parts of varied values have; empty: none. Errors:
+/// InputError for a key whose values make names of jobs, because the names would state values that the jobs do not have.
+std::string replaced_by_sets(const std::filesystem::path& file, const std::vector<std::string>& sets);
+
 /// Returns the keys of a study file.
 std::vector<KeyRow> study_keys();
 

@@ -217,6 +217,30 @@ TEST_CASE("a study that cannot be read is refused with its place") {
   refused("base: none.yaml\n", "study.yaml:1:7: error: there is no file 'none.yaml'");
 }
 
+TEST_CASE("a --set of a varied key is refused, and one that replaces a job's own value is noted") {
+  Scratch scratch;
+  write_small_job(scratch);
+  scratch.write("varied.yaml", study_text);
+  scratch.write("named.yaml", "base: job.yaml\njobs: {two: {dresspack.bending_stiffness_Nm2: 2}, other: {}}\n");
+  scratch.write("duties.yaml", "study: named.yaml\nduties: [{name: d, programs: [{job: no, percent_of_time: 50}]}]\n");
+  const std::string set = " --set dresspack.bending_stiffness_Nm2=4",
+                    note = "note: --set dresspack.bending_stiffness_Nm2 replaces the own value of two\n";
+  for (const std::string command :
+       {"run varied.yaml", "run varied.yaml -n", "status varied.yaml", "improve varied.yaml", "reprogram varied.yaml",
+        "submit varied.yaml", "run varied.yaml --shard 1/2"}) {
+    const Outcome refused = run(scratch, "dresslife", command + set);
+    INFO(command << refused.err);
+    CHECK(refused.status == 1);
+    CHECK(refused.err.find("error: replaces the values of dresspack.bending_stiffness_Nm2, which the study varies") !=
+          std::string::npos);
+  }
+  CHECK_FALSE(fs::exists(scratch / "runs"));
+  CHECK(must_run(scratch, "dresslife", "run named.yaml -n" + set).err == note);
+  CHECK(must_run(scratch, "dresslife", "run named.yaml -n --quiet" + set).err.empty());
+  CHECK(run(scratch, "dresslife", "duty duties.yaml" + set).err.starts_with(note));
+  CHECK(run(scratch, "dresslife", "duty duties.yaml --quiet" + set).err.find(note) == std::string::npos);
+}
+
 TEST_CASE("clean removes what a study does not keep and jobs that it has no more, and nothing of others") {
   Scratch scratch;
   write_small_job(scratch);

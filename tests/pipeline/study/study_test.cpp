@@ -128,6 +128,65 @@ TEST_CASE("study: --set comes after the study's own changes") {
   CHECK(study.jobs[1].job->fatigue.stress == Stress::elastic);
 }
 
+TEST_CASE("study: names of jobs state no values that the jobs do not have") {
+  const std::string why =
+      ": one would replace the other, and names of jobs would state values that the jobs do not have; keep one of the two";
+  const Scratch scratch;
+  const std::string file = (scratch / "my study.yaml").string(), head = "base: job.yaml\n";
+  const auto refused = [&](const std::string& text, const std::string& path, const std::string& at,
+                           const std::string& other) {
+    CHECK(message_of([&] { study_of(scratch, head + text); }) == fmt::format("{}: error: {} is also set at {}{}",
+                                                                             place_of(head + text, at, file), path,
+                                                                             place_of(head + text, other, file), why));
+  };
+  const std::string small = "jobs:\n  small: {simulation.segments: 20}\n  big: {simulation.segments: 40}\n";
+  refused(small + "vary: {simulation.segments: [30]}\n", "simulation.segments", "simulation.segments: [30",
+          "simulation.segments: 20");
+  refused(small + "sample: {jobs: 3, keys: {simulation.segments: !uniform [20, 60]}}\n", "simulation.segments",
+          "simulation.segments: !", "simulation.segments: 20");
+  refused("jobs: {a: {simulation: {segments: 20}}}\nvary: {simulation.segments: [30]}\n", "simulation.segments",
+          "simulation.segments:", "simulation:");
+  refused("vary: {simulation.segments: [20, 30]}\nsample: {jobs: 3, keys: {simulation.segments: !choice [20, 60]}}\n",
+          "simulation.segments", "simulation.segments: [", "simulation.segments: !");
+  const std::string sections = "simulation: [{segments: 20}, {segments: 40}]", keys = "simulation.segments: [30, 50]";
+  for (const std::string& both : {sections + ", " + keys, keys + ", " + sections})
+    refused("vary: {" + both + "}\n", "simulation.segments", "simulation.segments", "simulation:");
+  CHECK(names(study_of(scratch, head + "vary: {simulation: [{segments: 20}], simulation.time_step_ms: [2, 4]}\n"))
+            .size() == 2);
+}
+
+TEST_CASE("study: --set of a varied key is refused, and notes name the jobs whose own value it replaces") {
+  const Scratch scratch;
+  const auto notes_of = [&](const std::string& text, const std::string& set) {
+    scratch.write("job.yaml", sample_job);
+    return replaced_by_sets(scratch.write("study.yaml", "base: job.yaml\n" + text), {"strain.gate=0.001", set});
+  };
+  const auto refused = [&](const std::string& text, const std::string& set, const std::string& key) {
+    CHECK_THAT(message_of([&] { notes_of(text, set); }),
+               Catch::StartsWith(fmt::format("--set {}: error: replaces the values of {}, which the study varies: the "
+                                             "names of its jobs would state values that the jobs do not have; leave it "
+                                             "out, or change the values at ",
+                                             set, key)));
+  };
+  const std::string varied = "vary: {simulation.segments: [20, 40]}\n";
+  refused(varied, "simulation.segments=30", "simulation.segments");
+  refused(varied, "simulation={segments: 30}", "simulation.segments");
+  refused("sample: {jobs: 3, keys: {simulation.segments: !uniform [20, 60]}}\n", "simulation.segments=30",
+          "simulation.segments");
+  const std::string sections = "vary: {simulation: [{segments: 20}, {segments: 40}]}\n";
+  refused(sections, "simulation.segments=30", "simulation");
+  CHECK(notes_of(sections, "simulation.time_step_ms=2") ==
+        "note: --set simulation.time_step_ms changes all values of simulation, which the study varies\n");
+  const std::string named =
+      "jobs:\n  a: {simulation.segments: 20}\n  b: {simulation: {segments: 30}}\n  c: {}\n  d: {simulation.segments: 40}\n"
+      "  e: {simulation.segments: 50}\n";
+  CHECK(notes_of(named, "simulation.segments=60") ==
+        "note: --set simulation.segments replaces the own value of a, b, d and 1 more jobs\n");
+  CHECK(notes_of(named, "simulation.time_step_ms=2").empty());
+  CHECK(notes_of(varied, "simulation.segments_=2").empty());
+  CHECK(replaced_by_sets(scratch / "job.yaml", {"simulation.segments=30"}).empty());
+}
+
 TEST_CASE("study: what is no study is refused where it stands") {
   CHECK(refusal("") == "study:1:1: error: holds no study; write base: and vary: or jobs:");
   CHECK(refusal("vary: {a: [1]}\n") ==
