@@ -486,10 +486,11 @@ class QuickChecks {
                                                                : name;
       notes.push_back(fmt::format(
           "In the short run {} rubs on {} with {:.2g} W (mean of normal force times sliding speed), most {:.0f} mm from the base clamp, {}. "
-          "`dresslife run` predicts the hours until the hose is worn through, which may be the shortest life. A routing without "
-          "this contact avoids the wear",
-          pipeline::dresspack_words(setup_, d), on, work[worst] / run.seconds, 1e3 * most->position,
-          moment(most->time)));
+          "{} A routing without this contact avoids the wear",
+          pipeline::dresspack_words(setup_, d), on, work[worst] / run.seconds, 1e3 * most->position, moment(most->time),
+          setup_.simulation.self_contact
+              ? "`dresslife run` predicts the hours until the hose is worn through, which may be the shortest life."
+              : "With simulation.self_contact=false `dresslife run` does not evaluate this wear."));
     }
   }
 

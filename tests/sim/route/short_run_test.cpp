@@ -103,7 +103,11 @@ TEST_CASE("a short run measures the rubbing of a hose on a table as a full run d
     for (const std::string& note : quick_warnings(job).notes) text += note + "\n";
     return text;
   };
-  CHECK_THAT(notes(), Catch::Contains("rubs on the cell with ") && Catch::Contains(" mm from the base clamp, "));
+  CHECK_THAT(notes(), Catch::Contains("rubs on the cell with ") && Catch::Contains(" mm from the base clamp, ") &&
+                          Catch::Contains("predicts the hours"));
+  job.simulation.self_contact = false;  // then a run leaves abrasion out
+  CHECK_THAT(notes(), Catch::Contains("self_contact=false `dresslife run` does not evaluate this wear") &&
+                          !Catch::Contains("predicts the hours"));
   job.cell.boxes.front().position.z() = 0.5;
   CHECK_THAT(notes(), !Catch::Contains("rubs on"));
   CHECK(short_run_of(job, as_the_job, 1).rubbing == 0);
