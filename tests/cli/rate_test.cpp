@@ -74,6 +74,7 @@ TEST_CASE("rate: a cable's lives in every shipped rig stand beside its maker's r
   CHECK(csv.find(",torsion: twist_deg_per_m 270,done,") != std::string::npos);
   CHECK(csv.find(",1000000,data sheet\n") != std::string::npos);
   CHECK(outcome.out.find("1,000,000 (") != std::string::npos);
+  CHECK(outcome.out.find("own values (uncertainty.enabled=false). dresslife run of a rig") != std::string::npos);
   // The rating's own rig has half as much more twist than the shipped one: the life must be shorter.
   const auto life = [&](const std::string& job) {
     const std::size_t at = csv.find("\nlead," + job + ",") + 1;
