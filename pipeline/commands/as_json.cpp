@@ -6,6 +6,9 @@
 #include <array>
 #include <cmath>
 
+#include "pipeline/advise/plan/duty_words.h"
+#include "pipeline/advise/plan/evaluated_duties.h"
+#include "pipeline/advise/plan/plan_words.h"
 #include "pipeline/base/csv_rows.h"
 #include "pipeline/base/lists.h"
 #include "pipeline/base/warning_words.h"
@@ -45,16 +48,38 @@ std::vector<Json> rows_of_csv(const std::string& csv) {
   return rows;
 }
 
+Json warning_list(const RankingRow& row) {
+  return mapped(warnings_of(row), [](const Warning& warning) { return json_of(warning); });
+}
+
 }  // namespace
 
 Json json_of_csv(const std::string& csv) { return rows_of_csv(csv); }
 
 Json json_of(const std::vector<RankingRow>& rows) {
   std::vector<Json> objects = rows_of_csv(ranking_csv(rows));
-  for (std::size_t k = 0; k < objects.size(); ++k)
-    objects[k].add("warning_list",
-                   mapped(warnings_of(rows[k]), [](const Warning& warning) { return json_of(warning); }));
+  for (std::size_t k = 0; k < objects.size(); ++k) objects[k].add("warning_list", warning_list(rows[k]));
   return objects;
+}
+
+Json json_of(const std::vector<DutyResult>& duties, const std::vector<RankingRow>& rows) {
+  std::vector<Json> objects = rows_of_csv(duty_csv(duties));
+  auto object = objects.begin();
+  for (const DutyResult& duty : duties)
+    for (const DutyPart& part : duty.parts)
+      (object++)->add(
+          {{"do_not_plan", duty.doubtful}, {"warning_list", warning_list(*find_in(rows, &RankingRow::job, part.job))}});
+  return objects;
+}
+
+Json json_of_windows(const Fleet& fleet, const Plan& plan) {
+  std::vector<Json> windows;
+  for (std::size_t n = 0; n < plan.windows.size(); ++n)
+    windows.push_back({{"first_day", day_text(plan.windows[n].first)},
+                       {"last_day", day_text(plan.windows[n].last)},
+                       {"replace", replaced_in(fleet, plan, n)},
+                       {"replace_of_later", later_in(plan, n)}});
+  return windows;
 }
 
 Json json_of(const Warning& warning) {

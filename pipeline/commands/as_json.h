@@ -8,7 +8,10 @@
 
 namespace dresslife::pipeline {
 
+struct DutyResult;
+struct Fleet;
 struct Node;
+struct Plan;
 struct RankingRow;
 struct StateWords;
 struct Warning;
@@ -19,6 +22,13 @@ Json json_of_csv(const std::string& csv);
 
 /// Returns the rows of ranking.csv, each with its warnings as `warning_list`, a list of json_of(Warning).
 Json json_of(const std::vector<RankingRow>& rows);
+
+/// Returns the rows of duty_csv(), each with the warnings of its program as `warning_list`, and as `do_not_plan` the programs of its
+/// duty whose warnings make a plan unreliable (DutyResult::doubtful). rows: rows of the programs.
+Json json_of(const std::vector<DutyResult>& duties, const std::vector<RankingRow>& rows);
+
+/// Returns a list with one object per window: its days, the dresspacks to replace in it, and the mean number of later ones.
+Json json_of_windows(const Fleet& fleet, const Plan& plan);
 
 /// Returns an object: kind, where, text (all words), problem, likely_cause, remedy, and remedy_values, the values of the remedy by
 /// their keys. Texts that are missing are null.

@@ -30,7 +30,7 @@ int duty(const RunOptions& options) {
   const fs::path page = made.places.folder / ("duty_" + name.stem().string() + ".html");
   write_text_if_changed(page,
                         with_mark(duty_page(name.stem().string(), results, table.filename().string()), Mark::page));
-  print(options.json ? json_of_csv(csv).text + "\n"
+  print(options.json ? json_of(results, made.rows).text + "\n"
                      : shown(fmt::format("{}\nTable: {} (columns: comma, decimals: point)\nPage: {}\n",
                                          duty_words(results), table.string(), page.string())));
   write_stderr(warning_lines(rows_of(file, made.rows)));

@@ -288,9 +288,11 @@ int plan(const PlanOptions& options) {
   }
   write_text_if_changed(calendar, plan_calendar(fleet, found));
   const auto json = [&] {
-    const std::string now = json_of_csv(csv).text;
-    return other ? fmt::format("{{\"plan\":{},\"what_if\":{}}}\n", now, json_of_csv(plan_csv(*changed, *other)).text)
-                 : now + "\n";
+    Json all{{"plan", json_of_csv(csv)}, {"windows", json_of_windows(fleet, found)}};
+    if (other)
+      all.add({{"what_if", json_of_csv(plan_csv(*changed, *other))},
+               {"what_if_windows", json_of_windows(*changed, *other)}});
+    return all.text + "\n";
   };
   print(options.json
             ? json()

@@ -103,7 +103,10 @@ strain: {slip: stick}
   CHECK(warned.find("mounted without twist") == warned.rfind("mounted without twist"));
   // The page contains the warnings for which it says not to plan.
   scratch.write("job.yaml", content(scratch / "job.yaml") + "dresspack.least_bend_radius_mm: 590\n");
+  const auto json = [&] { return must_run(scratch, "dresslife", "duty duties.yaml --json --quiet").out; };
   errors(one);
+  CHECK_THAT(json(), Catch::Contains("\"do_not_plan\":[\"one (bend radius") &&
+                         Catch::Contains("{\"kind\":\"bend_radius\",\"where\":null,\"text\":\"smallest bend radius: "));
   CHECK(content(scratch / "runs/study/duty_duties.html").find("<p class=\"failed\">one: smallest bend radius: ") !=
         std::string::npos);
 }
@@ -134,8 +137,9 @@ duties:
     CHECK(number(cell(duty, "halves,other", std::string("life_hours_") + p)) == Approx(life).epsilon(kept_digits));
   }
   CHECK(outcome.out.find("These hours begin now") != std::string::npos);
-  CHECK(run(scratch, "dresslife", "duty duties.yaml --json --quiet").out.find("\"duty\":\"alone\"") !=
-        std::string::npos);
+  CHECK_THAT(run(scratch, "dresslife", "duty duties.yaml --json --quiet").out,
+             Catch::Contains("\"duty\":\"alone\"") &&
+                 Catch::Contains("\"do_not_plan\":[\"one (bend radius, forces)\"],\"warning_list\":[{"));
 }
 
 TEST_CASE(
@@ -254,6 +258,9 @@ TEST_CASE(
   const std::string json = run(scratch, "dresslife", plan + "2026-12-21 --what-if other.csv --json").out;
   CHECK(json.starts_with("{\"plan\":[{\"name\":\"new one\""));
   CHECK(json.find(",\"what_if\":[{\"name\":\"new one\"") != std::string::npos);
+  const std::string window = "[{\"first_day\":\"2026-12-21\",\"last_day\":\"2026-12-21\",\"replace\":[";
+  CHECK_THAT(json, Catch::Contains("\"windows\":" + window) && Catch::Contains("\"replace_of_later\":") &&
+                       Catch::Contains("\"what_if_windows\":" + window));
   CHECK(must_run(scratch, "dresslife", plan + "2026-12-21 --what-if other.csv --what-if-from 2027-01-01")
             .out.find("What if other from 2027-01-01 were the fleet") != std::string::npos);
   CHECK(run(scratch, "dresslife", plan + "2026-12-21 --what-if other.csv --what-if-from 2026-11-01")
