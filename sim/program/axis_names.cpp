@@ -26,6 +26,12 @@ constexpr std::array<std::string_view, 32> others{
     "seq",      "frame",       "id",      "index", "line",         "step",          "row",    "name",
     "temp",     "temperature", "voltage", "error", "digital",      "status",        "mode",   "jerk"};
 
+/// Returns whether the name contains the sign of 1e-6, which is no letter of words_of_name(): the micro sign or a Greek mu in UTF-8, or
+/// the micro sign in Latin-1.
+bool has_micro(std::string_view name) {
+  return name.find("\xC2\xB5") != name.npos || name.find("\xCE\xBC") != name.npos || name.find("\xB5s") != name.npos;
+}
+
 /// Returns the axis number of every name: its last or first number; empty: a name has none, or they are not consecutive.
 std::vector<int> numbers_of(const std::vector<std::string>& names, bool last) {
   std::vector<int> numbers;
@@ -95,9 +101,11 @@ ColumnName column_name(std::string_view name) {
   if (!words.empty() && (among(words[0], times) || (words.size() > 1 && words.back() == "time") || name == "%time")) {
     made.kind = ColumnName::Kind::time;
     made.unit_told = has("s") || has("sec") || has("secs") || has("seconds");
-    if (has("ms") || has("msec")) made.seconds = 1e-3;
-    if (has("us") || has("usec")) made.seconds = 1e-6;
-    if (has("ns") || has("nsec") || name == "%time") made.seconds = 1e-9;
+    if (has("h") || has("hour") || has("hours")) made.seconds = 3600;
+    if (has("min") || has("mins") || has("minute") || has("minutes")) made.seconds = 60;
+    if (has("ms") || has("msec") || has("millis") || has("milliseconds")) made.seconds = 1e-3;
+    if (has("us") || has("usec") || has("micros") || has("microseconds") || has_micro(name)) made.seconds = 1e-6;
+    if (has("ns") || has("nsec") || has("nanoseconds") || name == "%time") made.seconds = 1e-9;
     made.unit_told |= made.seconds != 1;
   } else if (has("mm") || has("cm") || has("m") || has("meter") || has("meters")) {
     made.kind = ColumnName::Kind::point;

@@ -2,7 +2,7 @@
 //
 // Columns: one line of names, then numbers; the separator is a comma, a semicolon or a tab. Lines that begin
 // with # are comments. A column named time, t, stamp or similar contains times [s, or the unit in its name: ms,
-// us, ns]. Velocities, efforts, grippers, counters and similar columns are skipped and listed. Every other
+// us, ns, min, h]. Velocities, efforts, grippers, counters and similar columns are skipped and listed. Every other
 // column is one axis.
 //   unit   from the names (joint_1_rad, a1 [deg]). Without a unit: degrees if a number exceeds the range of any
 //          axis in rad, else a question: --value unit=deg or unit=rad.

@@ -1,4 +1,4 @@
-// Time stamps of logs, converted to seconds: numbers (s, ms, us or ns), dates with times of day, times of day only.
+// Time stamps of logs, converted to seconds: numbers (s, ms, us, ns, min or h), dates with times of day, times of day only.
 #pragma once
 
 #include <optional>

@@ -91,6 +91,7 @@ TEST_CASE("columns: a clock since 1970 is recognised by its digits") {
   CHECK(duration("timestamp", "1740157761107", "1740157761207") == Approx(0.1).epsilon(clock));
   CHECK(duration("ros_time", "1740157761.1", "1740157761.2") == Approx(0.1).epsilon(clock));
   CHECK(duration("time_ms", "0", "100") == Approx(0.1).epsilon(rounding));
+  CHECK(duration("time_min", "0", "0.5") == Approx(30).epsilon(rounding));
   CHECK(duration("time", "0", "100") == Approx(100).epsilon(rounding));
 }
 

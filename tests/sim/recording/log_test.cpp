@@ -95,6 +95,14 @@ TEST_CASE("log: time stamps of loggers and spreadsheets") {
   };
   CHECK(words(1) == "numbers in s");
   CHECK(words(1e-3) == "numbers in ms");
+  const auto second_row = [](const std::string& title) {
+    return read(title + ",J1_deg,J2_deg\n0,100,0\n1e-4,101,0\n").times[1] / 1e-4;
+  };
+  for (const char* const minutes : {"time_min", "t [min]", "Time (minutes)"}) CHECK(second_row(minutes) == Approx(60));
+  for (const char* const hours : {"time_h", "time [hours]"}) CHECK(second_row(hours) == Approx(3600));
+  CHECK(second_row("time (milliseconds)") == Approx(1e-3));
+  for (const char* const micro : {"time_us", "time [\xC2\xB5s]", "time [\xCE\xBCs]", "time [\xB5s]"})
+    CHECK(second_row(micro) == Approx(1e-6));
   for (const char* wrong : {"", "soon", "2027-02-30 10:00:00", "2027-03-01", "10:61:00", "25:10:00", "10:20:61", "nan"})
     CHECK_FALSE(LogTime({}).read(wrong));
 }
