@@ -31,6 +31,10 @@ constexpr double most_faults = 0.01;              // share of the rows: a larger
 constexpr std::size_t few_faults = 10;            // number that is allowed in a short log, too
 constexpr std::size_t most_rows = 30'000'000;     // moving rows: 1.8 GB for six axes
 constexpr std::size_t rows_of_interval = 20'000;  // number of rows whose median interval is used for the log
+// [rad] Wrapped angles step by a turn, less or more by the way of the axis between the rows.
+constexpr double least_wrap = 270 * degree, least_way_at_wrap = 10 * degree;
+constexpr const char* unwrap =
+    "unwrap the column: add 360 deg to it from that row on, or subtract them, so that it continues (numpy: unwrap(angles_deg, period=360))";
 constexpr const char* separators = ";\t,| ";
 constexpr std::size_t sample_bytes = 65'536;  // some hundred rows
 
@@ -89,13 +93,17 @@ class Rows {
     end_stand();
     made_.interval = made_interval();
     made_.impossible = std::move(filter_.found);
-    if (!outside_) return;
+    if (!outside_) {
+      if (wrap_.empty()) return;
+      throw InputError({file_.string(), static_cast<int>(line_of_wrap_), 1}, wrap_, unwrap);
+    }
     const std::string more =
         rows_outside_ > 1 ? fmt::format(", and {} rows are outside of limits in all", rows_outside_) : "";
     const std::string order = order_words(made_.columns, {});
     throw InputError(
         {file_.string(), static_cast<int>(line_outside_), 1}, outside_->what + more,
-        (order.empty() ? "" : order + "; else ") +
+        (wrap_.empty() ? "" : fmt::format("in line {} {}: {}; else ", line_of_wrap_, wrap_, unwrap)) +
+            (order.empty() ? "" : order + "; else ") +
             "check the unit (--value unit=deg), the order of the columns (--value joints=NAME,NAME,..) and the robot of the job");
   }
 
@@ -120,9 +128,27 @@ class Rows {
     const double share = std::min(step, coarsest_clock) / static_cast<double>(std::max<std::size_t>(1, same_.size()));
     for (std::size_t k = 0; k < same_.size(); ++k) {
       same_[k].time += static_cast<double>(k) * share;
+      if (wrap_.empty()) note_wrap(same_[k]);
       filter_.add(std::move(same_[k]));
     }
     same_.clear();
+  }
+
+  /// Notes the first step of about a turn. The axis may move meanwhile, but in a pause without rows only for an interval.
+  void note_wrap(const LogRow& row) {
+    for (std::size_t i = 0; i < last_.angles.size(); ++i) {
+      const double way = std::abs(row.angles[i] - last_.angles[i]);
+      if (way < least_wrap) continue;
+      const Axis& axis = made_.columns[i].axis;
+      const double moved = axis.speed * std::min(row.time - last_.time, made_interval());
+      if (std::abs(way - 2 * std::numbers::pi) > std::max(moved, least_way_at_wrap)) continue;
+      line_of_wrap_ = row.line;
+      wrap_ =
+          fmt::format("{} ({}) turns by {:.4g} deg in {:.3g} s, from {:.4g} to {:.4g} deg: its angle wraps at a turn",
+                      axis.name, made_.columns[i].column, way / degree, row.time - last_.time, last_.angles[i] / degree,
+                      row.angles[i] / degree);
+    }
+    last_ = row;
   }
 
   void note_range(const LogRow& row) {
@@ -179,6 +205,9 @@ class Rows {
   std::optional<LimitFault> outside_;  // the first row outside
   std::uint32_t line_outside_ = 0;
   std::size_t rows_outside_ = 0;
+  LogRow last_;       // of note_wrap()
+  std::string wrap_;  // description of the first wrapped angle
+  std::uint32_t line_of_wrap_ = 0;
   double begin_ = 0, last_stamp_ = 0;
   std::vector<LogRow> same_;  // rows with one stamp
   std::vector<LogRow>

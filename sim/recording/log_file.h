@@ -62,7 +62,7 @@ LogSize size_of_log(const std::filesystem::path& file, const pipeline::Robot& ro
 
 /// Reads a log. progress: called with the share that is read. Errors: InputError: another kind of file (it names a converter),
 /// names of columns, angles without a unit, invalid times or times more than 2 s apart, a row outside the robot's limits that
-/// is no glitch (L3), more than a hundredth of the rows without numbers or back in time.
+/// is no glitch (L3), an angle that wraps at a turn, more than a hundredth of the rows without numbers or back in time.
 Recording read_log(const std::filesystem::path& file, const pipeline::Robot& robot, const LogOptions& options,
                    const std::function<void(double)>& progress = {});
 

@@ -221,6 +221,35 @@ TEST_CASE("log: a jump stays and is named, and stops, noise and coarse clocks ar
   }
 }
 
+TEST_CASE("log: an angle that wraps at a turn is refused with its line and axis, at any rate and after a standstill") {
+  pipeline::Robot robot = two_axes();
+  robot.joints[1].lower = -7, robot.joints[1].upper = 7;
+  const auto fault = [&](double interval, double stand, double from, const auto& written) {
+    std::string text = "time,J1_deg,J2_deg\n";
+    for (int k = 0; k < 40; ++k)
+      text += fmt::format("{},20,{:.3f}\n", interval * k + (k > 20 ? stand : 0),
+                          written(from + 100 * (1 - std::cos(0.3 * interval * std::max(k - 20, 0)))));
+    const Scratch scratch;
+    return message_of([&] { read_log(scratch.write("log.csv", text), robot, {.still = bound}); });
+  };
+  const auto wrapped = [](double angle) { return std::remainder(angle, 360); };
+  for (const double interval : {0.008, 0.1, 1.0})
+    for (const double stand : {0., 7.}) {
+      CAPTURE(interval, stand);
+      CHECK_THAT(
+          fault(interval, stand, interval < 0.1 ? 179.999 : 179, wrapped),
+          Contains("error: joint_2 (J2_deg) turns by 3") && Contains("its angle wraps at a turn; unwrap the column"));
+    }
+  CHECK_THAT(fault(0.1, 0, 179.95, wrapped), Contains("log.csv:24:1"));
+  CHECK_THAT(fault(0.1, 0, -1, [](double angle) { return angle < 0 ? angle + 360 : angle; }),
+             Contains("from 359.7 to 0."));
+  CHECK(fault(0.1, 0, 179, [](double angle) { return angle; }).empty());
+  robot.joints[1].upper = 3;
+  CHECK_THAT(fault(0.1, 0, -1, [](double angle) { return angle < 0 ? angle + 360 : angle; }),
+             Contains("turns joint_2 to 359") && Contains("; in line 27 joint_2 (J2_deg) turns by 3") &&
+                 Contains("unwrap the column") && Contains("check the unit"));
+}
+
 TEST_CASE("log: columns, times, unit and ranges are stated, and columns that fit other axes") {
   pipeline::Robot robot = two_axes();
   robot.joints[0].lower = -0.5, robot.joints[1].speed = 0.5;
