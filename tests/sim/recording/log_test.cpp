@@ -324,6 +324,42 @@ TEST_CASE("log: radians under names in degrees, and times in another unit, have 
   CHECK_THAT(words(long_times, {.rate = 500, .still = bound}), !Contains("0.001 times"));
 }
 
+TEST_CASE("log: rows that are too far apart for the moves are named, with any rests, noise and stamps, and no others") {
+  const auto words = [](double interval, double rest, double noise, bool only_changes, double seconds = 1) {
+    std::mt19937 random{5};
+    std::uniform_real_distribution<double> any(-1, 1);
+    std::string text = "time,j1_deg,j2_deg\n";
+    double from[2] = {}, to[2] = {}, begin = 0, written[2] = {99, 99};
+    const double length = seconds + rest;
+    for (double t = 0; t < 100 * length; t += interval) {
+      for (; t >= begin + length; begin += length)
+        for (int k = 0; k < 2; ++k) from[k] = to[k], to[k] = 30 * any(random);
+      const double u = std::min(1., (t - begin) / seconds), s = u * u * u * (10 - 15 * u + 6 * u * u);
+      double angles[2];
+      for (int k = 0; k < 2; ++k) angles[k] = from[k] + s * (to[k] - from[k]);
+      if (only_changes && std::abs(angles[0] - written[0]) + std::abs(angles[1] - written[1]) < 0.1) continue;
+      text += fmt::format("{:.3f}", t + 0.2 * interval * any(random));
+      for (int k = 0; k < 2; ++k) text += fmt::format(",{:.3f}", (written[k] = angles[k]) + noise * any(random));
+      text += '\n';
+    }
+    const Recording log = read(text);
+    return fmt::format("{}", fmt::join(read_words(log, Course(log, two_axes(), bound)), "\n"));
+  };
+  for (const double rest : {0., 1.3})
+    for (const double noise : {0., 0.04, 0.3})
+      for (const bool only_changes : {false, true}) {
+        CAPTURE(rest, noise, only_changes);
+        for (const double interval : {1., 1.9})
+          CHECK_THAT(words(interval, rest, noise, only_changes), Contains("last less than 2 such intervals"));
+        for (const double interval : {0.05, 0.1, 0.3})
+          CHECK_THAT(words(interval, rest, noise, only_changes), !Contains("warning: rows are"));
+        CHECK_THAT(words(1.9, rest, noise, only_changes, 20), !Contains("warning: rows are"));  // slow moves
+      }
+  for (const double rest : {0.7, 4.}) CHECK_THAT(words(0.3, rest, 0.04, false), !Contains("warning: rows are"));
+  CHECK_THAT(words(1, 4, 0.04, false), Contains("warning: rows are 1 s apart, and ") &&
+                                           Contains("Log 10 rows per second or more, or import the robot's program"));
+}
+
 TEST_CASE("log: its length is known before it is read") {
   const Scratch scratch;
   std::string text = "time,j1_deg,j2_deg\n";
