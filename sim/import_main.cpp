@@ -203,7 +203,10 @@ void note_log(const Request& request, const pipeline::StageCall& call, pipeline:
   const sim::Cycles cycles =
       sim::cycles_of(course, {request.alike_deg * degree, request.warp_percent / 100, shortest_cycle},
                      [&](double share) { progress.show(share, "finds cycles"); });
-  const std::vector<sim::LogMotion> motions = sim::motions_of(course, cycles, options.still, request.recordings);
+  std::vector<sim::LogMotion> motions = sim::motions_of(course, cycles, options.still, request.recordings);
+  pipeline::SimulationSettings simulation;
+  if (const pipeline::Node* const settings = job.find("simulation")) pipeline::read_fields(*settings, simulation);
+  sim::end_at_samples(motions, simulation.sample_rate);
   progress.clear();
   if (!call.quiet)
     for (const std::string& line : sim::read_words(log, course)) fmt::print("{}\n", line);

@@ -43,13 +43,17 @@ struct StretchRows {
 };
 
 StretchRows rows_between(const Course& course, double begin, double end) {
-  StretchRows rows;
-  rows.add(0, course.at(begin));
   const std::vector<double>& knots = course.knots();
+  const auto knot = [&](auto at) { return course.knot(static_cast<std::size_t>(at - knots.begin())); };
+  const auto end_row = [&](double time) {  // of a knot near it, so that a standstill keeps equal rows
+    const auto near = std::ranges::lower_bound(knots, time - near_knots);
+    return near != knots.end() && *near <= time + near_knots ? knot(near) : course.at(time);
+  };
+  StretchRows rows;
+  rows.add(0, end_row(begin));
   auto at = std::ranges::upper_bound(knots, begin + near_knots);
-  for (; at != knots.end() && *at < end - near_knots; ++at)
-    rows.add(*at - begin, course.knot(static_cast<std::size_t>(at - knots.begin())));
-  rows.add(end - begin, course.at(end));
+  for (; at != knots.end() && *at < end - near_knots; ++at) rows.add(*at - begin, knot(at));
+  rows.add(end - begin, end_row(end));
   return rows;
 }
 
@@ -99,8 +103,8 @@ void close(StretchRows& rows) {
   for (std::size_t k = 1; k < rows.count(); ++k)
     moved.push_back(moved.back() + (rows.values[k] == rows.values[k - 1] ? 0 : rows.times[k] - rows.times[k - 1]));
   const VectorXd off = rows.values.back() - rows.values.front();
-  for (std::size_t k = 0; k < rows.count(); ++k) rows.values[k] -= moved[k] / moved.back() * off;
-  rows.values.back() = rows.values.front();
+  for (std::size_t k = 1; k < rows.count(); ++k)  // a standstill at the end keeps equal rows
+    rows.values[k] = moved[k] == moved.back() ? rows.values.front() : rows.values[k] - moved[k] / moved.back() * off;
 }
 
 /// Returns a closed motion that begins at another row.
@@ -115,10 +119,10 @@ StretchRows turned(const StretchRows& rows, std::size_t begin) {
 std::size_t best_begin(const StretchRows& rows) {
   std::size_t best = 0;
   double longest = 0, slowest = INFINITY;
-  for (std::size_t k = 1; k + 1 < rows.count(); ++k) {
+  for (std::size_t k = 1; k < rows.count(); ++k) {
     const double stand = rows.values[k] == rows.values[k - 1] ? rows.times[k] - rows.times[k - 1] : 0;
     if (stand > longest) longest = stand, best = k;
-    if (longest == 0 && rows.speed(k) < slowest) slowest = rows.speed(k), best = k;
+    if (longest == 0 && k + 1 < rows.count() && rows.speed(k) < slowest) slowest = rows.speed(k), best = k;
   }
   return best;
 }
@@ -250,6 +254,18 @@ std::vector<LogMotion> motions_of(const Course& course, const Cycles& cycles, do
   add(course.duration());
   rest.finish();
   return made;
+}
+
+void end_at_samples(std::vector<LogMotion>& motions, double rate) {
+  constexpr double digits = 1e6,
+                   rounding = 1e-6;  // of times in motion_csv(): a time above the sample would need another one
+  for (LogMotion& motion : motions) {
+    const std::size_t last = motion.rows.size() - 1;
+    double& end = motion.times[last];
+    const double earlier = std::floor(end * rate + rounding) / rate;
+    const bool stands = motion.rows[last] == motion.rows[last - 1] && earlier > motion.times[last - 1] + near_knots;
+    end = std::floor((stands ? earlier : std::ceil(end * rate - rounding) / rate) * digits + rounding) / digits;
+  }
 }
 
 std::string motion_csv(const LogMotion& motion) {

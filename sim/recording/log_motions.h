@@ -33,6 +33,10 @@ struct LogMotion {
 /// ramp of 0.3 s.
 std::vector<LogMotion> motions_of(const Course& course, const Cycles& cycles, double bound, int recordings);
 
+/// Moves the ends of motions to samples of the simulation [Hz], which ends at one. A standstill at the end becomes shorter by less
+/// than an interval, so that the cycles fit into the time of the log. Another end comes later.
+void end_at_samples(std::vector<LogMotion>& motions, double rate);
+
 /// Returns a table with the columns time_s and axis_1_deg ..
 std::string motion_csv(const LogMotion& motion);
 

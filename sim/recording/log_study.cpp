@@ -19,7 +19,6 @@ constexpr double degrees = 180 / std::numbers::pi;
 constexpr double seconds_per_second = 2;
 constexpr double megabytes_per_second = 1.3;
 constexpr double reading_per_row = 8e-6;  // [s] of one core: a day at 10 Hz in 5.8 s, 8 h in 2.2 s
-constexpr double last_sample = 0.2;       // [s] by which a simulated motion may be longer, because it ends at a sample
 
 std::string time_words(double seconds) {
   constexpr double minute = 60, hour = 3600;
@@ -52,9 +51,8 @@ std::string study_text(const std::string& name, const std::filesystem::path& bas
 std::string duty_text(const std::string& name, const std::string& study, const Course& course,
                       const std::vector<LogMotion>& motions) {
   double seconds = 0;
-  for (const LogMotion& motion : motions)
-    seconds += static_cast<double>(motion.count) * (motion.duration() + last_sample);
-  seconds = std::max(seconds, course.log_seconds);
+  for (const LogMotion& motion : motions) seconds += static_cast<double>(motion.count) * motion.duration();
+  seconds = std::max(seconds * (1 + 1e-5), course.log_seconds);  // the numbers have six digits
   std::string text = fmt::format(
       "# hours_per_week: of hours as in the log, with standstill and without gaps in which the robot moved ({}).\n"
       "study: {}\nduties:\n  - name: {}\n    hours_per_week: 80\n    programs:\n",

@@ -17,7 +17,7 @@ std::string study_text(const std::string& name, const std::filesystem::path& bas
                        const std::vector<std::string>& mounting, const std::vector<LogMotion>& motions);
 
 /// Returns the duty of the log: each motion with its repeats per hour in the log; or, if ramps and gaps add time to motions
-/// without standstills, with the number that fits into an hour. study: path relative to this file.
+/// without standstills, with the number that fits into an hour. motions: end at samples. study: path relative to this file.
 std::string duty_text(const std::string& name, const std::string& study, const Course& course,
                       const std::vector<LogMotion>& motions);
 

@@ -493,7 +493,36 @@ TEST_CASE("log: cycles are counted with other times and waits, and the rest is o
   LogMotion endless = motions[0];  // leaves no time at rest
   endless.times.back() = course.log_seconds / 10;
   CHECK_THAT(duty_text("shift", "study.yaml", course, {endless}),
-             Contains(fmt::format("repeats_per_hour: {:.6g}", 3600 / (endless.duration() + 0.2))));
+             Contains(fmt::format("repeats_per_hour: {:.6g}", 0.99999 * 3600 / endless.duration())));
+}
+
+TEST_CASE("log: short cycles have the repeats per hour of the log, because their motions end at samples") {
+  for (const double rest : {1.5, 0.45, 0.}) {
+    Writer writer(20);
+    for (int k = 0; k < 6; ++k) {
+      writer.part(5.63, cycle(5.63));
+      writer.stand(rest);
+    }
+    writer.stand(0.05);
+    const Course course(writer.recording(), two_axes(), bound);
+    std::vector<LogMotion> motions = motions_of(course, cycles_of(course, {degree, 0.1, 5}), bound, 8);
+    REQUIRE(motions.size() >= 5);           // the last one may lack its end
+    for (const double rate : {25., 30.}) {  // 1/30 has more digits than a file
+      CAPTURE(rest, rate);
+      end_at_samples(motions, rate);
+      double simulated = 0, repeats = 0;
+      const std::string text = duty_text("shift", "study.yaml", course, motions);
+      std::size_t at = 0;
+      for (const LogMotion& motion : motions) {
+        const double times = std::stod(text.substr(text.find("_hour: ", at = text.find("{job", at + 1)) + 7));
+        if (!motion.is_rest) repeats += times;
+        simulated += times * std::ceil(std::stod(fmt::format("{:.6f}", motion.duration())) * rate - 1e-9) / rate;
+        CHECK(motion.times[motion.times.size() - 2] < motion.times.back());
+      }
+      CHECK(simulated <= 3600);
+      if (rest > 0) CHECK(repeats == Approx(6 * 3600 / course.log_seconds).epsilon(1e-4));
+    }
+  }
 }
 
 TEST_CASE("log: two products that differ by more than the bound are two cycles") {
