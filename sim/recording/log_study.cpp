@@ -33,6 +33,13 @@ double seconds_of(const std::vector<LogMotion>& motions) {
   return seconds;
 }
 
+/// Returns the duration of all motions with their occurrences in the log.
+double occupied_seconds(const std::vector<LogMotion>& motions) {
+  double seconds = 0;
+  for (const LogMotion& motion : motions) seconds += static_cast<double>(motion.count) * motion.duration();
+  return seconds;
+}
+
 }  // namespace
 
 std::string study_text(const std::string& name, const std::filesystem::path& base, const Recording& log,
@@ -50,9 +57,8 @@ std::string study_text(const std::string& name, const std::filesystem::path& bas
 
 std::string duty_text(const std::string& name, const std::string& study, const Course& course,
                       const std::vector<LogMotion>& motions) {
-  double seconds = 0;
-  for (const LogMotion& motion : motions) seconds += static_cast<double>(motion.count) * motion.duration();
-  seconds = std::max(seconds * (1 + 1e-5), course.log_seconds);  // the numbers have six digits
+  // the numbers have six digits
+  const double seconds = std::max(occupied_seconds(motions) * (1 + 1e-5), course.log_seconds);
   std::string text = fmt::format(
       "# hours_per_week: of hours as in the log, with standstill and without gaps in which the robot moved ({}).\n"
       "study: {}\nduties:\n  - name: {}\n    hours_per_week: 80\n    programs:\n",
@@ -249,6 +255,12 @@ std::vector<std::string> log_words(const Recording& log, const Course& course, c
   lines.push_back(rests == 0 ? "no rest"
                              : fmt::format("rest without repeats: {} motion{}, {}", rests, rests == 1 ? "" : "s",
                                            time_words(rest)));
+  constexpr double little = 1.01;
+  if (const double longer = occupied_seconds(motions); longer > little * course.log_seconds)
+    lines.push_back(fmt::format(
+        "warning: the motions of the study take {}, the log takes {}: cycles without a standstill get a stop, and gaps a move. "
+        "Divide the hours of dresslife duty by {:.3g}",
+        time_words(longer), time_words(course.log_seconds), longer / course.log_seconds));
   const double all = seconds_of(motions);
   lines.push_back(fmt::format(
       "estimate for dresslife duty: {} of one core, {} MB. The dresspack changes this by factors; dresslife duty shows the remaining time",

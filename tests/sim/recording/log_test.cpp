@@ -504,8 +504,10 @@ TEST_CASE("log: short cycles have the repeats per hour of the log, because their
       writer.stand(rest);
     }
     writer.stand(0.05);
-    const Course course(writer.recording(), two_axes(), bound);
-    std::vector<LogMotion> motions = motions_of(course, cycles_of(course, {degree, 0.1, 5}), bound, 8);
+    const Recording log = writer.recording();
+    const Course course(log, two_axes(), bound);
+    const Cycles cycles = cycles_of(course, {degree, 0.1, 5});
+    std::vector<LogMotion> motions = motions_of(course, cycles, bound, 8);
     REQUIRE(motions.size() >= 5);           // the last one may lack its end
     for (const double rate : {25., 30.}) {  // 1/30 has more digits than a file
       CAPTURE(rest, rate);
@@ -521,6 +523,9 @@ TEST_CASE("log: short cycles have the repeats per hour of the log, because their
       }
       CHECK(simulated <= 3600);
       if (rest > 0) CHECK(repeats == Approx(6 * 3600 / course.log_seconds).epsilon(1e-4));
+      const auto words = fmt::format("{}", fmt::join(log_words(log, course, cycles, motions), "\n"));
+      if (rest > 0) CHECK_THAT(words, !Contains("the log takes"));
+      if (rest == 0) CHECK_THAT(words, Contains("the log takes 33.8 s: cycles without a standstill get a stop"));
     }
   }
 }
