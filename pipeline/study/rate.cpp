@@ -187,7 +187,7 @@ std::string rate_table(const RateStudy& rated, const std::vector<RankingRow>& ro
          "(fatigue.failed_wires_percent) at one place.\n10 .. 90 %: the same for 10 and 90 of 100 cables, by the scatter of "
          "wires. inside glued .. free: cycles if the parts inside the cable cannot slide, and if they slide without friction.\n"
          "All cycles are for the cable's own values (uncertainty.enabled=false). dresslife run of a rig also counts other values of "
-         "uncertain inputs:\nits lives can differ by a factor of 20.\n"
+         "uncertain inputs\nand makers' ratings, so its lives differ by large factors.\n"
          "rolling_flex: a cycle is a round trip. torsion: held ends pull at a cable that the twist shortens. A cable that it "
          "lengthens bows.\nA free lower end moves with the length of the cable. Which of both lives longer depends on the lay. "
          "A heavier weight shortens the life.\n";
