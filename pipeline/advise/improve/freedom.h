@@ -1,7 +1,6 @@
 // The free variables of a search: keys of the jobs with their ranges.
 //
 //   free:
-//     routing.free_length_m: 1.9 .. 2.6                         any number between
 //     routing.free_length_m: 1.9 .. 2.6                         any number in this range
 //     routing.tool_clamp.direction: 30 deg around               any direction in a cone around the job's direction
 //     routing.base_clamp.position_m: 0.05 around                each coordinate at most this far from the job's
